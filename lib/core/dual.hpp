@@ -1,0 +1,103 @@
+// Dual numbers: a value with its derivatives along M directions.
+//
+//   x = a + sum_j a_j eps_j ,  eps_i eps_j = 0   =>   f(x) = f(a) + f'(a) sum_j a_j eps_j
+//
+// Seed eps_j with the j-th unit vector and a function evaluates its own Jacobian; seed it with a tangent vector and the
+// function evaluates a directional derivative. Exact to rounding: nothing is differenced.
+//
+// Smoothness: select() follows the branch that the value takes, so a kink has the one-sided derivative of that branch.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "core/scalar.hpp"
+
+namespace epicyclic {
+
+/// Value and M derivatives. Converts from double as a constant.
+template <std::size_t M>
+struct Dual {
+  double value = 0;
+  std::array<double, M> derivative{};
+
+  constexpr Dual() = default;
+  constexpr Dual(double v) : value(v) {}  // NOLINT(google-explicit-constructor): a constant is a dual number
+
+  /// The variable of direction j.
+  [[nodiscard]] static constexpr Dual variable(double v, std::size_t j) {
+    Dual x(v);
+    x.derivative[j] = 1.0;
+    return x;
+  }
+
+  /// Chain rule: f(value) with the slope f'(value).
+  [[nodiscard]] constexpr Dual chained(double f, double slope) const {
+    Dual r(f);
+    for (std::size_t j = 0; j < M; ++j) r.derivative[j] = slope * derivative[j];
+    return r;
+  }
+
+  constexpr Dual& operator+=(const Dual& b) {
+    value += b.value;
+    for (std::size_t j = 0; j < M; ++j) derivative[j] += b.derivative[j];
+    return *this;
+  }
+  constexpr Dual& operator-=(const Dual& b) {
+    value -= b.value;
+    for (std::size_t j = 0; j < M; ++j) derivative[j] -= b.derivative[j];
+    return *this;
+  }
+  constexpr Dual& operator*=(const Dual& b) {
+    for (std::size_t j = 0; j < M; ++j) derivative[j] = derivative[j] * b.value + value * b.derivative[j];
+    value *= b.value;
+    return *this;
+  }
+  constexpr Dual& operator/=(const Dual& b) {
+    const double inverse = 1.0 / b.value;
+    value *= inverse;
+    for (std::size_t j = 0; j < M; ++j) derivative[j] = (derivative[j] - value * b.derivative[j]) * inverse;
+    return *this;
+  }
+
+  friend constexpr Dual operator+(Dual a, const Dual& b) { return a += b; }
+  friend constexpr Dual operator-(Dual a, const Dual& b) { return a -= b; }
+  friend constexpr Dual operator*(Dual a, const Dual& b) { return a *= b; }
+  friend constexpr Dual operator/(Dual a, const Dual& b) { return a /= b; }
+  friend constexpr Dual operator-(const Dual& a) { return a.chained(-a.value, -1.0); }
+
+  friend constexpr bool operator<(const Dual& a, const Dual& b) { return a.value < b.value; }
+  friend constexpr bool operator>(const Dual& a, const Dual& b) { return a.value > b.value; }
+};
+
+template <std::size_t M>
+[[nodiscard]] constexpr double value_of(const Dual<M>& x) {
+  return x.value;
+}
+
+template <std::size_t M>
+[[nodiscard]] constexpr Dual<M> select(bool mask, const Dual<M>& a, const Dual<M>& b) {
+  return mask ? a : b;
+}
+
+template <std::size_t M>
+[[nodiscard]] Dual<M> sqrt(const Dual<M>& x) {
+  const double root = std::sqrt(x.value);
+  return x.chained(root, 0.5 / root);
+}
+
+template <std::size_t M>
+[[nodiscard]] Dual<M> power_3_2(const Dual<M>& x) {
+  const double root = std::sqrt(x.value);
+  return x.chained(x.value * root, 1.5 * root);
+}
+
+template <std::size_t M>
+[[nodiscard]] SineCosine<Dual<M>> sine_cosine(const Dual<M>& x) {
+  const double s = std::sin(x.value);
+  const double c = std::cos(x.value);
+  return {x.chained(s, c), x.chained(c, -s)};
+}
+
+}  // namespace epicyclic

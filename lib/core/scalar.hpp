@@ -1,0 +1,52 @@
+// The few functions that a kernel may call on its scalar besides + - * /, so that one text serves every scalar type:
+//
+//   double, long double   a value
+//   Dual<M>               a value and its derivatives along M directions (core/dual.hpp)
+//   Lanes<W>              W values side by side, one trajectory each (core/lanes.hpp)
+//
+// A kernel never branches on a scalar: comparisons give a mask (bool, or one per lane) and select() picks.
+#pragma once
+
+#include <cmath>
+#include <concepts>
+
+namespace epicyclic {
+
+/// The value without derivatives.
+template <std::floating_point T>
+[[nodiscard]] constexpr T value_of(T x) {
+  return x;
+}
+
+/// mask ? a : b
+template <std::floating_point T>
+[[nodiscard]] constexpr T select(bool mask, T a, T b) {
+  return mask ? a : b;
+}
+
+/// x limited to [low, high].
+template <class T>
+[[nodiscard]] constexpr T limited(const T& x, const T& low, const T& high) {
+  return select(x < low, low, select(x > high, high, x));
+}
+
+/// x^(3/2) of x >= 0. Written as one function because x * sqrt(x) has the derivative 0 * infinity at 0.
+template <std::floating_point T>
+[[nodiscard]] T power_3_2(T x) {
+  return x * std::sqrt(x);
+}
+
+/// Sine and cosine of one angle.
+template <class T>
+struct SineCosine {
+  T sine, cosine;
+};
+
+template <std::floating_point T>
+[[nodiscard]] SineCosine<T> sine_cosine(T x) {
+  return {std::sin(x), std::cos(x)};
+}
+
+using std::sqrt;
+
+}  // namespace epicyclic

@@ -1,0 +1,53 @@
+#include "gear/kinematics.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/errors.hpp"
+
+namespace epicyclic::gear {
+
+namespace {
+
+double teeth(const std::optional<int>& z, const char* member) {
+  if (!z) throw DomainError(std::string("speeds and torques need the teeth of the ") + member);
+  return static_cast<double>(*z);
+}
+
+constexpr double radian = std::numbers::pi / 180.0;
+
+}  // namespace
+
+Speeds speeds(const Stage& stage, double mesh_frequency) {
+  const double z_s = teeth(stage.sun.teeth, "sun");
+  const double z_r = teeth(stage.ring.teeth, "ring");
+  if (stage.boundary == Boundary::star) return {mesh_frequency / z_s, 0.0};
+  const double carrier = mesh_frequency / z_r;
+  return {carrier * (z_s + z_r) / z_s, carrier};
+}
+
+Torques torques(const Stage& stage, double mesh_frequency) {
+  const double ratio = teeth(stage.ring.teeth, "ring") / teeth(stage.sun.teeth, "sun");
+  const double drive = stage.load.power_kW ? *stage.load.power_kW * 1e3 / speeds(stage, mesh_frequency).sun
+                                           : stage.load.torque_Nm.value();
+  if (stage.boundary == Boundary::star) return {drive, ratio * drive, 0.0};
+  return {drive, 0.0, (1.0 + ratio) * drive};
+}
+
+PressureAngles pressure_angles(const Stage& stage) {
+  const auto angle = [&](const Mesh& mesh, std::optional<double> base_sum) {
+    if (base_sum && stage.centre_distance_mm) return std::acos(*base_sum / *stage.centre_distance_mm);
+    if (!mesh.operating_pressure_angle_deg)
+      throw DomainError("a mesh without pressure angle, base radii or centre distance");
+    return *mesh.operating_pressure_angle_deg * radian;
+  };
+  std::optional<double> sun_sum;
+  std::optional<double> ring_difference;
+  if (stage.sun.base_radius_mm && stage.planet.base_radius_mm)
+    sun_sum = *stage.sun.base_radius_mm + *stage.planet.base_radius_mm;
+  if (stage.ring.base_radius_mm && stage.planet.base_radius_mm)
+    ring_difference = *stage.ring.base_radius_mm - *stage.planet.base_radius_mm;
+  return {angle(stage.sun_planet_mesh, sun_sum), angle(stage.ring_planet_mesh, ring_difference)};
+}
+
+}  // namespace epicyclic::gear

@@ -1,0 +1,40 @@
+// Speeds, torques and angles of a planetary stage.
+//
+//   fixed ring (and `literal`):  omega_c = omega_s z_s / (z_s + z_r) ,  omega_m = z_s (omega_s - omega_c) = z_r omega_c
+//   star:                        omega_c = 0 ,                          omega_m = z_s omega_s
+//   T_D = P / omega_s or given ;  T_c = (1 + z_r / z_s) T_D ;  T_r = (z_r / z_s) T_D (star)
+//   cos alpha_sp = (r_bs + r_bp) / r_c ,  cos alpha_rp = (r_br - r_bp) / r_c
+//
+// Source: model.md section 4; any textbook on epicyclic trains. Limits: a stage that passes problems_for_motion().
+#pragma once
+
+#include "gear/stage.hpp"
+
+namespace epicyclic::gear {
+
+/// Speeds at a mesh frequency omega_m [rad/s].
+struct Speeds {
+  double sun;      ///< omega_s [rad/s]
+  double carrier;  ///< omega_c [rad/s]
+};
+
+[[nodiscard]] Speeds speeds(const Stage& stage, double mesh_frequency);
+
+/// Torques on the members; signs as in Eqs. (17)-(20): T_D and T_r drive u_s and u_r forward, T_c holds u_c back.
+struct Torques {
+  double sun;      ///< T_D [N m]
+  double ring;     ///< T_r [N m], `star` only
+  double carrier;  ///< T_c [N m], `literal` and `fixed_ring`
+};
+
+[[nodiscard]] Torques torques(const Stage& stage, double mesh_frequency);
+
+/// Operating pressure angles [rad]: from radii and centre distance where all are given (they carry more digits than an
+/// angle in degrees), else as given.
+struct PressureAngles {
+  double sun_planet, ring_planet;
+};
+
+[[nodiscard]] PressureAngles pressure_angles(const Stage& stage);
+
+}  // namespace epicyclic::gear

@@ -1,0 +1,288 @@
+#include "gear/stage.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <numbers>
+#include <utility>
+
+namespace epicyclic::gear {
+
+namespace {
+
+// How far printed radii, centre distance, angle and teeth may disagree: five digits are what catalogues give.
+constexpr double radii_tolerance = 1e-4;
+constexpr double angle_tolerance_deg = 0.02;
+// Neighbouring planets nearer than this have no room for teeth.
+constexpr double angle_resolution_deg = 1e-6;
+
+/// Shortest text that reads back as the same number, the same in every locale.
+std::string text(double x) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, x).ptr;
+  return {buffer, end};
+}
+
+class Problems {
+ public:
+  template <class... Parts>
+  void add(const std::string& pointer, const Parts&... parts) {
+    std::string line = pointer + ": ";
+    (line.append(part(parts)), ...);
+    lines_.push_back(line);
+  }
+  std::vector<std::string> take() { return std::move(lines_); }
+
+ private:
+  static std::string part(const char* s) { return s; }
+  static std::string part(const std::string& s) { return s; }
+  static std::string part(double x) { return text(x); }
+  std::vector<std::string> lines_;
+};
+
+void check_positive(Problems& out, const std::string& pointer, double value) {
+  if (!(value > 0.0) || !std::isfinite(value)) out.add(pointer, "must be a positive number (", value, ")");
+}
+
+void check_support(Problems& out, const std::string& pointer, double value) {
+  if (!(value >= 0.0)) out.add(pointer, "must be at least 0 or \"rigid\" (", value, ")");
+}
+
+void check_member(Problems& out, const std::string& pointer, const CentralMember& m) {
+  check_positive(out, pointer + "/mass_kg", m.mass_kg);
+  check_positive(out, pointer + "/inertia_over_r2_kg", m.inertia_over_r2_kg);
+  check_support(out, pointer + "/support_N_per_m", m.support_N_per_m);
+  check_support(out, pointer + "/torsional_support_N_per_m", m.torsional_support_N_per_m);
+}
+
+void check_angles(Problems& out, const Stage& s) {
+  if (s.angles_deg.empty()) return;
+  if (static_cast<int>(s.angles_deg.size()) != s.planet_count) {
+    out.add("/planets/angles_deg", "has ", static_cast<double>(s.angles_deg.size()), " angles for ",
+            static_cast<double>(s.planet_count), " planets");
+    return;
+  }
+  for (std::size_t i = 0; i < s.angles_deg.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (std::abs(std::remainder(s.angles_deg[i] - s.angles_deg[j], 360.0)) < angle_resolution_deg)
+        out.add("/planets/angles_deg/" + std::to_string(i), "is the place of another planet (", s.angles_deg[i], ")");
+}
+
+/// Base radii and centre distance of one mesh decide its pressure angle, or it is given; both must agree.
+void check_pressure_angle(Problems& out, const std::string& pointer, const Mesh& mesh, std::optional<double> base_sum,
+                          std::optional<double> centre_distance) {
+  if (base_sum && centre_distance) {
+    const double cosine = *base_sum / *centre_distance;
+    if (!(cosine > 0.0) || !(cosine < 1.0)) {
+      out.add("/planets/centre_distance_mm", "base radii need cos(alpha) = ", *base_sum, " / ", *centre_distance, " = ",
+              cosine, " between 0 and 1 for ", pointer);
+      return;
+    }
+    const double angle = std::acos(cosine) * 180.0 / std::numbers::pi;
+    if (mesh.operating_pressure_angle_deg && std::abs(angle - *mesh.operating_pressure_angle_deg) > angle_tolerance_deg)
+      out.add(pointer + "/operating_pressure_angle_deg", text(*mesh.operating_pressure_angle_deg),
+              " deg does not fit base radii and centre distance, which give ", angle, " deg (at most ",
+              angle_tolerance_deg, " deg apart)");
+  } else if (!mesh.operating_pressure_angle_deg) {
+    out.add(pointer + "/operating_pressure_angle_deg",
+            "is missing; it, or all base radii with planets/centre_distance_mm, must be given");
+  }
+}
+
+std::optional<double> sum(std::optional<double> a, std::optional<double> b, double sign) {
+  if (!a || !b) return std::nullopt;
+  return *a + sign * *b;
+}
+
+void check_per_planet(Problems& out, const std::string& pointer, const std::vector<double>& values, int planets) {
+  if (values.size() != 1 && static_cast<int>(values.size()) != planets)
+    out.add(pointer, "has ", static_cast<double>(values.size()), " numbers; one, or one for each of ",
+            static_cast<double>(planets), " planets, are needed");
+}
+
+void check_stiffness(Problems& out, const std::string& pointer, const Mesh& mesh) {
+  constexpr int samples = 1024;
+  const auto& c = mesh.stiffness_cos_N_per_m;
+  const auto& s = mesh.stiffness_sin_N_per_m;
+  double lowest = mesh.stiffness_N_per_m;
+  for (int k = 0; k < samples; ++k) {
+    const double phase = 2.0 * std::numbers::pi * k / samples;
+    double stiffness = mesh.stiffness_N_per_m;
+    for (std::size_t h = 0; h < c.size(); ++h) stiffness += c[h] * std::cos(static_cast<double>(h + 1) * phase);
+    for (std::size_t h = 0; h < s.size(); ++h) stiffness += s[h] * std::sin(static_cast<double>(h + 1) * phase);
+    lowest = std::min(lowest, stiffness);
+  }
+  if (!(lowest > 0.0))
+    out.add(pointer + "/stiffness_N_per_m", "mean ", mesh.stiffness_N_per_m, " N/m and harmonics together fall to ",
+            lowest, " N/m within a mesh period; stiffness must stay positive");
+}
+
+void check_friction_table(Problems& out, const std::string& pointer, const Friction::Table& t) {
+  const std::size_t n = t.phase.size();
+  const auto length = [&](const char* key, std::size_t size) {
+    if (size != n)
+      out.add(pointer + key, "has ", static_cast<double>(size), " numbers, phase has ", static_cast<double>(n));
+    return size == n;
+  };
+  const bool lengths = static_cast<int>(length("/force_ratio", t.force_ratio.size())) &
+                       static_cast<int>(length("/moment_ratio_mm/driving", t.moment_driving_mm.size())) &
+                       static_cast<int>(length("/moment_ratio_mm/driven", t.moment_driven_mm.size()));
+  if (!lengths) return;
+  const auto is_breakpoint = [&](double p) {
+    return std::find(t.breakpoints.begin(), t.breakpoints.end(), p) != t.breakpoints.end();
+  };
+  const auto outside = [](double p) { return !(p >= 0.0) || !(p < 1.0); };
+  if (n < 2) out.add(pointer + "/phase", "needs at least 2 rows (", static_cast<double>(n), ")");
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::string row = pointer + "/phase/" + std::to_string(k);
+    if (outside(t.phase[k])) out.add(row, "must be in [0, 1) (", t.phase[k], ")");
+    if (k == 0) continue;
+    if (t.phase[k] < t.phase[k - 1]) out.add(row, "phases must rise (", t.phase[k], " after ", t.phase[k - 1], ")");
+    if (t.phase[k] == t.phase[k - 1] && !is_breakpoint(t.phase[k]))
+      out.add(row, "stands twice, a jump, but is not among the breakpoints (", t.phase[k], ")");
+    if (k > 1 && t.phase[k] == t.phase[k - 2]) out.add(row, "stands more than twice (", t.phase[k], ")");
+  }
+  for (std::size_t k = 0; k < t.breakpoints.size(); ++k) {
+    const double b = t.breakpoints[k];
+    const std::string row = pointer + "/breakpoints/" + std::to_string(k);
+    if (outside(b)) out.add(row, "must be in [0, 1) (", b, ")");
+    if (k > 0 && !(b > t.breakpoints[k - 1])) out.add(row, "breakpoints must rise (", b, ")");
+    if (std::find(t.phase.begin(), t.phase.end(), b) == t.phase.end())
+      out.add(row, "needs a row of the table at this phase (", b, ")");
+  }
+}
+
+void check_motion_of_member(Problems& out, const std::string& pointer, const CentralMember& m) {
+  if (!m.teeth) out.add(pointer + "/teeth", "is missing; time integration needs it");
+  if (!m.base_radius_mm) out.add(pointer + "/base_radius_mm", "is missing; time integration needs it");
+}
+
+void check_finite_support(Problems& out, const std::string& pointer, double stiffness) {
+  if (!std::isfinite(stiffness)) out.add(pointer, "\"rigid\" is for modes only; time integration needs a number");
+}
+
+/// Which torsional supports each boundary allows (model.md section 4).
+void check_torsion(Problems& out, const Stage& s) {
+  const std::string key = "/torsional_support_N_per_m";
+  const double k_su = s.sun.torsional_support_N_per_m;
+  const double k_ru = s.ring.torsional_support_N_per_m;
+  const double k_cu = s.carrier.torsional_support_N_per_m;
+  const char* name = s.boundary == Boundary::literal ? "literal" : s.boundary == Boundary::star ? "star" : "fixed_ring";
+  if (k_su != 0.0)
+    out.add("/lumped/sun" + key, "must be 0 with boundary ", name, ", where the sun is driven (", k_su, ")");
+  if (s.boundary == Boundary::fixed_ring) {
+    if (!(k_ru > 0.0))
+      out.add("/lumped/ring" + key, "must be positive or \"rigid\" with boundary fixed_ring (", k_ru, ")");
+    if (k_cu != 0.0)
+      out.add("/lumped/carrier" + key, "must be 0 with boundary fixed_ring, where the carrier is the output (", k_cu,
+              ")");
+  } else {
+    if (k_ru != 0.0)
+      out.add("/lumped/ring" + key, "must be 0 with boundary ", name, ", where the ring is free (", k_ru, ")");
+    if (!(k_cu > 0.0) || !std::isfinite(k_cu))
+      out.add("/lumped/carrier" + key, "must be a positive number with boundary ", name,
+              ", where the carrier is grounded (", k_cu, ")");
+  }
+}
+
+void check_compatibility(Problems& out, const Stage& s) {
+  if (!s.sun.teeth || !s.ring.teeth || !s.sun.base_radius_mm || !s.ring.base_radius_mm) return;
+  const double radii = *s.ring.base_radius_mm / *s.sun.base_radius_mm;
+  const double teeth = static_cast<double>(*s.ring.teeth) / *s.sun.teeth;
+  if (std::abs(radii / teeth - 1.0) > radii_tolerance)
+    out.add("/lumped/ring/base_radius_mm", "r_br / r_bs = ", radii, " does not fit z_r / z_s = ", teeth,
+            " (relative difference at most ", radii_tolerance, ")");
+  if (!s.planet.teeth || !s.planet.base_radius_mm) return;
+  const double planet_radii = *s.planet.base_radius_mm / *s.sun.base_radius_mm;
+  const double planet_teeth = static_cast<double>(*s.planet.teeth) / *s.sun.teeth;
+  if (std::abs(planet_radii / planet_teeth - 1.0) > radii_tolerance)
+    out.add("/lumped/planet/base_radius_mm", "r_bp / r_bs = ", planet_radii, " does not fit z_p / z_s = ", planet_teeth,
+            " (relative difference at most ", radii_tolerance, ")");
+}
+
+/// Planets can only be put where both meshes find teeth: (z_s + z_r)(phi_i - phi_1) / 2 pi must be whole.
+void check_assembly(Problems& out, const Stage& s) {
+  if (!s.sun.teeth || !s.ring.teeth) return;
+  const std::vector<double> angles = s.planet_angles_deg();
+  constexpr double angle_digits_deg = 1e-3;
+  const double teeth = *s.sun.teeth + *s.ring.teeth;
+  for (std::size_t i = 1; i < angles.size(); ++i) {
+    const double turns = teeth * (angles[i] - angles[0]) / 360.0;
+    if (std::abs(turns - std::round(turns)) > teeth * angle_digits_deg / 360.0)
+      out.add(s.angles_deg.empty() ? "/planets/count" : "/planets/angles_deg/" + std::to_string(i), "planet ",
+              static_cast<double>(i + 1), " at ", angles[i],
+              " deg cannot be assembled: (z_s + z_r)(phi_i - phi_1) / 360 deg = ", turns, " is not whole");
+  }
+}
+
+void check_mesh_for_motion(Problems& out, const std::string& pointer, const Mesh& mesh) {
+  if (!mesh.damping_ratio) out.add(pointer + "/damping_ratio", "is missing; time integration needs it");
+}
+
+}  // namespace
+
+std::vector<double> Stage::planet_angles_deg() const {
+  if (!angles_deg.empty()) return angles_deg;
+  std::vector<double> angles;
+  for (int i = 0; i < planet_count; ++i) angles.push_back(360.0 * i / planet_count);
+  return angles;
+}
+
+std::vector<std::string> problems_for_modes(const Stage& s) {
+  Problems out;
+  if (s.planet_count < planets_min || s.planet_count > planets_max)
+    out.add("/planets/count", "must be ", static_cast<double>(planets_min), " to ", static_cast<double>(planets_max),
+            " (", static_cast<double>(s.planet_count), ")");
+  check_angles(out, s);
+  check_member(out, "/lumped/sun", s.sun);
+  check_member(out, "/lumped/ring", s.ring);
+  check_member(out, "/lumped/carrier", s.carrier);
+  check_positive(out, "/lumped/planet/mass_kg", s.planet.mass_kg);
+  check_positive(out, "/lumped/planet/inertia_over_r2_kg", s.planet.inertia_over_r2_kg);
+  check_support(out, "/lumped/planet/bearing_N_per_m", s.planet.bearing_N_per_m);
+  check_positive(out, "/lumped/sun_planet_mesh/stiffness_N_per_m", s.sun_planet_mesh.stiffness_N_per_m);
+  check_positive(out, "/lumped/ring_planet_mesh/stiffness_N_per_m", s.ring_planet_mesh.stiffness_N_per_m);
+  check_pressure_angle(out, "/lumped/sun_planet_mesh", s.sun_planet_mesh,
+                       sum(s.sun.base_radius_mm, s.planet.base_radius_mm, 1.0), s.centre_distance_mm);
+  check_pressure_angle(out, "/lumped/ring_planet_mesh", s.ring_planet_mesh,
+                       sum(s.ring.base_radius_mm, s.planet.base_radius_mm, -1.0), s.centre_distance_mm);
+  return out.take();
+}
+
+std::vector<std::string> problems_for_motion(const Stage& s) {
+  Problems out;
+  check_motion_of_member(out, "/lumped/sun", s.sun);
+  check_motion_of_member(out, "/lumped/ring", s.ring);
+  if (!s.planet.teeth) out.add("/lumped/planet/teeth", "is missing; time integration needs it");
+  if (!s.planet.base_radius_mm) out.add("/lumped/planet/base_radius_mm", "is missing; time integration needs it");
+  if (!s.centre_distance_mm) out.add("/planets/centre_distance_mm", "is missing; time integration needs it");
+  check_finite_support(out, "/lumped/sun/support_N_per_m", s.sun.support_N_per_m);
+  check_finite_support(out, "/lumped/ring/support_N_per_m", s.ring.support_N_per_m);
+  check_finite_support(out, "/lumped/carrier/support_N_per_m", s.carrier.support_N_per_m);
+  check_finite_support(out, "/lumped/planet/bearing_N_per_m", s.planet.bearing_N_per_m);
+  if (!(s.planet.bearing_N_per_m > 0.0))
+    out.add("/lumped/planet/bearing_N_per_m", "must be positive (", s.planet.bearing_N_per_m, ")");
+  check_torsion(out, s);
+  check_compatibility(out, s);
+  check_assembly(out, s);
+  const struct {
+    const char* pointer;
+    const Mesh& mesh;
+  } meshes[] = {{"/lumped/sun_planet_mesh", s.sun_planet_mesh}, {"/lumped/ring_planet_mesh", s.ring_planet_mesh}};
+  for (const auto& [pointer, mesh] : meshes) {
+    check_mesh_for_motion(out, pointer, mesh);
+    check_per_planet(out, std::string(pointer) + "/error_amplitude_um", mesh.error_amplitude_um, s.planet_count);
+    check_per_planet(out, std::string(pointer) + "/error_phase_deg", mesh.error_phase_deg, s.planet_count);
+    check_stiffness(out, pointer, mesh);
+    if (mesh.friction.table) check_friction_table(out, std::string(pointer) + "/friction", *mesh.friction.table);
+  }
+  const bool hertzian =
+      s.sun_bearing.law == BearingLaw::palmgren_xy || s.sun_bearing.law == BearingLaw::palmgren_radial;
+  if (hertzian && !s.sun_bearing.balls) out.add("/lumped/sun/bearing/balls", "is missing; the Palmgren laws need it");
+  if (hertzian && !s.sun_bearing.ball_diameter_mm)
+    out.add("/lumped/sun/bearing/ball_diameter_mm", "is missing; the Palmgren laws need it");
+  if (s.load.power_kW.has_value() == s.load.torque_Nm.has_value())
+    out.add("/load", s.load.power_kW ? "power_kW and torque_Nm exclude each other" : "needs power_kW or torque_Nm");
+  return out.take();
+}
+
+}  // namespace epicyclic::gear

@@ -1,0 +1,158 @@
+// The planetary stage in SI units, as lumped values: what the model needs and nothing else.
+//
+// Catalogue data (module, modification, bores ...) are turned into this form; users with measured or finite-element
+// data give it directly. Members are named as in Tang et al. 2020, section 2: sun s, planets p_i, ring r, carrier c.
+//
+// Rotations are measured as displacements on a radius of reference, u = r theta: the base circle for gears, the centre
+// distance for the carrier (Eq. (16), where r_bc is the centre distance). So an inertia enters as I / r^2 [kg] and a
+// torsional support as a stiffness on that radius [N/m] (the paper's k_cu [N m/rad] divided by r_c^2).
+//
+// Smoothness: all numbers are constants in time; what moves with the mesh phase is given by Fourier coefficients
+// (smooth) or by friction tables with breakpoints (jumps at the breakpoints, smooth between).
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace epicyclic::gear {
+
+inline constexpr int planets_min = 2;
+inline constexpr int planets_max = 6;
+inline constexpr std::size_t harmonics_max = 64;
+
+/// The stiffness of a support that does not yield.
+inline constexpr double rigid = std::numeric_limits<double>::infinity();
+
+/// Who is held, who drives, who is driven (model.md section 4).
+enum class Boundary {
+  literal,  ///< the paper as printed: ring free and without torque, carrier grounded through k_cu, T_c on the carrier
+  fixed_ring,  ///< ring grounded through k_ru, carrier is the free output
+  star,        ///< carrier grounded through k_cu, ring is the free output
+};
+
+/// Viscous damping of a support: a ratio, c = 2 zeta sqrt(k m), or a coefficient.
+struct SupportDamping {
+  std::optional<double> ratio;                 ///< zeta [-]
+  std::optional<double> coefficient_Ns_per_m;  ///< c [N s/m]
+
+  /// c of a support of stiffness k [N/m] under mass m [kg]; 0 for a rigid support, where nothing moves. [N s/m]
+  [[nodiscard]] double of(double stiffness, double mass) const {
+    if (!std::isfinite(stiffness)) return 0.0;
+    if (coefficient_Ns_per_m) return *coefficient_Ns_per_m;
+    return ratio ? 2.0 * *ratio * std::sqrt(stiffness * mass) : 0.0;
+  }
+};
+
+/// A central member: sun, ring or carrier.
+struct CentralMember {
+  double mass_kg = 0;
+  double inertia_over_r2_kg = 0;         ///< I / r^2, r the member's radius of reference [kg]
+  double support_N_per_m = 0;            ///< k_x = k_y; `rigid` in modes only [N/m]
+  double torsional_support_N_per_m = 0;  ///< k_u on the radius of reference; `rigid` in modes and for the ring [N/m]
+  SupportDamping damping;
+  std::optional<int> teeth;              ///< none for the carrier
+  std::optional<double> base_radius_mm;  ///< none for the carrier
+};
+
+/// How the sun's bearing answers the sun's displacement (model.md section 2).
+enum class BearingLaw {
+  linear_xy,        ///< k f(x, b), k f(y, b): the paper's, constant k; a square clearance
+  palmgren_xy,      ///< k(d) d with k from Eq. (11) at the approach d = f(x, b), and likewise in y; over-counts by 3/2
+  linear_radial,    ///< k max(r - b, 0) along the radius r = hypot(x, y)
+  palmgren_radial,  ///< (2/3) k(d) d with k from Eq. (11) at d = max(r - b, 0), along the radius
+};
+
+/// The sun's bearing: clearance and law. Rolling-element data are needed by the Palmgren laws only (Table 3).
+struct SunBearing {
+  double clearance_half_um = 0;  ///< half gap b_s [um]
+  BearingLaw law = BearingLaw::linear_xy;
+  std::optional<int> balls;                ///< Z
+  std::optional<double> ball_diameter_mm;  ///< D_w [mm]
+  double contact_angle_deg = 0;            ///< alpha [deg]
+};
+
+struct Planet {
+  double mass_kg = 0;
+  double inertia_over_r2_kg = 0;
+  double bearing_N_per_m = 0;  ///< k_pix = k_piy = k_picu; `rigid` in modes only
+  SupportDamping damping;
+  std::optional<int> teeth;
+  std::optional<double> base_radius_mm;
+};
+
+/// Tooth friction of one mesh: F_f = A(s) F and, about the members' axes, B(s) F.
+/// Either a table over the mesh phase, or a coefficient on an idealised contact path.
+struct Friction {
+  /// Table over phase = s / 2 pi on the common s of planet 1, in [0, 1), rising; smooth between breakpoints.
+  /// A jump at a breakpoint is given by its two sides: the phase stands twice, left value first.
+  struct Table {
+    std::vector<double> phase;              ///< [-]
+    std::vector<double> force_ratio;        ///< A [-]
+    std::vector<double> moment_driving_mm;  ///< B about the axis of the driving member [mm]
+    std::vector<double> moment_driven_mm;   ///< B about the axis of the driven member [mm]
+    std::vector<double> breakpoints;        ///< phases where the table jumps or kinks [-]
+  };
+  std::optional<Table> table;
+
+  /// Coulomb coefficient mu on a path of contact with equal load sharing among the pairs in contact.
+  struct Coefficient {
+    double coefficient = 0;               ///< mu [-]
+    double contact_ratio = 1;             ///< epsilon, pairs in contact: below 1 no motion is transmitted; up to 3
+    std::optional<double> path_start_mm;  ///< friction arm of the driving member where contact starts; default: the
+                                          ///< path is symmetric about the pitch point
+  };
+  std::optional<Coefficient> coefficient;
+
+  [[nodiscard]] bool any() const { return table.has_value() || coefficient.has_value(); }
+};
+
+/// One kind of mesh: sun-planet or ring-planet, the same for all planets but for the errors.
+struct Mesh {
+  double stiffness_N_per_m = 0;                        ///< mean k_0 [N/m]
+  std::vector<double> stiffness_cos_N_per_m;           ///< A_h of Eq. (4), h = 1, 2, ... on the mesh's own phase [N/m]
+  std::vector<double> stiffness_sin_N_per_m;           ///< B_h of Eq. (4) [N/m]
+  std::optional<double> operating_pressure_angle_deg;  ///< [deg]; if base radii are given they decide
+  std::optional<double> damping_ratio;                 ///< zeta of c = 2 zeta sqrt(k_0 m_e) [-]
+  double backlash_half_um = 0;                         ///< half gap b [um]
+  std::vector<double> error_amplitude_um = {0.0};      ///< E: one number, or one per planet [um]
+  std::vector<double> error_phase_deg = {0.0};         ///< phi_0: one number, or one per planet [deg]
+  Friction friction;
+};
+
+/// Load of the stage: exactly one of the two.
+struct Load {
+  std::optional<double> power_kW;   ///< T_D = P / omega_s: falls with speed
+  std::optional<double> torque_Nm;  ///< T_D on the sun, the same at every speed
+};
+
+struct Stage {
+  std::string name;
+  Boundary boundary = Boundary::fixed_ring;
+  int planet_count = 3;
+  std::vector<double> angles_deg;            ///< phi_i; empty: equally spaced from 0
+  std::optional<double> centre_distance_mm;  ///< r_c
+  CentralMember sun, ring, carrier;
+  SunBearing sun_bearing;
+  Planet planet;
+  Mesh sun_planet_mesh, ring_planet_mesh;
+  double ring_mesh_lead_1 = 0;  ///< lambda_sr: share of a mesh period by which the ring mesh leads [-]
+  Load load;
+
+  /// phi_i [deg], i = 0 .. N-1: as given, or equally spaced from 0.
+  [[nodiscard]] std::vector<double> planet_angles_deg() const;
+};
+
+/// What must hold for the linear model: signs, counts, at least one way to the pressure angles, ... (any support free,
+/// finite or rigid).
+/// @returns one line per rule broken, "pointer: message", pointer relative to the stage; empty if all is well
+[[nodiscard]] std::vector<std::string> problems_for_modes(const Stage& stage);
+
+/// What must hold, beyond that, for time integration: supports that fit the boundary, compatible radii, a load, ...
+[[nodiscard]] std::vector<std::string> problems_for_motion(const Stage& stage);
+
+}  // namespace epicyclic::gear

@@ -1,0 +1,29 @@
+// The reference integrator: embedded explicit Runge-Kutta pairs of SUNDIALS ARKODE (ERKStep) as a Flow.
+//
+// Step control: an I-controller without a limit on the first growth, so that a run split by a restart takes the same
+// steps; the step that was cut short at a breakpoint or at the end is taken up again at its full length. Dense output:
+// cubic Hermite between accepted steps, which needs no further right-hand side; ends of evolutions are stepped onto,
+// never interpolated.
+//
+// Source: SUNDIALS 6.4 user guide, ERKStep. Limits: explicit, hence steps <= about 3 / (largest natural frequency).
+#pragma once
+
+#include <memory>
+
+#include "integrate/flow.hpp"
+#include "integrate/options.hpp"
+
+namespace epicyclic::integrate {
+
+/// @throws InputError for an unknown method, SolverError if ARKODE cannot be set up
+[[nodiscard]] std::unique_ptr<Flow> make_arkode_flow(VectorField field, const IntegratorOptions& options);
+
+/// A fixed-step flow of the same pair, for tests of the order of convergence.
+/// @param step  length of the step in s
+[[nodiscard]] std::unique_ptr<Flow> make_arkode_fixed_step_flow(VectorField field, const IntegratorOptions& options,
+                                                                double step);
+
+/// Version text of the library, e.g. "SUNDIALS 6.4.1".
+[[nodiscard]] std::string arkode_version();
+
+}  // namespace epicyclic::integrate

@@ -1,0 +1,38 @@
+#include "integrate/flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace epicyclic::integrate {
+
+namespace {
+
+// A value of s this near to a breakpoint, in periods, is the breakpoint: far above rounding, far below any step.
+constexpr double same_phase = 1e-12;
+
+double tolerance(const VectorField& field) { return same_phase * field.period; }
+
+}  // namespace
+
+std::size_t segment_after(const VectorField& field, double s) {
+  if (field.breakpoints.empty()) return 0;
+  double phase = s - std::floor(s / field.period) * field.period + tolerance(field);
+  if (phase >= field.period) phase -= field.period;
+  const auto next = std::upper_bound(field.breakpoints.begin(), field.breakpoints.end(), phase);
+  const auto index = static_cast<std::size_t>(next - field.breakpoints.begin());
+  return index == 0 ? field.breakpoints.size() - 1 : index - 1;
+}
+
+std::vector<double> breakpoints_between(const VectorField& field, double from, double to) {
+  std::vector<double> between;
+  if (field.breakpoints.empty()) return between;
+  const double near = tolerance(field);
+  for (double turn = std::floor(from / field.period); turn * field.period < to; turn += 1.0)
+    for (const double b : field.breakpoints) {
+      const double s = turn * field.period + b;
+      if (s > from + near && s < to - near) between.push_back(s);
+    }
+  return between;
+}
+
+}  // namespace epicyclic::integrate

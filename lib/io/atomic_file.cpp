@@ -1,0 +1,155 @@
+#include "io/atomic_file.hpp"
+
+#include <atomic>
+#include <cerrno>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "core/errors.hpp"
+
+namespace epicyclic::io {
+
+namespace {
+
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+}
+
+}  // namespace
+
+FileDescriptor& FileDescriptor::operator=(FileDescriptor&& other) noexcept {
+  if (this != &other) {
+    if (is_open()) ::close(descriptor_);
+    descriptor_ = other.release();
+  }
+  return *this;
+}
+
+FileDescriptor::~FileDescriptor() {
+  if (is_open()) ::close(descriptor_);
+}
+
+int FileDescriptor::release() noexcept { return std::exchange(descriptor_, -1); }
+
+void FileDescriptor::close(const std::filesystem::path& path) {
+  if (!is_open()) return;
+  // On Linux the descriptor is gone even when close() is interrupted, so that a repetition could hit another file.
+  if (::close(release()) != 0 && errno != EINTR) throw_output_error(path, "close the file", errno);
+}
+
+void throw_output_error(const std::filesystem::path& path, std::string_view action, int error) {
+  throw OutputError(fmt::format("{}: cannot {}: {}", path.string(), action, std::generic_category().message(error)));
+}
+
+FileDescriptor open_descriptor(const std::filesystem::path& path, int flags) {
+  int descriptor = -1;
+  do {
+    descriptor = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
+  } while (descriptor < 0 && errno == EINTR);
+  return FileDescriptor(descriptor);
+}
+
+void write_all(int descriptor, std::string_view bytes, const std::filesystem::path& path) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written >= 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    } else if (errno != EINTR) {
+      throw_output_error(path, "write", errno);
+    }
+  }
+}
+
+std::string read_all(int descriptor, const std::filesystem::path& path) {
+  constexpr std::size_t block = std::size_t{1} << 20;
+  std::string text;
+  std::size_t size = 0;
+  for (;;) {
+    // Doubling keeps the number of copies logarithmic for files whose size is not known beforehand.
+    if (text.size() - size < block) text.resize(2 * text.size() + block);
+    const ssize_t count = ::read(descriptor, text.data() + size, text.size() - size);
+    if (count == 0) break;
+    if (count > 0) {
+      size += static_cast<std::size_t>(count);
+    } else if (errno != EINTR) {
+      throw_output_error(path, "read", errno);
+    }
+  }
+  text.resize(size);
+  return text;
+}
+
+void sync_descriptor(int descriptor, const std::filesystem::path& path) {
+  while (::fsync(descriptor) != 0) {
+    if (errno != EINTR) throw_output_error(path, "flush to the disk", errno);
+  }
+}
+
+void sync_folder(const std::filesystem::path& folder) {
+  const FileDescriptor descriptor = open_descriptor(folder, O_RDONLY | O_DIRECTORY);
+  if (!descriptor.is_open()) throw_output_error(folder, "open the folder", errno);
+  while (::fsync(descriptor.get()) != 0) {
+    // Some network and FUSE file systems know no fsync of folders and say EINVAL: nothing more can be done there.
+    if (errno == EINVAL) return;
+    if (errno != EINTR) throw_output_error(folder, "flush the folder to the disk", errno);
+  }
+}
+
+bool is_temporary_name(std::string_view file_name) { return file_name.starts_with('.') && file_name.ends_with(".tmp"); }
+
+AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
+  // The process number alone would not do: threads share it, and on a shared disk so may two hosts; O_EXCL decides.
+  static std::atomic<unsigned> counter{0};
+  do {
+    temporary_ =
+        folder_of(path_) / fmt::format(".{}.{}.{}.tmp", path_.filename().string(), ::getpid(), counter.fetch_add(1));
+    descriptor_ = open_descriptor(temporary_, O_WRONLY | O_CREAT | O_EXCL);
+  } while (!descriptor_.is_open() && errno == EEXIST);
+  if (!descriptor_.is_open()) throw_output_error(path_, "create the file", errno);
+}
+
+AtomicFile::~AtomicFile() { discard(); }
+
+void AtomicFile::write(std::string_view bytes) {
+  if (!descriptor_.is_open()) throw std::logic_error("AtomicFile: write after commit or failure");
+  try {
+    write_all(descriptor_.get(), bytes, path_);
+  } catch (...) {
+    discard();
+    throw;
+  }
+}
+
+void AtomicFile::commit() {
+  if (!descriptor_.is_open()) throw std::logic_error("AtomicFile: commit after commit or failure");
+  try {
+    sync_descriptor(descriptor_.get(), path_);
+    descriptor_.close(path_);
+    if (::rename(temporary_.c_str(), path_.c_str()) != 0) throw_output_error(path_, "rename the temporary file", errno);
+  } catch (...) {
+    discard();
+    throw;
+  }
+  temporary_.clear();
+  sync_folder(folder_of(path_));
+}
+
+void AtomicFile::discard() noexcept {
+  descriptor_ = FileDescriptor();
+  // A moved-from or committed file has no temporary name left.
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  temporary_.clear();
+}
+
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
+  AtomicFile file(path);
+  file.write(bytes);
+  file.commit();
+}
+
+}  // namespace epicyclic::io

@@ -1,0 +1,98 @@
+// Files that are either whole or not there.
+//
+// A result is written under a temporary name in the folder of its final name, flushed to the disk, renamed over the
+// final name, and the folder is flushed too. A reader, a crash or a full disk at any moment sees the old file or the
+// new one, never a part. The temporary name is `.NAME.PID.N.tmp`; one that a killed process left behind may be removed
+// by whoever holds the folder's lock (see io/output_folder.hpp).
+//
+// Here also stand the few POSIX helpers on which the other writers build: each failed call becomes an OutputError that
+// names path, action and reason, and interrupted calls (EINTR) are repeated.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace epicyclic::io {
+
+/// Owns a POSIX file descriptor; -1 means none.
+class FileDescriptor {
+ public:
+  FileDescriptor() = default;
+  explicit FileDescriptor(int descriptor) : descriptor_(descriptor) {}
+  FileDescriptor(FileDescriptor&& other) noexcept : descriptor_(other.release()) {}
+  FileDescriptor& operator=(FileDescriptor&& other) noexcept;
+  FileDescriptor(const FileDescriptor&) = delete;
+  FileDescriptor& operator=(const FileDescriptor&) = delete;
+  ~FileDescriptor();
+
+  [[nodiscard]] int get() const { return descriptor_; }
+  [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
+  int release() noexcept;
+
+  /// Closes it. The destructor closes too, but cannot report a failure.
+  /// @throws OutputError when the close fails; `path` names the file in the message
+  void close(const std::filesystem::path& path);
+
+ private:
+  int descriptor_ = -1;
+};
+
+/// @throws OutputError always: "PATH: cannot ACTION: REASON", the reason from the errno value `error`
+[[noreturn]] void throw_output_error(const std::filesystem::path& path, std::string_view action, int error);
+
+/// open(2) with O_CLOEXEC, repeated when interrupted; not open, with errno set, when it fails.
+FileDescriptor open_descriptor(const std::filesystem::path& path, int flags);
+
+/// @throws OutputError when not all bytes can be written (disk full included)
+void write_all(int descriptor, std::string_view bytes, const std::filesystem::path& path);
+
+/// Everything from the current position to the end of the file.
+/// @throws OutputError when reading fails
+std::string read_all(int descriptor, const std::filesystem::path& path);
+
+/// @throws OutputError when fsync fails
+void sync_descriptor(int descriptor, const std::filesystem::path& path);
+
+/// Makes names created, renamed or removed in `folder` durable.
+/// @throws OutputError when the folder cannot be opened or flushed
+void sync_folder(const std::filesystem::path& folder);
+
+/// True of a name that AtomicFile gives to a file in the making.
+bool is_temporary_name(std::string_view file_name);
+
+/// A file that appears under its name only when it is complete. Without commit() nothing appears.
+class AtomicFile {
+ public:
+  /// Creates the temporary file; the folder must exist.
+  /// @throws OutputError when it cannot be created
+  explicit AtomicFile(std::filesystem::path path);
+  AtomicFile(AtomicFile&& other) noexcept = default;
+  AtomicFile& operator=(AtomicFile&&) = delete;
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  ~AtomicFile();
+
+  /// Appends bytes, unbuffered.
+  /// @throws OutputError when they cannot be written; the temporary file is then removed
+  void write(std::string_view bytes);
+
+  /// Flushes, closes, renames, flushes the folder.
+  /// @throws OutputError when one of these fails; the temporary file is then removed
+  void commit();
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  void discard() noexcept;
+
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  FileDescriptor descriptor_;
+};
+
+/// Replaces or creates the file `path` with `bytes`, atomically and durably.
+/// @throws OutputError when a step fails; what stood under the name before is then unchanged
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace epicyclic::io

@@ -1,0 +1,93 @@
+#include "io/digest.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <openssl/evp.h>
+
+#include "core/errors.hpp"
+#include "io/csv.hpp"
+
+namespace epicyclic::io {
+
+namespace {
+
+// Up to here each integral double is one integer, so that 1e5 and 100000 can share a text.
+constexpr double largest_exact_integer = 9007199254740992.0;
+
+void append_canonical(std::string& text, const nlohmann::json& value);
+
+void append_text(std::string& text, const std::string& value) {
+  try {
+    text += nlohmann::json(value).dump();
+  } catch (const nlohmann::json::type_error&) {
+    throw InputError("a text of the input is not valid UTF-8");
+  }
+}
+
+void append_float(std::string& text, double value) {
+  if (!std::isfinite(value)) throw InputError("a number of the input is not finite");
+  if (std::trunc(value) == value && std::abs(value) <= largest_exact_integer) {
+    text += std::to_string(static_cast<std::int64_t>(value));
+  } else {
+    append_number(text, value);
+  }
+}
+
+void append_array(std::string& text, const nlohmann::json& value) {
+  text += '[';
+  const char* separator = "";
+  for (const nlohmann::json& element : value) {
+    text += separator;
+    append_canonical(text, element);
+    separator = ",";
+  }
+  text += ']';
+}
+
+void append_object(std::string& text, const nlohmann::json& value) {
+  text += '{';
+  const char* separator = "";
+  // nlohmann::json keeps objects in a std::map, hence sorted by the bytes of the key.
+  for (const auto& [key, element] : value.items()) {
+    text += separator;
+    append_text(text, key);
+    text += ':';
+    append_canonical(text, element);
+    separator = ",";
+  }
+  text += '}';
+}
+
+void append_canonical(std::string& text, const nlohmann::json& value) {
+  if (value.is_object()) return append_object(text, value);
+  if (value.is_array()) return append_array(text, value);
+  if (value.is_string()) return append_text(text, value.get_ref<const std::string&>());
+  if (value.is_number_float()) return append_float(text, value.get<double>());
+  text += value.dump();
+}
+
+}  // namespace
+
+std::string sha256_hex(std::string_view bytes) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int size = 0;
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1) {
+    throw std::runtime_error("OpenSSL cannot compute SHA-256");
+  }
+  std::string text;
+  for (unsigned int i = 0; i < size; ++i) text += fmt::format("{:02x}", digest[i]);
+  return text;
+}
+
+std::string canonical_json(const nlohmann::json& value) {
+  std::string text;
+  append_canonical(text, value);
+  return text;
+}
+
+}  // namespace epicyclic::io

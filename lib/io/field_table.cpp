@@ -1,0 +1,330 @@
+#include "io/field_table.hpp"
+
+#include <array>
+#include <cctype>
+#include <charconv>
+
+namespace epicyclic::io {
+
+namespace {
+
+/// Endings of keys that are units, right or wrong; longer ones first where one ends in another.
+constexpr std::array<std::string_view, 45> units = {
+    "Ns_per_m", "N_per_mm", "N_per_um", "N_per_m", "Nm_per_rad", "kNm", "Nm",  "Nmm", "kW", "MW", "mW", "W",
+    "hp",       "kg",       "mg",       "lb",      "g",          "t",   "mm",  "um",  "nm", "cm", "km", "in",
+    "inch",     "m",        "degrees",  "degree",  "deg",        "rad", "rpm", "kHz", "Hz", "s",  "ms", "GPa",
+    "MPa",      "kPa",      "Pa",       "percent", "kN",         "MN",  "N",   "J",   "C"};
+
+std::string_view unit_ending(std::string_view key, bool any_case) {
+  std::string_view best;
+  const std::string shown = any_case ? lower_case(key) : std::string(key);
+  for (const auto unit : units) {
+    const std::string ending = "_" + (any_case ? lower_case(unit) : std::string(unit));
+    if (shown.size() > ending.size() && shown.compare(shown.size() - ending.size(), ending.size(), ending) == 0 &&
+        unit.size() > best.size())
+      best = key.substr(key.size() - unit.size());
+  }
+  return best;
+}
+
+/// The key without its unit, in lower case.
+std::string stem(std::string_view key, bool any_case) {
+  const auto unit = unit_ending(key, any_case);
+  return lower_case(unit.empty() ? key : key.substr(0, key.size() - unit.size() - 1));
+}
+
+/// Edit distance where a swap of neighbours counts one (optimal string alignment), letter case ignored.
+std::size_t distance(std::string_view left, std::string_view right) {
+  const std::string a = lower_case(left), b = lower_case(right);
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0U : 1U)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  }
+  return d[a.size()][b.size()];
+}
+
+std::string with_unit(std::string_view key) {
+  const auto unit = unit_of(key);
+  return "'" + std::string(key) + "'" + (unit.empty() ? "" : " (unit " + unit + ")");
+}
+
+/// What is said about a key that the object does not know, and the key that was meant.
+std::pair<std::string, std::string> unknown_key(const std::string& key, const std::string& pointer,
+                                                const std::vector<std::string>& known, const ReadContext& context) {
+  std::vector<std::string> same_quantity;
+  for (const auto& candidate : known)
+    if (stem(candidate, false) == stem(key, true)) same_quantity.push_back(candidate);
+  std::string message = "unknown key '" + key + "'";
+  if (same_quantity.size() == 1 && !unit_of(same_quantity.front()).empty()) {
+    message += "; did you mean " + with_unit(same_quantity.front()) + "?";
+    return {message, pointer + pointer_step(same_quantity.front())};
+  }
+  std::vector<std::string> elsewhere;
+  for (const auto& place : context.places)
+    if (place.key == key) elsewhere.push_back(place.pointer);
+  if (!elsewhere.empty()) {
+    if (elsewhere.size() > 4) elsewhere.resize(4);
+    return {message + "; '" + key + "' belongs in " + listed(elsewhere), ""};
+  }
+  if (const auto near = nearest(key, known); !near.empty())
+    return {message + "; did you mean " + with_unit(near) + "?", pointer + pointer_step(near)};
+  return {message + "; known here: " + listed(known), ""};
+}
+
+std::string shown_with_unit(const std::string& bound, std::string_view key) {
+  const auto unit = unit_of(key);
+  return bound + (unit.empty() ? "" : " [" + unit + "]");
+}
+
+}  // namespace
+
+bool Bounds::contains(double value) const {
+  return std::isfinite(value) && (min_excluded ? value > min : value >= min) &&
+         (max_excluded ? value < max : value <= max);
+}
+
+std::string Bounds::text() const {
+  std::string result;
+  if (std::isfinite(min)) result = (min_excluded ? "> " : ">= ") + number_text(min);
+  if (std::isfinite(max)) {
+    if (!result.empty()) result += " and ";
+    result += (max_excluded ? "< " : "<= ") + number_text(max);
+  }
+  return result.empty() ? "finite" : result;
+}
+
+void Bounds::describe(nlohmann::ordered_json& schema) const {
+  if (std::isfinite(min)) schema[min_excluded ? "exclusiveMinimum" : "minimum"] = min;
+  if (std::isfinite(max)) schema[max_excluded ? "exclusiveMaximum" : "maximum"] = max;
+}
+
+std::string number_text(double value) {
+  constexpr double plain_max = 1e7;  // integers up to here without exponent
+  if (value == std::floor(value) && std::abs(value) <= plain_max) return std::to_string(std::llround(value));
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  return {buffer.data(), end};
+}
+
+std::string described(const nlohmann::json& value) {
+  switch (value.type()) {
+    case nlohmann::json::value_t::null:
+      return "null";
+    case nlohmann::json::value_t::object:
+      return "an object";
+    case nlohmann::json::value_t::array:
+      return value.empty() ? "an empty array" : "an array of " + std::to_string(value.size());
+    case nlohmann::json::value_t::string: {
+      const auto text = value.dump(-1, ' ', true);  // escapes: a cut never splits a character of UTF-8
+      return "the string " + (text.size() > 60 ? text.substr(0, 60) + "...\"" : text);
+    }
+    case nlohmann::json::value_t::boolean:
+      return value.get<bool>() ? "true" : "false";
+    case nlohmann::json::value_t::number_float:
+      return number_text(value.get<double>());
+    default:
+      return value.dump();
+  }
+}
+
+std::string unit_of(std::string_view key) {
+  std::string unit(unit_ending(key, false));
+  if (unit.rfind("Ns", 0) == 0 || unit.rfind("Nm", 0) == 0) unit.insert(1, " ");
+  if (const auto per = unit.find("_per_"); per != std::string::npos) unit.replace(per, 5, "/");
+  return unit;
+}
+
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
+  std::string best;
+  std::size_t best_distance = std::max<std::size_t>(1, (word.size() + 1) / 3) + 1;
+  for (const auto& candidate : candidates) {
+    const auto d = distance(word, candidate);
+    if (d < best_distance) {
+      best = candidate;
+      best_distance = d;
+    }
+  }
+  return best;
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
+  const auto near = nearest(word, candidates);
+  return near.empty() ? "" : "; did you mean '" + near + "'?";
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+namespace table_detail {
+
+bool check_object(const json& value, const std::string& pointer, ReadContext& context) {
+  if (value.is_object()) return true;
+  context.add(Finding::Kind::type, pointer, "is " + described(value) + ", must be an object");
+  return false;
+}
+
+void check_keys(const json& object, const std::string& pointer, const std::vector<std::string>& known,
+                const std::vector<KeyRule>& rules, ReadContext& context) {
+  for (const auto& [key, value] : object.items()) {
+    if (key == "origin" || key == "note" || std::find(known.begin(), known.end(), key) != known.end()) continue;
+    auto [message, meant] = unknown_key(key, pointer, known, context);
+    context.findings.push_back({Finding::Kind::unknown_key, pointer + pointer_step(key), message, meant});
+  }
+  if (const auto note = object.find("note"); note != object.end() && !note->is_string())
+    context.add(Finding::Kind::type, pointer + "/note", "is " + described(*note) + ", must be a string");
+
+  for (const auto& rule : rules) {
+    std::vector<std::string> present, absent;
+    for (const auto& key : rule.keys) (object.contains(key) ? present : absent).push_back(key);
+    const auto quoted = [](const std::vector<std::string>& keys) {
+      std::string text;
+      for (const auto& key : keys) text += (text.empty() ? "'" : ", '") + key + "'";
+      return text;
+    };
+    switch (rule.kind) {
+      case KeyRule::Kind::exactly_one:
+        if (present.empty())
+          context.add(Finding::Kind::missing_key, pointer,
+                      "exactly one of " + quoted(rule.keys) + " is needed, none is given");
+        [[fallthrough]];
+      case KeyRule::Kind::at_most_one:
+        if (present.size() > 1)
+          context.add(Finding::Kind::rule, pointer, quoted(present) + " exclude each other: give one of them");
+        break;
+      case KeyRule::Kind::together:
+        if (!present.empty() && !absent.empty())
+          context.add(Finding::Kind::rule, pointer, quoted(present) + " needs " + quoted(absent) + " beside it");
+        break;
+      case KeyRule::Kind::needs:
+        if (object.contains(rule.keys[0]) && !object.contains(rule.keys[1]))
+          context.add(Finding::Kind::rule, pointer + pointer_step(rule.keys[0]),
+                      "needs '" + rule.keys[1] + "' beside it");
+        break;
+    }
+  }
+}
+
+std::optional<double> read_number(const json& value, const std::string& pointer, std::string_view key,
+                                  const Bounds& bounds, ReadContext& context, std::string_view also) {
+  if (!value.is_number()) {
+    context.add(Finding::Kind::type, pointer,
+                "is " + described(value) + ", must be a number" + std::string(also) + ", " +
+                    shown_with_unit(bounds.text(), key));
+    return std::nullopt;
+  }
+  const double number = value.get<double>();
+  if (!bounds.contains(number))
+    context.add(Finding::Kind::range, pointer,
+                "is " + described(value) + ", must be " + shown_with_unit(bounds.text(), key));
+  if (!std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+std::optional<double> read_integer(const json& value, const std::string& pointer, const Bounds& bounds,
+                                   ReadContext& context) {
+  if (!value.is_number()) {
+    context.add(Finding::Kind::type, pointer, "is " + described(value) + ", must be an integer " + bounds.text());
+    return std::nullopt;
+  }
+  const double number = value.get<double>();
+  if (!std::isfinite(number) || number != std::floor(number)) {
+    context.add(Finding::Kind::type, pointer, "is " + described(value) + ", must be an integer " + bounds.text());
+    return std::nullopt;
+  }
+  if (!bounds.contains(number))
+    context.add(Finding::Kind::range, pointer, "is " + described(value) + ", must be an integer " + bounds.text());
+  return number;
+}
+
+std::optional<std::vector<double>> read_numbers(const json& value, const std::string& pointer, std::string_view key,
+                                                const Bounds& bounds, std::size_t size_min, std::size_t size_max,
+                                                ReadContext& context) {
+  if (!value.is_array()) {
+    context.add(Finding::Kind::type, pointer, "is " + described(value) + ", must be an array of numbers");
+    return std::nullopt;
+  }
+  if (value.size() < size_min || value.size() > size_max) {
+    context.add(Finding::Kind::range, pointer,
+                "has " + std::to_string(value.size()) + " elements, must have " + std::to_string(size_min) + " to " +
+                    std::to_string(size_max));
+    return std::nullopt;
+  }
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    if (const auto number = read_number(value[i], pointer + "/" + std::to_string(i), key, bounds, context))
+      numbers.push_back(*number);
+  }
+  if (numbers.size() != value.size()) return std::nullopt;
+  return numbers;
+}
+
+std::optional<std::size_t> read_name(const json& value, const std::string& pointer,
+                                     const std::vector<std::string>& names, ReadContext& context) {
+  if (value.is_string()) {
+    const auto& name = value.get_ref<const std::string&>();
+    if (const auto it = std::find(names.begin(), names.end(), name); it != names.end())
+      return static_cast<std::size_t>(it - names.begin());
+    context.add(Finding::Kind::range, pointer,
+                "is \"" + name + "\", must be one of: " + listed(names) + suggestion(name, names));
+  } else {
+    context.add(Finding::Kind::type, pointer, "is " + described(value) + ", must be one of: " + listed(names));
+  }
+  return std::nullopt;
+}
+
+ordered_json number_schema(const Bounds& bounds, bool integer) {
+  ordered_json schema = {{"type", integer ? "integer" : "number"}};
+  bounds.describe(schema);
+  return schema;
+}
+
+ordered_json numbers_schema(const Bounds& bounds, std::size_t size_min, std::size_t size_max) {
+  return {{"type", "array"}, {"items", number_schema(bounds)}, {"minItems", size_min}, {"maxItems", size_max}};
+}
+
+ordered_json object_schema(const std::string& title, const std::string& description, const ordered_json& properties,
+                           const std::vector<std::string>& required, const std::vector<KeyRule>& rules) {
+  ordered_json schema = {
+      {"type", "object"}, {"title", title}, {"description", description}, {"properties", properties}};
+  schema["properties"]["origin"] = {{"$ref", "#/$defs/origin"}};
+  schema["properties"]["note"] = {{"type", "string"}, {"description", "For readers; nothing depends on it."}};
+  if (!required.empty()) schema["required"] = required;
+  schema["additionalProperties"] = false;
+  ordered_json all = ordered_json::array();
+  for (const auto& rule : rules) {
+    switch (rule.kind) {
+      case KeyRule::Kind::exactly_one: {
+        ordered_json one = ordered_json::array();
+        for (const auto& key : rule.keys) one.push_back({{"required", ordered_json::array({key})}});
+        all.push_back({{"oneOf", one}});
+        break;
+      }
+      case KeyRule::Kind::at_most_one:
+        for (std::size_t i = 0; i < rule.keys.size(); ++i)
+          for (std::size_t k = i + 1; k < rule.keys.size(); ++k)
+            all.push_back({{"not", {{"required", {rule.keys[i], rule.keys[k]}}}}});
+        break;
+      case KeyRule::Kind::together:
+        for (const auto& key : rule.keys) schema["dependentRequired"][key] = rule.keys;
+        break;
+      case KeyRule::Kind::needs:
+        schema["dependentRequired"][rule.keys[0]] = ordered_json::array({rule.keys[1]});
+        break;
+    }
+  }
+  if (!all.empty()) schema["allOf"] = all;
+  return schema;
+}
+
+}  // namespace table_detail
+
+}  // namespace epicyclic::io

@@ -1,0 +1,506 @@
+// One table per type of JSON object: it checks and reads the object, writes it back with all defaults, and states its
+// JSON Schema. A key, its unit, bounds and meaning are written once, in the table; its default once, on the member.
+//
+//   Table<Planet> table("planet", "A planet.");
+//   table.number("mass_kg", &Planet::mass_kg, above(0), "Mass.").required();
+//   Planet planet;
+//   table.read(json, "/planet", planet, findings);     // all that is wrong, at once
+//   table.write(planet);                               // every key, defaults included
+//   table.schema();                                    // draft 2020-12
+//
+// A member is named by a pointer to it or by a generic lambda [](auto& t) -> auto& {...}; within(a, b) names a member
+// of an optional one. Members that are std::optional are keys without a default: left out when written, if not set.
+// Every object also takes "origin" (where its values come from) and "note"; see study_input.hpp.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "io/json_source.hpp"
+
+namespace epicyclic::io {
+
+/// Something wrong with a JSON value; where it stands in a file is for the caller to say.
+struct Finding {
+  enum class Kind { unknown_key, missing_key, type, range, rule };
+  Kind kind = Kind::rule;
+  std::string pointer;
+  std::string message;
+  std::string meant;  ///< unknown_key: pointer of the key that was probably meant, if any
+};
+
+/// A key of a table and where it stands.
+struct KeyPlace {
+  std::string key;
+  std::string pointer;
+};
+
+/// What a reader writes its findings to, and where it looks up keys that stand elsewhere.
+struct ReadContext {
+  std::vector<Finding> findings;
+  std::vector<KeyPlace> places;
+
+  void add(Finding::Kind kind, const std::string& pointer, std::string message) {
+    findings.push_back({kind, pointer, std::move(message), {}});
+  }
+};
+
+/// An interval of numbers.
+struct Bounds {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool min_excluded = false;
+  bool max_excluded = false;
+
+  [[nodiscard]] bool contains(double value) const;
+  [[nodiscard]] std::string text() const;  ///< "> 0 and <= 100"; "finite" without bounds
+  void describe(nlohmann::ordered_json& schema) const;
+};
+
+[[nodiscard]] inline Bounds at_least(double min) { return {min}; }
+[[nodiscard]] inline Bounds above(double min) { return {min, std::numeric_limits<double>::infinity(), true, false}; }
+[[nodiscard]] inline Bounds between(double min, double max) { return {min, max}; }
+[[nodiscard]] inline Bounds above_up_to(double min, double max) { return {min, max, true, false}; }
+[[nodiscard]] inline Bounds from_below(double min, double max) { return {min, max, false, true}; }
+
+/// A rule on which keys of an object may or must stand together.
+struct KeyRule {
+  enum class Kind {
+    exactly_one,  ///< of the keys
+    at_most_one,  ///< of the keys
+    together,     ///< all of the keys or none
+    needs,        ///< the first needs the second
+  };
+  Kind kind;
+  std::vector<std::string> keys;
+};
+
+/// The shortest text that reads back as the same number.
+[[nodiscard]] std::string number_text(double value);
+
+/// "the string \"abc\"", "an object", ...: what a message says is there.
+[[nodiscard]] std::string described(const nlohmann::json& value);
+
+/// The unit in a key's ending: "kg" for mass_kg, "N/m" for support_N_per_m; empty if there is none.
+[[nodiscard]] std::string unit_of(std::string_view key);
+
+/// The candidate nearest to `word` by edit distance, or empty if none is near.
+[[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
+
+/// "; did you mean 'x'?", or nothing.
+[[nodiscard]] std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
+
+/// Names in a row: "a, b, c".
+[[nodiscard]] std::string listed(const std::vector<std::string>& names);
+
+namespace table_detail {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+template <class V>
+struct Plain {
+  using type = V;
+  static constexpr bool is_optional = false;
+};
+template <class V>
+struct Plain<std::optional<V>> {
+  using type = V;
+  static constexpr bool is_optional = true;
+};
+
+/// Reaches a member V of a T: to write (making what is absent) and to read (null if absent).
+template <class T, class V>
+struct Access {
+  std::function<V&(T&)> make;
+  std::function<const V*(const T&)> find;
+};
+
+template <class T, class F>
+auto access(F member) {
+  if constexpr (requires {
+                  member.make;
+                  member.find;
+                }) {
+    return member;
+  } else {
+    using V = std::remove_reference_t<std::invoke_result_t<F, T&>>;
+    return Access<T, V>{[member](T& t) -> V& { return std::invoke(member, t); },
+                        [member](const T& t) -> const V* { return &std::invoke(member, t); }};
+  }
+}
+
+// Pieces that do not depend on the type read.
+bool check_object(const json& value, const std::string& pointer, ReadContext& context);
+void check_keys(const json& object, const std::string& pointer, const std::vector<std::string>& known,
+                const std::vector<KeyRule>& rules, ReadContext& context);
+std::optional<double> read_number(const json& value, const std::string& pointer, std::string_view key,
+                                  const Bounds& bounds, ReadContext& context, std::string_view also = {});
+std::optional<double> read_integer(const json& value, const std::string& pointer, const Bounds& bounds,
+                                   ReadContext& context);
+std::optional<std::vector<double>> read_numbers(const json& value, const std::string& pointer, std::string_view key,
+                                                const Bounds& bounds, std::size_t size_min, std::size_t size_max,
+                                                ReadContext& context);
+std::optional<std::size_t> read_name(const json& value, const std::string& pointer,
+                                     const std::vector<std::string>& names, ReadContext& context);
+ordered_json number_schema(const Bounds& bounds, bool integer = false);
+ordered_json numbers_schema(const Bounds& bounds, std::size_t size_min, std::size_t size_max);
+ordered_json object_schema(const std::string& title, const std::string& description, const ordered_json& properties,
+                           const std::vector<std::string>& required, const std::vector<KeyRule>& rules);
+
+}  // namespace table_detail
+
+/// The member `inner` of the optional member `outer`: reading a key makes the outer one.
+template <class T, class U, class V>
+auto within(std::optional<U> T::*outer, V U::*inner) {
+  return table_detail::Access<T, V>{[=](T& t) -> V& {
+                                      auto& holder = t.*outer;
+                                      if (!holder) holder.emplace();
+                                      return (*holder).*inner;
+                                    },
+                                    [=](const T& t) -> const V* {
+                                      const auto& holder = t.*outer;
+                                      return holder ? &((*holder).*inner) : nullptr;
+                                    }};
+}
+
+template <class T>
+struct Field {
+  std::string key;
+  std::string description;
+  bool is_required = false;
+  std::function<void(const nlohmann::json&, const std::string& pointer, T&, ReadContext&)> read;
+  std::function<nlohmann::json(const T&)> write;  ///< null: the key is left out
+  std::function<nlohmann::ordered_json()> schema;
+  std::function<void(const std::string& pointer, std::vector<KeyPlace>&)> collect;  ///< keys of an object; may be empty
+
+  Field& required() {
+    is_required = true;
+    return *this;
+  }
+};
+
+template <class T>
+class Table {
+ public:
+  Table(std::string name, std::string description) : name_(std::move(name)), description_(std::move(description)) {}
+
+  /// double or std::optional<double>.
+  template <class F>
+  Field<T>& number(std::string key, F member, Bounds bounds, std::string description) {
+    auto at = table_detail::access<T>(member);
+    Field<T>& field = add(key, std::move(description), at);
+    field.read = [key, at, bounds](const json& value, const std::string& pointer, T& t, ReadContext& context) {
+      if (const auto number = table_detail::read_number(value, pointer, key, bounds, context)) at.make(t) = *number;
+    };
+    field.schema = [bounds] { return table_detail::number_schema(bounds); };
+    return field;
+  }
+
+  /// An integer type or an optional of one; a number without fractional part.
+  template <class F>
+  Field<T>& integer(std::string key, F member, Bounds bounds, std::string description) {
+    auto at = table_detail::access<T>(member);
+    using I = typename table_detail::Plain<std::remove_reference_t<decltype(at.make(std::declval<T&>()))>>::type;
+    Field<T>& field = add(key, std::move(description), at);
+    field.read = [at, bounds](const json& value, const std::string& pointer, T& t, ReadContext& context) {
+      const auto number = table_detail::read_integer(value, pointer, bounds, context);
+      if (number && bounds.contains(*number)) at.make(t) = static_cast<I>(*number);
+    };
+    field.schema = [bounds] { return table_detail::number_schema(bounds, true); };
+    return field;
+  }
+
+  /// std::string; an empty one is left out when written.
+  template <class F>
+  Field<T>& text(std::string key, F member, std::string description) {
+    auto at = table_detail::access<T>(member);
+    Field<T>& field = add(key, std::move(description), at);
+    field.read = [at](const json& value, const std::string& pointer, T& t, ReadContext& context) {
+      if (value.is_string()) {
+        at.make(t) = value.template get<std::string>();
+      } else {
+        context.add(Finding::Kind::type, pointer, "is " + described(value) + ", must be a string");
+      }
+    };
+    field.write = [at](const T& t) {
+      const auto* found = at.find(t);
+      return found != nullptr && !found->empty() ? json(*found) : json();
+    };
+    field.schema = [] { return ordered_json{{"type", "string"}}; };
+    return field;
+  }
+
+  /// One name of a list, read into an enum (by the pairs) or into a string (by names).
+  template <class F, class E>
+  Field<T>& choice(std::string key, F member, std::vector<std::pair<std::string, E>> choices, std::string description) {
+    auto at = table_detail::access<T>(member);
+    Field<T>& field = add(key, std::move(description), at);
+    const auto names = names_of(choices);
+    field.read = [at, choices, names](const json& value, const std::string& pointer, T& t, ReadContext& context) {
+      if (const auto index = table_detail::read_name(value, pointer, names, context))
+        at.make(t) = choices[*index].second;
+    };
+    field.write = [at, choices](const T& t) {
+      const auto* found = at.find(t);
+      return found == nullptr ? json() : name_in(choices, *found);
+    };
+    field.schema = [names] { return ordered_json{{"enum", names}}; };
+    return field;
+  }
+  template <class F>
+  Field<T>& choice(std::string key, F member, const std::vector<std::string>& names, std::string description) {
+    std::vector<std::pair<std::string, std::string>> same;
+    for (const auto& name : names) same.emplace_back(name, name);
+    return choice(std::move(key), member, std::move(same), std::move(description));
+  }
+
+  /// Different names of a list, in an order that counts; at least one.
+  template <class F, class E>
+  Field<T>& choices(std::string key, F member, std::vector<std::pair<std::string, E>> choices,
+                    std::string description) {
+    auto at = table_detail::access<T>(member);
+    Field<T>& field = add(key, std::move(description), at);
+    const auto names = names_of(choices);
+    field.read = [at, choices, names](const json& value, const std::string& pointer, T& t, ReadContext& context) {
+      if (!value.is_array() || value.empty()) {
+        context.add(Finding::Kind::type, pointer,
+                    "is " + described(value) + ", must be an array of one or more of: " + listed(names));
+        return;
+      }
+      std::vector<E> read;
+      for (std::size_t i = 0; i < value.size(); ++i) {
+        const std::string place = pointer + "/" + std::to_string(i);
+        const auto index = table_detail::read_name(value[i], place, names, context);
+        if (!index) continue;
+        const E chosen = choices[*index].second;
+        if (std::find(read.begin(), read.end(), chosen) != read.end()) {
+          context.add(Finding::Kind::rule, place, "\"" + names[*index] + "\" stands twice");
+        } else {
+          read.push_back(chosen);
+        }
+      }
+      if (!read.empty()) at.make(t) = std::move(read);
+    };
+    field.write = [at, choices](const T& t) {
+      const auto* found = at.find(t);
+      if (found == nullptr) return json();
+      json array = json::array();
+      for (const E& chosen : *found) array.push_back(name_in(choices, chosen));
+      return array;
+    };
+    field.schema = [names] {
+      return ordered_json{{"type", "array"}, {"items", {{"enum", names}}}, {"minItems", 1}, {"uniqueItems", true}};
+    };
+    return field;
+  }
+
+  /// A stiffness: a number, or "rigid", which is stored as infinity.
+  template <class F>
+  Field<T>& number_or_rigid(std::string key, F member, Bounds bounds, std::string description) {
+    auto at = table_detail::access<T>(member);
+    Field<T>& field = add(key, std::move(description), at);
+    field.read = [key, at, bounds](const json& value, const std::string& pointer, T& t, ReadContext& context) {
+      if (value == "rigid") {
+        at.make(t) = std::numeric_limits<double>::infinity();
+      } else if (const auto number =
+                     table_detail::read_number(value, pointer, key, bounds, context, " or the string \"rigid\"")) {
+        at.make(t) = *number;
+      }
+    };
+    field.write = [at](const T& t) {
+      const double value = *at.find(t);
+      return std::isfinite(value) ? json(value) : json("rigid");
+    };
+    field.schema = [bounds] {
+      return ordered_json{{"anyOf", {table_detail::number_schema(bounds), {{"const", "rigid"}}}}};
+    };
+    return field;
+  }
+
+  /// An array of numbers; one that is shorter than `size_min` is left out when written.
+  template <class F>
+  Field<T>& numbers(std::string key, F member, Bounds bounds, std::size_t size_min, std::size_t size_max,
+                    std::string description) {
+    auto at = table_detail::access<T>(member);
+    Field<T>& field = add(key, std::move(description), at);
+    field.read = [=](const json& value, const std::string& pointer, T& t, ReadContext& context) {
+      if (auto read = table_detail::read_numbers(value, pointer, key, bounds, size_min, size_max, context))
+        at.make(t) = std::move(*read);
+    };
+    field.write = [at, size_min](const T& t) {
+      const auto* found = at.find(t);
+      return found != nullptr && found->size() >= size_min ? json(*found) : json();
+    };
+    field.schema = [=] { return table_detail::numbers_schema(bounds, size_min, size_max); };
+    return field;
+  }
+
+  /// One number for all, or an array with a number for each; stored as an array, one number as one of length 1.
+  template <class F>
+  Field<T>& number_or_numbers(std::string key, F member, Bounds bounds, std::size_t size_max, std::string description) {
+    auto at = table_detail::access<T>(member);
+    Field<T>& field = add(key, std::move(description), at);
+    field.read = [=](const json& value, const std::string& pointer, T& t, ReadContext& context) {
+      if (value.is_array()) {
+        if (auto read = table_detail::read_numbers(value, pointer, key, bounds, 1, size_max, context))
+          at.make(t) = std::move(*read);
+      } else if (const auto number =
+                     table_detail::read_number(value, pointer, key, bounds, context, " or an array of numbers")) {
+        at.make(t) = {*number};
+      }
+    };
+    field.write = [at](const T& t) {
+      const auto& values = *at.find(t);
+      return values.size() == 1 ? json(values.front()) : json(values);
+    };
+    field.schema = [=] {
+      return ordered_json{
+          {"anyOf", {table_detail::number_schema(bounds), table_detail::numbers_schema(bounds, 1, size_max)}}};
+    };
+    return field;
+  }
+
+  /// An object of its own; left out when written, if nothing in it is set.
+  template <class F, class U>
+  Field<T>& object(std::string key, F member, const Table<U>& table) {
+    auto at = table_detail::access<T>(member);
+    Field<T>& field = fields_.emplace_back();
+    field.key = std::move(key);
+    field.description = table.description();
+    field.read = [at, &table](const json& value, const std::string& pointer, T& t, ReadContext& context) {
+      table.read(value, pointer, at.make(t), context);
+    };
+    field.write = [at, &table](const T& t) {
+      const auto* found = at.find(t);
+      json object = found == nullptr ? json() : table.write(*found);
+      return object.empty() ? json() : object;
+    };
+    field.schema = [&table] { return table.schema(); };
+    field.collect = [&table](const std::string& pointer, std::vector<KeyPlace>& places) {
+      table.collect(pointer, places);
+    };
+    return field;
+  }
+
+  /// A field made by hand.
+  Field<T>& custom(Field<T> field) { return fields_.emplace_back(std::move(field)); }
+
+  void rule(KeyRule::Kind kind, std::vector<std::string> keys) { rules_.push_back({kind, std::move(keys)}); }
+
+  /// Reads into `t` what can be read, and says what is wrong. A number out of its range is read all the same.
+  void read(const nlohmann::json& value, const std::string& pointer, T& t, ReadContext& context) const {
+    if (!table_detail::check_object(value, pointer, context)) return;
+    table_detail::check_keys(value, pointer, keys(), rules_, context);
+    for (const auto& field : fields_) {
+      const std::string place = pointer + pointer_step(field.key);
+      if (const auto it = value.find(field.key); it != value.end()) {
+        field.read(*it, place, t, context);
+      } else if (field.is_required) {
+        context.add(Finding::Kind::missing_key, place, "is missing: " + field.description);
+      }
+    }
+  }
+
+  [[nodiscard]] nlohmann::json write(const T& t) const {
+    json object = json::object();
+    for (const auto& field : fields_) {
+      json value = field.write(t);
+      if (!value.is_null()) object[field.key] = std::move(value);
+    }
+    return object;
+  }
+
+  [[nodiscard]] nlohmann::ordered_json schema() const {
+    const json defaults = write(T{});
+    ordered_json properties = ordered_json::object();
+    std::vector<std::string> required;
+    for (const auto& field : fields_) {
+      ordered_json property = field.schema();
+      if (!property.contains("description")) property["description"] = field.description;
+      const auto given = defaults.find(field.key);
+      if (field.is_required) {
+        required.push_back(field.key);
+      } else if (given != defaults.end() && !given->is_object()) {
+        property["default"] = *given;
+      }
+      properties[field.key] = std::move(property);
+    }
+    return table_detail::object_schema(name_, description_, properties, required, rules_);
+  }
+
+  [[nodiscard]] std::vector<std::string> keys() const {
+    std::vector<std::string> all;
+    for (const auto& field : fields_) all.push_back(field.key);
+    return all;
+  }
+
+  void collect(const std::string& pointer, std::vector<KeyPlace>& places) const {
+    for (const auto& field : fields_) {
+      const std::string place = pointer + pointer_step(field.key);
+      places.push_back({field.key, place});
+      if (field.collect) field.collect(place, places);
+    }
+  }
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const std::string& description() const { return description_; }
+
+ private:
+  using json = nlohmann::json;
+  using ordered_json = nlohmann::ordered_json;
+
+  /// A field that writes its member as it is, or nothing if it is not there.
+  template <class A>
+  Field<T>& add(const std::string& key, std::string description, const A& at) {
+    Field<T>& field = fields_.emplace_back();
+    field.key = key;
+    field.description = std::move(description);
+    field.write = [at](const T& t) {
+      const auto* found = at.find(t);
+      if (found == nullptr) return json();
+      using V = std::remove_cvref_t<decltype(*found)>;
+      if constexpr (table_detail::Plain<V>::is_optional) {
+        return found->has_value() ? json(**found) : json();
+      } else if constexpr (std::convertible_to<V, json>) {
+        return json(*found);
+      } else {
+        return json();
+      }
+    };
+    return field;
+  }
+
+  template <class E>
+  static std::vector<std::string> names_of(const std::vector<std::pair<std::string, E>>& choices) {
+    std::vector<std::string> names;
+    for (const auto& choice : choices) names.push_back(choice.first);
+    return names;
+  }
+
+  template <class E>
+  static json name_in(const std::vector<std::pair<std::string, E>>& choices, const E& chosen) {
+    for (const auto& [name, value] : choices)
+      if (value == chosen) return name;
+    return {};
+  }
+
+  std::string name_;
+  std::string description_;
+  std::vector<Field<T>> fields_;
+  std::vector<KeyRule> rules_;
+};
+
+}  // namespace epicyclic::io

@@ -1,0 +1,289 @@
+#include "io/gnuplot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "io/atomic_file.hpp"
+#include "io/csv.hpp"
+
+namespace epicyclic::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Longest part of gnuplot's own complaint that goes into a message [bytes].
+constexpr std::size_t longest_complaint = 400;
+
+constexpr std::string_view png_end("IEND\xae\x42\x60\x82", 8);
+constexpr std::string_view svg_end = "</svg>";
+
+/// The environment with all locale settings replaced by the C locale.
+std::vector<std::string> c_locale_environment() {
+  std::vector<std::string> variables{"LC_ALL=C"};
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text(*variable);
+    if (!text.starts_with("LC_") && !text.starts_with("LANG")) variables.emplace_back(text);
+  }
+  return variables;
+}
+
+std::string text_of(double value) {
+  std::string text;
+  append_number(text, value);
+  return text;
+}
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+/// What gnuplot said, as one line without its picture of where in the line the error is.
+std::string one_line(std::string_view complaint) {
+  std::string line;
+  for (const char character : complaint) {
+    const bool blank = static_cast<unsigned char>(character) <= ' ' || character == '^';
+    if (!blank) line += character;
+    if (blank && !line.empty() && line.back() != ' ') line += ' ';
+  }
+  if (line.size() > longest_complaint) line = "... " + line.substr(line.size() - longest_complaint);
+  return line;
+}
+
+/// gnuplot does not always notice that its output could not be written (disk full), so the end of the file is checked.
+bool ends_with(const fs::path& path, std::string_view end) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : 0;
+  const std::streamoff tail = std::min<std::streamoff>(size, 64);
+  std::string text(static_cast<std::size_t>(tail), '\0');
+  file.seekg(size - tail);
+  return file.read(text.data(), tail) && text.find(end) != std::string::npos;
+}
+
+std::string with_greek_letters(std::string_view text) {
+  // Where the Symbol font has no Greek letter (digits, signs), the character stands for itself.
+  static constexpr std::string_view latin = "abcdefghiklmnopqrstuwxyzDFGLPQSUWXY";
+  static constexpr std::array<std::string_view, latin.size()> greek{
+      "α", "β", "χ", "δ", "ε", "φ", "γ", "η", "ι", "κ", "λ", "μ", "ν", "ο", "π", "θ", "ρ", "σ",
+      "τ", "υ", "ω", "ξ", "ψ", "ζ", "Δ", "Φ", "Γ", "Λ", "Π", "Θ", "Σ", "Υ", "Ω", "Ξ", "Ψ"};
+  constexpr std::string_view opening = "{/Symbol ";
+  std::string result;
+  for (;;) {
+    const std::size_t start = text.find(opening);
+    if (start == std::string_view::npos) break;
+    const std::size_t end = text.find_first_of("{}", start + opening.size());
+    if (end == std::string_view::npos || text[end] != '}') break;
+    result.append(text.substr(0, start)) += '{';
+    for (const char letter : text.substr(start + opening.size(), end - start - opening.size())) {
+      const std::size_t place = latin.find(letter);
+      result += place == std::string_view::npos ? std::string_view(&letter, 1) : greek[place];
+    }
+    result += '}';
+    text.remove_prefix(end + 1);
+  }
+  return result.append(text);
+}
+
+/// Length of the bar of an overprint, as "{.6-}", with which the text starts; 0 if it does not.
+std::size_t bar_length(std::string_view text) {
+  const std::size_t dash = text.starts_with('{') ? text.find_first_not_of("0123456789.", 1) : text.size();
+  return dash < text.size() && text.substr(dash).starts_with("-}") ? dash + 2 : 0;
+}
+
+/// Each overprint of a bar, as "~x{.6-}" or "~{x}{.6-}", becomes the letter with a combining macron.
+std::string with_macrons(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const bool in_braces = text.starts_with("~{");
+    const std::size_t last = in_braces ? text.find_first_of("{}", 2) : 1;
+    const std::size_t bar = text.front() == '~' && last < text.size() ? bar_length(text.substr(last + 1)) : 0;
+    if (bar > 0 && (!in_braces || text[last] == '}')) {
+      result.append(in_braces ? text.substr(2, last - 2) : text.substr(1, 1)) += "\u0304";
+      text.remove_prefix(last + 1 + bar);
+    } else {
+      result += text.front();
+      text.remove_prefix(1);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+void FigureRange::include(double value) {
+  if (!std::isfinite(value)) return;
+  low = std::min(low, value);
+  high = std::max(high, value);
+}
+
+FigureRange FigureRange::widened(double share) const {
+  const double margin = high > low ? share * (high - low) : std::max(1e-12, 0.05 * std::abs(low));
+  return {low - margin, high + margin};
+}
+
+FigureOutcome run_gnuplot(const fs::path& script) {
+  const fs::path folder = script.has_parent_path() ? script.parent_path() : fs::path(".");
+  std::array<int, 2> pipe_ends{};
+  if (::pipe2(pipe_ends.data(), O_CLOEXEC) != 0) return {"cannot run gnuplot: " + reason(errno)};
+  const FileDescriptor read_end(pipe_ends[0]);
+  FileDescriptor write_end(pipe_ends[1]);
+
+  std::vector<std::string> variables = c_locale_environment();
+  std::vector<char*> environment;
+  environment.reserve(variables.size() + 1);
+  for (std::string& variable : variables) environment.push_back(variable.data());
+  environment.push_back(nullptr);
+  // "./" keeps a script whose name begins with a dash from being taken for an option.
+  std::string program = "gnuplot";
+  std::string without_user_settings = "-d";
+  std::string script_name = "./" + script.filename().string();
+  std::array<char*, 4> arguments{program.data(), without_user_settings.data(), script_name.data(), nullptr};
+
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  // Our stdout belongs to the data.
+  ::posix_spawn_file_actions_adddup2(&actions, write_end.get(), STDOUT_FILENO);
+  ::posix_spawn_file_actions_adddup2(&actions, write_end.get(), STDERR_FILENO);
+  // Signals that this process blocks or ignores (SIGXFSZ, SIGPIPE) are none of gnuplot's business.
+  sigset_t none;
+  sigset_t all;
+  ::sigemptyset(&none);
+  ::sigfillset(&all);
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setsigmask(&attributes, &none);
+  ::posix_spawnattr_setsigdefault(&attributes, &all);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  pid_t child = 0;
+  const int error =
+      ::posix_spawnp(&child, program.c_str(), &actions, &attributes, arguments.data(), environment.data());
+  ::posix_spawnattr_destroy(&attributes);
+  ::posix_spawn_file_actions_destroy(&actions);
+  write_end = FileDescriptor();
+  if (error == ENOENT && fs::exists(folder)) {
+    return {"gnuplot is not installed (Debian: apt install gnuplot-nox); the figure's data and script are written"};
+  }
+  if (error != 0) return {"cannot run gnuplot: " + reason(error)};
+
+  std::string complaint;
+  std::array<char, 4096> block{};
+  for (;;) {
+    const ssize_t count = ::read(read_end.get(), block.data(), block.size());
+    if (count > 0) complaint.append(block.data(), static_cast<std::size_t>(count));
+    if (count == 0 || (count < 0 && errno != EINTR)) break;
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) return {"lost sight of gnuplot: " + reason(errno)};
+  }
+  if (WIFSIGNALED(status)) return {fmt::format("gnuplot was killed by signal {}", WTERMSIG(status))};
+  if (WEXITSTATUS(status) != 0) {
+    return {fmt::format("gnuplot failed on {}: {}", script.string(), one_line(complaint))};
+  }
+  return {};
+}
+
+std::string gnuplot_quoted(std::string_view text) {
+  std::string quoted = "'";
+  for (const char character : text) {
+    if (character == '\'') quoted += '\'';
+    // A line break would end gnuplot's command.
+    quoted += static_cast<unsigned char>(character) < ' ' ? ' ' : character;
+  }
+  return quoted + "'";
+}
+
+std::string portable_text(std::string_view text) { return with_macrons(with_greek_letters(text)); }
+
+std::string figure_script(std::string_view stem, const FigureText& text, const FigureRange& x, const FigureRange& y,
+                          std::size_t legend_entries, const std::vector<FigureMarker>& markers, std::string_view extra,
+                          std::string_view plot) {
+  std::string script = fmt::format(
+      "# Draws {0}.png and {0}.svg from {0}.dat. To draw again, run in this folder: gnuplot {0}.gp\n"
+      "set encoding utf8\n"
+      "set minussign\n"
+      "set format xy '%h'\n"
+      "set border 15 linewidth 1.2 linecolor '#202020'\n"
+      "set tics in scale 0.9,0.45 textcolor '#202020'\n"
+      "set mxtics 5\n"
+      "set mytics 5\n"
+      "set xrange [{1}:{2}]\n"
+      "set yrange [{3}:{4}]\n"
+      "set xlabel {5}\n"
+      "set ylabel {6}\n"
+      "set rmargin screen 0.975\n",
+      stem, text_of(x.low), text_of(x.high), text_of(y.low), text_of(y.high),
+      gnuplot_quoted(portable_text(text.x_label)), gnuplot_quoted(portable_text(text.y_label)));
+  // Title on the left and legend on the right of one line, if both are short: gnuplot's own title takes a second line.
+  if (!text.title.empty()) {
+    const std::string title = gnuplot_quoted(portable_text(text.title));
+    script += legend_entries > 2 ? fmt::format("set title {}\n", title)
+                                 : fmt::format("set label {} at graph 0, graph 1 left offset character 0,0.9\n", title);
+  }
+  if (legend_entries > 0) {
+    script += "set key above right horizontal Left reverse samplen 1.5 width 1 font ',22'\n";
+  } else {
+    script += fmt::format("unset key\nset tmargin {}\n", text.title.empty() ? 1.0 : 2.4);
+  }
+  if (!markers.empty()) script += "set style textbox opaque noborder fillcolor '#ffffff' margins 0.4,0.4\n";
+  for (const FigureMarker& marker : markers) {
+    if (!(marker.x >= x.low && marker.x <= x.high)) continue;
+    script += fmt::format(
+        "set arrow from first {0}, graph 0 to first {0}, graph 1 nohead back linewidth 1.2 dashtype (8,6) "
+        "linecolor '#808080'\n"
+        "set label {1} at first {0}, graph 0.985 rotate by 90 right offset character -1,0 font ',18' "
+        "textcolor '#404040' front boxed\n",
+        text_of(marker.x), gnuplot_quoted(portable_text(marker.label)));
+  }
+  script += extra;
+  script += fmt::format(
+      "set terminal pngcairo enhanced rounded size 1800,1100 font 'DejaVu Sans,24' linewidth 1.5 background '#ffffff'\n"
+      "mark = 1.4\n"
+      "set output '{0}.png'\n"
+      "plot {1}\n"
+      "set terminal svg enhanced round size 1440,880 font 'DejaVu Sans,24' linewidth 1.2 background '#ffffff'\n"
+      "mark = 0.7\n"
+      "set output '{0}.svg'\n"
+      "replot\n"
+      "unset output\n",
+      stem, plot);
+  return script;
+}
+
+FigureOutcome draw_figure(const fs::path& folder, std::string_view stem, std::string_view data,
+                          std::string_view script) {
+  const bool plain = !stem.empty() && stem.front() != '.' && std::ranges::all_of(stem, [](char character) {
+    return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
+           (character >= '0' && character <= '9') || character == '_' || character == '-' || character == '.';
+  });
+  if (!plain) throw std::invalid_argument(fmt::format("draw_figure: '{}' is not a plain file name", stem));
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw_output_error(folder, "create the folder", error.value());
+
+  const auto named = [&](std::string_view suffix) { return folder / fmt::format("{}{}", stem, suffix); };
+  // An old picture must not pass for one of these data.
+  for (const std::string_view suffix : {".png", ".svg"}) fs::remove(named(suffix), error);
+  write_file_atomically(named(".dat"), data);
+  write_file_atomically(named(".gp"), script);
+  FigureOutcome outcome = run_gnuplot(named(".gp"));
+  if (!outcome.drawn()) return outcome;
+  if (!ends_with(named(".png"), png_end) || !ends_with(named(".svg"), svg_end)) {
+    return {fmt::format("gnuplot did not finish {} (disk full?)", named(".png").string())};
+  }
+  return outcome;
+}
+
+}  // namespace epicyclic::io

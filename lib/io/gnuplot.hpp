@@ -1,0 +1,78 @@
+// Figures by gnuplot: the process, and the look that all figures share.
+//
+// A figure is three files that belong together, `STEM.dat` (data), `STEM.gp` (script) and what the script draws,
+// `STEM.png` and `STEM.svg`; whoever wants another look edits the script and runs `gnuplot STEM.gp` in the folder.
+// Figures are drawn after the data are safe, so that a missing gnuplot or a failing script is a result with a clear
+// text, never an exception.
+//
+// Texts are UTF-8 in gnuplot's "enhanced" notation (x_{sp}, 10^{-3}). Greek letters and bars are best written as they
+// are (Ω, δ̄); {/Symbol W} and ~{x}{.6-} are turned into them, because gnuplot's SVG files show these wrongly.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace epicyclic::io {
+
+/// What became of a figure. `message` is empty if it was drawn, else it says in one line why not.
+struct FigureOutcome {
+  std::string message;
+  [[nodiscard]] bool drawn() const { return message.empty(); }
+};
+
+/// An interval of values that grows with what it is shown.
+struct FigureRange {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  /// Values that are not finite are ignored.
+  void include(double value);
+  [[nodiscard]] bool empty() const { return low > high; }
+  /// With a margin of `share` of its width at both ends; around a single value, wide enough to be an axis.
+  [[nodiscard]] FigureRange widened(double share) const;
+};
+
+/// Share of the height of the data that is left free above and below them [-].
+inline constexpr double figure_margin = 0.04;
+
+/// Title and axis labels of a figure; the title may be empty.
+struct FigureText {
+  std::string title;
+  std::string x_label;
+  std::string y_label;
+};
+
+/// A vertical line at an abscissa, with a label; not drawn outside the figure.
+struct FigureMarker {
+  double x = 0;
+  std::string label;
+};
+
+/// Runs gnuplot on the script, without a shell, in the script's folder, in the C locale and without the user's own
+/// settings (~/.gnuplot).
+FigureOutcome run_gnuplot(const std::filesystem::path& script);
+
+/// The text as a gnuplot string in single quotes, in which gnuplot neither expands nor executes anything.
+std::string gnuplot_quoted(std::string_view text);
+
+/// Symbol font and overprinted bars replaced by Greek letters and combining macrons; see above.
+std::string portable_text(std::string_view text);
+
+/// The script of a figure: encoding, white ground, thin frame, tics, ranges, labels, legend, markers; then `plot`,
+/// which is one plot command (without the word) and is drawn twice, to STEM.png and to STEM.svg. It may use the
+/// variable `mark`, the size of a clearly visible dot, which differs between the two. `extra` are commands before it.
+std::string figure_script(std::string_view stem, const FigureText& text, const FigureRange& x, const FigureRange& y,
+                          std::size_t legend_entries, const std::vector<FigureMarker>& markers, std::string_view extra,
+                          std::string_view plot);
+
+/// Writes STEM.dat and STEM.gp to `folder`, which is created if need be, and draws.
+/// @throws OutputError           when data or script cannot be written
+/// @throws std::invalid_argument when the stem is not a plain file name (letters, digits, '_', '-', '.')
+FigureOutcome draw_figure(const std::filesystem::path& folder, std::string_view stem, std::string_view data,
+                          std::string_view script);
+
+}  // namespace epicyclic::io

@@ -1,0 +1,87 @@
+// Results as one HDF5 file, over the C API of HDF5 1.10.
+//
+// The same data give the same bytes: no time stamps, a fixed version of the file format (that of HDF5 1.8, which every
+// reader in use knows), fixed chunking and compression (shuffle + deflate for data above 64 KiB), texts of fixed
+// length. The file is built in memory and written in one go by write_file_atomically: a full disk can then never leave
+// HDF5 with a file that it cannot close. So a file must fit into memory, up to twice while it is closed.
+//
+// HDF5 is not safe to use from several threads at once: one thread at a time, over all files. Its own error printing is
+// silenced during each call, and its error stack becomes the text of the OutputError.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace epicyclic::io {
+
+/// Writes one HDF5 file. Objects are named by paths such as "/points/delta_sp"; groups on the way are made as needed.
+/// Each member throws OutputError, naming file, object and reason, when HDF5 refuses (a name twice, say).
+class Hdf5File {
+ public:
+  explicit Hdf5File(std::filesystem::path path);
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+  /// Without close(), no file appears.
+  ~Hdf5File();
+
+  /// Makes the group and those on the way to it, as far as they do not exist yet.
+  void create_group(std::string_view path);
+
+  /// A dataset with one axis.
+  void write(std::string_view path, std::span<const double> values);
+  void write(std::string_view path, std::span<const std::int64_t> values);
+  /// Texts become UTF-8 of one fixed length, padded with zero bytes; a text must contain none.
+  void write(std::string_view path, std::span<const std::string> values);
+
+  /// A dataset with two axes, given row by row.
+  /// @throws std::invalid_argument when values.size() is not rows * columns
+  void write(std::string_view path, std::span<const double> values, std::size_t rows, std::size_t columns);
+  void write(std::string_view path, std::span<const std::int64_t> values, std::size_t rows, std::size_t columns);
+
+  /// An attribute of a dataset or group ("/" is the file itself).
+  void set_attribute(std::string_view object, std::string_view name, std::string_view value);
+  void set_attribute(std::string_view object, std::string_view name, double value);
+  void set_attribute(std::string_view object, std::string_view name, std::int64_t value);
+  void set_attribute(std::string_view object, std::string_view name, const char* value) {
+    set_attribute(object, name, std::string_view(value));
+  }
+
+  /// The attribute "units", as in "N/m"; "-" if dimensionless.
+  void set_units(std::string_view object, std::string_view units) { set_attribute(object, "units", units); }
+
+  /// Writes the file to the disk.
+  /// @throws OutputError when that fails; what stood under the name before is then unchanged
+  void close();
+
+ private:
+  void write_values(std::string_view path, std::int64_t file_type, std::int64_t memory_type, std::size_t value_size,
+                    const void* values, std::span<const std::size_t> shape);
+  void write_attribute(std::string_view object, std::string_view name, std::int64_t file_type, std::int64_t memory_type,
+                       const void* value);
+
+  std::filesystem::path path_;
+  std::int64_t file_ = -1;  // an hid_t, kept out of this header with the rest of hdf5.h
+};
+
+/// A dataset read back: values in row order; numbers of other types are converted.
+struct Hdf5Dataset {
+  std::vector<std::size_t> shape;
+  std::vector<double> values;
+};
+
+/// @throws InputError when file or dataset cannot be read
+Hdf5Dataset read_hdf5(const std::filesystem::path& file, std::string_view dataset);
+
+/// @throws InputError when file or dataset cannot be read, or the dataset is not one of texts of fixed length
+std::vector<std::string> read_hdf5_texts(const std::filesystem::path& file, std::string_view dataset);
+
+/// A text attribute of an object.
+/// @throws InputError when it cannot be read
+std::string read_hdf5_attribute(const std::filesystem::path& file, std::string_view object, std::string_view name);
+
+}  // namespace epicyclic::io

@@ -1,0 +1,87 @@
+// Strict JSON text, with the line of every key and element, and every problem found in one pass.
+//
+// The grammar is RFC 8259 and nothing more: no comments, no trailing comma, no NaN. Beyond the grammar this refuses
+// what a JSON library lets pass silently: duplicate keys, integers that a double does not hold exactly, numbers that
+// overflow or vanish. nlohmann-json reads the text through its SAX interface; a counting iterator tells where it
+// stands.
+//
+// What is wrong in one place only (NaN, 1e999, a comment, a trailing comma) is reported, blanked out, and reading goes
+// on behind it, so that one run shows all problems of a file.
+//
+// Limits: 16 MiB of text, 32 levels of nesting. Nothing in the text is executed or followed.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/errors.hpp"
+
+namespace epicyclic::io {
+
+inline constexpr std::size_t json_bytes_max = std::size_t{16} << 20;
+inline constexpr std::size_t json_depth_max = 32;
+
+/// One thing wrong with an input, and where.
+struct Problem {
+  std::string file;     ///< as the user named it, or "--set ..."
+  int line = 0;         ///< from 1; 0 if there is none
+  std::string pointer;  ///< JSON pointer (RFC 6901); empty for the whole document
+  std::string message;
+
+  /// "file:line: /pointer: message", leaving out what is not there.
+  [[nodiscard]] std::string text() const;
+};
+
+/// All that is wrong with an input, thrown at once; what() has one line per problem.
+class InputProblems : public InputError {
+ public:
+  explicit InputProblems(std::vector<Problem> problems);
+  [[nodiscard]] const std::vector<Problem>& problems() const { return problems_; }
+
+ private:
+  std::vector<Problem> problems_;
+};
+
+/// A JSON text as read: its value, where everything stands, and what is wrong with it.
+struct JsonSource {
+  std::string name;   ///< of the file, as shown in messages
+  std::string bytes;  ///< exactly as stored
+  nlohmann::json value;
+  bool complete = false;                          ///< the value stands for the whole text; false: reading broke off
+  std::map<std::string, int, std::less<>> line;   ///< by pointer: line of the key, or of the element in an array
+  std::set<std::string, std::less<>> unreadable;  ///< pointers whose value was reported here and replaced by 0
+  std::vector<Problem> problems;
+
+  /// The line of that pointer or of its nearest parent that is there; 0 if the text is not there at all.
+  [[nodiscard]] int line_of(std::string_view pointer) const;
+};
+
+/// Reads a text. Never throws for what the text holds: see `problems`.
+[[nodiscard]] JsonSource parse_json(std::string bytes, std::string name);
+
+/// Reads a file; a file that cannot be read is a problem too. `name` is what messages call it (default: the path).
+[[nodiscard]] JsonSource read_json_file(const std::filesystem::path& path, std::string name = {});
+
+/// The text with ASCII letters in lower case.
+[[nodiscard]] std::string lower_case(std::string_view text);
+
+/// One step of a JSON pointer, with ~ and / escaped.
+[[nodiscard]] std::string pointer_step(std::string_view key);
+
+/// The pointer without its last step; empty for the root and its members.
+[[nodiscard]] std::string_view pointer_parent(std::string_view pointer);
+
+/// The last step of a pointer, unescaped.
+[[nodiscard]] std::string pointer_leaf(std::string_view pointer);
+
+/// Is `pointer` the same as `ancestor` or below it?
+[[nodiscard]] bool pointer_within(std::string_view pointer, std::string_view ancestor);
+
+}  // namespace epicyclic::io

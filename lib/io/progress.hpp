@@ -1,0 +1,59 @@
+// Progress of a long computation, on stderr (stdout belongs to the data).
+//
+// On a terminal: one line, redrawn at most ten times a second. Elsewhere (a log file, a batch system): a plain line a
+// minute and one at the end. Nothing runs in the background: lines are written from within update().
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <mutex>
+#include <string>
+
+namespace epicyclic::io {
+
+/// What a progress line tells.
+struct ProgressState {
+  std::size_t done = 0;    ///< units done, those of earlier sessions included
+  std::size_t total = 0;   ///< units in all
+  std::size_t failed = 0;  ///< units done, but without a result
+  double rate = 0;         ///< units of this session per second; 0 while unknown
+};
+
+/// The line as text, without line end. `bar_width` is the width of the bar in characters, 0 for none.
+std::string progress_line(const std::string& label, const ProgressState& state, int bar_width);
+
+/// A duration for people: "42 s", "3 min 20 s", "2 h 5 min", "4 d 1 h".
+std::string duration_text(double seconds);
+
+/// Thread-safe. Failures to write are ignored: nothing depends on the display.
+class Progress {
+ public:
+  /// @param already_done units that an earlier session has done; they do not count for the rate
+  /// @param descriptor   where to write: stderr, but for tests
+  Progress(std::string label, std::size_t total, std::size_t already_done = 0, int descriptor = 2);
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress();
+
+  /// States how far things are. A call with a smaller `done` than before (threads overtake each other) is ignored.
+  void update(std::size_t done, std::size_t failed);
+
+  /// The last line, and back to the start of a new one. The destructor does the same.
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void draw(Clock::time_point now, bool last);
+
+  std::string label_;
+  std::size_t already_done_;
+  int descriptor_;
+  bool terminal_;
+  bool finished_ = false;
+  ProgressState state_;
+  Clock::time_point start_;
+  Clock::time_point last_drawn_;
+  std::mutex mutex_;
+};
+
+}  // namespace epicyclic::io

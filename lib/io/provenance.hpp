@@ -1,0 +1,37 @@
+// Who computed a study, with what, when and where: the volatile facts, which stand in run.json and nowhere else, so
+// that all other files of a study are the same bytes on each machine and day.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace epicyclic::io {
+
+/// The facts of one session, that is, of one call of the program on an output folder.
+struct Provenance {
+  std::string library_version;                      ///< given by the caller
+  std::string commit;                               ///< given by the caller
+  std::map<std::string, std::string> dependencies;  ///< name -> version; given by the caller
+  std::string simd_level;                           ///< given by the caller: "baseline", "avx2", ...
+  int threads = 1;                                  ///< given by the caller
+  std::map<std::string, std::int64_t> counts;       ///< points, failed points, ...; given by the caller
+  std::string host;
+  std::string cpu_model;
+  std::int64_t process_id = 0;
+  std::string started;  ///< UTC, ISO 8601
+  std::string ended;    ///< UTC, ISO 8601; empty while running
+};
+
+/// Now in UTC, as 2026-03-01T12:34:56Z.
+std::string utc_now();
+
+/// A Provenance with host, processor, process and start time filled in; what cannot be found out is "unknown".
+Provenance begin_provenance();
+
+/// The facts as they stand in run.json; see OutputFolder::write_run.
+nlohmann::json run_facts(const Provenance& provenance);
+
+}  // namespace epicyclic::io

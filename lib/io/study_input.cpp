@@ -1,0 +1,626 @@
+#include "io/study_input.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace epicyclic::io {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view stage_root = "/stage";
+constexpr std::string_view patch_root = "/stage_patch";
+
+bool is_leaf(const json& value) { return !value.is_object(); }
+
+bool is_bookkeeping(const std::string& key) { return key == "origin" || key == "note"; }
+
+// ---- origins ----------------------------------------------------------------------------------------------------
+
+bool is_origin_text(const std::string& text) {
+  return std::any_of(origin_words.begin(), origin_words.end(), [&](std::string_view word) {
+    return text == word || text.rfind(std::string(word) + ": ", 0) == 0;
+  });
+}
+
+void check_origin_text(const json& value, const std::string& pointer, ReadContext& context) {
+  static const std::vector<std::string> words(origin_words.begin(), origin_words.end());
+  if (!value.is_string()) {
+    context.add(Finding::Kind::type, pointer, "is " + described(value) + ", must be a string");
+    return;
+  }
+  const auto& text = value.get_ref<const std::string&>();
+  if (is_origin_text(text)) return;
+  const auto word = text.substr(0, text.find_first_of(": "));
+  context.add(Finding::Kind::range, pointer,
+              "is " + described(value) + ", must be, or begin with and a colon and a space, one of: " + listed(words) +
+                  suggestion(word, words));
+}
+
+/// Checks each "origin" of a text as written: an origin speaks of keys that stand beside it.
+void check_origins(const json& value, const std::string& pointer, ReadContext& context) {
+  if (!value.is_object()) return;
+  if (const auto origin = value.find("origin"); origin != value.end()) {
+    const std::string place = pointer + "/origin";
+    if (origin->is_object()) {
+      std::vector<std::string> keys;
+      for (const auto& [key, child] : value.items())
+        if (!is_bookkeeping(key)) keys.push_back(key);
+      for (const auto& [key, text] : origin->items()) {
+        if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+          context.add(Finding::Kind::unknown_key, place + pointer_step(key),
+                      "'" + key + "' is not a key of the object that this origin belongs to" + suggestion(key, keys));
+        } else {
+          check_origin_text(text, place + pointer_step(key), context);
+        }
+      }
+    } else {
+      check_origin_text(*origin, place, context);
+    }
+  }
+  for (const auto& [key, child] : value.items())
+    if (!is_bookkeeping(key)) check_origins(child, pointer + pointer_step(key), context);
+}
+
+/// Writes each origin as a map from the keys of its own object, and drops what is not an origin (reported already).
+void spread_origins(json& object, const json& inherited = json()) {
+  if (!object.is_object()) return;
+  json given = inherited;
+  json map = json::object();
+  if (const auto origin = object.find("origin"); origin != object.end()) {
+    if (origin->is_string()) given = *origin;
+    if (origin->is_object()) map = *origin;
+    object.erase(origin);
+  }
+  for (auto& [key, child] : object.items()) {
+    if (is_bookkeeping(key)) continue;
+    json of_key = given;
+    if (const auto it = map.find(key); it != map.end()) of_key = *it;
+    if (is_leaf(child)) {
+      if (of_key.is_string())
+        map[key] = of_key;
+      else
+        map.erase(key);
+    } else {
+      map.erase(key);
+      spread_origins(child, of_key);
+    }
+  }
+  for (auto it = map.begin(); it != map.end();) it = object.contains(it.key()) ? std::next(it) : map.erase(it);
+  if (!map.empty()) object["origin"] = map;
+}
+
+/// JSON merge patch that keeps the origins: what the patch writes comes from the patch.
+void apply_patch(json& target, json patch) {
+  if (!patch.is_object()) return;
+  json origins = json::object();
+  if (const auto it = patch.find("origin"); it != patch.end()) {
+    origins = *it;
+    patch.erase(it);
+  }
+  if (!target.is_object()) target = json::object();
+  for (const auto& [key, value] : patch.items()) {
+    if (value.is_object()) {
+      if (target.contains("origin")) target["origin"].erase(key);
+      apply_patch(target[key], value);
+      continue;
+    }
+    if (value.is_null()) {
+      target.erase(key);
+      if (target.contains("origin")) target["origin"].erase(key);
+      continue;
+    }
+    target[key] = value;
+    if (is_bookkeeping(key)) continue;
+    const auto given = origins.find(key);
+    target["origin"][key] = given == origins.end() ? "stage_patch" : "stage_patch: " + given->get<std::string>();
+  }
+  if (target.contains("origin") && target["origin"].empty()) target.erase("origin");
+}
+
+/// Gives each value of `resolved` the origin that it has in `given`, or "default" where it is not there at all.
+void fill_origins(json& resolved, const json& given) {
+  json map = json::object();
+  for (auto& [key, value] : resolved.items()) {
+    const auto there = given.find(key);
+    if (!is_leaf(value)) {
+      static const json nothing = json::object();
+      fill_origins(value, there != given.end() && there->is_object() ? *there : nothing);
+    } else if (there == given.end()) {
+      map[key] = "default";
+    } else if (given.contains("origin") && given["origin"].contains(key)) {
+      map[key] = given["origin"][key];
+    }
+  }
+  if (!map.empty()) resolved["origin"] = map;
+  if (const auto note = given.find("note"); note != given.end()) resolved["note"] = *note;
+}
+
+// ---- pointers ---------------------------------------------------------------------------------------------------
+
+std::vector<std::string> steps_of(std::string_view pointer) {
+  std::vector<std::string> steps;
+  while (!pointer.empty()) {
+    const auto slash = pointer.find('/', 1);
+    steps.push_back(pointer_leaf(pointer.substr(0, slash)));
+    pointer = slash == std::string_view::npos ? std::string_view() : pointer.substr(slash);
+  }
+  return steps;
+}
+
+/// The value at a pointer, or null pointer.
+const json* find_at(const json& root, std::string_view pointer) {
+  const json* at = &root;
+  for (const auto& step : steps_of(pointer)) {
+    if (at->is_object()) {
+      const auto it = at->find(step);
+      if (it == at->end()) return nullptr;
+      at = &*it;
+    } else if (at->is_array()) {
+      const bool digits = !step.empty() && step.size() < 9 && step.find_first_not_of("0123456789") == std::string::npos;
+      const bool plain = digits && (step.size() == 1 || step[0] != '0');
+      if (!plain || std::stoul(step) >= at->size()) return nullptr;
+      at = &(*at)[std::stoul(step)];
+    } else {
+      return nullptr;
+    }
+  }
+  return at;
+}
+
+json* find_at(json& root, std::string_view pointer) { return const_cast<json*>(find_at(std::as_const(root), pointer)); }
+
+void collect_numbers(const json& value, const std::string& pointer, std::vector<std::string>& pointers) {
+  if (value.is_number()) pointers.push_back(pointer);
+  if (value.is_object()) {
+    for (const auto& [key, child] : value.items())
+      if (!is_bookkeeping(key)) collect_numbers(child, pointer + pointer_step(key), pointers);
+  } else if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i)
+      collect_numbers(value[i], pointer + "/" + std::to_string(i), pointers);
+  }
+}
+
+// ---- assignments ------------------------------------------------------------------------------------------------
+
+std::string shown(const Assignment& set) { return "--set " + set.text; }
+
+/// Writes the value at its pointer, making the objects on the way. @returns what is wrong, or nothing
+std::string assign(json& root, std::string_view pointer, const json& value) {
+  json* at = &root;
+  json* object = nullptr;  // innermost object, and the key in it
+  std::string key;
+  std::string so_far;
+  for (const auto& step : steps_of(pointer)) {
+    if (at->is_null()) *at = json::object();
+    if (at->is_object()) {
+      object = at;
+      key = step;
+      at = &(*at)[step];
+    } else if (at->is_array()) {
+      json* element = find_at(*at, pointer_step(step));
+      if (element == nullptr)
+        return "there is no element " + step + " in the array " + so_far + " of " + std::to_string(at->size());
+      at = element;
+    } else {
+      return so_far + " is " + described(*at) + ": there is nothing below it";
+    }
+    so_far += pointer_step(step);
+  }
+  *at = value;
+  if (is_leaf(value)) {
+    if (object != nullptr && !is_bookkeeping(key) && !value.is_null()) (*object)["origin"][key] = "set: command line";
+  } else {
+    if (object != nullptr && object->contains("origin") && (*object)["origin"].is_object())
+      (*object)["origin"].erase(key);
+    if (!at->contains("origin")) (*at)["origin"] = "set: command line";
+    spread_origins(*at);
+  }
+  if (value.is_null() && object != nullptr) {
+    object->erase(key);
+    if (object->contains("origin")) (*object)["origin"].erase(key);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<Assignment> parse_assignments(std::span<const std::string> texts) {
+  std::vector<Assignment> sets;
+  std::vector<Problem> problems;
+  for (const auto& text : texts) {
+    const auto refuse = [&](std::string message) { problems.push_back({"--set " + text, 0, "", std::move(message)}); };
+    const auto equals = text.find('=');
+    if (equals == std::string::npos) {
+      refuse("must be /json/pointer=value: there is no '='");
+      continue;
+    }
+    Assignment set{text.substr(0, equals), {}, text};
+    if (set.pointer.size() < 2 || set.pointer[0] != '/') {
+      refuse("must be /json/pointer=value: a pointer begins with '/'" +
+             (set.pointer.empty() ? "" : "; did you mean '/" + set.pointer + "'?"));
+      continue;
+    }
+    if (const auto steps = steps_of(set.pointer); std::find(steps.begin(), steps.end(), "origin") != steps.end()) {
+      refuse("an origin is written in the file; values given here carry \"set: command line\"");
+      continue;
+    }
+    const std::string value = text.substr(equals + 1);
+    if (value.empty()) {
+      refuse("must be /json/pointer=value: there is no value behind '='");
+      continue;
+    }
+    auto parsed = parse_json(value, "--set " + text);
+    ReadContext context;
+    check_origins(parsed.value, "", context);
+    for (auto& finding : context.findings) refuse("the value: " + finding.pointer + " " + finding.message);
+    if (parsed.complete && parsed.problems.empty()) {
+      set.value = std::move(parsed.value);
+    } else if (value.find_first_of("{[\"+-0123456789") == 0) {  // sets out to be more than a word
+      for (const auto& problem : parsed.problems) refuse("the value: " + problem.message);
+      continue;
+    } else {
+      set.value = value;
+    }
+    sets.push_back(std::move(set));
+  }
+  if (!problems.empty()) throw InputProblems(std::move(problems));
+  return sets;
+}
+
+/// The texts that an input was made of, and which of them a pointer of the whole leads to.
+struct LoadedInput::Sources {
+  JsonSource study;
+  std::optional<JsonSource> stage;
+  bool bare = false;  ///< the file is a stage alone
+  json patch;         ///< as written
+  std::vector<Assignment> sets;
+
+  /// File and line of a pointer; of its nearest parent, if it is not there. The pointer is kept.
+  [[nodiscard]] Problem locate(const std::string& pointer, std::string message) const {
+    for (auto set = sets.rbegin(); set != sets.rend(); ++set) {
+      const bool made_by_set = pointer_within(set->pointer, pointer) && !stands(pointer);
+      if (pointer_within(pointer, set->pointer) || made_by_set) return {shown(*set), 0, pointer, std::move(message)};
+    }
+    if (!bare && pointer_within(pointer, stage_root)) {
+      const std::string rest = pointer.substr(stage_root.size());
+      if (patches(rest)) {
+        const int line = study.line_of(std::string(patch_root) + rest);
+        return {study.name, line, pointer, std::move(message) + " (from stage_patch)"};
+      }
+      if (stage) return {stage->name, stage->line_of(rest), pointer, std::move(message)};
+    }
+    return {study.name, study.line_of(pointer), pointer, std::move(message)};
+  }
+
+  /// Was the value at this pointer replaced because it could not be read (and that reported)?
+  [[nodiscard]] bool is_unreadable(const std::string& pointer) const {
+    for (const auto& set : sets)
+      if (pointer_within(pointer, set.pointer)) return false;
+    if (!bare && pointer_within(pointer, stage_root)) {
+      const std::string rest = pointer.substr(stage_root.size());
+      if (patches(rest)) return study.unreadable.count(std::string(patch_root) + rest) > 0;
+      if (stage) return stage->unreadable.count(rest) > 0;
+    }
+    return study.unreadable.count(pointer) > 0;
+  }
+
+ private:
+  [[nodiscard]] bool stands(const std::string& pointer) const {
+    if (study.line.count(pointer) > 0) return true;
+    if (bare || !pointer_within(pointer, stage_root)) return false;
+    const std::string rest = pointer.substr(stage_root.size());
+    return patches(rest) || (stage && stage->line.count(rest) > 0);
+  }
+
+  /// Does the patch write the value at this pointer of the stage?
+  [[nodiscard]] bool patches(std::string_view rest) const {
+    const json* at = &patch;
+    for (const auto& step : steps_of(rest)) {
+      if (!at->is_object()) break;
+      const auto it = at->find(step);
+      if (it == at->end()) return false;
+      at = &*it;
+    }
+    if (!at->is_object()) return !at->is_null();
+    return !rest.empty() && stage && stage->line.count(rest) == 0;  // an object that only the patch has
+  }
+};
+
+namespace {
+
+/// Reads the whole input from one JSON value: the tables, then the rules that span objects.
+Study read_study(const json& whole, bool bare, ReadContext& context) {
+  Study study;
+  const std::string root = bare ? "" : std::string(stage_root);
+  if (bare) {
+    study.kind = "stage";
+    stage_table().collect("", context.places);
+    stage_table().read(whole, "", study.stage, context);
+  } else {
+    study_table().collect("", context.places);
+    study_table().read(whole, "", study, context);
+  }
+
+  // The rules of gear need values to judge; they say nothing new about what was found already.
+  std::set<std::string, std::less<>> known;
+  bool judged = true;
+  for (const auto& finding : context.findings) {
+    known.insert(finding.pointer);
+    if (!finding.meant.empty()) known.insert(finding.meant);
+    const bool leaves_value = finding.kind == Finding::Kind::unknown_key || finding.kind == Finding::Kind::range;
+    if (pointer_within(finding.pointer, root) && !leaves_value) judged = false;
+  }
+  if (!judged || study.stage.planet_count < gear::planets_min || study.stage.planet_count > gear::planets_max)
+    return study;
+  auto rules = gear::problems_for_modes(study.stage);
+  if (study.sweep) {
+    const auto more = gear::problems_for_motion(study.stage);
+    rules.insert(rules.end(), more.begin(), more.end());
+  }
+  std::set<std::string> told;
+  for (const auto& rule : rules) {
+    if (!told.insert(rule).second) continue;
+    const auto colon = rule.find(": ");
+    const std::string pointer = root + (colon == std::string::npos ? "" : rule.substr(0, colon));
+    if (known.count(pointer) == 0)
+      context.add(Finding::Kind::rule, pointer, colon == std::string::npos ? rule : rule.substr(colon + 2));
+  }
+  return study;
+}
+
+/// Rules of a sweep that span its keys.
+///
+/// @param is_bad tells whether the value at a pointer is not the one in the text
+template <class F>
+void check_sweep(const studies::SweepOptions& sweep, F is_bad, ReadContext& context) {
+  const bool range = !is_bad("/study/from") && !is_bad("/study/to");
+  if (range && sweep.from > sweep.to) {
+    context.add(Finding::Kind::rule, "/study/from",
+                "is " + number_text(sweep.from) + ", must be <= to = " + number_text(sweep.to) +
+                    "; to go downwards give \"directions\": [\"down\"]");
+  }
+  if (range && sweep.points == 1 && sweep.from != sweep.to) {
+    context.add(Finding::Kind::rule, "/study/points",
+                "is 1, must be >= 2 for the range from " + number_text(sweep.from) + " to " + number_text(sweep.to));
+  }
+  if (!is_bad("/study/points") && sweep.segments > sweep.points) {
+    context.add(Finding::Kind::rule, "/study/segments",
+                "is " + std::to_string(sweep.segments) + ", must be <= points = " + std::to_string(sweep.points));
+  }
+  if (sweep.parameter.rfind('/', 0) == 0) return;  // checked with the values in place
+
+  const auto& parameters = named_parameters();
+  const auto it = std::find_if(parameters.begin(), parameters.end(),
+                               [&](const NamedParameter& p) { return p.name == sweep.parameter; });
+  if (it == parameters.end()) {
+    std::vector<std::string> names;
+    for (const auto& p : parameters) names.push_back(p.name);
+    context.add(Finding::Kind::range, "/study/parameter",
+                "is \"" + sweep.parameter + "\", must be one of: " + listed(names) +
+                    ", or a JSON pointer to a number, such as /stage/lumped/planet/bearing_N_per_m" +
+                    suggestion(sweep.parameter, names));
+    return;
+  }
+  for (const auto& [key, value] : {std::pair("/study/from", sweep.from), std::pair("/study/to", sweep.to)}) {
+    if (!it->bounds.contains(value)) {
+      context.add(
+          Finding::Kind::range, key,
+          "is " + number_text(value) + ", must be " + it->bounds.text() + " for " + it->name + ", " + it->description);
+    }
+  }
+}
+
+/// Collects problems in the order of the texts: study, stage, assignments.
+class Problems {
+ public:
+  void add(Problem problem) { all_.push_back(std::move(problem)); }
+  void add(const JsonSource& source, std::string_view prefix = {}) {
+    for (auto problem : source.problems) {
+      if (!problem.pointer.empty() || problem.line > 0) problem.pointer.insert(0, prefix);
+      all_.push_back(std::move(problem));
+    }
+  }
+  [[nodiscard]] bool empty() const { return all_.empty(); }
+
+  [[noreturn]] void raise(const std::string& study, const std::optional<JsonSource>& stage) {
+    const auto rank = [&](const Problem& p) { return p.file == study ? 0 : stage && p.file == stage->name ? 1 : 2; };
+    std::stable_sort(all_.begin(), all_.end(), [&](const Problem& a, const Problem& b) {
+      return std::pair(rank(a), a.line) < std::pair(rank(b), b.line);
+    });
+    std::vector<Problem> once;
+    for (auto& problem : all_) {
+      const bool told =
+          std::any_of(once.begin(), once.end(), [&](const Problem& p) { return p.text() == problem.text(); });
+      if (!told) once.push_back(std::move(problem));
+    }
+    throw InputProblems(std::move(once));
+  }
+
+ private:
+  std::vector<Problem> all_;
+};
+
+}  // namespace
+
+LoadedInput load_input(const std::filesystem::path& path, std::span<const Assignment> sets) {
+  auto sources = std::make_shared<LoadedInput::Sources>();
+  Problems problems;
+  JsonSource& file = sources->study;
+  file = read_json_file(path);
+  sources->sets.assign(sets.begin(), sets.end());
+  problems.add(file);
+  const auto raise = [&] { problems.raise(file.name, sources->stage); };
+  if (file.complete && !file.value.is_object())
+    problems.add({file.name, file.line_of(""), "", "is " + described(file.value) + ", must be an object"});
+  if (!file.complete || !file.value.is_object()) raise();
+
+  const auto note_origins = [&](const json& value, const JsonSource& source, const std::string& prefix) {
+    ReadContext context;
+    check_origins(value, "", context);
+    for (auto& finding : context.findings)
+      problems.add(
+          {source.name, source.line_of(finding.pointer), prefix + finding.pointer, std::move(finding.message)});
+  };
+  note_origins(file.value, file, "");
+
+  json whole = file.value;
+  sources->bare = whole.contains("lumped") && !whole.contains("stage");
+  bool stage_missing = false;
+
+  // Assignments that change which stage is read, or the patch, come first.
+  const auto is_early = [&](const Assignment& set) {
+    return !sources->bare &&
+           (pointer_within(set.pointer, patch_root) || (set.pointer == stage_root && set.value.is_string()));
+  };
+  const auto make = [&](const Assignment& set) {
+    std::string pointer = set.pointer;
+    if (sources->bare && pointer_within(pointer, stage_root)) pointer.erase(0, stage_root.size());
+    if (auto message = assign(whole, pointer, set.value); !message.empty())
+      problems.add({shown(set), 0, set.pointer, std::move(message)});
+  };
+  for (const auto& set : sources->sets)
+    if (is_early(set)) make(set);
+
+  std::optional<RawFile> stage_file;
+  if (!sources->bare && whole.contains("stage") && whole["stage"].is_string()) {
+    const auto named = whole["stage"].get<std::string>();
+    const std::filesystem::path stage_path = path.parent_path() / named;
+    JsonSource stage = read_json_file(stage_path);
+    whole.erase("stage");
+    if (whole.contains("origin") && whole["origin"].is_object()) whole["origin"].erase("stage");
+    if (stage.bytes.empty() && !stage.problems.empty()) {  // not readable at all: say who named it
+      for (const auto& problem : stage.problems)
+        problems.add(
+            sources->locate(std::string(stage_root), "the stage file " + problem.file + ": " + problem.message));
+    } else {
+      problems.add(stage, stage_root);
+      if (stage.complete && !stage.value.is_object())
+        problems.add({stage.name, stage.line_of(""), std::string(stage_root),
+                      "is " + described(stage.value) + ", must be an object"});
+    }
+    stage_missing = !stage.complete || !stage.value.is_object();
+    if (!stage_missing) {
+      note_origins(stage.value, stage, std::string(stage_root));
+      whole["stage"] = stage.value;
+    }
+    stage_file = RawFile{stage_path.filename().string(), stage.bytes};
+    sources->stage = std::move(stage);
+  }
+
+  if (const auto patch = whole.find("stage_patch"); patch != whole.end() && !sources->bare) {
+    sources->patch = *patch;
+    whole.erase(patch);
+    if (!sources->patch.is_object()) {
+      problems.add(sources->locate(std::string(patch_root),
+                                   "is " + described(sources->patch) + ", must be an object: a JSON merge patch"));
+      sources->patch = json::object();
+    } else if (!stage_missing && whole.contains("stage") && whole["stage"].is_object() && problems.empty()) {
+      json patch_spread = sources->patch;
+      spread_origins(patch_spread);
+      spread_origins(whole["stage"]);
+      apply_patch(whole["stage"], std::move(patch_spread));
+    } else if (!stage_missing && whole.contains("stage") && whole["stage"].is_object()) {
+      whole["stage"].merge_patch(sources->patch);  // the origins are not needed any more
+    }
+  }
+
+  if (sources->stage && whole.contains("stage")) {  // an origin of the study does not speak for another file
+    json stage = std::move(whole["stage"]);
+    whole.erase("stage");
+    spread_origins(stage);
+    spread_origins(whole);
+    whole["stage"] = std::move(stage);
+  } else {
+    spread_origins(whole);
+  }
+  for (const auto& set : sources->sets)
+    if (!is_early(set) && !(stage_missing && pointer_within(set.pointer, stage_root))) make(set);
+  for (auto& set : sources->sets)
+    if (sources->bare && pointer_within(set.pointer, stage_root)) set.pointer.erase(0, stage_root.size());
+
+  ReadContext context;
+  LoadedInput input;
+  input.study = read_study(whole, sources->bare, context);
+  if (input.study.sweep) {
+    std::set<std::string, std::less<>> found;
+    for (const auto& finding : context.findings) found.insert(finding.pointer);
+    check_sweep(
+        *input.study.sweep,
+        [&](const std::string& pointer) { return found.count(pointer) > 0 || sources->is_unreadable(pointer); },
+        context);
+  }
+  for (auto& finding : context.findings) {
+    if (stage_missing && pointer_within(finding.pointer, stage_root)) continue;
+    if (sources->is_unreadable(finding.pointer)) continue;
+    problems.add(sources->locate(finding.pointer, std::move(finding.message)));
+  }
+  if (!problems.empty()) raise();
+
+  input.resolved = sources->bare ? stage_table().write(input.study.stage) : study_table().write(input.study);
+  fill_origins(input.resolved, whole);
+  input.study_file = {path.filename().string(), file.bytes};
+  input.stage_file = std::move(stage_file);
+  input.sources_ = sources;
+
+  if (input.study.sweep && input.study.sweep->parameter.rfind('/', 0) == 0) {
+    const auto& sweep = *input.study.sweep;
+    Study unused;
+    if (!find_at(input.resolved, sweep.parameter) || !find_at(input.resolved, sweep.parameter)->is_number() ||
+        pointer_within(sweep.parameter, "/study")) {
+      for (auto& problem : input.check_with(sweep.parameter, sweep.from, unused))
+        problems.add(sources->locate("/study/parameter", std::move(problem.message)));
+    } else {
+      for (const auto& [key, value] : {std::pair("/study/from", sweep.from), std::pair("/study/to", sweep.to)})
+        for (const auto& problem : input.check_with(sweep.parameter, value, unused))
+          problems.add(sources->locate(
+              key, "is " + number_text(value) + ", with which " + problem.pointer + " " + problem.message));
+    }
+  }
+  if (!problems.empty()) raise();
+  return input;
+}
+
+std::vector<std::string> LoadedInput::number_pointers() const {
+  std::vector<std::string> pointers;
+  for (const auto& [key, value] : resolved.items())
+    if (key != "study" && !is_bookkeeping(key)) collect_numbers(value, pointer_step(key), pointers);
+  return pointers;
+}
+
+std::vector<Problem> LoadedInput::check_with(std::string_view pointer, double value, Study& changed) const {
+  std::string place(pointer);
+  if (sources_->bare && pointer_within(place, stage_root)) place.erase(0, stage_root.size());
+  const auto refuse = [&](std::string message) {
+    return std::vector<Problem>{sources_->locate(std::string(pointer), std::move(message))};
+  };
+  const json* there = place.empty() || place[0] != '/' ? nullptr : find_at(resolved, place);
+  if (pointer_within(place, "/study"))
+    return refuse("\"" + place + "\" is part of the plan, which a study cannot vary");
+  if (there == nullptr) {
+    return refuse("\"" + place + "\" is no value of the resolved input" + suggestion(place, number_pointers()));
+  }
+  if (!there->is_number()) return refuse("\"" + place + "\" is " + described(*there) + ", must be a number");
+  if (!std::isfinite(value)) return refuse("is " + number_text(value) + ", must be a finite number");
+
+  json whole = resolved;
+  *find_at(whole, place) = value;
+  ReadContext context;
+  changed = read_study(whole, sources_->bare, context);
+  std::vector<Problem> problems;
+  for (auto& finding : context.findings)
+    problems.push_back(sources_->locate(finding.pointer, std::move(finding.message)));
+  return problems;
+}
+
+Study LoadedInput::with_value(std::string_view pointer, double value) const {
+  Study changed;
+  if (auto problems = check_with(pointer, value, changed); !problems.empty()) throw InputProblems(std::move(problems));
+  return changed;
+}
+
+}  // namespace epicyclic::io

@@ -1,0 +1,104 @@
+// The typed study and how it is loaded from JSON (architecture section 6).
+//
+// A study names its stage file, or holds the stage itself, and may override any of it by a JSON merge patch (RFC 7386)
+// in "stage_patch"; `--set /pointer=value` overrides a value once more. Everything is checked by the tables of
+// field_table.hpp, then by the rules that gear states for a stage; all that is wrong is thrown at once.
+//
+//   study file -> stage file -> stage_patch -> --set -> tables -> rules of gear -> Study, resolved JSON
+//
+// The resolved JSON has the stage inline, each default filled in, and in each object an "origin" map that says where
+// its values come from. It is a valid input itself and resolves to itself.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "gear/stage.hpp"
+#include "integrate/options.hpp"
+#include "io/field_table.hpp"
+#include "io/json_source.hpp"
+#include "model/options.hpp"
+#include "studies/sweep_options.hpp"
+
+namespace epicyclic::io {
+
+/// First words of an "origin", optionally followed by ": " and a text.
+inline constexpr std::array<std::string_view, 10> origin_words = {
+    "source", "table", "standard", "catalogue", "estimate", "calibrated", "choice", "default", "set", "stage_patch"};
+
+struct Study {
+  std::string name;
+  std::string kind;  ///< "sweep"; "stage" for a stage file without a study
+  gear::Stage stage;
+  double mesh_frequency_ratio = 1;  ///< Omega = omega_m / omega_sn where no sweep varies it [-]
+  model::ModelOptions model;
+  integrate::IntegratorOptions integrator;
+  std::optional<studies::SweepOptions> sweep;
+};
+
+/// "--set /json/pointer=value": pointers address the study as written, and /stage/... the resolved stage.
+struct Assignment {
+  std::string pointer;
+  nlohmann::json value;
+  std::string text;  ///< as given
+};
+
+/// The value is JSON, or a bare word that stands for a string.
+/// @throws InputProblems with one entry per assignment that is malformed
+[[nodiscard]] std::vector<Assignment> parse_assignments(std::span<const std::string> texts);
+
+/// A sweep parameter with a name of its own; all others are JSON pointers.
+struct NamedParameter {
+  std::string name;
+  Bounds bounds;
+  std::string description;
+};
+[[nodiscard]] const std::vector<NamedParameter>& named_parameters();
+
+/// A file exactly as stored.
+struct RawFile {
+  std::string name;  ///< without folders
+  std::string bytes;
+};
+
+class LoadedInput {
+ public:
+  Study study;
+  nlohmann::json resolved;            ///< a valid input that resolves to itself
+  RawFile study_file;                 ///< the file that was named: a study, or a stage alone
+  std::optional<RawFile> stage_file;  ///< if the study names one
+
+  /// The study with the number at this pointer of the resolved input replaced, checked as strictly as a file.
+  /// @throws InputProblems when the pointer is not one of a number, or the study is not valid with that value
+  [[nodiscard]] Study with_value(std::string_view pointer, double value) const;
+
+  /// Pointers of all numbers that with_value() takes.
+  [[nodiscard]] std::vector<std::string> number_pointers() const;
+
+ private:
+  friend LoadedInput load_input(const std::filesystem::path&, std::span<const Assignment>);
+  struct Sources;
+  [[nodiscard]] std::vector<Problem> check_with(std::string_view pointer, double value, Study& changed) const;
+  std::shared_ptr<const Sources> sources_;
+};
+
+/// Reads a study file, or a stage file (one with "lumped" at its top level).
+/// @throws InputProblems with all that is wrong
+[[nodiscard]] LoadedInput load_input(const std::filesystem::path& path, std::span<const Assignment> sets = {});
+
+/// The tables; keys of the study, and of the stage alone.
+[[nodiscard]] const Table<Study>& study_table();
+[[nodiscard]] const Table<gear::Stage>& stage_table();
+
+/// The JSON Schema (draft 2020-12) of study and stage, from the tables.
+[[nodiscard]] std::string schema_text();
+
+}  // namespace epicyclic::io

@@ -1,0 +1,504 @@
+// The tables of all objects of the input: every key, its bounds and its meaning. Defaults stand on the typed structs.
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "integrate/methods.hpp"
+#include "io/study_input.hpp"
+
+namespace epicyclic::io {
+
+namespace {
+
+using gear::CentralMember;
+using gear::Friction;
+using gear::Mesh;
+using gear::Planet;
+using gear::Stage;
+using nlohmann::json;
+using nlohmann::ordered_json;
+using studies::SweepOptions;
+
+// Far beyond any gear; they catch a wrong unit and keep sums finite.
+constexpr double mass_max = 1e7;
+constexpr double stiffness_max = 1e18;
+constexpr double length_max_mm = 1e6;
+constexpr double gap_max_um = 1e5;
+constexpr double gap_max = 1e4;  // the same in b_c
+constexpr double turns_deg = 3600;
+
+const Bounds mass = above_up_to(0, mass_max);
+const Bounds support = between(0, stiffness_max);
+const Bounds length = above_up_to(0, length_max_mm);
+const Bounds gap = between(0, gap_max_um);
+const Bounds damping_ratio = between(0, 10);
+const Bounds damping_coefficient = between(0, 1e12);
+const Bounds frequency_ratio = above_up_to(0, 100);
+
+constexpr auto itself = [](auto& t) -> auto& { return t; };
+
+/// `inner` of what `outer` reaches.
+template <class F, class G>
+auto chain(F outer, G inner) {
+  return [ outer, inner ](auto& t) -> auto& { return std::invoke(inner, std::invoke(outer, t)); };
+}
+
+/// The two ways to give the damping of a member's supports.
+template <class T, class F>
+void add_damping(Table<T>& table, F damping) {
+  table.number("support_damping_ratio",
+               chain(
+                   damping, [](auto& d) -> auto& { return d.ratio; }),
+               damping_ratio, "Damping ratio zeta of the member's supports, c = 2 zeta sqrt(k m) [-].");
+  table.number("support_damping_Ns_per_m",
+               chain(
+                   damping, [](auto& d) -> auto& { return d.coefficient_Ns_per_m; }),
+               damping_coefficient, "Damping coefficient of the member's supports [N s/m].");
+  table.rule(KeyRule::Kind::at_most_one, {"support_damping_ratio", "support_damping_Ns_per_m"});
+}
+
+template <class T, class F>
+void add_body(Table<T>& table, F body, const std::string& radius) {
+  table
+      .number("mass_kg",
+              chain(
+                  body, [](auto& b) -> auto& { return b.mass_kg; }),
+              mass, "Mass [kg].")
+      .required();
+  table
+      .number("inertia_over_r2_kg",
+              chain(
+                  body, [](auto& b) -> auto& { return b.inertia_over_r2_kg; }),
+              mass, "Moment of inertia over the square of the " + radius + " [kg].")
+      .required();
+  add_damping(table, chain(
+                         body, [](auto& b) -> auto& { return b.damping; }));
+}
+
+template <class T, class F>
+void add_gear(Table<T>& table, F body) {
+  table.integer("teeth",
+                chain(
+                    body, [](auto& b) -> auto& { return b.teeth; }),
+                between(3, 10000), "Number of teeth [-]; needed for motion in time.");
+  table.number("base_radius_mm",
+               chain(
+                   body, [](auto& b) -> auto& { return b.base_radius_mm; }),
+               length, "Radius of the base circle [mm]; needed for motion in time.");
+}
+
+template <class T, class F>
+void add_central(Table<T>& table, F member, const std::string& radius) {
+  add_body(table, member, radius);
+  table
+      .number_or_rigid("support_N_per_m",
+                       chain(
+                           member, [](auto& m) -> auto& { return m.support_N_per_m; }),
+                       support, "Stiffness of the support in x and in y [N/m], or \"rigid\" (modes only).")
+      .required();
+  table.number_or_rigid("torsional_support_N_per_m",
+                        chain(
+                            member, [](auto& m) -> auto& { return m.torsional_support_N_per_m; }),
+                        support,
+                        "Stiffness of the torsional support, referred to the " + radius +
+                            " [N/m], or \"rigid\" (modes, and the ring in motion).");
+}
+
+const Table<gear::SunBearing>& bearing_table() {
+  static const auto table = [] {
+    Table<gear::SunBearing> t("bearing", "Law of the sun's bearing and its rolling elements.");
+    t.choice(
+        "law", &gear::SunBearing::law,
+        std::vector<std::pair<std::string, gear::BearingLaw>>{{"linear_xy", gear::BearingLaw::linear_xy},
+                                                              {"palmgren_xy", gear::BearingLaw::palmgren_xy},
+                                                              {"linear_radial", gear::BearingLaw::linear_radial},
+                                                              {"palmgren_radial", gear::BearingLaw::palmgren_radial}},
+        "Force of the bearing against the sun's displacement: with a constant stiffness or Palmgren's, along x and "
+        "y each or along the radius.");
+    t.integer("balls", &gear::SunBearing::balls, between(3, 1000), "Number of balls [-]; for the Palmgren laws.");
+    t.number("ball_diameter_mm", &gear::SunBearing::ball_diameter_mm, length,
+             "Diameter of a ball [mm]; for the Palmgren laws.");
+    t.number("contact_angle_deg", &gear::SunBearing::contact_angle_deg, from_below(0, 90), "Contact angle [deg].");
+    return t;
+  }();
+  return table;
+}
+
+const Table<Stage>& sun_table() {
+  static const auto table = [] {
+    Table<Stage> t("sun", "The sun.");
+    const auto sun = [](auto& s) -> auto& { return s.sun; };
+    add_central(t, sun, "base radius");
+    add_gear(t, sun);
+    t.number(
+        "bearing_clearance_half_um", [](auto& s) -> auto& { return s.sun_bearing.clearance_half_um; }, gap,
+        "Half the clearance of the bearing [um].");
+    t.object("bearing", &Stage::sun_bearing, bearing_table());
+    return t;
+  }();
+  return table;
+}
+
+const Table<CentralMember>& ring_table() {
+  static const auto table = [] {
+    Table<CentralMember> t("ring", "The ring.");
+    add_central(t, itself, "base radius");
+    add_gear(t, itself);
+    return t;
+  }();
+  return table;
+}
+
+const Table<CentralMember>& carrier_table() {
+  static const auto table = [] {
+    Table<CentralMember> t("carrier", "The carrier.");
+    add_central(t, itself, "centre distance");
+    return t;
+  }();
+  return table;
+}
+
+const Table<Planet>& planet_table() {
+  static const auto table = [] {
+    Table<Planet> t("planet", "One planet; all are alike.");
+    add_body(t, itself, "base radius");
+    add_gear(t, itself);
+    t.number_or_rigid("bearing_N_per_m", &Planet::bearing_N_per_m, support,
+                      "Stiffness of the planet bearing, the same in all directions [N/m], or \"rigid\" (modes only).")
+        .required();
+    return t;
+  }();
+  return table;
+}
+
+/// "moment_ratio_mm": {"driving": [...], "driven": [...]} in the members of the friction table.
+const Table<Friction::Table>& moment_table() {
+  static const auto table = [] {
+    Table<Friction::Table> t("moment_ratio_mm",
+                             "Moment of the friction over the normal force, about the members' axes.");
+    const auto arm = between(-length_max_mm, length_max_mm);
+    t.numbers("driving", &Friction::Table::moment_driving_mm, arm, 2, 100000,
+              "B about the axis of the driving member, at each phase [mm].")
+        .required();
+    t.numbers("driven", &Friction::Table::moment_driven_mm, arm, 2, 100000,
+              "B about the axis of the driven member, at each phase [mm].")
+        .required();
+    return t;
+  }();
+  return table;
+}
+
+const Table<Friction>& friction_table() {
+  static const auto table = [] {
+    Table<Friction> t("friction", "Tooth friction: a coefficient on an idealised path of contact, or a table.");
+    t.number("coefficient", within(&Friction::coefficient, &Friction::Coefficient::coefficient), between(0, 1),
+             "Coulomb coefficient mu on the path of contact [-].");
+    t.number("contact_ratio", within(&Friction::coefficient, &Friction::Coefficient::contact_ratio), between(1, 3),
+             "Contact ratio [-].");
+    t.number(
+        "path_start_mm", within(&Friction::coefficient, &Friction::Coefficient::path_start_mm),
+        between(-length_max_mm, length_max_mm),
+        "Friction arm of the driving member where contact starts [mm]; the path is symmetric about the pitch point "
+        "if it is not given.");
+    t.numbers("phase", within(&Friction::table, &Friction::Table::phase), from_below(0, 1), 2, 100000,
+              "Mesh phase s / 2 pi of the table's rows, rising [-].");
+    t.numbers("force_ratio", within(&Friction::table, &Friction::Table::force_ratio), between(-1, 1), 2, 100000,
+              "A, friction force over normal force, at each phase [-].");
+    Field<Friction> moment;
+    moment.key = "moment_ratio_mm";
+    moment.description = moment_table().description();
+    moment.read = [](const json& value, const std::string& pointer, Friction& friction, ReadContext& context) {
+      if (!friction.table) friction.table.emplace();
+      moment_table().read(value, pointer, *friction.table, context);
+    };
+    moment.write = [](const Friction& friction) {
+      return friction.table ? moment_table().write(*friction.table) : json();
+    };
+    moment.schema = [] { return moment_table().schema(); };
+    moment.collect = [](const std::string& pointer, std::vector<KeyPlace>& places) {
+      moment_table().collect(pointer, places);
+    };
+    t.custom(std::move(moment));
+    t.numbers("breakpoints", within(&Friction::table, &Friction::Table::breakpoints), from_below(0, 1), 0, 1000,
+              "Phases where the table jumps or kinks [-].");
+    t.rule(KeyRule::Kind::at_most_one, {"coefficient", "phase"});
+    t.rule(KeyRule::Kind::together, {"phase", "force_ratio", "moment_ratio_mm"});
+    t.rule(KeyRule::Kind::needs, {"contact_ratio", "coefficient"});
+    t.rule(KeyRule::Kind::needs, {"path_start_mm", "coefficient"});
+    t.rule(KeyRule::Kind::needs, {"breakpoints", "phase"});
+    return t;
+  }();
+  return table;
+}
+
+const Table<Mesh>& mesh_table() {
+  static const auto table = [] {
+    Table<Mesh> t("mesh", "A mesh, the same for all planets but for the errors.");
+    const auto harmonic = between(-stiffness_max, stiffness_max);
+    t.number("stiffness_N_per_m", &Mesh::stiffness_N_per_m, above_up_to(0, stiffness_max),
+             "Mean mesh stiffness k_0 [N/m].")
+        .required();
+    t.numbers("stiffness_cos_N_per_m", &Mesh::stiffness_cos_N_per_m, harmonic, 0, gear::harmonics_max,
+              "Cosine coefficients of the harmonics 1, 2, ... of the stiffness on the mesh's own phase [N/m].");
+    t.numbers("stiffness_sin_N_per_m", &Mesh::stiffness_sin_N_per_m, harmonic, 0, gear::harmonics_max,
+              "Sine coefficients of the harmonics 1, 2, ... of the stiffness on the mesh's own phase [N/m].");
+    t.number("operating_pressure_angle_deg", &Mesh::operating_pressure_angle_deg, from_below(0, 90),
+             "Operating pressure angle [deg]; base radii and centre distance decide where they are given.");
+    t.number("damping_ratio", &Mesh::damping_ratio, damping_ratio,
+             "Damping ratio zeta of the mesh, c = 2 zeta sqrt(k_0 m_e) [-]; needed for motion in time.");
+    t.number("backlash_half_um", &Mesh::backlash_half_um, gap, "Half the backlash, on the line of action [um].");
+    t.number_or_numbers("error_amplitude_um", &Mesh::error_amplitude_um, gap, gear::planets_max,
+                        "Amplitude of the transmission error [um]: one number, or one per planet.");
+    t.number_or_numbers("error_phase_deg", &Mesh::error_phase_deg, between(-turns_deg, turns_deg), gear::planets_max,
+                        "Phase of the transmission error [deg]: one number, or one per planet.");
+    t.object("friction", &Mesh::friction, friction_table());
+    return t;
+  }();
+  return table;
+}
+
+const Table<Stage>& lumped_table() {
+  static const auto table = [] {
+    Table<Stage> t("lumped", "The stage as lumped values.");
+    t.object("sun", itself, sun_table()).required();
+    t.object("ring", &Stage::ring, ring_table()).required();
+    t.object("carrier", &Stage::carrier, carrier_table()).required();
+    t.object("planet", &Stage::planet, planet_table()).required();
+    t.object("sun_planet_mesh", &Stage::sun_planet_mesh, mesh_table()).required();
+    t.object("ring_planet_mesh", &Stage::ring_planet_mesh, mesh_table()).required();
+    t.number("ring_mesh_lead_1", &Stage::ring_mesh_lead_1, between(-1, 1),
+             "Share of a mesh period by which the ring-planet mesh leads the sun-planet mesh [-].");
+    return t;
+  }();
+  return table;
+}
+
+const Table<Stage>& planets_table() {
+  static const auto table = [] {
+    Table<Stage> t("planets", "How many planets there are, and where.");
+    t.integer("count", &Stage::planet_count, between(gear::planets_min, gear::planets_max), "Number of planets [-].")
+        .required();
+    t.numbers("angles_deg", &Stage::angles_deg, between(-turns_deg, turns_deg), gear::planets_min, gear::planets_max,
+              "Angle of each planet [deg]; equally spaced from 0 if not given.");
+    t.number("centre_distance_mm", &Stage::centre_distance_mm, length,
+             "Distance between the axes of sun and planet [mm]; needed for motion in time.");
+    return t;
+  }();
+  return table;
+}
+
+const Table<gear::Load>& load_table() {
+  static const auto table = [] {
+    Table<gear::Load> t("load", "Load of the stage, on the sun: a power or a torque.");
+    t.number("power_kW", &gear::Load::power_kW, above_up_to(0, 1e6),
+             "Power [kW]: the torque is power over the sun's speed, and falls with it.");
+    t.number("torque_Nm", &gear::Load::torque_Nm, above_up_to(0, 1e9), "Torque on the sun [N m], at every speed.");
+    t.rule(KeyRule::Kind::exactly_one, {"power_kW", "torque_Nm"});
+    return t;
+  }();
+  return table;
+}
+
+const Table<Study>& operation_table() {
+  static const auto table = [] {
+    Table<Study> t("operation", "The operating point.");
+    t.number("mesh_frequency_ratio", &Study::mesh_frequency_ratio, frequency_ratio,
+             "Mesh frequency over the reference frequency omega_sn [-], where no sweep varies it.");
+    return t;
+  }();
+  return table;
+}
+
+const Table<Study>& integrator_table() {
+  static const auto table = [] {
+    using integrate::IntegratorOptions;
+    Table<Study> t("integrator", "Integration in time.");
+    const auto of = [](auto member) { return chain(&Study::integrator, member); };
+    t.choice("method", of([](auto& i) -> auto& { return i.method; }), integrate::arkode_method_names(),
+             "Method, an embedded pair.");
+    t.number("relative_tolerance", of([](auto& i) -> auto& { return i.relative_tolerance; }), between(1e-15, 0.1),
+             "Relative tolerance of a step [-].");
+    t.number("absolute_tolerance", of([](auto& i) -> auto& { return i.absolute_tolerance; }), above_up_to(0, 1),
+             "Absolute tolerance of a step, in the units of the state.");
+    t.integer("max_steps_per_period", of([](auto& i) -> auto& { return i.max_steps_per_period; }), between(1, 1e9),
+              "Steps attempted in one mesh period before a point is given up [-].");
+    t.number("escape_bound", of([](auto& i) -> auto& { return i.escape_bound; }), between(10, 1e15),
+             "A state component beyond this counts as diverged, in the units of the state.");
+    t.number(
+        "clearance_smoothing", [](auto& s) -> auto& { return s.model.clearance_smoothing; }, between(0, 10),
+        "Width of the smooth clearance, in b_c [-]; 0 for the exact, piecewise linear one.");
+    return t;
+  }();
+  return table;
+}
+
+const Table<model::ModelOptions>& model_table() {
+  static const auto table = [] {
+    using model::GapDamping;
+    using model::Gyroscopic;
+    Table<model::ModelOptions> t("model", "Variants of terms of the model.");
+    t.choice("gap_damping", &model::ModelOptions::gap_damping,
+             std::vector<std::pair<std::string, GapDamping>>{{"always", GapDamping::always},
+                                                             {"contact_slope", GapDamping::contact_slope}},
+             "Whether mesh damping acts through the open gap.");
+    t.choice("gyroscopic", &model::ModelOptions::gyroscopic,
+             std::vector<std::pair<std::string, Gyroscopic>>{{"automatic", Gyroscopic::automatic},
+                                                             {"off", Gyroscopic::off},
+                                                             {"printed", Gyroscopic::printed},
+                                                             {"carrier_row", Gyroscopic::carrier_row},
+                                                             {"invariant", Gyroscopic::invariant}},
+             "Form of the terms with the carrier's speed.");
+    return t;
+  }();
+  return table;
+}
+
+const Table<SweepOptions>& sweep_table() {
+  static const auto table = [] {
+    using studies::Direction;
+    using studies::Start;
+    Table<SweepOptions> t("sweep", "A sweep along one parameter.");
+    Field<SweepOptions> kind;
+    kind.key = "kind";
+    kind.description = "What is computed.";
+    kind.read = [](const json&, const std::string&, SweepOptions&, ReadContext&) {};  // decided which table reads
+    kind.write = [](const SweepOptions&) { return json("sweep"); };
+    kind.schema = [] { return ordered_json{{"const", "sweep"}}; };
+    t.custom(std::move(kind)).required();
+    t.text("parameter", &SweepOptions::parameter, "Name of the parameter, or a JSON pointer to a number of the input.");
+    t.number("from", &SweepOptions::from, between(-1e300, 1e300), "First value of the parameter, in its unit.");
+    t.number("to", &SweepOptions::to, between(-1e300, 1e300), "Last value of the parameter, in its unit.");
+    t.integer("points", &SweepOptions::points, between(1, 100000),
+              "Number of points, evenly spaced, ends included [-].");
+    t.choices("directions", &SweepOptions::directions,
+              std::vector<std::pair<std::string, Direction>>{{"up", Direction::up}, {"down", Direction::down}},
+              "Directions, one after the other.");
+    t.choice("start", &SweepOptions::start,
+             std::vector<std::pair<std::string, Start>>{{"carried", Start::carried}, {"cold", Start::cold}},
+             "Where a point starts: from the end of the one before, or from the default start.");
+    t.integer("segments", &SweepOptions::segments, between(1, 100000), "Chains per direction of a carried sweep [-].");
+    t.integer("transient_periods", &SweepOptions::transient_periods, between(0, 1e7),
+              "Mesh periods before the record [-].");
+    t.integer("recorded_periods", &SweepOptions::recorded_periods, between(1, 1e6), "Mesh periods recorded [-].");
+    t.integer("output_phases", &SweepOptions::output_phases, between(1, 10000),
+              "Output points per recorded mesh period [-].");
+    t.integer("period_max", &SweepOptions::period_max, between(1, 10000),
+              "Longest period of the motion that is looked for, in mesh periods [-].");
+    t.number("recurrence_tolerance", &SweepOptions::recurrence_tolerance, above_up_to(0, 1),
+             "Two states recur if no component differs by more, in the units of the state.");
+    return t;
+  }();
+  return table;
+}
+
+/// Kinds of study that the input format knows and this version does not compute.
+const std::vector<std::string> kinds_to_come = {"run",       "continue",   "map",      "basins",
+                                                "tolerance", "crosscheck", "calibrate"};
+
+void read_plan(const json& value, const std::string& pointer, Study& study, ReadContext& context) {
+  if (!table_detail::check_object(value, pointer, context)) return;
+  const auto kind = value.find("kind");
+  if (kind != value.end() && kind->is_string() && *kind != "sweep") {
+    const auto& name = kind->get_ref<const std::string&>();
+    if (std::find(kinds_to_come.begin(), kinds_to_come.end(), name) != kinds_to_come.end()) {
+      context.add(Finding::Kind::range, pointer + "/kind",
+                  "is \"" + name + "\", which this version does not compute yet; it computes: sweep");
+      return;
+    }
+    auto all = kinds_to_come;
+    all.insert(all.begin(), "sweep");
+    context.add(Finding::Kind::range, pointer + "/kind",
+                "is \"" + name + "\", must be \"sweep\"" + suggestion(name, all));
+  } else if (kind != value.end() && !kind->is_string()) {
+    context.add(Finding::Kind::type, pointer + "/kind", "is " + described(*kind) + ", must be the string \"sweep\"");
+  }
+  study.kind = "sweep";
+  study.sweep.emplace();
+  sweep_table().read(value, pointer, *study.sweep, context);
+}
+
+}  // namespace
+
+const std::vector<NamedParameter>& named_parameters() {
+  static const std::vector<NamedParameter> parameters = {
+      {"mesh_frequency_ratio", frequency_ratio, "mesh frequency over omega_sn [-]"},
+      {"damping_ratio", damping_ratio, "damping ratio of both meshes [-]"},
+      {"sun_planet_backlash", between(0, gap_max), "half the backlash of the sun-planet mesh [b_c]"},
+      {"ring_planet_backlash", between(0, gap_max), "half the backlash of the ring-planet mesh [b_c]"},
+      {"sun_bearing_clearance", between(0, gap_max), "half the clearance of the sun's bearing [b_c]"},
+  };
+  return parameters;
+}
+
+const Table<Stage>& stage_table() {
+  static const auto table = [] {
+    Table<Stage> t("stage", "A planetary stage.");
+    t.text("name", &Stage::name, "Name of the stage.");
+    t.choice("boundary", &Stage::boundary,
+             std::vector<std::pair<std::string, gear::Boundary>>{{"literal", gear::Boundary::literal},
+                                                                 {"fixed_ring", gear::Boundary::fixed_ring},
+                                                                 {"star", gear::Boundary::star}},
+             "Who is held: the ring, the carrier (star), or as the paper of Tang et al. prints it (literal).");
+    t.object("planets", itself, planets_table()).required();
+    t.object("load", &Stage::load, load_table());
+    t.object("lumped", itself, lumped_table()).required();
+    return t;
+  }();
+  return table;
+}
+
+const Table<Study>& study_table() {
+  static const auto table = [] {
+    Table<Study> t("study", "A study: a stage, an operating point, and what to compute.");
+    t.text("name", &Study::name, "Name of the study.");
+    t.object("stage", &Study::stage, stage_table()).required();
+    {
+      Field<Study> patch;  // used up by the loader before the table reads
+      patch.key = "stage_patch";
+      patch.description = "A JSON merge patch (RFC 7386) on the stage.";
+      patch.read = [](const json&, const std::string&, Study&, ReadContext&) {};
+      patch.write = [](const Study&) { return json(); };
+      patch.schema = [] { return ordered_json{{"type", "object"}}; };
+      t.custom(std::move(patch));
+    }
+    t.object("operation", itself, operation_table());
+    t.object("integrator", itself, integrator_table());
+    t.object("model", &Study::model, model_table());
+    Field<Study> plan;
+    plan.key = "study";
+    plan.description = "What is computed.";
+    plan.read = read_plan;
+    plan.write = [](const Study& study) { return study.sweep ? sweep_table().write(*study.sweep) : json(); };
+    plan.schema = [] { return sweep_table().schema(); };
+    plan.collect = [](const std::string& pointer, std::vector<KeyPlace>& places) {
+      sweep_table().collect(pointer, places);
+    };
+    t.custom(std::move(plan)).required();
+    return t;
+  }();
+  return table;
+}
+
+std::string schema_text() {
+  ordered_json study = study_table().schema();
+  study["properties"]["stage"] = {
+      {"anyOf",
+       {{{"type", "string"}, {"minLength", 1}, {"description", "Path of the stage file, relative to the study file."}},
+        {{"$ref", "#/$defs/stage"}}}},
+      {"description", "The stage: a file, or the object itself."}};
+
+  std::string words;
+  for (const auto word : origin_words) words += (words.empty() ? "" : "|") + std::string(word);
+  const ordered_json origin_text = {{"type", "string"}, {"pattern", "^(" + words + ")(: [\\s\\S]*)?$"}};
+  const ordered_json origin = {
+      {"description", "Where values come from: one text for all values of the object, or one for each key of it."},
+      {"anyOf", {origin_text, {{"type", "object"}, {"additionalProperties", origin_text}}}}};
+
+  const ordered_json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                               {"title", "epicyclic input: a study, or a stage alone"},
+                               {"anyOf", {{{"$ref", "#/$defs/study"}}, {{"$ref", "#/$defs/stage"}}}},
+                               {"$defs", {{"study", study}, {"stage", stage_table().schema()}, {"origin", origin}}}};
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace epicyclic::io

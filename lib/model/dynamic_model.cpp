@@ -1,0 +1,147 @@
+#include "model/dynamic_model.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+
+#include <Eigen/Dense>
+
+#include "core/errors.hpp"
+#include "model/right_hand_side.hpp"
+
+namespace epicyclic::model {
+
+namespace {
+
+std::size_t segment_at(const std::vector<double>& breakpoints, double s) {
+  std::size_t segment = breakpoints.empty() ? 0 : breakpoints.size() - 1;
+  for (std::size_t k = 0; k < breakpoints.size(); ++k)
+    if (s >= breakpoints[k]) segment = k;
+  return segment;
+}
+
+/// Equilibrium of the linearised stage at s = 0: mean stiffness, gaps closed on the drive flank, no friction, no
+/// frame terms, errors frozen. From the kernel itself: with b = 0 its accelerations are linear in the displacements.
+template <Layout L, std::size_t N>
+std::vector<double> static_equilibrium(Parameters<double, N> p) {
+  constexpr std::size_t n = degrees_of_freedom(L, N);
+  // delta = b + F/k on the drive flank is the stage without gaps whose errors are larger by b.
+  const auto linear = [](MeshParameters<double, N>& mesh) {
+    mesh.harmonics = 0;
+    mesh.friction = nullptr;
+    for (double& e : mesh.error_cos) e += mesh.half_gap;
+    mesh.error_sin.fill(0.0);
+    mesh.half_gap = 0.0;
+  };
+  linear(p.sun_planet);
+  linear(p.ring_planet);
+  p.smooth = false;
+  p.sun_law = gear::BearingLaw::linear_xy;
+  p.sun_half_gap = 0.0;
+  p.carrier_speed = 0.0;
+  std::array<double, 2 * n> state{};
+  std::array<double, 2 * n> slope;
+  right_hand_side<L>(p, 0, 0.0, state.data(), slope.data());
+  Eigen::VectorXd load(n);
+  for (std::size_t r = 0; r < n; ++r) load(static_cast<Eigen::Index>(r)) = -slope[n + r];
+
+  p.drive = p.ring_drive = p.carrier_load = 0.0;
+  p.sun_planet.error_cos.fill(0.0);
+  p.ring_planet.error_cos.fill(0.0);
+  Eigen::MatrixXd stiffness(n, n);
+  for (std::size_t c = 0; c < n; ++c) {
+    state[c] = 1.0;
+    right_hand_side<L>(p, 0, 0.0, state.data(), slope.data());
+    state[c] = 0.0;
+    for (std::size_t r = 0; r < n; ++r)
+      stiffness(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) = slope[n + r];
+  }
+  // Least norm where the stage floats (a sun without support, the rigid rotation in full coordinates).
+  const Eigen::VectorXd q = stiffness.completeOrthogonalDecomposition().solve(load);
+  std::vector<double> start(2 * n, 0.0);
+  std::copy(q.begin(), q.end(), start.begin());
+  return start;
+}
+
+template <Layout L, std::size_t N>
+DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mesh_frequency_ratio,
+                      const ModelOptions& options) {
+  const auto p =
+      std::make_shared<const Parameters<double, N>>(make_parameters<N>(stage, scales, mesh_frequency_ratio, options));
+  DynamicModel m;
+  m.planets = static_cast<int>(N);
+  m.layout = L;
+  m.dimension = 2 * degrees_of_freedom(L, N);
+  m.state_names = coordinate_names(L, static_cast<int>(N));
+  for (std::size_t k = 0, n = m.state_names.size(); k < n; ++k) m.state_names.push_back(m.state_names[k] + "_rate");
+  m.breakpoints = p->breakpoints;
+  m.sun_planet_half_gap = p->sun_planet.half_gap;
+  m.ring_planet_half_gap = p->ring_planet.half_gap;
+  m.omega = mesh_frequency_ratio;
+  m.right_hand_side = [p](std::size_t segment, double s, const double* y, double* dyds) {
+    right_hand_side<L>(*p, segment, s, y, dyds);
+  };
+  m.deflections = [p](double s, const double* y, MeshDeflections& out) {
+    const StageState<double, N> g = stage_state<L>(*p, segment_at(p->breakpoints, s), s, y);
+    out.sun_planet.assign(g.sun_planet.delta.begin(), g.sun_planet.delta.end());
+    out.ring_planet.assign(g.ring_planet.delta.begin(), g.ring_planet.delta.end());
+    out.sun_planet_rate.assign(g.sun_planet.rate.begin(), g.sun_planet.rate.end());
+    out.ring_planet_rate.assign(g.ring_planet.rate.begin(), g.ring_planet.rate.end());
+  };
+  m.default_start = static_equilibrium<L>(*p);
+  return m;
+}
+
+template <std::size_t N>
+DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double ratio, const ModelOptions& options,
+                      Layout layout) {
+  switch (layout) {
+    case Layout::relative_to_ring:
+      return assemble<Layout::relative_to_ring, N>(stage, scales, ratio, options);
+    case Layout::relative_to_carrier:
+      return assemble<Layout::relative_to_carrier, N>(stage, scales, ratio, options);
+    case Layout::relative_to_carrier_rigid_ring:
+      return assemble<Layout::relative_to_carrier_rigid_ring, N>(stage, scales, ratio, options);
+    case Layout::full:
+      return assemble<Layout::full, N>(stage, scales, ratio, options);
+  }
+  throw std::logic_error("unknown layout");
+}
+
+}  // namespace
+
+Layout layout_of(const gear::Stage& stage, CoordinateChoice choice) {
+  if (choice == CoordinateChoice::full) return Layout::full;
+  if (stage.boundary != gear::Boundary::fixed_ring) return Layout::relative_to_ring;
+  return std::isfinite(stage.ring.torsional_support_N_per_m) ? Layout::relative_to_carrier
+                                                             : Layout::relative_to_carrier_rigid_ring;
+}
+
+DynamicModel make_dynamic_model(const gear::Stage& stage, const Scales& scales, double mesh_frequency_ratio,
+                                const ModelOptions& options, CoordinateChoice choice) {
+  const bool printed = options.gyroscopic == Gyroscopic::printed || options.gyroscopic == Gyroscopic::carrier_row;
+  if (printed && stage.boundary == gear::Boundary::fixed_ring && choice == CoordinateChoice::relative)
+    throw InputError(
+        "/model/gyroscopic: the printed terms do not close in relative coordinates when the carrier is free "
+        "(boundary fixed_ring); use automatic, invariant or off");
+  const Layout layout = layout_of(stage, choice);
+  switch (stage.planet_count) {
+    case 2:
+      return assemble<2>(stage, scales, mesh_frequency_ratio, options, layout);
+    case 3:
+      return assemble<3>(stage, scales, mesh_frequency_ratio, options, layout);
+    case 4:
+      return assemble<4>(stage, scales, mesh_frequency_ratio, options, layout);
+    case 5:
+      return assemble<5>(stage, scales, mesh_frequency_ratio, options, layout);
+    case 6:
+      return assemble<6>(stage, scales, mesh_frequency_ratio, options, layout);
+    default:
+      throw InputError("planets: " + std::to_string(stage.planet_count) + " is not in 2 to 6");
+  }
+}
+
+}  // namespace epicyclic::model

@@ -1,0 +1,71 @@
+// One operating point of a stage as a system of first-order equations, its type of N and layout forgotten.
+//
+// Everything is dimensionless and periodic in the mesh phase s with 2 pi. `studies` hands it to an integrator; the
+// kernel itself is model/right_hand_side.hpp.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gear/stage.hpp"
+#include "model/layout.hpp"
+#include "model/options.hpp"
+#include "model/scales.hpp"
+
+namespace epicyclic::model {
+
+/// Which side of its teeth a mesh is on.
+enum class Contact { drive, loss, back };
+
+/// Deflections of all meshes at one instant [b_c] and their rates [b_c per tau], with the errors; N entries each.
+struct MeshDeflections {
+  std::vector<double> sun_planet, ring_planet;
+  std::vector<double> sun_planet_rate, ring_planet_rate;
+};
+
+struct DynamicModel {
+  int planets = 0;
+  Layout layout = Layout::relative_to_ring;
+  std::size_t dimension = 0;             ///< 2 degrees_of_freedom()
+  std::vector<std::string> state_names;  ///< x_s, ..., then x_s_rate, ...
+  std::vector<double> breakpoints;       ///< mesh phases in [0, 2 pi) where the right-hand side may jump
+  double sun_planet_half_gap = 0;        ///< b_sp [b_c]
+  double ring_planet_half_gap = 0;       ///< b_rp [b_c]
+  double omega = 0;                      ///< Omega
+
+  /// dy/ds at phase s in the given segment (segment k follows breakpoint k; 0 if there are none).
+  std::function<void(std::size_t segment, double s, const double* y, double* dyds)> right_hand_side;
+
+  /// Allocation-free when `out` has been used before. Rates included.
+  std::function<void(double s, const double* y, MeshDeflections& out)> deflections;
+
+  /// At rest, each mesh on its drive flank at delta = b + F / k of the static load, errors as at s = 0: the equilibrium
+  /// of the linear stage with mean stiffness (of its relative coordinates for `literal`, where the whole train
+  /// accelerates).
+  std::vector<double> default_start;
+
+  /// Side of the teeth that a deflection is on.
+  [[nodiscard]] static Contact contact(double delta, double half_gap) {
+    if (delta > half_gap) return Contact::drive;
+    return delta < -half_gap ? Contact::back : Contact::loss;
+  }
+};
+
+/// Rotations relative to the boundary's reference member, or all 3N + 9 with the rigid rotation (for comparisons).
+enum class CoordinateChoice { relative, full };
+
+/// The layout that a stage is integrated in.
+[[nodiscard]] Layout layout_of(const gear::Stage& stage, CoordinateChoice choice);
+
+/// @param stage  passes gear::problems_for_motion()
+/// @throws InputError for options that do not fit the boundary (printed gyroscopic terms with a free carrier do not
+/// close
+///         in relative coordinates)
+[[nodiscard]] DynamicModel make_dynamic_model(const gear::Stage& stage, const Scales& scales,
+                                              double mesh_frequency_ratio, const ModelOptions& options,
+                                              CoordinateChoice choice = CoordinateChoice::relative);
+
+}  // namespace epicyclic::model

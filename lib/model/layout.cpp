@@ -1,0 +1,20 @@
+#include "model/layout.hpp"
+
+namespace epicyclic::model {
+
+std::vector<std::string> coordinate_names(Layout layout, int planets) {
+  const std::string rotation = layout == Layout::full ? "u_" : "w_";
+  std::vector<std::string> names = {"x_s", "y_s", rotation + "s"};
+  for (int i = 1; i <= planets; ++i) {
+    const std::string planet = "p" + std::to_string(i);
+    names.push_back("x_" + planet);
+    names.push_back("y_" + planet);
+    names.push_back(rotation + planet);
+  }
+  for (const char* name : {"x_r", "y_r", "x_c", "y_c"}) names.emplace_back(name);
+  if (has_ring_rotation(layout)) names.emplace_back("u_r");
+  if (has_carrier_rotation(layout)) names.emplace_back("u_c");
+  return names;
+}
+
+}  // namespace epicyclic::model

@@ -1,0 +1,114 @@
+// Where each coordinate of the stage stands in the state, and which member the rotations are measured from.
+//
+// Full coordinates (3N + 9, Eq. (12)): translations x, y and rotations u = r theta of sun, planets, ring and carrier.
+// They contain one rigid rotation. It is eliminated by measuring rotations relative to one member [M-rel]:
+//
+//   ring      w_s = u_s + u_r ,  w_pi = u_pi - u_r                                   `literal`, `star`: 3N + 8
+//   carrier   w_s = u_s - u_c (cos alpha_sp + cos alpha_rp) ,  w_pi = u_pi + u_c cos alpha_rp ,
+//             X_i = x_pi + u_c sin phi_i ,  Y_i = y_pi - u_c cos phi_i               `fixed_ring`: 3N + 8
+//   carrier, ring rigid in rotation (u_r = 0)                                        `fixed_ring`: 3N + 7
+//
+// Source: model.md section 4; Eqs. (21)-(22) eliminate the same rotation by differentiating e twice, which this avoids.
+// Written once: every layout is read into the same Coordinates, in which the rotation of the reference member is 0, so
+// that deflections have one formula. Linear maps: smooth everywhere.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace epicyclic::model {
+
+enum class Layout {
+  relative_to_ring,
+  relative_to_carrier,
+  relative_to_carrier_rigid_ring,
+  full,
+};
+
+[[nodiscard]] constexpr bool has_ring_rotation(Layout l) {
+  return l == Layout::relative_to_carrier || l == Layout::full;
+}
+[[nodiscard]] constexpr bool has_carrier_rotation(Layout l) {
+  return l == Layout::relative_to_ring || l == Layout::full;
+}
+
+/// Degrees of freedom of N planets.
+[[nodiscard]] constexpr std::size_t degrees_of_freedom(Layout l, std::size_t planets) {
+  return 3 * planets + 7 + (has_ring_rotation(l) ? 1U : 0U) + (has_carrier_rotation(l) ? 1U : 0U);
+}
+
+/// Slots of the displacements in the state; the velocity of a slot stands degrees_of_freedom() further on.
+struct Slots {
+  static constexpr std::size_t x_s = 0, y_s = 1, w_s = 2;
+  static constexpr std::size_t x_p(std::size_t i) { return 3 + 3 * i; }
+  static constexpr std::size_t y_p(std::size_t i) { return 4 + 3 * i; }
+  static constexpr std::size_t w_p(std::size_t i) { return 5 + 3 * i; }
+  static constexpr std::size_t x_r(std::size_t n) { return 3 + 3 * n; }
+  static constexpr std::size_t y_r(std::size_t n) { return 4 + 3 * n; }
+  static constexpr std::size_t x_c(std::size_t n) { return 5 + 3 * n; }
+  static constexpr std::size_t y_c(std::size_t n) { return 6 + 3 * n; }
+  static constexpr std::size_t u_r(std::size_t n) { return 7 + 3 * n; }
+  static constexpr std::size_t u_c(Layout l, std::size_t n) { return 7 + 3 * n + (has_ring_rotation(l) ? 1U : 0U); }
+};
+
+/// Displacements (or velocities, or accelerations) of all members; u_r or u_c is 0 where it is the reference.
+template <class T, std::size_t N>
+struct Coordinates {
+  T x_s, y_s, w_s;
+  std::array<T, N> x_p, y_p, w_p;
+  T x_r, y_r, u_r;
+  T x_c, y_c, u_c;
+};
+
+template <Layout L, std::size_t N, class T>
+[[nodiscard]] Coordinates<T, N> unpack(const T* q) {
+  Coordinates<T, N> c;
+  c.x_s = q[Slots::x_s];
+  c.y_s = q[Slots::y_s];
+  c.w_s = q[Slots::w_s];
+  for (std::size_t i = 0; i < N; ++i) {
+    c.x_p[i] = q[Slots::x_p(i)];
+    c.y_p[i] = q[Slots::y_p(i)];
+    c.w_p[i] = q[Slots::w_p(i)];
+  }
+  c.x_r = q[Slots::x_r(N)];
+  c.y_r = q[Slots::y_r(N)];
+  c.x_c = q[Slots::x_c(N)];
+  c.y_c = q[Slots::y_c(N)];
+  if constexpr (has_ring_rotation(L)) {
+    c.u_r = q[Slots::u_r(N)];
+  } else {
+    c.u_r = T(0.0);
+  }
+  if constexpr (has_carrier_rotation(L)) {
+    c.u_c = q[Slots::u_c(L, N)];
+  } else {
+    c.u_c = T(0.0);
+  }
+  return c;
+}
+
+template <Layout L, std::size_t N, class T>
+void pack(const Coordinates<T, N>& c, T* q) {
+  q[Slots::x_s] = c.x_s;
+  q[Slots::y_s] = c.y_s;
+  q[Slots::w_s] = c.w_s;
+  for (std::size_t i = 0; i < N; ++i) {
+    q[Slots::x_p(i)] = c.x_p[i];
+    q[Slots::y_p(i)] = c.y_p[i];
+    q[Slots::w_p(i)] = c.w_p[i];
+  }
+  q[Slots::x_r(N)] = c.x_r;
+  q[Slots::y_r(N)] = c.y_r;
+  q[Slots::x_c(N)] = c.x_c;
+  q[Slots::y_c(N)] = c.y_c;
+  if constexpr (has_ring_rotation(L)) q[Slots::u_r(N)] = c.u_r;
+  if constexpr (has_carrier_rotation(L)) q[Slots::u_c(L, N)] = c.u_c;
+}
+
+/// Names of the displacements in order of their slots: x_s, y_s, w_s, x_p1, ... (u_s, u_p1 in full coordinates).
+[[nodiscard]] std::vector<std::string> coordinate_names(Layout layout, int planets);
+
+}  // namespace epicyclic::model

@@ -1,0 +1,27 @@
+// Switches of the model: which of the documented variants of a term is used. Not physical data: those are the stage.
+#pragma once
+
+namespace epicyclic::model {
+
+/// Damping of a mesh when its gap is open (model.md section 2).
+enum class GapDamping {
+  always,         ///< c delta': Eq. (27) as printed; acts through the open gap and can pull
+  contact_slope,  ///< c f_w'(delta) delta': weighted by the slope of the smooth clearance
+};
+
+/// Terms with omega_c of the frame that turns with the carrier (model.md section 3).
+enum class Gyroscopic {
+  automatic,    ///< printed for `literal`, invariant where the carrier is free
+  off,          ///< none
+  printed,      ///< Eqs. (17)-(20): with a free carrier the rigid rotation diverges
+  carrier_row,  ///< printed plus N M_p omega_c^2 u_c in the carrier row: not exact either
+  invariant,    ///< from the Lagrangian in the planets' displacement relative to the carrier's own rotation
+};
+
+struct ModelOptions {
+  GapDamping gap_damping = GapDamping::always;
+  Gyroscopic gyroscopic = Gyroscopic::automatic;
+  double clearance_smoothing = 0;  ///< width w of the smooth clearance [b_c]; 0: exact, piecewise linear
+};
+
+}  // namespace epicyclic::model

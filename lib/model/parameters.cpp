@@ -1,0 +1,212 @@
+#include "model/parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "core/errors.hpp"
+#include "gear/bearing.hpp"
+#include "gear/friction_path.hpp"
+#include "gear/kinematics.hpp"
+
+namespace epicyclic::model {
+
+namespace {
+
+constexpr double radian = std::numbers::pi / 180.0;
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+// Phases nearer than this are one: rounding of z phi / 2 pi for the planets of one set.
+constexpr double phase_resolution = 1e-11;
+
+double wrapped(double phase) {
+  const double w = phase - std::floor(phase);
+  return w > 1.0 - phase_resolution ? 0.0 : w;
+}
+
+double per_planet(const std::vector<double>& values, std::size_t i) {
+  return values.size() == 1 ? values[0] : values[i];
+}
+
+/// @param turns_per_radian  mesh phase of a planet at angle phi, over 2 pi, per (phi - phi_1) / 2 pi: -z_s or +z_r
+template <std::size_t N>
+MeshParameters<double, N> make_mesh(const gear::Mesh& mesh, const std::vector<double>& angles_deg, double alpha,
+                                    double angle_sign, int mesh_cycles, double lead, double effective_mass,
+                                    const Scales& scales) {
+  MeshParameters<double, N> m;
+  m.half_gap = scales.displacement(mesh.backlash_half_um * 1e-6);
+  m.stiffness = scales.stiffness(mesh.stiffness_N_per_m);
+  m.damping =
+      scales.damping(2.0 * mesh.damping_ratio.value_or(0.0) * std::sqrt(mesh.stiffness_N_per_m * effective_mass));
+  m.harmonics = std::max(mesh.stiffness_cos_N_per_m.size(), mesh.stiffness_sin_N_per_m.size());
+  m.stiffness_cos.resize(m.harmonics);
+  m.stiffness_sin.resize(m.harmonics);
+  for (std::size_t i = 0; i < N; ++i) {
+    const double phi = alpha + angle_sign * angles_deg[i] * radian;
+    m.sine[i] = std::sin(phi);
+    m.cosine[i] = std::cos(phi);
+    m.turns[i] = wrapped(mesh_cycles * (angles_deg[i] - angles_deg[0]) / 360.0 + lead);
+    for (std::size_t h = 0; h < m.harmonics; ++h) {
+      // A cos h(s + psi) + B sin h(s + psi), psi = 2 pi turns
+      const double c = h < mesh.stiffness_cos_N_per_m.size() ? scales.stiffness(mesh.stiffness_cos_N_per_m[h]) : 0.0;
+      const double s = h < mesh.stiffness_sin_N_per_m.size() ? scales.stiffness(mesh.stiffness_sin_N_per_m[h]) : 0.0;
+      const double psi = static_cast<double>(h + 1) * two_pi * m.turns[i];
+      m.stiffness_cos[h][i] = c * std::cos(psi) + s * std::sin(psi);
+      m.stiffness_sin[h][i] = s * std::cos(psi) - c * std::sin(psi);
+    }
+    const double amplitude = scales.displacement(per_planet(mesh.error_amplitude_um, i) * 1e-6);
+    const double theta = two_pi * m.turns[i] + per_planet(mesh.error_phase_deg, i) * radian;
+    m.error_cos[i] = amplitude * std::sin(theta);
+    m.error_sin[i] = amplitude * std::cos(theta);
+  }
+  return m;
+}
+
+/// @param lead  what turns the common phase of a given table into the mesh's own phase; a path has its own phase
+/// already
+std::shared_ptr<const FrictionTrack> make_track(const gear::Friction& friction, const gear::Stage& stage,
+                                                gear::LineOfAction (*line_of)(const gear::Stage&), double lead,
+                                                double driving_radius_mm, double driven_radius_mm) {
+  if (friction.table)
+    return std::make_shared<FrictionTrack>(*friction.table, lead, driving_radius_mm, driven_radius_mm);
+  if (friction.coefficient)
+    return std::make_shared<FrictionTrack>(gear::friction_table(*friction.coefficient, line_of(stage)), 0.0,
+                                           driving_radius_mm, driven_radius_mm);
+  return nullptr;
+}
+
+template <std::size_t N>
+void append_breakpoints(const MeshParameters<double, N>& mesh, std::vector<double>& phases) {
+  if (!mesh.friction) return;
+  for (std::size_t i = 0; i < N; ++i)
+    for (const double own : mesh.friction->breakpoints()) phases.push_back(wrapped(own - mesh.turns[i]));
+}
+
+template <std::size_t N>
+std::array<FrictionTrack::Place, N> places(const MeshParameters<double, N>& mesh, double common_phase) {
+  std::array<FrictionTrack::Place, N> r{};
+  if (mesh.friction)
+    for (std::size_t i = 0; i < N; ++i) r[i] = mesh.friction->place(common_phase + mesh.turns[i]);
+  return r;
+}
+
+template <std::size_t N>
+void make_segments(Parameters<double, N>& p) {
+  std::vector<double> phases;
+  append_breakpoints(p.sun_planet, phases);
+  append_breakpoints(p.ring_planet, phases);
+  std::sort(phases.begin(), phases.end());
+  phases.erase(std::unique(phases.begin(), phases.end(), [](double a, double b) { return b - a < phase_resolution; }),
+               phases.end());
+  const auto add_segment = [&](double inside) {
+    p.segments.push_back({places(p.sun_planet, inside), places(p.ring_planet, inside)});
+  };
+  for (std::size_t k = 0; k < phases.size(); ++k) {
+    p.breakpoints.push_back(two_pi * phases[k]);
+    const double next = k + 1 < phases.size() ? phases[k + 1] : phases[0] + 1.0;
+    add_segment(wrapped(0.5 * (phases[k] + next)));
+  }
+  if (phases.empty()) add_segment(0.0);
+}
+
+struct GyroscopicForm {
+  bool on, relative, carrier_row;
+};
+
+GyroscopicForm gyroscopic_form(gear::Boundary boundary, Gyroscopic wanted) {
+  if (wanted == Gyroscopic::automatic)
+    wanted = boundary == gear::Boundary::literal ? Gyroscopic::printed : Gyroscopic::invariant;
+  return {wanted != Gyroscopic::off, wanted == Gyroscopic::invariant, wanted == Gyroscopic::carrier_row};
+}
+
+}  // namespace
+
+template <std::size_t N>
+Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& scales, double mesh_frequency_ratio,
+                                      const ModelOptions& options) {
+  const double mesh_frequency = mesh_frequency_ratio * scales.omega_sn;
+  const gear::PressureAngles alpha = gear::pressure_angles(stage);
+  const std::vector<double> angles = stage.planet_angles_deg();
+  const auto reduced = [](double a, double b) { return 1.0 / (1.0 / a + 1.0 / b); };
+  const auto ratio = [&](double kg) { return scales.mass_ratio(kg); };
+  const auto support = [&](const gear::CentralMember& m) { return scales.stiffness(m.support_N_per_m); };
+  const auto support_damping = [&](const gear::CentralMember& m) {
+    return scales.damping(m.damping.of(m.support_N_per_m, m.mass_kg));
+  };
+  const auto torsion = [&](const gear::CentralMember& m) {
+    return std::isfinite(m.torsional_support_N_per_m) ? scales.stiffness(m.torsional_support_N_per_m) : 0.0;
+  };
+  const auto torsion_damping = [&](const gear::CentralMember& m) {
+    return scales.damping(m.damping.of(m.torsional_support_N_per_m, m.inertia_over_r2_kg));
+  };
+
+  Parameters<double, N> p;
+  p.omega = mesh_frequency_ratio;
+  for (std::size_t i = 0; i < N; ++i) {
+    p.sin_phi[i] = std::sin(angles[i] * radian);
+    p.cos_phi[i] = std::cos(angles[i] * radian);
+  }
+  p.cos_alpha_sp = std::cos(alpha.sun_planet);
+  p.cos_alpha_rp = std::cos(alpha.ring_planet);
+  p.mass_s = ratio(stage.sun.mass_kg);
+  p.mass_p = ratio(stage.planet.mass_kg);
+  p.mass_r = ratio(stage.ring.mass_kg);
+  p.mass_c = ratio(stage.carrier.mass_kg);
+  p.inertia_s = ratio(stage.sun.inertia_over_r2_kg);
+  p.inertia_p = ratio(stage.planet.inertia_over_r2_kg);
+  p.inertia_r = ratio(stage.ring.inertia_over_r2_kg);
+  p.inertia_c = ratio(stage.carrier.inertia_over_r2_kg);
+  p.support_s = support(stage.sun);
+  p.support_r = support(stage.ring);
+  p.support_c = support(stage.carrier);
+  p.damping_s = support_damping(stage.sun);
+  p.damping_r = support_damping(stage.ring);
+  p.damping_c = support_damping(stage.carrier);
+  p.torsion_r = torsion(stage.ring);
+  p.torsion_c = torsion(stage.carrier);
+  p.torsion_damping_r = torsion_damping(stage.ring);
+  p.torsion_damping_c = torsion_damping(stage.carrier);
+  p.bearing_p = scales.stiffness(stage.planet.bearing_N_per_m);
+  p.bearing_damping_p = scales.damping(stage.planet.damping.of(stage.planet.bearing_N_per_m, stage.planet.mass_kg));
+  p.sun_half_gap = scales.displacement(stage.sun_bearing.clearance_half_um * 1e-6);
+  p.sun_law = stage.sun_bearing.law;
+  const bool hertzian = p.sun_law == gear::BearingLaw::palmgren_xy || p.sun_law == gear::BearingLaw::palmgren_radial;
+  p.sun_hertz = hertzian ? scales.hertz(gear::palmgren_coefficient(stage.sun_bearing)) : 0.0;
+
+  const gear::Torques torque = gear::torques(stage, mesh_frequency);
+  constexpr double m_per_mm = 1e-3;
+  p.drive = scales.force(torque.sun / (*stage.sun.base_radius_mm * m_per_mm));
+  p.ring_drive = scales.force(torque.ring / (*stage.ring.base_radius_mm * m_per_mm));
+  p.carrier_load = scales.force(torque.carrier / (*stage.centre_distance_mm * m_per_mm));
+
+  const double m_s = stage.sun.inertia_over_r2_kg;
+  const double m_p = stage.planet.inertia_over_r2_kg;
+  const double m_r = stage.ring.inertia_over_r2_kg;
+  p.sun_planet = make_mesh<N>(stage.sun_planet_mesh, angles, alpha.sun_planet, -1.0, -*stage.sun.teeth, 0.0,
+                              reduced(m_s, m_p), scales);
+  p.ring_planet = make_mesh<N>(stage.ring_planet_mesh, angles, alpha.ring_planet, 1.0, *stage.ring.teeth,
+                               stage.ring_mesh_lead_1, reduced(m_p, m_r), scales);
+  p.sun_planet.friction = make_track(stage.sun_planet_mesh.friction, stage, gear::sun_planet_line, 0.0,
+                                     *stage.sun.base_radius_mm, *stage.planet.base_radius_mm);
+  p.ring_planet.friction = make_track(stage.ring_planet_mesh.friction, stage, gear::ring_planet_line,
+                                      stage.ring_mesh_lead_1, *stage.planet.base_radius_mm, *stage.ring.base_radius_mm);
+  make_segments(p);
+
+  const GyroscopicForm form = gyroscopic_form(stage.boundary, options.gyroscopic);
+  p.carrier_speed = form.on ? gear::speeds(stage, mesh_frequency).carrier / scales.omega_sn : 0.0;
+  p.gyroscopic_relative = form.relative;
+  p.gyroscopic_carrier_row = form.carrier_row;
+  p.smooth = options.clearance_smoothing > 0.0;
+  p.smoothing = options.clearance_smoothing;
+  p.gap_damping = options.gap_damping;
+  return p;
+}
+
+template Parameters<double, 2> make_parameters<2>(const gear::Stage&, const Scales&, double, const ModelOptions&);
+template Parameters<double, 3> make_parameters<3>(const gear::Stage&, const Scales&, double, const ModelOptions&);
+template Parameters<double, 4> make_parameters<4>(const gear::Stage&, const Scales&, double, const ModelOptions&);
+template Parameters<double, 5> make_parameters<5>(const gear::Stage&, const Scales&, double, const ModelOptions&);
+template Parameters<double, 6> make_parameters<6>(const gear::Stage&, const Scales&, double, const ModelOptions&);
+
+}  // namespace epicyclic::model

@@ -1,0 +1,154 @@
+// Dimensionless constants of one operating point, folded once before integration.
+//
+// Everything that a right-hand side needs and nothing that it could compute itself: sines and cosines of fixed angles,
+// inverse masses, Fourier coefficients already turned into each planet's phase, so that with s the common mesh phase
+//
+//   s_spi = s - z_s (phi_i - phi_1) ,  s_rpi = s + z_r (phi_i - phi_1) + 2 pi lambda_sr                  [M-phase]
+//   k_i(s) = k_0 + sum_h [ C_hi cos h s + S_hi sin h s ]                                                 [M-4]
+//   e_i(s) = a_i cos s + b_i sin s   from   E_i sin(s_i + phi_0i)                                        [M-e]
+//
+// Units: displacements in b_c, time in tau, masses in m_0 (model/scales.hpp). Source: model.md section 5; Eq. (4) with
+// a time shift inside the cosine, Eq. (1) with opposite signs. T is the scalar of the kernel: one lane, one parameter
+// point.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "core/scalar.hpp"
+#include "gear/stage.hpp"
+#include "model/friction_track.hpp"
+#include "model/options.hpp"
+#include "model/scales.hpp"
+
+namespace epicyclic::model {
+
+/// One kind of mesh of N planets.
+template <class T, std::size_t N>
+struct MeshParameters {
+  std::array<T, N> sine, cosine;  ///< of phi_spi = alpha_sp - phi_i, or phi_rpi = alpha_rp + phi_i
+  T half_gap;                     ///< b
+  T damping;                      ///< c
+  T stiffness;                    ///< k_0
+  std::size_t harmonics = 0;
+  std::vector<std::array<T, N>> stiffness_cos, stiffness_sin;  ///< C_hi, S_hi; [harmonics][N]
+  std::array<T, N> error_cos, error_sin;                       ///< a_i, b_i
+  std::shared_ptr<const FrictionTrack> friction;               ///< null without friction
+  std::array<double, N> turns;                                 ///< mesh phase of planet i over 2 pi, at s = 0
+};
+
+/// Places of all meshes' friction pieces while s is between two neighbouring breakpoints.
+template <std::size_t N>
+struct Segment {
+  std::array<FrictionTrack::Place, N> sun_planet, ring_planet;
+};
+
+template <class T, std::size_t N>
+struct Parameters {
+  T omega;                            ///< Omega = omega_m / omega_sn
+  std::array<T, N> sin_phi, cos_phi;  ///< of the planets' angles
+  T cos_alpha_sp, cos_alpha_rp;
+  T mass_s, mass_p, mass_r, mass_c;              ///< M
+  T inertia_s, inertia_p, inertia_r, inertia_c;  ///< I / r^2
+  T support_s, support_r, support_c;             ///< k of the translations
+  T damping_s, damping_r, damping_c;             ///< c of the translations
+  T torsion_r, torsion_c;                        ///< k_ru, k_cu
+  T torsion_damping_r, torsion_damping_c;
+  T bearing_p, bearing_damping_p;  ///< k_p, c_p
+  T sun_half_gap;                  ///< b_s
+  gear::BearingLaw sun_law = gear::BearingLaw::linear_xy;
+  T sun_hertz;                        ///< K of the Palmgren laws, force K d^(3/2)
+  T drive, ring_drive, carrier_load;  ///< T_D / r_bs, T_r / r_br, T_c / r_c
+  MeshParameters<T, N> sun_planet, ring_planet;
+  T carrier_speed;                      ///< omega_c / omega_sn; 0 if the gyroscopic terms are off
+  bool gyroscopic_relative = false;     ///< planets' terms in X_i, Y_i with their reaction on the carrier [M-inv]
+  bool gyroscopic_carrier_row = false;  ///< N M_p omega_c^2 u_c added to the carrier row
+  bool smooth = false;
+  T smoothing;  ///< w
+  GapDamping gap_damping = GapDamping::always;
+  std::vector<double> breakpoints;   ///< of the common s, in [0, 2 pi), rising
+  std::vector<Segment<N>> segments;  ///< segment k follows breakpoint k (the last one wraps); one if no breakpoint
+};
+
+/// Folds a stage at one operating point.
+///
+/// @param stage   passes gear::problems_for_motion()
+/// @param scales  those of the stage as given, whatever a sweep has changed in `stage` since
+/// @param mesh_frequency_ratio Omega [-]
+/// @throws InputError for options that do not fit the boundary
+template <std::size_t N>
+[[nodiscard]] Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& scales,
+                                                    double mesh_frequency_ratio, const ModelOptions& options);
+
+/// The same constants in another scalar type.
+template <class T, std::size_t N>
+[[nodiscard]] Parameters<T, N> convert(const Parameters<double, N>& p) {
+  const auto all = [](const std::array<double, N>& a) {
+    std::array<T, N> r;
+    for (std::size_t i = 0; i < N; ++i) r[i] = T(a[i]);
+    return r;
+  };
+  const auto mesh = [&](const MeshParameters<double, N>& m) {
+    MeshParameters<T, N> r;
+    r.sine = all(m.sine);
+    r.cosine = all(m.cosine);
+    r.half_gap = T(m.half_gap);
+    r.damping = T(m.damping);
+    r.stiffness = T(m.stiffness);
+    r.harmonics = m.harmonics;
+    for (const auto& c : m.stiffness_cos) r.stiffness_cos.push_back(all(c));
+    for (const auto& s : m.stiffness_sin) r.stiffness_sin.push_back(all(s));
+    r.error_cos = all(m.error_cos);
+    r.error_sin = all(m.error_sin);
+    r.friction = m.friction;
+    r.turns = m.turns;
+    return r;
+  };
+  Parameters<T, N> r;
+  r.omega = T(p.omega);
+  r.sin_phi = all(p.sin_phi);
+  r.cos_phi = all(p.cos_phi);
+  r.cos_alpha_sp = T(p.cos_alpha_sp);
+  r.cos_alpha_rp = T(p.cos_alpha_rp);
+  r.mass_s = T(p.mass_s);
+  r.mass_p = T(p.mass_p);
+  r.mass_r = T(p.mass_r);
+  r.mass_c = T(p.mass_c);
+  r.inertia_s = T(p.inertia_s);
+  r.inertia_p = T(p.inertia_p);
+  r.inertia_r = T(p.inertia_r);
+  r.inertia_c = T(p.inertia_c);
+  r.support_s = T(p.support_s);
+  r.support_r = T(p.support_r);
+  r.support_c = T(p.support_c);
+  r.damping_s = T(p.damping_s);
+  r.damping_r = T(p.damping_r);
+  r.damping_c = T(p.damping_c);
+  r.torsion_r = T(p.torsion_r);
+  r.torsion_c = T(p.torsion_c);
+  r.torsion_damping_r = T(p.torsion_damping_r);
+  r.torsion_damping_c = T(p.torsion_damping_c);
+  r.bearing_p = T(p.bearing_p);
+  r.bearing_damping_p = T(p.bearing_damping_p);
+  r.sun_half_gap = T(p.sun_half_gap);
+  r.sun_law = p.sun_law;
+  r.sun_hertz = T(p.sun_hertz);
+  r.drive = T(p.drive);
+  r.ring_drive = T(p.ring_drive);
+  r.carrier_load = T(p.carrier_load);
+  r.sun_planet = mesh(p.sun_planet);
+  r.ring_planet = mesh(p.ring_planet);
+  r.carrier_speed = T(p.carrier_speed);
+  r.gyroscopic_relative = p.gyroscopic_relative;
+  r.gyroscopic_carrier_row = p.gyroscopic_carrier_row;
+  r.smooth = p.smooth;
+  r.smoothing = T(p.smoothing);
+  r.gap_damping = p.gap_damping;
+  r.breakpoints = p.breakpoints;
+  r.segments = p.segments;
+  return r;
+}
+
+}  // namespace epicyclic::model

@@ -1,0 +1,289 @@
+// The equations of motion, once, for every scalar type, number of planets and layout.
+//
+//   delta_spi = (x_s - x_pi) sin phi_spi + (y_s - y_pi) cos phi_spi + u_s + u_pi - e_spi                 [M-13]
+//   delta_rpi = (x_pi - x_r) sin phi_rpi - (y_pi - y_r) cos phi_rpi + u_r - u_pi - e_rpi                 [M-14]
+//   delta_picx = x_pi - x_c + u_c sin phi_i ,  delta_picy = y_pi - y_c - u_c cos phi_i                   [M-15]
+//   F = k(s) f(delta, b) + c delta' ,  F_f = A(s) F ,  moments B(s) F                                    [M-27]
+//   rows of sun, planets, ring, carrier                                                                  [M-17]..[M-20]
+//   planets' rotating-frame terms: printed, or invariant in X_i = x_pi + u_c sin phi_i, Y_i = ...        [M-inv]
+//
+// all dimensionless (model/scales.hpp), the prime d/d tau; the state is advanced in the mesh phase s = Omega tau, so
+// dy/ds = (dy/d tau) / Omega. Source: Tang et al. 2020, Eqs. (13)-(20), (27), in the consistent form of model.md.
+// Limits: isotropic planet bearings (k_pix = k_piy = k_picu), one half gap per kind of mesh; the back flank keeps the
+// line of action of the drive flank, as Eq. (27) does.
+// Smoothness: C0 in the state with kinks at delta = +-b (analytic for w > 0); with contact-slope damping and w = 0 it
+// jumps there; in s analytic but for jumps of friction at `breakpoints`.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numbers>
+
+#include "core/scalar.hpp"
+#include "model/clearance.hpp"
+#include "model/layout.hpp"
+#include "model/parameters.hpp"
+
+namespace epicyclic::model {
+
+/// Relative displacements without errors, or their rates: the linear part of [M-13], [M-14], [M-15].
+template <class T, std::size_t N>
+struct Deflections {
+  std::array<T, N> sun_planet, ring_planet;
+  std::array<T, N> carrier_x, carrier_y, carrier_u;
+};
+
+template <class T, std::size_t N>
+[[nodiscard]] Deflections<T, N> deflections(const Parameters<T, N>& p, const Coordinates<T, N>& q) {
+  Deflections<T, N> d;
+  const auto& sp = p.sun_planet;
+  const auto& rp = p.ring_planet;
+  for (std::size_t i = 0; i < N; ++i) {
+    d.sun_planet[i] = (q.x_s - q.x_p[i]) * sp.sine[i] + (q.y_s - q.y_p[i]) * sp.cosine[i] + q.w_s + q.w_p[i];
+    d.ring_planet[i] = (q.x_p[i] - q.x_r) * rp.sine[i] - (q.y_p[i] - q.y_r) * rp.cosine[i] + q.u_r - q.w_p[i];
+    d.carrier_x[i] = q.x_p[i] - q.x_c + q.u_c * p.sin_phi[i];
+    d.carrier_y[i] = q.y_p[i] - q.y_c - q.u_c * p.cos_phi[i];
+    d.carrier_u[i] = -(q.x_p[i] - q.x_c) * p.sin_phi[i] + (q.y_p[i] - q.y_c) * p.cos_phi[i] - q.u_c;
+  }
+  return d;
+}
+
+/// cos h s and sin h s, h = 1 ... H, by the angle-addition theorem.
+template <class T>
+struct HarmonicBasis {
+  std::array<T, gear::harmonics_max> cosine, sine;
+
+  HarmonicBasis(const T& s, std::size_t harmonics) {
+    const SineCosine<T> first = sine_cosine(s);
+    cosine[0] = first.cosine;
+    sine[0] = first.sine;
+    for (std::size_t h = 1; h < harmonics; ++h) {
+      cosine[h] = cosine[h - 1] * first.cosine - sine[h - 1] * first.sine;
+      sine[h] = sine[h - 1] * first.cosine + cosine[h - 1] * first.sine;
+    }
+  }
+};
+
+/// Everything that one kind of mesh does at one instant.
+template <class T, std::size_t N>
+struct MeshState {
+  std::array<T, N> delta, rate;     ///< delta and delta' with errors
+  std::array<T, N> stiffness;       ///< k_i(s)
+  std::array<T, N> elastic;         ///< k f(delta)
+  std::array<T, N> force;           ///< F
+  std::array<T, N> friction;        ///< F_f = A F
+  std::array<T, N> moment_driving;  ///< F_f h_1 / r_b1 = B_1 F / r_b1
+  std::array<T, N> moment_driven;   ///< F_f h_2 / r_b2
+};
+
+/// [M-27] of one kind of mesh; `places` are those of the current segment.
+template <class T, std::size_t N>
+[[nodiscard]] MeshState<T, N> mesh_state(const Parameters<T, N>& p, const MeshParameters<T, N>& mesh,
+                                         const std::array<FrictionTrack::Place, N>& places, const T& s,
+                                         const HarmonicBasis<T>& basis, const std::array<T, N>& displacement,
+                                         const std::array<T, N>& velocity) {
+  MeshState<T, N> m;
+  for (std::size_t i = 0; i < N; ++i) {
+    m.delta[i] = displacement[i] - (mesh.error_cos[i] * basis.cosine[0] + mesh.error_sin[i] * basis.sine[0]);
+    m.rate[i] = velocity[i] - p.omega * (mesh.error_sin[i] * basis.cosine[0] - mesh.error_cos[i] * basis.sine[0]);
+    m.stiffness[i] = mesh.stiffness;
+  }
+  for (std::size_t h = 0; h < mesh.harmonics; ++h)
+    for (std::size_t i = 0; i < N; ++i)
+      m.stiffness[i] += mesh.stiffness_cos[h][i] * basis.cosine[h] + mesh.stiffness_sin[h][i] * basis.sine[h];
+  for (std::size_t i = 0; i < N; ++i) {
+    const Closure<T> gap = closure(m.delta[i], mesh.half_gap, p.smoothing, p.smooth);
+    const T weight = p.gap_damping == GapDamping::contact_slope ? gap.slope : T(1.0);
+    m.elastic[i] = m.stiffness[i] * gap.value;
+    m.force[i] = m.elastic[i] + mesh.damping * weight * m.rate[i];
+  }
+  if (mesh.friction) {
+    for (std::size_t i = 0; i < N; ++i) {
+      const T phase = s * (0.5 * std::numbers::inv_pi) + mesh.turns[i];
+      const FrictionRatios<T> ratios = mesh.friction->at(places[i], phase);
+      m.friction[i] = ratios.force * m.force[i];
+      m.moment_driving[i] = ratios.moment_driving * m.force[i];
+      m.moment_driven[i] = ratios.moment_driven * m.force[i];
+    }
+  } else {
+    m.friction.fill(T(0.0));
+    m.moment_driving.fill(T(0.0));
+    m.moment_driven.fill(T(0.0));
+  }
+  return m;
+}
+
+/// Force of the sun's bearing on its inner ring, per direction; acts against (x, y).
+template <class T>
+struct BearingForce {
+  T x, y;
+};
+
+template <class T, std::size_t N>
+[[nodiscard]] BearingForce<T> sun_bearing_force(const Parameters<T, N>& p, const T& x, const T& y) {
+  using epicyclic::power_3_2;
+  using gear::BearingLaw;
+  const auto gap = [&](const T& d) { return closure(d, p.sun_half_gap, p.smoothing, p.smooth).value; };
+  // k(d) d of [G-11], odd in the closure d
+  const auto hertz = [&](const T& d) {
+    const T magnitude = select(d > T(0.0), d, T(-d));
+    return select(d > T(0.0), T(1.0), T(-1.0)) * p.sun_hertz * power_3_2(magnitude);
+  };
+  switch (p.sun_law) {
+    case BearingLaw::linear_xy:
+      return {p.support_s * gap(x), p.support_s * gap(y)};
+    case BearingLaw::palmgren_xy:
+      return {hertz(gap(x)), hertz(gap(y))};
+    case BearingLaw::linear_radial: {
+      const T factor = p.support_s * radial_closure_factor(safe_radius(x, y), p.sun_half_gap, p.smoothing, p.smooth);
+      return {factor * x, factor * y};
+    }
+    case BearingLaw::palmgren_radial: {
+      const T r = safe_radius(x, y);
+      const T closed = r * radial_closure_factor(r, p.sun_half_gap, p.smoothing, p.smooth);
+      const T factor = (2.0 / 3.0) * p.sun_hertz * power_3_2(closed) / r;
+      return {factor * x, factor * y};
+    }
+  }
+  return {T(0.0), T(0.0)};
+}
+
+/// Forces of the stage at one instant, before they act on masses.
+template <class T, std::size_t N>
+struct StageState {
+  Coordinates<T, N> q, v;
+  Deflections<T, N> d, d_rate;
+  MeshState<T, N> sun_planet, ring_planet;
+};
+
+template <Layout L, class T, std::size_t N>
+[[nodiscard]] StageState<T, N> stage_state(const Parameters<T, N>& p, std::size_t segment, const T& s, const T* y) {
+  StageState<T, N> g;
+  g.q = unpack<L, N>(y);
+  g.v = unpack<L, N>(y + degrees_of_freedom(L, N));
+  g.d = deflections(p, g.q);
+  g.d_rate = deflections(p, g.v);
+  const std::size_t harmonics = std::max(p.sun_planet.harmonics, p.ring_planet.harmonics);
+  const HarmonicBasis<T> basis(s, harmonics);
+  const Segment<N>& places = p.segments[segment];
+  g.sun_planet = mesh_state(p, p.sun_planet, places.sun_planet, s, basis, g.d.sun_planet, g.d_rate.sun_planet);
+  g.ring_planet = mesh_state(p, p.ring_planet, places.ring_planet, s, basis, g.d.ring_planet, g.d_rate.ring_planet);
+  return g;
+}
+
+/// Accelerations d^2/d tau^2 of the full coordinates from [M-17]..[M-20].
+template <Layout L, class T, std::size_t N>
+[[nodiscard]] Coordinates<T, N> accelerations(const Parameters<T, N>& p, const StageState<T, N>& g) {
+  const Coordinates<T, N>& q = g.q;
+  const Coordinates<T, N>& v = g.v;
+  const MeshState<T, N>& sp = g.sun_planet;
+  const MeshState<T, N>& rp = g.ring_planet;
+  const T& wc = p.carrier_speed;
+  const T wc2 = wc * wc;
+  Coordinates<T, N> a;
+
+  // Sun [M-17]
+  const BearingForce<T> bearing = sun_bearing_force(p, q.x_s, q.y_s);
+  T force_x = -bearing.x - p.damping_s * v.x_s;
+  T force_y = -bearing.y - p.damping_s * v.y_s;
+  T force_u = p.drive;
+  for (std::size_t i = 0; i < N; ++i) {
+    force_x -= sp.force[i] * p.sun_planet.sine[i] + sp.friction[i] * p.sun_planet.cosine[i];
+    force_y -= sp.force[i] * p.sun_planet.cosine[i] - sp.friction[i] * p.sun_planet.sine[i];
+    force_u -= sp.force[i] - sp.moment_driving[i];
+  }
+  a.x_s = force_x / p.mass_s + 2.0 * wc * v.y_s + wc2 * q.x_s;
+  a.y_s = force_y / p.mass_s - 2.0 * wc * v.x_s + wc2 * q.y_s;
+  a.w_s = force_u / p.inertia_s;
+
+  // Planets [M-18] and what their bearings and rotating-frame terms do to the carrier
+  T carrier_x = -p.support_c * q.x_c - p.damping_c * v.x_c;
+  T carrier_y = -p.support_c * q.y_c - p.damping_c * v.y_c;
+  T carrier_u = -p.torsion_c * q.u_c - p.torsion_damping_c * v.u_c - p.carrier_load;
+  for (std::size_t i = 0; i < N; ++i) {
+    const T spring_x = p.bearing_p * g.d.carrier_x[i] + p.bearing_damping_p * g.d_rate.carrier_x[i];
+    const T spring_y = p.bearing_p * g.d.carrier_y[i] + p.bearing_damping_p * g.d_rate.carrier_y[i];
+    carrier_x += spring_x;
+    carrier_y += spring_y;
+    carrier_u += p.bearing_p * g.d.carrier_u[i] + p.bearing_damping_p * g.d_rate.carrier_u[i];
+
+    T x = q.x_p[i];
+    T y = q.y_p[i];
+    T x_rate = v.x_p[i];
+    T y_rate = v.y_p[i];
+    if (p.gyroscopic_relative) {
+      x += q.u_c * p.sin_phi[i];
+      y -= q.u_c * p.cos_phi[i];
+      x_rate += v.u_c * p.sin_phi[i];
+      y_rate -= v.u_c * p.cos_phi[i];
+    }
+    const T frame_x = p.mass_p * (wc2 * x + 2.0 * wc * y_rate);
+    const T frame_y = p.mass_p * (wc2 * y - 2.0 * wc * x_rate);
+    if (p.gyroscopic_relative) carrier_u += frame_x * p.sin_phi[i] - frame_y * p.cos_phi[i];
+    if (p.gyroscopic_carrier_row) carrier_u -= p.mass_p * wc2 * q.u_c;
+
+    a.x_p[i] = (frame_x - spring_x + sp.force[i] * p.sun_planet.sine[i] + sp.friction[i] * p.sun_planet.cosine[i] -
+                rp.force[i] * p.ring_planet.sine[i] - rp.friction[i] * p.ring_planet.cosine[i]) /
+               p.mass_p;
+    a.y_p[i] = (frame_y - spring_y + sp.force[i] * p.sun_planet.cosine[i] - sp.friction[i] * p.sun_planet.sine[i] +
+                rp.force[i] * p.ring_planet.cosine[i] - rp.friction[i] * p.ring_planet.sine[i]) /
+               p.mass_p;
+    a.w_p[i] = (-sp.force[i] + sp.moment_driven[i] + rp.force[i] - rp.moment_driving[i]) / p.inertia_p;
+  }
+
+  // Ring [M-19]
+  force_x = -p.support_r * q.x_r - p.damping_r * v.x_r;
+  force_y = -p.support_r * q.y_r - p.damping_r * v.y_r;
+  force_u = -p.torsion_r * q.u_r - p.torsion_damping_r * v.u_r + p.ring_drive;
+  for (std::size_t i = 0; i < N; ++i) {
+    force_x += rp.force[i] * p.ring_planet.sine[i] + rp.friction[i] * p.ring_planet.cosine[i];
+    force_y -= rp.force[i] * p.ring_planet.cosine[i] - rp.friction[i] * p.ring_planet.sine[i];
+    force_u -= rp.force[i] - rp.moment_driven[i];
+  }
+  a.x_r = force_x / p.mass_r + 2.0 * wc * v.y_r + wc2 * q.x_r;
+  a.y_r = force_y / p.mass_r - 2.0 * wc * v.x_r + wc2 * q.y_r;
+  a.u_r = force_u / p.inertia_r;
+
+  // Carrier [M-20]
+  a.x_c = carrier_x / p.mass_c + 2.0 * wc * v.y_c + wc2 * q.x_c;
+  a.y_c = carrier_y / p.mass_c - 2.0 * wc * v.x_c + wc2 * q.y_c;
+  a.u_c = carrier_u / p.inertia_c;
+  return a;
+}
+
+/// The combinations of full accelerations that the layout's relative coordinates are [M-rel].
+template <Layout L, class T, std::size_t N>
+[[nodiscard]] Coordinates<T, N> relative_accelerations(const Parameters<T, N>& p, Coordinates<T, N> a) {
+  if constexpr (L == Layout::relative_to_ring) {
+    a.w_s += a.u_r;
+    for (std::size_t i = 0; i < N; ++i) a.w_p[i] -= a.u_r;
+  } else if constexpr (L == Layout::relative_to_carrier || L == Layout::relative_to_carrier_rigid_ring) {
+    a.w_s -= a.u_c * (p.cos_alpha_sp + p.cos_alpha_rp);
+    for (std::size_t i = 0; i < N; ++i) {
+      a.w_p[i] += a.u_c * p.cos_alpha_rp;
+      a.x_p[i] += a.u_c * p.sin_phi[i];
+      a.y_p[i] -= a.u_c * p.cos_phi[i];
+    }
+  }
+  return a;
+}
+
+/// dy/ds at mesh phase s.
+///
+/// @param y     2 n numbers, n = degrees_of_freedom(L, N): displacements [b_c], then velocities [b_c per tau]
+/// @param dyds  2 n numbers
+template <Layout L, class T, std::size_t N>
+void right_hand_side(const Parameters<T, N>& p, std::size_t segment, const T& s, const T* y, T* dyds) {
+  constexpr std::size_t n = degrees_of_freedom(L, N);
+  const StageState<T, N> g = stage_state<L>(p, segment, s, y);
+  const Coordinates<T, N> a = relative_accelerations<L>(p, accelerations<L>(p, g));
+  const T per_phase = 1.0 / p.omega;
+  pack<L, N>(a, dyds + n);
+  for (std::size_t k = 0; k < n; ++k) {
+    dyds[k] = y[n + k] * per_phase;
+    dyds[n + k] = dyds[n + k] * per_phase;
+  }
+}
+
+}  // namespace epicyclic::model

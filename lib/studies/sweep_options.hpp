@@ -1,0 +1,31 @@
+// What a sweep is: a parameter, its grid, directions, start, and how long to look.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace epicyclic::studies {
+
+enum class Direction { up, down };
+
+enum class Start {
+  carried,  ///< each point starts from the end state of the one before: follows a branch, shows hysteresis
+  cold,     ///< each point starts from the default start
+};
+
+struct SweepOptions {
+  std::string parameter = "mesh_frequency_ratio";  ///< a name of architecture section 6, or a JSON pointer
+  double from = 0.2;
+  double to = 3.5;
+  int points = 661;
+  std::vector<Direction> directions = {Direction::up};
+  Start start = Start::carried;
+  int segments = 1;                    ///< chains per direction of a carried sweep
+  int transient_periods = 300;         ///< mesh periods before the record
+  int recorded_periods = 128;          ///< mesh periods recorded, one Poincare point each
+  int output_phases = 64;              ///< dense output points per recorded period, for extrema and contact
+  int period_max = 32;                 ///< longest period of the motion looked for [mesh periods]
+  double recurrence_tolerance = 1e-4;  ///< two states recur if no component differs by more [b_c, b_c per tau]
+};
+
+}  // namespace epicyclic::studies

@@ -1,0 +1,278 @@
+#include "io/gnuplot.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include "core/errors.hpp"
+#include "io/bifurcation_figure.hpp"
+#include "io/line_figure.hpp"
+#include "temporary_folder.hpp"
+
+namespace epicyclic::io {
+namespace {
+
+using test::contents;
+using test::TemporaryFolder;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Sets a variable of the environment for a while.
+class Environment {
+ public:
+  Environment(const char* name, const char* value) : name_(name) {
+    if (const char* old = ::getenv(name)) old_ = old;
+    ::setenv(name, value, 1);
+  }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+  ~Environment() { old_.empty() ? ::unsetenv(name_) : ::setenv(name_, old_.c_str(), 1); }
+
+ private:
+  const char* name_;
+  std::string old_;
+};
+
+bool have_gnuplot() {
+  const TemporaryFolder folder;
+  test::put_file(folder / "empty.gp", "\n");
+  return run_gnuplot(folder / "empty.gp").drawn();
+}
+
+#define EPICYCLIC_NEEDS_GNUPLOT() \
+  if (!have_gnuplot()) GTEST_SKIP() << "gnuplot is not installed"
+
+/// The logistic map r x (1 - x): fixed point, period doubling, chaos, windows.
+BifurcationSeries logistic(std::size_t columns, std::size_t points, double start) {
+  BifurcationSeries series{"r", {}, {}};
+  for (std::size_t i = 0; i < columns; ++i) {
+    const double r = 2.8 + 1.2 * static_cast<double>(i) / static_cast<double>(columns - 1);
+    double x = start;
+    for (int k = 0; k < 200; ++k) x = r * x * (1 - x);
+    std::vector<double> values;
+    for (std::size_t k = 0; k < points; ++k) values.push_back(x = r * x * (1 - x));
+    series.x.push_back(r);
+    series.y.push_back(values);
+  }
+  return series;
+}
+
+std::size_t data_lines(const std::string& data) {
+  std::size_t count = 0;
+  std::istringstream stream(data);
+  for (std::string line; std::getline(stream, line);) count += !line.empty() && line.front() != '#' ? 1U : 0U;
+  return count;
+}
+
+TEST(Gnuplot, MissingGnuplotIsAResult) {
+  const TemporaryFolder folder;
+  const Environment no_path("PATH", folder.path().c_str());
+  const FigureOutcome outcome = line_figure(folder / "figures", "a", {"", "x", "y"}, {{"", {0, 1}, {0, 1}, false}});
+  EXPECT_FALSE(outcome.drawn());
+  EXPECT_NE(outcome.message.find("gnuplot is not installed"), std::string::npos) << outcome.message;
+  EXPECT_TRUE(std::filesystem::exists(folder / "figures/a.dat"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "figures/a.gp"));
+}
+
+TEST(Gnuplot, FailingScriptIsAResultWithGnuplotsWords) {
+  EPICYCLIC_NEEDS_GNUPLOT();
+  const TemporaryFolder folder;
+  test::put_file(folder / "bad.gp", "set no_such_option\n");
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const FigureOutcome outcome = run_gnuplot(folder / "bad.gp");
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_NE(outcome.message.find("bad.gp"), std::string::npos) << outcome.message;
+  EXPECT_NE(outcome.message.find("line 1"), std::string::npos) << outcome.message;
+  EXPECT_FALSE(run_gnuplot(folder / "absent.gp").drawn());
+  EXPECT_FALSE(run_gnuplot(folder / "no/such/folder.gp").drawn());
+}
+
+TEST(Gnuplot, RunsInTheFolderOfTheScriptInTheCLocale) {
+  EPICYCLIC_NEEDS_GNUPLOT();
+  const TemporaryFolder folder;
+  const Environment german("LC_ALL", "de_DE.UTF-8");
+  const Environment home("HOME", folder.path().c_str());
+  test::put_file(folder / ".gnuplot", "exit status 3\n");
+  test::put_file(folder / "-a.gp", "set print 'here.txt'\nprint system('echo $LC_ALL').sprintf(' %.1f', 0.5)\n");
+  const FigureOutcome outcome = run_gnuplot(folder / "-a.gp");
+  EXPECT_TRUE(outcome.drawn()) << outcome.message;
+  EXPECT_EQ(contents(folder / "here.txt"), "C 0.5\n");
+}
+
+TEST(Gnuplot, QuotedTextExpandsNothing) {
+  EXPECT_EQ(gnuplot_quoted("it's `date`\n\"x\""), "'it''s `date` \"x\"'");
+  EPICYCLIC_NEEDS_GNUPLOT();
+  const TemporaryFolder folder;
+  const std::string evil = "don't `touch touched` @x \" ; system('touch touched')\nexit status 1";
+  const FigureOutcome outcome =
+      line_figure(folder / "figures", "a", {evil, evil, evil}, {{evil, {0, 1}, {0, 1}, false}}, {}, {{0.5, evil}});
+  EXPECT_TRUE(outcome.drawn()) << outcome.message;
+  EXPECT_FALSE(std::filesystem::exists(folder / "figures/touched"));
+}
+
+TEST(Gnuplot, PortableTextHasGreekLettersAndBars) {
+  EXPECT_EQ(portable_text("frequency {/Symbol W} = {/Symbol w}_m"), "frequency {Ω} = {ω}_m");
+  EXPECT_EQ(portable_text("~{/Symbol d}{.6-}_{sp}"), "δ\u0304_{sp}");
+  EXPECT_EQ(portable_text("~{x}{.6-} ~y{1-}"), "x\u0304 y\u0304");
+  EXPECT_EQ(portable_text("{/Symbol ab2}"), "{αβ2}");
+  for (const char* same : {"", "plain", "x_{sp}", "{/Symbol ", "{/Symbol W", "{/Symbol {x}}", "~a{b}"}) {
+    EXPECT_EQ(portable_text(same), same);
+  }
+}
+
+TEST(Gnuplot, StemMustBeAPlainFileName) {
+  const TemporaryFolder folder;
+  for (const char* stem : {"", "../a", "a/b", "a b", "a'b", ".hidden"}) {
+    EXPECT_THROW(draw_figure(folder.path(), stem, "", ""), std::invalid_argument) << stem;
+  }
+}
+
+TEST(Gnuplot, OldPictureDoesNotPassForANewOne) {
+  const TemporaryFolder folder;
+  test::put_file(folder / "a.png", "old");
+  test::put_file(folder / "a.svg", "old");
+  EXPECT_FALSE(draw_figure(folder.path(), "a", "1 2\n", "# draws nothing\n").drawn());
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.svg"));
+}
+
+TEST(Gnuplot, PictureThatEndsEarlyIsNoticed) {
+  EPICYCLIC_NEEDS_GNUPLOT();
+  const TemporaryFolder folder;
+  // Large enough for the script and the data, too small for the picture.
+  const test::FileSizeLimit limit(8192);
+  const FigureOutcome outcome = bifurcation_figure(folder.path(), "a", {"", "x", "y"}, {logistic(20, 4, 0.3)});
+  EXPECT_FALSE(outcome.drawn());
+}
+
+TEST(BifurcationFigure, WritesDataScriptAndBothPictures) {
+  EPICYCLIC_NEEDS_GNUPLOT();
+  const TemporaryFolder folder;
+  const auto figures = folder / "figures";
+  const FigureOutcome outcome =
+      bifurcation_figure(figures, "speed", {"Logistic map", "Parameter {/Symbol W}", "~{x}{.6-}  [-]"},
+                         {logistic(100, 20, 0.3), logistic(100, 20, 0.6)}, {{3.0, "flip"}, {99, "outside"}});
+  ASSERT_TRUE(outcome.drawn()) << outcome.message;
+  EXPECT_TRUE(contents(figures / "speed.png").starts_with("\x89PNG\r\n\x1a\n"));
+  const std::string svg = contents(figures / "speed.svg");
+  EXPECT_NE(svg.find("Parameter"), std::string::npos);
+  EXPECT_NE(svg.find("Ω"), std::string::npos);
+  EXPECT_NE(svg.find("flip"), std::string::npos);
+  EXPECT_EQ(svg.find("outside"), std::string::npos);
+  const std::string script = contents(figures / "speed.gp");
+  EXPECT_NE(script.find("set xrange [2.8:4]\n"), std::string::npos) << script;
+  EXPECT_EQ(script.find(folder.path().string()), std::string::npos) << "the folder must be movable";
+  EXPECT_EQ(test::entries(figures), 4U);
+}
+
+TEST(BifurcationFigure, SameDataGiveSameFiles) {
+  EPICYCLIC_NEEDS_GNUPLOT();
+  const TemporaryFolder folder;
+  for (const char* name : {"1", "2"}) {
+    ASSERT_TRUE(bifurcation_figure(folder / name, "a", {"", "x", "y"}, {logistic(100, 20, 0.3)}).drawn());
+  }
+  for (const char* file : {"a.dat", "a.gp", "a.svg", "a.png"}) {
+    EXPECT_EQ(contents(folder / "1" / file), contents(folder / "2" / file)) << file;
+  }
+}
+
+TEST(BifurcationFigure, PointsOfOneCellAreDrawnOnce) {
+  const TemporaryFolder folder;
+  const Environment no_path("PATH", "");
+  // 128 times the same period-2 orbit, up to a rounding, at each of 3 values.
+  BifurcationSeries series{"r", {1, 2, 3}, {}};
+  for (int i = 0; i < 3; ++i) {
+    std::vector<double> values;
+    for (int k = 0; k < 64; ++k) values.insert(values.end(), {0.25 + 1e-15 * k, 0.75 - 1e-15 * k});
+    series.y.push_back(values);
+  }
+  bifurcation_figure(folder.path(), "a", {"", "x", "y"}, {series});
+  EXPECT_EQ(contents(folder / "a.dat"), "# 'r'\n1 0.25\n1 0.75\n2 0.25\n2 0.75\n3 0.25\n3 0.75\n\n\n");
+}
+
+TEST(BifurcationFigure, FullSweepIsDrawnInSeconds) {
+  EPICYCLIC_NEEDS_GNUPLOT();
+  const TemporaryFolder folder;
+  const std::vector<BifurcationSeries> series{logistic(661, 128, 0.3), logistic(661, 128, 0.6)};
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_TRUE(bifurcation_figure(folder.path(), "a", {"", "x", "y"}, series).drawn());
+  // About a second; the bound is generous for loaded machines and sanitizers.
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
+}
+
+TEST(BifurcationFigure, ValuesThatAreNotFiniteAreLeftOut) {
+  EPICYCLIC_NEEDS_GNUPLOT();
+  const TemporaryFolder folder;
+  const double infinity = std::numeric_limits<double>::infinity();
+  const BifurcationSeries none{"none", {1, 2}, {{nan}, {}}};
+  const BifurcationSeries some{"some", {1, nan, 2}, {{0.5, nan, infinity}, {0.7}, {0.6}}};
+  // An empty first series must not shift the second.
+  const FigureOutcome outcome = bifurcation_figure(folder.path(), "a", {"", "x", "y"}, {none, some});
+  EXPECT_TRUE(outcome.drawn()) << outcome.message;
+  EXPECT_EQ(contents(folder / "a.dat"), "# 'none'\nNaN NaN\n\n\n# 'some'\n1 0.5\n2 0.6\n\n\n");
+  EXPECT_EQ(bifurcation_figure(folder.path(), "b", {"", "x", "y"}, {none}).message, "there is no finite point to draw");
+}
+
+TEST(BifurcationFigure, SinglePointIsDrawn) {
+  EPICYCLIC_NEEDS_GNUPLOT();
+  const TemporaryFolder folder;
+  for (const double value : {0.0, 1.0, -1e-9, 1e12}) {
+    const FigureOutcome outcome = bifurcation_figure(folder.path(), "a", {"", "x", "y"}, {{"r", {value}, {{value}}}});
+    EXPECT_TRUE(outcome.drawn()) << value << ": " << outcome.message;
+  }
+}
+
+TEST(BifurcationFigure, WrongSeriesAreRefused) {
+  const TemporaryFolder folder;
+  const BifurcationSeries series{"r", {1, 2}, {{1}}};
+  EXPECT_THROW(bifurcation_figure(folder.path(), "a", {}, {series}), std::invalid_argument);
+  EXPECT_THROW(bifurcation_figure(folder.path(), "a", {}, {}), std::invalid_argument);
+  EXPECT_THROW(bifurcation_figure(folder.path(), "a", {}, std::vector<BifurcationSeries>(3)), std::invalid_argument);
+}
+
+TEST(BifurcationFigure, FullDiskOnDataIsAnOutputError) {
+  const TemporaryFolder folder;
+  const test::FileSizeLimit limit(100);
+  EXPECT_THROW(bifurcation_figure(folder.path(), "a", {"", "x", "y"}, {logistic(60, 8, 0.3)}), OutputError);
+}
+
+TEST(LineFigure, DrawsCurvesWithGapsAndLegend) {
+  EPICYCLIC_NEEDS_GNUPLOT();
+  const TemporaryFolder folder;
+  const std::vector<FigureCurve> curves{{"empty", {nan, 1}, {1, nan}, false},
+                                        {"k_{sp}", {0, 1, 2, nan, nan, 3, 4}, {1, 2, 1, 0, 0, 2, 1}, false},
+                                        {"k_{rp}", {0, 4}, {3, -3}, true}};
+  const FigureOutcome outcome = line_figure(folder.path(), "a", {"Title", "x", "y"}, curves);
+  ASSERT_TRUE(outcome.drawn()) << outcome.message;
+  EXPECT_EQ(data_lines(contents(folder / "a.dat")), 1U + 5U + 2U);
+  EXPECT_NE(contents(folder / "a.dat").find("2 1\n\n3 2\n"), std::string::npos);
+  EXPECT_NE(contents(folder / "a.svg").find("rp"), std::string::npos);
+}
+
+TEST(LineFigure, LogarithmicAxesLeaveOutWhatIsNotPositive) {
+  EPICYCLIC_NEEDS_GNUPLOT();
+  const TemporaryFolder folder;
+  const FigureOutcome outcome = line_figure(folder.path(), "a", {"", "tolerance", "error"},
+                                            {{"", {1e-8, 1e-6, 0, 1e-4}, {1e-9, -1, 1, 1e-3}, false}}, {true, true});
+  ASSERT_TRUE(outcome.drawn()) << outcome.message;
+  EXPECT_EQ(data_lines(contents(folder / "a.dat")), 2U);
+}
+
+TEST(LineFigure, WrongCurvesAreRefused) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(line_figure(folder.path(), "a", {}, {}), std::invalid_argument);
+  EXPECT_THROW(line_figure(folder.path(), "a", {}, {{"", {1, 2}, {1}, false}}), std::invalid_argument);
+  EXPECT_EQ(line_figure(folder.path(), "a", {}, {{"", {1}, {nan}, false}}).message, "there is no finite point to draw");
+}
+
+}  // namespace
+}  // namespace epicyclic::io

@@ -1,0 +1,169 @@
+#include "io/hdf5_file.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/errors.hpp"
+#include "temporary_folder.hpp"
+
+namespace epicyclic::io {
+namespace {
+
+using test::contents;
+using test::message_of;
+using test::TemporaryFolder;
+
+std::vector<double> smooth_values(std::size_t count) {
+  std::vector<double> values(count);
+  for (std::size_t i = 0; i < count; ++i) values[i] = std::sin(0.001 * static_cast<double>(i));
+  return values;
+}
+
+void write_example(const std::filesystem::path& path) {
+  Hdf5File file(path);
+  file.set_attribute("/", "program", "epicyclic");
+  file.set_attribute("/", "points", std::int64_t{661});
+  file.set_attribute("/", "tolerance", 1e-8);
+  file.write("/axis/value", std::vector<double>{0.2, 0.3, std::numeric_limits<double>::quiet_NaN()});
+  file.set_units("/axis/value", "-");
+  file.write("/points/period", std::vector<std::int64_t>{1, -2, std::int64_t{1} << 50});
+  file.write("/points/regime", std::vector<std::string>{"periodic", "", "Ω̄"});
+  file.write("/poincare/delta", smooth_values(3000 * 17), 3000, 17);
+  file.set_units("/poincare/delta", "b_c");
+  file.write("/poincare/index", std::vector<std::int64_t>{1, 2, 3, 4, 5, 6}, 2, 3);
+  file.create_group("/empty/group");
+  file.close();
+}
+
+TEST(Hdf5File, ReadsBackWhatWasWritten) {
+  const TemporaryFolder folder;
+  const auto path = folder / "results.h5";
+  write_example(path);
+
+  const Hdf5Dataset value = read_hdf5(path, "/axis/value");
+  EXPECT_EQ(value.shape, std::vector<std::size_t>{3});
+  EXPECT_EQ(value.values[1], 0.3);
+  EXPECT_TRUE(std::isnan(value.values[2]));
+  EXPECT_EQ(read_hdf5(path, "/points/period").values, (std::vector<double>{1, -2, 1125899906842624}));
+  EXPECT_EQ(read_hdf5_texts(path, "/points/regime"), (std::vector<std::string>{"periodic", "", "Ω̄"}));
+  const Hdf5Dataset delta = read_hdf5(path, "/poincare/delta");
+  EXPECT_EQ(delta.shape, (std::vector<std::size_t>{3000, 17}));
+  EXPECT_EQ(delta.values, smooth_values(3000 * 17));
+  EXPECT_EQ(read_hdf5(path, "/poincare/index").shape, (std::vector<std::size_t>{2, 3}));
+  EXPECT_EQ(read_hdf5_attribute(path, "/poincare/delta", "units"), "b_c");
+  EXPECT_EQ(read_hdf5_attribute(path, "/", "program"), "epicyclic");
+  EXPECT_EQ(test::entries(folder.path()), 1U);
+}
+
+TEST(Hdf5File, SameDataGiveSameBytes) {
+  const TemporaryFolder folder;
+  write_example(folder / "a.h5");
+  // HDF5's time stamps have a resolution of one second.
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  write_example(folder / "b.h5");
+  EXPECT_EQ(contents(folder / "a.h5"), contents(folder / "b.h5"));
+}
+
+TEST(Hdf5File, LargeDataAreCompressed) {
+  const TemporaryFolder folder;
+  const std::size_t count = 400'000;
+  Hdf5File file(folder / "a.h5");
+  file.write("/constant", std::vector<double>(count, 1.5), count / 4, 4);
+  // One row longer than a chunk.
+  file.write("/wide", std::vector<double>(count, 2.5), 2, count / 2);
+  file.write("/long", std::vector<std::int64_t>(count, 7));
+  file.close();
+  EXPECT_LT(std::filesystem::file_size(folder / "a.h5"), 3 * count * 8 / 20);
+  EXPECT_EQ(read_hdf5(folder / "a.h5", "/constant").values, std::vector<double>(count, 1.5));
+  EXPECT_EQ(read_hdf5(folder / "a.h5", "/wide").values, std::vector<double>(count, 2.5));
+  EXPECT_EQ(read_hdf5(folder / "a.h5", "/long").values, std::vector<double>(count, 7));
+}
+
+TEST(Hdf5File, EmptyDataAndTextsAreAllowed) {
+  const TemporaryFolder folder;
+  Hdf5File file(folder / "a.h5");
+  file.write("/none", std::vector<double>{});
+  file.write("/no_rows", std::vector<double>{}, 0, 34);
+  file.write("/no_texts", std::vector<std::string>{});
+  file.set_attribute("/none", "units", "");
+  file.close();
+  EXPECT_TRUE(read_hdf5(folder / "a.h5", "/none").values.empty());
+  EXPECT_EQ(read_hdf5(folder / "a.h5", "/no_rows").shape, (std::vector<std::size_t>{0, 34}));
+  EXPECT_TRUE(read_hdf5_texts(folder / "a.h5", "/no_texts").empty());
+  EXPECT_EQ(read_hdf5_attribute(folder / "a.h5", "/none", "units"), "");
+}
+
+TEST(Hdf5File, AttributeBeyond64KiBFits) {
+  const TemporaryFolder folder;
+  const std::string text(200'000, 'j');  // a resolved input may exceed the 64 KiB of older formats
+  Hdf5File file(folder / "a.h5");
+  file.set_attribute("/", "input", text);
+  file.close();
+  EXPECT_EQ(read_hdf5_attribute(folder / "a.h5", "/", "input"), text);
+}
+
+TEST(Hdf5File, AppearsOnlyWhenClosed) {
+  const TemporaryFolder folder;
+  {
+    Hdf5File file(folder / "a.h5");
+    file.write("/x", std::vector<double>{1});
+    EXPECT_EQ(test::entries(folder.path()), 0U);
+  }
+  EXPECT_EQ(test::entries(folder.path()), 0U);
+}
+
+TEST(Hdf5File, FullDiskKeepsTheOldFile) {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.h5";
+  write_example(path);
+  const std::string before = contents(path);
+  {
+    const test::FileSizeLimit limit(4096);
+    const std::string message = message_of<OutputError>([&] { write_example(path); });
+    EXPECT_NE(message.find(path.string()), std::string::npos) << message;
+  }
+  EXPECT_EQ(contents(path), before);
+  EXPECT_EQ(test::entries(folder.path()), 1U);
+}
+
+TEST(Hdf5File, FailureNamesFileObjectAndReasonAndPrintsNothing) {
+  const TemporaryFolder folder;
+  Hdf5File file(folder / "a.h5");
+  file.write("/x", std::vector<double>{1});
+  testing::internal::CaptureStderr();
+  const std::string twice = message_of<OutputError>([&] { file.write("/x", std::vector<double>{2}); });
+  const std::string below = message_of<OutputError>([&] { file.write("/x/y", std::vector<double>{2}); });
+  const std::string nowhere = message_of<OutputError>([&] { file.set_units("/z", "N"); });
+  const std::string absent = message_of<InputError>([&] { read_hdf5(folder / "none.h5", "/x"); });
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_NE(twice.find("already exists"), std::string::npos) << twice;
+  EXPECT_NE(twice.find("/x"), std::string::npos) << twice;
+  EXPECT_NE(twice.find("a.h5"), std::string::npos) << twice;
+  EXPECT_NE(below.find("/x/y"), std::string::npos) << below;
+  EXPECT_NE(nowhere.find("the attribute units of /z"), std::string::npos) << nowhere;
+  EXPECT_NE(absent.find("none.h5"), std::string::npos) << absent;
+  EXPECT_THROW(file.write("/m", std::vector<double>{1, 2, 3}, 2, 2), std::invalid_argument);
+}
+
+TEST(Hdf5File, DamagedFileIsAnInputError) {
+  const TemporaryFolder folder;
+  write_example(folder / "a.h5");
+  const std::string bytes = contents(folder / "a.h5");
+  test::put_file(folder / "cut.h5", std::string_view(bytes).substr(0, bytes.size() / 2));
+  test::put_file(folder / "text.h5", "no HDF5 at all");
+  EXPECT_THROW(read_hdf5(folder / "cut.h5", "/axis/value"), InputError);
+  EXPECT_THROW(read_hdf5(folder / "text.h5", "/axis/value"), InputError);
+  EXPECT_THROW(read_hdf5(folder / "a.h5", "/axis/no_such"), InputError);
+  EXPECT_THROW(read_hdf5_texts(folder / "a.h5", "/axis/value"), InputError);
+}
+
+}  // namespace
+}  // namespace epicyclic::io

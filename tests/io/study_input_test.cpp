@@ -1,0 +1,627 @@
+#include "io/study_input.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "integrate/methods.hpp"
+#include "temporary_folder.hpp"
+
+namespace epicyclic::io {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::put_file;
+
+// Tests run in the source folder.
+const fs::path bad_inputs = "tests/io/bad_inputs";
+const fs::path inputs = "inputs";
+
+std::string text_of(const fs::path& path) { return test::contents(path); }
+
+std::vector<Assignment> sets(std::vector<std::string> texts) { return parse_assignments(texts); }
+
+class StudyInput : public ::testing::Test {
+ protected:
+  StudyInput() {
+    put_file(folder / "study.json", text_of(bad_inputs / "study.json"));
+    put_file(folder / "stage.json", text_of(bad_inputs / "stage.json"));
+  }
+  [[nodiscard]] LoadedInput load(const std::vector<std::string>& texts = {}) const {
+    return load_input(folder / "study.json", sets(texts));
+  }
+  /// The resolved JSON as a file of its own, loaded.
+  [[nodiscard]] LoadedInput reload(const json& resolved) const {
+    put_file(folder / "resolved.json", resolved.dump(2));
+    return load_input(folder / "resolved.json");
+  }
+  test::TemporaryFolder folder;
+};
+
+TEST_F(StudyInput, FillsTheTypedStudy) {
+  const auto input = load();
+  const auto& study = input.study;
+  EXPECT_EQ(study.kind, "sweep");
+  EXPECT_EQ(study.name, "base");
+  EXPECT_EQ(study.mesh_frequency_ratio, 1.0);
+  EXPECT_EQ(study.integrator.relative_tolerance, 1e-8);
+  EXPECT_EQ(study.integrator.absolute_tolerance, integrate::IntegratorOptions{}.absolute_tolerance);
+  ASSERT_TRUE(study.sweep.has_value());
+  EXPECT_EQ(study.sweep->points, 3);
+  EXPECT_EQ(study.sweep->segments, studies::SweepOptions{}.segments);
+  const auto& stage = study.stage;
+  EXPECT_EQ(stage.boundary, gear::Boundary::fixed_ring);
+  EXPECT_EQ(stage.planet_count, 3);
+  EXPECT_EQ(stage.ring.support_N_per_m, 2e8);  // by stage_patch
+  EXPECT_EQ(stage.sun.support_N_per_m, 1.01e8);
+  EXPECT_EQ(stage.sun.teeth, 27);
+  EXPECT_EQ(stage.sun_bearing.clearance_half_um, 10);
+  EXPECT_EQ(stage.planet.damping.coefficient_Ns_per_m, 1000);
+  EXPECT_FALSE(stage.planet.damping.ratio.has_value());
+  EXPECT_EQ(stage.sun_planet_mesh.error_amplitude_um, (std::vector{8.5, 8.6, 8.7}));
+  EXPECT_EQ(stage.ring_planet_mesh.error_amplitude_um, std::vector{9.0});
+  EXPECT_EQ(stage.sun_planet_mesh.friction.coefficient->contact_ratio, 1.2);
+  EXPECT_FALSE(stage.sun_planet_mesh.friction.table.has_value());
+  ASSERT_TRUE(stage.ring_planet_mesh.friction.table.has_value());
+  EXPECT_EQ(stage.ring_planet_mesh.friction.table->moment_driven_mm[2], -0.11);
+  EXPECT_EQ(stage.ring_mesh_lead_1, 0.3023);
+  EXPECT_EQ(stage.load.power_kW, 400);
+  EXPECT_EQ(input.study_file.name, "study.json");
+  EXPECT_EQ(input.study_file.bytes, text_of(bad_inputs / "study.json"));
+  ASSERT_TRUE(input.stage_file.has_value());
+  EXPECT_EQ(input.stage_file->name, "stage.json");
+  EXPECT_EQ(input.stage_file->bytes, text_of(bad_inputs / "stage.json"));
+}
+
+TEST_F(StudyInput, SaysWhereEachResolvedValueComesFrom) {
+  const auto resolved = load({"/integrator/method=arkode-verner65", "/stage/lumped/sun/mass_kg=2"}).resolved;
+  EXPECT_EQ(resolved["integrator"]["origin"]["method"], "set: command line");
+  EXPECT_EQ(resolved["integrator"]["origin"]["absolute_tolerance"], "default");
+  EXPECT_FALSE(resolved["integrator"]["origin"].contains("relative_tolerance"));
+  EXPECT_EQ(resolved["stage"]["lumped"]["sun"]["mass_kg"], 2.0);
+  EXPECT_EQ(resolved["stage"]["lumped"]["sun"]["origin"]["mass_kg"], "set: command line");
+  EXPECT_EQ(resolved["stage"]["lumped"]["ring"]["origin"]["support_N_per_m"], "stage_patch");
+  EXPECT_EQ(resolved["stage"]["planets"]["origin"]["angles_deg"], "choice: equal");
+  EXPECT_EQ(resolved["study"]["origin"]["period_max"], "default");
+  EXPECT_FALSE(resolved.contains("stage_patch"));
+}
+
+TEST_F(StudyInput, OriginOfAnObjectCoversWhatIsInItButNoOtherFile) {
+  auto study = json::parse(text_of(bad_inputs / "study.json"));
+  study["origin"] = "choice: all of it";
+  put_file(folder / "study.json", study.dump());
+  const auto resolved = load().resolved;
+  EXPECT_EQ(resolved["integrator"]["origin"]["method"], "choice: all of it");
+  EXPECT_EQ(resolved["integrator"]["origin"]["escape_bound"], "default");
+  EXPECT_FALSE(resolved["stage"]["lumped"]["sun"]["origin"].contains("mass_kg"));
+}
+
+TEST_F(StudyInput, PatchKeepsTheOriginsThatItGives) {
+  auto study = json::parse(text_of(bad_inputs / "study.json"));
+  study["stage_patch"] = json::parse(R"({
+      "planets": {"angles_deg": null},
+      "lumped": {"sun": {"support_damping_ratio": null, "support_damping_Ns_per_m": 5, "mass_kg": 2,
+                         "origin": {"mass_kg": "estimate: weighed"}}}})");
+  put_file(folder / "study.json", study.dump());
+  const auto input = load();
+  EXPECT_TRUE(input.study.stage.angles_deg.empty());
+  EXPECT_FALSE(input.study.stage.sun.damping.ratio.has_value());
+  const auto& stage = input.resolved["stage"];
+  EXPECT_FALSE(stage["planets"]["origin"].contains("angles_deg"));
+  EXPECT_EQ(stage["lumped"]["sun"]["origin"]["support_damping_Ns_per_m"], "stage_patch");
+  EXPECT_EQ(stage["lumped"]["sun"]["origin"]["mass_kg"], "stage_patch: estimate: weighed");
+  EXPECT_EQ(reload(input.resolved).resolved, input.resolved);
+}
+
+TEST_F(StudyInput, ResolvedInputResolvesToItself) {
+  const auto once = load({"/model/gyroscopic=off", "/stage/lumped/ring/torsional_support_N_per_m=\"rigid\""}).resolved;
+  const auto twice = reload(once).resolved;
+  EXPECT_EQ(once.dump(), twice.dump());
+}
+
+TEST_F(StudyInput, AssignmentsComeAfterThePatch) {
+  EXPECT_EQ(load({"/stage/lumped/ring/support_N_per_m=3e8"}).study.stage.ring.support_N_per_m, 3e8);
+  EXPECT_EQ(load({"/stage_patch/lumped/ring/support_N_per_m=4e8"}).study.stage.ring.support_N_per_m, 4e8);
+  EXPECT_EQ(load({"/stage_patch={}"}).study.stage.ring.support_N_per_m, 1.02e8);
+  EXPECT_EQ(load({"/stage/planets/angles_deg/1=121"}).study.stage.angles_deg[1], 121);
+  EXPECT_EQ(load({"/study/directions=[\"down\"]"}).study.sweep->directions, std::vector{studies::Direction::down});
+  EXPECT_EQ(load({"/stage/name=another"}).study.stage.name, "another");
+}
+
+TEST_F(StudyInput, AssignmentNamesAnotherStageFile) {
+  auto stage = json::parse(text_of(bad_inputs / "stage.json"));
+  stage["name"] = "second";
+  fs::create_directory(folder / "below");
+  put_file(folder / "below/second.json", stage.dump());
+  const auto input = load({"/stage=below/second.json"});
+  EXPECT_EQ(input.study.stage.name, "second");
+  EXPECT_EQ(input.stage_file->name, "second.json");
+}
+
+TEST_F(StudyInput, TakesAStageFileAlone) {
+  const auto input = load_input(folder / "stage.json", sets({"/stage/lumped/sun/mass_kg=3", "/load/power_kW=1"}));
+  EXPECT_EQ(input.study.kind, "stage");
+  EXPECT_FALSE(input.study.sweep.has_value());
+  EXPECT_EQ(input.study.stage.sun.mass_kg, 3);
+  EXPECT_EQ(input.study.stage.load.power_kW, 1);
+  EXPECT_FALSE(input.stage_file.has_value());
+  EXPECT_TRUE(input.resolved.contains("lumped"));
+  EXPECT_EQ(reload(input.resolved).resolved, input.resolved);
+  EXPECT_EQ(input.with_value("/lumped/planet/bearing_N_per_m", 7).stage.planet.bearing_N_per_m, 7);
+}
+
+TEST_F(StudyInput, TakesAnInlineStage) {
+  auto study = json::parse(text_of(bad_inputs / "study.json"));
+  study["stage"] = json::parse(text_of(bad_inputs / "stage.json"));
+  put_file(folder / "inline.json", study.dump());
+  const auto input = load_input(folder / "inline.json");
+  EXPECT_FALSE(input.stage_file.has_value());
+  EXPECT_EQ(input.resolved, load().resolved);
+}
+
+TEST_F(StudyInput, ReplacesANumberByPointer) {
+  const auto input = load();
+  const auto changed = input.with_value("/stage/lumped/planet/bearing_N_per_m", 5e7);
+  EXPECT_EQ(changed.stage.planet.bearing_N_per_m, 5e7);
+  EXPECT_EQ(changed.stage.sun.mass_kg, input.study.stage.sun.mass_kg);
+  EXPECT_EQ(input.with_value("/stage/lumped/sun_planet_mesh/error_amplitude_um/2", 1)
+                .stage.sun_planet_mesh.error_amplitude_um[2],
+            1);
+  EXPECT_EQ(input.with_value("/integrator/relative_tolerance", 1e-9).integrator.relative_tolerance, 1e-9);
+  EXPECT_EQ(input.with_value("/integrator/clearance_smoothing", 0.1).model.clearance_smoothing, 0.1);
+}
+
+TEST_F(StudyInput, EveryNumberCanBeReplacedByItself) {
+  const auto input = load();
+  const auto pointers = input.number_pointers();
+  EXPECT_GT(pointers.size(), 60U);
+  for (const auto& pointer : pointers) {
+    const double value = input.resolved.at(json::json_pointer(pointer)).get<double>();
+    EXPECT_EQ(study_table().write(input.with_value(pointer, value)), study_table().write(input.study)) << pointer;
+  }
+}
+
+TEST_F(StudyInput, RefusesAValueAsStrictlyAsAFile) {
+  const auto input = load();
+  const auto message = [&](const std::string& pointer, double value) {
+    return test::message_of<InputError>([&] { (void)input.with_value(pointer, value); });
+  };
+  const auto contains = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
+  const auto mass = message("/stage/lumped/sun/mass_kg", -1);
+  EXPECT_TRUE(contains(mass, "stage.json:13: /stage/lumped/sun/mass_kg: is -1, must be > 0")) << mass;
+  const auto typo = message("/stage/lumped/sun/mas_kg", 1);
+  EXPECT_TRUE(contains(typo, "did you mean '/stage/lumped/sun/mass_kg'?")) << typo;
+  const auto teeth = message("/stage/lumped/sun/teeth", 27.5);
+  EXPECT_TRUE(contains(teeth, "is 27.5, must be an integer")) << teeth;
+  EXPECT_TRUE(contains(message("/stage/boundary", 1), "must be a number"));
+  EXPECT_TRUE(contains(message("/study/points", 5), "part of the plan"));
+  EXPECT_TRUE(contains(message("", 5), "no value"));
+  EXPECT_TRUE(contains(message("/stage/lumped/sun/mass_kg", std::nan("")), "must be a finite number"));
+}
+
+TEST_F(StudyInput, SweepOverAPointerLoads) {
+  const auto input =
+      load({"/study/parameter=/stage/lumped/planet/bearing_N_per_m", "/study/from=1e7", "/study/to=1e9"});
+  EXPECT_EQ(input.study.sweep->parameter, "/stage/lumped/planet/bearing_N_per_m");
+}
+
+TEST_F(StudyInput, TellsProblemsInTheOrderOfTheTexts) {
+  auto text = text_of(bad_inputs / "stage.json");
+  text.replace(text.find("1.654"), 5, "-1.65");
+  put_file(folder / "stage.json", text);
+  try {
+    (void)load({"/study/points=0", "/integrator/relative_tolerance=5"});
+    FAIL();
+  } catch (const InputProblems& error) {
+    ASSERT_EQ(error.problems().size(), 3U);
+    EXPECT_EQ(error.problems()[0].line, 13);
+    EXPECT_EQ(error.problems()[0].pointer, "/stage/lumped/sun/mass_kg");
+    EXPECT_EQ(error.problems()[1].line, 0);
+  }
+}
+
+TEST(Assignments, TakeJsonAndBareWords) {
+  const auto all = sets({"/a=1.5", "/a=word", "/a=\"5\"", "/a=[1,2]", "/a=true", "/a=../path.json", "/a/b=x=y"});
+  EXPECT_EQ(all[0].value, 1.5);
+  EXPECT_EQ(all[1].value, "word");
+  EXPECT_EQ(all[2].value, "5");
+  EXPECT_EQ(all[3].value, json::parse("[1,2]"));
+  EXPECT_EQ(all[4].value, true);
+  EXPECT_EQ(all[5].value, "../path.json");
+  EXPECT_EQ(all[6].value, "x=y");
+  EXPECT_EQ(all[6].pointer, "/a/b");
+}
+
+TEST(Assignments, AreAllCheckedAtOnce) {
+  try {
+    (void)sets({"/a", "/b=[1", "/c=1e999", "ok=1", "/fine=1", "/x/origin=source"});
+    FAIL();
+  } catch (const InputProblems& error) {
+    EXPECT_EQ(error.problems().size(), 5U) << error.what();
+  }
+}
+
+// ---- the inputs that come with the program
+
+TEST(Inputs, AllLoadAndResolveToThemselves) {
+  const test::TemporaryFolder folder;
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(inputs)) {
+    if (entry.path().extension() != ".json") continue;
+    SCOPED_TRACE(entry.path().string());
+    ++count;
+    const auto input = load_input(entry.path());
+    put_file(folder / "resolved.json", input.resolved.dump());
+    EXPECT_EQ(load_input(folder / "resolved.json").resolved.dump(), input.resolved.dump());
+    EXPECT_EQ(entry.path().stem().string(), input.study.name.empty() ? input.study.stage.name : input.study.name);
+  }
+  EXPECT_GE(count, 14);
+}
+
+TEST(Inputs, EveryValueOfTheCompletedStageSaysWhereItComesFrom) {
+  const auto resolved = load_input(inputs / "tang2020.json").resolved;
+  int numbers = 0;
+  const std::function<void(const json&, const std::string&)> walk = [&](const json& object, const std::string& at) {
+    for (const auto& [key, value] : object.items()) {
+      if (key == "origin" || key == "note" || key == "name" || key == "boundary") continue;
+      if (value.is_object()) {
+        walk(value, at + "/" + key);
+      } else {
+        ++numbers;
+        ASSERT_TRUE(object.contains("origin") && object["origin"].contains(key)) << at << "/" << key;
+        EXPECT_NE(object["origin"][key], "default") << at << "/" << key;
+      }
+    }
+  };
+  walk(resolved, "");
+  EXPECT_GT(numbers, 50);
+}
+
+// The bodies of the completed stage, from Table 1 and the dimensions that the origins in the file state.
+TEST(Inputs, BodiesOfTheCompletedStageFollowFromTheirDimensions) {
+  const auto stage = load_input(inputs / "tang2020.json").study.stage;
+  constexpr double digits = 1e-14;  // the file gives fifteen
+  constexpr double pi = 3.14159265358979323846, degree = pi / 180;
+  const auto near = [&](double value, double expected, const char* what) {
+    EXPECT_NEAR(value, expected, digits * expected) << what;
+  };
+
+  const double module = 2.63, angle = 25 * degree, shift_s = 0.623, shift_p = 0.775;
+  const auto involute = [](double a) { return std::tan(a) - a; };
+  const double wanted = involute(angle) + 2 * (shift_s + shift_p) / (27 + 25) * std::tan(angle);
+  double working = 30 * degree;
+  for (int i = 0; i < 50; ++i) working -= (involute(working) - wanted) / std::pow(std::tan(working), 2);
+  const double r_bs = module * 27 / 2 * std::cos(angle), r_bp = module * 25 / 2 * std::cos(angle);
+  const double r_br = r_bp * 81 / 25, r_c = (r_bs + r_bp) / std::cos(working);
+  near(*stage.sun.base_radius_mm, r_bs, "r_bs");
+  near(*stage.planet.base_radius_mm, r_bp, "r_bp");
+  near(*stage.ring.base_radius_mm, r_br, "r_br");
+  near(*stage.centre_distance_mm, r_c, "r_c");
+
+  // Mean of tip and root radius; tips of sun and planet shortened so that 0.25 modules of clearance remain.
+  const double shortening = shift_s + shift_p - (r_c / module - 26);
+  const auto external = [&](double z, double x) { return module * (z / 2 + (1 + x - shortening - (1.25 - x)) / 2); };
+  const double ring_module = module * std::cos(angle) / std::cos(22.3 * degree);
+  const double ring_body = ring_module * (81.0 / 2 + 2.25 / 2);
+  struct Body {
+    double mass, inertia;
+  };
+  const auto cylinder = [&](double outer_mm, double inner_mm, double length_mm) {
+    const double mass = 7850 * pi * (outer_mm * outer_mm - inner_mm * inner_mm) * length_mm * 1e-9;
+    return Body{mass, mass * (outer_mm * outer_mm + inner_mm * inner_mm) / 2};  // [kg], [kg mm^2]
+  };
+  const Body sun = cylinder(external(27, shift_s), 15, 60), planet = cylinder(external(25, shift_p), 22, 60);
+  const Body ring = cylinder(120, ring_body, 60), cheeks = cylinder(97, 35, 30), pin = cylinder(15, 0, 90);
+  near(stage.sun.mass_kg, sun.mass, "M_s");
+  near(stage.planet.mass_kg, planet.mass, "M_p");
+  near(stage.ring.mass_kg, ring.mass, "M_r");
+  near(stage.carrier.mass_kg, cheeks.mass + 3 * pin.mass, "M_c");
+  near(stage.sun.inertia_over_r2_kg, sun.inertia / (r_bs * r_bs), "I_s");
+  near(stage.planet.inertia_over_r2_kg, planet.inertia / (r_bp * r_bp), "I_p");
+  near(stage.ring.inertia_over_r2_kg, ring.inertia / (r_br * r_br), "I_r");
+  near(stage.carrier.inertia_over_r2_kg, cheeks.inertia / (r_c * r_c) + 3 * pin.mass, "I_c");
+}
+
+// ---- bad inputs: the cases that the command is tested with too
+
+std::string unescaped(const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '\\' || i + 1 >= text.size()) {
+      result += text[i];
+      continue;
+    }
+    const char c = text[++i];
+    if (c == 'n') {
+      result += '\n';
+    } else if (c == '0') {
+      result += '\0';
+    } else if (c == 'x') {
+      result += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
+      i += 2;
+    } else {
+      ADD_FAILURE() << "unknown escape in " << text;
+    }
+  }
+  return result;
+}
+
+struct BadInput {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> steps;
+  std::size_t lines = 1;
+};
+
+std::vector<BadInput> bad_input_cases() {
+  std::vector<BadInput> cases;
+  std::istringstream file(text_of(bad_inputs / "cases.txt"));
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    const auto space = line.find(' ');
+    const std::string verb = line.substr(0, space);
+    const std::string rest = space == std::string::npos ? "" : line.substr(space + 1);
+    if (verb == "case") {
+      cases.push_back({rest, {}, 1});
+    } else if (verb == "lines") {
+      cases.back().lines = std::stoul(rest);
+    } else {
+      cases.back().steps.emplace_back(verb, rest);
+    }
+  }
+  return cases;
+}
+
+TEST(BadInputs, AreRefusedWithAClearMessage) {
+  const auto cases = bad_input_cases();
+  EXPECT_GE(cases.size(), 100U);
+  for (const auto& bad : cases) {
+    SCOPED_TRACE(bad.name);
+    const test::TemporaryFolder folder;
+    std::map<std::string, std::string> text = {{"study", text_of(bad_inputs / "study.json")},
+                                               {"stage", text_of(bad_inputs / "stage.json")}};
+    std::string input = "study.json";
+    std::vector<std::string> assignments, expected;
+    for (const auto& [verb, rest] : bad.steps) {
+      const std::string file = verb.substr(0, 5);
+      if (verb == "study" || verb == "stage") {
+        const auto arrow = rest.find(" => ");
+        ASSERT_NE(arrow, std::string::npos);
+        const auto at = text[file].find(rest.substr(0, arrow));
+        ASSERT_NE(at, std::string::npos) << rest;
+        text[file].replace(at, arrow, unescaped(rest.substr(arrow + 4)));
+      } else if (verb == "study_is" || verb == "stage_is") {
+        text[file] = unescaped(rest);
+      } else if (verb == "study_cut" || verb == "stage_cut") {
+        const auto at = text[file].find(rest);
+        ASSERT_NE(at, std::string::npos) << rest;
+        text[file].erase(at + rest.size());
+      } else if (verb == "input") {
+        input = rest;
+      } else if (verb == "set") {
+        assignments.push_back(rest);
+      } else if (verb == "expect") {
+        expected.push_back(rest);
+      } else {
+        FAIL() << "unknown verb " << verb;
+      }
+    }
+    EXPECT_FALSE(expected.empty());
+    put_file(folder / "study.json", text["study"]);
+    put_file(folder / "stage.json", text["stage"]);
+    try {
+      (void)load_input(folder / input, parse_assignments(assignments));
+      ADD_FAILURE() << "accepted";
+    } catch (const InputProblems& error) {
+      const std::string message = error.what();
+      for (const auto& part : expected)
+        EXPECT_NE(message.find(part), std::string::npos) << part << "\n in: " << message;
+      EXPECT_EQ(error.problems().size(), bad.lines) << message;
+    }
+  }
+}
+
+// Never a crash, a hang or another exception, whatever a byte is changed to.
+TEST(BadInputs, DamagedFilesGiveProblemsOnly) {
+  const test::TemporaryFolder folder;
+  const auto stage = text_of(bad_inputs / "stage.json");
+  put_file(folder / "study.json", text_of(bad_inputs / "study.json"));
+  std::size_t refused = 0;
+  constexpr std::string_view bytes = "{}[]\",:0-eN ";
+  for (std::size_t at = 0; at < stage.size(); at += 7) {
+    auto damaged = stage;
+    damaged[at] = bytes[at % bytes.size()];
+    put_file(folder / "stage.json", damaged);
+    try {
+      (void)load_input(folder / "study.json");
+    } catch (const InputProblems& error) {
+      ++refused;
+      EXPECT_FALSE(error.problems().empty());
+    }
+  }
+  EXPECT_GT(refused, 200U);
+}
+
+// ---- the schema says what the reader does
+
+class SchemaAndReader : public ::testing::Test {
+ protected:
+  SchemaAndReader() : schema(json::parse(schema_text())) { whole = load_input(bad_inputs / "study.json").resolved; }
+
+  [[nodiscard]] static std::vector<Finding> read(const json& value) {
+    ReadContext context;
+    Study study;
+    study_table().read(value, "", study, context);
+    return context.findings;
+  }
+  [[nodiscard]] static bool found(const json& value, const std::string& pointer, Finding::Kind kind,
+                                  const std::string& part = "") {
+    for (const auto& finding : read(value))
+      if (finding.pointer == pointer && finding.kind == kind && finding.message.find(part) != std::string::npos)
+        return true;
+    return false;
+  }
+  [[nodiscard]] static bool any_at(const json& value, const std::string& pointer) {
+    for (const auto& finding : read(value))
+      if (finding.pointer == pointer && finding.message.find("beside it") == std::string::npos) return true;
+    return false;
+  }
+  [[nodiscard]] json with(const std::string& pointer, const json& value) const {
+    json changed = whole;
+    changed[json::json_pointer(pointer)] = value;
+    return changed;
+  }
+
+  void check_number(const json& number, const std::string& pointer, const std::string& in) {
+    const bool integer = number["type"] == "integer";
+    const auto outside = [&](double bound, bool excluded, double direction) {
+      if (excluded) return bound;
+      return integer ? bound + direction : std::nextafter(bound, direction * 2e300 + bound);
+    };
+    const auto inside = [&](double bound, bool excluded, double direction) {
+      if (!excluded) return bound;
+      return integer ? bound - direction : std::nextafter(bound, -direction * 2e300 + bound);
+    };
+    const auto place = [&](double value) {
+      json changed = whole;
+      if (pointer == in) {
+        changed[json::json_pointer(in)] = value;
+      } else {  // an element of an array: all elements the same, as many as the least
+        changed[json::json_pointer(in)] = std::vector<double>(array_size, value);
+      }
+      return changed;
+    };
+    for (const auto& [name, direction, excluded] : {std::tuple("minimum", -1.0, false),
+                                                    {"exclusiveMinimum", -1.0, true},
+                                                    {"maximum", 1.0, false},
+                                                    {"exclusiveMaximum", 1.0, true}}) {
+      if (!number.contains(name)) continue;
+      ++bounds;
+      const double bound = number[name].get<double>();
+      EXPECT_TRUE(found(place(outside(bound, excluded, direction)), pointer, Finding::Kind::range, number_text(bound)))
+          << pointer << " " << name;
+      EXPECT_FALSE(any_at(place(inside(bound, excluded, direction)), pointer)) << pointer << " " << name;
+    }
+    if (integer) {
+      EXPECT_TRUE(found(place(3.5), pointer, Finding::Kind::type)) << pointer;
+    }
+    EXPECT_TRUE(number.contains("minimum") || number.contains("exclusiveMinimum")) << pointer << " has no lower bound";
+  }
+
+  void check_array(const json& array, const std::string& pointer) {
+    if (array["items"].contains("enum")) {
+      EXPECT_TRUE(found(with(pointer, json::array()), pointer, Finding::Kind::type));
+      check_value(array["items"], pointer, {"up"});
+      return;
+    }
+    const auto least = array["minItems"].get<std::size_t>(), most = array["maxItems"].get<std::size_t>();
+    const double middle = 0.5;
+    if (least > 0) {
+      EXPECT_TRUE(found(with(pointer, std::vector<double>(least - 1, middle)), pointer, Finding::Kind::range))
+          << pointer;
+    }
+    EXPECT_TRUE(found(with(pointer, std::vector<double>(most + 1, middle)), pointer, Finding::Kind::range)) << pointer;
+    EXPECT_FALSE(any_at(with(pointer, std::vector<double>(most, middle)), pointer)) << pointer;
+    array_size = std::max<std::size_t>(1, least);
+    check_number(array["items"], pointer + "/0", pointer);
+  }
+
+  void check_value(const json& value, const std::string& pointer, const json& element = json()) {
+    if (value.contains("enum")) {
+      for (const auto& name : value["enum"])
+        EXPECT_FALSE(any_at(with(pointer, element.is_null() ? name : json::array({name})), pointer)) << pointer;
+      const std::string place = element.is_null() ? pointer : pointer + "/0";
+      EXPECT_TRUE(
+          found(with(pointer, element.is_null() ? json("zzz") : json::array({"zzz"})), place, Finding::Kind::range))
+          << pointer;
+    } else if (value.contains("const")) {
+      EXPECT_FALSE(any_at(with(pointer, value["const"]), pointer)) << pointer;
+    } else if (value["type"] == "array") {
+      check_array(value, pointer);
+    } else if (value["type"] == "string") {
+      EXPECT_TRUE(found(with(pointer, 5), pointer, Finding::Kind::type)) << pointer;
+      EXPECT_FALSE(any_at(with(pointer, "text"), pointer)) << pointer;
+    } else {
+      check_number(value, pointer, pointer);
+    }
+  }
+
+  void check_property(const std::string& key, const json& property, const std::string& pointer) {
+    if (key == "origin" || key == "stage_patch") return;  // read by the loader
+    ++properties;
+    if (key == "note") {
+      EXPECT_TRUE(found(with(pointer, 5), pointer, Finding::Kind::type)) << pointer;
+    } else if (pointer == "/stage") {
+      EXPECT_EQ(property["anyOf"][1]["$ref"], "#/$defs/stage");
+      check_object(schema["$defs"]["stage"], pointer);
+    } else if (property.contains("properties")) {
+      check_object(property, pointer);
+    } else if (property.contains("anyOf")) {
+      for (const auto& alternative : property["anyOf"]) check_value(alternative, pointer);
+    } else {
+      check_value(property, pointer);
+    }
+  }
+
+  void check_object(const json& object, const std::string& pointer) {
+    ++objects;
+    EXPECT_EQ(object["additionalProperties"], false) << pointer;
+    const std::string unknown = pointer + "/zzz";
+    EXPECT_TRUE(found(with(unknown, 1), unknown, Finding::Kind::unknown_key)) << pointer;
+    EXPECT_TRUE(found(with(pointer, 1), pointer, Finding::Kind::type)) << pointer;
+    const std::vector<std::string> required = object.value("required", std::vector<std::string>{});
+    for (const auto& [key, property] : object["properties"].items()) {
+      const std::string place = pointer + "/" + key;
+      const bool is_required = std::find(required.begin(), required.end(), key) != required.end();
+      json without = with(place, 1);
+      without[json::json_pointer(pointer)].erase(key);
+      EXPECT_EQ(found(without, place, Finding::Kind::missing_key), is_required) << place;
+      EXPECT_TRUE(property.contains("description") || key == "origin") << place;
+      check_property(key, property, place);
+    }
+    for (const auto& key : required) EXPECT_TRUE(object["properties"].contains(key)) << pointer << "/" << key;
+  }
+
+  json schema, whole;
+  std::size_t array_size = 1;
+  int properties = 0, objects = 0, bounds = 0;
+};
+
+TEST_F(SchemaAndReader, AgreeOnEveryKeyRequirementAndBound) {
+  ASSERT_TRUE(read(whole).empty());
+  check_object(schema["$defs"]["study"], "");
+  EXPECT_GT(objects, 18);
+  EXPECT_GT(properties, 100);
+  EXPECT_GT(bounds, 120);
+}
+
+TEST_F(SchemaAndReader, AgreeOnMethodsAndOrigins) {
+  const auto& method = schema["$defs"]["study"]["properties"]["integrator"]["properties"]["method"];
+  EXPECT_EQ(method["enum"], json(integrate::arkode_method_names()));
+  EXPECT_EQ(method["default"], integrate::IntegratorOptions{}.method);
+  const std::string pattern = schema["$defs"]["origin"]["anyOf"][0]["pattern"];
+  for (const auto word : origin_words) EXPECT_NE(pattern.find(word), std::string::npos);
+  EXPECT_EQ(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
+  EXPECT_EQ(schema["anyOf"], json::parse(R"([{"$ref": "#/$defs/study"}, {"$ref": "#/$defs/stage"}])"));
+}
+
+TEST_F(SchemaAndReader, EveryKeyThatIsWrittenIsInTheSchema) {
+  const std::function<void(const json&, const json&, const std::string&)> walk = [&](const json& value, const json& at,
+                                                                                     const std::string& pointer) {
+    for (const auto& [key, child] : value.items()) {
+      ASSERT_TRUE(at["properties"].contains(key)) << pointer << "/" << key;
+      if (!child.is_object() || key == "origin") continue;
+      walk(child, pointer.empty() && key == "stage" ? schema["$defs"]["stage"] : at["properties"][key],
+           pointer + "/" + key);
+    }
+  };
+  walk(whole, schema["$defs"]["study"], "");
+}
+
+}  // namespace
+}  // namespace epicyclic::io

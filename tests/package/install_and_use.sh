@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# install_and_use.sh BUILD_DIR PACKAGE_DIR GENERATOR CXX CXX_FLAGS
+#
+# Installs BUILD_DIR into a temporary prefix, then configures, builds and runs the program in PACKAGE_DIR against it,
+# with the generator, compiler and flags of the build (a library built with a sanitizer needs a program built with it).
+set -euo pipefail
+
+build_dir=$1
+package_dir=$2
+generator=$3
+cxx=$4
+cxx_flags=$5
+
+temporary=$(mktemp -d)
+trap 'rm -rf "$temporary"' EXIT
+
+cmake --install "$build_dir" --prefix "$temporary/prefix" >"$temporary/log"
+cmake -G "$generator" -S "$package_dir" -B "$temporary/build" -D CMAKE_PREFIX_PATH="$temporary/prefix" \
+  -D CMAKE_CXX_COMPILER="$cxx" -D CMAKE_CXX_FLAGS="$cxx_flags" -D CMAKE_FIND_USE_PACKAGE_REGISTRY=OFF
+cmake --build "$temporary/build"
+"$temporary/build/outside_program"
