@@ -13,4 +13,4 @@ find_dependency(ZLIB)
 
 # Not FindHDF5: it wants a C compiler and may answer with an MPI flavour. Debian names the serial one hdf5-serial.
 find_dependency(PkgConfig)
-pkg_search_module(EPICYCLIC_HDF5 REQUIRED QUIET IMPORTED_TARGET hdf5-serial hdf5)
+pkg_search_module(EPICYCLIC_HDF5 REQUIRED QUIET IMPORTED_TARGET GLOBAL hdf5-serial hdf5)

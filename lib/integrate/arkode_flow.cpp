@@ -231,6 +231,6 @@ std::unique_ptr<Flow> make_arkode_fixed_step_flow(VectorField field, const Integ
   return std::make_unique<ArkodeFlow>(std::move(field), options, step);
 }
 
-std::string arkode_version() { return std::string("SUNDIALS ") + SUNDIALS_VERSION; }
+std::string arkode_version() { return SUNDIALS_VERSION; }
 
 }  // namespace epicyclic::integrate

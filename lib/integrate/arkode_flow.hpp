@@ -23,7 +23,7 @@ namespace epicyclic::integrate {
 [[nodiscard]] std::unique_ptr<Flow> make_arkode_fixed_step_flow(VectorField field, const IntegratorOptions& options,
                                                                 double step);
 
-/// Version text of the library, e.g. "SUNDIALS 6.4.1".
+/// Version of SUNDIALS, e.g. "6.4.1".
 [[nodiscard]] std::string arkode_version();
 
 }  // namespace epicyclic::integrate

@@ -29,12 +29,11 @@ double per_planet(const std::vector<double>& values, std::size_t i) {
   return values.size() == 1 ? values[0] : values[i];
 }
 
-/// @param turns_per_radian  mesh phase of a planet at angle phi, over 2 pi, per (phi - phi_1) / 2 pi: -z_s or +z_r
+/// Completes a mesh whose sines and cosines stand already.
+/// @param mesh_cycles  mesh phase of a planet per turn of its angle: -z_s or +z_r
 template <std::size_t N>
-MeshParameters<double, N> make_mesh(const gear::Mesh& mesh, const std::vector<double>& angles_deg, double alpha,
-                                    double angle_sign, int mesh_cycles, double lead, double effective_mass,
-                                    const Scales& scales) {
-  MeshParameters<double, N> m;
+void fill_mesh(MeshParameters<double, N>& m, const gear::Mesh& mesh, const std::vector<double>& angles_deg,
+               int mesh_cycles, double lead, double effective_mass, const Scales& scales) {
   m.half_gap = scales.displacement(mesh.backlash_half_um * 1e-6);
   m.stiffness = scales.stiffness(mesh.stiffness_N_per_m);
   m.damping =
@@ -43,9 +42,6 @@ MeshParameters<double, N> make_mesh(const gear::Mesh& mesh, const std::vector<do
   m.stiffness_cos.resize(m.harmonics);
   m.stiffness_sin.resize(m.harmonics);
   for (std::size_t i = 0; i < N; ++i) {
-    const double phi = alpha + angle_sign * angles_deg[i] * radian;
-    m.sine[i] = std::sin(phi);
-    m.cosine[i] = std::cos(phi);
     m.turns[i] = wrapped(mesh_cycles * (angles_deg[i] - angles_deg[0]) / 360.0 + lead);
     for (std::size_t h = 0; h < m.harmonics; ++h) {
       // A cos h(s + psi) + B sin h(s + psi), psi = 2 pi turns
@@ -60,7 +56,6 @@ MeshParameters<double, N> make_mesh(const gear::Mesh& mesh, const std::vector<do
     m.error_cos[i] = amplitude * std::sin(theta);
     m.error_sin[i] = amplitude * std::cos(theta);
   }
-  return m;
 }
 
 /// @param lead  what turns the common phase of a given table into the mesh's own phase; a path has its own phase
@@ -123,10 +118,28 @@ GyroscopicForm gyroscopic_form(gear::Boundary boundary, Gyroscopic wanted) {
 }  // namespace
 
 template <std::size_t N>
+Parameters<double, N> make_geometry(const gear::Stage& stage) {
+  const gear::PressureAngles alpha = gear::pressure_angles(stage);
+  const std::vector<double> angles = stage.planet_angles_deg();
+  Parameters<double, N> p;
+  p.cos_alpha_sp = std::cos(alpha.sun_planet);
+  p.cos_alpha_rp = std::cos(alpha.ring_planet);
+  for (std::size_t i = 0; i < N; ++i) {
+    const double phi = angles[i] * radian;
+    p.sin_phi[i] = std::sin(phi);
+    p.cos_phi[i] = std::cos(phi);
+    p.sun_planet.sine[i] = std::sin(alpha.sun_planet - phi);
+    p.sun_planet.cosine[i] = std::cos(alpha.sun_planet - phi);
+    p.ring_planet.sine[i] = std::sin(alpha.ring_planet + phi);
+    p.ring_planet.cosine[i] = std::cos(alpha.ring_planet + phi);
+  }
+  return p;
+}
+
+template <std::size_t N>
 Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& scales, double mesh_frequency_ratio,
                                       const ModelOptions& options) {
   const double mesh_frequency = mesh_frequency_ratio * scales.omega_sn;
-  const gear::PressureAngles alpha = gear::pressure_angles(stage);
   const std::vector<double> angles = stage.planet_angles_deg();
   const auto reduced = [](double a, double b) { return 1.0 / (1.0 / a + 1.0 / b); };
   const auto ratio = [&](double kg) { return scales.mass_ratio(kg); };
@@ -141,14 +154,8 @@ Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& sc
     return scales.damping(m.damping.of(m.torsional_support_N_per_m, m.inertia_over_r2_kg));
   };
 
-  Parameters<double, N> p;
+  Parameters<double, N> p = make_geometry<N>(stage);
   p.omega = mesh_frequency_ratio;
-  for (std::size_t i = 0; i < N; ++i) {
-    p.sin_phi[i] = std::sin(angles[i] * radian);
-    p.cos_phi[i] = std::cos(angles[i] * radian);
-  }
-  p.cos_alpha_sp = std::cos(alpha.sun_planet);
-  p.cos_alpha_rp = std::cos(alpha.ring_planet);
   p.mass_s = ratio(stage.sun.mass_kg);
   p.mass_p = ratio(stage.planet.mass_kg);
   p.mass_r = ratio(stage.ring.mass_kg);
@@ -183,10 +190,9 @@ Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& sc
   const double m_s = stage.sun.inertia_over_r2_kg;
   const double m_p = stage.planet.inertia_over_r2_kg;
   const double m_r = stage.ring.inertia_over_r2_kg;
-  p.sun_planet = make_mesh<N>(stage.sun_planet_mesh, angles, alpha.sun_planet, -1.0, -*stage.sun.teeth, 0.0,
-                              reduced(m_s, m_p), scales);
-  p.ring_planet = make_mesh<N>(stage.ring_planet_mesh, angles, alpha.ring_planet, 1.0, *stage.ring.teeth,
-                               stage.ring_mesh_lead_1, reduced(m_p, m_r), scales);
+  fill_mesh(p.sun_planet, stage.sun_planet_mesh, angles, -*stage.sun.teeth, 0.0, reduced(m_s, m_p), scales);
+  fill_mesh(p.ring_planet, stage.ring_planet_mesh, angles, *stage.ring.teeth, stage.ring_mesh_lead_1, reduced(m_p, m_r),
+            scales);
   p.sun_planet.friction = make_track(stage.sun_planet_mesh.friction, stage, gear::sun_planet_line, 0.0,
                                      *stage.sun.base_radius_mm, *stage.planet.base_radius_mm);
   p.ring_planet.friction = make_track(stage.ring_planet_mesh.friction, stage, gear::ring_planet_line,
@@ -203,10 +209,14 @@ Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& sc
   return p;
 }
 
-template Parameters<double, 2> make_parameters<2>(const gear::Stage&, const Scales&, double, const ModelOptions&);
-template Parameters<double, 3> make_parameters<3>(const gear::Stage&, const Scales&, double, const ModelOptions&);
-template Parameters<double, 4> make_parameters<4>(const gear::Stage&, const Scales&, double, const ModelOptions&);
-template Parameters<double, 5> make_parameters<5>(const gear::Stage&, const Scales&, double, const ModelOptions&);
-template Parameters<double, 6> make_parameters<6>(const gear::Stage&, const Scales&, double, const ModelOptions&);
+#define EPICYCLIC_INSTANTIATE(N)                                       \
+  template Parameters<double, N> make_geometry<N>(const gear::Stage&); \
+  template Parameters<double, N> make_parameters<N>(const gear::Stage&, const Scales&, double, const ModelOptions&);
+EPICYCLIC_INSTANTIATE(2)
+EPICYCLIC_INSTANTIATE(3)
+EPICYCLIC_INSTANTIATE(4)
+EPICYCLIC_INSTANTIATE(5)
+EPICYCLIC_INSTANTIATE(6)
+#undef EPICYCLIC_INSTANTIATE
 
 }  // namespace epicyclic::model

@@ -72,6 +72,12 @@ struct Parameters {
   std::vector<Segment<N>> segments;  ///< segment k follows breakpoint k (the last one wraps); one if no breakpoint
 };
 
+/// Sines and cosines only: what deflections() of model/right_hand_side.hpp needs.
+///
+/// @param stage  passes gear::problems_for_modes()
+template <std::size_t N>
+[[nodiscard]] Parameters<double, N> make_geometry(const gear::Stage& stage);
+
 /// Folds a stage at one operating point.
 ///
 /// @param stage   passes gear::problems_for_motion()

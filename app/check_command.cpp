@@ -1,0 +1,30 @@
+// epicyclic check: validates, prints the resolved input on stdout and its cost on stderr; writes nothing.
+
+#include <cstdio>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "io/study_model.hpp"
+
+namespace epicyclic::app {
+
+int check_command(const Arguments& arguments) {
+  const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
+  if (!input.study.sweep) {
+    fmt::print("{}\n", input.resolved.dump(2));
+    fmt::print(stderr, "{}: a stage; modes only, no integration\n", arguments.input.string());
+    return done;
+  }
+  const io::Cost cost = io::estimate_cost(input);
+  fmt::print("{}\n", input.resolved.dump(2));
+  fmt::print(stderr,
+             "{}: valid\n"
+             "cost: {} points in {} chains, {} mesh periods, {} state variables, about {:.2g} right-hand sides\n",
+             arguments.input.string(), cost.points, cost.chains, cost.mesh_periods, cost.dimension,
+             cost.rhs_evaluations());
+  return done;
+}
+
+}  // namespace epicyclic::app

@@ -1,0 +1,38 @@
+// The subcommands. Each returns the exit code of architecture section 5.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace epicyclic::app {
+
+enum ExitCode : int {
+  done = 0,
+  done_with_failures = 1,
+  bad_input = 2,
+  other_study = 3,
+  folder_in_use = 4,
+  output_failed = 5,
+  damaged_data = 7,
+  bug = 70,
+  stopped_early = 75,
+};
+
+/// What the command line gives to a subcommand.
+struct Arguments {
+  std::filesystem::path input;
+  std::filesystem::path output;
+  std::vector<std::string> sets;
+  int threads = 1;
+  bool json = false;
+};
+
+int sweep_command(const Arguments& arguments);
+int gear_command(const Arguments& arguments);
+int check_command(const Arguments& arguments);
+
+/// version, commit, dependencies, SIMD in use
+[[nodiscard]] std::string version_text();
+
+}  // namespace epicyclic::app

@@ -1,0 +1,71 @@
+#include "folder.hpp"
+
+#include <array>
+#include <cstdio>
+#include <string_view>
+
+#include <fmt/core.h>
+
+#include "core/version.hpp"
+#include "io/atomic_file.hpp"
+#include "io/versions.hpp"
+
+namespace epicyclic::app {
+
+namespace {
+
+// Names that the program writes itself: a stage file of such a name is stored under another.
+constexpr std::array<std::string_view, 7> own_names = {
+    "run.json", "input.json", "input.resolved.json", "journal.bin", "points.csv", "poincare.csv", "results.h5"};
+
+std::string stage_copy_name(const std::string& name) {
+  for (const auto own : own_names)
+    if (name == own) return "stage." + name;
+  return name;
+}
+
+}  // namespace
+
+io::Provenance provenance(int threads) {
+  io::Provenance p = io::begin_provenance();
+  p.library_version = EPICYCLIC_VERSION;
+  p.commit = EPICYCLIC_COMMIT;
+  p.dependencies = io::dependency_versions();
+  p.simd_level = io::simd_level();
+  p.threads = threads;
+  return p;
+}
+
+std::optional<int> refuse_or_finish(const io::OutputFolder& folder) {
+  const std::string where = folder.path().string();
+  switch (folder.outcome()) {
+    case io::FolderOutcome::complete:
+      fmt::print(stderr, "{}: this study is complete already; nothing to compute\n", where);
+      return done;
+    case io::FolderOutcome::other_study:
+      fmt::print(stderr, "{}: holds another study (its input or the numerics version differs); choose another -o\n",
+                 where);
+      return other_study;
+    case io::FolderOutcome::foreign:
+      fmt::print(stderr, "{}: holds files that are not a study's; choose an empty or new folder for -o\n", where);
+      return other_study;
+    case io::FolderOutcome::in_use:
+      fmt::print(stderr, "{}: is in use by another process\n", where);
+      return folder_in_use;
+    case io::FolderOutcome::fresh:
+    case io::FolderOutcome::resumable:
+      return std::nullopt;
+  }
+  return bug;
+}
+
+std::string write_inputs(const io::OutputFolder& folder, const io::LoadedInput& input) {
+  std::string resolved = input.resolved.dump(2) + "\n";
+  io::write_file_atomically(folder.file("input.json"), input.study_file.bytes);
+  if (input.stage_file)
+    io::write_file_atomically(folder.file(stage_copy_name(input.stage_file->name)), input.stage_file->bytes);
+  io::write_file_atomically(folder.file("input.resolved.json"), resolved);
+  return resolved;
+}
+
+}  // namespace epicyclic::app

@@ -1,0 +1,124 @@
+// epicyclic sweep: computes what is missing, journals each point, then writes tables, HDF5 and figures.
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "core/errors.hpp"
+#include "folder.hpp"
+#include "io/journal.hpp"
+#include "io/progress.hpp"
+#include "io/study_model.hpp"
+#include "io/sweep_output.hpp"
+
+namespace epicyclic::app {
+
+namespace {
+
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "the signal handler may only touch lock-free atomics");
+
+void request_stop(int /*signal*/) { stop_requested = true; }
+
+bool computed(const studies::PointResult& r) { return r.outcome == integrate::Outcome::reached; }
+
+/// Points of earlier sessions, from the journal.
+std::map<std::size_t, studies::PointResult> known_points(io::Journal& journal, const studies::SweepPlan& plan) {
+  std::map<std::size_t, studies::PointResult> known;
+  for (const io::JournalRecord& record : journal.take_records()) {
+    studies::PointResult result = io::decode_point(record.payload);
+    if (result.point.index >= plan.points.size() || result.point.index != record.point)
+      throw io::DamagedData("the journal holds point " + std::to_string(record.point) + ", which the study has not");
+    known.insert_or_assign(result.point.index, std::move(result));
+  }
+  return known;
+}
+
+}  // namespace
+
+int sweep_command(const Arguments& arguments) {
+  const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
+  if (!input.study.sweep)
+    throw InputError(arguments.input.string() + ": is a stage without a study; sweep needs a study of kind sweep");
+  const studies::SweepOptions& sweep = *input.study.sweep;
+  const studies::SweepPlan plan = studies::plan_sweep(sweep);
+  const studies::ModelAt model_at = io::model_at(input);
+  // Options that do not fit show here, before anything is written.
+  const model::DynamicModel first_model = model_at(plan.points.front().value);
+
+  const io::OutputFolder folder(arguments.output, io::identity(input, "sweep"));
+  if (const auto code = refuse_or_finish(folder)) return *code;
+  io::Provenance facts = provenance(arguments.threads);
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGTERM, request_stop);
+  const std::string resolved = write_inputs(folder, input);
+  folder.write_run(io::RunState::running, io::run_facts(facts));
+
+  io::Journal journal(folder.file("journal.bin"), io::identity(input, "sweep"));
+  studies::SweepRun run;
+  run.threads = arguments.threads;
+  run.stop = &stop_requested;
+  run.done = known_points(journal, plan);
+  std::size_t finished = run.done.size();
+  std::size_t failed = 0;
+  for (const auto& [index, result] : run.done) failed += computed(result) ? 0 : 1;
+  if (finished > 0)
+    fmt::print(stderr, "{}: {} of {} points were there already\n", folder.path().string(), finished,
+               plan.points.size());
+
+  io::Progress progress("sweep", plan.points.size(), finished);
+  run.point_finished = [&](const studies::PointResult& result) {
+    journal.append(result.point.index, io::encode_point(result));
+    failed += computed(result) ? 0 : 1;
+    progress.update(++finished, failed);
+  };
+  const std::vector<studies::PointResult> results =
+      studies::run_sweep(plan, sweep, input.study.integrator, model_at, std::move(run));
+  progress.finish();
+  journal.close();
+
+  const auto close_run = [&](io::RunState state) {
+    facts.ended = io::utc_now();
+    facts.counts = {{"points", static_cast<std::int64_t>(plan.points.size())},
+                    {"computed", static_cast<std::int64_t>(results.size())},
+                    {"failed", static_cast<std::int64_t>(failed)}};
+    folder.write_run(state, io::run_facts(facts));
+  };
+  if (results.size() < plan.points.size()) {
+    close_run(io::RunState::stopped);
+    fmt::print(stderr, "stopped after {} of {} points; the same command goes on\n", results.size(), plan.points.size());
+    return stopped_early;
+  }
+
+  const io::SweepOutput output{sweep, studies::poincare_columns(first_model), resolved,
+                               input.study.name.empty() ? input.study.stage.name : input.study.name};
+  io::write_points_csv(folder.file("points.csv"), results);
+  io::write_poincare_csv(folder.file("poincare.csv"), output, results);
+  io::write_results_h5(folder.file("results.h5"), output, results);
+  const std::vector<io::DrawnFigure> figures = io::draw_sweep_figures(folder.file("figures"), output, results);
+  close_run(io::RunState::complete);
+
+  nlohmann::json summary = {{"folder", folder.path().string()},
+                            {"points", plan.points.size()},
+                            {"failed", failed},
+                            {"figures", nlohmann::json::array()}};
+  for (const io::DrawnFigure& figure : figures) {
+    if (figure.outcome.drawn())
+      summary["figures"].push_back(figure.png.string());
+    else
+      fmt::print(stderr, "{} was not drawn: {}\n", figure.png.string(), figure.outcome.message);
+  }
+  if (arguments.json) {
+    fmt::print("{}\n", summary.dump(2));
+  } else {
+    fmt::print("{} points, {} failed, in {}\n", plan.points.size(), failed, folder.path().string());
+    for (const auto& figure : summary["figures"]) fmt::print("figure: {}\n", figure.get<std::string>());
+  }
+  return failed == 0 ? done : done_with_failures;
+}
+
+}  // namespace epicyclic::app

@@ -1,0 +1,61 @@
+// Stroboscopic Poincare section of a periodically forced flow, and the period of the motion by recurrence.
+//
+//   y_k = phi(s_0 -> s_0 + k T)(y_0) ,  T the period of the forcing
+//   period n:  the least n with  max_k max_j | y_{k+n,j} - y_{k,j} | <= epsilon  over the whole record        [A-rec]
+//
+// Limits: recurrence can prove that a motion repeats to within epsilon over the record, nothing else. A motion that
+// does not repeat may be chaotic, quasiperiodic, of a longer period, or still settling. Smoothness: none needed; the
+// section is stepped onto, not interpolated.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "integrate/flow.hpp"
+
+namespace epicyclic::analysis {
+
+/// Points of a section, row by row.
+struct PoincareSection {
+  std::size_t dimension = 0;
+  std::vector<double> states;  ///< size() x dimension
+
+  [[nodiscard]] std::size_t size() const { return dimension == 0 ? 0 : states.size() / dimension; }
+  [[nodiscard]] std::span<const double> point(std::size_t k) const {
+    return {states.data() + k * dimension, dimension};
+  }
+};
+
+struct StrobeOptions {
+  int transient_periods = 300;
+  int recorded_periods = 128;
+  int phases = 64;  ///< dense output points per recorded period; their number does not change the section
+};
+
+struct Strobe {
+  integrate::Evolution evolution;  ///< how it ended; the section holds the points until then
+  PoincareSection section;         ///< after each recorded period
+};
+
+/// Carries `state` over the transient, then records.
+///
+/// @param state     replaced by the last state
+/// @param observer  sees each recorded period at phases j T / phases, j = 1 .. phases (index counts on over the
+/// periods)
+/// @param go_on     asked before each period; false ends the strobe at once with what is there (outcome reached)
+[[nodiscard]] Strobe strobe(integrate::Flow& flow, std::span<double> state, const StrobeOptions& options,
+                            const integrate::Observer& observer, const std::function<bool()>& go_on);
+
+struct Recurrence {
+  int period = 0;       ///< n of [A-rec]; 0 if none up to the longest asked for
+  double error = 0;     ///< largest difference at that n; the least over all n tried if none recurs
+  int best_period = 0;  ///< the n of that error
+};
+
+/// @param longest    largest n looked for; at most half the record, so that each point is compared at least once
+/// @param tolerance  epsilon, in the units of the state
+[[nodiscard]] Recurrence recurrence(const PoincareSection& section, int longest, double tolerance);
+
+}  // namespace epicyclic::analysis

@@ -1,0 +1,56 @@
+#include "io/study_model.hpp"
+
+#include "core/errors.hpp"
+#include "io/digest.hpp"
+#include "io/journal.hpp"
+#include "studies/operating_point.hpp"
+
+namespace epicyclic::io {
+
+studies::ModelAt model_at(const LoadedInput& input) {
+  const model::Scales scales = model::scales_of(input.study.stage);
+  return [&input, scales, parameter = input.study.sweep->parameter](double value) {
+    const bool pointer = !parameter.empty() && parameter.front() == '/';
+    const Study study = pointer ? input.with_value(parameter, value) : input.study;
+    studies::OperatingPoint point{study.stage, study.mesh_frequency_ratio, study.model};
+    if (!pointer && !studies::set_parameter(point, parameter, value))
+      throw InputError("/study/parameter: no sweep parameter '" + parameter + "'");
+    return model::make_dynamic_model(point.stage, scales, point.mesh_frequency_ratio, point.model);
+  };
+}
+
+std::string identity(const LoadedInput& input, std::string_view command) {
+  const nlohmann::json what = {{"command", command},
+                               {"input", input.resolved},
+                               {"journal_format", journal_format_version},
+                               {"numerics", studies::numerics_version}};
+  return sha256_hex(canonical_json(what));
+}
+
+Cost estimate_cost(const LoadedInput& input) {
+  const studies::SweepOptions& sweep = *input.study.sweep;
+  const studies::SweepPlan plan = studies::plan_sweep(sweep);
+  Cost cost;
+  cost.points = plan.points.size();
+  cost.chains = plan.chains.size();
+  cost.mesh_periods =
+      static_cast<std::int64_t>(plan.points.size()) * (sweep.transient_periods + sweep.recorded_periods);
+  const studies::ModelAt at = model_at(input);
+  constexpr int probed_periods = 4;
+  studies::SweepOptions probe = sweep;
+  probe.transient_periods = 0;
+  probe.recorded_periods = probed_periods;
+  double calls = 0.0;
+  const double values[] = {sweep.from, 0.5 * (sweep.from + sweep.to), sweep.to};
+  for (const double value : values) {
+    const model::DynamicModel model = at(value);
+    cost.dimension = model.dimension;
+    const studies::PointResult result = studies::compute_point({0, studies::Direction::up, value}, model, {}, probe,
+                                                               input.study.integrator, [] { return true; });
+    calls += static_cast<double>(result.rhs_evaluations);
+  }
+  cost.rhs_per_period = calls / (probed_periods * std::size(values));
+  return cost;
+}
+
+}  // namespace epicyclic::io

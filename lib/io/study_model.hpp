@@ -1,0 +1,33 @@
+// From the input to models: what a sweep asks at each value of its parameter, and what a study will cost.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "io/study_input.hpp"
+#include "studies/sweep.hpp"
+
+namespace epicyclic::io {
+
+/// The model at each value of the study's sweep parameter, named or a JSON pointer. Scales are those of the stage as
+/// given. `input` must outlive the result. A call throws InputError when the study is not valid at that value.
+[[nodiscard]] studies::ModelAt model_at(const LoadedInput& input);
+
+/// What identifies the study's results: SHA-256 of the canonical resolved input with the versions of journal and
+/// numerics.
+[[nodiscard]] std::string identity(const LoadedInput& input, std::string_view command);
+
+/// What a sweep will take.
+struct Cost {
+  std::size_t points = 0;
+  std::size_t chains = 0;         ///< that can run at the same time
+  std::int64_t mesh_periods = 0;  ///< in all
+  std::size_t dimension = 0;      ///< of the state
+  double rhs_per_period = 0;      ///< right-hand sides per mesh period, mean of a few periods at three values
+  [[nodiscard]] double rhs_evaluations() const { return rhs_per_period * static_cast<double>(mesh_periods); }
+};
+
+/// Counts, and probes the sweep at its ends and middle from the default start.
+[[nodiscard]] Cost estimate_cost(const LoadedInput& input);
+
+}  // namespace epicyclic::io

@@ -1,0 +1,360 @@
+#include "io/sweep_output.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "io/bifurcation_figure.hpp"
+#include "io/csv.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/journal.hpp"
+
+namespace epicyclic::io {
+
+namespace {
+
+using studies::Direction;
+using studies::MeshRecord;
+using studies::PointResult;
+
+/// Writes numbers one after another, native byte order: a journal is read where it was written.
+class Encoder {
+ public:
+  template <class T>
+  void number(T value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const auto* bytes = reinterpret_cast<const std::byte*>(&value);
+    bytes_.insert(bytes_.end(), bytes, bytes + sizeof value);
+  }
+  template <class T, class F>
+  void list(const std::vector<T>& values, F&& each) {
+    number(static_cast<std::uint64_t>(values.size()));
+    for (const T& v : values) each(v);
+  }
+  std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+class Decoder {
+ public:
+  explicit Decoder(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+  template <class T>
+  T number() {
+    static_assert(std::is_trivially_copyable_v<T>);
+    require(sizeof(T));
+    T value;
+    std::memcpy(&value, bytes_.data() + at_, sizeof value);
+    at_ += sizeof value;
+    return value;
+  }
+  /// Length of a list whose elements take at least `element` bytes each.
+  std::size_t length(std::size_t element) {
+    const auto n = number<std::uint64_t>();
+    if (n > (bytes_.size() - at_) / element) throw DamagedData("a journal record is shorter than its contents");
+    return static_cast<std::size_t>(n);
+  }
+  void finish() const {
+    if (at_ != bytes_.size()) throw DamagedData("a journal record is longer than its contents");
+  }
+
+ private:
+  void require(std::size_t n) const {
+    if (n > bytes_.size() - at_) throw DamagedData("a journal record is shorter than its contents");
+  }
+  std::span<const std::byte> bytes_;
+  std::size_t at_ = 0;
+};
+
+void encode_mesh(Encoder& e, const MeshRecord& m) {
+  e.number(m.delta_min);
+  e.number(m.delta_max);
+  e.number(static_cast<std::uint8_t>((m.drive ? 1U : 0U) | (m.loss ? 2U : 0U) | (m.back ? 4U : 0U)));
+}
+
+constexpr std::size_t encoded_mesh_size = 2 * sizeof(double) + 1;
+
+std::vector<MeshRecord> decode_meshes(Decoder& d) {
+  std::vector<MeshRecord> meshes(d.length(encoded_mesh_size));
+  for (MeshRecord& m : meshes) {
+    m.delta_min = d.number<double>();
+    m.delta_max = d.number<double>();
+    const auto seen = d.number<std::uint8_t>();
+    m.drive = (seen & 1U) != 0;
+    m.loss = (seen & 2U) != 0;
+    m.back = (seen & 4U) != 0;
+  }
+  return meshes;
+}
+
+std::vector<double> decode_numbers(Decoder& d) {
+  std::vector<double> values(d.length(sizeof(double)));
+  for (double& v : values) v = d.number<double>();
+  return values;
+}
+
+const char* direction_word(Direction direction) { return direction == Direction::up ? "up" : "down"; }
+
+bool ok(const PointResult& r) { return r.outcome == integrate::Outcome::reached; }
+
+const char* regime_word(const PointResult& r) {
+  if (!ok(r)) return "";
+  return r.recurrence.period > 0 ? "periodic" : "undecided";
+}
+
+/// Extrema that were never seen are empty cells.
+double seen(double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::quiet_NaN(); }
+
+std::string parameter_label(const std::string& parameter) {
+  static const std::pair<const char*, const char*> labels[] = {
+      {"mesh_frequency_ratio", "Mesh frequency ratio  Ω = ω_m / ω_{sn}"},
+      {"damping_ratio", "Mesh damping ratio  ζ"},
+      {"sun_planet_backlash", "Half backlash of the sun-planet mesh  b_{sp} / b_c"},
+      {"ring_planet_backlash", "Half backlash of the ring-planet mesh  b_{rp} / b_c"},
+      {"sun_bearing_clearance", "Half clearance of the sun bearing  b_s / b_c"},
+  };
+  for (const auto& [name, label] : labels)
+    if (parameter == name) return label;
+  std::string plain = parameter;  // an underscore would lower the letter after it
+  std::replace(plain.begin(), plain.end(), '_', ' ');
+  return plain;
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_point(const PointResult& r) {
+  Encoder e;
+  const auto number = [&](double v) { e.number(v); };
+  e.number(static_cast<std::uint64_t>(r.point.index));
+  e.number(static_cast<std::uint8_t>(r.point.direction));
+  e.number(r.point.value);
+  e.number(static_cast<std::uint8_t>(r.outcome));
+  e.number(static_cast<std::uint64_t>(r.message.size()));
+  for (const char c : r.message) e.number(c);
+  e.number(static_cast<std::int32_t>(r.recurrence.period));
+  e.number(static_cast<std::int32_t>(r.recurrence.best_period));
+  e.number(r.recurrence.error);
+  e.list(r.sun_planet, [&](const MeshRecord& m) { encode_mesh(e, m); });
+  e.list(r.ring_planet, [&](const MeshRecord& m) { encode_mesh(e, m); });
+  e.number(r.planet_spread);
+  e.number(static_cast<std::int64_t>(r.rhs_evaluations));
+  e.list(r.end_state, number);
+  e.number(static_cast<std::uint64_t>(r.poincare_columns));
+  e.list(r.poincare, number);
+  return e.take();
+}
+
+PointResult decode_point(std::span<const std::byte> record) {
+  Decoder d(record);
+  PointResult r;
+  r.point.index = static_cast<std::size_t>(d.number<std::uint64_t>());
+  const auto direction = d.number<std::uint8_t>();
+  r.point.value = d.number<double>();
+  const auto outcome = d.number<std::uint8_t>();
+  if (direction > static_cast<std::uint8_t>(Direction::down) ||
+      outcome > static_cast<std::uint8_t>(integrate::Outcome::failed))
+    throw DamagedData("a journal record names a direction or an outcome that does not exist");
+  r.point.direction = static_cast<Direction>(direction);
+  r.outcome = static_cast<integrate::Outcome>(outcome);
+  r.message.resize(d.length(1));
+  for (char& c : r.message) c = d.number<char>();
+  r.recurrence.period = d.number<std::int32_t>();
+  r.recurrence.best_period = d.number<std::int32_t>();
+  r.recurrence.error = d.number<double>();
+  r.sun_planet = decode_meshes(d);
+  r.ring_planet = decode_meshes(d);
+  r.planet_spread = d.number<double>();
+  r.rhs_evaluations = static_cast<long>(d.number<std::int64_t>());
+  r.end_state = decode_numbers(d);
+  r.poincare_columns = static_cast<std::size_t>(d.number<std::uint64_t>());
+  r.poincare = decode_numbers(d);
+  d.finish();
+  if (r.poincare_columns == 0 ? !r.poincare.empty() : r.poincare.size() % r.poincare_columns != 0)
+    throw DamagedData("a journal record has a Poincare section that is not whole rows");
+  return r;
+}
+
+std::string status_word(integrate::Outcome outcome) {
+  switch (outcome) {
+    case integrate::Outcome::reached:
+      return "ok";
+    case integrate::Outcome::diverged:
+      return "diverged";
+    case integrate::Outcome::step_limit:
+      return "step_limit";
+    case integrate::Outcome::failed:
+      return "failed";
+  }
+  return "failed";
+}
+
+void write_points_csv(const std::filesystem::path& file, const std::vector<PointResult>& results) {
+  std::vector<std::string> columns = {
+      "point",        "direction",    "value",        "status",          "regime",
+      "period",       "lyapunov_max", "delta_sp_min", "delta_sp_max",    "delta_rp_min",
+      "delta_rp_max", "contact_sp",   "contact_rp",   "rhs_evaluations", "recurrence_error",
+      "planet_spread"};
+  const std::size_t planets = results.empty() ? 0 : results.front().sun_planet.size();
+  for (const char* mesh : {"sp", "rp"})
+    for (std::size_t i = 1; i <= planets; ++i) {
+      const std::string name = std::string(mesh) + "_" + std::to_string(i);
+      columns.push_back("delta_" + name + "_min");
+      columns.push_back("delta_" + name + "_max");
+      columns.push_back("contact_" + name);
+    }
+  columns.emplace_back("message");
+  CsvWriter csv(file, columns);
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  for (const PointResult& r : results) {
+    const MeshRecord& sp = r.sun_planet.front();
+    const MeshRecord& rp = r.ring_planet.front();
+    csv.cell(r.point.index)
+        .cell(direction_word(r.point.direction))
+        .cell(r.point.value)
+        .cell(status_word(r.outcome))
+        .cell(regime_word(r))
+        .cell(ok(r) ? r.recurrence.period : 0)
+        .cell(unknown)  // lyapunov_max: exponents are not computed yet
+        .cell(seen(sp.delta_min))
+        .cell(seen(sp.delta_max))
+        .cell(seen(rp.delta_min))
+        .cell(seen(rp.delta_max))
+        .cell(sp.contact())
+        .cell(rp.contact())
+        .cell(r.rhs_evaluations)
+        .cell(ok(r) ? seen(r.recurrence.error) : unknown)
+        .cell(r.planet_spread);
+    for (const auto* meshes : {&r.sun_planet, &r.ring_planet})
+      for (const MeshRecord& m : *meshes) csv.cell(seen(m.delta_min)).cell(seen(m.delta_max)).cell(m.contact());
+    csv.cell(r.message);
+    csv.end_row();
+  }
+  csv.commit();
+}
+
+void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& output,
+                        const std::vector<PointResult>& results) {
+  std::vector<std::string> columns = {"point", "index"};
+  columns.insert(columns.end(), output.poincare_columns.begin(), output.poincare_columns.end());
+  CsvWriter csv(file, columns);
+  for (const PointResult& r : results)
+    for (std::size_t k = 0; k < r.poincare_rows(); ++k) {
+      csv.cell(r.point.index).cell(k);
+      for (std::size_t j = 0; j < r.poincare_columns; ++j) csv.cell(r.poincare[k * r.poincare_columns + j]);
+      csv.end_row();
+    }
+  csv.commit();
+}
+
+void write_results_h5(const std::filesystem::path& file, const SweepOutput& output,
+                      const std::vector<PointResult>& results) {
+  Hdf5File h5(file);
+  h5.set_attribute("/", "input_resolved", output.resolved_input);
+  h5.set_attribute("/", "sweep_parameter", output.sweep.parameter);
+
+  h5.create_group("/points");
+  const auto column = [&](const std::string& name, auto&& value, const char* units) {
+    using Value = std::decay_t<decltype(value(results.front()))>;
+    std::vector<Value> values;
+    for (const PointResult& r : results) values.push_back(value(r));
+    h5.write("/points/" + name, std::span<const Value>(values));
+    if (units != nullptr) h5.set_units("/points/" + name, units);
+  };
+  const auto integer = [](auto x) { return static_cast<std::int64_t>(x); };
+  column(
+      "point", [&](const PointResult& r) { return integer(r.point.index); }, nullptr);
+  column(
+      "direction", [](const PointResult& r) { return std::string(direction_word(r.point.direction)); }, nullptr);
+  column(
+      "value", [](const PointResult& r) { return r.point.value; }, nullptr);
+  column(
+      "status", [](const PointResult& r) { return status_word(r.outcome); }, nullptr);
+  column(
+      "regime", [](const PointResult& r) { return std::string(regime_word(r)); }, nullptr);
+  column(
+      "period", [&](const PointResult& r) { return integer(ok(r) ? r.recurrence.period : 0); }, "mesh periods");
+  column(
+      "recurrence_error",
+      [](const PointResult& r) { return ok(r) ? seen(r.recurrence.error) : std::numeric_limits<double>::quiet_NaN(); },
+      "b_c, b_c per tau");
+  column(
+      "planet_spread", [](const PointResult& r) { return r.planet_spread; }, "b_c");
+  column(
+      "rhs_evaluations", [&](const PointResult& r) { return integer(r.rhs_evaluations); }, "1");
+  column(
+      "message", [](const PointResult& r) { return r.message; }, nullptr);
+  const std::size_t planets = results.empty() ? 0 : results.front().sun_planet.size();
+  for (std::size_t i = 0; i < planets; ++i) {
+    const std::string planet = "_" + std::to_string(i + 1);
+    column(
+        "delta_sp" + planet + "_min", [i](const PointResult& r) { return seen(r.sun_planet[i].delta_min); }, "b_c");
+    column(
+        "delta_sp" + planet + "_max", [i](const PointResult& r) { return seen(r.sun_planet[i].delta_max); }, "b_c");
+    column(
+        "contact_sp" + planet, [i](const PointResult& r) { return r.sun_planet[i].contact(); }, nullptr);
+    column(
+        "delta_rp" + planet + "_min", [i](const PointResult& r) { return seen(r.ring_planet[i].delta_min); }, "b_c");
+    column(
+        "delta_rp" + planet + "_max", [i](const PointResult& r) { return seen(r.ring_planet[i].delta_max); }, "b_c");
+    column(
+        "contact_rp" + planet, [i](const PointResult& r) { return r.ring_planet[i].contact(); }, nullptr);
+  }
+
+  h5.create_group("/poincare");
+  std::vector<std::int64_t> point;
+  std::vector<std::int64_t> index;
+  std::vector<double> values;
+  for (const PointResult& r : results) {
+    for (std::size_t k = 0; k < r.poincare_rows(); ++k) {
+      point.push_back(integer(r.point.index));
+      index.push_back(integer(k));
+    }
+    values.insert(values.end(), r.poincare.begin(), r.poincare.end());
+  }
+  h5.write("/poincare/columns", std::span<const std::string>(output.poincare_columns));
+  h5.write("/poincare/point", std::span<const std::int64_t>(point));
+  h5.write("/poincare/index", std::span<const std::int64_t>(index));
+  h5.write("/poincare/values", std::span<const double>(values), point.size(), output.poincare_columns.size());
+  h5.set_units("/poincare/values", "b_c, b_c per tau");
+  h5.close();
+}
+
+std::vector<DrawnFigure> draw_sweep_figures(const std::filesystem::path& folder, const SweepOutput& output,
+                                            const std::vector<PointResult>& results) {
+  std::vector<DrawnFigure> figures;
+  const struct {
+    const char* column;
+    const char* stem;
+    const char* label;
+  } drawn[] = {{"delta_sp_1", "bifurcation_delta_sp", "Poincaré points of  δ_{sp} / b_c"},
+               {"delta_rp_1", "bifurcation_delta_rp", "Poincaré points of  δ_{rp} / b_c"}};
+  for (const auto& figure : drawn) {
+    const auto found = std::find(output.poincare_columns.begin(), output.poincare_columns.end(), figure.column);
+    const auto column = static_cast<std::size_t>(found - output.poincare_columns.begin());
+    std::vector<BifurcationSeries> series;
+    for (const Direction direction : output.sweep.directions) {
+      BifurcationSeries s;
+      s.label = direction_word(direction);
+      for (const PointResult& r : results) {
+        if (r.point.direction != direction || !ok(r)) continue;
+        s.x.push_back(r.point.value);
+        s.y.emplace_back();
+        for (std::size_t k = 0; k < r.poincare_rows(); ++k)
+          s.y.back().push_back(r.poincare[k * r.poincare_columns + column]);
+      }
+      series.push_back(std::move(s));
+    }
+    const FigureText text{output.title, parameter_label(output.sweep.parameter), figure.label};
+    figures.push_back(
+        {folder / (std::string(figure.stem) + ".png"), bifurcation_figure(folder, figure.stem, text, series)});
+  }
+  return figures;
+}
+
+}  // namespace epicyclic::io

@@ -1,0 +1,51 @@
+// What a sweep leaves in its folder: points.csv, poincare.csv, results.h5, figures, and the journal's records.
+//
+// All of it follows from the points alone and is the same, byte for byte, for the same study (architecture section 7).
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/gnuplot.hpp"
+#include "studies/sweep.hpp"
+
+namespace epicyclic::io {
+
+/// A point as a journal record, and back; exact.
+[[nodiscard]] std::vector<std::byte> encode_point(const studies::PointResult& result);
+
+/// @throws DamagedData when the record is not one of encode_point()
+[[nodiscard]] studies::PointResult decode_point(std::span<const std::byte> record);
+
+/// Status of a point in points.csv: ok, diverged, step_limit, failed.
+[[nodiscard]] std::string status_word(integrate::Outcome outcome);
+
+/// What a sweep is written with besides its points.
+struct SweepOutput {
+  studies::SweepOptions sweep;
+  std::vector<std::string> poincare_columns;
+  std::string resolved_input;  ///< text of input.resolved.json, kept in results.h5 too
+  std::string title;           ///< of the figures
+};
+
+/// @throws OutputError
+void write_points_csv(const std::filesystem::path& file, const std::vector<studies::PointResult>& results);
+void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& output,
+                        const std::vector<studies::PointResult>& results);
+void write_results_h5(const std::filesystem::path& file, const SweepOutput& output,
+                      const std::vector<studies::PointResult>& results);
+
+struct DrawnFigure {
+  std::filesystem::path png;
+  FigureOutcome outcome;
+};
+
+/// Bifurcation figures of delta_sp and delta_rp of planet 1 in `folder`.
+[[nodiscard]] std::vector<DrawnFigure> draw_sweep_figures(const std::filesystem::path& folder,
+                                                          const SweepOutput& output,
+                                                          const std::vector<studies::PointResult>& results);
+
+}  // namespace epicyclic::io

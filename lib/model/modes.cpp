@@ -1,0 +1,210 @@
+#include "model/modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <Eigen/Eigenvalues>
+
+#include "model/right_hand_side.hpp"
+
+namespace epicyclic::model {
+
+namespace {
+
+// Frequencies nearer than this, relative to the highest, are one: far above the rounding of the eigenvalue problem,
+// far below the digits that anyone prints.
+constexpr double same_frequency = 1e-7;
+// Squares of rigid-body frequencies come out at rounding level of the largest square.
+constexpr double rigid_body_square = 1e-11;
+// A share of motion below this is none: rounding of eigenvectors, squared, with a wide margin.
+constexpr double no_motion = 1e-9;
+
+template <std::size_t N>
+class Assembly {
+ public:
+  Assembly(const gear::Stage& stage, const Scales& scales)
+      : geometry_(make_geometry<N>(stage)), stage_(stage), scales_(scales) {}
+
+  LinearStage build() {
+    const auto n = static_cast<Eigen::Index>(size);
+    linear_.mass = Eigen::VectorXd::Zero(n);
+    linear_.stiffness = Eigen::MatrixXd::Zero(n, n);
+    linear_.constraints = Eigen::MatrixXd::Zero(0, n);
+    // Column k of each deflection: its value for a unit displacement of slot k.
+    std::array<Deflections<double, N>, size> unit;
+    for (std::size_t k = 0; k < size; ++k) {
+      std::array<double, size> q{};
+      q[k] = 1.0;
+      unit[k] = deflections(geometry_, unpack<Layout::full, N>(q.data()));
+    }
+    const auto row = [&](auto&& pick) {
+      Eigen::VectorXd l(n);
+      for (std::size_t k = 0; k < size; ++k) l(static_cast<Eigen::Index>(k)) = pick(unit[k]);
+      return l;
+    };
+    using D = Deflections<double, N>;
+    for (std::size_t i = 0; i < N; ++i) {
+      spring(stage_.sun_planet_mesh.stiffness_N_per_m, row([i](const D& d) { return d.sun_planet[i]; }));
+      spring(stage_.ring_planet_mesh.stiffness_N_per_m, row([i](const D& d) { return d.ring_planet[i]; }));
+      spring(stage_.planet.bearing_N_per_m, row([i](const D& d) { return d.carrier_x[i]; }));
+      spring(stage_.planet.bearing_N_per_m, row([i](const D& d) { return d.carrier_y[i]; }));
+      mass(Slots::x_p(i), stage_.planet.mass_kg);
+      mass(Slots::y_p(i), stage_.planet.mass_kg);
+      mass(Slots::w_p(i), stage_.planet.inertia_over_r2_kg);
+    }
+    member(stage_.sun, Slots::x_s, Slots::y_s, Slots::w_s);
+    member(stage_.ring, Slots::x_r(N), Slots::y_r(N), Slots::u_r(N));
+    member(stage_.carrier, Slots::x_c(N), Slots::y_c(N), Slots::u_c(Layout::full, N));
+    return std::move(linear_);
+  }
+
+ private:
+  static constexpr std::size_t size = degrees_of_freedom(Layout::full, N);
+
+  void mass(std::size_t slot, double kg) { linear_.mass(static_cast<Eigen::Index>(slot)) = scales_.mass_ratio(kg); }
+
+  void spring(double newton_per_m, const Eigen::VectorXd& l) {
+    if (std::isfinite(newton_per_m)) {
+      linear_.stiffness += scales_.stiffness(newton_per_m) * l * l.transpose();
+      return;
+    }
+    linear_.constraints.conservativeResize(linear_.constraints.rows() + 1, Eigen::NoChange);
+    linear_.constraints.bottomRows(1) = l.transpose();
+  }
+
+  void member(const gear::CentralMember& m, std::size_t x, std::size_t y, std::size_t u) {
+    const auto unit = [](std::size_t slot) { return Eigen::VectorXd::Unit(size, static_cast<Eigen::Index>(slot)); };
+    mass(x, m.mass_kg);
+    mass(y, m.mass_kg);
+    mass(u, m.inertia_over_r2_kg);
+    spring(m.support_N_per_m, unit(x));
+    spring(m.support_N_per_m, unit(y));
+    spring(m.torsional_support_N_per_m, unit(u));
+  }
+
+  Parameters<double, N> geometry_;
+  const gear::Stage& stage_;
+  const Scales& scales_;
+  LinearStage linear_;
+};
+
+/// Orthonormal basis of the motions that the constraints leave free.
+Eigen::MatrixXd free_motions(const LinearStage& linear) {
+  const Eigen::Index n = linear.mass.size();
+  if (linear.constraints.rows() == 0) return Eigen::MatrixXd::Identity(n, n);
+  const Eigen::FullPivHouseholderQR<Eigen::MatrixXd> qr(linear.constraints.transpose());
+  const Eigen::MatrixXd q = qr.matrixQ();
+  return q.rightCols(n - qr.rank());
+}
+
+/// M-weighted shares of a shape's motion.
+struct Shares {
+  double central_translation = 0, central_rotation = 0;
+};
+
+/// Diagonal weights that tell the two kinds of central motion apart: 1 and 2; planets 0.
+Eigen::VectorXd central_weights(int planets) {
+  const auto n = static_cast<std::size_t>(planets);
+  Eigen::VectorXd w = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(degrees_of_freedom(Layout::full, n)));
+  for (const std::size_t slot : {Slots::x_s, Slots::y_s, Slots::x_r(n), Slots::y_r(n), Slots::x_c(n), Slots::y_c(n)})
+    w(static_cast<Eigen::Index>(slot)) = 1.0;
+  for (const std::size_t slot : {Slots::w_s, Slots::u_r(n), Slots::u_c(Layout::full, n)})
+    w(static_cast<Eigen::Index>(slot)) = 2.0;
+  return w;
+}
+
+ModeType classify(const Eigen::VectorXd& shape, const Eigen::VectorXd& mass, const Eigen::VectorXd& weights) {
+  Shares shares;
+  double total = 0.0;
+  for (Eigen::Index k = 0; k < shape.size(); ++k) {
+    const double motion = mass(k) * shape(k) * shape(k);
+    total += motion;
+    if (weights(k) == 1.0) shares.central_translation += motion;
+    if (weights(k) == 2.0) shares.central_rotation += motion;
+  }
+  const bool translates = shares.central_translation > no_motion * total;
+  const bool rotates = shares.central_rotation > no_motion * total;
+  if (rotates) return translates ? ModeType::other : ModeType::rotational;
+  return translates ? ModeType::translational : ModeType::planet;
+}
+
+}  // namespace
+
+std::string_view to_string(ModeType type) {
+  switch (type) {
+    case ModeType::rotational:
+      return "rotational";
+    case ModeType::translational:
+      return "translational";
+    case ModeType::planet:
+      return "planet";
+    case ModeType::other:
+      return "other";
+  }
+  return "other";
+}
+
+LinearStage linear_stage(const gear::Stage& stage, const Scales& scales) {
+  switch (stage.planet_count) {
+    case 2:
+      return Assembly<2>(stage, scales).build();
+    case 3:
+      return Assembly<3>(stage, scales).build();
+    case 4:
+      return Assembly<4>(stage, scales).build();
+    case 5:
+      return Assembly<5>(stage, scales).build();
+    case 6:
+      return Assembly<6>(stage, scales).build();
+    default:
+      throw std::logic_error("a stage that did not pass problems_for_modes()");
+  }
+}
+
+std::vector<Mode> modes(const gear::Stage& stage, const Scales& scales) {
+  const LinearStage linear = linear_stage(stage, scales);
+  const Eigen::MatrixXd basis = free_motions(linear);
+  const Eigen::MatrixXd mass = basis.transpose() * linear.mass.asDiagonal() * basis;
+  const Eigen::MatrixXd stiffness = basis.transpose() * linear.stiffness * basis;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
+  const Eigen::MatrixXd shapes = basis * solver.eigenvectors();
+  const Eigen::VectorXd weights = central_weights(stage.planet_count);
+
+  const Eigen::Index count = solver.eigenvalues().size();
+  const double largest = solver.eigenvalues().maxCoeff();
+  const auto frequency = [&](Eigen::Index k) {
+    const double square = solver.eigenvalues()(k);
+    return square < rigid_body_square * largest ? 0.0 : std::sqrt(square);
+  };
+
+  std::vector<Mode> result;
+  for (Eigen::Index first = 0; first < count;) {
+    Eigen::Index last = first + 1;
+    while (last < count && frequency(last) - frequency(last - 1) <= same_frequency * std::sqrt(largest)) ++last;
+    Eigen::MatrixXd cluster = shapes.middleCols(first, last - first);
+    if (last - first > 1) {
+      const Eigen::MatrixXd central = cluster.transpose() * linear.mass.cwiseProduct(weights).asDiagonal() * cluster;
+      cluster = (cluster * Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(central).eigenvectors()).eval();
+    }
+    const double mean = [&] {
+      double sum = 0.0;
+      for (Eigen::Index k = first; k < last; ++k) sum += frequency(k);
+      return sum / static_cast<double>(last - first);
+    }();
+    for (const ModeType type : {ModeType::rotational, ModeType::translational, ModeType::planet, ModeType::other}) {
+      std::vector<Eigen::Index> members;
+      for (Eigen::Index k = 0; k < cluster.cols(); ++k)
+        if (classify(cluster.col(k), linear.mass, weights) == type) members.push_back(k);
+      if (members.empty()) continue;
+      Mode mode{mean, type, static_cast<int>(members.size()), Eigen::MatrixXd(cluster.rows(), members.size())};
+      for (std::size_t k = 0; k < members.size(); ++k)
+        mode.shapes.col(static_cast<Eigen::Index>(k)) = cluster.col(members[k]);
+      result.push_back(std::move(mode));
+    }
+    first = last;
+  }
+  return result;
+}
+
+}  // namespace epicyclic::model

@@ -1,0 +1,53 @@
+// Natural frequencies and mode shapes of the linear stage, and their types.
+//
+//   K phi = omega^2 M phi ,  K = sum_i [ k_sp l_spi l_spi' + k_rp l_rpi l_rpi' + k_p (l_x l_x' + l_y l_y') ] + supports
+//   [M-K]
+//
+// l: the rows of the deflections (model/right_hand_side.hpp), mean stiffness, gaps closed, no rotation. Supports and
+// planet bearings may be 0, finite or rigid; a rigid one is a constraint, and the motion left free is found by an
+// orthogonal basis. Source: Lin and Parker, J. Vib. Acoust. 121 (1999) 316, whose classification is used:
+//
+//   rotational     central members only rotate        translational  central members only translate
+//   planet         only planets move                  other          none of these (unequal spacing)
+//
+// Types are told from the shapes, by the share of M-weighted motion; where frequencies of two types coincide their
+// subspace is split first. Limits: undamped, no gyroscopic terms.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "gear/stage.hpp"
+#include "model/layout.hpp"
+#include "model/scales.hpp"
+
+namespace epicyclic::model {
+
+enum class ModeType { rotational, translational, planet, other };
+
+[[nodiscard]] std::string_view to_string(ModeType type);
+
+/// All shapes of one type at one frequency.
+struct Mode {
+  double frequency_ratio = 0;  ///< omega / omega_sn; exactly 0 for rigid motion
+  ModeType type = ModeType::other;
+  int multiplicity = 1;
+  Eigen::MatrixXd shapes;  ///< (3N + 9) x multiplicity, slots of Layout::full, shape' M shape = 1 (M in m_0)
+};
+
+/// Mass matrix (diagonal) and stiffness matrix of the full coordinates, rigid supports left out of K.
+struct LinearStage {
+  Eigen::VectorXd mass;         ///< 3N + 9 [m_0]
+  Eigen::MatrixXd stiffness;    ///< (3N + 9) x (3N + 9) [m_0 omega_sn^2]
+  Eigen::MatrixXd constraints;  ///< c x (3N + 9): rows that vanish on every motion
+};
+
+/// @param stage  passes gear::problems_for_modes()
+[[nodiscard]] LinearStage linear_stage(const gear::Stage& stage, const Scales& scales);
+
+/// All modes, rising frequency.
+[[nodiscard]] std::vector<Mode> modes(const gear::Stage& stage, const Scales& scales);
+
+}  // namespace epicyclic::model

@@ -1,0 +1,95 @@
+// Bifurcation diagram by brute force: one parameter along a grid, up, down or both, the motion strobed at each value.
+//
+// Points are numbered along the first direction, then the second. A carried sweep is a chain per direction (or per
+// segment of it): a point starts from the end state of the one before, so that it follows a branch and shows
+// hysteresis. A point is a pure function of its value and start state, hence the result does not depend on the number
+// of threads, and a sweep that was stopped goes on with the same bytes. A point that does not end in `reached` makes
+// the next one of its chain start cold.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "analysis/poincare.hpp"
+#include "integrate/options.hpp"
+#include "model/dynamic_model.hpp"
+#include "studies/sweep_options.hpp"
+
+namespace epicyclic::studies {
+
+/// Raised when a change makes the same input give other numbers: results of two versions are never mixed in one folder.
+inline constexpr int numerics_version = 1;
+
+/// One point of the grid.
+struct GridPoint {
+  std::size_t index = 0;
+  Direction direction = Direction::up;
+  double value = 0;
+};
+
+/// Points in order, and the chains that they are computed in.
+struct SweepPlan {
+  std::vector<GridPoint> points;
+  std::vector<std::vector<std::size_t>> chains;  ///< indices of points, each chain in order
+};
+
+[[nodiscard]] SweepPlan plan_sweep(const SweepOptions& options);
+
+/// What was seen of one mesh over the record.
+struct MeshRecord {
+  double delta_min = 0, delta_max = 0;  ///< extrema at the dense output phases [b_c]
+  bool drive = false, loss = false, back = false;
+
+  /// "drive+loss" and so on.
+  [[nodiscard]] std::string contact() const;
+};
+
+struct PointResult {
+  GridPoint point;
+  integrate::Outcome outcome = integrate::Outcome::reached;
+  std::string message;                  ///< of an outcome other than reached
+  analysis::Recurrence recurrence;      ///< meaningful if reached
+  std::vector<MeshRecord> sun_planet;   ///< one per planet
+  std::vector<MeshRecord> ring_planet;  ///< one per planet
+  double planet_spread = 0;             ///< largest difference between planets' deflections of one kind of mesh [b_c]
+  long rhs_evaluations = 0;
+  std::vector<double> end_state;  ///< what the next point of a chain starts from
+  std::vector<double> poincare;   ///< rows of poincare_columns(): state, delta_sp_i, delta_rp_i
+  std::size_t poincare_columns = 0;
+
+  [[nodiscard]] std::size_t poincare_rows() const {
+    return poincare_columns == 0 ? 0 : poincare.size() / poincare_columns;
+  }
+};
+
+/// Names of the columns of PointResult::poincare.
+[[nodiscard]] std::vector<std::string> poincare_columns(const model::DynamicModel& model);
+
+/// The model at a value of the sweep parameter; called from several threads at once.
+using ModelAt = std::function<model::DynamicModel(double value)>;
+
+/// Computes one point.
+/// @param start  end state of the point before; empty: the model's default start
+[[nodiscard]] PointResult compute_point(const GridPoint& point, const model::DynamicModel& model,
+                                        const std::vector<double>& start, const SweepOptions& sweep,
+                                        const integrate::IntegratorOptions& integrator,
+                                        const std::function<bool()>& go_on);
+
+/// How a sweep is run; none of it changes a result.
+struct SweepRun {
+  int threads = 1;
+  const std::atomic<bool>* stop = nullptr;                 ///< set to true: return soon, without the points under way
+  std::map<std::size_t, PointResult> done;                 ///< points of an earlier run
+  std::function<void(const PointResult&)> point_finished;  ///< called for each new point, one at a time
+};
+
+/// @returns points in order of their index; incomplete only if stopped
+/// @throws the first exception of a point or of point_finished
+[[nodiscard]] std::vector<PointResult> run_sweep(const SweepPlan& plan, const SweepOptions& sweep,
+                                                 const integrate::IntegratorOptions& integrator,
+                                                 const ModelAt& model_at, SweepRun run);
+
+}  // namespace epicyclic::studies
