@@ -95,7 +95,7 @@ int sweep_command(const Arguments& arguments) {
   }
 
   const io::SweepOutput output{sweep, studies::poincare_columns(first_model), resolved,
-                               input.study.name.empty() ? input.study.stage.name : input.study.name};
+                               io::figure_title(input.study)};
   io::write_points_csv(folder.file("points.csv"), results);
   io::write_poincare_csv(folder.file("poincare.csv"), output, results);
   io::write_results_h5(folder.file("results.h5"), output, results);

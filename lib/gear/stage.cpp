@@ -199,21 +199,6 @@ void check_compatibility(Problems& out, const Stage& s) {
             " (relative difference at most ", radii_tolerance, ")");
 }
 
-/// Planets can only be put where both meshes find teeth: (z_s + z_r)(phi_i - phi_1) / 2 pi must be whole.
-void check_assembly(Problems& out, const Stage& s) {
-  if (!s.sun.teeth || !s.ring.teeth) return;
-  const std::vector<double> angles = s.planet_angles_deg();
-  constexpr double angle_digits_deg = 1e-3;
-  const double teeth = *s.sun.teeth + *s.ring.teeth;
-  for (std::size_t i = 1; i < angles.size(); ++i) {
-    const double turns = teeth * (angles[i] - angles[0]) / 360.0;
-    if (std::abs(turns - std::round(turns)) > teeth * angle_digits_deg / 360.0)
-      out.add(s.angles_deg.empty() ? "/planets/count" : "/planets/angles_deg/" + std::to_string(i), "planet ",
-              static_cast<double>(i + 1), " at ", angles[i],
-              " deg cannot be assembled: (z_s + z_r)(phi_i - phi_1) / 360 deg = ", turns, " is not whole");
-  }
-}
-
 void check_mesh_for_motion(Problems& out, const std::string& pointer, const Mesh& mesh) {
   if (!mesh.damping_ratio) out.add(pointer + "/damping_ratio", "is missing; time integration needs it");
 }
@@ -263,7 +248,6 @@ std::vector<std::string> problems_for_motion(const Stage& s) {
     out.add("/lumped/planet/bearing_N_per_m", "must be positive (", s.planet.bearing_N_per_m, ")");
   check_torsion(out, s);
   check_compatibility(out, s);
-  check_assembly(out, s);
   const struct {
     const char* pointer;
     const Mesh& mesh;

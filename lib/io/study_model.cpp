@@ -27,6 +27,12 @@ std::string identity(const LoadedInput& input, std::string_view command) {
   return sha256_hex(canonical_json(what));
 }
 
+std::string figure_title(const Study& study) {
+  const gear::Boundary b = study.stage.boundary;
+  const char* boundary = b == gear::Boundary::literal ? "literal" : b == gear::Boundary::star ? "star" : "fixed ring";
+  return (study.name.empty() ? study.stage.name : study.name) + ", boundary " + boundary;
+}
+
 Cost estimate_cost(const LoadedInput& input) {
   const studies::SweepOptions& sweep = *input.study.sweep;
   const studies::SweepPlan plan = studies::plan_sweep(sweep);

@@ -17,6 +17,9 @@ namespace epicyclic::io {
 /// numerics.
 [[nodiscard]] std::string identity(const LoadedInput& input, std::string_view command);
 
+/// Name of study or stage with the boundary, for figures.
+[[nodiscard]] std::string figure_title(const Study& study);
+
 /// What a sweep will take.
 struct Cost {
   std::size_t points = 0;

@@ -111,6 +111,12 @@ const char* regime_word(const PointResult& r) {
 /// Extrema that were never seen are empty cells.
 double seen(double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::quiet_NaN(); }
 
+/// An underscore would lower the letter after it.
+std::string without_underscores(std::string text) {
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
 std::string parameter_label(const std::string& parameter) {
   static const std::pair<const char*, const char*> labels[] = {
       {"mesh_frequency_ratio", "Mesh frequency ratio  Ω = ω_m / ω_{sn}"},
@@ -121,9 +127,7 @@ std::string parameter_label(const std::string& parameter) {
   };
   for (const auto& [name, label] : labels)
     if (parameter == name) return label;
-  std::string plain = parameter;  // an underscore would lower the letter after it
-  std::replace(plain.begin(), plain.end(), '_', ' ');
-  return plain;
+  return without_underscores(parameter);
 }
 
 }  // namespace
@@ -350,7 +354,7 @@ std::vector<DrawnFigure> draw_sweep_figures(const std::filesystem::path& folder,
       }
       series.push_back(std::move(s));
     }
-    const FigureText text{output.title, parameter_label(output.sweep.parameter), figure.label};
+    const FigureText text{without_underscores(output.title), parameter_label(output.sweep.parameter), figure.label};
     figures.push_back(
         {folder / (std::string(figure.stem) + ".png"), bifurcation_figure(folder, figure.stem, text, series)});
   }

@@ -21,10 +21,12 @@ struct Closure {
   T slope;  ///< df/dd [-]
 };
 
-/// [M-f] with its slope, which jumps between 0 and 1 at d = +-b.
+/// [M-f] with its slope, which jumps between 0 and 1 at d = +-b. At the kink the closed side's slope is taken, so that
+/// b = 0 is f = d with slope 1 at d = 0 too.
 template <class T>
 [[nodiscard]] Closure<T> closure_exact(const T& d, const T& b) {
-  return {d - limited(d, T(-b), b), select(d > b, T(1.0), select(d < -b, T(1.0), T(0.0)))};
+  return {select(d < b, select(d > -b, T(0.0), T(d + b)), T(d - b)),
+          select(d < b, select(d > -b, T(0.0), T(1.0)), T(1.0))};
 }
 
 /// [M-fw] with its slope; w > 0.

@@ -1,6 +1,7 @@
 #include "gear/stage.hpp"
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -106,8 +107,6 @@ TEST(Stage, MotionNamesEachRuleThatIsBroken) {
   const char* k_su = "/lumped/sun/torsional_support_N_per_m";
   const char* k_ru = "/lumped/ring/torsional_support_N_per_m";
   const char* k_cu = "/lumped/carrier/torsional_support_N_per_m";
-  const char* friction = "/lumped/sun_planet_mesh/friction";
-  (void)friction;
   const Stage literal = problems::literal(problems::r1());
   const Stage star = problems::star(problems::r1());
   expect_each_rule(
