@@ -107,11 +107,12 @@ void FrictionTrack::append_piece(const std::vector<Row>& rows) {
 
 FrictionTrack::Place FrictionTrack::place(double phase) const {
   const double origin = starts_.front();
-  const double turns = -std::floor(phase - origin);
-  const double x = phase + turns;
+  // One smooth curve has no sides: its centre is that of its period.
+  if (breakpoints_.empty()) return {pieces_.front(), origin + 0.5};
+  const double x = phase - std::floor(phase - origin);
   std::size_t k = 0;
   while (k + 1 < pieces_.size() && x >= starts_[pieces_[k + 1].lo]) ++k;
-  return {pieces_[k], turns};
+  return {pieces_[k], x};
 }
 
 }  // namespace epicyclic::model

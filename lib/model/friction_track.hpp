@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -45,17 +46,18 @@ class FrictionTrack {
   /// Breakpoints on the mesh's own phase, rising, in [0, 1).
   [[nodiscard]] const std::vector<double>& breakpoints() const { return breakpoints_; }
 
-  /// The piece that holds this phase, and the whole turns to add to a phase to meet its intervals.
+  /// The piece that holds this phase, and where: phases are met within half a turn of it, so that they may count whole
+  /// turns and a phase on a breakpoint is on the side of the place.
   struct Place {
     Piece piece;
-    double turns = 0;
+    double centre = 0;
   };
   [[nodiscard]] Place place(double phase) const;
 
-  /// Ratios at a phase, by the cubics of the given piece whatever the phase.
+  /// Ratios at a phase within half a turn of the place, whole turns apart, by the cubics of its piece.
   template <class T>
   [[nodiscard]] FrictionRatios<T> at(const Place& place, const T& phase) const {
-    const T x = phase + place.turns;
+    const T x = phase - T(static_cast<double>(std::round(value_of(phase) - place.centre)));
     const std::size_t k = interval(place.piece, value_of(x));
     const T t = x - starts_[k];
     const auto value = [&](std::size_t j) {

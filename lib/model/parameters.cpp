@@ -94,6 +94,9 @@ void make_segments(Parameters<double, N>& p) {
   std::sort(phases.begin(), phases.end());
   phases.erase(std::unique(phases.begin(), phases.end(), [](double a, double b) { return b - a < phase_resolution; }),
                phases.end());
+  // Segments are shorter than a turn, so that a phase tells the start of one from its end.
+  if (phases.size() == 1) phases.push_back(wrapped(phases[0] + 0.5));
+  std::sort(phases.begin(), phases.end());
   const auto add_segment = [&](double inside) {
     p.segments.push_back({places(p.sun_planet, inside), places(p.ring_planet, inside)});
   };

@@ -131,8 +131,6 @@ TEST(Stage, MotionNamesEachRuleThatIsBroken) {
           {k_cu, "star", [](Stage& s) { s.carrier.torsional_support_N_per_m = rigid; }, star},
           {"/lumped/ring/base_radius_mm", "z_r / z_s", [](Stage& s) { s.ring.base_radius_mm = 96.3005; }},
           {"/lumped/planet/base_radius_mm", "z_p / z_s", [](Stage& s) { s.planet.teeth = 26; }},
-          {"/planets/count", "cannot be assembled", [](Stage& s) { s.planet_count = 5; }},
-          {"/planets/angles_deg/1", "cannot be assembled", [](Stage& s) { s.angles_deg = {0.0, 121.0, 240.0}; }},
           {"/lumped/ring_planet_mesh/damping_ratio", "missing",
            [](Stage& s) { s.ring_planet_mesh.damping_ratio.reset(); }},
           {"/lumped/sun_planet_mesh/error_amplitude_um", "has 2 numbers",

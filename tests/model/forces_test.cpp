@@ -364,38 +364,75 @@ TEST(Forces, MeshForcesAndFrictionNeitherPushNorTurnTheWholeTrain) {
   }
 }
 
-TEST(Forces, FrictionIsThatOfThePathInEverySegment) {
-  const gear::Stage s = problems::with_unequal_angles(problems::r1_nonlinear());
-  const Scales scales = scales_of(s);
-  const auto p = make_parameters<planets>(s, scales, 0.9, {GapDamping::always, Gyroscopic::off, 0.0});
-  const MeshLaw sp(s, Which::sun_planet);
-  const MeshLaw rp(s, Which::ring_planet);
-  std::mt19937_64 random(23);
-  std::uniform_real_distribution<double> displacement(-4.0, 4.0);
-  std::array<double, 2 * dof> y;
-  for (double& x : y) x = displacement(random);
-  // Roundings of phases of some turns.
-  constexpr double rounding = 1e-12;
-  for (std::size_t segment = 0; segment < p.segments.size(); ++segment) {
-    const bool wraps = segment + 1 == p.segments.size();
-    const double from = p.breakpoints[segment];
-    const double next = wraps ? p.breakpoints[0] + 2.0 * std::numbers::pi : p.breakpoints[segment + 1];
-    const double middle = 0.5 * (from + next);
-    for (const double phase : {from, middle, next}) {
-      const auto g = stage_state<Layout::full>(p, segment, phase, y.data());
-      for (std::size_t i = 0; i < planets; ++i) {
-        const auto sun = sp.friction(i, phase, middle);
-        const auto ring = rp.friction(i, phase, middle);
-        const double f_sp = g.sun_planet.force[i];
-        const double f_rp = g.ring_planet.force[i];
-        const double mm = 1e3;
-        EXPECT_NEAR(g.sun_planet.friction[i], sun.force * f_sp, rounding);
-        EXPECT_NEAR(g.sun_planet.moment_driving[i], sun.driving_m * mm / *s.sun.base_radius_mm * f_sp, rounding);
-        EXPECT_NEAR(g.sun_planet.moment_driven[i], sun.driven_m * mm / *s.planet.base_radius_mm * f_sp, rounding);
-        EXPECT_NEAR(g.ring_planet.friction[i], ring.force * f_rp, rounding);
-        EXPECT_NEAR(g.ring_planet.moment_driving[i], ring.driving_m * mm / *s.planet.base_radius_mm * f_rp, rounding);
-        EXPECT_NEAR(g.ring_planet.moment_driven[i], ring.driven_m * mm / *s.ring.base_radius_mm * f_rp, rounding);
-      }
+TEST(Forces, FrictionIsThatOfThePathInEverySegmentOfEveryPeriod) {
+  const gear::Stage both = problems::with_unequal_angles(problems::r1_nonlinear());
+  gear::Stage ring_only = problems::r1_nonlinear();  // its first breakpoint is not 0: the last segment wraps
+  ring_only.sun_planet_mesh.friction.coefficient.reset();
+  gear::Stage one_breakpoint = ring_only;
+  one_breakpoint.ring_planet_mesh.friction.coefficient->contact_ratio = 1.0;
+  for (const gear::Stage& s : {both, ring_only, one_breakpoint}) {
+    const Scales scales = scales_of(s);
+    const auto p = make_parameters<planets>(s, scales, 0.9, {GapDamping::always, Gyroscopic::off, 0.0});
+    const MeshLaw sp(s, Which::sun_planet);
+    const MeshLaw rp(s, Which::ring_planet);
+    std::mt19937_64 random(23);
+    std::uniform_real_distribution<double> displacement(-4.0, 4.0);
+    std::array<double, 2 * dof> y;
+    for (double& x : y) x = displacement(random);
+    // Roundings of phases of some hundred turns.
+    constexpr double rounding = 1e-11;
+    for (std::size_t segment = 0; segment < p.segments.size(); ++segment) {
+      const bool wraps = segment + 1 == p.segments.size();
+      const double from = p.breakpoints[segment];
+      const double next = wraps ? p.breakpoints[0] + 2.0 * std::numbers::pi : p.breakpoints[segment + 1];
+      const double middle = 0.5 * (from + next);
+      for (const double turns : {0.0, -1.0, 1.0, 100.0})
+        for (const double phase : {from, middle, next}) {
+          const double there = phase + 2.0 * std::numbers::pi * turns;
+          const auto g = stage_state<Layout::full>(p, segment, there, y.data());
+          for (std::size_t i = 0; i < planets; ++i) {
+            const auto sun = sp.friction(i, phase, middle);
+            const auto ring = rp.friction(i, phase, middle);
+            const double f_sp = g.sun_planet.force[i];
+            const double f_rp = g.ring_planet.force[i];
+            const double mm = 1e3;
+            EXPECT_NEAR(g.sun_planet.friction[i], sun.force * f_sp, rounding);
+            EXPECT_NEAR(g.sun_planet.moment_driving[i], sun.driving_m * mm / *s.sun.base_radius_mm * f_sp, rounding);
+            EXPECT_NEAR(g.sun_planet.moment_driven[i], sun.driven_m * mm / *s.planet.base_radius_mm * f_sp, rounding);
+            EXPECT_NEAR(g.ring_planet.friction[i], ring.force * f_rp, rounding);
+            EXPECT_NEAR(g.ring_planet.moment_driving[i], ring.driving_m * mm / *s.planet.base_radius_mm * f_rp,
+                        rounding);
+            EXPECT_NEAR(g.ring_planet.moment_driven[i], ring.driven_m * mm / *s.ring.base_radius_mm * f_rp, rounding);
+          }
+        }
+    }
+  }
+}
+
+TEST(Forces, SmoothFrictionTablesFollowEachPlanetsPhase) {
+  // A smooth table has no breakpoints, so that one segment must serve every planet's phase and every period.
+  gear::Stage s = problems::with_teeth(problems::r1(), 28, 26, 80, 3);
+  gear::Friction::Table table;
+  constexpr std::size_t rows = 200;
+  for (std::size_t k = 0; k < rows; ++k) {
+    const double phase = static_cast<double>(k) / rows;
+    table.phase.push_back(phase);
+    table.force_ratio.push_back(0.05 * std::sin(2.0 * std::numbers::pi * phase));
+    table.moment_driving_mm.push_back(3.0);
+    table.moment_driven_mm.push_back(0.0);
+  }
+  s.sun_planet_mesh.friction.table = table;
+  const auto p = make_parameters<planets>(s, scales_of(s), 0.9, {});
+  std::array<double, 2 * dof> y{};
+  y[Slots::w_s] = 5.0;
+  // Steffen's cubic through 200 rows of a sine: second order at the extrema.
+  constexpr double table_error = 1e-3 * 0.05 * 10.0;
+  for (double phase = 0.0; phase < 12.5; phase += 0.1) {
+    const auto g = stage_state<Layout::full>(p, 0, phase, y.data());
+    for (std::size_t i = 0; i < planets; ++i) {
+      const double own = phase + 2.0 * std::numbers::pi * 2.0 / 3.0 * static_cast<double>(i);
+      EXPECT_NEAR(g.sun_planet.friction[i] / g.sun_planet.force[i], 0.05 * std::sin(own), table_error) << i;
+      EXPECT_NEAR(g.sun_planet.moment_driving[i] / g.sun_planet.force[i], 3.0 / *s.sun.base_radius_mm, table_error);
     }
   }
 }

@@ -1,0 +1,108 @@
+// Stroboscopic section and period by recurrence on systems with known periods.
+
+#include "analysis/poincare.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "integrate/arkode_flow.hpp"
+
+namespace epicyclic::analysis {
+namespace {
+
+/// Duffing x'' + 0.3 x' - x + x^3 = g cos 1.2 t (validation.md section 4).
+integrate::VectorField duffing(double g) {
+  integrate::VectorField field;
+  field.dimension = 2;
+  constexpr double frequency = 1.2;
+  field.period = 2.0 * std::numbers::pi / frequency;
+  field.right_hand_side = [g](std::size_t, double t, const double* y, double* f) {
+    f[0] = y[1];
+    f[1] = -0.3 * y[1] + y[0] - y[0] * y[0] * y[0] + g * std::cos(frequency * t);
+  };
+  return field;
+}
+
+bool always() { return true; }
+
+Strobe run(double g, const StrobeOptions& options) {
+  const auto flow = integrate::make_arkode_flow(duffing(g), {.relative_tolerance = 1e-9, .absolute_tolerance = 1e-11});
+  std::vector<double> state = {1.0, 0.0};
+  return strobe(
+      *flow, state, options, [](std::size_t, double, std::span<const double>) {}, always);
+}
+
+// The slowest multiplier among these orbits decays below this within the transient; the chaotic orbit's points are
+// farther apart than this by orders of magnitude.
+constexpr double same_point = 1e-6;
+
+TEST(Recurrence, FindsThePublishedPeriodsOfDuffing) {
+  const struct {
+    double g;
+    int period;
+  } published[] = {{0.20, 1}, {0.28, 2}, {0.29, 4}, {0.37, 5}, {0.65, 2}};
+  for (const auto& [g, period] : published) {
+    const Strobe s = run(g, {.transient_periods = 600, .recorded_periods = 64});
+    ASSERT_TRUE(s.evolution.reached());
+    EXPECT_EQ(recurrence(s.section, 16, same_point).period, period) << "g = " << g;
+  }
+}
+
+TEST(Recurrence, DoesNotFindAPeriodInChaos) {
+  const Strobe s = run(0.50, {.transient_periods = 600, .recorded_periods = 128});
+  const Recurrence r = recurrence(s.section, 32, same_point);
+  EXPECT_EQ(r.period, 0);
+  EXPECT_GT(r.error, 1e3 * same_point);
+  EXPECT_GT(r.best_period, 0);
+}
+
+TEST(Recurrence, ComparesTheWholeStateOverTheWholeRecord) {
+  // Period 2 in the second component only, and a slip of the first at the last point.
+  PoincareSection section{2, {}};
+  for (int k = 0; k < 10; ++k) {
+    section.states.push_back(1.0);
+    section.states.push_back(k % 2);
+  }
+  EXPECT_EQ(recurrence(section, 5, 1e-12).period, 2);
+  section.states[18] = 1.5;
+  EXPECT_EQ(recurrence(section, 5, 1e-12).period, 0);
+  EXPECT_EQ(recurrence(section, 5, 0.5).period, 2);
+}
+
+TEST(Strobe, NumberOfPhasesLeavesTheSectionUnchanged) {
+  const Strobe coarse = run(0.28, {.transient_periods = 10, .recorded_periods = 8, .phases = 1});
+  const Strobe fine = run(0.28, {.transient_periods = 10, .recorded_periods = 8, .phases = 257});
+  EXPECT_EQ(coarse.section.states, fine.section.states);
+}
+
+TEST(Strobe, ObserverSeesEachPhaseInOrderAndTheLastIsTheSection) {
+  const auto flow = integrate::make_arkode_flow(duffing(0.2), {});
+  std::vector<double> state = {1.0, 0.0};
+  std::size_t expected = 0;
+  std::vector<double> last;
+  const Strobe s = strobe(
+      *flow, state, {.transient_periods = 1, .recorded_periods = 3, .phases = 4},
+      [&](std::size_t index, double, std::span<const double> y) {
+        EXPECT_EQ(index, expected++);
+        last.assign(y.begin(), y.end());
+      },
+      always);
+  EXPECT_EQ(expected, 12U);
+  EXPECT_EQ(last, std::vector<double>(s.section.point(2).begin(), s.section.point(2).end()));
+  EXPECT_EQ(last, state);
+}
+
+TEST(Strobe, StopsWhenAskedTo) {
+  const auto flow = integrate::make_arkode_flow(duffing(0.2), {});
+  std::vector<double> state = {1.0, 0.0};
+  int asked = 0;
+  const Strobe s = strobe(
+      *flow, state, {.transient_periods = 5, .recorded_periods = 5}, [](auto&&...) {}, [&] { return ++asked <= 7; });
+  EXPECT_EQ(s.section.size(), 2U);
+}
+
+}  // namespace
+}  // namespace epicyclic::analysis

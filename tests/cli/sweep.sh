@@ -1,0 +1,115 @@
+#!/usr/bin/env bash
+# sweep.sh EPICYCLIC SOURCE_DIR
+#
+# The life of an output folder: same bytes at 1, 2 and 8 threads, complete, another study, in use, stopped by a signal and
+# killed at any moment with the same bytes in the end, damaged journal, resolved input that reproduces the study.
+set -euo pipefail
+
+epicyclic=$1
+inputs=$2/inputs
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+failed=0
+
+fail() {
+  echo "FAILED: $1"
+  failed=$((failed + 1))
+}
+
+# Exit code of a command, its output in stdout and stderr.
+code_of() {
+  local code=0
+  "$@" >stdout 2>stderr </dev/null || code=$?
+  echo "$code"
+}
+
+small=(--set /study/points=6 --set /study/transient_periods=8 --set /study/recorded_periods=8)
+sweep() { "$epicyclic" sweep "$inputs/tang2020_speed.json" "${small[@]}" "$@"; }
+
+same_results() {
+  local file
+  for file in points.csv poincare.csv results.h5 input.json input.resolved.json figures/bifurcation_delta_sp.dat; do
+    cmp -s "$1/$file" "$2/$file" || fail "$file differs between $1 and $2"
+  done
+}
+
+for threads in 1 2 8; do
+  [ "$(code_of sweep -o "t$threads" --threads "$threads")" = 0 ] || fail "sweep with $threads threads: $(<stderr)"
+done
+same_results t1 t2
+same_results t1 t8
+[ "$(wc -l <t1/points.csv)" = 13 ] || fail "points.csv must have a header and 12 rows"
+[ "$(wc -l <t1/poincare.csv)" = 97 ] || fail "poincare.csv must have a header and 12 x 8 rows"
+for figure in bifurcation_delta_sp bifurcation_delta_rp; do
+  for kind in png svg gp dat; do [ -s "t1/figures/$figure.$kind" ] || fail "figures/$figure.$kind is missing"; done
+done
+
+# Complete: nothing is computed again, nothing changes.
+before=$(sha256sum t1/points.csv t1/run.json)
+[ "$(code_of sweep -o t1)" = 0 ] || fail "a complete folder must give exit 0"
+[ "$before" = "$(sha256sum t1/points.csv t1/run.json)" ] || fail "a complete folder was changed"
+
+# Another study, a foreign folder, a folder in use.
+[ "$(code_of sweep -o t1 --set /integrator/relative_tolerance=1e-7)" = 3 ] || fail "another study must give exit 3"
+mkdir foreign && echo mine >foreign/thesis.txt
+[ "$(code_of sweep -o foreign)" = 3 ] || fail "a foreign folder must give exit 3"
+[ "$(ls foreign)" = thesis.txt ] || fail "a foreign folder was written to"
+mkdir busy
+(
+  flock 9
+  [ "$(code_of sweep -o busy)" = 4 ] || fail "a folder in use must give exit 4"
+  exit "$failed"
+) 9>busy/.lock || failed=$((failed + 1))
+
+# The resolved input is an input and gives the same numbers.
+[ "$(code_of "$epicyclic" sweep t1/input.resolved.json -o resolved)" = 0 ] || fail "resolved input: $(<stderr)"
+cmp -s t1/points.csv resolved/points.csv || fail "the resolved input gives other points"
+
+# Stopped by a signal: exit 75, then the same bytes. Killed: no manual step, the same bytes.
+longer=(--set /study/points=24 --set /study/transient_periods=60)
+sweep "${longer[@]}" -o whole >stdout 2>stderr
+for signal in INT TERM KILL KILL KILL; do
+  rm -rf cut
+  for attempt in 1 2 3; do
+    # not through the function: the signal must reach the program, not a shell around it
+    "$epicyclic" sweep "$inputs/tang2020_speed.json" "${small[@]}" "${longer[@]}" -o cut --threads 2 >stdout 2>stderr &
+    pid=$!
+    sleep "0.$((RANDOM % 4 + 1))"
+    kill -s "$signal" "$pid" 2>/dev/null || true
+    code=0
+    wait "$pid" || code=$?
+    [ "$signal" = KILL ] || [ "$code" = 75 ] || [ "$code" = 0 ] || fail "SIG$signal: exit code $code"
+  done
+  [ "$(code_of sweep "${longer[@]}" -o cut --threads 2)" = 0 ] || fail "resume after SIG$signal: $(<stderr)"
+  same_results whole cut
+done
+
+# A journal that was damaged in the middle is refused, not repaired.
+cp -r whole damaged
+sed -i 's/"state": *"complete"/"state": "running"/' damaged/run.json
+printf '\xff\x00\xff' | dd of=damaged/journal.bin bs=1 seek=5000 conv=notrunc status=none
+[ "$(code_of sweep "${longer[@]}" -o damaged)" = 7 ] || fail "a damaged journal must give exit 7: $(<stderr)"
+
+# A full disk: what a file system of limited size does to a running sweep, by a limit on the size of files.
+(ulimit -f 64; trap '' XFSZ; sweep "${longer[@]}" -o full >stdout 2>stderr) && fail "a full disk must not give exit 0" || {
+  code=$?
+  [ "$code" = 5 ] || fail "a full disk must give exit 5, not $code"
+}
+[ "$(code_of sweep "${longer[@]}" -o full)" = 0 ] || fail "resume after a full disk: $(<stderr)"
+same_results whole full
+
+# The other commands.
+[ "$(code_of "$epicyclic" check "$inputs/tang2020_speed.json")" = 0 ] || fail "check: $(<stderr)"
+for study in "$inputs"/*.json; do
+  [ "$(code_of "$epicyclic" check "$study")" = 0 ] || fail "check $study: $(<stderr)"
+done
+[ "$(code_of "$epicyclic" schema)" = 0 ] || fail schema
+[ "$(code_of "$epicyclic" gear "$inputs/lin_parker_1999_n3.json" -o gear)" = 0 ] || fail "gear: $(<stderr)"
+[ "$(wc -l <gear/modes.csv)" = 13 ] || fail "modes.csv of three planets must have a header and 12 rows"
+[ "$(code_of "$epicyclic" sweep "$inputs/lin_parker_1999_n3.json" -o no)" = 2 ] || fail "a stage alone cannot be swept"
+[ "$(code_of "$epicyclic")" = 2 ] || fail "no subcommand must give exit 2"
+[ "$(code_of "$epicyclic" sweep --threads 0 x -o y)" = 2 ] || fail "--threads 0 must give exit 2"
+
+echo "$failed failures"
+[ "$failed" = 0 ]

@@ -1,0 +1,177 @@
+// Grid, chains and bookkeeping of sweeps.
+
+#include "studies/sweep.hpp"
+
+#include <numbers>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace epicyclic::studies {
+namespace {
+
+TEST(SweepPlan, GridHasBothEndsAndReadableValues) {
+  SweepOptions o;
+  o.from = 0.2;
+  o.to = 3.5;
+  o.points = 661;
+  const SweepPlan plan = plan_sweep(o);
+  EXPECT_EQ(plan.points.front().value, 0.2);
+  EXPECT_EQ(plan.points.back().value, 3.5);
+  EXPECT_EQ(plan.points[180].value, 1.1);
+  for (std::size_t k = 1; k < plan.points.size(); ++k) EXPECT_LT(plan.points[k - 1].value, plan.points[k].value);
+}
+
+TEST(SweepPlan, DownIsUpReversedAndNumberedAfterIt) {
+  SweepOptions o;
+  o.points = 11;
+  o.directions = {Direction::up, Direction::down};
+  const SweepPlan plan = plan_sweep(o);
+  ASSERT_EQ(plan.points.size(), 22U);
+  for (std::size_t k = 0; k < 11; ++k) {
+    EXPECT_EQ(plan.points[k].value, plan.points[21 - k].value);
+    EXPECT_EQ(plan.points[11 + k].direction, Direction::down);
+    EXPECT_EQ(plan.points[11 + k].index, 11 + k);
+  }
+}
+
+TEST(SweepPlan, ChainsHoldEachPointOnce) {
+  for (const Start start : {Start::carried, Start::cold})
+    for (const int segments : {1, 3, 7}) {
+      SweepOptions o;
+      o.points = 20;
+      o.directions = {Direction::down, Direction::up};
+      o.start = start;
+      o.segments = segments;
+      const SweepPlan plan = plan_sweep(o);
+      EXPECT_EQ(plan.chains.size(), start == Start::cold ? 40U : static_cast<std::size_t>(2 * segments));
+      std::set<std::size_t> seen;
+      for (const auto& chain : plan.chains)
+        for (const std::size_t index : chain) EXPECT_TRUE(seen.insert(index).second);
+      EXPECT_EQ(seen.size(), 40U);
+    }
+}
+
+/// A damped linear oscillator that plays the role of a stage of two planets: delta_1 = x, delta_2 = -x.
+model::DynamicModel oscillator(double value) {
+  model::DynamicModel m;
+  m.planets = 2;
+  m.dimension = 2;
+  m.state_names = {"x", "x_rate"};
+  m.sun_planet_half_gap = 0.5;
+  m.ring_planet_half_gap = 0.5;
+  m.omega = 1.0;
+  m.right_hand_side = [value](std::size_t, double s, const double* y, double* f) {
+    f[0] = y[1];
+    f[1] = -y[0] - 0.4 * y[1] + value * std::cos(s);
+  };
+  m.deflections = [](double, const double* y, model::MeshDeflections& d) {
+    d.sun_planet = d.ring_planet = {y[0], -y[0]};
+    d.sun_planet_rate = d.ring_planet_rate = {y[1], -y[1]};
+  };
+  m.default_start = {0.0, 0.0};
+  return m;
+}
+
+SweepOptions few_points() {
+  SweepOptions o;
+  o.from = 0.1;
+  o.to = 0.4;
+  o.points = 4;
+  o.transient_periods = 40;
+  o.recorded_periods = 8;
+  o.period_max = 4;
+  return o;
+}
+
+TEST(Sweep, RecordsExtremaContactAndPeriodOfAKnownResponse) {
+  // At resonance with damping 0.4 the amplitude is value / 0.4; the phases of the dense output hit the extrema of sin
+  // s.
+  constexpr double settled = 1e-6;  // exp(-0.2 * 2 pi * 40) of the transient and the tolerance of the integrator
+  const SweepOptions o = few_points();
+  const auto results = run_sweep(plan_sweep(o), o, {}, oscillator, {});
+  ASSERT_EQ(results.size(), 4U);
+  for (const PointResult& r : results) {
+    const double amplitude = r.point.value / 0.4;
+    EXPECT_EQ(r.recurrence.period, 1);
+    EXPECT_NEAR(r.sun_planet[0].delta_max, amplitude, settled);
+    EXPECT_NEAR(r.sun_planet[1].delta_min, -amplitude, settled);
+    EXPECT_NEAR(r.planet_spread, 2.0 * amplitude, 2.0 * settled);
+    EXPECT_EQ(r.sun_planet[0].contact(), amplitude > 0.5 ? "drive+loss+back" : "loss") << amplitude;
+    EXPECT_EQ(r.poincare_rows(), 8U);
+    EXPECT_GT(r.rhs_evaluations, 1000);
+  }
+}
+
+TEST(Sweep, ThreadsAndResumptionLeaveEachNumberUnchanged) {
+  SweepOptions o = few_points();
+  o.directions = {Direction::up, Direction::down};
+  const SweepPlan plan = plan_sweep(o);
+  const auto one = run_sweep(plan, o, {}, oscillator, {});
+  SweepRun resumed;
+  resumed.threads = 8;
+  resumed.done = {{0, one[0]}, {1, one[1]}, {4, one[4]}};
+  std::set<std::size_t> computed;
+  resumed.point_finished = [&](const PointResult& r) { computed.insert(r.point.index); };
+  const auto two = run_sweep(plan, o, {}, oscillator, std::move(resumed));
+  EXPECT_EQ(computed, (std::set<std::size_t>{2, 3, 5, 6, 7}));
+  ASSERT_EQ(two.size(), one.size());
+  for (std::size_t k = 0; k < one.size(); ++k) {
+    EXPECT_EQ(one[k].poincare, two[k].poincare);
+    EXPECT_EQ(one[k].end_state, two[k].end_state);
+  }
+}
+
+TEST(Sweep, CarriedStartIsTheEndOfThePointBefore) {
+  SweepOptions o = few_points();
+  o.transient_periods = 0;
+  o.recorded_periods = 1;
+  const auto carried = run_sweep(plan_sweep(o), o, {}, oscillator, {});
+  o.start = Start::cold;
+  const auto cold = run_sweep(plan_sweep(o), o, {}, oscillator, {});
+  EXPECT_EQ(carried[0].end_state, cold[0].end_state);
+  EXPECT_NE(carried[1].end_state, cold[1].end_state);
+  const auto again = compute_point(plan_sweep(o).points[1], oscillator(carried[1].point.value), carried[0].end_state, o,
+                                   {}, [] { return true; });
+  EXPECT_EQ(again.end_state, carried[1].end_state);
+}
+
+TEST(Sweep, GoesOnAfterAPointThatDiverges) {
+  SweepOptions o = few_points();
+  const auto unstable = [](double value) {
+    model::DynamicModel m = oscillator(value);
+    if (value > 0.15 && value < 0.25)
+      m.right_hand_side = [](std::size_t, double, const double* y, double* f) {
+        f[0] = y[1];
+        f[1] = 1.0 + y[0];
+      };
+    return m;
+  };
+  const auto results = run_sweep(plan_sweep(o), o, {}, unstable, {});
+  EXPECT_EQ(results[1].outcome, integrate::Outcome::diverged);
+  EXPECT_FALSE(results[1].message.empty());
+  EXPECT_TRUE(results[1].end_state.empty());
+  EXPECT_EQ(results[2].outcome, integrate::Outcome::reached);
+}
+
+TEST(Sweep, StopsSoonAndKeepsWhatWasFinished) {
+  SweepOptions o = few_points();
+  std::atomic<bool> stop{false};
+  SweepRun run;
+  run.stop = &stop;
+  run.point_finished = [&](const PointResult& r) { stop = r.point.index == 1; };
+  EXPECT_EQ(run_sweep(plan_sweep(o), o, {}, oscillator, std::move(run)).size(), 2U);
+}
+
+TEST(Sweep, ExceptionOfAPointArrivesUnchanged) {
+  const SweepOptions o = few_points();
+  const auto throwing = [](double value) -> model::DynamicModel {
+    if (value > 0.25) throw std::domain_error("no such point");
+    return oscillator(value);
+  };
+  EXPECT_THROW((void)run_sweep(plan_sweep(o), o, {}, throwing, {}), std::domain_error);
+}
+
+}  // namespace
+}  // namespace epicyclic::studies
