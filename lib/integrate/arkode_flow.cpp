@@ -1,11 +1,13 @@
 #include "integrate/arkode_flow.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <string>
 #include <utility>
 
+#include <arkode/arkode_butcher_erk.h>
 #include <arkode/arkode_erkstep.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
@@ -29,9 +31,13 @@ struct VectorDeleter {
 struct StepperDeleter {
   void operator()(void* memory) const { ERKStepFree(&memory); }
 };
+struct TableDeleter {
+  void operator()(ARKodeButcherTable t) const { ARKodeButcherTable_Free(t); }
+};
 using Context = std::unique_ptr<std::remove_pointer_t<SUNContext>, ContextDeleter>;
 using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, VectorDeleter>;
 using Stepper = std::unique_ptr<void, StepperDeleter>;
+using Table = std::unique_ptr<std::remove_pointer_t<ARKodeButcherTable>, TableDeleter>;
 
 Context make_context() {
   SUNContext c = nullptr;
@@ -39,11 +45,66 @@ Context make_context() {
   return Context(c);
 }
 
+/// z = sum_j c_j x_j, element by element in the order of j. The stock serial operation goes through memory once for
+/// each x_j, which is most of the time of a small system's Runge-Kutta stage; this one keeps a block of z in registers.
+/// z may be one of the x_j.
+int linear_combination(int count, realtype* c, N_Vector* x, N_Vector z) {
+  constexpr sunindextype block = 8;
+  constexpr int most = 32;  // more than the stages of any pair
+  if (count > most) return -1;
+  std::array<const realtype*, most> in;
+  for (int j = 0; j < count; ++j) in[static_cast<std::size_t>(j)] = N_VGetArrayPointer_Serial(x[j]);
+  const sunindextype n = N_VGetLength_Serial(z);
+  realtype* out = N_VGetArrayPointer_Serial(z);
+  sunindextype first = 0;
+  for (; first + block <= n; first += block) {
+    realtype sum[block] = {};
+    for (int j = 0; j < count; ++j) {
+      const realtype* from = in[static_cast<std::size_t>(j)] + first;
+      for (sunindextype k = 0; k < block; ++k) sum[k] += c[j] * from[k];
+    }
+    std::copy(sum, sum + block, out + first);
+  }
+  for (; first < n; ++first) {
+    realtype sum = 0.0;
+    for (int j = 0; j < count; ++j) sum += c[j] * in[static_cast<std::size_t>(j)][first];
+    out[first] = sum;
+  }
+  return 0;
+}
+
 Vector make_vector(std::size_t dimension, SUNContext context) {
   Vector v(N_VNew_Serial(static_cast<sunindextype>(dimension), context));
   if (!v) throw SolverError("N_VNew_Serial", -1, 0.0, "no memory for " + std::to_string(dimension) + " numbers");
   N_VEnableFusedOps_Serial(v.get(), SUNTRUE);
+  v->ops->nvlinearcombination = &linear_combination;  // clones inherit it
   return v;
+}
+
+/// The pair's table, with its first-same-as-last stage written out where it must be.
+///
+/// SUNDIALS before 6.6.2 takes any method with c_s = 1 for first-same-as-last and starts the next step from the last
+/// stage's slope, although a_sj != b_j: the order falls to 2 or 3. With one more stage of weight 0, whose row of A is b,
+/// the property holds, and a step costs the s right-hand sides that it costs anyway.
+Table make_table(const ErkMethod& method) {
+  const Table given(ARKodeButcherTable_LoadERKByName(std::string(method.table).c_str()));
+  if (!given) throw SolverError("ARKodeButcherTable_LoadERKByName", -1, 0.0, std::string(method.table));
+  const int s = given->stages;
+  const bool same_as_last = std::equal(given->b, given->b + s, given->A[s - 1]);
+  const bool extended = given->c[s - 1] == 1.0 && !same_as_last;
+  Table table(ARKodeButcherTable_Alloc(extended ? s + 1 : s, SUNTRUE));
+  if (!table) throw SolverError("ARKodeButcherTable_Alloc", -1, 0.0, "no memory");
+  table->q = given->q;
+  table->p = given->p;
+  std::copy(given->b, given->b + s, table->b);
+  std::copy(given->d, given->d + s, table->d);
+  std::copy(given->c, given->c + s, table->c);
+  for (int i = 0; i < s; ++i) std::copy(given->A[i], given->A[i] + s, table->A[i]);
+  if (extended) {
+    std::copy(given->b, given->b + s, table->A[s]);
+    table->c[s] = 1.0;
+  }
+  return table;
 }
 
 bool finite(const double* x, std::size_t n) {
@@ -68,7 +129,8 @@ class ArkodeFlow final : public Flow {
     if (!stepper_) throw SolverError("ERKStepCreate", -1, 0.0, "no memory");
     check("ERKStepSetErrHandlerFn", ERKStepSetErrHandlerFn(stepper_.get(), &ArkodeFlow::keep_message, this));
     check("ERKStepSetUserData", ERKStepSetUserData(stepper_.get(), this));
-    check("ERKStepSetTableName", ERKStepSetTableName(stepper_.get(), std::string(method->table).c_str()));
+    const Table table = make_table(*method);
+    check("ERKStepSetTable", ERKStepSetTable(stepper_.get(), table.get()));
     check("ERKStepSetInterpolantDegree", ERKStepSetInterpolantDegree(stepper_.get(), std::min(3, method->order - 1)));
     // Steps are counted here, per evolution; ARKODE counts per call and is called for one step at a time.
     check("ERKStepSetMaxNumSteps", ERKStepSetMaxNumSteps(stepper_.get(), -1));
