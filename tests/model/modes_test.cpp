@@ -100,7 +100,7 @@ TEST(Modes, UnequalSpacingMixesTypesAndKeepsTheRigidRotation) {
   EXPECT_GT(mixed, 8);
 }
 
-/// Kahraman, J. Mech. Design 116 (1994) 713: torsion only, rigid pins, ring fixed, m_c with the planets' masses.
+/// Closed form of Kahraman 1994: torsion only, rigid pins, ring fixed, m_c with the planets' masses.
 struct Torsion {
   int planets;
   double m_s, m_p, m_c, k_s, k_r, alpha_s, alpha_r;

@@ -29,6 +29,16 @@ inline std::array<double, 4> smooth_nonlinear_solution(double s) {
   return {std::exp(sine), std::exp(5.0 * sine), sine + 1.0, std::cos(s * s)};
 }
 
+/// y' = -2 s y^(3/2), y = 4 / (2 + s^2)^2: slow enough for pairs of high order to show it above rounding.
+inline integrate::VectorField smooth_bell() {
+  integrate::VectorField f;
+  f.dimension = 1;
+  f.right_hand_side = [](std::size_t, double s, const double* y, double* d) { d[0] = -2.0 * s * y[0] * std::sqrt(y[0]); };
+  return f;
+}
+
+inline double smooth_bell_solution(double s) { return 4.0 / ((2.0 + s * s) * (2.0 + s * s)); }
+
 /// y' = -y^2 / 5 + c_k (1 + s), c = +1, -2, 0.5 on three segments of the period 1: jumps at 0, 0.3 and 0.7124.
 inline integrate::VectorField jumping(bool declared) {
   integrate::VectorField f;
