@@ -91,11 +91,13 @@ TEST(FrictionPath, FrictionOpposesSlidingOfEveryPairAllAlongThePath) {
       const double right = phase_at_right(t, p);
       const double middle = 0.5 * (t.phase[p.left] + right);
       for (const auto& [row, phase] : {std::pair{p.left, t.phase[p.left]}, std::pair{p.right, right}})
-        for (const Pair& pair : pairs_at(t, row, phase, middle, start, m.line.base_pitch_mm, m.friction.contact_ratio)) {
+        for (const Pair& pair :
+             pairs_at(t, row, phase, middle, start, m.line.base_pitch_mm, m.friction.contact_ratio)) {
           EXPECT_NEAR(std::abs(pair.ratio), m.friction.coefficient, rounding) << m.name << " at " << phase;
           // At the pitch point itself the sliding speed is a rounding error.
           const double sliding = m.omega_1 * pair.arm_1 - m.omega_2 * m.line.arm_2(pair.arm_1);
-          EXPECT_LE(pair.ratio * sliding, rounding_mm * m.omega_1 * m.friction.coefficient) << m.name << " at " << phase;
+          EXPECT_LE(pair.ratio * sliding, rounding_mm * m.omega_1 * m.friction.coefficient)
+              << m.name << " at " << phase;
         }
     }
   }

@@ -13,8 +13,8 @@ namespace epicyclic::gear {
 namespace {
 
 struct Rule {
-  const char* pointer;                 ///< what the line must begin with
-  const char* words;                   ///< what it must contain
+  const char* pointer;  ///< what the line must begin with
+  const char* words;    ///< what it must contain
   std::function<void(Stage&)> break_it;
   Stage base = problems::r1();
 };
@@ -76,8 +76,14 @@ TEST(Stage, ModesNameEachRuleThatIsBroken) {
       {
           {"/planets/count", "(1)", [](Stage& s) { s.planet_count = 1; }},
           {"/planets/count", "(7)", [](Stage& s) { s.planet_count = 7; }},
-          {"/planets/angles_deg", "has 2 angles for 3", [](Stage& s) { s.angles_deg = {0.0, 120.0}; }},
-          {"/planets/angles_deg/2", "place of another", [](Stage& s) { s.angles_deg = {0.0, 120.0, 360.0}; }},
+          {"/planets/angles_deg", "has 2 angles for 3",
+           [](Stage& s) {
+             s.angles_deg = {0.0, 120.0};
+           }},
+          {"/planets/angles_deg/2", "place of another",
+           [](Stage& s) {
+             s.angles_deg = {0.0, 120.0, 360.0};
+           }},
           {"/lumped/sun/mass_kg", "positive", [](Stage& s) { s.sun.mass_kg = 0.0; }},
           {"/lumped/ring/inertia_over_r2_kg", "(-1)", [](Stage& s) { s.ring.inertia_over_r2_kg = -1.0; }},
           {"/lumped/carrier/mass_kg", "positive", [](Stage& s) { s.carrier.mass_kg = rigid; }},
@@ -134,11 +140,17 @@ TEST(Stage, MotionNamesEachRuleThatIsBroken) {
           {"/lumped/ring_planet_mesh/damping_ratio", "missing",
            [](Stage& s) { s.ring_planet_mesh.damping_ratio.reset(); }},
           {"/lumped/sun_planet_mesh/error_amplitude_um", "has 2 numbers",
-           [](Stage& s) { s.sun_planet_mesh.error_amplitude_um = {1.0, 2.0}; }},
+           [](Stage& s) {
+             s.sun_planet_mesh.error_amplitude_um = {1.0, 2.0};
+           }},
           {"/lumped/ring_planet_mesh/error_phase_deg", "has 4 numbers",
-           [](Stage& s) { s.ring_planet_mesh.error_phase_deg = {1.0, 2.0, 3.0, 4.0}; }},
+           [](Stage& s) {
+             s.ring_planet_mesh.error_phase_deg = {1.0, 2.0, 3.0, 4.0};
+           }},
           {"/lumped/sun_planet_mesh/stiffness_N_per_m", "must stay positive",
-           [](Stage& s) { s.sun_planet_mesh.stiffness_cos_N_per_m = {0.0, 1.3e9}; }},
+           [](Stage& s) {
+             s.sun_planet_mesh.stiffness_cos_N_per_m = {0.0, 1.3e9};
+           }},
           {"/lumped/sun/bearing/balls", "missing",
            [](Stage& s) {
              s.sun_bearing.law = BearingLaw::palmgren_xy;
@@ -176,14 +188,26 @@ TEST(Stage, FrictionTablesNameEachRuleThatIsBroken) {
           {force.c_str(), "has 4 numbers", [&](Stage& s) { table(s).force_ratio.pop_back(); }, base},
           {driving.c_str(), "has 4 numbers", [&](Stage& s) { table(s).moment_driving_mm.pop_back(); }, base},
           {driven.c_str(), "has 4 numbers", [&](Stage& s) { table(s).moment_driven_mm.pop_back(); }, base},
-          {phase.c_str(), "at least 2", [&](Stage& s) { table(s) = {{0.0}, {1}, {1}, {1}, {}}; }, base},
+          {phase.c_str(), "at least 2",
+           [&](Stage& s) {
+             table(s) = {{0.0}, {1}, {1}, {1}, {}};
+           },
+           base},
           {row_4.c_str(), "[0, 1)", [&](Stage& s) { table(s).phase[4] = 1.0; }, base},
           {row_4.c_str(), "must rise", [&](Stage& s) { table(s).phase[4] = 0.3; }, base},
           {row_3.c_str(), "not among the breakpoints", [&](Stage& s) { table(s).breakpoints = {0.0}; }, base},
           {row_2.c_str(), "more than twice", [&](Stage& s) { table(s).phase[2] = 0.0; }, base},
           {breakpoint_1.c_str(), "[0, 1)", [&](Stage& s) { table(s).breakpoints[1] = 1.0; }, base},
-          {breakpoint_1.c_str(), "must rise", [&](Stage& s) { table(s).breakpoints = {0.4, 0.0}; }, base},
-          {breakpoint_0.c_str(), "needs a row", [&](Stage& s) { table(s).breakpoints = {0.1, 0.4}; }, base},
+          {breakpoint_1.c_str(), "must rise",
+           [&](Stage& s) {
+             table(s).breakpoints = {0.4, 0.0};
+           },
+           base},
+          {breakpoint_0.c_str(), "needs a row",
+           [&](Stage& s) {
+             table(s).breakpoints = {0.1, 0.4};
+           },
+           base},
       },
       problems_for_motion);
 }

@@ -233,8 +233,8 @@ TEST_F(ArkodeOutcome, GrowthBeyondTheBoundIsDiverged) {
 
 TEST_F(ArkodeOutcome, BlowUpInFiniteTimeIsNeverReached) {
   // y' = y^2 blows up at s = 1.
-  const auto flow = make_arkode_flow(field_of(1, [](double, const double* y, double* d) { d[0] = y[0] * y[0]; }),
-                                     tolerance(1e-8));
+  const auto flow =
+      make_arkode_flow(field_of(1, [](double, const double* y, double* d) { d[0] = y[0] * y[0]; }), tolerance(1e-8));
   std::array<double, 1> y = {1.0};
   const Evolution e = flow->evolve(y, 0.0, 2.0);
   EXPECT_EQ(e.outcome, Outcome::diverged);
@@ -245,12 +245,13 @@ TEST_F(ArkodeOutcome, BlowUpInFiniteTimeIsNeverReached) {
 TEST_F(ArkodeOutcome, TooManyStepsAreAStepLimit) {
   IntegratorOptions o = tolerance(1e-10);
   o.max_steps_per_period = 50;
-  const auto flow = make_arkode_flow(field_of(2,
-                                              [](double, const double* y, double* d) {
-                                                d[0] = 100.0 * y[1];
-                                                d[1] = -100.0 * y[0];
-                                              },
-                                              two_pi),
+  const auto flow = make_arkode_flow(field_of(
+                                         2,
+                                         [](double, const double* y, double* d) {
+                                           d[0] = 100.0 * y[1];
+                                           d[1] = -100.0 * y[0];
+                                         },
+                                         two_pi),
                                      o);
   std::array<double, 2> y = {1.0, 0.0};
   const Evolution e = flow->evolve(y, 0.0, two_pi);
@@ -264,7 +265,8 @@ TEST_F(ArkodeOutcome, TooManyStepsAreAStepLimit) {
 
 TEST_F(ArkodeOutcome, StepsAreCountedPerPeriodAndNotPerSegment) {
   // Ten segments of few steps each are more steps than allowed in one period.
-  VectorField f = field_of(1, [](double s, const double*, double* d) { d[0] = std::cos(50.0 * s); }, 1.0);
+  VectorField f = field_of(
+      1, [](double s, const double*, double* d) { d[0] = std::cos(50.0 * s); }, 1.0);
   for (int k = 0; k < 10; ++k) f.breakpoints.push_back(0.1 * k);
   IntegratorOptions o = tolerance(1e-12);
   std::array<double, 1> y = {0.0};
@@ -277,12 +279,12 @@ TEST_F(ArkodeOutcome, StepsAreCountedPerPeriodAndNotPerSegment) {
 
 TEST_F(ArkodeOutcome, ARightHandSideThatIsNotFiniteIsFailed) {
   for (const bool at_once : {true, false}) {
-    const auto flow = make_arkode_flow(
-        field_of(1,
-                 [at_once](double s, const double* y, double* d) {
-                   d[0] = at_once || s > 0.5 ? std::numeric_limits<double>::quiet_NaN() : -y[0];
-                 }),
-        tolerance(1e-8));
+    const auto flow =
+        make_arkode_flow(field_of(1,
+                                  [at_once](double s, const double* y, double* d) {
+                                    d[0] = at_once || s > 0.5 ? std::numeric_limits<double>::quiet_NaN() : -y[0];
+                                  }),
+                         tolerance(1e-8));
     std::array<double, 1> y = {1.0};
     const Evolution e = flow->evolve(y, 0.0, 1.0);
     EXPECT_EQ(e.outcome, Outcome::failed) << at_once;
@@ -296,10 +298,8 @@ TEST_F(ArkodeOutcome, ARightHandSideThatIsNotFiniteIsFailed) {
 
 TEST_F(ArkodeOutcome, FixedStepsFailTooOnARightHandSideThatIsNotFinite) {
   const auto flow = make_arkode_fixed_step_flow(
-      field_of(1,
-               [](double s, const double*, double* d) {
-                 d[0] = s > 0.5 ? std::numeric_limits<double>::infinity() : 1.0;
-               }),
+      field_of(1, [](double s, const double*,
+                     double* d) { d[0] = s > 0.5 ? std::numeric_limits<double>::infinity() : 1.0; }),
       tolerance(1e-8), 0.1);
   std::array<double, 1> y = {0.0};
   EXPECT_EQ(flow->evolve(y, 0.0, 1.0).outcome, Outcome::failed);

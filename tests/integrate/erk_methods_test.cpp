@@ -1,5 +1,3 @@
-#include "integrate/methods.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 
 #include "core/errors.hpp"
 #include "integrate/arkode_flow.hpp"
+#include "integrate/methods.hpp"
 #include "problems/known_systems.hpp"
 
 namespace epicyclic::integrate {
@@ -110,8 +109,8 @@ TEST(ErkMethods, NamesAreFoundAndDistinct) {
 TEST(ErkMethods, OrdersAndStagesAreThoseOfTheTables) {
   for (const ErkMethod& m : erk_methods()) {
     // ARKODE's names end in stages_embedded_order.
-    const std::string end = "_" + std::to_string(m.stages) + "_" + std::to_string(m.embedded_order) + "_" +
-                            std::to_string(m.order);
+    const std::string end =
+        "_" + std::to_string(m.stages) + "_" + std::to_string(m.embedded_order) + "_" + std::to_string(m.order);
     EXPECT_TRUE(m.table.ends_with(end)) << m.table;
   }
   EXPECT_TRUE(std::is_sorted(erk_methods().begin(), erk_methods().end(),

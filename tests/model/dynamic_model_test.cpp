@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <random>
 #include <optional>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,10 +26,11 @@ DynamicModel model_of(const gear::Stage& s, double omega = 0.9, CoordinateChoice
 }
 
 TEST(DynamicModel, DegreesOfFreedomAreThoseOfTheBoundary) {
-  for (const auto& [stage, planets] : {std::pair{problems::r1(), 3U}, std::pair{problems::with_teeth(problems::r1(), 30, 24, 78, 4), 4U},
-                                       std::pair{problems::with_teeth(problems::r1(), 27, 27, 81, 2), 2U},
-                                       std::pair{problems::with_teeth(problems::r1(), 27, 27, 81, 6), 6U},
-                                       std::pair{problems::with_teeth(problems::r1(), 24, 26, 76, 5), 5U}}) {
+  for (const auto& [stage, planets] :
+       {std::pair{problems::r1(), 3U}, std::pair{problems::with_teeth(problems::r1(), 30, 24, 78, 4), 4U},
+        std::pair{problems::with_teeth(problems::r1(), 27, 27, 81, 2), 2U},
+        std::pair{problems::with_teeth(problems::r1(), 27, 27, 81, 6), 6U},
+        std::pair{problems::with_teeth(problems::r1(), 24, 26, 76, 5), 5U}}) {
     EXPECT_EQ(model_of(stage).dimension, 2 * (3 * planets + 8));
     EXPECT_EQ(model_of(problems::rigid_ring(stage)).dimension, 2 * (3 * planets + 7));
     EXPECT_EQ(model_of(problems::literal(stage)).dimension, 2 * (3 * planets + 8));
@@ -84,14 +85,14 @@ Shares shares(const gear::Stage& s) {
 }
 
 TEST(DefaultStart, HasEachMeshAtTheGapPlusTheStaticDeflection) {
-  for (const gear::Stage& base : {exact_r1(), problems::with_gap(exact_r1()),
-                                  problems::with_friction(problems::with_moving_stiffness(problems::with_gap(exact_r1()))),
-                                  problems::with_gap(problems::with_teeth(problems::r1(), 27, 27, 81, 6), 25.0)})
+  for (const gear::Stage& base :
+       {exact_r1(), problems::with_gap(exact_r1()),
+        problems::with_friction(problems::with_moving_stiffness(problems::with_gap(exact_r1()))),
+        problems::with_gap(problems::with_teeth(problems::r1(), 27, 27, 81, 6), 25.0)})
     for (const gear::Stage& s : {base, problems::literal(base), problems::star(base), problems::rigid_ring(base)})
       for (const CoordinateChoice choice : {CoordinateChoice::relative, CoordinateChoice::full}) {
         gear::Stage equal = s;
-        for (gear::Mesh* mesh : {&equal.sun_planet_mesh, &equal.ring_planet_mesh})
-          mesh->error_amplitude_um = {0.0};
+        for (gear::Mesh* mesh : {&equal.sun_planet_mesh, &equal.ring_planet_mesh}) mesh->error_amplitude_um = {0.0};
         if (s.boundary == gear::Boundary::literal && choice == CoordinateChoice::full) continue;  // no equilibrium
         if (!std::isfinite(s.ring.torsional_support_N_per_m) && choice == CoordinateChoice::full) continue;
         const Scales scales = scales_of(equal);
@@ -129,8 +130,7 @@ TEST(DefaultStart, KeepsTheStaticDeflectionWithErrorsInPhase) {
   const DynamicModel m = make_dynamic_model(s, scales, 0.8, {});
   MeshDeflections d;
   m.deflections(0.0, m.default_start.data(), d);
-  const double force =
-      gear::torques(s, 0.8 * scales.omega_sn).sun / (3.0 * *s.sun.base_radius_mm * 1e-3);
+  const double force = gear::torques(s, 0.8 * scales.omega_sn).sun / (3.0 * *s.sun.base_radius_mm * 1e-3);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(d.sun_planet[i], 4.0 + scales.displacement(force / s.sun_planet_mesh.stiffness_N_per_m), equilibrium);
     EXPECT_NEAR(d.ring_planet[i], 4.0 + scales.displacement(force / s.ring_planet_mesh.stiffness_N_per_m), equilibrium);

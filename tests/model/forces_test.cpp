@@ -262,8 +262,8 @@ TEST(Deflections, RigidMotionsOfTheWholeTrainGiveNone) {
     EXPECT_LT(largest_deflection(deflections_of(s, whole_rotation(s, 1.0))), rounding_100);
     std::array<double, dof> shifted{};
     for (std::size_t i = 0; i < planets; ++i) shifted[Slots::x_p(i)] = shifted[Slots::y_p(i)] = 7.0;
-    for (const std::size_t k : {Slots::x_s, Slots::y_s, Slots::x_r(planets), Slots::y_r(planets), Slots::x_c(planets),
-                                Slots::y_c(planets)})
+    for (const std::size_t k :
+         {Slots::x_s, Slots::y_s, Slots::x_r(planets), Slots::y_r(planets), Slots::x_c(planets), Slots::y_c(planets)})
       shifted[k] = 7.0;
     EXPECT_LT(largest_deflection(deflections_of(s, shifted)), rounding_100);
   }
@@ -530,8 +530,8 @@ TEST(SunBearing, TangentsAtTheCentreAreFiniteAndRight) {
   using D = Dual<2>;
   for (const double half_gap_um : {0.0, 10.0})
     for (const double w : {0.0, 0.2})
-      for (const auto law : {gear::BearingLaw::linear_xy, gear::BearingLaw::palmgren_xy, gear::BearingLaw::linear_radial,
-                             gear::BearingLaw::palmgren_radial}) {
+      for (const auto law : {gear::BearingLaw::linear_xy, gear::BearingLaw::palmgren_xy,
+                             gear::BearingLaw::linear_radial, gear::BearingLaw::palmgren_radial}) {
         const auto p = bearing_parameters(law, half_gap_um, w);
         const auto f = sun_bearing_force(convert<D>(p), D::variable(0.0, 0), D::variable(0.0, 1));
         // Linear laws: k times the slope of the closure at 0. Hertz: the tangent stiffness is 0 where the closure is.

@@ -66,8 +66,8 @@ TEST(FrictionTrack, ReproducesRowsOnBothSidesOfJumpsAndAcrossTheTurn) {
 }
 
 TEST(FrictionTrack, IsStraightBetweenTwoRows) {
-  const Friction::Table t = gear::friction_table(
-      *problems::tang2020().sun_planet_mesh.friction.coefficient, gear::sun_planet_line(problems::tang2020()));
+  const Friction::Table t = gear::friction_table(*problems::tang2020().sun_planet_mesh.friction.coefficient,
+                                                 gear::sun_planet_line(problems::tang2020()));
   const FrictionTrack track(t, 0.0, driving_mm, driven_mm);
   std::size_t checked = 0;
   for (std::size_t k = 1; k < t.phase.size(); k += 2) {

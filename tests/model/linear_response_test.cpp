@@ -88,8 +88,9 @@ Response response(const DynamicModel& m, const Scales& scales) {
   return {harmonic(0), harmonic(1)};
 }
 
-/// Mean deflections under the balanced part of the loads [um]. R1's radii have five decimals, so that T_c = 4 T_D misses
-/// balance by 1.6e-7 and the train accelerates a little; the table's means are those of the equilibrium nearest in force.
+/// Mean deflections under the balanced part of the loads [um]. R1's radii have five decimals, so that T_c = 4 T_D
+/// misses balance by 1.6e-7 and the train accelerates a little; the table's means are those of the equilibrium nearest
+/// in force.
 std::array<double, 2> balanced_means(const gear::Stage& s, const Scales& scales, double omega) {
   constexpr std::size_t planets = 3;
   const ModelOptions options{GapDamping::always, Gyroscopic::off, 0.0};

@@ -49,18 +49,17 @@ State evaluate(const P& p, std::size_t segment, double s, const State& y) {
 
 double middle(const P& p, std::size_t segment) {
   const bool wraps = segment + 1 == p.breakpoints.size();
-  return 0.5 * (p.breakpoints[segment] +
-                (wraps ? p.breakpoints[0] + 2.0 * std::numbers::pi : p.breakpoints[segment + 1]));
+  return 0.5 *
+         (p.breakpoints[segment] + (wraps ? p.breakpoints[0] + 2.0 * std::numbers::pi : p.breakpoints[segment + 1]));
 }
 
 TEST(Scalars, LanesWithParametersOfTheirOwnAreTheSingleRuns) {
   constexpr std::size_t width = 4;
   using L = Lanes<width>;
   std::mt19937_64 random(31);
-  for (const auto& [law, w] : {std::pair{gear::BearingLaw::linear_xy, 0.0},
-                               std::pair{gear::BearingLaw::palmgren_radial, 0.05},
-                               std::pair{gear::BearingLaw::palmgren_xy, 0.0},
-                               std::pair{gear::BearingLaw::linear_radial, 0.0}}) {
+  for (const auto& [law, w] :
+       {std::pair{gear::BearingLaw::linear_xy, 0.0}, std::pair{gear::BearingLaw::palmgren_radial, 0.05},
+        std::pair{gear::BearingLaw::palmgren_xy, 0.0}, std::pair{gear::BearingLaw::linear_radial, 0.0}}) {
     std::array<P, width> single;
     for (std::size_t lane = 0; lane < width; ++lane) {
       gear::Stage s = stage(law);
@@ -111,11 +110,10 @@ TEST(Scalars, DualJacobianIsThatOfDifferences) {
   using D = Dual<width>;
   std::mt19937_64 random(32);
   double worst = 0.0;
-  for (const auto& [law, w, damping] :
-       {std::tuple{gear::BearingLaw::linear_xy, 0.0, GapDamping::always},
-        std::tuple{gear::BearingLaw::palmgren_radial, 0.5, GapDamping::contact_slope},
-        std::tuple{gear::BearingLaw::palmgren_xy, 0.5, GapDamping::always},
-        std::tuple{gear::BearingLaw::linear_radial, 0.0, GapDamping::always}}) {
+  for (const auto& [law, w, damping] : {std::tuple{gear::BearingLaw::linear_xy, 0.0, GapDamping::always},
+                                        std::tuple{gear::BearingLaw::palmgren_radial, 0.5, GapDamping::contact_slope},
+                                        std::tuple{gear::BearingLaw::palmgren_xy, 0.5, GapDamping::always},
+                                        std::tuple{gear::BearingLaw::linear_radial, 0.0, GapDamping::always}}) {
     const gear::Stage s = stage(law);
     const P p = make_parameters<planets>(s, scales_of(s), 0.9, {damping, Gyroscopic::automatic, w});
     const auto p_dual = convert<D>(p);

@@ -14,7 +14,7 @@
 
 namespace epicyclic::problems {
 
-inline integrate::IntegratorOptions tight(double tolerance = 1e-12) {
+inline integrate::IntegratorOptions tight(double tolerance = 1e-13) {
   integrate::IntegratorOptions o;
   o.relative_tolerance = tolerance;
   o.absolute_tolerance = tolerance;
@@ -32,7 +32,7 @@ inline std::vector<double> phases(int periods, int per_period) {
 /// Deflections of all meshes at given phases: the state is stepped onto each, so that no dense output comes in.
 /// Sun meshes first, then ring meshes [b_c].
 inline std::vector<std::vector<double>> deflections_along(const model::DynamicModel& m, std::vector<double> state,
-                                                          const std::vector<double>& at, double tolerance = 1e-12) {
+                                                          const std::vector<double>& at, double tolerance = 1e-13) {
   const auto flow = integrate::make_arkode_flow(studies::vector_field(m), tight(tolerance));
   std::vector<std::vector<double>> r;
   double from = 0.0;

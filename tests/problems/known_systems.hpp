@@ -33,7 +33,9 @@ inline std::array<double, 4> smooth_nonlinear_solution(double s) {
 inline integrate::VectorField smooth_bell() {
   integrate::VectorField f;
   f.dimension = 1;
-  f.right_hand_side = [](std::size_t, double s, const double* y, double* d) { d[0] = -2.0 * s * y[0] * std::sqrt(y[0]); };
+  f.right_hand_side = [](std::size_t, double s, const double* y, double* d) {
+    d[0] = -2.0 * s * y[0] * std::sqrt(y[0]);
+  };
   return f;
 }
 

@@ -106,9 +106,7 @@ inline gear::Stage with_unequal_angles(gear::Stage s) {
 }
 
 /// Everything at once: gap, moving stiffness, friction, unequal errors.
-inline gear::Stage r1_nonlinear() {
-  return with_unequal_errors(with_friction(with_moving_stiffness(with_gap(r1()))));
-}
+inline gear::Stage r1_nonlinear() { return with_unequal_errors(with_friction(with_moving_stiffness(with_gap(r1())))); }
 
 /// The same bodies with other teeth of the same base pitch, for other phases; (z_s + z_r) / N must be whole.
 inline gear::Stage with_teeth(gear::Stage s, int z_s, int z_p, int z_r, int planets) {
