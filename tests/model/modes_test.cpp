@@ -13,15 +13,32 @@
 namespace epicyclic::model {
 namespace {
 
+gear::CentralMember member(double mass, double inertia, double support, double torsional_support = 0.0) {
+  gear::CentralMember m;
+  m.mass_kg = mass;
+  m.inertia_over_r2_kg = inertia;
+  m.support_N_per_m = support;
+  m.torsional_support_N_per_m = torsional_support;
+  return m;
+}
+
+gear::Planet planet(double mass, double inertia, double bearing) {
+  gear::Planet p;
+  p.mass_kg = mass;
+  p.inertia_over_r2_kg = inertia;
+  p.bearing_N_per_m = bearing;
+  return p;
+}
+
 /// Lin and Parker, J. Vib. Acoust. 121 (1999) 316, Table 1.
 gear::Stage lin_parker(int planets) {
   gear::Stage s;
   s.boundary = gear::Boundary::fixed_ring;
   s.planet_count = planets;
-  s.sun = {.mass_kg = 0.4, .inertia_over_r2_kg = 0.39, .support_N_per_m = 1e8};
-  s.ring = {.mass_kg = 2.35, .inertia_over_r2_kg = 3.0, .support_N_per_m = 1e8, .torsional_support_N_per_m = 1e9};
-  s.carrier = {.mass_kg = 5.43, .inertia_over_r2_kg = 6.29, .support_N_per_m = 1e8};
-  s.planet = {.mass_kg = 0.66, .inertia_over_r2_kg = 0.61, .bearing_N_per_m = 1e8};
+  s.sun = member(0.4, 0.39, 1e8);
+  s.ring = member(2.35, 3.0, 1e8, 1e9);
+  s.carrier = member(5.43, 6.29, 1e8);
+  s.planet = planet(0.66, 0.61, 1e8);
   s.sun_planet_mesh.stiffness_N_per_m = s.ring_planet_mesh.stiffness_N_per_m = 5e8;
   s.sun_planet_mesh.operating_pressure_angle_deg = s.ring_planet_mesh.operating_pressure_angle_deg = 24.6;
   return s;
@@ -112,11 +129,10 @@ gear::Stage torsional(const Torsion& t) {
   // With angles alpha the coordinates here are on base circles and r_c, so the carrier's part of the mesh deflection is
   // u_c cos alpha; a planet's own mass rides on the carrier.
   constexpr double planet_mass = 0.1;
-  s.sun = {.mass_kg = 1, .inertia_over_r2_kg = t.m_s, .support_N_per_m = gear::rigid};
-  s.ring = {
-      .mass_kg = 1, .inertia_over_r2_kg = 1, .support_N_per_m = gear::rigid, .torsional_support_N_per_m = gear::rigid};
-  s.carrier = {.mass_kg = 1, .inertia_over_r2_kg = t.m_c - t.planets * planet_mass, .support_N_per_m = gear::rigid};
-  s.planet = {.mass_kg = planet_mass, .inertia_over_r2_kg = t.m_p, .bearing_N_per_m = gear::rigid};
+  s.sun = member(1.0, t.m_s, gear::rigid);
+  s.ring = member(1.0, 1.0, gear::rigid, gear::rigid);
+  s.carrier = member(1.0, t.m_c - t.planets * planet_mass, gear::rigid);
+  s.planet = planet(planet_mass, t.m_p, gear::rigid);
   s.sun_planet_mesh.stiffness_N_per_m = t.k_s;
   s.ring_planet_mesh.stiffness_N_per_m = t.k_r;
   s.sun_planet_mesh.operating_pressure_angle_deg = t.alpha_s;
