@@ -17,6 +17,7 @@ int check_command(const Arguments& arguments) {
     fmt::print(stderr, "{}: a stage; modes only, no integration\n", arguments.input.string());
     return done;
   }
+  for (const std::string& warning : io::warnings(input)) fmt::print(stderr, "{}\n", warning);
   const io::Cost cost = io::estimate_cost(input);
   fmt::print("{}\n", input.resolved.dump(2));
   fmt::print(stderr,

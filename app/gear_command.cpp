@@ -17,13 +17,14 @@ int gear_command(const Arguments& arguments) {
   io::Provenance facts = provenance(1);
   write_inputs(folder, input);
   const auto modes = folder.file("modes.csv");
-  io::write_modes_csv(modes, input.study.stage);
+  const std::string table = io::write_modes_csv(modes, input.study.stage);
   facts.ended = io::utc_now();
   folder.write_run(io::RunState::complete, io::run_facts(facts));
+  fmt::print(stderr, "modes: {}\n", modes.string());
   if (arguments.json)
     fmt::print("{}\n", nlohmann::json{{"folder", folder.path().string()}, {"modes", modes.string()}}.dump(2));
   else
-    fmt::print("modes: {}\n", modes.string());
+    fmt::print("{}", table);
   return done;
 }
 

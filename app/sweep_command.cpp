@@ -50,6 +50,10 @@ int sweep_command(const Arguments& arguments) {
   // Options that do not fit show here, before anything is written.
   const model::DynamicModel first_model = model_at(plan.points.front().value);
 
+  for (const std::string& warning : io::warnings(input)) fmt::print(stderr, "{}\n", warning);
+  if (sweep.parameter != "mesh_frequency_ratio")
+    fmt::print(stderr, "operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
+
   const io::OutputFolder folder(arguments.output, io::identity(input, "sweep"));
   if (const auto code = refuse_or_finish(folder)) return *code;
   io::Provenance facts = provenance(arguments.threads);
@@ -94,13 +98,25 @@ int sweep_command(const Arguments& arguments) {
     return stopped_early;
   }
 
-  const io::SweepOutput output{sweep, studies::poincare_columns(first_model), resolved,
-                               io::figure_title(input.study)};
+  const io::SweepOutput output{sweep, studies::poincare_columns(first_model), resolved, io::figure_title(input.study)};
   io::write_points_csv(folder.file("points.csv"), results);
   io::write_poincare_csv(folder.file("poincare.csv"), output, results);
   io::write_results_h5(folder.file("results.h5"), output, results);
   const std::vector<io::DrawnFigure> figures = io::draw_sweep_figures(folder.file("figures"), output, results);
   close_run(io::RunState::complete);
+
+  std::size_t settling = 0;
+  std::size_t undecided = 0;
+  for (const studies::PointResult& r : results) {
+    if (!computed(r) || r.recurrence.period > 0) continue;
+    ++undecided;
+    settling += analysis::still_settling(r.recurrence, sweep.recurrence_tolerance) ? 1 : 0;
+  }
+  if (settling > 0)
+    fmt::print(stderr,
+               "{} of {} undecided points were still settling (recurrence_error_late below recurrence_error): a larger "
+               "/study/transient_periods, or a finer grid, decides them\n",
+               settling, undecided);
 
   nlohmann::json summary = {{"folder", folder.path().string()},
                             {"points", plan.points.size()},

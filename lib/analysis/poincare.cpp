@@ -32,28 +32,48 @@ Strobe strobe(integrate::Flow& flow, std::span<double> state, const StrobeOption
   return result;
 }
 
+namespace {
+
+/// r_n of [A-rec] over the points from `first` on.
+double recurrence_error(const PoincareSection& section, std::size_t n, std::size_t first) {
+  double error = 0.0;
+  for (std::size_t k = first; k + n < section.size(); ++k) {
+    const auto a = section.point(k);
+    const auto b = section.point(k + n);
+    for (std::size_t j = 0; j < section.dimension; ++j) error = std::max(error, std::abs(b[j] - a[j]));
+  }
+  return error;
+}
+
+}  // namespace
+
 Recurrence recurrence(const PoincareSection& section, int longest, double tolerance) {
-  const std::size_t size = section.size();
-  const std::size_t most = std::min(static_cast<std::size_t>(longest), size / 2);
+  constexpr double separation = 10.0;
+  const std::size_t most = std::min(static_cast<std::size_t>(longest), section.size() / 2);
   Recurrence best;
   best.error = std::numeric_limits<double>::infinity();
   for (std::size_t n = 1; n <= most; ++n) {
-    double error = 0.0;
-    for (std::size_t k = 0; k + n < size && error < best.error; ++k) {
-      const auto a = section.point(k);
-      const auto b = section.point(k + n);
-      for (std::size_t j = 0; j < section.dimension; ++j) error = std::max(error, std::abs(b[j] - a[j]));
-    }
+    const double error = recurrence_error(section, n, 0);
+    const bool recurs = error <= tolerance && error <= best.error / separation;
     if (error < best.error) {
       best.error = error;
       best.best_period = static_cast<int>(n);
     }
-    if (error <= tolerance) {
+    if (recurs) {
       best.period = static_cast<int>(n);
-      return best;
+      break;
     }
   }
+  if (best.best_period > 0)
+    best.late_error = recurrence_error(section, static_cast<std::size_t>(best.best_period),
+                                       (section.size() - static_cast<std::size_t>(best.best_period)) / 2);
   return best;
+}
+
+bool still_settling(const Recurrence& r, double tolerance) {
+  constexpr double small = 100.0;  // an error beyond this many tolerances is not the tail of a transient
+  constexpr double falling = 0.8;  // chaos and quasiperiodic motion have the same error early and late
+  return r.period == 0 && r.error <= small * tolerance && r.late_error <= falling * r.error;
 }
 
 }  // namespace epicyclic::analysis

@@ -1,7 +1,11 @@
 // Stroboscopic Poincare section of a periodically forced flow, and the period of the motion by recurrence.
 //
 //   y_k = phi(s_0 -> s_0 + k T)(y_0) ,  T the period of the forcing
-//   period n:  the least n with  max_k max_j | y_{k+n,j} - y_{k,j} | <= epsilon  over the whole record        [A-rec]
+//   r_n = max_k max_j | y_{k+n,j} - y_{k,j} |  over the whole record
+//   period n:  the least n with  r_n <= epsilon  and  r_n <= r_m / 10 for each m < n                         [A-rec]
+//
+// The second condition keeps a motion that still creeps towards a short period from being called one of a long period,
+// because a slow beat of the creep happens to bring it back within epsilon.
 //
 // Limits: recurrence can prove that a motion repeats to within epsilon over the record, nothing else. A motion that
 // does not repeat may be chaotic, quasiperiodic, of a longer period, or still settling. Smoothness: none needed; the
@@ -49,10 +53,15 @@ struct Strobe {
                             const integrate::Observer& observer, const std::function<bool()>& go_on);
 
 struct Recurrence {
-  int period = 0;       ///< n of [A-rec]; 0 if none up to the longest asked for
-  double error = 0;     ///< largest difference at that n; the least over all n tried if none recurs
-  int best_period = 0;  ///< the n of that error
+  int period = 0;         ///< n of [A-rec]; 0 if none up to the longest asked for
+  double error = 0;       ///< r_n at that n; the least r_n over all n tried if none recurs
+  int best_period = 0;    ///< the n of that error
+  double late_error = 0;  ///< the same over the second half of the record: smaller while the motion still settles
 };
+
+/// Whether a motion without a period was still on its way to one: a small error that falls along the record.
+/// @param tolerance  epsilon of recurrence()
+[[nodiscard]] bool still_settling(const Recurrence& r, double tolerance);
 
 /// @param longest    largest n looked for; at most half the record, so that each point is compared at least once
 /// @param tolerance  epsilon, in the units of the state

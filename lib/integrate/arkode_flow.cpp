@@ -84,8 +84,8 @@ Vector make_vector(std::size_t dimension, SUNContext context) {
 /// The pair's table, with its first-same-as-last stage written out where it must be.
 ///
 /// SUNDIALS before 6.6.2 takes any method with c_s = 1 for first-same-as-last and starts the next step from the last
-/// stage's slope, although a_sj != b_j: the order falls to 2 or 3. With one more stage of weight 0, whose row of A is b,
-/// the property holds, and a step costs the s right-hand sides that it costs anyway.
+/// stage's slope, although a_sj != b_j: the order falls to 2 or 3. With one more stage of weight 0, whose row of A is
+/// b, the property holds, and a step costs the s right-hand sides that it costs anyway.
 Table make_table(const ErkMethod& method) {
   const Table given(ARKodeButcherTable_LoadERKByName(std::string(method.table).c_str()));
   if (!given) throw SolverError("ARKodeButcherTable_LoadERKByName", -1, 0.0, std::string(method.table));

@@ -2,14 +2,15 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
+#include <string>
 
 #include "gear/stage.hpp"
 
 namespace epicyclic::io {
 
 /// One row per distinct frequency and type, multiplicity counted: mode,frequency_Hz,frequency_ratio,type,multiplicity.
+/// @returns the text of the file
 /// @throws OutputError
-void write_modes_csv(const std::filesystem::path& file, const gear::Stage& stage);
+std::string write_modes_csv(const std::filesystem::path& file, const gear::Stage& stage);
 
 }  // namespace epicyclic::io

@@ -567,6 +567,17 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
   input.stage_file = std::move(stage_file);
   input.sources_ = sources;
 
+  if (input.study.sweep && input.study.sweep->parameter != studies::SweepOptions().parameter) {
+    // The default range is one of speeds.
+    const nlohmann::json origins = input.resolved["study"].value("origin", nlohmann::json::object());
+    for (const char* key : {"from", "to"})
+      if (origins.is_object() && origins.value(key, std::string()) == "default")
+        problems.add(
+            sources->locate(std::string("/study/") + key,
+                            "is missing; a sweep of " + input.study.sweep->parameter + " needs a range of its own"));
+    if (!problems.empty()) raise();
+  }
+
   if (input.study.sweep && input.study.sweep->parameter.rfind('/', 0) == 0) {
     const auto& sweep = *input.study.sweep;
     Study unused;

@@ -1,6 +1,7 @@
 #include "io/study_model.hpp"
 
 #include "core/errors.hpp"
+#include "io/csv.hpp"
 #include "io/digest.hpp"
 #include "io/journal.hpp"
 #include "studies/operating_point.hpp"
@@ -19,6 +20,13 @@ studies::ModelAt model_at(const LoadedInput& input) {
   };
 }
 
+std::vector<std::string> warnings(const LoadedInput& input) {
+  std::vector<std::string> lines;
+  for (const std::string& line : gear::warnings_for_motion(input.study.stage))
+    lines.push_back("warning: /stage" + line);
+  return lines;
+}
+
 std::string identity(const LoadedInput& input, std::string_view command) {
   const nlohmann::json what = {{"command", command},
                                {"input", input.resolved},
@@ -30,7 +38,12 @@ std::string identity(const LoadedInput& input, std::string_view command) {
 std::string figure_title(const Study& study) {
   const gear::Boundary b = study.stage.boundary;
   const char* boundary = b == gear::Boundary::literal ? "literal" : b == gear::Boundary::star ? "star" : "fixed ring";
-  return (study.name.empty() ? study.stage.name : study.name) + ", boundary " + boundary;
+  std::string title = (study.name.empty() ? study.stage.name : study.name) + ", boundary " + boundary;
+  if (study.sweep && study.sweep->parameter != "mesh_frequency_ratio") {
+    title += ", Ω = ";
+    append_number(title, study.mesh_frequency_ratio);
+  }
+  return title;
 }
 
 Cost estimate_cost(const LoadedInput& input) {

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "io/study_input.hpp"
 #include "studies/sweep.hpp"
@@ -13,11 +15,14 @@ namespace epicyclic::io {
 /// given. `input` must outlive the result. A call throws InputError when the study is not valid at that value.
 [[nodiscard]] studies::ModelAt model_at(const LoadedInput& input);
 
+/// Lines for stderr on what is allowed but rarely meant.
+[[nodiscard]] std::vector<std::string> warnings(const LoadedInput& input);
+
 /// What identifies the study's results: SHA-256 of the canonical resolved input with the versions of journal and
 /// numerics.
 [[nodiscard]] std::string identity(const LoadedInput& input, std::string_view command);
 
-/// Name of study or stage with the boundary, for figures.
+/// Name of study or stage with the boundary and, unless it is swept, the speed: for figures.
 [[nodiscard]] std::string figure_title(const Study& study);
 
 /// What a sweep will take.

@@ -372,10 +372,10 @@ const Table<SweepOptions>& sweep_table() {
               "Number of points, evenly spaced, ends included [-].");
     t.choices("directions", &SweepOptions::directions,
               std::vector<std::pair<std::string, Direction>>{{"up", Direction::up}, {"down", Direction::down}},
-              "Directions, one after the other.");
+              "Directions, numbered one after the other; each is a chain of its own from the default start.");
     t.choice("start", &SweepOptions::start,
              std::vector<std::pair<std::string, Start>>{{"carried", Start::carried}, {"cold", Start::cold}},
-             "Where a point starts: from the end of the one before, or from the default start.");
+             "Where a point starts: from the end of the one before in its chain, or from the default start.");
     t.integer("segments", &SweepOptions::segments, between(1, 100000), "Chains per direction of a carried sweep [-].");
     t.integer("transient_periods", &SweepOptions::transient_periods, between(0, 1e7),
               "Mesh periods before the record [-].");

@@ -111,9 +111,13 @@ const char* regime_word(const PointResult& r) {
 /// Extrema that were never seen are empty cells.
 double seen(double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::quiet_NaN(); }
 
-/// An underscore would lower the letter after it.
-std::string without_underscores(std::string text) {
-  std::replace(text.begin(), text.end(), '_', ' ');
+/// Names as they are: in a figure's text an underscore would lower the letter after it.
+std::string literal_text(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    if (c == '_') text += '\\';
+    text += c;
+  }
   return text;
 }
 
@@ -127,7 +131,7 @@ std::string parameter_label(const std::string& parameter) {
   };
   for (const auto& [name, label] : labels)
     if (parameter == name) return label;
-  return without_underscores(parameter);
+  return literal_text(parameter);
 }
 
 }  // namespace
@@ -144,6 +148,7 @@ std::vector<std::byte> encode_point(const PointResult& r) {
   e.number(static_cast<std::int32_t>(r.recurrence.period));
   e.number(static_cast<std::int32_t>(r.recurrence.best_period));
   e.number(r.recurrence.error);
+  e.number(r.recurrence.late_error);
   e.list(r.sun_planet, [&](const MeshRecord& m) { encode_mesh(e, m); });
   e.list(r.ring_planet, [&](const MeshRecord& m) { encode_mesh(e, m); });
   e.number(r.planet_spread);
@@ -171,6 +176,7 @@ PointResult decode_point(std::span<const std::byte> record) {
   r.recurrence.period = d.number<std::int32_t>();
   r.recurrence.best_period = d.number<std::int32_t>();
   r.recurrence.error = d.number<double>();
+  r.recurrence.late_error = d.number<double>();
   r.sun_planet = decode_meshes(d);
   r.ring_planet = decode_meshes(d);
   r.planet_spread = d.number<double>();
@@ -199,11 +205,23 @@ std::string status_word(integrate::Outcome outcome) {
 }
 
 void write_points_csv(const std::filesystem::path& file, const std::vector<PointResult>& results) {
-  std::vector<std::string> columns = {
-      "point",        "direction",    "value",        "status",          "regime",
-      "period",       "lyapunov_max", "delta_sp_min", "delta_sp_max",    "delta_rp_min",
-      "delta_rp_max", "contact_sp",   "contact_rp",   "rhs_evaluations", "recurrence_error",
-      "planet_spread"};
+  std::vector<std::string> columns = {"point",
+                                      "direction",
+                                      "value",
+                                      "status",
+                                      "regime",
+                                      "period",
+                                      "lyapunov_max",
+                                      "delta_sp_min",
+                                      "delta_sp_max",
+                                      "delta_rp_min",
+                                      "delta_rp_max",
+                                      "contact_sp",
+                                      "contact_rp",
+                                      "rhs_evaluations",
+                                      "recurrence_error",
+                                      "recurrence_error_late",
+                                      "planet_spread"};
   const std::size_t planets = results.empty() ? 0 : results.front().sun_planet.size();
   for (const char* mesh : {"sp", "rp"})
     for (std::size_t i = 1; i <= planets; ++i) {
@@ -233,6 +251,7 @@ void write_points_csv(const std::filesystem::path& file, const std::vector<Point
         .cell(rp.contact())
         .cell(r.rhs_evaluations)
         .cell(ok(r) ? seen(r.recurrence.error) : unknown)
+        .cell(ok(r) ? r.recurrence.late_error : unknown)
         .cell(r.planet_spread);
     for (const auto* meshes : {&r.sun_planet, &r.ring_planet})
       for (const MeshRecord& m : *meshes) csv.cell(seen(m.delta_min)).cell(seen(m.delta_max)).cell(m.contact());
@@ -354,7 +373,7 @@ std::vector<DrawnFigure> draw_sweep_figures(const std::filesystem::path& folder,
       }
       series.push_back(std::move(s));
     }
-    const FigureText text{without_underscores(output.title), parameter_label(output.sweep.parameter), figure.label};
+    const FigureText text{literal_text(output.title), parameter_label(output.sweep.parameter), figure.label};
     figures.push_back(
         {folder / (std::string(figure.stem) + ".png"), bifurcation_figure(folder, figure.stem, text, series)});
   }

@@ -67,9 +67,34 @@ TEST(Recurrence, ComparesTheWholeStateOverTheWholeRecord) {
     section.states.push_back(k % 2);
   }
   EXPECT_EQ(recurrence(section, 5, 1e-12).period, 2);
-  section.states[18] = 1.5;
+  section.states[18] = 1.05;
   EXPECT_EQ(recurrence(section, 5, 1e-12).period, 0);
-  EXPECT_EQ(recurrence(section, 5, 0.5).period, 2);
+  EXPECT_EQ(recurrence(section, 5, 0.06).period, 2);
+  // A slip of half of what tells period 2 from period 1 leaves no period.
+  section.states[18] = 1.5;
+  EXPECT_EQ(recurrence(section, 5, 0.6).period, 0);
+}
+
+TEST(Recurrence, CreepTowardsAShortPeriodIsNotALongPeriod) {
+  // A slowly decaying beat of 7 periods around a fixed point: y_{k+7} is near y_k, nearer than y_{k+1}, but not by far.
+  PoincareSection creeping{1, {}};
+  PoincareSection settled{1, {}};
+  for (int k = 0; k < 128; ++k) {
+    const double beat = std::cos(2.0 * std::numbers::pi * k / 7.0);
+    creeping.states.push_back(2e-3 * std::exp(-0.01 * k) * (1.0 + 0.2 * beat));
+    settled.states.push_back(1.0 + 0.2 * beat);
+  }
+  const Recurrence r = recurrence(creeping, 32, 1e-3);
+  EXPECT_EQ(r.period, 1);  // within the tolerance from one point to the next
+  const Recurrence finer = recurrence(creeping, 32, 2e-4);
+  EXPECT_EQ(finer.period, 0);
+  EXPECT_TRUE(still_settling(finer, 2e-4));
+  EXPECT_EQ(recurrence(settled, 32, 1e-3).period, 7);
+}
+
+TEST(Recurrence, ChaosIsNotTakenForSettling) {
+  const Strobe s = run(0.50, {.transient_periods = 600, .recorded_periods = 128});
+  EXPECT_FALSE(still_settling(recurrence(s.section, 32, 1e-3), 1e-3));
 }
 
 TEST(Strobe, NumberOfPhasesLeavesTheSectionUnchanged) {

@@ -16,7 +16,7 @@ studies::PointResult example() {
   r.point = {7, studies::Direction::down, 0.1};
   r.outcome = integrate::Outcome::diverged;
   r.message = "left the bound";
-  r.recurrence = {3, 1e-9, 3};
+  r.recurrence = {3, 1e-9, 3, 5e-10};
   studies::MeshRecord mesh;
   mesh.delta_min = -std::numeric_limits<double>::infinity();
   mesh.delta_max = 5e-324;
