@@ -1,10 +1,12 @@
 #include "folder.hpp"
 
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <string_view>
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include "core/version.hpp"
 #include "io/atomic_file.hpp"
@@ -24,6 +26,15 @@ std::string stage_copy_name(const std::string& name) {
   return name;
 }
 
+/// Failed points of a complete study, from its run.json.
+std::int64_t failed_points(const io::OutputFolder& folder) {
+  const nlohmann::json& run = folder.previous_run();
+  const auto counts = run.find("counts");
+  if (counts == run.end() || !counts->is_object() || !counts->contains("failed")) return 0;
+  const nlohmann::json& failed = (*counts)["failed"];
+  return failed.is_number_integer() ? failed.get<std::int64_t>() : 0;
+}
+
 }  // namespace
 
 io::Provenance provenance(int threads) {
@@ -41,7 +52,7 @@ std::optional<int> refuse_or_finish(const io::OutputFolder& folder) {
   switch (folder.outcome()) {
     case io::FolderOutcome::complete:
       fmt::print(stderr, "{}: this study is complete already; nothing to compute\n", where);
-      return done;
+      return failed_points(folder) > 0 ? done_with_failures : done;
     case io::FolderOutcome::other_study:
       fmt::print(stderr, "{}: holds another study (its input or the numerics version differs); choose another -o\n",
                  where);

@@ -22,7 +22,8 @@ int gear_command(const Arguments& arguments) {
   folder.write_run(io::RunState::complete, io::run_facts(facts));
   fmt::print(stderr, "modes: {}\n", modes.string());
   if (arguments.json)
-    fmt::print("{}\n", nlohmann::json{{"folder", folder.path().string()}, {"modes", modes.string()}}.dump(2));
+    fmt::print("{}\n", nlohmann::json{{"folder", folder.path().string()}, {"modes", modes.string()}}.dump(
+                           2, ' ', false, nlohmann::json::error_handler_t::replace));
   else
     fmt::print("{}", table);
   return done;

@@ -1,9 +1,11 @@
 // The command line: arguments, exit codes, nothing else.
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <system_error>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -42,6 +44,9 @@ int guarded(const std::function<int()>& command) {
   } catch (const io::DamagedData& e) {
     fmt::print(stderr, "damaged data: {}\n", e.what());
     return damaged_data;
+  } catch (const std::system_error& e) {
+    fmt::print(stderr, "output: {}\n", e.what());
+    return output_failed;
   } catch (const std::exception& e) {
     fmt::print(stderr, "internal error, please report it: {}\n", e.what());
     return bug;
@@ -98,4 +103,8 @@ int run(int argc, char** argv) {
 
 }  // namespace epicyclic::app
 
-int main(int argc, char** argv) { return epicyclic::app::run(argc, argv); }
+int main(int argc, char** argv) {
+  // A limit on the size of files is an error of the write, like a full disk, not the end of the program.
+  std::signal(SIGXFSZ, SIG_IGN);
+  return epicyclic::app::run(argc, argv);
+}

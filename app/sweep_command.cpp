@@ -129,7 +129,7 @@ int sweep_command(const Arguments& arguments) {
       fmt::print(stderr, "{} was not drawn: {}\n", figure.png.string(), figure.outcome.message);
   }
   if (arguments.json) {
-    fmt::print("{}\n", summary.dump(2));
+    fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     fmt::print("{} points, {} failed, in {}\n", plan.points.size(), failed, folder.path().string());
     for (const auto& figure : summary["figures"]) fmt::print("figure: {}\n", figure.get<std::string>());

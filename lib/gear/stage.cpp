@@ -12,6 +12,8 @@ namespace {
 // How far printed radii, centre distance, angle and teeth may disagree: five digits are what catalogues give.
 constexpr double radii_tolerance = 1e-4;
 constexpr double angle_tolerance_deg = 0.02;
+// Rows of a friction table nearer than this cannot be told apart once they are shifted by a phase.
+constexpr double phase_resolution = 1e-9;
 // Neighbouring planets nearer than this have no room for teeth.
 constexpr double angle_resolution_deg = 1e-6;
 
@@ -131,11 +133,16 @@ void check_friction_table(Problems& out, const std::string& pointer, const Frict
     return std::find(t.breakpoints.begin(), t.breakpoints.end(), p) != t.breakpoints.end();
   };
   const auto outside = [](double p) { return !(p >= 0.0) || !(p < 1.0); };
+  if (n > 1 && t.phase.front() + 1.0 - t.phase.back() < phase_resolution)
+    out.add(pointer + "/phase", "the last row is too near to the first one of the next period");
   if (n < 2) out.add(pointer + "/phase", "needs at least 2 rows (", static_cast<double>(n), ")");
   for (std::size_t k = 0; k < n; ++k) {
     const std::string row = pointer + "/phase/" + std::to_string(k);
     if (outside(t.phase[k])) out.add(row, "must be in [0, 1) (", t.phase[k], ")");
     if (k == 0) continue;
+    if (t.phase[k] > t.phase[k - 1] && t.phase[k] - t.phase[k - 1] < phase_resolution)
+      out.add(row, "is too near to the row before it (", t.phase[k], " after ", t.phase[k - 1], ", at least ",
+              phase_resolution, " apart)");
     if (t.phase[k] < t.phase[k - 1]) out.add(row, "phases must rise (", t.phase[k], " after ", t.phase[k - 1], ")");
     if (t.phase[k] == t.phase[k - 1] && !is_breakpoint(t.phase[k]))
       out.add(row, "stands twice, a jump, but is not among the breakpoints (", t.phase[k], ")");

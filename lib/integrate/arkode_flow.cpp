@@ -154,6 +154,9 @@ class ArkodeFlow final : public Flow {
 
   Evolution evolve(std::span<double> state, double from, double to, std::span<const double> samples,
                    const Observer& observer) override {
+    if (state.size() != field_.dimension)
+      throw InputError("a state of " + std::to_string(state.size()) + " numbers for a field of dimension " +
+                       std::to_string(field_.dimension));
     const std::vector<double> stops = [&] {
       std::vector<double> s = breakpoints_between(field_, from, to);
       s.push_back(to);

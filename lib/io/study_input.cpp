@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "studies/sweep.hpp"
+
 namespace epicyclic::io {
 
 namespace {
@@ -211,6 +213,8 @@ std::string assign(json& root, std::string_view pointer, const json& value) {
     }
     so_far += pointer_step(step);
   }
+  // A text of origin holds for the whole object: one for each key, before one key gets its own.
+  if (object != nullptr && object->contains("origin") && (*object)["origin"].is_string()) spread_origins(*object);
   *at = value;
   if (is_leaf(value)) {
     if (object != nullptr && !is_bookkeeping(key) && !value.is_null()) (*object)["origin"][key] = "set: command line";
@@ -432,11 +436,17 @@ class Problems {
     std::stable_sort(all_.begin(), all_.end(), [&](const Problem& a, const Problem& b) {
       return std::pair(rank(a), a.line) < std::pair(rank(b), b.line);
     });
+    constexpr std::size_t most = 200;
     std::vector<Problem> once;
+    std::set<std::string> told;
     for (auto& problem : all_) {
-      const bool told =
-          std::any_of(once.begin(), once.end(), [&](const Problem& p) { return p.text() == problem.text(); });
-      if (!told) once.push_back(std::move(problem));
+      if (!told.insert(problem.text()).second || told.size() > most) continue;
+      once.push_back(std::move(problem));
+    }
+    if (told.size() > most) {
+      Problem more = once.back();
+      more.message = "and " + std::to_string(told.size() - most) + " more problems";
+      once.push_back(std::move(more));
     }
     throw InputProblems(std::move(once));
   }
@@ -581,15 +591,34 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
   if (input.study.sweep && input.study.sweep->parameter.rfind('/', 0) == 0) {
     const auto& sweep = *input.study.sweep;
     Study unused;
-    if (!find_at(input.resolved, sweep.parameter) || !find_at(input.resolved, sweep.parameter)->is_number() ||
-        pointer_within(sweep.parameter, "/study")) {
+    const bool integrator = pointer_within(sweep.parameter, "/integrator");
+    if ((integrator && sweep.parameter != "/integrator/clearance_smoothing") ||
+        sweep.parameter == "/stage/planets/count") {
+      problems.add(sources->locate(
+          "/study/parameter", integrator
+                                  ? "an option of the integrator is not a parameter of the motion and cannot be swept"
+                                  : "the number of planets changes the state itself and cannot be swept"));
+    } else if (!find_at(input.resolved, sweep.parameter) || !find_at(input.resolved, sweep.parameter)->is_number() ||
+               pointer_within(sweep.parameter, "/study")) {
       for (auto& problem : input.check_with(sweep.parameter, sweep.from, unused))
         problems.add(sources->locate("/study/parameter", std::move(problem.message)));
     } else {
+      bool ends = true;
       for (const auto& [key, value] : {std::pair("/study/from", sweep.from), std::pair("/study/to", sweep.to)})
-        for (const auto& problem : input.check_with(sweep.parameter, value, unused))
+        for (const auto& problem : input.check_with(sweep.parameter, value, unused)) {
           problems.add(sources->locate(
               key, "is " + number_text(value) + ", with which " + problem.pointer + " " + problem.message));
+          ends = false;
+        }
+      // The values between, so that nothing is begun that cannot be finished; the first bad one tells.
+      const auto points = studies::plan_sweep(sweep).points;
+      for (std::size_t k = 1; ends && k + 1 < static_cast<std::size_t>(sweep.points); ++k)
+        for (const auto& problem : input.check_with(sweep.parameter, points[k].value, unused)) {
+          problems.add(sources->locate("/study/parameter", "takes the value " + number_text(points[k].value) +
+                                                               ", with which " + problem.pointer + " " +
+                                                               problem.message));
+          ends = false;
+        }
     }
   }
   if (!problems.empty()) raise();

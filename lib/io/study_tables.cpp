@@ -379,7 +379,7 @@ const Table<SweepOptions>& sweep_table() {
     t.integer("segments", &SweepOptions::segments, between(1, 100000), "Chains per direction of a carried sweep [-].");
     t.integer("transient_periods", &SweepOptions::transient_periods, between(0, 1e7),
               "Mesh periods before the record [-].");
-    t.integer("recorded_periods", &SweepOptions::recorded_periods, between(1, 1e6), "Mesh periods recorded [-].");
+    t.integer("recorded_periods", &SweepOptions::recorded_periods, between(1, 1e5), "Mesh periods recorded [-].");
     t.integer("output_phases", &SweepOptions::output_phases, between(1, 10000),
               "Output points per recorded mesh period [-].");
     t.integer("period_max", &SweepOptions::period_max, between(1, 10000),

@@ -60,7 +60,8 @@ template <class T>
 [[nodiscard]] T radial_closure_factor(const T& r, const T& b, const T& w, bool smooth) {
   using epicyclic::sqrt;
   if (!smooth) return (r - limited(r, T(-b), b)) / r;
-  return 1.0 - 2.0 * b / (sqrt((r - b) * (r - b) + w * w) + sqrt((r + b) * (r + b) + w * w));
+  const T factor = 1.0 - 2.0 * b / (sqrt((r - b) * (r - b) + w * w) + sqrt((r + b) * (r + b) + w * w));
+  return select(factor > T(0.0), factor, T(0.0));  // rounding may leave -1e-16 inside a gap that is wide against w
 }
 
 }  // namespace epicyclic::model

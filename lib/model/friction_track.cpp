@@ -18,6 +18,9 @@ using Row = std::array<double, 4>;  // phase, A, B_1/r_b1, B_2/r_b2
 // Slopes of Steffen's interpolant at the rows, or of the straight line through two.
 std::vector<double> slopes(const std::vector<double>& x, const std::vector<double>& y) {
   if (x.size() == 2) return std::vector<double>(2, (y[1] - y[0]) / (x[1] - x[0]));
+  // GSL aborts the program on rows that do not rise, so they are looked at first.
+  for (std::size_t k = 1; k < x.size(); ++k)
+    if (!(x[k] > x[k - 1])) throw InputError("friction: phases of neighbouring rows cannot be told apart");
   const std::unique_ptr<gsl_interp, decltype(&gsl_interp_free)> interpolant(
       gsl_interp_alloc(gsl_interp_steffen, x.size()), &gsl_interp_free);
   gsl_interp_init(interpolant.get(), x.data(), y.data(), x.size());

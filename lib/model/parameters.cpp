@@ -153,7 +153,9 @@ Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& sc
   const auto torsion = [&](const gear::CentralMember& m) {
     return std::isfinite(m.torsional_support_N_per_m) ? scales.stiffness(m.torsional_support_N_per_m) : 0.0;
   };
+  // No support, no dashpot: a member that is free in rotation has nothing to be damped against.
   const auto torsion_damping = [&](const gear::CentralMember& m) {
+    if (m.torsional_support_N_per_m == 0.0) return 0.0;
     return scales.damping(m.damping.of(m.torsional_support_N_per_m, m.inertia_over_r2_kg));
   };
 

@@ -9,8 +9,10 @@
 #include <mutex>
 #include <numbers>
 #include <optional>
+#include <system_error>
 #include <thread>
 
+#include "core/errors.hpp"
 #include "integrate/arkode_flow.hpp"
 #include "studies/operating_point.hpp"
 
@@ -197,6 +199,9 @@ PointResult compute_point(const GridPoint& point, const model::DynamicModel& mod
   result.point = point;
   const auto flow = integrate::make_arkode_flow(vector_field(model), integrator);
   std::vector<double> state = start.empty() ? model.default_start : start;
+  if (state.size() != model.dimension)
+    throw InputError("a start of " + std::to_string(state.size()) + " numbers for a state of " +
+                     std::to_string(model.dimension));
   Watch watch(model, result);
   const analysis::Strobe strobe = analysis::strobe(
       *flow, state, {sweep.transient_periods, sweep.recorded_periods, sweep.output_phases},
@@ -226,7 +231,11 @@ std::vector<PointResult> run_sweep(const SweepPlan& plan, const SweepOptions& sw
   ChainRunner runner(plan, sweep, integrator, model_at, run);
   const int threads = std::clamp(run.threads, 1, static_cast<int>(std::max<std::size_t>(plan.chains.size(), 1)));
   std::vector<std::thread> others;
-  for (int k = 1; k < threads; ++k) others.emplace_back([&] { runner.work(); });
+  try {
+    for (int k = 1; k < threads; ++k) others.emplace_back([&] { runner.work(); });
+  } catch (const std::system_error&) {
+    // The system gives no more threads: those there are do the work.
+  }
   runner.work();
   for (std::thread& t : others) t.join();
   return runner.take();

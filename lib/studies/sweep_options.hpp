@@ -27,7 +27,7 @@ struct SweepOptions {
   int period_max = 32;          ///< longest period of the motion looked for [mesh periods]
 
   /// Two states recur if no component differs by more [b_c, b_c per tau]. A finer one takes the last traces of the
-  /// softest support mode, which at high speed decays by a percent a mesh period, for a change of the motion.
+  /// softest support mode, which at high speed decays by half a percent a mesh period, for a change of the motion.
   double recurrence_tolerance = 1e-3;
 };
 

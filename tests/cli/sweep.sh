@@ -92,12 +92,33 @@ printf '\xff\x00\xff' | dd of=damaged/journal.bin bs=1 seek=5000 conv=notrunc st
 [ "$(code_of sweep "${longer[@]}" -o damaged)" = 7 ] || fail "a damaged journal must give exit 7: $(<stderr)"
 
 # A full disk: what a file system of limited size does to a running sweep, by a limit on the size of files.
-(ulimit -f 64; trap '' XFSZ; sweep "${longer[@]}" -o full >stdout 2>stderr) && fail "a full disk must not give exit 0" || {
+(ulimit -f 64; sweep "${longer[@]}" -o full >stdout 2>stderr) && fail "a full disk must not give exit 0" || {
   code=$?
   [ "$code" = 5 ] || fail "a full disk must give exit 5, not $code"
 }
 [ "$(code_of sweep "${longer[@]}" -o full)" = 0 ] || fail "resume after a full disk: $(<stderr)"
 same_results whole full
+
+# A study with failed points says so each time.
+for attempt in 1 2; do
+  [ "$(code_of sweep --set /integrator/max_steps_per_period=3 -o few_steps)" = 1 ] || fail "failed points must give exit 1"
+done
+grep -q ',step_limit,' few_steps/points.csv || fail "points.csv must name the step limit"
+
+# What cannot be swept is refused before anything is written; so is a value inside the range that breaks a rule.
+refused() {
+  [ "$(code_of sweep "$@" -o refused)" = 2 ] || fail "must be refused: $*"
+  [ ! -e refused ] || fail "refused, but written to: $*"
+}
+pointer() { refused --set "/study/parameter=$1" --set "/study/from=$2" --set "/study/to=$3" --set "/study/points=$4"; }
+pointer /stage/planets/count 2 6 5
+pointer /integrator/relative_tolerance 1e-10 1e-2 3
+pointer /stage/lumped/sun/teeth 26 28 5
+[ "$(code_of sweep --json -o $'odd\xff name')" = 0 ] || fail "an odd folder name: $(<stderr)"
+[ "$(code_of "$epicyclic" schema)" = 0 ] && [ -s stdout ] || fail schema
+code=0
+"$epicyclic" schema >/dev/full 2>stderr || code=$?
+[ "$code" = 5 ] || fail "output that cannot be written must give exit 5, not $code"
 
 # The other commands.
 [ "$(code_of "$epicyclic" check "$inputs/tang2020_speed.json")" = 0 ] || fail "check: $(<stderr)"
