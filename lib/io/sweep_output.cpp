@@ -285,6 +285,7 @@ void write_results_h5(const std::filesystem::path& file, const SweepOutput& outp
   const auto column = [&](const std::string& name, auto&& value, const char* units) {
     using Value = std::decay_t<decltype(value(results.front()))>;
     std::vector<Value> values;
+    values.reserve(results.size());
     for (const PointResult& r : results) values.push_back(value(r));
     h5.write("/points/" + name, std::span<const Value>(values));
     if (units != nullptr) h5.set_units("/points/" + name, units);
