@@ -1,4 +1,4 @@
-// Rolling bearing, radial stiffness and force.
+// Rolling bearing: radial stiffness and force, and the inner geometry of some deep groove ball bearings.
 //
 //   k(d) = 32900 Z (D_w d cos^5 alpha)^(1/2)  [N/mm], lengths in mm: the tangent stiffness                [G-11]
 //   F(d) = (2/3) k(d) d                       [N]: its integral
@@ -8,23 +8,38 @@
 // Smoothness: k is C0 at d = 0 with infinite slope there, F is C1.
 #pragma once
 
-#include <cmath>
-#include <numbers>
+#include <optional>
+#include <span>
+#include <string_view>
 
-#include "core/errors.hpp"
 #include "gear/stage.hpp"
 
 namespace epicyclic::gear {
 
 /// K of k(d) = K sqrt(d), d in metres. [N/m^1.5]
+[[nodiscard]] double palmgren_coefficient(int balls, double ball_diameter_mm, double contact_angle_deg);
+
 /// @throws DomainError when balls or their diameter are missing
-[[nodiscard]] inline double palmgren_coefficient(const SunBearing& bearing) {
-  if (!bearing.balls || !bearing.ball_diameter_mm) throw DomainError("Eq. (11) needs balls and ball_diameter_mm");
-  constexpr double newton_per_mm_1_5 = 32900.0;
-  constexpr double mm_per_m = 1e3;
-  const double cosine = std::cos(bearing.contact_angle_deg * std::numbers::pi / 180.0);
-  const double per_mm = newton_per_mm_1_5 * *bearing.balls * std::sqrt(*bearing.ball_diameter_mm * std::pow(cosine, 5));
-  return per_mm * mm_per_m * std::sqrt(mm_per_m);
-}
+[[nodiscard]] double palmgren_coefficient(const SunBearing& bearing);
+
+/// k at an approach d >= 0 [m], K as above [N/m].
+[[nodiscard]] double palmgren_stiffness(double coefficient, double approach_m);
+/// F at an approach d >= 0 [m] [N].
+[[nodiscard]] double palmgren_force(double coefficient, double approach_m);
+
+/// A deep groove ball bearing with what [G-11] needs.
+struct BearingType {
+  std::string_view designation;
+  double bore_mm, outer_diameter_mm, width_mm;
+  int balls;                ///< Z
+  double ball_diameter_mm;  ///< D_w
+  std::string_view origin;
+};
+
+/// All that are known here, rising. Makers differ in Z and D_w of one designation: give your own data where it matters.
+[[nodiscard]] std::span<const BearingType> bearing_types();
+
+/// @returns nothing for an unknown designation
+[[nodiscard]] std::optional<BearingType> find_bearing(std::string_view designation);
 
 }  // namespace epicyclic::gear

@@ -39,6 +39,42 @@ struct LineOfAction {
 [[nodiscard]] LineOfAction sun_planet_line(const Stage& stage);
 [[nodiscard]] LineOfAction ring_planet_line(const Stage& stage);
 
+/// Phases in [0, 1), rising, where a pair enters, leaves or passes the pitch point; the first is 0.
+using PathPieces = std::vector<double>;
+[[nodiscard]] PathPieces path_pieces(double contact_ratio, double path_start_mm, const LineOfAction& line);
+
+/// One row of a friction table.
+struct FrictionRow {
+  double force = 0, moment_1 = 0, moment_2 = 0;
+};
+
+/// Table with `intervals` equal intervals on each piece, both sides of each breakpoint.
+///
+/// @param row  FrictionRow (double phase, double inside): the row at a phase as the piece that holds `inside` has it
+template <class F>
+[[nodiscard]] Friction::Table tabulate(const PathPieces& pieces, int intervals, F row) {
+  Friction::Table table;
+  table.breakpoints = pieces;
+  const auto append = [&](double phase, const FrictionRow& r) {
+    table.phase.push_back(phase);
+    table.force_ratio.push_back(r.force);
+    table.moment_driving_mm.push_back(r.moment_1);
+    table.moment_driven_mm.push_back(r.moment_2);
+  };
+  // The left side of the first breakpoint, phase 0, is the end of the period.
+  append(0.0, row(1.0, 0.5 * (pieces.back() + 1.0)));
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const bool last = k + 1 == pieces.size();
+    const double from = pieces[k];
+    const double to = last ? 1.0 : pieces[k + 1];
+    for (int i = 0; i <= intervals - (last ? 1 : 0); ++i) {
+      const double phase = i == intervals ? to : from + (to - from) * i / intervals;
+      append(phase, row(phase, 0.5 * (from + to)));
+    }
+  }
+  return table;
+}
+
 /// Friction arm h_1 where contact starts: as given, or so that the path is symmetric about the pitch point [mm].
 [[nodiscard]] double path_start_mm(const Friction::Coefficient& friction, const LineOfAction& line);
 

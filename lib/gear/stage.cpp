@@ -1,9 +1,9 @@
 #include "gear/stage.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <numbers>
-#include <utility>
+
+#include "gear/messages.hpp"
 
 namespace epicyclic::gear {
 
@@ -16,30 +16,6 @@ constexpr double angle_tolerance_deg = 0.02;
 constexpr double phase_resolution = 1e-9;
 // Neighbouring planets nearer than this have no room for teeth.
 constexpr double angle_resolution_deg = 1e-6;
-
-/// Shortest text that reads back as the same number, the same in every locale.
-std::string text(double x) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, x).ptr;
-  return {buffer, end};
-}
-
-class Problems {
- public:
-  template <class... Parts>
-  void add(const std::string& pointer, const Parts&... parts) {
-    std::string line = pointer + ": ";
-    (line.append(part(parts)), ...);
-    lines_.push_back(line);
-  }
-  std::vector<std::string> take() { return std::move(lines_); }
-
- private:
-  static std::string part(const char* s) { return s; }
-  static std::string part(const std::string& s) { return s; }
-  static std::string part(double x) { return text(x); }
-  std::vector<std::string> lines_;
-};
 
 void check_positive(Problems& out, const std::string& pointer, double value) {
   if (!(value > 0.0) || !std::isfinite(value)) out.add(pointer, "must be a positive number (", value, ")");
@@ -81,7 +57,7 @@ void check_pressure_angle(Problems& out, const std::string& pointer, const Mesh&
     }
     const double angle = std::acos(cosine) * 180.0 / std::numbers::pi;
     if (mesh.operating_pressure_angle_deg && std::abs(angle - *mesh.operating_pressure_angle_deg) > angle_tolerance_deg)
-      out.add(pointer + "/operating_pressure_angle_deg", text(*mesh.operating_pressure_angle_deg),
+      out.add(pointer + "/operating_pressure_angle_deg", *mesh.operating_pressure_angle_deg,
               " deg does not fit base radii and centre distance, which give ", angle, " deg (at most ",
               angle_tolerance_deg, " deg apart)");
   } else if (!mesh.operating_pressure_angle_deg) {
@@ -99,6 +75,55 @@ void check_per_planet(Problems& out, const std::string& pointer, const std::vect
   if (values.size() != 1 && static_cast<int>(values.size()) != planets)
     out.add(pointer, "has ", static_cast<double>(values.size()), " numbers; one, or one for each of ",
             static_cast<double>(planets), " planets, are needed");
+}
+
+/// Rows of a table over the phase: rising, in [0, 1), a jump as two rows at a breakpoint.
+void check_rows(Problems& out, const std::string& pointer, const std::vector<double>& phase,
+                const std::vector<double>& breakpoints) {
+  const std::size_t n = phase.size();
+  const auto is_breakpoint = [&](double p) {
+    return std::find(breakpoints.begin(), breakpoints.end(), p) != breakpoints.end();
+  };
+  const auto outside = [](double p) { return !(p >= 0.0) || !(p < 1.0); };
+  if (n > 1 && phase.front() + 1.0 - phase.back() < phase_resolution)
+    out.add(pointer + "/phase", "the last row is too near to the first one of the next period");
+  if (n < 2) out.add(pointer + "/phase", "needs at least 2 rows (", static_cast<double>(n), ")");
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::string row = pointer + "/phase/" + std::to_string(k);
+    if (outside(phase[k])) out.add(row, "must be in [0, 1) (", phase[k], ")");
+    if (k == 0) continue;
+    if (phase[k] > phase[k - 1] && phase[k] - phase[k - 1] < phase_resolution)
+      out.add(row, "is too near to the row before it (", phase[k], " after ", phase[k - 1], ", at least ",
+              phase_resolution, " apart)");
+    if (phase[k] < phase[k - 1]) out.add(row, "phases must rise (", phase[k], " after ", phase[k - 1], ")");
+    if (phase[k] == phase[k - 1] && !is_breakpoint(phase[k]))
+      out.add(row, "stands twice, a jump, but is not among the breakpoints (", phase[k], ")");
+    if (k > 1 && phase[k] == phase[k - 2]) out.add(row, "stands more than twice (", phase[k], ")");
+  }
+  for (std::size_t k = 0; k < breakpoints.size(); ++k) {
+    const double b = breakpoints[k];
+    const std::string row = pointer + "/breakpoints/" + std::to_string(k);
+    if (outside(b)) out.add(row, "must be in [0, 1) (", b, ")");
+    if (k > 0 && !(b > breakpoints[k - 1])) out.add(row, "breakpoints must rise (", b, ")");
+    if (std::find(phase.begin(), phase.end(), b) == phase.end())
+      out.add(row, "needs a row of the table at this phase (", b, ")");
+  }
+}
+
+/// @returns whether a column is as long as the phases
+bool check_length(Problems& out, const std::string& pointer, std::size_t size, std::size_t rows) {
+  if (size != rows)
+    out.add(pointer, "has ", static_cast<double>(size), " numbers, phase has ", static_cast<double>(rows));
+  return size == rows;
+}
+
+void check_stiffness_curve(Problems& out, const std::string& pointer, const Mesh& mesh) {
+  const StiffnessCurve& c = *mesh.stiffness_curve;
+  const std::string place = pointer + "/stiffness_curve";
+  if (!check_length(out, place + "/stiffness_N_per_m", c.stiffness_N_per_m.size(), c.phase.size())) return;
+  check_rows(out, place, c.phase, c.breakpoints);
+  if (!mesh.stiffness_cos_N_per_m.empty() || !mesh.stiffness_sin_N_per_m.empty())
+    out.add(place, "stands in place of harmonics: stiffness_cos_N_per_m and stiffness_sin_N_per_m exclude it");
 }
 
 void check_stiffness(Problems& out, const std::string& pointer, const Mesh& mesh) {
@@ -120,42 +145,29 @@ void check_stiffness(Problems& out, const std::string& pointer, const Mesh& mesh
 
 void check_friction_table(Problems& out, const std::string& pointer, const Friction::Table& t) {
   const std::size_t n = t.phase.size();
-  const auto length = [&](const char* key, std::size_t size) {
-    if (size != n)
-      out.add(pointer + key, "has ", static_cast<double>(size), " numbers, phase has ", static_cast<double>(n));
-    return size == n;
-  };
-  const bool lengths = static_cast<int>(length("/force_ratio", t.force_ratio.size())) &
-                       static_cast<int>(length("/moment_ratio_mm/driving", t.moment_driving_mm.size())) &
-                       static_cast<int>(length("/moment_ratio_mm/driven", t.moment_driven_mm.size()));
-  if (!lengths) return;
-  const auto is_breakpoint = [&](double p) {
-    return std::find(t.breakpoints.begin(), t.breakpoints.end(), p) != t.breakpoints.end();
-  };
-  const auto outside = [](double p) { return !(p >= 0.0) || !(p < 1.0); };
-  if (n > 1 && t.phase.front() + 1.0 - t.phase.back() < phase_resolution)
-    out.add(pointer + "/phase", "the last row is too near to the first one of the next period");
-  if (n < 2) out.add(pointer + "/phase", "needs at least 2 rows (", static_cast<double>(n), ")");
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::string row = pointer + "/phase/" + std::to_string(k);
-    if (outside(t.phase[k])) out.add(row, "must be in [0, 1) (", t.phase[k], ")");
-    if (k == 0) continue;
-    if (t.phase[k] > t.phase[k - 1] && t.phase[k] - t.phase[k - 1] < phase_resolution)
-      out.add(row, "is too near to the row before it (", t.phase[k], " after ", t.phase[k - 1], ", at least ",
-              phase_resolution, " apart)");
-    if (t.phase[k] < t.phase[k - 1]) out.add(row, "phases must rise (", t.phase[k], " after ", t.phase[k - 1], ")");
-    if (t.phase[k] == t.phase[k - 1] && !is_breakpoint(t.phase[k]))
-      out.add(row, "stands twice, a jump, but is not among the breakpoints (", t.phase[k], ")");
-    if (k > 1 && t.phase[k] == t.phase[k - 2]) out.add(row, "stands more than twice (", t.phase[k], ")");
+  const bool lengths =
+      static_cast<int>(check_length(out, pointer + "/force_ratio", t.force_ratio.size(), n)) &
+      static_cast<int>(check_length(out, pointer + "/moment_ratio_mm/driving", t.moment_driving_mm.size(), n)) &
+      static_cast<int>(check_length(out, pointer + "/moment_ratio_mm/driven", t.moment_driven_mm.size(), n));
+  if (lengths) check_rows(out, pointer, t.phase, t.breakpoints);
+}
+
+void check_ehl(Problems& out, const std::string& pointer, const Friction::Ehl& e) {
+  if (!(e.equivalent_modulus_GPa > 0.0)) out.add(pointer + "/equivalent_modulus_GPa", "is missing");
+  if (!(e.width_mm > 0.0)) out.add(pointer + "/width_mm", "is missing");
+  const auto& p = e.share_position;
+  if (p.size() != e.share.size()) {
+    out.add(pointer + "/load_share", "has ", static_cast<double>(e.share.size()), " numbers, load_share_position has ",
+            static_cast<double>(p.size()));
+    return;
   }
-  for (std::size_t k = 0; k < t.breakpoints.size(); ++k) {
-    const double b = t.breakpoints[k];
-    const std::string row = pointer + "/breakpoints/" + std::to_string(k);
-    if (outside(b)) out.add(row, "must be in [0, 1) (", b, ")");
-    if (k > 0 && !(b > t.breakpoints[k - 1])) out.add(row, "breakpoints must rise (", b, ")");
-    if (std::find(t.phase.begin(), t.phase.end(), b) == t.phase.end())
-      out.add(row, "needs a row of the table at this phase (", b, ")");
-  }
+  if (p.empty()) return;
+  constexpr double position_resolution = 1e-6;
+  if (p.size() < 2 || p.front() != 0.0 || std::abs(p.back() - e.contact_ratio) > position_resolution)
+    out.add(pointer + "/load_share_position", "must go from 0 to the contact ratio, ", e.contact_ratio);
+  for (std::size_t k = 1; k < p.size(); ++k)
+    if (p[k] < p[k - 1])
+      out.add(pointer + "/load_share_position/" + std::to_string(k), "must rise (", p[k], " after ", p[k - 1], ")");
 }
 
 void check_motion_of_member(Problems& out, const std::string& pointer, const CentralMember& m) {
@@ -283,7 +295,11 @@ std::vector<std::string> problems_for_motion(const Stage& s) {
     check_mesh_for_motion(out, pointer, mesh);
     check_per_planet(out, std::string(pointer) + "/error_amplitude_um", mesh.error_amplitude_um, s.planet_count);
     check_per_planet(out, std::string(pointer) + "/error_phase_deg", mesh.error_phase_deg, s.planet_count);
-    check_stiffness(out, pointer, mesh);
+    if (mesh.stiffness_curve)
+      check_stiffness_curve(out, pointer, mesh);
+    else
+      check_stiffness(out, pointer, mesh);
+    if (mesh.friction.ehl) check_ehl(out, std::string(pointer) + "/friction", *mesh.friction.ehl);
     if (mesh.friction.table) check_friction_table(out, std::string(pointer) + "/friction", *mesh.friction.table);
   }
   const bool hertzian =

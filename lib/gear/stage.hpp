@@ -19,6 +19,8 @@
 #include <string>
 #include <vector>
 
+#include "gear/catalogue.hpp"
+
 namespace epicyclic::gear {
 
 inline constexpr int planets_min = 2;
@@ -86,7 +88,7 @@ struct Planet {
 };
 
 /// Tooth friction of one mesh: F_f = A(s) F and, about the members' axes, B(s) F.
-/// Either a table over the mesh phase, or a coefficient on an idealised contact path.
+/// A table over the mesh phase, a coefficient on an idealised contact path, or a law of lubricated contact.
 struct Friction {
   /// Table over phase = s / 2 pi on the common s of planet 1, in [0, 1), rising; smooth between breakpoints.
   /// A jump at a breakpoint is given by its two sides: the phase stands twice, left value first.
@@ -108,7 +110,29 @@ struct Friction {
   };
   std::optional<Coefficient> coefficient;
 
-  [[nodiscard]] bool any() const { return table.has_value() || coefficient.has_value(); }
+  /// Lubricated contact, gear/ehl_friction.hpp: a coefficient that depends on place, load and speed.
+  struct Ehl {
+    double viscosity_mPas = 5;          ///< nu_0
+    double roughness_um = 0.6;          ///< S, RMS
+    double equivalent_modulus_GPa = 0;  ///< E' of Eq. (8)
+    double width_mm = 0;                ///< face width in contact
+    double contact_ratio = 1;           ///< epsilon
+    double path_start_mm = 0;           ///< friction arm of the driving member where contact starts
+    /// Share of the load that a pair carries, against its position in base pitches from the start of contact, 0 ..
+    /// epsilon, rising; straight between rows, a jump stands twice. Empty: equal sharing.
+    std::vector<double> share_position;
+    std::vector<double> share;
+  };
+  std::optional<Ehl> ehl{};
+
+  [[nodiscard]] bool any() const { return table.has_value() || coefficient.has_value() || ehl.has_value(); }
+};
+
+/// Mesh stiffness as a curve over the mesh's own phase, in [0, 1); rows and breakpoints as in Friction::Table.
+struct StiffnessCurve {
+  std::vector<double> phase;              ///< [-]
+  std::vector<double> stiffness_N_per_m;  ///< k [N/m]
+  std::vector<double> breakpoints;        ///< phases where the curve jumps or kinks [-]
 };
 
 /// One kind of mesh: sun-planet or ring-planet, the same for all planets but for the errors.
@@ -116,6 +140,7 @@ struct Mesh {
   double stiffness_N_per_m = 0;                        ///< mean k_0 [N/m]
   std::vector<double> stiffness_cos_N_per_m;           ///< A_h of Eq. (4), h = 1, 2, ... on the mesh's own phase [N/m]
   std::vector<double> stiffness_sin_N_per_m;           ///< B_h of Eq. (4) [N/m]
+  std::optional<StiffnessCurve> stiffness_curve{};     ///< the whole curve instead of harmonics; k_0 is its mean
   std::optional<double> operating_pressure_angle_deg;  ///< [deg]; if base radii are given they decide
   std::optional<double> damping_ratio;                 ///< zeta of c = 2 zeta sqrt(k_0 m_e) [-]
   double backlash_half_um = 0;                         ///< half gap b [um]
@@ -140,7 +165,8 @@ struct Stage {
   SunBearing sun_bearing;
   Planet planet;
   Mesh sun_planet_mesh, ring_planet_mesh;
-  double ring_mesh_lead_1 = 0;  ///< lambda_sr: share of a mesh period by which the ring mesh leads [-]
+  std::optional<Catalogue> catalogue{};  ///< what the lumped values were computed from, if they were
+  double ring_mesh_lead_1 = 0;           ///< lambda_sr: share of a mesh period by which the ring mesh leads [-]
   Load load;
 
   /// phi_i [deg], i = 0 .. N-1: as given, or equally spaced from 0.

@@ -1,5 +1,6 @@
 #include "io/field_table.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <charconv>
@@ -69,6 +70,14 @@ std::pair<std::string, std::string> unknown_key(const std::string& key, const st
   for (const auto& place : context.places)
     if (place.key == key) elsewhere.push_back(place.pointer);
   if (!elsewhere.empty()) {
+    // The nearest branches of the tree only.
+    const auto shared = [&](const std::string& other) {
+      const auto [here, there] = std::mismatch(pointer.begin(), pointer.end(), other.begin(), other.end());
+      return std::count(pointer.begin(), here, '/');
+    };
+    const auto nearest_branch = shared(*std::max_element(
+        elsewhere.begin(), elsewhere.end(), [&](const auto& a, const auto& b) { return shared(a) < shared(b); }));
+    std::erase_if(elsewhere, [&](const std::string& other) { return shared(other) < nearest_branch; });
     if (elsewhere.size() > 4) elsewhere.resize(4);
     return {message + "; '" + key + "' belongs in " + listed(elsewhere), ""};
   }

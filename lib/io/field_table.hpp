@@ -176,6 +176,20 @@ auto within(std::optional<U> T::*outer, V U::*inner) {
                                     }};
 }
 
+/// The value of an optional member: reading it makes one.
+template <class T, class U>
+auto present(std::optional<U> T::*member) {
+  return table_detail::Access<T, U>{[=](T& t) -> U& {
+                                      auto& holder = t.*member;
+                                      if (!holder) holder.emplace();
+                                      return *holder;
+                                    },
+                                    [=](const T& t) -> const U* {
+                                      const auto& holder = t.*member;
+                                      return holder ? &*holder : nullptr;
+                                    }};
+}
+
 template <class T>
 struct Field {
   std::string key;
@@ -220,6 +234,22 @@ class Table {
       if (number && bounds.contains(*number)) at.make(t) = static_cast<I>(*number);
     };
     field.schema = [bounds] { return table_detail::number_schema(bounds, true); };
+    return field;
+  }
+
+  /// true or false.
+  template <class F>
+  Field<T>& boolean(std::string key, F member, std::string description) {
+    auto at = table_detail::access<T>(member);
+    Field<T>& field = add(key, std::move(description), at);
+    field.read = [at](const json& value, const std::string& pointer, T& t, ReadContext& context) {
+      if (value.is_boolean()) {
+        at.make(t) = value.template get<bool>();
+      } else {
+        context.add(Finding::Kind::type, pointer, "is " + described(value) + ", must be true or false");
+      }
+    };
+    field.schema = [] { return ordered_json{{"type", "boolean"}}; };
     return field;
   }
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "io/stage_completion.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::io {
@@ -187,6 +188,22 @@ void collect_numbers(const json& value, const std::string& pointer, std::vector<
   }
 }
 
+/// A value that is set is not computed any more: its origin says so, or would have it computed anew.
+void keep_from_computing(json& root, const std::string& pointer) {
+  json* at = &root;
+  for (const auto& step : steps_of(pointer)) {
+    if (!at->is_object()) break;
+    if (const auto origin = at->find("origin"); origin != at->end() && origin->is_object()) {
+      const auto text = origin->find(step);
+      if (text != origin->end() && text->is_string() &&
+          text->get_ref<const std::string&>().rfind(computed_word, 0) == 0)
+        *text = "set: parameter";
+    }
+    at = find_at(*at, pointer_step(step));
+    if (at == nullptr) break;
+  }
+}
+
 // ---- assignments ------------------------------------------------------------------------------------------------
 
 std::string shown(const Assignment& set) { return "--set " + set.text; }
@@ -337,10 +354,16 @@ struct LoadedInput::Sources {
 
 namespace {
 
-/// Reads the whole input from one JSON value: the tables, then the rules that span objects.
-Study read_study(const json& whole, bool bare, ReadContext& context) {
+/// Reads the whole input from one JSON value, which is completed from catalogue data first: the tables, then the rules
+/// that span objects.
+Study read_study(json& whole, bool bare, ReadContext& context) {
   Study study;
   const std::string root = bare ? "" : std::string(stage_root);
+  bool complete = true;
+  if (bare)
+    complete = complete_stage(whole, root, context);
+  else if (const auto stage = whole.find("stage"); stage != whole.end())
+    complete = complete_stage(*stage, root, context);
   if (bare) {
     study.kind = "stage";
     stage_table().collect("", context.places);
@@ -350,9 +373,15 @@ Study read_study(const json& whole, bool bare, ReadContext& context) {
     study_table().read(whole, "", study, context);
   }
 
+  // What could not be computed is not missing.
+  if (!complete)
+    std::erase_if(context.findings, [&](const Finding& finding) {
+      return finding.kind == Finding::Kind::missing_key && pointer_within(finding.pointer, root + "/lumped");
+    });
+
   // The rules of gear need values to judge; they say nothing new about what was found already.
   std::set<std::string, std::less<>> known;
-  bool judged = true;
+  bool judged = complete;
   for (const auto& finding : context.findings) {
     known.insert(finding.pointer);
     if (!finding.meant.empty()) known.insert(finding.meant);
@@ -479,7 +508,7 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
   note_origins(file.value, file, "");
 
   json whole = file.value;
-  sources->bare = whole.contains("lumped") && !whole.contains("stage");
+  sources->bare = (whole.contains("lumped") || whole.contains("catalogue")) && !whole.contains("stage");
   bool stage_missing = false;
 
   // Assignments that change which stage is read, or the patch, come first.
@@ -649,6 +678,7 @@ std::vector<Problem> LoadedInput::check_with(std::string_view pointer, double va
 
   json whole = resolved;
   *find_at(whole, place) = value;
+  keep_from_computing(whole, place);
   ReadContext context;
   changed = read_study(whole, sources_->bare, context);
   std::vector<Problem> problems;

@@ -31,8 +31,9 @@
 namespace epicyclic::io {
 
 /// First words of an "origin", optionally followed by ": " and a text.
-inline constexpr std::array<std::string_view, 10> origin_words = {
-    "source", "table", "standard", "catalogue", "estimate", "calibrated", "choice", "default", "set", "stage_patch"};
+inline constexpr std::array<std::string_view, 11> origin_words = {"source",   "table",       "standard", "catalogue",
+                                                                  "estimate", "calibrated",  "choice",   "default",
+                                                                  "set",      "stage_patch", "computed"};
 
 struct Study {
   std::string name;
@@ -90,7 +91,7 @@ class LoadedInput {
   std::shared_ptr<const Sources> sources_;
 };
 
-/// Reads a study file, or a stage file (one with "lumped" at its top level).
+/// Reads a study file, or a stage file (one with "lumped" or "catalogue" at its top level).
 /// @throws InputProblems with all that is wrong
 [[nodiscard]] LoadedInput load_input(const std::filesystem::path& path, std::span<const Assignment> sets = {});
 

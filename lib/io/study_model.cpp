@@ -1,9 +1,11 @@
 #include "io/study_model.hpp"
 
 #include "core/errors.hpp"
+#include "gear/gear_set.hpp"
 #include "io/csv.hpp"
 #include "io/digest.hpp"
 #include "io/journal.hpp"
+#include "io/stage_completion.hpp"
 #include "studies/operating_point.hpp"
 
 namespace epicyclic::io {
@@ -27,9 +29,20 @@ std::vector<std::string> warnings(const LoadedInput& input) {
   return lines;
 }
 
+std::vector<std::string> catalogue_warnings(const LoadedInput& input) {
+  std::vector<std::string> lines;
+  if (!input.study.stage.catalogue) return lines;
+  for (const std::string& line : gear::catalogue_warnings(gear::make_gear_set(input.study.stage)))
+    lines.push_back("warning: " + line);
+  return lines;
+}
+
 std::string identity(const LoadedInput& input, std::string_view command) {
+  // Computed values follow from the rest, and their last digits from the machine's mathematical library.
+  nlohmann::json given = input.resolved;
+  drop_computed(given);
   const nlohmann::json what = {{"command", command},
-                               {"input", input.resolved},
+                               {"input", given},
                                {"journal_format", journal_format_version},
                                {"numerics", studies::numerics_version}};
   return sha256_hex(canonical_json(what));

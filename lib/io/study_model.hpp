@@ -18,6 +18,9 @@ namespace epicyclic::io {
 /// Lines for stderr on what is allowed but rarely meant.
 [[nodiscard]] std::vector<std::string> warnings(const LoadedInput& input);
 
+/// The same on catalogue data: thin tips, undercut, a module replaced, formulas out of range; empty without such data.
+[[nodiscard]] std::vector<std::string> catalogue_warnings(const LoadedInput& input);
+
 /// What identifies the study's results: SHA-256 of the canonical resolved input with the versions of journal and
 /// numerics.
 [[nodiscard]] std::string identity(const LoadedInput& input, std::string_view command);

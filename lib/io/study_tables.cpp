@@ -1,9 +1,11 @@
 // The tables of all objects of the input: every key, its bounds and its meaning. Defaults stand on the typed structs.
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "integrate/methods.hpp"
+#include "io/catalogue_table.hpp"
 #include "io/study_input.hpp"
 
 namespace epicyclic::io {
@@ -188,11 +190,38 @@ const Table<Friction::Table>& moment_table() {
   return table;
 }
 
+const Table<Friction::Ehl>& lubricated_table() {
+  static const auto table = [] {
+    using Ehl = Friction::Ehl;
+    Table<Ehl> t("lubricated", "Friction of lubricated contact, a function of place, load and speed.");
+    t.number("viscosity_mPas", &Ehl::viscosity_mPas, above_up_to(0, 1e5),
+             "Dynamic viscosity of the oil at its inlet [mPa s].");
+    t.number("roughness_um", &Ehl::roughness_um, between(0, 10), "RMS roughness of the flanks [um].");
+    t.number("equivalent_modulus_GPa", &Ehl::equivalent_modulus_GPa, above_up_to(0, 5000),
+             "E' = 2 / ((1 - nu1^2) / E1 + (1 - nu2^2) / E2) [GPa].")
+        .required();
+    t.number("width_mm", &Ehl::width_mm, length, "Face width in contact [mm].").required();
+    t.number("contact_ratio", &Ehl::contact_ratio, between(1, 3), "Contact ratio [-].").required();
+    t.number("path_start_mm", &Ehl::path_start_mm, between(-length_max_mm, length_max_mm),
+             "Friction arm of the driving member where contact starts [mm].")
+        .required();
+    t.numbers("load_share_position", &Ehl::share_position, between(0, 3), 2, 100000,
+              "Positions of a pair, in base pitches from the start of contact, 0 to the contact ratio, rising [-].");
+    t.numbers("load_share", &Ehl::share, between(0, 1), 2, 100000,
+              "Share of the load that the pair carries at each position; equal sharing if not given [-].");
+    t.rule(KeyRule::Kind::together, {"load_share_position", "load_share"});
+    return t;
+  }();
+  return table;
+}
+
 const Table<Friction>& friction_table() {
   static const auto table = [] {
-    Table<Friction> t("friction", "Tooth friction: a coefficient on an idealised path of contact, or a table.");
+    Table<Friction> t("friction",
+                      "Tooth friction: a coefficient on an idealised path of contact, a table, or lubricated contact.");
     t.number("coefficient", within(&Friction::coefficient, &Friction::Coefficient::coefficient), between(0, 1),
              "Coulomb coefficient mu on the path of contact [-].");
+    t.object("lubricated", present(&Friction::ehl), lubricated_table());
     t.number("contact_ratio", within(&Friction::coefficient, &Friction::Coefficient::contact_ratio), between(1, 3),
              "Contact ratio [-].");
     t.number(
@@ -221,11 +250,28 @@ const Table<Friction>& friction_table() {
     t.custom(std::move(moment));
     t.numbers("breakpoints", within(&Friction::table, &Friction::Table::breakpoints), from_below(0, 1), 0, 1000,
               "Phases where the table jumps or kinks [-].");
-    t.rule(KeyRule::Kind::at_most_one, {"coefficient", "phase"});
+    t.rule(KeyRule::Kind::at_most_one, {"coefficient", "phase", "lubricated"});
     t.rule(KeyRule::Kind::together, {"phase", "force_ratio", "moment_ratio_mm"});
     t.rule(KeyRule::Kind::needs, {"contact_ratio", "coefficient"});
     t.rule(KeyRule::Kind::needs, {"path_start_mm", "coefficient"});
     t.rule(KeyRule::Kind::needs, {"breakpoints", "phase"});
+    return t;
+  }();
+  return table;
+}
+
+const Table<gear::StiffnessCurve>& curve_table() {
+  static const auto table = [] {
+    using gear::StiffnessCurve;
+    Table<StiffnessCurve> t("stiffness_curve", "Mesh stiffness over the mesh's own phase, in place of harmonics.");
+    t.numbers("phase", &StiffnessCurve::phase, from_below(0, 1), 2, 100000,
+              "Phase of the rows, 0 where a pair enters, rising; a jump is two rows of one phase [-].")
+        .required();
+    t.numbers("stiffness_N_per_m", &StiffnessCurve::stiffness_N_per_m, above_up_to(0, stiffness_max), 2, 100000,
+              "Stiffness at each phase [N/m].")
+        .required();
+    t.numbers("breakpoints", &StiffnessCurve::breakpoints, from_below(0, 1), 0, 1000,
+              "Phases where the curve jumps or kinks [-].");
     return t;
   }();
   return table;
@@ -242,6 +288,7 @@ const Table<Mesh>& mesh_table() {
               "Cosine coefficients of the harmonics 1, 2, ... of the stiffness on the mesh's own phase [N/m].");
     t.numbers("stiffness_sin_N_per_m", &Mesh::stiffness_sin_N_per_m, harmonic, 0, gear::harmonics_max,
               "Sine coefficients of the harmonics 1, 2, ... of the stiffness on the mesh's own phase [N/m].");
+    t.object("stiffness_curve", present(&Mesh::stiffness_curve), curve_table());
     t.number("operating_pressure_angle_deg", &Mesh::operating_pressure_angle_deg, from_below(0, 90),
              "Operating pressure angle [deg]; base radii and centre distance decide where they are given.");
     t.number("damping_ratio", &Mesh::damping_ratio, damping_ratio,
@@ -441,6 +488,7 @@ const Table<Stage>& stage_table() {
              "Who is held: the ring, the carrier (star), or as the paper of Tang et al. prints it (literal).");
     t.object("planets", itself, planets_table()).required();
     t.object("load", &Stage::load, load_table());
+    t.object("catalogue", present(&Stage::catalogue), catalogue_table());
     t.object("lumped", itself, lumped_table()).required();
     return t;
   }();
@@ -479,12 +527,30 @@ const Table<Study>& study_table() {
   return table;
 }
 
+namespace {
+
+/// Schema of a stage with catalogue data: what would be computed need not be given.
+ordered_json catalogue_stage_schema(ordered_json stage) {
+  const std::function<void(ordered_json&)> relax = [&](ordered_json& object) {
+    object.erase("required");
+    if (const auto properties = object.find("properties"); properties != object.end())
+      for (auto& [key, property] : properties->items()) relax(property);
+  };
+  relax(stage["properties"]["lumped"]);
+  stage["required"] = {"planets", "catalogue"};
+  stage["title"] = "stage of catalogue data";
+  return stage;
+}
+
+}  // namespace
+
 std::string schema_text() {
   ordered_json study = study_table().schema();
   study["properties"]["stage"] = {
       {"anyOf",
        {{{"type", "string"}, {"minLength", 1}, {"description", "Path of the stage file, relative to the study file."}},
-        {{"$ref", "#/$defs/stage"}}}},
+        {{"$ref", "#/$defs/stage"}},
+        {{"$ref", "#/$defs/catalogue_stage"}}}},
       {"description", "The stage: a file, or the object itself."}};
 
   std::string words;
@@ -494,10 +560,15 @@ std::string schema_text() {
       {"description", "Where values come from: one text for all values of the object, or one for each key of it."},
       {"anyOf", {origin_text, {{"type", "object"}, {"additionalProperties", origin_text}}}}};
 
-  const ordered_json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
-                               {"title", "epicyclic input: a study, or a stage alone"},
-                               {"anyOf", {{{"$ref", "#/$defs/study"}}, {{"$ref", "#/$defs/stage"}}}},
-                               {"$defs", {{"study", study}, {"stage", stage_table().schema()}, {"origin", origin}}}};
+  const ordered_json schema = {
+      {"$schema", "https://json-schema.org/draft/2020-12/schema"},
+      {"title", "epicyclic input: a study, or a stage alone"},
+      {"anyOf", {{{"$ref", "#/$defs/study"}}, {{"$ref", "#/$defs/stage"}}, {{"$ref", "#/$defs/catalogue_stage"}}}},
+      {"$defs",
+       {{"study", study},
+        {"stage", stage_table().schema()},
+        {"catalogue_stage", catalogue_stage_schema(stage_table().schema())},
+        {"origin", origin}}}};
   return schema.dump(2) + "\n";
 }
 

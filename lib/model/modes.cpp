@@ -45,17 +45,20 @@ class Assembly {
     };
     using D = Deflections<double, N>;
     for (std::size_t i = 0; i < N; ++i) {
-      spring(stage_.sun_planet_mesh.stiffness_N_per_m, row([i](const D& d) { return d.sun_planet[i]; }));
-      spring(stage_.ring_planet_mesh.stiffness_N_per_m, row([i](const D& d) { return d.ring_planet[i]; }));
-      spring(stage_.planet.bearing_N_per_m, row([i](const D& d) { return d.carrier_x[i]; }));
-      spring(stage_.planet.bearing_N_per_m, row([i](const D& d) { return d.carrier_y[i]; }));
+      spring(Element::sun_planet_mesh, stage_.sun_planet_mesh.stiffness_N_per_m,
+             row([i](const D& d) { return d.sun_planet[i]; }));
+      spring(Element::ring_planet_mesh, stage_.ring_planet_mesh.stiffness_N_per_m,
+             row([i](const D& d) { return d.ring_planet[i]; }));
+      spring(Element::planet_bearing, stage_.planet.bearing_N_per_m, row([i](const D& d) { return d.carrier_x[i]; }));
+      spring(Element::planet_bearing, stage_.planet.bearing_N_per_m, row([i](const D& d) { return d.carrier_y[i]; }));
       mass(Slots::x_p(i), stage_.planet.mass_kg);
       mass(Slots::y_p(i), stage_.planet.mass_kg);
       mass(Slots::w_p(i), stage_.planet.inertia_over_r2_kg);
     }
-    member(stage_.sun, Slots::x_s, Slots::y_s, Slots::w_s);
-    member(stage_.ring, Slots::x_r(N), Slots::y_r(N), Slots::u_r(N));
-    member(stage_.carrier, Slots::x_c(N), Slots::y_c(N), Slots::u_c(Layout::full, N));
+    member(stage_.sun, Slots::x_s, Slots::y_s, Slots::w_s, Element::sun_support, Element::sun_torsion);
+    member(stage_.ring, Slots::x_r(N), Slots::y_r(N), Slots::u_r(N), Element::ring_support, Element::ring_torsion);
+    member(stage_.carrier, Slots::x_c(N), Slots::y_c(N), Slots::u_c(Layout::full, N), Element::carrier_support,
+           Element::carrier_torsion);
     return std::move(linear_);
   }
 
@@ -64,23 +67,25 @@ class Assembly {
 
   void mass(std::size_t slot, double kg) { linear_.mass(static_cast<Eigen::Index>(slot)) = scales_.mass_ratio(kg); }
 
-  void spring(double newton_per_m, const Eigen::VectorXd& l) {
+  void spring(Element element, double newton_per_m, const Eigen::VectorXd& l) {
     if (std::isfinite(newton_per_m)) {
       linear_.stiffness += scales_.stiffness(newton_per_m) * l * l.transpose();
+      linear_.springs.push_back({element, scales_.stiffness(newton_per_m), l});
       return;
     }
     linear_.constraints.conservativeResize(linear_.constraints.rows() + 1, Eigen::NoChange);
     linear_.constraints.bottomRows(1) = l.transpose();
   }
 
-  void member(const gear::CentralMember& m, std::size_t x, std::size_t y, std::size_t u) {
+  void member(const gear::CentralMember& m, std::size_t x, std::size_t y, std::size_t u, Element support,
+              Element torsion) {
     const auto unit = [](std::size_t slot) { return Eigen::VectorXd::Unit(size, static_cast<Eigen::Index>(slot)); };
     mass(x, m.mass_kg);
     mass(y, m.mass_kg);
     mass(u, m.inertia_over_r2_kg);
-    spring(m.support_N_per_m, unit(x));
-    spring(m.support_N_per_m, unit(y));
-    spring(m.torsional_support_N_per_m, unit(u));
+    spring(support, m.support_N_per_m, unit(x));
+    spring(support, m.support_N_per_m, unit(y));
+    spring(torsion, m.torsional_support_N_per_m, unit(u));
   }
 
   Parameters<double, N> geometry_;
@@ -143,6 +148,58 @@ std::string_view to_string(ModeType type) {
       return "other";
   }
   return "other";
+}
+
+std::string_view to_string(Element element) {
+  static constexpr std::array<std::string_view, element_count> names = {
+      "sun_planet_mesh", "ring_planet_mesh", "planet_bearing",  "sun_support",    "sun_torsion",
+      "ring_support",    "ring_torsion",     "carrier_support", "carrier_torsion"};
+  return names[static_cast<std::size_t>(element)];
+}
+
+std::string_view to_string(Motion motion) {
+  static constexpr std::array<std::string_view, motion_count> names = {
+      "sun_translation",  "sun_rotation",  "planet_translation",  "planet_rotation",
+      "ring_translation", "ring_rotation", "carrier_translation", "carrier_rotation"};
+  return names[static_cast<std::size_t>(motion)];
+}
+
+ModalEnergies modal_energies(const LinearStage& linear, const Mode& mode, int planets) {
+  const auto n = static_cast<std::size_t>(planets);
+  ModalEnergies e;
+  double elastic = 0.0;
+  if (mode.frequency_ratio > 0.0)
+    for (const Spring& spring : linear.springs) {
+      const double energy = spring.stiffness * (spring.row.transpose() * mode.shapes).squaredNorm();
+      e.elastic[static_cast<std::size_t>(spring.element)] += energy;
+      elastic += energy;
+    }
+  if (elastic > 0.0)
+    for (double& share : e.elastic) share /= elastic;
+
+  double kinetic = 0.0;
+  const auto add = [&](Motion motion, std::size_t slot) {
+    const auto k = static_cast<Eigen::Index>(slot);
+    const double energy = linear.mass(k) * mode.shapes.row(k).squaredNorm();
+    e.kinetic[static_cast<std::size_t>(motion)] += energy;
+    kinetic += energy;
+  };
+  add(Motion::sun_translation, Slots::x_s);
+  add(Motion::sun_translation, Slots::y_s);
+  add(Motion::sun_rotation, Slots::w_s);
+  for (std::size_t i = 0; i < n; ++i) {
+    add(Motion::planet_translation, Slots::x_p(i));
+    add(Motion::planet_translation, Slots::y_p(i));
+    add(Motion::planet_rotation, Slots::w_p(i));
+  }
+  add(Motion::ring_translation, Slots::x_r(n));
+  add(Motion::ring_translation, Slots::y_r(n));
+  add(Motion::ring_rotation, Slots::u_r(n));
+  add(Motion::carrier_translation, Slots::x_c(n));
+  add(Motion::carrier_translation, Slots::y_c(n));
+  add(Motion::carrier_rotation, Slots::u_c(Layout::full, n));
+  for (double& share : e.kinetic) share /= kinetic;
+  return e;
 }
 
 LinearStage linear_stage(const gear::Stage& stage, const Scales& scales) {

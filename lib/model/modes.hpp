@@ -14,6 +14,8 @@
 // subspace is split first. Limits: undamped, no gyroscopic terms.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -37,15 +39,64 @@ struct Mode {
   Eigen::MatrixXd shapes;  ///< (3N + 9) x multiplicity, slots of Layout::full, shape' M shape = 1 (M in m_0)
 };
 
+/// The elastic elements of a stage.
+enum class Element {
+  sun_planet_mesh,
+  ring_planet_mesh,
+  planet_bearing,
+  sun_support,
+  sun_torsion,
+  ring_support,
+  ring_torsion,
+  carrier_support,
+  carrier_torsion,
+};
+inline constexpr std::size_t element_count = 9;
+
+[[nodiscard]] std::string_view to_string(Element element);
+
+/// One spring: its energy is k (l' q)^2 / 2.
+struct Spring {
+  Element element;
+  double stiffness;     ///< [m_0 omega_sn^2]
+  Eigen::VectorXd row;  ///< l
+};
+
 /// Mass matrix (diagonal) and stiffness matrix of the full coordinates, rigid supports left out of K.
 struct LinearStage {
   Eigen::VectorXd mass;         ///< 3N + 9 [m_0]
   Eigen::MatrixXd stiffness;    ///< (3N + 9) x (3N + 9) [m_0 omega_sn^2]
   Eigen::MatrixXd constraints;  ///< c x (3N + 9): rows that vanish on every motion
+  std::vector<Spring> springs;  ///< those that make up the stiffness
 };
 
 /// @param stage  passes gear::problems_for_modes()
 [[nodiscard]] LinearStage linear_stage(const gear::Stage& stage, const Scales& scales);
+
+/// Motions that kinetic energy is told apart by.
+enum class Motion {
+  sun_translation,
+  sun_rotation,
+  planet_translation,
+  planet_rotation,
+  ring_translation,
+  ring_rotation,
+  carrier_translation,
+  carrier_rotation,
+};
+inline constexpr std::size_t motion_count = 8;
+
+[[nodiscard]] std::string_view to_string(Motion motion);
+
+/// Shares of a mode's elastic and kinetic energy; each kind adds up to 1 (elastic: 0 for rigid motion). Means over the
+/// shapes of a multiple mode, which do not depend on the choice of shapes.
+struct ModalEnergies {
+  std::array<double, element_count> elastic{};
+  std::array<double, motion_count> kinetic{};
+};
+
+/// @param planets  N
+[[nodiscard]] ModalEnergies modal_energies(const LinearStage& linear, const Mode& mode, int planets);
 
 /// All modes, rising frequency.
 [[nodiscard]] std::vector<Mode> modes(const gear::Stage& stage, const Scales& scales);

@@ -7,6 +7,7 @@
 
 #include "core/errors.hpp"
 #include "gear/bearing.hpp"
+#include "gear/ehl_friction.hpp"
 #include "gear/friction_path.hpp"
 #include "gear/kinematics.hpp"
 
@@ -38,6 +39,9 @@ void fill_mesh(MeshParameters<double, N>& m, const gear::Mesh& mesh, const std::
   m.stiffness = scales.stiffness(mesh.stiffness_N_per_m);
   m.damping =
       scales.damping(2.0 * mesh.damping_ratio.value_or(0.0) * std::sqrt(mesh.stiffness_N_per_m * effective_mass));
+  if (mesh.stiffness_curve)
+    m.stiffness_curve =
+        std::make_shared<PeriodicTrack<1>>(stiffness_track(*mesh.stiffness_curve, 1.0 / scales.stiffness(1.0)));
   m.harmonics = std::max(mesh.stiffness_cos_N_per_m.size(), mesh.stiffness_sin_N_per_m.size());
   m.stiffness_cos.resize(m.harmonics);
   m.stiffness_sin.resize(m.harmonics);
@@ -59,30 +63,37 @@ void fill_mesh(MeshParameters<double, N>& m, const gear::Mesh& mesh, const std::
 }
 
 /// @param lead  what turns the common phase of a given table into the mesh's own phase; a path has its own phase
-/// already
+///              already
 std::shared_ptr<const FrictionTrack> make_track(const gear::Friction& friction, const gear::Stage& stage,
                                                 gear::LineOfAction (*line_of)(const gear::Stage&), double lead,
-                                                double driving_radius_mm, double driven_radius_mm) {
-  if (friction.table)
-    return std::make_shared<FrictionTrack>(*friction.table, lead, driving_radius_mm, driven_radius_mm);
-  if (friction.coefficient)
-    return std::make_shared<FrictionTrack>(gear::friction_table(*friction.coefficient, line_of(stage)), 0.0,
-                                           driving_radius_mm, driven_radius_mm);
-  return nullptr;
+                                                const gear::MeshLoad& load) {
+  if (!friction.any()) return nullptr;
+  const gear::LineOfAction line = line_of(stage);
+  const auto track = [&](const gear::Friction::Table& table, double by) {
+    return std::make_shared<FrictionTrack>(table, by, line.base_radius_1_mm, line.base_radius_2_mm);
+  };
+  if (friction.table) return track(*friction.table, lead);
+  if (friction.ehl) return track(gear::friction_table(*friction.ehl, line, load), 0.0);
+  return track(gear::friction_table(*friction.coefficient, line), 0.0);
 }
 
 template <std::size_t N>
 void append_breakpoints(const MeshParameters<double, N>& mesh, std::vector<double>& phases) {
-  if (!mesh.friction) return;
-  for (std::size_t i = 0; i < N; ++i)
-    for (const double own : mesh.friction->breakpoints()) phases.push_back(wrapped(own - mesh.turns[i]));
+  const auto append = [&](const std::vector<double>& own_phases) {
+    for (std::size_t i = 0; i < N; ++i)
+      for (const double own : own_phases) phases.push_back(wrapped(own - mesh.turns[i]));
+  };
+  if (mesh.friction) append(mesh.friction->breakpoints());
+  if (mesh.stiffness_curve) append(mesh.stiffness_curve->breakpoints());
 }
 
 template <std::size_t N>
-std::array<FrictionTrack::Place, N> places(const MeshParameters<double, N>& mesh, double common_phase) {
-  std::array<FrictionTrack::Place, N> r{};
-  if (mesh.friction)
-    for (std::size_t i = 0; i < N; ++i) r[i] = mesh.friction->place(common_phase + mesh.turns[i]);
+MeshPlaces<N> places(const MeshParameters<double, N>& mesh, double common_phase) {
+  MeshPlaces<N> r{};
+  for (std::size_t i = 0; i < N; ++i) {
+    if (mesh.friction) r.friction[i] = mesh.friction->place(common_phase + mesh.turns[i]);
+    if (mesh.stiffness_curve) r.stiffness[i] = mesh.stiffness_curve->place(common_phase + mesh.turns[i]);
+  }
   return r;
 }
 
@@ -198,10 +209,10 @@ Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& sc
   fill_mesh(p.sun_planet, stage.sun_planet_mesh, angles, -*stage.sun.teeth, 0.0, reduced(m_s, m_p), scales);
   fill_mesh(p.ring_planet, stage.ring_planet_mesh, angles, *stage.ring.teeth, stage.ring_mesh_lead_1, reduced(m_p, m_r),
             scales);
-  p.sun_planet.friction = make_track(stage.sun_planet_mesh.friction, stage, gear::sun_planet_line, 0.0,
-                                     *stage.sun.base_radius_mm, *stage.planet.base_radius_mm);
-  p.ring_planet.friction = make_track(stage.ring_planet_mesh.friction, stage, gear::ring_planet_line,
-                                      stage.ring_mesh_lead_1, *stage.planet.base_radius_mm, *stage.ring.base_radius_mm);
+  const gear::MeshLoad load = gear::mean_mesh_load(stage, mesh_frequency);
+  p.sun_planet.friction = make_track(stage.sun_planet_mesh.friction, stage, gear::sun_planet_line, 0.0, load);
+  p.ring_planet.friction =
+      make_track(stage.ring_planet_mesh.friction, stage, gear::ring_planet_line, stage.ring_mesh_lead_1, load);
   make_segments(p);
 
   const GyroscopicForm form = gyroscopic_form(stage.boundary, options.gyroscopic);

@@ -4,7 +4,7 @@
 // inverse masses, Fourier coefficients already turned into each planet's phase, so that with s the common mesh phase
 //
 //   s_spi = s - z_s (phi_i - phi_1) ,  s_rpi = s + z_r (phi_i - phi_1) + 2 pi lambda_sr                  [M-phase]
-//   k_i(s) = k_0 + sum_h [ C_hi cos h s + S_hi sin h s ]                                                 [M-4]
+//   k_i(s) = k_0 + sum_h [ C_hi cos h s + S_hi sin h s ]  or a table over s_i                            [M-4]
 //   e_i(s) = a_i cos s + b_i sin s   from   E_i sin(s_i + phi_0i)                                        [M-e]
 //
 // Units: displacements in b_c, time in tau, masses in m_0 (model/scales.hpp). Source: model.md section 5; Eq. (4) with
@@ -35,14 +35,20 @@ struct MeshParameters {
   std::size_t harmonics = 0;
   std::vector<std::array<T, N>> stiffness_cos, stiffness_sin;  ///< C_hi, S_hi; [harmonics][N]
   std::array<T, N> error_cos, error_sin;                       ///< a_i, b_i
+  std::shared_ptr<const PeriodicTrack<1>> stiffness_curve;     ///< in place of k_0 and harmonics; null without
   std::shared_ptr<const FrictionTrack> friction;               ///< null without friction
   std::array<double, N> turns;                                 ///< mesh phase of planet i over 2 pi, at s = 0
 };
 
-/// Places of all meshes' friction pieces while s is between two neighbouring breakpoints.
+/// Places of one kind of mesh in its tables while s is between two neighbouring breakpoints.
+template <std::size_t N>
+struct MeshPlaces {
+  std::array<TrackPlace, N> stiffness, friction;
+};
+
 template <std::size_t N>
 struct Segment {
-  std::array<FrictionTrack::Place, N> sun_planet, ring_planet;
+  MeshPlaces<N> sun_planet, ring_planet;
 };
 
 template <class T, std::size_t N>
@@ -108,6 +114,7 @@ template <class T, std::size_t N>
     for (const auto& s : m.stiffness_sin) r.stiffness_sin.push_back(all(s));
     r.error_cos = all(m.error_cos);
     r.error_sin = all(m.error_sin);
+    r.stiffness_curve = m.stiffness_curve;
     r.friction = m.friction;
     r.turns = m.turns;
     return r;

@@ -12,7 +12,7 @@
 // Limits: isotropic planet bearings (k_pix = k_piy = k_picu), one half gap per kind of mesh; the back flank keeps the
 // line of action of the drive flank, as Eq. (27) does.
 // Smoothness: C0 in the state with kinks at delta = +-b (analytic for w > 0); with contact-slope damping and w = 0 it
-// jumps there; in s analytic but for jumps of friction at `breakpoints`.
+// jumps there; in s analytic but for jumps of friction and of a stiffness curve at `breakpoints`.
 #pragma once
 
 #include <algorithm>
@@ -80,9 +80,9 @@ struct MeshState {
 /// [M-27] of one kind of mesh; `places` are those of the current segment.
 template <class T, std::size_t N>
 [[nodiscard]] MeshState<T, N> mesh_state(const Parameters<T, N>& p, const MeshParameters<T, N>& mesh,
-                                         const std::array<FrictionTrack::Place, N>& places, const T& s,
-                                         const HarmonicBasis<T>& basis, const std::array<T, N>& displacement,
-                                         const std::array<T, N>& velocity) {
+                                         const MeshPlaces<N>& places, const T& s, const HarmonicBasis<T>& basis,
+                                         const std::array<T, N>& displacement, const std::array<T, N>& velocity) {
+  const auto own_phase = [&](std::size_t i) -> T { return s * (0.5 * std::numbers::inv_pi) + mesh.turns[i]; };
   MeshState<T, N> m;
   for (std::size_t i = 0; i < N; ++i) {
     m.delta[i] = displacement[i] - (mesh.error_cos[i] * basis.cosine[0] + mesh.error_sin[i] * basis.sine[0]);
@@ -92,6 +92,8 @@ template <class T, std::size_t N>
   for (std::size_t h = 0; h < mesh.harmonics; ++h)
     for (std::size_t i = 0; i < N; ++i)
       m.stiffness[i] += mesh.stiffness_cos[h][i] * basis.cosine[h] + mesh.stiffness_sin[h][i] * basis.sine[h];
+  if (mesh.stiffness_curve)
+    for (std::size_t i = 0; i < N; ++i) m.stiffness[i] = mesh.stiffness_curve->at(places.stiffness[i], own_phase(i))[0];
   for (std::size_t i = 0; i < N; ++i) {
     const Closure<T> gap = closure(m.delta[i], mesh.half_gap, p.smoothing, p.smooth);
     const T weight = p.gap_damping == GapDamping::contact_slope ? gap.slope : T(1.0);
@@ -100,8 +102,7 @@ template <class T, std::size_t N>
   }
   if (mesh.friction) {
     for (std::size_t i = 0; i < N; ++i) {
-      const T phase = s * (0.5 * std::numbers::inv_pi) + mesh.turns[i];
-      const FrictionRatios<T> ratios = mesh.friction->at(places[i], phase);
+      const FrictionRatios<T> ratios = mesh.friction->at(places.friction[i], own_phase(i));
       m.friction[i] = ratios.force * m.force[i];
       m.moment_driving[i] = ratios.moment_driving * m.force[i];
       m.moment_driven[i] = ratios.moment_driven * m.force[i];

@@ -283,10 +283,10 @@ TEST(Inputs, EveryValueOfTheCompletedStageSaysWhereItComesFrom) {
   EXPECT_GT(numbers, 50);
 }
 
-// The bodies of the completed stage, from Table 1 and the dimensions that the origins in the file state.
+// The bodies of the completed stage, from Table 1 and the dimensions that the file states.
 TEST(Inputs, BodiesOfTheCompletedStageFollowFromTheirDimensions) {
   const auto stage = load_input(inputs / "tang2020.json").study.stage;
-  constexpr double digits = 1e-14;  // the file gives fifteen
+  constexpr double digits = 1e-14;  // rounding of the formulas
   constexpr double pi = 3.14159265358979323846, degree = pi / 180;
   const auto near = [&](double value, double expected, const char* what) {
     EXPECT_NEAR(value, expected, digits * expected) << what;
@@ -325,7 +325,7 @@ TEST(Inputs, BodiesOfTheCompletedStageFollowFromTheirDimensions) {
   near(stage.sun.inertia_over_r2_kg, sun.inertia / (r_bs * r_bs), "I_s");
   near(stage.planet.inertia_over_r2_kg, planet.inertia / (r_bp * r_bp), "I_p");
   near(stage.ring.inertia_over_r2_kg, ring.inertia / (r_br * r_br), "I_r");
-  near(stage.carrier.inertia_over_r2_kg, cheeks.inertia / (r_c * r_c) + 3 * pin.mass, "I_c");
+  near(stage.carrier.inertia_over_r2_kg, (cheeks.inertia + 3 * pin.inertia) / (r_c * r_c) + 3 * pin.mass, "I_c");
 }
 
 // ---- bad inputs: the cases that the command is tested with too
@@ -543,6 +543,9 @@ class SchemaAndReader : public ::testing::Test {
       EXPECT_FALSE(any_at(with(pointer, value["const"]), pointer)) << pointer;
     } else if (value["type"] == "array") {
       check_array(value, pointer);
+    } else if (value["type"] == "boolean") {
+      EXPECT_TRUE(found(with(pointer, 5), pointer, Finding::Kind::type)) << pointer;
+      EXPECT_FALSE(any_at(with(pointer, false), pointer)) << pointer;
     } else if (value["type"] == "string") {
       EXPECT_TRUE(found(with(pointer, 5), pointer, Finding::Kind::type)) << pointer;
       EXPECT_FALSE(any_at(with(pointer, "text"), pointer)) << pointer;
@@ -607,7 +610,9 @@ TEST_F(SchemaAndReader, AgreeOnMethodsAndOrigins) {
   const std::string pattern = schema["$defs"]["origin"]["anyOf"][0]["pattern"];
   for (const auto word : origin_words) EXPECT_NE(pattern.find(word), std::string::npos);
   EXPECT_EQ(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
-  EXPECT_EQ(schema["anyOf"], json::parse(R"([{"$ref": "#/$defs/study"}, {"$ref": "#/$defs/stage"}])"));
+  EXPECT_EQ(
+      schema["anyOf"],
+      json::parse(R"([{"$ref": "#/$defs/study"}, {"$ref": "#/$defs/stage"}, {"$ref": "#/$defs/catalogue_stage"}])"));
 }
 
 TEST_F(SchemaAndReader, EveryKeyThatIsWrittenIsInTheSchema) {

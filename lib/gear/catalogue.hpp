@@ -1,0 +1,91 @@
+// A planetary stage as drawings and catalogues give it. gear/gear_set.hpp computes the lumped stage from it.
+//
+// All gears share one material. Every value that a drawing states is a member; what it rarely states has the default of
+// common practice, and the summary of `epicyclic gear` says which defaults were used.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "gear/body.hpp"
+#include "gear/material.hpp"
+#include "gear/tooth.hpp"
+#include "gear/tooth_compliance.hpp"
+
+namespace epicyclic::gear {
+
+/// Sun or planet.
+struct ExternalGear {
+  GearData data;
+  std::optional<int> accuracy_grade;          ///< ISO 1328-1:1995
+  double bore_mm = 0;                         ///< diameter
+  std::optional<double> body_radius_ratio;    ///< h_f of Sainsot; default r_f over the radius of the bore, at most 7
+  std::optional<double> root_half_angle_deg;  ///< theta_f; default that of the profile
+};
+
+/// Where the base pitch of the ring comes from when its rounded module does not fit the planet's.
+enum class BasePitch {
+  as_given,   ///< module and pressure angle of the ring as they stand
+  of_planet,  ///< the ring's module is replaced so that both base pitches agree; its pressure angle is kept
+};
+
+struct RingGear {
+  GearData data;
+  std::optional<int> accuracy_grade;
+  std::optional<double> outer_diameter_mm;  ///< of the rim
+  BasePitch base_pitch = BasePitch::as_given;
+  std::optional<double> root_half_angle_deg;
+};
+
+/// A bearing by its designation, and the approach at which its stiffness is taken.
+struct SupportBearing {
+  std::string type;         ///< a designation that find_bearing() knows
+  double approach_um = 10;  ///< elastic approach beyond the clearance
+};
+
+struct OutputShaft {
+  double diameter_mm = 0;
+  double inner_diameter_mm = 0;
+  double length_mm = 0;
+};
+
+struct CarrierData {
+  std::optional<CarrierBody> body;
+  std::optional<SupportBearing> bearing;
+  std::optional<OutputShaft> shaft;  ///< gives the torsional support of a grounded carrier
+};
+
+/// Whether the tips of sun and planet are shortened to keep the tip clearance at the working centre distance.
+enum class Tips { shortened, full };
+
+/// How the mesh stiffness enters the model.
+enum class StiffnessForm {
+  harmonics,  ///< mean and Fourier coefficients, smooth
+  curve,      ///< the whole curve, with its jumps at the breakpoints
+};
+
+struct StiffnessOptions {
+  ComplianceOptions compliance;
+  StiffnessForm form = StiffnessForm::harmonics;
+  int harmonics = 2;                                     ///< Eq. (4) has two
+  double sun_planet_factor = 1, ring_planet_factor = 1;  ///< on the computed stiffness, for what its model leaves open
+};
+
+/// What lubricates the teeth; without it there is no tooth friction.
+struct Lubrication {
+  double viscosity_mPas = 5;  ///< nu_0 at the oil's inlet
+  double roughness_um = 0.6;  ///< RMS
+};
+
+struct Catalogue {
+  Material material;
+  Tips tips = Tips::shortened;
+  ExternalGear sun, planet;
+  std::optional<SupportBearing> sun_bearing;
+  RingGear ring;
+  CarrierData carrier;
+  StiffnessOptions stiffness;
+  std::optional<Lubrication> lubrication;
+};
+
+}  // namespace epicyclic::gear

@@ -1,0 +1,104 @@
+#include "gear/ehl_friction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "gear/kinematics.hpp"
+
+namespace epicyclic::gear {
+
+namespace {
+
+/// Share of the load at a position; `inside` is a position on the side that is meant.
+double load_share(const Friction::Ehl& e, double position, double inside) {
+  if (e.share_position.empty()) {
+    const double phase = inside - std::floor(inside);
+    return 1.0 / std::max(1.0, std::ceil(e.contact_ratio - phase));
+  }
+  // The interval that holds `inside`, extended to `position`, which lies on it or at its end.
+  const auto above = std::upper_bound(e.share_position.begin(), e.share_position.end(), inside);
+  const auto last = static_cast<std::ptrdiff_t>(e.share_position.size()) - 1;
+  const auto k = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above - e.share_position.begin(), 1, last));
+  const double from = e.share_position[k - 1];
+  const double to = e.share_position[k];
+  const double weight = to > from ? (position - from) / (to - from) : 0.0;
+  return e.share[k - 1] + weight * (e.share[k] - e.share[k - 1]);
+}
+
+}  // namespace
+
+double xu_friction_coefficient(const LubricatedContact& c) {
+  constexpr double b1 = -8.916465;
+  constexpr double b2 = 1.03303;
+  constexpr double b3 = 1.036077;
+  constexpr double b4 = -0.354068;
+  constexpr double b5 = 2.812084;
+  constexpr double b6 = -0.100601;
+  constexpr double b7 = 0.752755;
+  constexpr double b8 = -0.390958;
+  constexpr double b9 = 0.620305;
+  const double slip = std::abs(c.slide_to_roll);
+  if (slip == 0.0 || c.pressure_GPa == 0.0) return 0.0;
+  const double viscosity = std::max(c.viscosity_mPas, 1.0);
+  const double heat = slip * c.pressure_GPa * std::log10(viscosity);
+  const double f = b1 + b4 * heat + b5 * std::exp(-heat) + b9 * std::exp(c.roughness_um);
+  return std::exp(f) * std::pow(c.pressure_GPa, b2) * std::pow(slip, b3) * std::pow(c.rolling_m_per_s, b6) *
+         std::pow(viscosity, b7) * std::pow(c.radius_m, b8);
+}
+
+bool within_xu_range(const LubricatedContact& c) {
+  const auto in = [](double x, double low, double high) { return x >= low && x <= high; };
+  return in(c.pressure_GPa, 0.5, 2.5) && in(c.rolling_m_per_s, 1.0, 20.0) && in(c.viscosity_mPas, 5.0, 100.0) &&
+         in(c.roughness_um, 0.1, 0.8);
+}
+
+double hertz_pressure_GPa(double load_N_per_mm, double equivalent_modulus_GPa, double radius_mm) {
+  const double load_GN_per_m = load_N_per_mm * 1e3 * 1e-9;
+  return std::sqrt(load_GN_per_m * equivalent_modulus_GPa / (2.0 * std::numbers::pi * radius_mm * 1e-3));
+}
+
+MeshLoad mean_mesh_load(const Stage& stage, double mesh_frequency) {
+  const double base_radius_m = *stage.sun.base_radius_mm * 1e-3;
+  return {torques(stage, mesh_frequency).sun / (stage.planet_count * base_radius_m),
+          mesh_frequency / *stage.sun.teeth * base_radius_m};
+}
+
+LubricatedContact lubricated_contact(const Friction::Ehl& e, const LineOfAction& line, const MeshLoad& load,
+                                     double position, double share) {
+  const double h_1 = e.path_start_mm + line.base_pitch_mm * position;
+  const double h_2 = line.arm_2(h_1);
+  const double radius_mm = line.internal ? h_1 * h_2 / (h_2 - h_1) : h_1 * h_2 / (h_2 + h_1);
+  const double v_1 = load.base_speed_m_per_s * h_1 / line.base_radius_1_mm;
+  const double v_2 = load.base_speed_m_per_s * h_2 / line.base_radius_2_mm;
+  LubricatedContact c;
+  c.rolling_m_per_s = 0.5 * (v_1 + v_2);
+  c.slide_to_roll = (v_1 - v_2) / c.rolling_m_per_s;
+  c.viscosity_mPas = e.viscosity_mPas;
+  c.roughness_um = e.roughness_um;
+  c.radius_m = radius_mm * 1e-3;
+  c.pressure_GPa = hertz_pressure_GPa(share * load.force_N / e.width_mm, e.equivalent_modulus_GPa, radius_mm);
+  return c;
+}
+
+Friction::Table friction_table(const Friction::Ehl& e, const LineOfAction& line, const MeshLoad& load) {
+  constexpr int rows_per_piece = 16;
+  const PathPieces pieces = path_pieces(e.contact_ratio, e.path_start_mm, line);
+  return tabulate(pieces, rows_per_piece, [&](double phase, double inside) {
+    FrictionRow row;
+    for (int j = 0; inside + j < e.contact_ratio; ++j) {
+      const double position = std::min(phase + j, e.contact_ratio);
+      const double share = load_share(e, position, inside + j);
+      const LubricatedContact contact = lubricated_contact(e, line, load, position, share);
+      const double arm = e.path_start_mm + line.base_pitch_mm * position;
+      const double f =
+          contact.slide_to_roll > 0.0 ? -xu_friction_coefficient(contact) : xu_friction_coefficient(contact);
+      row.force += share * f;
+      row.moment_1 += share * f * arm;
+      row.moment_2 += share * f * line.arm_2(arm);
+    }
+    return row;
+  });
+}
+
+}  // namespace epicyclic::gear

@@ -1,0 +1,386 @@
+#include "gear/gear_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "core/errors.hpp"
+#include "core/root_finding.hpp"
+#include "gear/bearing.hpp"
+#include "gear/messages.hpp"
+
+namespace epicyclic::gear {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double radian = pi / 180.0;
+
+// Base pitches that differ by more cannot be a matter of the table's digits, and the model needs r_br / r_bs = z_r /
+// z_s.
+constexpr double base_pitch_tolerance = 1e-4;
+// A nominal overlap of this share of the module is more than any rounding of a centre distance.
+constexpr double overlap_tolerance = 0.01;
+// Usual least values of design guides, in modules.
+constexpr double tip_thickness_usual = 0.25;
+constexpr double tip_clearance_usual = 0.1;
+constexpr double planet_gap_usual = 0.5;
+constexpr double sainsot_ratio_max = 7.0;
+constexpr int message_digits = 6;
+
+GearData of_planet_base_pitch(GearData ring, const GearData& planet) {
+  ring.module_mm =
+      planet.module_mm * std::cos(planet.pressure_angle_deg * radian) / std::cos(ring.pressure_angle_deg * radian);
+  return ring;
+}
+
+double base_pitch(const GearData& d) { return pi * d.module_mm * std::cos(d.pressure_angle_deg * radian); }
+
+ToothBody body_of(const ExternalGear& gear, const Tooth& tooth, const Material& material) {
+  ToothBody body{tooth, material, sainsot_ratio_max, {}};
+  if (gear.body_radius_ratio)
+    body.radius_ratio = *gear.body_radius_ratio;
+  else if (gear.bore_mm > 0.0)
+    body.radius_ratio = std::min(tooth.root_radius_mm / (0.5 * gear.bore_mm), sainsot_ratio_max);
+  if (gear.root_half_angle_deg) body.root_half_angle = *gear.root_half_angle_deg * radian;
+  return body;
+}
+
+ToothBody body_of(const RingGear& gear, const Tooth& tooth, const Material& material) {
+  ToothBody body{tooth, material, 1.0, {}};
+  if (gear.root_half_angle_deg) body.root_half_angle = *gear.root_half_angle_deg * radian;
+  return body;
+}
+
+/// [G-1]
+double lead_of_ring_mesh(const Pair& sp, const Pair& rp) {
+  const Tooth& planet = sp.driven;
+  const double arc =
+      planet.base_radius_mm * (pi + sp.pressure_angle + rp.pressure_angle + 2.0 * planet.base_half_angle);
+  const double turns = (arc - sp.arm_2_mm(sp.start_mm) - rp.start_mm) / sp.base_pitch_mm;
+  return turns - std::floor(turns);
+}
+
+/// Teeth, pairs and phases, without stiffness.
+GearSet geometry_of(const Stage& stage) {
+  if (!stage.catalogue) throw DomainError("the stage has no catalogue data");
+  const Catalogue& c = *stage.catalogue;
+  GearSet set;
+  set.catalogue = c;
+  set.angles_deg = stage.planet_angles_deg();
+  const GearData& s = c.sun.data;
+  const GearData& p = c.planet.data;
+  const Tooth sun_full = external_tooth(s);
+  const Tooth planet_full = external_tooth(p);
+  set.centre_distance_mm =
+      stage.centre_distance_mm ? *stage.centre_distance_mm : tight_centre_distance_mm(sun_full, planet_full);
+  if (c.tips == Tips::shortened) {
+    const double reference = 0.5 * (s.teeth * s.module_mm + p.teeth * p.module_mm);
+    set.tip_shortening =
+        std::max(0.0, s.profile_shift + p.profile_shift - (set.centre_distance_mm - reference) / p.module_mm);
+  }
+  set.sun = external_tooth(s, set.tip_shortening);
+  set.planet = external_tooth(p, set.tip_shortening);
+  const GearData ring = c.ring.base_pitch == BasePitch::of_planet ? of_planet_base_pitch(c.ring.data, p) : c.ring.data;
+  set.ring = internal_tooth(ring);
+  set.ring_module_mm = ring.module_mm;
+  set.base_pitch_mismatch_mm = base_pitch(p) - base_pitch(c.ring.data);
+  const ComplianceOptions& o = c.stiffness.compliance;
+  set.sun_planet = {make_pair(set.sun, set.planet, set.centre_distance_mm), body_of(c.sun, set.sun, c.material),
+                    body_of(c.planet, set.planet, c.material), o, c.stiffness.sun_planet_factor};
+  set.ring_planet = {make_pair(set.planet, set.ring, set.centre_distance_mm), body_of(c.planet, set.planet, c.material),
+                     body_of(c.ring, set.ring, c.material), o, c.stiffness.ring_planet_factor};
+  set.ring_mesh_lead = lead_of_ring_mesh(set.sun_planet.pair, set.ring_planet.pair);
+  return set;
+}
+
+void check_pair(Problems& out, const Pair& pair, const std::string& driving, const std::string& driven,
+                const std::string& mesh) {
+  if (!(pair.contact_ratio() >= 1.0))
+    out.add(driven, "the ", mesh, " mesh has a contact ratio of ", pair.contact_ratio(),
+            ", below 1: contact would be lost between teeth (path ", pair.start_mm, " to ", pair.end_mm,
+            " mm, base pitch ", pair.base_pitch_mm, " mm)");
+  if (!(pair.contact_ratio() < 3.0))
+    out.add(driven, "the ", mesh, " mesh has a contact ratio of ", pair.contact_ratio(), ", must be below 3");
+  if (pair.start_mm < 0.0)
+    out.add(driven, "its tip, radius ", pair.driven.tip_radius_mm, " mm, meets the ", mesh, " line of action ",
+            -pair.start_mm, " mm before the tangent point of the driving member: involute interference");
+  if (!pair.internal() && pair.end_mm > pair.theoretical_length_mm)
+    out.add(driving, "its tip, radius ", pair.driving.tip_radius_mm, " mm, meets the ", mesh, " line of action ",
+            pair.end_mm - pair.theoretical_length_mm,
+            " mm behind the tangent point of the driven member: involute interference");
+  if (pair.tip_clearance_1_mm() < 0.0)
+    out.add(driving, "its tip cuts ", -pair.tip_clearance_1_mm(), " mm into the root of the other member of the ", mesh,
+            " mesh");
+  if (pair.tip_clearance_2_mm() < 0.0)
+    out.add(driven, "its tip cuts ", -pair.tip_clearance_2_mm(), " mm into the root of the other member of the ", mesh,
+            " mesh");
+  if (pair.tip_passing_angle() < 0.0)
+    out.add(driven, "tips of the ", mesh, " mesh collide outside the path of contact (trochoid interference, ",
+            -pair.tip_passing_angle(), " rad)");
+  if (pair.backlash_mm() < -overlap_tolerance * pair.driving.module_mm)
+    out.add(driven, "teeth of the ", mesh, " mesh overlap by ", -pair.backlash_mm(),
+            " mm on the operating pitch circle at the centre distance of ", pair.centre_distance_mm,
+            " mm (without backlash: ", tight_centre_distance_mm(pair.driving, pair.driven), " mm)");
+}
+
+void check_tip(Problems& out, const Tooth& tooth, const std::string& pointer) {
+  const double thickness = tooth.thickness_at(tooth.tip_radius_mm);
+  if (thickness <= 0.0)
+    out.add(pointer, "the tooth is pointed: thickness ", thickness, " mm at the tip radius of ", tooth.tip_radius_mm,
+            " mm");
+}
+
+/// A DomainError of `make` as a problem of the pointer.
+bool tried(Problems& out, const std::string& pointer, const std::function<void()>& make) {
+  try {
+    make();
+    return true;
+  } catch (const DomainError& error) {
+    out.add(pointer, error.what());
+    return false;
+  }
+}
+
+const std::string sun_pointer = "/catalogue/sun";
+const std::string planet_pointer = "/catalogue/planet";
+const std::string ring_pointer = "/catalogue/ring";
+
+}  // namespace
+
+GearSet make_gear_set(const Stage& stage) {
+  GearSet set = geometry_of(stage);
+  const int harmonics = set.catalogue.stiffness.harmonics;
+  set.sun_planet_stiffness = fourier_series(set.sun_planet, harmonics);
+  set.ring_planet_stiffness = fourier_series(set.ring_planet, harmonics);
+  return set;
+}
+
+std::vector<std::string> catalogue_problems(const Stage& stage) {
+  Problems out(message_digits);
+  const Catalogue& c = *stage.catalogue;
+  const bool teeth = static_cast<int>(tried(out, sun_pointer, [&] { (void)external_tooth(c.sun.data); })) &
+                     static_cast<int>(tried(out, planet_pointer, [&] { (void)external_tooth(c.planet.data); })) &
+                     static_cast<int>(tried(out, ring_pointer, [&] { (void)internal_tooth(c.ring.data); }));
+  if (!teeth) return out.take();
+  const double sun_pitch = base_pitch(c.sun.data);
+  const double planet_pitch = base_pitch(c.planet.data);
+  const double ring_pitch = base_pitch(c.ring.data);
+  if (std::abs(sun_pitch / planet_pitch - 1.0) > base_pitch_tolerance)
+    out.add(planet_pointer + "/module_mm", "base pitches of sun and planet differ: ", sun_pitch, " and ", planet_pitch,
+            " mm; teeth of one pitch only can mesh");
+  if (c.ring.base_pitch == BasePitch::as_given && std::abs(ring_pitch / planet_pitch - 1.0) > base_pitch_tolerance)
+    out.add(ring_pointer + "/module_mm", "base pitches of planet and ring differ by ",
+            1e3 * std::abs(planet_pitch - ring_pitch), " um (", planet_pitch, " and ", ring_pitch,
+            " mm); if the module is rounded, \"base_pitch\": \"of_planet\" takes ",
+            of_planet_base_pitch(c.ring.data, c.planet.data).module_mm, " mm in its place");
+  for (const auto& [pointer, bearing] : {std::pair("/catalogue/sun_bearing", &c.sun_bearing),
+                                         std::pair("/catalogue/carrier/bearing", &c.carrier.bearing)})
+    if (*bearing && !find_bearing((*bearing)->type)) {
+      std::string known;
+      for (const BearingType& type : bearing_types())
+        known += (known.empty() ? "" : ", ") + std::string(type.designation);
+      out.add(std::string(pointer) + "/type", "\"", (*bearing)->type, "\" is not among the bearings known here (",
+              known, "); give support_N_per_m in lumped instead");
+    }
+  auto lines = out.take();
+  if (!lines.empty()) return lines;
+  GearSet set;
+  if (!tried(out, ring_pointer, [&] { set = geometry_of(stage); })) return out.take();
+  check_pair(out, set.sun_planet.pair, sun_pointer, planet_pointer, "sun-planet");
+  check_pair(out, set.ring_planet.pair, planet_pointer, ring_pointer, "ring-planet");
+  check_tip(out, set.sun, sun_pointer);
+  check_tip(out, set.planet, planet_pointer);
+  check_tip(out, set.ring, ring_pointer);
+  if (planet_gap_mm(set) <= 0.0)
+    out.add("/planets/count", "neighbouring planets overlap by ", -planet_gap_mm(set), " mm (tip radius ",
+            set.planet.tip_radius_mm, " mm, centre distance ", set.centre_distance_mm, " mm)");
+  const auto bore = [&](const ExternalGear& gear, const Tooth& tooth, const std::string& pointer) {
+    if (0.5 * gear.bore_mm >= tooth.root_radius_mm)
+      out.add(pointer + "/bore_mm", "the bore, ", gear.bore_mm, " mm, must be smaller than the root circle, ",
+              2.0 * tooth.root_radius_mm, " mm");
+  };
+  bore(c.sun, set.sun, sun_pointer);
+  bore(c.planet, set.planet, planet_pointer);
+  if (c.ring.outer_diameter_mm && 0.5 * *c.ring.outer_diameter_mm <= set.ring.root_radius_mm)
+    out.add(ring_pointer + "/outer_diameter_mm", "the rim, ", *c.ring.outer_diameter_mm,
+            " mm, must be larger than the root circle, ", 2.0 * set.ring.root_radius_mm, " mm");
+  lines = out.take();
+  if (!lines.empty()) return lines;
+  tried(out, "/catalogue", [&] {
+    (void)stiffness_range(set.sun_planet);
+    (void)stiffness_range(set.ring_planet);
+    (void)bodies(set);
+    (void)member_tolerances(set);
+  });
+  return out.take();
+}
+
+std::vector<std::string> catalogue_warnings(const GearSet& set) {
+  Problems out(message_digits);
+  const auto tooth = [&](const Tooth& t, const std::string& pointer) {
+    const double tip = t.thickness_at(t.tip_radius_mm) / t.module_mm;
+    if (tip < tip_thickness_usual)
+      out.add(pointer, "tip thickness ", tip, " modules; at least ", tip_thickness_usual, " is usual");
+    if (!t.internal && t.profile_shift < t.undercut_limit())
+      out.add(pointer, "undercut: the profile shift ", t.profile_shift, " is below ", t.undercut_limit());
+  };
+  tooth(set.sun, sun_pointer);
+  tooth(set.planet, planet_pointer);
+  tooth(set.ring, ring_pointer);
+  const auto pair = [&](const Pair& p, const std::string& driving, const std::string& driven, const std::string& mesh) {
+    if (p.tip_clearance_1_mm() < tip_clearance_usual * p.driving.module_mm)
+      out.add(driving, "tip clearance of ", p.tip_clearance_1_mm(), " mm in the ", mesh, " mesh");
+    if (p.tip_clearance_2_mm() < tip_clearance_usual * p.driving.module_mm)
+      out.add(driven, "tip clearance of ", p.tip_clearance_2_mm(), " mm in the ", mesh, " mesh");
+    constexpr double rounding_mm = 1e-6;
+    if (p.backlash_mm() < -rounding_mm)
+      out.add(driven, "nominal teeth of the ", mesh, " mesh overlap by ", -p.backlash_mm(),
+              " mm; thinning must make up for it");
+    if (p.radius_1_mm(p.start_mm) < p.driving.form_radius_mm())
+      out.add(driving, "contact of the ", mesh, " mesh reaches down to radius ", p.radius_1_mm(p.start_mm),
+              " mm, below the end of the rack-cut involute at ", p.driving.form_radius_mm(), " mm");
+    if (!p.internal() && p.radius_2_mm(p.end_mm) < p.driven.form_radius_mm())
+      out.add(driven, "contact of the ", mesh, " mesh reaches down to radius ", p.radius_2_mm(p.end_mm),
+              " mm, below the end of the rack-cut involute at ", p.driven.form_radius_mm(), " mm");
+  };
+  pair(set.sun_planet.pair, sun_pointer, planet_pointer, "sun-planet");
+  pair(set.ring_planet.pair, planet_pointer, ring_pointer, "ring-planet");
+  if (set.catalogue.ring.base_pitch == BasePitch::of_planet && set.base_pitch_mismatch_mm != 0.0)
+    out.add(ring_pointer + "/module_mm", "replaced: ", set.catalogue.ring.data.module_mm,
+            " mm would give base pitches that differ by ", 1e3 * std::abs(set.base_pitch_mismatch_mm), " um; ",
+            set.ring_module_mm, " mm is used");
+  if (planet_gap_mm(set) < planet_gap_usual * set.planet.module_mm)
+    out.add("/planets/count", "neighbouring planets leave a gap of ", planet_gap_mm(set), " mm only");
+  const auto body = [&](const MeshedPair& m, const ToothBody& b, const std::string& pointer) {
+    if (b.tooth.internal || !m.options.foundation) return;
+    const double theta = b.root_half_angle.value_or(root_half_angle(b.tooth, m.options.fillet));
+    if (!sainsot_coefficients(theta, b.radius_ratio).in_range)
+      out.add(pointer, "Sainsot's body compliance is used outside its range: h_f ", b.radius_ratio,
+              " (1.4 to 7), theta_f ", theta, " rad (0.01 to 0.12)");
+  };
+  body(set.sun_planet, set.sun_planet.driving, sun_pointer);
+  body(set.sun_planet, set.sun_planet.driven, planet_pointer);
+  return out.take();
+}
+
+std::vector<PlanetPhases> planet_phases(const GearSet& set) {
+  const auto wrapped = [](double turns) {
+    constexpr double resolution = 1e-11;
+    const double w = turns - std::floor(turns);
+    return w > 1.0 - resolution ? 0.0 : w;
+  };
+  std::vector<PlanetPhases> phases;
+  for (const double angle : set.angles_deg) {
+    const double turn = (angle - set.angles_deg.front()) / 360.0;
+    phases.push_back({wrapped(-set.sun.teeth * turn), wrapped(set.ring.teeth * turn + set.ring_mesh_lead)});
+  }
+  return phases;
+}
+
+double planet_gap_mm(const GearSet& set) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < set.angles_deg.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double half = 0.5 * std::abs(std::remainder(set.angles_deg[i] - set.angles_deg[j], 360.0)) * radian;
+      least = std::min(least, 2.0 * (set.centre_distance_mm * std::sin(half) - set.planet.tip_radius_mm));
+    }
+  return least;
+}
+
+StiffnessCurve stiffness_curve(const MeshedPair& mesh) {
+  constexpr int intervals = 32;
+  StiffnessCurve curve;
+  curve.breakpoints = mesh.breakpoints();
+  const auto append = [&](double phase, double value) {
+    curve.phase.push_back(phase);
+    curve.stiffness_N_per_m.push_back(value);
+  };
+  const auto& breaks = curve.breakpoints;
+  append(0.0, mesh.stiffness(1.0, 0.5 * (breaks.back() + 1.0)));
+  for (std::size_t k = 0; k < breaks.size(); ++k) {
+    const bool last = k + 1 == breaks.size();
+    const double to = last ? 1.0 : breaks[k + 1];
+    for (int i = 0; i <= intervals - (last ? 1 : 0); ++i) {
+      const double phase = i == intervals ? to : breaks[k] + (to - breaks[k]) * i / intervals;
+      append(phase, mesh.stiffness(phase, 0.5 * (breaks[k] + to)));
+    }
+  }
+  return curve;
+}
+
+Friction::Ehl ehl_of(const MeshedPair& mesh, const Lubrication& lubrication) {
+  constexpr int intervals = 32;
+  Friction::Ehl e;
+  e.viscosity_mPas = lubrication.viscosity_mPas;
+  e.roughness_um = lubrication.roughness_um;
+  e.equivalent_modulus_GPa = equivalent_modulus_GPa(mesh.driving.material, mesh.driven.material);
+  e.width_mm = std::min(mesh.driving.tooth.width_mm, mesh.driven.tooth.width_mm);
+  e.contact_ratio = mesh.contact_ratio();
+  e.path_start_mm = mesh.pair.start_mm;
+  // Along the whole path of one pair, broken where the number of pairs changes.
+  std::vector<double> breaks;
+  for (int j = 0; j <= static_cast<int>(std::floor(e.contact_ratio)); ++j)
+    for (const double b : mesh.breakpoints())
+      if (b + j < e.contact_ratio - 1e-9) breaks.push_back(b + j);
+  breaks.push_back(e.contact_ratio);
+  for (std::size_t k = 0; k + 1 < breaks.size(); ++k)
+    for (int i = 0; i <= intervals; ++i) {
+      const double position = i == intervals ? breaks[k + 1] : breaks[k] + (breaks[k + 1] - breaks[k]) * i / intervals;
+      e.share_position.push_back(position);
+      e.share.push_back(mesh.load_share(position, 0.5 * (breaks[k] + breaks[k + 1])));
+    }
+  return e;
+}
+
+Bodies bodies(const GearSet& set) {
+  const Catalogue& c = set.catalogue;
+  const double density = c.material.density_kg_per_m3;
+  Bodies b;
+  b.sun = cylinder(body_radius_mm(set.sun), 0.5 * c.sun.bore_mm, set.sun.width_mm, density);
+  b.planet = cylinder(body_radius_mm(set.planet), 0.5 * c.planet.bore_mm, set.planet.width_mm, density);
+  if (c.ring.outer_diameter_mm)
+    b.ring = cylinder(0.5 * *c.ring.outer_diameter_mm, body_radius_mm(set.ring), set.ring.width_mm, density);
+  if (c.carrier.body)
+    b.carrier = carrier(*c.carrier.body, static_cast<int>(set.angles_deg.size()), set.centre_distance_mm, density);
+  return b;
+}
+
+MemberTolerances member_tolerances(const GearSet& set) {
+  const Catalogue& c = set.catalogue;
+  const auto of = [](std::optional<int> grade, const Tooth& t, double contact_ratio) -> std::optional<Tolerances> {
+    if (!grade) return std::nullopt;
+    return tolerances(*grade, t.module_mm, 2.0 * t.reference_radius_mm, t.width_mm, contact_ratio);
+  };
+  return {of(c.sun.accuracy_grade, set.sun, set.sun_planet.contact_ratio()),
+          of(c.planet.accuracy_grade, set.planet, set.sun_planet.contact_ratio()),
+          of(c.ring.accuracy_grade, set.ring, set.ring_planet.contact_ratio())};
+}
+
+double ring_addendum_bound(const Stage& stage) {
+  const auto distance = [&](double addendum) {
+    Stage changed = stage;
+    changed.catalogue->ring.data.addendum_coefficient = addendum;
+    changed.catalogue->ring.data.tip_diameter_mm.reset();
+    const GearSet set = geometry_of(changed);
+    return set.ring_planet.pair.start_mm - set.ring_planet.pair.pitch_arm_mm;
+  };
+  // Tips on or below the base circle make no tooth: the search stays above it.
+  constexpr double least = 0.1;
+  constexpr double greatest = 3.0;
+  double high = greatest;
+  constexpr double step = 0.05;
+  while (high > least) {
+    try {
+      (void)distance(high);
+      break;
+    } catch (const DomainError&) {
+      high -= step;
+    }
+  }
+  return find_root(distance, least, high);
+}
+
+}  // namespace epicyclic::gear

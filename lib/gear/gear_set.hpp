@@ -1,0 +1,80 @@
+// A planetary gear set computed from its catalogue data: teeth, pairs, phases, stiffness, friction, masses, tolerances.
+//
+//   inv alpha_sp from sun and planet without backlash, unless the centre distance is given               [G-a0]
+//   tip shortening  k = x_s + x_p - y ,  y = (a - (z_s + z_p) m / 2) / m                                 [G-k-tip]
+//   ring, base pitch of the planet:  m_r = m_p cos alpha_p / cos alpha_r                                 [G-mr]
+//   lambda_sr = frac{ [ r_bp (pi + alpha_sp + alpha_rp + 2 alpha_2p) - (N N_sp - start_sp) - start_rp ] / p_b } [G-1]
+//
+// lambda_sr is the phase of the ring mesh when a tooth of planet 1 begins contact with the sun: with the planet between
+// the axes' line, its tangent points stand at pi + alpha_sp and - alpha_rp on its base circle, its two flanks
+// 2 alpha_2p apart; a flank's contact is an arc from its tangent point as long as the line from there. Source: derived
+// here; it is Eq. (1)'s dec(F'_2 B_r2 / p_b) of Tang et al. 2020 in terms of the pairs' own lengths.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gear/accuracy.hpp"
+#include "gear/catalogue.hpp"
+#include "gear/mesh_stiffness.hpp"
+#include "gear/stage.hpp"
+
+namespace epicyclic::gear {
+
+struct GearSet {
+  Catalogue catalogue;
+  std::vector<double> angles_deg;  ///< of the planets
+  Tooth sun, planet, ring;
+  double centre_distance_mm = 0;
+  double tip_shortening = 0;           ///< k of sun and planet [-]
+  double ring_module_mm = 0;           ///< as used
+  double base_pitch_mismatch_mm = 0;   ///< p_b of the planet minus that of the ring as its data stand
+  MeshedPair sun_planet, ring_planet;  ///< driving member first: sun, planet
+  double ring_mesh_lead = 0;           ///< lambda_sr [-]
+  FourierSeries sun_planet_stiffness, ring_planet_stiffness;
+};
+
+/// @param stage  planets and, if given, the centre distance; `stage.catalogue` is set
+/// @throws DomainError when the data make no gear set; ask catalogue_problems() first
+[[nodiscard]] GearSet make_gear_set(const Stage& stage);
+
+/// What is wrong with the catalogue data, "pointer: message" with pointers relative to the stage; empty if all is well.
+[[nodiscard]] std::vector<std::string> catalogue_problems(const Stage& stage);
+
+/// What is allowed but rarely meant: thin tips, undercut, little room between planets, formulas out of range.
+[[nodiscard]] std::vector<std::string> catalogue_warnings(const GearSet& set);
+
+/// Mesh phases of planet i at s = 0, in periods, in [0, 1): [M-phase].
+struct PlanetPhases {
+  double sun_planet, ring_planet;
+};
+[[nodiscard]] std::vector<PlanetPhases> planet_phases(const GearSet& set);
+
+/// Least gap between the tip circles of neighbouring planets [mm]; negative where they overlap.
+[[nodiscard]] double planet_gap_mm(const GearSet& set);
+
+/// The whole stiffness curve of a mesh, both sides of each breakpoint.
+[[nodiscard]] StiffnessCurve stiffness_curve(const MeshedPair& mesh);
+
+/// Friction by lubricated contact of a mesh, with its load sharing.
+[[nodiscard]] Friction::Ehl ehl_of(const MeshedPair& mesh, const Lubrication& lubrication);
+
+/// Bodies of the members; the ring's and the carrier's only if their drawings are given.
+struct Bodies {
+  MassAndInertia sun, planet;
+  std::optional<MassAndInertia> ring, carrier;
+};
+[[nodiscard]] Bodies bodies(const GearSet& set);
+
+/// Tolerances of the members whose accuracy grade is given.
+struct MemberTolerances {
+  std::optional<Tolerances> sun, planet, ring;
+};
+[[nodiscard]] MemberTolerances member_tolerances(const GearSet& set);
+
+/// Greatest addendum coefficient of the ring with which the ring-planet mesh lies wholly beyond its pitch point, found
+/// by search on the set itself [-].
+/// @throws DomainError when there is none between 0.1 and 3
+[[nodiscard]] double ring_addendum_bound(const Stage& stage);
+
+}  // namespace epicyclic::gear

@@ -1,0 +1,128 @@
+#include "gear/mesh_stiffness.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Core>
+
+#include "core/quadrature.hpp"
+
+namespace epicyclic::gear {
+
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+// Contact ratios that differ less from a whole number make no piece of their own.
+constexpr double phase_resolution = 1e-9;
+constexpr int panels = 4;
+
+/// Calls f(from, to, inside) for each smooth piece of a period.
+template <class F>
+void for_pieces(const MeshedPair& mesh, F f) {
+  const std::vector<double> breaks = mesh.breakpoints();
+  for (std::size_t k = 0; k < breaks.size(); ++k) {
+    const double to = k + 1 < breaks.size() ? breaks[k + 1] : 1.0;
+    f(breaks[k], to, 0.5 * (breaks[k] + to));
+  }
+}
+
+}  // namespace
+
+double MeshedPair::pair_stiffness(double position) const {
+  const double l = arm_mm(position);
+  const double width = std::min(driving.tooth.width_mm, driven.tooth.width_mm);
+  double compliance = options.hertz ? hertz_compliance(driving.material, width) : 0.0;
+  compliance += tooth_compliance(driving, pair.radius_1_mm(l), options).sum();
+  compliance += tooth_compliance(driven, pair.radius_2_mm(l), options).sum();
+  return factor / compliance;
+}
+
+int MeshedPair::pairs_in_contact(double phase) const {
+  return std::max(0, static_cast<int>(std::ceil(contact_ratio() - phase)));
+}
+
+std::vector<double> MeshedPair::breakpoints() const {
+  const double rest = contact_ratio() - std::floor(contact_ratio());
+  if (rest < phase_resolution || rest > 1.0 - phase_resolution) return {0.0};
+  return {0.0, rest};
+}
+
+double MeshedPair::stiffness(double phase, double inside) const {
+  double sum = 0.0;
+  for (int j = 0; j < pairs_in_contact(inside); ++j) sum += pair_stiffness(std::min(phase + j, contact_ratio()));
+  return sum;
+}
+
+double MeshedPair::load_share(double position, double inside) const {
+  const double phase_inside = inside - std::floor(inside);
+  const double phase = position - std::floor(inside);
+  return pair_stiffness(position) / stiffness(phase, phase_inside);
+}
+
+double FourierSeries::at(double phase) const {
+  double k = mean;
+  for (std::size_t h = 0; h < cosine.size(); ++h) {
+    const double angle = two_pi * static_cast<double>(h + 1) * phase;
+    k += cosine[h] * std::cos(angle) + sine[h] * std::sin(angle);
+  }
+  return k;
+}
+
+FourierSeries fourier_series(const MeshedPair& mesh, int harmonics) {
+  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(2 * harmonics + 1);
+  for_pieces(mesh, [&](double from, double to, double inside) {
+    // A harmonic needs nodes of its own; the stiffness itself is smooth.
+    const int pieces = panels * (1 + harmonics / 8);
+    sum += gauss_legendre_16().integrate(
+        [&](double phase) -> Eigen::ArrayXd {
+          Eigen::ArrayXd f(2 * harmonics + 1);
+          const double k = mesh.stiffness(phase, inside);
+          f[0] = k;
+          for (int h = 1; h <= harmonics; ++h) {
+            f[2 * h - 1] = 2.0 * k * std::cos(two_pi * h * phase);
+            f[2 * h] = 2.0 * k * std::sin(two_pi * h * phase);
+          }
+          return f;
+        },
+        from, to, pieces);
+  });
+  FourierSeries series;
+  series.mean = sum[0];
+  for (int h = 1; h <= harmonics; ++h) {
+    series.cosine.push_back(sum[2 * h - 1]);
+    series.sine.push_back(sum[2 * h]);
+  }
+  return series;
+}
+
+StiffnessRange stiffness_range(const MeshedPair& mesh) {
+  constexpr int samples = 200;
+  StiffnessRange range{mesh.stiffness(0.0), mesh.stiffness(0.0)};
+  for_pieces(mesh, [&](double from, double to, double inside) {
+    for (int k = 0; k <= samples; ++k) {
+      const double value = mesh.stiffness(from + (to - from) * k / samples, inside);
+      range.least = std::min(range.least, value);
+      range.greatest = std::max(range.greatest, value);
+    }
+  });
+  return range;
+}
+
+IsoStiffness iso_stiffness(const MeshedPair& mesh) {
+  // A rack in place of the internal gear: infinitely many teeth, no shift.
+  const auto inverse_teeth = [](const Tooth& t) { return t.internal ? 0.0 : 1.0 / t.teeth; };
+  const double n_1 = inverse_teeth(mesh.driving.tooth);
+  const double n_2 = inverse_teeth(mesh.driven.tooth);
+  const double x_1 = mesh.driving.tooth.profile_shift;
+  const double x_2 = mesh.driven.tooth.internal ? 0.0 : mesh.driven.tooth.profile_shift;
+  const double q = 0.04723 + 0.15551 * n_1 + 0.25791 * n_2 - 0.00635 * x_1 - 0.11654 * x_1 * n_1 - 0.00193 * x_2 -
+                   0.24188 * x_2 * n_2 + 0.00529 * x_1 * x_1 + 0.00182 * x_2 * x_2;
+  const double width_mm = std::min(mesh.driving.tooth.width_mm, mesh.driven.tooth.width_mm);
+  constexpr double theory_to_measurement = 0.8;
+  constexpr double per_mm_um = 1e6;  // N / (mm um) times mm, in N/m
+  const double single = theory_to_measurement / q * width_mm * per_mm_um;
+  return {single, single * (0.75 * mesh.contact_ratio() + 0.25)};
+}
+
+}  // namespace epicyclic::gear

@@ -1,0 +1,78 @@
+// Stiffness of a mesh over its period, load sharing among the pairs in contact, and its Fourier series.
+//
+//   1/k_pair = 1/k_h + sum over both teeth (1/k_b + 1/k_s + 1/k_a + 1/k_f)                              [G-pairk]
+//   k(phase) = sum over pairs j with phase + j < epsilon of k_pair(phase + j)                           [G-k]
+//   L_j = k_pair,j / k : equal total deformation of the pairs in contact                                [G-L]
+//   k = k_0 + sum_h [ A_h cos 2 pi h phase + B_h sin 2 pi h phase ]                                     [G-4]
+//   ISO 6336-1, method B: c'_th from the teeth and shifts, c' = 0.8 c'_th, c_gamma = c' (0.75 eps + 0.25) [G-iso]
+//
+// phase = s / 2 pi of the mesh's own period, 0 where a pair enters; position = phase + j of a pair in base pitches from
+// the start of contact. Source: Tang et al. 2020, section 1.3 and Eq. (4) (with the time shift inside the angle);
+// mesh-stiffness.md section 4. Limits: two pairs in contact are added as if each had a body of its own, which
+// over-estimates the stiffness in double contact (Xie et al. 2018). Smoothness: k jumps at phase 0 and at the
+// fractional part of epsilon, and is analytic between: every integral here is taken piece by piece.
+#pragma once
+
+#include <vector>
+
+#include "gear/pair.hpp"
+#include "gear/tooth_compliance.hpp"
+
+namespace epicyclic::gear {
+
+/// Both teeth of a pair in mesh, and how their compliance is counted.
+struct MeshedPair {
+  Pair pair;
+  ToothBody driving, driven;
+  ComplianceOptions options;
+  double factor = 1;  ///< on the stiffness [-]
+
+  [[nodiscard]] double contact_ratio() const { return pair.contact_ratio(); }
+  /// Distance of the contact from N_1 at a position [base pitches from the start of contact] [mm].
+  [[nodiscard]] double arm_mm(double position) const { return pair.start_mm + position * pair.base_pitch_mm; }
+
+  /// k_pair at a position in [0, epsilon] [N/m].
+  [[nodiscard]] double pair_stiffness(double position) const;
+
+  /// Pairs in contact at a phase in [0, 1).
+  [[nodiscard]] int pairs_in_contact(double phase) const;
+
+  /// Phases in [0, 1) where a pair enters or leaves, rising; the first is 0.
+  [[nodiscard]] std::vector<double> breakpoints() const;
+
+  /// k at a phase, as it is within the piece that holds `inside` [N/m].
+  [[nodiscard]] double stiffness(double phase, double inside) const;
+  [[nodiscard]] double stiffness(double phase) const { return stiffness(phase, phase); }
+
+  /// Share of the load that the pair at a position carries; at a jump, `inside` tells the side [-].
+  [[nodiscard]] double load_share(double position, double inside) const;
+  [[nodiscard]] double load_share(double position) const { return load_share(position, position); }
+};
+
+/// k_0 and the harmonics of a mesh stiffness [N/m].
+struct FourierSeries {
+  double mean = 0;
+  std::vector<double> cosine, sine;  ///< A_h, B_h, h = 1, 2, ...
+
+  /// @param phase  in periods
+  [[nodiscard]] double at(double phase) const;
+};
+
+/// By quadrature over each smooth piece.
+[[nodiscard]] FourierSeries fourier_series(const MeshedPair& mesh, int harmonics);
+
+/// Least and greatest stiffness over a period, by dense sampling of each smooth piece, its ends included [N/m].
+struct StiffnessRange {
+  double least, greatest;
+};
+[[nodiscard]] StiffnessRange stiffness_range(const MeshedPair& mesh);
+
+/// The estimate of ISO 6336-1:2006, method B, for solid discs of steel of rack-like profile.
+/// An internal gear counts as one of infinitely many teeth.
+struct IsoStiffness {
+  double single;  ///< c' b [N/m]
+  double mesh;    ///< c_gamma-alpha b [N/m]
+};
+[[nodiscard]] IsoStiffness iso_stiffness(const MeshedPair& mesh);
+
+}  // namespace epicyclic::gear

@@ -1,0 +1,84 @@
+// The tooth of an involute spur gear, external or internal, with profile shift.
+//
+//   r = m z / 2 ,  r_b = r cos alpha_0 ,  inv a = tan a - a                                             [G-inv]
+//   external  r_a = r + m (h_a + x - k) ,  r_f = r - m (h_a + c - x) ,
+//             half tooth angle at r_b:  alpha_2 = (pi/2 + 2 x tan alpha_0) / z + inv alpha_0
+//   internal  r_a = r - m (h_a - x - k) ,  r_f = r + m (h_a + c + x) ,
+//             alpha_2 = (pi/2 - 2 x tan alpha_0) / z - inv alpha_0  (may be negative)                   [G-tooth]
+//   half tooth angle at radius R, pressure angle a:  external alpha_2 - inv a ,  internal alpha_2 + inv a
+//   involute begins at  r_F^2 = r_b^2 + (r sin alpha_0 - m (h_a - x) / sin alpha_0)^2  (rack-cut, no undercut) [G-form]
+//   rack-cut fillet, rounding rho = c m / (1 - sin alpha_0), pi/2 >= gamma >= alpha_0:                    [G-fillet]
+//     phi = (a_1 / tan gamma + b_1) / r ,  a_1 = m (h_a + c - x) - rho ,  b_1 = pi m / 4 + h_a m tan alpha_0
+//           + rho cos alpha_0
+//     X = r sin phi - (a_1 / sin gamma + rho) cos(gamma - phi) ,  Y = r cos phi - (a_1 / sin gamma + rho) sin(gamma -
+//     phi)
+//
+// k is the tip shortening. Lengths in mm, angles in rad. Source: DIN 3960 and any textbook; x is positive where it
+// makes the external tooth, and the ring's space, thicker. The fillet is derived from the rolling rack (Litvin; Ma et
+// al., Eng. Failure Analysis 2014). Limits: spur gears, involute flanks, rack-cut external teeth. Smoothness: analytic
+// on each of flank and fillet, which join with a common tangent at r_F.
+#pragma once
+
+#include <optional>
+
+namespace epicyclic::gear {
+
+/// A gear as its drawing gives it.
+struct GearData {
+  int teeth = 0;                           ///< z
+  double module_mm = 0;                    ///< m
+  double pressure_angle_deg = 20;          ///< alpha_0 of the reference profile
+  double profile_shift = 0;                ///< x [-]
+  double addendum_coefficient = 1;         ///< h_a* [-]
+  double clearance_coefficient = 0.25;     ///< c* [-]
+  double width_mm = 0;                     ///< face width
+  std::optional<double> tip_diameter_mm;   ///< decides over coefficients and shortening
+  std::optional<double> root_diameter_mm;  ///< decides over coefficients
+};
+
+/// tan a - a
+[[nodiscard]] double involute(double angle);
+
+/// The angle in [0, pi/2) whose involute is v >= 0.
+/// @throws DomainError for v < 0
+[[nodiscard]] double inverse_involute(double v);
+
+/// Point of a profile in the tooth's own frame, y along its centre line from the gear's axis outwards, x across. [mm]
+struct ProfilePoint {
+  double x, y;
+};
+
+struct Tooth {
+  bool internal = false;
+  int teeth = 0;
+  double module_mm = 0, pressure_angle = 0, width_mm = 0;  ///< of the reference profile; [mm], [rad], [mm]
+  double profile_shift = 0, addendum_coefficient = 0, clearance_coefficient = 0;
+  double reference_radius_mm = 0, base_radius_mm = 0, tip_radius_mm = 0, root_radius_mm = 0;
+  double base_half_angle = 0;  ///< alpha_2 [rad]
+
+  [[nodiscard]] double base_pitch_mm() const;
+  /// Pressure angle of the involute at a radius; 0 inside the base circle [rad].
+  [[nodiscard]] double pressure_angle_at(double radius_mm) const;
+  /// Half of the angle that the tooth takes at a radius [rad].
+  [[nodiscard]] double half_angle_at(double radius_mm) const;
+  /// Tooth thickness on the arc of a radius [mm].
+  [[nodiscard]] double thickness_at(double radius_mm) const { return 2.0 * radius_mm * half_angle_at(radius_mm); }
+
+  /// Radius at which a rack-cut involute begins [mm]; external teeth, else the root radius.
+  [[nodiscard]] double form_radius_mm() const;
+  /// Least profile shift without undercut, h_a - z sin^2 alpha_0 / 2 [-]; external teeth.
+  [[nodiscard]] double undercut_limit() const;
+  /// Rounding of the rack's tip, rho [mm].
+  [[nodiscard]] double fillet_rounding_mm() const;
+  /// Point of the rack-cut fillet [G-fillet] at gamma in [alpha_0, pi/2] [mm].
+  [[nodiscard]] ProfilePoint fillet(double gamma) const;
+  /// d/d gamma of fillet().
+  [[nodiscard]] ProfilePoint fillet_slope(double gamma) const;
+};
+
+/// @throws DomainError when the data make no tooth (tip below root, module not positive, ...)
+/// @param tip_shortening  k [-], in modules
+[[nodiscard]] Tooth external_tooth(const GearData& data, double tip_shortening = 0);
+[[nodiscard]] Tooth internal_tooth(const GearData& data, double tip_shortening = 0);
+
+}  // namespace epicyclic::gear

@@ -1,0 +1,87 @@
+// Compliance of one tooth under a force on its flank: the tooth as a cantilever on an elastic body (energy method).
+//
+// External tooth, contact at pressure angle a_c: alpha_1 = tan a_c - alpha_2, D(a) = sin a + (alpha_2 - a) cos a:
+//   1/k_b = int 3 {1 + cos alpha_1 [(alpha_2 - a) sin a - cos a]}^2 (alpha_2 - a) cos a / (2 E L D^3) da         [G-kb]
+//   1/k_s = int 1.2 (1 + nu) (alpha_2 - a) cos a cos^2 alpha_1 / (E L D) da                                     [G-ks]
+//   1/k_a = int (alpha_2 - a) cos a sin^2 alpha_1 / (2 E L D) da                                                [G-ka]
+// from -alpha_1 to the root circle, alpha_2 - sqrt((r_f / r_b)^2 - 1) if it lies outside the base circle; else to
+// alpha_2 and on along a straight flank of half thickness r_b sin alpha_2 (closed forms); or to the end of the involute
+// and on along the rack-cut fillet of gear/tooth.hpp.
+// Internal tooth, b = tan a + alpha_2, force angle b_c, D_r(b) = sin b - (b - alpha_2) cos b, from b_c to the root:
+// [G-kr]
+//   1/k_b = int 3 {cos b_c [cos b + (b - alpha_2) sin b] - 1}^2 (b - alpha_2) cos b / (2 E L D_r^3) db ; k_s, k_a alike
+// Body, external:  1/k_f = cos^2 alpha_1 / (E L) [L* (u/S)^2 + M* (u/S) + P* (1 + Q* tan^2 alpha_1)] [G-kf]
+//   S = 2 r_f theta_f ,  u = r_b / cos alpha_1 - r_f ,  X* = A/theta^2 + B h^2 + C h/theta + D/theta + E h + F ,
+//   h = r_f / r_int  (Sainsot, Velex, Duverger, J. Mech. Des. 126 (2004) 748)
+// Body, ring:  half plane,  1/k_f = cos^2 b_c (1 - nu^2) / (E L) [5.306 (l/h)^2 + 2 (1 - nu - 2 nu^2)/(1 - nu^2) (l/h)
+//   + 1.534 (1 + 0.4167 tan^2 b_c / (1 + nu))]  (Cornell, J. Mech. Des. 103 (1981) 447), or rigid               [G-kfr]
+//
+// Source: mesh-stiffness.md sections 1 to 3, derived there; Yang and Lin 1987, Tian 2004, Liang et al. 2014, Ma et al.
+// 2014 use the same energies. Limits: spur teeth, plane stress cantilever; Sainsot's fit holds for 1.4 <= h <= 7 and
+// 0.01 <= theta_f <= 0.12 rad; expect +-30 % between models of this kind and plane-strain finite elements. Smoothness:
+// analytic in the contact radius.
+#pragma once
+
+#include <optional>
+
+#include "gear/material.hpp"
+#include "gear/tooth.hpp"
+
+namespace epicyclic::gear {
+
+/// What lies between involute and root circle of an external tooth.
+enum class Fillet {
+  none,      ///< the involute goes on to the root circle, inside the base circle a straight flank
+  trochoid,  ///< the fillet that the rack cuts
+};
+
+/// Elastic body under a ring's tooth.
+enum class RingFoundation { half_plane, rigid };
+
+/// From where the lever of the force on the tooth's body is measured, along the tooth's centre line, to the root
+/// circle.
+enum class FoundationLever {
+  centreline,      ///< crossing of the line of action and the centre line (Sainsot)
+  contact_height,  ///< height of the contact point (used by some codes)
+};
+
+struct ComplianceOptions {
+  bool bending = true, shear = true, axial = true, hertz = true, foundation = true;
+  Fillet fillet = Fillet::none;
+  RingFoundation ring_foundation = RingFoundation::half_plane;
+  FoundationLever lever = FoundationLever::centreline;
+  int panels = 4;  ///< of 16 Gauss points, on each smooth piece of the profile
+};
+
+/// A tooth with what its compliance needs besides its flank.
+struct ToothBody {
+  Tooth tooth;
+  Material material;
+  double radius_ratio = 2;                ///< h_f = r_f / r_int of Sainsot's annulus; external only [-]
+  std::optional<double> root_half_angle;  ///< theta_f, if not that of the profile [rad]
+};
+
+/// Compliances along the line of action [m/N]; zero where switched off.
+struct ToothCompliance {
+  double bending = 0, shear = 0, axial = 0, foundation = 0;
+  [[nodiscard]] double sum() const { return bending + shear + axial + foundation; }
+};
+
+/// @throws DomainError when the contact is not on the flank, or the tooth is undercut and its fillet asked for
+[[nodiscard]] ToothCompliance tooth_compliance(const ToothBody& body, double contact_radius_mm,
+                                               const ComplianceOptions& options);
+
+/// Half of the angle that the tooth takes at its root circle, theta_f [rad].
+[[nodiscard]] double root_half_angle(const Tooth& tooth, Fillet fillet);
+
+/// Sainsot's four coefficients at theta_f [rad] and h_f.
+struct SainsotCoefficients {
+  double l, m, p, q;
+  bool in_range;  ///< 1.4 <= h_f <= 7 and 0.01 <= theta_f <= 0.12
+};
+[[nodiscard]] SainsotCoefficients sainsot_coefficients(double theta_f, double radius_ratio);
+
+/// Hertz's line contact: 4 (1 - nu^2) / (pi E L) [m/N].                                                        [G-kh]
+[[nodiscard]] double hertz_compliance(const Material& material, double width_mm);
+
+}  // namespace epicyclic::gear

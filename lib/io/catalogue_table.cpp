@@ -1,0 +1,222 @@
+#include "io/catalogue_table.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace epicyclic::io {
+
+namespace {
+
+using gear::Catalogue;
+using gear::ComplianceOptions;
+using gear::ExternalGear;
+using gear::RingGear;
+
+// Far beyond any gear; they catch a wrong unit.
+constexpr double length_max_mm = 1e6;
+
+const Bounds length = above_up_to(0, length_max_mm);
+const Bounds coefficient = between(0, 5);
+
+template <class T>
+void add_gear_data(Table<T>& t) {
+  const auto data = [](auto member) {
+    return [member](auto& gear) -> auto& { return gear.data.*member; };
+  };
+  using gear::GearData;
+  t.integer("teeth", data(&GearData::teeth), between(3, 10000), "Number of teeth [-].").required();
+  t.number("module_mm", data(&GearData::module_mm), length, "Module of the reference profile [mm].").required();
+  t.number("pressure_angle_deg", data(&GearData::pressure_angle_deg), between(5, 45),
+           "Pressure angle of the reference profile [deg].");
+  t.number("profile_shift", data(&GearData::profile_shift), between(-5, 5),
+           "Profile shift coefficient x [-]; positive makes external teeth, and the spaces of a ring, thicker.");
+  t.number("addendum_coefficient", data(&GearData::addendum_coefficient), coefficient, "Addendum coefficient [-].");
+  t.number("clearance_coefficient", data(&GearData::clearance_coefficient), coefficient,
+           "Tip clearance coefficient of the reference profile [-].");
+  t.number("width_mm", data(&GearData::width_mm), length, "Face width [mm].").required();
+  t.number("tip_diameter_mm", data(&GearData::tip_diameter_mm), length,
+           "Diameter of the tip circle [mm]; decides over addendum coefficient and tip shortening.");
+  t.number("root_diameter_mm", data(&GearData::root_diameter_mm), length,
+           "Diameter of the root circle [mm]; decides over the coefficients.");
+  t.integer(
+      "accuracy_grade", [](auto& gear) -> auto& { return gear.accuracy_grade; }, between(0, 12),
+      "Accuracy grade of ISO 1328-1:1995 [-]; gives the amplitude of the transmission error.");
+  t.number(
+      "root_half_angle_deg", [](auto& gear) -> auto& { return gear.root_half_angle_deg; }, above_up_to(0, 45),
+      "Half of the angle that a tooth takes at its root circle, for the compliance of the body [deg]; that of the "
+      "profile if not given.");
+}
+
+const Table<ExternalGear>& external_table(const std::string& name) {
+  static const auto make = [](const std::string& member) {
+    Table<ExternalGear> t(member, "Drawing of the " + member + ".");
+    add_gear_data(t);
+    t.number("bore_mm", &ExternalGear::bore_mm, between(0, length_max_mm), "Diameter of the bore [mm].");
+    t.number("body_radius_ratio", &ExternalGear::body_radius_ratio, between(1.01, 100),
+             "Root radius over inner radius of the elastic body under the teeth [-]; from the bore if not given.");
+    return t;
+  };
+  static const auto sun = make("sun");
+  static const auto planet = make("planet");
+  return name == "sun" ? sun : planet;
+}
+
+const Table<RingGear>& ring_table() {
+  static const auto table = [] {
+    Table<RingGear> t("ring", "Drawing of the ring.");
+    add_gear_data(t);
+    t.number("outer_diameter_mm", &RingGear::outer_diameter_mm, length,
+             "Outer diameter of the rim [mm]; gives mass and inertia.");
+    t.choice("base_pitch", &RingGear::base_pitch,
+             std::vector<std::pair<std::string, gear::BasePitch>>{{"as_given", gear::BasePitch::as_given},
+                                                                  {"of_planet", gear::BasePitch::of_planet}},
+             "Whether the ring's module stands as it is, or is replaced so that its base pitch is the planet's.");
+    return t;
+  }();
+  return table;
+}
+
+const Table<gear::Material>& material_table() {
+  static const auto table = [] {
+    using gear::Material;
+    Table<Material> t("material", "Material of all gears.");
+    t.number("youngs_modulus_GPa", &Material::youngs_modulus_GPa, above_up_to(0, 2000), "Young's modulus [GPa].");
+    t.number("poisson_ratio", &Material::poisson_ratio, between(0, 0.49), "Poisson's ratio [-].");
+    t.number("density_kg_per_m3", &Material::density_kg_per_m3, above_up_to(0, 50000), "Density [kg/m3].");
+    return t;
+  }();
+  return table;
+}
+
+const Table<gear::SupportBearing>& bearing_table() {
+  static const auto table = [] {
+    using gear::SupportBearing;
+    Table<SupportBearing> t("bearing", "Bearing of a support.");
+    t.text("type", &SupportBearing::type, "Designation of a deep groove ball bearing; gives the support's stiffness.")
+        .required();
+    t.number("approach_um", &SupportBearing::approach_um, above_up_to(0, 1e4),
+             "Elastic approach at which the tangent stiffness is taken [um].");
+    return t;
+  }();
+  return table;
+}
+
+const Table<gear::CarrierBody>& body_table() {
+  static const auto table = [] {
+    using gear::CarrierBody;
+    Table<CarrierBody> t("body", "Carrier of round cheeks and one pin per planet.");
+    t.integer("cheeks", &CarrierBody::cheeks, between(1, 10), "Number of cheeks [-].");
+    t.number("cheek_thickness_mm", &CarrierBody::cheek_thickness_mm, length, "Thickness of a cheek [mm].").required();
+    t.number("outer_diameter_mm", &CarrierBody::outer_diameter_mm, length, "Outer diameter of a cheek [mm].")
+        .required();
+    t.number("inner_diameter_mm", &CarrierBody::inner_diameter_mm, between(0, length_max_mm),
+             "Inner diameter of a cheek [mm].");
+    t.number("pin_diameter_mm", &CarrierBody::pin_diameter_mm, length, "Diameter of a pin [mm].").required();
+    t.number("pin_length_mm", &CarrierBody::pin_length_mm, length, "Length of a pin [mm].").required();
+    return t;
+  }();
+  return table;
+}
+
+const Table<gear::OutputShaft>& shaft_table() {
+  static const auto table = [] {
+    using gear::OutputShaft;
+    Table<OutputShaft> t("shaft", "Shaft that holds a grounded carrier by its torsional stiffness.");
+    t.number("diameter_mm", &OutputShaft::diameter_mm, length, "Outer diameter [mm].").required();
+    t.number("inner_diameter_mm", &OutputShaft::inner_diameter_mm, between(0, length_max_mm), "Inner diameter [mm].");
+    t.number("length_mm", &OutputShaft::length_mm, length, "Length [mm].").required();
+    return t;
+  }();
+  return table;
+}
+
+const Table<gear::CarrierData>& carrier_table() {
+  static const auto table = [] {
+    using gear::CarrierData;
+    Table<CarrierData> t("carrier", "Drawing of the carrier.");
+    t.object("body", present(&CarrierData::body), body_table());
+    t.object("bearing", present(&CarrierData::bearing), bearing_table());
+    t.object("shaft", present(&CarrierData::shaft), shaft_table());
+    return t;
+  }();
+  return table;
+}
+
+const Table<gear::StiffnessOptions>& stiffness_table() {
+  static const auto table = [] {
+    using gear::Fillet;
+    using gear::FoundationLever;
+    using gear::RingFoundation;
+    using gear::StiffnessForm;
+    using gear::StiffnessOptions;
+    Table<StiffnessOptions> t("mesh_stiffness", "How the mesh stiffness is computed and enters the model.");
+    const auto of = [](auto member) {
+      return [member](auto& s) -> auto& { return s.compliance.*member; };
+    };
+    t.boolean("bending", of(&ComplianceOptions::bending), "Whether bending of the teeth counts.");
+    t.boolean("shear", of(&ComplianceOptions::shear), "Whether shear of the teeth counts.");
+    t.boolean("axial", of(&ComplianceOptions::axial), "Whether axial compression of the teeth counts.");
+    t.boolean("hertz", of(&ComplianceOptions::hertz), "Whether Hertz's contact flattening counts.");
+    t.boolean("foundation", of(&ComplianceOptions::foundation), "Whether the elastic body under the teeth counts.");
+    t.choice("fillet", of(&ComplianceOptions::fillet),
+             std::vector<std::pair<std::string, Fillet>>{{"none", Fillet::none}, {"trochoid", Fillet::trochoid}},
+             "What lies between involute and root circle of sun and planet: nothing, or the fillet that a rack cuts.");
+    t.choice("ring_foundation", of(&ComplianceOptions::ring_foundation),
+             std::vector<std::pair<std::string, RingFoundation>>{{"half_plane", RingFoundation::half_plane},
+                                                                 {"rigid", RingFoundation::rigid}},
+             "Elastic body under the ring's teeth.");
+    t.choice("foundation_lever", of(&ComplianceOptions::lever),
+             std::vector<std::pair<std::string, FoundationLever>>{{"centreline", FoundationLever::centreline},
+                                                                  {"contact_height", FoundationLever::contact_height}},
+             "Where the lever of the force on the body of sun and planet ends.");
+    t.choice("form", &StiffnessOptions::form,
+             std::vector<std::pair<std::string, StiffnessForm>>{{"harmonics", StiffnessForm::harmonics},
+                                                                {"curve", StiffnessForm::curve}},
+             "Fourier series, or the whole curve with its jumps.");
+    t.integer("harmonics", &StiffnessOptions::harmonics, between(1, 64), "Harmonics of the Fourier series [-].");
+    t.number("sun_planet_factor", &StiffnessOptions::sun_planet_factor, above_up_to(0, 100),
+             "Factor on the computed stiffness of the sun-planet mesh [-].");
+    t.number("ring_planet_factor", &StiffnessOptions::ring_planet_factor, above_up_to(0, 100),
+             "Factor on the computed stiffness of the ring-planet mesh [-].");
+    return t;
+  }();
+  return table;
+}
+
+const Table<gear::Lubrication>& lubrication_table() {
+  static const auto table = [] {
+    using gear::Lubrication;
+    Table<Lubrication> t("lubrication", "Lubricant and roughness for the friction of the teeth; none without it.");
+    t.number("viscosity_mPas", &Lubrication::viscosity_mPas, above_up_to(0, 1e5),
+             "Dynamic viscosity of the oil at its inlet [mPa s].");
+    t.number("roughness_um", &Lubrication::roughness_um, between(0, 10), "RMS roughness of the flanks [um].");
+    return t;
+  }();
+  return table;
+}
+
+}  // namespace
+
+const Table<Catalogue>& catalogue_table() {
+  static const auto table = [] {
+    Table<Catalogue> t("catalogue", "Drawings and catalogue data, from which the lumped values are computed.");
+    t.object("material", &Catalogue::material, material_table());
+    t.choice(
+        "tips", &Catalogue::tips,
+        std::vector<std::pair<std::string, gear::Tips>>{{"shortened", gear::Tips::shortened},
+                                                        {"full", gear::Tips::full}},
+        "Whether the tips of sun and planet are shortened to keep their clearance at the working centre distance.");
+    t.object("sun", &Catalogue::sun, external_table("sun")).required();
+    t.object("sun_bearing", present(&Catalogue::sun_bearing), bearing_table());
+    t.object("planet", &Catalogue::planet, external_table("planet")).required();
+    t.object("ring", &Catalogue::ring, ring_table()).required();
+    t.object("carrier", &Catalogue::carrier, carrier_table());
+    t.object("mesh_stiffness", &Catalogue::stiffness, stiffness_table());
+    t.object("lubrication", present(&Catalogue::lubrication), lubrication_table());
+    return t;
+  }();
+  return table;
+}
+
+}  // namespace epicyclic::io

@@ -1,0 +1,108 @@
+// K periodic functions given by one table over the mesh phase, ready to evaluate: cubics on intervals of the mesh's own
+// phase, grouped in pieces between breakpoints.
+//
+//   within a piece Steffen's monotone cubic through the rows (straight for two rows), extended by its outermost cubics
+//   beyond the piece, so that a step that ends on a breakpoint sees the left side                          [M-track]
+//
+// Source: M. Steffen, Astron. Astrophys. 239 (1990) 443, as in GSL. Limits: rows as documented at
+// gear::Friction::Table. Smoothness: C1 within a piece; jumps at breakpoints, which the integrator steps onto.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "core/lanes.hpp"
+#include "core/scalar.hpp"
+
+namespace epicyclic::model {
+
+/// Intervals lo..hi (inclusive) that make one smooth piece.
+struct TrackPiece {
+  std::size_t lo = 0, hi = 0;
+};
+
+/// The piece that holds a phase, and where: phases are met within half a turn of it, so that they may count whole turns
+/// and a phase on a breakpoint is on the side of the place.
+struct TrackPlace {
+  TrackPiece piece;
+  double centre = 0;
+};
+
+/// One row of a table: phase and K values.
+template <std::size_t K>
+struct TrackRow {
+  double phase;
+  std::array<double, K> value;
+};
+
+template <std::size_t K>
+class PeriodicTrack {
+ public:
+  PeriodicTrack() = default;
+
+  /// @param rows         phases rising, a jump as two rows of one phase
+  /// @param breakpoints  phases of the rows where the functions jump or kink
+  /// @param lead         added to all phases
+  /// @throws InputError when a piece has no rows at its ends, or rows cannot be told apart
+  PeriodicTrack(const std::vector<TrackRow<K>>& rows, const std::vector<double>& breakpoints, double lead);
+
+  /// Breakpoints on the mesh's own phase, rising, in [0, 1).
+  [[nodiscard]] const std::vector<double>& breakpoints() const { return breakpoints_; }
+
+  [[nodiscard]] TrackPlace place(double phase) const;
+
+  /// Values at a phase within half a turn of the place, whole turns apart, by the cubics of its piece.
+  template <class T>
+  [[nodiscard]] std::array<T, K> at(const TrackPlace& place, const T& phase) const {
+    const T x = phase - T(static_cast<double>(std::round(value_of(phase) - place.centre)));
+    const std::size_t k = interval(place.piece, value_of(x));
+    const T t = x - starts_[k];
+    std::array<T, K> values;
+    for (std::size_t j = 0; j < K; ++j) {
+      const auto& c = cubics_[k][j];
+      values[j] = c[0] + t * (c[1] + t * (c[2] + t * c[3]));
+    }
+    return values;
+  }
+
+  template <std::size_t W>
+  [[nodiscard]] std::array<Lanes<W>, K> at(const TrackPlace& place, const Lanes<W>& phase) const {
+    std::array<Lanes<W>, K> values;
+    for (std::size_t lane = 0; lane < W; ++lane) {
+      const std::array<double, K> one = at(place, phase[lane]);
+      for (std::size_t j = 0; j < K; ++j) values[j].set(lane, one[j]);
+    }
+    return values;
+  }
+
+ private:
+  using Cubics = std::array<std::array<double, 4>, K>;  ///< in powers of phase - start
+
+  /// Guessed as if the intervals were equal, which they mostly are, then walked to.
+  template <class V>
+  [[nodiscard]] std::size_t interval(const TrackPiece& piece, V x) const {
+    const auto count = static_cast<V>(piece.hi - piece.lo);
+    if (piece.hi == piece.lo) return piece.lo;
+    const V mean = (V(starts_[piece.hi]) - V(starts_[piece.lo])) / count;
+    const V guess = (x - V(starts_[piece.lo])) / mean;
+    std::size_t k = piece.lo + static_cast<std::size_t>(guess > V(0) ? (guess < count ? guess : count) : V(0));
+    while (k > piece.lo && x < starts_[k]) --k;
+    while (k < piece.hi && x >= starts_[k + 1]) ++k;
+    return k;
+  }
+
+  void append_piece(const std::vector<TrackRow<K>>& rows);
+
+  std::vector<double> starts_;
+  std::vector<Cubics> cubics_;
+  std::vector<TrackPiece> pieces_;
+  std::vector<double> breakpoints_;
+};
+
+extern template class PeriodicTrack<1>;
+extern template class PeriodicTrack<3>;
+
+}  // namespace epicyclic::model

@@ -1,0 +1,140 @@
+// Lumped values from catalogue data: what is given stands, what is computed follows the catalogue.
+#include "io/stage_completion.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "gear/gear_set.hpp"
+#include "io/study_input.hpp"
+#include "io/study_model.hpp"
+#include "io/temporary_folder.hpp"
+
+namespace epicyclic::io {
+namespace {
+
+using nlohmann::json;
+using test::TemporaryFolder;
+
+const std::filesystem::path stage_file = "inputs/tang2020.json";
+
+LoadedInput loaded(const std::vector<std::string>& sets = {}) {
+  return load_input(stage_file, parse_assignments(sets));
+}
+
+std::vector<std::string> messages(const std::vector<std::string>& sets) {
+  std::vector<std::string> lines;
+  try {
+    (void)loaded(sets);
+  } catch (const InputProblems& error) {
+    for (const Problem& problem : error.problems()) lines.push_back(problem.text());
+  }
+  return lines;
+}
+
+bool any_has(const std::vector<std::string>& lines, const std::string& part) {
+  for (const std::string& line : lines)
+    if (line.find(part) != std::string::npos) return true;
+  return false;
+}
+
+TEST(StageCompletion, TheFileOfThePaperHoldsNoComputedNumber) {
+  std::ifstream file(stage_file);
+  const json stage = json::parse(file);
+  const json& lumped = stage["lumped"];
+  EXPECT_FALSE(stage["planets"].contains("centre_distance_mm"));
+  for (const char* member : {"sun", "planet", "ring", "carrier"})
+    for (const char* key : {"mass_kg", "inertia_over_r2_kg", "base_radius_mm", "teeth"})
+      EXPECT_FALSE(lumped[member].contains(key)) << member << " " << key;
+  for (const char* mesh : {"sun_planet_mesh", "ring_planet_mesh"})
+    for (const char* key : {"stiffness_N_per_m", "stiffness_cos_N_per_m", "error_amplitude_um", "friction"})
+      EXPECT_FALSE(lumped[mesh].contains(key)) << mesh << " " << key;
+  EXPECT_FALSE(lumped.contains("ring_mesh_lead_1"));
+}
+
+TEST(StageCompletion, EveryComputedValueNamesItsFormula) {
+  const json resolved = loaded().resolved;
+  EXPECT_EQ(resolved["lumped"]["sun_planet_mesh"]["origin"]["stiffness_N_per_m"],
+            "computed: [G-k] energy method, mean over a mesh period");
+  EXPECT_EQ(resolved["planets"]["origin"]["centre_distance_mm"], "computed: [G-a0] sun and planet without backlash");
+}
+
+TEST(StageCompletion, AResolvedInputResolvesToItself) {
+  const TemporaryFolder folder;
+  const json resolved = loaded().resolved;
+  std::ofstream(folder / "stage.json") << resolved.dump();
+  EXPECT_EQ(load_input(folder / "stage.json").resolved, resolved);
+}
+
+TEST(StageCompletion, AGivenValueStands) {
+  const LoadedInput input = loaded({"/lumped/sun/mass_kg=2", "/lumped/sun_planet_mesh/stiffness_N_per_m=1e9"});
+  EXPECT_EQ(input.study.stage.sun.mass_kg, 2.0);
+  EXPECT_EQ(input.study.stage.sun_planet_mesh.stiffness_N_per_m, 1e9);
+  EXPECT_EQ(input.resolved["lumped"]["sun"]["origin"]["mass_kg"], "set: command line");
+}
+
+TEST(StageCompletion, ComputedValuesFollowAChangeOfTheCatalogue) {
+  const LoadedInput input = loaded();
+  const double width = 30.0;
+  Study halved = input.with_value("/catalogue/sun/width_mm", width);
+  EXPECT_NEAR(halved.stage.sun.mass_kg, 0.5 * input.study.stage.sun.mass_kg, 1e-12);
+  EXPECT_LT(halved.stage.sun_planet_mesh.stiffness_N_per_m, input.study.stage.sun_planet_mesh.stiffness_N_per_m);
+  // The ring's mesh does not know the sun.
+  EXPECT_EQ(halved.stage.ring_planet_mesh.stiffness_N_per_m, input.study.stage.ring_planet_mesh.stiffness_N_per_m);
+}
+
+TEST(StageCompletion, AValueThatIsSweptIsNotComputedAnew) {
+  const LoadedInput input = loaded();
+  EXPECT_EQ(input.with_value("/lumped/planet/mass_kg", 3.0).stage.planet.mass_kg, 3.0);
+  const Study element = input.with_value("/lumped/sun_planet_mesh/stiffness_cos_N_per_m/1", 5e7);
+  EXPECT_EQ(element.stage.sun_planet_mesh.stiffness_cos_N_per_m[1], 5e7);
+  EXPECT_EQ(element.stage.sun_planet_mesh.stiffness_N_per_m, input.study.stage.sun_planet_mesh.stiffness_N_per_m);
+}
+
+TEST(StageCompletion, TheIdentityOfAStudyDependsOnWhatIsGivenOnly) {
+  LoadedInput input = loaded();
+  const std::string identity_before = identity(input, "gear");
+  input.resolved["lumped"]["sun"]["mass_kg"] = 7.0;  // another last digit, so to say
+  EXPECT_EQ(identity(input, "gear"), identity_before);
+  input.resolved["catalogue"]["sun"]["width_mm"] = 61.0;
+  EXPECT_NE(identity(input, "gear"), identity_before);
+}
+
+TEST(StageCompletion, AFullCurveReplacesTheHarmonics) {
+  const LoadedInput input = loaded({"/catalogue/mesh_stiffness/form=curve"});
+  const gear::Mesh& mesh = input.study.stage.sun_planet_mesh;
+  ASSERT_TRUE(mesh.stiffness_curve);
+  EXPECT_TRUE(mesh.stiffness_cos_N_per_m.empty());
+  EXPECT_EQ(mesh.stiffness_curve->breakpoints.size(), 2U);
+}
+
+TEST(StageCompletion, WithoutLubricationThereIsNoFriction) {
+  const LoadedInput input = loaded({"/catalogue/lubrication=null"});
+  EXPECT_FALSE(input.study.stage.sun_planet_mesh.friction.any());
+}
+
+TEST(StageCompletion, AFixedRingGetsNoTorsionalStiffnessOfTheCarrier) {
+  const LoadedInput input = loaded({"/boundary=fixed_ring", "/lumped/ring/torsional_support_N_per_m=1e9"});
+  EXPECT_EQ(input.study.stage.carrier.torsional_support_N_per_m, 0.0);
+}
+
+TEST(StageCompletion, WhatTheCatalogueMakesImpossibleIsToldWithItsNumbers) {
+  const auto printed = messages({"/catalogue/ring/base_pitch=as_given"});
+  EXPECT_TRUE(any_has(printed, "/catalogue/ring/module_mm: base pitches of planet and ring differ by 18.22"));
+  EXPECT_FALSE(any_has(printed, "is missing")) << "what could not be computed is not missing";
+  EXPECT_TRUE(any_has(messages({"/catalogue/ring/addendum_coefficient=0.7"}), "contact ratio of 0."));
+  EXPECT_TRUE(any_has(messages({"/catalogue/sun/bore_mm=100"}), "/catalogue/sun/bore_mm: the bore, 100 mm"));
+  EXPECT_TRUE(any_has(messages({"/catalogue/sun_bearing/type=\"9999\""}), "is not among the bearings known here"));
+  EXPECT_TRUE(any_has(messages({"/catalogue/sun/teeth=0"}), "/catalogue/sun/teeth"));
+  EXPECT_TRUE(any_has(messages({"/catalogue/sun/modul_mm=2"}), "did you mean"));
+}
+
+TEST(StageCompletion, WhatNoDrawingGivesIsMissing) {
+  EXPECT_TRUE(any_has(messages({"/catalogue/carrier/body=null"}), "/lumped/carrier/mass_kg: is missing"));
+  EXPECT_TRUE(any_has(messages({"/lumped/ring/support_N_per_m=null"}), "/lumped/ring/support_N_per_m: is missing"));
+}
+
+}  // namespace
+}  // namespace epicyclic::io
