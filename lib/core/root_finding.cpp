@@ -36,6 +36,7 @@ struct Call {
 }  // namespace
 
 double find_root(const std::function<double(double)>& f, double low, double high) {
+  if (!(low < high)) throw DomainError("find_root: the ends must rise");
   const double at_low = f(low);
   const double at_high = f(high);
   if (at_low == 0.0) return low;

@@ -7,7 +7,7 @@ namespace epicyclic {
 
 /// x in [low, high] with f(x) = 0, to the resolution of double.
 ///
-/// @throws DomainError when f has the same sign at both ends, or is not finite
+/// @throws DomainError unless low < high; when f has the same sign at both ends, or is not finite
 [[nodiscard]] double find_root(const std::function<double(double)>& f, double low, double high);
 
 }  // namespace epicyclic

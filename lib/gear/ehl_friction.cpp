@@ -16,13 +16,21 @@ double load_share(const Friction::Ehl& e, double position, double inside) {
     const double phase = inside - std::floor(inside);
     return 1.0 / std::max(1.0, std::ceil(e.contact_ratio - phase));
   }
-  // The interval that holds `inside`, extended to `position`, which lies on it or at its end.
-  const auto above = std::upper_bound(e.share_position.begin(), e.share_position.end(), inside);
-  const auto last = static_cast<std::ptrdiff_t>(e.share_position.size()) - 1;
-  const auto k = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above - e.share_position.begin(), 1, last));
-  const double from = e.share_position[k - 1];
-  const double to = e.share_position[k];
-  const double weight = to > from ? (position - from) / (to - from) : 0.0;
+  // The piece between jumps that holds `inside`, then the interval in it that holds `position`.
+  const auto& p = e.share_position;
+  std::size_t first = 0;
+  std::size_t last = p.size() - 1;
+  for (std::size_t k = 1; k < p.size(); ++k)
+    if (p[k] == p[k - 1]) {
+      if (inside >= p[k])
+        first = k;
+      else
+        last = std::min(last, k - 1);
+    }
+  const auto at = [&](std::size_t k) { return p.begin() + static_cast<std::ptrdiff_t>(k); };
+  const auto above = std::upper_bound(at(first + 1), at(last), position);
+  const auto k = static_cast<std::size_t>(above - p.begin());
+  const double weight = (position - p[k - 1]) / (p[k] - p[k - 1]);
   return e.share[k - 1] + weight * (e.share[k] - e.share[k - 1]);
 }
 

@@ -187,6 +187,14 @@ std::vector<std::string> catalogue_problems(const Stage& stage) {
     }
   auto lines = out.take();
   if (!lines.empty()) return lines;
+  if (!tried(out, stage.centre_distance_mm ? "/planets/centre_distance_mm" : planet_pointer, [&] {
+        const Tooth sun = external_tooth(c.sun.data);
+        const Tooth planet = external_tooth(c.planet.data);
+        (void)make_pair(sun, planet,
+                        stage.centre_distance_mm.value_or(0.0) > 0.0 ? *stage.centre_distance_mm
+                                                                     : tight_centre_distance_mm(sun, planet));
+      }))
+    return out.take();
   GearSet set;
   if (!tried(out, ring_pointer, [&] { set = geometry_of(stage); })) return out.take();
   check_pair(out, set.sun_planet.pair, sun_pointer, planet_pointer, "sun-planet");
@@ -207,6 +215,15 @@ std::vector<std::string> catalogue_problems(const Stage& stage) {
   if (c.ring.outer_diameter_mm && 0.5 * *c.ring.outer_diameter_mm <= set.ring.root_radius_mm)
     out.add(ring_pointer + "/outer_diameter_mm", "the rim, ", *c.ring.outer_diameter_mm,
             " mm, must be larger than the root circle, ", 2.0 * set.ring.root_radius_mm, " mm");
+  // The rack that cuts the fillet cuts the root circle too.
+  const auto root = [&](const GearData& data, const std::string& pointer) {
+    if (data.root_diameter_mm && c.stiffness.compliance.fillet == Fillet::trochoid)
+      out.add(pointer + "/root_diameter_mm",
+              "excludes \"fillet\": \"trochoid\", which has the root circle of the "
+              "reference profile; give the clearance coefficient instead");
+  };
+  root(c.sun.data, sun_pointer);
+  root(c.planet.data, planet_pointer);
   lines = out.take();
   if (!lines.empty()) return lines;
   tried(out, "/catalogue", [&] {

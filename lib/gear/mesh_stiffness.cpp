@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <Eigen/Core>
@@ -98,7 +99,8 @@ FourierSeries fourier_series(const MeshedPair& mesh, int harmonics) {
 
 StiffnessRange stiffness_range(const MeshedPair& mesh) {
   constexpr int samples = 200;
-  StiffnessRange range{mesh.stiffness(0.0), mesh.stiffness(0.0)};
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  StiffnessRange range{infinite, -infinite};
   for_pieces(mesh, [&](double from, double to, double inside) {
     for (int k = 0; k <= samples; ++k) {
       const double value = mesh.stiffness(from + (to - from) * k / samples, inside);

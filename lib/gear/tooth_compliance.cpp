@@ -78,7 +78,7 @@ Energies external_energies(const Tooth& t, double tan_contact, double alpha_1, d
   if (t.profile_shift < t.undercut_limit())
     throw DomainError("the fillet of an undercut tooth does not join its involute");
   const double form = t.form_radius_mm();
-  if (std::hypot(1.0, tan_contact) * t.base_radius_mm < form)
+  if (std::hypot(1.0, tan_contact) * t.base_radius_mm < form * (1.0 - radius_rounding))
     throw DomainError("contact below the end of the involute, on the fillet");
   const Energies fillet = rule.integrate(
       [&](double gamma) -> Energies {
@@ -149,6 +149,7 @@ double hertz_compliance(const Material& material, double width_mm) {
 }
 
 ToothCompliance tooth_compliance(const ToothBody& body, double contact_radius_mm, const ComplianceOptions& o) {
+  if (o.panels < 1) throw DomainError("the quadrature of a compliance needs at least 1 panel");
   const Tooth& t = body.tooth;
   const double nu = body.material.poisson_ratio;
   const double outer = t.internal ? t.root_radius_mm : t.tip_radius_mm;

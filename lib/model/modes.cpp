@@ -199,6 +199,10 @@ ModalEnergies modal_energies(const LinearStage& linear, const Mode& mode, int pl
   add(Motion::carrier_translation, Slots::y_c(n));
   add(Motion::carrier_rotation, Slots::u_c(Layout::full, n));
   for (double& share : e.kinetic) share /= kinetic;
+  // Shares at rounding level of the shapes are none.
+  constexpr double rounding = 1e-20;
+  for (double& share : e.elastic) share = share < rounding ? 0.0 : share;
+  for (double& share : e.kinetic) share = share < rounding ? 0.0 : share;
   return e;
 }
 

@@ -1,0 +1,108 @@
+// The model with a stiffness curve in place of harmonics.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "model/dynamic_model.hpp"
+#include "problems/r1.hpp"
+
+namespace epicyclic::model {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+/// R1 with two harmonics on both meshes and teeth with unequal phases of the planets.
+gear::Stage with_harmonics() {
+  gear::Stage s = problems::with_teeth(problems::r1(), 28, 26, 80, 3);
+  s.ring_mesh_lead_1 = 0.3;
+  for (gear::Mesh* mesh : {&s.sun_planet_mesh, &s.ring_planet_mesh}) {
+    mesh->stiffness_cos_N_per_m = {1.6e8, 0.7e8};
+    mesh->stiffness_sin_N_per_m = {1.3e8, 2.2e8};
+  }
+  return s;
+}
+
+/// The same stiffness as a table of `rows` rows a period.
+gear::Stage tabulated(gear::Stage s, int rows) {
+  for (gear::Mesh* mesh : {&s.sun_planet_mesh, &s.ring_planet_mesh}) {
+    gear::StiffnessCurve curve;
+    for (int k = 0; k < rows; ++k) {
+      const double phase = static_cast<double>(k) / rows;
+      double stiffness = mesh->stiffness_N_per_m;
+      for (std::size_t h = 0; h < 2; ++h) {
+        const double angle = two_pi * static_cast<double>(h + 1) * phase;
+        stiffness +=
+            mesh->stiffness_cos_N_per_m[h] * std::cos(angle) + mesh->stiffness_sin_N_per_m[h] * std::sin(angle);
+      }
+      curve.phase.push_back(phase);
+      curve.stiffness_N_per_m.push_back(stiffness);
+    }
+    mesh->stiffness_curve = curve;
+    mesh->stiffness_cos_N_per_m.clear();
+    mesh->stiffness_sin_N_per_m.clear();
+  }
+  return s;
+}
+
+DynamicModel model_of(const gear::Stage& s) { return make_dynamic_model(s, scales_of(s), 0.9, {}); }
+
+/// Greatest difference of the two right-hand sides over a period, relative to the greatest entry.
+double difference(const DynamicModel& a, const DynamicModel& b) {
+  const std::vector<double> y = a.default_start;
+  std::vector<double> of_a(a.dimension);
+  std::vector<double> of_b(b.dimension);
+  double most = 0.0;
+  double size = 0.0;
+  for (int k = 0; k < 997; ++k) {
+    const double s = two_pi * k / 997.0;
+    a.right_hand_side(0, s, y.data(), of_a.data());
+    b.right_hand_side(0, s, y.data(), of_b.data());
+    for (std::size_t i = 0; i < a.dimension; ++i) {
+      most = std::max(most, std::abs(of_a[i] - of_b[i]));
+      size = std::max(size, std::abs(of_a[i]));
+    }
+  }
+  return most / size;
+}
+
+TEST(StiffnessCurve, OfASmoothSeriesIsTheSeries) {
+  const gear::Stage s = with_harmonics();
+  ASSERT_TRUE(gear::problems_for_motion(s).empty());
+  ASSERT_TRUE(gear::problems_for_motion(tabulated(s, 256)).empty());
+  const double coarse = difference(model_of(s), model_of(tabulated(s, 256)));
+  const double fine = difference(model_of(s), model_of(tabulated(s, 1024)));
+  EXPECT_LT(fine, 1e-5);
+  // Steffen's slopes vanish at extrema: the error there is of second order.
+  EXPECT_GT(std::log(coarse / fine) / std::log(4.0), 1.8);
+}
+
+TEST(StiffnessCurve, BreakpointsOfEachPlanetAreKnownToTheIntegrator) {
+  gear::Stage s = with_harmonics();
+  for (gear::Mesh* mesh : {&s.sun_planet_mesh, &s.ring_planet_mesh}) {
+    mesh->stiffness_cos_N_per_m.clear();
+    mesh->stiffness_sin_N_per_m.clear();
+  }
+  // Two pairs until phase 0.2, one behind it.
+  s.sun_planet_mesh.stiffness_curve = gear::StiffnessCurve{{0.0, 0.0, 0.2, 0.2}, {1e9, 1.8e9, 1.8e9, 1e9}, {0.0, 0.2}};
+  ASSERT_TRUE(gear::problems_for_motion(s).empty());
+  const DynamicModel model = model_of(s);
+  // s_spi = s - z_s phi_i: 28/3 leaves planets 2 and 3 a third of a period apart.
+  std::vector<double> expected;
+  for (const double lag : {0.0, 1.0 / 3.0, 2.0 / 3.0})
+    for (const double own : {0.0, 0.2}) expected.push_back(two_pi * std::fmod(own + lag, 1.0));
+  std::sort(expected.begin(), expected.end());
+  ASSERT_EQ(model.breakpoints.size(), expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(model.breakpoints[k], expected[k], 1e-9);
+}
+
+TEST(StiffnessCurve, ExcludesHarmonics) {
+  gear::Stage s = tabulated(with_harmonics(), 16);
+  s.sun_planet_mesh.stiffness_cos_N_per_m = {1e8};
+  EXPECT_FALSE(gear::problems_for_motion(s).empty());
+}
+
+}  // namespace
+}  // namespace epicyclic::model
