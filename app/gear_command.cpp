@@ -1,4 +1,4 @@
-// epicyclic gear: what follows from the stage alone.
+// epicyclic gear: what follows from the stage alone: geometry, stiffness, load sharing, friction, bearings, modes.
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -16,16 +16,20 @@ int gear_command(const Arguments& arguments) {
   if (const auto code = refuse_or_finish(folder)) return *code;
   io::Provenance facts = provenance(1);
   write_inputs(folder, input);
-  const auto modes = folder.file("modes.csv");
-  const std::string table = io::write_modes_csv(modes, input.study.stage);
+  const io::GearOutput written = io::write_gear_output(folder.path(), input);
   facts.ended = io::utc_now();
   folder.write_run(io::RunState::complete, io::run_facts(facts));
-  fmt::print(stderr, "modes: {}\n", modes.string());
+  for (const std::string& line : written.warnings) fmt::print(stderr, "warning: {}\n", line);
+  for (const std::string& line : written.undrawn) fmt::print(stderr, "figure not drawn: {}\n", line);
+  for (const std::string& line : written.verdicts) fmt::print(stderr, "{}\n", line);
+  fmt::print(stderr, "summary: {}\n", folder.file("gear.md").string());
   if (arguments.json)
-    fmt::print("{}\n", nlohmann::json{{"folder", folder.path().string()}, {"modes", modes.string()}}.dump(
-                           2, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", nlohmann::json{{"folder", folder.path().string()},
+                                      {"modes", folder.file("modes.csv").string()},
+                                      {"summary", folder.file("gear.md").string()}}
+                           .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   else
-    fmt::print("{}", table);
+    fmt::print("{}", written.modes);
   return done;
 }
 

@@ -215,15 +215,6 @@ std::vector<std::string> catalogue_problems(const Stage& stage) {
   if (c.ring.outer_diameter_mm && 0.5 * *c.ring.outer_diameter_mm <= set.ring.root_radius_mm)
     out.add(ring_pointer + "/outer_diameter_mm", "the rim, ", *c.ring.outer_diameter_mm,
             " mm, must be larger than the root circle, ", 2.0 * set.ring.root_radius_mm, " mm");
-  // The rack that cuts the fillet cuts the root circle too.
-  const auto root = [&](const GearData& data, const std::string& pointer) {
-    if (data.root_diameter_mm && c.stiffness.compliance.fillet == Fillet::trochoid)
-      out.add(pointer + "/root_diameter_mm",
-              "excludes \"fillet\": \"trochoid\", which has the root circle of the "
-              "reference profile; give the clearance coefficient instead");
-  };
-  root(c.sun.data, sun_pointer);
-  root(c.planet.data, planet_pointer);
   lines = out.take();
   if (!lines.empty()) return lines;
   tried(out, "/catalogue", [&] {

@@ -122,6 +122,18 @@ void check_stiffness_curve(Problems& out, const std::string& pointer, const Mesh
   const std::string place = pointer + "/stiffness_curve";
   if (!check_length(out, place + "/stiffness_N_per_m", c.stiffness_N_per_m.size(), c.phase.size())) return;
   check_rows(out, place, c.phase, c.breakpoints);
+  // Scales and damping take the mean from stiffness_N_per_m: it must be that of the curve.
+  double mean = 0.0;
+  for (std::size_t k = 0; k < c.phase.size(); ++k) {
+    const bool last = k + 1 == c.phase.size();
+    const double to = last ? c.phase.front() + 1.0 : c.phase[k + 1];
+    const double next = last ? c.stiffness_N_per_m.front() : c.stiffness_N_per_m[k + 1];
+    mean += 0.5 * (to - c.phase[k]) * (c.stiffness_N_per_m[k] + next);
+  }
+  constexpr double mean_tolerance = 0.01;
+  if (!(std::abs(mean / mesh.stiffness_N_per_m - 1.0) <= mean_tolerance))
+    out.add(pointer + "/stiffness_N_per_m", "is ", mesh.stiffness_N_per_m, " N/m, but the mean of the curve is ", mean,
+            " N/m (relative difference at most ", mean_tolerance, ")");
   if (!mesh.stiffness_cos_N_per_m.empty() || !mesh.stiffness_sin_N_per_m.empty())
     out.add(place, "stands in place of harmonics: stiffness_cos_N_per_m and stiffness_sin_N_per_m exclude it");
 }

@@ -1,5 +1,6 @@
 #include "gear/tooth.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -69,24 +70,33 @@ double Tooth::half_angle_at(double radius_mm) const {
 double Tooth::form_radius_mm() const {
   if (internal) return root_radius_mm;
   const double sine = std::sin(pressure_angle);
-  const double length = reference_radius_mm * sine - module_mm * (addendum_coefficient - profile_shift) / sine;
+  const double length = reference_radius_mm * sine - module_mm * (flank_depth() - profile_shift) / sine;
   return std::hypot(base_radius_mm, length);
 }
 
 double Tooth::undercut_limit() const {
   const double sine = std::sin(pressure_angle);
-  return addendum_coefficient - 0.5 * teeth * sine * sine;
+  return flank_depth() - 0.5 * teeth * sine * sine;
 }
 
-double Tooth::fillet_rounding_mm() const {
-  return clearance_coefficient * module_mm / (1.0 - std::sin(pressure_angle));
+double Tooth::rack_depth() const { return (reference_radius_mm - root_radius_mm) / module_mm + profile_shift; }
+
+double Tooth::rounding_clearance() const {
+  const double full_tip = (0.25 * pi - rack_depth() * std::tan(pressure_angle)) * std::cos(pressure_angle);
+  return std::max(0.0, std::min(clearance_coefficient, full_tip));
+}
+
+double Tooth::fillet_rounding_mm() const { return rounding_clearance() * module_mm / (1.0 - std::sin(pressure_angle)); }
+
+Tooth::RackTip Tooth::rack_tip() const {
+  const double rho = fillet_rounding_mm();
+  return {module_mm * (rack_depth() - profile_shift) - rho,
+          0.25 * pi * module_mm + flank_depth() * module_mm * std::tan(pressure_angle) + rho * std::cos(pressure_angle),
+          rho};
 }
 
 ProfilePoint Tooth::fillet(double gamma) const {
-  const double rho = fillet_rounding_mm();
-  const double a_1 = module_mm * (addendum_coefficient + clearance_coefficient - profile_shift) - rho;
-  const double b_1 = 0.25 * pi * module_mm + addendum_coefficient * module_mm * std::tan(pressure_angle) +
-                     rho * std::cos(pressure_angle);
+  const auto [a_1, b_1, rho] = rack_tip();
   const double phi = (a_1 / std::tan(gamma) + b_1) / reference_radius_mm;
   const double reach = a_1 / std::sin(gamma) + rho;
   return {reference_radius_mm * std::sin(phi) - reach * std::cos(gamma - phi),
@@ -94,10 +104,7 @@ ProfilePoint Tooth::fillet(double gamma) const {
 }
 
 ProfilePoint Tooth::fillet_slope(double gamma) const {
-  const double rho = fillet_rounding_mm();
-  const double a_1 = module_mm * (addendum_coefficient + clearance_coefficient - profile_shift) - rho;
-  const double b_1 = 0.25 * pi * module_mm + addendum_coefficient * module_mm * std::tan(pressure_angle) +
-                     rho * std::cos(pressure_angle);
+  const auto [a_1, b_1, rho] = rack_tip();
   const double sine = std::sin(gamma);
   const double phi = (a_1 / std::tan(gamma) + b_1) / reference_radius_mm;
   const double phi_slope = -a_1 / (sine * sine) / reference_radius_mm;

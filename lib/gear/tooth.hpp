@@ -6,17 +6,19 @@
 //   internal  r_a = r - m (h_a - x - k) ,  r_f = r + m (h_a + c + x) ,
 //             alpha_2 = (pi/2 - 2 x tan alpha_0) / z - inv alpha_0  (may be negative)                   [G-tooth]
 //   half tooth angle at radius R, pressure angle a:  external alpha_2 - inv a ,  internal alpha_2 + inv a
-//   involute begins at  r_F^2 = r_b^2 + (r sin alpha_0 - m (h_a - x) / sin alpha_0)^2  (rack-cut, no undercut) [G-form]
-//   rack-cut fillet, rounding rho = c m / (1 - sin alpha_0), pi/2 >= gamma >= alpha_0:                    [G-fillet]
-//     phi = (a_1 / tan gamma + b_1) / r ,  a_1 = m (h_a + c - x) - rho ,  b_1 = pi m / 4 + h_a m tan alpha_0
+//   involute begins at  r_F^2 = r_b^2 + (r sin alpha_0 - m (h_F - x) / sin alpha_0)^2  (rack-cut, no undercut) [G-form]
+//   rack-cut fillet, rounding rho = c' m / (1 - sin alpha_0), pi/2 >= gamma >= alpha_0:                   [G-fillet]
+//     phi = (a_1 / tan gamma + b_1) / r ,  a_1 = m (h_F + c' - x) - rho ,  b_1 = pi m / 4 + h_F m tan alpha_0
 //           + rho cos alpha_0
+//     c' = min(c, (pi/4 - h_t tan alpha_0) cos alpha_0) ,  h_t = (r - r_f)/m + x = h_a + c ,  h_F = h_t - c'
 //     X = r sin phi - (a_1 / sin gamma + rho) cos(gamma - phi) ,  Y = r cos phi - (a_1 / sin gamma + rho) sin(gamma -
 //     phi)
 //
-// k is the tip shortening. Lengths in mm, angles in rad. Source: DIN 3960 and any textbook; x is positive where it
-// makes the external tooth, and the ring's space, thicker. The fillet is derived from the rolling rack (Litvin; Ma et
-// al., Eng. Failure Analysis 2014). Limits: spur gears, involute flanks, rack-cut external teeth. Smoothness: analytic
-// on each of flank and fillet, which join with a common tangent at r_F.
+// The second bound on c' is that of a full tip radius, the widest that the rack's tooth has room for (at 25 degrees
+// c = 0.25 would need more). k is the tip shortening. Lengths in mm, angles in rad. Source: DIN 3960 and any textbook;
+// x is positive where it makes the external tooth, and the ring's space, thicker. The fillet is derived from the
+// rolling rack (Litvin; Ma et al., Eng. Failure Analysis 2014). Limits: spur gears, involute flanks, rack-cut external
+// teeth. Smoothness: analytic on each of flank and fillet, which join with a common tangent at r_F.
 #pragma once
 
 #include <optional>
@@ -66,14 +68,27 @@ struct Tooth {
 
   /// Radius at which a rack-cut involute begins [mm]; external teeth, else the root radius.
   [[nodiscard]] double form_radius_mm() const;
-  /// Least profile shift without undercut, h_a - z sin^2 alpha_0 / 2 [-]; external teeth.
+  /// Least profile shift without undercut, h_F - z sin^2 alpha_0 / 2 [-]; external teeth.
   [[nodiscard]] double undercut_limit() const;
+  /// Depth of the rack's tip below its reference line, h_a + c unless a root circle is given [modules].
+  [[nodiscard]] double rack_depth() const;
+  /// Clearance c' that the rack's rounding takes: c, or less where a full tip radius is all that fits [modules].
+  [[nodiscard]] double rounding_clearance() const;
+  /// Depth of the rack's straight flank, h_F [modules].
+  [[nodiscard]] double flank_depth() const { return rack_depth() - rounding_clearance(); }
   /// Rounding of the rack's tip, rho [mm].
   [[nodiscard]] double fillet_rounding_mm() const;
   /// Point of the rack-cut fillet [G-fillet] at gamma in [alpha_0, pi/2] [mm].
   [[nodiscard]] ProfilePoint fillet(double gamma) const;
   /// d/d gamma of fillet().
   [[nodiscard]] ProfilePoint fillet_slope(double gamma) const;
+
+ private:
+  /// Centre of the rack's rounding, a_1 below the pitch line and b_1 from the tooth's centre, and rho [mm].
+  struct RackTip {
+    double a_1, b_1, rho;
+  };
+  [[nodiscard]] RackTip rack_tip() const;
 };
 
 /// @throws DomainError when the data make no tooth (tip below root, module not positive, ...)

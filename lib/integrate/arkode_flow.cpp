@@ -9,12 +9,12 @@
 
 #include <arkode/arkode_butcher_erk.h>
 #include <arkode/arkode_erkstep.h>
-#include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_version.h>
 
 #include "core/errors.hpp"
 #include "integrate/methods.hpp"
+#include "integrate/state_vector.hpp"
 
 namespace epicyclic::integrate {
 
@@ -25,9 +25,6 @@ namespace {
 struct ContextDeleter {
   void operator()(SUNContext c) const { SUNContext_Free(&c); }
 };
-struct VectorDeleter {
-  void operator()(N_Vector v) const { N_VDestroy(v); }
-};
 struct StepperDeleter {
   void operator()(void* memory) const { ERKStepFree(&memory); }
 };
@@ -35,7 +32,6 @@ struct TableDeleter {
   void operator()(ARKodeButcherTable t) const { ARKodeButcherTable_Free(t); }
 };
 using Context = std::unique_ptr<std::remove_pointer_t<SUNContext>, ContextDeleter>;
-using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, VectorDeleter>;
 using Stepper = std::unique_ptr<void, StepperDeleter>;
 using Table = std::unique_ptr<std::remove_pointer_t<ARKodeButcherTable>, TableDeleter>;
 
@@ -43,42 +39,6 @@ Context make_context() {
   SUNContext c = nullptr;
   if (SUNContext_Create(nullptr, &c) != 0) throw SolverError("SUNContext_Create", -1, 0.0, "no context");
   return Context(c);
-}
-
-/// z = sum_j c_j x_j, element by element in the order of j. The stock serial operation goes through memory once for
-/// each x_j, which is most of the time of a small system's Runge-Kutta stage; this one keeps a block of z in registers.
-/// z may be one of the x_j.
-int linear_combination(int count, realtype* c, N_Vector* x, N_Vector z) {
-  constexpr sunindextype block = 8;
-  constexpr int most = 32;  // more than the stages of any pair
-  if (count > most) return -1;
-  std::array<const realtype*, most> in;
-  for (int j = 0; j < count; ++j) in[static_cast<std::size_t>(j)] = N_VGetArrayPointer_Serial(x[j]);
-  const sunindextype n = N_VGetLength_Serial(z);
-  realtype* out = N_VGetArrayPointer_Serial(z);
-  sunindextype first = 0;
-  for (; first + block <= n; first += block) {
-    realtype sum[block] = {};
-    for (int j = 0; j < count; ++j) {
-      const realtype* from = in[static_cast<std::size_t>(j)] + first;
-      for (sunindextype k = 0; k < block; ++k) sum[k] += c[j] * from[k];
-    }
-    std::copy(sum, sum + block, out + first);
-  }
-  for (; first < n; ++first) {
-    realtype sum = 0.0;
-    for (int j = 0; j < count; ++j) sum += c[j] * in[static_cast<std::size_t>(j)][first];
-    out[first] = sum;
-  }
-  return 0;
-}
-
-Vector make_vector(std::size_t dimension, SUNContext context) {
-  Vector v(N_VNew_Serial(static_cast<sunindextype>(dimension), context));
-  if (!v) throw SolverError("N_VNew_Serial", -1, 0.0, "no memory for " + std::to_string(dimension) + " numbers");
-  N_VEnableFusedOps_Serial(v.get(), SUNTRUE);
-  v->ops->nvlinearcombination = &linear_combination;  // clones inherit it
-  return v;
 }
 
 /// The pair's table, with its first-same-as-last stage written out where it must be.
@@ -107,13 +67,6 @@ Table make_table(const ErkMethod& method) {
   return table;
 }
 
-bool finite(const double* x, std::size_t n) {
-  // 0 * x is 0 for finite x, else NaN: one pass without branches.
-  double sum = 0.0;
-  for (std::size_t k = 0; k < n; ++k) sum += 0.0 * x[k];
-  return sum == 0.0;
-}
-
 class ArkodeFlow final : public Flow {
  public:
   ArkodeFlow(VectorField field, const IntegratorOptions& options, double fixed_step)
@@ -121,8 +74,8 @@ class ArkodeFlow final : public Flow {
         options_(options),
         fixed_step_(fixed_step),
         context_(make_context()),
-        y_(make_vector(field_.dimension, context_.get())),
-        sample_(make_vector(field_.dimension, context_.get())) {
+        y_(make_state_vector(field_.dimension, context_.get())),
+        sample_(make_state_vector(field_.dimension, context_.get())) {
     const ErkMethod* method = find_erk_method(options.method);
     if (method == nullptr) throw InputError("integrator method '" + options.method + "' is not known");
     stepper_.reset(ERKStepCreate(&ArkodeFlow::call_right_hand_side, 0.0, y_.get(), context_.get()));
@@ -139,8 +92,7 @@ class ArkodeFlow final : public Flow {
       check("ERKStepSetFixedStep", ERKStepSetFixedStep(stepper_.get(), fixed_step_));
       return;
     }
-    check("ERKStepSStolerances",
-          ERKStepSStolerances(stepper_.get(), options.relative_tolerance, options.absolute_tolerance));
+    check("ERKStepWFtolerances", ERKStepWFtolerances(stepper_.get(), &ArkodeFlow::error_weights));
     constexpr int i_controller = 2;
     constexpr double max_growth = 20.0;
     check("ERKStepSetAdaptivityMethod", ERKStepSetAdaptivityMethod(stepper_.get(), i_controller, 1, 0, nullptr));
@@ -178,7 +130,7 @@ class ArkodeFlow final : public Flow {
   Evolution evolve_segment(std::span<double> state, double from, double to, std::span<const double> samples,
                            std::size_t& next_sample, const Observer& observer, long& steps_left) {
     segment_ = segment_after(field_, from);
-    std::copy(state.begin(), state.end(), N_VGetArrayPointer(y_.get()));
+    std::copy(state.begin(), state.end(), data_of(y_.get()));
     phase_ = from;
     message_.clear();
     check("ERKStepReInit", ERKStepReInit(stepper_.get(), &ArkodeFlow::call_right_hand_side, from, y_.get()));
@@ -187,7 +139,7 @@ class ArkodeFlow final : public Flow {
 
     double s = from;
     double proposed = next_step_;
-    const double* y = N_VGetArrayPointer(y_.get());
+    const double* y = data_of(y_.get());
     while (s < to) {
       const double before = proposed;
       double reached = s;
@@ -195,7 +147,8 @@ class ArkodeFlow final : public Flow {
       if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
       if (flag < 0) return failure(flag, s);
       const bool at_end = flag == ARK_TSTOP_RETURN || reached >= to;
-      if (!finite(y, field_.dimension)) return {Outcome::failed, s, "the state is not finite after a step"};
+      if (!kernels_of(y_.get()).finite(y, padded_size(y_.get())))
+        return {Outcome::failed, s, "the state is not finite after a step"};
       s = at_end ? to : reached;
       std::copy(y, y + field_.dimension, state.begin());
       phase_ = s;
@@ -204,7 +157,7 @@ class ArkodeFlow final : public Flow {
           observer(next_sample, s, {y, field_.dimension});
         } else {
           check("ERKStepGetDky", ERKStepGetDky(stepper_.get(), samples[next_sample], 0, sample_.get()));
-          observer(next_sample, samples[next_sample], {N_VGetArrayPointer(sample_.get()), field_.dimension});
+          observer(next_sample, samples[next_sample], {data_of(sample_.get()), field_.dimension});
         }
         ++next_sample;
       }
@@ -213,8 +166,7 @@ class ArkodeFlow final : public Flow {
       if (at_end) proposed = std::max(proposed, before);
       long attempts = 0;
       check("ERKStepGetNumStepAttempts", ERKStepGetNumStepAttempts(stepper_.get(), &attempts));
-      const double largest = std::abs(
-          *std::max_element(y, y + field_.dimension, [](double a, double b) { return std::abs(a) < std::abs(b); }));
+      const double largest = kernels_of(y_.get()).absolute_max(y, padded_size(y_.get()));
       if (largest > options_.escape_bound) {
         return {Outcome::diverged, s,
                 "a component of the state left the bound " + std::to_string(options_.escape_bound)};
@@ -254,13 +206,21 @@ class ArkodeFlow final : public Flow {
     auto* self = static_cast<ArkodeFlow*>(user);
     ++self->calls_;
     try {
-      double* out = N_VGetArrayPointer(dyds);
-      self->field_.right_hand_side(self->segment_, s, N_VGetArrayPointer(y), out);
-      return finite(out, self->field_.dimension) ? 0 : 1;
+      double* out = data_of(dyds);
+      self->field_.right_hand_side(self->segment_, s, data_of(y), out);
+      return kernels_of(dyds).finite(out, padded_size(dyds)) ? 0 : 1;
     } catch (...) {
       self->thrown_ = std::current_exception();
       return -1;
     }
+  }
+
+  /// One pass: w_i = 1 / (rtol |y_i| + atol).
+  static int error_weights(N_Vector y, N_Vector weights, void* user) {
+    const auto* self = static_cast<ArkodeFlow*>(user);
+    kernels_of(y).error_weights(data_of(y), self->options_.relative_tolerance, self->options_.absolute_tolerance,
+                                data_of(weights), self->field_.dimension);
+    return 0;
   }
 
   static void keep_message(int /*code*/, const char* /*module*/, const char* function, char* text, void* user) {

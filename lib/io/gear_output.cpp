@@ -1,22 +1,253 @@
 #include "io/gear_output.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
+#include "gear/bearing.hpp"
+#include "gear/ehl_friction.hpp"
+#include "gear/gear_set.hpp"
 #include "io/atomic_file.hpp"
 #include "io/csv.hpp"
+#include "io/gear_figures.hpp"
+#include "io/gear_report.hpp"
 #include "model/modes.hpp"
 
 namespace epicyclic::io {
 
-std::string write_modes_csv(const std::filesystem::path& file, const gear::Stage& stage) {
-  const model::Scales scales = model::scales_of(stage);
-  CsvWriter csv({"mode", "frequency_Hz", "frequency_ratio", "type", "multiplicity"});
+namespace {
+
+constexpr int harmonics_shown = 3;
+
+std::string modes_csv(const gear::Stage& stage, const std::vector<model::Mode>& modes, const model::Scales& scales) {
+  std::vector<std::string> columns = {"mode", "frequency_Hz", "frequency_ratio", "type", "multiplicity"};
+  for (std::size_t k = 0; k < model::element_count; ++k)
+    columns.push_back("elastic_" + std::string(model::to_string(static_cast<model::Element>(k))));
+  for (std::size_t k = 0; k < model::motion_count; ++k)
+    columns.push_back("kinetic_" + std::string(model::to_string(static_cast<model::Motion>(k))));
+  const model::LinearStage linear = model::linear_stage(stage, scales);
+  CsvWriter csv(columns);
   int number = 1;
-  for (const model::Mode& mode : model::modes(stage, scales))
-    csv.row(number++, mode.frequency_ratio * scales.omega_sn / (2.0 * std::numbers::pi), mode.frequency_ratio,
-            model::to_string(mode.type), mode.multiplicity);
-  write_file_atomically(file, csv.text());
+  for (const model::Mode& mode : modes) {
+    const model::ModalEnergies e = model::modal_energies(linear, mode, stage.planet_count);
+    csv.cell(number++)
+        .cell(mode.frequency_ratio * scales.omega_sn / (2.0 * std::numbers::pi))
+        .cell(mode.frequency_ratio)
+        .cell(model::to_string(mode.type))
+        .cell(mode.multiplicity);
+    for (const double share : e.elastic) csv.cell(share);
+    for (const double share : e.kinetic) csv.cell(share);
+    csv.end_row();
+  }
   return csv.text();
+}
+
+std::string mode_shapes_csv(const gear::Stage& stage, const std::vector<model::Mode>& modes) {
+  std::vector<std::string> columns = {"mode", "shape"};
+  for (const std::string& name : model::coordinate_names(model::Layout::full, stage.planet_count))
+    columns.push_back(name);
+  CsvWriter csv(columns);
+  int number = 1;
+  for (const model::Mode& mode : modes) {
+    for (Eigen::Index k = 0; k < mode.shapes.cols(); ++k) {
+      csv.cell(number).cell(static_cast<int>(k) + 1);
+      for (Eigen::Index slot = 0; slot < mode.shapes.rows(); ++slot) csv.cell(mode.shapes(slot, k));
+      csv.end_row();
+    }
+    ++number;
+  }
+  return csv.text();
+}
+
+/// Where the harmonics of the mesh frequency meet the natural frequencies: Omega = frequency_ratio / h.
+std::string campbell_csv(const std::vector<model::Mode>& modes) {
+  CsvWriter csv({"mode", "type", "frequency_ratio", "harmonic", "mesh_frequency_ratio"});
+  int number = 1;
+  for (const model::Mode& mode : modes) {
+    if (mode.frequency_ratio > 0.0)
+      for (int h = 1; h <= harmonics_shown; ++h)
+        csv.row(number, model::to_string(mode.type), mode.frequency_ratio, h, mode.frequency_ratio / h);
+    ++number;
+  }
+  return csv.text();
+}
+
+/// Phases of the common s at which stiffness is tabulated: even ones, and both sides of each jump of either mesh.
+struct PhaseRow {
+  double phase;
+  double inside;  ///< a phase on the side that is meant
+};
+
+std::vector<PhaseRow> phase_rows(const gear::GearSet& set) {
+  constexpr int even = 500;
+  constexpr double side = 1e-9;
+  std::vector<PhaseRow> rows;
+  for (int k = 0; k < even; ++k) rows.push_back({static_cast<double>(k) / even, static_cast<double>(k) / even + side});
+  const auto jumps = [&](const gear::MeshedPair& mesh, double lead) {
+    for (const double own : mesh.breakpoints()) {
+      const double turns = own - lead;
+      const double phase = turns - std::floor(turns);
+      rows.push_back({phase, phase - side});
+      rows.push_back({phase, phase + side});
+    }
+  };
+  jumps(set.sun_planet, 0.0);
+  jumps(set.ring_planet, set.ring_mesh_lead);
+  std::sort(rows.begin(), rows.end(), [](const PhaseRow& a, const PhaseRow& b) { return a.inside < b.inside; });
+  return rows;
+}
+
+std::string stiffness_csv(const gear::GearSet& set) {
+  CsvWriter csv({"phase", "k_sp_N_per_m", "k_rp_N_per_m", "k_sp_fourier_N_per_m", "k_rp_fourier_N_per_m"});
+  const auto value = [](const gear::MeshedPair& mesh, const PhaseRow& row, double lead) {
+    const double inside = row.inside + lead;
+    const double turns = std::floor(inside);
+    return mesh.stiffness(row.phase + lead - turns, inside - turns);
+  };
+  for (const PhaseRow& row : phase_rows(set))
+    csv.row(row.phase, value(set.sun_planet, row, 0.0), value(set.ring_planet, row, set.ring_mesh_lead),
+            set.sun_planet_stiffness.at(row.phase), set.ring_planet_stiffness.at(row.phase + set.ring_mesh_lead));
+  return csv.text();
+}
+
+struct NamedMesh {
+  const char* name;
+  const gear::MeshedPair& pair;
+  const gear::Mesh& mesh;
+  gear::LineOfAction line;
+};
+
+std::vector<NamedMesh> meshes(const gear::GearSet& set, const gear::Stage& stage) {
+  return {{"sp", set.sun_planet, stage.sun_planet_mesh, gear::sun_planet_line(stage)},
+          {"rp", set.ring_planet, stage.ring_planet_mesh, gear::ring_planet_line(stage)}};
+}
+
+std::string load_sharing_csv(const std::vector<NamedMesh>& both, const gear::Lubrication& any) {
+  CsvWriter csv({"mesh", "position", "distance_from_pitch_point_mm", "share"});
+  for (const NamedMesh& m : both) {
+    const gear::Friction::Ehl e = gear::ehl_of(m.pair, any);
+    for (std::size_t k = 0; k < e.share.size(); ++k)
+      csv.row(m.name, e.share_position[k], m.pair.arm_mm(e.share_position[k]) - m.pair.pair.pitch_arm_mm, e.share[k]);
+  }
+  return csv.text();
+}
+
+std::string friction_csv(const std::vector<NamedMesh>& both, const gear::Lubrication& lubrication,
+                         const gear::MeshLoad& load) {
+  CsvWriter csv({"mesh", "position", "distance_from_pitch_point_mm", "sliding_m_per_s", "rolling_m_per_s",
+                 "slide_to_roll", "pressure_GPa", "radius_mm", "share", "mu", "signed_ratio", "within_range"});
+  for (const NamedMesh& m : both) {
+    const gear::Friction::Ehl e = gear::ehl_of(m.pair, lubrication);
+    for (std::size_t k = 0; k < e.share.size(); ++k) {
+      const gear::LubricatedContact c = gear::lubricated_contact(e, m.line, load, e.share_position[k], e.share[k]);
+      const double mu = gear::xu_friction_coefficient(c);
+      csv.row(m.name, e.share_position[k], m.pair.arm_mm(e.share_position[k]) - m.pair.pair.pitch_arm_mm,
+              c.slide_to_roll * c.rolling_m_per_s, c.rolling_m_per_s, c.slide_to_roll, c.pressure_GPa, 1e3 * c.radius_m,
+              e.share[k], mu, c.slide_to_roll > 0.0 ? -mu : mu, static_cast<int>(gear::within_xu_range(c)));
+    }
+  }
+  return csv.text();
+}
+
+std::string friction_ratios_csv(const std::vector<NamedMesh>& both, const gear::Lubrication& lubrication,
+                                const gear::MeshLoad& load) {
+  CsvWriter csv({"mesh", "phase", "force_ratio", "moment_ratio_driving_mm", "moment_ratio_driven_mm"});
+  for (const NamedMesh& m : both) {
+    const gear::Friction::Table t = gear::friction_table(gear::ehl_of(m.pair, lubrication), m.line, load);
+    for (std::size_t k = 0; k < t.phase.size(); ++k)
+      csv.row(m.name, t.phase[k], t.force_ratio[k], t.moment_driving_mm[k], t.moment_driven_mm[k]);
+  }
+  return csv.text();
+}
+
+std::string bearings_csv(const gear::Catalogue& catalogue) {
+  CsvWriter csv({"member", "bearing", "approach_um", "stiffness_N_per_m", "force_N"});
+  const auto rows = [&](const char* member, const std::optional<gear::SupportBearing>& bearing) {
+    if (!bearing) return;
+    const gear::BearingType type = *gear::find_bearing(bearing->type);
+    const double coefficient = gear::palmgren_coefficient(type.balls, type.ball_diameter_mm, 0.0);
+    constexpr int count = 50;
+    for (int k = 0; k <= count; ++k) {
+      const double approach_um = k;
+      csv.row(member, bearing->type, approach_um, gear::palmgren_stiffness(coefficient, approach_um * 1e-6),
+              gear::palmgren_force(coefficient, approach_um * 1e-6));
+    }
+  };
+  rows("sun", catalogue.sun_bearing);
+  rows("carrier", catalogue.carrier.bearing);
+  return csv.text();
+}
+
+/// Collects files as they are written.
+class Folder {
+ public:
+  explicit Folder(std::filesystem::path path) : path_(std::move(path)) {}
+  void write(const std::string& name, const std::string& text) {
+    write_file_atomically(path_ / name, text);
+    files_.push_back(name);
+  }
+  [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
+
+ private:
+  std::filesystem::path path_;
+  std::vector<std::string> files_;
+};
+
+void note_figures(GearOutput& out, const std::vector<GearFigure>& figures) {
+  for (const GearFigure& figure : figures) {
+    if (figure.outcome.drawn())
+      out.figures.push_back(figure.stem);
+    else
+      out.undrawn.push_back(figure.stem + ": " + figure.outcome.message);
+  }
+}
+
+}  // namespace
+
+GearOutput write_gear_output(const std::filesystem::path& path, const LoadedInput& input) {
+  const gear::Stage& stage = input.study.stage;
+  const model::Scales scales = model::scales_of(stage);
+  const std::vector<model::Mode> modes = model::modes(stage, scales);
+  const bool moves = gear::problems_for_motion(stage).empty();
+  const double mesh_frequency = input.study.mesh_frequency_ratio * scales.omega_sn;
+  const std::filesystem::path figures = path / "figures";
+  Folder folder(path);
+  GearOutput out;
+  GearPage page;
+  page.title = stage.name.empty() ? "Planetary stage" : "Planetary stage " + stage.name;
+
+  out.modes = modes_csv(stage, modes, scales);
+  folder.write("modes.csv", out.modes);
+  folder.write("mode_shapes.csv", mode_shapes_csv(stage, modes));
+  folder.write("campbell.csv", campbell_csv(modes));
+  if (stage.catalogue) {
+    const gear::GearSet set = gear::make_gear_set(stage);
+    page.quantities = gear_quantities(set, stage);
+    out.verdicts = contact_verdicts(set, stage);
+    out.warnings = gear::catalogue_warnings(set);
+    const auto both = meshes(set, stage);
+    folder.write("stiffness.csv", stiffness_csv(set));
+    folder.write("load_sharing.csv", load_sharing_csv(both, set.catalogue.lubrication.value_or(gear::Lubrication{})));
+    folder.write("bearings.csv", bearings_csv(set.catalogue));
+    gear::MeshLoad load;
+    if (moves) load = gear::mean_mesh_load(stage, mesh_frequency);
+    if (moves && set.catalogue.lubrication) {
+      folder.write("friction.csv", friction_csv(both, *set.catalogue.lubrication, load));
+      folder.write("friction_ratios.csv", friction_ratios_csv(both, *set.catalogue.lubrication, load));
+    }
+    note_figures(out, draw_gear_set_figures(figures, set, load, stage));
+  }
+  for (Quantity& q : operating_quantities(stage, input.study.mesh_frequency_ratio))
+    page.quantities.push_back(std::move(q));
+  folder.write("geometry.csv", quantities_csv(page.quantities));
+  note_figures(out, draw_mode_figures(figures, stage));
+
+  page.verdicts = out.verdicts;
+  page.warnings = out.warnings;
+  page.figures = out.figures;
+  page.files = folder.files();
+  folder.write("gear.md", gear_page(page, input, modes, scales));
+  return out;
 }
 
 }  // namespace epicyclic::io

@@ -1,16 +1,27 @@
-// What `epicyclic gear` writes: modes.csv.
+// What `epicyclic gear` writes: tables as CSV, figures, and the page gear.md.
+//
+//   any stage         modes.csv mode_shapes.csv campbell.csv gear.md
+//   catalogue data    geometry.csv stiffness.csv load_sharing.csv friction.csv friction_ratios.csv bearings.csv
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
-#include "gear/stage.hpp"
+#include "io/study_input.hpp"
 
 namespace epicyclic::io {
 
-/// One row per distinct frequency and type, multiplicity counted: mode,frequency_Hz,frequency_ratio,type,multiplicity.
-/// @returns the text of the file
+struct GearOutput {
+  std::string modes;                  ///< text of modes.csv
+  std::vector<std::string> verdicts;  ///< plain sentences for people
+  std::vector<std::string> warnings;
+  std::vector<std::string> figures;  ///< stems of the figures that were drawn
+  std::vector<std::string> undrawn;  ///< "stem: why not"
+};
+
+/// Writes everything to a folder; the operating point is the study's, Omega = 1 for a stage alone.
 /// @throws OutputError
-std::string write_modes_csv(const std::filesystem::path& file, const gear::Stage& stage);
+GearOutput write_gear_output(const std::filesystem::path& folder, const LoadedInput& input);
 
 }  // namespace epicyclic::io

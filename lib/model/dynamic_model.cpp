@@ -31,6 +31,7 @@ std::vector<double> static_equilibrium(Parameters<double, N> p) {
   // delta = b + F/k on the drive flank is the stage without gaps whose errors are larger by b.
   const auto linear = [](MeshParameters<double, N>& mesh) {
     mesh.harmonics = 0;
+    mesh.stiffness_curve = nullptr;
     mesh.friction = nullptr;
     for (double& e : mesh.error_cos) e += mesh.half_gap;
     mesh.error_sin.fill(0.0);

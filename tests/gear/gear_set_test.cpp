@@ -330,6 +330,7 @@ TEST(GearSet, StiffnessCurveIsTheMeshesOwnOnBothSidesOfItsJumps) {
     }
     Stage s = problems::tang2020();
     s.sun_planet_mesh.stiffness_curve = c;
+    s.sun_planet_mesh.stiffness_N_per_m = fourier_series(mesh, 1).mean;
     s.sun_planet_mesh.stiffness_cos_N_per_m.clear();
     s.sun_planet_mesh.stiffness_sin_N_per_m.clear();
     EXPECT_EQ(joined(problems_for_motion(s)), "");

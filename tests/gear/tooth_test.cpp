@@ -251,7 +251,11 @@ TEST(Fillet, IsTheEnvelopeOfTheRollingRacksRounding) {
     const Tooth t = external_tooth(d);
     const double m = d.module_mm;
     const double alpha = d.pressure_angle_deg * degree;
-    const double rho = d.clearance_coefficient * m / (1.0 - std::sin(alpha));
+    // A rounding that fits into the rack's tooth: at most a full tip radius.
+    const double tip = d.addendum_coefficient + d.clearance_coefficient;
+    const double full = (0.25 * pi - tip * std::tan(alpha)) * std::cos(alpha) / (1.0 - std::sin(alpha));
+    const double rho = m * std::min(d.clearance_coefficient / (1.0 - std::sin(alpha)), full);
+    EXPECT_NEAR(t.fillet_rounding_mm(), rho, rounding_mm);
     const double v = d.profile_shift * m - (d.addendum_coefficient + d.clearance_coefficient) * m + rho;
     const double u = 0.25 * pi * m + (d.profile_shift * m - v) * std::tan(alpha) + rho / std::cos(alpha);
     const double r = 0.5 * m * d.teeth;
@@ -283,6 +287,24 @@ TEST(Fillet, IsTheEnvelopeOfTheRollingRacksRounding) {
       EXPECT_NEAR(distance(p, 0.5 * (low + high)), rho, rounding_mm * 10.0) << d.teeth << " at " << share;
     }
   }
+}
+
+TEST(Fillet, StaysWithinItsHalfOfTheToothSpace) {
+  // At 25 degrees a clearance of 0.25 asks for a rounding wider than the rack's tip: a full tip radius is taken.
+  for (const double angle : {14.5, 20.0, 25.0, 28.0}) {
+    const Tooth t = external_tooth({27, 2.63, angle, 0.3, 1, 0.25, 60, {}, {}});
+    const ProfilePoint foot = t.fillet(0.5 * pi);
+    EXPECT_LE(std::atan2(foot.x, foot.y), pi / t.teeth * (1.0 + 1e-12)) << angle;
+    EXPECT_NEAR(std::hypot(foot.x, foot.y), t.root_radius_mm, rounding_mm) << angle;
+  }
+}
+
+TEST(Fillet, ReachesARootCircleThatIsGiven) {
+  GearData d{40, 2, 20, 0.1, 1, 0.25, 20, {}, {}};
+  d.root_diameter_mm = 75.6;
+  const Tooth t = external_tooth(d);
+  const ProfilePoint foot = t.fillet(0.5 * pi);
+  EXPECT_NEAR(std::hypot(foot.x, foot.y), 37.8, rounding_mm);
 }
 
 TEST(Undercut, LimitIsThatOfTheTextbook) {

@@ -87,6 +87,7 @@ TEST(StiffnessCurve, BreakpointsOfEachPlanetAreKnownToTheIntegrator) {
   }
   // Two pairs until phase 0.2, one behind it.
   s.sun_planet_mesh.stiffness_curve = gear::StiffnessCurve{{0.0, 0.0, 0.2, 0.2}, {1e9, 1.8e9, 1.8e9, 1e9}, {0.0, 0.2}};
+  s.sun_planet_mesh.stiffness_N_per_m = 0.2 * 1.8e9 + 0.8 * 1e9;
   ASSERT_TRUE(gear::problems_for_motion(s).empty());
   const DynamicModel model = model_of(s);
   // s_spi = s - z_s phi_i: 28/3 leaves planets 2 and 3 a third of a period apart.
@@ -96,6 +97,23 @@ TEST(StiffnessCurve, BreakpointsOfEachPlanetAreKnownToTheIntegrator) {
   std::sort(expected.begin(), expected.end());
   ASSERT_EQ(model.breakpoints.size(), expected.size());
   for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(model.breakpoints[k], expected[k], 1e-9);
+}
+
+TEST(StiffnessCurve, DefaultStartTakesTheMeanStiffness) {
+  const gear::Stage s = with_harmonics();
+  const auto a = model_of(s).default_start;
+  const auto b = model_of(tabulated(s, 64)).default_start;
+  ASSERT_EQ(a.size(), b.size());
+  constexpr double rounding = 1e-12;
+  for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], rounding);
+}
+
+TEST(StiffnessCurve, MustHaveTheMeanThatIsGiven) {
+  gear::Stage s = tabulated(with_harmonics(), 64);
+  s.ring_planet_mesh.stiffness_N_per_m *= 1.02;
+  const auto problems = gear::problems_for_motion(s);
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].rfind("/lumped/ring_planet_mesh/stiffness_N_per_m: is ", 0), 0U);
 }
 
 TEST(StiffnessCurve, ExcludesHarmonics) {

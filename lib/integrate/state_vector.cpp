@@ -1,0 +1,263 @@
+#include "integrate/state_vector.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <string>
+
+#include "core/errors.hpp"
+
+namespace epicyclic::integrate {
+
+namespace {
+
+constexpr std::align_val_t alignment{64};
+
+/// What stands behind N_Vector's content pointer.
+struct Content {
+  std::size_t length = 0;
+  std::size_t size = 0;  ///< with padding
+  const VectorKernels* kernels = nullptr;
+  double* data = nullptr;
+  bool owns = false;
+};
+
+Content& content_of(N_Vector v) { return *static_cast<Content*>(v->content); }
+double* data(N_Vector v) { return content_of(v).data; }
+const VectorKernels& kernels(N_Vector v) { return *content_of(v).kernels; }
+std::size_t size(N_Vector v) { return content_of(v).size; }
+std::size_t length(N_Vector v) { return content_of(v).length; }
+
+// ---- memory -------------------------------------------------------------------------------------------------------
+
+double* allocate(std::size_t count) {
+  auto* memory = static_cast<double*>(::operator new(count * sizeof(double), alignment, std::nothrow));
+  if (memory != nullptr) std::fill(memory, memory + count, 0.0);
+  return memory;
+}
+
+void destroy(N_Vector v) {
+  if (v == nullptr) return;
+  if (auto* content = static_cast<Content*>(v->content)) {
+    if (content->owns) ::operator delete(content->data, alignment);
+    delete content;
+    v->content = nullptr;
+  }
+  N_VFreeEmpty(v);
+}
+
+N_Vector clone_empty(N_Vector like) {
+  N_Vector v = N_VNewEmpty(like->sunctx);
+  if (v == nullptr) return nullptr;
+  if (N_VCopyOps(like, v) != 0) {
+    N_VFreeEmpty(v);
+    return nullptr;
+  }
+  auto* content = new (std::nothrow) Content{length(like), size(like), &kernels(like), nullptr, false};
+  if (content == nullptr) {
+    N_VFreeEmpty(v);
+    return nullptr;
+  }
+  v->content = content;
+  return v;
+}
+
+N_Vector clone(N_Vector like) {
+  N_Vector v = clone_empty(like);
+  if (v == nullptr) return nullptr;
+  Content& content = content_of(v);
+  content.data = allocate(content.size);
+  content.owns = true;
+  if (content.data != nullptr) return v;
+  destroy(v);
+  return nullptr;
+}
+
+N_Vector_ID identity(N_Vector /*v*/) { return SUNDIALS_NVEC_CUSTOM; }
+sunindextype length_of(N_Vector v) { return static_cast<sunindextype>(length(v)); }
+void space(N_Vector v, sunindextype* reals, sunindextype* integers) {
+  *reals = static_cast<sunindextype>(size(v));
+  *integers = 4;
+}
+realtype* array_pointer(N_Vector v) { return data(v); }
+
+// ---- standard operations ------------------------------------------------------------------------------------------
+
+void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector z) {
+  kernels(z).linear_sum(a, data(x), b, data(y), data(z), size(z));
+}
+void constant(realtype c, N_Vector z) { kernels(z).constant(c, data(z), length(z)); }
+void product(N_Vector x, N_Vector y, N_Vector z) { kernels(z).product(data(x), data(y), data(z), size(z)); }
+void quotient(N_Vector x, N_Vector y, N_Vector z) { kernels(z).quotient(data(x), data(y), data(z), length(z)); }
+void scale(realtype c, N_Vector x, N_Vector z) {
+  if (c == 1.0) {
+    if (x != z) std::copy(data(x), data(x) + size(x), data(z));
+    return;
+  }
+  kernels(z).scale(c, data(x), data(z), size(z));
+}
+void absolute(N_Vector x, N_Vector z) { kernels(z).absolute(data(x), data(z), size(z)); }
+void inverse(N_Vector x, N_Vector z) { kernels(z).inverse(data(x), data(z), length(z)); }
+void add_constant(N_Vector x, realtype b, N_Vector z) { kernels(z).add_constant(data(x), b, data(z), length(z)); }
+realtype dot(N_Vector x, N_Vector y) { return kernels(x).dot(data(x), data(y), size(x)); }
+realtype max_norm(N_Vector x) { return kernels(x).absolute_max(data(x), size(x)); }
+realtype l1_norm(N_Vector x) { return kernels(x).absolute_sum(data(x), size(x)); }
+realtype weighted_square_sum(N_Vector x, N_Vector w) {
+  return kernels(x).weighted_square_sum(data(x), data(w), size(x));
+}
+realtype wrms_norm(N_Vector x, N_Vector w) {
+  return std::sqrt(weighted_square_sum(x, w) / static_cast<double>(length(x)));
+}
+realtype wl2_norm(N_Vector x, N_Vector w) { return std::sqrt(weighted_square_sum(x, w)); }
+
+// The operations below are asked for by constraints and preconditioners only: plain loops.
+
+realtype masked_square_sum(N_Vector x, N_Vector w, N_Vector id) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < length(x); ++i)
+    if (data(id)[i] > 0.0) sum += (data(x)[i] * data(w)[i]) * (data(x)[i] * data(w)[i]);
+  return sum;
+}
+realtype wrms_norm_mask(N_Vector x, N_Vector w, N_Vector id) {
+  return std::sqrt(masked_square_sum(x, w, id) / static_cast<double>(length(x)));
+}
+realtype minimum(N_Vector x) { return *std::min_element(data(x), data(x) + length(x)); }
+void compare(realtype c, N_Vector x, N_Vector z) {
+  for (std::size_t i = 0; i < length(x); ++i) data(z)[i] = std::abs(data(x)[i]) >= c ? 1.0 : 0.0;
+}
+booleantype inverse_test(N_Vector x, N_Vector z) {
+  bool all = true;
+  for (std::size_t i = 0; i < length(x); ++i) {
+    if (data(x)[i] == 0.0)
+      all = false;
+    else
+      data(z)[i] = 1.0 / data(x)[i];
+  }
+  return all ? SUNTRUE : SUNFALSE;
+}
+booleantype constraint_mask(N_Vector c, N_Vector x, N_Vector m) {
+  bool all = true;
+  for (std::size_t i = 0; i < length(x); ++i) {
+    const double kind = data(c)[i];
+    const double value = data(x)[i] * kind;
+    const bool strict = std::abs(kind) > 1.5;
+    const bool broken = kind != 0.0 && (strict ? value <= 0.0 : value < 0.0);
+    data(m)[i] = broken ? 1.0 : 0.0;
+    all = all && !broken;
+  }
+  return all ? SUNTRUE : SUNFALSE;
+}
+realtype min_quotient(N_Vector numerator, N_Vector denominator) {
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < length(numerator); ++i)
+    if (data(denominator)[i] != 0.0) least = std::min(least, data(numerator)[i] / data(denominator)[i]);
+  return least;
+}
+
+// ---- fused operations ---------------------------------------------------------------------------------------------
+
+/// More than the stages of any pair, and than the order of any multistep method.
+constexpr int fused_most = 32;
+
+int linear_combination(int count, realtype* c, N_Vector* x, N_Vector z) {
+  if (count < 1 || count > fused_most) return -1;
+  std::array<const double*, fused_most> from;
+  for (int j = 0; j < count; ++j) from[static_cast<std::size_t>(j)] = data(x[j]);
+  kernels(z).linear_combination(count, c, from.data(), data(z), size(z));
+  return 0;
+}
+
+int scale_add_multi(int count, realtype* a, N_Vector x, N_Vector* y, N_Vector* z) {
+  for (int j = 0; j < count; ++j) linear_sum(a[j], x, 1.0, y[j], z[j]);
+  return 0;
+}
+
+int dot_multi(int count, N_Vector x, N_Vector* y, realtype* products) {
+  for (int j = 0; j < count; ++j) products[j] = dot(x, y[j]);
+  return 0;
+}
+
+int linear_sum_array(int count, realtype a, N_Vector* x, realtype b, N_Vector* y, N_Vector* z) {
+  for (int j = 0; j < count; ++j) linear_sum(a, x[j], b, y[j], z[j]);
+  return 0;
+}
+
+int scale_array(int count, realtype* c, N_Vector* x, N_Vector* z) {
+  for (int j = 0; j < count; ++j) scale(c[j], x[j], z[j]);
+  return 0;
+}
+
+int constant_array(int count, realtype c, N_Vector* z) {
+  for (int j = 0; j < count; ++j) constant(c, z[j]);
+  return 0;
+}
+
+void set_operations(N_Vector_Ops ops) {
+  ops->nvgetvectorid = &identity;
+  ops->nvclone = &clone;
+  ops->nvcloneempty = &clone_empty;
+  ops->nvdestroy = &destroy;
+  ops->nvspace = &space;
+  ops->nvgetarraypointer = &array_pointer;
+  ops->nvgetlength = &length_of;
+  ops->nvlinearsum = &linear_sum;
+  ops->nvconst = &constant;
+  ops->nvprod = &product;
+  ops->nvdiv = &quotient;
+  ops->nvscale = &scale;
+  ops->nvabs = &absolute;
+  ops->nvinv = &inverse;
+  ops->nvaddconst = &add_constant;
+  ops->nvdotprod = &dot;
+  ops->nvmaxnorm = &max_norm;
+  ops->nvwrmsnorm = &wrms_norm;
+  ops->nvwrmsnormmask = &wrms_norm_mask;
+  ops->nvmin = &minimum;
+  ops->nvwl2norm = &wl2_norm;
+  ops->nvl1norm = &l1_norm;
+  ops->nvcompare = &compare;
+  ops->nvinvtest = &inverse_test;
+  ops->nvconstrmask = &constraint_mask;
+  ops->nvminquotient = &min_quotient;
+  ops->nvlinearcombination = &linear_combination;
+  ops->nvscaleaddmulti = &scale_add_multi;
+  ops->nvdotprodmulti = &dot_multi;
+  ops->nvlinearsumvectorarray = &linear_sum_array;
+  ops->nvscalevectorarray = &scale_array;
+  ops->nvconstvectorarray = &constant_array;
+  // Reductions of one process are its local ones.
+  ops->nvdotprodlocal = &dot;
+  ops->nvmaxnormlocal = &max_norm;
+  ops->nvminlocal = &minimum;
+  ops->nvl1normlocal = &l1_norm;
+  ops->nvinvtestlocal = &inverse_test;
+  ops->nvconstrmasklocal = &constraint_mask;
+  ops->nvminquotientlocal = &min_quotient;
+  ops->nvwsqrsumlocal = &weighted_square_sum;
+  ops->nvwsqrsummasklocal = &masked_square_sum;
+}
+
+}  // namespace
+
+Vector make_state_vector(std::size_t dimension, SUNContext context, const VectorKernels& chosen) {
+  const auto no_memory = [&] {
+    return SolverError("make_state_vector", -1, 0.0, "no memory for " + std::to_string(dimension) + " numbers");
+  };
+  Vector v(N_VNewEmpty(context));
+  if (!v) throw no_memory();
+  set_operations(v->ops);
+  const std::size_t padded = (dimension + vector_block - 1) / vector_block * vector_block;
+  auto content = std::make_unique<Content>(Content{dimension, padded, &chosen, nullptr, true});
+  content->data = allocate(padded);
+  v->content = content.release();
+  if (content_of(v.get()).data == nullptr) throw no_memory();
+  return v;
+}
+
+double* data_of(N_Vector v) { return data(v); }
+std::size_t padded_size(N_Vector v) { return size(v); }
+const VectorKernels& kernels_of(N_Vector v) { return kernels(v); }
+
+}  // namespace epicyclic::integrate

@@ -1,0 +1,343 @@
+#include "io/gear_report.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
+#include "gear/bearing.hpp"
+#include "gear/kinematics.hpp"
+#include "io/csv.hpp"
+
+namespace epicyclic::io {
+
+namespace {
+
+constexpr double degree = 180.0 / std::numbers::pi;
+
+/// Collects quantities of one group.
+class Group {
+ public:
+  Group(std::vector<Quantity>& all, std::string name) : all_(all), name_(std::move(name)) {}
+
+  void add(const std::string& name, const std::string& symbol, double value, const std::string& unit,
+           const std::string& formula) {
+    all_.push_back({name_, name, symbol, value, unit, formula});
+  }
+
+ private:
+  std::vector<Quantity>& all_;
+  std::string name_;
+};
+
+void add_tooth(std::vector<Quantity>& all, const gear::Tooth& t, const std::string& member, const std::string& index) {
+  Group g(all, "Teeth of the " + member);
+  const auto name = [&](const char* what) { return member + "_" + what; };
+  g.add(name("module"), "m_" + index, t.module_mm, "mm", t.internal ? "[G-mr]" : "given");
+  g.add(name("reference_radius"), "r_" + index, t.reference_radius_mm, "mm", "[G-inv]");
+  g.add(name("base_radius"), "r_b" + index, t.base_radius_mm, "mm", "[G-inv]");
+  g.add(name("tip_radius"), "r_a" + index, t.tip_radius_mm, "mm", "[G-tooth]");
+  g.add(name("root_radius"), "r_f" + index, t.root_radius_mm, "mm", "[G-tooth]");
+  if (!t.internal) g.add(name("form_radius"), "r_F" + index, t.form_radius_mm(), "mm", "[G-form]");
+  g.add(name("base_half_angle"), "α_2" + index, t.base_half_angle, "rad", "[G-tooth]");
+  g.add(name("base_pitch"), "p_b" + index, t.base_pitch_mm(), "mm", "[G-inv]");
+  g.add(name("tip_thickness"), "s_a" + index, t.thickness_at(t.tip_radius_mm), "mm", "[G-tooth]");
+  if (!t.internal) g.add(name("undercut_limit"), "x_min" + index, t.undercut_limit(), "-", "[G-form]");
+}
+
+void add_pair(std::vector<Quantity>& all, const gear::Pair& p, const std::string& mesh, const std::string& index,
+              const std::string& title) {
+  Group g(all, "Contact of " + title);
+  const auto name = [&](const char* what) { return mesh + "_" + what; };
+  g.add(name("operating_pressure_angle"), "α_" + index, p.pressure_angle * degree, "deg", "[G-pair]");
+  g.add(name("tight_centre_distance"), "a_0" + index, tight_centre_distance_mm(p.driving, p.driven), "mm", "[G-a0]");
+  g.add(name("operating_pitch_radius_driving"), "r_w1", p.pitch_radius_1_mm(), "mm", "[G-pair]");
+  g.add(name("operating_pitch_radius_driven"), "r_w2", p.pitch_radius_2_mm(), "mm", "[G-pair]");
+  g.add(name("line_of_action_length"), "N_1N_2", p.theoretical_length_mm, "mm", "[G-pair]");
+  g.add(name("contact_start"), "N_1B_2", p.start_mm, "mm", "[G-path]");
+  g.add(name("contact_end"), "N_1B_1", p.end_mm, "mm", "[G-path]");
+  g.add(name("pitch_point"), "N_1C", p.pitch_arm_mm, "mm", "[G-path]");
+  g.add(name("start_beyond_pitch_point"), "CB_2", p.start_mm - p.pitch_arm_mm, "mm", "[G-path]");
+  g.add(name("end_beyond_pitch_point"), "CB_1", p.end_mm - p.pitch_arm_mm, "mm", "[G-path]");
+  g.add(name("contact_ratio"), "ε_" + index, p.contact_ratio(), "-", "[G-path]");
+  // A pair without backlash has one at rounding level.
+  constexpr double rounding_mm = 1e-12;
+  const bool none = std::abs(p.backlash_mm()) < rounding_mm;
+  g.add(name("backlash"), "j_t", none ? 0.0 : p.backlash_mm(), "mm", "[G-j]");
+  g.add(name("normal_backlash"), "j_bn", none ? 0.0 : p.normal_backlash_mm(), "mm", "[G-j]");
+  g.add(name("tip_clearance_driving"), "c_1", p.tip_clearance_1_mm(), "mm", "[G-pair]");
+  g.add(name("tip_clearance_driven"), "c_2", p.tip_clearance_2_mm(), "mm", "[G-pair]");
+  g.add(name("active_radius_driving"), "r_A1", p.radius_1_mm(p.start_mm), "mm", "[G-path]");
+  g.add(name("active_radius_driven"), "r_A2", p.radius_2_mm(p.internal() ? p.start_mm : p.end_mm), "mm", "[G-path]");
+}
+
+void add_stiffness(std::vector<Quantity>& all, const gear::MeshedPair& m, const gear::FourierSeries& series,
+                   const std::string& mesh, const std::string& title) {
+  Group g(all, "Stiffness of " + title);
+  const auto name = [&](const std::string& what) { return mesh + "_" + what; };
+  const gear::StiffnessRange range = gear::stiffness_range(m);
+  const gear::IsoStiffness iso = gear::iso_stiffness(m);
+  g.add(name("stiffness_mean"), "k_0", series.mean, "N/m", "[G-k]");
+  g.add(name("stiffness_least"), "k_min", range.least, "N/m", "[G-k]");
+  g.add(name("stiffness_greatest"), "k_max", range.greatest, "N/m", "[G-k]");
+  for (std::size_t h = 0; h < series.cosine.size(); ++h) {
+    const std::string order = std::to_string(h + 1);
+    g.add(name("stiffness_cos_" + order), "A_" + order, series.cosine[h], "N/m", "[G-4]");
+    g.add(name("stiffness_sin_" + order), "B_" + order, series.sine[h], "N/m", "[G-4]");
+  }
+  g.add(name("iso_single_stiffness"), "c'b", iso.single, "N/m", "[G-iso]");
+  g.add(name("iso_mesh_stiffness"), "c_γ b", iso.mesh, "N/m", "[G-iso]");
+  const auto compliance = [&](const gear::ToothBody& body, double radius, const std::string& member) {
+    const gear::ToothCompliance c = gear::tooth_compliance(body, radius, m.options);
+    g.add(name(member + "_bending_compliance"), "1/k_b", c.bending, "m/N", body.tooth.internal ? "[G-kr]" : "[G-kb]");
+    g.add(name(member + "_shear_compliance"), "1/k_s", c.shear, "m/N", body.tooth.internal ? "[G-kr]" : "[G-ks]");
+    g.add(name(member + "_axial_compliance"), "1/k_a", c.axial, "m/N", body.tooth.internal ? "[G-kr]" : "[G-ka]");
+    g.add(name(member + "_foundation_compliance"), "1/k_f", c.foundation, "m/N",
+          body.tooth.internal ? "[G-kfr]" : "[G-kf]");
+  };
+  const double middle = 0.5 * (m.pair.start_mm + m.pair.end_mm);
+  compliance(m.driving, m.pair.radius_1_mm(middle), "driving");
+  compliance(m.driven, m.pair.radius_2_mm(middle), "driven");
+}
+
+void add_tolerances(std::vector<Quantity>& all, const std::optional<gear::Tolerances>& t, const std::string& member) {
+  if (!t) return;
+  Group g(all, "Tolerances of the " + member);
+  const auto name = [&](const char* what) { return member + "_" + what; };
+  g.add(name("single_pitch_deviation"), "f_pt", t->single_pitch, "um", "[G-1328]");
+  g.add(name("cumulative_pitch_deviation"), "F_p", t->cumulative_pitch, "um", "[G-1328]");
+  g.add(name("profile_deviation"), "F_α", t->profile, "um", "[G-1328]");
+  g.add(name("profile_form_deviation"), "f_fα", t->profile_form, "um", "[G-1328]");
+  g.add(name("profile_slope_deviation"), "f_Hα", t->profile_slope, "um", "[G-1328]");
+  g.add(name("helix_deviation"), "F_β", t->helix, "um", "[G-1328]");
+  g.add(name("single_flank_deviation"), "f_i'", t->single_flank, "um", "[G-1328], from memory of the standard");
+}
+
+std::string shown(double value) {
+  if (value == 0.0) return "0";
+  const double size = std::abs(value);
+  return size >= 1e6 || size < 1e-3 ? fmt::format("{:.6e}", value) : fmt::format("{:.7g}", value);
+}
+
+/// A cell of a Markdown table: nothing in it may end the cell or the line, or become HTML.
+std::string cell(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '|')
+      safe += "\\|";
+    else if (c == '<')
+      safe += "&lt;";
+    else if (c == '\n' || c == '\r')
+      safe += ' ';
+    else
+      safe += c;
+  }
+  return safe;
+}
+
+void append_values(std::string& page, const nlohmann::json& value, const std::string& pointer,
+                   const std::string& origin, const std::string& key) {
+  if (value.is_object()) {
+    const auto origins = value.find("origin");
+    for (const auto& [name, child] : value.items()) {
+      if (name == "origin" || name == "note") continue;
+      std::string of_child;
+      if (origins != value.end() && origins->is_object())
+        if (const auto text = origins->find(name); text != origins->end()) of_child = text->get<std::string>();
+      append_values(page, child, pointer + "/" + name, of_child, name);
+    }
+    return;
+  }
+  constexpr std::size_t shown_most = 6;
+  std::string text;
+  if (value.is_number()) {
+    text = shown(value.get<double>());
+  } else if (value.is_array() && value.size() > shown_most) {
+    text = fmt::format("{} numbers", value.size());
+  } else if (value.is_array()) {
+    for (const auto& element : value)
+      text += (text.empty() ? "" : ", ") + (element.is_number() ? shown(element.get<double>()) : element.dump());
+  } else {
+    text = value.is_string() ? value.get<std::string>() : value.dump();
+  }
+  page += fmt::format("| `{}` | {} | {} | {} |\n", cell(pointer), cell(text), unit_of(key), cell(origin));
+}
+
+}  // namespace
+
+std::vector<Quantity> gear_quantities(const gear::GearSet& set, const gear::Stage& stage) {
+  std::vector<Quantity> all;
+  {
+    Group g(all, "Stage");
+    g.add("centre_distance", "a", set.centre_distance_mm, "mm", "[G-a0]");
+    g.add("tip_shortening", "k", set.tip_shortening, "-", "[G-k-tip]");
+    g.add("base_pitch_mismatch", "Δp_b", 1e3 * set.base_pitch_mismatch_mm, "um", "planet minus ring as given");
+    g.add("ring_module_as_given", "m_r", set.catalogue.ring.data.module_mm, "mm", "given");
+    const double teeth = set.sun.teeth + set.ring.teeth;
+    g.add("assembly_number", "(z_s+z_r)/N", teeth / static_cast<double>(set.angles_deg.size()), "-",
+          "whole if equally spaced planets can be assembled");
+    g.add("planet_gap", "", gear::planet_gap_mm(set), "mm", "between tip circles of neighbouring planets");
+    g.add("ring_mesh_lead", "λ_sr", set.ring_mesh_lead, "-", "[G-1]");
+    const auto phases = gear::planet_phases(set);
+    for (std::size_t i = 0; i < phases.size(); ++i) {
+      const std::string number = std::to_string(i + 1);
+      g.add("sun_mesh_phase_" + number, "λ_sp" + number, phases[i].sun_planet, "-", "[M-phase]");
+      g.add("ring_mesh_phase_" + number, "λ_rp" + number, phases[i].ring_planet, "-", "[M-phase], λ_sr included");
+    }
+    try {
+      g.add("ring_addendum_bound", "h_ar max", gear::ring_addendum_bound(stage), "-",
+            "search: contact of the ring-planet mesh starts at its pitch point");
+    } catch (const DomainError&) {
+      // No addendum puts the whole path beyond the pitch point: there is no bound to tell.
+    }
+  }
+  add_tooth(all, set.sun, "sun", "s");
+  add_tooth(all, set.planet, "planet", "p");
+  add_tooth(all, set.ring, "ring", "r");
+  add_pair(all, set.sun_planet.pair, "sun_planet", "sp", "sun and planet");
+  add_pair(all, set.ring_planet.pair, "ring_planet", "rp", "planet and ring");
+  add_stiffness(all, set.sun_planet, set.sun_planet_stiffness, "sun_planet", "the sun-planet mesh");
+  add_stiffness(all, set.ring_planet, set.ring_planet_stiffness, "ring_planet", "the ring-planet mesh");
+  const gear::Bodies bodies = gear::bodies(set);
+  {
+    Group g(all, "Bodies");
+    const auto body = [&](const std::optional<gear::MassAndInertia>& b, const std::string& member,
+                          const std::string& index, const char* tag) {
+      if (!b) return;
+      g.add(member + "_mass", "M_" + index, b->mass_kg, "kg", tag);
+      g.add(member + "_inertia", "I_" + index, b->inertia_kg_m2, "kg m2", tag);
+    };
+    body(bodies.sun, "sun", "s", "[G-M]");
+    body(bodies.planet, "planet", "p", "[G-M]");
+    body(bodies.ring, "ring", "r", "[G-M]");
+    body(bodies.carrier, "carrier", "c", "[G-Mc]");
+  }
+  const gear::MemberTolerances tolerances = gear::member_tolerances(set);
+  add_tolerances(all, tolerances.sun, "sun");
+  add_tolerances(all, tolerances.planet, "planet");
+  add_tolerances(all, tolerances.ring, "ring");
+  return all;
+}
+
+std::vector<Quantity> operating_quantities(const gear::Stage& stage, double mesh_frequency_ratio) {
+  std::vector<Quantity> all;
+  const model::Scales scales = model::scales_of(stage);
+  Group g(all, "Operating point");
+  g.add("omega_sn", "ω_sn", scales.omega_sn, "rad/s", "[M-23]");
+  g.add("frequency_sn", "ω_sn/2π", scales.omega_sn / (2.0 * std::numbers::pi), "Hz", "[M-23]");
+  if (!gear::problems_for_motion(stage).empty()) return all;
+  const double mesh_frequency = mesh_frequency_ratio * scales.omega_sn;
+  const gear::Speeds speeds = gear::speeds(stage, mesh_frequency);
+  const gear::Torques torques = gear::torques(stage, mesh_frequency);
+  const gear::MeshLoad load = gear::mean_mesh_load(stage, mesh_frequency);
+  constexpr double rpm = 30.0 / std::numbers::pi;
+  g.add("mesh_frequency_ratio", "Ω", mesh_frequency_ratio, "-", "given");
+  g.add("mesh_frequency", "ω_m", mesh_frequency, "rad/s", "[M-23]");
+  g.add("sun_speed", "n_s", speeds.sun * rpm, "rpm", "[G-kin]");
+  g.add("carrier_speed", "n_c", speeds.carrier * rpm, "rpm", "[G-kin]");
+  g.add("sun_torque", "T_D", torques.sun, "N m", "[G-kin]");
+  g.add("carrier_torque", "T_c", torques.carrier, "N m", "[G-kin]");
+  g.add("ring_torque", "T_r", torques.ring, "N m", "[G-kin]");
+  g.add("mean_mesh_force", "F", load.force_N, "N", "T_D / (N r_bs)");
+  g.add("mean_deflection", "F/k_0", 1e6 * load.force_N / stage.sun_planet_mesh.stiffness_N_per_m, "um",
+        "sun-planet mesh");
+  return all;
+}
+
+std::string quantities_csv(const std::vector<Quantity>& quantities) {
+  CsvWriter csv({"name", "value", "unit", "symbol", "formula", "group"});
+  for (const Quantity& q : quantities) csv.row(q.name, q.value, q.unit, q.symbol, q.formula, q.group);
+  return csv.text();
+}
+
+std::vector<std::string> contact_verdicts(const gear::GearSet& set, const gear::Stage& stage) {
+  const auto verdict = [](const gear::Pair& p, const std::string& mesh) {
+    const double start = p.start_mm - p.pitch_arm_mm;
+    const double end = p.end_mm - p.pitch_arm_mm;
+    const char* side = p.side() == gear::PitchSide::beyond   ? "wholly beyond its pitch point"
+                       : p.side() == gear::PitchSide::before ? "wholly before its pitch point"
+                                                             : "across its pitch point";
+    return fmt::format("The {} mesh lies {}: contact from {:+.3f} to {:+.3f} mm of it, contact ratio {:.4f}.", mesh,
+                       side, start, end, p.contact_ratio());
+  };
+  std::vector<std::string> lines = {verdict(set.sun_planet.pair, "sun-planet"),
+                                    verdict(set.ring_planet.pair, "ring-planet")};
+  try {
+    lines.push_back(fmt::format(
+        "The ring-planet mesh would lie wholly beyond its pitch point for each addendum coefficient of the ring below "
+        "{:.4f}; it is {}.",
+        gear::ring_addendum_bound(stage), set.catalogue.ring.data.addendum_coefficient));
+  } catch (const DomainError&) {
+    lines.emplace_back("No addendum of the ring puts the whole ring-planet mesh beyond its pitch point.");
+  }
+  return lines;
+}
+
+std::string gear_page(const GearPage& page, const LoadedInput& input, const std::vector<model::Mode>& modes,
+                      const model::Scales& scales) {
+  std::string text = fmt::format("# {}\n\n", cell(page.title));
+  for (const std::string& line : page.verdicts) text += "* " + line + "\n";
+  if (!page.warnings.empty()) {
+    text += "\n## Warnings\n\n";
+    for (const std::string& line : page.warnings) text += "* " + cell(line) + "\n";
+  }
+  if (!page.figures.empty()) {
+    text += "\n## Figures\n\n";
+    for (const std::string& stem : page.figures) text += fmt::format("![{0}](figures/{0}.png)\n", stem);
+  }
+  std::string group;
+  for (const Quantity& q : page.quantities) {
+    if (q.group != group) {
+      group = q.group;
+      text += fmt::format(
+          "\n## {}\n\n| quantity | symbol | value | unit | formula or origin |\n|---|---|---|---|---|\n", group);
+    }
+    text += fmt::format("| {} | {} | {} | {} | {} |\n", q.name, q.symbol, shown(q.value), q.unit, q.formula);
+  }
+
+  text +=
+      "\n## Modes\n\nLinear stage at mean stiffness, gaps closed, no rotation [M-K]. Shares of the elastic energy.\n\n"
+      "| mode | frequency Hz | ω/ω_sn | type | multiplicity | most elastic energy in |\n|---|---|---|---|---|---|\n";
+  const model::LinearStage linear = model::linear_stage(input.study.stage, scales);
+  int number = 1;
+  for (const model::Mode& mode : modes) {
+    const model::ModalEnergies energies = model::modal_energies(linear, mode, input.study.stage.planet_count);
+    std::size_t most = 0;
+    for (std::size_t k = 1; k < model::element_count; ++k)
+      if (energies.elastic[k] > energies.elastic[most]) most = k;
+    const std::string where = mode.frequency_ratio > 0.0
+                                  ? fmt::format("{} {:.0f} %", model::to_string(static_cast<model::Element>(most)),
+                                                100.0 * energies.elastic[most])
+                                  : std::string("rigid motion");
+    text += fmt::format("| {} | {:.1f} | {:.4f} | {} | {} | {} |\n", number++,
+                        mode.frequency_ratio * scales.omega_sn / (2.0 * std::numbers::pi), mode.frequency_ratio,
+                        model::to_string(mode.type), mode.multiplicity, where);
+  }
+  text += fmt::format(
+      "\nThe scale ω_sn = {:.1f} rad/s [M-23] is that of one sun-planet pair alone and none of these modes. In-phase "
+      "(rotational) modes, which equal planets in phase can excite, stand at ω/ω_sn =",
+      scales.omega_sn);
+  const char* separator = " ";
+  for (const model::Mode& mode : modes)
+    if (mode.type == model::ModeType::rotational && mode.frequency_ratio > 0.0) {
+      text += fmt::format("{}{:.3f}", separator, mode.frequency_ratio);
+      separator = ", ";
+    }
+  text +=
+      ".\n\n## All values of the model and where they come from\n\n| value | | unit | origin |\n|---|---|---|---|\n";
+  const nlohmann::json& resolved = input.resolved;
+  const nlohmann::json& stage = resolved.contains("stage") ? resolved["stage"] : resolved;
+  nlohmann::json shown_parts = nlohmann::json::object();
+  for (const char* part : {"origin", "boundary", "planets", "load", "catalogue", "lumped"})
+    if (const auto it = stage.find(part); it != stage.end()) shown_parts[part] = *it;
+  append_values(text, shown_parts, "", "", "");
+  if (!page.files.empty()) {
+    text += "\n## Data\n\n";
+    for (const std::string& file : page.files) text += fmt::format("* [{0}]({0})\n", file);
+  }
+  text += "\nTags in brackets are those of lib/EQUATIONS.md.\n";
+  return text;
+}
+
+}  // namespace epicyclic::io

@@ -1,0 +1,52 @@
+// Every number of a gear set with symbol, unit, formula and origin: geometry.csv and the page gear.md.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gear/ehl_friction.hpp"
+#include "gear/gear_set.hpp"
+#include "io/study_input.hpp"
+#include "model/modes.hpp"
+#include "model/scales.hpp"
+
+namespace epicyclic::io {
+
+/// One number of the summary.
+struct Quantity {
+  std::string group;   ///< heading under which it stands
+  std::string name;    ///< snake_case, unique
+  std::string symbol;  ///< as in the field's literature
+  double value = 0;
+  std::string unit;     ///< "mm", "-", ...
+  std::string formula;  ///< tag of lib/EQUATIONS.md, or where it is from
+};
+
+/// Geometry, contact, stiffness, masses, tolerances of the set.
+/// @param stage  with catalogue data, from which `set` was made
+[[nodiscard]] std::vector<Quantity> gear_quantities(const gear::GearSet& set, const gear::Stage& stage);
+
+/// Scales, and speeds, torques and forces at an operating point; without load or teeth the scales only.
+[[nodiscard]] std::vector<Quantity> operating_quantities(const gear::Stage& stage, double mesh_frequency_ratio);
+
+/// name,value,unit,symbol,formula,group
+[[nodiscard]] std::string quantities_csv(const std::vector<Quantity>& quantities);
+
+/// What the page says besides its numbers.
+struct GearPage {
+  std::string title;
+  std::vector<std::string> verdicts;  ///< plain sentences, e.g. where the paths of contact lie
+  std::vector<std::string> warnings;
+  std::vector<Quantity> quantities;
+  std::vector<std::string> figures;  ///< stems in the folder figures
+  std::vector<std::string> files;    ///< data files beside the page
+};
+
+/// The page: verdicts, warnings, quantities, modes, all values of the resolved input with their origins, figures.
+[[nodiscard]] std::string gear_page(const GearPage& page, const LoadedInput& input,
+                                    const std::vector<model::Mode>& modes, const model::Scales& scales);
+
+/// Sentences on where the paths of contact lie relative to their pitch points.
+[[nodiscard]] std::vector<std::string> contact_verdicts(const gear::GearSet& set, const gear::Stage& stage);
+
+}  // namespace epicyclic::io

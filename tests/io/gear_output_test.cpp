@@ -1,0 +1,172 @@
+// What `epicyclic gear` writes: files, columns, and numbers that must agree with one another.
+#include "io/gear_output.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "io/study_input.hpp"
+#include "io/temporary_folder.hpp"
+
+namespace epicyclic::io {
+namespace {
+
+using test::TemporaryFolder;
+
+/// Columns of a CSV file without quotes, as texts.
+std::map<std::string, std::vector<std::string>> table(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  const auto cells = [](const std::string& text) {
+    std::vector<std::string> all;
+    std::stringstream row(text);
+    for (std::string cell; std::getline(row, cell, ',');) all.push_back(cell);
+    if (!text.empty() && text.back() == ',') all.emplace_back();
+    return all;
+  };
+  std::getline(in, line);
+  const auto names = cells(line);
+  std::map<std::string, std::vector<std::string>> columns;
+  while (std::getline(in, line)) {
+    const auto row = cells(line);
+    for (std::size_t k = 0; k < names.size(); ++k) columns[names[k]].push_back(k < row.size() ? row[k] : "");
+  }
+  return columns;
+}
+
+class GearOutputOfTheStage : public ::testing::Test {
+ protected:
+  // Drawn once for all tests of the suite: figures take their time.
+  static void SetUpTestSuite() {
+    folder = new TemporaryFolder;
+    const std::vector<std::string> sets = {"/boundary=fixed_ring", "/lumped/ring/torsional_support_N_per_m=1e9"};
+    output =
+        new GearOutput(write_gear_output(folder->path(), load_input("inputs/tang2020.json", parse_assignments(sets))));
+  }
+  static void TearDownTestSuite() {
+    delete output;
+    delete folder;
+  }
+  static double quantity(const std::string& name) {
+    const auto all = table(*folder / "geometry.csv");
+    for (std::size_t k = 0; k < all.at("name").size(); ++k)
+      if (all.at("name")[k] == name) return std::stod(all.at("value")[k]);
+    ADD_FAILURE() << "no " << name;
+    return NAN;
+  }
+  static TemporaryFolder* folder;
+  static GearOutput* output;
+};
+
+TemporaryFolder* GearOutputOfTheStage::folder = nullptr;
+GearOutput* GearOutputOfTheStage::output = nullptr;
+
+TEST_F(GearOutputOfTheStage, HasEachFileAndFigure) {
+  for (const char* file : {"modes.csv", "mode_shapes.csv", "campbell.csv", "geometry.csv", "stiffness.csv",
+                           "load_sharing.csv", "friction.csv", "friction_ratios.csv", "bearings.csv", "gear.md"})
+    EXPECT_TRUE(std::filesystem::exists(*folder / file)) << file;
+  EXPECT_TRUE(output->undrawn.empty());
+  for (const std::string& stem : output->figures)
+    EXPECT_TRUE(std::filesystem::exists(folder->path() / "figures" / (stem + ".png"))) << stem;
+  EXPECT_GE(output->figures.size(), 8U);
+}
+
+// Digits of parameters.md, "Geometry of Table 1".
+TEST_F(GearOutputOfTheStage, GeometryIsThatOfTable1) {
+  EXPECT_NEAR(quantity("centre_distance"), 71.720839, 5e-7);
+  EXPECT_NEAR(quantity("ring_module"), 2.57627, 5e-6);
+  EXPECT_NEAR(quantity("ring_planet_start_beyond_pitch_point"), 1.609, 5e-4);
+  EXPECT_NEAR(quantity("ring_addendum_bound"), 1.233, 5e-4);
+  EXPECT_NEAR(quantity("ring_mesh_lead"), 0.3023, 5e-5);
+}
+
+TEST_F(GearOutputOfTheStage, SaysThatTheRingMeshLiesBeyondItsPitchPoint) {
+  ASSERT_EQ(output->verdicts.size(), 3U);
+  EXPECT_NE(output->verdicts[0].find("sun-planet mesh lies across"), std::string::npos);
+  EXPECT_NE(output->verdicts[1].find("ring-planet mesh lies wholly beyond"), std::string::npos);
+}
+
+TEST_F(GearOutputOfTheStage, StiffnessHasBothSidesOfEachJumpAndTheMeanOfItsSeries) {
+  const auto all = table(*folder / "stiffness.csv");
+  const auto& phase = all.at("phase");
+  const auto& k_sp = all.at("k_sp_N_per_m");
+  double jump = 0.0;
+  double area = 0.0;
+  double fourier = 0.0;
+  for (std::size_t i = 0; i + 1 < phase.size(); ++i) {
+    const double step = std::stod(phase[i + 1]) - std::stod(phase[i]);
+    ASSERT_GE(step, 0.0);
+    if (step == 0.0) jump = std::max(jump, std::abs(std::stod(k_sp[i + 1]) - std::stod(k_sp[i])));
+    area += 0.5 * step * (std::stod(k_sp[i]) + std::stod(k_sp[i + 1]));
+    fourier += step * std::stod(all.at("k_sp_fourier_N_per_m")[i]);
+  }
+  EXPECT_GT(jump, 5e8);
+  // The rectangle and trapezoid rules over 500 rows.
+  EXPECT_NEAR(area / quantity("sun_planet_stiffness_mean"), 1.0, 1e-5 + 2.0 / 500.0);
+  EXPECT_NEAR(fourier / quantity("sun_planet_stiffness_mean"), 1.0, 1e-5 + 2.0 / 500.0);
+}
+
+TEST_F(GearOutputOfTheStage, InPhaseModesStandWhereTheDesignPageHasThem) {
+  // The two rotational modes in which the meshes hold most of the elastic energy: near 1.19 and 1.57.
+  const auto all = table(*folder / "modes.csv");
+  std::multimap<double, double> by_energy;
+  for (std::size_t k = 0; k < all.at("type").size(); ++k)
+    if (all.at("type")[k] == "rotational" && std::stod(all.at("frequency_ratio")[k]) > 0.0)
+      by_energy.emplace(
+          -std::stod(all.at("elastic_sun_planet_mesh")[k]) - std::stod(all.at("elastic_ring_planet_mesh")[k]),
+          std::stod(all.at("frequency_ratio")[k]));
+  std::set<double> two;
+  for (auto it = by_energy.begin(); two.size() < 2; ++it) two.insert(it->second);
+  EXPECT_NEAR(*two.begin(), 1.19, 0.02);
+  EXPECT_NEAR(*two.rbegin(), 1.57, 0.02);
+}
+
+TEST_F(GearOutputOfTheStage, EnergySharesAddUpToOne) {
+  const auto all = table(*folder / "modes.csv");
+  for (std::size_t k = 0; k < all.at("mode").size(); ++k) {
+    double elastic = 0.0;
+    double kinetic = 0.0;
+    for (const auto& [name, values] : all) {
+      if (name.rfind("elastic_", 0) == 0) elastic += std::stod(values[k]);
+      if (name.rfind("kinetic_", 0) == 0) kinetic += std::stod(values[k]);
+    }
+    EXPECT_NEAR(kinetic, 1.0, 1e-12);
+    EXPECT_NEAR(elastic, std::stod(all.at("frequency_ratio")[k]) > 0.0 ? 1.0 : 0.0, 1e-12);
+  }
+}
+
+TEST_F(GearOutputOfTheStage, FrictionOpposesSlidingAllAlongBothPaths) {
+  const auto all = table(*folder / "friction.csv");
+  for (std::size_t k = 0; k < all.at("mesh").size(); ++k) {
+    EXPECT_LE(std::stod(all.at("signed_ratio")[k]) * std::stod(all.at("sliding_m_per_s")[k]), 0.0);
+    if (all.at("mesh")[k] == "rp") {
+      EXPECT_GT(std::stod(all.at("sliding_m_per_s")[k]), 0.0);
+    }
+  }
+}
+
+TEST_F(GearOutputOfTheStage, ThePageHasEachQuantityAndOrigin) {
+  std::ifstream in(*folder / "gear.md");
+  const std::string page((std::istreambuf_iterator<char>(in)), {});
+  for (const char* part : {"| centre_distance | a | 71.72084 | mm | [G-a0] |",
+                           "| `/catalogue/sun/module_mm` | 2.63 | mm | source: Table 1 |",
+                           "| `/lumped/sun/mass_kg` | 1.654275 | kg | computed: [G-M]", "figures/stiffness_sp.png"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+}
+
+TEST(GearOutput, OfALumpedStageIsItsModes) {
+  const TemporaryFolder folder;
+  const GearOutput output = write_gear_output(folder.path(), load_input("inputs/lin_parker_1999_n4.json"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "campbell.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "stiffness.csv"));
+  EXPECT_NE(output.modes.find("mode,frequency_Hz,frequency_ratio,type,multiplicity"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace epicyclic::io
