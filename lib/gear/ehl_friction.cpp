@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "gear/kinematics.hpp"
@@ -87,6 +88,20 @@ LubricatedContact lubricated_contact(const Friction::Ehl& e, const LineOfAction&
   c.radius_m = radius_mm * 1e-3;
   c.pressure_GPa = hertz_pressure_GPa(share * load.force_N / e.width_mm, e.equivalent_modulus_GPa, radius_mm);
   return c;
+}
+
+LubricationRange lubrication_range(const Friction::Ehl& e, const LineOfAction& line, const MeshLoad& load) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  LubricationRange range{infinite, 0.0, infinite, 0.0, true};
+  for (std::size_t k = 0; k < e.share_position.size(); ++k) {
+    const LubricatedContact c = lubricated_contact(e, line, load, e.share_position[k], e.share[k]);
+    range.least_pressure_GPa = std::min(range.least_pressure_GPa, c.pressure_GPa);
+    range.greatest_pressure_GPa = std::max(range.greatest_pressure_GPa, c.pressure_GPa);
+    range.least_rolling_m_per_s = std::min(range.least_rolling_m_per_s, c.rolling_m_per_s);
+    range.greatest_rolling_m_per_s = std::max(range.greatest_rolling_m_per_s, c.rolling_m_per_s);
+    range.within = range.within && within_xu_range(c);
+  }
+  return range;
 }
 
 Friction::Table friction_table(const Friction::Ehl& e, const LineOfAction& line, const MeshLoad& load) {

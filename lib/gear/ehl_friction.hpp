@@ -35,6 +35,13 @@ struct LubricatedContact {
 /// Is the contact within the range that the regression was made for?
 [[nodiscard]] bool within_xu_range(const LubricatedContact& contact);
 
+/// Extremes of pressure and rolling speed along a path, and whether all of it is within the range.
+struct LubricationRange {
+  double least_pressure_GPa, greatest_pressure_GPa;
+  double least_rolling_m_per_s, greatest_rolling_m_per_s;
+  bool within;
+};
+
 /// P_h of a line contact [GPa].
 /// @param load_N_per_mm  W'
 [[nodiscard]] double hertz_pressure_GPa(double load_N_per_mm, double equivalent_modulus_GPa, double radius_mm);
@@ -53,6 +60,10 @@ struct MeshLoad {
 /// The contact of the pair at a position [base pitches from the start of contact].
 [[nodiscard]] LubricatedContact lubricated_contact(const Friction::Ehl& ehl, const LineOfAction& line,
                                                    const MeshLoad& load, double position, double load_share);
+
+/// Along the rows of the load sharing.
+[[nodiscard]] LubricationRange lubrication_range(const Friction::Ehl& ehl, const LineOfAction& line,
+                                                 const MeshLoad& load);
 
 /// A(s), B_1(s), B_2(s) on the mesh's own phase; two rows at each breakpoint.
 [[nodiscard]] Friction::Table friction_table(const Friction::Ehl& ehl, const LineOfAction& line, const MeshLoad& load);

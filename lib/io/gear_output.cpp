@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "gear/bearing.hpp"
 #include "gear/ehl_friction.hpp"
 #include "gear/gear_set.hpp"
@@ -160,6 +162,19 @@ std::string friction_ratios_csv(const std::vector<NamedMesh>& both, const gear::
   return csv.text();
 }
 
+/// Xu's regression is flagged, not refused, where it is extrapolated.
+void warn_of_range(std::vector<std::string>& warnings, const NamedMesh& m, const gear::Lubrication& lubrication,
+                   const gear::MeshLoad& load) {
+  const gear::LubricationRange r = gear::lubrication_range(gear::ehl_of(m.pair, lubrication), m.line, load);
+  if (!r.within)
+    warnings.push_back(
+        fmt::format("friction of the {} mesh is extrapolated: Xu's formula was fitted at about 0.5 to 2.5 GPa, 1 to 20 "
+                    "m/s, 5 to 100 "
+                    "mPa s and 0.1 to 0.8 um; here {:.2f} to {:.2f} GPa, {:.1f} to {:.1f} m/s, {} mPa s, {} um",
+                    m.name, r.least_pressure_GPa, r.greatest_pressure_GPa, r.least_rolling_m_per_s,
+                    r.greatest_rolling_m_per_s, lubrication.viscosity_mPas, lubrication.roughness_um));
+}
+
 std::string bearings_csv(const gear::Catalogue& catalogue) {
   CsvWriter csv({"member", "bearing", "approach_um", "stiffness_N_per_m", "force_N"});
   const auto rows = [&](const char* member, const std::optional<gear::SupportBearing>& bearing) {
@@ -232,6 +247,7 @@ GearOutput write_gear_output(const std::filesystem::path& path, const LoadedInpu
     gear::MeshLoad load;
     if (moves) load = gear::mean_mesh_load(stage, mesh_frequency);
     if (moves && set.catalogue.lubrication) {
+      for (const NamedMesh& m : both) warn_of_range(out.warnings, m, *set.catalogue.lubrication, load);
       folder.write("friction.csv", friction_csv(both, *set.catalogue.lubrication, load));
       folder.write("friction_ratios.csv", friction_ratios_csv(both, *set.catalogue.lubrication, load));
     }

@@ -158,7 +158,8 @@ TEST(Kahraman, TorsionalFrequenciesAreTheClosedForm) {
   constexpr double rounding = 1e-10;
   for (const Torsion& t :
        {Torsion{3, 0.5, 0.75, 4.0, 7.0, 11.0, 0.0, 0.0}, Torsion{4, 0.5, 0.75, 4.0, 7.0, 11.0, 24.6, 20.0},
-        Torsion{6, 1.5, 0.3, 9.0, 5.0, 2.0, 30.0, 21.5}, Torsion{2, 0.8, 0.4, 3.0, 3.0, 4.0, 14.5, 25.0}}) {
+        Torsion{6, 1.5, 0.3, 9.0, 5.0, 2.0, 30.0, 21.5}, Torsion{2, 0.8, 0.4, 3.0, 3.0, 4.0, 14.5, 25.0},
+        Torsion{5, 0.7, 0.5, 6.0, 4.0, 9.0, 22.0, 18.0}}) {
     const gear::Stage stage = torsional(t);
     const Scales scales = scales_of(stage);
     const std::vector<Mode> found = modes(stage, scales);
@@ -185,6 +186,46 @@ TEST(Kahraman, PrintedExampleIsMetToItsDigits) {
   EXPECT_NEAR(closed[0], 4.706975, digits);
   EXPECT_NEAR(closed[1], 7.572608, digits);
   EXPECT_NEAR(closed[2], 4.898979, digits);
+}
+
+// Rayleigh: d ln omega^2 / d ln k of an element is its share of the elastic energy, for every mode, type and number of
+// planets; shares of a multiple mode are means over its shapes.
+TEST(ModalEnergies, ElasticSharesAreTheSensitivitiesToTheStiffnesses) {
+  constexpr double change = 1e-4;
+  constexpr double tolerance = 1e-6;  // central difference
+  for (const int planets : {2, 3, 4, 5, 6}) {
+    const gear::Stage stage = lin_parker(planets);
+    const Scales scales = scales_of(stage);
+    const LinearStage linear = linear_stage(stage, scales);
+    const std::vector<Mode> found = modes(stage, scales);
+    const auto scaled = [&](Element element, double factor) {
+      gear::Stage s = stage;
+      double* const stiffness[] = {&s.sun_planet_mesh.stiffness_N_per_m,
+                                   &s.ring_planet_mesh.stiffness_N_per_m,
+                                   &s.planet.bearing_N_per_m,
+                                   &s.sun.support_N_per_m,
+                                   &s.sun.torsional_support_N_per_m,
+                                   &s.ring.support_N_per_m,
+                                   &s.ring.torsional_support_N_per_m,
+                                   &s.carrier.support_N_per_m,
+                                   &s.carrier.torsional_support_N_per_m};
+      *stiffness[static_cast<std::size_t>(element)] *= factor;
+      return modes(s, scales);
+    };
+    for (std::size_t k = 0; k < element_count; ++k) {
+      const auto up = scaled(static_cast<Element>(k), 1.0 + change);
+      const auto down = scaled(static_cast<Element>(k), 1.0 - change);
+      ASSERT_EQ(up.size(), found.size());
+      ASSERT_EQ(down.size(), found.size());
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        if (found[i].frequency_ratio == 0.0) continue;
+        const double slope =
+            2.0 * std::log(up[i].frequency_ratio / down[i].frequency_ratio) / std::log((1.0 + change) / (1.0 - change));
+        EXPECT_NEAR(modal_energies(linear, found[i], planets).elastic[k], slope, tolerance)
+            << planets << " planets, mode " << i << ", " << to_string(static_cast<Element>(k));
+      }
+    }
+  }
 }
 
 TEST(Modes, ShapesAreOrthonormalAndSolveTheEigenproblem) {
