@@ -30,6 +30,11 @@ template <class T>
   return select(x < low, low, select(x > high, high, x));
 }
 
+/// The whole number nearest to x, |x| < 2^62; std::round is a call into the library on the baseline instruction set.
+[[nodiscard]] inline double nearest_whole(double x) {
+  return static_cast<double>(static_cast<long long>(x + (x < 0.0 ? -0.5 : 0.5)));
+}
+
 /// x^(3/2) of x >= 0. Written as one function because x * sqrt(x) has the derivative 0 * infinity at 0.
 template <std::floating_point T>
 [[nodiscard]] T power_3_2(T x) {

@@ -62,7 +62,7 @@ bool within_xu_range(const LubricatedContact& c) {
          in(c.roughness_um, 0.1, 0.8);
 }
 
-double hertz_pressure_GPa(double load_N_per_mm, double equivalent_modulus_GPa, double radius_mm) {
+double hertz_pressure(double load_N_per_mm, double equivalent_modulus_GPa, double radius_mm) {
   const double load_GN_per_m = load_N_per_mm * 1e3 * 1e-9;
   return std::sqrt(load_GN_per_m * equivalent_modulus_GPa / (2.0 * std::numbers::pi * radius_mm * 1e-3));
 }
@@ -86,7 +86,7 @@ LubricatedContact lubricated_contact(const Friction::Ehl& e, const LineOfAction&
   c.viscosity_mPas = e.viscosity_mPas;
   c.roughness_um = e.roughness_um;
   c.radius_m = radius_mm * 1e-3;
-  c.pressure_GPa = hertz_pressure_GPa(share * load.force_N / e.width_mm, e.equivalent_modulus_GPa, radius_mm);
+  c.pressure_GPa = hertz_pressure(share * load.force_N / e.width_mm, e.equivalent_modulus_GPa, radius_mm);
   return c;
 }
 

@@ -44,7 +44,7 @@ struct LubricationRange {
 
 /// P_h of a line contact [GPa].
 /// @param load_N_per_mm  W'
-[[nodiscard]] double hertz_pressure_GPa(double load_N_per_mm, double equivalent_modulus_GPa, double radius_mm);
+[[nodiscard]] double hertz_pressure(double load_N_per_mm, double equivalent_modulus_GPa, double radius_mm);
 
 /// Load and speed that the friction of one operating point is computed for.
 struct MeshLoad {

@@ -324,7 +324,7 @@ Friction::Ehl ehl_of(const MeshedPair& mesh, const Lubrication& lubrication) {
   Friction::Ehl e;
   e.viscosity_mPas = lubrication.viscosity_mPas;
   e.roughness_um = lubrication.roughness_um;
-  e.equivalent_modulus_GPa = equivalent_modulus_GPa(mesh.driving.material, mesh.driven.material);
+  e.equivalent_modulus_GPa = equivalent_modulus(mesh.driving.material, mesh.driven.material);
   e.width_mm = std::min(mesh.driving.tooth.width_mm, mesh.driven.tooth.width_mm);
   e.contact_ratio = mesh.contact_ratio();
   e.path_start_mm = mesh.pair.start_mm;

@@ -15,7 +15,7 @@ struct Material {
 };
 
 /// E' of Tang et al. 2020, Eq. (8): 2 / ((1 - nu_1^2) / E_1 + (1 - nu_2^2) / E_2) [GPa].                        [G-8]
-[[nodiscard]] inline double equivalent_modulus_GPa(const Material& first, const Material& second) {
+[[nodiscard]] inline double equivalent_modulus(const Material& first, const Material& second) {
   const auto part = [](const Material& m) { return (1.0 - m.poisson_ratio * m.poisson_ratio) / m.youngs_modulus_GPa; };
   return 2.0 / (part(first) + part(second));
 }

@@ -71,13 +71,14 @@ double FourierSeries::at(double phase) const {
 }
 
 FourierSeries fourier_series(const MeshedPair& mesh, int harmonics) {
-  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(2 * harmonics + 1);
+  const Eigen::Index size = 2 * static_cast<Eigen::Index>(harmonics) + 1;
+  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(size);
   for_pieces(mesh, [&](double from, double to, double inside) {
     // A harmonic needs nodes of its own; the stiffness itself is smooth.
     const int pieces = panels * (1 + harmonics / 8);
     sum += gauss_legendre_16().integrate(
         [&](double phase) -> Eigen::ArrayXd {
-          Eigen::ArrayXd f(2 * harmonics + 1);
+          Eigen::ArrayXd f(size);
           const double k = mesh.stiffness(phase, inside);
           f[0] = k;
           for (int h = 1; h <= harmonics; ++h) {

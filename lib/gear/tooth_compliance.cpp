@@ -129,7 +129,9 @@ double root_half_angle(const Tooth& t, Fillet fillet) {
   return std::asin(t.base_radius_mm * std::sin(t.base_half_angle) / t.root_radius_mm);
 }
 
-SainsotCoefficients sainsot_coefficients(double theta, double h) {
+SainsotCoefficients sainsot_coefficients(double theta_f, double radius_ratio) {
+  const double theta = theta_f;
+  const double h = radius_ratio;
   struct Row {
     double a, b, c, d, e, f;
   };

@@ -241,7 +241,7 @@ void set_operations(N_Vector_Ops ops) {
 
 }  // namespace
 
-Vector make_state_vector(std::size_t dimension, SUNContext context, const VectorKernels& chosen) {
+Vector make_state_vector(std::size_t dimension, SUNContext context, const VectorKernels& kernels_to_use) {
   const auto no_memory = [&] {
     return SolverError("make_state_vector", -1, 0.0, "no memory for " + std::to_string(dimension) + " numbers");
   };
@@ -249,7 +249,7 @@ Vector make_state_vector(std::size_t dimension, SUNContext context, const Vector
   if (!v) throw no_memory();
   set_operations(v->ops);
   const std::size_t padded = (dimension + vector_block - 1) / vector_block * vector_block;
-  auto content = std::make_unique<Content>(Content{dimension, padded, &chosen, nullptr, true});
+  auto content = std::make_unique<Content>(Content{dimension, padded, &kernels_to_use, nullptr, true});
   content->data = allocate(padded);
   v->content = content.release();
   if (content_of(v.get()).data == nullptr) throw no_memory();

@@ -26,10 +26,10 @@ using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, VectorDeleter>;
 
 /// A vector of zeros.
 ///
-/// @param kernels  outlives the vector and its clones
+/// @param kernels_to_use  outlives the vector and its clones
 /// @throws SolverError when there is no memory
 [[nodiscard]] Vector make_state_vector(std::size_t dimension, SUNContext context,
-                                       const VectorKernels& kernels = vector_kernels());
+                                       const VectorKernels& kernels_to_use = vector_kernels());
 
 /// The numbers of a state vector; aligned to 64 bytes, padded with zeros to a multiple of `vector_block`.
 [[nodiscard]] double* data_of(N_Vector v);

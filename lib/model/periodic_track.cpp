@@ -31,10 +31,10 @@ double wrapped(double phase) { return phase - std::floor(phase); }
 }  // namespace
 
 template <std::size_t K>
-PeriodicTrack<K>::PeriodicTrack(const std::vector<TrackRow<K>>& given, const std::vector<double>& given_breakpoints,
-                                double lead) {
+PeriodicTrack<K>::PeriodicTrack(const std::vector<TrackRow<K>>& given_rows,
+                                const std::vector<double>& given_breakpoints, double lead) {
   using Row = TrackRow<K>;
-  std::vector<Row> rows = given;
+  std::vector<Row> rows = given_rows;
   for (Row& r : rows) r.phase += lead;
 
   const auto shifted = [](Row r, double turns) {
@@ -56,7 +56,7 @@ PeriodicTrack<K>::PeriodicTrack(const std::vector<TrackRow<K>>& given, const std
     cubics_.erase(cubics_.begin(), cubics_.begin() + neighbours);
     starts_.resize(n);
     cubics_.resize(n);
-    pieces_ = {{0, n - 1}};
+    pieces_ = {piece(0, n - 1)};
     return;
   }
 
@@ -82,6 +82,12 @@ PeriodicTrack<K>::PeriodicTrack(const std::vector<TrackRow<K>>& given, const std
 }
 
 template <std::size_t K>
+TrackPiece PeriodicTrack<K>::piece(std::size_t lo, std::size_t hi) const {
+  const double width = starts_[hi] - starts_[lo];
+  return {lo, hi, starts_[lo], hi > lo ? static_cast<double>(hi - lo) / width : 0.0};
+}
+
+template <std::size_t K>
 void PeriodicTrack<K>::append_piece(const std::vector<TrackRow<K>>& rows) {
   if (rows.size() < 2)
     throw InputError("table over the phase: a piece between two breakpoints needs a row at each of its ends");
@@ -103,7 +109,7 @@ void PeriodicTrack<K>::append_piece(const std::vector<TrackRow<K>>& rows) {
                                (slope[k] + slope[k + 1] - 2.0 * secant) / (h * h)};
     }
   }
-  pieces_.push_back({first, starts_.size() - 1});
+  pieces_.push_back(piece(first, starts_.size() - 1));
 }
 
 template <std::size_t K>

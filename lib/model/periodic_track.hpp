@@ -22,6 +22,8 @@ namespace epicyclic::model {
 /// Intervals lo..hi (inclusive) that make one smooth piece.
 struct TrackPiece {
   std::size_t lo = 0, hi = 0;
+  double start = 0;                ///< of interval lo
+  double intervals_per_phase = 0;  ///< mean, from the starts of the first and the last interval
 };
 
 /// The piece that holds a phase, and where: phases are met within half a turn of it, so that they may count whole turns
@@ -43,11 +45,11 @@ class PeriodicTrack {
  public:
   PeriodicTrack() = default;
 
-  /// @param rows         phases rising, a jump as two rows of one phase
-  /// @param breakpoints  phases of the rows where the functions jump or kink
+  /// @param given_rows   phases rising, a jump as two rows of one phase
+  /// @param given_breakpoints  phases of the rows where the functions jump or kink
   /// @param lead         added to all phases
   /// @throws InputError when a piece has no rows at its ends, or rows cannot be told apart
-  PeriodicTrack(const std::vector<TrackRow<K>>& rows, const std::vector<double>& breakpoints, double lead);
+  PeriodicTrack(const std::vector<TrackRow<K>>& given_rows, const std::vector<double>& given_breakpoints, double lead);
 
   /// Breakpoints on the mesh's own phase, rising, in [0, 1).
   [[nodiscard]] const std::vector<double>& breakpoints() const { return breakpoints_; }
@@ -57,7 +59,7 @@ class PeriodicTrack {
   /// Values at a phase within half a turn of the place, whole turns apart, by the cubics of its piece.
   template <class T>
   [[nodiscard]] std::array<T, K> at(const TrackPlace& place, const T& phase) const {
-    const T x = phase - T(static_cast<double>(std::round(value_of(phase) - place.centre)));
+    const T x = phase - T(nearest_whole(static_cast<double>(value_of(phase)) - place.centre));
     const std::size_t k = interval(place.piece, value_of(x));
     const T t = x - starts_[k];
     std::array<T, K> values;
@@ -84,16 +86,15 @@ class PeriodicTrack {
   /// Guessed as if the intervals were equal, which they mostly are, then walked to.
   template <class V>
   [[nodiscard]] std::size_t interval(const TrackPiece& piece, V x) const {
-    const auto count = static_cast<V>(piece.hi - piece.lo);
-    if (piece.hi == piece.lo) return piece.lo;
-    const V mean = (V(starts_[piece.hi]) - V(starts_[piece.lo])) / count;
-    const V guess = (x - V(starts_[piece.lo])) / mean;
-    std::size_t k = piece.lo + static_cast<std::size_t>(guess > V(0) ? (guess < count ? guess : count) : V(0));
+    const double guess = (static_cast<double>(x) - piece.start) * piece.intervals_per_phase;
+    const auto most = static_cast<double>(piece.hi - piece.lo);
+    std::size_t k = piece.lo + static_cast<std::size_t>(guess > 0.0 ? (guess < most ? guess : most) : 0.0);
     while (k > piece.lo && x < starts_[k]) --k;
     while (k < piece.hi && x >= starts_[k + 1]) ++k;
     return k;
   }
 
+  [[nodiscard]] TrackPiece piece(std::size_t lo, std::size_t hi) const;
   void append_piece(const std::vector<TrackRow<K>>& rows);
 
   std::vector<double> starts_;

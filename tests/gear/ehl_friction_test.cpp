@@ -106,9 +106,9 @@ TEST(Hertz, PressureIsThatOfTheTextbook) {
   const double modulus = 206e9 / (2.0 * (1.0 - 0.09));
   const double radius = 8.4e-3;
   const double textbook = std::sqrt(load * modulus / (pi * radius));
-  EXPECT_NEAR(hertz_pressure_GPa(66.0, 2.0 * modulus * 1e-9, 8.4) * 1e9, textbook, rounding * textbook);
+  EXPECT_NEAR(hertz_pressure(66.0, 2.0 * modulus * 1e-9, 8.4) * 1e9, textbook, rounding * textbook);
   const Material steel;
-  EXPECT_NEAR(equivalent_modulus_GPa(steel, steel) * 1e9, 2.0 * modulus, rounding * modulus);
+  EXPECT_NEAR(equivalent_modulus(steel, steel) * 1e9, 2.0 * modulus, rounding * modulus);
   // And the half width b = 4 R p / E' holds the load: F' = pi b p / 2.
   const double half_width = 4.0 * radius * textbook / (2.0 * modulus);
   EXPECT_NEAR(0.5 * pi * half_width * textbook, load, 10.0 * rounding * load);
@@ -118,7 +118,7 @@ TEST(Hertz, UnequalMaterialsAddTheirCompliances) {
   const Material steel;
   const Material bronze{105, 0.34, 8800};
   const double star = 1.0 / ((1.0 - 0.09) / 206.0 + (1.0 - 0.34 * 0.34) / 105.0);
-  EXPECT_NEAR(equivalent_modulus_GPa(steel, bronze), 2.0 * star, rounding * star);
+  EXPECT_NEAR(equivalent_modulus(steel, bronze), 2.0 * star, rounding * star);
 }
 
 TEST(EhlFriction, LoadOfAMeshIsItsShareOfTheTorque) {
