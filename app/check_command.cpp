@@ -12,7 +12,8 @@ namespace epicyclic::app {
 
 int check_command(const Arguments& arguments) {
   const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
-  for (const std::string& warning : io::catalogue_warnings(input)) fmt::print(stderr, "{}\n", warning);
+  if (!input.study.sweep)
+    for (const std::string& line : io::catalogue_warnings(input)) fmt::print(stderr, "warning: {}\n", line);
   if (!input.study.sweep) {
     fmt::print("{}\n", input.resolved.dump(2));
     fmt::print(stderr, "{}: valid; a stage alone, for `epicyclic gear`\n", arguments.input.string());

@@ -72,7 +72,7 @@ int run(int argc, char** argv) {
     command->add_flag("--json", arguments.json, "print the summary as JSON");
   };
 
-  CLI::App* gear = cli.add_subcommand("gear", "natural frequencies and mode types of the stage");
+  CLI::App* gear = cli.add_subcommand("gear", "teeth, contact, stiffness, friction, bearings and modes of the stage");
   with_input(gear);
   with_output(gear);
   CLI::App* sweep = cli.add_subcommand("sweep", "bifurcation diagram along one parameter, up, down or both");

@@ -19,7 +19,9 @@ double range_mean(double value, std::span<const double> limits, const char* what
   for (std::size_t k = 0; k + 1 < limits.size(); ++k)
     if (value <= limits[k + 1] && (value > limits[k] || (k == 0 && value == limits[0])))
       return std::sqrt(limits[k] * limits[k + 1]);
-  throw DomainError(std::string("ISO 1328-1 has no range for a ") + what + " of " + std::to_string(value) + " mm");
+  throw DomainError(std::string("ISO 1328-1 has no tolerances for a ") + what + " of " + std::to_string(value) +
+                    " mm, only from " + std::to_string(limits.front()) + " to " + std::to_string(limits.back()) +
+                    " mm");
 }
 
 double rounded(double um) {

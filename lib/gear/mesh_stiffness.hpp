@@ -67,7 +67,8 @@ struct StiffnessRange {
 };
 [[nodiscard]] StiffnessRange stiffness_range(const MeshedPair& mesh);
 
-/// The estimate of ISO 6336-1:2006, method B, for solid discs of steel of rack-like profile.
+/// The estimate of ISO 6336-1:2006, method B, for solid discs of steel; the factor of the reference profile, C_B,
+/// is taken as 1 (20 degrees, dedendum 1.2), as in the numbers that it is compared with.
 /// An internal gear counts as one of infinitely many teeth.
 struct IsoStiffness {
   double single;  ///< c' b [N/m]

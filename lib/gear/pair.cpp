@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include "core/errors.hpp"
 
@@ -23,7 +24,10 @@ Pair make_pair(const Tooth& driving, const Tooth& driven, double centre_distance
   const double base =
       driven.internal ? driven.base_radius_mm - driving.base_radius_mm : driven.base_radius_mm + driving.base_radius_mm;
   const double cosine = base / centre_distance_mm;
-  if (!(cosine > 0.0) || !(cosine < 1.0)) throw DomainError("base circles and centre distance leave no line of action");
+  if (!(cosine > 0.0) || !(cosine < 1.0))
+    throw DomainError("base circles of " + std::to_string(driving.base_radius_mm) + " and " +
+                      std::to_string(driven.base_radius_mm) + " mm at a centre distance of " +
+                      std::to_string(centre_distance_mm) + " mm leave no line of action");
   Pair p;
   p.driving = driving;
   p.driven = driven;
@@ -44,6 +48,10 @@ double tight_centre_distance_mm(const Tooth& driving, const Tooth& driven) {
       driven.internal ? (pi - angles) / (driven.teeth - driving.teeth) : (angles - pi) / (driving.teeth + driven.teeth);
   const double base =
       driven.internal ? driven.base_radius_mm - driving.base_radius_mm : driven.base_radius_mm + driving.base_radius_mm;
+  if (!(inv >= 0.0) || !(base > 0.0))
+    throw DomainError(
+        "the teeth are too thin or too thick to mesh without backlash at any centre distance (inv alpha " +
+        std::to_string(inv) + ")");
   return base / std::cos(inverse_involute(inv));
 }
 

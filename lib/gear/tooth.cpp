@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "core/errors.hpp"
 
@@ -11,6 +12,11 @@ namespace epicyclic::gear {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+
+std::string radii(const Tooth& t) {
+  return "r_b " + std::to_string(t.base_radius_mm) + ", r_a " + std::to_string(t.tip_radius_mm) + ", r_f " +
+         std::to_string(t.root_radius_mm) + " mm";
+}
 
 Tooth common(const GearData& d, bool internal) {
   if (d.teeth < 3 || !(d.module_mm > 0.0) || !(d.pressure_angle_deg > 0.0) || !(d.pressure_angle_deg < 90.0) ||
@@ -125,7 +131,7 @@ Tooth external_tooth(const GearData& d, double tip_shortening) {
   t.tip_radius_mm = d.tip_diameter_mm ? 0.5 * *d.tip_diameter_mm : tip;
   t.root_radius_mm = d.root_diameter_mm ? 0.5 * *d.root_diameter_mm : root;
   if (!(t.root_radius_mm > 0.0) || !(t.tip_radius_mm > t.root_radius_mm) || !(t.tip_radius_mm > t.base_radius_mm))
-    throw DomainError("an external tooth needs 0 < r_f < r_a and r_b < r_a");
+    throw DomainError("an external tooth needs 0 < r_f < r_a and r_b < r_a (" + radii(t) + ")");
   return t;
 }
 
@@ -137,7 +143,7 @@ Tooth internal_tooth(const GearData& d, double tip_shortening) {
   t.tip_radius_mm = d.tip_diameter_mm ? 0.5 * *d.tip_diameter_mm : tip;
   t.root_radius_mm = d.root_diameter_mm ? 0.5 * *d.root_diameter_mm : root;
   if (!(t.tip_radius_mm > 0.0) || !(t.root_radius_mm > t.tip_radius_mm) || !(t.tip_radius_mm > t.base_radius_mm))
-    throw DomainError("an internal tooth needs 0 < r_a < r_f and r_b < r_a");
+    throw DomainError("an internal tooth needs 0 < r_a < r_f and r_b < r_a (" + radii(t) + ")");
   return t;
 }
 

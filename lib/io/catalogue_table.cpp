@@ -43,7 +43,7 @@ void add_gear_data(Table<T>& t) {
       "accuracy_grade", [](auto& gear) -> auto& { return gear.accuracy_grade; }, between(0, 12),
       "Accuracy grade of ISO 1328-1:1995 [-]; gives the amplitude of the transmission error.");
   t.number(
-      "root_half_angle_deg", [](auto& gear) -> auto& { return gear.root_half_angle_deg; }, above_up_to(0, 45),
+      "root_half_angle_deg", [](auto& gear) -> auto& { return gear.root_half_angle_deg; }, between(0.1, 45),
       "Half of the angle that a tooth takes at its root circle, for the compliance of the body [deg]; that of the "
       "profile if not given.");
 }
@@ -188,9 +188,9 @@ const Table<gear::Lubrication>& lubrication_table() {
   static const auto table = [] {
     using gear::Lubrication;
     Table<Lubrication> t("lubrication", "Lubricant and roughness for the friction of the teeth; none without it.");
-    t.number("viscosity_mPas", &Lubrication::viscosity_mPas, above_up_to(0, 1e5),
+    t.number("viscosity_mPas", &Lubrication::viscosity_mPas, between(1, 2000),
              "Dynamic viscosity of the oil at its inlet [mPa s].");
-    t.number("roughness_um", &Lubrication::roughness_um, between(0, 10), "RMS roughness of the flanks [um].");
+    t.number("roughness_um", &Lubrication::roughness_um, between(0, 1.5), "RMS roughness of the flanks [um].");
     return t;
   }();
   return table;

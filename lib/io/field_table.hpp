@@ -51,6 +51,7 @@ struct KeyPlace {
 struct ReadContext {
   std::vector<Finding> findings;
   std::vector<KeyPlace> places;
+  std::vector<std::string> notes;  ///< what is not wrong, but may surprise
 
   void add(Finding::Kind kind, const std::string& pointer, std::string message) {
     findings.push_back({kind, pointer, std::move(message), {}});

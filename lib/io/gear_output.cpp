@@ -13,6 +13,7 @@
 #include "io/csv.hpp"
 #include "io/gear_figures.hpp"
 #include "io/gear_report.hpp"
+#include "io/study_model.hpp"
 #include "model/modes.hpp"
 
 namespace epicyclic::io {
@@ -239,7 +240,7 @@ GearOutput write_gear_output(const std::filesystem::path& path, const LoadedInpu
     const gear::GearSet set = gear::make_gear_set(stage);
     page.quantities = gear_quantities(set, stage);
     out.verdicts = contact_verdicts(set, stage);
-    out.warnings = gear::catalogue_warnings(set);
+    out.warnings = catalogue_warnings(input);
     const auto both = meshes(set, stage);
     folder.write("stiffness.csv", stiffness_csv(set));
     folder.write("load_sharing.csv", load_sharing_csv(both, set.catalogue.lubrication.value_or(gear::Lubrication{})));

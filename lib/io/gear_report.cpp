@@ -51,7 +51,11 @@ void add_pair(std::vector<Quantity>& all, const gear::Pair& p, const std::string
   Group g(all, "Contact of " + title);
   const auto name = [&](const char* what) { return mesh + "_" + what; };
   g.add(name("operating_pressure_angle"), "α_" + index, p.pressure_angle * degree, "deg", "[G-pair]");
-  g.add(name("tight_centre_distance"), "a_0" + index, tight_centre_distance_mm(p.driving, p.driven), "mm", "[G-a0]");
+  try {
+    g.add(name("tight_centre_distance"), "a_0" + index, tight_centre_distance_mm(p.driving, p.driven), "mm", "[G-a0]");
+  } catch (const DomainError&) {
+    // Teeth that fit at no centre distance without backlash: there is none to tell.
+  }
   g.add(name("operating_pitch_radius_driving"), "r_w1", p.pitch_radius_1_mm(), "mm", "[G-pair]");
   g.add(name("operating_pitch_radius_driven"), "r_w2", p.pitch_radius_2_mm(), "mm", "[G-pair]");
   g.add(name("line_of_action_length"), "N_1N_2", p.theoretical_length_mm, "mm", "[G-pair]");
@@ -111,7 +115,7 @@ void add_tolerances(std::vector<Quantity>& all, const std::optional<gear::Tolera
   g.add(name("profile_form_deviation"), "f_fα", t->profile_form, "um", "[G-1328]");
   g.add(name("profile_slope_deviation"), "f_Hα", t->profile_slope, "um", "[G-1328]");
   g.add(name("helix_deviation"), "F_β", t->helix, "um", "[G-1328]");
-  g.add(name("single_flank_deviation"), "f_i'", t->single_flank, "um", "[G-1328], from memory of the standard");
+  g.add(name("single_flank_deviation"), "f_i'", t->single_flank, "um", "[G-1328]");
 }
 
 std::string shown(double value) {
@@ -232,13 +236,13 @@ std::vector<Quantity> operating_quantities(const gear::Stage& stage, double mesh
   const gear::Torques torques = gear::torques(stage, mesh_frequency);
   const gear::MeshLoad load = gear::mean_mesh_load(stage, mesh_frequency);
   constexpr double rpm = 30.0 / std::numbers::pi;
-  g.add("mesh_frequency_ratio", "Ω", mesh_frequency_ratio, "-", "given");
+  g.add("mesh_frequency_ratio", "Ω", mesh_frequency_ratio, "-", "of the study; 1 for a stage alone");
   g.add("mesh_frequency", "ω_m", mesh_frequency, "rad/s", "[M-23]");
   g.add("sun_speed", "n_s", speeds.sun * rpm, "rpm", "[G-kin]");
   g.add("carrier_speed", "n_c", speeds.carrier * rpm, "rpm", "[G-kin]");
   g.add("sun_torque", "T_D", torques.sun, "N m", "[G-kin]");
-  g.add("carrier_torque", "T_c", torques.carrier, "N m", "[G-kin]");
-  g.add("ring_torque", "T_r", torques.ring, "N m", "[G-kin]");
+  g.add("carrier_load_torque", "T_c", torques.carrier, "N m", "[G-kin], external");
+  g.add("ring_load_torque", "T_r", torques.ring, "N m", "[G-kin], external; a support's reaction is not in it");
   g.add("mean_mesh_force", "F", load.force_N, "N", "T_D / (N r_bs)");
   g.add("mean_deflection", "F/k_0", 1e6 * load.force_N / stage.sun_planet_mesh.stiffness_N_per_m, "um",
         "sun-planet mesh");

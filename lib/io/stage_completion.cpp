@@ -1,6 +1,8 @@
 #include "io/stage_completion.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -190,13 +192,74 @@ void drop_computed(json& object) {
   for (const std::string& key : emptied) object.erase(key);
 }
 
+namespace {
+
+/// Differs by more than the rounding of another machine's library?
+bool differs(const json& a, const json& b) {
+  constexpr double rounding = 1e-9;
+  if (a.is_number() && b.is_number()) {
+    const double x = a.get<double>();
+    const double y = b.get<double>();
+    return !(std::abs(x - y) <= rounding * std::max(std::abs(x), std::abs(y)));
+  }
+  if (a.is_array() && b.is_array() && a.size() == b.size())
+    return !std::equal(a.begin(), a.end(), b.begin(), [](const json& p, const json& q) { return !differs(p, q); });
+  return a != b;
+}
+
+/// Puts back what was dropped as computed and nothing computes.
+void restore(const json& given, json& now) {
+  if (!given.is_object()) return;
+  if (!now.is_object()) now = json::object();
+  const auto origin = given.find("origin");
+  for (const auto& [key, value] : given.items()) {
+    if (key == "origin" || key == "note") continue;
+    if (value.is_object()) {
+      restore(value, now[key]);
+      if (now[key].empty()) now.erase(key);
+    } else if (!now.contains(key)) {
+      now[key] = value;
+      if (origin != given.end() && origin->is_object() && origin->contains(key)) now["origin"][key] = (*origin)[key];
+    }
+  }
+}
+
+/// Values that were given as computed, and were computed anew to something else.
+void note_ignored(const json& given, const json& now, const std::string& pointer, std::vector<std::string>& notes) {
+  if (!given.is_object() || !now.is_object()) return;
+  const auto origin = given.find("origin");
+  for (const auto& [key, value] : given.items()) {
+    if (key == "origin" || key == "note") continue;
+    const std::string place = pointer + pointer_step(key);
+    const auto there = now.find(key);
+    if (value.is_object()) {
+      if (there != now.end()) note_ignored(value, *there, place, notes);
+    } else if (origin != given.end() && origin->is_object() && origin->contains(key) && is_computed((*origin)[key]) &&
+               there != now.end() && differs(value, *there)) {
+      notes.push_back(place +
+                      ": the value in the file is ignored and computed anew, since its origin says \"computed\"; "
+                      "give it another origin to make it stand");
+    }
+  }
+}
+
+}  // namespace
+
 bool complete_stage(json& stage, const std::string& root, ReadContext& context) {
   if (!stage.is_object() || !stage.contains("catalogue")) return true;
+  json given = json::object();
   for (const char* key : {"planets", "lumped"})
     if (const auto it = stage.find(key); it != stage.end()) {
       if (!it->is_object()) return false;
+      given[key] = *it;
       drop_computed(*it);
     }
+  // Of the planets only the centre distance is ever computed.
+  if (given.contains("planets")) {
+    json kept = given["planets"];
+    kept.erase("centre_distance_mm");
+    restore(kept, stage["planets"]);
+  }
   const auto read = readable_part(stage);
   if (!read) return false;
   const auto problems = gear::catalogue_problems(*read);
@@ -206,6 +269,8 @@ bool complete_stage(json& stage, const std::string& root, ReadContext& context) 
   }
   if (!problems.empty()) return false;
   fill_stage(stage, *read);
+  if (given.contains("lumped")) restore(given["lumped"], stage["lumped"]);
+  note_ignored(given, stage, root, context.notes);
   return true;
 }
 

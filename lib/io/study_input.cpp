@@ -605,6 +605,7 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
   input.study_file = {path.filename().string(), file.bytes};
   input.stage_file = std::move(stage_file);
   input.sources_ = sources;
+  input.notes = std::move(context.notes);
 
   if (input.study.sweep && input.study.sweep->parameter != studies::SweepOptions().parameter) {
     // The default range is one of speeds.

@@ -76,6 +76,7 @@ class LoadedInput {
   nlohmann::json resolved;            ///< a valid input that resolves to itself
   RawFile study_file;                 ///< the file that was named: a study, or a stage alone
   std::optional<RawFile> stage_file;  ///< if the study names one
+  std::vector<std::string> notes;     ///< values that were ignored, and why
 
   /// The study with the number at this pointer of the resolved input replaced, checked as strictly as a file.
   /// @throws InputProblems when the pointer is not one of a number, or the study is not valid with that value

@@ -26,14 +26,20 @@ std::vector<std::string> warnings(const LoadedInput& input) {
   std::vector<std::string> lines;
   for (const std::string& line : gear::warnings_for_motion(input.study.stage))
     lines.push_back("warning: /stage" + line);
+  for (const std::string& line : input.notes) lines.push_back("warning: " + line);
   return lines;
 }
 
 std::vector<std::string> catalogue_warnings(const LoadedInput& input) {
   std::vector<std::string> lines;
-  if (!input.study.stage.catalogue) return lines;
-  for (const std::string& line : gear::catalogue_warnings(gear::make_gear_set(input.study.stage)))
-    lines.push_back("warning: " + line);
+  const gear::Stage& stage = input.study.stage;
+  if (!stage.catalogue) return lines;
+  for (const std::string& line : gear::catalogue_warnings(gear::make_gear_set(stage))) lines.push_back(line);
+  const auto problems = gear::problems_for_motion(stage);
+  for (const std::string& line : problems) lines.push_back("no motion in time, no operating point: " + line);
+  if (problems.empty())
+    for (const std::string& line : gear::warnings_for_motion(stage)) lines.push_back(line);
+  lines.insert(lines.end(), input.notes.begin(), input.notes.end());
   return lines;
 }
 

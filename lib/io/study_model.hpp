@@ -18,7 +18,8 @@ namespace epicyclic::io {
 /// Lines for stderr on what is allowed but rarely meant.
 [[nodiscard]] std::vector<std::string> warnings(const LoadedInput& input);
 
-/// The same on catalogue data: thin tips, undercut, a module replaced, formulas out of range; empty without such data.
+/// The same on a stage of catalogue data: thin tips, undercut, a module replaced, formulas out of range, why it cannot
+/// be moved in time; empty without such data.
 [[nodiscard]] std::vector<std::string> catalogue_warnings(const LoadedInput& input);
 
 /// What identifies the study's results: SHA-256 of the canonical resolved input with the versions of journal and

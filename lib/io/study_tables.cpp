@@ -194,9 +194,9 @@ const Table<Friction::Ehl>& lubricated_table() {
   static const auto table = [] {
     using Ehl = Friction::Ehl;
     Table<Ehl> t("lubricated", "Friction of lubricated contact, a function of place, load and speed.");
-    t.number("viscosity_mPas", &Ehl::viscosity_mPas, above_up_to(0, 1e5),
+    t.number("viscosity_mPas", &Ehl::viscosity_mPas, between(1, 2000),
              "Dynamic viscosity of the oil at its inlet [mPa s].");
-    t.number("roughness_um", &Ehl::roughness_um, between(0, 10), "RMS roughness of the flanks [um].");
+    t.number("roughness_um", &Ehl::roughness_um, between(0, 1.5), "RMS roughness of the flanks [um].");
     t.number("equivalent_modulus_GPa", &Ehl::equivalent_modulus_GPa, above_up_to(0, 5000),
              "E' = 2 / ((1 - nu1^2) / E1 + (1 - nu2^2) / E2) [GPa].")
         .required();

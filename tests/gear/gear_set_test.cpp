@@ -90,7 +90,7 @@ TEST(GearSet, EachProblemIsToldAtItsPlace) {
        [](Stage& s, Catalogue&) { s.centre_distance_mm = 71.5; }},
       {"/catalogue/sun", "at least 3 teeth", [](Stage&, Catalogue& c) { c.sun.data.teeth = 0; }},
       {"/catalogue/ring", "an internal tooth needs", [](Stage&, Catalogue& c) { c.ring.data.tip_diameter_mm = 190.0; }},
-      {"/catalogue", "accuracy grades", [](Stage&, Catalogue& c) { c.sun.accuracy_grade = 13; }},
+      {"/catalogue/sun/accuracy_grade", "accuracy grades", [](Stage&, Catalogue& c) { c.sun.accuracy_grade = 13; }},
       {"/planets/centre_distance_mm", "leave no line of action",
        [](Stage& s, Catalogue& c) {
          s.centre_distance_mm = 60.0;

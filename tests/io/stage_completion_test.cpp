@@ -68,6 +68,48 @@ TEST(StageCompletion, AResolvedInputResolvesToItself) {
   EXPECT_EQ(load_input(folder / "stage.json").resolved, resolved);
 }
 
+TEST(StageCompletion, AnEditedValueThatSaysComputedIsIgnoredAloud) {
+  const TemporaryFolder folder;
+  json resolved = loaded().resolved;
+  resolved["lumped"]["sun"]["mass_kg"] = 9.0;
+  std::ofstream(folder / "stage.json") << resolved.dump();
+  const LoadedInput input = load_input(folder / "stage.json");
+  EXPECT_NEAR(input.study.stage.sun.mass_kg, 1.654, 5e-4);
+  ASSERT_EQ(input.notes.size(), 1U);
+  EXPECT_EQ(input.notes[0].rfind("/lumped/sun/mass_kg: the value in the file is ignored", 0), 0U);
+  EXPECT_TRUE(loaded().notes.empty());
+}
+
+TEST(StageCompletion, WhatNothingComputesStandsWhateverItsOriginSays) {
+  const TemporaryFolder folder;
+  std::ifstream file(stage_file);
+  json stage = json::parse(file);
+  stage["planets"]["origin"] = "computed: by hand";
+  stage["lumped"]["planet"]["origin"] = "computed: by hand";
+  std::ofstream(folder / "stage.json") << stage.dump();
+  const LoadedInput input = load_input(folder / "stage.json");
+  EXPECT_EQ(input.study.stage.planet_count, 3);
+  EXPECT_EQ(input.study.stage.planet.bearing_N_per_m, 1e8);
+}
+
+TEST(StageCompletion, NumbersThatMakeNoGearsAreProblemsOfTheInput) {
+  for (const char* set :
+       {"/catalogue/ring/profile_shift=-1", "/catalogue/ring/pressure_angle_deg=5", "/catalogue/planet/profile_shift=5",
+        "/catalogue/ring/module_mm=1", "/catalogue/carrier/shaft/inner_diameter_mm=70",
+        "/catalogue/carrier/body/inner_diameter_mm=200", "/catalogue/sun/width_mm=1", "/catalogue/ring/teeth=40",
+        "/catalogue/lubrication/roughness_um=5"}) {
+    const auto lines = messages({set});
+    EXPECT_FALSE(lines.empty()) << set;
+    EXPECT_TRUE(any_has(lines, "/catalogue/")) << set;
+  }
+}
+
+TEST(StageCompletion, AStageThatCannotMoveIsToldWhy) {
+  const auto lines = catalogue_warnings(loaded({"/boundary=star", "/lumped/carrier/torsional_support_N_per_m=0"}));
+  EXPECT_TRUE(any_has(lines, "no motion in time, no operating point: /lumped/carrier/torsional_support_N_per_m"));
+  EXPECT_TRUE(any_has(catalogue_warnings(loaded({"/planets/count=5"})), "cannot be assembled"));
+}
+
 TEST(StageCompletion, AGivenValueStands) {
   const LoadedInput input = loaded({"/lumped/sun/mass_kg=2", "/lumped/sun_planet_mesh/stiffness_N_per_m=1e9"});
   EXPECT_EQ(input.study.stage.sun.mass_kg, 2.0);
