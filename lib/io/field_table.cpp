@@ -10,11 +10,11 @@ namespace epicyclic::io {
 namespace {
 
 /// Endings of keys that are units, right or wrong; longer ones first where one ends in another.
-constexpr std::array<std::string_view, 45> units = {
-    "Ns_per_m", "N_per_mm", "N_per_um", "N_per_m", "Nm_per_rad", "kNm", "Nm",  "Nmm", "kW", "MW", "mW", "W",
-    "hp",       "kg",       "mg",       "lb",      "g",          "t",   "mm",  "um",  "nm", "cm", "km", "in",
-    "inch",     "m",        "degrees",  "degree",  "deg",        "rad", "rpm", "kHz", "Hz", "s",  "ms", "GPa",
-    "MPa",      "kPa",      "Pa",       "percent", "kN",         "MN",  "N",   "J",   "C"};
+constexpr std::array<std::string_view, 48> units = {
+    "Ns_per_m", "N_per_mm", "N_per_um", "N_per_m", "Nm_per_rad", "kNm", "Nm",  "Nmm", "kW", "MW",   "mW",  "W",
+    "hp",       "kg",       "mg",       "lb",      "g",          "t",   "mm",  "um",  "nm", "cm",   "km",  "in",
+    "inch",     "m",        "degrees",  "degree",  "deg",        "rad", "rpm", "kHz", "Hz", "s",    "ms",  "GPa",
+    "MPa",      "kPa",      "Pa",       "percent", "kN",         "MN",  "N",   "J",   "C",  "mPas", "Pas", "kg_per_m3"};
 
 std::string_view unit_ending(std::string_view key, bool any_case) {
   std::string_view best;
@@ -145,6 +145,7 @@ std::string described(const nlohmann::json& value) {
 std::string unit_of(std::string_view key) {
   std::string unit(unit_ending(key, false));
   if (unit.rfind("Ns", 0) == 0 || unit.rfind("Nm", 0) == 0) unit.insert(1, " ");
+  if (unit == "mPas" || unit == "Pas") unit.insert(unit.size() - 1, " ");
   if (const auto per = unit.find("_per_"); per != std::string::npos) unit.replace(per, 5, "/");
   return unit;
 }

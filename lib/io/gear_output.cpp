@@ -240,6 +240,7 @@ GearOutput write_gear_output(const std::filesystem::path& path, const LoadedInpu
     const gear::GearSet set = gear::make_gear_set(stage);
     page.quantities = gear_quantities(set, stage);
     out.verdicts = contact_verdicts(set, stage);
+    if (moves) out.verdicts.insert(out.verdicts.begin(), operation_verdict(stage, input.study.mesh_frequency_ratio));
     out.warnings = catalogue_warnings(input);
     const auto both = meshes(set, stage);
     folder.write("stiffness.csv", stiffness_csv(set));

@@ -278,6 +278,22 @@ std::vector<std::string> contact_verdicts(const gear::GearSet& set, const gear::
   return lines;
 }
 
+std::string operation_verdict(const gear::Stage& stage, double mesh_frequency_ratio) {
+  const double mesh_frequency = mesh_frequency_ratio * model::scales_of(stage).omega_sn;
+  const gear::Speeds speeds = gear::speeds(stage, mesh_frequency);
+  constexpr double rpm = 30.0 / std::numbers::pi;
+  constexpr double giga = 1e9;
+  return fmt::format(
+      "{}/{}/{} teeth, {} planets: ω_m = {:.4g} ω_s; at Ω = {:.4g} the sun turns at {:.0f} rpm, the carrier at {:.0f} "
+      "rpm, "
+      "T_D = {:.4g} N m, mean mesh force {:.4g} N; mean stiffness {:.4g} (sun-planet) and {:.4g} (ring-planet) 10^9 "
+      "N/m.",
+      *stage.sun.teeth, *stage.planet.teeth, *stage.ring.teeth, stage.planet_count, mesh_frequency / speeds.sun,
+      mesh_frequency_ratio, speeds.sun * rpm, speeds.carrier * rpm, gear::torques(stage, mesh_frequency).sun,
+      gear::mean_mesh_load(stage, mesh_frequency).force_N, stage.sun_planet_mesh.stiffness_N_per_m / giga,
+      stage.ring_planet_mesh.stiffness_N_per_m / giga);
+}
+
 std::string gear_page(const GearPage& page, const LoadedInput& input, const std::vector<model::Mode>& modes,
                       const model::Scales& scales) {
   std::string text = fmt::format("# {}\n\n", cell(page.title));

@@ -46,6 +46,10 @@ struct GearPage {
 [[nodiscard]] std::string gear_page(const GearPage& page, const LoadedInput& input,
                                     const std::vector<model::Mode>& modes, const model::Scales& scales);
 
+/// One sentence on teeth, speeds, torque and mesh stiffness at an operating point.
+/// @param stage  passes gear::problems_for_motion()
+[[nodiscard]] std::string operation_verdict(const gear::Stage& stage, double mesh_frequency_ratio);
+
 /// Sentences on where the paths of contact lie relative to their pitch points.
 [[nodiscard]] std::vector<std::string> contact_verdicts(const gear::GearSet& set, const gear::Stage& stage);
 

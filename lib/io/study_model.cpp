@@ -35,6 +35,8 @@ std::vector<std::string> catalogue_warnings(const LoadedInput& input) {
   const gear::Stage& stage = input.study.stage;
   if (!stage.catalogue) return lines;
   for (const std::string& line : gear::catalogue_warnings(gear::make_gear_set(stage))) lines.push_back(line);
+  if (stage.catalogue->carrier.shaft && stage.boundary == gear::Boundary::fixed_ring)
+    lines.emplace_back("/catalogue/carrier/shaft: not used; with boundary fixed_ring the carrier turns freely");
   const auto problems = gear::problems_for_motion(stage);
   for (const std::string& line : problems) lines.push_back("no motion in time, no operating point: " + line);
   if (problems.empty())
