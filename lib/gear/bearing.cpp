@@ -55,6 +55,15 @@ double palmgren_force(double coefficient, double approach_m) {
 
 std::span<const BearingType> bearing_types() { return types; }
 
+std::optional<BearingData> bearing_data(const SupportBearing& bearing) {
+  if (bearing.balls && bearing.ball_diameter_mm)
+    return BearingData{"own data", *bearing.balls, *bearing.ball_diameter_mm, bearing.contact_angle_deg, "own data"};
+  const std::optional<BearingType> type = find_bearing(bearing.type);
+  if (!type) return std::nullopt;
+  return BearingData{std::string(type->designation), type->balls, type->ball_diameter_mm, bearing.contact_angle_deg,
+                     std::string(type->origin)};
+}
+
 std::optional<BearingType> find_bearing(std::string_view designation) {
   const auto it = std::find_if(types.begin(), types.end(),
                                [&](const BearingType& type) { return type.designation == designation; });

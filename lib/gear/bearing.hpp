@@ -10,6 +10,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "gear/stage.hpp"
@@ -41,5 +42,20 @@ struct BearingType {
 
 /// @returns nothing for an unknown designation
 [[nodiscard]] std::optional<BearingType> find_bearing(std::string_view designation);
+
+/// What [G-11] needs of a bearing.
+struct BearingData {
+  std::string name;  ///< designation, or "own data"
+  int balls = 0;
+  double ball_diameter_mm = 0;
+  double contact_angle_deg = 0;
+  std::string origin;
+
+  /// K [N/m^1.5].
+  [[nodiscard]] double coefficient() const { return palmgren_coefficient(balls, ball_diameter_mm, contact_angle_deg); }
+};
+
+/// Own data if they are given, else those of the type; nothing for an unknown type.
+[[nodiscard]] std::optional<BearingData> bearing_data(const SupportBearing& bearing);
 
 }  // namespace epicyclic::gear

@@ -37,10 +37,13 @@ struct RingGear {
   std::optional<double> root_half_angle_deg;
 };
 
-/// A bearing by its designation, and the approach at which its stiffness is taken.
+/// A bearing by its designation or by its own data, and the approach at which its stiffness is taken.
 struct SupportBearing {
-  std::string type;         ///< a designation that find_bearing() knows
-  double approach_um = 10;  ///< elastic approach beyond the clearance
+  std::string type;                          ///< a designation that find_bearing() knows; empty with data of its own
+  double approach_um = 10;                   ///< elastic approach beyond the clearance
+  std::optional<int> balls{};                ///< Z
+  std::optional<double> ball_diameter_mm{};  ///< D_w
+  double contact_angle_deg = 0;              ///< alpha
 };
 
 struct OutputShaft {

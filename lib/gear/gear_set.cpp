@@ -226,12 +226,12 @@ std::vector<std::string> catalogue_problems(const Stage& stage) {
             of_planet_base_pitch(c.ring.data, c.planet.data).module_mm, " mm in its place");
   for (const auto& [pointer, bearing] : {std::pair("/catalogue/sun_bearing", &c.sun_bearing),
                                          std::pair("/catalogue/carrier/bearing", &c.carrier.bearing)})
-    if (*bearing && !find_bearing((*bearing)->type)) {
+    if (*bearing && !bearing_data(**bearing)) {
       std::string known;
       for (const BearingType& type : bearing_types())
         known += (known.empty() ? "" : ", ") + std::string(type.designation);
       out.add(std::string(pointer) + "/type", "\"", (*bearing)->type, "\" is not among the bearings known here (",
-              known, "); give support_N_per_m in lumped instead");
+              known, "); give balls and ball_diameter_mm instead");
     }
   auto lines = out.take();
   if (!lines.empty()) return lines;

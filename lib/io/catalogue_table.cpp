@@ -93,8 +93,12 @@ const Table<gear::SupportBearing>& bearing_table() {
   static const auto table = [] {
     using gear::SupportBearing;
     Table<SupportBearing> t("bearing", "Bearing of a support.");
-    t.text("type", &SupportBearing::type, "Designation of a deep groove ball bearing; gives the support's stiffness.")
-        .required();
+    t.text("type", &SupportBearing::type, "Designation of a deep groove ball bearing; gives the support's stiffness.");
+    t.integer("balls", &SupportBearing::balls, between(3, 1000), "Number of balls, in place of a type [-].");
+    t.number("ball_diameter_mm", &SupportBearing::ball_diameter_mm, length, "Diameter of a ball [mm].");
+    t.number("contact_angle_deg", &SupportBearing::contact_angle_deg, from_below(0, 90), "Contact angle [deg].");
+    t.rule(KeyRule::Kind::exactly_one, {"type", "balls"});
+    t.rule(KeyRule::Kind::together, {"balls", "ball_diameter_mm"});
     t.number("approach_um", &SupportBearing::approach_um, above_up_to(0, 1e4),
              "Elastic approach at which the tangent stiffness is taken [um].");
     return t;

@@ -319,10 +319,8 @@ std::vector<NamedBearing> bearings_of(const gear::Catalogue& catalogue) {
   std::vector<NamedBearing> bearings;
   const auto add = [&](std::string_view member, const std::optional<gear::SupportBearing>& support) {
     if (!support) return;
-    const std::optional<gear::BearingType> type = gear::find_bearing(support->type);
-    if (type)
-      bearings.push_back({fmt::format("{}, {}", member, literal(support->type)), *support,
-                          gear::palmgren_coefficient(type->balls, type->ball_diameter_mm, 0.0)});
+    if (const auto data = gear::bearing_data(*support))
+      bearings.push_back({fmt::format("{}, {}", member, literal(data->name)), *support, data->coefficient()});
   };
   add("sun", catalogue.sun_bearing);
   add("carrier", catalogue.carrier.bearing);

@@ -180,12 +180,12 @@ std::string bearings_csv(const gear::Catalogue& catalogue) {
   CsvWriter csv({"member", "bearing", "approach_um", "stiffness_N_per_m", "force_N"});
   const auto rows = [&](const char* member, const std::optional<gear::SupportBearing>& bearing) {
     if (!bearing) return;
-    const gear::BearingType type = *gear::find_bearing(bearing->type);
-    const double coefficient = gear::palmgren_coefficient(type.balls, type.ball_diameter_mm, 0.0);
+    const gear::BearingData data = *gear::bearing_data(*bearing);
+    const double coefficient = data.coefficient();
     constexpr int count = 50;
     for (int k = 0; k <= count; ++k) {
       const double approach_um = k;
-      csv.row(member, bearing->type, approach_um, gear::palmgren_stiffness(coefficient, approach_um * 1e-6),
+      csv.row(member, data.name, approach_um, gear::palmgren_stiffness(coefficient, approach_um * 1e-6),
               gear::palmgren_force(coefficient, approach_um * 1e-6));
     }
   };

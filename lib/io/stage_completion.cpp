@@ -74,13 +74,11 @@ void fill_gear(Filler& member, const gear::Tooth& tooth) {
 
 /// Tangent stiffness of a bearing at its approach.
 double support_stiffness(const gear::SupportBearing& bearing) {
-  const gear::BearingType type = *gear::find_bearing(bearing.type);
-  const double coefficient = gear::palmgren_coefficient(type.balls, type.ball_diameter_mm, 0.0);
-  return gear::palmgren_stiffness(coefficient, bearing.approach_um * 1e-6);
+  return gear::palmgren_stiffness(gear::bearing_data(bearing)->coefficient(), bearing.approach_um * 1e-6);
 }
 
 std::string bearing_tag(const gear::SupportBearing& bearing) {
-  return "[G-11] tangent stiffness of bearing " + bearing.type + " at an approach of " +
+  return "[G-11] tangent stiffness of bearing " + gear::bearing_data(bearing)->name + " at an approach of " +
          number_text(bearing.approach_um) + " um";
 }
 
@@ -135,12 +133,13 @@ void fill_stage(json& stage, const gear::Stage& read) {
   fill_gear(sun, set.sun);
   fill_body(sun, bodies.sun, set.sun.base_radius_mm, "[G-M] cylinder between bore and mean of tip and root radius");
   if (c.sun_bearing) {
-    const gear::BearingType type = *gear::find_bearing(c.sun_bearing->type);
+    const gear::BearingData data = *gear::bearing_data(*c.sun_bearing);
     sun.fill("support_N_per_m", support_stiffness(*c.sun_bearing), bearing_tag(*c.sun_bearing));
     Filler bearing = sun.below("bearing");
-    bearing.fill("balls", type.balls, "bearing " + c.sun_bearing->type + ", " + std::string(type.origin));
-    bearing.fill("ball_diameter_mm", type.ball_diameter_mm,
-                 "bearing " + c.sun_bearing->type + ", " + std::string(type.origin));
+    const std::string origin = "bearing " + data.name + ", " + data.origin;
+    bearing.fill("balls", data.balls, origin);
+    bearing.fill("ball_diameter_mm", data.ball_diameter_mm, origin);
+    bearing.fill("contact_angle_deg", data.contact_angle_deg, "as in catalogue");
   }
   Filler planet = lumped.below("planet");
   fill_gear(planet, set.planet);

@@ -104,6 +104,16 @@ TEST(StageCompletion, NumbersThatMakeNoGearsAreProblemsOfTheInput) {
   }
 }
 
+TEST(StageCompletion, ABearingMayHaveDataOfItsOwn) {
+  const LoadedInput own =
+      loaded({R"(/catalogue/carrier/bearing={"balls": 14, "ball_diameter_mm": 16, "approach_um": 10})"});
+  EXPECT_EQ(own.study.stage.carrier.support_N_per_m, loaded().study.stage.carrier.support_N_per_m);
+  EXPECT_EQ(own.resolved["lumped"]["carrier"]["origin"]["support_N_per_m"],
+            "computed: [G-11] tangent stiffness of bearing own data at an approach of 10 um");
+  EXPECT_TRUE(any_has(messages({R"(/catalogue/carrier/bearing={"balls": 14})"}), "ball_diameter_mm"));
+  EXPECT_TRUE(any_has(messages({R"(/catalogue/carrier/bearing={"approach_um": 10})"}), "/catalogue/carrier/bearing"));
+}
+
 TEST(StageCompletion, AStageThatCannotMoveIsToldWhy) {
   const auto lines = catalogue_warnings(loaded({"/boundary=star", "/lumped/carrier/torsional_support_N_per_m=0"}));
   EXPECT_TRUE(any_has(lines, "no motion in time, no operating point: /lumped/carrier/torsional_support_N_per_m"));
