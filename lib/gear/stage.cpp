@@ -311,7 +311,7 @@ std::vector<std::string> problems_for_motion(const Stage& s) {
       check_stiffness_curve(out, pointer, mesh);
     else
       check_stiffness(out, pointer, mesh);
-    if (mesh.friction.ehl) check_ehl(out, std::string(pointer) + "/friction", *mesh.friction.ehl);
+    if (mesh.friction.ehl) check_ehl(out, std::string(pointer) + "/friction/lubricated", *mesh.friction.ehl);
     if (mesh.friction.table) check_friction_table(out, std::string(pointer) + "/friction", *mesh.friction.table);
   }
   const bool hertzian =

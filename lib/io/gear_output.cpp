@@ -116,13 +116,11 @@ std::string stiffness_csv(const gear::GearSet& set) {
 struct NamedMesh {
   const char* name;
   const gear::MeshedPair& pair;
-  const gear::Mesh& mesh;
   gear::LineOfAction line;
 };
 
 std::vector<NamedMesh> meshes(const gear::GearSet& set, const gear::Stage& stage) {
-  return {{"sp", set.sun_planet, stage.sun_planet_mesh, gear::sun_planet_line(stage)},
-          {"rp", set.ring_planet, stage.ring_planet_mesh, gear::ring_planet_line(stage)}};
+  return {{"sp", set.sun_planet, gear::sun_planet_line(stage)}, {"rp", set.ring_planet, gear::ring_planet_line(stage)}};
 }
 
 std::string load_sharing_csv(const std::vector<NamedMesh>& both, const gear::Lubrication& any) {

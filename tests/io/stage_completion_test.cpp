@@ -114,6 +114,14 @@ TEST(StageCompletion, ABearingMayHaveDataOfItsOwn) {
   EXPECT_TRUE(any_has(messages({R"(/catalogue/carrier/bearing={"approach_um": 10})"}), "/catalogue/carrier/bearing"));
 }
 
+TEST(StageCompletion, AWrongLoadShareIsToldWhereItStands) {
+  gear::Stage stage = loaded().study.stage;
+  ASSERT_TRUE(gear::problems_for_motion(stage).empty());
+  stage.sun_planet_mesh.friction.ehl->share_position.front() = 0.1;
+  EXPECT_TRUE(any_has(gear::problems_for_motion(stage),
+                      "/lumped/sun_planet_mesh/friction/lubricated/load_share_position: must go from 0"));
+}
+
 TEST(StageCompletion, AStageThatCannotMoveIsToldWhy) {
   const auto lines = catalogue_warnings(loaded({"/boundary=star", "/lumped/carrier/torsional_support_N_per_m=0"}));
   EXPECT_TRUE(any_has(lines, "no motion in time, no operating point: /lumped/carrier/torsional_support_N_per_m"));
