@@ -3,7 +3,7 @@
 include(CMakeFindDependencyMacro)
 
 find_dependency(Eigen3 3.4)
-find_dependency(SUNDIALS 6.4 COMPONENTS arkode)
+find_dependency(SUNDIALS 6.4 COMPONENTS arkode cvode)
 find_dependency(GSL 2.7)
 find_dependency(Threads)
 find_dependency(nlohmann_json 3.11)

@@ -56,7 +56,7 @@ struct Dual {
   }
   constexpr Dual& operator/=(const Dual& b) {
     const double inverse = 1.0 / b.value;
-    value *= inverse;
+    value /= b.value;  // not times the inverse: values are those of the same text on doubles, to the last bit
     for (std::size_t j = 0; j < M; ++j) derivative[j] = (derivative[j] - value * b.derivative[j]) * inverse;
     return *this;
   }
@@ -70,6 +70,11 @@ struct Dual {
   friend constexpr bool operator<(const Dual& a, const Dual& b) { return a.value < b.value; }
   friend constexpr bool operator>(const Dual& a, const Dual& b) { return a.value > b.value; }
 };
+
+template <class T>
+inline constexpr bool is_dual = false;
+template <std::size_t M>
+inline constexpr bool is_dual<Dual<M>> = true;
 
 template <std::size_t M>
 [[nodiscard]] constexpr double value_of(const Dual<M>& x) {
@@ -85,6 +90,34 @@ template <std::size_t M>
 [[nodiscard]] Dual<M> sqrt(const Dual<M>& x) {
   const double root = std::sqrt(x.value);
   return x.chained(root, 0.5 / root);
+}
+
+template <std::size_t M>
+[[nodiscard]] Dual<M> exp(const Dual<M>& x) {
+  const double e = std::exp(x.value);
+  return x.chained(e, e);
+}
+
+template <std::size_t M>
+[[nodiscard]] Dual<M> log(const Dual<M>& x) {
+  return x.chained(std::log(x.value), 1.0 / x.value);
+}
+
+template <std::size_t M>
+[[nodiscard]] Dual<M> sin(const Dual<M>& x) {
+  return x.chained(std::sin(x.value), std::cos(x.value));
+}
+
+template <std::size_t M>
+[[nodiscard]] Dual<M> cos(const Dual<M>& x) {
+  return x.chained(std::cos(x.value), -std::sin(x.value));
+}
+
+/// x^p of x > 0.
+template <std::size_t M>
+[[nodiscard]] Dual<M> pow(const Dual<M>& x, double p) {
+  const double power = std::pow(x.value, p);
+  return x.chained(power, p * power / x.value);
 }
 
 template <std::size_t M>

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "core/errors.hpp"
 
 namespace epicyclic::integrate {
 
@@ -33,6 +36,14 @@ std::vector<double> breakpoints_between(const VectorField& field, double from, d
       if (s > from + near && s < to - near) between.push_back(s);
     }
   return between;
+}
+
+void jacobian(const VectorField& field, std::size_t segment, double s, const double* y, std::span<double> jacobian) {
+  const std::size_t n = field.dimension;
+  if (!field.tangents) throw InputError("a Jacobian is asked of a field without tangents");
+  std::vector<double> memory(n * n + n, 0.0);
+  for (std::size_t j = 0; j < n; ++j) memory[j * n + j] = 1.0;
+  field.tangents(segment, s, y, {memory.data(), n, n}, memory.data() + n * n, {jacobian.data(), n, n});
 }
 
 }  // namespace epicyclic::integrate

@@ -1,12 +1,15 @@
 // Flow: what analysis knows of a dynamical system. It carries a state along the independent variable s.
 //
-//   dy/ds = g(s, y) ,  phi(s_0 -> s_1): y(s_0) -> y(s_1)
+//   dy/ds = g(s, y; p) ,        phi(s_0 -> s_1): y(s_0) -> y(s_1)
+//   dv/ds = (dg/dy) v ,         a tangent vector: (d phi / dy) v
+//   dw/ds = (dg/dy) w + dg/dp , the derivative of the state with respect to a parameter p
 //
 // For a gear train s is the mesh phase and g has the period 2 pi. Any system with a VectorField can be made a Flow, so
 // analysis is tested on systems with known answers through the same code.
 //
 // Smoothness: g may jump in s at the breakpoints (which every Flow steps onto exactly) and have kinks across the
-// switching surfaces (which a Flow may ignore).
+// switching surfaces (which a Flow may ignore). Tangents pass a kink of a continuous g without a jump; where g itself
+// jumps across a surface (contact-slope damping with an exact gap) they would need a jump that no Flow makes.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +17,8 @@
 #include <span>
 #include <string>
 #include <vector>
+
+#include "core/push_forward.hpp"
 
 namespace epicyclic::integrate {
 
@@ -31,6 +36,16 @@ struct VectorField {
 
   /// dy/ds at s, one-sided: segment k is that after breakpoint k (the last one wraps); 0 if there are no breakpoints.
   std::function<void(std::size_t segment, double s, const double* y, double* dyds)> right_hand_side;
+
+  /// dy/ds, and (dg/dy) v_j for each of the given tangent vectors; integrate/make_field.hpp makes it. Needed by
+  /// implicit methods (their Jacobian is this at the unit vectors) and by evolve_tangents(); empty where neither is
+  /// used.
+  std::function<void(std::size_t segment, double s, const double* y, const Columns<const double>& v, double* dyds,
+                     const Columns<double>& dvds)>
+      tangents;
+
+  /// dg/dp at fixed y; empty if no parameter is varied.
+  std::function<void(std::size_t segment, double s, const double* y, double* dgdp)> parameter_derivative;
 
   std::vector<SwitchingSurface> surfaces;
 };
@@ -54,6 +69,20 @@ struct Evolution {
 /// Sees the solution at requested values of s, in order. The state is valid during the call.
 using Observer = std::function<void(std::size_t index, double s, std::span<const double> y)>;
 
+/// What a Flow has done since construction.
+struct Work {
+  long right_hand_sides = 0;          ///< evaluations of g, those with tangents not counted
+  long tangent_right_hand_sides = 0;  ///< evaluations of g with all tangent vectors
+  long jacobians = 0;                 ///< evaluations of dg/dy for implicit methods
+  long steps = 0;                     ///< attempted
+};
+
+/// Which equation the tangent vectors obey.
+enum class LastTangent {
+  homogeneous,  ///< dv/ds = (dg/dy) v for all
+  parameter,    ///< the last one is the derivative with respect to the parameter: dg/dp is added to it
+};
+
 class Flow {
  public:
   Flow() = default;
@@ -75,11 +104,34 @@ class Flow {
 
   Evolution evolve(std::span<double> state, double from, double to) { return evolve(state, from, to, {}, {}); }
 
-  /// Calls of the right-hand side since construction.
-  [[nodiscard]] virtual long right_hand_side_calls() const = 0;
+  /// Carries the state and m tangent vectors through the same steps.
+  ///
+  /// @param tangents  m vectors of dimension() numbers one behind the other, replaced; if not reached, those at the
+  ///                  state's place
+  /// @throws InputError when the field has no tangents, or no parameter derivative where one is asked for
+  virtual Evolution evolve_tangents(std::span<double> state, std::span<double> tangents, double from, double to,
+                                    LastTangent last) = 0;
+
+  Evolution evolve_tangents(std::span<double> state, std::span<double> tangents, double from, double to) {
+    return evolve_tangents(state, tangents, from, to, LastTangent::homogeneous);
+  }
+
+  [[nodiscard]] virtual Work work() const = 0;
+
+  /// Calls of the right-hand side since construction, alone or with tangents.
+  [[nodiscard]] long right_hand_side_calls() const {
+    const Work w = work();
+    return w.right_hand_sides + w.tangent_right_hand_sides;
+  }
+
+  /// Length of the step that the next evolution begins with; 0 leaves it to the method. With the state it is all that a
+  /// Flow remembers: another Flow that is given both goes on with the same bits (explicit Runge-Kutta, whose restart
+  /// loses nothing).
+  [[nodiscard]] virtual double next_step() const = 0;
+  virtual void set_next_step(double step) = 0;
 
   /// Forgets the step size of earlier evolutions, so that the next one depends on its arguments alone.
-  virtual void forget() = 0;
+  void forget() { set_next_step(0.0); }
 };
 
 /// Index of the segment that begins at, or contains, s (s reduced to the period).
@@ -87,5 +139,11 @@ class Flow {
 
 /// Breakpoints strictly inside (from, to), in order, all periods.
 [[nodiscard]] std::vector<double> breakpoints_between(const VectorField& field, double from, double to);
+
+/// dg/dy, column by column.
+///
+/// @param jacobian  dimension() x dimension() numbers
+/// @throws InputError when the field has no tangents
+void jacobian(const VectorField& field, std::size_t segment, double s, const double* y, std::span<double> jacobian);
 
 }  // namespace epicyclic::integrate

@@ -1,7 +1,7 @@
 // Options of the integrators: method by name, tolerances, caps.
 //
 // A step of length h from y is accepted when  sqrt( mean_i [ e_i / (rtol |y_i| + atol) ]^2 ) <= 1,  e the difference of
-// the embedded pair (the weighted root mean square of SUNDIALS).
+// the embedded pair, or a multistep method's estimate of its local error (the weighted root mean square of SUNDIALS).
 #pragma once
 
 #include <string>
@@ -9,11 +9,20 @@
 namespace epicyclic::integrate {
 
 struct IntegratorOptions {
-  std::string method = "arkode-dopri5";  ///< one of arkode_method_names()
+  std::string method = "arkode-dopri5";  ///< one of method_names()
   double relative_tolerance = 1e-8;      ///< rtol [-]
   double absolute_tolerance = 1e-10;     ///< atol, in the units of the state [b_c, b_c per tau]
   long max_steps_per_period = 20000;     ///< attempted steps in one mesh period; more is the outcome step_limit
   double escape_bound = 1e6;             ///< |y_i| beyond this is the outcome diverged [b_c, b_c per tau]
+
+  int max_order = 0;  ///< highest order of a multistep method [-]; 0: the method's own. Others have one order
+
+  /// Crossings of the switching surfaces are located and stepped onto (explicit Runge-Kutta only). For reference: the
+  /// answer then has the order of the method, at several times the cost.
+  bool locate_contacts = false;
+
+  /// Tangent vectors count in the error of a step. If not, the steps are those of the state alone, to the last bit.
+  bool tangent_error_control = false;
 };
 
 }  // namespace epicyclic::integrate

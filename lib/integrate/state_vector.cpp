@@ -17,8 +17,8 @@ constexpr std::align_val_t alignment{64};
 
 /// What stands behind N_Vector's content pointer.
 struct Content {
-  std::size_t length = 0;
-  std::size_t size = 0;  ///< with padding
+  VectorShape shape;
+  std::size_t stride = 0;  ///< of a column, with padding
   const VectorKernels* kernels = nullptr;
   double* data = nullptr;
   bool owns = false;
@@ -27,8 +27,33 @@ struct Content {
 Content& content_of(N_Vector v) { return *static_cast<Content*>(v->content); }
 double* data(N_Vector v) { return content_of(v).data; }
 const VectorKernels& kernels(N_Vector v) { return *content_of(v).kernels; }
-std::size_t size(N_Vector v) { return content_of(v).size; }
-std::size_t length(N_Vector v) { return content_of(v).length; }
+std::size_t size(N_Vector v) { return content_of(v).stride * content_of(v).shape.columns; }
+std::size_t length(N_Vector v) { return content_of(v).shape.length; }
+/// What weighted norms look at: numbers with padding, and how many of them are true.
+std::size_t measured_size(N_Vector v) { return content_of(v).stride * content_of(v).shape.measured_columns; }
+double measured_count(N_Vector v) {
+  const VectorShape& s = content_of(v).shape;
+  return static_cast<double>(s.length * s.measured_columns);
+}
+
+/// For operations that would fill the padding: f(offset) for each column.
+template <class F>
+void for_columns(N_Vector v, const F& f) {
+  const Content& c = content_of(v);
+  for (std::size_t j = 0; j < c.shape.columns; ++j) f(j * c.stride);
+}
+
+/// f(index) for each true number of the vector, or of its measured columns.
+template <class F>
+void for_numbers(N_Vector v, std::size_t columns, const F& f) {
+  const Content& c = content_of(v);
+  for (std::size_t j = 0; j < columns; ++j)
+    for (std::size_t i = 0; i < c.shape.length; ++i) f(j * c.stride + i);
+}
+template <class F>
+void for_numbers(N_Vector v, const F& f) {
+  for_numbers(v, content_of(v).shape.columns, f);
+}
 
 // ---- memory -------------------------------------------------------------------------------------------------------
 
@@ -55,7 +80,8 @@ N_Vector clone_empty(N_Vector like) {
     N_VFreeEmpty(v);
     return nullptr;
   }
-  auto* content = new (std::nothrow) Content{length(like), size(like), &kernels(like), nullptr, false};
+  auto* content =
+      new (std::nothrow) Content{content_of(like).shape, content_of(like).stride, &kernels(like), nullptr, false};
   if (content == nullptr) {
     N_VFreeEmpty(v);
     return nullptr;
@@ -68,7 +94,7 @@ N_Vector clone(N_Vector like) {
   N_Vector v = clone_empty(like);
   if (v == nullptr) return nullptr;
   Content& content = content_of(v);
-  content.data = allocate(content.size);
+  content.data = allocate(size(v));
   content.owns = true;
   if (content.data != nullptr) return v;
   destroy(v);
@@ -76,7 +102,7 @@ N_Vector clone(N_Vector like) {
 }
 
 N_Vector_ID identity(N_Vector /*v*/) { return SUNDIALS_NVEC_CUSTOM; }
-sunindextype length_of(N_Vector v) { return static_cast<sunindextype>(length(v)); }
+sunindextype length_of(N_Vector v) { return static_cast<sunindextype>(length(v) * content_of(v).shape.columns); }
 void space(N_Vector v, sunindextype* reals, sunindextype* integers) {
   *reals = static_cast<sunindextype>(size(v));
   *integers = 4;
@@ -88,9 +114,13 @@ realtype* array_pointer(N_Vector v) { return data(v); }
 void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector z) {
   kernels(z).linear_sum(a, data(x), b, data(y), data(z), size(z));
 }
-void constant(realtype c, N_Vector z) { kernels(z).constant(c, data(z), length(z)); }
+void constant(realtype c, N_Vector z) {
+  for_columns(z, [&](std::size_t at) { kernels(z).constant(c, data(z) + at, length(z)); });
+}
 void product(N_Vector x, N_Vector y, N_Vector z) { kernels(z).product(data(x), data(y), data(z), size(z)); }
-void quotient(N_Vector x, N_Vector y, N_Vector z) { kernels(z).quotient(data(x), data(y), data(z), length(z)); }
+void quotient(N_Vector x, N_Vector y, N_Vector z) {
+  for_columns(z, [&](std::size_t at) { kernels(z).quotient(data(x) + at, data(y) + at, data(z) + at, length(z)); });
+}
 void scale(realtype c, N_Vector x, N_Vector z) {
   if (c == 1.0) {
     if (x != z) std::copy(data(x), data(x) + size(x), data(z));
@@ -99,60 +129,68 @@ void scale(realtype c, N_Vector x, N_Vector z) {
   kernels(z).scale(c, data(x), data(z), size(z));
 }
 void absolute(N_Vector x, N_Vector z) { kernels(z).absolute(data(x), data(z), size(z)); }
-void inverse(N_Vector x, N_Vector z) { kernels(z).inverse(data(x), data(z), length(z)); }
-void add_constant(N_Vector x, realtype b, N_Vector z) { kernels(z).add_constant(data(x), b, data(z), length(z)); }
+void inverse(N_Vector x, N_Vector z) {
+  for_columns(z, [&](std::size_t at) { kernels(z).inverse(data(x) + at, data(z) + at, length(z)); });
+}
+void add_constant(N_Vector x, realtype b, N_Vector z) {
+  for_columns(z, [&](std::size_t at) { kernels(z).add_constant(data(x) + at, b, data(z) + at, length(z)); });
+}
 realtype dot(N_Vector x, N_Vector y) { return kernels(x).dot(data(x), data(y), size(x)); }
 realtype max_norm(N_Vector x) { return kernels(x).absolute_max(data(x), size(x)); }
 realtype l1_norm(N_Vector x) { return kernels(x).absolute_sum(data(x), size(x)); }
 realtype weighted_square_sum(N_Vector x, N_Vector w) {
-  return kernels(x).weighted_square_sum(data(x), data(w), size(x));
+  return kernels(x).weighted_square_sum(data(x), data(w), measured_size(x));
 }
-realtype wrms_norm(N_Vector x, N_Vector w) {
-  return std::sqrt(weighted_square_sum(x, w) / static_cast<double>(length(x)));
-}
+realtype wrms_norm(N_Vector x, N_Vector w) { return std::sqrt(weighted_square_sum(x, w) / measured_count(x)); }
 realtype wl2_norm(N_Vector x, N_Vector w) { return std::sqrt(weighted_square_sum(x, w)); }
 
 // The operations below are asked for by constraints and preconditioners only: plain loops.
 
 realtype masked_square_sum(N_Vector x, N_Vector w, N_Vector id) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < length(x); ++i)
+  for_numbers(x, content_of(x).shape.measured_columns, [&](std::size_t i) {
     if (data(id)[i] > 0.0) sum += (data(x)[i] * data(w)[i]) * (data(x)[i] * data(w)[i]);
+  });
   return sum;
 }
 realtype wrms_norm_mask(N_Vector x, N_Vector w, N_Vector id) {
-  return std::sqrt(masked_square_sum(x, w, id) / static_cast<double>(length(x)));
+  return std::sqrt(masked_square_sum(x, w, id) / measured_count(x));
 }
-realtype minimum(N_Vector x) { return *std::min_element(data(x), data(x) + length(x)); }
+realtype minimum(N_Vector x) {
+  double least = data(x)[0];
+  for_numbers(x, [&](std::size_t i) { least = std::min(least, data(x)[i]); });
+  return least;
+}
 void compare(realtype c, N_Vector x, N_Vector z) {
-  for (std::size_t i = 0; i < length(x); ++i) data(z)[i] = std::abs(data(x)[i]) >= c ? 1.0 : 0.0;
+  for_numbers(x, [&](std::size_t i) { data(z)[i] = std::abs(data(x)[i]) >= c ? 1.0 : 0.0; });
 }
 booleantype inverse_test(N_Vector x, N_Vector z) {
   bool all = true;
-  for (std::size_t i = 0; i < length(x); ++i) {
+  for_numbers(x, [&](std::size_t i) {
     if (data(x)[i] == 0.0)
       all = false;
     else
       data(z)[i] = 1.0 / data(x)[i];
-  }
+  });
   return all ? SUNTRUE : SUNFALSE;
 }
 booleantype constraint_mask(N_Vector c, N_Vector x, N_Vector m) {
   bool all = true;
-  for (std::size_t i = 0; i < length(x); ++i) {
+  for_numbers(x, [&](std::size_t i) {
     const double kind = data(c)[i];
     const double value = data(x)[i] * kind;
     const bool strict = std::abs(kind) > 1.5;
     const bool broken = kind != 0.0 && (strict ? value <= 0.0 : value < 0.0);
     data(m)[i] = broken ? 1.0 : 0.0;
     all = all && !broken;
-  }
+  });
   return all ? SUNTRUE : SUNFALSE;
 }
 realtype min_quotient(N_Vector numerator, N_Vector denominator) {
   double least = std::numeric_limits<double>::max();
-  for (std::size_t i = 0; i < length(numerator); ++i)
+  for_numbers(numerator, [&](std::size_t i) {
     if (data(denominator)[i] != 0.0) least = std::min(least, data(numerator)[i] / data(denominator)[i]);
+  });
   return least;
 }
 
@@ -241,22 +279,25 @@ void set_operations(N_Vector_Ops ops) {
 
 }  // namespace
 
-Vector make_state_vector(std::size_t dimension, SUNContext context, const VectorKernels& kernels_to_use) {
+Vector make_state_vector(const VectorShape& shape, SUNContext context, const VectorKernels& kernels_to_use) {
   const auto no_memory = [&] {
-    return SolverError("make_state_vector", -1, 0.0, "no memory for " + std::to_string(dimension) + " numbers");
+    return SolverError("make_state_vector", -1, 0.0,
+                       "no memory for " + std::to_string(shape.length * shape.columns) + " numbers");
   };
   Vector v(N_VNewEmpty(context));
   if (!v) throw no_memory();
   set_operations(v->ops);
-  const std::size_t padded = (dimension + vector_block - 1) / vector_block * vector_block;
-  auto content = std::make_unique<Content>(Content{dimension, padded, &kernels_to_use, nullptr, true});
-  content->data = allocate(padded);
+  const std::size_t stride = (shape.length + vector_block - 1) / vector_block * vector_block;
+  auto content = std::make_unique<Content>(Content{shape, stride, &kernels_to_use, nullptr, true});
+  content->data = allocate(stride * shape.columns);
   v->content = content.release();
   if (content_of(v.get()).data == nullptr) throw no_memory();
   return v;
 }
 
 double* data_of(N_Vector v) { return data(v); }
+std::size_t column_stride(N_Vector v) { return content_of(v).stride; }
+VectorShape shape_of(N_Vector v) { return content_of(v).shape; }
 std::size_t padded_size(N_Vector v) { return size(v); }
 const VectorKernels& kernels_of(N_Vector v) { return kernels(v); }
 

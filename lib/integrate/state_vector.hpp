@@ -5,6 +5,9 @@
 // operation that ARKODE and CVODE may ask for is there; each states what it computes in the SUNDIALS user guide.
 // Results do not depend on the instruction set (integrate/vector_kernels.hpp).
 //
+// A vector may have several columns of the same length, the state and its tangent vectors; norms that measure errors
+// may be told to look at the first column alone, and are then those of a vector of one column to the last bit.
+//
 // Limits: doubles, one process, one thread per vector. Its identity is SUNDIALS_NVEC_CUSTOM.
 #pragma once
 
@@ -24,16 +27,32 @@ struct VectorDeleter {
 };
 using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, VectorDeleter>;
 
+/// Columns of a vector, and how many of them weighted norms look at.
+struct VectorShape {
+  std::size_t length = 0;  ///< true numbers in a column
+  std::size_t columns = 1;
+  std::size_t measured_columns = 1;
+};
+
 /// A vector of zeros.
 ///
 /// @param kernels_to_use  outlives the vector and its clones
 /// @throws SolverError when there is no memory
-[[nodiscard]] Vector make_state_vector(std::size_t dimension, SUNContext context,
+[[nodiscard]] Vector make_state_vector(const VectorShape& shape, SUNContext context,
                                        const VectorKernels& kernels_to_use = vector_kernels());
 
-/// The numbers of a state vector; aligned to 64 bytes, padded with zeros to a multiple of `vector_block`.
+/// A vector of one column.
+[[nodiscard]] inline Vector make_state_vector(std::size_t dimension, SUNContext context,
+                                              const VectorKernels& kernels_to_use = vector_kernels()) {
+  return make_state_vector(VectorShape{dimension, 1, 1}, context, kernels_to_use);
+}
+
+/// The numbers of a state vector; aligned to 64 bytes, each column padded with zeros to a multiple of `vector_block`.
 [[nodiscard]] double* data_of(N_Vector v);
-/// Numbers with padding.
+/// From the first number of a column to that of the next.
+[[nodiscard]] std::size_t column_stride(N_Vector v);
+[[nodiscard]] VectorShape shape_of(N_Vector v);
+/// Numbers of all columns with padding.
 [[nodiscard]] std::size_t padded_size(N_Vector v);
 [[nodiscard]] const VectorKernels& kernels_of(N_Vector v);
 

@@ -361,8 +361,9 @@ const Table<Study>& integrator_table() {
     using integrate::IntegratorOptions;
     Table<Study> t("integrator", "Integration in time.");
     const auto of = [](auto member) { return chain(&Study::integrator, member); };
-    t.choice("method", of([](auto& i) -> auto& { return i.method; }), integrate::arkode_method_names(),
-             "Method, an embedded pair.");
+    t.choice(
+        "method", of([](auto& i) -> auto& { return i.method; }), integrate::method_names(),
+        "Method: an embedded Runge-Kutta pair of ARKODE, explicit or implicit, or CVODE with Adams or BDF formulas.");
     t.number("relative_tolerance", of([](auto& i) -> auto& { return i.relative_tolerance; }), between(1e-15, 0.1),
              "Relative tolerance of a step [-].");
     t.number("absolute_tolerance", of([](auto& i) -> auto& { return i.absolute_tolerance; }), above_up_to(0, 1),

@@ -85,6 +85,7 @@ DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mes
   m.right_hand_side = [p](std::size_t segment, double s, const double* y, double* dyds) {
     right_hand_side<L>(*p, segment, s, y, dyds);
   };
+  m.tangents = make_tangents<L>(*p);
   m.deflections = [p](double s, const double* y, MeshDeflections& out) {
     const StageState<double, N> g = stage_state<L>(*p, segment_at(p->breakpoints, s), s, y);
     out.sun_planet.assign(g.sun_planet.delta.begin(), g.sun_planet.delta.end());
@@ -96,18 +97,34 @@ DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mes
   return m;
 }
 
-template <std::size_t N>
-DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double ratio, const ModelOptions& options,
-                      Layout layout) {
+/// f.template operator()<L, N>() for the layout and number of planets at run time.
+template <class F>
+auto dispatch(Layout layout, int planets, const F& f) {
+  const auto with_layout = [&]<Layout L>() {
+    switch (planets) {
+      case 2:
+        return f.template operator()<L, 2>();
+      case 3:
+        return f.template operator()<L, 3>();
+      case 4:
+        return f.template operator()<L, 4>();
+      case 5:
+        return f.template operator()<L, 5>();
+      case 6:
+        return f.template operator()<L, 6>();
+      default:
+        throw InputError("planets: " + std::to_string(planets) + " is not in 2 to 6");
+    }
+  };
   switch (layout) {
     case Layout::relative_to_ring:
-      return assemble<Layout::relative_to_ring, N>(stage, scales, ratio, options);
+      return with_layout.template operator()<Layout::relative_to_ring>();
     case Layout::relative_to_carrier:
-      return assemble<Layout::relative_to_carrier, N>(stage, scales, ratio, options);
+      return with_layout.template operator()<Layout::relative_to_carrier>();
     case Layout::relative_to_carrier_rigid_ring:
-      return assemble<Layout::relative_to_carrier_rigid_ring, N>(stage, scales, ratio, options);
+      return with_layout.template operator()<Layout::relative_to_carrier_rigid_ring>();
     case Layout::full:
-      return assemble<Layout::full, N>(stage, scales, ratio, options);
+      return with_layout.template operator()<Layout::full>();
   }
   throw std::logic_error("unknown layout");
 }
@@ -128,21 +145,26 @@ DynamicModel make_dynamic_model(const gear::Stage& stage, const Scales& scales, 
     throw InputError(
         "/model/gyroscopic: the printed terms do not close in relative coordinates when the carrier is free "
         "(boundary fixed_ring); use automatic, invariant or off");
-  const Layout layout = layout_of(stage, choice);
-  switch (stage.planet_count) {
-    case 2:
-      return assemble<2>(stage, scales, mesh_frequency_ratio, options, layout);
-    case 3:
-      return assemble<3>(stage, scales, mesh_frequency_ratio, options, layout);
-    case 4:
-      return assemble<4>(stage, scales, mesh_frequency_ratio, options, layout);
-    case 5:
-      return assemble<5>(stage, scales, mesh_frequency_ratio, options, layout);
-    case 6:
-      return assemble<6>(stage, scales, mesh_frequency_ratio, options, layout);
-    default:
-      throw InputError("planets: " + std::to_string(stage.planet_count) + " is not in 2 to 6");
-  }
+  return dispatch(layout_of(stage, choice), stage.planet_count, [&]<Layout L, std::size_t N>() {
+    return assemble<L, N>(stage, scales, mesh_frequency_ratio, options);
+  });
+}
+
+void set_parameter_derivative(DynamicModel& model, const std::function<ModelPoint(double value)>& at,
+                              const Scales& scales, double value, double step, CoordinateChoice choice) {
+  const std::array<double, 4> offsets = {-2.0 * step, -step, step, 2.0 * step};
+  std::vector<ModelPoint> points = {at(value)};
+  for (const double offset : offsets) points.push_back(at(value + offset));
+  for (const ModelPoint& point : points)
+    if (layout_of(point.stage, choice) != model.layout || point.stage.planet_count != model.planets)
+      throw InputError("the parameter changes the state itself; there is no derivative");
+  model.parameter_derivative = dispatch(model.layout, model.planets, [&]<Layout L, std::size_t N>() {
+    const auto folded = [&](const ModelPoint& point) {
+      return make_parameters<N>(point.stage, scales, point.mesh_frequency_ratio, point.options);
+    };
+    return make_parameter_derivative<L, N>(
+        folded(points[0]), {folded(points[1]), folded(points[2]), folded(points[3]), folded(points[4])}, step);
+  });
 }
 
 }  // namespace epicyclic::model

@@ -14,6 +14,7 @@
 #include "model/layout.hpp"
 #include "model/options.hpp"
 #include "model/scales.hpp"
+#include "model/tangents.hpp"
 
 namespace epicyclic::model {
 
@@ -38,6 +39,12 @@ struct DynamicModel {
 
   /// dy/ds at phase s in the given segment (segment k follows breakpoint k; 0 if there are none).
   std::function<void(std::size_t segment, double s, const double* y, double* dyds)> right_hand_side;
+
+  /// dy/ds and (dg/dy) v_j, from the same kernel on dual numbers.
+  TangentFunction tangents;
+
+  /// dg/dp for the parameter that set_parameter_derivative() was given; empty without.
+  ParameterFunction parameter_derivative;
 
   /// Allocation-free when `out` has been used before. Rates included.
   std::function<void(double s, const double* y, MeshDeflections& out)> deflections;
@@ -67,5 +74,23 @@ enum class CoordinateChoice { relative, full };
 [[nodiscard]] DynamicModel make_dynamic_model(const gear::Stage& stage, const Scales& scales,
                                               double mesh_frequency_ratio, const ModelOptions& options,
                                               CoordinateChoice choice = CoordinateChoice::relative);
+
+/// What a model is made of, as a function of one parameter.
+struct ModelPoint {
+  gear::Stage stage;
+  double mesh_frequency_ratio = 1;
+  ModelOptions options;
+};
+
+/// Gives a model the derivative of its right-hand side with respect to a parameter.
+///
+/// @param model  made of at(value) by make_dynamic_model()
+/// @param value  of the parameter
+/// @param step   h of the difference of folded constants; value +- 2 h must be valid. 1e-3 of the range over which the
+///               constants change is right: they are smooth, and rounding is divided by h
+/// @throws InputError when the parameter moves a breakpoint, or changes the planets or the layout
+void set_parameter_derivative(DynamicModel& model, const std::function<ModelPoint(double value)>& at,
+                              const Scales& scales, double value, double step,
+                              CoordinateChoice choice = CoordinateChoice::relative);
 
 }  // namespace epicyclic::model

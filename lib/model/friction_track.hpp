@@ -34,6 +34,15 @@ class FrictionTrack {
   [[nodiscard]] const std::vector<double>& breakpoints() const { return track_.breakpoints(); }
   [[nodiscard]] Place place(double phase) const { return track_.place(phase); }
 
+  /// As PeriodicTrack::with_parameter_derivative().
+  [[nodiscard]] FrictionTrack with_parameter_derivative(const std::array<const FrictionTrack*, 4>& near,
+                                                        double h) const {
+    FrictionTrack track;
+    track.track_ =
+        track_.with_parameter_derivative({&near[0]->track_, &near[1]->track_, &near[2]->track_, &near[3]->track_}, h);
+    return track;
+  }
+
   /// Ratios at a phase within half a turn of the place.
   template <class T>
   [[nodiscard]] FrictionRatios<T> at(const Place& place, const T& phase) const {

@@ -94,73 +94,84 @@ template <std::size_t N>
 [[nodiscard]] Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& scales,
                                                     double mesh_frequency_ratio, const ModelOptions& options);
 
+/// f(constant) for each constant of the scalar type, in a fixed order: sums, differences and conversions of whole sets.
+template <class P, class F>
+void for_each_constant(P& p, const F& f) {
+  const auto all = [&](auto& array) {
+    for (auto& x : array) f(x);
+  };
+  const auto mesh = [&](auto& m) {
+    all(m.sine);
+    all(m.cosine);
+    f(m.half_gap);
+    f(m.damping);
+    f(m.stiffness);
+    for (auto& harmonic : m.stiffness_cos) all(harmonic);
+    for (auto& harmonic : m.stiffness_sin) all(harmonic);
+    all(m.error_cos);
+    all(m.error_sin);
+  };
+  f(p.omega);
+  all(p.sin_phi);
+  all(p.cos_phi);
+  f(p.cos_alpha_sp);
+  f(p.cos_alpha_rp);
+  f(p.mass_s);
+  f(p.mass_p);
+  f(p.mass_r);
+  f(p.mass_c);
+  f(p.inertia_s);
+  f(p.inertia_p);
+  f(p.inertia_r);
+  f(p.inertia_c);
+  f(p.support_s);
+  f(p.support_r);
+  f(p.support_c);
+  f(p.damping_s);
+  f(p.damping_r);
+  f(p.damping_c);
+  f(p.torsion_r);
+  f(p.torsion_c);
+  f(p.torsion_damping_r);
+  f(p.torsion_damping_c);
+  f(p.bearing_p);
+  f(p.bearing_damping_p);
+  f(p.sun_half_gap);
+  f(p.sun_hertz);
+  f(p.drive);
+  f(p.ring_drive);
+  f(p.carrier_load);
+  mesh(p.sun_planet);
+  mesh(p.ring_planet);
+  f(p.carrier_speed);
+  f(p.smoothing);
+}
+
 /// The same constants in another scalar type.
 template <class T, std::size_t N>
 [[nodiscard]] Parameters<T, N> convert(const Parameters<double, N>& p) {
-  const auto all = [](const std::array<double, N>& a) {
-    std::array<T, N> r;
-    for (std::size_t i = 0; i < N; ++i) r[i] = T(a[i]);
-    return r;
-  };
-  const auto mesh = [&](const MeshParameters<double, N>& m) {
-    MeshParameters<T, N> r;
-    r.sine = all(m.sine);
-    r.cosine = all(m.cosine);
-    r.half_gap = T(m.half_gap);
-    r.damping = T(m.damping);
-    r.stiffness = T(m.stiffness);
-    r.harmonics = m.harmonics;
-    for (const auto& c : m.stiffness_cos) r.stiffness_cos.push_back(all(c));
-    for (const auto& s : m.stiffness_sin) r.stiffness_sin.push_back(all(s));
-    r.error_cos = all(m.error_cos);
-    r.error_sin = all(m.error_sin);
-    r.stiffness_curve = m.stiffness_curve;
-    r.friction = m.friction;
-    r.turns = m.turns;
-    return r;
-  };
   Parameters<T, N> r;
-  r.omega = T(p.omega);
-  r.sin_phi = all(p.sin_phi);
-  r.cos_phi = all(p.cos_phi);
-  r.cos_alpha_sp = T(p.cos_alpha_sp);
-  r.cos_alpha_rp = T(p.cos_alpha_rp);
-  r.mass_s = T(p.mass_s);
-  r.mass_p = T(p.mass_p);
-  r.mass_r = T(p.mass_r);
-  r.mass_c = T(p.mass_c);
-  r.inertia_s = T(p.inertia_s);
-  r.inertia_p = T(p.inertia_p);
-  r.inertia_r = T(p.inertia_r);
-  r.inertia_c = T(p.inertia_c);
-  r.support_s = T(p.support_s);
-  r.support_r = T(p.support_r);
-  r.support_c = T(p.support_c);
-  r.damping_s = T(p.damping_s);
-  r.damping_r = T(p.damping_r);
-  r.damping_c = T(p.damping_c);
-  r.torsion_r = T(p.torsion_r);
-  r.torsion_c = T(p.torsion_c);
-  r.torsion_damping_r = T(p.torsion_damping_r);
-  r.torsion_damping_c = T(p.torsion_damping_c);
-  r.bearing_p = T(p.bearing_p);
-  r.bearing_damping_p = T(p.bearing_damping_p);
-  r.sun_half_gap = T(p.sun_half_gap);
+  const auto mesh = [](const MeshParameters<double, N>& from, MeshParameters<T, N>& to) {
+    to.harmonics = from.harmonics;
+    to.stiffness_cos.resize(from.stiffness_cos.size());
+    to.stiffness_sin.resize(from.stiffness_sin.size());
+    to.stiffness_curve = from.stiffness_curve;
+    to.friction = from.friction;
+    to.turns = from.turns;
+  };
+  mesh(p.sun_planet, r.sun_planet);
+  mesh(p.ring_planet, r.ring_planet);
   r.sun_law = p.sun_law;
-  r.sun_hertz = T(p.sun_hertz);
-  r.drive = T(p.drive);
-  r.ring_drive = T(p.ring_drive);
-  r.carrier_load = T(p.carrier_load);
-  r.sun_planet = mesh(p.sun_planet);
-  r.ring_planet = mesh(p.ring_planet);
-  r.carrier_speed = T(p.carrier_speed);
   r.gyroscopic_relative = p.gyroscopic_relative;
   r.gyroscopic_carrier_row = p.gyroscopic_carrier_row;
   r.smooth = p.smooth;
-  r.smoothing = T(p.smoothing);
   r.gap_damping = p.gap_damping;
   r.breakpoints = p.breakpoints;
   r.segments = p.segments;
+  std::vector<double> constants;
+  for_each_constant(p, [&](double x) { constants.push_back(x); });
+  auto next = constants.begin();
+  for_each_constant(r, [&](T& x) { x = T(*next++); });
   return r;
 }
 

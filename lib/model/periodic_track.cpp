@@ -5,6 +5,7 @@
 
 #include <gsl/gsl_interp.h>
 
+#include "core/difference.hpp"
 #include "core/errors.hpp"
 
 namespace epicyclic::model {
@@ -121,6 +122,23 @@ TrackPlace PeriodicTrack<K>::place(double phase) const {
   std::size_t k = 0;
   while (k + 1 < pieces_.size() && x >= starts_[pieces_[k + 1].lo]) ++k;
   return {pieces_[k], x};
+}
+
+template <std::size_t K>
+PeriodicTrack<K> PeriodicTrack<K>::with_parameter_derivative(const std::array<const PeriodicTrack*, 4>& near,
+                                                             double h) const {
+  for (const PeriodicTrack* other : near)
+    if (other == nullptr || other->starts_ != starts_)
+      throw InputError("the parameter moves rows of a table over the mesh phase; there is no derivative");
+  PeriodicTrack track = *this;
+  track.parameter_cubics_.resize(cubics_.size());
+  for (std::size_t k = 0; k < cubics_.size(); ++k)
+    for (std::size_t j = 0; j < K; ++j)
+      for (std::size_t c = 0; c < 4; ++c) {
+        const auto at = [&](std::size_t neighbour) { return near[neighbour]->cubics_[k][j][c]; };
+        track.parameter_cubics_[k][j][c] = central_derivative({at(0), at(1), at(2), at(3)}, h);
+      }
+  return track;
 }
 
 template class PeriodicTrack<1>;

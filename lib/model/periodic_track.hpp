@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/dual.hpp"
 #include "core/lanes.hpp"
 #include "core/scalar.hpp"
 
@@ -51,6 +52,13 @@ class PeriodicTrack {
   /// @throws InputError when a piece has no rows at its ends, or rows cannot be told apart
   PeriodicTrack(const std::vector<TrackRow<K>>& given_rows, const std::vector<double>& given_breakpoints, double lead);
 
+  /// The same functions, which at a dual number also carry their derivative with respect to a parameter, in its first
+  /// direction.
+  /// @param near  the functions at the parameter's values - 2 h, - h, + h, + 2 h
+  /// @throws InputError when the rows of those have other phases
+  [[nodiscard]] PeriodicTrack with_parameter_derivative(const std::array<const PeriodicTrack*, 4>& near,
+                                                        double h) const;
+
   /// Breakpoints on the mesh's own phase, rising, in [0, 1).
   [[nodiscard]] const std::vector<double>& breakpoints() const { return breakpoints_; }
 
@@ -63,9 +71,10 @@ class PeriodicTrack {
     const std::size_t k = interval(place.piece, value_of(x));
     const T t = x - starts_[k];
     std::array<T, K> values;
-    for (std::size_t j = 0; j < K; ++j) {
-      const auto& c = cubics_[k][j];
-      values[j] = c[0] + t * (c[1] + t * (c[2] + t * c[3]));
+    for (std::size_t j = 0; j < K; ++j) values[j] = cubic(cubics_[k][j], t);
+    if constexpr (is_dual<T>) {
+      if (!parameter_cubics_.empty())
+        for (std::size_t j = 0; j < K; ++j) values[j].derivative[0] += cubic(parameter_cubics_[k][j], value_of(t));
     }
     return values;
   }
@@ -83,6 +92,11 @@ class PeriodicTrack {
  private:
   using Cubics = std::array<std::array<double, 4>, K>;  ///< in powers of phase - start
 
+  template <class T>
+  [[nodiscard]] static T cubic(const std::array<double, 4>& c, const T& t) {
+    return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
+  }
+
   /// Guessed as if the intervals were equal, which they mostly are, then walked to.
   template <class V>
   [[nodiscard]] std::size_t interval(const TrackPiece& piece, V x) const {
@@ -99,6 +113,7 @@ class PeriodicTrack {
 
   std::vector<double> starts_;
   std::vector<Cubics> cubics_;
+  std::vector<Cubics> parameter_cubics_;  ///< their derivatives with respect to a parameter; empty without one
   std::vector<TrackPiece> pieces_;
   std::vector<double> breakpoints_;
 };

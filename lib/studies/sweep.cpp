@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "core/errors.hpp"
-#include "integrate/arkode_flow.hpp"
+#include "integrate/make_flow.hpp"
 #include "studies/operating_point.hpp"
 
 namespace epicyclic::studies {
@@ -197,7 +197,7 @@ PointResult compute_point(const GridPoint& point, const model::DynamicModel& mod
                           const std::function<bool()>& go_on) {
   PointResult result;
   result.point = point;
-  const auto flow = integrate::make_arkode_flow(vector_field(model), integrator);
+  const auto flow = integrate::make_flow(vector_field(model), integrator);
   std::vector<double> state = start.empty() ? model.default_start : start;
   if (state.size() != model.dimension)
     throw InputError("a start of " + std::to_string(state.size()) + " numbers for a state of " +

@@ -9,22 +9,13 @@
 #include <gtest/gtest.h>
 
 #include "integrate/arkode_flow.hpp"
+#include "problems/known_systems.hpp"
 
 namespace epicyclic::analysis {
 namespace {
 
 /// Duffing x'' + 0.3 x' - x + x^3 = g cos 1.2 t (validation.md section 4).
-integrate::VectorField duffing(double g) {
-  integrate::VectorField field;
-  field.dimension = 2;
-  constexpr double frequency = 1.2;
-  field.period = 2.0 * std::numbers::pi / frequency;
-  field.right_hand_side = [g](std::size_t, double t, const double* y, double* f) {
-    f[0] = y[1];
-    f[1] = -0.3 * y[1] + y[0] - y[0] * y[0] * y[0] + g * std::cos(frequency * t);
-  };
-  return field;
-}
+integrate::VectorField duffing(double g) { return problems::duffing(0.3, -1.0, g, 1.2); }
 
 bool always() { return true; }
 

@@ -5,23 +5,28 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <span>
+#include <type_traits>
 
+#include "core/dual.hpp"
+#include "core/scalar.hpp"
 #include "integrate/flow.hpp"
+#include "integrate/make_field.hpp"
 
 namespace epicyclic::problems {
 
 /// Four nonlinear equations with explicit time and a known solution: Hairer, Norsett and Wanner, Solving Ordinary
 /// Differential Equations I, exercise on y_1' = 2 s y_2^(1/5) y_4 ...
 inline integrate::VectorField smooth_nonlinear() {
-  integrate::VectorField f;
-  f.dimension = 4;
-  f.right_hand_side = [](std::size_t, double s, const double* y, double* d) {
-    d[0] = 2.0 * s * std::pow(y[1], 0.2) * y[3];
-    d[1] = 10.0 * s * std::exp(5.0 * (y[2] - 1.0)) * y[3];
+  return integrate::make_field(4, 0.0, [](std::size_t, double s, const auto* y, auto* d) {
+    using std::exp;
+    using std::log;
+    using std::pow;
+    d[0] = 2.0 * s * pow(y[1], 0.2) * y[3];
+    d[1] = 10.0 * s * exp(5.0 * (y[2] - 1.0)) * y[3];
     d[2] = 2.0 * s * y[3];
-    d[3] = -2.0 * s * std::log(y[0]);
-  };
-  return f;
+    d[3] = -2.0 * s * log(y[0]);
+  });
 }
 
 inline std::array<double, 4> smooth_nonlinear_solution(double s) {
@@ -31,53 +36,83 @@ inline std::array<double, 4> smooth_nonlinear_solution(double s) {
 
 /// y' = -2 s y^(3/2), y = 4 / (2 + s^2)^2: slow enough for pairs of high order to show it above rounding.
 inline integrate::VectorField smooth_bell() {
-  integrate::VectorField f;
-  f.dimension = 1;
-  f.right_hand_side = [](std::size_t, double s, const double* y, double* d) {
-    d[0] = -2.0 * s * y[0] * std::sqrt(y[0]);
-  };
-  return f;
+  return integrate::make_field(
+      1, 0.0, [](std::size_t, double s, const auto* y, auto* d) { d[0] = -2.0 * s * power_3_2(y[0]); });
 }
 
 inline double smooth_bell_solution(double s) { return 4.0 / ((2.0 + s * s) * (2.0 + s * s)); }
 
+/// y' = cos^3 s - y^3 - sin s, y = cos s: smooth, nonlinear and damped, for as long as one likes.
+inline integrate::VectorField smooth_follower() {
+  return integrate::make_field(1, 0.0, [](std::size_t, double s, const auto* y, auto* d) {
+    const double c = std::cos(s);
+    d[0] = c * c * c - y[0] * y[0] * y[0] - std::sin(s);
+  });
+}
+
 /// y' = -y^2 / 5 + c_k (1 + s), c = +1, -2, 0.5 on three segments of the period 1: jumps at 0, 0.3 and 0.7124.
 inline integrate::VectorField jumping(bool declared) {
-  integrate::VectorField f;
-  f.dimension = 1;
-  f.period = 1.0;
-  static constexpr std::array<double, 3> at = {0.0, 0.3, 0.7124};
-  static constexpr std::array<double, 3> c = {1.0, -2.0, 0.5};
-  const auto slope = [](std::size_t k, double s, const double* y, double* d) {
+  constexpr std::array<double, 3> at = {0.0, 0.3, 0.7124};
+  const auto slope = [c = std::array<double, 3>{1.0, -2.0, 0.5}](std::size_t k, double s, const auto* y, auto* d) {
     d[0] = -0.2 * y[0] * y[0] + c[k] * (1.0 + std::sin(2.0 * std::numbers::pi * s));
   };
   if (declared) {
+    integrate::VectorField f = integrate::make_field(1, 1.0, slope);
     f.breakpoints.assign(at.begin(), at.end());
-    f.right_hand_side = slope;
-  } else {
-    f.right_hand_side = [slope](std::size_t, double s, const double* y, double* d) {
-      const double phase = s - std::floor(s);
-      slope(phase < at[1] ? 0 : phase < at[2] ? 1 : 2, s, y, d);
-    };
+    return f;
   }
-  return f;
+  return integrate::make_field(1, 1.0, [slope, at](std::size_t, double s, const auto* y, auto* d) {
+    const double phase = s - std::floor(s);
+    slope(phase < at[1] ? 0 : phase < at[2] ? 1 : 2, s, y, d);
+  });
 }
 
-/// x'' + 2 z x' + f(x) = F_m + E W^2 sin W t, half gap 1, in s = W t: the gear clearance oscillator of validation.md
-/// section 4. State x, dx/dt.
-inline integrate::VectorField clearance_oscillator(double w) {
-  integrate::VectorField f;
-  f.dimension = 2;
-  f.period = 2.0 * std::numbers::pi;
-  f.right_hand_side = [w](std::size_t, double s, const double* y, double* d) {
-    constexpr double z = 0.05;
-    constexpr double mean = 0.1;
-    constexpr double e = 0.05;
-    const double gap = y[0] > 1.0 ? y[0] - 1.0 : y[0] < -1.0 ? y[0] + 1.0 : 0.0;
-    d[0] = y[1] / w;
-    d[1] = (mean + e * w * w * std::sin(s) - 2.0 * z * y[1] - gap) / w;
+/// The gear clearance oscillator of validation.md section 4,
+///   x'' + 2 z x' + f(x) = F_m + E W^2 sin W t , half gap 1, f exact or of width `smoothing`,
+/// in s = W t. State x, dx/dt. Its parameter is W.
+inline integrate::VectorField clearance_oscillator(double w, double smoothing = 0.0) {
+  constexpr double z = 0.05;
+  constexpr double mean = 0.1;
+  constexpr double e = 0.05;
+  const auto equation = [smoothing](const auto& omega, double s, const auto& x, const auto& v) {
+    using T = std::remove_cvref_t<decltype(x)>;
+    using std::sqrt;
+    const T below = x - 1.0;
+    const T above = x + 1.0;
+    const T exact = select(x > T(1.0), below, select(x < T(-1.0), above, T(0.0)));
+    const double w2 = smoothing * smoothing;
+    const T f = smoothing > 0.0 ? T(x + 0.5 * (sqrt(below * below + w2) - sqrt(above * above + w2))) : exact;
+    return (mean + e * omega * omega * std::sin(s) - 2.0 * z * v - f) / omega;
   };
-  return f;
+  integrate::VectorField field =
+      integrate::make_field(2, 2.0 * std::numbers::pi, [w, equation](std::size_t, double s, const auto* y, auto* d) {
+        d[0] = y[1] / w;
+        d[1] = equation(w, s, y[0], y[1]);
+      });
+  field.parameter_derivative = [w, equation](std::size_t, double s, const double* y, double* dgdp) {
+    using D = Dual<1>;
+    const D omega = D::variable(w, 0);
+    dgdp[0] = (D(y[1]) / omega).derivative[0];
+    dgdp[1] = equation(omega, s, D(y[0]), D(y[1])).derivative[0];
+  };
+  field.surfaces = {{"drive", [](double, std::span<const double> y) { return y[0] - 1.0; }},
+                    {"back", [](double, std::span<const double> y) { return y[0] + 1.0; }}};
+  return field;
+}
+
+/// Duffing x'' + damping x' + alpha x + x^3 = g cos W t (validation.md sections 3 and 4) in t, period 2 pi / W. State
+/// x, dx/dt. Its parameter is g.
+inline integrate::VectorField duffing(double damping, double alpha, double g, double w) {
+  integrate::VectorField field = integrate::make_field(
+      2, 2.0 * std::numbers::pi / w, [damping, alpha, g, w](std::size_t, double t, const auto* y, auto* d) {
+        d[0] = y[1];
+        d[1] = g * std::cos(w * t) - damping * y[1] - alpha * y[0] - y[0] * y[0] * y[0];
+      });
+  field.parameter_derivative = [w](std::size_t, double t, const double*, double* dgdp) {
+    dgdp[0] = 0.0;
+    dgdp[1] = std::cos(w * t);
+  };
+  return field;
 }
 
 }  // namespace epicyclic::problems

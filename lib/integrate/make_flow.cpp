@@ -1,0 +1,18 @@
+#include "integrate/make_flow.hpp"
+
+#include <utility>
+
+#include "core/errors.hpp"
+#include "integrate/arkode_flow.hpp"
+#include "integrate/cvode_flow.hpp"
+#include "integrate/methods.hpp"
+
+namespace epicyclic::integrate {
+
+std::unique_ptr<Flow> make_flow(VectorField field, const IntegratorOptions& options) {
+  const Method* method = find_method(options.method);
+  if (method == nullptr) throw InputError("integrator method '" + options.method + "' is not known");
+  return method->multistep() ? make_cvode_flow(std::move(field), options) : make_arkode_flow(std::move(field), options);
+}
+
+}  // namespace epicyclic::integrate

@@ -1,0 +1,361 @@
+// The Flow that every solver of SUNDIALS is wrapped into; `Stepper` is what differs between ARKODE's and CVODE's.
+//
+// An evolution is cut at the breakpoints. Each piece restarts the solver, tells it to stop exactly at the piece's end,
+// and takes one step at a time, so that samples, the escape bound, the step limit and contact changes are seen at every
+// accepted step. A Stepper has
+//
+//   Stepper(SundialsSystem&, N_Vector, SUNContext, const Method&, const IntegratorOptions&, double fixed_step)
+//   void start(double s, N_Vector y, double first_step)      restart; 0 lets the solver choose the step
+//   void stop_at(double s)
+//   Step step(double to, N_Vector y, double& reached)
+//   void dense(double s, N_Vector y)                         within the last step
+//   double proposed_step() ,  long attempts()                since the restart
+//   static constexpr bool carries_step                       whether a step's length is taken over a restart
+//
+// Private to integrate.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/errors.hpp"
+#include "core/root_finding.hpp"
+#include "integrate/flow.hpp"
+#include "integrate/methods.hpp"
+#include "integrate/options.hpp"
+#include "integrate/state_vector.hpp"
+#include "integrate/sundials_system.hpp"
+
+namespace epicyclic::integrate {
+
+/// What one call of a solver has done.
+enum class Step { accepted, at_stop, refused };
+
+/// One solver with its vectors: for the state alone, or for the state with a number of tangent vectors.
+template <class Stepper>
+class Integration {
+ public:
+  Integration(const VectorField& field, const IntegratorOptions& options, const Method& method, double fixed_step,
+              const VectorShape& shape, bool parameter)
+      : context_(make_context()),
+        y_(make_state_vector(shape, context_.get())),
+        sample_(make_state_vector(shape, context_.get())),
+        before_(make_state_vector(shape, context_.get())),
+        system_{.field = &field, .options = &options, .parameter = parameter, .message = {}, .thrown = {}},
+        stepper_(system_, y_.get(), context_.get(), method, options, fixed_step),
+        fixed_(fixed_step > 0.0) {}
+
+  [[nodiscard]] const Work& work() const { return system_.work; }
+  [[nodiscard]] VectorShape shape() const { return shape_of(y_.get()); }
+  [[nodiscard]] bool parameter() const { return system_.parameter; }
+  [[nodiscard]] double* column(std::size_t j) { return data_of(y_.get()) + j * column_stride(y_.get()); }
+
+  /// From `from` to `to`, starting at the columns as they are.
+  /// @param next_step  length of the first step, replaced by that of the next one
+  Evolution evolve(double from, double to, std::span<const double> samples, const Observer& observer,
+                   double& next_step) {
+    const VectorField& field = *system_.field;
+    std::vector<double> stops = breakpoints_between(field, from, to);
+    stops.push_back(to);
+    const double periods = field.period > 0.0 ? std::ceil((to - from) / field.period - 1e-9) : 1.0;
+    steps_left_ = system_.options->max_steps_per_period * static_cast<long>(std::max(1.0, periods));
+    samples_ = samples;
+    observer_ = &observer;
+    next_sample_ = 0;
+    double s = from;
+    for (const double stop : stops) {
+      Evolution part = evolve_segment(s, stop, next_step);
+      if (!part.reached()) return part;
+      s = stop;
+    }
+    return {Outcome::reached, to, {}};
+  }
+
+ private:
+  /// A crossing that the present step is to end on.
+  struct Crossing {
+    std::size_t surface = 0;
+    double s = 0;
+  };
+
+  Evolution evolve_segment(double from, double to, double& next_step) {
+    const IntegratorOptions& options = *system_.options;
+    N_Vector y = y_.get();
+    const VectorKernels& kernels = kernels_of(y);
+    system_.segment = segment_after(*system_.field, from);
+    system_.message.clear();
+    if (options.locate_contacts) find_sides(from);
+
+    double s = from;
+    double target = to;
+    bool crossing_ahead = false;
+    Crossing crossing;
+    double proposed = next_step;
+    int stalled = 0;
+    restart(s, proposed, target);
+    while (s < to) {
+      const double before = proposed;
+      const double s_before = s;
+      std::copy_n(data_of(y), padded_size(y), data_of(before_.get()));
+      double reached = s;
+      const Step step = stepper_.step(target, y, reached);
+      system_.rethrow();
+      if (step == Step::refused) return fail(s, system_.message);
+      const bool at_stop = step == Step::at_stop || reached >= target;
+      if (!kernels.finite(data_of(y), padded_size(y))) return fail(s, "the state is not finite after a step");
+      const double arrived = at_stop ? target : reached;
+      if (options.locate_contacts && !crossing_ahead) {
+        if (find_crossing(s_before, arrived, before, crossing)) {
+          // Back to the step's beginning, to end on the crossing.
+          std::copy_n(data_of(before_.get()), padded_size(y), data_of(y));
+          crossing_ahead = true;
+          target = crossing.s;
+          spent_ += stepper_.attempts();
+          restart(s_before, std::min(before, target - s_before), target);
+          proposed = before;
+          continue;
+        }
+      }
+      s = arrived;
+      system_.phase = s;
+      observe(s);
+      proposed = stepper_.proposed_step();
+      // A step cut short by the stop says nothing against the longer one that was proposed before it.
+      if (at_stop) proposed = std::max(proposed, before);
+      if (!fixed_) next_step = proposed;
+      if (kernels.absolute_max(data_of(y), column_stride(y)) > options.escape_bound)
+        return end(Outcome::diverged, s,
+                   "a component of the state left the bound " + std::to_string(options.escape_bound));
+      if (spent_ + stepper_.attempts() >= steps_left_ && s < to)
+        return end(Outcome::step_limit, s,
+                   "more than " + std::to_string(options.max_steps_per_period) + " steps in a period");
+      // Steps at the rounding of s lead nowhere; one such step may be what a stop has left over.
+      const bool tiny = s - s_before <= 4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(s), 1.0);
+      stalled = tiny && !at_stop ? stalled + 1 : 0;
+      if (stalled > 3) return end(Outcome::failed, s, "the step has shrunk to the rounding of s");
+      if (at_stop && crossing_ahead && s < to) {
+        side_[crossing.surface] = !side_[crossing.surface];
+        crossing_ahead = false;
+        target = to;
+        spent_ += stepper_.attempts();
+        restart(s, proposed, target);
+      }
+    }
+    const long attempts = spent_ + stepper_.attempts();
+    system_.work.steps += attempts;
+    steps_left_ -= attempts;
+    spent_ = 0;
+    return {Outcome::reached, to, {}};
+  }
+
+  void restart(double s, double first_step, double target) {
+    system_.phase = s;
+    stepper_.start(s, y_.get(), fixed_ ? 0.0 : first_step);
+    stepper_.stop_at(target);
+  }
+
+  Evolution end(Outcome outcome, double s, std::string message) {
+    system_.work.steps += spent_ + stepper_.attempts();
+    spent_ = 0;
+    return {outcome, s, std::move(message)};
+  }
+
+  /// The last step came to nothing: the state is that before it.
+  Evolution fail(double s, std::string message) {
+    std::copy_n(data_of(before_.get()), padded_size(y_.get()), data_of(y_.get()));
+    if (message.empty()) message = "the solver gave up without a message";
+    return end(Outcome::failed, s, std::move(message));
+  }
+
+  void observe(double s) {
+    const std::size_t n = system_.field->dimension;
+    while (next_sample_ < samples_.size() && samples_[next_sample_] <= s) {
+      const double at = samples_[next_sample_];
+      if (at == s) {
+        (*observer_)(next_sample_, s, {data_of(y_.get()), n});
+      } else {
+        stepper_.dense(at, sample_.get());
+        (*observer_)(next_sample_, at, {data_of(sample_.get()), n});
+      }
+      ++next_sample_;
+    }
+  }
+
+  // ---- contact changes ----------------------------------------------------------------------------------------------
+
+  [[nodiscard]] double surface(std::size_t k, double s, N_Vector y) const {
+    return system_.field->surfaces[k].value(s, {data_of(y), system_.field->dimension});
+  }
+
+  void find_sides(double s) {
+    side_.resize(system_.field->surfaces.size());
+    for (std::size_t k = 0; k < side_.size(); ++k) side_[k] = surface(k, s, y_.get()) > 0.0;
+  }
+
+  /// The first surface that the accepted step from a to b has crossed, and where: the root of its value along steps of
+  /// the method itself, so that the crossing is as accurate as the method and not as its dense output.
+  bool find_crossing(double a, double b, double first_step, Crossing& crossing) {
+    bool found = false;
+    for (std::size_t k = 0; k < side_.size(); ++k) {
+      if ((surface(k, b, y_.get()) > 0.0) == side_[k]) continue;
+      const double sign = side_[k] ? 1.0 : -1.0;
+      // Where the state is just after a crossing of this very surface, its value is rounding, of either sign.
+      const double at_start = sign * surface(k, a, before_.get());
+      const double length = b - a;
+      const auto along = [&](double s) {
+        stepper_.dense(s, sample_.get());
+        return sign * surface(k, s, sample_.get());
+      };
+      constexpr double nothing = 1e-9;
+      if (at_start <= 0.0 && !(along(a + nothing * length) > 0.0)) {
+        side_[k] = !side_[k];
+        continue;
+      }
+      const double low = at_start > 0.0 ? a : a + nothing * length;
+      const double s = find_root([&](double x) { return x <= a ? at_start : along(x); }, low, b);
+      if (!found || s < crossing.s) crossing = {k, s};
+      found = true;
+    }
+    if (!found) return false;
+    crossing.s = refine(crossing, a, b, first_step);
+    return true;
+  }
+
+  /// The dense output's root corrected by steps of the method itself from the step's beginning (secant).
+  double refine(const Crossing& guess, double a, double b, double first_step) {
+    const double length = b - a;
+    constexpr double smallest = 1e-6;  // of the step: a crossing nearer to its ends is on the end
+    constexpr int most = 20;
+    if (guess.s - a < smallest * length) return guess.s > a ? guess.s : a + smallest * length;
+    const auto value = [&](double s) {
+      std::copy_n(data_of(before_.get()), padded_size(y_.get()), data_of(sample_.get()));
+      spent_ += stepper_.attempts();
+      stepper_.start(a, sample_.get(), std::min(first_step, s - a));
+      stepper_.stop_at(s);
+      double reached = a;
+      while (reached < s)
+        if (stepper_.step(s, sample_.get(), reached) != Step::accepted) break;
+      return surface(guess.surface, s, sample_.get());
+    };
+    double x0 = guess.s;
+    double f0 = value(x0);
+    double x1 = x0 + (x0 - a < b - x0 ? 1.0 : -1.0) * 1e-4 * length;
+    for (int i = 0; i < most && f0 != 0.0; ++i) {
+      const double f1 = value(x1);
+      if (f1 == f0) break;
+      const double x2 = x1 - f1 * (x1 - x0) / (f1 - f0);
+      x0 = x1;
+      f0 = f1;
+      x1 = std::clamp(x2, a + smallest * length, b);
+      if (std::abs(x1 - x0) <= 4.0 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(x1))) break;
+    }
+    return x1;
+  }
+
+  Context context_;
+  Vector y_, sample_, before_;
+  SundialsSystem system_;
+  Stepper stepper_;
+  bool fixed_;
+  std::span<const double> samples_;
+  const Observer* observer_ = nullptr;
+  std::size_t next_sample_ = 0;
+  long steps_left_ = 0;
+  long spent_ = 0;  ///< attempts before the last restart within a segment
+  std::vector<bool> side_;
+};
+
+template <class Stepper>
+class SundialsFlow final : public Flow {
+ public:
+  SundialsFlow(VectorField field, const IntegratorOptions& options, const Method& method, double fixed_step)
+      : field_(std::move(field)), options_(options), method_(method), fixed_step_(fixed_step) {
+    if (options.locate_contacts && method.family != Family::erk)
+      throw InputError("contact changes are located by explicit Runge-Kutta methods only, not by '" +
+                       std::string(method.name) + "'");
+    if (method.implicit() && !field_.tangents)
+      throw InputError("the implicit method '" + std::string(method.name) + "' needs a field with tangents");
+    state_ = make({field_.dimension, 1, 1}, false);
+  }
+
+  [[nodiscard]] const VectorField& field() const override { return field_; }
+  [[nodiscard]] double next_step() const override { return next_step_; }
+  void set_next_step(double step) override { next_step_ = step; }
+
+  [[nodiscard]] Work work() const override {
+    Work sum = earlier_;
+    for (const auto* integration : {state_.get(), tangents_.get()})
+      if (integration != nullptr) add(integration->work(), sum);
+    return sum;
+  }
+
+  Evolution evolve(std::span<double> state, double from, double to, std::span<const double> samples,
+                   const Observer& observer) override {
+    check_state(state);
+    std::copy(state.begin(), state.end(), state_->column(0));
+    Evolution e = state_->evolve(from, to, samples, observer, next_step_);
+    std::copy_n(state_->column(0), state.size(), state.begin());
+    return e;
+  }
+
+  Evolution evolve_tangents(std::span<double> state, std::span<double> tangents, double from, double to,
+                            LastTangent last) override {
+    check_state(state);
+    const std::size_t n = field_.dimension;
+    const bool parameter = last == LastTangent::parameter;
+    if (!field_.tangents) throw InputError("tangent vectors are asked of a field without tangents");
+    if (parameter && !field_.parameter_derivative)
+      throw InputError("the derivative with respect to a parameter is asked of a field without one");
+    if (tangents.empty() || tangents.size() % n != 0)
+      throw InputError("tangents of " + std::to_string(tangents.size()) + " numbers for a field of dimension " +
+                       std::to_string(n));
+    const std::size_t m = tangents.size() / n;
+    if (!tangents_ || tangents_->shape().columns != m + 1 || tangents_->parameter() != parameter) {
+      if (tangents_) add(tangents_->work(), earlier_);
+      tangents_ = make({n, m + 1, options_.tangent_error_control ? m + 1 : 1}, parameter);
+    }
+    std::copy(state.begin(), state.end(), tangents_->column(0));
+    for (std::size_t j = 0; j < m; ++j) std::copy_n(tangents.begin() + offset(j * n), n, tangents_->column(j + 1));
+    Evolution e = tangents_->evolve(from, to, {}, {}, next_step_);
+    std::copy_n(tangents_->column(0), n, state.begin());
+    for (std::size_t j = 0; j < m; ++j) std::copy_n(tangents_->column(j + 1), n, tangents.begin() + offset(j * n));
+    return e;
+  }
+
+ private:
+  static std::ptrdiff_t offset(std::size_t i) { return static_cast<std::ptrdiff_t>(i); }
+
+  static void add(const Work& part, Work& sum) {
+    sum.right_hand_sides += part.right_hand_sides;
+    sum.tangent_right_hand_sides += part.tangent_right_hand_sides;
+    sum.jacobians += part.jacobians;
+    sum.steps += part.steps;
+  }
+
+  void check_state(std::span<const double> state) const {
+    if (state.size() != field_.dimension)
+      throw InputError("a state of " + std::to_string(state.size()) + " numbers for a field of dimension " +
+                       std::to_string(field_.dimension));
+  }
+
+  std::unique_ptr<Integration<Stepper>> make(const VectorShape& shape, bool parameter) {
+    return std::make_unique<Integration<Stepper>>(field_, options_, method_, fixed_step_, shape, parameter);
+  }
+
+  VectorField field_;
+  IntegratorOptions options_;
+  Method method_;
+  double fixed_step_;
+  std::unique_ptr<Integration<Stepper>> state_, tangents_;
+  Work earlier_{};
+  double next_step_ = 0.0;
+};
+
+}  // namespace epicyclic::integrate

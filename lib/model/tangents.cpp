@@ -1,0 +1,90 @@
+#include "model/tangents.hpp"
+
+#include <cmath>
+#include <tuple>
+#include <vector>
+
+#include "core/difference.hpp"
+#include "core/dual.hpp"
+#include "core/errors.hpp"
+#include "model/right_hand_side.hpp"
+
+namespace epicyclic::model {
+
+template <Layout L, std::size_t N>
+TangentFunction make_tangents(const Parameters<double, N>& p) {
+  using All = std::tuple<Parameters<Dual<8>, N>, Parameters<Dual<4>, N>, Parameters<Dual<1>, N>>;
+  const auto all = std::make_shared<const All>(convert<Dual<8>>(p), convert<Dual<4>>(p), convert<Dual<1>>(p));
+  return [all](std::size_t segment, double s, const double* y, const Columns<const double>& v, double* dyds,
+               const Columns<double>& dvds) {
+    push_forward(
+        2 * degrees_of_freedom(L, N),
+        [&]<class T>(const T* state, T* slope) {
+          right_hand_side<L>(std::get<Parameters<T, N>>(*all), segment, T(s), state, slope);
+        },
+        y, v, dyds, dvds);
+  };
+}
+
+template <Layout L, std::size_t N>
+ParameterFunction make_parameter_derivative(const Parameters<double, N>& p,
+                                            const std::array<Parameters<double, N>, 4>& near, double h) {
+  using D = Dual<1>;
+  std::array<std::vector<double>, 4> constants;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (near[k].breakpoints != p.breakpoints)
+      throw InputError("the parameter moves a breakpoint in the mesh phase; there is no derivative");
+    for_each_constant(near[k], [&](double x) { constants[k].push_back(x); });
+  }
+  auto dual = std::make_shared<Parameters<D, N>>(convert<D>(p));
+  std::size_t at = 0;
+  for_each_constant(*dual, [&](D& x) {
+    for (const auto& c : constants)
+      if (at >= c.size()) throw InputError("the parameter changes the number of the stiffness's harmonics");
+    x.derivative[0] = central_derivative({constants[0][at], constants[1][at], constants[2][at], constants[3][at]}, h);
+    ++at;
+  });
+  const auto tables = [&](const MeshParameters<double, N>& mesh, MeshParameters<D, N>& out, auto of) {
+    if (mesh.friction)
+      out.friction = std::make_shared<FrictionTrack>(
+          mesh.friction->with_parameter_derivative({of(near[0]).friction.get(), of(near[1]).friction.get(),
+                                                    of(near[2]).friction.get(), of(near[3]).friction.get()},
+                                                   h));
+    if (mesh.stiffness_curve)
+      out.stiffness_curve = std::make_shared<PeriodicTrack<1>>(mesh.stiffness_curve->with_parameter_derivative(
+          {of(near[0]).stiffness_curve.get(), of(near[1]).stiffness_curve.get(), of(near[2]).stiffness_curve.get(),
+           of(near[3]).stiffness_curve.get()},
+          h));
+  };
+  tables(
+      p.sun_planet, dual->sun_planet, [](const auto& q) -> const auto& { return q.sun_planet; });
+  tables(
+      p.ring_planet, dual->ring_planet, [](const auto& q) -> const auto& { return q.ring_planet; });
+
+  return [dual](std::size_t segment, double s, const double* y, double* dgdp) {
+    constexpr std::size_t n = 2 * degrees_of_freedom(L, N);
+    std::array<D, n> state;
+    std::array<D, n> slope;
+    for (std::size_t i = 0; i < n; ++i) state[i] = y[i];
+    right_hand_side<L>(*dual, segment, D(s), state.data(), slope.data());
+    for (std::size_t i = 0; i < n; ++i) dgdp[i] = slope[i].derivative[0];
+  };
+}
+
+#define EPICYCLIC_TANGENTS(L, N)                                                      \
+  template TangentFunction make_tangents<Layout::L, N>(const Parameters<double, N>&); \
+  template ParameterFunction make_parameter_derivative<Layout::L, N>(                 \
+      const Parameters<double, N>&, const std::array<Parameters<double, N>, 4>&, double);
+#define EPICYCLIC_TANGENTS_OF(L) \
+  EPICYCLIC_TANGENTS(L, 2)       \
+  EPICYCLIC_TANGENTS(L, 3)       \
+  EPICYCLIC_TANGENTS(L, 4)       \
+  EPICYCLIC_TANGENTS(L, 5)       \
+  EPICYCLIC_TANGENTS(L, 6)
+
+EPICYCLIC_TANGENTS_OF(relative_to_ring)
+EPICYCLIC_TANGENTS_OF(relative_to_carrier)
+EPICYCLIC_TANGENTS_OF(relative_to_carrier_rigid_ring)
+EPICYCLIC_TANGENTS_OF(full)
+
+}  // namespace epicyclic::model

@@ -1,0 +1,40 @@
+// The right-hand side's derivatives at one operating point: along tangent vectors, and with respect to a parameter.
+//
+//   (dg/dy) v_j            the kernel on dual numbers
+//   dg/dp                  the kernel on dual numbers whose constants carry their own derivatives       [M-dp]
+//
+// The state enters the kernel by dual numbers only, so both are exact where the kernel is. A folded constant's
+// derivative dP/dp is a difference of the fourth order over +-2 steps: the constants are smooth in p, so its error is
+// some 1e-11 of the constant; a kink of the motion is not differenced.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+#include "core/push_forward.hpp"
+#include "model/layout.hpp"
+#include "model/parameters.hpp"
+
+namespace epicyclic::model {
+
+/// dy/ds and (dg/dy) v_j; as integrate::VectorField::tangents.
+using TangentFunction = std::function<void(std::size_t segment, double s, const double* y,
+                                           const Columns<const double>& v, double* dyds, const Columns<double>& dvds)>;
+
+/// dg/dp at fixed y; as integrate::VectorField::parameter_derivative.
+using ParameterFunction = std::function<void(std::size_t segment, double s, const double* y, double* dgdp)>;
+
+template <Layout L, std::size_t N>
+[[nodiscard]] TangentFunction make_tangents(const Parameters<double, N>& p);
+
+/// @param p     at the value
+/// @param near  at value - 2 h, - h, + h, + 2 h
+/// @param h     the step
+/// @throws InputError when the parameter moves a breakpoint in the mesh phase: dg/dp would be infinite there
+template <Layout L, std::size_t N>
+[[nodiscard]] ParameterFunction make_parameter_derivative(const Parameters<double, N>& p,
+                                                          const std::array<Parameters<double, N>, 4>& near, double h);
+
+}  // namespace epicyclic::model
