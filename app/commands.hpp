@@ -29,6 +29,8 @@ struct Arguments {
 };
 
 int sweep_command(const Arguments& arguments);
+int crosscheck_command(const Arguments& arguments);
+int tolerance_command(const Arguments& arguments);
 int gear_command(const Arguments& arguments);
 int check_command(const Arguments& arguments);
 

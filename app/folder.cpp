@@ -8,8 +8,10 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "core/errors.hpp"
 #include "core/version.hpp"
 #include "io/atomic_file.hpp"
+#include "io/sweep_output.hpp"
 #include "io/versions.hpp"
 
 namespace epicyclic::app {
@@ -36,6 +38,27 @@ std::int64_t failed_points(const io::OutputFolder& folder) {
 }
 
 }  // namespace
+
+std::map<std::size_t, studies::PointResult> known_points(io::Journal& journal, const studies::SweepPlan& plan) {
+  std::map<std::size_t, studies::PointResult> known;
+  for (const io::JournalRecord& record : journal.take_records()) {
+    studies::PointResult result = io::decode_point(record.payload);
+    if (result.point.index >= plan.points.size() || result.point.index != record.point)
+      throw io::DamagedData("the journal holds point " + std::to_string(record.point) + ", which the study has not");
+    known.insert_or_assign(result.point.index, std::move(result));
+  }
+  return known;
+}
+
+void require_points(const io::LoadedInput& input, const Arguments& arguments, std::string_view command) {
+  const std::string name(command);
+  if (!input.study.sweep)
+    throw InputError(arguments.input.string() + ": is a stage without a study; " + name + " needs a study of kind " +
+                     name + (name == "sweep" ? "" : " or sweep"));
+  if (input.study.kind != name && input.study.kind != "sweep")
+    throw InputError(arguments.input.string() + ": is a study of kind " + input.study.kind + "; run `epicyclic " +
+                     input.study.kind + "`");
+}
 
 io::Provenance provenance(int threads) {
   io::Provenance p = io::begin_provenance();

@@ -1,18 +1,31 @@
 // Opening a study's folder and what every subcommand leaves in it.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "commands.hpp"
+#include "io/journal.hpp"
 #include "io/output_folder.hpp"
 #include "io/provenance.hpp"
 #include "io/study_input.hpp"
+#include "studies/sweep.hpp"
 
 namespace epicyclic::app {
 
+/// The points of a study are there, and are meant for this command: those of a sweep serve every command.
+/// @throws InputError
+void require_points(const io::LoadedInput& input, const Arguments& arguments, std::string_view command);
+
 /// Versions and machine, for run.json.
 [[nodiscard]] io::Provenance provenance(int threads);
+
+/// Points of earlier sessions, from the journal.
+/// @throws DamagedData when it holds points that the study has not
+[[nodiscard]] std::map<std::size_t, studies::PointResult> known_points(io::Journal& journal,
+                                                                       const studies::SweepPlan& plan);
 
 /// Says on stderr why a folder cannot be used.
 /// @returns the exit code, or nothing if the study may be computed in it

@@ -78,9 +78,17 @@ int run(int argc, char** argv) {
   CLI::App* sweep = cli.add_subcommand("sweep", "bifurcation diagram along one parameter, up, down or both");
   with_input(sweep);
   with_output(sweep);
-  sweep->add_option("--threads", arguments.threads, "threads; the results do not depend on it")
-      ->check(CLI::Range(1, 4096))
-      ->capture_default_str();
+  CLI::App* tolerance =
+      cli.add_subcommand("tolerance", "answers against tolerance, clearance smoothing and method, with error bars");
+  with_input(tolerance);
+  with_output(tolerance);
+  CLI::App* crosscheck = cli.add_subcommand("crosscheck", "the same points by several methods, compared");
+  with_input(crosscheck);
+  with_output(crosscheck);
+  for (CLI::App* command : {sweep, tolerance, crosscheck})
+    command->add_option("--threads", arguments.threads, "threads; the results do not depend on it")
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str();
   CLI::App* check = cli.add_subcommand("check", "validates, prints the resolved input and its cost; writes nothing");
   with_input(check);
   const CLI::App* schema = cli.add_subcommand("schema", "the JSON Schema of the input");
@@ -93,6 +101,8 @@ int run(int argc, char** argv) {
   return guarded([&] {
     if (gear->parsed()) return gear_command(arguments);
     if (sweep->parsed()) return sweep_command(arguments);
+    if (tolerance->parsed()) return tolerance_command(arguments);
+    if (crosscheck->parsed()) return crosscheck_command(arguments);
     if (check->parsed()) return check_command(arguments);
     if (schema->parsed()) fmt::print("{}\n", io::schema_text());
     return static_cast<int>(done);

@@ -1,49 +1,29 @@
 // epicyclic sweep: computes what is missing, journals each point, then writes tables, HDF5 and figures.
 
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "core/errors.hpp"
 #include "folder.hpp"
 #include "io/journal.hpp"
 #include "io/progress.hpp"
 #include "io/study_model.hpp"
 #include "io/sweep_output.hpp"
+#include "stop.hpp"
 
 namespace epicyclic::app {
 
 namespace {
 
-std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "the signal handler may only touch lock-free atomics");
-
-void request_stop(int /*signal*/) { stop_requested = true; }
-
 bool computed(const studies::PointResult& r) { return r.outcome == integrate::Outcome::reached; }
-
-/// Points of earlier sessions, from the journal.
-std::map<std::size_t, studies::PointResult> known_points(io::Journal& journal, const studies::SweepPlan& plan) {
-  std::map<std::size_t, studies::PointResult> known;
-  for (const io::JournalRecord& record : journal.take_records()) {
-    studies::PointResult result = io::decode_point(record.payload);
-    if (result.point.index >= plan.points.size() || result.point.index != record.point)
-      throw io::DamagedData("the journal holds point " + std::to_string(record.point) + ", which the study has not");
-    known.insert_or_assign(result.point.index, std::move(result));
-  }
-  return known;
-}
 
 }  // namespace
 
 int sweep_command(const Arguments& arguments) {
   const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
-  if (!input.study.sweep)
-    throw InputError(arguments.input.string() + ": is a stage without a study; sweep needs a study of kind sweep");
+  require_points(input, arguments, "sweep");
   const studies::SweepOptions& sweep = *input.study.sweep;
   const studies::SweepPlan plan = studies::plan_sweep(sweep);
   const studies::ModelAt model_at = io::model_at(input);
@@ -57,15 +37,14 @@ int sweep_command(const Arguments& arguments) {
   const io::OutputFolder folder(arguments.output, io::identity(input, "sweep"));
   if (const auto code = refuse_or_finish(folder)) return *code;
   io::Provenance facts = provenance(arguments.threads);
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
+  stop_on_signals();
   const std::string resolved = write_inputs(folder, input);
   folder.write_run(io::RunState::running, io::run_facts(facts));
 
   io::Journal journal(folder.file("journal.bin"), io::identity(input, "sweep"));
   studies::SweepRun run;
   run.threads = arguments.threads;
-  run.stop = &stop_requested;
+  run.stop = &stop_requested();
   run.done = known_points(journal, plan);
   std::size_t finished = run.done.size();
   std::size_t failed = 0;

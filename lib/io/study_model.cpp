@@ -2,6 +2,7 @@
 
 #include "core/errors.hpp"
 #include "gear/gear_set.hpp"
+#include "integrate/methods.hpp"
 #include "io/csv.hpp"
 #include "io/digest.hpp"
 #include "io/journal.hpp"
@@ -10,14 +11,33 @@
 
 namespace epicyclic::io {
 
+namespace {
+
+/// The operating point at a value of the sweep parameter.
+studies::OperatingPoint point_at(const LoadedInput& input, double value) {
+  const std::string& parameter = input.study.sweep->parameter;
+  const bool pointer = !parameter.empty() && parameter.front() == '/';
+  const Study study = pointer ? input.with_value(parameter, value) : input.study;
+  studies::OperatingPoint point{study.stage, study.mesh_frequency_ratio, study.model};
+  if (!pointer && !studies::set_parameter(point, parameter, value))
+    throw InputError("/study/parameter: no sweep parameter '" + parameter + "'");
+  return point;
+}
+
+}  // namespace
+
 studies::ModelAt model_at(const LoadedInput& input) {
-  const model::Scales scales = model::scales_of(input.study.stage);
-  return [&input, scales, parameter = input.study.sweep->parameter](double value) {
-    const bool pointer = !parameter.empty() && parameter.front() == '/';
-    const Study study = pointer ? input.with_value(parameter, value) : input.study;
-    studies::OperatingPoint point{study.stage, study.mesh_frequency_ratio, study.model};
-    if (!pointer && !studies::set_parameter(point, parameter, value))
-      throw InputError("/study/parameter: no sweep parameter '" + parameter + "'");
+  return [&input, scales = model::scales_of(input.study.stage)](double value) {
+    const studies::OperatingPoint point = point_at(input, value);
+    return model::make_dynamic_model(point.stage, scales, point.mesh_frequency_ratio, point.model);
+  };
+}
+
+std::function<model::DynamicModel(double value, double clearance_smoothing)> smoothed_model_at(
+    const LoadedInput& input) {
+  return [&input, scales = model::scales_of(input.study.stage)](double value, double clearance_smoothing) {
+    studies::OperatingPoint point = point_at(input, value);
+    point.model.clearance_smoothing = clearance_smoothing;
     return model::make_dynamic_model(point.stage, scales, point.mesh_frequency_ratio, point.model);
   };
 }
@@ -26,6 +46,11 @@ std::vector<std::string> warnings(const LoadedInput& input) {
   std::vector<std::string> lines;
   for (const std::string& line : gear::warnings_for_motion(input.study.stage))
     lines.push_back("warning: /stage" + line);
+  if (const auto* method = integrate::find_method(input.study.integrator.method);
+      method != nullptr && method->misses_kinks && input.study.model.clearance_smoothing == 0.0 &&
+      !input.study.integrator.locate_contacts)
+    lines.push_back("warning: /integrator/method: the error estimate of \"" + std::string(method->name) +
+                    "\" misses the kinks of the exact clearance; its errors are far above its tolerance");
   for (const std::string& line : input.notes) lines.push_back("warning: " + line);
   return lines;
 }

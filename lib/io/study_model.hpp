@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,10 @@ namespace epicyclic::io {
 /// The model at each value of the study's sweep parameter, named or a JSON pointer. Scales are those of the stage as
 /// given. `input` must outlive the result. A call throws InputError when the study is not valid at that value.
 [[nodiscard]] studies::ModelAt model_at(const LoadedInput& input);
+
+/// The same with another width of the smooth clearance.
+[[nodiscard]] std::function<model::DynamicModel(double value, double clearance_smoothing)> smoothed_model_at(
+    const LoadedInput& input);
 
 /// Lines for stderr on what is allowed but rarely meant.
 [[nodiscard]] std::vector<std::string> warnings(const LoadedInput& input);

@@ -36,6 +36,8 @@ const Bounds gap = between(0, gap_max_um);
 const Bounds damping_ratio = between(0, 10);
 const Bounds damping_coefficient = between(0, 1e12);
 const Bounds frequency_ratio = above_up_to(0, 100);
+const Bounds integrator_tolerance = between(1e-15, 0.1);
+const Bounds smoothing_width = between(0, 10);
 
 constexpr auto itself = [](auto& t) -> auto& { return t; };
 
@@ -364,7 +366,7 @@ const Table<Study>& integrator_table() {
     t.choice(
         "method", of([](auto& i) -> auto& { return i.method; }), integrate::method_names(),
         "Method: an embedded Runge-Kutta pair of ARKODE, explicit or implicit, or CVODE with Adams or BDF formulas.");
-    t.number("relative_tolerance", of([](auto& i) -> auto& { return i.relative_tolerance; }), between(1e-15, 0.1),
+    t.number("relative_tolerance", of([](auto& i) -> auto& { return i.relative_tolerance; }), integrator_tolerance,
              "Relative tolerance of a step [-].");
     t.number("absolute_tolerance", of([](auto& i) -> auto& { return i.absolute_tolerance; }), above_up_to(0, 1),
              "Absolute tolerance of a step, in the units of the state.");
@@ -372,8 +374,13 @@ const Table<Study>& integrator_table() {
               "Steps attempted in one mesh period before a point is given up [-].");
     t.number("escape_bound", of([](auto& i) -> auto& { return i.escape_bound; }), between(10, 1e15),
              "A state component beyond this counts as diverged, in the units of the state.");
+    t.integer("max_order", of([](auto& i) -> auto& { return i.max_order; }), between(0, 12),
+              "Highest order of a CVODE method [-]; 0: the method's own, 12 (Adams) or 5 (BDF).");
+    t.boolean("locate_contacts", of([](auto& i) -> auto& { return i.locate_contacts; }),
+              "Contact changes are located and stepped onto (explicit Runge-Kutta methods): for reference, at several "
+              "times the cost.");
     t.number(
-        "clearance_smoothing", [](auto& s) -> auto& { return s.model.clearance_smoothing; }, between(0, 10),
+        "clearance_smoothing", [](auto& s) -> auto& { return s.model.clearance_smoothing; }, smoothing_width,
         "Width of the smooth clearance, in b_c [-]; 0 for the exact, piecewise linear one.");
     return t;
   }();
@@ -401,68 +408,142 @@ const Table<model::ModelOptions>& model_table() {
   return table;
 }
 
-const Table<SweepOptions>& sweep_table() {
+/// The keys that every kind of study has: which kind, the points and how long to look at each.
+void add_points(Table<Study>& t, const std::string& name) {
+  using studies::Direction;
+  using studies::Start;
+  const auto of = [](auto member) {
+    return chain(
+        [](auto& study) -> auto& { return *study.sweep; }, member);
+  };
+  Field<Study> kind;
+  kind.key = "kind";
+  kind.description = "What is computed.";
+  kind.read = [](const json&, const std::string&, Study&, ReadContext&) {};  // decided which table reads
+  kind.write = [name](const Study&) { return json(name); };
+  kind.schema = [name] { return ordered_json{{"const", name}}; };
+  t.custom(std::move(kind)).required();
+  t.text("parameter", of(&SweepOptions::parameter),
+         "Name of the parameter, or a JSON pointer to a number of the input.");
+  t.number("from", of(&SweepOptions::from), between(-1e300, 1e300), "First value of the parameter, in its unit.");
+  t.number("to", of(&SweepOptions::to), between(-1e300, 1e300), "Last value of the parameter, in its unit.");
+  t.integer("points", of(&SweepOptions::points), between(1, 100000),
+            "Number of points, evenly spaced, ends included [-].");
+  t.choices("directions", of(&SweepOptions::directions),
+            std::vector<std::pair<std::string, Direction>>{{"up", Direction::up}, {"down", Direction::down}},
+            "Directions, numbered one after the other; each is a chain of its own from the default start.");
+  t.choice("start", of(&SweepOptions::start),
+           std::vector<std::pair<std::string, Start>>{{"carried", Start::carried}, {"cold", Start::cold}},
+           "Where a point starts: from the end of the one before in its chain, or from the default start.");
+  t.integer("segments", of(&SweepOptions::segments), between(1, 100000),
+            "Chains per direction of a carried sweep [-].");
+  t.integer("transient_periods", of(&SweepOptions::transient_periods), between(0, 1e7),
+            "Mesh periods before the record [-].");
+  t.integer("recorded_periods", of(&SweepOptions::recorded_periods), between(1, 1e5), "Mesh periods recorded [-].");
+  t.integer("output_phases", of(&SweepOptions::output_phases), between(1, 10000),
+            "Output points per recorded mesh period [-].");
+  t.integer("period_max", of(&SweepOptions::period_max), between(1, 10000),
+            "Longest period of the motion that is looked for, in mesh periods [-].");
+  t.number("recurrence_tolerance", of(&SweepOptions::recurrence_tolerance), above_up_to(0, 1),
+           "Two states recur if no component differs by more, in the units of the state.");
+}
+
+const Table<Study>& sweep_table() {
   static const auto table = [] {
-    using studies::Direction;
-    using studies::Start;
-    Table<SweepOptions> t("sweep", "A sweep along one parameter.");
-    Field<SweepOptions> kind;
-    kind.key = "kind";
-    kind.description = "What is computed.";
-    kind.read = [](const json&, const std::string&, SweepOptions&, ReadContext&) {};  // decided which table reads
-    kind.write = [](const SweepOptions&) { return json("sweep"); };
-    kind.schema = [] { return ordered_json{{"const", "sweep"}}; };
-    t.custom(std::move(kind)).required();
-    t.text("parameter", &SweepOptions::parameter, "Name of the parameter, or a JSON pointer to a number of the input.");
-    t.number("from", &SweepOptions::from, between(-1e300, 1e300), "First value of the parameter, in its unit.");
-    t.number("to", &SweepOptions::to, between(-1e300, 1e300), "Last value of the parameter, in its unit.");
-    t.integer("points", &SweepOptions::points, between(1, 100000),
-              "Number of points, evenly spaced, ends included [-].");
-    t.choices("directions", &SweepOptions::directions,
-              std::vector<std::pair<std::string, Direction>>{{"up", Direction::up}, {"down", Direction::down}},
-              "Directions, numbered one after the other; each is a chain of its own from the default start.");
-    t.choice("start", &SweepOptions::start,
-             std::vector<std::pair<std::string, Start>>{{"carried", Start::carried}, {"cold", Start::cold}},
-             "Where a point starts: from the end of the one before in its chain, or from the default start.");
-    t.integer("segments", &SweepOptions::segments, between(1, 100000), "Chains per direction of a carried sweep [-].");
-    t.integer("transient_periods", &SweepOptions::transient_periods, between(0, 1e7),
-              "Mesh periods before the record [-].");
-    t.integer("recorded_periods", &SweepOptions::recorded_periods, between(1, 1e5), "Mesh periods recorded [-].");
-    t.integer("output_phases", &SweepOptions::output_phases, between(1, 10000),
-              "Output points per recorded mesh period [-].");
-    t.integer("period_max", &SweepOptions::period_max, between(1, 10000),
-              "Longest period of the motion that is looked for, in mesh periods [-].");
-    t.number("recurrence_tolerance", &SweepOptions::recurrence_tolerance, above_up_to(0, 1),
-             "Two states recur if no component differs by more, in the units of the state.");
+    Table<Study> t("sweep", "A sweep along one parameter.");
+    add_points(t, "sweep");
     return t;
   }();
   return table;
 }
 
-/// Kinds of study that the input format knows and this version does not compute.
-const std::vector<std::string> kinds_to_come = {"run",       "continue",   "map",      "basins",
-                                                "tolerance", "crosscheck", "calibrate"};
+/// Methods by name, the first one counts.
+std::vector<std::pair<std::string, std::string>> method_choices() {
+  std::vector<std::pair<std::string, std::string>> same;
+  for (const auto& name : integrate::method_names()) same.emplace_back(name, name);
+  return same;
+}
+
+const Table<Study>& crosscheck_table() {
+  static const auto table = [] {
+    using studies::CrosscheckOptions;
+    Table<Study> t("crosscheck", "The same points by several methods, compared.");
+    add_points(t, "crosscheck");
+    const auto of = [](auto member) { return chain(&Study::crosscheck, member); };
+    t.choices("methods", of(&CrosscheckOptions::methods), method_choices(),
+              "Methods; the first is the reference of the others.");
+    t.numbers("clearance_smoothings", of(&CrosscheckOptions::clearance_smoothings), smoothing_width, 1, 100,
+              "Widths of the smooth clearance that the reference method is repeated with, in b_c [-].");
+    t.number("orbit_tolerance", of(&CrosscheckOptions::orbit_tolerance), above_up_to(0, 1),
+             "Two orbits are the same if no component differs by more, in the units of the state.");
+    t.integer("continued_periods", of(&CrosscheckOptions::continued_periods), between(1, 1e6),
+              "Mesh periods that one answer is continued with the other method to explain a difference [-].");
+    return t;
+  }();
+  return table;
+}
+
+const Table<Study>& tolerance_table() {
+  static const auto table = [] {
+    using studies::ToleranceOptions;
+    Table<Study> t("tolerance", "The points' answers against tolerance, method and clearance smoothing.");
+    add_points(t, "tolerance");
+    const auto of = [](auto member) { return chain(&Study::tolerance, member); };
+    t.choices("methods", of(&ToleranceOptions::methods), method_choices(), "Methods of the ladder.");
+    t.numbers("tolerances", of(&ToleranceOptions::tolerances), integrator_tolerance, 1, 100,
+              "Relative tolerances of the ladder [-]; the absolute ones keep the ratio of the study's integrator.");
+    t.numbers("clearance_smoothings", of(&ToleranceOptions::clearance_smoothings), above_up_to(0, 10), 1, 100,
+              "Widths of the smooth clearance, in b_c [-].");
+    t.number("reference_tolerance", of(&ToleranceOptions::reference_tolerance), between(1e-15, 1e-6),
+             "Relative and absolute tolerance of the reference orbits [-].");
+    t.number("target_error", of(&ToleranceOptions::target_error), above_up_to(0, 1),
+             "Error of an orbit that the recommendation has to meet, in the units of the state.");
+    t.integer("chaotic_periods", of(&ToleranceOptions::chaotic_periods), between(64, 1e7),
+              "Mesh periods of the statistics where the motion is not periodic [-].");
+    return t;
+  }();
+  return table;
+}
+
+/// Kinds of study and their tables.
+const std::vector<std::pair<std::string, const Table<Study>& (*)()>> kinds = {
+    {"sweep", &sweep_table}, {"crosscheck", &crosscheck_table}, {"tolerance", &tolerance_table}};
+
+/// Kinds that the input format knows and this version does not compute.
+const std::vector<std::string> kinds_to_come = {"run", "continue", "map", "basins", "calibrate"};
+
+const Table<Study>& table_of_kind(const std::string& kind) {
+  for (const auto& [name, table] : kinds)
+    if (name == kind) return table();
+  return sweep_table();
+}
 
 void read_plan(const json& value, const std::string& pointer, Study& study, ReadContext& context) {
   if (!table_detail::check_object(value, pointer, context)) return;
-  const auto kind = value.find("kind");
-  if (kind != value.end() && kind->is_string() && *kind != "sweep") {
-    const auto& name = kind->get_ref<const std::string&>();
-    if (std::find(kinds_to_come.begin(), kinds_to_come.end(), name) != kinds_to_come.end()) {
-      context.add(Finding::Kind::range, pointer + "/kind",
-                  "is \"" + name + "\", which this version does not compute yet; it computes: sweep");
-      return;
-    }
-    auto all = kinds_to_come;
-    all.insert(all.begin(), "sweep");
-    context.add(Finding::Kind::range, pointer + "/kind",
-                "is \"" + name + "\", must be \"sweep\"" + suggestion(name, all));
-  } else if (kind != value.end() && !kind->is_string()) {
-    context.add(Finding::Kind::type, pointer + "/kind", "is " + described(*kind) + ", must be the string \"sweep\"");
-  }
   study.kind = "sweep";
+  std::vector<std::string> names;
+  for (const auto& [name, table] : kinds) names.push_back(name);
+  const auto kind = value.find("kind");
+  if (kind != value.end() && kind->is_string()) {
+    const auto& name = kind->get_ref<const std::string&>();
+    if (std::find(names.begin(), names.end(), name) != names.end()) {
+      study.kind = name;
+    } else if (std::find(kinds_to_come.begin(), kinds_to_come.end(), name) != kinds_to_come.end()) {
+      context.add(Finding::Kind::range, pointer + "/kind",
+                  "is \"" + name + "\", which this version does not compute yet; it computes: " + listed(names));
+      return;
+    } else {
+      auto all = kinds_to_come;
+      all.insert(all.begin(), names.begin(), names.end());
+      context.add(Finding::Kind::range, pointer + "/kind",
+                  "is \"" + name + "\", must be one of: " + listed(names) + suggestion(name, all));
+    }
+  } else if (kind != value.end()) {
+    context.add(Finding::Kind::type, pointer + "/kind",
+                "is " + described(*kind) + ", must be one of: " + listed(names));
+  }
   study.sweep.emplace();
-  sweep_table().read(value, pointer, *study.sweep, context);
+  table_of_kind(study.kind).read(value, pointer, study, context);
 }
 
 }  // namespace
@@ -517,10 +598,14 @@ const Table<Study>& study_table() {
     plan.key = "study";
     plan.description = "What is computed.";
     plan.read = read_plan;
-    plan.write = [](const Study& study) { return study.sweep ? sweep_table().write(*study.sweep) : json(); };
-    plan.schema = [] { return sweep_table().schema(); };
+    plan.write = [](const Study& study) { return study.sweep ? table_of_kind(study.kind).write(study) : json(); };
+    plan.schema = [] {
+      ordered_json any = ordered_json::array();
+      for (const auto& [name, table_of] : kinds) any.push_back(table_of().schema());
+      return ordered_json{{"anyOf", any}};
+    };
     plan.collect = [](const std::string& pointer, std::vector<KeyPlace>& places) {
-      sweep_table().collect(pointer, places);
+      for (const auto& [name, table_of] : kinds) table_of().collect(pointer, places);
     };
     t.custom(std::move(plan)).required();
     return t;

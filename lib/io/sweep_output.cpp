@@ -99,19 +99,20 @@ std::vector<double> decode_numbers(Decoder& d) {
   return values;
 }
 
-const char* direction_word(Direction direction) { return direction == Direction::up ? "up" : "down"; }
-
 bool ok(const PointResult& r) { return r.outcome == integrate::Outcome::reached; }
-
-const char* regime_word(const PointResult& r) {
-  if (!ok(r)) return "";
-  return r.recurrence.period > 0 ? "periodic" : "undecided";
-}
 
 /// Extrema that were never seen are empty cells.
 double seen(double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::quiet_NaN(); }
 
-/// Names as they are: in a figure's text an underscore would lower the letter after it.
+}  // namespace
+
+std::string direction_word(Direction direction) { return direction == Direction::up ? "up" : "down"; }
+
+std::string regime_word(const PointResult& r) {
+  if (!ok(r)) return "";
+  return r.recurrence.period > 0 ? "periodic" : "undecided";
+}
+
 std::string literal_text(const std::string& name) {
   std::string text;
   for (const char c : name) {
@@ -133,8 +134,6 @@ std::string parameter_label(const std::string& parameter) {
     if (parameter == name) return label;
   return literal_text(parameter);
 }
-
-}  // namespace
 
 std::vector<std::byte> encode_point(const PointResult& r) {
   Encoder e;

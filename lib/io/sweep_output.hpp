@@ -23,6 +23,18 @@ namespace epicyclic::io {
 /// Status of a point in points.csv: ok, diverged, step_limit, failed.
 [[nodiscard]] std::string status_word(integrate::Outcome outcome);
 
+/// "up" or "down".
+[[nodiscard]] std::string direction_word(studies::Direction direction);
+
+/// Regime of a point in points.csv: periodic, undecided; empty unless ok.
+[[nodiscard]] std::string regime_word(const studies::PointResult& result);
+
+/// A name as it is: in a figure's text an underscore would lower the letter after it.
+[[nodiscard]] std::string literal_text(const std::string& name);
+
+/// Axis label of a sweep parameter.
+[[nodiscard]] std::string parameter_label(const std::string& parameter);
+
 /// What a sweep is written with besides its points.
 struct SweepOutput {
   studies::SweepOptions sweep;

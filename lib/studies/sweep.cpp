@@ -4,17 +4,15 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <mutex>
 #include <numbers>
 #include <optional>
-#include <system_error>
-#include <thread>
 
 #include "core/errors.hpp"
 #include "integrate/make_flow.hpp"
 #include "studies/operating_point.hpp"
+#include "studies/units.hpp"
 
 namespace epicyclic::studies {
 
@@ -76,19 +74,16 @@ class ChainRunner {
     for (auto& [index, result] : run.done) results_.emplace(index, std::move(result));
   }
 
-  void work() {
+  void run_chain(std::size_t chain) {
     try {
-      for (std::size_t chain = next_chain_++; chain < plan_.chains.size() && !stopped(); chain = next_chain_++)
-        run_chain(plan_.chains[chain]);
+      follow(plan_.chains[chain]);
     } catch (...) {
-      const std::scoped_lock lock(mutex_);
-      if (!first_exception_) first_exception_ = std::current_exception();
-      failed_ = true;
+      failed_ = true;  // the other chains' points under way are given up
+      throw;
     }
   }
 
   std::vector<PointResult> take() {
-    if (first_exception_) std::rethrow_exception(first_exception_);
     std::vector<PointResult> ordered;
     for (auto& [index, result] : results_) ordered.push_back(std::move(result));
     return ordered;
@@ -97,7 +92,7 @@ class ChainRunner {
  private:
   [[nodiscard]] bool stopped() const { return failed_ || (run_.stop != nullptr && run_.stop->load()); }
 
-  void run_chain(const std::vector<std::size_t>& chain) {
+  void follow(const std::vector<std::size_t>& chain) {
     std::vector<double> start;
     for (const std::size_t index : chain) {
       if (stopped()) return;
@@ -128,11 +123,9 @@ class ChainRunner {
   const integrate::IntegratorOptions& integrator_;
   const ModelAt& model_at_;
   SweepRun& run_;
-  std::atomic<std::size_t> next_chain_{0};
   std::atomic<bool> failed_{false};
   std::mutex mutex_;
   std::map<std::size_t, PointResult> results_;
-  std::exception_ptr first_exception_;
 };
 
 /// The value at a share of the way; both ends exactly as given, between them rounded to 12 digits, so that 1.1 is 1.1
@@ -229,15 +222,7 @@ std::vector<PointResult> run_sweep(const SweepPlan& plan, const SweepOptions& sw
                                    const integrate::IntegratorOptions& integrator, const ModelAt& model_at,
                                    SweepRun run) {
   ChainRunner runner(plan, sweep, integrator, model_at, run);
-  const int threads = std::clamp(run.threads, 1, static_cast<int>(std::max<std::size_t>(plan.chains.size(), 1)));
-  std::vector<std::thread> others;
-  try {
-    for (int k = 1; k < threads; ++k) others.emplace_back([&] { runner.work(); });
-  } catch (const std::system_error&) {
-    // The system gives no more threads: those there are do the work.
-  }
-  runner.work();
-  for (std::thread& t : others) t.join();
+  for_units(plan.chains.size(), run.threads, run.stop, [&](std::size_t chain) { runner.run_chain(chain); });
   return runner.take();
 }
 

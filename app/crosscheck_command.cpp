@@ -1,0 +1,106 @@
+// epicyclic crosscheck: the points of a study by several methods, compared, differences explained.
+
+#include <map>
+#include <utility>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "core/errors.hpp"
+#include "folder.hpp"
+#include "io/crosscheck_output.hpp"
+#include "io/journal.hpp"
+#include "io/progress.hpp"
+#include "io/study_model.hpp"
+#include "stop.hpp"
+
+namespace epicyclic::app {
+
+int crosscheck_command(const Arguments& arguments) {
+  const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
+  require_points(input, arguments, "crosscheck");
+  const studies::SweepOptions& sweep = *input.study.sweep;
+  const studies::SweepPlan plan = studies::plan_sweep(sweep);
+  const auto model_at = io::smoothed_model_at(input);
+  const double width = input.study.model.clearance_smoothing;
+  const model::DynamicModel first_model = model_at(plan.points.front().value, width);
+  const std::vector<studies::Variant> variants =
+      studies::crosscheck_variants(input.study.crosscheck, input.study.integrator, width);
+  for (const std::string& warning : io::warnings(input)) fmt::print(stderr, "{}\n", warning);
+
+  const std::string identity = io::identity(input, "crosscheck");
+  const io::OutputFolder folder(arguments.output, identity);
+  if (const auto code = refuse_or_finish(folder)) return *code;
+  io::Provenance facts = provenance(arguments.threads);
+  stop_on_signals();
+  const std::string resolved = write_inputs(folder, input);
+  folder.write_run(io::RunState::running, io::run_facts(facts));
+
+  const std::size_t points = plan.points.size();
+  io::Journal journal(folder.file("journal.bin"), identity);
+  studies::CrosscheckRun run;
+  run.threads = arguments.threads;
+  run.stop = &stop_requested();
+  for (const io::JournalRecord& record : journal.take_records()) {
+    studies::PointResult result = io::decode_point(record.payload);
+    const std::size_t variant = record.point / points;
+    if (variant >= variants.size() || result.point.index != record.point % points)
+      throw io::DamagedData("the journal holds result " + std::to_string(record.point) + ", which the study has not");
+    run.done.insert_or_assign({variant, result.point.index}, std::move(result));
+  }
+  std::size_t finished = run.done.size();
+  std::size_t failed = 0;
+  for (const auto& [key, result] : run.done) failed += result.outcome == integrate::Outcome::reached ? 0 : 1;
+  io::Progress progress("crosscheck", points * variants.size(), finished);
+  run.point_finished = [&](std::size_t variant, const studies::PointResult& result) {
+    journal.append(variant * points + result.point.index, io::encode_point(result));
+    failed += result.outcome == integrate::Outcome::reached ? 0 : 1;
+    progress.update(++finished, failed);
+  };
+  const studies::Crosscheck all = studies::run_crosscheck(plan, sweep, input.study.crosscheck, input.study.integrator,
+                                                          width, model_at, std::move(run));
+  progress.finish();
+  journal.close();
+  const auto close_run = [&](io::RunState state) {
+    facts.ended = io::utc_now();
+    facts.counts = {{"points", static_cast<std::int64_t>(points)},
+                    {"comparisons", static_cast<std::int64_t>(all.comparisons.size())},
+                    {"failed", static_cast<std::int64_t>(failed)}};
+    folder.write_run(state, io::run_facts(facts));
+  };
+  if (!all.complete(plan)) {
+    close_run(io::RunState::stopped);
+    fmt::print(stderr, "stopped after {} of {} results; the same command goes on\n", finished,
+               points * variants.size());
+    return stopped_early;
+  }
+
+  const io::SweepOutput output{sweep, studies::poincare_columns(first_model), resolved, io::figure_title(input.study)};
+  io::write_points_csv(folder.file("points.csv"), all.reference);
+  io::write_poincare_csv(folder.file("poincare.csv"), output, all.reference);
+  io::write_crosscheck_csv(folder.file("crosscheck.csv"), all);
+  const std::string summary = io::crosscheck_summary(all);
+  io::write_file_atomically(folder.file("crosscheck.md"), summary);
+  const io::DrawnFigure figure =
+      io::draw_crosscheck_figure(folder.file("figures"), output, all, input.study.crosscheck.orbit_tolerance);
+  close_run(io::RunState::complete);
+
+  const std::size_t different = io::differences(all);
+  if (!figure.outcome.drawn())
+    fmt::print(stderr, "{} was not drawn: {}\n", figure.png.string(), figure.outcome.message);
+  if (arguments.json) {
+    fmt::print("{}\n", nlohmann::json{{"folder", folder.path().string()},
+                                      {"points", points},
+                                      {"comparisons", all.comparisons.size()},
+                                      {"differences", different},
+                                      {"failed", failed}}
+                           .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else {
+    fmt::print("{}", summary);
+    if (figure.outcome.drawn()) fmt::print("\nfigure: {}\n", figure.png.string());
+  }
+  return different == 0 && failed == 0 ? done : done_with_failures;
+}
+
+}  // namespace epicyclic::app

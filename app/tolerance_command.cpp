@@ -1,0 +1,107 @@
+// epicyclic tolerance: the points of a study, then each one's answer against tolerance, method and smoothing.
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "folder.hpp"
+#include "io/journal.hpp"
+#include "io/progress.hpp"
+#include "io/study_model.hpp"
+#include "io/tolerance_output.hpp"
+#include "stop.hpp"
+
+namespace epicyclic::app {
+
+int tolerance_command(const Arguments& arguments) {
+  const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
+  require_points(input, arguments, "tolerance");
+  const studies::SweepOptions& sweep = *input.study.sweep;
+  const studies::SweepPlan plan = studies::plan_sweep(sweep);
+  const auto model_at = io::smoothed_model_at(input);
+  const double width = input.study.model.clearance_smoothing;
+  const model::DynamicModel first_model = model_at(plan.points.front().value, width);
+  for (const std::string& warning : io::warnings(input)) fmt::print(stderr, "{}\n", warning);
+
+  const std::string identity = io::identity(input, "tolerance");
+  const io::OutputFolder folder(arguments.output, identity);
+  if (const auto code = refuse_or_finish(folder)) return *code;
+  io::Provenance facts = provenance(arguments.threads);
+  stop_on_signals();
+  const std::string resolved = write_inputs(folder, input);
+  folder.write_run(io::RunState::running, io::run_facts(facts));
+
+  // The study's own points are journalled; what is measured on each of them is computed again after a stop.
+  io::Journal journal(folder.file("journal.bin"), identity);
+  studies::SweepRun run;
+  run.threads = arguments.threads;
+  run.stop = &stop_requested();
+  run.done = known_points(journal, plan);
+  std::size_t finished = run.done.size();
+  std::size_t failed = 0;
+  const auto count_failure = [&](const studies::PointResult& r) {
+    failed += r.outcome == integrate::Outcome::reached ? 0 : 1;
+  };
+  for (const auto& [index, result] : run.done) count_failure(result);
+  const std::size_t total = 2 * plan.points.size();
+  io::Progress progress("tolerance", total, finished);
+  run.point_finished = [&](const studies::PointResult& result) {
+    journal.append(result.point.index, io::encode_point(result));
+    count_failure(result);
+    progress.update(++finished, failed);
+  };
+  const auto studied = studies::run_sweep(
+      plan, sweep, input.study.integrator, [&](double value) { return model_at(value, width); }, std::move(run));
+  journal.close();
+  std::vector<studies::TolerancePoint> points;
+  for (const studies::PointResult& result : studied) {
+    if (stop_requested()) break;
+    points.push_back(studies::compute_tolerance_point(result, sweep, input.study.tolerance, input.study.integrator,
+                                                      width, model_at, arguments.threads, &stop_requested()));
+    progress.update(++finished, failed);
+  }
+  progress.finish();
+  const auto close_run = [&](io::RunState state) {
+    facts.ended = io::utc_now();
+    facts.counts = {{"points", static_cast<std::int64_t>(plan.points.size())},
+                    {"failed", static_cast<std::int64_t>(failed)}};
+    folder.write_run(state, io::run_facts(facts));
+  };
+  if (stop_requested()) {
+    close_run(io::RunState::stopped);
+    fmt::print(stderr, "stopped after {} of {} points; the same command goes on\n", points.size(), plan.points.size());
+    return stopped_early;
+  }
+
+  const io::ToleranceOutput output{
+      {sweep, studies::poincare_columns(first_model), resolved, io::figure_title(input.study)},
+      input.study.tolerance,
+      input.study.integrator,
+      first_model.dimension};
+  io::write_points_csv(folder.file("points.csv"), studied);
+  const std::string summary = io::write_tolerance_tables(folder.path(), output, points);
+  const auto figures = io::draw_tolerance_figures(folder.file("figures"), output, points);
+  close_run(io::RunState::complete);
+
+  nlohmann::json result = {{"folder", folder.path().string()},
+                           {"points", plan.points.size()},
+                           {"failed", failed},
+                           {"figures", nlohmann::json::array()}};
+  for (const io::DrawnFigure& figure : figures) {
+    if (figure.outcome.drawn())
+      result["figures"].push_back(figure.png.string());
+    else
+      fmt::print(stderr, "{} was not drawn: {}\n", figure.png.string(), figure.outcome.message);
+  }
+  if (const auto best = studies::recommend(points, first_model.dimension, input.study.tolerance.target_error))
+    result["recommendation"] = {{"method", best->method}, {"relative_tolerance", best->tolerance}};
+  if (arguments.json) {
+    fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else {
+    fmt::print("{}\n", summary);
+    for (const auto& figure : result["figures"]) fmt::print("figure: {}\n", figure.get<std::string>());
+  }
+  return failed == 0 ? done : done_with_failures;
+}
+
+}  // namespace epicyclic::app

@@ -1,0 +1,116 @@
+#include "io/crosscheck_output.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "io/csv.hpp"
+#include "io/line_figure.hpp"
+
+namespace epicyclic::io {
+
+namespace {
+
+using studies::Comparison;
+using studies::Verdict;
+
+constexpr std::array<Verdict, 7> differing = {Verdict::coexisting, Verdict::tolerance, Verdict::smoothing,
+                                              Verdict::settling,   Verdict::chaos,     Verdict::not_reached,
+                                              Verdict::unexplained};
+
+}  // namespace
+
+void write_crosscheck_csv(const std::filesystem::path& file, const studies::Crosscheck& all) {
+  CsvWriter csv(file, {"point", "direction", "value", "variant", "method", "relative_tolerance", "clearance_smoothing",
+                       "status", "regime", "period", "reference_status", "reference_regime", "reference_period",
+                       "reference_orbit_period", "orbit_distance", "verdict", "detail", "rhs_evaluations"});
+  for (const Comparison& c : all.comparisons) {
+    const studies::PointResult& r = all.reference[c.point];
+    const studies::Variant& v = all.variants[c.variant];
+    csv.row(c.point, direction_word(r.point.direction), r.point.value, v.label, v.integrator.method,
+            v.integrator.relative_tolerance, v.clearance_smoothing, status_word(c.result.outcome),
+            regime_word(c.result), c.result.recurrence.period, status_word(r.outcome), regime_word(r),
+            r.recurrence.period, all.orbit_period[c.point], c.distance, to_string(c.verdict), c.detail,
+            c.result.rhs_evaluations);
+  }
+  csv.commit();
+}
+
+std::size_t differences(const studies::Crosscheck& all) {
+  return static_cast<std::size_t>(std::count_if(all.comparisons.begin(), all.comparisons.end(),
+                                                [](const Comparison& c) { return c.verdict != Verdict::agree; }));
+}
+
+std::string crosscheck_summary(const studies::Crosscheck& all) {
+  std::string text = fmt::format("reference: {}, relative tolerance {:g}, {} points\n\n", all.variants[0].label,
+                                 all.variants[0].integrator.relative_tolerance, all.reference.size());
+  text += fmt::format("{} points are on a periodic orbit, or settle to one.\n\n",
+                      all.orbit_period.size() -
+                          static_cast<std::size_t>(std::count(all.orbit_period.begin(), all.orbit_period.end(), 0)));
+  text += "| variant | motions compared | largest distance | agree | ";
+  for (const Verdict v : differing) text += to_string(v) + " | ";
+  text += "right-hand sides over the reference's |\n|---|---|---|---|";
+  for (std::size_t k = 0; k <= differing.size(); ++k) text += "---|";
+  text += '\n';
+  double reference_cost = 0.0;
+  for (const auto& r : all.reference) reference_cost += static_cast<double>(r.rhs_evaluations);
+  for (std::size_t v = 1; v < all.variants.size(); ++v) {
+    std::map<Verdict, int> count;
+    int compared = 0;
+    double largest = 0.0;
+    double cost = 0.0;
+    for (const Comparison& c : all.comparisons) {
+      if (c.variant != v) continue;
+      ++count[c.verdict];
+      cost += static_cast<double>(c.result.rhs_evaluations);
+      // Two motions that both methods hold are two answers, not one with an error.
+      if (!std::isfinite(c.distance)) continue;
+      ++compared;
+      if (c.verdict != Verdict::coexisting) largest = std::max(largest, c.distance);
+    }
+    text += fmt::format("| {} | {} | {} | {} | ", all.variants[v].label, compared,
+                        compared > 0 ? fmt::format("{:.2g}", largest) : "", count[Verdict::agree]);
+    for (const Verdict d : differing) text += fmt::format("{} | ", count[d]);
+    text += fmt::format("{:.2f} |\n", cost / reference_cost);
+  }
+  bool first = true;
+  for (const Comparison& c : all.comparisons) {
+    if (c.verdict == Verdict::agree) continue;
+    if (first) text += "\nDifferences:\n\n";
+    first = false;
+    const studies::PointResult& r = all.reference[c.point];
+    std::string value;
+    append_number(value, r.point.value);
+    text += fmt::format("- point {} ({}, {}), {}: {}; {}\n", c.point, direction_word(r.point.direction), value,
+                        all.variants[c.variant].label, to_string(c.verdict), c.detail);
+  }
+  return text;
+}
+
+DrawnFigure draw_crosscheck_figure(const std::filesystem::path& folder, const SweepOutput& output,
+                                   const studies::Crosscheck& all, double orbit_tolerance) {
+  std::vector<FigureCurve> curves;
+  for (std::size_t v = 1; v < all.variants.size(); ++v) {
+    FigureCurve curve{literal_text(all.variants[v].label), {}, {}, true};
+    for (const Comparison& c : all.comparisons) {
+      if (c.variant != v || !std::isfinite(c.distance)) continue;
+      curve.x.push_back(all.reference[c.point].point.value);
+      // Orbits that agree to the last bit stand at the rounding of numbers of order 1.
+      constexpr double rounding = 1e-16;
+      curve.y.push_back(std::max(c.distance, rounding));
+    }
+    curves.push_back(std::move(curve));
+  }
+  if (!all.reference.empty())
+    curves.push_back(
+        {"orbit tolerance", {output.sweep.from, output.sweep.to}, {orbit_tolerance, orbit_tolerance}, false});
+  const FigureText text{
+      output.title, parameter_label(output.sweep.parameter),
+      fmt::format("Distance from the orbit of {}  [b_c, b_c/τ]", literal_text(all.variants[0].label))};
+  return {folder / "crosscheck.png", line_figure(folder, "crosscheck", text, curves, {.log_x = false, .log_y = true})};
+}
+
+}  // namespace epicyclic::io

@@ -1,0 +1,28 @@
+// What a cross-check leaves in its folder: crosscheck.csv, the reference's points.csv and poincare.csv, crosscheck.md,
+// a figure. All of it follows from the points alone and is the same, byte for byte, for the same study.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/sweep_output.hpp"
+#include "studies/crosscheck.hpp"
+
+namespace epicyclic::io {
+
+/// One row per point and compared variant.
+/// @throws OutputError
+void write_crosscheck_csv(const std::filesystem::path& file, const studies::Crosscheck& all);
+
+/// Per variant: points, agreements, largest distance of two orbits, differences by explanation. Plain text table.
+[[nodiscard]] std::string crosscheck_summary(const studies::Crosscheck& all);
+
+/// Distance of the orbits over the parameter, one colour per variant.
+[[nodiscard]] DrawnFigure draw_crosscheck_figure(const std::filesystem::path& folder, const SweepOutput& output,
+                                                 const studies::Crosscheck& all, double orbit_tolerance);
+
+/// Points that differ, explained or not.
+[[nodiscard]] std::size_t differences(const studies::Crosscheck& all);
+
+}  // namespace epicyclic::io

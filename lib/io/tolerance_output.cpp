@@ -1,0 +1,287 @@
+#include "io/tolerance_output.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/text.hpp"
+#include "io/atomic_file.hpp"
+#include "io/csv.hpp"
+#include "io/line_figure.hpp"
+
+namespace epicyclic::io {
+
+namespace {
+
+using studies::LadderStep;
+using studies::quantity_names;
+using studies::SmoothingStep;
+using studies::StatisticsStep;
+using studies::TolerancePoint;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<std::string> with_quantities(std::vector<std::string> columns) {
+  columns.insert(columns.end(), quantity_names.begin(), quantity_names.end());
+  return columns;
+}
+
+void start_row(CsvWriter& csv, const TolerancePoint& p) {
+  csv.cell(p.point.index).cell(direction_word(p.point.direction)).cell(p.point.value);
+}
+
+/// Largest difference of the other methods' orbits at their own tolerance from the reference: none is needed here, the
+/// study's value is measured on the study's own orbit if the ladder holds it, else on its last state.
+const LadderStep* study_step(const TolerancePoint& p, const integrate::IntegratorOptions& integrator) {
+  for (const LadderStep& s : p.ladder)
+    if (s.method == integrator.method && s.tolerance == integrator.relative_tolerance) return &s;
+  return nullptr;
+}
+
+studies::Quantities study_quantities(const TolerancePoint& p) {
+  const studies::MeshRecord& sp = p.study.sun_planet.front();
+  const studies::MeshRecord& rp = p.study.ring_planet.front();
+  return {sp.delta_min, sp.delta_max, rp.delta_min, rp.delta_max};
+}
+
+/// Geometric mean over the points of one method and tolerance.
+struct Mean {
+  double log_error = 0, log_cost = 0, log_seconds = 0;
+  int count = 0;
+};
+
+using Key = std::pair<std::string, double>;
+
+std::map<Key, Mean> means(const ToleranceOutput& output, const std::vector<TolerancePoint>& points) {
+  std::map<Key, Mean> all;
+  for (const TolerancePoint& p : points)
+    for (const LadderStep& s : p.ladder) {
+      if (!(s.error > 0.0)) continue;
+      Mean& m = all[{s.method, s.tolerance}];
+      m.log_error += std::log(s.error);
+      m.log_cost += std::log(studies::cost(s.work, output.dimension) / p.period);
+      m.log_seconds += std::log(s.seconds / p.period);
+      ++m.count;
+    }
+  return all;
+}
+
+template <class X>
+std::vector<FigureCurve> ladder_curves(const ToleranceOutput& output, const std::vector<TolerancePoint>& points,
+                                       const X& abscissa) {
+  const std::map<Key, Mean> all = means(output, points);
+  std::vector<FigureCurve> curves;
+  for (const std::string& method : output.options.methods) {
+    FigureCurve curve{literal_text(method), {}, {}, false};
+    for (const double tolerance : output.options.tolerances) {
+      const auto m = all.find({method, tolerance});
+      if (m == all.end()) continue;
+      curve.x.push_back(abscissa(m->second, tolerance));
+      curve.y.push_back(std::exp(m->second.log_error / m->second.count));
+    }
+    if (!curve.x.empty()) curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+}  // namespace
+
+std::string write_tolerance_tables(const std::filesystem::path& folder, const ToleranceOutput& output,
+                                   const std::vector<TolerancePoint>& points) {
+  {
+    CsvWriter csv(folder / "tolerance.csv",
+                  with_quantities({"point", "direction", "value", "period", "method", "relative_tolerance", "status",
+                                   "flow_error", "orbit_error", "rhs_evaluations", "jacobians", "steps"}));
+    for (const TolerancePoint& p : points)
+      for (const LadderStep& s : p.ladder) {
+        start_row(csv, p);
+        csv.cell(p.period).cell(s.method).cell(s.tolerance).cell(status_word(s.outcome)).cell(s.error);
+        csv.cell(s.orbit_error).cell(s.work.right_hand_sides).cell(s.work.jacobians).cell(s.work.steps);
+        for (const double q : s.quantities) csv.cell(q);
+        csv.end_row();
+      }
+    csv.commit();
+  }
+  {
+    CsvWriter csv(folder / "smoothing.csv",
+                  with_quantities({"point", "direction", "value", "period", "clearance_smoothing", "orbit_distance",
+                                   "rhs_evaluations"}));
+    for (const TolerancePoint& p : points)
+      for (const SmoothingStep& s : p.smoothing) {
+        start_row(csv, p);
+        csv.cell(p.period).cell(s.width).cell(s.distance).cell(s.work.right_hand_sides);
+        for (const double q : s.quantities) csv.cell(q);
+        csv.end_row();
+      }
+    csv.commit();
+  }
+  {
+    CsvWriter csv(folder / "quantities.csv",
+                  {"point", "direction", "value", "period", "quantity", "study", "reference", "reference_error",
+                   "error_bar", "smoothing_extrapolated", "smoothing_exponent"});
+    for (const TolerancePoint& p : points) {
+      if (p.period == 0) continue;
+      const studies::Quantities study = study_quantities(p);
+      for (std::size_t k = 0; k < quantity_names.size(); ++k) {
+        start_row(csv, p);
+        csv.cell(p.period).cell(quantity_names[k]).cell(study[k]).cell(p.reference[k]).cell(p.reference_error[k]);
+        csv.cell(std::abs(study[k] - p.reference[k]) + p.reference_error[k]);
+        csv.cell(p.extrapolated[k]).cell(p.exponent[k]);
+        csv.end_row();
+      }
+    }
+    csv.commit();
+  }
+  {
+    CsvWriter csv(folder / "statistics.csv",
+                  {"point", "direction", "value", "method", "relative_tolerance", "clearance_smoothing", "status",
+                   "lyapunov_max", "lyapunov_max_half_width", "mean_delta_sp", "mean_delta_sp_half_width",
+                   "mean_delta_rp", "mean_delta_rp_half_width", "deviation_delta_sp", "deviation_delta_sp_half_width",
+                   "deviation_delta_rp", "deviation_delta_rp_half_width", "agrees", "rhs_evaluations"});
+    for (const TolerancePoint& p : points)
+      for (const StatisticsStep& s : p.statistics) {
+        const bool ok = s.outcome == integrate::Outcome::reached;
+        const auto number = [&](double x) { return ok ? x : nan; };
+        start_row(csv, p);
+        csv.cell(s.method).cell(s.tolerance).cell(s.width).cell(status_word(s.outcome));
+        csv.cell(number(s.exponent.value)).cell(number(s.exponent.half_width));
+        for (const auto* moment : {&s.mean, &s.deviation})
+          for (const auto& e : *moment) csv.cell(number(e.value)).cell(number(e.half_width));
+        csv.cell(static_cast<int>(studies::statistics_agree(p.statistics.front(), s))).cell(s.right_hand_sides);
+        csv.end_row();
+      }
+    csv.commit();
+  }
+
+  std::string text;
+  const double floor = 100.0 * output.options.reference_tolerance;
+  const auto slopes = studies::slopes(points, output.dimension, floor);
+  if (std::any_of(points.begin(), points.end(), [](const TolerancePoint& p) { return p.period > 0; })) {
+    text += "Error of the flow over one orbit: slopes (least squares of logarithms; error ~ tolerance^a ~ cost^-b)\n\n";
+    text += "| method | a | b | steps |\n|---|---|---|---|\n";
+    for (const auto& s : slopes)
+      text += fmt::format("| {} | {:.2f} | {:.2f} | {} |\n", s.method, s.over_tolerance, -s.over_cost, s.steps);
+    const auto best = studies::recommend(points, output.dimension, output.options.target_error);
+    if (best) {
+      text += fmt::format(
+          "\nRecommendation for orbit errors below {:g}: {} at relative tolerance {:g}: {:.0f} right-hand sides per "
+          "mesh "
+          "period (a Jacobian counted as {}), largest orbit error {:.2g}; ",
+          output.options.target_error, best->method, best->tolerance, best->cost_per_period, output.dimension,
+          best->largest_error);
+      text += best->smoothing_pays
+                  ? fmt::format(
+                        "a clearance smoothed by {:g} b_c keeps its bias below that and saves {:.0f} % of the "
+                        "right-hand sides\n",
+                        best->width, 100.0 * best->saved)
+                  : std::string("the exact clearance: no width has a bias below that and saves right-hand sides\n");
+    } else {
+      text += fmt::format("\nNo method and tolerance of the ladder meets an orbit error of {:g} at every point.\n",
+                          output.options.target_error);
+    }
+    text += fmt::format("\nReported quantities by {} at relative tolerance {:g}, with error bars [b_c]\n\n",
+                        output.integrator.method, output.integrator.relative_tolerance);
+    text += "| point | value | period |";
+    for (const char* name : quantity_names) text += fmt::format(" {} |", name);
+    text +=
+        " orbit error | last state from its orbit | largest multiplier |\n|---|---|---|---|---|---|---|---|---|---|\n";
+    for (const TolerancePoint& p : points) {
+      if (p.period == 0) continue;
+      const studies::Quantities study = study_quantities(p);
+      text += fmt::format("| {} | {} | {} |", p.point.index, short_text(p.point.value, 12), p.period);
+      for (std::size_t k = 0; k < quantity_names.size(); ++k)
+        text +=
+            fmt::format(" {:.10g} ± {:.1g} |", study[k], std::abs(study[k] - p.reference[k]) + p.reference_error[k]);
+      const LadderStep* own = study_step(p, output.integrator);
+      text += fmt::format(" {} | {:.1g} | {:.4f} |\n", own == nullptr ? "" : fmt::format("{:.1g}", own->orbit_error),
+                          p.settled_distance, p.largest_multiplier);
+    }
+  }
+  for (const TolerancePoint& p : points) {
+    if (!p.note.empty())
+      text += fmt::format("\nPoint {} ({}): {}\n", p.point.index, short_text(p.point.value, 12), p.note);
+    if (p.statistics.empty()) continue;
+    text +=
+        "\n| method | tolerance | width | largest exponent per tau | mean delta_sp | deviation delta_sp | agrees |\n"
+        "|---|---|---|---|---|---|---|\n";
+    for (const StatisticsStep& s : p.statistics) {
+      const auto cell = [](const analysis::Estimate& e) {
+        return fmt::format("{:.5f} ± {:.5f}", e.value, e.half_width);
+      };
+      text += s.outcome == integrate::Outcome::reached
+                  ? fmt::format("| {} | {:g} | {:g} | {} | {} | {} | {} |\n", s.method, s.tolerance, s.width,
+                                cell(s.exponent), cell(s.mean[0]), cell(s.deviation[0]),
+                                studies::statistics_agree(p.statistics.front(), s) ? "yes" : "no")
+                  : fmt::format("| {} | {:g} | {:g} | {} | | | |\n", s.method, s.tolerance, s.width,
+                                status_word(s.outcome));
+    }
+  }
+  write_file_atomically(folder / "tolerance.md", text);
+  return text;
+}
+
+std::vector<DrawnFigure> draw_tolerance_figures(const std::filesystem::path& folder, const ToleranceOutput& output,
+                                                const std::vector<TolerancePoint>& points) {
+  std::vector<DrawnFigure> figures;
+  const FigureAxes logarithmic{.log_x = true, .log_y = true};
+  const std::string error_label = "Error of the flow over one orbit  [b_c, b_c/τ]";
+  const auto draw = [&](const std::string& stem, const std::string& x, const std::string& y,
+                        const std::vector<FigureCurve>& curves) {
+    if (curves.empty()) return;
+    figures.push_back(
+        {folder / (stem + ".png"), line_figure(folder, stem, {output.sweep.title, x, y}, curves, logarithmic)});
+  };
+  draw("work_precision", "Right-hand sides per mesh period", error_label,
+       ladder_curves(output, points, [](const Mean& m, double) { return std::exp(m.log_cost / m.count); }));
+  draw("work_precision_time", "Time per mesh period  [s]", error_label,
+       ladder_curves(output, points, [](const Mean& m, double) { return std::exp(m.log_seconds / m.count); }));
+  draw("error_over_tolerance", "Relative tolerance", error_label,
+       ladder_curves(output, points, [](const Mean&, double tolerance) { return tolerance; }));
+
+  std::vector<FigureCurve> bias;
+  for (const TolerancePoint& p : points) {
+    FigureCurve curve{fmt::format("{} = {}, period {}", literal_text(output.sweep.sweep.parameter),
+                                  short_text(p.point.value, 6), p.period),
+                      {},
+                      {},
+                      false};
+    for (const SmoothingStep& s : p.smoothing) {
+      if (!s.found) continue;
+      curve.x.push_back(s.width);
+      curve.y.push_back(s.distance);
+    }
+    if (!curve.x.empty()) bias.push_back(std::move(curve));
+  }
+  draw("smoothing_bias", "Width of the smooth clearance  w / b_c", "Distance of the smoothed orbit  [b_c, b_c/τ]",
+       bias);
+
+  for (const TolerancePoint& p : points) {
+    FigureCurve value{"largest exponent", {}, {}, true};
+    FigureCurve low{"95 % interval", {}, {}, false};
+    FigureCurve high{"", {}, {}, false};
+    for (const StatisticsStep& s : p.statistics) {
+      if (s.method != output.integrator.method || s.width != p.statistics.front().width ||
+          s.outcome != integrate::Outcome::reached)
+        continue;
+      value.x.push_back(s.tolerance);
+      value.y.push_back(s.exponent.value);
+      low.x.push_back(s.tolerance);
+      low.y.push_back(s.exponent.low());
+      high.x.push_back(s.tolerance);
+      high.y.push_back(s.exponent.high());
+    }
+    if (value.x.size() < 2) continue;
+    const std::string stem = fmt::format("exponent_{}", p.point.index);
+    figures.push_back(
+        {folder / (stem + ".png"),
+         line_figure(folder, stem, {output.sweep.title, "Relative tolerance", "Largest Lyapunov exponent  λ [1/τ]"},
+                     {value, low, high}, {.log_x = true, .log_y = false})});
+  }
+  return figures;
+}
+
+}  // namespace epicyclic::io

@@ -1,0 +1,40 @@
+// What a tolerance study leaves in its folder: tables, figures, and the recommendation in words.
+//
+//   tolerance.csv    point x method x tolerance: errors of flow and orbit, work of one orbit, quantities
+//   smoothing.csv    point x width: distance of the smoothed orbit, work, quantities
+//   quantities.csv   point x quantity: the study's value, the reference's, the error bar, what smoothing extrapolates
+//   to statistics.csv   where the motion does not recur: exponent and moments with their intervals tolerance.md slopes,
+//   recommendation, error bars
+//
+// The same bytes for the same study, but for the figure over time (figures/work_precision_time.*): times are those of
+// the machine at that hour.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/sweep_output.hpp"
+#include "studies/tolerance.hpp"
+
+namespace epicyclic::io {
+
+/// What the tables need besides the points.
+struct ToleranceOutput {
+  SweepOutput sweep;
+  studies::ToleranceOptions options;
+  integrate::IntegratorOptions integrator;
+  std::size_t dimension = 0;
+};
+
+/// The four tables and tolerance.md.
+/// @returns text of tolerance.md
+/// @throws OutputError
+std::string write_tolerance_tables(const std::filesystem::path& folder, const ToleranceOutput& output,
+                                   const std::vector<studies::TolerancePoint>& points);
+
+[[nodiscard]] std::vector<DrawnFigure> draw_tolerance_figures(const std::filesystem::path& folder,
+                                                              const ToleranceOutput& output,
+                                                              const std::vector<studies::TolerancePoint>& points);
+
+}  // namespace epicyclic::io

@@ -1,0 +1,90 @@
+// The same study by several methods: do they tell the same regime, and the same orbit?
+//
+// The first method is the reference; it computes the study as a sweep would. At each point every other method starts
+// from the state that the reference started from, so that a difference is one of the methods and not of their pasts.
+//
+//   same n, distance d = min_k max_{r,j} | y'_{r+k,j} - y_{r,j} |  over the Poincare points of an orbit,  d <= eps
+//   [A-cross]
+//
+// A difference is explained by continuing one answer with the other method, and by computing again with tightened
+// tolerances or with the reference's smoothing; see Verdict. Each of these is the same computation, so that an
+// explanation is a measurement and not a guess.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "integrate/options.hpp"
+#include "studies/crosscheck_options.hpp"
+#include "studies/sweep.hpp"
+
+namespace epicyclic::studies {
+
+/// A way of computing that is compared with the reference.
+struct Variant {
+  integrate::IntegratorOptions integrator;
+  double clearance_smoothing = 0;
+  std::string label;  ///< method, and width where it is not the study's
+};
+
+/// The reference first.
+/// @param study_smoothing  width of the study
+[[nodiscard]] std::vector<Variant> crosscheck_variants(const CrosscheckOptions& options,
+                                                       const integrate::IntegratorOptions& integrator,
+                                                       double study_smoothing);
+
+enum class Verdict {
+  agree,        ///< the same regime, and where it is periodic the same period and orbit
+  coexisting,   ///< each method stays on the other's answer: both are motions of the stage
+  tolerance,    ///< with tolerances a hundred times tighter they agree
+  smoothing,    ///< with the reference's smoothing they agree
+  settling,     ///< continued, both come to the same motion: the transient was too short
+  chaos,        ///< the largest exponent is positive by its interval: states at one instant cannot agree
+  not_reached,  ///< one of them has no answer (its status says why)
+  unexplained,
+};
+[[nodiscard]] std::string to_string(Verdict verdict);
+
+struct Comparison {
+  std::size_t point = 0;
+  std::size_t variant = 0;
+  PointResult result;
+  Verdict verdict = Verdict::agree;
+  double distance = 0;  ///< d; not a number where nothing can be compared
+  std::string detail;   ///< what the explanation rests on
+};
+
+struct Crosscheck {
+  std::vector<Variant> variants;
+  std::vector<PointResult> reference;   ///< one per point
+  std::vector<int> orbit_period;        ///< of the orbit that the reference is on or settles to; 0 without one
+  std::vector<Comparison> comparisons;  ///< by point, then variant (from 1)
+  [[nodiscard]] bool complete(const SweepPlan& plan) const {
+    return reference.size() == plan.points.size() && comparisons.size() == plan.points.size() * (variants.size() - 1);
+  }
+};
+
+/// d of the first line of [A-cross]; not a number unless both recur with the same period.
+[[nodiscard]] double orbit_distance(const PointResult& a, const PointResult& b, std::size_t dimension);
+
+/// The model at a value of the sweep parameter with another width of the smooth clearance.
+using SmoothedModelAt = std::function<model::DynamicModel(double value, double clearance_smoothing)>;
+
+/// How it is run; none of it changes a result.
+struct CrosscheckRun {
+  int threads = 1;
+  const std::atomic<bool>* stop = nullptr;
+  /// Results of an earlier run: variant, then point.
+  std::map<std::pair<std::size_t, std::size_t>, PointResult> done{};
+  std::function<void(std::size_t variant, const PointResult&)> point_finished{};  ///< one at a time
+};
+
+/// @returns incomplete if stopped
+[[nodiscard]] Crosscheck run_crosscheck(const SweepPlan& plan, const SweepOptions& sweep,
+                                        const CrosscheckOptions& options,
+                                        const integrate::IntegratorOptions& integrator, double study_smoothing,
+                                        const SmoothedModelAt& model_at, CrosscheckRun run);
+
+}  // namespace epicyclic::studies

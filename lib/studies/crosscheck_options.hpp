@@ -1,0 +1,20 @@
+// What a cross-check compares, and how closely (studies/crosscheck.hpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace epicyclic::studies {
+
+struct CrosscheckOptions {
+  std::vector<std::string> methods = {"arkode-dopri5", "arkode-kvaerno5", "cvode-adams",
+                                      "cvode-bdf"};  ///< the first is the reference
+
+  /// Widths of the smooth clearance that the reference method is repeated with [b_c].
+  std::vector<double> clearance_smoothings{};
+
+  double orbit_tolerance = 1e-6;  ///< eps [b_c, b_c per tau]
+  int continued_periods = 100;    ///< that one answer is continued with the other method before it is looked at again
+};
+
+}  // namespace epicyclic::studies

@@ -1,0 +1,54 @@
+#include "studies/settled_orbit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include "core/text.hpp"
+
+namespace epicyclic::studies {
+
+namespace {
+
+/// A motion whose recurrence error is larger than this is not tried, and an orbit farther away than this is another one
+/// [b_c, b_c per tau].
+constexpr double near = 1.0;
+
+}  // namespace
+
+SettledOrbit settled_orbit(integrate::Flow& flow, const PointResult& motion) {
+  SettledOrbit found;
+  if (motion.outcome != integrate::Outcome::reached) {
+    found.note = "there is no motion: " + motion.message;
+    return found;
+  }
+  const analysis::Recurrence& r = motion.recurrence;
+  const bool recurs = r.period > 0;
+  const int n = recurs ? r.period : r.error < near ? r.best_period : 0;
+  if (n == 0) {
+    found.note = "the motion does not recur";
+    return found;
+  }
+  const std::string name = "orbit of period " + std::to_string(n);
+  found.orbit = analysis::find_periodic_orbit(flow, motion.end_state, n);
+  if (!found.orbit.found()) {
+    found.note = "no " + name + " by Newton's method: " + found.orbit.message;
+    return found;
+  }
+  for (std::size_t i = 0; i < motion.end_state.size(); ++i)
+    found.distance = std::max(found.distance, std::abs(found.orbit.state[i] - motion.end_state[i]));
+  found.largest_multiplier = found.orbit.monodromy.eigenvalues().cwiseAbs().maxCoeff();
+  if (found.distance > near) {
+    found.note = "the nearest " + name + " is " + short_text(found.distance) + " away";
+  } else if (!recurs && found.largest_multiplier >= 1.0) {
+    found.note = "the motion does not recur, and the " + name + " near it is unstable (multiplier " +
+                 short_text(found.largest_multiplier) + ")";
+  } else {
+    found.period = n;
+    if (!recurs) found.note = "the motion was still settling; its " + name + " was found by Newton's method";
+  }
+  return found;
+}
+
+}  // namespace epicyclic::studies

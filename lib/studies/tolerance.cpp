@@ -1,0 +1,449 @@
+#include "studies/tolerance.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "analysis/lyapunov.hpp"
+#include "integrate/make_flow.hpp"
+#include "studies/operating_point.hpp"
+#include "studies/settled_orbit.hpp"
+#include "studies/units.hpp"
+
+namespace epicyclic::studies {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double period = 2.0 * std::numbers::pi;
+/// The reference and the method that says how far it can be trusted itself: other tables, other orders.
+constexpr const char* reference_method = "arkode-verner65";
+constexpr const char* second_method = "arkode-dopri5";
+
+Quantities all_nan() {
+  Quantities q;
+  q.fill(nan);
+  return q;
+}
+
+integrate::IntegratorOptions with(const integrate::IntegratorOptions& base, const std::string& method, double rtol,
+                                  double atol) {
+  integrate::IntegratorOptions o = base;
+  o.method = method;
+  o.relative_tolerance = rtol;
+  o.absolute_tolerance = atol;
+  o.locate_contacts = o.locate_contacts && method == base.method;
+  constexpr long plenty = 10'000'000;  // the finest tolerances of low orders take more steps than a study would allow
+  o.max_steps_per_period = std::max(o.max_steps_per_period, plenty);
+  return o;
+}
+
+integrate::Work difference(const integrate::Work& after, const integrate::Work& before) {
+  return {after.right_hand_sides - before.right_hand_sides,
+          after.tangent_right_hand_sides - before.tangent_right_hand_sides, after.jacobians - before.jacobians,
+          after.steps - before.steps};
+}
+
+double largest(const std::vector<double>& a, const std::vector<double>& b) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+  return most;
+}
+
+/// The state carried over n periods; an outcome other than reached leaves it where it got to.
+integrate::Evolution carry(integrate::Flow& flow, std::vector<double>& y, int n) {
+  flow.forget();
+  integrate::Evolution e;
+  for (int k = 0; k < n; ++k) {
+    e = flow.evolve(y, 0.0, period);
+    if (!e.reached()) break;
+  }
+  return e;
+}
+
+/// The reported quantities of n periods from y, at the output phases.
+Quantities quantities_of(integrate::Flow& flow, const model::DynamicModel& model, std::vector<double> y, int n,
+                         int phases) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Quantities q = {infinity, -infinity, infinity, -infinity};
+  std::vector<double> samples;
+  for (int j = 1; j < phases; ++j) samples.push_back(period * j / phases);
+  samples.push_back(period);
+  model::MeshDeflections d;
+  flow.forget();
+  for (int k = 0; k < n; ++k) {
+    const auto e = flow.evolve(y, 0.0, period, samples, [&](std::size_t, double s, std::span<const double> at) {
+      model.deflections(s, at.data(), d);
+      q[0] = std::min(q[0], d.sun_planet[0]);
+      q[1] = std::max(q[1], d.sun_planet[0]);
+      q[2] = std::min(q[2], d.ring_planet[0]);
+      q[3] = std::max(q[3], d.ring_planet[0]);
+    });
+    if (!e.reached()) return all_nan();
+  }
+  return q;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Least-squares slope of y over x; not a number for fewer than three points.
+double slope_of(const std::vector<std::pair<double, double>>& points) {
+  if (points.size() < 3) return nan;
+  double sx = 0.0;
+  double sy = 0.0;
+  double sxx = 0.0;
+  double sxy = 0.0;
+  for (const auto& [x, y] : points) {
+    sx += x;
+    sy += y;
+    sxx += x * x;
+    sxy += x * y;
+  }
+  const auto n = static_cast<double>(points.size());
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+/// Q(w) = Q_0 + c w^p through the three widths in a row that come nearest to zero and whose differences are of one sign
+/// and above what they are known to.
+void extrapolate(TolerancePoint& point, std::size_t k) {
+  point.extrapolated[k] = nan;
+  point.exponent[k] = nan;
+  const auto& s = point.smoothing;
+  for (std::size_t last = s.size(); last-- > 2;) {
+    const SmoothingStep& a = s[last - 2];
+    const SmoothingStep& b = s[last - 1];
+    const SmoothingStep& c = s[last];
+    if (!a.found || !b.found || !c.found) continue;
+    const double ab = a.quantities[k] - b.quantities[k];
+    const double bc = b.quantities[k] - c.quantities[k];
+    constexpr double known_to = 1e-9;
+    if (!(ab * bc > 0.0) || std::abs(bc) < known_to) continue;
+    // (a^p - b^p) / (b^p - c^p) = ab / bc for p, by bisection: the left side rises with p.
+    const auto ratio = [&](double p) {
+      return (std::pow(a.width, p) - std::pow(b.width, p)) / (std::pow(b.width, p) - std::pow(c.width, p));
+    };
+    double low = 0.05;
+    double high = 8.0;
+    if (ratio(low) > ab / bc || ratio(high) < ab / bc) continue;
+    for (int i = 0; i < 100; ++i) {
+      const double middle = 0.5 * (low + high);
+      (ratio(middle) < ab / bc ? low : high) = middle;
+    }
+    const double p = low;
+    point.exponent[k] = p;
+    point.extrapolated[k] = c.quantities[k] - bc * std::pow(c.width, p) / (std::pow(b.width, p) - std::pow(c.width, p));
+    return;
+  }
+}
+
+class PointStudy {
+ public:
+  PointStudy(TolerancePoint& out, const SweepOptions& sweep, const ToleranceOptions& options,
+             const integrate::IntegratorOptions& integrator, double study_smoothing, const SmoothedModelAt& model_at,
+             int threads, const std::atomic<bool>* stop)
+      : out_(out),
+        sweep_(sweep),
+        options_(options),
+        integrator_(integrator),
+        study_smoothing_(study_smoothing),
+        model_at_(model_at),
+        threads_(threads),
+        stop_(stop),
+        model_(model_at(out.point.value, study_smoothing)) {}
+
+  void run() {
+    if (out_.study.outcome != integrate::Outcome::reached) {
+      out_.note = "the study's own integrator has no answer: " + out_.study.message;
+      return;
+    }
+    if (find_reference()) {
+      climb();
+      smooth();
+      for (std::size_t k = 0; k < quantity_names.size(); ++k) extrapolate(out_, k);
+      return;
+    }
+    out_.note += "; statistics in place of an orbit";
+    gather();
+  }
+
+ private:
+  [[nodiscard]] std::unique_ptr<integrate::Flow> flow(const integrate::IntegratorOptions& o,
+                                                      const model::DynamicModel& model) const {
+    return integrate::make_flow(vector_field(model), o);
+  }
+  [[nodiscard]] integrate::IntegratorOptions reference_options(const char* method) const {
+    return with(integrator_, method, options_.reference_tolerance, options_.reference_tolerance);
+  }
+  /// Absolute tolerance in the study's ratio to the relative one.
+  [[nodiscard]] integrate::IntegratorOptions step_options(const std::string& method, double tolerance) const {
+    return with(integrator_, method, tolerance,
+                tolerance * integrator_.absolute_tolerance / integrator_.relative_tolerance);
+  }
+
+  bool find_reference() {
+    const auto reference = flow(reference_options(reference_method), model_);
+    SettledOrbit settled = settled_orbit(*reference, out_.study);
+    out_.note = settled.note;
+    if (settled.period == 0) return false;
+    const int n = out_.period = settled.period;
+    known_ = std::move(settled.orbit);
+    out_.settled_distance = settled.distance;
+    out_.largest_multiplier = settled.largest_multiplier;
+    out_.orbit = known_.state;
+    out_.reference_residual = *std::min_element(known_.residuals.begin(), known_.residuals.end());
+    out_.reference = quantities_of(*reference, model_, known_.state, n, sweep_.output_phases);
+    end_ = known_.state;
+    (void)carry(*reference, end_, n);
+    const auto second = flow(reference_options(second_method), model_);
+    const std::vector<double> other = analysis::displaced_orbit(*second, known_, n, 2);
+    const Quantities again = other.empty() ? all_nan() : quantities_of(*second, model_, other, n, sweep_.output_phases);
+    for (std::size_t k = 0; k < again.size(); ++k) out_.reference_error[k] = std::abs(again[k] - out_.reference[k]);
+    return true;
+  }
+
+  void climb() {
+    const std::size_t tolerances = options_.tolerances.size();
+    out_.ladder.resize(options_.methods.size() * tolerances);
+    for_units(out_.ladder.size(), threads_, stop_, [&](std::size_t unit) {
+      LadderStep& step = out_.ladder[unit];
+      step.method = options_.methods[unit / tolerances];
+      step.tolerance = options_.tolerances[unit % tolerances];
+      step.seconds = std::numeric_limits<double>::infinity();
+      step.error = step.orbit_error = nan;
+      step.quantities = all_nan();
+      const auto own = flow(step_options(step.method, step.tolerance), model_);
+      constexpr int repeats = 3;
+      for (int r = 0; r < repeats; ++r) {
+        std::vector<double> y = known_.state;
+        const integrate::Work before = own->work();
+        const auto start = std::chrono::steady_clock::now();
+        const integrate::Evolution e = carry(*own, y, out_.period);
+        step.seconds = std::min(step.seconds, seconds_since(start));
+        step.work = difference(own->work(), before);
+        step.outcome = e.outcome;
+        if (!e.reached()) return;
+        step.error = largest(y, end_);
+      }
+      const std::vector<double> orbit = analysis::displaced_orbit(*own, known_, out_.period, 2);
+      if (orbit.empty()) return;
+      const double distance = largest(orbit, known_.state);
+      constexpr double another_orbit = 1.0;
+      if (!(distance < another_orbit)) return;
+      step.orbit_error = distance;
+      step.quantities = quantities_of(*own, model_, orbit, out_.period, sweep_.output_phases);
+    });
+  }
+
+  void smooth() {
+    {
+      const auto own = flow(integrator_, model_);
+      std::vector<double> y = known_.state;
+      (void)carry(*own, y, out_.period);
+      out_.study_work = own->work();
+    }
+    out_.smoothing.resize(options_.clearance_smoothings.size());
+    // The orbit with exact clearance, which is the reference's unless the study itself is smoothed.
+    std::vector<double> exact = known_.state;
+    if (study_smoothing_ != 0.0) {
+      const model::DynamicModel model = model_at_(out_.point.value, 0.0);
+      const auto sharp = flow(reference_options(reference_method), model);
+      const analysis::PeriodicOrbit orbit = analysis::find_periodic_orbit(*sharp, known_.state, out_.period);
+      if (orbit.found()) exact = orbit.state;
+    }
+    for_units(out_.smoothing.size(), threads_, stop_, [&](std::size_t unit) {
+      SmoothingStep& step = out_.smoothing[unit];
+      step.width = options_.clearance_smoothings[unit];
+      step.distance = nan;
+      step.quantities = all_nan();
+      const model::DynamicModel model = model_at_(out_.point.value, step.width);
+      constexpr double fine = 1e-12;
+      const auto tight = flow(with(integrator_, reference_method, fine, fine), model);
+      const analysis::PeriodicOrbit orbit =
+          analysis::find_periodic_orbit(*tight, known_.state, out_.period, {.iterations = 20, .residual = 1e-10});
+      if (!orbit.found()) return;
+      step.found = true;
+      step.distance = largest(orbit.state, exact);
+      step.quantities = quantities_of(*tight, model, orbit.state, out_.period, sweep_.output_phases);
+      const auto own = flow(integrator_, model);
+      std::vector<double> y = orbit.state;
+      (void)carry(*own, y, out_.period);
+      step.work = own->work();
+    });
+  }
+
+  void gather() {
+    const auto add = [&](const std::string& method, double tolerance, double width) {
+      for (const StatisticsStep& s : out_.statistics)
+        if (s.method == method && s.tolerance == tolerance && s.width == width) return;
+      StatisticsStep step;
+      step.method = method;
+      step.tolerance = tolerance;
+      step.width = width;
+      out_.statistics.push_back(std::move(step));
+    };
+    // Chaos forgets its start within some hundred periods: a finer tolerance than this gives other numbers, not better
+    // ones.
+    constexpr double fine = 1e-10;
+    add(reference_method, fine, study_smoothing_);
+    for (const double tolerance : options_.tolerances)
+      if (tolerance >= fine) add(integrator_.method, tolerance, study_smoothing_);
+    for (const std::string& method : options_.methods) add(method, integrator_.relative_tolerance, study_smoothing_);
+    for (const double width : options_.clearance_smoothings)
+      add(integrator_.method, integrator_.relative_tolerance, width);
+
+    for_units(out_.statistics.size(), threads_, stop_, [&](std::size_t unit) {
+      StatisticsStep& step = out_.statistics[unit];
+      const model::DynamicModel model = model_at_(out_.point.value, step.width);
+      const auto own = flow(step_options(step.method, step.tolerance), model);
+      std::vector<double> y = out_.study.end_state;
+      std::array<std::vector<double>, 2> series;
+      model::MeshDeflections d;
+      constexpr int aligning = 100;
+      const analysis::LargestExponent e = analysis::largest_exponent(
+          *own, y, {aligning, options_.chaotic_periods},
+          [&](std::size_t, double, std::span<const double> at) {
+            model.deflections(0.0, at.data(), d);
+            series[0].push_back(d.sun_planet[0]);
+            series[1].push_back(d.ring_planet[0]);
+          },
+          [&] { return stop_ == nullptr || !stop_->load(); });
+      step.outcome = e.evolution.outcome;
+      step.right_hand_sides = own->right_hand_side_calls();
+      if (!e.evolution.reached() || series[0].empty()) return;
+      step.exponent = {e.per_s.value * model.omega, e.per_s.half_width * model.omega};
+      for (std::size_t k = 0; k < series.size(); ++k) {
+        step.mean[k] = analysis::batch_mean(series[k]);
+        step.deviation[k] = analysis::batch_deviation(series[k]);
+      }
+    });
+  }
+
+  TolerancePoint& out_;
+  const SweepOptions& sweep_;
+  const ToleranceOptions& options_;
+  const integrate::IntegratorOptions& integrator_;
+  double study_smoothing_;
+  const SmoothedModelAt& model_at_;
+  int threads_;
+  const std::atomic<bool>* stop_;
+  model::DynamicModel model_;
+  analysis::PeriodicOrbit known_;
+  std::vector<double> end_;  ///< of the reference after one orbit: y* up to the shooting's residual
+};
+
+}  // namespace
+
+double cost(const integrate::Work& work, std::size_t dimension) {
+  return static_cast<double>(work.right_hand_sides) +
+         static_cast<double>(work.jacobians) * static_cast<double>(dimension);
+}
+
+bool statistics_agree(const StatisticsStep& a, const StatisticsStep& b) {
+  if (a.outcome != integrate::Outcome::reached || b.outcome != integrate::Outcome::reached) return false;
+  bool all = analysis::overlap(a.exponent, b.exponent);
+  for (std::size_t k = 0; k < a.mean.size(); ++k)
+    all = all && analysis::overlap(a.mean[k], b.mean[k]) && analysis::overlap(a.deviation[k], b.deviation[k]);
+  return all;
+}
+
+std::vector<Slopes> slopes(const std::vector<TolerancePoint>& points, std::size_t dimension, double floor) {
+  constexpr double ceiling = 1e-2;
+  std::vector<Slopes> all;
+  std::map<std::string, std::size_t> place;
+  std::vector<std::vector<std::pair<double, double>>> over_tolerance;
+  std::vector<std::vector<std::pair<double, double>>> over_cost;
+  for (const TolerancePoint& p : points) {
+    // Points differ in level, not in slope: each is moved to its own mean.
+    std::map<std::string, std::vector<std::array<double, 3>>> own;
+    for (const LadderStep& s : p.ladder) {
+      if (place.emplace(s.method, all.size()).second) {
+        all.push_back({s.method, nan, nan, 0});
+        over_tolerance.emplace_back();
+        over_cost.emplace_back();
+      }
+      if (!(s.error > floor && s.error < ceiling)) continue;
+      own[s.method].push_back({std::log(s.tolerance), std::log(cost(s.work, dimension)), std::log(s.error)});
+    }
+    for (auto& [method, rows] : own) {
+      std::array<double, 3> mean{};
+      for (const auto& r : rows)
+        for (std::size_t j = 0; j < 3; ++j) mean[j] += r[j] / static_cast<double>(rows.size());
+      for (const auto& r : rows) {
+        over_tolerance[place[method]].emplace_back(r[0] - mean[0], r[2] - mean[2]);
+        over_cost[place[method]].emplace_back(r[1] - mean[1], r[2] - mean[2]);
+      }
+    }
+  }
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    all[k].over_tolerance = slope_of(over_tolerance[k]);
+    all[k].over_cost = slope_of(over_cost[k]);
+    all[k].steps = static_cast<int>(over_cost[k].size());
+  }
+  return all;
+}
+
+std::optional<Recommendation> recommend(const std::vector<TolerancePoint>& points, std::size_t dimension,
+                                        double target) {
+  struct Sum {
+    double cost = 0;
+    double error = 0;
+    std::size_t points = 0;
+  };
+  std::map<std::pair<std::string, double>, Sum> sums;
+  std::map<double, Sum, std::greater<>> widths;  // widest first
+  double study_cost = 0.0;
+  std::size_t periodic = 0;
+  for (const TolerancePoint& p : points) {
+    if (p.period == 0) continue;
+    ++periodic;
+    study_cost += cost(p.study_work, dimension) / p.period;
+    for (const LadderStep& s : p.ladder) {
+      if (!(s.orbit_error <= target)) continue;
+      Sum& sum = sums[{s.method, s.tolerance}];
+      sum.cost += cost(s.work, dimension) / p.period;
+      sum.error = std::max(sum.error, s.orbit_error);
+      ++sum.points;
+    }
+    for (const SmoothingStep& s : p.smoothing) {
+      if (!(s.found && s.distance <= target)) continue;
+      Sum& sum = widths[s.width];
+      sum.cost += cost(s.work, dimension) / p.period;
+      ++sum.points;
+    }
+  }
+  std::optional<Recommendation> best;
+  for (const auto& [key, sum] : sums) {
+    if (sum.points < periodic) continue;
+    const double mean = sum.cost / static_cast<double>(periodic);
+    if (!best || mean < best->cost_per_period)
+      best = Recommendation{key.first, key.second, mean, sum.error, false, 0.0, 0.0};
+  }
+  if (!best) return best;
+  for (const auto& [width, sum] : widths) {
+    if (sum.points < periodic || sum.cost >= study_cost || best->smoothing_pays) continue;
+    best->smoothing_pays = true;
+    best->width = width;
+    best->saved = 1.0 - sum.cost / study_cost;
+  }
+  return best;
+}
+
+TolerancePoint compute_tolerance_point(const PointResult& study, const SweepOptions& sweep,
+                                       const ToleranceOptions& options, const integrate::IntegratorOptions& integrator,
+                                       double study_smoothing, const SmoothedModelAt& model_at, int threads,
+                                       const std::atomic<bool>* stop) {
+  TolerancePoint point;
+  point.point = study.point;
+  point.study = study;
+  point.extrapolated = point.exponent = all_nan();
+  PointStudy(point, sweep, options, integrator, study_smoothing, model_at, threads, stop).run();
+  return point;
+}
+
+}  // namespace epicyclic::studies
