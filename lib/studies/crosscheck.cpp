@@ -43,20 +43,23 @@ class Examiner {
     }
     const std::size_t n = model_at_(point.value, variants_[0].clearance_smoothing).dimension;
     c.distance = distance(reference, c.result, n);
-    if (same(reference, c.result, n) && (reference.recurrence.period > 0 || c.distance <= options_.orbit_tolerance))
-      return;
+    if (same(reference, c.result, n)) return;
     if (reference.recurrence.period == 0 && c.result.recurrence.period == 0) {
       const SettledOrbit ours = orbit_of(point, variants_[0], reference);
       const SettledOrbit theirs = orbit_of(point, variants_[c.variant], c.result);
-      if (ours.period == 0 && theirs.period == 0) {
-        c.detail = "neither recurs; apart at the same instants by " + short_text(c.distance);
-        c.distance = nan;
-        return;
-      }
-      if (ours.period == theirs.period) {
+      if (ours.period > 0 && ours.period == theirs.period) {
         c.distance = apart(ours.orbit.state, theirs.orbit.state);
         if (c.distance <= options_.orbit_tolerance) {
           c.detail = "both settle to one orbit of period " + std::to_string(ours.period);
+          return;
+        }
+      }
+      if (ours.period == 0 && theirs.period == 0) {
+        const analysis::Estimate our_exponent = exponent(point, variants_[0], reference.end_state);
+        const analysis::Estimate their_exponent = exponent(point, variants_[c.variant], c.result.end_state);
+        if (our_exponent.low() > 0.0 && their_exponent.low() > 0.0) {
+          c.distance = nan;
+          c.detail = "both chaotic, largest exponents " + text_of(our_exponent) + " and " + text_of(their_exponent);
           return;
         }
       }
@@ -88,8 +91,11 @@ class Examiner {
   }
 
   [[nodiscard]] bool same(const PointResult& a, const PointResult& b, std::size_t n) const {
-    if (a.recurrence.period != b.recurrence.period) return false;
-    return a.recurrence.period == 0 || orbit_distance(a, b, n) <= options_.orbit_tolerance;
+    return a.recurrence.period == b.recurrence.period && distance(a, b, n) <= options_.orbit_tolerance;
+  }
+
+  static std::string text_of(const analysis::Estimate& e) {
+    return short_text(e.value) + " +- " + short_text(e.half_width) + " per tau";
   }
 
   [[nodiscard]] PointResult compute(const GridPoint& point, const Variant& v, const std::vector<double>& start,
@@ -139,18 +145,12 @@ class Examiner {
         return done(Verdict::smoothing, "with the reference's width they agree");
     }
     const PointResult tight_theirs = compute(point, tightened(other), start, sweep_.transient_periods);
-    if (reached(tight_ours) && reached(tight_theirs) && same(tight_ours, tight_theirs, n) &&
-        (tight_ours.recurrence.period > 0 || !both_periodic)) {
-      const double d = orbit_distance(tight_ours, tight_theirs, n);
-      return done(Verdict::tolerance, tight_ours.recurrence.period > 0
-                                          ? "at tolerances 100 times tighter the distance is " + short_text(d)
-                                          : "at tolerances 100 times tighter neither recurs");
-    }
+    if (reached(tight_ours) && reached(tight_theirs) && same(tight_ours, tight_theirs, n))
+      return done(Verdict::tolerance, "at tolerances 100 times tighter the distance is " +
+                                          short_text(distance(tight_ours, tight_theirs, n)));
 
     const analysis::Estimate chaos = exponent(point, ours, reference.end_state);
-    if (chaos.low() > 0.0)
-      return done(Verdict::chaos,
-                  "largest exponent " + short_text(chaos.value) + " +- " + short_text(chaos.half_width) + " per tau");
+    if (chaos.low() > 0.0) return done(Verdict::chaos, "largest exponent " + text_of(chaos));
 
     // A long way from either, both methods at last on one motion?
     const int long_way = sweep_.transient_periods + 10 * continued;
@@ -169,9 +169,7 @@ class Examiner {
                                              short_text(orbit_distance(late_ours, late_theirs, n)));
     }
     const analysis::Estimate theirs = exponent(point, other, c.result.end_state);
-    if (theirs.low() > 0.0)
-      return done(Verdict::chaos, "largest exponent of the variant's motion " + short_text(theirs.value) + " +- " +
-                                      short_text(theirs.half_width) + " per tau");
+    if (theirs.low() > 0.0) return done(Verdict::chaos, "largest exponent of the variant's motion " + text_of(theirs));
     done(Verdict::unexplained, "distance " + short_text(c.distance) + ", periods " +
                                    std::to_string(reference.recurrence.period) + " and " +
                                    std::to_string(c.result.recurrence.period) + ", exponents " +
@@ -182,7 +180,7 @@ class Examiner {
   [[nodiscard]] analysis::Estimate exponent(const GridPoint& point, const Variant& v, std::vector<double> state) const {
     const model::DynamicModel model = model_at_(point.value, v.clearance_smoothing);
     const auto flow = integrate::make_flow(vector_field(model), v.integrator);
-    analysis::LargestExponent e = analysis::largest_exponent(*flow, state, {50, 10 * options_.continued_periods}, {},
+    analysis::LargestExponent e = analysis::largest_exponent(*flow, state, {50, 5 * options_.continued_periods}, {},
                                                              [this] { return stop_ == nullptr || !stop_->load(); });
     if (!e.evolution.reached()) return {0.0, std::numeric_limits<double>::infinity()};
     return {e.per_s.value * model.omega, e.per_s.half_width * model.omega};

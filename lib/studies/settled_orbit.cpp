@@ -15,6 +15,21 @@ namespace {
 /// [b_c, b_c per tau].
 constexpr double near = 1.0;
 
+/// The least divisor d of n with phi_d(y) = y: an orbit of period 1 recurs after 10 periods, too, and noise may make
+/// that the better one.
+int least_period(integrate::Flow& flow, const std::vector<double>& orbit, int n) {
+  constexpr double closed = 1e-6;
+  std::vector<double> y = orbit;
+  flow.forget();
+  for (int d = 1; d < n; ++d) {
+    if (!flow.evolve(y, 0.0, flow.field().period).reached()) break;
+    double most = 0.0;
+    for (std::size_t i = 0; i < y.size(); ++i) most = std::max(most, std::abs(y[i] - orbit[i]));
+    if (n % d == 0 && most < closed) return d;
+  }
+  return n;
+}
+
 }  // namespace
 
 SettledOrbit settled_orbit(integrate::Flow& flow, const PointResult& motion) {
@@ -25,17 +40,24 @@ SettledOrbit settled_orbit(integrate::Flow& flow, const PointResult& motion) {
   }
   const analysis::Recurrence& r = motion.recurrence;
   const bool recurs = r.period > 0;
-  const int n = recurs ? r.period : r.error < near ? r.best_period : 0;
+  int n = recurs ? r.period : r.error < near ? r.best_period : 0;
   if (n == 0) {
     found.note = "the motion does not recur";
     return found;
   }
-  const std::string name = "orbit of period " + std::to_string(n);
   found.orbit = analysis::find_periodic_orbit(flow, motion.end_state, n);
   if (!found.orbit.found()) {
-    found.note = "no " + name + " by Newton's method: " + found.orbit.message;
+    found.note = "no orbit of period " + std::to_string(n) + " by Newton's method: " + found.orbit.message;
     return found;
   }
+  if (const int least = least_period(flow, found.orbit.state, n); least < n) {
+    const analysis::PeriodicOrbit shorter = analysis::find_periodic_orbit(flow, found.orbit.state, least);
+    if (shorter.found()) {
+      found.orbit = shorter;
+      n = least;
+    }
+  }
+  const std::string name = "orbit of period " + std::to_string(n);
   for (std::size_t i = 0; i < motion.end_state.size(); ++i)
     found.distance = std::max(found.distance, std::abs(found.orbit.state[i] - motion.end_state[i]));
   found.largest_multiplier = found.orbit.monodromy.eigenvalues().cwiseAbs().maxCoeff();

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
+#include "integrate/each_method.hpp"
 #include "integrate/make_flow.hpp"
 #include "integrate/methods.hpp"
 #include "problems/clearance_exact.hpp"
@@ -117,11 +118,6 @@ TEST_P(EachMethod, AForgetfulFlowDependsOnItsArgumentsAlone) {
   EXPECT_EQ(run(), first);
 }
 
-std::string name_of(const ::testing::TestParamInfo<Method>& info) {
-  std::string name(info.param.name);
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-}
 INSTANTIATE_TEST_SUITE_P(Methods, EachMethod, ::testing::ValuesIn(methods()), name_of);
 
 // ---- multistep orders ---------------------------------------------------------------------------------------------

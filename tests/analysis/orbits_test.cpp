@@ -1,0 +1,131 @@
+// Periodic orbits by Newton's method and largest exponents, on systems whose answers are known.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include "analysis/lyapunov.hpp"
+#include "analysis/periodic_orbit.hpp"
+#include "integrate/make_flow.hpp"
+#include "problems/clearance_exact.hpp"
+#include "problems/known_systems.hpp"
+
+namespace epicyclic::analysis {
+namespace {
+
+integrate::IntegratorOptions tight(double tolerance = 1e-13) {
+  integrate::IntegratorOptions o;
+  o.relative_tolerance = tolerance;
+  o.absolute_tolerance = tolerance;
+  o.max_steps_per_period = 1000000;
+  return o;
+}
+
+bool always() { return true; }
+
+TEST(PeriodicOrbit, DuffingsFlipOrbitIsThePublishedOne) {
+  const auto flow = integrate::make_flow(problems::duffing(0.3, -1.0, 0.2655817861, 1.2), tight());
+  const std::array<double, 2> near = {0.42, 0.31};
+  const PeriodicOrbit orbit = find_periodic_orbit(*flow, near, 1);
+  ASSERT_TRUE(orbit.found()) << orbit.message;
+  constexpr double digits = 1e-9;  // of the published state, which moves fast with g at a flip
+  EXPECT_NEAR(orbit.state[0], 0.4075754662, digits);
+  EXPECT_NEAR(orbit.state[1], 0.3226140050, digits);
+  const auto multipliers = orbit.monodromy.eigenvalues();
+  const double least = std::min(multipliers[0].real(), multipliers[1].real());
+  constexpr double flip = 1e-8;
+  EXPECT_NEAR(least, -1.0, flip);
+}
+
+TEST(PeriodicOrbit, NewtonConvergesQuadraticallyAcrossKinks) {
+  const auto flow = integrate::make_flow(problems::clearance_oscillator(0.85), tight());
+  const std::array<double, 2> near = {0.9, -0.1};
+  const PeriodicOrbit orbit = find_periodic_orbit(*flow, near, 1);
+  ASSERT_TRUE(orbit.found()) << orbit.message;
+  const auto exact = problems::ClearanceExact(0.85).periods({1.1, 0.0}, 300);
+  constexpr double accuracy = 1e-11;
+  EXPECT_NEAR(orbit.state[0], exact[0], accuracy);
+  EXPECT_NEAR(orbit.state[1], exact[1], accuracy);
+  EXPECT_LE(orbit.residuals.size(), 6U);
+}
+
+TEST(PeriodicOrbit, AnUnstableOrbitIsFoundToo) {
+  // Duffing at g = 0.28: period 2 attracts, the period-1 orbit has lost its stability at 0.26558.
+  const auto flow = integrate::make_flow(problems::duffing(0.3, -1.0, 0.28, 1.2), tight());
+  const std::array<double, 2> near = {0.4075, 0.3226};
+  const PeriodicOrbit orbit = find_periodic_orbit(*flow, near, 1);
+  ASSERT_TRUE(orbit.found()) << orbit.message;
+  EXPECT_GT(orbit.monodromy.eigenvalues().cwiseAbs().maxCoeff(), 1.0);
+}
+
+TEST(PeriodicOrbit, WithoutAnOrbitItSaysSo) {
+  // x'' = cos s + 1: drifts away for ever, whatever the start.
+  const auto field = integrate::make_field(2, 6.283185307179586, [](std::size_t, double s, const auto* y, auto* d) {
+    d[0] = y[1];
+    d[1] = 0.0 * y[0] + std::cos(s) + 1.0;
+  });
+  const auto flow = integrate::make_flow(field, tight(1e-10));
+  const std::array<double, 2> near = {0.0, 0.0};
+  const PeriodicOrbit orbit = find_periodic_orbit(*flow, near, 1);
+  EXPECT_FALSE(orbit.found());
+  EXPECT_FALSE(orbit.message.empty());
+}
+
+TEST(PeriodicOrbit, ACoarseMethodsOrbitIsDisplacedByItsOwnError) {
+  const auto fine = integrate::make_flow(problems::clearance_oscillator(0.85), tight());
+  const std::array<double, 2> near = {0.9, -0.1};
+  const PeriodicOrbit orbit = find_periodic_orbit(*fine, near, 1);
+  const auto coarse = integrate::make_flow(problems::clearance_oscillator(0.85), tight(1e-6));
+  const std::vector<double> displaced = displaced_orbit(*coarse, orbit, 1, 3);
+  ASSERT_EQ(displaced.size(), 2U);
+  // What the coarse method settles to on its own.
+  std::vector<double> settled = {1.1, 0.0};
+  for (int k = 0; k < 300; ++k) {
+    coarse->forget();
+    ASSERT_TRUE(coarse->evolve(settled, 0.0, coarse->field().period).reached());
+  }
+  const double moved = std::hypot(displaced[0] - orbit.state[0], displaced[1] - orbit.state[1]);
+  const double left = std::hypot(displaced[0] - settled[0], displaced[1] - settled[1]);
+  EXPECT_GT(moved, 1e-8);
+  EXPECT_LT(left, 0.05 * moved);
+}
+
+TEST(LargestExponent, OfChaoticDuffingIsThePublishedOne) {
+  // validation.md section 3: 0.1569 per unit of t, within 0.002 or its own interval.
+  const auto flow = integrate::make_flow(problems::duffing(0.25, -1.0, 0.4, 1.0), tight(1e-8));
+  std::vector<double> y = {1.0, 0.0};
+  const LargestExponent e = largest_exponent(*flow, y, {100, 6000}, {}, always);
+  ASSERT_TRUE(e.evolution.reached());
+  EXPECT_NEAR(e.per_s.value, 0.1569, std::max(0.002, e.per_s.half_width));
+  EXPECT_LT(e.per_s.half_width, 0.01);
+  EXPECT_GT(e.per_s.low(), 0.0);
+}
+
+TEST(LargestExponent, OfAPeriodicMotionWithComplexMultipliersIsHalfTheSum) {
+  // x'' + 0.3 x' ... in a period-1 window: multipliers complex or real; where complex, exactly -0.15.
+  const auto flow = integrate::make_flow(problems::clearance_oscillator(1.3), tight(1e-10));
+  std::vector<double> y = {1.1, 0.0};
+  for (int k = 0; k < 100; ++k) ASSERT_TRUE(flow->evolve(y, 0.0, flow->field().period).reached());
+  const LargestExponent e = largest_exponent(*flow, y, {50, 4000}, {}, always);
+  // Damping 2 z = 0.1 per unit of t, W = 1.3 units of s in one of t.
+  const double half_sum = -0.05 / 1.3;
+  EXPECT_NEAR(e.per_s.value, half_sum, std::max(2e-4, e.per_s.half_width));
+}
+
+TEST(LargestExponent, StopsWhenTold) {
+  const auto flow = integrate::make_flow(problems::duffing(0.25, -1.0, 0.4, 1.0), {});
+  std::vector<double> y = {1.0, 0.0};
+  int left = 20;
+  const LargestExponent e = largest_exponent(*flow, y, {5, 1000}, {}, [&] { return left-- > 0; });
+  EXPECT_EQ(e.growth.size(), 15U);
+}
+
+}  // namespace
+}  // namespace epicyclic::analysis

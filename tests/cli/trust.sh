@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# trust.sh EPICYCLIC SOURCE_DIR
+#
+# `tolerance` and `crosscheck`: tables, figures, exit codes, the same bytes at 1 and 2 threads, complete folders, studies of
+# another kind.
+set -euo pipefail
+
+epicyclic=$1
+inputs=$2/inputs
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+failed=0
+
+fail() {
+  echo "FAILED: $1"
+  failed=$((failed + 1))
+}
+
+code_of() {
+  local code=0
+  "$@" >stdout 2>stderr </dev/null || code=$?
+  echo "$code"
+}
+
+cat >crosscheck.json <<END
+{ "stage": "$inputs/tang2020.json",
+  "integrator": { "relative_tolerance": 1e-9, "absolute_tolerance": 1e-11 },
+  "study": { "kind": "crosscheck", "from": 2.6, "to": 2.8, "points": 2, "transient_periods": 20, "recorded_periods": 16,
+             "methods": ["arkode-dopri5", "arkode-esdirk436", "cvode-adams"], "clearance_smoothings": [0.1] } }
+END
+[ "$(code_of "$epicyclic" crosscheck crosscheck.json -o c1 --threads 1)" = 1 ] || fail "a width of 0.1 differs: exit 1: $(<stderr)"
+[ "$(code_of "$epicyclic" crosscheck crosscheck.json -o c2 --threads 2)" = 1 ] || fail "crosscheck with 2 threads"
+for file in crosscheck.csv crosscheck.md points.csv poincare.csv figures/crosscheck.dat; do
+  cmp -s "c1/$file" "c2/$file" || fail "$file differs between 1 and 2 threads"
+done
+[ -s c1/figures/crosscheck.png ] || fail "no figure of the cross-check"
+[ "$(wc -l <c1/crosscheck.csv)" = 7 ] || fail "crosscheck.csv must have a header and 2 x 3 rows"
+[ "$(grep -c ',agree,' c1/crosscheck.csv)" = 4 ] || fail "the methods must agree: $(cat c1/crosscheck.csv)"
+[ "$(grep -c ',smoothing,' c1/crosscheck.csv)" = 2 ] || fail "the width must be what differs: $(cat c1/crosscheck.csv)"
+[ "$(code_of "$epicyclic" crosscheck crosscheck.json -o c1)" = 0 ] || fail "a complete folder must give exit 0"
+[ "$(code_of "$epicyclic" crosscheck crosscheck.json -o c3 --set '/study/clearance_smoothings=[1e-6]' --set '/study/methods=["arkode-dopri5"]')" = 0 ] ||
+  fail "a width of 1e-6 must agree: $(<stdout)"
+
+cat >tolerance.json <<END
+{ "stage": "$inputs/tang2020.json",
+  "study": { "kind": "tolerance", "from": 2.8, "to": 2.8, "points": 1, "transient_periods": 100, "recorded_periods": 16,
+             "methods": ["arkode-dopri5", "cvode-adams"], "tolerances": [1e-5, 1e-6, 1e-7],
+             "clearance_smoothings": [0.05, 0.02, 0.01], "chaotic_periods": 64 } }
+END
+[ "$(code_of "$epicyclic" tolerance tolerance.json -o t1 --threads 1)" = 0 ] || fail "tolerance: $(<stderr)"
+grep -q "Recommendation" stdout || fail "no recommendation: $(<stdout)"
+[ "$(code_of "$epicyclic" tolerance tolerance.json -o t2 --threads 2)" = 0 ] || fail "tolerance with 2 threads"
+for file in tolerance.csv smoothing.csv quantities.csv statistics.csv tolerance.md points.csv; do
+  cmp -s "t1/$file" "t2/$file" || fail "$file differs between 1 and 2 threads"
+done
+for figure in work_precision work_precision_time error_over_tolerance smoothing_bias; do
+  [ -s "t1/figures/$figure.png" ] || fail "no figure $figure"
+done
+[ "$(wc -l <t1/tolerance.csv)" = 7 ] || fail "tolerance.csv must have a header and 2 x 3 rows"
+[ "$(code_of "$epicyclic" tolerance tolerance.json -o t1)" = 0 ] || fail "a complete folder must give exit 0"
+
+# Kinds: a sweep serves both commands, another kind does not.
+[ "$(code_of "$epicyclic" sweep tolerance.json -o x)" = 2 ] || fail "a tolerance study is no sweep"
+[ ! -e x ] || fail "something was written for a wrong command"
+[ "$(code_of "$epicyclic" crosscheck tolerance.json -o x)" = 2 ] || fail "a tolerance study is no cross-check"
+[ "$(code_of "$epicyclic" tolerance "$inputs/lin_parker_1999_n3.json" -o x)" = 2 ] || fail "a stage has no points"
+[ "$(code_of "$epicyclic" check tolerance.json)" = 0 ] || fail "check of a tolerance study: $(<stderr)"
+"$epicyclic" check crosscheck.json >resolved.json 2>/dev/null
+[ "$(code_of "$epicyclic" crosscheck resolved.json -o c4 --threads 2)" = 1 ] || fail "a resolved cross-check must run: $(<stderr)"
+cmp -s c1/crosscheck.csv c4/crosscheck.csv || fail "the resolved input gives other results"
+
+# Bad input.
+[ "$(code_of "$epicyclic" check tolerance.json --set '/study/methods=["dopri5"]')" = 2 ] || fail "an unknown method"
+grep -q "arkode-dopri5" stderr || fail "the message must name the methods: $(<stderr)"
+[ "$(code_of "$epicyclic" check tolerance.json --set /study/target_error=-1)" = 2 ] || fail "a negative target"
+[ "$(code_of "$epicyclic" check crosscheck.json --set /study/target_error=1e-6)" = 2 ] || fail "a key of another kind"
+[ "$(code_of "$epicyclic" sweep "$inputs/tang2020_speed.json" -o x --set /integrator/locate_contacts=true --set /integrator/method=cvode-bdf --set /study/points=2 --set /study/transient_periods=1 --set /study/recorded_periods=1)" = 2 ] ||
+  fail "BDF cannot locate contacts: $(<stderr)"
+
+[ "$failed" = 0 ] || exit 1
+echo "all checks passed"

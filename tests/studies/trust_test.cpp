@@ -1,0 +1,324 @@
+// Cross-check and tolerance study, on the clearance oscillator in the place of a stage: its orbits are known.
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "problems/clearance_exact.hpp"
+#include "problems/known_systems.hpp"
+#include "studies/crosscheck.hpp"
+#include "studies/tolerance.hpp"
+#include "studies/units.hpp"
+
+namespace epicyclic::studies {
+namespace {
+
+/// One "planet" whose deflection is x; the parameter is W.
+model::DynamicModel oscillator(double w, double smoothing) {
+  const integrate::VectorField field = problems::clearance_oscillator(w, smoothing);
+  model::DynamicModel m;
+  m.planets = 1;
+  m.dimension = field.dimension;
+  m.state_names = {"x", "x_rate"};
+  m.sun_planet_half_gap = m.ring_planet_half_gap = 1.0;
+  m.omega = w;
+  m.right_hand_side = field.right_hand_side;
+  m.tangents = field.tangents;
+  m.deflections = [](double, const double* y, model::MeshDeflections& out) {
+    out.sun_planet = {y[0]};
+    out.ring_planet = {y[0]};
+    out.sun_planet_rate = {y[1]};
+    out.ring_planet_rate = {y[1]};
+  };
+  m.default_start = {1.1, 0.0};
+  return m;
+}
+
+SweepOptions points(double from, double to, int count) {
+  SweepOptions o;
+  o.from = from;
+  o.to = to;
+  o.points = count;
+  o.transient_periods = 150;
+  o.recorded_periods = 32;
+  o.recurrence_tolerance = 1e-5;
+  return o;
+}
+
+integrate::IntegratorOptions integrator(double tolerance) {
+  integrate::IntegratorOptions o;
+  o.relative_tolerance = tolerance;
+  o.absolute_tolerance = tolerance;
+  return o;
+}
+
+// ---- units --------------------------------------------------------------------------------------------------------
+
+TEST(Units, EachIsDoneOnceOnAnyNumberOfThreads) {
+  for (const int threads : {1, 2, 8}) {
+    std::vector<std::atomic<int>> seen(100);
+    EXPECT_TRUE(for_units(seen.size(), threads, nullptr, [&](std::size_t k) { ++seen[k]; }));
+    for (const auto& s : seen) EXPECT_EQ(s, 1);
+  }
+  EXPECT_TRUE(for_units(0, 4, nullptr, [](std::size_t) { FAIL(); }));
+}
+
+TEST(Units, AnExceptionArrivesAndAStopIsTold) {
+  for (const int threads : {1, 3})
+    EXPECT_THROW(for_units(50, threads, nullptr,
+                           [](std::size_t k) {
+                             if (k == 7) throw std::runtime_error("seven");
+                           }),
+                 std::runtime_error);
+  std::atomic<bool> stop{false};
+  int done = 0;
+  EXPECT_FALSE(for_units(10, 1, &stop, [&](std::size_t k) {
+    ++done;
+    stop = k == 3;
+  }));
+  EXPECT_EQ(done, 4);
+}
+
+// ---- cross-check --------------------------------------------------------------------------------------------------
+
+Crosscheck check(const SweepOptions& sweep, const CrosscheckOptions& options, double tolerance, int threads = 1) {
+  CrosscheckRun run;
+  run.threads = threads;
+  return run_crosscheck(plan_sweep(sweep), sweep, options, integrator(tolerance), 0.0, oscillator, std::move(run));
+}
+
+TEST(Crosscheck, FourMethodsAgreeOnPeriodicOrbits) {
+  const SweepOptions sweep = points(0.7, 1.3, 4);
+  CrosscheckOptions options;
+  const Crosscheck all = check(sweep, options, 1e-10);
+  ASSERT_TRUE(all.complete(plan_sweep(sweep)));
+  ASSERT_EQ(all.comparisons.size(), 12U);
+  for (const Comparison& c : all.comparisons) {
+    EXPECT_EQ(c.verdict, Verdict::agree) << c.detail;
+    EXPECT_LT(c.distance, options.orbit_tolerance);
+    EXPECT_EQ(all.orbit_period[c.point], 1);
+  }
+}
+
+TEST(Crosscheck, TheSameBytesOnAnyNumberOfThreadsAndAfterAStop) {
+  const SweepOptions sweep = points(0.7, 1.3, 4);
+  CrosscheckOptions options;
+  options.methods = {"arkode-dopri5", "cvode-adams"};
+  const Crosscheck one = check(sweep, options, 1e-8);
+  const Crosscheck three = check(sweep, options, 1e-8, 3);
+  // Stopped after five results, then gone on with them.
+  std::atomic<bool> stop{false};
+  std::map<std::pair<std::size_t, std::size_t>, PointResult> done;
+  CrosscheckRun first;
+  first.stop = &stop;
+  first.point_finished = [&](std::size_t variant, const PointResult& r) {
+    done.emplace(std::pair{variant, r.point.index}, r);
+    stop = done.size() == 5;
+  };
+  const SweepPlan plan = plan_sweep(sweep);
+  EXPECT_FALSE(
+      run_crosscheck(plan, sweep, options, integrator(1e-8), 0.0, oscillator, std::move(first)).complete(plan));
+  EXPECT_EQ(done.size(), 5U);
+  CrosscheckRun second;
+  second.done = done;
+  int computed = 0;
+  second.point_finished = [&](std::size_t, const PointResult&) { ++computed; };
+  const Crosscheck resumed = run_crosscheck(plan, sweep, options, integrator(1e-8), 0.0, oscillator, std::move(second));
+  EXPECT_EQ(computed, 3);
+  for (const Crosscheck* other : {&three, &resumed}) {
+    ASSERT_EQ(other->comparisons.size(), one.comparisons.size());
+    for (std::size_t k = 0; k < one.comparisons.size(); ++k) {
+      EXPECT_EQ(other->comparisons[k].distance, one.comparisons[k].distance);
+      EXPECT_EQ(other->comparisons[k].verdict, one.comparisons[k].verdict);
+      EXPECT_EQ(other->comparisons[k].result.poincare, one.comparisons[k].result.poincare);
+    }
+  }
+}
+
+TEST(Crosscheck, ADifferenceOfToleranceIsExplainedAsOne) {
+  SweepOptions sweep = points(0.85, 0.85, 1);
+  CrosscheckOptions options;
+  options.methods = {"arkode-dopri5", "cvode-bdf"};
+  options.orbit_tolerance = 1e-5;
+  sweep.recurrence_tolerance = 1e-2;  // above the noise of a coarse integrator
+  const Crosscheck all = check(sweep, options, 1e-5);
+  ASSERT_EQ(all.comparisons.size(), 1U);
+  EXPECT_EQ(all.comparisons[0].verdict, Verdict::tolerance) << all.comparisons[0].detail;
+  EXPECT_GT(all.comparisons[0].distance, options.orbit_tolerance);
+}
+
+TEST(Crosscheck, ADifferenceOfSmoothingIsExplainedAsOne) {
+  SweepOptions sweep = points(0.85, 0.85, 1);
+  CrosscheckOptions options;
+  options.methods = {"arkode-dopri5"};
+  options.clearance_smoothings = {0.05, 1e-5};
+  const Crosscheck all = check(sweep, options, 1e-10);
+  ASSERT_EQ(all.comparisons.size(), 2U);
+  EXPECT_EQ(all.comparisons[0].verdict, Verdict::smoothing) << all.comparisons[0].detail;
+  EXPECT_GT(all.comparisons[0].distance, 1e-4);
+  EXPECT_EQ(all.comparisons[1].verdict, Verdict::agree) << all.comparisons[1].detail;
+}
+
+TEST(Crosscheck, CoexistingMotionsAreToldFromErrors) {
+  // Duffing's two wells: the reference starts in one of them; a variant so coarse that it falls into the other gives an
+  // answer that both methods hold. The coarse method is played by a model that pushes it at the start.
+  const auto two_wells = [](double g, double pushed) {
+    const integrate::VectorField field = problems::duffing(0.3, -1.0, g, 1.2);
+    model::DynamicModel m = oscillator(1.0, 0.0);
+    m.omega = 1.2;
+    // In the phase s = 1.2 t, of period 2 pi.
+    m.right_hand_side = [f = field.right_hand_side](std::size_t k, double s, const double* y, double* d) {
+      f(k, s / 1.2, y, d);
+      d[0] /= 1.2;
+      d[1] /= 1.2;
+    };
+    m.tangents = [f = field.tangents](std::size_t k, double s, const double* y, const Columns<const double>& v,
+                                      double* d, const Columns<double>& dv) {
+      f(k, s / 1.2, y, v, d, dv);
+      for (std::size_t i = 0; i < 2; ++i) {
+        d[i] /= 1.2;
+        for (std::size_t j = 0; j < dv.count; ++j) dv.column(j)[i] /= 1.2;
+      }
+    };
+    m.default_start = {pushed > 0.0 ? -1.0 : 1.0, 0.0};
+    return m;
+  };
+  SweepOptions sweep = points(0.2, 0.2, 1);
+  CrosscheckOptions options;
+  options.methods = {"arkode-dopri5"};
+  options.clearance_smoothings = {0.1};
+  const Crosscheck all =
+      run_crosscheck(plan_sweep(sweep), sweep, options, integrator(1e-9), 0.0, two_wells, CrosscheckRun{});
+  ASSERT_EQ(all.comparisons.size(), 1U);
+  EXPECT_EQ(all.comparisons[0].verdict, Verdict::coexisting) << all.comparisons[0].detail;
+}
+
+TEST(OrbitDistance, IsThatOfTheBestShift) {
+  PointResult a;
+  a.recurrence.period = 2;
+  a.poincare_columns = 2;
+  a.poincare = {0.0, 1.0, 5.0, 6.0};
+  PointResult b = a;
+  b.poincare = {5.0, 6.5, 0.0, 1.0};
+  EXPECT_DOUBLE_EQ(orbit_distance(a, b, 2), 0.5);
+  EXPECT_DOUBLE_EQ(orbit_distance(a, b, 1), 0.0);
+  b.recurrence.period = 1;
+  EXPECT_TRUE(std::isnan(orbit_distance(a, b, 2)));
+}
+
+// ---- tolerance ----------------------------------------------------------------------------------------------------
+
+TolerancePoint study(double w, const ToleranceOptions& options, double tolerance, int threads = 1) {
+  const SweepOptions sweep = points(w, w, 1);
+  const auto motion = run_sweep(plan_sweep(sweep), sweep, integrator(tolerance),
+                                [](double value) { return oscillator(value, 0.0); }, {});
+  return compute_tolerance_point(motion.front(), sweep, options, integrator(tolerance), 0.0, oscillator, threads,
+                                 nullptr);
+}
+
+TEST(Tolerance, ErrorsAndErrorBarsAreTheTrueOnes) {
+  ToleranceOptions options;
+  options.methods = {"arkode-dopri5", "cvode-adams"};
+  options.tolerances = {1e-5, 1e-7, 1e-9};
+  options.clearance_smoothings = {0.04, 0.02, 0.01, 0.005};
+  const TolerancePoint p = study(0.85, options, 1e-7);
+  ASSERT_EQ(p.period, 1) << p.note;
+  const auto exact = problems::ClearanceExact(0.85).periods({1.1, 0.0}, 300);
+  constexpr double reference = 1e-10;
+  EXPECT_NEAR(p.orbit[0], exact[0], reference);
+  EXPECT_NEAR(p.orbit[1], exact[1], reference);
+  ASSERT_EQ(p.ladder.size(), 6U);
+  for (const LadderStep& s : p.ladder) {
+    EXPECT_GT(s.error, 0.0);
+    EXPECT_LT(s.error, 1000.0 * s.tolerance) << s.method << s.tolerance;
+    EXPECT_LT(s.orbit_error, 1e4 * s.tolerance) << s.method << s.tolerance;
+    EXPECT_GT(s.work.right_hand_sides, 0);
+  }
+  // The extrema of the study lie within their error bars of the exact ones.
+  const problems::ClearanceExact solution(0.85);
+  double most = -10.0;
+  for (int j = 1; j <= 64; ++j)
+    most = std::max(most, solution.evolve(exact, 0.0, 2.0 * 3.14159265358979323846 * j / 64)[0]);
+  const double bar = std::abs(p.study.sun_planet[0].delta_max - p.reference[1]) + p.reference_error[1];
+  EXPECT_LE(std::abs(p.study.sun_planet[0].delta_max - most), bar + 1e-10);
+  EXPECT_LT(bar, 1e-4);
+  // Smoothing's bias falls, and what is extrapolated is nearer to the truth than the least width.
+  for (std::size_t k = 1; k < p.smoothing.size(); ++k) EXPECT_LT(p.smoothing[k].distance, p.smoothing[k - 1].distance);
+  EXPECT_LT(std::abs(p.extrapolated[1] - p.reference[1]),
+            0.3 * std::abs(p.smoothing.back().quantities[1] - p.reference[1]));
+  EXPECT_GT(p.exponent[1], 1.0);
+  EXPECT_LT(p.exponent[1], 3.0);
+}
+
+TEST(Tolerance, TheSameOnAnyNumberOfThreads) {
+  ToleranceOptions options;
+  options.methods = {"arkode-dopri5", "cvode-bdf"};
+  options.tolerances = {1e-5, 1e-7};
+  options.clearance_smoothings = {0.04, 0.02};
+  const TolerancePoint one = study(0.85, options, 1e-7, 1);
+  const TolerancePoint four = study(0.85, options, 1e-7, 4);
+  for (std::size_t k = 0; k < one.ladder.size(); ++k) {
+    EXPECT_EQ(one.ladder[k].error, four.ladder[k].error);
+    EXPECT_EQ(one.ladder[k].orbit_error, four.ladder[k].orbit_error);
+    EXPECT_EQ(one.ladder[k].work.right_hand_sides, four.ladder[k].work.right_hand_sides);
+  }
+  for (std::size_t k = 0; k < one.smoothing.size(); ++k)
+    EXPECT_EQ(one.smoothing[k].distance, four.smoothing[k].distance);
+}
+
+TolerancePoint ladder_of(double exponent, double level) {
+  TolerancePoint p;
+  p.period = 1;
+  for (double tolerance = 1e-4; tolerance > 1e-11; tolerance *= 0.1)
+    for (const auto& [name, order] : {std::pair{"low", 3.0}, std::pair{"high", 6.0}}) {
+      LadderStep s;
+      s.method = name;
+      s.tolerance = tolerance;
+      s.error = level * std::pow(tolerance, exponent);
+      s.orbit_error = 2.0 * s.error;
+      s.work.right_hand_sides = std::lround(1e4 * std::pow(s.error / level, -1.0 / order));
+      p.ladder.push_back(s);
+    }
+  return p;
+}
+
+TEST(Slopes, AreThoseOfTheLadder) {
+  const std::vector<Slopes> all = slopes({ladder_of(1.0, 1.0), ladder_of(1.0, 20.0)}, 34, 1e-12);
+  ASSERT_EQ(all.size(), 2U);
+  constexpr double rounding = 1e-3;  // of right-hand sides to whole numbers
+  EXPECT_NEAR(all[0].over_tolerance, 1.0, 1e-12);
+  EXPECT_NEAR(all[0].over_cost, -3.0, rounding);
+  EXPECT_NEAR(all[1].over_cost, -6.0, rounding);
+}
+
+TEST(Recommendation, IsTheCheapestThatMeetsTheTargetEverywhere) {
+  const auto best = recommend({ladder_of(1.0, 1.0), ladder_of(1.0, 20.0)}, 34, 1e-6);
+  ASSERT_TRUE(best.has_value());
+  // 2 x 20 x tolerance <= 1e-6: 1e-8 is the loosest of the ladder.
+  EXPECT_EQ(best->method, "high");
+  EXPECT_NEAR(best->tolerance, 1e-8, 1e-20);
+  EXPECT_LE(best->largest_error, 1e-6);
+  EXPECT_FALSE(recommend({ladder_of(1.0, 1.0)}, 34, 1e-16).has_value());
+}
+
+TEST(Statistics, AgreeWhereAllIntervalsOverlap) {
+  StatisticsStep a;
+  a.exponent = {0.1, 0.01};
+  for (auto* e : {&a.mean[0], &a.mean[1], &a.deviation[0], &a.deviation[1]}) *e = {1.0, 0.1};
+  StatisticsStep b = a;
+  EXPECT_TRUE(statistics_agree(a, b));
+  b.mean[1].value = 1.3;
+  EXPECT_FALSE(statistics_agree(a, b));
+  b = a;
+  b.outcome = integrate::Outcome::failed;
+  EXPECT_FALSE(statistics_agree(a, b));
+}
+
+}  // namespace
+}  // namespace epicyclic::studies
