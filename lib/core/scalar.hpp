@@ -30,9 +30,10 @@ template <class T>
   return select(x < low, low, select(x > high, high, x));
 }
 
-/// The whole number nearest to x, |x| < 2^62; std::round is a call into the library on the baseline instruction set.
-[[nodiscard]] inline double nearest_whole(double x) {
-  return static_cast<double>(static_cast<long long>(x + (x < 0.0 ? -0.5 : 0.5)));
+/// The whole number nearest to x, the even one of two, |x| < 2^51: a double of 2^52 has no room for a fraction.
+[[nodiscard]] constexpr double nearest_whole(double x) {
+  constexpr double no_fraction = 0x1.8p52;
+  return (x + no_fraction) - no_fraction;
 }
 
 /// x^(3/2) of x >= 0. Written as one function because x * sqrt(x) has the derivative 0 * infinity at 0.

@@ -11,6 +11,7 @@
 
 #include "core/errors.hpp"
 #include "model/right_hand_side.hpp"
+#include "model/stage_kernel.hpp"
 
 namespace epicyclic::model {
 
@@ -82,8 +83,8 @@ DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mes
   m.sun_planet_half_gap = p->sun_planet.half_gap;
   m.ring_planet_half_gap = p->ring_planet.half_gap;
   m.omega = mesh_frequency_ratio;
-  m.right_hand_side = [p](std::size_t segment, double s, const double* y, double* dyds) {
-    right_hand_side<L>(*p, segment, s, y, dyds);
+  m.right_hand_side = [p, kernel = stage_kernel<L, N>()](std::size_t segment, double s, const double* y, double* dyds) {
+    kernel(*p, segment, s, y, dyds);
   };
   m.tangents = make_tangents<L>(*p);
   m.deflections = [p](double s, const double* y, MeshDeflections& out) {

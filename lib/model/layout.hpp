@@ -13,10 +13,11 @@
 // that deflections have one formula. Linear maps: smooth everywhere.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
+
+#include "core/row.hpp"
 
 namespace epicyclic::model {
 
@@ -57,7 +58,7 @@ struct Slots {
 template <class T, std::size_t N>
 struct Coordinates {
   T x_s, y_s, w_s;
-  std::array<T, N> x_p, y_p, w_p;
+  Row<T, N> x_p, y_p, w_p;
   T x_r, y_r, u_r;
   T x_c, y_c, u_c;
 };
@@ -68,11 +69,9 @@ template <Layout L, std::size_t N, class T>
   c.x_s = q[Slots::x_s];
   c.y_s = q[Slots::y_s];
   c.w_s = q[Slots::w_s];
-  for (std::size_t i = 0; i < N; ++i) {
-    c.x_p[i] = q[Slots::x_p(i)];
-    c.y_p[i] = q[Slots::y_p(i)];
-    c.w_p[i] = q[Slots::w_p(i)];
-  }
+  c.x_p = Row<T, N>::of([q](std::size_t i) { return q[Slots::x_p(i)]; });
+  c.y_p = Row<T, N>::of([q](std::size_t i) { return q[Slots::y_p(i)]; });
+  c.w_p = Row<T, N>::of([q](std::size_t i) { return q[Slots::w_p(i)]; });
   c.x_r = q[Slots::x_r(N)];
   c.y_r = q[Slots::y_r(N)];
   c.x_c = q[Slots::x_c(N)];
@@ -95,11 +94,9 @@ void pack(const Coordinates<T, N>& c, T* q) {
   q[Slots::x_s] = c.x_s;
   q[Slots::y_s] = c.y_s;
   q[Slots::w_s] = c.w_s;
-  for (std::size_t i = 0; i < N; ++i) {
-    q[Slots::x_p(i)] = c.x_p[i];
-    q[Slots::y_p(i)] = c.y_p[i];
-    q[Slots::w_p(i)] = c.w_p[i];
-  }
+  c.x_p.each([q](std::size_t i, const T& x) { q[Slots::x_p(i)] = x; });
+  c.y_p.each([q](std::size_t i, const T& y) { q[Slots::y_p(i)] = y; });
+  c.w_p.each([q](std::size_t i, const T& w) { q[Slots::w_p(i)] = w; });
   q[Slots::x_r(N)] = c.x_r;
   q[Slots::y_r(N)] = c.y_r;
   q[Slots::x_c(N)] = c.x_c;

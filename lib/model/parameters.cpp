@@ -180,6 +180,14 @@ Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& sc
   p.inertia_p = ratio(stage.planet.inertia_over_r2_kg);
   p.inertia_r = ratio(stage.ring.inertia_over_r2_kg);
   p.inertia_c = ratio(stage.carrier.inertia_over_r2_kg);
+  p.inverse_mass_s = 1.0 / p.mass_s;
+  p.inverse_mass_p = 1.0 / p.mass_p;
+  p.inverse_mass_r = 1.0 / p.mass_r;
+  p.inverse_mass_c = 1.0 / p.mass_c;
+  p.inverse_inertia_s = 1.0 / p.inertia_s;
+  p.inverse_inertia_p = 1.0 / p.inertia_p;
+  p.inverse_inertia_r = 1.0 / p.inertia_r;
+  p.inverse_inertia_c = 1.0 / p.inertia_c;
   p.support_s = support(stage.sun);
   p.support_r = support(stage.ring);
   p.support_c = support(stage.carrier);

@@ -17,6 +17,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/row.hpp"
 #include "core/scalar.hpp"
 #include "gear/stage.hpp"
 #include "model/friction_track.hpp"
@@ -28,16 +29,16 @@ namespace epicyclic::model {
 /// One kind of mesh of N planets.
 template <class T, std::size_t N>
 struct MeshParameters {
-  std::array<T, N> sine, cosine;  ///< of phi_spi = alpha_sp - phi_i, or phi_rpi = alpha_rp + phi_i
-  T half_gap;                     ///< b
-  T damping;                      ///< c
-  T stiffness;                    ///< k_0
+  Row<T, N> sine, cosine;  ///< of phi_spi = alpha_sp - phi_i, or phi_rpi = alpha_rp + phi_i
+  T half_gap;              ///< b
+  T damping;               ///< c
+  T stiffness;             ///< k_0
   std::size_t harmonics = 0;
-  std::vector<std::array<T, N>> stiffness_cos, stiffness_sin;  ///< C_hi, S_hi; [harmonics][N]
-  std::array<T, N> error_cos, error_sin;                       ///< a_i, b_i
-  std::shared_ptr<const PeriodicTrack<1>> stiffness_curve;     ///< in place of k_0 and harmonics; null without
-  std::shared_ptr<const FrictionTrack> friction;               ///< null without friction
-  std::array<double, N> turns;                                 ///< mesh phase of planet i over 2 pi, at s = 0
+  std::vector<Row<T, N>> stiffness_cos, stiffness_sin;      ///< C_hi, S_hi; [harmonics][N]
+  Row<T, N> error_cos, error_sin;                           ///< a_i, b_i
+  std::shared_ptr<const PeriodicTrack<1>> stiffness_curve;  ///< in place of k_0 and harmonics; null without
+  std::shared_ptr<const FrictionTrack> friction;            ///< null without friction
+  Row<double, N> turns;                                     ///< mesh phase of planet i over 2 pi, at s = 0
 };
 
 /// Places of one kind of mesh in its tables while s is between two neighbouring breakpoints.
@@ -53,14 +54,16 @@ struct Segment {
 
 template <class T, std::size_t N>
 struct Parameters {
-  T omega;                            ///< Omega = omega_m / omega_sn
-  std::array<T, N> sin_phi, cos_phi;  ///< of the planets' angles
+  T omega;                     ///< Omega = omega_m / omega_sn
+  Row<T, N> sin_phi, cos_phi;  ///< of the planets' angles
   T cos_alpha_sp, cos_alpha_rp;
-  T mass_s, mass_p, mass_r, mass_c;              ///< M
-  T inertia_s, inertia_p, inertia_r, inertia_c;  ///< I / r^2
-  T support_s, support_r, support_c;             ///< k of the translations
-  T damping_s, damping_r, damping_c;             ///< c of the translations
-  T torsion_r, torsion_c;                        ///< k_ru, k_cu
+  T mass_s, mass_p, mass_r, mass_c;                                  ///< M
+  T inertia_s, inertia_p, inertia_r, inertia_c;                      ///< I / r^2
+  T inverse_mass_s, inverse_mass_p, inverse_mass_r, inverse_mass_c;  ///< 1 / M
+  T inverse_inertia_s, inverse_inertia_p, inverse_inertia_r, inverse_inertia_c;
+  T support_s, support_r, support_c;  ///< k of the translations
+  T damping_s, damping_r, damping_c;  ///< c of the translations
+  T torsion_r, torsion_c;             ///< k_ru, k_cu
   T torsion_damping_r, torsion_damping_c;
   T bearing_p, bearing_damping_p;  ///< k_p, c_p
   T sun_half_gap;                  ///< b_s
@@ -124,6 +127,14 @@ void for_each_constant(P& p, const F& f) {
   f(p.inertia_p);
   f(p.inertia_r);
   f(p.inertia_c);
+  f(p.inverse_mass_s);
+  f(p.inverse_mass_p);
+  f(p.inverse_mass_r);
+  f(p.inverse_mass_c);
+  f(p.inverse_inertia_s);
+  f(p.inverse_inertia_p);
+  f(p.inverse_inertia_r);
+  f(p.inverse_inertia_c);
   f(p.support_s);
   f(p.support_r);
   f(p.support_c);

@@ -106,8 +106,11 @@ void PeriodicTrack<K>::append_piece(const std::vector<TrackRow<K>>& rows) {
     for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
       const double h = x[k + 1] - x[k];
       const double secant = (y[k + 1] - y[k]) / h;
-      cubics_[first + k][j] = {y[k], slope[k], (3.0 * secant - 2.0 * slope[k] - slope[k + 1]) / h,
-                               (slope[k] + slope[k + 1] - 2.0 * secant) / (h * h)};
+      Cubics& c = cubics_[first + k];
+      c[0][j] = y[k];
+      c[1][j] = slope[k];
+      c[2][j] = (3.0 * secant - 2.0 * slope[k] - slope[k + 1]) / h;
+      c[3][j] = (slope[k] + slope[k + 1] - 2.0 * secant) / (h * h);
     }
   }
   pieces_.push_back(piece(first, starts_.size() - 1));
@@ -135,8 +138,8 @@ PeriodicTrack<K> PeriodicTrack<K>::with_parameter_derivative(const std::array<co
   for (std::size_t k = 0; k < cubics_.size(); ++k)
     for (std::size_t j = 0; j < K; ++j)
       for (std::size_t c = 0; c < 4; ++c) {
-        const auto at = [&](std::size_t neighbour) { return near[neighbour]->cubics_[k][j][c]; };
-        track.parameter_cubics_[k][j][c] = central_derivative({at(0), at(1), at(2), at(3)}, h);
+        const auto at = [&](std::size_t neighbour) { return near[neighbour]->cubics_[k][c][j]; };
+        track.parameter_cubics_[k][c][j] = central_derivative({at(0), at(1), at(2), at(3)}, h);
       }
   return track;
 }

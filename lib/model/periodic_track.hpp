@@ -12,10 +12,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 #include "core/dual.hpp"
 #include "core/lanes.hpp"
+#include "core/row.hpp"
 #include "core/scalar.hpp"
 
 namespace epicyclic::model {
@@ -66,34 +68,40 @@ class PeriodicTrack {
 
   /// Values at a phase within half a turn of the place, whole turns apart, by the cubics of its piece.
   template <class T>
-  [[nodiscard]] std::array<T, K> at(const TrackPlace& place, const T& phase) const {
+  [[nodiscard]] Row<T, K> at(const TrackPlace& place, const T& phase) const {
     const T x = phase - T(nearest_whole(static_cast<double>(value_of(phase)) - place.centre));
     const std::size_t k = interval(place.piece, value_of(x));
     const T t = x - starts_[k];
-    std::array<T, K> values;
-    for (std::size_t j = 0; j < K; ++j) values[j] = cubic(cubics_[k][j], t);
-    if constexpr (is_dual<T>) {
-      if (!parameter_cubics_.empty())
-        for (std::size_t j = 0; j < K; ++j) values[j].derivative[0] += cubic(parameter_cubics_[k][j], value_of(t));
+    const Cubics& c = cubics_[k];
+    if constexpr (std::is_same_v<T, double>) {
+      return cubic(c, t);
+    } else {
+      Row<T, K> values = Row<T, K>::of(
+          [&](std::size_t j) { return c[0][j] + t * (c[1][j] + t * (c[2][j] + t * c[3][j])); });
+      if constexpr (is_dual<T>) {
+        if (!parameter_cubics_.empty()) {
+          const Row<double, K> slope = cubic(parameter_cubics_[k], value_of(t));
+          for (std::size_t j = 0; j < K; ++j) values[j].derivative[0] += slope[j];
+        }
+      }
+      return values;
     }
-    return values;
   }
 
   template <std::size_t W>
-  [[nodiscard]] std::array<Lanes<W>, K> at(const TrackPlace& place, const Lanes<W>& phase) const {
-    std::array<Lanes<W>, K> values;
+  [[nodiscard]] Row<Lanes<W>, K> at(const TrackPlace& place, const Lanes<W>& phase) const {
+    Row<Lanes<W>, K> values;
     for (std::size_t lane = 0; lane < W; ++lane) {
-      const std::array<double, K> one = at(place, phase[lane]);
+      const Row<double, K> one = at(place, phase[lane]);
       for (std::size_t j = 0; j < K; ++j) values[j].set(lane, one[j]);
     }
     return values;
   }
 
  private:
-  using Cubics = std::array<std::array<double, 4>, K>;  ///< in powers of phase - start
+  using Cubics = std::array<Row<double, K>, 4>;  ///< coefficients of the powers of phase - start
 
-  template <class T>
-  [[nodiscard]] static T cubic(const std::array<double, 4>& c, const T& t) {
+  [[nodiscard]] static Row<double, K> cubic(const Cubics& c, double t) {
     return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
   }
 
@@ -102,7 +110,9 @@ class PeriodicTrack {
   [[nodiscard]] std::size_t interval(const TrackPiece& piece, V x) const {
     const double guess = (static_cast<double>(x) - piece.start) * piece.intervals_per_phase;
     const auto most = static_cast<double>(piece.hi - piece.lo);
-    std::size_t k = piece.lo + static_cast<std::size_t>(guess > 0.0 ? (guess < most ? guess : most) : 0.0);
+    const double above = guess > 0.0 ? guess : 0.0;  // no number is 0
+    const double within = above < most ? above : most;
+    std::size_t k = piece.lo + static_cast<std::size_t>(static_cast<long long>(within));
     while (k > piece.lo && x < starts_[k]) --k;
     while (k < piece.hi && x >= starts_[k + 1]) ++k;
     return k;

@@ -30,8 +30,8 @@ namespace epicyclic::model {
 /// Relative displacements without errors, or their rates: the linear part of [M-13], [M-14], [M-15].
 template <class T, std::size_t N>
 struct Deflections {
-  std::array<T, N> sun_planet, ring_planet;
-  std::array<T, N> carrier_x, carrier_y, carrier_u;
+  Row<T, N> sun_planet, ring_planet;
+  Row<T, N> carrier_x, carrier_y, carrier_u;
 };
 
 template <class T, std::size_t N>
@@ -39,13 +39,11 @@ template <class T, std::size_t N>
   Deflections<T, N> d;
   const auto& sp = p.sun_planet;
   const auto& rp = p.ring_planet;
-  for (std::size_t i = 0; i < N; ++i) {
-    d.sun_planet[i] = (q.x_s - q.x_p[i]) * sp.sine[i] + (q.y_s - q.y_p[i]) * sp.cosine[i] + q.w_s + q.w_p[i];
-    d.ring_planet[i] = (q.x_p[i] - q.x_r) * rp.sine[i] - (q.y_p[i] - q.y_r) * rp.cosine[i] + q.u_r - q.w_p[i];
-    d.carrier_x[i] = q.x_p[i] - q.x_c + q.u_c * p.sin_phi[i];
-    d.carrier_y[i] = q.y_p[i] - q.y_c - q.u_c * p.cos_phi[i];
-    d.carrier_u[i] = -(q.x_p[i] - q.x_c) * p.sin_phi[i] + (q.y_p[i] - q.y_c) * p.cos_phi[i] - q.u_c;
-  }
+  d.sun_planet = (q.x_s - q.x_p) * sp.sine + (q.y_s - q.y_p) * sp.cosine + q.w_s + q.w_p;
+  d.ring_planet = (q.x_p - q.x_r) * rp.sine - (q.y_p - q.y_r) * rp.cosine + q.u_r - q.w_p;
+  d.carrier_x = q.x_p - q.x_c + q.u_c * p.sin_phi;
+  d.carrier_y = q.y_p - q.y_c - q.u_c * p.cos_phi;
+  d.carrier_u = -(q.x_p - q.x_c) * p.sin_phi + (q.y_p - q.y_c) * p.cos_phi - q.u_c;
   return d;
 }
 
@@ -68,49 +66,42 @@ struct HarmonicBasis {
 /// Everything that one kind of mesh does at one instant.
 template <class T, std::size_t N>
 struct MeshState {
-  std::array<T, N> delta, rate;     ///< delta and delta' with errors
-  std::array<T, N> stiffness;       ///< k_i(s)
-  std::array<T, N> elastic;         ///< k f(delta)
-  std::array<T, N> force;           ///< F
-  std::array<T, N> friction;        ///< F_f = A F
-  std::array<T, N> moment_driving;  ///< F_f h_1 / r_b1 = B_1 F / r_b1
-  std::array<T, N> moment_driven;   ///< F_f h_2 / r_b2
+  Row<T, N> delta, rate;     ///< delta and delta' with errors
+  Row<T, N> stiffness;       ///< k_i(s)
+  Row<T, N> elastic;         ///< k f(delta)
+  Row<T, N> force;           ///< F
+  Row<T, N> friction;        ///< F_f = A F
+  Row<T, N> moment_driving;  ///< F_f h_1 / r_b1 = B_1 F / r_b1
+  Row<T, N> moment_driven;   ///< F_f h_2 / r_b2
 };
 
 /// [M-27] of one kind of mesh; `places` are those of the current segment.
 template <class T, std::size_t N>
 [[nodiscard]] MeshState<T, N> mesh_state(const Parameters<T, N>& p, const MeshParameters<T, N>& mesh,
                                          const MeshPlaces<N>& places, const T& s, const HarmonicBasis<T>& basis,
-                                         const std::array<T, N>& displacement, const std::array<T, N>& velocity) {
+                                         const Row<T, N>& displacement, const Row<T, N>& velocity) {
+  using R = Row<T, N>;
   const auto own_phase = [&](std::size_t i) -> T { return s * (0.5 * std::numbers::inv_pi) + mesh.turns[i]; };
   MeshState<T, N> m;
-  for (std::size_t i = 0; i < N; ++i) {
-    m.delta[i] = displacement[i] - (mesh.error_cos[i] * basis.cosine[0] + mesh.error_sin[i] * basis.sine[0]);
-    m.rate[i] = velocity[i] - p.omega * (mesh.error_sin[i] * basis.cosine[0] - mesh.error_cos[i] * basis.sine[0]);
-    m.stiffness[i] = mesh.stiffness;
-  }
+  m.delta = displacement - (mesh.error_cos * basis.cosine[0] + mesh.error_sin * basis.sine[0]);
+  m.rate = velocity - p.omega * (mesh.error_sin * basis.cosine[0] - mesh.error_cos * basis.sine[0]);
+  m.stiffness = mesh.stiffness;
   for (std::size_t h = 0; h < mesh.harmonics; ++h)
-    for (std::size_t i = 0; i < N; ++i)
-      m.stiffness[i] += mesh.stiffness_cos[h][i] * basis.cosine[h] + mesh.stiffness_sin[h][i] * basis.sine[h];
+    m.stiffness += mesh.stiffness_cos[h] * basis.cosine[h] + mesh.stiffness_sin[h] * basis.sine[h];
   if (mesh.stiffness_curve)
-    for (std::size_t i = 0; i < N; ++i) m.stiffness[i] = mesh.stiffness_curve->at(places.stiffness[i], own_phase(i))[0];
-  for (std::size_t i = 0; i < N; ++i) {
-    const Closure<T> gap = closure(m.delta[i], mesh.half_gap, p.smoothing, p.smooth);
-    const T weight = p.gap_damping == GapDamping::contact_slope ? gap.slope : T(1.0);
-    m.elastic[i] = m.stiffness[i] * gap.value;
-    m.force[i] = m.elastic[i] + mesh.damping * weight * m.rate[i];
-  }
+    m.stiffness = R::of([&](std::size_t i) { return mesh.stiffness_curve->at(places.stiffness[i], own_phase(i))[0]; });
+  const Closure<R> gap = closure<R>(m.delta, mesh.half_gap, p.smoothing, p.smooth);
+  m.elastic = m.stiffness * gap.value;
+  const R weight = p.gap_damping == GapDamping::contact_slope ? gap.slope : R(1.0);
+  m.force = m.elastic + mesh.damping * weight * m.rate;
   if (mesh.friction) {
-    for (std::size_t i = 0; i < N; ++i) {
-      const FrictionRatios<T> ratios = mesh.friction->at(places.friction[i], own_phase(i));
-      m.friction[i] = ratios.force * m.force[i];
-      m.moment_driving[i] = ratios.moment_driving * m.force[i];
-      m.moment_driven[i] = ratios.moment_driven * m.force[i];
-    }
+    std::array<FrictionRatios<T>, N> ratios;
+    for (std::size_t i = 0; i < N; ++i) ratios[i] = mesh.friction->at(places.friction[i], own_phase(i));
+    m.friction = R::of([&](std::size_t i) { return ratios[i].force; }) * m.force;
+    m.moment_driving = R::of([&](std::size_t i) { return ratios[i].moment_driving; }) * m.force;
+    m.moment_driven = R::of([&](std::size_t i) { return ratios[i].moment_driven; }) * m.force;
   } else {
-    m.friction.fill(T(0.0));
-    m.moment_driving.fill(T(0.0));
-    m.moment_driven.fill(T(0.0));
+    m.friction = m.moment_driving = m.moment_driven = T(0.0);
   }
   return m;
 }
@@ -176,6 +167,7 @@ template <Layout L, class T, std::size_t N>
 /// Accelerations d^2/d tau^2 of the full coordinates from [M-17]..[M-20].
 template <Layout L, class T, std::size_t N>
 [[nodiscard]] Coordinates<T, N> accelerations(const Parameters<T, N>& p, const StageState<T, N>& g) {
+  using R = Row<T, N>;
   const Coordinates<T, N>& q = g.q;
   const Coordinates<T, N>& v = g.v;
   const MeshState<T, N>& sp = g.sun_planet;
@@ -189,83 +181,76 @@ template <Layout L, class T, std::size_t N>
   T force_x = -bearing.x - p.damping_s * v.x_s;
   T force_y = -bearing.y - p.damping_s * v.y_s;
   T force_u = p.drive;
-  for (std::size_t i = 0; i < N; ++i) {
-    force_x -= sp.force[i] * p.sun_planet.sine[i] + sp.friction[i] * p.sun_planet.cosine[i];
-    force_y -= sp.force[i] * p.sun_planet.cosine[i] - sp.friction[i] * p.sun_planet.sine[i];
-    force_u -= sp.force[i] - sp.moment_driving[i];
-  }
-  a.x_s = force_x / p.mass_s + 2.0 * wc * v.y_s + wc2 * q.x_s;
-  a.y_s = force_y / p.mass_s - 2.0 * wc * v.x_s + wc2 * q.y_s;
-  a.w_s = force_u / p.inertia_s;
+  force_x -= sum(sp.force * p.sun_planet.sine + sp.friction * p.sun_planet.cosine);
+  force_y -= sum(sp.force * p.sun_planet.cosine - sp.friction * p.sun_planet.sine);
+  force_u -= sum(sp.force - sp.moment_driving);
+  a.x_s = force_x * p.inverse_mass_s + 2.0 * wc * v.y_s + wc2 * q.x_s;
+  a.y_s = force_y * p.inverse_mass_s - 2.0 * wc * v.x_s + wc2 * q.y_s;
+  a.w_s = force_u * p.inverse_inertia_s;
 
   // Planets [M-18] and what their bearings and rotating-frame terms do to the carrier
   T carrier_x = -p.support_c * q.x_c - p.damping_c * v.x_c;
   T carrier_y = -p.support_c * q.y_c - p.damping_c * v.y_c;
   T carrier_u = -p.torsion_c * q.u_c - p.torsion_damping_c * v.u_c - p.carrier_load;
-  for (std::size_t i = 0; i < N; ++i) {
-    const T spring_x = p.bearing_p * g.d.carrier_x[i] + p.bearing_damping_p * g.d_rate.carrier_x[i];
-    const T spring_y = p.bearing_p * g.d.carrier_y[i] + p.bearing_damping_p * g.d_rate.carrier_y[i];
-    carrier_x += spring_x;
-    carrier_y += spring_y;
-    carrier_u += p.bearing_p * g.d.carrier_u[i] + p.bearing_damping_p * g.d_rate.carrier_u[i];
+  const R spring_x = p.bearing_p * g.d.carrier_x + p.bearing_damping_p * g.d_rate.carrier_x;
+  const R spring_y = p.bearing_p * g.d.carrier_y + p.bearing_damping_p * g.d_rate.carrier_y;
+  carrier_x += sum(spring_x);
+  carrier_y += sum(spring_y);
+  carrier_u += sum(p.bearing_p * g.d.carrier_u + p.bearing_damping_p * g.d_rate.carrier_u);
 
-    T x = q.x_p[i];
-    T y = q.y_p[i];
-    T x_rate = v.x_p[i];
-    T y_rate = v.y_p[i];
-    if (p.gyroscopic_relative) {
-      x += q.u_c * p.sin_phi[i];
-      y -= q.u_c * p.cos_phi[i];
-      x_rate += v.u_c * p.sin_phi[i];
-      y_rate -= v.u_c * p.cos_phi[i];
-    }
-    const T frame_x = p.mass_p * (wc2 * x + 2.0 * wc * y_rate);
-    const T frame_y = p.mass_p * (wc2 * y - 2.0 * wc * x_rate);
-    if (p.gyroscopic_relative) carrier_u += frame_x * p.sin_phi[i] - frame_y * p.cos_phi[i];
-    if (p.gyroscopic_carrier_row) carrier_u -= p.mass_p * wc2 * q.u_c;
-
-    a.x_p[i] = (frame_x - spring_x + sp.force[i] * p.sun_planet.sine[i] + sp.friction[i] * p.sun_planet.cosine[i] -
-                rp.force[i] * p.ring_planet.sine[i] - rp.friction[i] * p.ring_planet.cosine[i]) /
-               p.mass_p;
-    a.y_p[i] = (frame_y - spring_y + sp.force[i] * p.sun_planet.cosine[i] - sp.friction[i] * p.sun_planet.sine[i] +
-                rp.force[i] * p.ring_planet.cosine[i] - rp.friction[i] * p.ring_planet.sine[i]) /
-               p.mass_p;
-    a.w_p[i] = (-sp.force[i] + sp.moment_driven[i] + rp.force[i] - rp.moment_driving[i]) / p.inertia_p;
+  R x = q.x_p;
+  R y = q.y_p;
+  R x_rate = v.x_p;
+  R y_rate = v.y_p;
+  if (p.gyroscopic_relative) {
+    x += q.u_c * p.sin_phi;
+    y -= q.u_c * p.cos_phi;
+    x_rate += v.u_c * p.sin_phi;
+    y_rate -= v.u_c * p.cos_phi;
   }
+  const R frame_x = p.mass_p * (wc2 * x + 2.0 * wc * y_rate);
+  const R frame_y = p.mass_p * (wc2 * y - 2.0 * wc * x_rate);
+  if (p.gyroscopic_relative) carrier_u += sum(frame_x * p.sin_phi - frame_y * p.cos_phi);
+  if (p.gyroscopic_carrier_row) carrier_u -= static_cast<double>(N) * p.mass_p * wc2 * q.u_c;
+
+  a.x_p = (frame_x - spring_x + sp.force * p.sun_planet.sine + sp.friction * p.sun_planet.cosine -
+           rp.force * p.ring_planet.sine - rp.friction * p.ring_planet.cosine) *
+          p.inverse_mass_p;
+  a.y_p = (frame_y - spring_y + sp.force * p.sun_planet.cosine - sp.friction * p.sun_planet.sine +
+           rp.force * p.ring_planet.cosine - rp.friction * p.ring_planet.sine) *
+          p.inverse_mass_p;
+  a.w_p = (-sp.force + sp.moment_driven + rp.force - rp.moment_driving) * p.inverse_inertia_p;
 
   // Ring [M-19]
   force_x = -p.support_r * q.x_r - p.damping_r * v.x_r;
   force_y = -p.support_r * q.y_r - p.damping_r * v.y_r;
   force_u = -p.torsion_r * q.u_r - p.torsion_damping_r * v.u_r + p.ring_drive;
-  for (std::size_t i = 0; i < N; ++i) {
-    force_x += rp.force[i] * p.ring_planet.sine[i] + rp.friction[i] * p.ring_planet.cosine[i];
-    force_y -= rp.force[i] * p.ring_planet.cosine[i] - rp.friction[i] * p.ring_planet.sine[i];
-    force_u -= rp.force[i] - rp.moment_driven[i];
-  }
-  a.x_r = force_x / p.mass_r + 2.0 * wc * v.y_r + wc2 * q.x_r;
-  a.y_r = force_y / p.mass_r - 2.0 * wc * v.x_r + wc2 * q.y_r;
-  a.u_r = force_u / p.inertia_r;
+  force_x += sum(rp.force * p.ring_planet.sine + rp.friction * p.ring_planet.cosine);
+  force_y -= sum(rp.force * p.ring_planet.cosine - rp.friction * p.ring_planet.sine);
+  force_u -= sum(rp.force - rp.moment_driven);
+  a.x_r = force_x * p.inverse_mass_r + 2.0 * wc * v.y_r + wc2 * q.x_r;
+  a.y_r = force_y * p.inverse_mass_r - 2.0 * wc * v.x_r + wc2 * q.y_r;
+  a.u_r = force_u * p.inverse_inertia_r;
 
   // Carrier [M-20]
-  a.x_c = carrier_x / p.mass_c + 2.0 * wc * v.y_c + wc2 * q.x_c;
-  a.y_c = carrier_y / p.mass_c - 2.0 * wc * v.x_c + wc2 * q.y_c;
-  a.u_c = carrier_u / p.inertia_c;
+  a.x_c = carrier_x * p.inverse_mass_c + 2.0 * wc * v.y_c + wc2 * q.x_c;
+  a.y_c = carrier_y * p.inverse_mass_c - 2.0 * wc * v.x_c + wc2 * q.y_c;
+  a.u_c = carrier_u * p.inverse_inertia_c;
   return a;
 }
 
 /// The combinations of full accelerations that the layout's relative coordinates are [M-rel].
 template <Layout L, class T, std::size_t N>
-[[nodiscard]] Coordinates<T, N> relative_accelerations(const Parameters<T, N>& p, Coordinates<T, N> a) {
+[[nodiscard]] Coordinates<T, N> relative_accelerations(const Parameters<T, N>& p, const Coordinates<T, N>& full) {
+  Coordinates<T, N> a = full;
   if constexpr (L == Layout::relative_to_ring) {
     a.w_s += a.u_r;
-    for (std::size_t i = 0; i < N; ++i) a.w_p[i] -= a.u_r;
+    a.w_p -= a.u_r;
   } else if constexpr (L == Layout::relative_to_carrier || L == Layout::relative_to_carrier_rigid_ring) {
     a.w_s -= a.u_c * (p.cos_alpha_sp + p.cos_alpha_rp);
-    for (std::size_t i = 0; i < N; ++i) {
-      a.w_p[i] += a.u_c * p.cos_alpha_rp;
-      a.x_p[i] += a.u_c * p.sin_phi[i];
-      a.y_p[i] -= a.u_c * p.cos_phi[i];
-    }
+    a.w_p += a.u_c * p.cos_alpha_rp;
+    a.x_p += a.u_c * p.sin_phi;
+    a.y_p -= a.u_c * p.cos_phi;
   }
   return a;
 }

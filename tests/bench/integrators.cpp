@@ -3,10 +3,16 @@
 // Both integrators advance the paper's stage by mesh periods from the same settled state at the same tolerances;
 // compare the ratio of their times in one run, not the times. Arguments of a benchmark: Omega x 100, -log10 of the
 // tolerance. Counters: right-hand sides per mesh period. A period is stepped onto by both.
+//
+// Equal tolerances are not equal errors: the norms and the controllers differ. mesh_period_at_equal_error finds for
+// each integrator the tolerance that gives one global error after 20 periods of a periodic orbit, against a reference
+// at 1e-13, and times that; second argument: -log10 of the error.
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <arkode/arkode_erkstep.h>
@@ -118,6 +124,10 @@ class StockArkode {
     }
   }
   [[nodiscard]] double calls() const { return calls_; }
+  [[nodiscard]] State state() const {
+    const double* y = N_VGetArrayPointer(y_);
+    return {y, y + N_VGetLength(y_)};
+  }
 
  private:
   static int right_hand_side(realtype s, N_Vector y, N_Vector f, void* user) {
@@ -144,39 +154,115 @@ void mesh_period_arkode_stock(benchmark::State& state) {
   state.counters["rhs_per_period"] = benchmark::Counter(stock.calls(), benchmark::Counter::kAvgIterations);
 }
 
-void mesh_period_odeint(benchmark::State& state) {
-  namespace odeint = boost::numeric::odeint;
-  const auto model = model_at(static_cast<double>(state.range(0)) / 100.0);
-  const auto o = options(std::pow(10.0, -static_cast<double>(state.range(1))));
-  const auto field = epicyclic::studies::vector_field(model);
-  State y = settled(model);
-  double calls = 0.0;
-  double step = 1e-2;
-  for (auto _ : state) {
-    std::vector<double> stops = epicyclic::integrate::breakpoints_between(field, 0.0, period);
+/// Boost.odeint's controlled dopri5, stepped onto breakpoints and ends as the others are.
+class Odeint {
+ public:
+  Odeint(const epicyclic::model::DynamicModel& model, double tolerance, State start)
+      : model_(model), field_(epicyclic::studies::vector_field(model)), tolerance_(tolerance), y_(std::move(start)) {}
+
+  void mesh_period() {
+    namespace odeint = boost::numeric::odeint;
+    const auto o = options(tolerance_);
+    std::vector<double> stops = epicyclic::integrate::breakpoints_between(field_, 0.0, period);
     stops.push_back(period);
     double s = 0.0;
     for (const double stop : stops) {
-      const std::size_t segment = epicyclic::integrate::segment_after(field, s);
+      const std::size_t segment = epicyclic::integrate::segment_after(field_, s);
       const auto rhs = [&](const State& x, State& f, double t) {
-        model.right_hand_side(segment, t, x.data(), f.data());
-        calls += 1.0;
+        model_.right_hand_side(segment, t, x.data(), f.data());
+        calls_ += 1.0;
       };
       auto stepper =
           odeint::make_controlled(o.absolute_tolerance, o.relative_tolerance, odeint::runge_kutta_dopri5<State>());
       while (s < stop) {
-        double h = std::min(step, stop - s);
-        const bool cut = h < step;
-        if (stepper.try_step(rhs, y, s, h) == odeint::success) {
+        double h = std::min(step_, stop - s);
+        const bool cut = h < step_;
+        if (stepper.try_step(rhs, y_, s, h) == odeint::success) {
           if (cut && stop - s < 1e-12) s = stop;
-          step = cut ? std::max(step, h) : h;
+          step_ = cut ? std::max(step_, h) : h;
         } else {
-          step = h;
+          step_ = h;
         }
       }
     }
   }
-  state.counters["rhs_per_period"] = benchmark::Counter(calls, benchmark::Counter::kAvgIterations);
+  [[nodiscard]] double calls() const { return calls_; }
+  [[nodiscard]] State state() const { return y_; }
+
+ private:
+  const epicyclic::model::DynamicModel& model_;
+  epicyclic::integrate::VectorField field_;
+  double tolerance_;
+  State y_;
+  double step_ = 1e-2;
+  double calls_ = 0.0;
+};
+
+void mesh_period_odeint(benchmark::State& state) {
+  const auto model = model_at(static_cast<double>(state.range(0)) / 100.0);
+  Odeint odeint(model, std::pow(10.0, -static_cast<double>(state.range(1))), settled(model));
+  for (auto _ : state) odeint.mesh_period();
+  state.counters["rhs_per_period"] = benchmark::Counter(odeint.calls(), benchmark::Counter::kAvgIterations);
+}
+
+/// This project's flow with the interface of its peers.
+class OurArkode {
+ public:
+  OurArkode(const epicyclic::model::DynamicModel& model, double tolerance, State start)
+      : flow_(epicyclic::integrate::make_arkode_flow(epicyclic::studies::vector_field(model), options(tolerance))),
+        y_(std::move(start)) {}
+
+  void mesh_period() { flow_->evolve(y_, 0.0, period); }
+  [[nodiscard]] double calls() const { return static_cast<double>(flow_->right_hand_side_calls()); }
+  [[nodiscard]] State state() const { return y_; }
+
+ private:
+  std::unique_ptr<epicyclic::integrate::Flow> flow_;
+  State y_;
+};
+
+constexpr int orbit_periods = 20;
+
+/// Largest difference of a component, relative to the largest component, after `orbit_periods` from one state.
+template <class Integrator>
+double global_error(const epicyclic::model::DynamicModel& model, double tolerance, const State& start,
+                    const State& reference) {
+  Integrator integrator(model, tolerance, start);
+  for (int k = 0; k < orbit_periods; ++k) integrator.mesh_period();
+  const State y = integrator.state();
+  double difference = 0.0;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    difference = std::max(difference, std::abs(y[i] - reference[i]));
+    largest = std::max(largest, std::abs(reference[i]));
+  }
+  return difference / largest;
+}
+
+/// Cost of a mesh period of a periodic orbit at the tolerance that gives a global error of 10^-digits. The error grows
+/// with the tolerance but not smoothly (steps come and go), so each decade is looked at in tenths, from the fine end,
+/// and the coarsest tolerance is taken up to which the error is never above the wanted one.
+template <class Integrator>
+void mesh_period_at_equal_error(benchmark::State& state) {
+  const auto model = model_at(static_cast<double>(state.range(0)) / 100.0);
+  const State start = settled(model);
+  OurArkode exact(model, 1e-13, start);
+  for (int k = 0; k < orbit_periods; ++k) exact.mesh_period();
+  const State reference = exact.state();
+  const double wanted = std::pow(10.0, -static_cast<double>(state.range(1)));
+  double tolerance = 1e-12;
+  double error = global_error<Integrator>(model, tolerance, start, reference);
+  for (double next = tolerance; next < 1e-3; next *= std::pow(10.0, 0.1)) {
+    const double e = global_error<Integrator>(model, next, start, reference);
+    if (e > wanted) break;
+    tolerance = next;
+    error = e;
+  }
+  Integrator integrator(model, tolerance, start);
+  for (auto _ : state) integrator.mesh_period();
+  state.counters["rhs_per_period"] = benchmark::Counter(integrator.calls(), benchmark::Counter::kAvgIterations);
+  state.counters["global_error"] = error;
+  state.counters["tolerance"] = tolerance;
 }
 
 void speeds_and_tolerances(benchmark::internal::Benchmark* b) {
@@ -188,5 +274,15 @@ void speeds_and_tolerances(benchmark::internal::Benchmark* b) {
 BENCHMARK(mesh_period_arkode)->Apply(speeds_and_tolerances);
 BENCHMARK(mesh_period_arkode_stock)->Apply(speeds_and_tolerances);
 BENCHMARK(mesh_period_odeint)->Apply(speeds_and_tolerances);
+
+void orbits_and_errors(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"omega_percent", "error_digits"});
+  for (const int omega : {280, 340})
+    for (const int digits : {6, 8}) b->Args({omega, digits});
+  b->Unit(benchmark::kMicrosecond);
+}
+BENCHMARK_TEMPLATE(mesh_period_at_equal_error, OurArkode)->Apply(orbits_and_errors);
+BENCHMARK_TEMPLATE(mesh_period_at_equal_error, StockArkode)->Apply(orbits_and_errors);
+BENCHMARK_TEMPLATE(mesh_period_at_equal_error, Odeint)->Apply(orbits_and_errors);
 
 }  // namespace

@@ -1,0 +1,232 @@
+// Rows: N values side by side that go through the same formula, such as one per planet, as a scalar type for kernels.
+//
+// A formula written once on rows is one instruction for several planets where the scalar is double: its rows are padded
+// to whole registers of the translation unit's instruction set. For any other scalar a row is a plain loop.
+//
+// Limits: the padding takes part in the arithmetic and is never read; it may hold anything, also NaN. Results are the
+// same on every instruction set, because each value has its own lane and sum() adds in the order of the values.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+#include "core/scalar.hpp"
+
+namespace epicyclic {
+
+namespace detail {
+
+/// N rounded up to whole registers, the same for registers of 2 doubles and of 4.
+constexpr std::size_t row_padding(std::size_t n) { return n <= 2 ? 2 : (n + 3) / 4 * 4; }
+
+/// What a row is worked on by: registers of doubles, else single values.
+template <class T, std::size_t Padded>
+struct RowChunk {
+  static constexpr std::size_t values = 1;
+  using Type = T;
+  using Mask = decltype(std::declval<T>() < std::declval<T>());
+};
+
+template <std::size_t Padded>
+struct RowChunk<double, Padded> {
+#ifdef __AVX__
+  static constexpr std::size_t values = Padded < 4 ? Padded : 4;
+#else
+  static constexpr std::size_t values = 2;
+#endif
+  using Type [[gnu::vector_size(8 * values), gnu::may_alias]] = double;
+  using Mask [[gnu::vector_size(8 * values), gnu::may_alias]] = long long;
+};
+
+}  // namespace detail
+
+/// One value that is the same in every place of a row.
+template <class S, class RowType, class T>
+concept Single = !std::is_same_v<S, RowType> && std::convertible_to<S, T>;
+
+/// N values of the scalar T. Converts from one value by repeating it.
+template <class T, std::size_t N>
+class Row {
+  static constexpr bool registers = std::is_same_v<T, double>;
+
+ public:
+  static constexpr std::size_t padded = registers ? detail::row_padding(N) : N;
+
+ private:
+  using Chunk = detail::RowChunk<T, padded>;
+  using C = typename Chunk::Type;
+  using M = typename Chunk::Mask;
+  static constexpr std::size_t chunks = padded / Chunk::values;
+
+ public:
+  /// What comparisons give: one answer a value.
+  struct Mask {
+    M chunk[chunks];  // a register type loses its attributes as a template argument of std::array
+  };
+
+  Row() = default;
+  Row(const T& x) {  // NOLINT(google-explicit-constructor): a constant is the same in every place
+    if constexpr (registers) {
+      for (std::size_t c = 0; c < chunks; ++c) at(c) = x - C{};
+    } else {
+      value_.fill(x);
+    }
+  }
+  Row(double x)  // NOLINT(google-explicit-constructor)
+      requires(!registers)
+      : Row(T(x)) {}
+
+  /// The row of f(0), ..., f(N - 1).
+  template <class F>
+  [[nodiscard]] static Row of(const F& f) {
+    return of(f, std::make_index_sequence<N>());
+  }
+
+  [[nodiscard]] T& operator[](std::size_t i) { return value_[i]; }
+  [[nodiscard]] const T& operator[](std::size_t i) const { return value_[i]; }
+  [[nodiscard]] static constexpr std::size_t size() { return N; }
+  [[nodiscard]] T* begin() { return value_.data(); }
+  [[nodiscard]] T* end() { return value_.data() + N; }
+  [[nodiscard]] const T* begin() const { return value_.data(); }
+  [[nodiscard]] const T* end() const { return value_.data() + N; }
+  void fill(const T& x) { *this = Row(x); }
+
+  // Registers give a new register: a copied row would be read back before it is written. Any other scalar is worked on
+  // in a copy, and with a single value as it is: it may be large (dual numbers), and copies cost more than arithmetic.
+#define EPICYCLIC_ROW_OPERATOR(op)                                           \
+  Row& operator op##=(const Row& b) {                                        \
+    for (std::size_t c = 0; c < chunks; ++c) at(c) op## = b.at(c);           \
+    return *this;                                                            \
+  }                                                                          \
+  template <Single<Row, T> S>                                                \
+  Row& operator op##=(const S& single) {                                     \
+    const T& b = single;                                                     \
+    for (std::size_t c = 0; c < chunks; ++c) at(c) op## = b;                 \
+    return *this;                                                            \
+  }                                                                          \
+  friend Row operator op(const Row& a, const Row& b) {                       \
+    if constexpr (registers) {                                               \
+      Row r;                                                                 \
+      for (std::size_t c = 0; c < chunks; ++c) r.at(c) = a.at(c) op b.at(c); \
+      return r;                                                              \
+    } else {                                                                 \
+      Row r = a;                                                             \
+      r op## = b;                                                            \
+      return r;                                                              \
+    }                                                                        \
+  }                                                                          \
+  template <Single<Row, T> S>                                                \
+  friend Row operator op(const Row& a, const S& b) {                         \
+    if constexpr (registers) {                                               \
+      return a op Row(T(b));                                                 \
+    } else {                                                                 \
+      Row r = a;                                                             \
+      r op## = b;                                                            \
+      return r;                                                              \
+    }                                                                        \
+  }                                                                          \
+  template <Single<Row, T> S>                                                \
+  friend Row operator op(const S& a, const Row& b) {                         \
+    return Row(T(a)) op b;                                                   \
+  }
+  EPICYCLIC_ROW_OPERATOR(+)
+  EPICYCLIC_ROW_OPERATOR(-)
+  EPICYCLIC_ROW_OPERATOR(*)
+  EPICYCLIC_ROW_OPERATOR(/)
+#undef EPICYCLIC_ROW_OPERATOR
+
+  friend Row operator-(const Row& a) {
+    Row r;
+    for (std::size_t c = 0; c < chunks; ++c) r.at(c) = -a.at(c);
+    return r;
+  }
+  friend Mask operator<(const Row& a, const Row& b) {
+    Mask r;
+    for (std::size_t c = 0; c < chunks; ++c) r.chunk[c] = a.at(c) < b.at(c);
+    return r;
+  }
+  friend Mask operator>(const Row& a, const Row& b) { return b < a; }
+
+  friend Row select(const Mask& mask, const Row& a, const Row& b) {
+    Row r;
+    for (std::size_t c = 0; c < chunks; ++c) {
+      if constexpr (registers) {
+        r.at(c) = mask.chunk[c] ? a.at(c) : b.at(c);
+      } else {
+        using epicyclic::select;
+        r.at(c) = select(mask.chunk[c], a.at(c), b.at(c));
+      }
+    }
+    return r;
+  }
+
+  friend Row sqrt(const Row& a) {
+    using epicyclic::sqrt;
+    return of([&](std::size_t i) { return sqrt(a[i]); });
+  }
+
+  /// a_0 + a_1 + ... in this order.
+  friend T sum(const Row& a) { return Row::sum(a, std::make_index_sequence<N>()); }
+
+  /// f(i, value i) for each i.
+  template <class F>
+  void each(const F& f) const {
+    each(f, std::make_index_sequence<N>());
+  }
+
+ private:
+  /// Value I, out of its register.
+  template <std::size_t I>
+  [[nodiscard]] T get() const {
+    if constexpr (registers) {
+      const C chunk = at(I / Chunk::values);
+      return chunk[I % Chunk::values];
+    } else {
+      return value_[I];
+    }
+  }
+
+  template <class F, std::size_t... I>
+  void each(const F& f, std::index_sequence<I...> /*places*/) const {
+    (f(I, get<I>()), ...);
+  }
+  template <class F, std::size_t... I>
+  [[nodiscard]] static Row of(const F& f, std::index_sequence<I...> /*places*/) {
+    Row r;
+    ((r.template put<I>(f)), ...);
+    return r;
+  }
+  /// A register is made of its values at once, not value by value in memory.
+  template <std::size_t I, class F>
+  void put(const F& f) {
+    if constexpr (!registers) {
+      value_[I] = f(I);
+    } else if constexpr (Chunk::values == 2 && I % 2 == 0) {
+      at(I / 2) = C{f(I), or_nothing<I + 1>(f)};
+    } else if constexpr (Chunk::values == 4 && I % 4 == 0) {
+      at(I / 4) = C{f(I), or_nothing<I + 1>(f), or_nothing<I + 2>(f), or_nothing<I + 3>(f)};
+    }
+  }
+  template <std::size_t I, class F>
+  [[nodiscard]] static double or_nothing(const F& f) {
+    if constexpr (I < N) {
+      return f(I);
+    } else {
+      return 0.0;
+    }
+  }
+  template <std::size_t... I>
+  [[nodiscard]] static T sum(const Row& a, std::index_sequence<I...> /*places*/) {
+    return (... + a.template get<I>());
+  }
+
+  [[nodiscard]] C& at(std::size_t c) { return reinterpret_cast<C*>(value_.data())[c]; }
+  [[nodiscard]] const C& at(std::size_t c) const { return reinterpret_cast<const C*>(value_.data())[c]; }
+
+  alignas(registers ? sizeof(T) * (padded < 4 ? padded : 4) : alignof(T)) std::array<T, padded> value_{};
+};
+
+}  // namespace epicyclic

@@ -1,0 +1,2 @@
+#define EPICYCLIC_KERNELS avx2
+#include "model/stage_kernel.inc"

@@ -1,0 +1,2 @@
+#define EPICYCLIC_KERNELS baseline
+#include "model/stage_kernel.inc"
