@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
@@ -42,6 +43,10 @@ struct RowChunk<double, Padded> {
 
 }  // namespace detail
 
+/// One value that is the same in every place of a row.
+template <class S, class RowType, class T>
+concept Single = !std::is_same_v<S, RowType> && std::convertible_to<S, T>;
+
 /// N values of the scalar T. Converts from one value by repeating it.
 template <class T, std::size_t N>
 class Row {
@@ -64,7 +69,11 @@ class Row {
 
   Row() = default;
   Row(const T& x) {  // NOLINT(google-explicit-constructor): a constant is the same in every place
-    value_.fill(x);
+    if constexpr (registers) {
+      for (std::size_t c = 0; c < chunks; ++c) at(c) = x - C{};
+    } else {
+      value_.fill(x);
+    }
   }
   Row(double x)  // NOLINT(google-explicit-constructor)
       requires(!registers)
@@ -85,15 +94,43 @@ class Row {
   [[nodiscard]] const T* end() const { return value_.data() + N; }
   void fill(const T& x) { *this = Row(x); }
 
-#define EPICYCLIC_ROW_OPERATOR(op)                                         \
-  Row& operator op##=(const Row& b) {                                      \
-    for (std::size_t c = 0; c < chunks; ++c) at(c) = at(c) op b.at(c);     \
-    return *this;                                                          \
-  }                                                                        \
-  friend Row operator op(const Row& a, const Row& b) {                     \
-    Row r;                                                                 \
-    for (std::size_t c = 0; c < chunks; ++c) r.at(c) = a.at(c) op b.at(c); \
-    return r;                                                              \
+  // Registers give a new register: a copied row would be read back before it is written. Any other scalar is worked on
+  // in a copy, and with a single value as it is: it may be large (dual numbers), and copies cost more than arithmetic.
+#define EPICYCLIC_ROW_OPERATOR(op)                                           \
+  Row& operator op##=(const Row& b) {                                        \
+    for (std::size_t c = 0; c < chunks; ++c) at(c) op## = b.at(c);           \
+    return *this;                                                            \
+  }                                                                          \
+  template <Single<Row, T> S>                                                \
+  Row& operator op##=(const S& single) {                                     \
+    const T& b = single;                                                     \
+    for (std::size_t c = 0; c < chunks; ++c) at(c) op## = b;                 \
+    return *this;                                                            \
+  }                                                                          \
+  friend Row operator op(const Row& a, const Row& b) {                       \
+    if constexpr (registers) {                                               \
+      Row r;                                                                 \
+      for (std::size_t c = 0; c < chunks; ++c) r.at(c) = a.at(c) op b.at(c); \
+      return r;                                                              \
+    } else {                                                                 \
+      Row r = a;                                                             \
+      r op## = b;                                                            \
+      return r;                                                              \
+    }                                                                        \
+  }                                                                          \
+  template <Single<Row, T> S>                                                \
+  friend Row operator op(const Row& a, const S& b) {                         \
+    if constexpr (registers) {                                               \
+      return a op Row(T(b));                                                 \
+    } else {                                                                 \
+      Row r = a;                                                             \
+      r op## = b;                                                            \
+      return r;                                                              \
+    }                                                                        \
+  }                                                                          \
+  template <Single<Row, T> S>                                                \
+  friend Row operator op(const S& a, const Row& b) {                         \
+    return Row(T(a)) op b;                                                   \
   }
   EPICYCLIC_ROW_OPERATOR(+)
   EPICYCLIC_ROW_OPERATOR(-)
