@@ -66,6 +66,10 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
       orbit.message = "the residual stays at " + short_text(best);
       return orbit;
     }
+    // Beside a chaotic motion there is no orbit to be found: four iterations that gain nothing are enough.
+    constexpr int patience = 4;
+    constexpr double gain = 0.1;
+    if (k + 1 >= patience && best > gain * orbit.residuals.front()) break;
     const Eigen::VectorXd step = solve(m, f);
     for (std::size_t i = 0; i < dimension; ++i) y[i] += step(static_cast<Eigen::Index>(i));
   }

@@ -33,7 +33,7 @@ class Examiner {
       : sweep_(sweep), options_(options), variants_(variants), model_at_(model_at), stop_(stop) {}
 
   void judge(const GridPoint& point, const std::vector<double>& start, const PointResult& reference,
-             Comparison& c) const {
+             const SettledOrbit& ours, Comparison& c) const {
     if (!reached(reference) || !reached(c.result)) {
       c.distance = nan;
       c.verdict = reference.outcome == c.result.outcome ? Verdict::agree : Verdict::not_reached;
@@ -45,7 +45,6 @@ class Examiner {
     c.distance = distance(reference, c.result, n);
     if (same(reference, c.result, n)) return;
     if (reference.recurrence.period == 0 && c.result.recurrence.period == 0) {
-      const SettledOrbit ours = orbit_of(point, variants_[0], reference);
       const SettledOrbit theirs = orbit_of(point, variants_[c.variant], c.result);
       if (ours.period > 0 && ours.period == theirs.period) {
         c.distance = apart(ours.orbit.state, theirs.orbit.state);
@@ -278,12 +277,14 @@ Crosscheck run_crosscheck(const SweepPlan& plan, const SweepOptions& sweep, cons
       [&](double value) { return model_at(value, all.variants[0].clearance_smoothing); }, std::move(reference));
   if (all.reference.size() < plan.points.size()) return all;
 
+  std::vector<SettledOrbit> orbits(plan.points.size());
   all.orbit_period.assign(plan.points.size(), 0);
   for_units(plan.points.size(), run.threads, run.stop, [&](std::size_t k) {
     const Variant& v = all.variants[0];
     const auto flow =
         integrate::make_flow(vector_field(model_at(plan.points[k].value, v.clearance_smoothing)), v.integrator);
-    all.orbit_period[k] = settled_orbit(*flow, all.reference[k]).period;
+    orbits[k] = settled_orbit(*flow, all.reference[k]);
+    all.orbit_period[k] = orbits[k].period;
   });
 
   // Where each point started: at the end of the one before in its chain, or cold.
@@ -310,7 +311,7 @@ Crosscheck run_crosscheck(const SweepPlan& plan, const SweepOptions& sweep, cons
       if (stopped()) return;
       tell(c.variant, c.result);
     }
-    examiner.judge(point, starts[c.point], all.reference[c.point], c);
+    examiner.judge(point, starts[c.point], all.reference[c.point], orbits[c.point], c);
     if (!stopped()) comparisons[unit] = std::move(c);
   });
   for (auto& c : comparisons)

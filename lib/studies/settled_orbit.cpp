@@ -14,6 +14,8 @@ namespace {
 /// A motion whose recurrence error is larger than this is not tried, and an orbit farther away than this is another one
 /// [b_c, b_c per tau].
 constexpr double near = 1.0;
+/// Longest period that a motion which does not recur is tried with.
+constexpr int longest_tried = 12;
 
 /// The least divisor d of n with phi_d(y) = y: an orbit of period 1 recurs after 10 periods, too, and noise may make
 /// that the better one.
@@ -40,7 +42,7 @@ SettledOrbit settled_orbit(integrate::Flow& flow, const PointResult& motion) {
   }
   const analysis::Recurrence& r = motion.recurrence;
   const bool recurs = r.period > 0;
-  int n = recurs ? r.period : r.error < near ? r.best_period : 0;
+  int n = recurs ? r.period : r.error < near && r.best_period <= longest_tried ? r.best_period : 0;
   if (n == 0) {
     found.note = "the motion does not recur";
     return found;

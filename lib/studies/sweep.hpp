@@ -21,7 +21,7 @@
 namespace epicyclic::studies {
 
 /// Raised when a change makes the same input give other numbers: results of two versions are never mixed in one folder.
-inline constexpr int numerics_version = 2;
+inline constexpr int numerics_version = 3;
 
 /// One point of the grid.
 struct GridPoint {
