@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "analysis/lyapunov.hpp"
+#include "core/fit.hpp"
 #include "integrate/make_flow.hpp"
 #include "studies/operating_point.hpp"
 #include "studies/settled_orbit.hpp"
@@ -90,23 +91,6 @@ Quantities quantities_of(integrate::Flow& flow, const model::DynamicModel& model
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// Least-squares slope of y over x; not a number for fewer than three points.
-double slope_of(const std::vector<std::pair<double, double>>& points) {
-  if (points.size() < 3) return nan;
-  double sx = 0.0;
-  double sy = 0.0;
-  double sxx = 0.0;
-  double sxy = 0.0;
-  for (const auto& [x, y] : points) {
-    sx += x;
-    sy += y;
-    sxx += x * x;
-    sxy += x * y;
-  }
-  const auto n = static_cast<double>(points.size());
-  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
 /// Q(w) = Q_0 + c w^p through the three widths in a row that come nearest to zero and whose differences are of one sign
@@ -356,16 +340,17 @@ std::vector<Slopes> slopes(const std::vector<TolerancePoint>& points, std::size_
   constexpr double ceiling = 1e-2;
   std::vector<Slopes> all;
   std::map<std::string, std::size_t> place;
-  std::vector<std::vector<std::pair<double, double>>> over_tolerance;
-  std::vector<std::vector<std::pair<double, double>>> over_cost;
+  struct Logarithms {
+    std::vector<double> tolerance, cost, error;
+  };
+  std::vector<Logarithms> logarithms;
   for (const TolerancePoint& p : points) {
     // Points differ in level, not in slope: each is moved to its own mean.
     std::map<std::string, std::vector<std::array<double, 3>>> own;
     for (const LadderStep& s : p.ladder) {
       if (place.emplace(s.method, all.size()).second) {
         all.push_back({s.method, nan, nan, 0});
-        over_tolerance.emplace_back();
-        over_cost.emplace_back();
+        logarithms.emplace_back();
       }
       if (!(s.error > floor && s.error < ceiling)) continue;
       own[s.method].push_back({std::log(s.tolerance), std::log(cost(s.work, dimension)), std::log(s.error)});
@@ -375,15 +360,17 @@ std::vector<Slopes> slopes(const std::vector<TolerancePoint>& points, std::size_
       for (const auto& r : rows)
         for (std::size_t j = 0; j < 3; ++j) mean[j] += r[j] / static_cast<double>(rows.size());
       for (const auto& r : rows) {
-        over_tolerance[place[method]].emplace_back(r[0] - mean[0], r[2] - mean[2]);
-        over_cost[place[method]].emplace_back(r[1] - mean[1], r[2] - mean[2]);
+        Logarithms& l = logarithms[place[method]];
+        l.tolerance.push_back(r[0] - mean[0]);
+        l.cost.push_back(r[1] - mean[1]);
+        l.error.push_back(r[2] - mean[2]);
       }
     }
   }
   for (std::size_t k = 0; k < all.size(); ++k) {
-    all[k].over_tolerance = slope_of(over_tolerance[k]);
-    all[k].over_cost = slope_of(over_cost[k]);
-    all[k].steps = static_cast<int>(over_cost[k].size());
+    all[k].over_tolerance = fitted_slope(logarithms[k].tolerance, logarithms[k].error);
+    all[k].over_cost = fitted_slope(logarithms[k].cost, logarithms[k].error);
+    all[k].steps = static_cast<int>(logarithms[k].error.size());
   }
   return all;
 }

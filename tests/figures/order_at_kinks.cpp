@@ -17,6 +17,7 @@
 #include <fmt/core.h>
 
 #include "analysis/periodic_orbit.hpp"
+#include "core/fit.hpp"
 #include "integrate/arkode_flow.hpp"
 #include "integrate/make_flow.hpp"
 #include "io/line_figure.hpp"
@@ -58,8 +59,8 @@ void draw(const std::string& folder, const Problem& p) {
   fmt::print("{}\n", p.title);
   for (const char* name : names) {
     io::FigureCurve curve{name + 7, {}, {}, false};
-    double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
-    int count = 0;
+    std::vector<double> x;
+    std::vector<double> y;
     for (const int n : p.steps) {
       double sum = 0.0;
       constexpr int neighbours = 12;
@@ -67,19 +68,13 @@ void draw(const std::string& folder, const Problem& p) {
       const double error = std::exp(sum / neighbours);
       curve.x.push_back(n);
       curve.y.push_back(error);
-      constexpr double above_rounding = 1e-11;
+      constexpr double above_rounding = 1e-10;  // of the reference orbit too
       constexpr double resolved = 1e-2;
       if (!(error > above_rounding && error < resolved)) continue;
-      const double x = std::log(n), y = std::log(error);
-      sx += x;
-      sy += y;
-      sxx += x * x;
-      sxy += x * y;
-      ++count;
+      x.push_back(-std::log(n));
+      y.push_back(std::log(error));
     }
-    if (count > 2)
-      fmt::print("  {:26} order {:.2f} over {} step lengths\n", name,
-                 -(count * sxy - sx * sy) / (count * sxx - sx * sx), count);
+    if (x.size() > 2) fmt::print("  {:26} order {:.2f} over {} step lengths\n", name, fitted_slope(x, y), x.size());
     curves.push_back(std::move(curve));
   }
   const auto outcome = io::line_figure(folder, p.stem, {p.title, "Steps per forcing period", "Error after one period"},
@@ -139,7 +134,7 @@ int main(int argc, char** argv) {
     for (int k = 0; k < 300; ++k) (void)flow->evolve(y, 0.0, two_pi);
     const std::vector<double> start = y;
     (void)flow->evolve(y, 0.0, two_pi);
-    draw(folder, {stem, title, field, start, y, two_pi, doublings(100, 7)});
+    draw(folder, {stem, title, field, start, y, two_pi, width > 0.0 ? doublings(20, 8) : doublings(100, 7)});
   }
   return 0;
 }

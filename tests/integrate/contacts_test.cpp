@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
+#include "core/fit.hpp"
 #include "integrate/arkode_flow.hpp"
 #include "integrate/make_flow.hpp"
 #include "integrate/methods.hpp"
@@ -54,21 +55,13 @@ Run run(const IntegratorOptions& o, int periods = 10) {
 
 /// Slope of log error over log tolerance from 1e-5 to `finest`.
 double tolerance_slope(std::string_view method, bool locate, double finest) {
-  double sx = 0.0;
-  double sy = 0.0;
-  double sxx = 0.0;
-  double sxy = 0.0;
-  int count = 0;
+  std::vector<double> x;
+  std::vector<double> y;
   for (double tolerance = 1e-5; tolerance > 0.9 * finest; tolerance *= std::sqrt(0.1)) {
-    const double x = std::log(tolerance);
-    const double y = std::log(run(options(method, tolerance, locate)).error);
-    sx += x;
-    sy += y;
-    sxx += x * x;
-    sxy += x * y;
-    ++count;
+    x.push_back(std::log(tolerance));
+    y.push_back(std::log(run(options(method, tolerance, locate)).error));
   }
-  return (count * sxy - sx * sy) / (count * sxx - sx * sx);
+  return fitted_slope(x, y);
 }
 
 TEST(Contacts, ErrorFallsInProportionToTheToleranceDownTo1em12) {

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
+#include "core/fit.hpp"
 #include "integrate/each_method.hpp"
 #include "integrate/make_flow.hpp"
 #include "integrate/methods.hpp"
@@ -125,10 +126,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, EachMethod, ::testing::ValuesIn(methods()), na
 /// Slope of log error over log (mean step) of a multistep method held at one order: with step control the local error
 /// is constant, h^(q+1) ~ tolerance, and what it adds up to falls with h^q.
 double observed_order(const std::string& method, int order) {
-  double sx = 0.0;
-  double sy = 0.0;
-  double sxx = 0.0;
-  double sxy = 0.0;
+  std::vector<double> steps;
+  std::vector<double> errors;
   constexpr int count = 9;
   for (int k = 0; k < count; ++k) {
     // From where the steps resolve the solution to where rounding comes near.
@@ -148,14 +147,10 @@ double observed_order(const std::string& method, int order) {
                                square += std::pow(at[0] - std::cos(s), 2);
                              })
                     .reached());
-    const double x = -std::log(static_cast<double>(flow->work().steps));
-    const double e = 0.5 * std::log(square);
-    sx += x;
-    sy += e;
-    sxx += x * x;
-    sxy += x * e;
+    steps.push_back(-std::log(static_cast<double>(flow->work().steps)));
+    errors.push_back(0.5 * std::log(square));
   }
-  return (count * sxy - sx * sy) / (count * sxx - sx * sx);
+  return fitted_slope(steps, errors);
 }
 
 TEST(MultistepMethods, ConvergeWithTheOrderTheyAreHeldAt) {

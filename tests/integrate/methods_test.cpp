@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
+#include "core/fit.hpp"
 #include "integrate/arkode_flow.hpp"
 #include "integrate/make_flow.hpp"
 #include "problems/known_systems.hpp"
@@ -45,21 +46,15 @@ double error_of_fixed_steps(const Method& method, int n) {
 /// rounding does not.
 double observed_order(const Method& method) {
   const int first = method.order >= 8 ? 18 : method.order == 6 ? 56 : 112;
-  double sx = 0.0;
-  double sy = 0.0;
-  double sxx = 0.0;
-  double sxy = 0.0;
+  std::vector<double> steps;
+  std::vector<double> errors;
   constexpr int count = 5;
   for (int k = 0; k < count; ++k) {
     const int n = static_cast<int>(std::lround(first * std::exp2(k / (count - 1.0))));
-    const double x = -std::log(n);
-    const double y = std::log(error_of_fixed_steps(method, n));
-    sx += x;
-    sy += y;
-    sxx += x * x;
-    sxy += x * y;
+    steps.push_back(-std::log(n));
+    errors.push_back(std::log(error_of_fixed_steps(method, n)));
   }
-  return (count * sxy - sx * sy) / (count * sxx - sx * sx);
+  return fitted_slope(steps, errors);
 }
 
 TEST(Methods, EachConvergesWithItsOrder) {
