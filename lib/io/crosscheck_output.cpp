@@ -108,7 +108,7 @@ DrawnFigure draw_crosscheck_figure(const std::filesystem::path& folder, const Sw
     curves.push_back(
         {"orbit tolerance", {output.sweep.from, output.sweep.to}, {orbit_tolerance, orbit_tolerance}, false});
   const FigureText text{
-      output.title, parameter_label(output.sweep.parameter),
+      literal_text(output.title), parameter_label(output.sweep.parameter),
       fmt::format("Distance from the orbit of {}  [b_c, b_c/τ]", literal_text(all.variants[0].label))};
   return {folder / "crosscheck.png", line_figure(folder, "crosscheck", text, curves, {.log_x = false, .log_y = true})};
 }

@@ -227,13 +227,13 @@ std::string write_tolerance_tables(const std::filesystem::path& folder, const To
 std::vector<DrawnFigure> draw_tolerance_figures(const std::filesystem::path& folder, const ToleranceOutput& output,
                                                 const std::vector<TolerancePoint>& points) {
   std::vector<DrawnFigure> figures;
+  const std::string title = literal_text(output.sweep.title);
   const FigureAxes logarithmic{.log_x = true, .log_y = true};
   const std::string error_label = "Error of the flow over one orbit  [b_c, b_c/τ]";
   const auto draw = [&](const std::string& stem, const std::string& x, const std::string& y,
                         const std::vector<FigureCurve>& curves) {
     if (curves.empty()) return;
-    figures.push_back(
-        {folder / (stem + ".png"), line_figure(folder, stem, {output.sweep.title, x, y}, curves, logarithmic)});
+    figures.push_back({folder / (stem + ".png"), line_figure(folder, stem, {title, x, y}, curves, logarithmic)});
   };
   draw("work_precision", "Right-hand sides per mesh period", error_label,
        ladder_curves(output, points, [](const Mean& m, double) { return std::exp(m.log_cost / m.count); }));
@@ -261,25 +261,24 @@ std::vector<DrawnFigure> draw_tolerance_figures(const std::filesystem::path& fol
 
   for (const TolerancePoint& p : points) {
     FigureCurve value{"largest exponent", {}, {}, true};
-    FigureCurve low{"95 % interval", {}, {}, false};
-    FigureCurve high{"", {}, {}, false};
+    FigureCurve interval{"95 % interval", {}, {}, false};
     for (const StatisticsStep& s : p.statistics) {
       if (s.method != output.integrator.method || s.width != p.statistics.front().width ||
           s.outcome != integrate::Outcome::reached)
         continue;
       value.x.push_back(s.tolerance);
       value.y.push_back(s.exponent.value);
-      low.x.push_back(s.tolerance);
-      low.y.push_back(s.exponent.low());
-      high.x.push_back(s.tolerance);
-      high.y.push_back(s.exponent.high());
+      // A bar of its own for each: a number that is not one interrupts the curve.
+      for (const double end : {s.exponent.low(), s.exponent.high(), nan}) {
+        interval.x.push_back(s.tolerance);
+        interval.y.push_back(end);
+      }
     }
     if (value.x.size() < 2) continue;
     const std::string stem = fmt::format("exponent_{}", p.point.index);
-    figures.push_back(
-        {folder / (stem + ".png"),
-         line_figure(folder, stem, {output.sweep.title, "Relative tolerance", "Largest Lyapunov exponent  λ [1/τ]"},
-                     {value, low, high}, {.log_x = true, .log_y = false})});
+    figures.push_back({folder / (stem + ".png"),
+                       line_figure(folder, stem, {title, "Relative tolerance", "Largest Lyapunov exponent  λ [1/τ]"},
+                                   {interval, value}, {.log_x = true, .log_y = false})});
   }
   return figures;
 }

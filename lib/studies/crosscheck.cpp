@@ -45,15 +45,16 @@ class Examiner {
     c.distance = distance(reference, c.result, n);
     if (same(reference, c.result, n)) return;
     if (reference.recurrence.period == 0 && c.result.recurrence.period == 0) {
-      const SettledOrbit theirs = orbit_of(point, variants_[c.variant], c.result);
-      if (ours.period > 0 && ours.period == theirs.period) {
-        c.distance = apart(ours.orbit.state, theirs.orbit.state);
-        if (c.distance <= options_.orbit_tolerance) {
-          c.detail = "both settle to one orbit of period " + std::to_string(ours.period);
-          return;
+      if (ours.period > 0) {
+        const SettledOrbit theirs = orbit_of(point, variants_[c.variant], c.result);
+        if (ours.period == theirs.period) {
+          c.distance = apart(ours.orbit.state, theirs.orbit.state);
+          if (c.distance <= options_.orbit_tolerance) {
+            c.detail = "both settle to one orbit of period " + std::to_string(ours.period);
+            return;
+          }
         }
-      }
-      if (ours.period == 0 && theirs.period == 0) {
+      } else {
         const analysis::Estimate our_exponent = exponent(point, variants_[0], reference.end_state);
         const analysis::Estimate their_exponent = exponent(point, variants_[c.variant], c.result.end_state);
         if (our_exponent.low() > 0.0 && their_exponent.low() > 0.0) {
