@@ -284,6 +284,55 @@ TEST_P(StateVector, WeightsAndFiniteness) {
 }
 
 // Every instruction set gives the same bits: sums are taken in one order.
+TEST_P(StateVector, ColumnsAreOneVectorWhoseErrorNormsMayBeThoseOfTheFirst) {
+  constexpr std::size_t columns = 3;
+  const std::vector<double> x = random(1);
+  const std::vector<double> w = random(2);
+  const Vector one_x = filled(x);
+  const Vector one_w = filled(w);
+  for (const std::size_t measured : {std::size_t{1}, columns}) {
+    const VectorShape shape{n(), columns, measured};
+    const Vector a = make_state_vector(shape, context.get(), *kernels);
+    const Vector b(N_VClone(a.get()));
+    ASSERT_EQ(shape_of(b.get()).columns, columns);
+    ASSERT_EQ(padded_size(b.get()), columns * column_stride(a.get()));
+    EXPECT_EQ(N_VGetLength(a.get()), static_cast<sunindextype>(columns * n()));
+    const auto clean = [&](const Vector& v) {
+      for (std::size_t j = 0; j < columns; ++j)
+        for (std::size_t i = n(); i < column_stride(v.get()); ++i)
+          EXPECT_EQ(data_of(v.get())[j * column_stride(v.get()) + i], 0.0) << j << ' ' << i;
+    };
+    // Operations that would fill the padding.
+    N_VConst(3.0, a.get());
+    clean(a);
+    N_VAddConst(a.get(), -1.0, b.get());
+    clean(b);
+    N_VInv(a.get(), b.get());
+    clean(b);
+    N_VDiv(a.get(), b.get(), b.get());
+    clean(b);
+    for (std::size_t j = 0; j < columns; ++j)
+      for (std::size_t i = 0; i < n(); ++i)
+        EXPECT_EQ(data_of(b.get())[j * column_stride(b.get()) + i], 3.0 / (1.0 / 3.0));
+    EXPECT_EQ(N_VMin(a.get()), 3.0);
+    // The first column holds x, the others ten times as much.
+    for (std::size_t j = 0; j < columns; ++j)
+      for (std::size_t i = 0; i < n(); ++i) {
+        data_of(a.get())[j * column_stride(a.get()) + i] = (j == 0 ? 1.0 : 10.0) * x[i];
+        data_of(b.get())[j * column_stride(b.get()) + i] = w[i];
+      }
+    const double first = N_VWrmsNorm(one_x.get(), one_w.get());
+    const double all = N_VWrmsNorm(a.get(), b.get());
+    if (measured == 1) {
+      EXPECT_EQ(all, first);
+    } else {
+      constexpr double rounding = 1e-14;
+      EXPECT_NEAR(all, first * std::sqrt((1.0 + 100.0 + 100.0) / 3.0), rounding * all);
+    }
+    EXPECT_EQ(N_VMaxNorm(a.get()), 10.0 * N_VMaxNorm(one_x.get()));
+  }
+}
+
 TEST_P(StateVector, BitsDoNotDependOnTheInstructionSet) {
   const VectorKernels& baseline = *vector_kernels("baseline");
   const Vector x = filled(random(30));
