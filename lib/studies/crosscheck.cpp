@@ -25,6 +25,13 @@ constexpr double tightest = 1e-13;
 
 bool reached(const PointResult& r) { return r.outcome == integrate::Outcome::reached; }
 
+/// What is known of the reference's motion besides its record.
+struct Known {
+  SettledOrbit orbit;
+  analysis::Estimate exponent{0.0,
+                              std::numeric_limits<double>::infinity()};  ///< largest, per tau; if there is no orbit
+};
+
 /// Everything that explaining a point needs.
 class Examiner {
  public:
@@ -32,8 +39,8 @@ class Examiner {
            const SmoothedModelAt& model_at, const std::atomic<bool>* stop)
       : sweep_(sweep), options_(options), variants_(variants), model_at_(model_at), stop_(stop) {}
 
-  void judge(const GridPoint& point, const std::vector<double>& start, const PointResult& reference,
-             const SettledOrbit& ours, Comparison& c) const {
+  void judge(const GridPoint& point, const std::vector<double>& start, const PointResult& reference, const Known& known,
+             Comparison& c) const {
     if (!reached(reference) || !reached(c.result)) {
       c.distance = nan;
       c.verdict = reference.outcome == c.result.outcome ? Verdict::agree : Verdict::not_reached;
@@ -45,26 +52,32 @@ class Examiner {
     c.distance = distance(reference, c.result, n);
     if (same(reference, c.result, n)) return;
     if (reference.recurrence.period == 0 && c.result.recurrence.period == 0) {
-      if (ours.period > 0) {
+      if (known.orbit.period > 0) {
         const SettledOrbit theirs = orbit_of(point, variants_[c.variant], c.result);
-        if (ours.period == theirs.period) {
-          c.distance = apart(ours.orbit.state, theirs.orbit.state);
+        if (known.orbit.period == theirs.period) {
+          c.distance = apart(known.orbit.orbit.state, theirs.orbit.state);
           if (c.distance <= options_.orbit_tolerance) {
-            c.detail = "both settle to one orbit of period " + std::to_string(ours.period);
+            c.detail = "both settle to one orbit of period " + std::to_string(theirs.period);
             return;
           }
         }
       } else {
-        const analysis::Estimate our_exponent = exponent(point, variants_[0], reference.end_state);
-        const analysis::Estimate their_exponent = exponent(point, variants_[c.variant], c.result.end_state);
-        if (our_exponent.low() > 0.0 && their_exponent.low() > 0.0) {
+        const analysis::Estimate theirs = exponent(point, variants_[c.variant].clearance_smoothing, c.result.end_state);
+        if (known.exponent.low() > 0.0 && theirs.low() > 0.0) {
           c.distance = nan;
-          c.detail = "both chaotic, largest exponents " + text_of(our_exponent) + " and " + text_of(their_exponent);
+          c.detail = "both chaotic, largest exponents " + text_of(known.exponent) + " and " + text_of(theirs);
           return;
         }
       }
     }
     explain(point, start, reference, n, c);
+  }
+
+  [[nodiscard]] Known look_at(const GridPoint& point, const PointResult& reference) const {
+    Known known{orbit_of(point, variants_[0], reference)};
+    if (known.orbit.period == 0 && reached(reference))
+      known.exponent = exponent(point, variants_[0].clearance_smoothing, reference.end_state);
+    return known;
   }
 
  private:
@@ -149,7 +162,7 @@ class Examiner {
       return done(Verdict::tolerance, "at tolerances 100 times tighter the distance is " +
                                           short_text(distance(tight_ours, tight_theirs, n)));
 
-    const analysis::Estimate chaos = exponent(point, ours, reference.end_state);
+    const analysis::Estimate chaos = exponent(point, ours.clearance_smoothing, reference.end_state);
     if (chaos.low() > 0.0) return done(Verdict::chaos, "largest exponent " + text_of(chaos));
 
     // A long way from either, both methods at last on one motion?
@@ -168,7 +181,7 @@ class Examiner {
                                              " more periods each method stays on the other's orbit; distance " +
                                              short_text(orbit_distance(late_ours, late_theirs, n)));
     }
-    const analysis::Estimate theirs = exponent(point, other, c.result.end_state);
+    const analysis::Estimate theirs = exponent(point, other.clearance_smoothing, c.result.end_state);
     if (theirs.low() > 0.0) return done(Verdict::chaos, "largest exponent of the variant's motion " + text_of(theirs));
     done(Verdict::unexplained, "distance " + short_text(c.distance) + ", periods " +
                                    std::to_string(reference.recurrence.period) + " and " +
@@ -176,10 +189,16 @@ class Examiner {
                                    short_text(chaos.value) + " and " + short_text(theirs.value));
   }
 
-  /// Largest exponent per tau; its interval is infinite if there is none.
-  [[nodiscard]] analysis::Estimate exponent(const GridPoint& point, const Variant& v, std::vector<double> state) const {
-    const model::DynamicModel model = model_at_(point.value, v.clearance_smoothing);
-    const auto flow = integrate::make_flow(vector_field(model), v.integrator);
+  /// Largest exponent per tau of the motion that a state is on; its interval is infinite if there is none. By the
+  /// reference's method at no finer a tolerance than chaos can use: the motion is what matters, not how it was found.
+  [[nodiscard]] analysis::Estimate exponent(const GridPoint& point, double clearance_smoothing,
+                                            std::vector<double> state) const {
+    const model::DynamicModel model = model_at_(point.value, clearance_smoothing);
+    integrate::IntegratorOptions o = variants_[0].integrator;
+    constexpr double fine = 1e-8;
+    o.relative_tolerance = std::max(o.relative_tolerance, fine);
+    o.absolute_tolerance = std::max(o.absolute_tolerance, fine);
+    const auto flow = integrate::make_flow(vector_field(model), o);
     analysis::LargestExponent e = analysis::largest_exponent(*flow, state, {50, 5 * options_.continued_periods}, {},
                                                              [this] { return stop_ == nullptr || !stop_->load(); });
     if (!e.evolution.reached()) return {0.0, std::numeric_limits<double>::infinity()};
@@ -278,14 +297,12 @@ Crosscheck run_crosscheck(const SweepPlan& plan, const SweepOptions& sweep, cons
       [&](double value) { return model_at(value, all.variants[0].clearance_smoothing); }, std::move(reference));
   if (all.reference.size() < plan.points.size()) return all;
 
-  std::vector<SettledOrbit> orbits(plan.points.size());
+  const Examiner examiner(sweep, options, all.variants, model_at, run.stop);
+  std::vector<Known> known(plan.points.size());
   all.orbit_period.assign(plan.points.size(), 0);
   for_units(plan.points.size(), run.threads, run.stop, [&](std::size_t k) {
-    const Variant& v = all.variants[0];
-    const auto flow =
-        integrate::make_flow(vector_field(model_at(plan.points[k].value, v.clearance_smoothing)), v.integrator);
-    orbits[k] = settled_orbit(*flow, all.reference[k]);
-    all.orbit_period[k] = orbits[k].period;
+    known[k] = examiner.look_at(plan.points[k], all.reference[k]);
+    all.orbit_period[k] = known[k].orbit.period;
   });
 
   // Where each point started: at the end of the one before in its chain, or cold.
@@ -295,7 +312,6 @@ Crosscheck run_crosscheck(const SweepPlan& plan, const SweepOptions& sweep, cons
 
   const std::size_t others = all.variants.size() - 1;
   std::vector<std::optional<Comparison>> comparisons(plan.points.size() * others);
-  const Examiner examiner(sweep, options, all.variants, model_at, run.stop);
   const auto stopped = [&] { return run.stop != nullptr && run.stop->load(); };
   for_units(comparisons.size(), run.threads, run.stop, [&](std::size_t unit) {
     Comparison c;
@@ -303,16 +319,16 @@ Crosscheck run_crosscheck(const SweepPlan& plan, const SweepOptions& sweep, cons
     c.variant = 1 + unit % others;
     const GridPoint& point = plan.points[c.point];
     const Variant& v = all.variants[c.variant];
-    const auto known = run.done.find({c.variant, c.point});
-    if (known != run.done.end()) {
-      c.result = known->second;
+    const auto earlier = run.done.find({c.variant, c.point});
+    if (earlier != run.done.end()) {
+      c.result = earlier->second;
     } else {
       c.result = compute_point(point, model_at(point.value, v.clearance_smoothing), starts[c.point], sweep,
                                v.integrator, [&] { return !stopped(); });
       if (stopped()) return;
       tell(c.variant, c.result);
     }
-    examiner.judge(point, starts[c.point], all.reference[c.point], orbits[c.point], c);
+    examiner.judge(point, starts[c.point], all.reference[c.point], known[c.point], c);
     if (!stopped()) comparisons[unit] = std::move(c);
   });
   for (auto& c : comparisons)
