@@ -50,7 +50,7 @@ std::string crosscheck_summary(const studies::Crosscheck& all) {
   text += fmt::format("{} points are on a periodic orbit, or settle to one.\n\n",
                       all.orbit_period.size() -
                           static_cast<std::size_t>(std::count(all.orbit_period.begin(), all.orbit_period.end(), 0)));
-  text += "| variant | motions compared | largest distance | agree | ";
+  text += "| variant | agree | of these compared state by state | largest distance | ";
   for (const Verdict v : differing) text += to_string(v) + " | ";
   text += "right-hand sides over the reference's |\n|---|---|---|---|";
   for (std::size_t k = 0; k <= differing.size(); ++k) text += "---|";
@@ -66,13 +66,13 @@ std::string crosscheck_summary(const studies::Crosscheck& all) {
       if (c.variant != v) continue;
       ++count[c.verdict];
       cost += static_cast<double>(c.result.rhs_evaluations);
-      // Two motions that both methods hold are two answers, not one with an error.
-      if (!std::isfinite(c.distance)) continue;
+      // Of motions that agree: others are two answers, not one with an error.
+      if (c.verdict != Verdict::agree || !std::isfinite(c.distance)) continue;
       ++compared;
-      if (c.verdict != Verdict::coexisting) largest = std::max(largest, c.distance);
+      largest = std::max(largest, c.distance);
     }
-    text += fmt::format("| {} | {} | {} | {} | ", all.variants[v].label, compared,
-                        compared > 0 ? fmt::format("{:.2g}", largest) : "", count[Verdict::agree]);
+    text += fmt::format("| {} | {} | {} | {} | ", all.variants[v].label, count[Verdict::agree], compared,
+                        compared > 0 ? fmt::format("{:.2g}", largest) : "");
     for (const Verdict d : differing) text += fmt::format("{} | ", count[d]);
     text += fmt::format("{:.2f} |\n", cost / reference_cost);
   }

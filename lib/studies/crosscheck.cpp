@@ -22,6 +22,10 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// Tolerances are tightened by this much, but not below what doubles can hold.
 constexpr double tightening = 1e-2;
 constexpr double tightest = 1e-13;
+/// How long exponents are measured, in `continued_periods`: to recognise chaos, and to find weak chaos where nothing
+/// else explains a difference.
+constexpr int briefly = 5;
+constexpr int at_length = 40;
 
 bool reached(const PointResult& r) { return r.outcome == integrate::Outcome::reached; }
 
@@ -62,7 +66,8 @@ class Examiner {
           }
         }
       } else {
-        const analysis::Estimate theirs = exponent(point, variants_[c.variant].clearance_smoothing, c.result.end_state);
+        const analysis::Estimate theirs = exponent(point, variants_[c.variant].clearance_smoothing, c.result.end_state,
+                                                   briefly * options_.continued_periods);
         if (known.exponent.low() > 0.0 && theirs.low() > 0.0) {
           c.distance = nan;
           c.detail = "both chaotic, largest exponents " + text_of(known.exponent) + " and " + text_of(theirs);
@@ -76,7 +81,8 @@ class Examiner {
   [[nodiscard]] Known look_at(const GridPoint& point, const PointResult& reference) const {
     Known known{orbit_of(point, variants_[0], reference)};
     if (known.orbit.period == 0 && reached(reference))
-      known.exponent = exponent(point, variants_[0].clearance_smoothing, reference.end_state);
+      known.exponent =
+          exponent(point, variants_[0].clearance_smoothing, reference.end_state, briefly * options_.continued_periods);
     return known;
   }
 
@@ -162,7 +168,8 @@ class Examiner {
       return done(Verdict::tolerance, "at tolerances 100 times tighter the distance is " +
                                           short_text(distance(tight_ours, tight_theirs, n)));
 
-    const analysis::Estimate chaos = exponent(point, ours.clearance_smoothing, reference.end_state);
+    const analysis::Estimate chaos =
+        exponent(point, ours.clearance_smoothing, reference.end_state, at_length * continued);
     if (chaos.low() > 0.0) return done(Verdict::chaos, "largest exponent " + text_of(chaos));
 
     // A long way from either, both methods at last on one motion?
@@ -181,7 +188,8 @@ class Examiner {
                                              " more periods each method stays on the other's orbit; distance " +
                                              short_text(orbit_distance(late_ours, late_theirs, n)));
     }
-    const analysis::Estimate theirs = exponent(point, other.clearance_smoothing, c.result.end_state);
+    const analysis::Estimate theirs =
+        exponent(point, other.clearance_smoothing, c.result.end_state, at_length * continued);
     if (theirs.low() > 0.0) return done(Verdict::chaos, "largest exponent of the variant's motion " + text_of(theirs));
     done(Verdict::unexplained, "distance " + short_text(c.distance) + ", periods " +
                                    std::to_string(reference.recurrence.period) + " and " +
@@ -192,14 +200,14 @@ class Examiner {
   /// Largest exponent per tau of the motion that a state is on; its interval is infinite if there is none. By the
   /// reference's method at no finer a tolerance than chaos can use: the motion is what matters, not how it was found.
   [[nodiscard]] analysis::Estimate exponent(const GridPoint& point, double clearance_smoothing,
-                                            std::vector<double> state) const {
+                                            std::vector<double> state, int periods) const {
     const model::DynamicModel model = model_at_(point.value, clearance_smoothing);
     integrate::IntegratorOptions o = variants_[0].integrator;
     constexpr double fine = 1e-8;
     o.relative_tolerance = std::max(o.relative_tolerance, fine);
     o.absolute_tolerance = std::max(o.absolute_tolerance, fine);
     const auto flow = integrate::make_flow(vector_field(model), o);
-    analysis::LargestExponent e = analysis::largest_exponent(*flow, state, {50, 5 * options_.continued_periods}, {},
+    analysis::LargestExponent e = analysis::largest_exponent(*flow, state, {50, periods}, {},
                                                              [this] { return stop_ == nullptr || !stop_->load(); });
     if (!e.evolution.reached()) return {0.0, std::numeric_limits<double>::infinity()};
     return {e.per_s.value * model.omega, e.per_s.half_width * model.omega};
