@@ -76,8 +76,8 @@ class PeriodicTrack {
     if constexpr (std::is_same_v<T, double>) {
       return cubic(c, t);
     } else {
-      Row<T, K> values = Row<T, K>::of(
-          [&](std::size_t j) { return c[0][j] + t * (c[1][j] + t * (c[2][j] + t * c[3][j])); });
+      Row<T, K> values =
+          Row<T, K>::of([&](std::size_t j) { return c[0][j] + t * (c[1][j] + t * (c[2][j] + t * c[3][j])); });
       if constexpr (is_dual<T>) {
         if (!parameter_cubics_.empty()) {
           const Row<double, K> slope = cubic(parameter_cubics_[k], value_of(t));
