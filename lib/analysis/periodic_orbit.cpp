@@ -79,6 +79,8 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
   return orbit;
 }
 
+double largest_multiplier(const PeriodicOrbit& orbit) { return orbit.monodromy.eigenvalues().cwiseAbs().maxCoeff(); }
+
 std::vector<double> displaced_orbit(integrate::Flow& flow, const PeriodicOrbit& known, int n, int iterations) {
   std::vector<double> y = known.state;
   for (int k = 0; k < iterations; ++k) {

@@ -49,6 +49,9 @@ struct PeriodicOrbit {
 [[nodiscard]] PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double> start, int n,
                                                 const OrbitOptions& options = {});
 
+/// Largest modulus of the orbit's Floquet multipliers, the eigenvalues of its monodromy.
+[[nodiscard]] double largest_multiplier(const PeriodicOrbit& orbit);
+
 /// The orbit of a slightly different map phi' near one that is known: y' = y + (I - M)^-1 (phi'_n(y') - y'), iterated
 /// with the M of the known one. For the orbit that a coarser integrator sees.
 ///

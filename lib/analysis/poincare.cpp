@@ -1,8 +1,9 @@
 #include "analysis/poincare.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+
+#include "core/largest_difference.hpp"
 
 namespace epicyclic::analysis {
 
@@ -37,11 +38,8 @@ namespace {
 /// r_n of [A-rec] over the points from `first` on.
 double recurrence_error(const PoincareSection& section, std::size_t n, std::size_t first) {
   double error = 0.0;
-  for (std::size_t k = first; k + n < section.size(); ++k) {
-    const auto a = section.point(k);
-    const auto b = section.point(k + n);
-    for (std::size_t j = 0; j < section.dimension; ++j) error = std::max(error, std::abs(b[j] - a[j]));
-  }
+  for (std::size_t k = first; k + n < section.size(); ++k)
+    error = std::max(error, largest_difference(section.point(k), section.point(k + n)));
   return error;
 }
 
@@ -68,6 +66,30 @@ Recurrence recurrence(const PoincareSection& section, int longest, double tolera
     best.late_error = recurrence_error(section, static_cast<std::size_t>(best.best_period),
                                        (section.size() - static_cast<std::size_t>(best.best_period)) / 2);
   return best;
+}
+
+double farthest_from(const PoincareSection& a, const PoincareSection& b) {
+  double farthest = 0.0;
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < a.size(); ++i) nearest = std::min(nearest, largest_difference(a.point(i), b.point(k)));
+    farthest = std::max(farthest, nearest);
+  }
+  return farthest;
+}
+
+double extent(const PoincareSection& section) {
+  double widest = 0.0;
+  for (std::size_t j = 0; j < section.dimension; ++j) {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
+    for (std::size_t k = 0; k < section.size(); ++k) {
+      least = std::min(least, section.point(k)[j]);
+      most = std::max(most, section.point(k)[j]);
+    }
+    widest = std::max(widest, most - least);
+  }
+  return widest;
 }
 
 bool still_settling(const Recurrence& r, double tolerance) {

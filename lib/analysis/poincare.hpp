@@ -59,6 +59,13 @@ struct Recurrence {
   double late_error = 0;  ///< the same over the second half of the record: smaller while the motion still settles
 };
 
+/// How far `b` leaves `a`: the largest distance of a point of `b` from the nearest point of `a`, each in its largest
+/// component (one half of Hausdorff's distance of the two sets). Neither is empty; the cost is the product of sizes.
+[[nodiscard]] double farthest_from(const PoincareSection& a, const PoincareSection& b);
+
+/// The largest range of a component.
+[[nodiscard]] double extent(const PoincareSection& section);
+
 /// Whether a motion without a period was still on its way to one: a small error that falls along the record.
 /// @param tolerance  epsilon of recurrence()
 [[nodiscard]] bool still_settling(const Recurrence& r, double tolerance);

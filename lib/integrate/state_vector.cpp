@@ -300,5 +300,6 @@ std::size_t column_stride(N_Vector v) { return content_of(v).stride; }
 VectorShape shape_of(N_Vector v) { return content_of(v).shape; }
 std::size_t padded_size(N_Vector v) { return size(v); }
 const VectorKernels& kernels_of(N_Vector v) { return kernels(v); }
+bool finite(N_Vector v) { return kernels(v).within(data(v), std::numeric_limits<double>::max(), size(v)); }
 
 }  // namespace epicyclic::integrate

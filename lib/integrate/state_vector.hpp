@@ -55,5 +55,7 @@ struct VectorShape {
 /// Numbers of all columns with padding.
 [[nodiscard]] std::size_t padded_size(N_Vector v);
 [[nodiscard]] const VectorKernels& kernels_of(N_Vector v);
+/// Is each number of each column?
+[[nodiscard]] bool finite(N_Vector v);
 
 }  // namespace epicyclic::integrate

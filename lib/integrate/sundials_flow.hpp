@@ -89,6 +89,8 @@ class Integration {
     const IntegratorOptions& options = *system_.options;
     N_Vector y = y_.get();
     const VectorKernels& kernels = kernels_of(y);
+    const bool only_column = shape().columns == 1;
+    const double bound = std::min(options.escape_bound, std::numeric_limits<double>::max());
     system_.segment = segment_after(*system_.field, from);
     system_.message.clear();
     if (options.locate_contacts) find_sides(from);
@@ -109,7 +111,8 @@ class Integration {
       system_.rethrow();
       if (step == Step::refused) return fail(s, system_.message);
       const bool at_stop = step == Step::at_stop || reached >= target;
-      if (!kernels.finite(data_of(y), padded_size(y))) return fail(s, "the state is not finite after a step");
+      const bool inside = kernels.within(data_of(y), bound, column_stride(y));
+      if (!(inside && only_column) && !finite(y)) return fail(s, "the state is not finite after a step");
       const double arrived = at_stop ? target : reached;
       if (options.locate_contacts && !crossing_ahead) {
         if (find_crossing(s_before, arrived, before, crossing)) {
@@ -130,7 +133,7 @@ class Integration {
       // A step cut short by the stop says nothing against the longer one that was proposed before it.
       if (at_stop) proposed = std::max(proposed, before);
       if (!fixed_) next_step = proposed;
-      if (kernels.absolute_max(data_of(y), column_stride(y)) > options.escape_bound)
+      if (!inside)
         return end(Outcome::diverged, s,
                    "a component of the state left the bound " + std::to_string(options.escape_bound));
       if (spent_ + stepper_.attempts() >= steps_left_ && s < to)

@@ -38,8 +38,8 @@ struct VectorKernels {
   double (*weighted_square_sum)(const double* x, const double* w, std::size_t size);
   double (*absolute_sum)(const double* x, std::size_t size);
   double (*absolute_max)(const double* x, std::size_t size);
-  /// Is each number finite? Padding included.
-  bool (*finite)(const double* x, std::size_t size);
+  /// Is each |x| <= bound? No for NaN. Padding included.
+  bool (*within)(const double* x, double bound, std::size_t size);
 };
 
 /// The best that this machine runs.

@@ -17,9 +17,9 @@ namespace {
 using studies::Comparison;
 using studies::Verdict;
 
-constexpr std::array<Verdict, 7> differing = {Verdict::coexisting, Verdict::tolerance, Verdict::smoothing,
-                                              Verdict::settling,   Verdict::chaos,     Verdict::not_reached,
-                                              Verdict::unexplained};
+constexpr std::array<Verdict, 8> differing = {Verdict::coexisting,  Verdict::tolerance,  Verdict::smoothing,
+                                              Verdict::settling,    Verdict::torus,      Verdict::chaos,
+                                              Verdict::not_reached, Verdict::unexplained};
 
 }  // namespace
 

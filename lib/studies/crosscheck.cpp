@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
 
 #include "analysis/lyapunov.hpp"
+#include "core/largest_difference.hpp"
 #include "core/text.hpp"
 #include "integrate/make_flow.hpp"
 #include "studies/operating_point.hpp"
@@ -22,18 +24,34 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// Tolerances are tightened by this much, but not below what doubles can hold.
 constexpr double tightening = 1e-2;
 constexpr double tightest = 1e-13;
-/// How long exponents are measured, in `continued_periods`: to recognise chaos, and to find weak chaos where nothing
-/// else explains a difference.
+/// How long motions are followed, in `continued_periods`: to recognise chaos, and to find weak chaos, a torus or a slow
+/// transient where nothing else explains a difference.
 constexpr int briefly = 5;
 constexpr int at_length = 40;
+/// How much longer, in `continued_periods`, a motion may wander before it comes to its orbit.
+constexpr int patience = 360;
+/// Chaos and orbits are followed no more finely than this: the motion is what matters, not its phase.
+constexpr double fine_enough = 1e-8;
 
 bool reached(const PointResult& r) { return r.outcome == integrate::Outcome::reached; }
+
+/// Where a motion goes.
+struct Course {
+  analysis::Estimate exponent{0.0, std::numeric_limits<double>::infinity()};  ///< largest, per tau
+  double late_growth = 0;             ///< log of a tangent vector's growth over the last half
+  analysis::PoincareSection section;  ///< of the last half
+  std::vector<double> state;          ///< the last one; empty if it was not reached
+
+  [[nodiscard]] bool chaotic() const { return exponent.low() > 0.0; }
+  /// Nearby motions neither part nor meet, up to a factor of e^2: beside a torus they part linearly in time, by a
+  /// factor of 2 in the last half; by an exponent as small as 0.001 per tau they part by more.
+  [[nodiscard]] bool neutral() const { return !state.empty() && std::abs(late_growth) <= 2.0; }
+};
 
 /// What is known of the reference's motion besides its record.
 struct Known {
   SettledOrbit orbit;
-  analysis::Estimate exponent{0.0,
-                              std::numeric_limits<double>::infinity()};  ///< largest, per tau; if there is no orbit
+  Course course{};  ///< followed briefly, at length where that leaves it open; empty if there is an orbit
 };
 
 /// Everything that explaining a point needs.
@@ -59,43 +77,42 @@ class Examiner {
       if (known.orbit.period > 0) {
         const SettledOrbit theirs = orbit_of(point, variants_[c.variant], c.result);
         if (known.orbit.period == theirs.period) {
-          c.distance = apart(known.orbit.orbit.state, theirs.orbit.state);
+          c.distance = largest_difference(known.orbit.orbit.state, theirs.orbit.state);
           if (c.distance <= options_.orbit_tolerance) {
             c.detail = "both settle to one orbit of period " + std::to_string(theirs.period);
             return;
           }
         }
       } else {
-        const analysis::Estimate theirs = exponent(point, variants_[c.variant].clearance_smoothing, c.result.end_state,
-                                                   briefly * options_.continued_periods);
-        if (known.exponent.low() > 0.0 && theirs.low() > 0.0) {
-          c.distance = nan;
-          c.detail = "both chaotic, largest exponents " + text_of(known.exponent) + " and " + text_of(theirs);
-          return;
+        if (known.course.chaotic()) {
+          const Course theirs = follow(point, variants_[c.variant], c.result.end_state, briefly);
+          if (theirs.chaotic()) {
+            c.distance = nan;
+            c.detail = "both chaotic, largest exponents " + text_of(known.course.exponent) + " and " +
+                       text_of(theirs.exponent);
+            return;
+          }
         }
       }
     }
-    explain(point, start, reference, n, c);
+    explain(point, start, reference, known, n, c);
   }
 
   [[nodiscard]] Known look_at(const GridPoint& point, const PointResult& reference) const {
     Known known{orbit_of(point, variants_[0], reference)};
-    if (known.orbit.period == 0 && reached(reference))
-      known.exponent =
-          exponent(point, variants_[0].clearance_smoothing, reference.end_state, briefly * options_.continued_periods);
+    if (known.orbit.period > 0 || !reached(reference)) return known;
+    known.course = follow(point, variants_[0], reference.end_state, briefly);
+    if (!known.course.chaotic()) known.course = follow(point, variants_[0], reference.end_state, at_length);
     return known;
   }
 
  private:
   [[nodiscard]] SettledOrbit orbit_of(const GridPoint& point, const Variant& v, const PointResult& motion) const {
-    const auto flow = integrate::make_flow(vector_field(model_at_(point.value, v.clearance_smoothing)), v.integrator);
-    return settled_orbit(*flow, motion);
+    return settled_orbit(*flow_of(point, v), motion);
   }
 
-  static double apart(const std::vector<double>& a, const std::vector<double>& b) {
-    double most = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
-    return most;
+  [[nodiscard]] std::unique_ptr<integrate::Flow> flow_of(const GridPoint& point, const Variant& v) const {
+    return integrate::make_flow(vector_field(model_at_(point.value, v.clearance_smoothing)), v.integrator);
   }
 
   /// d of [A-cross].
@@ -132,8 +149,14 @@ class Examiner {
     return v;
   }
 
-  void explain(const GridPoint& point, const std::vector<double>& start, const PointResult& reference, std::size_t n,
-               Comparison& c) const {
+  static Variant coarsened(Variant v) {
+    v.integrator.relative_tolerance = std::max(fine_enough, v.integrator.relative_tolerance);
+    v.integrator.absolute_tolerance = std::max(fine_enough, v.integrator.absolute_tolerance);
+    return v;
+  }
+
+  void explain(const GridPoint& point, const std::vector<double>& start, const PointResult& reference,
+               const Known& known, std::size_t n, Comparison& c) const {
     const Variant& ours = variants_[0];
     const Variant& other = variants_[c.variant];
     const auto done = [&](Verdict verdict, std::string detail) {
@@ -141,19 +164,16 @@ class Examiner {
       c.detail = std::move(detail);
     };
 
-    // One answer continued with the other method, both ways.
-    const int continued = options_.continued_periods;
-    const PointResult theirs_on_ours = compute(point, other, reference.end_state, continued);
-    const PointResult ours_on_theirs = compute(point, ours, c.result.end_state, continued);
+    // One answer continued with the other method, both ways. Two answers that both methods hold are two motions, unless
+    // they are one to within what the methods may differ by.
     const bool both_periodic = reference.recurrence.period > 0 && c.result.recurrence.period > 0;
-    const bool holds_ours = reached(theirs_on_ours) && same(reference, theirs_on_ours, n);
-    const bool holds_theirs = reached(ours_on_theirs) && same(c.result, ours_on_theirs, n);
-    // Two answers that both methods hold are two motions, unless they are one to within what the methods may differ by.
     constexpr double clearly = 1e3;
-    const bool far = !(c.distance <= clearly * options_.orbit_tolerance);
-    if (both_periodic && holds_ours && holds_theirs && far)
-      return done(Verdict::coexisting, "each method stays on the other's orbit for " + std::to_string(continued) +
-                                           " more periods; distance " + short_text(c.distance));
+    if (both_periodic && !(c.distance <= clearly * options_.orbit_tolerance)) {
+      const int continued = options_.continued_periods;
+      if (holds(point, other, reference, continued, n) && holds(point, ours, c.result, continued, n))
+        return done(Verdict::coexisting, "each method stays on the other's orbit for " + std::to_string(continued) +
+                                             " more periods; distance " + short_text(c.distance));
+    }
 
     const PointResult tight_ours = compute(point, tightened(ours), start, sweep_.transient_periods);
     if (other.clearance_smoothing != ours.clearance_smoothing) {
@@ -168,49 +188,104 @@ class Examiner {
       return done(Verdict::tolerance, "at tolerances 100 times tighter the distance is " +
                                           short_text(distance(tight_ours, tight_theirs, n)));
 
-    const analysis::Estimate chaos =
-        exponent(point, ours.clearance_smoothing, reference.end_state, at_length * continued);
-    if (chaos.low() > 0.0) return done(Verdict::chaos, "largest exponent " + text_of(chaos));
-
-    // A long way from either, both methods at last on one motion?
-    const int long_way = sweep_.transient_periods + 10 * continued;
-    const PointResult late_ours = compute(point, ours, reference.end_state, long_way);
-    const PointResult late_theirs = compute(point, other, c.result.end_state, long_way);
-    if (reached(late_ours) && reached(late_theirs) && same(late_ours, late_theirs, n) &&
-        late_ours.recurrence.period > 0)
-      return done(Verdict::settling, "after " + std::to_string(long_way) + " more periods they agree, distance " +
-                                         short_text(orbit_distance(late_ours, late_theirs, n)));
-    if (late_ours.recurrence.period > 0 && late_theirs.recurrence.period > 0) {
-      const PointResult crossed = compute(point, other, late_ours.end_state, continued);
-      const PointResult crossed_back = compute(point, ours, late_theirs.end_state, continued);
-      if (same(late_ours, crossed, n) && same(late_theirs, crossed_back, n))
-        return done(Verdict::coexisting, "after " + std::to_string(long_way) +
-                                             " more periods each method stays on the other's orbit; distance " +
-                                             short_text(orbit_distance(late_ours, late_theirs, n)));
+    // Followed for long, from either.
+    const bool followed = known.orbit.period == 0;
+    const Course course = followed ? known.course : follow(point, ours, reference.end_state, at_length);
+    if (course.chaotic()) return done(Verdict::chaos, "largest exponent " + text_of(course.exponent));
+    const Course theirs = follow(point, other, c.result.end_state, at_length);
+    if (theirs.chaotic())
+      return done(Verdict::chaos, "largest exponent of the variant's motion " + text_of(theirs.exponent) +
+                                      ", of the reference's " + text_of(course.exponent));
+    if (course.neutral() && theirs.neutral()) {
+      const double off =
+          std::max(farthest_from(course.section, theirs.section), farthest_from(theirs.section, course.section));
+      const double wide = extent(course.section);
+      constexpr double same_set = 0.05;
+      if (off <= same_set * wide)
+        return done(Verdict::torus, "states of one set that is " + short_text(wide) + " wide, none farther than " +
+                                        short_text(off) + " from the other method's; tangents grow by e^" +
+                                        short_text(course.late_growth) + " and e^" + short_text(theirs.late_growth) +
+                                        " in " + std::to_string(course.section.size()) + " periods");
     }
-    const analysis::Estimate theirs =
-        exponent(point, other.clearance_smoothing, c.result.end_state, at_length * continued);
-    if (theirs.low() > 0.0) return done(Verdict::chaos, "largest exponent of the variant's motion " + text_of(theirs));
+
+    // Both at last on one orbit, or each on an orbit that the other method has, too?
+    std::vector<double> our_state = course.state;
+    std::vector<double> their_state = theirs.state;
+    int followed_for = at_length * options_.continued_periods;
+    for (const int more : {sweep_.transient_periods, patience * options_.continued_periods}) {
+      if (our_state.empty() || their_state.empty()) break;
+      followed_for += more;
+      const PointResult our_motion = compute(point, coarsened(ours), our_state, more);
+      const PointResult their_motion = compute(point, coarsened(other), their_state, more);
+      our_state = our_motion.end_state;
+      their_state = their_motion.end_state;
+      const SettledOrbit our_orbit = orbit_of(point, ours, our_motion);
+      const SettledOrbit their_orbit = orbit_of(point, other, their_motion);
+      if (our_orbit.period == 0 || their_orbit.period == 0) continue;
+      const double d = nearest_phase(point, ours, our_orbit, their_orbit);
+      const std::string after = "after " + std::to_string(followed_for) + " more periods ";
+      if (d <= options_.orbit_tolerance)
+        return done(Verdict::settling, after + "both settle to an orbit of period " + std::to_string(our_orbit.period) +
+                                           ", distance " + short_text(d));
+      if (has_orbit(point, other, our_orbit) && has_orbit(point, ours, their_orbit))
+        return done(Verdict::coexisting, after + "they are on two orbits, of periods " +
+                                             std::to_string(our_orbit.period) + " and " +
+                                             std::to_string(their_orbit.period) + ", both attracting by both methods");
+    }
     done(Verdict::unexplained, "distance " + short_text(c.distance) + ", periods " +
                                    std::to_string(reference.recurrence.period) + " and " +
                                    std::to_string(c.result.recurrence.period) + ", exponents " +
-                                   short_text(chaos.value) + " and " + short_text(theirs.value));
+                                   text_of(course.exponent) + " and " + text_of(theirs.exponent));
   }
 
-  /// Largest exponent per tau of the motion that a state is on; its interval is infinite if there is none. By the
-  /// reference's method at no finer a tolerance than chaos can use: the motion is what matters, not how it was found.
-  [[nodiscard]] analysis::Estimate exponent(const GridPoint& point, double clearance_smoothing,
-                                            std::vector<double> state, int periods) const {
-    const model::DynamicModel model = model_at_(point.value, clearance_smoothing);
-    integrate::IntegratorOptions o = variants_[0].integrator;
-    constexpr double fine = 1e-8;
-    o.relative_tolerance = std::max(o.relative_tolerance, fine);
-    o.absolute_tolerance = std::max(o.absolute_tolerance, fine);
-    const auto flow = integrate::make_flow(vector_field(model), o);
-    analysis::LargestExponent e = analysis::largest_exponent(*flow, state, {50, periods}, {},
-                                                             [this] { return stop_ == nullptr || !stop_->load(); });
-    if (!e.evolution.reached()) return {0.0, std::numeric_limits<double>::infinity()};
-    return {e.per_s.value * model.omega, e.per_s.half_width * model.omega};
+  /// Does a method stay on the motion that another has found?
+  [[nodiscard]] bool holds(const GridPoint& point, const Variant& v, const PointResult& found, int periods,
+                           std::size_t n) const {
+    const PointResult on = compute(point, v, found.end_state, periods);
+    return reached(on) && same(found, on, n);
+  }
+
+  /// Has a method the same attracting orbit that another has found?
+  [[nodiscard]] bool has_orbit(const GridPoint& point, const Variant& v, const SettledOrbit& found) const {
+    const auto flow = flow_of(point, v);
+    const analysis::PeriodicOrbit own = analysis::find_periodic_orbit(*flow, found.orbit.state, found.period);
+    return own.found() && largest_difference(own.state, found.orbit.state) <= options_.orbit_tolerance &&
+           largest_multiplier(own) < 1.0;
+  }
+
+  /// Distance of an orbit's first state from the nearest of the other orbit's; infinite for different periods.
+  [[nodiscard]] double nearest_phase(const GridPoint& point, const Variant& v, const SettledOrbit& a,
+                                     const SettledOrbit& b) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    if (a.period != b.period) return nearest;
+    const auto flow = flow_of(point, v);
+    std::vector<double> y = a.orbit.state;
+    for (int k = 0; k < a.period; ++k) {
+      nearest = std::min(nearest, largest_difference(y, b.orbit.state));
+      if (!flow->evolve(y, 0.0, flow->field().period).reached()) break;
+    }
+    return nearest;
+  }
+
+  /// Follows the motion that a state is on by the variant's method, for a number of continuations.
+  [[nodiscard]] Course follow(const GridPoint& point, const Variant& v, std::vector<double> state, int times) const {
+    const model::DynamicModel model = model_at_(point.value, v.clearance_smoothing);
+    const auto flow = integrate::make_flow(vector_field(model), coarsened(v).integrator);
+    const int periods = times * options_.continued_periods;
+    const auto half = static_cast<std::size_t>(periods / 2);
+    Course course;
+    course.section.dimension = model.dimension;
+    const analysis::LargestExponent e = analysis::largest_exponent(
+        *flow, state, {50, periods},
+        [&](std::size_t k, double, std::span<const double> y) {
+          if (k >= half) course.section.states.insert(course.section.states.end(), y.begin(), y.end());
+        },
+        [this] { return stop_ == nullptr || !stop_->load(); });
+    if (!e.evolution.reached() || e.growth.size() < static_cast<std::size_t>(periods)) return course;
+    course.exponent = {e.per_s.value * model.omega, e.per_s.half_width * model.omega};
+    for (std::size_t k = half; k < e.growth.size(); ++k) course.late_growth += e.growth[k];
+    course.state = std::move(state);
+    return course;
   }
 
   const SweepOptions& sweep_;
@@ -234,6 +309,8 @@ std::string to_string(Verdict verdict) {
       return "smoothing";
     case Verdict::settling:
       return "settling";
+    case Verdict::torus:
+      return "torus";
     case Verdict::chaos:
       return "chaos";
     case Verdict::not_reached:

@@ -41,6 +41,8 @@ enum class Verdict {
   tolerance,    ///< with tolerances a hundred times tighter they agree
   smoothing,    ///< with the reference's smoothing they agree
   settling,     ///< continued, both come to the same motion: the transient was too short
+  torus,        ///< both drift for ever over one set of states, whose nearby motions neither part nor meet: no phase of
+                ///< theirs is right
   chaos,        ///< the largest exponent is positive by its interval: states at one instant cannot agree
   not_reached,  ///< one of them has no answer (its status says why)
   unexplained,

@@ -1,10 +1,6 @@
 #include "studies/settled_orbit.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include <Eigen/Eigenvalues>
-
+#include "core/largest_difference.hpp"
 #include "core/text.hpp"
 
 namespace epicyclic::studies {
@@ -25,9 +21,7 @@ int least_period(integrate::Flow& flow, const std::vector<double>& orbit, int n)
   flow.forget();
   for (int d = 1; d < n; ++d) {
     if (!flow.evolve(y, 0.0, flow.field().period).reached()) break;
-    double most = 0.0;
-    for (std::size_t i = 0; i < y.size(); ++i) most = std::max(most, std::abs(y[i] - orbit[i]));
-    if (n % d == 0 && most < closed) return d;
+    if (n % d == 0 && largest_difference(y, orbit) < closed) return d;
   }
   return n;
 }
@@ -60,9 +54,8 @@ SettledOrbit settled_orbit(integrate::Flow& flow, const PointResult& motion) {
     }
   }
   const std::string name = "orbit of period " + std::to_string(n);
-  for (std::size_t i = 0; i < motion.end_state.size(); ++i)
-    found.distance = std::max(found.distance, std::abs(found.orbit.state[i] - motion.end_state[i]));
-  found.largest_multiplier = found.orbit.monodromy.eigenvalues().cwiseAbs().maxCoeff();
+  found.distance = largest_difference(found.orbit.state, motion.end_state);
+  found.largest_multiplier = largest_multiplier(found.orbit);
   if (found.distance > near) {
     found.note = "the nearest " + name + " is " + short_text(found.distance) + " away";
   } else if (!recurs && found.largest_multiplier >= 1.0) {

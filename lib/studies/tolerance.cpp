@@ -10,6 +10,7 @@
 
 #include "analysis/lyapunov.hpp"
 #include "core/fit.hpp"
+#include "core/largest_difference.hpp"
 #include "integrate/make_flow.hpp"
 #include "studies/operating_point.hpp"
 #include "studies/settled_orbit.hpp"
@@ -47,12 +48,6 @@ integrate::Work difference(const integrate::Work& after, const integrate::Work& 
   return {after.right_hand_sides - before.right_hand_sides,
           after.tangent_right_hand_sides - before.tangent_right_hand_sides, after.jacobians - before.jacobians,
           after.steps - before.steps};
-}
-
-double largest(const std::vector<double>& a, const std::vector<double>& b) {
-  double most = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
-  return most;
 }
 
 /// The state carried over n periods; an outcome other than reached leaves it where it got to.
@@ -212,11 +207,11 @@ class PointStudy {
         step.work = difference(own->work(), before);
         step.outcome = e.outcome;
         if (!e.reached()) return;
-        step.error = largest(y, end_);
+        step.error = largest_difference(y, end_);
       }
       const std::vector<double> orbit = analysis::displaced_orbit(*own, known_, out_.period, 2);
       if (orbit.empty()) return;
-      const double distance = largest(orbit, known_.state);
+      const double distance = largest_difference(orbit, known_.state);
       constexpr double another_orbit = 1.0;
       if (!(distance < another_orbit)) return;
       step.orbit_error = distance;
@@ -252,7 +247,7 @@ class PointStudy {
           analysis::find_periodic_orbit(*tight, known_.state, out_.period, {.iterations = 20, .residual = 1e-10});
       if (!orbit.found()) return;
       step.found = true;
-      step.distance = largest(orbit.state, exact);
+      step.distance = largest_difference(orbit.state, exact);
       step.quantities = quantities_of(*tight, model, orbit.state, out_.period, sweep_.output_phases);
       const auto own = flow(integrator_, model);
       std::vector<double> y = orbit.state;

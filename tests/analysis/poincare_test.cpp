@@ -88,6 +88,22 @@ TEST(Recurrence, ChaosIsNotTakenForSettling) {
   EXPECT_FALSE(still_settling(recurrence(s.section, 32, 1e-3), 1e-3));
 }
 
+TEST(PoincareSet, DistancesAndExtent) {
+  PoincareSection a;
+  a.dimension = 2;
+  a.states = {0.0, 0.0, 1.0, 0.0, 2.0, 5.0};
+  PoincareSection b;
+  b.dimension = 2;
+  b.states = {0.0, 0.25, 4.0, 5.0};
+  EXPECT_EQ(farthest_from(a, b), 2.0);  // (4, 5) from (2, 5)
+  EXPECT_EQ(farthest_from(b, a), 2.0);
+  b.states.resize(2);
+  EXPECT_EQ(farthest_from(a, b), 0.25);
+  EXPECT_EQ(farthest_from(b, a), 4.75);
+  EXPECT_EQ(extent(a), 5.0);
+  EXPECT_EQ(extent(b), 0.0);
+}
+
 TEST(Strobe, NumberOfPhasesLeavesTheSectionUnchanged) {
   const Strobe coarse = run(0.28, {.transient_periods = 10, .recorded_periods = 8, .phases = 1});
   const Strobe fine = run(0.28, {.transient_periods = 10, .recorded_periods = 8, .phases = 257});

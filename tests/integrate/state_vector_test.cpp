@@ -3,6 +3,7 @@
 // around the padding.
 #include "integrate/state_vector.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -274,12 +275,28 @@ TEST_P(StateVector, WeightsAndFiniteness) {
   constexpr double absolute = 1e-9;
   kernels->error_weights(data_of(v.get()), relative, absolute, data_of(w.get()), n());
   expect(w, each(y, y, [&](double p, double) { return 1.0 / (relative * std::abs(p) + absolute); }));
-  EXPECT_TRUE(kernels->finite(data_of(v.get()), padded_size(v.get())));
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+  EXPECT_TRUE(finite(v.get()));
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity})
     for (std::size_t i = 0; i < n(); ++i) {
       const Vector broken = filled(y);
       data_of(broken.get())[i] = bad;
-      EXPECT_FALSE(kernels->finite(data_of(broken.get()), padded_size(broken.get()))) << i;
+      EXPECT_FALSE(finite(broken.get())) << i;
+    }
+}
+
+TEST_P(StateVector, WithinABound) {
+  const auto y = random(20);
+  const double largest =
+      std::abs(*std::max_element(y.begin(), y.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
+  const Vector v = filled(y);
+  EXPECT_TRUE(kernels->within(data_of(v.get()), largest, padded_size(v.get())));
+  EXPECT_FALSE(kernels->within(data_of(v.get()), std::nextafter(largest, 0.0), padded_size(v.get())));
+  for (std::size_t i = 0; i < n(); ++i)
+    for (const double out : {2.0 * largest, -2.0 * largest}) {
+      const Vector outside = filled(y);
+      data_of(outside.get())[i] = out;
+      EXPECT_FALSE(kernels->within(data_of(outside.get()), largest, padded_size(outside.get()))) << i;
     }
 }
 

@@ -67,6 +67,15 @@ inline integrate::VectorField jumping(bool declared) {
   });
 }
 
+/// Van der Pol's oscillator forced at W, x'' - mu (1 - x^2) x' + x = F cos W t, in s = W t; state x, dx/dt. Far from
+/// W = 1 and its multiples, and F small, its motion is a torus.
+inline integrate::VectorField van_der_pol(double mu, double f, double w) {
+  return integrate::make_field(2, 2.0 * std::numbers::pi, [mu, f, w](std::size_t, double s, const auto* y, auto* d) {
+    d[0] = y[1] / w;
+    d[1] = (mu * (1.0 - y[0] * y[0]) * y[1] - y[0] + f * std::cos(s)) / w;
+  });
+}
+
 /// The gear clearance oscillator of validation.md section 4,
 ///   x'' + 2 z x' + f(x) = F_m + E W^2 sin W t , half gap 1, f exact or of width `smoothing`,
 /// in s = W t. State x, dx/dt. Its parameter is W.

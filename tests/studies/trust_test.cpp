@@ -165,6 +165,25 @@ TEST(Crosscheck, ADifferenceOfSmoothingIsExplainedAsOne) {
   EXPECT_EQ(all.comparisons[1].verdict, Verdict::agree) << all.comparisons[1].detail;
 }
 
+TEST(Crosscheck, ATorusIsExplainedAsOne) {
+  // Van der Pol's oscillator, forced away from its own frequency: two phases that never lock, and no phase is kept.
+  const auto forced = [](double strength, double) {
+    model::DynamicModel m = oscillator(1.0, 0.0);
+    const integrate::VectorField field = problems::van_der_pol(0.3, strength, 1.7);
+    m.right_hand_side = field.right_hand_side;
+    m.tangents = field.tangents;
+    m.default_start = {1.0, 0.0};
+    return m;
+  };
+  const SweepOptions sweep = points(0.4, 0.4, 1);
+  CrosscheckOptions options;
+  options.methods = {"arkode-dopri5", "cvode-adams"};
+  const Crosscheck all =
+      run_crosscheck(plan_sweep(sweep), sweep, options, integrator(1e-4), 0.0, forced, CrosscheckRun{});
+  ASSERT_EQ(all.comparisons.size(), 1U);
+  EXPECT_EQ(all.comparisons[0].verdict, Verdict::torus) << all.comparisons[0].detail;
+}
+
 TEST(Crosscheck, CoexistingMotionsAreToldFromErrors) {
   // Duffing's two wells: the reference starts in one of them; a variant so coarse that it falls into the other gives an
   // answer that both methods hold. The coarse method is played by a model that pushes it at the start.
