@@ -15,20 +15,6 @@ namespace {
 
 constexpr std::align_val_t alignment{64};
 
-/// What stands behind N_Vector's content pointer.
-struct Content {
-  VectorShape shape;
-  std::size_t stride = 0;  ///< of a column, with padding
-  const VectorKernels* kernels = nullptr;
-  double* data = nullptr;
-  bool owns = false;
-};
-
-Content& content_of(N_Vector v) { return *static_cast<Content*>(v->content); }
-double* data(N_Vector v) { return content_of(v).data; }
-const VectorKernels& kernels(N_Vector v) { return *content_of(v).kernels; }
-std::size_t size(N_Vector v) { return content_of(v).stride * content_of(v).shape.columns; }
-std::size_t length(N_Vector v) { return content_of(v).shape.length; }
 /// What weighted norms look at: numbers with padding, and how many of them are true.
 std::size_t measured_size(N_Vector v) { return content_of(v).stride * content_of(v).shape.measured_columns; }
 double measured_count(N_Vector v) {
@@ -39,14 +25,14 @@ double measured_count(N_Vector v) {
 /// For operations that would fill the padding: f(offset) for each column.
 template <class F>
 void for_columns(N_Vector v, const F& f) {
-  const Content& c = content_of(v);
+  const StateVectorContent& c = content_of(v);
   for (std::size_t j = 0; j < c.shape.columns; ++j) f(j * c.stride);
 }
 
 /// f(index) for each true number of the vector, or of its measured columns.
 template <class F>
 void for_numbers(N_Vector v, std::size_t columns, const F& f) {
-  const Content& c = content_of(v);
+  const StateVectorContent& c = content_of(v);
   for (std::size_t j = 0; j < columns; ++j)
     for (std::size_t i = 0; i < c.shape.length; ++i) f(j * c.stride + i);
 }
@@ -65,7 +51,7 @@ double* allocate(std::size_t count) {
 
 void destroy(N_Vector v) {
   if (v == nullptr) return;
-  if (auto* content = static_cast<Content*>(v->content)) {
+  if (auto* content = static_cast<StateVectorContent*>(v->content)) {
     if (content->owns) ::operator delete(content->data, alignment);
     delete content;
     v->content = nullptr;
@@ -80,8 +66,8 @@ N_Vector clone_empty(N_Vector like) {
     N_VFreeEmpty(v);
     return nullptr;
   }
-  auto* content =
-      new (std::nothrow) Content{content_of(like).shape, content_of(like).stride, &kernels(like), nullptr, false};
+  auto* content = new (std::nothrow)
+      StateVectorContent{content_of(like).shape, content_of(like).stride, &kernels_of(like), nullptr, false};
   if (content == nullptr) {
     N_VFreeEmpty(v);
     return nullptr;
@@ -93,8 +79,8 @@ N_Vector clone_empty(N_Vector like) {
 N_Vector clone(N_Vector like) {
   N_Vector v = clone_empty(like);
   if (v == nullptr) return nullptr;
-  Content& content = content_of(v);
-  content.data = allocate(size(v));
+  auto& content = *static_cast<StateVectorContent*>(v->content);
+  content.data = allocate(padded_size(v));
   content.owns = true;
   if (content.data != nullptr) return v;
   destroy(v);
@@ -102,44 +88,51 @@ N_Vector clone(N_Vector like) {
 }
 
 N_Vector_ID identity(N_Vector /*v*/) { return SUNDIALS_NVEC_CUSTOM; }
-sunindextype length_of(N_Vector v) { return static_cast<sunindextype>(length(v) * content_of(v).shape.columns); }
+sunindextype length_of(N_Vector v) {
+  return static_cast<sunindextype>(shape_of(v).length * content_of(v).shape.columns);
+}
 void space(N_Vector v, sunindextype* reals, sunindextype* integers) {
-  *reals = static_cast<sunindextype>(size(v));
+  *reals = static_cast<sunindextype>(padded_size(v));
   *integers = 4;
 }
-realtype* array_pointer(N_Vector v) { return data(v); }
+realtype* array_pointer(N_Vector v) { return data_of(v); }
 
 // ---- standard operations ------------------------------------------------------------------------------------------
 
 void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector z) {
-  kernels(z).linear_sum(a, data(x), b, data(y), data(z), size(z));
+  kernels_of(z).linear_sum(a, data_of(x), b, data_of(y), data_of(z), padded_size(z));
 }
 void constant(realtype c, N_Vector z) {
-  for_columns(z, [&](std::size_t at) { kernels(z).constant(c, data(z) + at, length(z)); });
+  for_columns(z, [&](std::size_t at) { kernels_of(z).constant(c, data_of(z) + at, shape_of(z).length); });
 }
-void product(N_Vector x, N_Vector y, N_Vector z) { kernels(z).product(data(x), data(y), data(z), size(z)); }
+void product(N_Vector x, N_Vector y, N_Vector z) {
+  kernels_of(z).product(data_of(x), data_of(y), data_of(z), padded_size(z));
+}
 void quotient(N_Vector x, N_Vector y, N_Vector z) {
-  for_columns(z, [&](std::size_t at) { kernels(z).quotient(data(x) + at, data(y) + at, data(z) + at, length(z)); });
+  for_columns(z, [&](std::size_t at) {
+    kernels_of(z).quotient(data_of(x) + at, data_of(y) + at, data_of(z) + at, shape_of(z).length);
+  });
 }
 void scale(realtype c, N_Vector x, N_Vector z) {
   if (c == 1.0) {
-    if (x != z) std::copy(data(x), data(x) + size(x), data(z));
+    if (x != z) std::copy(data_of(x), data_of(x) + padded_size(x), data_of(z));
     return;
   }
-  kernels(z).scale(c, data(x), data(z), size(z));
+  kernels_of(z).scale(c, data_of(x), data_of(z), padded_size(z));
 }
-void absolute(N_Vector x, N_Vector z) { kernels(z).absolute(data(x), data(z), size(z)); }
+void absolute(N_Vector x, N_Vector z) { kernels_of(z).absolute(data_of(x), data_of(z), padded_size(z)); }
 void inverse(N_Vector x, N_Vector z) {
-  for_columns(z, [&](std::size_t at) { kernels(z).inverse(data(x) + at, data(z) + at, length(z)); });
+  for_columns(z, [&](std::size_t at) { kernels_of(z).inverse(data_of(x) + at, data_of(z) + at, shape_of(z).length); });
 }
 void add_constant(N_Vector x, realtype b, N_Vector z) {
-  for_columns(z, [&](std::size_t at) { kernels(z).add_constant(data(x) + at, b, data(z) + at, length(z)); });
+  for_columns(
+      z, [&](std::size_t at) { kernels_of(z).add_constant(data_of(x) + at, b, data_of(z) + at, shape_of(z).length); });
 }
-realtype dot(N_Vector x, N_Vector y) { return kernels(x).dot(data(x), data(y), size(x)); }
-realtype max_norm(N_Vector x) { return kernels(x).absolute_max(data(x), size(x)); }
-realtype l1_norm(N_Vector x) { return kernels(x).absolute_sum(data(x), size(x)); }
+realtype dot(N_Vector x, N_Vector y) { return kernels_of(x).dot(data_of(x), data_of(y), padded_size(x)); }
+realtype max_norm(N_Vector x) { return kernels_of(x).absolute_max(data_of(x), padded_size(x)); }
+realtype l1_norm(N_Vector x) { return kernels_of(x).absolute_sum(data_of(x), padded_size(x)); }
 realtype weighted_square_sum(N_Vector x, N_Vector w) {
-  return kernels(x).weighted_square_sum(data(x), data(w), measured_size(x));
+  return kernels_of(x).weighted_square_sum(data_of(x), data_of(w), measured_size(x));
 }
 realtype wrms_norm(N_Vector x, N_Vector w) { return std::sqrt(weighted_square_sum(x, w) / measured_count(x)); }
 realtype wl2_norm(N_Vector x, N_Vector w) { return std::sqrt(weighted_square_sum(x, w)); }
@@ -149,7 +142,7 @@ realtype wl2_norm(N_Vector x, N_Vector w) { return std::sqrt(weighted_square_sum
 realtype masked_square_sum(N_Vector x, N_Vector w, N_Vector id) {
   double sum = 0.0;
   for_numbers(x, content_of(x).shape.measured_columns, [&](std::size_t i) {
-    if (data(id)[i] > 0.0) sum += (data(x)[i] * data(w)[i]) * (data(x)[i] * data(w)[i]);
+    if (data_of(id)[i] > 0.0) sum += (data_of(x)[i] * data_of(w)[i]) * (data_of(x)[i] * data_of(w)[i]);
   });
   return sum;
 }
@@ -157,31 +150,31 @@ realtype wrms_norm_mask(N_Vector x, N_Vector w, N_Vector id) {
   return std::sqrt(masked_square_sum(x, w, id) / measured_count(x));
 }
 realtype minimum(N_Vector x) {
-  double least = data(x)[0];
-  for_numbers(x, [&](std::size_t i) { least = std::min(least, data(x)[i]); });
+  double least = data_of(x)[0];
+  for_numbers(x, [&](std::size_t i) { least = std::min(least, data_of(x)[i]); });
   return least;
 }
 void compare(realtype c, N_Vector x, N_Vector z) {
-  for_numbers(x, [&](std::size_t i) { data(z)[i] = std::abs(data(x)[i]) >= c ? 1.0 : 0.0; });
+  for_numbers(x, [&](std::size_t i) { data_of(z)[i] = std::abs(data_of(x)[i]) >= c ? 1.0 : 0.0; });
 }
 booleantype inverse_test(N_Vector x, N_Vector z) {
   bool all = true;
   for_numbers(x, [&](std::size_t i) {
-    if (data(x)[i] == 0.0)
+    if (data_of(x)[i] == 0.0)
       all = false;
     else
-      data(z)[i] = 1.0 / data(x)[i];
+      data_of(z)[i] = 1.0 / data_of(x)[i];
   });
   return all ? SUNTRUE : SUNFALSE;
 }
 booleantype constraint_mask(N_Vector c, N_Vector x, N_Vector m) {
   bool all = true;
   for_numbers(x, [&](std::size_t i) {
-    const double kind = data(c)[i];
-    const double value = data(x)[i] * kind;
+    const double kind = data_of(c)[i];
+    const double value = data_of(x)[i] * kind;
     const bool strict = std::abs(kind) > 1.5;
     const bool broken = kind != 0.0 && (strict ? value <= 0.0 : value < 0.0);
-    data(m)[i] = broken ? 1.0 : 0.0;
+    data_of(m)[i] = broken ? 1.0 : 0.0;
     all = all && !broken;
   });
   return all ? SUNTRUE : SUNFALSE;
@@ -189,7 +182,7 @@ booleantype constraint_mask(N_Vector c, N_Vector x, N_Vector m) {
 realtype min_quotient(N_Vector numerator, N_Vector denominator) {
   double least = std::numeric_limits<double>::max();
   for_numbers(numerator, [&](std::size_t i) {
-    if (data(denominator)[i] != 0.0) least = std::min(least, data(numerator)[i] / data(denominator)[i]);
+    if (data_of(denominator)[i] != 0.0) least = std::min(least, data_of(numerator)[i] / data_of(denominator)[i]);
   });
   return least;
 }
@@ -202,8 +195,8 @@ constexpr int fused_most = 32;
 int linear_combination(int count, realtype* c, N_Vector* x, N_Vector z) {
   if (count < 1 || count > fused_most) return -1;
   std::array<const double*, fused_most> from;
-  for (int j = 0; j < count; ++j) from[static_cast<std::size_t>(j)] = data(x[j]);
-  kernels(z).linear_combination(count, c, from.data(), data(z), size(z));
+  for (int j = 0; j < count; ++j) from[static_cast<std::size_t>(j)] = data_of(x[j]);
+  kernels_of(z).linear_combination(count, c, from.data(), data_of(z), padded_size(z));
   return 0;
 }
 
@@ -288,18 +281,12 @@ Vector make_state_vector(const VectorShape& shape, SUNContext context, const Vec
   if (!v) throw no_memory();
   set_operations(v->ops);
   const std::size_t stride = (shape.length + vector_block - 1) / vector_block * vector_block;
-  auto content = std::make_unique<Content>(Content{shape, stride, &kernels_to_use, nullptr, true});
+  auto content =
+      std::make_unique<StateVectorContent>(StateVectorContent{shape, stride, &kernels_to_use, nullptr, true});
   content->data = allocate(stride * shape.columns);
   v->content = content.release();
   if (content_of(v.get()).data == nullptr) throw no_memory();
   return v;
 }
-
-double* data_of(N_Vector v) { return data(v); }
-std::size_t column_stride(N_Vector v) { return content_of(v).stride; }
-VectorShape shape_of(N_Vector v) { return content_of(v).shape; }
-std::size_t padded_size(N_Vector v) { return size(v); }
-const VectorKernels& kernels_of(N_Vector v) { return kernels(v); }
-bool finite(N_Vector v) { return kernels(v).within(data(v), std::numeric_limits<double>::max(), size(v)); }
 
 }  // namespace epicyclic::integrate

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <type_traits>
 
@@ -47,15 +48,29 @@ struct VectorShape {
   return make_state_vector(VectorShape{dimension, 1, 1}, context, kernels_to_use);
 }
 
+/// What stands behind the content pointer of an N_Vector of ours.
+struct StateVectorContent {
+  VectorShape shape;
+  std::size_t stride = 0;  ///< of a column, with padding
+  const VectorKernels* kernels = nullptr;
+  double* data = nullptr;
+  bool owns = false;
+};
+[[nodiscard]] inline const StateVectorContent& content_of(N_Vector v) {
+  return *static_cast<const StateVectorContent*>(v->content);
+}
+
 /// The numbers of a state vector; aligned to 64 bytes, each column padded with zeros to a multiple of `vector_block`.
-[[nodiscard]] double* data_of(N_Vector v);
+[[nodiscard]] inline double* data_of(N_Vector v) { return content_of(v).data; }
 /// From the first number of a column to that of the next.
-[[nodiscard]] std::size_t column_stride(N_Vector v);
-[[nodiscard]] VectorShape shape_of(N_Vector v);
+[[nodiscard]] inline std::size_t column_stride(N_Vector v) { return content_of(v).stride; }
+[[nodiscard]] inline const VectorShape& shape_of(N_Vector v) { return content_of(v).shape; }
 /// Numbers of all columns with padding.
-[[nodiscard]] std::size_t padded_size(N_Vector v);
-[[nodiscard]] const VectorKernels& kernels_of(N_Vector v);
+[[nodiscard]] inline std::size_t padded_size(N_Vector v) { return column_stride(v) * shape_of(v).columns; }
+[[nodiscard]] inline const VectorKernels& kernels_of(N_Vector v) { return *content_of(v).kernels; }
 /// Is each number of each column?
-[[nodiscard]] bool finite(N_Vector v);
+[[nodiscard]] inline bool finite(N_Vector v) {
+  return kernels_of(v).within(data_of(v), std::numeric_limits<double>::max(), padded_size(v));
+}
 
 }  // namespace epicyclic::integrate
