@@ -213,9 +213,13 @@ void mesh_period_odeint(benchmark::State& state) {
 /// This project's flow with the interface of its peers.
 class OurArkode {
  public:
-  OurArkode(const epicyclic::model::DynamicModel& model, double tolerance, State start)
-      : flow_(epicyclic::integrate::make_arkode_flow(epicyclic::studies::vector_field(model), options(tolerance))),
-        y_(std::move(start)) {}
+  OurArkode(const epicyclic::model::DynamicModel& model, double tolerance, State start,
+            const char* method = "arkode-dopri5")
+      : y_(std::move(start)) {
+    auto o = options(tolerance);
+    o.method = method;
+    flow_ = epicyclic::integrate::make_arkode_flow(epicyclic::studies::vector_field(model), o);
+  }
 
   void mesh_period() { flow_->evolve(y_, 0.0, period); }
   [[nodiscard]] double calls() const { return static_cast<double>(flow_->right_hand_side_calls()); }
@@ -224,6 +228,12 @@ class OurArkode {
  private:
   std::unique_ptr<epicyclic::integrate::Flow> flow_;
   State y_;
+};
+
+class OurCashKarp : public OurArkode {
+ public:
+  OurCashKarp(const epicyclic::model::DynamicModel& model, double tolerance, State start)
+      : OurArkode(model, tolerance, std::move(start), "arkode-cash-karp") {}
 };
 
 constexpr int orbit_periods = 20;
@@ -317,6 +327,7 @@ void orbits_and_errors(benchmark::internal::Benchmark* b) {
   with_least(b);
 }
 BENCHMARK_TEMPLATE(mesh_period_at_equal_error, OurArkode)->Apply(orbits_and_errors);
+BENCHMARK_TEMPLATE(mesh_period_at_equal_error, OurCashKarp)->Apply(orbits_and_errors);
 BENCHMARK_TEMPLATE(mesh_period_at_equal_error, StockArkode)->Apply(orbits_and_errors);
 BENCHMARK_TEMPLATE(mesh_period_at_equal_error, Odeint)->Apply(orbits_and_errors);
 
