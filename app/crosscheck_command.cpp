@@ -11,6 +11,7 @@
 #include "folder.hpp"
 #include "io/crosscheck_output.hpp"
 #include "io/journal.hpp"
+#include "io/point_record.hpp"
 #include "io/progress.hpp"
 #include "io/study_model.hpp"
 #include "stop.hpp"

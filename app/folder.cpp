@@ -11,7 +11,7 @@
 #include "core/errors.hpp"
 #include "core/version.hpp"
 #include "io/atomic_file.hpp"
-#include "io/sweep_output.hpp"
+#include "io/point_record.hpp"
 #include "io/versions.hpp"
 
 namespace epicyclic::app {
@@ -39,9 +39,10 @@ std::int64_t failed_points(const io::OutputFolder& folder) {
 
 }  // namespace
 
-std::map<std::size_t, studies::PointResult> known_points(io::Journal& journal, const studies::SweepPlan& plan) {
+std::map<std::size_t, studies::PointResult> known_points(const std::vector<io::JournalRecord>& records,
+                                                         const studies::SweepPlan& plan) {
   std::map<std::size_t, studies::PointResult> known;
-  for (const io::JournalRecord& record : journal.take_records()) {
+  for (const io::JournalRecord& record : records) {
     studies::PointResult result = io::decode_point(record.payload);
     if (result.point.index >= plan.points.size() || result.point.index != record.point)
       throw io::DamagedData("the journal holds point " + std::to_string(record.point) + ", which the study has not");

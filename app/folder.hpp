@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "commands.hpp"
 #include "io/journal.hpp"
@@ -22,9 +23,9 @@ void require_points(const io::LoadedInput& input, const Arguments& arguments, st
 /// Versions and machine, for run.json.
 [[nodiscard]] io::Provenance provenance(int threads);
 
-/// Points of earlier sessions, from the journal.
+/// Points of earlier sessions, from the journal's records.
 /// @throws DamagedData when it holds points that the study has not
-[[nodiscard]] std::map<std::size_t, studies::PointResult> known_points(io::Journal& journal,
+[[nodiscard]] std::map<std::size_t, studies::PointResult> known_points(const std::vector<io::JournalRecord>& records,
                                                                        const studies::SweepPlan& plan);
 
 /// Says on stderr why a folder cannot be used.

@@ -8,6 +8,7 @@
 #include "commands.hpp"
 #include "folder.hpp"
 #include "io/journal.hpp"
+#include "io/point_record.hpp"
 #include "io/progress.hpp"
 #include "io/study_model.hpp"
 #include "io/sweep_output.hpp"
@@ -45,7 +46,7 @@ int sweep_command(const Arguments& arguments) {
   studies::SweepRun run;
   run.threads = arguments.threads;
   run.stop = &stop_requested();
-  run.done = known_points(journal, plan);
+  run.done = known_points(journal.take_records(), plan);
   std::size_t finished = run.done.size();
   std::size_t failed = 0;
   for (const auto& [index, result] : run.done) failed += computed(result) ? 0 : 1;

@@ -1,11 +1,17 @@
 // epicyclic tolerance: the points of a study, then each one's answer against tolerance, method and smoothing.
 
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 #include "folder.hpp"
 #include "io/journal.hpp"
+#include "io/point_record.hpp"
 #include "io/progress.hpp"
 #include "io/study_model.hpp"
 #include "io/tolerance_output.hpp"
@@ -31,13 +37,27 @@ int tolerance_command(const Arguments& arguments) {
   const std::string resolved = write_inputs(folder, input);
   folder.write_run(io::RunState::running, io::run_facts(facts));
 
-  // The study's own points are journalled; what is measured on each of them is computed again after a stop.
+  // Record k < n is the study's own point k, record n + k what was measured on it.
   io::Journal journal(folder.file("journal.bin"), identity);
+  std::vector<io::JournalRecord> records = journal.take_records();
+  const auto measurements = std::stable_partition(records.begin(), records.end(), [&](const io::JournalRecord& record) {
+    return record.point < plan.points.size();
+  });
+  std::map<std::size_t, studies::TolerancePoint> measured;
+  for (auto record = measurements; record != records.end(); ++record) {
+    studies::TolerancePoint point = io::decode_tolerance_point(record->payload);
+    const std::size_t index = point.point.index;
+    if (index >= plan.points.size() || record->point != plan.points.size() + index)
+      throw io::DamagedData("the journal holds measurement " + std::to_string(record->point) +
+                            ", which the study has not");
+    measured.insert_or_assign(index, std::move(point));
+  }
+  records.erase(measurements, records.end());
   studies::SweepRun run;
   run.threads = arguments.threads;
   run.stop = &stop_requested();
-  run.done = known_points(journal, plan);
-  std::size_t finished = run.done.size();
+  run.done = known_points(records, plan);
+  std::size_t finished = run.done.size() + measured.size();
   std::size_t failed = 0;
   const auto count_failure = [&](const studies::PointResult& r) {
     failed += r.outcome == integrate::Outcome::reached ? 0 : 1;
@@ -52,14 +72,23 @@ int tolerance_command(const Arguments& arguments) {
   };
   const auto studied = studies::run_sweep(
       plan, sweep, input.study.integrator, [&](double value) { return model_at(value, width); }, std::move(run));
-  journal.close();
   std::vector<studies::TolerancePoint> points;
   for (const studies::PointResult& result : studied) {
     if (stop_requested()) break;
-    points.push_back(studies::compute_tolerance_point(result, sweep, input.study.tolerance, input.study.integrator,
-                                                      width, model_at, arguments.threads, &stop_requested()));
+    const auto earlier = measured.find(result.point.index);
+    if (earlier != measured.end()) {
+      points.push_back(std::move(earlier->second));
+      continue;
+    }
+    studies::TolerancePoint point =
+        studies::compute_tolerance_point(result, sweep, input.study.tolerance, input.study.integrator, width, model_at,
+                                         arguments.threads, &stop_requested());
+    if (stop_requested()) break;  // parts of it may be missing
+    journal.append(plan.points.size() + result.point.index, io::encode_tolerance_point(point));
+    points.push_back(std::move(point));
     progress.update(++finished, failed);
   }
+  journal.close();
   progress.finish();
   const auto close_run = [&](io::RunState state) {
     facts.ended = io::utc_now();

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 #include "io/bifurcation_figure.hpp"
 #include "io/csv.hpp"
 #include "io/hdf5_file.hpp"
-#include "io/journal.hpp"
 
 namespace epicyclic::io {
 
@@ -20,84 +17,6 @@ namespace {
 using studies::Direction;
 using studies::MeshRecord;
 using studies::PointResult;
-
-/// Writes numbers one after another, native byte order: a journal is read where it was written.
-class Encoder {
- public:
-  template <class T>
-  void number(T value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    const auto* bytes = reinterpret_cast<const std::byte*>(&value);
-    bytes_.insert(bytes_.end(), bytes, bytes + sizeof value);
-  }
-  template <class T, class F>
-  void list(const std::vector<T>& values, F&& each) {
-    number(static_cast<std::uint64_t>(values.size()));
-    for (const T& v : values) each(v);
-  }
-  std::vector<std::byte> take() { return std::move(bytes_); }
-
- private:
-  std::vector<std::byte> bytes_;
-};
-
-class Decoder {
- public:
-  explicit Decoder(std::span<const std::byte> bytes) : bytes_(bytes) {}
-
-  template <class T>
-  T number() {
-    static_assert(std::is_trivially_copyable_v<T>);
-    require(sizeof(T));
-    T value;
-    std::memcpy(&value, bytes_.data() + at_, sizeof value);
-    at_ += sizeof value;
-    return value;
-  }
-  /// Length of a list whose elements take at least `element` bytes each.
-  std::size_t length(std::size_t element) {
-    const auto n = number<std::uint64_t>();
-    if (n > (bytes_.size() - at_) / element) throw DamagedData("a journal record is shorter than its contents");
-    return static_cast<std::size_t>(n);
-  }
-  void finish() const {
-    if (at_ != bytes_.size()) throw DamagedData("a journal record is longer than its contents");
-  }
-
- private:
-  void require(std::size_t n) const {
-    if (n > bytes_.size() - at_) throw DamagedData("a journal record is shorter than its contents");
-  }
-  std::span<const std::byte> bytes_;
-  std::size_t at_ = 0;
-};
-
-void encode_mesh(Encoder& e, const MeshRecord& m) {
-  e.number(m.delta_min);
-  e.number(m.delta_max);
-  e.number(static_cast<std::uint8_t>((m.drive ? 1U : 0U) | (m.loss ? 2U : 0U) | (m.back ? 4U : 0U)));
-}
-
-constexpr std::size_t encoded_mesh_size = 2 * sizeof(double) + 1;
-
-std::vector<MeshRecord> decode_meshes(Decoder& d) {
-  std::vector<MeshRecord> meshes(d.length(encoded_mesh_size));
-  for (MeshRecord& m : meshes) {
-    m.delta_min = d.number<double>();
-    m.delta_max = d.number<double>();
-    const auto seen = d.number<std::uint8_t>();
-    m.drive = (seen & 1U) != 0;
-    m.loss = (seen & 2U) != 0;
-    m.back = (seen & 4U) != 0;
-  }
-  return meshes;
-}
-
-std::vector<double> decode_numbers(Decoder& d) {
-  std::vector<double> values(d.length(sizeof(double)));
-  for (double& v : values) v = d.number<double>();
-  return values;
-}
 
 bool ok(const PointResult& r) { return r.outcome == integrate::Outcome::reached; }
 
@@ -133,60 +52,6 @@ std::string parameter_label(const std::string& parameter) {
   for (const auto& [name, label] : labels)
     if (parameter == name) return label;
   return literal_text(parameter);
-}
-
-std::vector<std::byte> encode_point(const PointResult& r) {
-  Encoder e;
-  const auto number = [&](double v) { e.number(v); };
-  e.number(static_cast<std::uint64_t>(r.point.index));
-  e.number(static_cast<std::uint8_t>(r.point.direction));
-  e.number(r.point.value);
-  e.number(static_cast<std::uint8_t>(r.outcome));
-  e.number(static_cast<std::uint64_t>(r.message.size()));
-  for (const char c : r.message) e.number(c);
-  e.number(static_cast<std::int32_t>(r.recurrence.period));
-  e.number(static_cast<std::int32_t>(r.recurrence.best_period));
-  e.number(r.recurrence.error);
-  e.number(r.recurrence.late_error);
-  e.list(r.sun_planet, [&](const MeshRecord& m) { encode_mesh(e, m); });
-  e.list(r.ring_planet, [&](const MeshRecord& m) { encode_mesh(e, m); });
-  e.number(r.planet_spread);
-  e.number(static_cast<std::int64_t>(r.rhs_evaluations));
-  e.list(r.end_state, number);
-  e.number(static_cast<std::uint64_t>(r.poincare_columns));
-  e.list(r.poincare, number);
-  return e.take();
-}
-
-PointResult decode_point(std::span<const std::byte> record) {
-  Decoder d(record);
-  PointResult r;
-  r.point.index = static_cast<std::size_t>(d.number<std::uint64_t>());
-  const auto direction = d.number<std::uint8_t>();
-  r.point.value = d.number<double>();
-  const auto outcome = d.number<std::uint8_t>();
-  if (direction > static_cast<std::uint8_t>(Direction::down) ||
-      outcome > static_cast<std::uint8_t>(integrate::Outcome::failed))
-    throw DamagedData("a journal record names a direction or an outcome that does not exist");
-  r.point.direction = static_cast<Direction>(direction);
-  r.outcome = static_cast<integrate::Outcome>(outcome);
-  r.message.resize(d.length(1));
-  for (char& c : r.message) c = d.number<char>();
-  r.recurrence.period = d.number<std::int32_t>();
-  r.recurrence.best_period = d.number<std::int32_t>();
-  r.recurrence.error = d.number<double>();
-  r.recurrence.late_error = d.number<double>();
-  r.sun_planet = decode_meshes(d);
-  r.ring_planet = decode_meshes(d);
-  r.planet_spread = d.number<double>();
-  r.rhs_evaluations = static_cast<long>(d.number<std::int64_t>());
-  r.end_state = decode_numbers(d);
-  r.poincare_columns = static_cast<std::size_t>(d.number<std::uint64_t>());
-  r.poincare = decode_numbers(d);
-  d.finish();
-  if (r.poincare_columns == 0 ? !r.poincare.empty() : r.poincare.size() % r.poincare_columns != 0)
-    throw DamagedData("a journal record has a Poincare section that is not whole rows");
-  return r;
 }
 
 std::string status_word(integrate::Outcome outcome) {

@@ -1,4 +1,4 @@
-// What a sweep leaves in its folder: points.csv, poincare.csv, results.h5, figures, and the journal's records.
+// What a sweep leaves in its folder: points.csv, poincare.csv, results.h5, figures.
 //
 // All of it follows from the points alone and is the same, byte for byte, for the same study (architecture section 7).
 #pragma once
@@ -13,12 +13,6 @@
 #include "studies/sweep.hpp"
 
 namespace epicyclic::io {
-
-/// A point as a journal record, and back; exact.
-[[nodiscard]] std::vector<std::byte> encode_point(const studies::PointResult& result);
-
-/// @throws DamagedData when the record is not one of encode_point()
-[[nodiscard]] studies::PointResult decode_point(std::span<const std::byte> record);
 
 /// Status of a point in points.csv: ok, diverged, step_limit, failed.
 [[nodiscard]] std::string status_word(integrate::Outcome outcome);

@@ -34,8 +34,7 @@ void start_row(CsvWriter& csv, const TolerancePoint& p) {
   csv.cell(p.point.index).cell(direction_word(p.point.direction)).cell(p.point.value);
 }
 
-/// Largest difference of the other methods' orbits at their own tolerance from the reference: none is needed here, the
-/// study's value is measured on the study's own orbit if the ladder holds it, else on its last state.
+/// The step of the ladder that is the study's own method and tolerance, if there is one.
 const LadderStep* study_step(const TolerancePoint& p, const integrate::IntegratorOptions& integrator) {
   for (const LadderStep& s : p.ladder)
     if (s.method == integrator.method && s.tolerance == integrator.relative_tolerance) return &s;
@@ -188,7 +187,8 @@ std::string write_tolerance_tables(const std::filesystem::path& folder, const To
     text += "| point | value | period |";
     for (const char* name : quantity_names) text += fmt::format(" {} |", name);
     text +=
-        " orbit error | last state from its orbit | largest multiplier |\n|---|---|---|---|---|---|---|---|---|---|\n";
+        " orbit error | last state from its orbit | largest multiplier | residual of the reference |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const TolerancePoint& p : points) {
       if (p.period == 0) continue;
       const studies::Quantities study = study_quantities(p);
@@ -197,8 +197,9 @@ std::string write_tolerance_tables(const std::filesystem::path& folder, const To
         text +=
             fmt::format(" {:.10g} ± {:.1g} |", study[k], std::abs(study[k] - p.reference[k]) + p.reference_error[k]);
       const LadderStep* own = study_step(p, output.integrator);
-      text += fmt::format(" {} | {:.1g} | {:.4f} |\n", own == nullptr ? "" : fmt::format("{:.1g}", own->orbit_error),
-                          p.settled_distance, p.largest_multiplier);
+      text += fmt::format(" {} | {:.1g} | {:.4f} | {:.1g} |\n",
+                          own == nullptr ? "" : fmt::format("{:.1g}", own->orbit_error), p.settled_distance,
+                          p.largest_multiplier, p.reference_residual);
     }
   }
   for (const TolerancePoint& p : points) {

@@ -60,6 +60,22 @@ done
 [ "$(wc -l <t1/tolerance.csv)" = 7 ] || fail "tolerance.csv must have a header and 2 x 3 rows"
 [ "$(code_of "$epicyclic" tolerance tolerance.json -o t1)" = 0 ] || fail "a complete folder must give exit 0"
 
+# Killed again and again, a little later each time: what was finished is kept, and the tables are the same.
+kills=0
+for tenths in $(seq 2 100); do
+  code=$(code_of timeout -s KILL "$((tenths / 10)).$((tenths % 10))" "$epicyclic" tolerance tolerance.json -o t3 --threads 1)
+  [ "$code" = 0 ] && break
+  if [ "$code" != 137 ]; then
+    fail "a killed tolerance study ended with $code: $(<stderr)"
+    break
+  fi
+  kills=$((kills + 1))
+done
+[ "$kills" -gt 0 ] || fail "no run of the tolerance study was killed"
+for file in tolerance.csv smoothing.csv quantities.csv statistics.csv tolerance.md points.csv; do
+  cmp -s "t1/$file" "t3/$file" || fail "$file differs after $kills kills"
+done
+
 # Kinds: a sweep serves both commands, another kind does not.
 [ "$(code_of "$epicyclic" sweep tolerance.json -o x)" = 2 ] || fail "a tolerance study is no sweep"
 [ ! -e x ] || fail "something was written for a wrong command"

@@ -1,0 +1,27 @@
+// What a study has computed of one point, as a record of the journal, and back; exact.
+//
+// Numbers one after another in native byte order: a journal is read where it was written. A list is its length (u64)
+// and its elements.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "studies/sweep.hpp"
+#include "studies/tolerance.hpp"
+
+namespace epicyclic::io {
+
+[[nodiscard]] std::vector<std::byte> encode_point(const studies::PointResult& result);
+
+/// @throws DamagedData when the record is not one of encode_point()
+[[nodiscard]] studies::PointResult decode_point(std::span<const std::byte> record);
+
+/// All of a point of a tolerance study.
+[[nodiscard]] std::vector<std::byte> encode_tolerance_point(const studies::TolerancePoint& point);
+
+/// @throws DamagedData when the record is not one of encode_tolerance_point()
+[[nodiscard]] studies::TolerancePoint decode_tolerance_point(std::span<const std::byte> record);
+
+}  // namespace epicyclic::io

@@ -1,0 +1,119 @@
+// Journal records of points: exact, and damaged ones refused.
+
+#include "io/point_record.hpp"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "io/journal.hpp"
+
+namespace epicyclic::io {
+namespace {
+
+studies::PointResult example() {
+  studies::PointResult r;
+  r.point = {7, studies::Direction::down, 0.1};
+  r.outcome = integrate::Outcome::diverged;
+  r.message = "left the bound";
+  r.recurrence = {3, 1e-9, 3, 5e-10};
+  studies::MeshRecord mesh;
+  mesh.delta_min = -std::numeric_limits<double>::infinity();
+  mesh.delta_max = 5e-324;
+  mesh.loss = mesh.back = true;
+  r.sun_planet = {mesh, mesh, {}};
+  r.ring_planet = {mesh};
+  r.planet_spread = 0.3;
+  r.rhs_evaluations = 1234567890123L;
+  r.end_state = {1.0, -0.0, 3.0};
+  r.poincare_columns = 2;
+  r.poincare = {1, 2, 3, 4};
+  return r;
+}
+
+studies::TolerancePoint measured_example() {
+  studies::TolerancePoint p;
+  p.point = {2, studies::Direction::up, 2.8};
+  p.study = example();
+  p.note = "still settling";
+  p.period = 3;
+  p.orbit = {1.0, 2.0};
+  p.largest_multiplier = 0.99;
+  p.reference_error = {1e-12, 2e-12, 3e-12, 4e-12};
+  studies::LadderStep step;
+  step.method = "cvode-bdf";
+  step.tolerance = 1e-7;
+  step.orbit_error = std::numeric_limits<double>::quiet_NaN();
+  step.work = {123, 0, 4, 30};
+  step.seconds = 0.125;
+  p.ladder = {step, step};
+  studies::SmoothingStep smooth;
+  smooth.width = 0.1;
+  smooth.found = true;
+  p.smoothing = {smooth};
+  studies::StatisticsStep statistics;
+  statistics.method = "cvode-adams";
+  statistics.outcome = integrate::Outcome::step_limit;
+  statistics.exponent = {0.1, std::numeric_limits<double>::infinity()};
+  p.statistics = {statistics};
+  return p;
+}
+
+TEST(PointRecord, AMeasurementComesBackExactly) {
+  const studies::TolerancePoint a = measured_example();
+  const std::vector<std::byte> record = encode_tolerance_point(a);
+  const studies::TolerancePoint b = decode_tolerance_point(record);
+  EXPECT_EQ(encode_tolerance_point(b), record);
+  EXPECT_EQ(b.study.message, a.study.message);
+  EXPECT_EQ(b.note, a.note);
+  EXPECT_EQ(b.orbit, a.orbit);
+  EXPECT_EQ(b.reference_error, a.reference_error);
+  EXPECT_TRUE(std::isnan(b.ladder[1].orbit_error));
+  EXPECT_EQ(b.ladder[1].work.jacobians, 4);
+  EXPECT_TRUE(b.smoothing[0].found);
+  EXPECT_EQ(b.statistics[0].outcome, integrate::Outcome::step_limit);
+  EXPECT_EQ(b.statistics[0].exponent.half_width, a.statistics[0].exponent.half_width);
+}
+
+TEST(PointRecord, AnyPartOfAMeasurementIsRefused) {
+  const std::vector<std::byte> record = encode_tolerance_point(measured_example());
+  for (std::size_t n = 0; n < record.size(); ++n)
+    EXPECT_THROW((void)decode_tolerance_point(std::span(record).first(n)), DamagedData) << n;
+}
+
+TEST(PointRecord, ComesBackExactly) {
+  const studies::PointResult a = example();
+  const studies::PointResult b = decode_point(encode_point(a));
+  EXPECT_EQ(encode_point(b), encode_point(a));
+  EXPECT_EQ(b.point.index, a.point.index);
+  EXPECT_EQ(b.message, a.message);
+  EXPECT_EQ(b.rhs_evaluations, a.rhs_evaluations);
+  EXPECT_EQ(b.sun_planet[0].contact(), "loss+back");
+  EXPECT_EQ(b.poincare, a.poincare);
+}
+
+TEST(PointRecord, AnyPartOfItIsRefused) {
+  const std::vector<std::byte> record = encode_point(example());
+  for (std::size_t n = 0; n < record.size(); ++n)
+    EXPECT_THROW((void)decode_point(std::span(record).first(n)), DamagedData) << n;
+  std::vector<std::byte> longer = record;
+  longer.push_back(std::byte{0});
+  EXPECT_THROW((void)decode_point(longer), DamagedData);
+}
+
+TEST(PointRecord, LengthsBeyondTheRecordAreRefusedBeforeMemoryIsTaken) {
+  std::vector<std::byte> record = encode_point(example());
+  for (std::size_t k = 0; k < record.size(); ++k) {
+    std::vector<std::byte> bad = record;
+    bad[k] = std::byte{0xff};
+    try {
+      (void)decode_point(bad);
+    } catch (const DamagedData&) {
+    }
+  }
+}
+
+}  // namespace
+}  // namespace epicyclic::io
