@@ -1,6 +1,13 @@
 #include "analysis/lyapunov.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <string>
+
+#include <Eigen/QR>
+
+#include "core/errors.hpp"
 
 namespace epicyclic::analysis {
 
@@ -29,6 +36,87 @@ LargestExponent largest_exponent(integrate::Flow& flow, std::span<double> state,
   result.per_s.value /= period;
   result.per_s.half_width /= period;
   return result;
+}
+
+std::vector<double> LyapunovSpectrum::history(std::size_t i) const {
+  std::vector<double> mean;
+  double grown = 0.0;
+  for (std::size_t k = i; k < growth.size(); k += exponents) {
+    grown += growth[k];
+    mean.push_back(grown / (static_cast<double>(mean.size() + 1) * interval));
+  }
+  return mean;
+}
+
+LyapunovSpectrum lyapunov_spectrum(integrate::Flow& flow, std::span<double> state, const SpectrumOptions& options,
+                                   const std::function<bool()>& go_on) {
+  const std::size_t n = state.size();
+  LyapunovSpectrum result;
+  const std::size_t m = result.exponents = options.exponents == 0 ? n : options.exponents;
+  const double interval = result.interval = options.interval == 0.0 ? flow.field().period : options.interval;
+  if (m > n) throw DomainError(std::to_string(m) + " exponents of " + std::to_string(n) + " dimensions are asked for");
+  if (!(interval > 0.0)) throw DomainError("the interval " + std::to_string(interval) + " must be > 0");
+  const auto rows = static_cast<Eigen::Index>(n);
+  const auto columns = static_cast<Eigen::Index>(m);
+  Eigen::MatrixXd v = Eigen::MatrixXd::Identity(rows, columns);
+  double s = 0.0;
+  for (int k = -options.aligning_intervals; k < options.intervals; ++k) {
+    if (!go_on()) return result;
+    // s stays small where it is a phase, and goes on where it is not.
+    if (flow.field().period > 0.0) s = std::fmod(s, flow.field().period);
+    result.evolution = flow.evolve_tangents(state, {v.data(), n * m}, s, s + interval);
+    if (!result.evolution.reached()) return result;
+    s += interval;
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(v);
+    v = qr.householderQ() * Eigen::MatrixXd::Identity(rows, columns);
+    if (k < 0) continue;
+    for (Eigen::Index i = 0; i < columns; ++i) result.growth.push_back(std::log(std::abs(qr.matrixQR()(i, i))));
+  }
+  std::vector<double> sums(result.growth.size() / m, 0.0);
+  std::vector<double> series(sums.size());
+  const auto per_s = [&](const std::vector<double>& g) {
+    Estimate e = g.empty() ? Estimate{} : batch_mean(g);
+    e.value /= interval;
+    e.half_width /= interval;
+    return e;
+  };
+  for (std::size_t i = 0; i < m; ++i) {
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      series[k] = result.growth[k * m + i];
+      sums[k] += series[k];
+    }
+    result.per_s.push_back(per_s(series));
+  }
+  result.sum = per_s(sums);
+  return result;
+}
+
+double kaplan_yorke_dimension(std::span<const double> exponents) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < exponents.size(); ++j) {
+    if (sum + exponents[j] < 0.0) return static_cast<double>(j) + sum / std::abs(exponents[j]);
+    sum += exponents[j];
+  }
+  return static_cast<double>(exponents.size());
+}
+
+integrate::VectorField with_divergence(const integrate::VectorField& field) {
+  if (!field.tangents) throw InputError("the divergence of a field without tangents is asked for");
+  const std::size_t n = field.dimension;
+  integrate::VectorField extended = field;
+  extended.dimension = n + 1;
+  extended.tangents = {};
+  extended.parameter_derivative = {};
+  extended.surfaces.clear();
+  extended.right_hand_side = [field, n, matrix = std::vector<double>(n * n)](std::size_t segment, double s,
+                                                                             const double* y, double* dyds) mutable {
+    field.right_hand_side(segment, s, y, dyds);
+    integrate::jacobian(field, segment, s, y, matrix);
+    double trace = 0.0;
+    for (std::size_t i = 0; i < n; ++i) trace += matrix[i * n + i];
+    dyds[n] = trace;
+  };
+  return extended;
 }
 
 }  // namespace epicyclic::analysis

@@ -34,4 +34,45 @@ struct LargestExponent {
                                                const LyapunovOptions& options, const integrate::Observer& observer,
                                                const std::function<bool()>& go_on);
 
+/// m exponents from m tangent vectors, orthonormalised after each interval T:
+///
+///   V(s_k + T) = Q_k R_k ,   V <- Q_k ,   g_ik = log | R_ii |
+///   lambda_i = mean(g_i) / T  per unit of s ,   sum over all = mean divergence of the field [A-spectrum]
+///
+/// Source: Benettin et al., Meccanica 15 (1980) 9 and 21; Kaplan and Yorke, LNM 730 (1979) 204. QR by Householder
+/// reflections (Eigen). Limits: within one interval vectors may not part by more than the rounding holds, so that
+/// a strongly contracting direction needs a shorter interval.
+struct SpectrumOptions {
+  std::size_t exponents = 0;    ///< m; 0 for all
+  int aligning_intervals = 50;  ///< before growth is counted
+  int intervals = 500;          ///< counted
+  double interval = 0;          ///< T [units of s]; 0 for the field's period
+};
+
+struct LyapunovSpectrum {
+  integrate::Evolution evolution;
+  std::size_t exponents = 0;
+  double interval = 0;
+  std::vector<double> growth;   ///< g_ik, m for each counted interval
+  std::vector<Estimate> per_s;  ///< lambda_i [1 / unit of s], falling up to their intervals
+  Estimate sum;                 ///< of the m exponents
+
+  /// Running mean of exponent i over the counted intervals, for its convergence.
+  [[nodiscard]] std::vector<double> history(std::size_t i) const;
+};
+
+/// @param state  carried on, replaced by the last state
+/// @throws DomainError when more exponents than dimensions are asked for, or an interval <= 0
+[[nodiscard]] LyapunovSpectrum lyapunov_spectrum(integrate::Flow& flow, std::span<double> state,
+                                                 const SpectrumOptions& options, const std::function<bool()>& go_on);
+
+/// Kaplan and Yorke's dimension, D = j + (lambda_1 + ... + lambda_j) / |lambda_j+1| with the largest j whose sum is not
+/// negative; the number of exponents if their sum is not negative.
+/// @param exponents  all of them, falling
+[[nodiscard]] double kaplan_yorke_dimension(std::span<const double> exponents);
+
+/// The field with one more component z, dz/ds = tr dg/dy: (z(s_1) - z(s_0)) / (s_1 - s_0) is the mean divergence along
+/// the motion, which the exponents have to add up to. Without tangents.
+[[nodiscard]] integrate::VectorField with_divergence(const integrate::VectorField& field);
+
 }  // namespace epicyclic::analysis

@@ -67,6 +67,24 @@ inline integrate::VectorField jumping(bool declared) {
   });
 }
 
+/// Lorenz's equations at 10, 28, 8/3; without a period. Divergence -41/3 everywhere.
+inline integrate::VectorField lorenz() {
+  return integrate::make_field(3, 0.0, [](std::size_t, double, const auto* y, auto* d) {
+    d[0] = 10.0 * (y[1] - y[0]);
+    d[1] = y[0] * (28.0 - y[2]) - y[1];
+    d[2] = y[0] * y[1] - 8.0 / 3.0 * y[2];
+  });
+}
+
+/// Roessler's equations at 0.2, 0.2, 5.7; without a period. Divergence x - 5.5.
+inline integrate::VectorField roessler() {
+  return integrate::make_field(3, 0.0, [](std::size_t, double, const auto* y, auto* d) {
+    d[0] = -1.0 * y[1] - y[2];
+    d[1] = y[0] + 0.2 * y[1];
+    d[2] = 0.2 + y[2] * (y[0] - 5.7);
+  });
+}
+
 /// Van der Pol's oscillator forced at W, x'' - mu (1 - x^2) x' + x = F cos W t, in s = W t; state x, dx/dt. Far from
 /// W = 1 and its multiples, and F small, its motion is a torus.
 inline integrate::VectorField van_der_pol(double mu, double f, double w) {

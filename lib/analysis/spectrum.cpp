@@ -1,0 +1,116 @@
+#include "analysis/spectrum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <numeric>
+
+#include <gsl/gsl_fft_real.h>
+
+#include "core/errors.hpp"
+
+namespace epicyclic::analysis {
+
+namespace {
+
+struct WavetableDeleter {
+  void operator()(gsl_fft_real_wavetable* w) const { gsl_fft_real_wavetable_free(w); }
+};
+struct WorkspaceDeleter {
+  void operator()(gsl_fft_real_workspace* w) const { gsl_fft_real_workspace_free(w); }
+};
+
+/// Periodic in N, not symmetric: bins of the transform are then zeros of the window's side lobes.
+double window_at(Window window, std::size_t j, std::size_t n) {
+  const double angle = 2.0 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(n);
+  switch (window) {
+    case Window::rectangular:
+      return 1.0;
+    case Window::hann:
+      return 0.5 - 0.5 * std::cos(angle);
+    case Window::flat_top:
+      return 1.0 - 1.93 * std::cos(angle) + 1.29 * std::cos(2.0 * angle) - 0.388 * std::cos(3.0 * angle) +
+             0.028 * std::cos(4.0 * angle);
+  }
+  return 1.0;
+}
+
+}  // namespace
+
+Spectrum amplitude_spectrum(std::span<const double> x, double dt, Window window) {
+  const std::size_t n = x.size();
+  if (n < 2) throw DomainError("a spectrum of " + std::to_string(n) + " samples is asked for, at least 2 are needed");
+  if (!(dt > 0.0)) throw DomainError("the sampling interval " + std::to_string(dt) + " must be > 0");
+  std::vector<double> data(x.begin(), x.end());
+  double weight = 0.0;
+  for (std::size_t j = 0; j < n; ++j) {
+    const double w = window_at(window, j, n);
+    data[j] *= w;
+    weight += w;
+  }
+  const std::unique_ptr<gsl_fft_real_wavetable, WavetableDeleter> table(gsl_fft_real_wavetable_alloc(n));
+  const std::unique_ptr<gsl_fft_real_workspace, WorkspaceDeleter> work(gsl_fft_real_workspace_alloc(n));
+  if (!table || !work) throw SolverError("gsl_fft_real_wavetable_alloc", -1, 0.0, "no memory");
+  const int flag = gsl_fft_real_transform(data.data(), 1, n, table.get(), work.get());
+  if (flag != 0) throw SolverError("gsl_fft_real_transform", flag, 0.0, "the transform failed");
+
+  Spectrum s;
+  s.resolution = 1.0 / (dt * static_cast<double>(n));
+  for (std::size_t k = 0; k <= n / 2; ++k) {
+    // GSL's half-complex order: Re 0, Re 1, Im 1, Re 2, Im 2, ..., and the last one real if n is even.
+    const double re = k == 0 ? data[0] : data[2 * k - 1];
+    const double im = k == 0 || 2 * k == n ? 0.0 : data[2 * k];
+    const double once = k == 0 || 2 * k == n ? 1.0 : 2.0;
+    s.amplitude.push_back(once * std::hypot(re, im) / weight);
+    s.phase.push_back(std::atan2(im, re));
+  }
+  return s;
+}
+
+std::string Harmonic::label() const {
+  const int common = std::gcd(order, period);
+  const int p = order / common;
+  const int q = period / common;
+  return q == 1 ? std::to_string(p) : std::to_string(p) + "/" + std::to_string(q);
+}
+
+std::vector<Harmonic> harmonics(std::span<const double> x, int n) {
+  if (n < 1) throw DomainError("harmonics of period " + std::to_string(n) + " are asked for, must be >= 1");
+  if (x.size() < 2 * static_cast<std::size_t>(n))
+    throw DomainError(std::to_string(x.size()) + " samples are less than two per period");
+  const Spectrum s = amplitude_spectrum(x, static_cast<double>(n) / static_cast<double>(x.size()), Window::rectangular);
+  std::vector<Harmonic> lines;
+  for (std::size_t k = 0; k < s.amplitude.size(); ++k)
+    lines.push_back({static_cast<int>(k), n, s.amplitude[k], s.phase[k]});
+  return lines;
+}
+
+std::vector<Peak> peaks(const Spectrum& spectrum, double forcing, std::size_t most, double floor) {
+  const std::vector<double>& a = spectrum.amplitude;
+  if (a.size() < 3) return {};
+  const double least = floor * *std::max_element(a.begin() + 1, a.end());
+  std::vector<Peak> found;
+  for (std::size_t k = 1; k + 1 < a.size(); ++k) {
+    if (!(a[k] > a[k - 1] && a[k] >= a[k + 1] && a[k] > least)) continue;
+    double shift = 0.0;
+    if (k > 1 && a[k - 1] > 0.0 && a[k + 1] > 0.0) {
+      const double before = std::log(a[k - 1]);
+      const double at = std::log(a[k]);
+      const double after = std::log(a[k + 1]);
+      shift = 0.5 * (before - after) / (before - 2.0 * at + after);
+    }
+    Peak p;
+    p.frequency = spectrum.resolution * (static_cast<double>(k) + shift);
+    p.amplitude = a[k];
+    p.harmonic = static_cast<int>(std::lround(p.frequency / forcing));
+    p.offset = p.frequency - p.harmonic * forcing;
+    found.push_back(p);
+  }
+  std::stable_sort(found.begin(), found.end(), [](const Peak& p, const Peak& q) { return p.amplitude > q.amplitude; });
+  if (found.size() > most) found.resize(most);
+  std::sort(found.begin(), found.end(), [](const Peak& p, const Peak& q) { return p.frequency < q.frequency; });
+  return found;
+}
+
+}  // namespace epicyclic::analysis

@@ -1,0 +1,139 @@
+// Lyapunov spectra of systems whose exponents are published (validation.md section 3), and what exponents must obey.
+
+#include "analysis/lyapunov.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include "analysis/periodic_orbit.hpp"
+#include "core/errors.hpp"
+#include "integrate/make_flow.hpp"
+#include "problems/known_systems.hpp"
+
+namespace epicyclic::analysis {
+namespace {
+
+integrate::IntegratorOptions tight(double tolerance) {
+  integrate::IntegratorOptions o;
+  o.relative_tolerance = tolerance;
+  o.absolute_tolerance = tolerance;
+  o.max_steps_per_period = 1000000;
+  o.tangent_error_control = true;  // without it the sum is off by 1e4 tolerances, with it by 10 (Roessler)
+  return o;
+}
+
+bool always() { return true; }
+
+LyapunovSpectrum spectrum(const integrate::VectorField& field, std::vector<double> y, const SpectrumOptions& options,
+                          double tolerance) {
+  const auto flow = integrate::make_flow(field, tight(tolerance));
+  return lyapunov_spectrum(*flow, y, options, always);
+}
+
+/// Largest within 0.002 or its own interval, the others likewise.
+void expect_published(const LyapunovSpectrum& s, const std::vector<double>& published) {
+  ASSERT_TRUE(s.evolution.reached());
+  ASSERT_EQ(s.per_s.size(), published.size());
+  for (std::size_t i = 0; i < published.size(); ++i)
+    EXPECT_NEAR(s.per_s[i].value, published[i], std::max(0.002, s.per_s[i].half_width)) << i;
+}
+
+TEST(LyapunovSpectrum, OfLorenz) {
+  const SpectrumOptions options{.aligning_intervals = 200, .intervals = 8000, .interval = 0.5};
+  const LyapunovSpectrum s = spectrum(problems::lorenz(), {1.0, 1.0, 20.0}, options, 1e-8);
+  expect_published(s, {0.9053, 0.0, -14.5719});
+  EXPECT_GT(s.per_s[0].low(), 0.0);
+  EXPECT_LT(s.per_s[0].half_width, 0.02);
+  EXPECT_NEAR(kaplan_yorke_dimension(std::array{0.9053, 0.0, -14.5719}), 2.0621, 1e-4);
+}
+
+TEST(LyapunovSpectrum, OfRoessler) {
+  const SpectrumOptions options{.aligning_intervals = 200, .intervals = 8000, .interval = 1.0};
+  expect_published(spectrum(problems::roessler(), {1.0, 1.0, 0.0}, options, 1e-8), {0.0711, 0.0, -5.3940});
+}
+
+TEST(LyapunovSpectrum, OfDuffing) {
+  const SpectrumOptions options{.aligning_intervals = 100, .intervals = 6000};
+  const LyapunovSpectrum s = spectrum(problems::duffing(0.25, -1.0, 0.4, 1.0), {1.0, 0.0}, options, 1e-8);
+  expect_published(s, {0.1569, -0.4069});
+}
+
+TEST(LyapunovSpectrum, AddsUpToTheDivergence) {
+  // Where the divergence is a number, and where it has to be taken along the motion.
+  const SpectrumOptions lorenz{.aligning_intervals = 10, .intervals = 40, .interval = 0.25};
+  const LyapunovSpectrum a = spectrum(problems::lorenz(), {1.0, 1.0, 20.0}, lorenz, 1e-13);
+  EXPECT_NEAR(a.sum.value, -41.0 / 3.0, 1e-9);
+  const SpectrumOptions duffing{.aligning_intervals = 10, .intervals = 40};
+  EXPECT_NEAR(spectrum(problems::duffing(0.25, -1.0, 0.4, 1.0), {1.0, 0.0}, duffing, 1e-13).sum.value, -0.25, 1e-9);
+
+  const SpectrumOptions roessler{.aligning_intervals = 0, .intervals = 32, .interval = 0.25};
+  const LyapunovSpectrum b = spectrum(problems::roessler(), {1.0, 1.0, 0.0}, roessler, 1e-13);
+  const auto flow = integrate::make_flow(with_divergence(problems::roessler()), tight(1e-13));
+  std::vector<double> y = {1.0, 1.0, 0.0, 0.0};
+  ASSERT_TRUE(flow->evolve(y, 0.0, 8.0).reached());
+  EXPECT_NEAR(b.sum.value, y[3] / 8.0, 1e-9);
+}
+
+TEST(LyapunovSpectrum, OfAPeriodicMotionAreTheLogarithmsOfItsMultipliers) {
+  // Duffing with g = 0.2: period 1, Floquet multipliers by the orbit's monodromy.
+  const integrate::VectorField field = problems::duffing(0.3, -1.0, 0.2, 1.2);
+  const auto flow = integrate::make_flow(field, tight(1e-12));
+  std::vector<double> y = {1.0, 0.0};
+  for (int k = 0; k < 200; ++k) ASSERT_TRUE(flow->evolve(y, 0.0, field.period).reached());
+  const PeriodicOrbit orbit = find_periodic_orbit(*flow, y, 1);
+  ASSERT_TRUE(orbit.found());
+  std::vector<double> moduli;
+  for (const auto& multiplier : orbit.monodromy.eigenvalues()) moduli.push_back(std::abs(multiplier));
+  std::sort(moduli.rbegin(), moduli.rend());
+  const LyapunovSpectrum s = lyapunov_spectrum(*flow, y, {.aligning_intervals = 100, .intervals = 2000}, always);
+  for (std::size_t i = 0; i < moduli.size(); ++i)
+    EXPECT_NEAR(s.per_s[i].value, std::log(moduli[i]) / field.period, std::max(1e-6, s.per_s[i].half_width)) << i;
+}
+
+TEST(LyapunovSpectrum, DoesNotDependOnTheIntervalOrOnStepControlOfTangents) {
+  const integrate::VectorField field = problems::duffing(0.25, -1.0, 0.4, 1.0);
+  integrate::IntegratorOptions o = tight(1e-12);
+  const auto controlled = integrate::make_flow(field, o);
+  o.tangent_error_control = false;
+  const auto other = integrate::make_flow(field, o);
+  std::vector<double> a = {1.0, 0.0};
+  std::vector<double> b = a;
+  std::vector<double> c = a;
+  // Few intervals: chaos would tell the three apart, not the method.
+  const auto first = lyapunov_spectrum(*controlled, a, {.aligning_intervals = 0, .intervals = 4}, always);
+  const auto second = lyapunov_spectrum(*other, b, {.aligning_intervals = 0, .intervals = 4}, always);
+  const auto halves = lyapunov_spectrum(
+      *controlled, c, {.aligning_intervals = 0, .intervals = 8, .interval = 0.5 * field.period}, always);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(first.per_s[i].value, second.per_s[i].value, 1e-7);
+    EXPECT_NEAR(first.per_s[i].value, halves.per_s[i].value, 1e-7);
+  }
+}
+
+TEST(LyapunovSpectrum, HistoryEndsAtTheMean) {
+  const LyapunovSpectrum s =
+      spectrum(problems::duffing(0.25, -1.0, 0.4, 1.0), {1.0, 0.0}, {.aligning_intervals = 5, .intervals = 64}, 1e-6);
+  ASSERT_EQ(s.history(1).size(), 64U);
+  EXPECT_NEAR(s.history(0).back(), s.per_s[0].value, 1e-14);
+  EXPECT_NEAR(s.history(1).back(), s.per_s[1].value, 1e-14);
+}
+
+TEST(LyapunovSpectrum, RefusesWhatItCannotDo) {
+  const integrate::VectorField field = problems::lorenz();
+  const auto flow = integrate::make_flow(field, {});
+  std::vector<double> y = {1.0, 1.0, 20.0};
+  EXPECT_THROW((void)lyapunov_spectrum(*flow, y, {.exponents = 4, .interval = 1.0}, always), DomainError);
+  EXPECT_THROW((void)lyapunov_spectrum(*flow, y, {}, always), DomainError);  // no period, no interval
+  EXPECT_EQ(kaplan_yorke_dimension(std::array{0.1, -0.05}), 2.0);
+  EXPECT_EQ(kaplan_yorke_dimension(std::array{-0.1, -0.2}), 0.0);
+}
+
+}  // namespace
+}  // namespace epicyclic::analysis

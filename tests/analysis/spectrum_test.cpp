@@ -1,0 +1,117 @@
+// Spectra of signals whose lines are known.
+
+#include "analysis/spectrum.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/errors.hpp"
+
+namespace epicyclic::analysis {
+namespace {
+
+constexpr double turn = 2.0 * std::numbers::pi;
+
+template <class F>
+std::vector<double> sampled(std::size_t count, double dt, const F& f) {
+  std::vector<double> x;
+  for (std::size_t j = 0; j < count; ++j) x.push_back(f(static_cast<double>(j) * dt));
+  return x;
+}
+
+class SineOnABin : public ::testing::TestWithParam<Window> {};
+
+TEST_P(SineOnABin, ShowsItsAmplitudePhaseAndMean) {
+  for (const std::size_t count : {240UL, 241UL, 1024UL}) {
+    const double dt = 0.01;
+    const double f = 10.0 / (static_cast<double>(count) * dt);
+    const auto x = sampled(count, dt, [&](double t) { return -1.5 + 0.3 * std::cos(turn * f * t + 0.7); });
+    const Spectrum s = amplitude_spectrum(x, dt, GetParam());
+    EXPECT_NEAR(s.frequency(10), f, 1e-12 * f);
+    EXPECT_NEAR(s.amplitude[10], 0.3, 1e-13);
+    EXPECT_NEAR(s.phase[10], 0.7, 1e-12);
+    EXPECT_NEAR(s.amplitude[0], 1.5, 1e-13);
+    EXPECT_EQ(s.amplitude.size(), count / 2 + 1);
+    for (std::size_t k = 20; k < s.amplitude.size(); ++k) EXPECT_LT(s.amplitude[k], 1e-13) << k;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Windows, SineOnABin, ::testing::Values(Window::rectangular, Window::hann, Window::flat_top));
+
+TEST(Windows, LoseBetweenBinsWhatTheirSourceSays) {
+  constexpr std::size_t count = 1000;
+  const auto x = sampled(count, 1.0, [](double t) { return std::cos(turn * 100.5 / 1000.0 * t); });
+  const auto largest = [&](Window w) {
+    double most = 0.0;
+    for (const double a : amplitude_spectrum(x, 1.0, w).amplitude) most = std::max(most, a);
+    return most;
+  };
+  EXPECT_NEAR(largest(Window::rectangular), 2.0 / std::numbers::pi, 5e-3);   // -3.92 dB
+  EXPECT_NEAR(largest(Window::hann), 8.0 / (3.0 * std::numbers::pi), 1e-3);  // -1.42 dB
+  EXPECT_NEAR(largest(Window::flat_top), 1.0, 2e-3);
+}
+
+TEST(Harmonics, OfAPeriodTwoMotionAreLabelled) {
+  // Two periods of the forcing (unit frequency), 64 samples each.
+  const auto x = sampled(128, 1.0 / 64.0, [](double t) {
+    return 0.1 + std::cos(turn * t) + 0.25 * std::sin(turn * 0.5 * t) + 0.01 * std::cos(turn * 3.0 * t);
+  });
+  const auto lines = harmonics(x, 2);
+  ASSERT_EQ(lines.size(), 65U);
+  EXPECT_EQ(lines[1].label(), "1/2");
+  EXPECT_EQ(lines[2].label(), "1");
+  EXPECT_EQ(lines[3].label(), "3/2");
+  EXPECT_EQ(lines[0].label(), "0");
+  EXPECT_FALSE(lines[1].of_forcing());
+  EXPECT_TRUE(lines[6].of_forcing());
+  EXPECT_NEAR(lines[0].amplitude, 0.1, 1e-14);
+  EXPECT_NEAR(lines[1].amplitude, 0.25, 1e-14);
+  EXPECT_NEAR(lines[1].phase, -0.5 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(lines[2].amplitude, 1.0, 1e-14);
+  EXPECT_NEAR(lines[6].amplitude, 0.01, 1e-14);
+  EXPECT_LT(lines[3].amplitude, 1e-14);
+}
+
+TEST(Peaks, OfAModulatedSineAreTheCarrierAndItsSidebands) {
+  // Carrier at twice the forcing's 1 Hz, modulated with 0.0832 Hz.
+  const double dt = 1.0 / 32.0;
+  const auto x =
+      sampled(8192, dt, [](double t) { return (1.0 + 0.2 * std::cos(turn * 0.0832 * t)) * std::cos(turn * 2.0 * t); });
+  const auto found = peaks(amplitude_spectrum(x, dt, Window::hann), 1.0, 3, 1e-3);
+  ASSERT_EQ(found.size(), 3U);
+  for (const Peak& p : found) EXPECT_EQ(p.harmonic, 2);
+  EXPECT_NEAR(found[0].offset, -0.0832, 2e-4);
+  EXPECT_NEAR(found[1].offset, 0.0, 2e-4);
+  EXPECT_NEAR(found[2].offset, 0.0832, 2e-4);
+  EXPECT_NEAR(found[1].amplitude, 1.0, 1e-3);
+}
+
+TEST(Spectrum, SquaresOfAmplitudesAddUpToTheMeanSquare) {
+  // Parseval's theorem.
+  for (const std::size_t count : {96UL, 97UL}) {
+    const auto x = sampled(count, 1.0, [](double t) { return std::sin(1.3 * t * t) + 0.2 * t; });
+    const Spectrum s = amplitude_spectrum(x, 1.0, Window::rectangular);
+    double lines = 0.0;
+    for (std::size_t k = 0; k < s.amplitude.size(); ++k)
+      lines += s.amplitude[k] * s.amplitude[k] * (k == 0 || 2 * k == count ? 1.0 : 0.5);
+    double mean = 0.0;
+    for (const double v : x) mean += v * v / static_cast<double>(count);
+    EXPECT_NEAR(lines, mean, 1e-12 * mean);
+  }
+}
+
+TEST(Spectrum, RefusesWhatHasNone) {
+  const std::vector<double> one = {1.0};
+  const std::vector<double> two = {1.0, 2.0};
+  EXPECT_THROW((void)amplitude_spectrum(one, 1.0, Window::hann), DomainError);
+  EXPECT_THROW((void)amplitude_spectrum(two, 0.0, Window::hann), DomainError);
+  EXPECT_THROW((void)harmonics(two, 0), DomainError);
+  EXPECT_THROW((void)harmonics(two, 2), DomainError);
+  EXPECT_TRUE(peaks({1.0, {1.0, 2.0}, {0.0, 0.0}}, 1.0, 3, 0.0).empty());
+}
+
+}  // namespace
+}  // namespace epicyclic::analysis
