@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include <Eigen/Dense>
 
+#include "core/errors.hpp"
 #include "core/text.hpp"
 
 namespace epicyclic::analysis {
@@ -22,39 +25,112 @@ Eigen::VectorXd solve(const Eigen::MatrixXd& m, const Eigen::VectorXd& r) {
   return a.completeOrthogonalDecomposition().solve(r);
 }
 
+/// From one s to another within a period of the forcing.
+struct Span {
+  double from = 0;
+  double to = 0;
+};
+
+/// Piece `i` of `pieces` of n periods, cut where periods end, so that each begins at the phase 0 to the last bit.
+std::vector<Span> spans(double period, Eigen::Index n, Eigen::Index pieces, Eigen::Index i) {
+  std::vector<Span> all;
+  // In parts of 1 / pieces of a period.
+  const auto phase = [&](Eigen::Index parts) {
+    return period * static_cast<double>(parts) / static_cast<double>(pieces);
+  };
+  for (Eigen::Index at = i * n; at < (i + 1) * n;) {
+    const Eigen::Index begun = at / pieces * pieces;
+    const Eigen::Index to = std::min((i + 1) * n, begun + pieces);
+    all.push_back({phase(at - begun), phase(to - begun)});
+    at = to;
+  }
+  return all;
+}
+
+/// The states at the beginnings of the pieces, one column each, and how they are carried.
+struct Shooting {
+  Eigen::MatrixXd residual;             ///< F_i in column i
+  std::vector<Eigen::MatrixXd> pieces;  ///< M_i
+  integrate::Evolution evolution;
+};
+
+Shooting shoot(integrate::Flow& flow, const Eigen::MatrixXd& y, Eigen::Index n_periods) {
+  const Eigen::Index n = y.rows();
+  const Eigen::Index count = y.cols();
+  Shooting result;
+  result.residual.resize(n, count);
+  flow.forget();
+  for (Eigen::Index i = 0; i < count; ++i) {
+    Eigen::VectorXd end = y.col(i);
+    Eigen::MatrixXd m = Eigen::MatrixXd::Identity(n, n);
+    for (const Span& span : spans(flow.field().period, n_periods, count, i)) {
+      result.evolution = flow.evolve_tangents({end.data(), static_cast<std::size_t>(n)},
+                                              {m.data(), static_cast<std::size_t>(n * n)}, span.from, span.to);
+      if (!result.evolution.reached()) return result;
+    }
+    result.residual.col(i) = end - y.col((i + 1) % count);
+    result.pieces.push_back(std::move(m));
+  }
+  return result;
+}
+
+/// d_i of [A-shoot], one column each.
+Eigen::MatrixXd newton_step(const Shooting& at) {
+  const Eigen::Index n = at.residual.rows();
+  const Eigen::Index count = at.residual.cols();
+  if (count == 1) return solve(at.pieces[0], at.residual.col(0));
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n * count, n * count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    a.block(i * n, i * n, n, n) = at.pieces[static_cast<std::size_t>(i)];
+    a.block(i * n, (i + 1) % count * n, n, n) -= Eigen::MatrixXd::Identity(n, n);
+  }
+  const Eigen::VectorXd f = at.residual.reshaped();
+  const Eigen::VectorXd d = a.completeOrthogonalDecomposition().solve(-f);
+  return d.reshaped(n, count);
+}
+
 }  // namespace
 
 PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double> start, int n,
                                   const OrbitOptions& options) {
-  const std::size_t dimension = flow.field().dimension;
-  const double period = flow.field().period;
-  const auto size = static_cast<Eigen::Index>(dimension);
+  if (n < 1) throw DomainError("an orbit of period " + std::to_string(n) + " is asked for, must be >= 1");
+  if (options.pieces < 1) throw DomainError("shooting with " + std::to_string(options.pieces) + " pieces");
   PeriodicOrbit orbit;
   orbit.state.assign(start.begin(), start.end());
-  std::vector<double> y(start.begin(), start.end());
-  double best = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < options.iterations; ++k) {
-    std::vector<double> end = y;
-    std::vector<double> v(dimension * dimension, 0.0);
-    for (std::size_t j = 0; j < dimension; ++j) v[j * dimension + j] = 1.0;
+  Eigen::MatrixXd y(static_cast<Eigen::Index>(start.size()), options.pieces);
+  y.col(0) = as_vector(start);
+  if (options.pieces > 1) {
+    std::vector<double> carried = orbit.state;
     flow.forget();
-    for (int i = 0; i < n; ++i) {
-      const integrate::Evolution e = flow.evolve_tangents(end, v, 0.0, period);
-      if (!e.reached()) {
+    for (Eigen::Index i = 1; i < y.cols(); ++i) {
+      for (const Span& span : spans(flow.field().period, n, y.cols(), i - 1)) {
+        const integrate::Evolution e = flow.evolve(carried, span.from, span.to);
+        if (e.reached()) continue;
         orbit.outcome = OrbitOutcome::not_reached;
         orbit.message = e.message;
         return orbit;
       }
+      y.col(i) = as_vector(carried);
     }
-    const Eigen::MatrixXd m = Eigen::Map<const Eigen::MatrixXd>(v.data(), size, size);
-    const Eigen::VectorXd f = as_vector(end) - as_vector(y);
-    const double residual = f.lpNorm<Eigen::Infinity>();
+  }
+  double best = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < options.iterations; ++k) {
+    Shooting at = shoot(flow, y, n);
+    if (!at.evolution.reached()) {
+      orbit.outcome = OrbitOutcome::not_reached;
+      orbit.message = at.evolution.message;
+      return orbit;
+    }
+    const double residual = at.residual.lpNorm<Eigen::Infinity>();
     orbit.residuals.push_back(residual);
     const bool falls = residual < 0.5 * best;
+    const Eigen::MatrixXd step = newton_step(at);
     if (residual < best) {
       best = residual;
-      orbit.state = y;
-      orbit.monodromy = m;
+      std::copy_n(y.data(), orbit.state.size(), orbit.state.begin());
+      orbit.monodromy = at.pieces[0];
+      for (std::size_t i = 1; i < at.pieces.size(); ++i) orbit.monodromy = at.pieces[i] * orbit.monodromy;
+      orbit.pieces = std::move(at.pieces);
     }
     if (residual <= options.residual) {
       orbit.outcome = OrbitOutcome::converged;
@@ -70,13 +146,55 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
     constexpr int patience = 4;
     constexpr double gain = 0.1;
     if (k + 1 >= patience && best > gain * orbit.residuals.front()) break;
-    const Eigen::VectorXd step = solve(m, f);
-    for (std::size_t i = 0; i < dimension; ++i) y[i] += step(static_cast<Eigen::Index>(i));
+    y += step;
   }
   orbit.outcome = best <= std::sqrt(options.residual) ? OrbitOutcome::stalled : OrbitOutcome::not_converged;
   orbit.message =
       "the residual is " + short_text(best) + " after " + std::to_string(options.iterations) + " iterations";
   return orbit;
+}
+
+bool Multipliers::stable() const {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!(std::abs(values[i]) + errors[i] < 1.0)) return false;
+  return true;
+}
+
+Multipliers floquet_multipliers(const PeriodicOrbit& orbit, const PeriodicOrbit& second) {
+  const auto sorted = [](const Eigen::MatrixXd& m) {
+    const Eigen::VectorXcd e = m.eigenvalues();
+    std::vector<std::complex<double>> values(e.begin(), e.end());
+    std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) {
+      return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag();
+    });
+    return values;
+  };
+  Multipliers result;
+  result.values = sorted(orbit.monodromy);
+  std::vector<std::complex<double>> others = sorted(second.monodromy);
+  for (const auto& value : result.values) {
+    // Each of the second estimate answers for one of the first.
+    const auto nearest = std::min_element(others.begin(), others.end(), [&](const auto& a, const auto& b) {
+      return std::abs(a - value) < std::abs(b - value);
+    });
+    result.errors.push_back(nearest == others.end() ? std::numeric_limits<double>::infinity()
+                                                    : std::abs(*nearest - value));
+    if (nearest != others.end()) others.erase(nearest);
+  }
+  // Equal ones are split by the rounding of the eigenvalue solver at the least.
+  constexpr double rounding = 1e-10;
+  constexpr double clearly = 10.0;
+  for (std::size_t i = 0; i < result.values.size(); ++i) {
+    int together = 0;
+    for (std::size_t j = 0; j < result.values.size(); ++j)
+      together +=
+          std::abs(result.values[i] - result.values[j]) <= clearly * (result.errors[i] + result.errors[j]) + rounding
+              ? 1
+              : 0;
+    result.multiplicity.push_back(together);
+    if (std::abs(1.0 - std::abs(result.values[i])) < std::abs(result.margin())) result.critical = i;
+  }
+  return result;
 }
 
 double largest_multiplier(const PeriodicOrbit& orbit) { return orbit.monodromy.eigenvalues().cwiseAbs().maxCoeff(); }

@@ -5,11 +5,17 @@
 // phi_n carries a state over n periods of the forcing. M comes from tangent vectors through the integrator itself, so
 // convergence is quadratic down to the integrator's tolerance. Its eigenvalues are the Floquet multipliers.
 //
-// Limits: single shooting; an orbit whose tangents grow beyond 1e8 over n periods needs more pieces. A neutral
-// direction of the system (a free rigid rotation) makes M - I singular: the step of least norm is taken.
+// With p pieces (multiple shooting) the orbit is cut at s_i = i n T / p and the states y_i are sought together,
+//
+//   F_i = phi(s_i -> s_i+1)(y_i) - y_i+1 ,   M_i d_i - d_i+1 = -F_i ,   M = M_p-1 ... M_0                     [A-shoot]
+//
+// Limits: tangents may not grow beyond 1e8 over a piece. A neutral direction of the system (a free rigid rotation)
+// makes M - I singular: the step of least norm is taken. Source of both: R. Seydel, Practical Bifurcation and Stability
+// Analysis, 3rd ed., ch. 7.
 #pragma once
 
-#include <functional>
+#include <complex>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +29,7 @@ namespace epicyclic::analysis {
 struct OrbitOptions {
   int iterations = 12;
   double residual = 1e-11;  ///< max |F| that ends the iteration, in the units of the state
+  int pieces = 1;
 };
 
 /// What the iteration came to.
@@ -37,20 +44,38 @@ enum class OrbitOutcome {
 struct PeriodicOrbit {
   OrbitOutcome outcome = OrbitOutcome::not_converged;
   std::vector<double> state;
-  Eigen::MatrixXd monodromy;      ///< M at `state`
-  std::vector<double> residuals;  ///< max |F|, one per iteration
-  std::string message;            ///< empty if converged
+  Eigen::MatrixXd monodromy;            ///< M at `state`
+  std::vector<Eigen::MatrixXd> pieces;  ///< M_i of the pieces, in the order of s
+  std::vector<double> residuals;        ///< max |F|, one per iteration
+  std::string message;                  ///< empty if converged
 
   [[nodiscard]] bool found() const { return outcome == OrbitOutcome::converged || outcome == OrbitOutcome::stalled; }
 };
 
 /// @param start  near the orbit
 /// @param n      its period in periods of the forcing
+/// @throws DomainError for n < 1 or fewer than one piece
 [[nodiscard]] PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double> start, int n,
                                                 const OrbitOptions& options = {});
 
 /// Largest modulus of the orbit's Floquet multipliers, the eigenvalues of its monodromy.
 [[nodiscard]] double largest_multiplier(const PeriodicOrbit& orbit);
+
+/// Floquet multipliers, by falling modulus, with what is known of their errors.
+struct Multipliers {
+  std::vector<std::complex<double>> values;
+  std::vector<double> errors;     ///< distance from the nearest one of a second estimate, one each
+  std::vector<int> multiplicity;  ///< of each: those that its error cannot tell from it, itself included
+  std::size_t critical = 0;       ///< the one nearest to the unit circle
+
+  /// Of the critical one from the unit circle; positive inside.
+  [[nodiscard]] double margin() const { return 1.0 - std::abs(values[critical]); }
+  /// All inside the unit circle by more than their errors.
+  [[nodiscard]] bool stable() const;
+};
+
+/// @param orbit, second  the same orbit twice, from two tolerances or two subdivisions
+[[nodiscard]] Multipliers floquet_multipliers(const PeriodicOrbit& orbit, const PeriodicOrbit& second);
 
 /// The orbit of a slightly different map phi' near one that is known: y' = y + (I - M)^-1 (phi'_n(y') - y'), iterated
 /// with the M of the known one. For the orbit that a coarser integrator sees.

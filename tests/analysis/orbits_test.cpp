@@ -6,6 +6,7 @@
 #include <complex>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
@@ -95,6 +96,80 @@ TEST(PeriodicOrbit, ACoarseMethodsOrbitIsDisplacedByItsOwnError) {
   const double left = std::hypot(displaced[0] - settled[0], displaced[1] - settled[1]);
   EXPECT_GT(moved, 1e-8);
   EXPECT_LT(left, 0.05 * moved);
+}
+
+TEST(MultipleShooting, FindsTheSameOrbitInAnyNumberOfPieces) {
+  // Duffing's orbit of period 2, and the clearance oscillator's across its kinks.
+  for (const auto& [field, near, n] : {std::tuple{problems::duffing(0.3, -1.0, 0.28, 1.2), std::array{0.5, 0.0}, 2},
+                                       std::tuple{problems::clearance_oscillator(0.85), std::array{0.9, -0.1}, 1}}) {
+    // Kinks leave errors of 1e-5 in tangents that are not controlled, at a tolerance of 1e-13.
+    integrate::IntegratorOptions controlled = tight();
+    controlled.tangent_error_control = true;
+    const auto flow = integrate::make_flow(field, controlled);
+    std::vector<double> y(near.begin(), near.end());
+    for (int k = 0; k < 200; ++k) ASSERT_TRUE(flow->evolve(y, 0.0, field.period).reached());
+    const PeriodicOrbit one = find_periodic_orbit(*flow, y, n);
+    ASSERT_TRUE(one.found()) << one.message;
+    for (const int pieces : {2, 3, 7}) {
+      const PeriodicOrbit many = find_periodic_orbit(*flow, y, n, {.pieces = pieces});
+      ASSERT_TRUE(many.found()) << many.message;
+      EXPECT_EQ(many.pieces.size(), static_cast<std::size_t>(pieces));
+      EXPECT_NEAR(many.state[0], one.state[0], 1e-10);
+      EXPECT_NEAR(many.state[1], one.state[1], 1e-10);
+      EXPECT_LT((many.monodromy - one.monodromy).cwiseAbs().maxCoeff(), 1e-9);
+    }
+  }
+}
+
+TEST(MultipleShooting, HoldsAnOrbitThatSingleShootingLoses) {
+  // Duffing's orbit of period 1 beside chaos, taken 12 times: its tangents grow beyond 1e4, and a start that is a
+  // hundredth off is far away after 12 periods; in pieces it never is.
+  const auto flow = integrate::make_flow(problems::duffing(0.3, -1.0, 0.5, 1.2), tight(1e-12));
+  const std::array<double, 2> rough = {0.4, 0.3};
+  const PeriodicOrbit once = find_periodic_orbit(*flow, rough, 1, {.iterations = 40});
+  ASSERT_TRUE(once.found()) << once.message;
+  ASSERT_GT(largest_multiplier(once), 1.5);
+  std::vector<double> off = once.state;
+  off[0] += 1e-4;
+  const PeriodicOrbit pieces = find_periodic_orbit(*flow, off, 8, {.iterations = 30, .pieces = 32});
+  ASSERT_TRUE(pieces.found()) << pieces.message;
+  // An orbit of period 8, of which the one of period 1 is the nearest.
+  EXPECT_LT(pieces.residuals.back(), 1e-9);
+}
+
+TEST(Multipliers, OfDuffingsFlipWithTheirErrors) {
+  const integrate::VectorField field = problems::duffing(0.3, -1.0, 0.2655817861, 1.2);
+  const std::array<double, 2> near = {0.42, 0.31};
+  const auto fine = integrate::make_flow(field, tight(1e-13));
+  const auto coarse = integrate::make_flow(field, tight(1e-11));
+  const PeriodicOrbit orbit = find_periodic_orbit(*fine, near, 1);
+  const Multipliers m = floquet_multipliers(orbit, find_periodic_orbit(*coarse, near, 1));
+  EXPECT_EQ(m.critical, 0U);
+  EXPECT_NEAR(m.values[0].real(), -1.0, 1e-8);
+  EXPECT_EQ(m.values[0].imag(), 0.0);
+  // Their product is exp(-0.3 * 2 pi / 1.2).
+  EXPECT_NEAR((m.values[0] * m.values[1]).real(), std::exp(-0.3 * field.period), 1e-10);
+  for (const double e : m.errors) EXPECT_LT(e, 1e-6);
+  EXPECT_EQ(m.multiplicity, (std::vector<int>{1, 1}));
+  EXPECT_LT(std::abs(m.margin()), 1e-7);
+}
+
+TEST(Multipliers, EqualOnesAreCountedTogether) {
+  // Three uncoupled, equal oscillators: each multiplier three times.
+  const auto field = integrate::make_field(6, 6.283185307179586, [](std::size_t, double s, const auto* y, auto* d) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      d[2 * i] = y[2 * i + 1];
+      d[2 * i + 1] = -0.4 * y[2 * i + 1] - 1.7 * y[2 * i] + std::cos(s);
+    }
+  });
+  const auto fine = integrate::make_flow(field, tight(1e-12));
+  const auto coarse = integrate::make_flow(field, tight(1e-10));
+  const std::vector<double> zero(6, 0.0);
+  const Multipliers m = floquet_multipliers(find_periodic_orbit(*fine, zero, 1), find_periodic_orbit(*coarse, zero, 1));
+  ASSERT_EQ(m.values.size(), 6U);
+  EXPECT_EQ(m.multiplicity, (std::vector<int>{3, 3, 3, 3, 3, 3}));
+  for (const auto& v : m.values) EXPECT_NEAR(std::abs(v), std::exp(-0.2 * field.period), 1e-8);
+  EXPECT_TRUE(m.stable());
 }
 
 TEST(LargestExponent, OfChaoticDuffingIsThePublishedOne) {

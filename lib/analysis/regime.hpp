@@ -1,0 +1,75 @@
+// What kind of motion a periodically forced flow settles to, told by evidence.
+//
+// The state is carried on in looks. A look records a stroboscopic section and asks, in this order:
+//
+//   periodic       a candidate n from recurrence [A-rec]; Newton's method finds an orbit y* of period n [A-orbit], all
+//   its
+//                  multipliers are inside the unit circle, and the motion is already drawn to it,
+//                  | (y_n - y*) - M (y_0 - y*) | <= | y_0 - y* | / 10                                       [A-settled]
+//                  which is the proof: nothing but time is then between the motion and the orbit
+//   chaotic        the largest exponent is positive by its interval [A-lyap], and the 0-1 test agrees
+//   quasiperiodic  tangent vectors neither grow nor shrink by more than e^2 over the last half of the look, the
+//   exponent's
+//                  interval holds 0 or that growth is no more than linear, and the 0-1 test says regular
+//
+// If none of these holds the transient was too short or the look was: the next look is twice as long. When the budget
+// is spent the motion is undecided, and the evidence says what was seen. So a transient ends when the motion has
+// settled, not after a number of periods that somebody thought of.
+//
+// Limits: a chaotic transient that outlives the budget is called chaotic; a periodic orbit that loses its stability at
+// this very parameter is undecided; a system without forcing may be given a period of its own choice, and its limit
+// cycles then are quasiperiodic.
+#pragma once
+
+#include <complex>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/periodic_orbit.hpp"
+#include "analysis/poincare.hpp"
+#include "analysis/statistics.hpp"
+#include "integrate/flow.hpp"
+
+namespace epicyclic::analysis {
+
+enum class Regime { periodic, quasiperiodic, chaotic, undecided };
+[[nodiscard]] std::string to_string(Regime regime);
+
+struct RegimeOptions {
+  int look = 64;               ///< periods of the first look
+  int budget = 8192;           ///< periods of all looks together
+  int longest_period = 16;     ///< largest n that is tried
+  double near = 0.1;           ///< a recurrence error above this part of the section's extent makes no candidate [-]
+  double residual = 1e-9;      ///< of the orbit, that counts as found, in parts of the section's extent or 1 [-]
+  std::size_t observable = 0;  ///< component of the state that the 0-1 test looks at
+};
+
+/// What the decision rests on.
+struct Evidence {
+  int periods = 0;        ///< of the forcing, looked at altogether
+  Recurrence recurrence;  ///< of the last look
+  double residual = 0;    ///< of the orbit, if there is one
+  double largest_multiplier = 0;
+  Estimate exponent;       ///< largest, per unit of s: measured, or log of the multiplier over the period
+  double late_growth = 0;  ///< log growth of a tangent vector over the last half of the last look
+  double zero_one = 0;     ///< K of the last look; 0 if it was not asked
+  std::string note;        ///< in words
+};
+
+struct Classification {
+  Regime regime = Regime::undecided;
+  int period = 0;                      ///< n, if periodic
+  std::optional<PeriodicOrbit> orbit;  ///< if periodic
+  Evidence evidence;
+  integrate::Evolution evolution;  ///< if it was not reached there is no regime
+};
+
+/// @param state  replaced by the last state
+/// @throws DomainError when the flow's field has no period, or options are out of range
+[[nodiscard]] Classification classify(integrate::Flow& flow, std::span<double> state, const RegimeOptions& options,
+                                      const std::function<bool()>& go_on);
+
+}  // namespace epicyclic::analysis

@@ -1,0 +1,70 @@
+#include "analysis/zero_one_test.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gsl/gsl_statistics_double.h>
+
+#include "core/errors.hpp"
+
+namespace epicyclic::analysis {
+
+namespace {
+
+/// K_c of a series of mean `mean`.
+double growth_of_walk(std::span<const double> series, double mean, double c) {
+  const std::size_t size = series.size();
+  const std::size_t longest = size / 10;
+  std::vector<double> p(size + 1, 0.0);
+  std::vector<double> q(size + 1, 0.0);
+  for (std::size_t j = 0; j < size; ++j) {
+    const double angle = static_cast<double>(j + 1) * c;
+    p[j + 1] = p[j] + series[j] * std::cos(angle);
+    q[j + 1] = q[j] + series[j] * std::sin(angle);
+  }
+  std::vector<double> steps;
+  std::vector<double> displacement;
+  const std::size_t starts = size - longest;
+  for (std::size_t n = 1; n <= longest; ++n) {
+    double sum = 0.0;
+    for (std::size_t j = 1; j <= starts; ++j) {
+      const double dp = p[j + n] - p[j];
+      const double dq = q[j + n] - q[j];
+      sum += dp * dp + dq * dq;
+    }
+    const double step = static_cast<double>(n);
+    steps.push_back(step);
+    displacement.push_back(sum / static_cast<double>(starts) -
+                           mean * mean * (1.0 - std::cos(step * c)) / (1.0 - std::cos(c)));
+  }
+  return gsl_stats_correlation(steps.data(), 1, displacement.data(), 1, steps.size());
+}
+
+}  // namespace
+
+double zero_one_test(std::span<const double> series, double noise, int angles) {
+  constexpr std::size_t least = 100;
+  if (series.size() < least)
+    throw DomainError("the 0-1 test of " + std::to_string(series.size()) + " points is asked for, at least " +
+                      std::to_string(least) + " are needed");
+  if (angles < 1) throw DomainError("the 0-1 test with " + std::to_string(angles) + " angles is asked for");
+  const auto [low, high] = std::minmax_element(series.begin(), series.end());
+  if (*high - *low <= noise) return 0.0;
+  // In parts of its range about its mean: the walk of a large constant would drown what moves.
+  std::vector<double> phi(series.begin(), series.end());
+  const double mean = gsl_stats_mean(phi.data(), 1, phi.size());
+  for (double& x : phi) x = (x - mean) / (*high - *low);
+  const double rest = gsl_stats_mean(phi.data(), 1, phi.size());
+  std::vector<double> k;
+  for (int i = 0; i < angles; ++i) {
+    const double fraction = std::fmod((i + 0.5) * (std::numbers::phi - 1.0), 1.0);
+    k.push_back(growth_of_walk(phi, rest, std::numbers::pi * (0.2 + 0.6 * fraction)));
+  }
+  std::sort(k.begin(), k.end());
+  return gsl_stats_median_from_sorted_data(k.data(), 1, k.size());
+}
+
+}  // namespace epicyclic::analysis

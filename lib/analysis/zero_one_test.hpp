@@ -1,0 +1,26 @@
+// The 0-1 test for chaos: a vote that looks at a series alone, not at the equations.
+//
+//   p_c(n) = sum_{j<=n} phi_j cos jc ,   q_c(n) = sum_{j<=n} phi_j sin jc
+//   M_c(n) = mean_j [ (p_c(j+n) - p_c(j))^2 + (q_c(j+n) - q_c(j))^2 ]
+//   D_c(n) = M_c(n) - mean(phi)^2 (1 - cos nc) / (1 - cos c)
+//   K_c = correlation of n and D_c(n) , n = 1 .. N/10 ;   K = median over c in (pi/5, 4 pi/5)               
+//
+// K is near 1 for chaos, where p and q walk like Brownian motion, and near 0 for periodic and quasiperiodic series,
+// where they stay bounded.
+//
+// Source: G. A. Gottwald and I. Melbourne, SIAM J. Appl. Dyn. Syst. 8 (2009) 129. Limits: weak chaos and long
+// transients give values between; the series has to be a map's (stroboscopic), not an oversampled flow's. A series that
+// does not move by more than its noise is regular, K = 0; taken for a signal, noise would walk.
+#pragma once
+
+#include <span>
+
+namespace epicyclic::analysis {
+
+/// @param series  of a stroboscopic section, 100 points at least
+/// @param noise   a range of the series up to this is none
+/// @param angles  number of values of c; they are fixed, spread evenly by the golden ratio
+/// @throws DomainError for a shorter series or fewer than one angle
+[[nodiscard]] double zero_one_test(std::span<const double> series, double noise = 0.0, int angles = 100);
+
+}  // namespace epicyclic::analysis

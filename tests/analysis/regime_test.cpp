@@ -1,0 +1,130 @@
+// Regimes of systems for which theory or exact computation says what they are.
+
+#include "analysis/regime.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/errors.hpp"
+#include "integrate/make_field.hpp"
+#include "integrate/make_flow.hpp"
+#include "problems/known_systems.hpp"
+
+namespace epicyclic::analysis {
+namespace {
+
+bool always() { return true; }
+
+Classification regime_of(const integrate::VectorField& field, std::vector<double> y, const RegimeOptions& options = {},
+                         double tolerance = 1e-10) {
+  integrate::IntegratorOptions o;
+  o.relative_tolerance = o.absolute_tolerance = tolerance;
+  const auto flow = integrate::make_flow(field, o);
+  return classify(*flow, y, options, always);
+}
+
+TEST(Regime, DuffingsCascade) {
+  // The flips of validation.md section 4 are at 0.26558, 0.28541, 0.28967: between them periods 1, 2, 4, and chaos at
+  // 0.5.
+  for (const auto& [g, period] : {std::pair{0.20, 1}, {0.26, 1}, {0.27, 2}, {0.28, 2}, {0.29, 4}, {0.37, 5}, {0.65, 2}}) {
+    const Classification c = regime_of(problems::duffing(0.3, -1.0, g, 1.2), {1.0, 0.0});
+    EXPECT_EQ(c.regime, Regime::periodic) << g << ": " << c.evidence.note;
+    EXPECT_EQ(c.period, period) << g << ": " << c.evidence.note;
+    ASSERT_TRUE(c.orbit.has_value());
+    EXPECT_LT(c.evidence.largest_multiplier, 1.0);
+    EXPECT_LT(c.evidence.residual, 1e-8);
+    EXPECT_LT(c.evidence.exponent.value, 0.0);
+  }
+  const Classification c = regime_of(problems::duffing(0.3, -1.0, 0.5, 1.2), {1.0, 0.0});
+  EXPECT_EQ(c.regime, Regime::chaotic) << c.evidence.note;
+  EXPECT_GT(c.evidence.exponent.low(), 0.0);
+  EXPECT_GT(c.evidence.zero_one, 0.5);
+}
+
+TEST(Regime, ASlowTransientIsProvenBeforeItIsOver) {
+  // A linear oscillator of damping 1e-3: after 64 periods e^-0.4 of its start is left, and the orbit is known.
+  const auto field =
+      integrate::make_field(2, 2.0 * std::numbers::pi, [](std::size_t, double s, const auto* y, auto* d) {
+        d[0] = y[1];
+        d[1] = -2e-3 * y[1] - 2.0 * y[0] + std::cos(s);
+      });
+  const Classification c = regime_of(field, {5.0, 0.0});
+  EXPECT_EQ(c.regime, Regime::periodic) << c.evidence.note;
+  EXPECT_EQ(c.period, 1);
+  EXPECT_LE(c.evidence.periods, 64);
+  EXPECT_NEAR(c.evidence.largest_multiplier, std::exp(-1e-3 * field.period), 1e-8);
+  // x = cos s, to within the damping.
+  EXPECT_NEAR(c.orbit->state[0], 1.0, 1e-5);
+}
+
+TEST(Regime, ForcedVanDerPolIsATorusOrLocked) {
+  // Far from its own frequency a torus; forced hard, locked to the forcing.
+  for (const double w : {1.7, 2.3, 0.62}) {
+    const Classification c = regime_of(problems::van_der_pol(0.3, 0.4, w), {1.0, 0.0});
+    EXPECT_EQ(c.regime, Regime::quasiperiodic) << w << ": " << c.evidence.note;
+    EXPECT_LT(std::abs(c.evidence.exponent.value), 0.02);
+  }
+  for (const double w : {0.9, 1.0, 1.1}) {
+    const Classification c = regime_of(problems::van_der_pol(0.3, 3.0, w), {1.0, 0.0});
+    EXPECT_EQ(c.regime, Regime::periodic) << w << ": " << c.evidence.note;
+    EXPECT_EQ(c.period, 1);
+  }
+}
+
+TEST(Regime, TheClearanceOscillatorIsPeriodic) {
+  for (const double w : {0.5, 0.7, 0.85, 1.0, 1.3}) {
+    const Classification c = regime_of(problems::clearance_oscillator(w), {1.1, 0.0});
+    EXPECT_EQ(c.regime, Regime::periodic) << w << ": " << c.evidence.note;
+  }
+}
+
+TEST(Regime, LorenzSeenOnceInAWhileIsChaotic) {
+  integrate::VectorField field = problems::lorenz();
+  field.period = 1.0;
+  const Classification c = regime_of(field, {1.0, 1.0, 20.0});
+  EXPECT_EQ(c.regime, Regime::chaotic) << c.evidence.note;
+  EXPECT_NEAR(c.evidence.exponent.value, 0.9053, c.evidence.exponent.half_width + 0.05);
+}
+
+TEST(Regime, AnEscapeHasNone) {
+  const auto field =
+      integrate::make_field(1, 1.0, [](std::size_t, double, const auto* y, auto* d) { d[0] = y[0] * y[0]; });
+  const Classification c = regime_of(field, {1.0});
+  EXPECT_FALSE(c.evolution.reached());
+  EXPECT_EQ(c.regime, Regime::undecided);
+}
+
+TEST(Regime, WithinASmallBudgetItSaysThatItDoesNotKnow) {
+  RegimeOptions options;
+  options.budget = 64;
+  const Classification c = regime_of(problems::duffing(0.3, -1.0, 0.5, 1.2), {1.0, 0.0}, options);
+  EXPECT_EQ(c.regime, Regime::undecided);
+  EXPECT_EQ(c.evidence.periods, 64);
+  EXPECT_FALSE(c.evidence.note.empty());
+}
+
+TEST(Regime, StopsWhenTold) {
+  const auto flow = integrate::make_flow(problems::duffing(0.3, -1.0, 0.5, 1.2), {});
+  std::vector<double> y = {1.0, 0.0};
+  int left = 10;
+  const Classification c = classify(*flow, y, {}, [&] { return left-- > 0; });
+  EXPECT_EQ(c.regime, Regime::undecided);
+  EXPECT_EQ(c.evidence.periods, 10);
+}
+
+TEST(Regime, RefusesOptionsOutOfRange) {
+  EXPECT_THROW((void)regime_of(problems::lorenz(), {1.0, 1.0, 20.0}), DomainError);
+  RegimeOptions options;
+  options.look = 8;
+  EXPECT_THROW((void)regime_of(problems::duffing(0.3, -1.0, 0.2, 1.2), {1.0, 0.0}, options), DomainError);
+  options = {};
+  options.observable = 2;
+  EXPECT_THROW((void)regime_of(problems::duffing(0.3, -1.0, 0.2, 1.2), {1.0, 0.0}, options), DomainError);
+}
+
+}  // namespace
+}  // namespace epicyclic::analysis
