@@ -111,8 +111,8 @@ class Classifier {
     if (!orbit.found()) return false;
     const double multiplier = largest_multiplier(orbit);
     const std::string name = "orbit of period " + std::to_string(n);
-    if (!(multiplier < 1.0)) {
-      seen.note = "the " + name + " near by is unstable (multiplier " + short_text(multiplier) + ")";
+    if (!(multiplier < 1.0 - options_.neutral)) {
+      seen.note = "the " + name + " near by does not attract (multiplier " + short_text(multiplier) + ")";
       return false;
     }
     // [A-settled], with the motion's own points.

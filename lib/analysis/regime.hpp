@@ -4,9 +4,9 @@
 //
 //   periodic       a candidate n from recurrence [A-rec]; Newton's method finds an orbit y* of period n [A-orbit], all
 //   its
-//                  multipliers are inside the unit circle, and the motion is already drawn to it,
-//                  | (y_n - y*) - M (y_0 - y*) | <= | y_0 - y* | / 10                                       [A-settled]
-//                  which is the proof: nothing but time is then between the motion and the orbit
+//                  multipliers are inside the unit circle by more than `neutral`, and the motion is already drawn to
+//                  it, | (y_n - y*) - M (y_0 - y*) | <= | y_0 - y* | / 10 [A-settled] which is the proof: nothing but
+//                  time is then between the motion and the orbit
 //   chaotic        the largest exponent is positive by its interval [A-lyap], and the 0-1 test agrees
 //   quasiperiodic  tangent vectors neither grow nor shrink by more than e^2 over the last half of the look, the
 //   exponent's
@@ -44,6 +44,7 @@ struct RegimeOptions {
   int longest_period = 16;     ///< largest n that is tried
   double near = 0.1;           ///< a recurrence error above this part of the section's extent makes no candidate [-]
   double residual = 1e-9;      ///< of the orbit, that counts as found, in parts of the section's extent or 1 [-]
+  double neutral = 1e-6;       ///< a multiplier's modulus this near to 1 attracts nothing: errors could put it outside
   std::size_t observable = 0;  ///< component of the state that the 0-1 test looks at
 };
 

@@ -83,15 +83,13 @@ class Examiner {
             return;
           }
         }
-      } else {
-        if (known.course.chaotic()) {
-          const Course theirs = follow(point, variants_[c.variant], c.result.end_state, briefly);
-          if (theirs.chaotic()) {
-            c.distance = nan;
-            c.detail = "both chaotic, largest exponents " + text_of(known.course.exponent) + " and " +
-                       text_of(theirs.exponent);
-            return;
-          }
+      } else if (known.course.chaotic()) {
+        const Course theirs = follow(point, variants_[c.variant], c.result.end_state, briefly);
+        if (theirs.chaotic()) {
+          c.distance = nan;
+          c.detail =
+              "both chaotic, largest exponents " + text_of(known.course.exponent) + " and " + text_of(theirs.exponent);
+          return;
         }
       }
     }

@@ -7,7 +7,8 @@
 //   [A-cross]
 //
 // A difference is explained by continuing one answer with the other method, and by computing again with tightened
-// tolerances or with the reference's smoothing; see Verdict. Each of these is the same computation, so that an
+// tolerances or with the reference's smoothing; where that leaves it open both are followed over thousands of periods,
+// for chaos, a torus, or the orbits that they come to at last; see Verdict. Each of these is a computation, so that an
 // explanation is a measurement and not a guess.
 #pragma once
 

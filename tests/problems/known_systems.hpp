@@ -67,11 +67,11 @@ inline integrate::VectorField jumping(bool declared) {
   });
 }
 
-/// Lorenz's equations at 10, 28, 8/3; without a period. Divergence -41/3 everywhere.
-inline integrate::VectorField lorenz() {
-  return integrate::make_field(3, 0.0, [](std::size_t, double, const auto* y, auto* d) {
+/// Lorenz's equations at 10, r, 8/3; without a period. Divergence -41/3 everywhere.
+inline integrate::VectorField lorenz(double r = 28.0) {
+  return integrate::make_field(3, 0.0, [r](std::size_t, double, const auto* y, auto* d) {
     d[0] = 10.0 * (y[1] - y[0]);
-    d[1] = y[0] * (28.0 - y[2]) - y[1];
+    d[1] = y[0] * (r - y[2]) - y[1];
     d[2] = y[0] * y[1] - 8.0 / 3.0 * y[2];
   });
 }
