@@ -2,15 +2,15 @@
 //
 // The state is carried on in looks. A look records a stroboscopic section and asks, in this order:
 //
-//   periodic       a candidate n from recurrence [A-rec]; Newton's method finds an orbit y* of period n [A-orbit], all
-//   its
-//                  multipliers are inside the unit circle by more than `neutral`, and the motion is already drawn to
-//                  it, | (y_n - y*) - M (y_0 - y*) | <= | y_0 - y* | / 10 [A-settled] which is the proof: nothing but
-//                  time is then between the motion and the orbit
-//   chaotic        the largest exponent is positive by its interval [A-lyap], and the 0-1 test agrees
-//   quasiperiodic  tangent vectors neither grow nor shrink by more than e^2 over the last half of the look, the
-//   exponent's
-//                  interval holds 0 or that growth is no more than linear, and the 0-1 test says regular
+// - periodic: recurrence [A-rec] names a candidate n; Newton's method finds an orbit y* of period n [A-orbit]; all its
+//   multipliers are inside the unit circle by more than `neutral`; and the motion is already drawn to it,
+//
+//     | (y_n - y*) - M (y_0 - y*) | <= | y_0 - y* | / 10                                              [A-settled]
+//
+//   which is the proof: nothing but time is then between the motion and the orbit.
+// - chaotic: the largest exponent is positive by its interval [A-lyap], and the 0-1 test agrees.
+// - quasiperiodic: over the last half of a long look tangent vectors neither grow nor shrink by more than e^2, as
+//   beside a torus, and the 0-1 test says regular.
 //
 // If none of these holds the transient was too short or the look was: the next look is twice as long. When the budget
 // is spent the motion is undecided, and the evidence says what was seen. So a transient ends when the motion has
@@ -21,7 +21,7 @@
 // cycles then are quasiperiodic.
 #pragma once
 
-#include <complex>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <span>
@@ -43,7 +43,7 @@ struct RegimeOptions {
   int budget = 8192;           ///< periods of all looks together
   int longest_period = 16;     ///< largest n that is tried
   double near = 0.1;           ///< a recurrence error above this part of the section's extent makes no candidate [-]
-  double residual = 1e-9;      ///< of the orbit, that counts as found, in parts of the section's extent or 1 [-]
+  double residual = 1e-9;      ///< of the orbit, that counts as found, in parts of the largest component seen [-]
   double neutral = 1e-6;       ///< a multiplier's modulus this near to 1 attracts nothing: errors could put it outside
   std::size_t observable = 0;  ///< component of the state that the 0-1 test looks at
 };
