@@ -1,8 +1,7 @@
 #include "analysis/lyapunov.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <memory>
+#include <numeric>
 #include <string>
 
 #include <Eigen/QR>
@@ -36,6 +35,11 @@ LargestExponent largest_exponent(integrate::Flow& flow, std::span<double> state,
   result.per_s.value /= period;
   result.per_s.half_width /= period;
   return result;
+}
+
+double late_growth(std::span<const double> growth) {
+  const std::span<const double> half = growth.subspan(growth.size() / 2);
+  return std::accumulate(half.begin(), half.end(), 0.0);
 }
 
 std::vector<double> LyapunovSpectrum::history(std::size_t i) const {

@@ -34,6 +34,13 @@ struct LargestExponent {
                                                const LyapunovOptions& options, const integrate::Observer& observer,
                                                const std::function<bool()>& go_on);
 
+/// Log growth of the tangent vector over the last half of a record g_k.
+[[nodiscard]] double late_growth(std::span<const double> growth);
+
+/// Up to this much, either way, it is no growth: beside a torus vectors part linearly in time, by log 2 in the last
+/// half, and the torus' waves need some room; an exponent of 0.001 per unit of time exceeds it in 2000 units.
+inline constexpr double neutral_growth = 2.0;
+
 /// m exponents from m tangent vectors, orthonormalised after each interval T:
 ///
 ///   V(s_k + T) = Q_k R_k ,   V <- Q_k ,   g_ik = log | R_ii |

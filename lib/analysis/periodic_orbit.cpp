@@ -115,7 +115,7 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
   }
   double best = std::numeric_limits<double>::infinity();
   for (int k = 0; k < options.iterations; ++k) {
-    Shooting at = shoot(flow, y, n);
+    const Shooting at = shoot(flow, y, n);
     if (!at.evolution.reached()) {
       orbit.outcome = OrbitOutcome::not_reached;
       orbit.message = at.evolution.message;
@@ -124,13 +124,12 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
     const double residual = at.residual.lpNorm<Eigen::Infinity>();
     orbit.residuals.push_back(residual);
     const bool falls = residual < 0.5 * best;
-    const Eigen::MatrixXd step = newton_step(at);
     if (residual < best) {
       best = residual;
       std::copy_n(y.data(), orbit.state.size(), orbit.state.begin());
       orbit.monodromy = at.pieces[0];
       for (std::size_t i = 1; i < at.pieces.size(); ++i) orbit.monodromy = at.pieces[i] * orbit.monodromy;
-      orbit.pieces = std::move(at.pieces);
+      orbit.pieces = at.pieces;
     }
     if (residual <= options.residual) {
       orbit.outcome = OrbitOutcome::converged;
@@ -146,7 +145,7 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
     constexpr int patience = 4;
     constexpr double gain = 0.1;
     if (k + 1 >= patience && best > gain * orbit.residuals.front()) break;
-    y += step;
+    y += newton_step(at);
   }
   orbit.outcome = best <= std::sqrt(options.residual) ? OrbitOutcome::stalled : OrbitOutcome::not_converged;
   orbit.message =

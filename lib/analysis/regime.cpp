@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "analysis/lyapunov.hpp"
 #include "analysis/zero_one_test.hpp"
@@ -15,8 +14,6 @@ namespace epicyclic::analysis {
 
 namespace {
 
-/// Beside a torus vectors part linearly, by a factor of 2 in the last half; a little more is left to its waves.
-constexpr double neutral_growth = 2.0;
 /// Votes of the 0-1 test. Between them it abstains.
 constexpr double regular_vote = 0.3;
 constexpr double chaotic_vote = 0.5;
@@ -75,25 +72,21 @@ class Classifier {
     result_.evidence.periods += static_cast<int>(e.growth.size());
     growth_ = std::move(e.growth);
     if (!result_.evolution.reached() || growth_.size() < static_cast<std::size_t>(periods)) return false;
-    result_.evidence.recurrence = recurrence(section_, options_.longest_period, options_.residual * scale());
+    scale_ = std::numeric_limits<double>::min();
+    for (const double x : section_.states) scale_ = std::max(scale_, std::abs(x));
+    result_.evidence.recurrence = recurrence(section_, options_.longest_period, options_.residual * scale_);
     return true;
   }
 
-  [[nodiscard]] double scale() const {
-    double largest = 0.0;
-    for (const double x : section_.states) largest = std::max(largest, std::abs(x));
-    return std::max(largest, std::numeric_limits<double>::min());
-  }
-
   /// What an integrator may leave of an orbit.
-  [[nodiscard]] double noise() const { return 1e3 * options_.residual * scale(); }
+  [[nodiscard]] double noise() const { return 1e3 * options_.residual * scale_; }
 
   bool is_periodic() {
     const Recurrence& r = result_.evidence.recurrence;
     const double wide = extent(section_);
-    const int n = r.period > 0                                                         ? r.period
-                  : r.error <= options_.near * wide || wide <= options_.near * scale() ? r.best_period
-                                                                                       : 0;
+    const int n = r.period > 0                                                        ? r.period
+                  : r.error <= options_.near * wide || wide <= options_.near * scale_ ? r.best_period
+                                                                                      : 0;
     if (n == 0) return false;
     // Smaller periods that nearly recur, too, come first: an orbit of period 1 recurs after 2.
     for (int d = 1; d <= n; ++d)
@@ -105,7 +98,7 @@ class Classifier {
     Evidence& seen = result_.evidence;
     const auto last = section_.point(section_.size() - 1);
     OrbitOptions o;
-    o.residual = options_.residual * scale();
+    o.residual = options_.residual * scale_;
     PeriodicOrbit orbit = find_periodic_orbit(flow_, last, n, o);
     flow_.forget();
     if (!orbit.found()) return false;
@@ -147,8 +140,7 @@ class Classifier {
     seen.exponent = batch_mean(counted);
     seen.exponent.value /= flow_.field().period;
     seen.exponent.half_width /= flow_.field().period;
-    const auto half = static_cast<std::ptrdiff_t>(growth_.size() / 2);
-    seen.late_growth = std::accumulate(growth_.begin() + half, growth_.end(), 0.0);
+    seen.late_growth = late_growth(growth_);
     constexpr std::size_t enough = 250;  // for the 0-1 test
     if (series_.size() < enough) return false;
     seen.zero_one = zero_one_test(series_, noise());
@@ -175,6 +167,7 @@ class Classifier {
   const std::function<bool()>& go_on_;
   Classification result_;
   PoincareSection section_;
+  double scale_ = 0;  ///< largest component of the section
   std::vector<double> growth_;
   std::vector<double> series_;
 };

@@ -14,8 +14,8 @@ namespace epicyclic::analysis {
 
 namespace {
 
-/// K_c of a series of mean `mean`.
-double growth_of_walk(std::span<const double> series, double mean, double c) {
+/// K_c of a series of mean 0.
+double growth_of_walk(std::span<const double> series, double c) {
   const std::size_t size = series.size();
   const std::size_t longest = size / 10;
   std::vector<double> p(size + 1, 0.0);
@@ -35,10 +35,8 @@ double growth_of_walk(std::span<const double> series, double mean, double c) {
       const double dq = q[j + n] - q[j];
       sum += dp * dp + dq * dq;
     }
-    const double step = static_cast<double>(n);
-    steps.push_back(step);
-    displacement.push_back(sum / static_cast<double>(starts) -
-                           mean * mean * (1.0 - std::cos(step * c)) / (1.0 - std::cos(c)));
+    steps.push_back(static_cast<double>(n));
+    displacement.push_back(sum / static_cast<double>(starts));
   }
   return gsl_stats_correlation(steps.data(), 1, displacement.data(), 1, steps.size());
 }
@@ -57,11 +55,10 @@ double zero_one_test(std::span<const double> series, double noise, int angles) {
   std::vector<double> phi(series.begin(), series.end());
   const double mean = gsl_stats_mean(phi.data(), 1, phi.size());
   for (double& x : phi) x = (x - mean) / (*high - *low);
-  const double rest = gsl_stats_mean(phi.data(), 1, phi.size());
   std::vector<double> k;
   for (int i = 0; i < angles; ++i) {
     const double fraction = std::fmod((i + 0.5) * (std::numbers::phi - 1.0), 1.0);
-    k.push_back(growth_of_walk(phi, rest, std::numbers::pi * (0.2 + 0.6 * fraction)));
+    k.push_back(growth_of_walk(phi, std::numbers::pi * (0.2 + 0.6 * fraction)));
   }
   std::sort(k.begin(), k.end());
   return gsl_stats_median_from_sorted_data(k.data(), 1, k.size());

@@ -2,11 +2,11 @@
 //
 //   p_c(n) = sum_{j<=n} phi_j cos jc ,   q_c(n) = sum_{j<=n} phi_j sin jc
 //   M_c(n) = mean_j [ (p_c(j+n) - p_c(j))^2 + (q_c(j+n) - q_c(j))^2 ]
-//   D_c(n) = M_c(n) - mean(phi)^2 (1 - cos nc) / (1 - cos c)
-//   K_c = correlation of n and D_c(n) , n = 1 .. N/10 ;   K = median over c in (pi/5, 4 pi/5)               
+//   K_c = correlation of n and M_c(n) , n = 1 .. N/10 ;   K = median over c in (pi/5, 4 pi/5)               
 //
-// K is near 1 for chaos, where p and q walk like Brownian motion, and near 0 for periodic and quasiperiodic series,
-// where they stay bounded.
+// phi is taken about its mean, so that the oscillating term that the source subtracts from M_c, mean(phi)^2 (1 - cos
+// nc) / (1 - cos c), is nothing. K is near 1 for chaos, where p and q walk like Brownian motion, and near 0 for
+// periodic and quasiperiodic series, where they stay bounded.
 //
 // Source: G. A. Gottwald and I. Melbourne, SIAM J. Appl. Dyn. Syst. 8 (2009) 129. Limits: weak chaos and long
 // transients give values between; the series has to be a map's (stroboscopic), not an oversampled flow's. A series that

@@ -43,9 +43,8 @@ struct Course {
   std::vector<double> state;          ///< the last one; empty if it was not reached
 
   [[nodiscard]] bool chaotic() const { return exponent.low() > 0.0; }
-  /// Nearby motions neither part nor meet, up to a factor of e^2: beside a torus they part linearly in time, by a
-  /// factor of 2 in the last half; by an exponent as small as 0.001 per tau they part by more.
-  [[nodiscard]] bool neutral() const { return !state.empty() && std::abs(late_growth) <= 2.0; }
+  /// Nearby motions neither part nor meet.
+  [[nodiscard]] bool neutral() const { return !state.empty() && std::abs(late_growth) <= analysis::neutral_growth; }
 };
 
 /// What is known of the reference's motion besides its record.
@@ -118,9 +117,8 @@ class Examiner {
     if (a.recurrence.period > 0 && a.recurrence.period == b.recurrence.period) return orbit_distance(a, b, n);
     double most = 0.0;
     for (std::size_t r = 0; r < std::min(a.poincare_rows(), b.poincare_rows()); ++r)
-      for (std::size_t j = 0; j < n; ++j)
-        most =
-            std::max(most, std::abs(a.poincare[r * a.poincare_columns + j] - b.poincare[r * b.poincare_columns + j]));
+      most = std::max(most, largest_difference({a.poincare.data() + r * a.poincare_columns, n},
+                                               {b.poincare.data() + r * b.poincare_columns, n}));
     return most;
   }
 
@@ -281,7 +279,7 @@ class Examiner {
         [this] { return stop_ == nullptr || !stop_->load(); });
     if (!e.evolution.reached() || e.growth.size() < static_cast<std::size_t>(periods)) return course;
     course.exponent = {e.per_s.value * model.omega, e.per_s.half_width * model.omega};
-    for (std::size_t k = half; k < e.growth.size(); ++k) course.late_growth += e.growth[k];
+    course.late_growth = analysis::late_growth(e.growth);
     course.state = std::move(state);
     return course;
   }
@@ -350,7 +348,7 @@ double orbit_distance(const PointResult& a, const PointResult& b, std::size_t di
     for (std::size_t r = 0; r < n; ++r) {
       const double* x = a.poincare.data() + (last + r) * a.poincare_columns;
       const double* y = b.poincare.data() + (last + (r + shift) % n) * b.poincare_columns;
-      for (std::size_t j = 0; j < dimension; ++j) most = std::max(most, std::abs(x[j] - y[j]));
+      most = std::max(most, largest_difference({x, dimension}, {y, dimension}));
     }
     least = std::min(least, most);
   }

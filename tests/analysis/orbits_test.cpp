@@ -121,20 +121,21 @@ TEST(MultipleShooting, FindsTheSameOrbitInAnyNumberOfPieces) {
   }
 }
 
-TEST(MultipleShooting, HoldsAnOrbitThatSingleShootingLoses) {
-  // Duffing's orbit of period 1 beside chaos, taken 12 times: its tangents grow beyond 1e4, and a start that is a
-  // hundredth off is far away after 12 periods; in pieces it never is.
-  const auto flow = integrate::make_flow(problems::duffing(0.3, -1.0, 0.5, 1.2), tight(1e-12));
+TEST(MultipleShooting, HoldsAnUnstableOrbitTakenManyTimes) {
+  // Duffing's orbit of period 1 beside chaos, as one of period 8: its largest multiplier is then the eighth power.
+  const auto flow = integrate::make_flow(problems::duffing(0.3, -1.0, 0.5, 1.2), tight(1e-13));
   const std::array<double, 2> rough = {0.4, 0.3};
   const PeriodicOrbit once = find_periodic_orbit(*flow, rough, 1, {.iterations = 40});
   ASSERT_TRUE(once.found()) << once.message;
-  ASSERT_GT(largest_multiplier(once), 1.5);
+  const double multiplier = largest_multiplier(once);
+  ASSERT_GT(multiplier, 1.5);
   std::vector<double> off = once.state;
-  off[0] += 1e-4;
+  off[0] += 1e-7;
   const PeriodicOrbit pieces = find_periodic_orbit(*flow, off, 8, {.iterations = 30, .pieces = 32});
   ASSERT_TRUE(pieces.found()) << pieces.message;
-  // An orbit of period 8, of which the one of period 1 is the nearest.
-  EXPECT_LT(pieces.residuals.back(), 1e-9);
+  EXPECT_NEAR(pieces.state[0], once.state[0], 1e-9);
+  EXPECT_NEAR(pieces.state[1], once.state[1], 1e-9);
+  EXPECT_NEAR(largest_multiplier(pieces) / std::pow(multiplier, 8), 1.0, 1e-6);
 }
 
 TEST(Multipliers, OfDuffingsFlipWithTheirErrors) {

@@ -18,6 +18,7 @@
 
 #include "analysis/periodic_orbit.hpp"
 #include "core/fit.hpp"
+#include "core/largest_difference.hpp"
 #include "integrate/arkode_flow.hpp"
 #include "integrate/make_flow.hpp"
 #include "io/line_figure.hpp"
@@ -49,9 +50,7 @@ double error_of(const Problem& p, const char* method, int n) {
   const auto flow = integrate::make_arkode_fixed_step_flow(p.field, o, p.length / n);
   std::vector<double> y = p.start;
   if (!flow->evolve(y, 0.0, p.length).reached()) return std::nan("");
-  double most = 0.0;
-  for (std::size_t i = 0; i < y.size(); ++i) most = std::max(most, std::abs(y[i] - p.end[i]));
-  return most;
+  return largest_difference(y, p.end);
 }
 
 void draw(const std::string& folder, const Problem& p) {
