@@ -28,6 +28,7 @@ struct Arguments {
   bool json = false;
 };
 
+int run_command(const Arguments& arguments);
 int sweep_command(const Arguments& arguments);
 int crosscheck_command(const Arguments& arguments);
 int tolerance_command(const Arguments& arguments);

@@ -51,14 +51,18 @@ std::map<std::size_t, studies::PointResult> known_points(const std::vector<io::J
   return known;
 }
 
-void require_points(const io::LoadedInput& input, const Arguments& arguments, std::string_view command) {
-  const std::string name(command);
+void require_kind(const io::LoadedInput& input, const Arguments& arguments, std::string_view kind) {
+  const std::string file = arguments.input.string();
+  const std::string name(kind);
   if (!input.study.sweep)
-    throw InputError(arguments.input.string() + ": is a stage without a study; " + name + " needs a study of kind " +
-                     name + (name == "sweep" ? "" : " or sweep"));
-  if (input.study.kind != name && input.study.kind != "sweep")
-    throw InputError(arguments.input.string() + ": is a study of kind " + input.study.kind + "; run `epicyclic " +
-                     input.study.kind + "`");
+    throw InputError(file + ": is a stage without a study; " + name + " needs a study of kind " + name);
+  if (input.study.kind != kind)
+    throw InputError(file + ": is a study of kind " + input.study.kind + "; run `epicyclic " + input.study.kind + "`");
+}
+
+void require_points(const io::LoadedInput& input, const Arguments& arguments, std::string_view command) {
+  // Those of a sweep serve every command.
+  if (!input.study.sweep || input.study.kind != "sweep") require_kind(input, arguments, command);
 }
 
 io::Provenance provenance(int threads) {

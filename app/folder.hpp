@@ -20,6 +20,10 @@ namespace epicyclic::app {
 /// @throws InputError
 void require_points(const io::LoadedInput& input, const Arguments& arguments, std::string_view command);
 
+/// The input is a study of this very kind.
+/// @throws InputError
+void require_kind(const io::LoadedInput& input, const Arguments& arguments, std::string_view kind);
+
 /// Versions and machine, for run.json.
 [[nodiscard]] io::Provenance provenance(int threads);
 

@@ -75,6 +75,10 @@ int run(int argc, char** argv) {
   CLI::App* gear = cli.add_subcommand("gear", "teeth, contact, stiffness, friction, bearings and modes of the stage");
   with_input(gear);
   with_output(gear);
+  CLI::App* run_point =
+      cli.add_subcommand("run", "one operating point: regime, forces, spectra, exponents, orbit, figures");
+  with_input(run_point);
+  with_output(run_point);
   CLI::App* sweep = cli.add_subcommand("sweep", "bifurcation diagram along one parameter, up, down or both");
   with_input(sweep);
   with_output(sweep);
@@ -100,6 +104,7 @@ int run(int argc, char** argv) {
   }
   return guarded([&] {
     if (gear->parsed()) return gear_command(arguments);
+    if (run_point->parsed()) return run_command(arguments);
     if (sweep->parsed()) return sweep_command(arguments);
     if (tolerance->parsed()) return tolerance_command(arguments);
     if (crosscheck->parsed()) return crosscheck_command(arguments);

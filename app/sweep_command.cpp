@@ -1,6 +1,8 @@
 // epicyclic sweep: computes what is missing, journals each point, then writes tables, HDF5 and figures.
 
 #include <cstdio>
+#include <map>
+#include <string>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -85,22 +87,25 @@ int sweep_command(const Arguments& arguments) {
   const std::vector<io::DrawnFigure> figures = io::draw_sweep_figures(folder.file("figures"), output, results);
   close_run(io::RunState::complete);
 
+  std::map<std::string, std::size_t> regimes;
   std::size_t settling = 0;
-  std::size_t undecided = 0;
   for (const studies::PointResult& r : results) {
-    if (!computed(r) || r.recurrence.period > 0) continue;
-    ++undecided;
-    settling += analysis::still_settling(r.recurrence, sweep.recurrence_tolerance) ? 1 : 0;
+    if (!computed(r)) continue;
+    ++regimes[to_string(r.regime)];
+    const bool recurs_late = !r.classified && r.regime == analysis::Regime::undecided &&
+                             analysis::still_settling(r.recurrence, sweep.recurrence_tolerance);
+    settling += recurs_late ? 1 : 0;
   }
   if (settling > 0)
     fmt::print(stderr,
-               "{} of {} undecided points were still settling (recurrence_error_late below recurrence_error): a larger "
-               "/study/transient_periods, or a finer grid, decides them\n",
-               settling, undecided);
+               "{} undecided points were still settling (recurrence_error_late below recurrence_error): "
+               "/study/classification_periods > 0, or a larger /study/transient_periods, decides them\n",
+               settling);
 
   nlohmann::json summary = {{"folder", folder.path().string()},
                             {"points", plan.points.size()},
                             {"failed", failed},
+                            {"regimes", regimes},
                             {"figures", nlohmann::json::array()}};
   for (const io::DrawnFigure& figure : figures) {
     if (figure.outcome.drawn())
@@ -112,6 +117,7 @@ int sweep_command(const Arguments& arguments) {
     fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     fmt::print("{} points, {} failed, in {}\n", plan.points.size(), failed, folder.path().string());
+    for (const auto& [regime, count] : regimes) fmt::print("{}: {}\n", regime, count);
     for (const auto& figure : summary["figures"]) fmt::print("figure: {}\n", figure.get<std::string>());
   }
   return failed == 0 ? done : done_with_failures;

@@ -19,6 +19,7 @@ LargestExponent largest_exponent(integrate::Flow& flow, std::span<double> state,
   for (std::size_t i = 0; i < v.size(); ++i) v[i] = std::sin(1.0 + static_cast<double>(i) * 1.7);
   for (int k = -options.aligning_periods; k < options.periods; ++k) {
     if (!go_on()) return result;
+    if (options.project) options.project(v);
     double before = 0.0;
     for (const double x : v) before += x * x;
     for (double& x : v) x /= std::sqrt(before);
@@ -31,7 +32,7 @@ LargestExponent largest_exponent(integrate::Flow& flow, std::span<double> state,
     if (observer) observer(static_cast<std::size_t>(k), period, state);
   }
   if (result.growth.empty()) return result;
-  result.per_s = batch_mean(result.growth);
+  result.per_s = series_mean(result.growth);
   result.per_s.value /= period;
   result.per_s.half_width /= period;
   return result;
@@ -68,6 +69,7 @@ LyapunovSpectrum lyapunov_spectrum(integrate::Flow& flow, std::span<double> stat
     if (!go_on()) return result;
     // s stays small where it is a phase, and goes on where it is not.
     if (flow.field().period > 0.0) s = std::fmod(s, flow.field().period);
+    if (k >= 0 && options.begins) options.begins(s, state);
     result.evolution = flow.evolve_tangents(state, {v.data(), n * m}, s, s + interval);
     if (!result.evolution.reached()) return result;
     s += interval;
@@ -79,7 +81,7 @@ LyapunovSpectrum lyapunov_spectrum(integrate::Flow& flow, std::span<double> stat
   std::vector<double> sums(result.growth.size() / m, 0.0);
   std::vector<double> series(sums.size());
   const auto per_s = [&](const std::vector<double>& g) {
-    Estimate e = g.empty() ? Estimate{} : batch_mean(g);
+    Estimate e = g.empty() ? Estimate{} : series_mean(g);
     e.value /= interval;
     e.half_width /= interval;
     return e;

@@ -1,7 +1,7 @@
 // Largest Lyapunov exponent of a periodically forced flow, from one tangent vector.
 //
 //   g_k = log | v(s_k + T) | / | v(s_k) | ,   v rescaled to length 1 after each period T of the forcing
-//   lambda = mean(g) / T  per unit of s, with the interval of [A-batch]                                   [A-lyap]
+//   lambda = mean(g) / T  per unit of s, with the interval of [A-mean]                                   [A-lyap]
 //
 // Source: Benettin et al., Meccanica 15 (1980) 9. Limits: where the two largest exponents are equal or nearly so, the
 // vector turns for ever and the interval says so; an interval is no proof beyond the time it was measured over.
@@ -19,6 +19,10 @@ namespace epicyclic::analysis {
 struct LyapunovOptions {
   int aligning_periods = 50;  ///< before growth is counted, for the vector to turn to the fastest direction
   int periods = 500;          ///< counted
+
+  /// Projects a vector onto a subspace that the linearised flow leaves invariant, as do the directions that break a
+  /// symmetry of the motion: the exponent is then the largest of that subspace. Keeps rounding from leading out of it.
+  std::function<void(std::span<double> v)> project{};
 };
 
 struct LargestExponent {
@@ -54,6 +58,9 @@ struct SpectrumOptions {
   int aligning_intervals = 50;  ///< before growth is counted
   int intervals = 500;          ///< counted
   double interval = 0;          ///< T [units of s]; 0 for the field's period
+
+  /// Sees the state at the beginning of each counted interval, and its s; may be empty.
+  std::function<void(double s, std::span<const double> y)> begins{};
 };
 
 struct LyapunovSpectrum {

@@ -74,6 +74,17 @@ Shooting shoot(integrate::Flow& flow, const Eigen::MatrixXd& y, Eigen::Index n_p
   return result;
 }
 
+/// The residual of one piece at another state, with the tangents as they are.
+void residual_only(integrate::Flow& flow, const Eigen::MatrixXd& y, Eigen::Index n_periods, Shooting& at) {
+  Eigen::VectorXd end = y.col(0);
+  flow.forget();
+  for (Eigen::Index k = 0; k < n_periods; ++k) {
+    at.evolution = flow.evolve({end.data(), static_cast<std::size_t>(end.size())}, 0.0, flow.field().period);
+    if (!at.evolution.reached()) return;
+  }
+  at.residual.col(0) = end - y.col(0);
+}
+
 /// d_i of [A-shoot], one column each.
 Eigen::MatrixXd newton_step(const Shooting& at) {
   const Eigen::Index n = at.residual.rows();
@@ -114,8 +125,18 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
     }
   }
   double best = std::numeric_limits<double>::infinity();
+  Shooting at;
+  bool kept = false;
   for (int k = 0; k < options.iterations; ++k) {
-    const Shooting at = shoot(flow, y, n);
+    const double before = kept ? at.residual.lpNorm<Eigen::Infinity>() : 0.0;
+    if (kept) {
+      residual_only(flow, y, n, at);
+      constexpr double gain = 0.1;
+      const double now = at.residual.lpNorm<Eigen::Infinity>();
+      // No longer worth it: with the tangents of this very state from here on.
+      if (!at.evolution.reached() || (now > options.residual && now > gain * before)) kept = false;
+    }
+    if (!kept) at = shoot(flow, y, n);
     if (!at.evolution.reached()) {
       orbit.outcome = OrbitOutcome::not_reached;
       orbit.message = at.evolution.message;
@@ -145,7 +166,9 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
     constexpr int patience = 4;
     constexpr double gain = 0.1;
     if (k + 1 >= patience && best > gain * orbit.residuals.front()) break;
+    if (k + 1 == options.iterations) break;
     y += newton_step(at);
+    kept = options.keep_tangents && options.pieces == 1;
   }
   orbit.outcome = best <= std::sqrt(options.residual) ? OrbitOutcome::stalled : OrbitOutcome::not_converged;
   orbit.message =

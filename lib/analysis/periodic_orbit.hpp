@@ -30,6 +30,11 @@ struct OrbitOptions {
   int iterations = 12;
   double residual = 1e-11;  ///< max |F| that ends the iteration, in the units of the state
   int pieces = 1;
+
+  /// M is kept for as long as the residual falls to a tenth: near an orbit that saves most of the tangents, which cost
+  /// far more than states. The monodromy is then that of a state as far from the orbit as the last full step was long.
+  /// Of one piece only.
+  bool keep_tangents = false;
 };
 
 /// What the iteration came to.

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/largest_difference.hpp"
+#include "core/root_finding.hpp"
 
 namespace epicyclic::analysis {
 
@@ -33,17 +34,58 @@ Strobe strobe(integrate::Flow& flow, std::span<double> state, const StrobeOption
   return result;
 }
 
-namespace {
+SurfaceSection surface_section(integrate::Flow& flow, std::span<double> state,
+                               const std::function<double(double s, std::span<const double> y)>& surface,
+                               Crossing direction, int periods, int phases, const std::function<bool()>& go_on) {
+  const double period = flow.field().period;
+  SurfaceSection result;
+  result.section.dimension = state.size();
+  std::vector<double> samples;
+  for (int j = 1; j < phases; ++j) samples.push_back(period * j / phases);
+  samples.push_back(period);
+  struct Sample {
+    double s = 0;
+    std::vector<double> y;
+    double side = 0;  ///< h, its sign turned so that crossings rise
+  };
+  const double sign = direction == Crossing::rising ? 1.0 : -1.0;
+  const auto look = [&](double s, std::span<const double> y) {
+    return Sample{s, {y.begin(), y.end()}, sign * surface(s, y)};
+  };
+  for (int k = 0; k < periods; ++k) {
+    if (!go_on()) return result;
+    std::vector<Sample> seen = {look(0.0, state)};
+    result.evolution = flow.evolve(state, 0.0, period, samples, [&](std::size_t, double s, std::span<const double> y) {
+      seen.push_back(look(s, y));
+    });
+    if (!result.evolution.reached()) return result;
+    const double next_step = flow.next_step();
+    for (std::size_t j = 0; j + 1 < seen.size(); ++j) {
+      if (!(seen[j].side < 0.0 && seen[j + 1].side >= 0.0)) continue;
+      std::vector<double> y;
+      const auto along = [&](double s) {
+        y = seen[j].y;
+        flow.forget();
+        if (s > seen[j].s) (void)flow.evolve(y, seen[j].s, s);
+        return sign * surface(s, y);
+      };
+      // The dense output and the flow may differ by the tolerance on which side the end is.
+      const double s = along(seen[j + 1].s) > 0.0 ? find_root(along, seen[j].s, seen[j + 1].s) : seen[j + 1].s;
+      (void)along(s);
+      result.section.states.insert(result.section.states.end(), y.begin(), y.end());
+      result.phase.push_back(s);
+    }
+    flow.set_next_step(next_step);
+  }
+  return result;
+}
 
-/// r_n of [A-rec] over the points from `first` on.
 double recurrence_error(const PoincareSection& section, std::size_t n, std::size_t first) {
   double error = 0.0;
   for (std::size_t k = first; k + n < section.size(); ++k)
     error = std::max(error, largest_difference(section.point(k), section.point(k + n)));
   return error;
 }
-
-}  // namespace
 
 Recurrence recurrence(const PoincareSection& section, int longest, double tolerance) {
   constexpr double separation = 10.0;

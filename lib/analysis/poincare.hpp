@@ -7,9 +7,12 @@
 // The second condition keeps a motion that still creeps towards a short period from being called one of a long period,
 // because a slow beat of the creep happens to bring it back within epsilon.
 //
-// Limits: recurrence can prove that a motion repeats to within epsilon over the record, nothing else. A motion that
-// does not repeat may be chaotic, quasiperiodic, of a longer period, or still settling. Smoothness: none needed; the
-// section is stepped onto, not interpolated.
+// A section by a surface h(s, y) = 0 takes the states where h changes sign in one direction. They are bracketed by the
+// dense output and located along evolutions of the flow itself, from the sample before them.
+//
+// Limits: two crossings between neighbouring samples are missed; recurrence can prove that a motion repeats to within
+// epsilon over the record, nothing else. A motion that does not repeat may be chaotic, quasiperiodic, of a longer
+// period, or still settling. Smoothness: none needed; the section is stepped onto, not interpolated.
 #pragma once
 
 #include <cstddef>
@@ -52,12 +55,33 @@ struct Strobe {
 [[nodiscard]] Strobe strobe(integrate::Flow& flow, std::span<double> state, const StrobeOptions& options,
                             const integrate::Observer& observer, const std::function<bool()>& go_on);
 
+enum class Crossing { rising, falling };
+
+/// Crossings of a surface in the order of time.
+struct SurfaceSection {
+  integrate::Evolution evolution;  ///< how it ended; the section holds the crossings until then
+  PoincareSection section;
+  std::vector<double> phase;  ///< s of each, in [0, T)
+};
+
+/// @param state    carried on, replaced by the last state; its path does not depend on the crossings
+/// @param surface  h
+/// @param phases   samples per period that bracket crossings
+[[nodiscard]] SurfaceSection surface_section(integrate::Flow& flow, std::span<double> state,
+                                             const std::function<double(double s, std::span<const double> y)>& surface,
+                                             Crossing direction, int periods, int phases,
+                                             const std::function<bool()>& go_on);
+
 struct Recurrence {
   int period = 0;         ///< n of [A-rec]; 0 if none up to the longest asked for
   double error = 0;       ///< r_n at that n; the least r_n over all n tried if none recurs
   int best_period = 0;    ///< the n of that error
   double late_error = 0;  ///< the same over the second half of the record: smaller while the motion still settles
 };
+
+/// r_n of [A-rec].
+/// @param first  the points before it are left out
+[[nodiscard]] double recurrence_error(const PoincareSection& section, std::size_t n, std::size_t first = 0);
 
 /// How far `b` leaves `a`: the largest distance of a point of `b` from the nearest point of `a`, each in its largest
 /// component (one half of Hausdorff's distance of the two sets). Neither is empty; the cost is the product of sizes.

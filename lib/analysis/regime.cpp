@@ -18,6 +18,14 @@ namespace {
 constexpr double regular_vote = 0.3;
 constexpr double chaotic_vote = 0.5;
 constexpr int least_look = 16;
+/// Periods that an exponent's interval needs; the 0-1 test needs twice as many, and takes the look before along.
+constexpr int growth_look = 128;
+/// A recurrence error up to this part of the extent is that of a motion all but on its orbit.
+constexpr double settled = 0.01;
+/// Looked at for each period of an orbit that is sought: about what its tangents cost.
+constexpr int periods_per_orbit = 128;
+/// Periods over which e^2 is told from a small exponent.
+constexpr int torus_look = 1024;
 
 void check(const integrate::Flow& flow, const RegimeOptions& o) {
   if (!(flow.field().period > 0.0)) throw DomainError("regimes are told of fields with a period");
@@ -33,16 +41,31 @@ class Classifier {
              const std::function<bool()>& go_on)
       : flow_(flow), state_(state), options_(options), go_on_(go_on) {}
 
-  Classification run() {
+  Classification run(const PoincareSection* before) {
     check(flow_, options_);
     Evidence& seen = result_.evidence;
-    for (int look = options_.look;; look *= 2) {
+    int first = options_.look;
+    if (before != nullptr && before->size() > 0) {
+      section_ = *before;
+      for (std::size_t k = 0; k < section_.size(); ++k) series_.push_back(section_.point(k)[options_.observable]);
+      look_before_ = 0;
+      first_ = static_cast<int>(section_.size());
+      find_recurrence();
+      // What does not nearly recur is most likely chaotic, which growth tells for less than Newton's method fails.
+      if (is_periodic(settled)) return std::move(result_);
+      // As long a look as growth can be told from.
+      first = std::max(first, growth_look);
+    }
+    for (int look = first;; look *= 2) {
       look = std::min(look, options_.budget - seen.periods);
       if (look < least_look) break;
       if (!record(look)) return std::move(result_);
-      if (is_periodic()) return std::move(result_);
+      if (is_chaotic() || is_periodic(options_.near)) return std::move(result_);
       if (!go_on_()) break;
-      if (decided_by_growth()) return std::move(result_);
+      if (is_torus()) return std::move(result_);
+      // Where vectors neither grow nor shrink, no look tells anything that is not long.
+      if (std::abs(seen.late_growth) <= neutral_growth && growth_.size() >= growth_look)
+        look = std::max(look, torus_look / 2);
     }
     result_.regime = Regime::undecided;
     if (seen.note.empty()) seen.note = "nothing is proven";
@@ -56,7 +79,9 @@ class Classifier {
     section_ = {};
     section_.dimension = state_.size();
     growth_.clear();
-    series_.clear();
+    // The look before goes along: it is of the same motion.
+    series_.erase(series_.begin(), series_.begin() + static_cast<std::ptrdiff_t>(look_before_));
+    look_before_ = series_.size();
     result_.evidence.note.clear();
     LyapunovOptions options;
     options.aligning_periods = 0;
@@ -72,25 +97,33 @@ class Classifier {
     result_.evidence.periods += static_cast<int>(e.growth.size());
     growth_ = std::move(e.growth);
     if (!result_.evolution.reached() || growth_.size() < static_cast<std::size_t>(periods)) return false;
+    find_recurrence();
+    return true;
+  }
+
+  void find_recurrence() {
     scale_ = std::numeric_limits<double>::min();
     for (const double x : section_.states) scale_ = std::max(scale_, std::abs(x));
     result_.evidence.recurrence = recurrence(section_, options_.longest_period, options_.residual * scale_);
-    return true;
   }
 
   /// What an integrator may leave of an orbit.
   [[nodiscard]] double noise() const { return 1e3 * options_.residual * scale_; }
 
-  bool is_periodic() {
+  /// @param part  of the section's extent, up to which a recurrence error makes a candidate
+  bool is_periodic(double part) {
     const Recurrence& r = result_.evidence.recurrence;
+    // What nearly recurs is tried, and where nothing moves much everything nearly recurs.
     const double wide = extent(section_);
-    const int n = r.period > 0                                                        ? r.period
-                  : r.error <= options_.near * wide || wide <= options_.near * scale_ ? r.best_period
-                                                                                      : 0;
+    const double near = wide <= options_.near * scale_ ? wide : part * wide;
+    const int n = r.period > 0 ? r.period : r.error <= near ? r.best_period : 0;
     if (n == 0) return false;
-    // Smaller periods that nearly recur, too, come first: an orbit of period 1 recurs after 2.
+    // Shorter ones come first: an orbit of period 1 recurs after 2. Beside a torus many long ones nearly close; none is
+    // sought that costs more than the looks so far, unless the motion is all but on it.
+    const int affordable = std::max(1, (first_ + result_.evidence.periods) / periods_per_orbit);
+    const bool closed = r.period > 0 || r.error <= settled * wide;
     for (int d = 1; d <= n; ++d)
-      if (n % d == 0 && settles_to_orbit_of(d)) return true;
+      if (n % d == 0 && (d <= affordable || (d == n && closed)) && settles_to_orbit_of(d)) return true;
     return false;
   }
 
@@ -99,13 +132,27 @@ class Classifier {
     const auto last = section_.point(section_.size() - 1);
     OrbitOptions o;
     o.residual = options_.residual * scale_;
-    PeriodicOrbit orbit = find_periodic_orbit(flow_, last, n, o);
+    o.keep_tangents = true;
+    integrate::Flow& exact = options_.exact == nullptr ? flow_ : *options_.exact;
+    PeriodicOrbit orbit = find_periodic_orbit(exact, last, n, o);
+    if (!orbit.found()) {
+      flow_.forget();
+      return false;
+    }
+    if (const int least = least_period(orbit.state, n); least < n) return settles_to_orbit_of(least);
+    // n + 1 pieces end within periods: other steps of the integrator all along.
+    integrate::Flow& other = options_.coarser == nullptr ? exact : *options_.coarser;
+    const int pieces = options_.coarser == nullptr ? n + 1 : 1;
+    const PeriodicOrbit second = find_periodic_orbit(other, orbit.state, n, {.iterations = 1, .pieces = pieces});
     flow_.forget();
-    if (!orbit.found()) return false;
-    const double multiplier = largest_multiplier(orbit);
+    if (second.pieces.empty()) return false;
+    const Multipliers multipliers = floquet_multipliers(orbit, second);
+    const double multiplier = std::abs(multipliers.values.front());
+    const double error = *std::max_element(multipliers.errors.begin(), multipliers.errors.end());
     const std::string name = "orbit of period " + std::to_string(n);
-    if (!(multiplier < 1.0 - options_.neutral)) {
-      seen.note = "the " + name + " near by does not attract (multiplier " + short_text(multiplier) + ")";
+    if (!(multiplier + error < 1.0 - options_.neutral)) {
+      seen.note = "the " + name + " near by does not attract (multiplier " + short_text(multiplier) + " +- " +
+                  short_text(error) + ")";
       return false;
     }
     // [A-settled], with the motion's own points.
@@ -126,31 +173,51 @@ class Classifier {
     result_.period = n;
     seen.residual = *std::min_element(orbit.residuals.begin(), orbit.residuals.end());
     seen.largest_multiplier = multiplier;
-    seen.exponent = {std::log(multiplier) / (n * flow_.field().period), 0.0};
+    seen.multiplier_error = error;
+    // Of a multiplier that is nothing but error, the logarithm says no more than that.
+    const double time = n * flow_.field().period;
+    seen.exponent = {std::log(multiplier) / time, std::log1p(error / multiplier) / time};
     seen.zero_one = 0.0;
     seen.note = "drawn to the " + name + " from " + short_text(distance) + " away";
     result_.orbit = std::move(orbit);
     return true;
   }
 
-  bool decided_by_growth() {
+  /// The least divisor d of n after which an orbit closes: one of period 1 is one of period 12, too.
+  int least_period(const std::vector<double>& orbit, int n) {
+    std::vector<double> y = orbit;
+    flow_.forget();
+    for (int d = 1; d < n; ++d) {
+      if (!flow_.evolve(y, 0.0, flow_.field().period).reached()) break;
+      if (n % d == 0 && largest_difference(y, orbit) <= noise()) return d;
+    }
+    return n;
+  }
+
+  bool is_chaotic() {
     Evidence& seen = result_.evidence;
     // The first quarter is left to the vector's turning and to what is left of the transient.
     const std::span<const double> counted = std::span(growth_).subspan(growth_.size() / 4);
-    seen.exponent = batch_mean(counted);
+    seen.exponent = series_mean(counted);
     seen.exponent.value /= flow_.field().period;
     seen.exponent.half_width /= flow_.field().period;
     seen.late_growth = late_growth(growth_);
-    constexpr std::size_t enough = 250;  // for the 0-1 test
-    if (series_.size() < enough) return false;
+    seen.zero_one = 0.0;
+    if (series_.size() < 2 * static_cast<std::size_t>(growth_look)) return false;
     seen.zero_one = zero_one_test(series_, noise());
-    if (seen.exponent.low() > 0.0 && seen.late_growth > neutral_growth && seen.zero_one > chaotic_vote) {
-      result_.regime = Regime::chaotic;
-      seen.note = "exponent positive by its interval, 0-1 test " + short_text(seen.zero_one);
-      return true;
-    }
-    constexpr std::size_t long_enough = 1000;  // for e^2 to be told from a small exponent
-    if (series_.size() >= long_enough && std::abs(seen.late_growth) <= neutral_growth && seen.zero_one < regular_vote) {
+    const bool grows = seen.exponent.low() > 0.0 && seen.late_growth > neutral_growth;
+    const bool clearly =
+        seen.exponent.value > 3.0 * seen.exponent.half_width && seen.late_growth > 4.0 * neutral_growth;
+    if (!grows || !(seen.zero_one > chaotic_vote || (clearly && seen.zero_one > regular_vote))) return false;
+    result_.regime = Regime::chaotic;
+    seen.note = "exponent positive by its interval, 0-1 test " + short_text(seen.zero_one);
+    return true;
+  }
+
+  bool is_torus() {
+    Evidence& seen = result_.evidence;
+    if (growth_.size() >= static_cast<std::size_t>(torus_look) && std::abs(seen.late_growth) <= neutral_growth &&
+        seen.zero_one < regular_vote) {
       result_.regime = Regime::quasiperiodic;
       seen.note = "tangents neither grow nor shrink, 0-1 test " + short_text(seen.zero_one);
       return true;
@@ -167,9 +234,11 @@ class Classifier {
   const std::function<bool()>& go_on_;
   Classification result_;
   PoincareSection section_;
+  int first_ = 0;     ///< periods of the section that was seen before
   double scale_ = 0;  ///< largest component of the section
   std::vector<double> growth_;
-  std::vector<double> series_;
+  std::vector<double> series_;   ///< the observable over the look before and this one
+  std::size_t look_before_ = 0;  ///< how many of them are of the look before
 };
 
 }  // namespace
@@ -189,8 +258,8 @@ std::string to_string(Regime regime) {
 }
 
 Classification classify(integrate::Flow& flow, std::span<double> state, const RegimeOptions& options,
-                        const std::function<bool()>& go_on) {
-  return Classifier(flow, state, options, go_on).run();
+                        const std::function<bool()>& go_on, const PoincareSection* seen) {
+  return Classifier(flow, state, options, go_on).run(seen);
 }
 
 }  // namespace epicyclic::analysis

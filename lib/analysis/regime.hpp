@@ -1,14 +1,16 @@
 // What kind of motion a periodically forced flow settles to, told by evidence.
 //
-// The state is carried on in looks. A look records a stroboscopic section and asks, in this order:
+// The state is carried on in looks. A look records a stroboscopic section and asks whether the motion is
 //
 // - periodic: recurrence [A-rec] names a candidate n; Newton's method finds an orbit y* of period n [A-orbit]; all its
-//   multipliers are inside the unit circle by more than `neutral`; and the motion is already drawn to it,
+//   multipliers are inside the unit circle by more than `neutral` and by more than their error, which is the difference
+//   from those of another tolerance, or of shooting in n + 1 pieces; and the motion is already drawn to it,
 //
 //     | (y_n - y*) - M (y_0 - y*) | <= | y_0 - y* | / 10                                              [A-settled]
 //
 //   which is the proof: nothing but time is then between the motion and the orbit.
-// - chaotic: the largest exponent is positive by its interval [A-lyap], and the 0-1 test agrees.
+// - chaotic: the largest exponent is positive by its interval [A-lyap], and the 0-1 test agrees; or it abstains,
+//   and the exponent is three times its half interval.
 // - quasiperiodic: over the last half of a long look tangent vectors neither grow nor shrink by more than e^2, as
 //   beside a torus, and the 0-1 test says regular.
 //
@@ -46,14 +48,22 @@ struct RegimeOptions {
   double residual = 1e-9;      ///< of the orbit, that counts as found, in parts of the largest component seen [-]
   double neutral = 1e-6;       ///< a multiplier's modulus this near to 1 attracts nothing: errors could put it outside
   std::size_t observable = 0;  ///< component of the state that the 0-1 test looks at
+
+  /// The same system by a flow that controls the error of tangents, for orbits and their multipliers: behind a kink
+  /// they are off by far more than the tolerance without. Null: the flow itself.
+  integrate::Flow* exact = nullptr;
+  /// Likewise at ten times its tolerance, for the errors of multipliers: what another sequence of steps changes is less
+  /// than what the tolerance does. Null: from another subdivision, which knows of the steps alone.
+  integrate::Flow* coarser = nullptr;
 };
 
 /// What the decision rests on.
 struct Evidence {
-  int periods = 0;        ///< of the forcing, looked at altogether
-  Recurrence recurrence;  ///< of the last look
-  double residual = 0;    ///< of the orbit, if there is one
-  double largest_multiplier = 0;
+  int periods = 0;                ///< of the forcing, looked at altogether
+  Recurrence recurrence;          ///< of the last look
+  double residual = 0;            ///< of the orbit, if there is one
+  double largest_multiplier = 0;  ///< modulus
+  double multiplier_error = 0;
   Estimate exponent;       ///< largest, per unit of s: measured, or log of the multiplier over the period
   double late_growth = 0;  ///< log growth of a tangent vector over the last half of the last look
   double zero_one = 0;     ///< K of the last look; 0 if it was not asked
@@ -69,8 +79,10 @@ struct Classification {
 };
 
 /// @param state  replaced by the last state
+/// @param seen   a section of this very motion that ends in `state`: asked first whether it is periodic, not counted in
+///               the budget; may be null
 /// @throws DomainError when the flow's field has no period, or options are out of range
 [[nodiscard]] Classification classify(integrate::Flow& flow, std::span<double> state, const RegimeOptions& options,
-                                      const std::function<bool()>& go_on);
+                                      const std::function<bool()>& go_on, const PoincareSection* seen = nullptr);
 
 }  // namespace epicyclic::analysis

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -13,31 +14,46 @@
 
 namespace epicyclic::analysis {
 
+namespace {
+
+/// I_j of [A-mean].
+double periodogram(std::span<const double> series, double mean, std::size_t j) {
+  const std::size_t n = series.size();
+  double re = 0.0;
+  double im = 0.0;
+  for (std::size_t t = 0; t < n; ++t) {
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(j * t % n) / static_cast<double>(n);
+    re += (series[t] - mean) * std::cos(angle);
+    im += (series[t] - mean) * std::sin(angle);
+  }
+  return (re * re + im * im) / static_cast<double>(n);
+}
+
+}  // namespace
+
 bool overlap(const Estimate& a, const Estimate& b) { return a.low() <= b.high() && b.low() <= a.high(); }
 
-Estimate batch_mean(std::span<const double> series, int batches, double confidence) {
+Estimate series_mean(std::span<const double> series, int waves, double confidence) {
   if (series.empty()) throw DomainError("the mean of an empty series is asked for");
-  if (batches < 1) throw DomainError("batches = " + std::to_string(batches) + ", must be >= 1");
+  if (waves < 1) throw DomainError("waves = " + std::to_string(waves) + ", must be >= 1");
   if (!(confidence > 0.0 && confidence < 1.0))
     throw DomainError("confidence = " + std::to_string(confidence) + ", must be in (0, 1)");
-  const std::size_t count = std::min(static_cast<std::size_t>(batches), series.size());
-  const std::size_t length = series.size() / count;
-  const std::size_t skipped = series.size() - count * length;
-  std::vector<double> means;
-  for (std::size_t b = 0; b < count; ++b)
-    means.push_back(gsl_stats_mean(series.data() + skipped + b * length, 1, length));
-  Estimate e{gsl_stats_mean(means.data(), 1, count), std::numeric_limits<double>::infinity()};
-  if (count < 2) return e;
-  const double t = gsl_cdf_tdist_Pinv(0.5 * (1.0 + confidence), static_cast<double>(count - 1));
-  e.half_width = t * gsl_stats_sd(means.data(), 1, count) / std::sqrt(static_cast<double>(count));
+  const std::size_t n = series.size();
+  Estimate e{gsl_stats_mean(series.data(), 1, n), std::numeric_limits<double>::infinity()};
+  const std::size_t q = std::min(static_cast<std::size_t>(waves), (n - 1) / 2);
+  if (q == 0) return e;
+  double sum = 0.0;
+  for (std::size_t j = 1; j <= q; ++j) sum += periodogram(series, e.value, j);
+  const double t = gsl_cdf_tdist_Pinv(0.5 * (1.0 + confidence), 2.0 * static_cast<double>(q));
+  e.half_width = t * std::sqrt(sum / static_cast<double>(q * n));
   return e;
 }
 
-Estimate batch_deviation(std::span<const double> series, int batches, double confidence) {
-  const double mean = batch_mean(series, batches, confidence).value;
+Estimate series_deviation(std::span<const double> series, int waves, double confidence) {
+  const double mean = series_mean(series, waves, confidence).value;
   std::vector<double> squares;
   for (const double x : series) squares.push_back((x - mean) * (x - mean));
-  const Estimate variance = batch_mean(squares, batches, confidence);
+  const Estimate variance = series_mean(squares, waves, confidence);
   const double deviation = std::sqrt(variance.value);
   return {deviation, deviation > 0.0 ? variance.half_width / (2.0 * deviation) : 0.0};
 }

@@ -1,9 +1,18 @@
-// Means of correlated series with confidence intervals, by batches.
+// Means of correlated series with confidence intervals, from the slowest waves in the series.
 //
-//   B batches of equal length, batch means m_b:   mean(m) +- t_{B-1} std(m) / sqrt(B)                        [A-batch]
+//   I_j = | sum_t (x_t - mean) exp(-2 pi i j t / N) |^2 / N ,   S = ( I_1 + ... + I_q ) / q
+//   mean(x) +- t_2q sqrt(S / N)                                                                             [A-mean]
 //
-// Source: batch means as in L. W. Schruben, Oper. Res. 30 (1982) 569; Student's t by GSL. Limits: batches have to be
-// longer than the series remembers; the beginning of the series that does not fill a batch is left out.
+// N times the variance of the mean is what I_j would be at j = 0, were the truth subtracted and not the mean; its
+// nearest neighbours stand in for it. They see the ends of the series with the weight that the mean gives them. So what
+// is added at one instant and taken back at a later one, as in the growth of a tangent vector, widens the interval by
+// no more than it should. Means of batches would count it once for each batch: for Lorenz' exponent their intervals are
+// nearly twice as wide as they should be (16 batches of 31 values), and hold the truth in 100 of 100 cases.
+//
+// Source: Heidelberger and Welch, Comm. ACM 24 (1981) 233; with equal weights and Student's t of 2q degrees of freedom:
+// Lazarus et al., J. Bus. Econ. Stat. 36 (2018) 541. Student's t by GSL. Limits: correlations have to decay by e within
+// N / 50 values (then 94 of 100 intervals of 95 % hold the truth; 92 at N / 25), and oscillations to come round some
+// ten times. See tests/analysis/coverage_test.cpp.
 #pragma once
 
 #include <span>
@@ -13,7 +22,7 @@ namespace epicyclic::analysis {
 /// An estimate and the half width of its confidence interval.
 struct Estimate {
   double value = 0;
-  double half_width = 0;  ///< infinite for fewer than two batches
+  double half_width = 0;  ///< infinite for fewer than three values
 
   [[nodiscard]] double low() const { return value - half_width; }
   [[nodiscard]] double high() const { return value + half_width; }
@@ -22,16 +31,18 @@ struct Estimate {
 /// Do the intervals have a point in common?
 [[nodiscard]] bool overlap(const Estimate& a, const Estimate& b);
 
-inline constexpr int default_batches = 16;
 inline constexpr double default_confidence = 0.95;
 
-/// Mean of the series.
-/// @throws DomainError for an empty series, fewer than 1 batch, or a confidence outside (0, 1)
-[[nodiscard]] Estimate batch_mean(std::span<const double> series, int batches = default_batches,
-                                  double confidence = default_confidence);
+/// q. Twice as many make the interval narrower by 6 % and reach into waves that tell of something else.
+inline constexpr int default_waves = 4;
 
-/// Standard deviation of the series' values about their mean, from the batch means of the squared deviations.
-[[nodiscard]] Estimate batch_deviation(std::span<const double> series, int batches = default_batches,
-                                       double confidence = default_confidence);
+/// Mean of the series. In a series too short for q waves, as many as there are: (N - 1) / 2.
+/// @throws DomainError for an empty series, fewer than 1 wave, or a confidence outside (0, 1)
+[[nodiscard]] Estimate series_mean(std::span<const double> series, int waves = default_waves,
+                                   double confidence = default_confidence);
+
+/// Standard deviation of the series' values about their mean, from the mean of the squared deviations.
+[[nodiscard]] Estimate series_deviation(std::span<const double> series, int waves = default_waves,
+                                        double confidence = default_confidence);
 
 }  // namespace epicyclic::analysis

@@ -11,10 +11,18 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "core/scalar.hpp"
 
 namespace epicyclic {
+
+/// f(0), ..., f(M - 1), each with a constant: the compiler keeps derivatives in registers only if it sees no loop.
+template <std::size_t M, class F>
+constexpr void directions(const F& f) {
+  [&]<std::size_t... J>(std::index_sequence<J...>) { (f(J), ...); }
+  (std::make_index_sequence<M>());
+}
 
 /// Value and M derivatives. Converts from double as a constant.
 template <std::size_t M>
@@ -35,29 +43,50 @@ struct Dual {
   /// Chain rule: f(value) with the slope f'(value).
   [[nodiscard]] constexpr Dual chained(double f, double slope) const {
     Dual r(f);
-    for (std::size_t j = 0; j < M; ++j) r.derivative[j] = slope * derivative[j];
+    directions<M>([&](std::size_t j) { r.derivative[j] = slope * derivative[j]; });
     return r;
   }
 
   constexpr Dual& operator+=(const Dual& b) {
     value += b.value;
-    for (std::size_t j = 0; j < M; ++j) derivative[j] += b.derivative[j];
+    directions<M>([&](std::size_t j) { derivative[j] += b.derivative[j]; });
     return *this;
   }
   constexpr Dual& operator-=(const Dual& b) {
     value -= b.value;
-    for (std::size_t j = 0; j < M; ++j) derivative[j] -= b.derivative[j];
+    directions<M>([&](std::size_t j) { derivative[j] -= b.derivative[j]; });
     return *this;
   }
   constexpr Dual& operator*=(const Dual& b) {
-    for (std::size_t j = 0; j < M; ++j) derivative[j] = derivative[j] * b.value + value * b.derivative[j];
+    directions<M>([&](std::size_t j) { derivative[j] = derivative[j] * b.value + value * b.derivative[j]; });
     value *= b.value;
     return *this;
   }
   constexpr Dual& operator/=(const Dual& b) {
     const double inverse = 1.0 / b.value;
     value /= b.value;  // not times the inverse: values are those of the same text on doubles, to the last bit
-    for (std::size_t j = 0; j < M; ++j) derivative[j] = (derivative[j] - value * b.derivative[j]) * inverse;
+    directions<M>([&](std::size_t j) { derivative[j] = (derivative[j] - value * b.derivative[j]) * inverse; });
+    return *this;
+  }
+
+  // With a constant the derivatives of the constant are not multiplied out: half of a product's operations.
+  constexpr Dual& operator+=(double b) {
+    value += b;
+    return *this;
+  }
+  constexpr Dual& operator-=(double b) {
+    value -= b;
+    return *this;
+  }
+  constexpr Dual& operator*=(double b) {
+    directions<M>([&](std::size_t j) { derivative[j] *= b; });
+    value *= b;
+    return *this;
+  }
+  constexpr Dual& operator/=(double b) {
+    const double inverse = 1.0 / b;
+    directions<M>([&](std::size_t j) { derivative[j] *= inverse; });
+    value /= b;
     return *this;
   }
 
@@ -65,6 +94,14 @@ struct Dual {
   friend constexpr Dual operator-(Dual a, const Dual& b) { return a -= b; }
   friend constexpr Dual operator*(Dual a, const Dual& b) { return a *= b; }
   friend constexpr Dual operator/(Dual a, const Dual& b) { return a /= b; }
+  friend constexpr Dual operator+(Dual a, double b) { return a += b; }
+  friend constexpr Dual operator-(Dual a, double b) { return a -= b; }
+  friend constexpr Dual operator*(Dual a, double b) { return a *= b; }
+  friend constexpr Dual operator/(Dual a, double b) { return a /= b; }
+  friend constexpr Dual operator+(double a, Dual b) { return b += a; }
+  friend constexpr Dual operator-(double a, const Dual& b) { return -b + a; }
+  friend constexpr Dual operator*(double a, Dual b) { return b *= a; }
+  friend constexpr Dual operator/(double a, const Dual& b) { return Dual(a) /= b; }
   friend constexpr Dual operator-(const Dual& a) { return a.chained(-a.value, -1.0); }
 
   friend constexpr bool operator<(const Dual& a, const Dual& b) { return a.value < b.value; }

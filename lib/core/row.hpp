@@ -1,7 +1,8 @@
 // Rows: N values side by side that go through the same formula, such as one per planet, as a scalar type for kernels.
 //
 // A formula written once on rows is one instruction for several planets where the scalar is double: its rows are padded
-// to whole registers of the translation unit's instruction set. For any other scalar a row is a plain loop.
+// to whole registers of the translation unit's instruction set. A row of dual numbers is a row of their values and one
+// for each direction of derivatives. For any other scalar a row is a plain loop.
 //
 // Limits: the padding takes part in the arithmetic and is never read; it may hold anything, also NaN. Results are the
 // same on every instruction set, because each value has its own lane and sum() adds in the order of the values.
@@ -13,6 +14,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/dual.hpp"
 #include "core/scalar.hpp"
 
 namespace epicyclic {
@@ -85,6 +87,7 @@ class Row {
     return of(f, std::make_index_sequence<N>());
   }
 
+  void set(std::size_t i, const T& x) { value_[i] = x; }
   [[nodiscard]] T& operator[](std::size_t i) { return value_[i]; }
   [[nodiscard]] const T& operator[](std::size_t i) const { return value_[i]; }
   [[nodiscard]] static constexpr std::size_t size() { return N; }
@@ -228,5 +231,191 @@ class Row {
 
   alignas(registers ? sizeof(T) * (padded < 4 ? padded : 4) : alignof(T)) std::array<T, padded> value_{};
 };
+
+/// N dual numbers: their values side by side, and their derivatives along each direction.
+template <std::size_t M, std::size_t N>
+class Row<Dual<M>, N> {
+  using T = Dual<M>;
+  using V = Row<double, N>;
+
+  /// What has no derivatives.
+  template <class B>
+  static constexpr bool constant = std::is_same_v<B, V> || std::is_arithmetic_v<B>;
+  /// What has some.
+  template <class B>
+  static constexpr bool variable = std::is_same_v<B, Row> || std::is_same_v<B, T>;
+
+ public:
+  using Mask = typename V::Mask;
+
+  V value;
+  std::array<V, M> derivative;
+
+  Row() = default;
+  Row(const T& x) : value(x.value) {  // NOLINT(google-explicit-constructor): as for any scalar
+    directions<M>([&](std::size_t j) { derivative[j] = V(x.derivative[j]); });
+  }
+  Row(const V& x) : value(x) {}  // NOLINT(google-explicit-constructor): constants
+  Row(double x) : value(x) {}    // NOLINT(google-explicit-constructor)
+
+  template <class F>
+  [[nodiscard]] static Row of(const F& f) {
+    Row r;
+    r.value = V::of([&](std::size_t i) { return f(i).value; });
+    directions<M>([&](std::size_t j) { r.derivative[j] = V::of([&](std::size_t i) { return f(i).derivative[j]; }); });
+    return r;
+  }
+
+  /// A copy that cannot be written to by mistake; set() writes.
+  [[nodiscard]] const T operator[](std::size_t i) const {  // NOLINT(readability-const-return-type)
+    T x(value[i]);
+    directions<M>([&](std::size_t j) { x.derivative[j] = derivative[j][i]; });
+    return x;
+  }
+  void set(std::size_t i, const T& x) {
+    value[i] = x.value;
+    directions<M>([&](std::size_t j) { derivative[j][i] = x.derivative[j]; });
+  }
+  [[nodiscard]] static constexpr std::size_t size() { return N; }
+  void fill(const T& x) { *this = Row(x); }
+
+  template <class B>
+  Row& operator+=(const B& b) requires(constant<B> || variable<B>) {
+    if constexpr (constant<B>) {
+      value += b;
+    } else {
+      value += b.value;
+      directions<M>([&](std::size_t j) { derivative[j] += b.derivative[j]; });
+    }
+    return *this;
+  }
+  template <class B>
+  Row& operator-=(const B& b) requires(constant<B> || variable<B>) {
+    if constexpr (constant<B>) {
+      value -= b;
+    } else {
+      value -= b.value;
+      directions<M>([&](std::size_t j) { derivative[j] -= b.derivative[j]; });
+    }
+    return *this;
+  }
+  template <class B>
+  Row& operator*=(const B& b) requires(constant<B> || variable<B>) {
+    if constexpr (constant<B>) {
+      directions<M>([&](std::size_t j) { derivative[j] *= b; });
+      value *= b;
+    } else {
+      directions<M>([&](std::size_t j) { derivative[j] = derivative[j] * b.value + value * b.derivative[j]; });
+      value *= b.value;
+    }
+    return *this;
+  }
+  template <class B>
+  Row& operator/=(const B& b) requires(constant<B> || variable<B>) {
+    if constexpr (constant<B>) {
+      const auto inverse = 1.0 / b;
+      directions<M>([&](std::size_t j) { derivative[j] *= inverse; });
+      value /= b;
+    } else {
+      const auto inverse = 1.0 / b.value;
+      value /= b.value;
+      directions<M>([&](std::size_t j) { derivative[j] = (derivative[j] - value * b.derivative[j]) * inverse; });
+    }
+    return *this;
+  }
+
+  template <class B>
+  friend Row operator+(const Row& a, const B& b) requires(constant<B> || variable<B>) {
+    Row r = a;
+    r += b;
+    return r;
+  }
+  template <class B>
+  friend Row operator-(const Row& a, const B& b) requires(constant<B> || variable<B>) {
+    Row r = a;
+    r -= b;
+    return r;
+  }
+  template <class B>
+  friend Row operator*(const Row& a, const B& b) requires(constant<B> || variable<B>) {
+    Row r = a;
+    r *= b;
+    return r;
+  }
+  template <class B>
+  friend Row operator/(const Row& a, const B& b) requires(constant<B> || variable<B>) {
+    Row r = a;
+    r /= b;
+    return r;
+  }
+  template <class A>
+  friend Row operator+(const A& a, const Row& b) requires(constant<A> || std::is_same_v<A, T>) {
+    return b + a;
+  }
+  template <class A>
+  friend Row operator-(const A& a, const Row& b) requires(constant<A> || std::is_same_v<A, T>) {
+    return -b + a;
+  }
+  template <class A>
+  friend Row operator*(const A& a, const Row& b) requires(constant<A> || std::is_same_v<A, T>) {
+    return b * a;
+  }
+  template <class A>
+  friend Row operator/(const A& a, const Row& b) requires(constant<A> || std::is_same_v<A, T>) {
+    return Row(a) /= b;
+  }
+
+  friend Row operator-(const Row& a) {
+    Row r(-a.value);
+    directions<M>([&](std::size_t j) { r.derivative[j] = -a.derivative[j]; });
+    return r;
+  }
+  friend Mask operator<(const Row& a, const Row& b) { return a.value < b.value; }
+  friend Mask operator>(const Row& a, const Row& b) { return b < a; }
+
+  friend Row select(const Mask& mask, const Row& a, const Row& b) {
+    Row r(select(mask, a.value, b.value));
+    directions<M>([&](std::size_t j) { r.derivative[j] = select(mask, a.derivative[j], b.derivative[j]); });
+    return r;
+  }
+
+  friend Row sqrt(const Row& a) {
+    Row r(sqrt(a.value));
+    const V slope = 0.5 / r.value;
+    directions<M>([&](std::size_t j) { r.derivative[j] = slope * a.derivative[j]; });
+    return r;
+  }
+
+  friend T sum(const Row& a) {
+    T r(sum(a.value));
+    directions<M>([&](std::size_t j) { r.derivative[j] = sum(a.derivative[j]); });
+    return r;
+  }
+
+  template <class F>
+  void each(const F& f) const {
+    value.each([&](std::size_t i, double x) {
+      T dual(x);
+      directions<M>([&](std::size_t j) { dual.derivative[j] = derivative[j][i]; });
+      f(i, dual);
+    });
+  }
+};
+
+// A single dual number with a row of constants.
+#define EPICYCLIC_ROW_OF_CONSTANTS(op)                                     \
+  template <std::size_t M, std::size_t N>                                  \
+  Row<Dual<M>, N> operator op(const Dual<M>& a, const Row<double, N>& b) { \
+    return Row<Dual<M>, N>(a) op b;                                        \
+  }                                                                        \
+  template <std::size_t M, std::size_t N>                                  \
+  Row<Dual<M>, N> operator op(const Row<double, N>& a, const Dual<M>& b) { \
+    return Row<Dual<M>, N>(a) op b;                                        \
+  }
+EPICYCLIC_ROW_OF_CONSTANTS(+)
+EPICYCLIC_ROW_OF_CONSTANTS(-)
+EPICYCLIC_ROW_OF_CONSTANTS(*)
+EPICYCLIC_ROW_OF_CONSTANTS(/)
+#undef EPICYCLIC_ROW_OF_CONSTANTS
 
 }  // namespace epicyclic

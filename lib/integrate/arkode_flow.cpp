@@ -27,6 +27,9 @@ using Table = std::unique_ptr<std::remove_pointer_t<ARKodeButcherTable>, TableDe
 
 constexpr int i_controller = 2;
 constexpr double max_growth = 20.0;
+/// Error tests in a row that a step may fail. Tangents jump in slope at a kink: a step over it shrinks from its usual
+/// length to that of the tolerance, by a factor of about 3 each time; ARKODE's own limit of 7 is not enough.
+constexpr int most_refusals = 60;
 /// What Newton's method may leave of a stage, in parts of the step's own error: with the default of a tenth the sum
 /// over stages and steps is as large as the error of the method.
 constexpr double newton_tolerance = 1e-2;
@@ -102,6 +105,7 @@ class ErkStepper {
     system.check("ERKStepSetInterpolantDegree", ERKStepSetInterpolantDegree(m, interpolant_degree(method)));
     // Steps are counted by the flow, per evolution; ARKODE counts per call and is called for one step at a time.
     system.check("ERKStepSetMaxNumSteps", ERKStepSetMaxNumSteps(m, -1));
+    system.check("ERKStepSetMaxErrTestFails", ERKStepSetMaxErrTestFails(m, most_refusals));
     system.check("ERKStepSetMaxHnilWarns", ERKStepSetMaxHnilWarns(m, -1));
     if (fixed_step > 0.0) {
       system.check("ERKStepSetFixedStep", ERKStepSetFixedStep(m, fixed_step));
@@ -166,6 +170,7 @@ class DirkStepper {
     system.check("ARKStepSetNonlinCRDown", ARKStepSetNonlinCRDown(m, rate_memory));
     system.check("ARKStepSetMaxNonlinIters", ARKStepSetMaxNonlinIters(m, newton_iterations));
     system.check("ARKStepSetMaxNumSteps", ARKStepSetMaxNumSteps(m, -1));
+    system.check("ARKStepSetMaxErrTestFails", ARKStepSetMaxErrTestFails(m, most_refusals));
     system.check("ARKStepSetMaxHnilWarns", ARKStepSetMaxHnilWarns(m, -1));
     system.check("ARKStepWFtolerances", ARKStepWFtolerances(m, &SundialsSystem::error_weights));
     if (fixed_step > 0.0) {

@@ -48,6 +48,9 @@ struct VectorField {
   std::function<void(std::size_t segment, double s, const double* y, double* dgdp)> parameter_derivative;
 
   std::vector<SwitchingSurface> surfaces;
+
+  /// g itself jumps across a surface: tangent vectors would have to jump there, which no Flow does.
+  bool jumps_at_surfaces = false;
 };
 
 /// How an evolution ended. None of these is an exception.
@@ -108,7 +111,9 @@ class Flow {
   ///
   /// @param tangents  m vectors of dimension() numbers one behind the other, replaced; if not reached, those at the
   ///                  state's place
-  /// @throws InputError when the field has no tangents, or no parameter derivative where one is asked for
+  /// @throws InputError when the field has no tangents or jumps at surfaces, or has no parameter derivative where one
+  /// is
+  ///                    asked for
   virtual Evolution evolve_tangents(std::span<double> state, std::span<double> tangents, double from, double to,
                                     LastTangent last) = 0;
 

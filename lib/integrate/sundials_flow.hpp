@@ -314,6 +314,8 @@ class SundialsFlow final : public Flow {
     const std::size_t n = field_.dimension;
     const bool parameter = last == LastTangent::parameter;
     if (!field_.tangents) throw InputError("tangent vectors are asked of a field without tangents");
+    if (field_.jumps_at_surfaces)
+      throw InputError("tangent vectors are asked of a field that jumps where the state crosses a surface");
     if (parameter && !field_.parameter_derivative)
       throw InputError("the derivative with respect to a parameter is asked of a field without one");
     if (tangents.empty() || tangents.size() % n != 0)

@@ -24,23 +24,84 @@ std::size_t cell_of(double value, const FigureRange& range, std::size_t cells) {
   return std::min(cells - 1, static_cast<std::size_t>(position));
 }
 
-void append_points(std::string& data, const BifurcationSeries& series, const FigureRange& x_range,
-                   const FigureRange& y_range) {
-  std::vector<bool> seen(cells_x * cells_y);
-  for (std::size_t i = 0; i < series.x.size(); ++i) {
-    if (!std::isfinite(series.x[i])) continue;
-    const std::size_t column = cell_of(series.x[i], x_range, cells_x) * cells_y;
-    for (const double y : series.y[i]) {
+/// Points on the grid, each cell once.
+class CellWriter {
+ public:
+  CellWriter(const FigureRange& x, const FigureRange& y) : x_(x), y_(y), seen_(cells_x * cells_y) {}
+
+  void append(std::string& data, double x, const std::vector<double>& values) {
+    if (!std::isfinite(x)) return;
+    const std::size_t column = cell_of(x, x_, cells_x) * cells_y;
+    for (const double y : values) {
       if (!std::isfinite(y)) continue;
-      std::vector<bool>::reference cell = seen[column + cell_of(y, y_range, cells_y)];
+      std::vector<bool>::reference cell = seen_[column + cell_of(y, y_, cells_y)];
       if (cell) continue;
       cell = true;
-      append_number(data, series.x[i]);
+      append_number(data, x);
       data += ' ';
       append_number(data, y);
       data += '\n';
     }
   }
+
+ private:
+  FigureRange x_, y_;
+  std::vector<bool> seen_;
+};
+
+/// Ends a data set of gnuplot's (index). It does not count one without any line.
+void end_data_set(std::string& data, bool empty, std::string_view nothing) {
+  if (empty) data += nothing;
+  data += "\n\n";
+}
+
+/// Each dot is a line of (nearly) no length with round ends: in the SVG file that takes a third of the bytes of a point
+/// symbol. Lines of no length at all are dropped, and what leaves the frame is clipped: hence towards the middle.
+std::string dot_settings(const FigureRange& x) {
+  std::string text = "middle = ";
+  append_number(text, 0.5 * (x.low + x.high));
+  text += "\ndot = ";
+  append_number(text, 4e-5 * (x.high - x.low));
+  return text + '\n';
+}
+
+std::string plot_dots(std::string_view stem, std::size_t index, std::string_view colour) {
+  return fmt::format(
+      "'{0}.dat' index {1} using 1:2:($1 < middle ? dot : -dot):(0) with vectors nohead linewidth 2 "
+      "linecolor '{2}' notitle",
+      stem, index, colour);
+}
+
+/// Dots as small as those of the diagram could not be told apart in a legend.
+std::string legend_entry(std::string_view colour, std::string_view label) {
+  return fmt::format(", \\\n  keyentry with points pointtype 7 pointsize mark linecolor '{}' title {}", colour,
+                     gnuplot_quoted(portable_text(label)));
+}
+
+struct RegimeLook {
+  const char* label;
+  std::string_view colour;
+};
+
+/// Distinct in print, in grey and for colour-blind eyes (after Okabe and Ito).
+constexpr std::array<RegimeLook, 5> looks = {{{"period 1", "#12285c"},
+                                              {"period 2 and more", "#3f8fd0"},
+                                              {"quasiperiodic", "#1b8a6b"},
+                                              {"chaotic", "#c8553d"},
+                                              {"undecided", "#8a8a8a"}}};
+
+std::size_t look_of(const RegimePoint& p) {
+  switch (p.regime) {
+    case analysis::Regime::periodic:
+      return p.period <= 1 ? 0 : 1;
+    case analysis::Regime::quasiperiodic:
+      return 2;
+    case analysis::Regime::chaotic:
+      return 3;
+    case analysis::Regime::undecided:
+      break;
+  }
+  return 4;
 }
 
 }  // namespace
@@ -68,37 +129,108 @@ FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::strin
   for (const BifurcationSeries& each : series) {
     data += fmt::format("# {}\n", gnuplot_quoted(each.label));
     const std::size_t size = data.size();
-    append_points(data, each, x_range, y_range);
-    // gnuplot does not count a data set without any line.
-    if (data.size() == size) data += "NaN NaN\n";
-    // Two blank lines end a data set of gnuplot's (index).
-    data += "\n\n";
+    CellWriter cells(x_range, y_range);
+    for (std::size_t i = 0; i < each.x.size(); ++i) cells.append(data, each.x[i], each.y[i]);
+    end_data_set(data, data.size() == size, "NaN NaN\n");
   }
 
-  // Each dot is a line of (nearly) no length with round ends: in the SVG file that takes a third of the bytes of a
-  // point symbol. Lines of no length at all are dropped, and what leaves the frame is clipped: hence towards the
-  // middle.
-  std::string extra = "middle = ";
-  append_number(extra, 0.5 * (x_range.low + x_range.high));
-  extra += "\ndot = ";
-  append_number(extra, 4e-5 * (x_range.high - x_range.low));
-  extra += '\n';
   std::string plot;
   for (std::size_t i = series.size(); i-- > 0;) {
-    plot += fmt::format(
-        "'{0}.dat' index {1} using 1:2:($1 < middle ? dot : -dot):(0) with vectors nohead linewidth 2 "
-        "linecolor '{2}' notitle",
-        stem, i, colours[i]);
+    plot += plot_dots(stem, i, colours[i]);
     if (i > 0) plot += ", \\\n  ";
   }
   const std::size_t legend_entries = series.size() > 1 ? series.size() : 0;
-  for (std::size_t i = 0; i < legend_entries; ++i) {
-    // Dots as small as those of the diagram could not be told apart in a legend.
-    plot += fmt::format(", \\\n  keyentry with points pointtype 7 pointsize mark linecolor '{}' title {}", colours[i],
-                        gnuplot_quoted(portable_text(series[i].label)));
-  }
+  for (std::size_t i = 0; i < legend_entries; ++i) plot += legend_entry(colours[i], series[i].label);
   return draw_figure(folder, stem, data,
-                     figure_script(stem, text, x_range, y_range, legend_entries, markers, extra, plot));
+                     figure_script(stem, text, x_range, y_range, legend_entries, markers, dot_settings(x_range), plot));
+}
+
+FigureOutcome regime_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
+                            const std::vector<RegimePoint>& points) {
+  FigureRange x;
+  FigureRange y;
+  FigureRange exponents;
+  std::array<std::size_t, looks.size()> counts{};
+  for (const RegimePoint& p : points) {
+    x.include(p.x);
+    for (const double v : p.section) y.include(v);
+    // Where a multiplier is nearly zero the exponent is far below what there is to see.
+    exponents.include(p.exponent.value);
+    ++counts[look_of(p)];
+  }
+  if (x.empty() || y.empty()) return {"there is no finite point to draw"};
+  x = x.widened(0);
+  y = y.widened(figure_margin);
+  exponents.include(0.0);
+  exponents = exponents.widened(2.0 * figure_margin);
+
+  // A data set of dots and one of exponents for each regime.
+  std::string data;
+  CellWriter cells(x, y);
+  for (std::size_t k = 0; k < looks.size(); ++k) {
+    data += fmt::format("# {}: section\n", looks[k].label);
+    std::size_t size = data.size();
+    for (const RegimePoint& p : points)
+      if (look_of(p) == k) cells.append(data, p.x, p.section);
+    end_data_set(data, data.size() == size, "NaN NaN\n");
+    data += fmt::format("# {}: exponent and half its interval\n", looks[k].label);
+    size = data.size();
+    for (const RegimePoint& p : points) {
+      if (look_of(p) != k || !std::isfinite(p.exponent.value)) continue;
+      append_number(data, p.x);
+      data += ' ';
+      append_number(data, p.exponent.value);
+      data += ' ';
+      append_number(data, std::isfinite(p.exponent.half_width) ? p.exponent.half_width : 0.0);
+      data += '\n';
+    }
+    end_data_set(data, data.size() == size, "NaN NaN NaN\n");
+  }
+
+  std::string dots;
+  std::string legend;
+  std::string bars;
+  for (std::size_t k = 0; k < looks.size(); ++k) {
+    if (counts[k] == 0) continue;
+    dots += (dots.empty() ? "" : ", \\\n  ") + plot_dots(stem, 2 * k, looks[k].colour);
+    legend += legend_entry(looks[k].colour, fmt::format("{} ({})", looks[k].label, counts[k]));
+    bars += fmt::format(
+        ", \\\n  '{0}.dat' index {1} using 1:2:3 with yerrorbars pointtype 7 pointsize 0.25*mark linewidth 1 "
+        "linecolor '{2}' notitle",
+        stem, 2 * k + 1, looks[k].colour);
+  }
+  const auto number = [](double v) {
+    std::string t;
+    append_number(t, v);
+    return t;
+  };
+  const std::string panels = fmt::format(
+      "set multiplot\n"
+      "set lmargin screen 0.1\n"
+      "set tmargin screen 0.9\n"
+      "set bmargin screen 0.42\n"
+      "set xrange [{0}:{1}]\n"
+      "set yrange [{2}:{3}]\n"
+      "set label 1 {4} at graph 0, graph 1 left offset character 0,2.1\n"
+      "set key at graph 1, graph 1.1 right top horizontal Left reverse samplen 1 width 1 font ',20'\n"
+      "set format x ''\n"
+      "unset xlabel\n"
+      "set ylabel {5}\n"
+      "plot {6}{7}\n"
+      "unset label 1\n"
+      "unset key\n"
+      "set tmargin screen 0.4\n"
+      "set bmargin screen 0.12\n"
+      "set format x '%h'\n"
+      "set xlabel {8}\n"
+      "set ylabel {9}\n"
+      "set yrange [{10}:{11}]\n"
+      "plot 0 with lines linewidth 1.2 linecolor '#808080' notitle{12}\n"
+      "unset multiplot\n",
+      number(x.low), number(x.high), number(y.low), number(y.high), gnuplot_quoted(portable_text(text.title)),
+      gnuplot_quoted(portable_text(text.y_label)), dots, legend, gnuplot_quoted(portable_text(text.x_label)),
+      gnuplot_quoted("Largest exponent  λ_1 / ω_{sn}"), number(exponents.low), number(exponents.high), bars);
+  return draw_figure(folder, stem, data, panel_script(stem, dot_settings(x), panels));
 }
 
 }  // namespace epicyclic::io

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/regime.hpp"
 #include "io/gnuplot.hpp"
 
 namespace epicyclic::io {
@@ -31,5 +32,20 @@ struct BifurcationSeries {
 FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
                                  const std::vector<BifurcationSeries>& series,
                                  const std::vector<FigureMarker>& markers = {});
+
+/// One value of the parameter with what its motion is.
+struct RegimePoint {
+  double x = 0;
+  std::vector<double> section;  ///< as BifurcationSeries::y
+  analysis::Regime regime = analysis::Regime::undecided;
+  int period = 0;               ///< n, if periodic
+  analysis::Estimate exponent;  ///< largest, per tau; drawn if finite
+};
+
+/// The bifurcation diagram coloured by regime, and under it on the same axis the largest Lyapunov exponent with its
+/// interval. Files, ranges and outcome as above; the points may be in any order.
+/// @throws OutputError, std::invalid_argument for a stem that is not a plain file name
+FigureOutcome regime_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
+                            const std::vector<RegimePoint>& points);
 
 }  // namespace epicyclic::io

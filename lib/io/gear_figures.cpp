@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "gear/bearing.hpp"
-#include "io/csv.hpp"
+#include "io/sketch.hpp"
 #include "model/modes.hpp"
 
 namespace epicyclic::io {
@@ -23,14 +23,7 @@ namespace fs = std::filesystem;
 constexpr double pi = std::numbers::pi;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-// The colours of line_figure.cpp, distinct for colour-blind eyes.
-constexpr std::string_view blue = "#12285c";
-constexpr std::string_view red = "#c8553d";
-constexpr std::string_view green = "#1b8a6b";
-constexpr std::string_view ochre = "#b07a00";
-constexpr std::string_view purple = "#7a4a8c";
-constexpr std::string_view dark_grey = "#4a4a4a";
-constexpr std::string_view light_grey = "#b0b0b0";
+using namespace ink;
 
 /// A name that gnuplot shows as it stands: no character of it means anything in the "enhanced" notation.
 std::string literal(std::string_view name) {
@@ -47,88 +40,10 @@ std::string titled(const gear::Stage& stage, std::string_view what) {
   return stage.name.empty() ? std::string(what) : fmt::format("{}:  {}", literal(stage.name), what);
 }
 
-std::string number(double value) {
-  std::string text;
-  append_number(text, value);
-  return text;
+GearFigure draw(const Sketch& sketch, const fs::path& folder, const FigureText& text, const FigureRange& x,
+                const FigureRange& y, const std::vector<FigureMarker>& markers = {}) {
+  return {sketch.stem(), sketch.draw(folder, text, x, y, markers)};
 }
-
-std::string solid(std::string_view colour, double width = 2) {
-  return fmt::format("lines linewidth {} linecolor '{}'", number(width), colour);
-}
-
-std::string dashed(std::string_view colour, double width, std::string_view dash) {
-  return fmt::format("{} dashtype {}", solid(colour, width), dash);
-}
-
-std::string dots(std::string_view colour, double size, int type = 7) {
-  return fmt::format("points pointtype {} pointsize {}*mark linecolor '{}'", type, number(size), colour);
-}
-
-/// The data sets of one figure, and the plot command that shows them in the order in which they were added.
-class Sketch {
- public:
-  explicit Sketch(std::string_view stem) : stem_(stem) {}
-
-  /// @param rows  of equal length; a row of NaN interrupts a line
-  /// @param look  what follows "with"
-  template <class Rows>
-  void add(const Rows& rows, std::string_view look, std::string_view title = {}) {
-    if (rows.empty()) return;
-    std::size_t columns = 0;
-    bool gap = true;
-    for (const auto& row : rows) {
-      columns = write(row);
-      gap = columns == 0;
-    }
-    data_ += gap ? "\n" : "\n\n";
-    std::string using_columns = "1";
-    for (std::size_t k = 2; k <= std::max<std::size_t>(2, columns); ++k) using_columns += fmt::format(":{}", k);
-    clause(fmt::format("'{}.dat' index {} using {}", stem_, sets_++, using_columns), look, title);
-  }
-
-  /// An entry of the legend without data.
-  void entry(std::string_view look, std::string_view title) { clause("keyentry", look, title); }
-
-  /// Commands that stand before the plot command.
-  void command(std::string_view line) { (commands_ += line) += '\n'; }
-
-  [[nodiscard]] GearFigure draw(const fs::path& folder, const FigureText& text, const FigureRange& x,
-                                const FigureRange& y, const std::vector<FigureMarker>& markers = {}) const {
-    // The script gives a title a line of its own when there are more than two entries; a long one needs it, too.
-    constexpr std::size_t half_line = 36;
-    const std::size_t entries = text.title.size() > half_line ? std::max<std::size_t>(3, entries_) : entries_;
-    return {stem_,
-            draw_figure(folder, stem_, data_, figure_script(stem_, text, x, y, entries, markers, commands_, plot_))};
-  }
-
- private:
-  /// @returns the number of columns, 0 for a gap
-  template <class Row>
-  std::size_t write(const Row& row) {
-    std::size_t columns = 0;
-    for (const double value : row) {
-      if (!std::isfinite(value)) {
-        data_ += '\n';
-        return 0;
-      }
-      if (columns++ > 0) data_ += ' ';
-      append_number(data_, value);
-    }
-    data_ += '\n';
-    return columns;
-  }
-
-  void clause(std::string_view source, std::string_view look, std::string_view title) {
-    if (!plot_.empty()) plot_ += ", \\\n  ";
-    plot_ += fmt::format("{} with {} {}", source, look,
-                         title.empty() ? "notitle" : "title " + gnuplot_quoted(portable_text(title)));
-    if (!title.empty()) ++entries_;
-  }
-
-  std::string stem_, data_, plot_, commands_;
-  std::size_t sets_ = 0, entries_ = 0;
-};
 
 /// Places on the canvas, in shares of its width and height.
 struct Frame {
@@ -140,9 +55,9 @@ void fix_frame(Sketch& sketch, std::string_view title, const Frame& frame) {
   sketch.command(
       fmt::format("set lmargin screen {}\nset rmargin screen {}\nset bmargin screen {}\n"
                   "set tmargin screen 0.875",
-                  number(frame.left), number(frame.right), number(frame.bottom)));
+                  figure_number(frame.left), figure_number(frame.right), figure_number(frame.bottom)));
   sketch.command(fmt::format("set label {} at screen {}, screen 0.916 center", gnuplot_quoted(portable_text(title)),
-                             number(0.5 * (frame.left + frame.right))));
+                             figure_number(0.5 * (frame.left + frame.right))));
   sketch.command("set key vertical maxrows 1 font ',20'");
 }
 
@@ -195,10 +110,10 @@ GearFigure stiffness_figure(const fs::path& folder, std::string_view stem, const
   sketch.add(energy, solid(blue), "energy method");
   sketch.add(fourier, solid(red), fmt::format("Fourier, {} harmonics", series.cosine.size()));
   sketch.entry(dashed(dark_grey, 1.5, "(10,7)"), "mean");
-  return sketch.draw(folder,
-                     {titled(stage, fmt::format("{} mesh stiffness", name)), std::string(phase_label),
-                      fmt::format("Mesh stiffness  k_{{{}}}  [10^9 N/m]", index)},
-                     {0.0, periods_shown}, range_of_y({&energy, &fourier}));
+  return draw(sketch, folder,
+              {titled(stage, fmt::format("{} mesh stiffness", name)), std::string(phase_label),
+               fmt::format("Mesh stiffness  k_{{{}}}  [10^9 N/m]", index)},
+              {0.0, periods_shown}, range_of_y({&energy, &fourier}));
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -217,10 +132,10 @@ GearFigure load_sharing_figure(const fs::path& folder, const gear::Stage& stage,
   };
   add(set.sun_planet, solid(blue), "sun-planet");
   add(set.ring_planet, dashed(red, 2, "(14,6)"), "ring-planet");
-  return sketch.draw(folder,
-                     {titled(stage, "load sharing"), "Distance from the start of contact  [base pitches]",
-                      "Share of the mesh force  L"},
-                     {0.0, longest}, {0.0, 1.05});
+  return draw(sketch, folder,
+              {titled(stage, "load sharing"), "Distance from the start of contact  [base pitches]",
+               "Share of the mesh force  L"},
+              {0.0, longest}, {0.0, 1.05});
 }
 
 /// One mesh as the friction figures see it.
@@ -284,8 +199,8 @@ GearFigure friction_figure(const fs::path& folder, const gear::Stage& stage, con
   const Curve ends{sun_curve.front(), sun_curve.back(), ring_curve.front(), ring_curve.back()};
   sketch.add(Curve(ends.begin(), ends.begin() + 2), dots(blue, 0.9));
   sketch.add(Curve(ends.begin() + 2, ends.end()), dots(red, 0.9));
-  return sketch.draw(
-      folder,
+  return draw(
+      sketch, folder,
       {titled(stage, "tooth friction at " + at_load(load)),
        "Distance from the pitch point along the line of action  [mm]", "Friction coefficient  f = −μ sgn(V_1 − V_2)"},
       x, range_of_y({&sun_curve, &ring_curve}), {{0.0, "pitch point"}});
@@ -300,10 +215,10 @@ GearFigure friction_ratio_figure(const fs::path& folder, const gear::Stage& stag
   add_zero_line(sketch, x);
   sketch.add(sun_curve, solid(blue), "sun-planet");
   sketch.add(ring_curve, dashed(red, 2, "(14,6)"), "ring-planet");
-  return sketch.draw(folder,
-                     {titled(stage, "friction force at " + at_load(load)), fmt::format("{} of each mesh", phase_label),
-                      "Friction force over mesh force  A = Σ L_j f_j"},
-                     x, range_of_y({&sun_curve, &ring_curve}));
+  return draw(sketch, folder,
+              {titled(stage, "friction force at " + at_load(load)), fmt::format("{} of each mesh", phase_label),
+               "Friction force over mesh force  A = Σ L_j f_j"},
+              x, range_of_y({&sun_curve, &ring_curve}));
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -351,9 +266,9 @@ GearFigure bearing_figure(const fs::path& folder, std::string_view stem, const g
     chosen.push_back({bearings[k].support.approach_um, value(bearings[k].support.approach_um)});
   }
   sketch.add(chosen, dots(dark_grey, 1.1), "approach of the stage");
-  return sketch.draw(folder,
-                     {titled(stage, title), "Elastic approach beyond the clearance  δ  [μm]", std::string(label)},
-                     {0.0, reach_um}, {0.0, (1.0 + figure_margin) * highest});
+  return draw(sketch, folder,
+              {titled(stage, title), "Elastic approach beyond the clearance  δ  [μm]", std::string(label)},
+              {0.0, reach_um}, {0.0, (1.0 + figure_margin) * highest});
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -506,7 +421,7 @@ struct PairNames {
 
 void label_point(Sketch& sketch, const DrawnPoint& p, std::string_view text, std::string_view place) {
   sketch.command(fmt::format("set label {} at first {}, first {} {} front boxed font ',20'", gnuplot_quoted(text),
-                             number(p.x), number(p.y), place));
+                             figure_number(p.x), figure_number(p.y), place));
 }
 
 /// A member of a pair as it is drawn.
@@ -597,7 +512,7 @@ GearFigure teeth_figure(const fs::path& folder, const gear::Stage& stage, const 
   fix_frame(sketch, titled(stage, title), {0.075, 0.975, 0.12});
   // Long lines are cut at the frame, and nothing filled hides the tics.
   sketch.command("set size ratio -1\nset clip two\nset tics front\nset key width -1.5");
-  return sketch.draw(folder, {"", "x  [mm]", "y  [mm]"}, window.x, window.y);
+  return draw(sketch, folder, {"", "x  [mm]", "y  [mm]"}, window.x, window.y);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -666,7 +581,7 @@ void add_harmonics(Sketch& sketch, double frequency_max, double label_height) {
     lines.push_back({frequency_max / h, frequency_max});
     const std::string factor = h == 1 ? std::string() : fmt::format("{} ", h);
     sketch.command(fmt::format("set label '{}Ω' at first {}, first {} center front boxed font ',20' textcolor '{}'",
-                               factor, number(label_height / h), number(label_height), dark_grey));
+                               factor, figure_number(label_height / h), figure_number(label_height), dark_grey));
   }
   sketch.add(lines, solid(dark_grey, 1.2));
 }
@@ -675,7 +590,7 @@ void add_harmonics(Sketch& sketch, double frequency_max, double label_height) {
 void add_frequency_axis(Sketch& sketch, double frequency_max, double omega_sn) {
   const double unit_kHz = omega_sn / (2.0 * pi) * 1e-3;
   sketch.command("set ytics nomirror");
-  sketch.command(fmt::format("set y2range [0:{}]", number(frequency_max * unit_kHz)));
+  sketch.command(fmt::format("set y2range [0:{}]", figure_number(frequency_max * unit_kHz)));
   sketch.command("set y2tics\nset my2tics 5\nset y2label 'Frequency  [kHz]'\nset rmargin screen 0.915");
 }
 
@@ -700,8 +615,8 @@ GearFigure campbell_figure(const fs::path& folder, const gear::Stage& stage, con
     if (std::any_of(modes.begin(), modes.end(), [&](const model::Mode& mode) { return mode.type == look.type; }))
       sketch.entry(dashed(look.colour, look.width, look.dash), model::to_string(look.type));
   sketch.entry(solid(dark_grey, 1.2), "mesh harmonics");
-  return sketch.draw(
-      folder,
+  return draw(
+      sketch, folder,
       {titled(stage, "Campbell diagram"), "Mesh frequency ratio  Ω = ω_m / ω_{sn}", "Natural frequency  ω / ω_{sn}"},
       {0.0, speed_max}, {0.0, frequency_max});
 }
@@ -796,7 +711,7 @@ class ShapeDrawing {
   };
 
   static std::string circles(std::string_view colour, double width) {
-    return fmt::format("circles linecolor '{}' linewidth {} fillstyle empty", colour, number(width));
+    return fmt::format("circles linecolor '{}' linewidth {} fillstyle empty", colour, figure_number(width));
   }
 
   static void mark(Curve& marks, double x, double y, double from, double to, double angle) {
@@ -850,14 +765,14 @@ GearFigure mode_shapes_figure(const fs::path& folder, const gear::Stage& stage, 
     const double y = -height * static_cast<double>(line);
     drawing.add_panel(modes[k], x, y);
     const std::string text = panel_title(modes[k], omega_sn);
-    sketch.command(fmt::format("set label {} at first {}, first {} center font ',17'", gnuplot_quoted(text), number(x),
-                               number(y + 0.5 * height - 0.08 * drawing.outer_radius())));
+    sketch.command(fmt::format("set label {} at first {}, first {} center font ',17'", gnuplot_quoted(text),
+                               figure_number(x), figure_number(y + 0.5 * height - 0.08 * drawing.outer_radius())));
   }
   drawing.show(sketch);
   sketch.command("set size ratio -1\nunset border\nunset tics");
   fix_frame(sketch, titled(stage, "mode shapes"), {0.01, 0.99, 0.01});
-  return sketch.draw(folder, {"", "", ""}, {-0.5 * width, width * (static_cast<double>(columns) - 0.5)},
-                     {-height * (static_cast<double>(lines) - 0.5), 0.5 * height});
+  return draw(sketch, folder, {"", "", ""}, {-0.5 * width, width * (static_cast<double>(columns) - 0.5)},
+              {-height * (static_cast<double>(lines) - 0.5), 0.5 * height});
 }
 
 }  // namespace

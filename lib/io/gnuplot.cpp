@@ -118,6 +118,34 @@ std::string with_macrons(std::string_view text) {
   return result;
 }
 
+/// What every script begins with.
+std::string opening(std::string_view stem) {
+  return fmt::format(
+      "# Draws {0}.png and {0}.svg from {0}.dat. To draw again, run in this folder: gnuplot {0}.gp\n"
+      "set encoding utf8\n"
+      "set minussign\n"
+      "set format xy '%h'\n"
+      "set border 15 linewidth 1.2 linecolor '#202020'\n"
+      "set tics in scale 0.9,0.45 textcolor '#202020'\n"
+      "set mxtics 5\n"
+      "set mytics 5\n",
+      stem);
+}
+
+std::string png_terminal(const FigureCanvas& canvas = {}) {
+  return fmt::format(
+      "set terminal pngcairo enhanced rounded size {},{} font 'DejaVu Sans,24' linewidth 1.5 background '#ffffff'\n"
+      "mark = 1.4\n",
+      canvas.width, canvas.height);
+}
+
+std::string svg_terminal(const FigureCanvas& canvas = {}) {
+  return fmt::format(
+      "set terminal svg enhanced round size {},{} font 'DejaVu Sans,24' linewidth 1.2 background '#ffffff'\n"
+      "mark = 0.7\n",
+      4 * canvas.width / 5, 4 * canvas.height / 5);
+}
+
 }  // namespace
 
 void FigureRange::include(double value) {
@@ -209,23 +237,16 @@ std::string portable_text(std::string_view text) { return with_macrons(with_gree
 
 std::string figure_script(std::string_view stem, const FigureText& text, const FigureRange& x, const FigureRange& y,
                           std::size_t legend_entries, const std::vector<FigureMarker>& markers, std::string_view extra,
-                          std::string_view plot) {
-  std::string script = fmt::format(
-      "# Draws {0}.png and {0}.svg from {0}.dat. To draw again, run in this folder: gnuplot {0}.gp\n"
-      "set encoding utf8\n"
-      "set minussign\n"
-      "set format xy '%h'\n"
-      "set border 15 linewidth 1.2 linecolor '#202020'\n"
-      "set tics in scale 0.9,0.45 textcolor '#202020'\n"
-      "set mxtics 5\n"
-      "set mytics 5\n"
-      "set xrange [{1}:{2}]\n"
-      "set yrange [{3}:{4}]\n"
-      "set xlabel {5}\n"
-      "set ylabel {6}\n"
+                          std::string_view plot, const FigureCanvas& canvas) {
+  std::string script = opening(stem);
+  script += fmt::format(
+      "set xrange [{0}:{1}]\n"
+      "set yrange [{2}:{3}]\n"
+      "set xlabel {4}\n"
+      "set ylabel {5}\n"
       "set rmargin screen 0.975\n",
-      stem, text_of(x.low), text_of(x.high), text_of(y.low), text_of(y.high),
-      gnuplot_quoted(portable_text(text.x_label)), gnuplot_quoted(portable_text(text.y_label)));
+      text_of(x.low), text_of(x.high), text_of(y.low), text_of(y.high), gnuplot_quoted(portable_text(text.x_label)),
+      gnuplot_quoted(portable_text(text.y_label)));
   // Title on the left and legend on the right of one line, if both are short: gnuplot's own title takes a second line.
   if (!text.title.empty()) {
     const std::string title = gnuplot_quoted(portable_text(text.title));
@@ -249,17 +270,19 @@ std::string figure_script(std::string_view stem, const FigureText& text, const F
   }
   script += extra;
   script += fmt::format(
-      "set terminal pngcairo enhanced rounded size 1800,1100 font 'DejaVu Sans,24' linewidth 1.5 background '#ffffff'\n"
-      "mark = 1.4\n"
-      "set output '{0}.png'\n"
+      "{2}set output '{0}.png'\n"
       "plot {1}\n"
-      "set terminal svg enhanced round size 1440,880 font 'DejaVu Sans,24' linewidth 1.2 background '#ffffff'\n"
-      "mark = 0.7\n"
-      "set output '{0}.svg'\n"
+      "{3}set output '{0}.svg'\n"
       "replot\n"
       "unset output\n",
-      stem, plot);
+      stem, plot, png_terminal(canvas), svg_terminal(canvas));
   return script;
+}
+
+std::string panel_script(std::string_view stem, std::string_view extra, std::string_view panels) {
+  return fmt::format(
+      "{0}set rmargin screen 0.975\n{1}{2}set output '{5}.png'\n{4}{3}set output '{5}.svg'\n{4}unset output\n",
+      opening(stem), extra, png_terminal(), svg_terminal(), panels, stem);
 }
 
 FigureOutcome draw_figure(const fs::path& folder, std::string_view stem, std::string_view data,

@@ -52,6 +52,15 @@ struct FigureMarker {
   std::string label;
 };
 
+/// Size of a picture as PNG; the SVG file has four fifths of it.
+struct FigureCanvas {
+  int width = 1800;   ///< [pixels]
+  int height = 1100;  ///< [pixels]
+};
+
+/// For axes of equal scale.
+inline constexpr FigureCanvas square_canvas{1200, 1100};
+
 /// Runs gnuplot on the script, without a shell, in the script's folder, in the C locale and without the user's own
 /// settings (~/.gnuplot).
 FigureOutcome run_gnuplot(const std::filesystem::path& script);
@@ -67,7 +76,11 @@ std::string portable_text(std::string_view text);
 /// variable `mark`, the size of a clearly visible dot, which differs between the two. `extra` are commands before it.
 std::string figure_script(std::string_view stem, const FigureText& text, const FigureRange& x, const FigureRange& y,
                           std::size_t legend_entries, const std::vector<FigureMarker>& markers, std::string_view extra,
-                          std::string_view plot);
+                          std::string_view plot, const FigureCanvas& canvas = {});
+
+/// The script of a figure with several panels: encoding, white ground, thin frame and tics; then `extra` once, and
+/// `panels`, complete commands from `set multiplot` to `unset multiplot`, for each of the two files.
+std::string panel_script(std::string_view stem, std::string_view extra, std::string_view panels);
 
 /// Writes STEM.dat and STEM.gp to `folder`, which is created if need be, and draws.
 /// @throws OutputError           when data or script cannot be written

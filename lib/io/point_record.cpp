@@ -99,12 +99,16 @@ template <class A, class E>
 void pass_enum(A& a, E& value, E last) {
   auto wire = static_cast<std::uint8_t>(value);
   a.bytes_of(wire);
-  a.require(wire <= static_cast<std::uint8_t>(last), "names a direction or an outcome that does not exist");
+  a.require(wire <= static_cast<std::uint8_t>(last), "names a direction, an outcome or a regime that does not exist");
   value = static_cast<E>(wire);
 }
 template <class A>
 void pass(A& a, studies::Direction& x) {
   pass_enum(a, x, studies::Direction::down);
+}
+template <class A>
+void pass(A& a, analysis::Regime& x) {
+  pass_enum(a, x, analysis::Regime::undecided);
 }
 template <class A>
 void pass(A& a, integrate::Outcome& x) {
@@ -130,6 +134,15 @@ void pass_all(A& a, T&... values) {
 template <class A>
 void pass(A& a, analysis::Estimate& e) {
   pass_all(a, e.value, e.half_width);
+}
+template <class A>
+void pass(A& a, analysis::Recurrence& r) {
+  pass_all(a, r.period, r.best_period, r.error, r.late_error);
+}
+template <class A>
+void pass(A& a, analysis::Evidence& e) {
+  pass_all(a, e.periods, e.recurrence, e.residual, e.largest_multiplier, e.multiplier_error, e.exponent, e.late_growth,
+           e.zero_one, e.note);
 }
 template <class A>
 void pass(A& a, integrate::Work& w) {
@@ -158,9 +171,8 @@ void pass(A& a, std::vector<T>& values) {
 
 template <class A>
 void pass(A& a, studies::PointResult& r) {
-  pass_all(a, r.point, r.outcome, r.message, r.recurrence.period, r.recurrence.best_period, r.recurrence.error,
-           r.recurrence.late_error, r.sun_planet, r.ring_planet, r.planet_spread, r.rhs_evaluations, r.end_state,
-           r.poincare_columns, r.poincare);
+  pass_all(a, r.point, r.outcome, r.message, r.recurrence, r.regime, r.period, r.classified, r.evidence, r.sun_planet,
+           r.ring_planet, r.planet_spread, r.rhs_evaluations, r.end_state, r.omega, r.poincare_columns, r.poincare);
   a.require(r.poincare_columns == 0 ? r.poincare.empty() : r.poincare.size() % r.poincare_columns == 0,
             "has a Poincare section that is not whole rows");
 }

@@ -371,6 +371,11 @@ Study read_study(json& whole, bool bare, ReadContext& context) {
   } else {
     study_table().collect("", context.places);
     study_table().read(whole, "", study, context);
+    // A run is a sweep of one point, at the speed that is given.
+    if (study.kind == "run" && study.sweep) {
+      study.sweep->from = study.sweep->to = study.mesh_frequency_ratio;
+      study.sweep->points = 1;
+    }
   }
 
   // What could not be computed is not missing.
@@ -424,6 +429,10 @@ void check_sweep(const studies::SweepOptions& sweep, F is_bad, ReadContext& cont
   if (!is_bad("/study/points") && sweep.segments > sweep.points) {
     context.add(Finding::Kind::rule, "/study/segments",
                 "is " + std::to_string(sweep.segments) + ", must be <= points = " + std::to_string(sweep.points));
+  }
+  if (sweep.transient == studies::Transient::adaptive && sweep.classification_periods == 0) {
+    context.add(Finding::Kind::rule, "/study/classification_periods",
+                "is 0, must be >= 1 for an adaptive transient, which ends when the regime is told");
   }
   if (sweep.parameter.rfind('/', 0) == 0) return;  // checked with the values in place
 

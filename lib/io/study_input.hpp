@@ -27,6 +27,7 @@
 #include "io/json_source.hpp"
 #include "model/options.hpp"
 #include "studies/crosscheck_options.hpp"
+#include "studies/run_options.hpp"
 #include "studies/sweep_options.hpp"
 #include "studies/tolerance_options.hpp"
 
@@ -39,13 +40,14 @@ inline constexpr std::array<std::string_view, 11> origin_words = {"source",   "t
 
 struct Study {
   std::string name;
-  std::string kind;  ///< "sweep", "crosscheck", "tolerance"; "stage" for a stage file without a study
+  std::string kind;  ///< "sweep", "run", "crosscheck", "tolerance"; "stage" for a stage file without a study
   gear::Stage stage;
   double mesh_frequency_ratio = 1;  ///< Omega = omega_m / omega_sn where no sweep varies it [-]
   model::ModelOptions model;
   integrate::IntegratorOptions integrator;
   std::optional<studies::SweepOptions> sweep;  ///< the points of every kind of study
   studies::CrosscheckOptions crosscheck{};     ///< as given by that kind, else the defaults
+  studies::RunOptions run{};                   ///< likewise
   studies::ToleranceOptions tolerance{};       ///< likewise
 };
 

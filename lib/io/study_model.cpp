@@ -51,6 +51,12 @@ std::vector<std::string> warnings(const LoadedInput& input) {
       !input.study.integrator.locate_contacts)
     lines.push_back("warning: /integrator/method: the error estimate of \"" + std::string(method->name) +
                     "\" misses the kinks of the exact clearance; its errors are far above its tolerance");
+  if (input.study.sweep && input.study.sweep->classification_periods > 0 &&
+      (input.study.kind == "sweep" || input.study.kind == "run") &&
+      input.study.model.gap_damping == model::GapDamping::contact_slope && input.study.model.clearance_smoothing == 0.0)
+    lines.emplace_back(
+        "warning: /model/gap_damping: with the exact clearance its damping jumps, and tangent vectors with it; regimes "
+        "are told from recurrence alone, unless /integrator/clearance_smoothing > 0");
   for (const std::string& line : input.notes) lines.push_back("warning: " + line);
   return lines;
 }
@@ -85,7 +91,7 @@ std::string figure_title(const Study& study) {
   const gear::Boundary b = study.stage.boundary;
   const char* boundary = b == gear::Boundary::literal ? "literal" : b == gear::Boundary::star ? "star" : "fixed ring";
   std::string title = (study.name.empty() ? study.stage.name : study.name) + ", boundary " + boundary;
-  if (study.sweep && study.sweep->parameter != "mesh_frequency_ratio") {
+  if (study.kind == "run" || (study.sweep && study.sweep->parameter != "mesh_frequency_ratio")) {
     title += ", Ω = ";
     append_number(title, study.mesh_frequency_ratio);
   }
@@ -102,7 +108,7 @@ Cost estimate_cost(const LoadedInput& input) {
       static_cast<std::int64_t>(plan.points.size()) * (sweep.transient_periods + sweep.recorded_periods);
   const studies::ModelAt at = model_at(input);
   constexpr int probed_periods = 4;
-  studies::SweepOptions probe = sweep;
+  studies::SweepOptions probe = studies::by_recurrence_alone(sweep);
   probe.transient_periods = 0;
   probe.recorded_periods = probed_periods;
   double calls = 0.0;

@@ -408,14 +408,13 @@ const Table<model::ModelOptions>& model_table() {
   return table;
 }
 
-/// The keys that every kind of study has: which kind, the points and how long to look at each.
-void add_points(Table<Study>& t, const std::string& name) {
-  using studies::Direction;
-  using studies::Start;
-  const auto of = [](auto member) {
-    return chain(
-        [](auto& study) -> auto& { return *study.sweep; }, member);
-  };
+constexpr auto sweep_of = [](auto member) {
+  return chain(
+      [](auto& study) -> auto& { return *study.sweep; }, member);
+};
+
+/// Which kind of study it is.
+void add_kind(Table<Study>& t, const std::string& name) {
   Field<Study> kind;
   kind.key = "kind";
   kind.description = "What is computed.";
@@ -423,6 +422,13 @@ void add_points(Table<Study>& t, const std::string& name) {
   kind.write = [name](const Study&) { return json(name); };
   kind.schema = [name] { return ordered_json{{"const", name}}; };
   t.custom(std::move(kind)).required();
+}
+
+/// Points along one parameter.
+void add_grid(Table<Study>& t) {
+  using studies::Direction;
+  using studies::Start;
+  const auto of = sweep_of;
   t.text("parameter", of(&SweepOptions::parameter),
          "Name of the parameter, or a JSON pointer to a number of the input.");
   t.number("from", of(&SweepOptions::from), between(-1e300, 1e300), "First value of the parameter, in its unit.");
@@ -437,8 +443,13 @@ void add_points(Table<Study>& t, const std::string& name) {
            "Where a point starts: from the end of the one before in its chain, or from the default start.");
   t.integer("segments", of(&SweepOptions::segments), between(1, 100000),
             "Chains per direction of a carried sweep [-].");
+}
+
+/// How long each point is looked at.
+void add_look(Table<Study>& t) {
+  const auto of = sweep_of;
   t.integer("transient_periods", of(&SweepOptions::transient_periods), between(0, 1e7),
-            "Mesh periods before the record [-].");
+            "Mesh periods before the record, if the transient is fixed [-].");
   t.integer("recorded_periods", of(&SweepOptions::recorded_periods), between(1, 1e5), "Mesh periods recorded [-].");
   t.integer("output_phases", of(&SweepOptions::output_phases), between(1, 10000),
             "Output points per recorded mesh period [-].");
@@ -448,10 +459,50 @@ void add_points(Table<Study>& t, const std::string& name) {
            "Two states recur if no component differs by more, in the units of the state.");
 }
 
+/// The keys of studies that tell their points' regimes.
+void add_classification(Table<Study>& t) {
+  const auto of = sweep_of;
+  t.choice("transient", of(&SweepOptions::transient),
+           std::vector<std::pair<std::string, studies::Transient>>{{"fixed", studies::Transient::fixed},
+                                                                   {"adaptive", studies::Transient::adaptive}},
+           "How long the motion is let settle: transient_periods, or until its regime is told.");
+  t.integer("classification_periods", of(&SweepOptions::classification_periods), between(0, 1e7),
+            "Mesh periods beyond the record in which the regime may be looked for [-]; 0: it is told from recurrence "
+            "alone.");
+}
+
 const Table<Study>& sweep_table() {
   static const auto table = [] {
     Table<Study> t("sweep", "A sweep along one parameter.");
-    add_points(t, "sweep");
+    add_kind(t, "sweep");
+    add_grid(t);
+    add_look(t);
+    add_classification(t);
+    return t;
+  }();
+  return table;
+}
+
+const Table<Study>& run_table() {
+  static const auto table = [] {
+    using studies::RunOptions;
+    Table<Study> t("run", "One operating point, at the speed that \"operation\" gives.");
+    add_kind(t, "run");
+    add_look(t);
+    add_classification(t);
+    const auto of = [](auto member) { return chain(&Study::run, member); };
+    t.integer("exponent_periods", of(&RunOptions::exponent_periods), between(0, 1e6),
+              "Mesh periods that the Lyapunov exponents are counted over [-]; 0: none are computed.");
+    t.integer("dense_phases", of(&RunOptions::dense_phases), between(8, 10000),
+              "Samples per mesh period of histories and spectra [-].");
+    t.integer("history_periods", of(&RunOptions::history_periods), between(1, 10000),
+              "Mesh periods that are kept of histories, and that summaries are taken over [-].");
+    t.integer("spectrum_periods", of(&RunOptions::spectrum_periods), between(1, 100000),
+              "Mesh periods that spectra are taken over [-]; of a periodic motion, its own period.");
+    t.integer("shown_periods", of(&RunOptions::shown_periods), between(1, 10000),
+              "Mesh periods in history.csv and in the figures of histories [-].");
+    t.number("check_tolerance", of(&RunOptions::check_tolerance), between(1e-14, 1e-6),
+             "Relative and absolute tolerance of the orbit's multipliers and of the exponents' checks [-].");
     return t;
   }();
   return table;
@@ -468,7 +519,9 @@ const Table<Study>& crosscheck_table() {
   static const auto table = [] {
     using studies::CrosscheckOptions;
     Table<Study> t("crosscheck", "The same points by several methods, compared.");
-    add_points(t, "crosscheck");
+    add_kind(t, "crosscheck");
+    add_grid(t);
+    add_look(t);
     const auto of = [](auto member) { return chain(&Study::crosscheck, member); };
     t.choices("methods", of(&CrosscheckOptions::methods), method_choices(),
               "Methods; the first is the reference of the others.");
@@ -487,7 +540,9 @@ const Table<Study>& tolerance_table() {
   static const auto table = [] {
     using studies::ToleranceOptions;
     Table<Study> t("tolerance", "The points' answers against tolerance, method and clearance smoothing.");
-    add_points(t, "tolerance");
+    add_kind(t, "tolerance");
+    add_grid(t);
+    add_look(t);
     const auto of = [](auto member) { return chain(&Study::tolerance, member); };
     t.choices("methods", of(&ToleranceOptions::methods), method_choices(), "Methods of the ladder.");
     t.numbers("tolerances", of(&ToleranceOptions::tolerances), integrator_tolerance, 1, 100,
@@ -507,10 +562,10 @@ const Table<Study>& tolerance_table() {
 
 /// Kinds of study and their tables.
 const std::vector<std::pair<std::string, const Table<Study>& (*)()>> kinds = {
-    {"sweep", &sweep_table}, {"crosscheck", &crosscheck_table}, {"tolerance", &tolerance_table}};
+    {"sweep", &sweep_table}, {"run", &run_table}, {"crosscheck", &crosscheck_table}, {"tolerance", &tolerance_table}};
 
 /// Kinds that the input format knows and this version does not compute.
-const std::vector<std::string> kinds_to_come = {"run", "continue", "map", "basins", "calibrate"};
+const std::vector<std::string> kinds_to_come = {"continue", "map", "basins", "calibrate"};
 
 const Table<Study>& table_of_kind(const std::string& kind) {
   for (const auto& [name, table] : kinds)

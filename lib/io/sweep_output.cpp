@@ -20,6 +20,9 @@ using studies::PointResult;
 
 bool ok(const PointResult& r) { return r.outcome == integrate::Outcome::reached; }
 
+/// Periodic by an orbit and its multipliers.
+bool proven(const PointResult& r) { return ok(r) && r.classified && r.regime == analysis::Regime::periodic; }
+
 /// Extrema that were never seen are empty cells.
 double seen(double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::quiet_NaN(); }
 
@@ -27,10 +30,7 @@ double seen(double x) { return std::isfinite(x) ? x : std::numeric_limits<double
 
 std::string direction_word(Direction direction) { return direction == Direction::up ? "up" : "down"; }
 
-std::string regime_word(const PointResult& r) {
-  if (!ok(r)) return "";
-  return r.recurrence.period > 0 ? "periodic" : "undecided";
-}
+std::string regime_word(const PointResult& r) { return ok(r) ? to_string(r.regime) : ""; }
 
 std::string literal_text(const std::string& name) {
   std::string text;
@@ -85,7 +85,14 @@ void write_points_csv(const std::filesystem::path& file, const std::vector<Point
                                       "rhs_evaluations",
                                       "recurrence_error",
                                       "recurrence_error_late",
-                                      "planet_spread"};
+                                      "planet_spread",
+                                      "lyapunov_max_error",
+                                      "multiplier_max",
+                                      "multiplier_error",
+                                      "orbit_residual",
+                                      "zero_one",
+                                      "classified_periods",
+                                      "evidence"};
   const std::size_t planets = results.empty() ? 0 : results.front().sun_planet.size();
   for (const char* mesh : {"sp", "rp"})
     for (std::size_t i = 1; i <= planets; ++i) {
@@ -105,8 +112,8 @@ void write_points_csv(const std::filesystem::path& file, const std::vector<Point
         .cell(r.point.value)
         .cell(status_word(r.outcome))
         .cell(regime_word(r))
-        .cell(ok(r) ? r.recurrence.period : 0)
-        .cell(unknown)  // lyapunov_max: exponents are not computed yet
+        .cell(ok(r) ? r.period : 0)
+        .cell(r.lyapunov_max().value)
         .cell(seen(sp.delta_min))
         .cell(seen(sp.delta_max))
         .cell(seen(rp.delta_min))
@@ -116,7 +123,14 @@ void write_points_csv(const std::filesystem::path& file, const std::vector<Point
         .cell(r.rhs_evaluations)
         .cell(ok(r) ? seen(r.recurrence.error) : unknown)
         .cell(ok(r) ? r.recurrence.late_error : unknown)
-        .cell(r.planet_spread);
+        .cell(r.planet_spread)
+        .cell(r.lyapunov_max().half_width)
+        .cell(proven(r) ? r.evidence.largest_multiplier : unknown)
+        .cell(proven(r) ? r.evidence.multiplier_error : unknown)
+        .cell(proven(r) ? r.evidence.residual : unknown)
+        .cell(r.classified && !proven(r) ? r.evidence.zero_one : unknown)
+        .cell(r.evidence.periods)
+        .cell(r.evidence.note);
     for (const auto* meshes : {&r.sun_planet, &r.ring_planet})
       for (const MeshRecord& m : *meshes) csv.cell(seen(m.delta_min)).cell(seen(m.delta_max)).cell(m.contact());
     csv.cell(r.message);
@@ -166,7 +180,25 @@ void write_results_h5(const std::filesystem::path& file, const SweepOutput& outp
   column(
       "regime", [](const PointResult& r) { return std::string(regime_word(r)); }, nullptr);
   column(
-      "period", [&](const PointResult& r) { return integer(ok(r) ? r.recurrence.period : 0); }, "mesh periods");
+      "period", [&](const PointResult& r) { return integer(ok(r) ? r.period : 0); }, "mesh periods");
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  column(
+      "lyapunov_max", [](const PointResult& r) { return r.lyapunov_max().value; }, "1 per tau");
+  column(
+      "lyapunov_max_error", [](const PointResult& r) { return r.lyapunov_max().half_width; }, "1 per tau");
+  column(
+      "multiplier_max", [](const PointResult& r) { return proven(r) ? r.evidence.largest_multiplier : unknown; }, "1");
+  column(
+      "multiplier_error", [](const PointResult& r) { return proven(r) ? r.evidence.multiplier_error : unknown; }, "1");
+  column(
+      "orbit_residual", [](const PointResult& r) { return proven(r) ? r.evidence.residual : unknown; },
+      "b_c, b_c per tau");
+  column(
+      "zero_one", [](const PointResult& r) { return r.classified && !proven(r) ? r.evidence.zero_one : unknown; }, "1");
+  column(
+      "classified_periods", [&](const PointResult& r) { return integer(r.evidence.periods); }, "mesh periods");
+  column(
+      "evidence", [](const PointResult& r) { return r.evidence.note; }, nullptr);
   column(
       "recurrence_error",
       [](const PointResult& r) { return ok(r) ? seen(r.recurrence.error) : std::numeric_limits<double>::quiet_NaN(); },
@@ -241,6 +273,25 @@ std::vector<DrawnFigure> draw_sweep_figures(const std::filesystem::path& folder,
     const FigureText text{literal_text(output.title), parameter_label(output.sweep.parameter), figure.label};
     figures.push_back(
         {folder / (std::string(figure.stem) + ".png"), bifurcation_figure(folder, figure.stem, text, series)});
+  }
+  if (output.sweep.classification_periods == 0) return figures;
+  // One for each direction: colours are needed for the regimes.
+  const auto& columns = output.poincare_columns;
+  const auto delta =
+      static_cast<std::size_t>(std::find(columns.begin(), columns.end(), drawn[0].column) - columns.begin());
+  for (const Direction direction : output.sweep.directions) {
+    std::vector<RegimePoint> points;
+    for (const PointResult& r : results) {
+      if (r.point.direction != direction || !ok(r)) continue;
+      RegimePoint p{r.point.value, {}, r.regime, r.period, r.lyapunov_max()};
+      for (std::size_t k = 0; k < r.poincare_rows(); ++k)
+        p.section.push_back(r.poincare[k * r.poincare_columns + delta]);
+      points.push_back(std::move(p));
+    }
+    const std::string stem = std::string("regimes_delta_sp_") + direction_word(direction);
+    const FigureText text{literal_text(output.title) + ", " + direction_word(direction),
+                          parameter_label(output.sweep.parameter), drawn[0].label};
+    figures.push_back({folder / (stem + ".png"), regime_figure(folder, stem, text, points)});
   }
   return figures;
 }

@@ -21,17 +21,19 @@ struct Closure {
   T slope;  ///< df/dd [-]
 };
 
+// The half gap b and the width w may be constants (B) where the displacement carries derivatives (T).
+
 /// [M-f] with its slope, which jumps between 0 and 1 at d = +-b. At the kink the closed side's slope is taken, so that
 /// b = 0 is f = d with slope 1 at d = 0 too.
-template <class T>
-[[nodiscard]] Closure<T> closure_exact(const T& d, const T& b) {
+template <class T, class B>
+[[nodiscard]] Closure<T> closure_exact(const T& d, const B& b) {
   return {select(d < b, select(d > -b, T(0.0), T(d + b)), T(d - b)),
           select(d < b, select(d > -b, T(0.0), T(1.0)), T(1.0))};
 }
 
 /// [M-fw] with its slope; w > 0.
-template <class T>
-[[nodiscard]] Closure<T> closure_smooth(const T& d, const T& b, const T& w) {
+template <class T, class B>
+[[nodiscard]] Closure<T> closure_smooth(const T& d, const B& b, const B& w) {
   using epicyclic::sqrt;
   const T below = d - b;
   const T above = d + b;
@@ -41,8 +43,8 @@ template <class T>
 }
 
 /// The clearance of the study: smooth if w > 0, else exact. `smooth` is the same for every lane and point of a study.
-template <class T>
-[[nodiscard]] Closure<T> closure(const T& d, const T& b, const T& w, bool smooth) {
+template <class T, class B>
+[[nodiscard]] Closure<T> closure(const T& d, const B& b, const B& w, bool smooth) {
   return smooth ? closure_smooth(d, b, w) : closure_exact(d, b);
 }
 
@@ -56,10 +58,10 @@ template <class T>
 
 /// g = f(r, b) / r of [M-fr]: the radial clearance as a factor on (x, y). For w > 0 from the form
 /// f_w = r (1 - 2 b / (sqrt((r-b)^2 + w^2) + sqrt((r+b)^2 + w^2))), which does not cancel.
-template <class T>
-[[nodiscard]] T radial_closure_factor(const T& r, const T& b, const T& w, bool smooth) {
+template <class T, class B>
+[[nodiscard]] T radial_closure_factor(const T& r, const B& b, const B& w, bool smooth) {
   using epicyclic::sqrt;
-  if (!smooth) return (r - limited(r, T(-b), b)) / r;
+  if (!smooth) return (r - limited(r, T(-b), T(b))) / r;
   const T factor = 1.0 - 2.0 * b / (sqrt((r - b) * (r - b) + w * w) + sqrt((r + b) * (r + b) + w * w));
   return select(factor > T(0.0), factor, T(0.0));  // rounding may leave -1e-16 inside a gap that is wide against w
 }

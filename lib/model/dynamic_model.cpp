@@ -68,6 +68,56 @@ std::vector<double> static_equilibrium(Parameters<double, N> p) {
   return start;
 }
 
+/// Is turning by one planet a symmetry without a shift in time?
+template <std::size_t N>
+bool planets_alike(const Parameters<double, N>& p) {
+  constexpr double rounding = 1e-9;
+  const auto equal = [&](const Row<double, N>& row, double unit) {
+    return std::all_of(row.begin(), row.end(), [&](double x) { return std::abs(x - row[0]) <= rounding * unit; });
+  };
+  const auto mesh_alike = [&](const MeshParameters<double, N>& mesh) {
+    bool alike = true;
+    for (std::size_t i = 1; i < N; ++i) {
+      const double turns = mesh.turns[i] - mesh.turns[0];
+      alike = alike && std::abs(turns - std::round(turns)) <= rounding;
+    }
+    for (std::size_t h = 0; h < mesh.harmonics; ++h)
+      alike = alike && equal(mesh.stiffness_cos[h], 1.0) && equal(mesh.stiffness_sin[h], 1.0);
+    return alike && equal(mesh.error_cos, 1.0) && equal(mesh.error_sin, 1.0);
+  };
+  // Angles 2 pi / N apart: their N-th multiples are one angle, and no two are the same.
+  std::array<double, N> angle;
+  for (std::size_t i = 0; i < N; ++i) angle[i] = std::atan2(p.sin_phi[i], p.cos_phi[i]);
+  bool spaced = true;
+  for (std::size_t i = 0; i < N; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double steps = (angle[i] - angle[j]) * static_cast<double>(N) / (2.0 * std::numbers::pi);
+      const double apart = std::remainder(steps, static_cast<double>(N));
+      spaced = spaced && std::abs(steps - std::round(steps)) <= rounding && std::abs(apart) > 0.5;
+    }
+  return spaced && mesh_alike(p.sun_planet) && mesh_alike(p.ring_planet);
+}
+
+/// Equal parts of all planets, and rotations of the central members, taken out of displacements and of velocities.
+template <Layout L, std::size_t N>
+void remove_synchronous(const Parameters<double, N>& p, std::span<double> deviation) {
+  constexpr std::size_t n = degrees_of_freedom(L, N);
+  for (std::size_t half = 0; half < 2; ++half) {
+    Coordinates<double, N> q = unpack<L, N>(deviation.data() + half * n);
+    q.w_s = q.u_r = q.u_c = 0.0;
+    // Along the radius through the planet and across.
+    const Row<double, N> radial = q.x_p * p.cos_phi + q.y_p * p.sin_phi;
+    const Row<double, N> across = q.y_p * p.cos_phi - q.x_p * p.sin_phi;
+    constexpr auto count = static_cast<double>(N);
+    const Row<double, N> r = radial - sum(radial) / count;
+    const Row<double, N> t = across - sum(across) / count;
+    q.x_p = r * p.cos_phi - t * p.sin_phi;
+    q.y_p = r * p.sin_phi + t * p.cos_phi;
+    q.w_p -= sum(q.w_p) / count;
+    pack<L, N>(q, deviation.data() + half * n);
+  }
+}
+
 template <Layout L, std::size_t N>
 DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mesh_frequency_ratio,
                       const ModelOptions& options) {
@@ -83,6 +133,8 @@ DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mes
   m.sun_planet_half_gap = p->sun_planet.half_gap;
   m.ring_planet_half_gap = p->ring_planet.half_gap;
   m.omega = mesh_frequency_ratio;
+  m.jumps_at_contact = p->gap_damping == GapDamping::contact_slope && !p->smooth &&
+                       std::max(p->sun_planet.half_gap, p->ring_planet.half_gap) > 0.0;
   m.right_hand_side = [p, kernel = stage_kernel<L, N>()](std::size_t segment, double s, const double* y, double* dyds) {
     kernel(*p, segment, s, y, dyds);
   };
@@ -94,6 +146,21 @@ DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mes
     out.sun_planet_rate.assign(g.sun_planet.rate.begin(), g.sun_planet.rate.end());
     out.ring_planet_rate.assign(g.ring_planet.rate.begin(), g.ring_planet.rate.end());
   };
+  m.forces = [p](double s, const double* y, StageForces& out) {
+    const StageState<double, N> g = stage_state<L>(*p, segment_at(p->breakpoints, s), s, y);
+    out.sun_planet.assign(g.sun_planet.force.begin(), g.sun_planet.force.end());
+    out.ring_planet.assign(g.ring_planet.force.begin(), g.ring_planet.force.end());
+    const Row<double, N> x = p->bearing_p * g.d.carrier_x + p->bearing_damping_p * g.d_rate.carrier_x;
+    const Row<double, N> y_force = p->bearing_p * g.d.carrier_y + p->bearing_damping_p * g.d_rate.carrier_y;
+    out.planet_bearing.resize(N);
+    for (std::size_t i = 0; i < N; ++i) out.planet_bearing[i] = std::hypot(x[i], y_force[i]);
+    const BearingForce<double> sun = sun_bearing_force(*p, g.q.x_s, g.q.y_s);
+    out.sun_bearing = std::hypot(sun.x + p->damping_s * g.v.x_s, sun.y + p->damping_s * g.v.y_s);
+  };
+  m.static_mesh_force = p->drive / static_cast<double>(N);
+  if (planets_alike(*p)) {
+    m.remove_synchronous = [p](std::span<double> deviation) { remove_synchronous<L>(*p, deviation); };
+  }
   m.default_start = static_equilibrium<L>(*p);
   return m;
 }

@@ -27,6 +27,13 @@ struct MeshDeflections {
   std::vector<double> sun_planet_rate, ring_planet_rate;
 };
 
+/// Forces in all meshes and bearings at one instant [m_0 omega_sn^2 b_c]; N entries each.
+struct StageForces {
+  std::vector<double> sun_planet, ring_planet;  ///< F of [M-27], damping included
+  std::vector<double> planet_bearing;           ///< magnitude of spring and damper between planet and carrier
+  double sun_bearing = 0;                       ///< magnitude of bearing and support damping
+};
+
 struct DynamicModel {
   int planets = 0;
   Layout layout = Layout::relative_to_ring;
@@ -36,6 +43,7 @@ struct DynamicModel {
   double sun_planet_half_gap = 0;        ///< b_sp [b_c]
   double ring_planet_half_gap = 0;       ///< b_rp [b_c]
   double omega = 0;                      ///< Omega
+  bool jumps_at_contact = false;         ///< damping that ends where contact does: the right-hand side jumps there
 
   /// dy/ds at phase s in the given segment (segment k follows breakpoint k; 0 if there are none).
   std::function<void(std::size_t segment, double s, const double* y, double* dyds)> right_hand_side;
@@ -48,6 +56,17 @@ struct DynamicModel {
 
   /// Allocation-free when `out` has been used before. Rates included.
   std::function<void(double s, const double* y, MeshDeflections& out)> deflections;
+
+  /// Likewise.
+  std::function<void(double s, const double* y, StageForces& out)> forces;
+
+  double static_mesh_force = 0;  ///< T_D / (N r_bs) [m_0 omega_sn^2 b_c]
+
+  /// Takes from a state's deviation what keeps the planets synchronous: equal motions of all planets in their own
+  /// directions and rotations of the central members. What is left breaks the symmetry, and the flow linearised about a
+  /// synchronous motion keeps it so. Empty unless planets are alike: equally spaced, all meshing in phase, equal
+  /// errors.
+  std::function<void(std::span<double> deviation)> remove_synchronous;
 
   /// At rest, each mesh on its drive flank at delta = b + F / k of the static load, errors as at s = 0: the equilibrium
   /// of the linear stage with mean stiffness (of its relative coordinates for `literal`, where the whole train

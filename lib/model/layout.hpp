@@ -69,9 +69,9 @@ template <Layout L, std::size_t N, class T>
   c.x_s = q[Slots::x_s];
   c.y_s = q[Slots::y_s];
   c.w_s = q[Slots::w_s];
-  c.x_p = Row<T, N>::of([q](std::size_t i) { return q[Slots::x_p(i)]; });
-  c.y_p = Row<T, N>::of([q](std::size_t i) { return q[Slots::y_p(i)]; });
-  c.w_p = Row<T, N>::of([q](std::size_t i) { return q[Slots::w_p(i)]; });
+  c.x_p = Row<T, N>::of([q](std::size_t i) -> const T& { return q[Slots::x_p(i)]; });
+  c.y_p = Row<T, N>::of([q](std::size_t i) -> const T& { return q[Slots::y_p(i)]; });
+  c.w_p = Row<T, N>::of([q](std::size_t i) -> const T& { return q[Slots::w_p(i)]; });
   c.x_r = q[Slots::x_r(N)];
   c.y_r = q[Slots::y_r(N)];
   c.x_c = q[Slots::x_c(N)];

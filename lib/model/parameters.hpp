@@ -15,6 +15,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "core/row.hpp"
@@ -101,7 +102,11 @@ template <std::size_t N>
 template <class P, class F>
 void for_each_constant(P& p, const F& f) {
   const auto all = [&](auto& array) {
-    for (auto& x : array) f(x);
+    for (std::size_t i = 0; i < array.size(); ++i) {
+      auto x = array[i];
+      f(x);
+      if constexpr (!std::is_const_v<std::remove_reference_t<decltype(array)>>) array.set(i, x);
+    }
   };
   const auto mesh = [&](auto& m) {
     all(m.sine);

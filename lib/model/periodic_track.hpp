@@ -80,8 +80,7 @@ class PeriodicTrack {
           Row<T, K>::of([&](std::size_t j) { return c[0][j] + t * (c[1][j] + t * (c[2][j] + t * c[3][j])); });
       if constexpr (is_dual<T>) {
         if (!parameter_cubics_.empty()) {
-          const Row<double, K> slope = cubic(parameter_cubics_[k], value_of(t));
-          for (std::size_t j = 0; j < K; ++j) values[j].derivative[0] += slope[j];
+          values.derivative[0] += cubic(parameter_cubics_[k], value_of(t));
         }
       }
       return values;

@@ -11,6 +11,8 @@
 // dy/ds = (dy/d tau) / Omega. Source: Tang et al. 2020, Eqs. (13)-(20), (27), in the consistent form of model.md.
 // Limits: isotropic planet bearings (k_pix = k_piy = k_picu), one half gap per kind of mesh; the back flank keeps the
 // line of action of the drive flank, as Eq. (27) does.
+// T is the scalar of the state, P that of the parameters and of the phase: the same, or dual numbers and plain ones, so
+// that tangents do not carry the derivatives of constants along.
 // Smoothness: C0 in the state with kinks at delta = +-b (analytic for w > 0); with contact-slope damping and w = 0 it
 // jumps there; in s analytic but for jumps of friction and of a stiffness curve at `breakpoints`.
 #pragma once
@@ -19,6 +21,7 @@
 #include <array>
 #include <cstddef>
 #include <numbers>
+#include <type_traits>
 
 #include "core/scalar.hpp"
 #include "model/clearance.hpp"
@@ -34,8 +37,8 @@ struct Deflections {
   Row<T, N> carrier_x, carrier_y, carrier_u;
 };
 
-template <class T, std::size_t N>
-[[nodiscard]] Deflections<T, N> deflections(const Parameters<T, N>& p, const Coordinates<T, N>& q) {
+template <class T, class P, std::size_t N>
+[[nodiscard]] Deflections<T, N> deflections(const Parameters<P, N>& p, const Coordinates<T, N>& q) {
   Deflections<T, N> d;
   const auto& sp = p.sun_planet;
   const auto& rp = p.ring_planet;
@@ -64,10 +67,10 @@ struct HarmonicBasis {
 };
 
 /// Everything that one kind of mesh does at one instant.
-template <class T, std::size_t N>
+template <class T, std::size_t N, class P = T>
 struct MeshState {
   Row<T, N> delta, rate;     ///< delta and delta' with errors
-  Row<T, N> stiffness;       ///< k_i(s)
+  Row<P, N> stiffness;       ///< k_i(s)
   Row<T, N> elastic;         ///< k f(delta)
   Row<T, N> force;           ///< F
   Row<T, N> friction;        ///< F_f = A F
@@ -76,30 +79,31 @@ struct MeshState {
 };
 
 /// [M-27] of one kind of mesh; `places` are those of the current segment.
-template <class T, std::size_t N>
-[[nodiscard]] MeshState<T, N> mesh_state(const Parameters<T, N>& p, const MeshParameters<T, N>& mesh,
-                                         const MeshPlaces<N>& places, const T& s, const HarmonicBasis<T>& basis,
-                                         const Row<T, N>& displacement, const Row<T, N>& velocity) {
+template <class T, class P, std::size_t N>
+[[nodiscard]] MeshState<T, N, P> mesh_state(const Parameters<P, N>& p, const MeshParameters<P, N>& mesh,
+                                            const MeshPlaces<N>& places, const P& s, const HarmonicBasis<P>& basis,
+                                            const Row<T, N>& displacement, const Row<T, N>& velocity) {
   using R = Row<T, N>;
-  const auto own_phase = [&](std::size_t i) -> T { return s * (0.5 * std::numbers::inv_pi) + mesh.turns[i]; };
-  MeshState<T, N> m;
+  const auto own_phase = [&](std::size_t i) -> P { return s * (0.5 * std::numbers::inv_pi) + mesh.turns[i]; };
+  MeshState<T, N, P> m;
   m.delta = displacement - (mesh.error_cos * basis.cosine[0] + mesh.error_sin * basis.sine[0]);
   m.rate = velocity - p.omega * (mesh.error_sin * basis.cosine[0] - mesh.error_cos * basis.sine[0]);
   m.stiffness = mesh.stiffness;
   for (std::size_t h = 0; h < mesh.harmonics; ++h)
     m.stiffness += mesh.stiffness_cos[h] * basis.cosine[h] + mesh.stiffness_sin[h] * basis.sine[h];
   if (mesh.stiffness_curve)
-    m.stiffness = R::of([&](std::size_t i) { return mesh.stiffness_curve->at(places.stiffness[i], own_phase(i))[0]; });
+    m.stiffness =
+        Row<P, N>::of([&](std::size_t i) { return mesh.stiffness_curve->at(places.stiffness[i], own_phase(i))[0]; });
   const Closure<R> gap = closure<R>(m.delta, mesh.half_gap, p.smoothing, p.smooth);
   m.elastic = m.stiffness * gap.value;
   const R weight = p.gap_damping == GapDamping::contact_slope ? gap.slope : R(1.0);
   m.force = m.elastic + mesh.damping * weight * m.rate;
   if (mesh.friction) {
-    std::array<FrictionRatios<T>, N> ratios;
+    std::array<FrictionRatios<P>, N> ratios;
     for (std::size_t i = 0; i < N; ++i) ratios[i] = mesh.friction->at(places.friction[i], own_phase(i));
-    m.friction = R::of([&](std::size_t i) { return ratios[i].force; }) * m.force;
-    m.moment_driving = R::of([&](std::size_t i) { return ratios[i].moment_driving; }) * m.force;
-    m.moment_driven = R::of([&](std::size_t i) { return ratios[i].moment_driven; }) * m.force;
+    m.friction = Row<P, N>::of([&](std::size_t i) { return ratios[i].force; }) * m.force;
+    m.moment_driving = Row<P, N>::of([&](std::size_t i) { return ratios[i].moment_driving; }) * m.force;
+    m.moment_driven = Row<P, N>::of([&](std::size_t i) { return ratios[i].moment_driven; }) * m.force;
   } else {
     m.friction = m.moment_driving = m.moment_driven = T(0.0);
   }
@@ -112,8 +116,8 @@ struct BearingForce {
   T x, y;
 };
 
-template <class T, std::size_t N>
-[[nodiscard]] BearingForce<T> sun_bearing_force(const Parameters<T, N>& p, const T& x, const T& y) {
+template <class T, class P, std::size_t N>
+[[nodiscard]] BearingForce<T> sun_bearing_force(const Parameters<P, N>& p, const T& x, const T& y) {
   using epicyclic::power_3_2;
   using gear::BearingLaw;
   const auto gap = [&](const T& d) { return closure(d, p.sun_half_gap, p.smoothing, p.smooth).value; };
@@ -142,22 +146,23 @@ template <class T, std::size_t N>
 }
 
 /// Forces of the stage at one instant, before they act on masses.
-template <class T, std::size_t N>
+template <class T, std::size_t N, class P = T>
 struct StageState {
   Coordinates<T, N> q, v;
   Deflections<T, N> d, d_rate;
-  MeshState<T, N> sun_planet, ring_planet;
+  MeshState<T, N, P> sun_planet, ring_planet;
 };
 
-template <Layout L, class T, std::size_t N>
-[[nodiscard]] StageState<T, N> stage_state(const Parameters<T, N>& p, std::size_t segment, const T& s, const T* y) {
-  StageState<T, N> g;
+template <Layout L, class T, class P, std::size_t N>
+[[nodiscard]] StageState<T, N, P> stage_state(const Parameters<P, N>& p, std::size_t segment,
+                                              const std::type_identity_t<P>& s, const T* y) {
+  StageState<T, N, P> g;
   g.q = unpack<L, N>(y);
   g.v = unpack<L, N>(y + degrees_of_freedom(L, N));
   g.d = deflections(p, g.q);
   g.d_rate = deflections(p, g.v);
   const std::size_t harmonics = std::max(p.sun_planet.harmonics, p.ring_planet.harmonics);
-  const HarmonicBasis<T> basis(s, harmonics);
+  const HarmonicBasis<P> basis(s, harmonics);
   const Segment<N>& places = p.segments[segment];
   g.sun_planet = mesh_state(p, p.sun_planet, places.sun_planet, s, basis, g.d.sun_planet, g.d_rate.sun_planet);
   g.ring_planet = mesh_state(p, p.ring_planet, places.ring_planet, s, basis, g.d.ring_planet, g.d_rate.ring_planet);
@@ -165,15 +170,15 @@ template <Layout L, class T, std::size_t N>
 }
 
 /// Accelerations d^2/d tau^2 of the full coordinates from [M-17]..[M-20].
-template <Layout L, class T, std::size_t N>
-[[nodiscard]] Coordinates<T, N> accelerations(const Parameters<T, N>& p, const StageState<T, N>& g) {
+template <Layout L, class T, class P, std::size_t N>
+[[nodiscard]] Coordinates<T, N> accelerations(const Parameters<P, N>& p, const StageState<T, N, P>& g) {
   using R = Row<T, N>;
   const Coordinates<T, N>& q = g.q;
   const Coordinates<T, N>& v = g.v;
-  const MeshState<T, N>& sp = g.sun_planet;
-  const MeshState<T, N>& rp = g.ring_planet;
-  const T& wc = p.carrier_speed;
-  const T wc2 = wc * wc;
+  const MeshState<T, N, P>& sp = g.sun_planet;
+  const MeshState<T, N, P>& rp = g.ring_planet;
+  const P& wc = p.carrier_speed;
+  const P wc2 = wc * wc;
   Coordinates<T, N> a;
 
   // Sun [M-17]
@@ -240,8 +245,8 @@ template <Layout L, class T, std::size_t N>
 }
 
 /// The combinations of full accelerations that the layout's relative coordinates are [M-rel].
-template <Layout L, class T, std::size_t N>
-[[nodiscard]] Coordinates<T, N> relative_accelerations(const Parameters<T, N>& p, const Coordinates<T, N>& full) {
+template <Layout L, class T, class P, std::size_t N>
+[[nodiscard]] Coordinates<T, N> relative_accelerations(const Parameters<P, N>& p, const Coordinates<T, N>& full) {
   Coordinates<T, N> a = full;
   if constexpr (L == Layout::relative_to_ring) {
     a.w_s += a.u_r;
@@ -259,12 +264,13 @@ template <Layout L, class T, std::size_t N>
 ///
 /// @param y     2 n numbers, n = degrees_of_freedom(L, N): displacements [b_c], then velocities [b_c per tau]
 /// @param dyds  2 n numbers
-template <Layout L, class T, std::size_t N>
-void right_hand_side(const Parameters<T, N>& p, std::size_t segment, const T& s, const T* y, T* dyds) {
+template <Layout L, class T, class P, std::size_t N>
+void right_hand_side(const Parameters<P, N>& p, std::size_t segment, const std::type_identity_t<P>& s, const T* y,
+                     T* dyds) {
   constexpr std::size_t n = degrees_of_freedom(L, N);
-  const StageState<T, N> g = stage_state<L>(p, segment, s, y);
+  const StageState<T, N, P> g = stage_state<L>(p, segment, s, y);
   const Coordinates<T, N> a = relative_accelerations<L>(p, accelerations<L>(p, g));
-  const T per_phase = 1.0 / p.omega;
+  const P per_phase = 1.0 / p.omega;
   pack<L, N>(a, dyds + n);
   for (std::size_t k = 0; k < n; ++k) {
     dyds[k] = y[n + k] * per_phase;

@@ -1,4 +1,5 @@
-// The right-hand side in double precision, compiled once per instruction set and chosen at run time.
+// The right-hand side in double precision and with tangent vectors (dual numbers), compiled once per instruction set
+// and chosen at run time.
 //
 // The text is that of model/right_hand_side.hpp for each of them, and so are the bits: a row's values have lanes of
 // their own (core/row.hpp), sums keep their order, and nothing is contracted to a fused multiply-add
@@ -10,6 +11,7 @@
 
 #include <cstddef>
 
+#include "core/dual.hpp"
 #include "model/layout.hpp"
 #include "model/parameters.hpp"
 
@@ -29,14 +31,32 @@ template <Layout L, std::size_t N>
 template <Layout L, std::size_t N>
 [[nodiscard]] StageKernel<N> stage_kernel(const char* name);
 
+/// right_hand_side() with M directions, M = 1 or 4. Four at a time need wide registers, and are compiled for AVX2 and
+/// relative coordinates only: nullptr elsewhere.
+template <std::size_t N, std::size_t M>
+using TangentKernel = void (*)(const Parameters<double, N>& p, std::size_t segment, double s, const Dual<M>* y,
+                               Dual<M>* dyds);
+
+template <Layout L, std::size_t N, std::size_t M>
+[[nodiscard]] TangentKernel<N, M> tangent_kernel();
+template <Layout L, std::size_t N, std::size_t M>
+[[nodiscard]] TangentKernel<N, M> tangent_kernel(const char* name);
+
 }  // namespace epicyclic::model
 
 /// X(layout, planets) for each kernel that there is.
-#define EPICYCLIC_FOR_LAYOUTS(X, N)            \
-  X(Layout::relative_to_ring, N)               \
-  X(Layout::relative_to_carrier, N)            \
-  X(Layout::relative_to_carrier_rigid_ring, N) \
-  X(Layout::full, N)
+/// EPICYCLIC_FOR_TANGENT_KERNELS(X) for each that takes four directions.
+#define EPICYCLIC_FOR_RELATIVE_LAYOUTS(X, N) \
+  X(Layout::relative_to_ring, N)             \
+  X(Layout::relative_to_carrier, N)          \
+  X(Layout::relative_to_carrier_rigid_ring, N)
+#define EPICYCLIC_FOR_TANGENT_KERNELS(X) \
+  EPICYCLIC_FOR_RELATIVE_LAYOUTS(X, 2)   \
+  EPICYCLIC_FOR_RELATIVE_LAYOUTS(X, 3)   \
+  EPICYCLIC_FOR_RELATIVE_LAYOUTS(X, 4)   \
+  EPICYCLIC_FOR_RELATIVE_LAYOUTS(X, 5)   \
+  EPICYCLIC_FOR_RELATIVE_LAYOUTS(X, 6)
+#define EPICYCLIC_FOR_LAYOUTS(X, N) EPICYCLIC_FOR_RELATIVE_LAYOUTS(X, N) X(Layout::full, N)
 #define EPICYCLIC_FOR_STAGE_KERNELS(X) \
   EPICYCLIC_FOR_LAYOUTS(X, 2)          \
   EPICYCLIC_FOR_LAYOUTS(X, 3)          \

@@ -1,29 +1,50 @@
 #include "model/tangents.hpp"
 
 #include <cmath>
-#include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "core/difference.hpp"
 #include "core/dual.hpp"
 #include "core/errors.hpp"
 #include "model/right_hand_side.hpp"
+#include "model/stage_kernel.hpp"
 
 namespace epicyclic::model {
 
+namespace {
+
+/// The kernel that fits the scalar.
+template <class One, class Four>
+struct Either {
+  One one;
+  Four four;
+  template <class P, class T>
+  void operator()(const P& p, std::size_t segment, double s, const T* y, T* dyds) const {
+    if constexpr (std::is_same_v<T, Dual<1>>) {
+      one(p, segment, s, y, dyds);
+    } else {
+      four(p, segment, s, y, dyds);
+    }
+  }
+};
+
+}  // namespace
+
 template <Layout L, std::size_t N>
 TangentFunction make_tangents(const Parameters<double, N>& p) {
-  using All = std::tuple<Parameters<Dual<8>, N>, Parameters<Dual<4>, N>, Parameters<Dual<1>, N>>;
-  const auto all = std::make_shared<const All>(convert<Dual<8>>(p), convert<Dual<4>>(p), convert<Dual<1>>(p));
-  return [all](std::size_t segment, double s, const double* y, const Columns<const double>& v, double* dyds,
-               const Columns<double>& dvds) {
-    push_forward(
-        2 * degrees_of_freedom(L, N),
-        [&]<class T>(const T* state, T* slope) {
-          right_hand_side<L>(std::get<Parameters<T, N>>(*all), segment, T(s), state, slope);
-        },
-        y, v, dyds, dvds);
+  const auto constants = std::make_shared<const Parameters<double, N>>(p);
+  const auto with = [&](auto chunk, const auto& kernel) -> TangentFunction {
+    return [constants, kernel](std::size_t segment, double s, const double* y, const Columns<const double>& v,
+                               double* dyds, const Columns<double>& dvds) {
+      const auto evaluate = [&](const auto* state, auto* slope) { kernel(*constants, segment, s, state, slope); };
+      push_forward<decltype(chunk)::value>(2 * degrees_of_freedom(L, N), evaluate, y, v, dyds, dvds);
+    };
   };
+  const TangentKernel<N, 1> by_one = tangent_kernel<L, N, 1>();
+  if (const TangentKernel<N, 4> by_four = tangent_kernel<L, N, 4>())
+    return with(std::integral_constant<std::size_t, 4>(), Either{by_one, by_four});
+  return with(std::integral_constant<std::size_t, 1>(), by_one);
 }
 
 template <Layout L, std::size_t N>

@@ -355,9 +355,10 @@ double orbit_distance(const PointResult& a, const PointResult& b, std::size_t di
   return least;
 }
 
-Crosscheck run_crosscheck(const SweepPlan& plan, const SweepOptions& sweep, const CrosscheckOptions& options,
+Crosscheck run_crosscheck(const SweepPlan& plan, const SweepOptions& as_given, const CrosscheckOptions& options,
                           const integrate::IntegratorOptions& integrator, double study_smoothing,
                           const SmoothedModelAt& model_at, CrosscheckRun run) {
+  const SweepOptions sweep = by_recurrence_alone(as_given);
   Crosscheck all;
   all.variants = crosscheck_variants(options, integrator, study_smoothing);
   std::mutex mutex;

@@ -33,6 +33,7 @@ integrate::VectorField vector_field(const model::DynamicModel& model) {
   field.right_hand_side = model.right_hand_side;
   field.tangents = model.tangents;
   field.parameter_derivative = model.parameter_derivative;
+  field.jumps_at_surfaces = model.jumps_at_contact;
   const auto flank = [&](std::string name, auto member, std::size_t planet, double gap) {
     field.surfaces.push_back(
         {std::move(name), [deflections = model.deflections, member, planet, gap](double s, std::span<const double> y) {

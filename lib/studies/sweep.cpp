@@ -145,6 +145,12 @@ double grid_value(const SweepOptions& options, double share) {
 
 }  // namespace
 
+SweepOptions by_recurrence_alone(SweepOptions options) {
+  options.classification_periods = 0;
+  options.transient = Transient::fixed;
+  return options;
+}
+
 SweepPlan plan_sweep(const SweepOptions& options) {
   SweepPlan plan;
   const auto count = static_cast<std::size_t>(options.points);
@@ -195,13 +201,49 @@ PointResult compute_point(const GridPoint& point, const model::DynamicModel& mod
   if (state.size() != model.dimension)
     throw InputError("a start of " + std::to_string(state.size()) + " numbers for a state of " +
                      std::to_string(model.dimension));
+  result.omega = model.omega;
+  // Without tangents there is nothing but recurrence, and no end of a transient.
+  const bool classifies = sweep.classification_periods > 0 && model.tangents && !model.jumps_at_contact;
+  const bool adaptive = classifies && sweep.transient == Transient::adaptive;
+  long classification_work = 0;
+  const auto tell = [&](std::vector<double>& from, const analysis::PoincareSection* seen) {
+    analysis::RegimeOptions options;
+    options.budget = std::max(options.look, sweep.classification_periods);
+    options.longest_period = sweep.period_max;
+    options.observable = std::min(model::Slots::w_s, model.dimension - 1);
+    integrate::IntegratorOptions controlled = integrator;
+    controlled.tangent_error_control = true;
+    const auto exact = integrate::make_flow(vector_field(model), controlled);
+    controlled.relative_tolerance *= 10.0;
+    controlled.absolute_tolerance *= 10.0;
+    const auto coarser = integrate::make_flow(vector_field(model), controlled);
+    options.exact = exact.get();
+    options.coarser = coarser.get();
+    analysis::Classification told = analysis::classify(*flow, from, options, go_on, seen);
+    classification_work += exact->right_hand_side_calls() + coarser->right_hand_side_calls();
+    result.classified = told.evolution.reached();
+    result.regime = told.regime;
+    result.period = told.period;
+    result.evidence = told.evidence;
+    return told;
+  };
   Watch watch(model, result);
+  if (adaptive) {
+    const analysis::Classification told = tell(state, nullptr);
+    if (!told.evolution.reached()) {
+      result.outcome = told.evolution.outcome;
+      result.message = told.evolution.message;
+      result.rhs_evaluations = flow->right_hand_side_calls() + classification_work;
+      return result;
+    }
+    if (told.orbit) state = told.orbit->state;
+    flow->forget();
+  }
   const analysis::Strobe strobe = analysis::strobe(
-      *flow, state, {sweep.transient_periods, sweep.recorded_periods, sweep.output_phases},
+      *flow, state, {adaptive ? 0 : sweep.transient_periods, sweep.recorded_periods, sweep.output_phases},
       [&](std::size_t, double s, std::span<const double> y) { watch.see(s, y); }, go_on);
   result.outcome = strobe.evolution.outcome;
   result.message = strobe.evolution.message;
-  result.rhs_evaluations = flow->right_hand_side_calls();
 
   model::MeshDeflections d;
   result.poincare_columns = model.dimension + 2 * static_cast<std::size_t>(model.planets);
@@ -212,10 +254,25 @@ PointResult compute_point(const GridPoint& point, const model::DynamicModel& mod
     result.poincare.insert(result.poincare.end(), d.sun_planet.begin(), d.sun_planet.end());
     result.poincare.insert(result.poincare.end(), d.ring_planet.begin(), d.ring_planet.end());
   }
-  if (!strobe.evolution.reached()) return result;
-  result.recurrence = analysis::recurrence(strobe.section, sweep.period_max, sweep.recurrence_tolerance);
-  result.end_state = std::move(state);
+  if (strobe.evolution.reached()) {
+    result.recurrence = analysis::recurrence(strobe.section, sweep.period_max, sweep.recurrence_tolerance);
+    if (!classifies) {
+      result.period = result.recurrence.period;
+      result.regime = result.period > 0 ? analysis::Regime::periodic : analysis::Regime::undecided;
+    } else if (!adaptive) {
+      std::vector<double> onwards = state;  // the next point of a chain starts where the record ends
+      (void)tell(onwards, &strobe.section);
+    }
+    result.end_state = std::move(state);
+  }
+  result.rhs_evaluations = flow->right_hand_side_calls() + classification_work;
   return result;
+}
+
+analysis::Estimate PointResult::lyapunov_max() const {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (!classified || outcome != integrate::Outcome::reached) return {none, none};
+  return {evidence.exponent.value * omega, evidence.exponent.half_width * omega};
 }
 
 std::vector<PointResult> run_sweep(const SweepPlan& plan, const SweepOptions& sweep,

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "analysis/poincare.hpp"
+#include "analysis/regime.hpp"
 #include "integrate/options.hpp"
 #include "model/dynamic_model.hpp"
 #include "studies/sweep_options.hpp"
@@ -21,7 +22,10 @@
 namespace epicyclic::studies {
 
 /// Raised when a change makes the same input give other numbers: results of two versions are never mixed in one folder.
-inline constexpr int numerics_version = 3;
+inline constexpr int numerics_version = 4;
+
+/// The same points without the classification of their regimes, for studies that look at their points otherwise.
+[[nodiscard]] SweepOptions by_recurrence_alone(SweepOptions options);
 
 /// One point of the grid.
 struct GridPoint {
@@ -50,8 +54,14 @@ struct MeshRecord {
 struct PointResult {
   GridPoint point;
   integrate::Outcome outcome = integrate::Outcome::reached;
-  std::string message;                  ///< of an outcome other than reached
-  analysis::Recurrence recurrence;      ///< meaningful if reached
+  std::string message;              ///< of an outcome other than reached
+  analysis::Recurrence recurrence;  ///< of the record; meaningful if reached
+
+  /// What the motion is [analysis/regime.hpp]: periodic where it is proven, or where nothing but recurrence was asked.
+  analysis::Regime regime = analysis::Regime::undecided;
+  int period = 0;                       ///< n, if periodic
+  bool classified = false;              ///< by more than recurrence: the evidence is there
+  analysis::Evidence evidence;          ///< per unit of the mesh phase
   std::vector<MeshRecord> sun_planet;   ///< one per planet
   std::vector<MeshRecord> ring_planet;  ///< one per planet
   double planet_spread = 0;             ///< largest difference between planets' deflections of one kind of mesh [b_c]
@@ -59,6 +69,10 @@ struct PointResult {
   std::vector<double> end_state;  ///< what the next point of a chain starts from
   std::vector<double> poincare;   ///< rows of poincare_columns(): state, delta_sp_i, delta_rp_i
   std::size_t poincare_columns = 0;
+  double omega = 0;  ///< Omega: what is per unit of the mesh phase, times Omega, is per tau
+
+  /// Largest Lyapunov exponent per tau; not a number where there is none.
+  [[nodiscard]] analysis::Estimate lyapunov_max() const;
 
   [[nodiscard]] std::size_t poincare_rows() const {
     return poincare_columns == 0 ? 0 : poincare.size() / poincare_columns;

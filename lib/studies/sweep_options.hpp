@@ -13,6 +13,11 @@ enum class Start {
   cold,     ///< each point starts from the default start
 };
 
+enum class Transient {
+  fixed,     ///< transient_periods
+  adaptive,  ///< until the regime is told; a periodic motion is then put onto its orbit
+};
+
 struct SweepOptions {
   std::string parameter = "mesh_frequency_ratio";  ///< a name of architecture section 6, or a JSON pointer
   double from = 0.2;
@@ -20,8 +25,9 @@ struct SweepOptions {
   int points = 661;
   std::vector<Direction> directions = {Direction::up};
   Start start = Start::carried;
-  int segments = 1;             ///< chains per direction of a carried sweep
-  int transient_periods = 300;  ///< mesh periods before the record
+  int segments = 1;  ///< chains per direction of a carried sweep
+  Transient transient = Transient::fixed;
+  int transient_periods = 300;  ///< mesh periods before the record, if fixed
   int recorded_periods = 128;   ///< mesh periods recorded, one Poincare point each
   int output_phases = 64;       ///< dense output points per recorded period, for extrema and contact
   int period_max = 32;          ///< longest period of the motion looked for [mesh periods]
@@ -29,6 +35,9 @@ struct SweepOptions {
   /// Two states recur if no component differs by more [b_c, b_c per tau]. A finer one takes the last traces of the
   /// softest support mode, which at high speed decays by half a percent a mesh period, for a change of the motion.
   double recurrence_tolerance = 1e-3;
+
+  /// Mesh periods that the regime may be looked for beyond the record; 0: it is told from recurrence alone.
+  int classification_periods = 4096;
 };
 
 }  // namespace epicyclic::studies

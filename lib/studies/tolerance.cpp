@@ -297,8 +297,8 @@ class PointStudy {
       if (!e.evolution.reached() || series[0].empty()) return;
       step.exponent = {e.per_s.value * model.omega, e.per_s.half_width * model.omega};
       for (std::size_t k = 0; k < series.size(); ++k) {
-        step.mean[k] = analysis::batch_mean(series[k]);
-        step.deviation[k] = analysis::batch_deviation(series[k]);
+        step.mean[k] = analysis::series_mean(series[k]);
+        step.deviation[k] = analysis::series_deviation(series[k]);
       }
     });
   }

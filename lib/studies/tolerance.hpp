@@ -10,7 +10,7 @@
 //   each width w: the orbit of the smoothed stage by Newton's method, its distance from y*, its quantities, and those
 //     extrapolated to w -> 0 with the exponent that three widths in a row show.
 // Any other point has no orbit to compare: largest exponent, mean and deviation of the Poincare points, each with its
-// confidence interval [A-batch], and whether it overlaps the reference's.
+// confidence interval [A-mean], and whether it overlaps the reference's.
 //
 // Limits: e_o supposes an orbit that persists; a point near a bifurcation has |I - M| near 0 and says so by a large
 // e_o.

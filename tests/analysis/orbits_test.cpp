@@ -14,6 +14,7 @@
 
 #include "analysis/lyapunov.hpp"
 #include "analysis/periodic_orbit.hpp"
+#include "integrate/make_field.hpp"
 #include "integrate/make_flow.hpp"
 #include "problems/clearance_exact.hpp"
 #include "problems/known_systems.hpp"
@@ -55,6 +56,25 @@ TEST(PeriodicOrbit, NewtonConvergesQuadraticallyAcrossKinks) {
   EXPECT_NEAR(orbit.state[0], exact[0], accuracy);
   EXPECT_NEAR(orbit.state[1], exact[1], accuracy);
   EXPECT_LE(orbit.residuals.size(), 6U);
+}
+
+TEST(PeriodicOrbit, KeptTangentsLeadToTheSameOrbitForLess) {
+  integrate::IntegratorOptions controlled = tight();
+  controlled.tangent_error_control = true;
+  const auto flow = integrate::make_flow(problems::clearance_oscillator(0.85), controlled);
+  const std::array<double, 2> near = {0.876, -0.132};
+  const PeriodicOrbit full = find_periodic_orbit(*flow, near, 1);
+  const long with_all = flow->work().tangent_right_hand_sides;
+  const PeriodicOrbit kept = find_periodic_orbit(*flow, near, 1, {.keep_tangents = true});
+  const long with_few = flow->work().tangent_right_hand_sides - with_all;
+  ASSERT_EQ(full.outcome, OrbitOutcome::converged) << full.message;
+  ASSERT_EQ(kept.outcome, OrbitOutcome::converged) << kept.message;
+  constexpr double accuracy = 1e-10;  // ten residuals
+  EXPECT_NEAR(kept.state[0], full.state[0], accuracy);
+  EXPECT_NEAR(kept.state[1], full.state[1], accuracy);
+  // The monodromy is one of where the iteration began, 3e-4 away.
+  EXPECT_LT((kept.monodromy - full.monodromy).cwiseAbs().maxCoeff(), 1e-2);
+  EXPECT_LT(with_few, with_all);
 }
 
 TEST(PeriodicOrbit, AnUnstableOrbitIsFoundToo) {
@@ -193,6 +213,30 @@ TEST(LargestExponent, OfAPeriodicMotionWithComplexMultipliersIsHalfTheSum) {
   // Damping 2 z = 0.1 per unit of t, W = 1.3 units of s in one of t.
   const double half_sum = -0.05 / 1.3;
   EXPECT_NEAR(e.per_s.value, half_sum, std::max(2e-4, e.per_s.half_width));
+}
+
+TEST(LargestExponent, OfAnInvariantSubspaceIsThatOfItsDirections) {
+  // Two equal forced oscillators on a soft spring between them: in the mean the damping is 0.1, in the difference 0.5.
+  const auto field = integrate::make_field(4, 6.283185307179586, [](std::size_t, double s, const auto* y, auto* d) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::size_t other = 1 - i;
+      d[2 * i] = y[2 * i + 1];
+      d[2 * i + 1] = -0.1 * y[2 * i + 1] - 2.0 * y[2 * i] + std::cos(s) + 0.2 * (y[2 * other + 1] - y[2 * i + 1]) +
+                     0.3 * (y[2 * other] - y[2 * i]);
+    }
+  });
+  const auto flow = integrate::make_flow(field, tight(1e-10));
+  std::vector<double> y = {0.3, 0.0, 0.3, 0.0};
+  EXPECT_NEAR(largest_exponent(*flow, y, {50, 2000}, {}, always).per_s.value, -0.05, 1e-3);
+  LyapunovOptions transverse{50, 2000};
+  transverse.project = [](std::span<double> v) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double mean = 0.5 * (v[k] + v[k + 2]);
+      v[k] -= mean;
+      v[k + 2] -= mean;
+    }
+  };
+  EXPECT_NEAR(largest_exponent(*flow, y, transverse, {}, always).per_s.value, -0.25, 1e-3);
 }
 
 TEST(LargestExponent, StopsWhenTold) {

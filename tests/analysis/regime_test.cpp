@@ -62,6 +62,47 @@ TEST(Regime, ASlowTransientIsProvenBeforeItIsOver) {
   EXPECT_NEAR(c.orbit->state[0], 1.0, 1e-5);
 }
 
+TEST(Regime, ASectionThatWasSeenIsNotLookedAtAgain) {
+  // Period 2, proven from the section alone; chaos, from one look that is long enough for growth.
+  for (const auto& [g, periodic] : {std::pair{0.28, true}, {0.5, false}}) {
+    const auto flow = integrate::make_flow(problems::duffing(0.3, -1.0, g, 1.2), {});
+    std::vector<double> y = {1.0, 0.0};
+    const Strobe seen = strobe(
+        *flow, y, {.transient_periods = 100, .recorded_periods = 128, .phases = 1}, [](auto&&...) {}, always);
+    const Classification c = classify(*flow, y, {}, always, &seen.section);
+    EXPECT_EQ(c.regime, periodic ? Regime::periodic : Regime::chaotic) << c.evidence.note;
+    EXPECT_EQ(c.evidence.periods, periodic ? 0 : 128);
+    EXPECT_EQ(c.period, periodic ? 2 : 0);
+  }
+}
+
+TEST(Regime, TheStatedErrorOfAMultiplierHoldsIt) {
+  // At several tolerances, against one that is far tighter.
+  const auto field = problems::duffing(0.3, -1.0, 0.27, 1.2);
+  const auto at = [&](double tolerance) {
+    integrate::IntegratorOptions o;
+    o.relative_tolerance = o.absolute_tolerance = tolerance;
+    const auto flow = integrate::make_flow(field, o);
+    o.relative_tolerance = o.absolute_tolerance = 10.0 * tolerance;
+    const auto coarser = integrate::make_flow(field, o);
+    RegimeOptions options;
+    options.coarser = coarser.get();
+    std::vector<double> y = {1.0, 0.0};
+    return classify(*flow, y, options, always);
+  };
+  const Classification exact = at(1e-12);
+  ASSERT_EQ(exact.regime, Regime::periodic);
+  for (const double tolerance : {1e-6, 1e-7, 1e-8, 1e-9}) {
+    const Classification c = at(tolerance);
+    ASSERT_EQ(c.regime, Regime::periodic);
+    const double off = std::abs(c.evidence.largest_multiplier - exact.evidence.largest_multiplier);
+    EXPECT_LT(off, c.evidence.multiplier_error) << tolerance;
+    EXPECT_LT(c.evidence.multiplier_error, 1e5 * tolerance);
+    const double exponent = std::log(exact.evidence.largest_multiplier) / (2.0 * field.period);
+    EXPECT_LT(std::abs(c.evidence.exponent.value - exponent), c.evidence.exponent.half_width);
+  }
+}
+
 TEST(Regime, ForcedVanDerPolIsATorusOrLocked) {
   // Far from its own frequency a torus; forced hard, locked to the forcing.
   for (const double w : {1.7, 2.3, 0.62}) {

@@ -1,0 +1,81 @@
+// epicyclic run: one operating point with everything that analysis can say of it.
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "folder.hpp"
+#include "io/atomic_file.hpp"
+#include "io/run_output.hpp"
+#include "io/study_model.hpp"
+#include "io/sweep_output.hpp"
+#include "stop.hpp"
+#include "studies/run.hpp"
+
+namespace epicyclic::app {
+
+int run_command(const Arguments& arguments) {
+  const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
+  require_kind(input, arguments, "run");
+  const io::Study& study = input.study;
+  const model::DynamicModel model = io::model_at(input)(study.mesh_frequency_ratio);
+  for (const std::string& warning : io::warnings(input)) fmt::print(stderr, "{}\n", warning);
+
+  const io::OutputFolder folder(arguments.output, io::identity(input, "run"));
+  if (const auto code = refuse_or_finish(folder)) return *code;
+  io::Provenance facts = provenance(1);
+  stop_on_signals();
+  const std::string resolved = write_inputs(folder, input);
+  folder.write_run(io::RunState::running, io::run_facts(facts));
+
+  // A minute at most: what is stopped begins anew.
+  const auto result = studies::run_operating_point(model, model::scales_of(study.stage), *study.sweep, study.run,
+                                                   study.integrator, [] { return !stop_requested().load(); });
+  if (!result) {
+    facts.ended = io::utc_now();
+    folder.write_run(io::RunState::stopped, io::run_facts(facts));
+    fmt::print(stderr, "stopped; the same command begins anew\n");
+    return stopped_early;
+  }
+
+  const io::SweepOutput points{*study.sweep, studies::poincare_columns(model), resolved, io::figure_title(study)};
+  const io::RunOutput output{points.sweep,
+                             study.run,
+                             points.poincare_columns,
+                             resolved,
+                             points.title,
+                             model.sun_planet_half_gap,
+                             model.ring_planet_half_gap};
+  const bool computed = result->point.outcome == integrate::Outcome::reached;
+  const std::string summary = io::run_summary(output, *result);
+  io::write_points_csv(folder.file("points.csv"), {result->point});
+  io::write_poincare_csv(folder.file("poincare.csv"), points, {result->point});
+  io::write_run_tables(folder.path(), output, *result);
+  io::write_run_h5(folder.file("results.h5"), output, *result);
+  io::write_file_atomically(folder.file("summary.md"), summary);
+  const auto figures = io::draw_run_figures(folder.file("figures"), output, *result);
+  facts.ended = io::utc_now();
+  facts.counts = {{"points", 1}, {"failed", computed ? 0 : 1}};
+  folder.write_run(io::RunState::complete, io::run_facts(facts));
+
+  nlohmann::json told = {{"folder", folder.path().string()},
+                         {"status", io::status_word(result->point.outcome)},
+                         {"regime", io::regime_word(result->point)},
+                         {"period", result->point.period},
+                         {"figures", nlohmann::json::array()}};
+  for (const io::DrawnFigure& figure : figures) {
+    if (figure.outcome.drawn())
+      told["figures"].push_back(figure.png.string());
+    else
+      fmt::print(stderr, "{} was not drawn: {}\n", figure.png.string(), figure.outcome.message);
+  }
+  if (arguments.json) {
+    fmt::print("{}\n", told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else {
+    fmt::print("{}\n", summary);
+    for (const auto& figure : told["figures"]) fmt::print("figure: {}\n", figure.get<std::string>());
+  }
+  return computed ? done : done_with_failures;
+}
+
+}  // namespace epicyclic::app

@@ -1,0 +1,504 @@
+// Figures of a run, declared in io/run_output.hpp.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/root_finding.hpp"
+#include "io/run_output.hpp"
+#include "io/sketch.hpp"
+#include "model/dynamic_model.hpp"
+
+namespace epicyclic::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using analysis::Regime;
+using studies::History;
+using studies::RunResult;
+using studies::SignalSpectrum;
+using namespace ink;
+
+using Row2 = std::array<double, 2>;
+using Curve = std::vector<Row2>;
+
+constexpr std::string_view drive_colour = "#9db4d8";
+constexpr std::string_view loss_colour = "#e9dfc0";
+constexpr std::string_view back_colour = red;
+constexpr std::string_view fine_dash = "(10,7)";
+/// Up to this difference, in parts of the values, planets are drawn as one.
+constexpr double coincident = 1e-6;
+/// A portrait of a motion that does not repeat shows no more mesh periods: beyond, a line fills the plane.
+constexpr int portrait_periods = 64;
+constexpr std::array<std::string_view, 6> planet_colours{blue, red, green, ochre, purple, dark_grey};
+constexpr std::string_view time_label = "Mesh periods  s / 2π";
+
+bool has_column(const History& h, const std::string& name) { return h.index_of(name) < h.columns.size(); }
+
+void include(FigureRange& range, const std::vector<double>& values, std::size_t from = 0) {
+  for (std::size_t k = from; k < values.size(); ++k) range.include(values[k]);
+}
+
+/// At least as wide as said, so that rounding is not blown up to fill the figure.
+FigureRange no_narrower(const FigureRange& range, double width) {
+  const double lacking = std::max(0.0, 0.5 * (width - (range.high - range.low)));
+  return {range.low - lacking, range.high + lacking};
+}
+
+FigureRange y_range(const FigureRange& data) {
+  constexpr double least = 1e-6;  // of the values themselves
+  return no_narrower(data, least * std::max(std::abs(data.low), std::abs(data.high))).widened(figure_margin);
+}
+
+/// Rows of the record that a figure shows.
+struct Window {
+  std::size_t first = 0, rows = 0;
+  double start = 0;    ///< of the first mesh period shown, since the record began [mesh periods]
+  double periods = 0;  ///< shown
+};
+
+/// The last mesh periods, from the very instant where they begin if the record has it.
+Window last_periods(const History& h, int periods) {
+  Window w;
+  w.rows = h.rows();
+  w.first = first_row(h, periods);
+  const double all = static_cast<double>(h.rows()) / static_cast<double>(h.phases);
+  w.periods = static_cast<double>(h.rows() - w.first) / static_cast<double>(h.phases);
+  w.start = all - w.periods;
+  if (w.first > 0) --w.first;
+  return w;
+}
+
+/// Mesh periods since the window began, of a row.
+double time_of(const History& h, const Window& w, std::size_t row) {
+  return static_cast<double>(row + 1) / static_cast<double>(h.phases) - w.start;
+}
+
+Curve over_time(const History& h, const Window& w, const std::vector<double>& values) {
+  Curve curve;
+  for (std::size_t k = w.first; k < w.rows; ++k) curve.push_back({time_of(h, w, k), values[k]});
+  return curve;
+}
+
+Curve pairs(const std::vector<double>& x, const std::vector<double>& y, std::size_t from = 0) {
+  Curve curve;
+  for (std::size_t k = from; k < x.size(); ++k) curve.push_back({x[k], y[k]});
+  return curve;
+}
+
+std::string mesh_periods(int n) { return n == 1 ? "1 mesh period" : fmt::format("{} mesh periods", n); }
+
+/// Range of one coordinate.
+FigureRange range_of(const Curve& curve, std::size_t coordinate) {
+  FigureRange range;
+  for (const Row2& row : curve) range.include(row[coordinate]);
+  return range;
+}
+
+/// The figures of one run.
+class RunFigures {
+ public:
+  RunFigures(const fs::path& folder, const RunOutput& output, const RunResult& result)
+      : folder_(folder), output_(output), result_(result), h_(result.history), title_(literal_text(output.title)) {}
+
+  std::vector<DrawnFigure> draw() {
+    if (h_.rows() > 0 && h_.phases > 0) {
+      history();
+      phase_portrait();
+      poincare_section();
+      if (result_.crossing.size() > 0) poincare_crossing();
+    }
+    for (const SignalSpectrum& s : result_.spectra) {
+      if (s.signal == "delta_sp_1")
+        spectrum(s, "spectrum", fmt::format("Amplitude of  δ_{{sp,1}}  [{}]", unit_text(s.unit)));
+      if (s.signal == "force_sp_1")
+        spectrum(s, "spectrum_force", fmt::format("Amplitude of  F_{{sp,1}}  [{}]", unit_text(s.unit)));
+    }
+    if (!result_.exponents.per_s.empty() && !result_.exponents.growth.empty()) exponents();
+    if (result_.multipliers && !result_.multipliers->values.empty()) multipliers();
+    if (h_.rows() > 0 && h_.phases > 0) {
+      contact();
+      mesh_force();
+    }
+    return std::move(figures_);
+  }
+
+ private:
+  static std::string unit_text(const std::string& unit) { return unit == "um" ? "µm" : unit; }
+
+  void finish(const Sketch& sketch, const std::string& x_label, const std::string& y_label, const FigureRange& x,
+              const FigureRange& y, const FigureCanvas& canvas = {}) {
+    figures_.push_back(
+        {folder_ / (sketch.stem() + ".png"), sketch.draw(folder_, {title_, x_label, y_label}, x, y, {}, canvas)});
+  }
+
+  [[nodiscard]] std::size_t planets() const {
+    std::size_t n = 0;
+    while (has_column(h_, fmt::format("delta_sp_{}", n + 1))) ++n;
+    return n;
+  }
+
+  [[nodiscard]] bool periodic() const { return result_.point.regime == Regime::periodic && result_.point.period > 0; }
+
+  /// Deflection against rate in the last periods: all of a periodic motion, else as much as can be shown.
+  [[nodiscard]] Window portrait_window() const {
+    return last_periods(h_,
+                        periodic() ? std::max(output_.options.shown_periods, result_.point.period) : portrait_periods);
+  }
+
+  /// delta_sp_1 and its rate at whole mesh periods, over the rows from `first` on.
+  [[nodiscard]] Curve section(std::size_t first) const {
+    const std::vector<double> delta = h_.column("delta_sp_1");
+    const std::vector<double> rate = h_.column("delta_sp_1_rate");
+    const auto phases = static_cast<std::size_t>(h_.phases);
+    Curve curve;
+    for (std::size_t k = phases - 1; k < h_.rows(); k += phases)
+      if (k >= first) curve.push_back({delta[k], rate[k]});
+    return curve;
+  }
+
+  void history() {
+    if (!has_column(h_, "delta_sp_1") || !has_column(h_, "delta_rp_1")) return;
+    const Window w = last_periods(h_, output_.options.shown_periods);
+    const Curve sp = over_time(h_, w, h_.column("delta_sp_1"));
+    const Curve rp = over_time(h_, w, h_.column("delta_rp_1"));
+    FigureRange data = range_of(sp, 1);
+    for (const Row2& row : rp) data.include(row[1]);
+    const FigureRange y = y_range(data);
+    const FigureRange x{0.0, w.periods};
+    Sketch sketch("history");
+    // Flanks in the colour of their mesh, or grey where both meshes have the same.
+    const bool same = output_.half_gap_sp == output_.half_gap_rp;
+    const auto flanks = [&](double gap, std::string_view colour, const std::string& name) {
+      bool seen = false;
+      for (const double flank : {gap, -gap}) {
+        if (flank < y.low || flank > y.high) continue;
+        sketch.add(Curve{{x.low, flank}, {x.high, flank}}, dashed(colour, 1.2, fine_dash));
+        seen = true;
+      }
+      if (seen) sketch.entry(dashed(colour, 1.2, fine_dash), name);
+    };
+    flanks(output_.half_gap_sp, same ? dark_grey : blue, same ? "flanks  ±b" : "flanks  ±b_{sp}");
+    if (!same) flanks(output_.half_gap_rp, red, "flanks  ±b_{rp}");
+    sketch.add(sp, solid(blue), "δ_{sp,1}");
+    sketch.add(rp, solid(red), "δ_{rp,1}");
+    finish(sketch, std::string(time_label), "Deflection  δ / b_c", x, y);
+  }
+
+  void phase_portrait() {
+    if (!has_column(h_, "delta_sp_1") || !has_column(h_, "delta_sp_1_rate")) return;
+    const Window w = portrait_window();
+    const Curve curve = pairs(h_.column("delta_sp_1"), h_.column("delta_sp_1_rate"), w.first);
+    const Curve points = section(w.first);
+    const FigureRange x = y_range(range_of(curve, 0));
+    const FigureRange y = y_range(range_of(curve, 1));
+    Sketch sketch("phase_portrait");
+    add_flanks(sketch, x, y);
+    sketch.add(curve, periodic() ? solid(blue) : solid("#7f8db5", 0.7),
+               mesh_periods(periodic() ? result_.point.period : static_cast<int>(w.periods)));
+    sketch.add(points, dots(red, periodic() ? 1.3 : 0.7), "at whole mesh periods");
+    finish(sketch, delta_label, rate_label, x, y);
+  }
+
+  /// Where contact begins and ends, as vertical lines.
+  void add_flanks(Sketch& sketch, const FigureRange& x, const FigureRange& y) const {
+    bool seen = false;
+    for (const double flank : {output_.half_gap_sp, -output_.half_gap_sp}) {
+      if (flank < x.low || flank > x.high) continue;
+      sketch.add(Curve{{flank, y.low}, {flank, y.high}}, dashed(dark_grey, 1.2, fine_dash));
+      seen = true;
+    }
+    if (seen) sketch.entry(dashed(dark_grey, 1.2, fine_dash), "flanks  ±b_{sp}");
+  }
+
+  void poincare_section() {
+    if (!has_column(h_, "delta_sp_1") || !has_column(h_, "delta_sp_1_rate")) return;
+    const Curve points = section(0);
+    if (points.empty()) return;
+    Sketch sketch("poincare_section");
+    FigureRange x = range_of(points, 0);
+    FigureRange y = range_of(points, 1);
+    const Window w = portrait_window();
+    const Curve portrait = pairs(h_.column("delta_sp_1"), h_.column("delta_sp_1_rate"), w.first);
+    const FigureRange wide_x = range_of(portrait, 0);
+    const FigureRange wide_y = range_of(portrait, 1);
+    if (periodic()) {
+      // A few points have no extent of their own: they stand where they are on the orbit.
+      x = wide_x;
+      y = wide_y;
+      sketch.add(points, dots(blue, 2.0));
+    } else {
+      constexpr double part = 0.05;  // of the portrait's extent
+      x = no_narrower(x, part * (wide_x.high - wide_x.low));
+      y = no_narrower(y, part * (wide_y.high - wide_y.low));
+      sketch.add(points, dots(blue, points.size() > 2000 ? 0.3 : 0.6));
+    }
+    finish(sketch, std::string(delta_label) + "  at whole mesh periods", rate_label, y_range(x), y_range(y));
+  }
+
+  /// Phase [mesh periods, in [0, 1)] and rate at each making of contact, by Hermite's cubic between samples.
+  [[nodiscard]] Curve makings_of_contact() const {
+    const std::vector<double> delta = h_.column("delta_sp_1");
+    const std::vector<double> rate = h_.column("delta_sp_1_rate");
+    const std::vector<double> tau = h_.column("tau");
+    const double b = output_.half_gap_sp;
+    Curve curve;
+    for (std::size_t k = 1; k < delta.size(); ++k) {
+      if (!(delta[k - 1] < b && delta[k] >= b)) continue;
+      const double step = tau[k] - tau[k - 1];
+      const double rise = delta[k] - delta[k - 1];
+      const double start = step * rate[k - 1];
+      const double curvature = 3.0 * rise - 2.0 * start - step * rate[k];
+      const double twist = start + step * rate[k] - 2.0 * rise;
+      const auto above = [&](double u) { return delta[k - 1] - b + u * (start + u * (curvature + u * twist)); };
+      const double u = delta[k] == b ? 1.0 : find_root(above, 0.0, 1.0);
+      const double phase = (static_cast<double>(k) + u) / static_cast<double>(h_.phases);
+      curve.push_back({phase - std::floor(phase), (start + u * (2.0 * curvature + u * 3.0 * twist)) / step});
+    }
+    return curve;
+  }
+
+  void poincare_crossing() {
+    if (!has_column(h_, "delta_sp_1") || !has_column(h_, "delta_sp_1_rate") || !has_column(h_, "tau")) return;
+    const Curve points = makings_of_contact();
+    if (points.empty()) return;
+    Sketch sketch("poincare_crossing");
+    sketch.add(points, dots(blue, periodic() ? 2.0 : points.size() > 2000 ? 0.3 : 0.6));
+    // From rest, which is what a touch without impact has.
+    FigureRange y{0.0, 0.0};
+    for (const Row2& point : points) y.include(point[1]);
+    finish(sketch, "Phase at which contact is made  s / 2π", "Rate on contact  dδ_{sp,1}/dτ / b_c", {0.0, 1.0},
+           {0.0, y.high * (1.0 + figure_margin)});
+  }
+
+  void spectrum(const SignalSpectrum& s, std::string_view stem, const std::string& label) {
+    constexpr double highest = 6.25;
+    constexpr double deepest = 1e-6;  // of the largest line
+    Curve mesh;
+    Curve between;
+    double largest = 0.0;
+    double smallest = std::numeric_limits<double>::infinity();
+    const bool lines = s.exact && !s.lines.empty();
+    const auto add = [&](Curve& curve, double frequency, double amplitude) {
+      if (frequency > highest) return;
+      curve.push_back({frequency, amplitude});
+      largest = std::max(largest, amplitude);
+    };
+    if (lines) {
+      for (const analysis::Harmonic& h : s.lines)
+        if (h.order > 0)
+          add(h.of_forcing() ? mesh : between, static_cast<double>(h.order) / static_cast<double>(h.period),
+              h.amplitude);
+    } else {
+      for (std::size_t k = mean_bins; k < s.spectrum.amplitude.size(); ++k)
+        add(mesh, s.spectrum.frequency(k), s.spectrum.amplitude[k]);
+    }
+    if (!(largest > 0.0)) return;
+    const auto too_small = [&](const Row2& row) { return !(row[1] > deepest * largest); };
+    // Lines of rounding would only clutter; a continuous spectrum is cut off by the frame.
+    if (lines) {
+      std::erase_if(mesh, too_small);
+      std::erase_if(between, too_small);
+    }
+    for (const Curve* curve : {&mesh, &between})
+      for (const Row2& row : *curve) smallest = std::min(smallest, std::max(row[1], deepest * largest));
+    const FigureRange y{std::pow(10.0, std::floor(std::log10(smallest) - 0.1)),
+                        std::pow(10.0, std::log10(largest) + 0.09 * std::log10(largest / smallest) + 0.2)};
+    Sketch sketch(stem);
+    sketch.command("set logscale y\nset mytics 10\nset format y '10^{%T}'\nset xtics 1");
+    if (lines) {
+      const auto impulses = [](std::string_view colour) {
+        return fmt::format("impulses linewidth 4 linecolor '{}'", colour);
+      };
+      const bool both = !between.empty();
+      sketch.add(mesh, impulses(blue), both ? "harmonics of the mesh frequency" : "");
+      sketch.add(between, impulses(red), both ? "between them" : "");
+      label_lines(sketch, s, highest);
+    } else {
+      sketch.add(mesh, solid(blue, 1.2));
+    }
+    finish(sketch, "Frequency  f / f_m", label, {0.0, highest}, y);
+  }
+
+  /// Ratios over the strongest lines, where there is room beside a stronger one's.
+  static void label_lines(Sketch& sketch, const SignalSpectrum& s, double highest) {
+    constexpr std::size_t most = 8;
+    constexpr double room = 0.25;  // mesh frequencies
+    std::vector<double> taken;
+    for (const SpectralLine& line : strongest_lines(s, most)) {
+      const bool crowded =
+          std::any_of(taken.begin(), taken.end(), [&](double f) { return std::abs(f - line.frequency) < room; });
+      if (crowded || line.frequency > highest - 0.5 * room) continue;
+      taken.push_back(line.frequency);
+      sketch.command(
+          fmt::format("set label {} at first {}, first {} center offset character 0,0.7 font ',20' "
+                      "textcolor '{}'",
+                      gnuplot_quoted(line.label), figure_number(line.frequency), figure_number(line.amplitude),
+                      line.of_mesh ? blue : red));
+    }
+  }
+
+  void exponents() {
+    const analysis::LyapunovSpectrum& e = result_.exponents;
+    constexpr std::size_t most = 4;
+    const double interval = e.interval / (2.0 * std::numbers::pi);
+    Sketch sketch("exponents");
+    FigureRange x{0.0, static_cast<double>(e.growth.size() / e.exponents) * interval};
+    FigureRange y;
+    y.include(0.0);
+    const analysis::Estimate& first = e.per_s.front();
+    const double low = first.low() * result_.omega;
+    const double high = first.high() * result_.omega;
+    const bool band = std::isfinite(high - low) && high > low;
+    if (band) {
+      y.include(low);
+      y.include(high);
+      sketch.add(std::vector<std::array<double, 3>>{{x.low, low, high}, {x.high, low, high}},
+                 fmt::format("filledcurves fillstyle solid 1.0 noborder fillcolor '{}'", "#d5dbec"),
+                 "95 % interval of λ_1");
+    }
+    sketch.add(Curve{{x.low, 0.0}, {x.high, 0.0}}, solid(light_grey, 1));
+    const std::size_t shown = std::min(most, e.exponents);
+    for (std::size_t i = shown; i-- > 0;) {
+      const std::vector<double> mean = e.history(i);
+      Curve curve;
+      for (std::size_t k = 0; k < mean.size(); ++k) {
+        curve.push_back({static_cast<double>(k + 1) * interval, mean[k] * result_.omega});
+        // The first means swing widely; what the figure is about comes later.
+        if (10 * k >= mean.size()) y.include(curve.back()[1]);
+      }
+      sketch.add(curve, solid(planet_colours[i], i == 0 ? 2.5 : 1.8));
+    }
+    for (std::size_t i = 0; i < shown; ++i)
+      sketch.entry(solid(planet_colours[i], i == 0 ? 2.5 : 1.8), fmt::format("λ_{}", i + 1));
+    finish(sketch, "Mesh periods counted", "Running mean of the exponents  λ_i  [1/τ]", x, y_range(y));
+  }
+
+  void multipliers() {
+    const analysis::Multipliers& m = *result_.multipliers;
+    double reach = 1.15;
+    for (const std::complex<double>& z : m.values) reach = std::max(reach, 1.1 * std::abs(z));
+    Curve circle;
+    constexpr int corners = 360;
+    for (int k = 0; k <= corners; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / corners;
+      circle.push_back({std::cos(angle), std::sin(angle)});
+    }
+    Curve inside;
+    for (const std::complex<double>& z : m.values) inside.push_back({z.real(), z.imag()});
+    Curve critical{inside[m.critical]};
+    // Its conjugate is as near to the circle.
+    if (critical[0][1] != 0.0) critical.push_back({critical[0][0], -critical[0][1]});
+    Sketch sketch("multipliers");
+    sketch.command("set size ratio -1\nset rmargin\nset key maxrows 1");
+    sketch.add(Curve{{-reach, 0.0}, {reach, 0.0}}, solid(light_grey, 1));
+    sketch.add(Curve{{0.0, -reach}, {0.0, reach}}, solid(light_grey, 1));
+    sketch.add(circle, solid(dark_grey, 1.5));
+    sketch.add(inside, dots(blue, 1.2));
+    sketch.add(critical, dots(red, 1.7),
+               fmt::format("nearest to the circle:  |μ| = {:.4f}", std::abs(m.values[m.critical])));
+    finish(sketch, "Re μ", "Im μ", {-reach, reach}, {-reach, reach}, square_canvas);
+  }
+
+  void contact() {
+    const Window w = last_periods(h_, output_.options.shown_periods);
+    const std::size_t n = planets();
+    if (n == 0) return;
+    // In the order of model::Contact: drive, loss, back.
+    std::array<std::vector<std::array<double, 6>>, 3> boxes;
+    std::string tics;
+    const double half = 0.5 / static_cast<double>(h_.phases);
+    constexpr double half_height = 0.36;
+    for (std::size_t row = 0; row < 2 * n; ++row) {
+      const bool sun = row < n;
+      const std::size_t planet = sun ? row : row - n;
+      const std::vector<double> delta = h_.column(fmt::format("delta_{}_{}", sun ? "sp" : "rp", planet + 1));
+      const double gap = sun ? output_.half_gap_sp : output_.half_gap_rp;
+      const double y = static_cast<double>(2 * n - 1 - row);
+      tics += fmt::format("{}'{}_{}' {}", row > 0 ? ", " : "", sun ? "sp" : "rp", planet + 1, figure_number(y));
+      const auto side = [&](std::size_t k) { return model::DynamicModel::contact(delta[k], gap); };
+      for (std::size_t k = w.first; k < w.rows;) {
+        std::size_t end = k;
+        while (end < w.rows && side(end) == side(k)) ++end;
+        const double from = std::max(0.0, time_of(h_, w, k) - half);
+        const double to = std::min(w.periods, time_of(h_, w, end - 1) + half);
+        boxes[static_cast<std::size_t>(side(k))].push_back(
+            {0.5 * (from + to), y, from, to, y - half_height, y + half_height});
+        k = end;
+      }
+    }
+    constexpr std::array<std::string_view, 3> colours{drive_colour, loss_colour, back_colour};
+    constexpr std::array<std::string_view, 3> names{"drive flank", "contact lost", "back flank"};
+    Sketch sketch("contact");
+    sketch.command(fmt::format("set ytics ({}) scale 0\nset mytics 1", tics));
+    for (std::size_t k = 0; k < 3; ++k) {
+      sketch.add(boxes[k], fmt::format("boxxyerror fillstyle solid 1.0 noborder linecolor '{}'", colours[k]));
+      sketch.entry(fmt::format("filledcurves fillstyle solid 1.0 noborder fillcolor '{}'", colours[k]), names[k]);
+    }
+    finish(sketch, std::string(time_label), "Mesh", {0.0, w.periods}, {-0.7, static_cast<double>(2 * n) - 0.3});
+  }
+
+  /// Whether the columns NAME_1 .. NAME_n are the same in the rows shown.
+  [[nodiscard]] bool planets_coincide(const std::string& name, std::size_t n, const Window& w) const {
+    const std::vector<double> one = h_.column(name + "_1");
+    double size = 0.0;
+    double difference = 0.0;
+    for (std::size_t i = 2; i <= n; ++i) {
+      const std::vector<double> other = h_.column(fmt::format("{}_{}", name, i));
+      for (std::size_t k = w.first; k < w.rows; ++k) {
+        size = std::max(size, std::abs(one[k]));
+        difference = std::max(difference, std::abs(one[k] - other[k]));
+      }
+    }
+    return difference <= coincident * size;
+  }
+
+  void mesh_force() {
+    const std::size_t n = planets();
+    if (n == 0 || !(result_.static_force > 0.0) || !has_column(h_, "force_sp_1") || !has_column(h_, "force_rp_1"))
+      return;
+    const Window w = last_periods(h_, output_.options.shown_periods);
+    Sketch sketch("mesh_force");
+    FigureRange y;
+    const bool one = planets_coincide("force_sp", n, w) && planets_coincide("force_rp", n, w);
+    for (const char* mesh : {"sp", "rp"})
+      for (std::size_t i = 0; i < (one ? 1 : n); ++i) {
+        std::vector<double> force = h_.column(fmt::format("force_{}_{}", mesh, i + 1));
+        for (double& f : force) f /= result_.static_force;
+        include(y, force, w.first);
+        const bool sun = mesh[0] == 's';
+        const std::string_view colour = one && !sun ? red : planet_colours[i % planet_colours.size()];
+        sketch.add(over_time(h_, w, force), sun || one ? solid(colour, 2) : dashed(colour, 1.8, "(12,5)"),
+                   one ? fmt::format("F_{{{}}}, all planets", mesh) : fmt::format("F_{{{},{}}}", mesh, i + 1));
+      }
+    if (!one) sketch.command("set key maxrows 2");
+    finish(sketch, std::string(time_label), "Mesh force  F / F_0", {0.0, w.periods}, y_range(y));
+  }
+
+  static constexpr const char* delta_label = "Deflection  δ_{sp,1} / b_c";
+  static constexpr const char* rate_label = "Rate  dδ_{sp,1}/dτ / b_c";
+
+  fs::path folder_;
+  const RunOutput& output_;
+  const RunResult& result_;
+  const History& h_;
+  std::string title_;
+  std::vector<DrawnFigure> figures_;
+};
+
+}  // namespace
+
+std::vector<DrawnFigure> draw_run_figures(const fs::path& figures_folder, const RunOutput& output,
+                                          const RunResult& result) {
+  return RunFigures(figures_folder, output, result).draw();
+}
+
+}  // namespace epicyclic::io

@@ -1,0 +1,72 @@
+// What a run of one operating point leaves in its folder, besides points.csv and poincare.csv (io/sweep_output.hpp).
+//
+//   history.csv      the last mesh periods of the record: states, deflections, forces, load sharing
+//   spectrum.csv     amplitude and phase of each signal's lines: at p / n of the mesh frequency for a periodic motion
+//   exponents.csv    running means of the Lyapunov exponents, per tau
+//   multipliers.csv  of the periodic orbit, by falling modulus
+//   crossing.csv     states where contact of the first sun-planet mesh is made
+//   summary.md       what it comes to, in words
+//   results.h5       everything
+//   figures/         history, phase_portrait, poincare_section, poincare_crossing, spectrum, spectrum_force, exponents,
+//                    multipliers, contact, mesh_force
+//
+// What there is nothing to say of has no table and no figure. All of it follows from the result alone and is the same,
+// byte for byte, for the same study (architecture section 7).
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/sweep_output.hpp"
+#include "studies/run.hpp"
+
+namespace epicyclic::io {
+
+/// What a run is written with besides its result.
+struct RunOutput {
+  studies::SweepOptions sweep;
+  studies::RunOptions options;
+  std::vector<std::string> poincare_columns;
+  std::string resolved_input;  ///< text of input.resolved.json, kept in results.h5 too
+  std::string title;           ///< of summary and figures
+  double half_gap_sp = 0;      ///< b_sp [b_c]
+  double half_gap_rp = 0;      ///< b_rp [b_c]
+};
+
+/// Highest frequency in spectrum.csv [mesh frequencies]; results.h5 has all.
+inline constexpr double tabulated_frequency = 20.0;
+
+/// The tables. @throws OutputError
+void write_run_tables(const std::filesystem::path& folder, const RunOutput& output, const studies::RunResult& result);
+
+/// @throws OutputError
+void write_run_h5(const std::filesystem::path& file, const RunOutput& output, const studies::RunResult& result);
+
+/// One page of plain Markdown, in lines of at most 100 columns.
+[[nodiscard]] std::string run_summary(const RunOutput& output, const studies::RunResult& result);
+
+/// @param figures_folder  made if need be
+/// @throws OutputError when data or scripts cannot be written
+[[nodiscard]] std::vector<DrawnFigure> draw_run_figures(const std::filesystem::path& figures_folder,
+                                                        const RunOutput& output, const studies::RunResult& result);
+
+/// First row of the last `periods` mesh periods of a record; 0 when it is no longer than that.
+[[nodiscard]] std::size_t first_row(const studies::History& history, int periods);
+
+/// Bins that the mean fills through a flat-top window, whose main lobe is that wide on one side.
+inline constexpr std::size_t mean_bins = 5;
+
+/// A line of a spectrum.
+struct SpectralLine {
+  std::string label;     ///< times the mesh frequency: "1", "3/2"; of a peak that need not be a ratio, "1.382"
+  double frequency = 0;  ///< [mesh frequencies]
+  double amplitude = 0;  ///< in the signal's unit
+  bool of_mesh = false;  ///< a harmonic of the mesh frequency itself
+};
+
+/// The `most` largest lines by falling amplitude, the mean left out. Lines below 1e-9 of the largest are rounding.
+[[nodiscard]] std::vector<SpectralLine> strongest_lines(const studies::SignalSpectrum& signal, std::size_t most);
+
+}  // namespace epicyclic::io

@@ -1,0 +1,51 @@
+#include "io/sketch.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace epicyclic::io {
+
+std::string figure_number(double value) {
+  std::string text;
+  append_number(text, value);
+  return text;
+}
+
+std::string solid(std::string_view colour, double width) {
+  return fmt::format("lines linewidth {} linecolor '{}'", figure_number(width), colour);
+}
+
+std::string dashed(std::string_view colour, double width, std::string_view dash) {
+  return fmt::format("{} dashtype {}", solid(colour, width), dash);
+}
+
+std::string dots(std::string_view colour, double size, int type) {
+  return fmt::format("points pointtype {} pointsize {}*mark linecolor '{}'", type, figure_number(size), colour);
+}
+
+FigureOutcome Sketch::draw(const std::filesystem::path& folder, const FigureText& text, const FigureRange& x,
+                           const FigureRange& y, const std::vector<FigureMarker>& markers,
+                           const FigureCanvas& canvas) const {
+  // The script gives a title a line of its own when there are more than two entries; a long one needs it, too.
+  constexpr std::size_t half_line = 36;
+  const std::size_t entries = text.title.size() > half_line ? std::max<std::size_t>(3, entries_) : entries_;
+  return draw_figure(folder, stem_, data_,
+                     figure_script(stem_, text, x, y, entries, markers, commands_, plot_, canvas));
+}
+
+void Sketch::end_set(bool gap, std::size_t columns, std::string_view look, std::string_view title) {
+  data_ += gap ? "\n" : "\n\n";
+  std::string using_columns = "1";
+  for (std::size_t k = 2; k <= std::max<std::size_t>(2, columns); ++k) using_columns += fmt::format(":{}", k);
+  clause(fmt::format("'{}.dat' index {} using {}", stem_, sets_++, using_columns), look, title);
+}
+
+void Sketch::clause(std::string_view source, std::string_view look, std::string_view title) {
+  if (!plot_.empty()) plot_ += ", \\\n  ";
+  plot_ += fmt::format("{} with {} {}", source, look,
+                       title.empty() ? "notitle" : "title " + gnuplot_quoted(portable_text(title)));
+  if (!title.empty()) ++entries_;
+}
+
+}  // namespace epicyclic::io

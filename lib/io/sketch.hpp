@@ -1,0 +1,94 @@
+// A figure put together piece by piece: data sets, what each looks like, commands between; in the look of
+// io/gnuplot.hpp. For figures that io/line_figure.hpp and io/bifurcation_figure.hpp cannot draw.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/csv.hpp"
+#include "io/gnuplot.hpp"
+
+namespace epicyclic::io {
+
+/// The colours of line_figure.cpp, distinct for colour-blind eyes.
+namespace ink {
+inline constexpr std::string_view blue = "#12285c";
+inline constexpr std::string_view red = "#c8553d";
+inline constexpr std::string_view green = "#1b8a6b";
+inline constexpr std::string_view ochre = "#b07a00";
+inline constexpr std::string_view purple = "#7a4a8c";
+inline constexpr std::string_view dark_grey = "#4a4a4a";
+inline constexpr std::string_view light_grey = "#b0b0b0";
+}  // namespace ink
+
+/// The shortest text of a number that reads back as the same number.
+[[nodiscard]] std::string figure_number(double value);
+
+/// Looks, as what follows "with" in a plot command.
+[[nodiscard]] std::string solid(std::string_view colour, double width = 2);
+[[nodiscard]] std::string dashed(std::string_view colour, double width, std::string_view dash);
+[[nodiscard]] std::string dots(std::string_view colour, double size, int type = 7);
+
+/// The data sets of one figure, and the plot command that shows them in the order in which they were added.
+class Sketch {
+ public:
+  explicit Sketch(std::string_view stem) : stem_(stem) {}
+
+  [[nodiscard]] const std::string& stem() const { return stem_; }
+
+  /// @param rows  of equal length; a row of NaN interrupts a line
+  /// @param look  what follows "with"
+  template <class Rows>
+  void add(const Rows& rows, std::string_view look, std::string_view title = {}) {
+    if (rows.empty()) return;
+    std::size_t columns = 0;
+    bool gap = true;
+    for (const auto& row : rows) {
+      columns = write(row);
+      gap = columns == 0;
+    }
+    end_set(gap, columns, look, title);
+  }
+
+  /// An entry of the legend without data.
+  void entry(std::string_view look, std::string_view title) { clause("keyentry", look, title); }
+
+  /// Commands that stand before the plot command.
+  void command(std::string_view line) { (commands_ += line) += '\n'; }
+
+  /// Writes the figure's files to `folder` and draws it.
+  /// @throws OutputError when data or script cannot be written
+  [[nodiscard]] FigureOutcome draw(const std::filesystem::path& folder, const FigureText& text, const FigureRange& x,
+                                   const FigureRange& y, const std::vector<FigureMarker>& markers = {},
+                                   const FigureCanvas& canvas = {}) const;
+
+ private:
+  /// @returns the number of columns, 0 for a gap
+  template <class Row>
+  std::size_t write(const Row& row) {
+    std::size_t columns = 0;
+    for (const double value : row) {
+      if (!std::isfinite(value)) {
+        data_ += '\n';
+        return 0;
+      }
+      if (columns++ > 0) data_ += ' ';
+      append_number(data_, value);
+    }
+    data_ += '\n';
+    return columns;
+  }
+
+  void end_set(bool gap, std::size_t columns, std::string_view look, std::string_view title);
+  void clause(std::string_view source, std::string_view look, std::string_view title);
+
+  std::string stem_, data_, plot_, commands_;
+  std::size_t sets_ = 0, entries_ = 0;
+};
+
+}  // namespace epicyclic::io

@@ -1,0 +1,374 @@
+#include "studies/run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <memory>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "integrate/make_flow.hpp"
+#include "studies/operating_point.hpp"
+
+namespace epicyclic::studies {
+
+namespace {
+
+using integrate::Flow;
+
+/// Planets whose deflections differ by less move as one [b_c].
+constexpr double synchronous = 1e-6;
+
+/// Names and units of the history's columns, and its rows.
+class Recorder {
+ public:
+  Recorder(const model::DynamicModel& model, const model::Scales& scales, History& history)
+      : model_(model), scales_(scales), history_(history) {
+    add("periods", "1");
+    add("tau", "1");
+    const std::size_t n = model.state_names.size() / 2;
+    for (std::size_t k = 0; k < 2 * n; ++k) add(model.state_names[k], k < n ? "b_c" : "b_c per tau");
+    add_planets("delta_sp_", "", "b_c");
+    add_planets("delta_rp_", "", "b_c");
+    add_planets("delta_sp_", "_rate", "b_c per tau");
+    add_planets("delta_rp_", "_rate", "b_c per tau");
+    add_planets("force_sp_", "", "N");
+    add_planets("force_rp_", "", "N");
+    add_planets("load_sharing_sp_", "", "1");
+    add_planets("load_sharing_rp_", "", "1");
+    add_planets("bearing_planet_", "", "N");
+    add("bearing_sun", "N");
+  }
+
+  void see(std::size_t period, double s, std::span<const double> y) {
+    constexpr double whole = 2.0 * std::numbers::pi;
+    model_.deflections(s, y.data(), d_);
+    model_.forces(s, y.data(), f_);
+    const double phase = static_cast<double>(period) * whole + s;
+    put(phase / whole);
+    put(phase / model_.omega);
+    put(y);
+    for (const auto* list : {&d_.sun_planet, &d_.ring_planet, &d_.sun_planet_rate, &d_.ring_planet_rate}) put(*list);
+    for (const auto* list : {&f_.sun_planet, &f_.ring_planet}) put_newtons(*list);
+    for (const auto* list : {&f_.sun_planet, &f_.ring_planet}) {
+      const double sum = std::accumulate(list->begin(), list->end(), 0.0);
+      for (const double f : *list) put(static_cast<double>(list->size()) * f / sum);
+    }
+    put_newtons(f_.planet_bearing);
+    put(scales_.force_newton(f_.sun_bearing));
+  }
+
+ private:
+  void add(std::string name, const char* unit) {
+    history_.columns.push_back(std::move(name));
+    history_.units.emplace_back(unit);
+  }
+  void add_planets(const std::string& before, const std::string& behind, const char* unit) {
+    for (int i = 1; i <= model_.planets; ++i) add(before + std::to_string(i) + behind, unit);
+  }
+  void put(double x) { history_.values.push_back(x); }
+  void put(std::span<const double> list) { history_.values.insert(history_.values.end(), list.begin(), list.end()); }
+  void put_newtons(const std::vector<double>& list) {
+    for (const double f : list) put(scales_.force_newton(f));
+  }
+
+  const model::DynamicModel& model_;
+  const model::Scales& scales_;
+  History& history_;
+  model::MeshDeflections d_;
+  model::StageForces f_;
+};
+
+/// Uniform samples over one period, the end included and the beginning not.
+std::vector<double> phases_of(const Flow& flow, int count) {
+  std::vector<double> s;
+  for (int j = 1; j < count; ++j) s.push_back(flow.field().period * j / count);
+  s.push_back(flow.field().period);
+  return s;
+}
+
+/// One operating point, step by step into its result.
+class Run {
+ public:
+  Run(const model::DynamicModel& model, const model::Scales& scales, const SweepOptions& sweep,
+      const RunOptions& options, const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on)
+      : model_(model), scales_(scales), sweep_(sweep), options_(options), integrator_(integrator), go_on_(go_on) {}
+
+  /// @returns false if ended
+  bool all(RunResult& r) {
+    r.omega = model_.omega;
+    r.static_force = scales_.force_newton(model_.static_mesh_force);
+    r.point = compute_point({0, Direction::up, model_.omega}, model_, {}, sweep_, integrator_, go_on_);
+    if (!go_on_()) return false;
+    if (r.point.outcome != integrate::Outcome::reached) return true;
+    state_ = r.point.end_state;
+    if (!model_.jumps_at_contact) find_orbit(r);
+    record(r);
+    summarise(r);
+    if (go_on_()) cross(r);
+    if (options_.exponent_periods > 0 && !model_.jumps_at_contact) {
+      if (go_on_()) find_exponents(r);
+      if (go_on_() && model_.remove_synchronous && r.point.planet_spread <= synchronous) find_transverse(r);
+    }
+    return go_on_();
+  }
+
+ private:
+  [[nodiscard]] std::unique_ptr<Flow> flow() const { return integrate::make_flow(vector_field(model_), integrator_); }
+
+  /// By the default method, whose tangents are controlled: for what has to be exact.
+  [[nodiscard]] std::unique_ptr<Flow> exact_flow(double tolerance, bool controlled = true,
+                                                 bool with_divergence = false) const {
+    integrate::IntegratorOptions o;
+    o.relative_tolerance = o.absolute_tolerance = tolerance;
+    o.tangent_error_control = controlled;
+    o.escape_bound = integrator_.escape_bound;
+    o.max_steps_per_period = std::max(o.max_steps_per_period, integrator_.max_steps_per_period) * 20;
+    const integrate::VectorField field = vector_field(model_);
+    return integrate::make_flow(with_divergence ? analysis::with_divergence(field) : field, o);
+  }
+
+  void find_orbit(RunResult& r) {
+    if (r.point.regime != analysis::Regime::periodic) return;
+    const double coarser = 10.0 * options_.check_tolerance;
+    const auto fine = exact_flow(options_.check_tolerance);
+    analysis::PeriodicOrbit orbit = analysis::find_periodic_orbit(*fine, state_, r.point.period);
+    if (!orbit.found()) return;
+    const auto coarse = exact_flow(coarser);
+    const analysis::PeriodicOrbit second =
+        analysis::find_periodic_orbit(*coarse, orbit.state, r.point.period, {.pieces = 2});
+    if (second.found()) r.multipliers = analysis::floquet_multipliers(orbit, second);
+    state_ = orbit.state;
+    r.orbit = std::move(orbit);
+  }
+
+  /// Histories, and the signals of the spectra, which are longer.
+  void record(RunResult& r) {
+    const auto carried = flow();
+    const std::vector<double> samples = phases_of(*carried, options_.dense_phases);
+    r.history.phases = options_.dense_phases;
+    Recorder recorder(model_, scales_, r.history);
+    const bool exact = r.orbit.has_value();
+    const int n = exact ? r.point.period : options_.spectrum_periods;
+    struct Signal {
+      const char* name;
+      const char* unit;
+      std::vector<double> values;
+    };
+    std::vector<Signal> signals = {
+        {"delta_sp_1", "um", {}}, {"delta_rp_1", "um", {}}, {"force_sp_1", "N", {}}, {"force_rp_1", "N", {}}};
+    model::MeshDeflections d;
+    model::StageForces f;
+    std::vector<double> y = state_;
+    const int periods = std::max(n, options_.history_periods);
+    for (int k = 0; k < periods; ++k) {
+      if (!go_on_()) return;
+      const integrate::Evolution e = carried->evolve(
+          y, 0.0, carried->field().period, samples, [&](std::size_t, double s, std::span<const double> now) {
+            if (k < options_.history_periods) recorder.see(static_cast<std::size_t>(k), s, now);
+            if (k >= n) return;
+            model_.deflections(s, now.data(), d);
+            model_.forces(s, now.data(), f);
+            signals[0].values.push_back(scales_.displacement_um(d.sun_planet[0]));
+            signals[1].values.push_back(scales_.displacement_um(d.ring_planet[0]));
+            signals[2].values.push_back(scales_.force_newton(f.sun_planet[0]));
+            signals[3].values.push_back(scales_.force_newton(f.ring_planet[0]));
+          });
+      if (!e.reached()) return;
+    }
+    for (const Signal& signal : signals) {
+      SignalSpectrum s;
+      s.signal = signal.name;
+      s.unit = signal.unit;
+      s.exact = exact;
+      const double dt = 1.0 / options_.dense_phases;  // in mesh periods
+      std::vector<double> values = signal.values;
+      if (!exact) {
+        // A window spreads the mean over its neighbours.
+        const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+        for (double& x : values) x -= mean;
+      }
+      s.spectrum =
+          analysis::amplitude_spectrum(values, dt, exact ? analysis::Window::rectangular : analysis::Window::flat_top);
+      if (exact) {
+        s.lines = analysis::harmonics(signal.values, n);
+      } else {
+        constexpr std::size_t most = 20;
+        constexpr double floor = 1e-3;
+        s.peaks = analysis::peaks(s.spectrum, 1.0, most, floor);
+      }
+      r.spectra.push_back(std::move(s));
+    }
+  }
+
+  void summarise(RunResult& r) const {
+    const auto planets = static_cast<std::size_t>(model_.planets);
+    if (r.history.rows() == 0) return;
+    for (const char* kind : {"sp", "rp"}) {
+      const double gap = kind[0] == 's' ? model_.sun_planet_half_gap : model_.ring_planet_half_gap;
+      double sum = 0.0;
+      const std::size_t first = r.meshes.size();
+      for (std::size_t i = 1; i <= planets; ++i) {
+        MeshSummary m;
+        m.name = std::string(kind) + "_" + std::to_string(i);
+        const std::vector<double> force = r.history.column("force_" + m.name);
+        const std::vector<double> delta = r.history.column("delta_" + m.name);
+        m.force_min = *std::min_element(force.begin(), force.end());
+        m.force_max = *std::max_element(force.begin(), force.end());
+        m.force_mean = std::accumulate(force.begin(), force.end(), 0.0) / static_cast<double>(force.size());
+        m.force_ratio_max = m.force_max / r.static_force;
+        sum += m.force_mean;
+        const double part = 1.0 / static_cast<double>(delta.size());
+        bool drives = model::DynamicModel::contact(delta.front(), gap) == model::Contact::drive;
+        for (const double x : delta) {
+          const model::Contact side = model::DynamicModel::contact(x, gap);
+          (side == model::Contact::drive ? m.drive : side == model::Contact::loss ? m.loss : m.back) += part;
+          if (drives && side != model::Contact::drive) ++m.contact_losses;
+          drives = side == model::Contact::drive;
+        }
+        r.meshes.push_back(std::move(m));
+      }
+      for (std::size_t i = first; i < r.meshes.size(); ++i)
+        r.meshes[i].load_sharing = static_cast<double>(planets) * r.meshes[i].force_mean / sum;
+    }
+  }
+
+  void cross(RunResult& r) const {
+    const auto carried = flow();
+    std::vector<double> y = state_;
+    model::MeshDeflections d;
+    const auto surface = [&](double s, std::span<const double> now) {
+      model_.deflections(s, now.data(), d);
+      return d.sun_planet[0] - model_.sun_planet_half_gap;
+    };
+    analysis::SurfaceSection section =
+        analysis::surface_section(*carried, y, surface, analysis::Crossing::rising,
+                                  r.orbit ? r.point.period : sweep_.recorded_periods, sweep_.output_phases, go_on_);
+    r.crossing = std::move(section.section);
+    r.crossing_phase = std::move(section.phase);
+  }
+
+  void find_exponents(RunResult& r) {
+    const double period = 2.0 * std::numbers::pi;
+    const auto tangents = exact_flow(options_.check_tolerance);
+    const auto divergence = exact_flow(options_.check_tolerance, true, true);
+    // The divergence is taken along the very motion: from the state at the beginning of each interval over it.
+    constexpr std::size_t checked = 32;
+    double along = 0.0;
+    std::size_t intervals = 0;
+    const std::vector<double> start = state_;
+    analysis::SpectrumOptions o;
+    o.intervals = options_.exponent_periods;
+    std::vector<double> first;
+    o.begins = [&](double s, std::span<const double> y) {
+      if (intervals >= checked) return;
+      if (intervals == 0) first.assign(y.begin(), y.end());
+      std::vector<double> extended(y.begin(), y.end());
+      extended.push_back(0.0);
+      divergence->forget();
+      if (!divergence->evolve(extended, s, s + period).reached()) return;
+      along += extended.back();
+      ++intervals;
+    };
+    std::vector<double> y = start;
+    r.exponents = analysis::lyapunov_spectrum(*tangents, y, o, go_on_);
+    const std::size_t m = r.exponents.exponents;
+    if (!go_on_() || !r.exponents.evolution.reached() || intervals == 0) return;
+    std::vector<double> values;
+    for (const analysis::Estimate& e : r.exponents.per_s) values.push_back(e.value);
+    std::sort(values.rbegin(), values.rend());
+    r.dimension = analysis::kaplan_yorke_dimension(values);
+
+    ExponentChecks checks;
+    const double time = static_cast<double>(intervals) * period / model_.omega;
+    const auto end = r.exponents.growth.begin() + static_cast<std::ptrdiff_t>(intervals * m);
+    checks.intervals = static_cast<int>(intervals);
+    checks.sum = std::accumulate(r.exponents.growth.begin(), end, 0.0) / time;
+    checks.divergence = along / time;
+    compare_with_multipliers(r, checks);
+
+    // Without error control of the tangents, from the same state and the same vectors.
+    constexpr int few = 8;
+    o.begins = nullptr;
+    o.aligning_intervals = 0;
+    o.intervals = few;
+    std::vector<double> a = first;
+    std::vector<double> b = first;
+    const auto free_flow = exact_flow(options_.check_tolerance, false);
+    tangents->forget();
+    const auto with = analysis::lyapunov_spectrum(*tangents, a, o, go_on_);
+    const auto without = analysis::lyapunov_spectrum(*free_flow, b, o, go_on_);
+    if (with.evolution.reached() && without.evolution.reached()) {
+      double most = 0.0;
+      for (std::size_t i = 0; i < m; ++i)
+        most = std::max(most, std::abs(with.per_s[i].value - without.per_s[i].value) * model_.omega);
+      checks.step_control = most;
+    }
+    r.checks = checks;
+  }
+
+  /// Exponents against log |multiplier| / period, both falling.
+  void compare_with_multipliers(const RunResult& r, ExponentChecks& checks) const {
+    if (!r.multipliers) return;
+    std::vector<analysis::Estimate> exponents = r.exponents.per_s;
+    std::sort(exponents.begin(), exponents.end(), [](const auto& a, const auto& b) { return a.value > b.value; });
+    const double time = 2.0 * std::numbers::pi * r.point.period;
+    double most = 0.0;
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
+      const double modulus = std::abs(r.multipliers->values[i]);
+      const double error = r.multipliers->errors[i];
+      if (!(modulus > 10.0 * error)) break;  // the smaller ones are rounding
+      const double difference = std::abs(exponents[i].value - std::log(modulus) / time);
+      most = std::max(most, difference * model_.omega);
+      ++checks.compared;
+      if (difference <= exponents[i].half_width + error / modulus / time + 100.0 * options_.check_tolerance)
+        ++checks.inside;
+    }
+    checks.multipliers = most;
+  }
+
+  void find_transverse(RunResult& r) const {
+    const auto carried = flow();
+    std::vector<double> y = state_;
+    analysis::LyapunovOptions o;
+    o.periods = options_.exponent_periods;
+    o.project = model_.remove_synchronous;
+    const analysis::LargestExponent e = analysis::largest_exponent(*carried, y, o, {}, go_on_);
+    if (e.evolution.reached() && e.growth.size() == static_cast<std::size_t>(o.periods))
+      r.transverse = {e.per_s.value * model_.omega, e.per_s.half_width * model_.omega};
+  }
+
+  const model::DynamicModel& model_;
+  const model::Scales& scales_;
+  const SweepOptions& sweep_;
+  const RunOptions& options_;
+  const integrate::IntegratorOptions& integrator_;
+  const std::function<bool()>& go_on_;
+  std::vector<double> state_;  ///< what everything after the point starts from: the orbit's, or the record's last
+};
+
+}  // namespace
+
+std::size_t History::index_of(const std::string& column) const {
+  return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin());
+}
+
+std::vector<double> History::column(const std::string& name) const {
+  std::vector<double> values_of;
+  const std::size_t k = index_of(name);
+  if (k == columns.size()) return values_of;
+  for (std::size_t row = 0; row < rows(); ++row) values_of.push_back(values[row * columns.size() + k]);
+  return values_of;
+}
+
+std::optional<RunResult> run_operating_point(const model::DynamicModel& model, const model::Scales& scales,
+                                             const SweepOptions& sweep, const RunOptions& options,
+                                             const integrate::IntegratorOptions& integrator,
+                                             const std::function<bool()>& go_on) {
+  RunResult result;
+  if (!Run(model, scales, sweep, options, integrator, go_on).all(result)) return std::nullopt;
+  return result;
+}
+
+}  // namespace epicyclic::studies

@@ -1,0 +1,97 @@
+// One operating point with everything that analysis can say of it: regime and its evidence, histories and phase
+// portraits with forces, Poincare sections, spectra, Lyapunov exponents with their checks, the orbit with its
+// multipliers.
+//
+//   dynamic mesh-force ratio   F_i / F_0 ,  F_0 = T_D / (N r_bs)                                            [S-force]
+//   load sharing               L_i = N F_i / sum_j F_j , as means over time: N mean(F_i) / sum_j mean(F_j)  [S-share]
+//
+// F_i is the normal force of a mesh with its damping [M-27], F_0 the static one of the sun-planet meshes. Where a train
+// accelerates (boundary `literal`) the mean forces are shares of inertia, not F_0 (model.md section 4).
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/lyapunov.hpp"
+#include "analysis/periodic_orbit.hpp"
+#include "analysis/spectrum.hpp"
+#include "studies/run_options.hpp"
+#include "studies/sweep.hpp"
+
+namespace epicyclic::studies {
+
+/// Uniform samples of all signals: rows one behind the other, `columns` long.
+struct History {
+  std::vector<std::string> columns;  ///< "periods" (mesh periods since the record began), "tau", then signals
+  std::vector<std::string> units;    ///< one for each column: "1", "b_c", "b_c per tau", "N"
+  std::vector<double> values;
+  int phases = 0;  ///< rows per mesh period
+
+  [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : values.size() / columns.size(); }
+  /// Column by name, or columns.size().
+  [[nodiscard]] std::size_t index_of(const std::string& column) const;
+  [[nodiscard]] std::vector<double> column(const std::string& name) const;
+};
+
+/// One mesh over the record.
+struct MeshSummary {
+  std::string name;                                     ///< "sp_1", "rp_3"
+  double force_mean = 0, force_min = 0, force_max = 0;  ///< F [N]
+  double force_ratio_max = 0;                           ///< max F / F_0 [-]
+  double load_sharing = 0;                              ///< of the means [S-share] [-]
+  double drive = 0, loss = 0, back = 0;                 ///< parts of the time [-]
+  int contact_losses = 0;                               ///< times that the drive flank was left, per record
+};
+
+/// Spectrum of one signal.
+struct SignalSpectrum {
+  std::string signal;           ///< column of the history
+  std::string unit;             ///< "um" or "N"
+  bool exact = false;           ///< over whole periods of a periodic motion without a window; else by a flat-top window
+  analysis::Spectrum spectrum;  ///< frequency in mesh frequencies
+  std::vector<analysis::Harmonic> lines{};  ///< if exact: p / n with their labels
+  std::vector<analysis::Peak> peaks{};      ///< else
+};
+
+/// What the full Lyapunov spectrum is checked against.
+struct ExponentChecks {
+  int intervals = 0;                    ///< mesh periods that sum and divergence are taken over
+  double sum = 0;                       ///< of all exponents, per tau
+  double divergence = 0;                ///< mean of the field's, along the same motion, per tau
+  std::optional<double> multipliers{};  ///< periodic: largest difference from log |multiplier| / period, per tau
+  int inside = 0;    ///< exponents whose interval holds log |multiplier| / period, to the checks' tolerance
+  int compared = 0;  ///< exponents compared with multipliers
+  std::optional<double> step_control{};  ///< largest difference from exponents without error control of tangents
+};
+
+struct RunResult {
+  PointResult point;
+  History history;                  ///< whole record
+  std::vector<MeshSummary> meshes;  ///< sun-planet meshes, then ring-planet meshes
+  double static_force = 0;          ///< F_0 [N]
+  std::vector<SignalSpectrum> spectra;
+  analysis::PoincareSection crossing;    ///< states where delta_sp_1 rises through b (contact is made)
+  std::vector<double> crossing_phase;    ///< mesh phase in [0, 2 pi) of each
+  analysis::LyapunovSpectrum exponents;  ///< per unit of s; empty if none were asked for
+  std::optional<ExponentChecks> checks{};
+  double dimension = 0;                                ///< Kaplan and Yorke's
+  std::optional<analysis::Estimate> transverse{};      ///< exponent of the synchronous motion's transverse directions,
+                                                       ///< per tau; where the stage is symmetric
+  std::optional<analysis::PeriodicOrbit> orbit{};      ///< if periodic
+  std::optional<analysis::Multipliers> multipliers{};  ///< if periodic
+  double omega = 0;                                    ///< Omega: exponents per s times Omega are per tau
+};
+
+/// @param scales  of the stage as given: forces are written in newtons
+/// @param go_on   asked now and then; false ends the run
+/// @returns nothing if ended; of a point that is not reached, the point alone
+[[nodiscard]] std::optional<RunResult> run_operating_point(const model::DynamicModel& model,
+                                                           const model::Scales& scales, const SweepOptions& sweep,
+                                                           const RunOptions& options,
+                                                           const integrate::IntegratorOptions& integrator,
+                                                           const std::function<bool()>& go_on);
+
+}  // namespace epicyclic::studies

@@ -1,0 +1,104 @@
+// Forces and the symmetry of a stage, as a model tells them.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/largest_difference.hpp"
+#include "model/dynamic_model.hpp"
+#include "problems/r1.hpp"
+
+namespace epicyclic::model {
+namespace {
+
+DynamicModel model_of(const gear::Stage& stage, double ratio = 0.9) {
+  return make_dynamic_model(stage, scales_of(stage), ratio, {});
+}
+
+TEST(StageForces, AtRestAreTheStaticOnes) {
+  // Fixed ring, no error, no friction: each mesh carries T_D / (N r_bs), the planet's bearing both tangential parts.
+  gear::Stage stage = problems::with_gap(problems::r1());
+  stage.sun_planet_mesh.error_amplitude_um = stage.ring_planet_mesh.error_amplitude_um = {0.0};
+  ModelOptions options;
+  options.gyroscopic = Gyroscopic::off;
+  const Scales scales = scales_of(stage);
+  const DynamicModel m = make_dynamic_model(stage, scales, 1.0, options);
+  StageForces f;
+  m.forces(0.0, m.default_start.data(), f);
+  const double f_0 = m.static_mesh_force;
+  // omega_s = omega_m / z_s (1 + z_s / z_r) with the ring fixed; 400 kW.
+  const double omega_s = scales.omega_sn / 27.0 * (1.0 + 27.0 / 81.0);
+  EXPECT_NEAR(scales.force_newton(f_0), 400e3 / omega_s / (3.0 * 32.17853e-3), 1e-6 * scales.force_newton(f_0));
+  const double alpha_sp = std::acos((32.17853 + 29.79493) / 71.72084);
+  const double alpha_rp = std::acos((96.53557 - 29.79493) / 71.72084);
+  const double across = f_0 * (std::cos(alpha_sp) + std::cos(alpha_rp));
+  const double along = f_0 * (std::sin(alpha_sp) - std::sin(alpha_rp));
+  constexpr double digits = 1e-6;  // of R1's radii, whose ratio is that of the teeth to 2e-7
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(f.sun_planet[i] / f_0, 1.0, digits);
+    EXPECT_NEAR(f.ring_planet[i] / f_0, 1.0, digits);
+    EXPECT_NEAR(f.planet_bearing[i] / std::hypot(across, along), 1.0, digits);
+  }
+  EXPECT_NEAR(f.sun_bearing / f_0, 0.0, 1e-9);
+}
+
+TEST(RemoveSynchronous, IsThereForPlanetsThatAreAlike) {
+  EXPECT_TRUE(model_of(problems::r1()).remove_synchronous);
+  EXPECT_TRUE(model_of(problems::literal(problems::with_moving_stiffness(problems::r1()))).remove_synchronous);
+  gear::Stage unequal = problems::r1();
+  unequal.sun_planet_mesh.error_amplitude_um = {8.5, 8.5, 8.6};
+  EXPECT_FALSE(model_of(unequal).remove_synchronous);
+  EXPECT_FALSE(model_of(problems::with_unequal_angles(problems::r1())).remove_synchronous);
+  gear::Stage four = problems::r1();  // 27 / 4 is not whole: the planets mesh one after the other
+  four.planet_count = 4;
+  EXPECT_FALSE(model_of(four).remove_synchronous);
+}
+
+TEST(RemoveSynchronous, SplitsWhatTheLinearisedFlowKeepsApart) {
+  // About a synchronous state the Jacobian maps synchronous deviations to such, and the others to others.
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> component(-1.0, 1.0);
+  for (const gear::Stage& stage : {problems::with_friction(problems::with_gap(problems::r1())),
+                                   problems::literal(problems::with_moving_stiffness(problems::r1()))}) {
+    const DynamicModel m = model_of(stage);
+    const std::size_t n = m.dimension;
+    const auto transverse_part = [&](std::vector<double> v) {
+      m.remove_synchronous(v);
+      return v;
+    };
+    std::vector<double> y = m.default_start;
+    std::vector<double> v(n);
+    std::vector<double> w(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      v[i] = component(random);
+      w[i] = component(random);
+    }
+    // The default start is synchronous, and so is what is taken away from w.
+    const std::vector<double> off = transverse_part(y);
+    EXPECT_LT(std::abs(*std::max_element(off.begin(), off.end())), 1e-9);
+    v = transverse_part(v);
+    EXPECT_LT(largest_difference(transverse_part(v), v), 1e-14);
+    const std::vector<double> rest = transverse_part(w);
+    for (std::size_t i = 0; i < n; ++i) w[i] -= rest[i];
+    std::vector<double> f(n);
+    std::vector<double> jv(n);
+    std::vector<double> jw(n);
+    const std::size_t segment = m.breakpoints.empty() ? 0 : m.breakpoints.size() - 1;
+    m.tangents(segment, 0.01, y.data(), {v.data(), 1, n}, f.data(), {jv.data(), 1, n});
+    m.tangents(segment, 0.01, y.data(), {w.data(), 1, n}, f.data(), {jw.data(), 1, n});
+    double size = 0.0;
+    for (const double x : jv) size = std::max(size, std::abs(x));
+    EXPECT_LT(largest_difference(transverse_part(jv), jv), 1e-12 * size);
+    const std::vector<double> leaked = transverse_part(jw);
+    const std::vector<double> nothing(n, 0.0);
+    EXPECT_LT(largest_difference(leaked, nothing), 1e-12 * size);
+    EXPECT_GT(largest_difference(jw, nothing), 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace epicyclic::model
