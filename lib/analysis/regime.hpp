@@ -9,8 +9,9 @@
 //     | (y_n - y*) - M (y_0 - y*) | <= | y_0 - y* | / 10                                              [A-settled]
 //
 //   which is the proof: nothing but time is then between the motion and the orbit.
-// - chaotic: the largest exponent is positive by its interval [A-lyap], and the 0-1 test agrees; or it abstains,
-//   and the exponent is three times its half interval.
+// - chaotic: the largest exponent is positive by its interval [A-lyap], and the 0-1 test agrees. Where the test
+//   abstains the exponent has to be three times its half interval and vectors have to grow by e^8 in the last half of
+//   the look, by e^16 where the test says regular, as it does of chaos in narrow bands: no regular motion does that.
 // - quasiperiodic: over the last half of a long look tangent vectors neither grow nor shrink by more than e^2, as
 //   beside a torus, and the 0-1 test says regular.
 //
@@ -45,7 +46,8 @@ struct RegimeOptions {
   int budget = 8192;           ///< periods of all looks together
   int longest_period = 16;     ///< largest n that is tried
   double near = 0.1;           ///< a recurrence error above this part of the section's extent makes no candidate [-]
-  double residual = 1e-9;      ///< of the orbit, that counts as found, in parts of the largest component seen [-]
+  double residual = 1e-9;      ///< of the orbit, that counts as found, in parts of the largest component seen [-];
+                               ///< a few tolerances of the flow, whose map kinks make rough
   double neutral = 1e-6;       ///< a multiplier's modulus this near to 1 attracts nothing: errors could put it outside
   std::size_t observable = 0;  ///< component of the state that the 0-1 test looks at
 

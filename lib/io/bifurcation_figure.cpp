@@ -154,8 +154,12 @@ FigureOutcome regime_figure(const std::filesystem::path& folder, std::string_vie
   for (const RegimePoint& p : points) {
     x.include(p.x);
     for (const double v : p.section) y.include(v);
-    // Where a multiplier is nearly zero the exponent is far below what there is to see.
-    exponents.include(p.exponent.value);
+    if (p.regime == analysis::Regime::periodic) {
+      exponents.include(p.exponent.value);
+    } else {
+      exponents.include(p.exponent.low());
+      exponents.include(p.exponent.high());
+    }
     ++counts[look_of(p)];
   }
   if (x.empty() || y.empty()) return {"there is no finite point to draw"};
@@ -207,15 +211,16 @@ FigureOutcome regime_figure(const std::filesystem::path& folder, std::string_vie
   const std::string panels = fmt::format(
       "set multiplot\n"
       "set lmargin screen 0.1\n"
-      "set tmargin screen 0.9\n"
+      "set tmargin screen 0.895\n"
       "set bmargin screen 0.42\n"
       "set xrange [{0}:{1}]\n"
       "set yrange [{2}:{3}]\n"
-      "set label 1 {4} at graph 0, graph 1 left offset character 0,2.1\n"
-      "set key at graph 1, graph 1.1 right top horizontal Left reverse samplen 1 width 1 font ',20'\n"
+      "set label 1 {4} at graph 0, screen 0.965 left\n"
+      "set key at graph 1, screen 0.945 right top horizontal maxrows 1 Left reverse samplen 0.6 width -1 font ',19'\n"
+      "set errorbars 0\n"
       "set format x ''\n"
       "unset xlabel\n"
-      "set ylabel {5}\n"
+      "set label 2 {5} at screen 0.022, graph 0.5 center rotate by 90\n"
       "plot {6}{7}\n"
       "unset label 1\n"
       "unset key\n"
@@ -223,13 +228,13 @@ FigureOutcome regime_figure(const std::filesystem::path& folder, std::string_vie
       "set bmargin screen 0.12\n"
       "set format x '%h'\n"
       "set xlabel {8}\n"
-      "set ylabel {9}\n"
+      "set label 2 {9} at screen 0.022, graph 0.5 center rotate by 90\n"
       "set yrange [{10}:{11}]\n"
       "plot 0 with lines linewidth 1.2 linecolor '#808080' notitle{12}\n"
       "unset multiplot\n",
       number(x.low), number(x.high), number(y.low), number(y.high), gnuplot_quoted(portable_text(text.title)),
       gnuplot_quoted(portable_text(text.y_label)), dots, legend, gnuplot_quoted(portable_text(text.x_label)),
-      gnuplot_quoted("Largest exponent  λ_1 / ω_{sn}"), number(exponents.low), number(exponents.high), bars);
+      gnuplot_quoted("Exponent  λ_1 / ω_{sn}"), number(exponents.low), number(exponents.high), bars);
   return draw_figure(folder, stem, data, panel_script(stem, dot_settings(x), panels));
 }
 

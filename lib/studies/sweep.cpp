@@ -210,17 +210,24 @@ PointResult compute_point(const GridPoint& point, const model::DynamicModel& mod
     analysis::RegimeOptions options;
     options.budget = std::max(options.look, sweep.classification_periods);
     options.longest_period = sweep.period_max;
+    // Kinks make an integrator's own map rough to some of its tolerances.
+    options.residual = std::max(options.residual, 3.0 * integrator.relative_tolerance);
     options.observable = std::min(model::Slots::w_s, model.dimension - 1);
+    // Growth is a statistical matter, for which ten times the tolerance is as good; orbits are sought at the study's
+    // own.
+    integrate::IntegratorOptions loose = integrator;
+    loose.relative_tolerance *= 10.0;
+    loose.absolute_tolerance *= 10.0;
+    const auto looks = integrate::make_flow(vector_field(model), loose);
     integrate::IntegratorOptions controlled = integrator;
     controlled.tangent_error_control = true;
     const auto exact = integrate::make_flow(vector_field(model), controlled);
-    controlled.relative_tolerance *= 10.0;
-    controlled.absolute_tolerance *= 10.0;
-    const auto coarser = integrate::make_flow(vector_field(model), controlled);
+    loose.tangent_error_control = true;
+    const auto coarser = integrate::make_flow(vector_field(model), loose);
     options.exact = exact.get();
     options.coarser = coarser.get();
-    analysis::Classification told = analysis::classify(*flow, from, options, go_on, seen);
-    classification_work += exact->right_hand_side_calls() + coarser->right_hand_side_calls();
+    analysis::Classification told = analysis::classify(*looks, from, options, go_on, seen);
+    for (const auto* each : {&looks, &exact, &coarser}) classification_work += (*each)->right_hand_side_calls();
     result.classified = told.evolution.reached();
     result.regime = told.regime;
     result.period = told.period;
@@ -237,7 +244,6 @@ PointResult compute_point(const GridPoint& point, const model::DynamicModel& mod
       return result;
     }
     if (told.orbit) state = told.orbit->state;
-    flow->forget();
   }
   const analysis::Strobe strobe = analysis::strobe(
       *flow, state, {adaptive ? 0 : sweep.transient_periods, sweep.recorded_periods, sweep.output_phases},

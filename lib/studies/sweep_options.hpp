@@ -37,7 +37,7 @@ struct SweepOptions {
   double recurrence_tolerance = 1e-3;
 
   /// Mesh periods that the regime may be looked for beyond the record; 0: it is told from recurrence alone.
-  int classification_periods = 4096;
+  int classification_periods = 1280;
 };
 
 }  // namespace epicyclic::studies

@@ -1,0 +1,111 @@
+// Regimes of the paper's own stage, from the input that the speed diagram is computed from.
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "analysis/lyapunov.hpp"
+#include "integrate/make_flow.hpp"
+#include "io/study_model.hpp"
+#include "studies/operating_point.hpp"
+#include "studies/run.hpp"
+#include "studies/sweep.hpp"
+
+namespace epicyclic::io {
+namespace {
+
+bool always() { return true; }
+
+studies::PointResult point_at(const model::DynamicModel& m, const studies::SweepOptions& sweep,
+                              const integrate::IntegratorOptions& integrator) {
+  return studies::compute_point({0, studies::Direction::up, m.omega}, m, {}, sweep, integrator, always);
+}
+
+TEST(PaperRegimes, AreToldWithTheirEvidence) {
+  const LoadedInput input = load_input("inputs/tang2020_speed.json");
+  const studies::ModelAt at = model_at(input);
+  studies::SweepOptions sweep = *input.study.sweep;
+  sweep.transient = studies::Transient::adaptive;
+  sweep.recorded_periods = 32;
+
+  const studies::PointResult periodic = point_at(at(3.0), sweep, input.study.integrator);
+  EXPECT_EQ(periodic.regime, analysis::Regime::periodic);
+  EXPECT_EQ(periodic.period, 1);
+  EXPECT_LT(periodic.evidence.residual, 1e-8);
+  EXPECT_LT(periodic.evidence.largest_multiplier + periodic.evidence.multiplier_error, 1.0);
+  EXPECT_LT(periodic.lyapunov_max().high(), 0.0);
+  EXPECT_LT(periodic.recurrence.error, 1e-6);  // put onto its orbit
+
+  const studies::PointResult doubled = point_at(at(2.1), sweep, input.study.integrator);
+  EXPECT_EQ(doubled.regime, analysis::Regime::periodic);
+  EXPECT_EQ(doubled.period, 2);
+
+  const studies::PointResult chaotic = point_at(at(1.3), sweep, input.study.integrator);
+  EXPECT_EQ(chaotic.regime, analysis::Regime::chaotic);
+  EXPECT_EQ(chaotic.period, 0);
+  EXPECT_GT(chaotic.lyapunov_max().low(), 0.0);
+  EXPECT_GT(chaotic.evidence.zero_one, 0.5);
+}
+
+TEST(PaperRegimes, ARunChecksItsExponents) {
+  const LoadedInput input = load_input("inputs/tang2020_run.json");
+  const model::DynamicModel m = model_at(input)(2.4);
+  studies::RunOptions options = input.study.run;
+  options.exponent_periods = 40;
+  options.history_periods = 4;
+  const auto r = studies::run_operating_point(m, model::scales_of(input.study.stage), *input.study.sweep, options,
+                                              input.study.integrator, always);
+  ASSERT_TRUE(r.has_value());
+  ASSERT_TRUE(r->checks.has_value());
+  EXPECT_NEAR(r->checks->sum, r->checks->divergence, 1e-8);
+  ASSERT_TRUE(r->multipliers.has_value());
+  EXPECT_TRUE(r->multipliers->stable());
+  // The product of all multipliers is exp of the divergence over the period.
+  double product = 0.0;
+  for (const auto& value : r->multipliers->values) product += std::log(std::abs(value));
+  EXPECT_NEAR(product / (2.0 * std::numbers::pi) * m.omega, r->checks->divergence, 1e-6);
+  ASSERT_TRUE(r->transverse.has_value());
+  EXPECT_LT(r->transverse->low(), 0.0);
+  // Mean forces of sun meshes are equal for equal planets, and each drives for part of the time.
+  ASSERT_EQ(r->meshes.size(), 6U);
+  for (const studies::MeshSummary& mesh : r->meshes) {
+    EXPECT_NEAR(mesh.load_sharing, 1.0, 1e-6) << mesh.name;
+    EXPECT_NEAR(mesh.drive + mesh.loss + mesh.back, 1.0, 1e-9) << mesh.name;
+  }
+  // A run of one period of record has its lines on whole multiples of the mesh frequency.
+  ASSERT_FALSE(r->spectra.empty());
+  EXPECT_TRUE(r->spectra[0].exact);
+}
+
+TEST(PaperRegimesLong, ExponentsOfPeriodicPointsAreThoseOfTheirMultipliers) {
+  const LoadedInput input = load_input("inputs/tang2020_speed.json");
+  const studies::ModelAt at = model_at(input);
+  studies::SweepOptions sweep = *input.study.sweep;
+  sweep.transient = studies::Transient::adaptive;
+  sweep.recorded_periods = 16;
+  int points = 0;
+  for (int k = 0; k < 30; ++k) {
+    const double omega = k < 12 ? 0.205 + 0.024 * k : 2.2 + 0.07 * (k - 12);
+    const model::DynamicModel m = at(omega);
+    const studies::PointResult r = point_at(m, sweep, input.study.integrator);
+    ASSERT_EQ(r.regime, analysis::Regime::periodic) << omega << ": " << r.evidence.note;
+    const analysis::Estimate of_multiplier = r.lyapunov_max();
+    const auto flow = integrate::make_flow(studies::vector_field(m), input.study.integrator);
+    std::vector<double> y = r.end_state;
+    // Several multipliers are nearly as large: the vector takes long to turn to the largest.
+    const analysis::LargestExponent e = analysis::largest_exponent(*flow, y, {2000, 4000}, {}, always);
+    ASSERT_TRUE(e.evolution.reached());
+    const double off = std::abs(e.per_s.value * omega - of_multiplier.value);
+    EXPECT_LE(off, e.per_s.half_width * omega + of_multiplier.half_width)
+        << "omega " << omega << ": " << e.per_s.value * omega << " +- " << e.per_s.half_width * omega << " and "
+        << of_multiplier.value << " +- " << of_multiplier.half_width;
+    ++points;
+  }
+  EXPECT_EQ(points, 30);
+}
+
+}  // namespace
+}  // namespace epicyclic::io
