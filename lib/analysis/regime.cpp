@@ -22,7 +22,7 @@ constexpr int least_look = 16;
 constexpr int growth_look = 128;
 /// A recurrence error up to this part of the extent is that of a motion all but on its orbit.
 constexpr double settled = 0.01;
-/// Looked at for each period of an orbit that is sought: about what its tangents cost.
+/// Looked at for each period of an orbit that is sought: all attempts together then cost about as much as the looks.
 constexpr int periods_per_orbit = 256;
 /// Periods over which e^2 is told from a small exponent.
 constexpr int torus_look = 1024;
