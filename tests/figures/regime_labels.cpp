@@ -143,7 +143,18 @@ int main() {
   for (const Case& c : cases()) {
     const auto flow = integrate::make_flow(c.field, with("arkode-dopri5", 1e-9));
     std::vector<double> y = c.start;
-    const analysis::Classification r = analysis::classify(*flow, y, {}, [] { return true; });
+    // As a sweep does it: orbits by flows that control tangents, at the tolerance and at ten times it.
+    integrate::IntegratorOptions controlled = with("arkode-dopri5", 1e-9);
+    controlled.tangent_error_control = true;
+    const auto exact = integrate::make_flow(c.field, controlled);
+    controlled.relative_tolerance *= 10.0;
+    controlled.absolute_tolerance *= 10.0;
+    const auto coarser = integrate::make_flow(c.field, controlled);
+    analysis::RegimeOptions options;
+    options.exact = exact.get();
+    options.coarser = coarser.get();
+    options.residual = 3e-9;
+    const analysis::Classification r = analysis::classify(*flow, y, options, [] { return true; });
     const std::string answer = r.evolution.reached() ? analysis::to_string(r.regime) : "escape";
     ++count[{c.label, answer}];
     ++total;
