@@ -24,7 +24,8 @@ code_of() {
   echo "$code"
 }
 
-small=(--set /study/points=6 --set /study/transient_periods=8 --set /study/recorded_periods=8)
+small=(--set /study/points=6 --set /study/transient_periods=8 --set /study/recorded_periods=8
+  --set /study/classification_periods=192)
 sweep() { "$epicyclic" sweep "$inputs/tang2020_speed.json" "${small[@]}" "$@"; }
 
 same_results() {
@@ -67,7 +68,7 @@ mkdir busy
 cmp -s t1/points.csv resolved/points.csv || fail "the resolved input gives other points"
 
 # Stopped by a signal: exit 75, then the same bytes. Killed: no manual step, the same bytes.
-longer=(--set /study/points=24 --set /study/transient_periods=60)
+longer=(--set /study/points=24 --set /study/transient_periods=60 --set /study/classification_periods=64)
 sweep "${longer[@]}" -o whole >stdout 2>stderr
 for signal in INT TERM KILL KILL KILL; do
   rm -rf cut

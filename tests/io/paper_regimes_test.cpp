@@ -34,10 +34,12 @@ TEST(PaperRegimes, AreToldWithTheirEvidence) {
   const studies::PointResult periodic = point_at(at(3.0), sweep, input.study.integrator);
   EXPECT_EQ(periodic.regime, analysis::Regime::periodic);
   EXPECT_EQ(periodic.period, 1);
-  EXPECT_LT(periodic.evidence.residual, 1e-8);
+  // Three tolerances in parts of the largest component, which is below 10 b_c.
+  EXPECT_LT(periodic.evidence.residual, 3.0 * input.study.integrator.relative_tolerance * 10.0);
   EXPECT_LT(periodic.evidence.largest_multiplier + periodic.evidence.multiplier_error, 1.0);
   EXPECT_LT(periodic.lyapunov_max().high(), 0.0);
-  EXPECT_LT(periodic.recurrence.error, 1e-6);  // put onto its orbit
+  // Put onto its orbit: what is left are the integrator's errors, held up by a multiplier of 0.996.
+  EXPECT_LT(periodic.recurrence.error, 1e-5);
 
   const studies::PointResult doubled = point_at(at(2.1), sweep, input.study.integrator);
   EXPECT_EQ(doubled.regime, analysis::Regime::periodic);
@@ -96,7 +98,7 @@ TEST(PaperRegimesLong, ExponentsOfPeriodicPointsAreThoseOfTheirMultipliers) {
     const auto flow = integrate::make_flow(studies::vector_field(m), input.study.integrator);
     std::vector<double> y = r.end_state;
     // Several multipliers are nearly as large: the vector takes long to turn to the largest.
-    const analysis::LargestExponent e = analysis::largest_exponent(*flow, y, {2000, 4000}, {}, always);
+    const analysis::LargestExponent e = analysis::largest_exponent(*flow, y, {500, 2000}, {}, always);
     ASSERT_TRUE(e.evolution.reached());
     const double off = std::abs(e.per_s.value * omega - of_multiplier.value);
     EXPECT_LE(off, e.per_s.half_width * omega + of_multiplier.half_width)
