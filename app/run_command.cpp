@@ -39,13 +39,7 @@ int run_command(const Arguments& arguments) {
   }
 
   const io::SweepOutput points{*study.sweep, studies::poincare_columns(model), resolved, io::figure_title(study)};
-  const io::RunOutput output{points.sweep,
-                             study.run,
-                             points.poincare_columns,
-                             resolved,
-                             points.title,
-                             model.sun_planet_half_gap,
-                             model.ring_planet_half_gap};
+  const io::RunOutput output{points, study.run, model.sun_planet_half_gap, model.ring_planet_half_gap};
   const bool computed = result->point.outcome == integrate::Outcome::reached;
   const std::string summary = io::run_summary(output, *result);
   io::write_points_csv(folder.file("points.csv"), {result->point});

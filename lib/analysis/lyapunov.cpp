@@ -32,9 +32,7 @@ LargestExponent largest_exponent(integrate::Flow& flow, std::span<double> state,
     if (observer) observer(static_cast<std::size_t>(k), period, state);
   }
   if (result.growth.empty()) return result;
-  result.per_s = series_mean(result.growth);
-  result.per_s.value /= period;
-  result.per_s.half_width /= period;
+  result.per_s = series_mean(result.growth) / period;
   return result;
 }
 
@@ -80,12 +78,7 @@ LyapunovSpectrum lyapunov_spectrum(integrate::Flow& flow, std::span<double> stat
   }
   std::vector<double> sums(result.growth.size() / m, 0.0);
   std::vector<double> series(sums.size());
-  const auto per_s = [&](const std::vector<double>& g) {
-    Estimate e = g.empty() ? Estimate{} : series_mean(g);
-    e.value /= interval;
-    e.half_width /= interval;
-    return e;
-  };
+  const auto per_s = [&](const std::vector<double>& g) { return g.empty() ? Estimate{} : series_mean(g) / interval; };
   for (std::size_t i = 0; i < m; ++i) {
     for (std::size_t k = 0; k < series.size(); ++k) {
       series[k] = result.growth[k * m + i];

@@ -8,6 +8,13 @@
 
 namespace epicyclic::analysis {
 
+std::vector<double> uniform_phases(double period, int count) {
+  std::vector<double> s;
+  for (int j = 1; j < count; ++j) s.push_back(period * j / count);
+  s.push_back(period);
+  return s;
+}
+
 Strobe strobe(integrate::Flow& flow, std::span<double> state, const StrobeOptions& options,
               const integrate::Observer& observer, const std::function<bool()>& go_on) {
   const double period = flow.field().period;
@@ -18,9 +25,7 @@ Strobe strobe(integrate::Flow& flow, std::span<double> state, const StrobeOption
     result.evolution = flow.evolve(state, 0.0, period);
     if (!result.evolution.reached()) return result;
   }
-  std::vector<double> samples;
-  for (int j = 1; j < options.phases; ++j) samples.push_back(period * j / options.phases);
-  samples.push_back(period);
+  const std::vector<double> samples = uniform_phases(period, options.phases);
   result.section.states.reserve(static_cast<std::size_t>(options.recorded_periods) * result.section.dimension);
   for (int k = 0; k < options.recorded_periods; ++k) {
     if (!go_on()) return result;
@@ -40,9 +45,7 @@ SurfaceSection surface_section(integrate::Flow& flow, std::span<double> state,
   const double period = flow.field().period;
   SurfaceSection result;
   result.section.dimension = state.size();
-  std::vector<double> samples;
-  for (int j = 1; j < phases; ++j) samples.push_back(period * j / phases);
-  samples.push_back(period);
+  const std::vector<double> samples = uniform_phases(period, phases);
   struct Sample {
     double s = 0;
     std::vector<double> y;

@@ -35,6 +35,9 @@ struct PoincareSection {
   }
 };
 
+/// Uniform values of s over one period, its end included and its beginning not: where the dense output is looked at.
+[[nodiscard]] std::vector<double> uniform_phases(double period, int count);
+
 struct StrobeOptions {
   int transient_periods = 300;
   int recorded_periods = 128;

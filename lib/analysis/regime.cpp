@@ -199,9 +199,7 @@ class Classifier {
     Evidence& seen = result_.evidence;
     // The first quarter is left to the vector's turning and to what is left of the transient.
     const std::span<const double> counted = std::span(growth_).subspan(growth_.size() / 4);
-    seen.exponent = series_mean(counted);
-    seen.exponent.value /= flow_.field().period;
-    seen.exponent.half_width /= flow_.field().period;
+    seen.exponent = series_mean(counted) / flow_.field().period;
     seen.late_growth = late_growth(growth_);
     seen.zero_one = 0.0;
     if (series_.size() < 2 * static_cast<std::size_t>(growth_look)) return false;

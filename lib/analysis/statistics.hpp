@@ -26,6 +26,10 @@ struct Estimate {
 
   [[nodiscard]] double low() const { return value - half_width; }
   [[nodiscard]] double high() const { return value + half_width; }
+
+  /// In another unit; factor and divisor are positive.
+  friend Estimate operator*(const Estimate& e, double factor) { return {e.value * factor, e.half_width * factor}; }
+  friend Estimate operator/(const Estimate& e, double divisor) { return {e.value / divisor, e.half_width / divisor}; }
 };
 
 /// Do the intervals have a point in common?

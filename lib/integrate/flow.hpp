@@ -111,9 +111,8 @@ class Flow {
   ///
   /// @param tangents  m vectors of dimension() numbers one behind the other, replaced; if not reached, those at the
   ///                  state's place
-  /// @throws InputError when the field has no tangents or jumps at surfaces, or has no parameter derivative where one
-  /// is
-  ///                    asked for
+  /// @throws InputError when the field has no tangents or jumps at surfaces, or when a parameter derivative is asked of
+  /// a field without one
   virtual Evolution evolve_tangents(std::span<double> state, std::span<double> tangents, double from, double to,
                                     LastTangent last) = 0;
 

@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "core/root_finding.hpp"
 #include "io/run_output.hpp"
 #include "io/sketch.hpp"
 #include "model/dynamic_model.hpp"
@@ -94,8 +93,6 @@ Curve pairs(const std::vector<double>& x, const std::vector<double>& y, std::siz
   return curve;
 }
 
-std::string mesh_periods(int n) { return n == 1 ? "1 mesh period" : fmt::format("{} mesh periods", n); }
-
 /// Range of one coordinate.
 FigureRange range_of(const Curve& curve, std::size_t coordinate) {
   FigureRange range;
@@ -107,14 +104,18 @@ FigureRange range_of(const Curve& curve, std::size_t coordinate) {
 class RunFigures {
  public:
   RunFigures(const fs::path& folder, const RunOutput& output, const RunResult& result)
-      : folder_(folder), output_(output), result_(result), h_(result.history), title_(literal_text(output.title)) {}
+      : folder_(folder),
+        output_(output),
+        result_(result),
+        h_(result.history),
+        title_(literal_text(output.points.title)) {}
 
   std::vector<DrawnFigure> draw() {
     if (h_.rows() > 0 && h_.phases > 0) {
       history();
       phase_portrait();
       poincare_section();
-      if (result_.crossing.size() > 0) poincare_crossing();
+      if (has_crossing(result_)) poincare_crossing();
     }
     for (const SignalSpectrum& s : result_.spectra) {
       if (s.signal == "delta_sp_1")
@@ -122,8 +123,8 @@ class RunFigures {
       if (s.signal == "force_sp_1")
         spectrum(s, "spectrum_force", fmt::format("Amplitude of  F_{{sp,1}}  [{}]", unit_text(s.unit)));
     }
-    if (!result_.exponents.per_s.empty() && !result_.exponents.growth.empty()) exponents();
-    if (result_.multipliers && !result_.multipliers->values.empty()) multipliers();
+    if (has_exponents(result_)) exponents();
+    if (has_multipliers(result_)) multipliers();
     if (h_.rows() > 0 && h_.phases > 0) {
       contact();
       mesh_force();
@@ -244,32 +245,10 @@ class RunFigures {
     finish(sketch, std::string(delta_label) + "  at whole mesh periods", rate_label, y_range(x), y_range(y));
   }
 
-  /// Phase [mesh periods, in [0, 1)] and rate at each making of contact, by Hermite's cubic between samples.
-  [[nodiscard]] Curve makings_of_contact() const {
-    const std::vector<double> delta = h_.column("delta_sp_1");
-    const std::vector<double> rate = h_.column("delta_sp_1_rate");
-    const std::vector<double> tau = h_.column("tau");
-    const double b = output_.half_gap_sp;
-    Curve curve;
-    for (std::size_t k = 1; k < delta.size(); ++k) {
-      if (!(delta[k - 1] < b && delta[k] >= b)) continue;
-      const double step = tau[k] - tau[k - 1];
-      const double rise = delta[k] - delta[k - 1];
-      const double start = step * rate[k - 1];
-      const double curvature = 3.0 * rise - 2.0 * start - step * rate[k];
-      const double twist = start + step * rate[k] - 2.0 * rise;
-      const auto above = [&](double u) { return delta[k - 1] - b + u * (start + u * (curvature + u * twist)); };
-      const double u = delta[k] == b ? 1.0 : find_root(above, 0.0, 1.0);
-      const double phase = (static_cast<double>(k) + u) / static_cast<double>(h_.phases);
-      curve.push_back({phase - std::floor(phase), (start + u * (2.0 * curvature + u * 3.0 * twist)) / step});
-    }
-    return curve;
-  }
-
   void poincare_crossing() {
-    if (!has_column(h_, "delta_sp_1") || !has_column(h_, "delta_sp_1_rate") || !has_column(h_, "tau")) return;
-    const Curve points = makings_of_contact();
-    if (points.empty()) return;
+    Curve points;
+    for (std::size_t k = 0; k < result_.crossing_phase.size(); ++k)
+      points.push_back({result_.crossing_phase[k] / (2.0 * std::numbers::pi), result_.crossing_rate[k]});
     Sketch sketch("poincare_crossing");
     sketch.add(points, dots(blue, periodic() ? 2.0 : points.size() > 2000 ? 0.3 : 0.6));
     // From rest, which is what a touch without impact has.

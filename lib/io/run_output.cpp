@@ -38,9 +38,9 @@ bool is_mesh_harmonic(double frequency, double resolution) {
 }
 
 std::vector<std::string> state_names(const RunOutput& output, std::size_t dimension) {
-  const auto end = output.poincare_columns.begin() +
-                   static_cast<std::ptrdiff_t>(std::min(dimension, output.poincare_columns.size()));
-  return {output.poincare_columns.begin(), end};
+  const auto end = output.points.poincare_columns.begin() +
+                   static_cast<std::ptrdiff_t>(std::min(dimension, output.points.poincare_columns.size()));
+  return {output.points.poincare_columns.begin(), end};
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -106,12 +106,12 @@ void write_multipliers_csv(const std::filesystem::path& file, const RunResult& r
 }
 
 void write_crossing_csv(const std::filesystem::path& file, const RunOutput& output, const RunResult& result) {
-  std::vector<std::string> columns{"index", "phase"};
+  std::vector<std::string> columns{"index", "phase", "delta_sp_1_rate"};
   const std::vector<std::string> names = state_names(output, result.crossing.dimension);
   columns.insert(columns.end(), names.begin(), names.end());
   CsvWriter csv(file, columns);
   for (std::size_t k = 0; k < result.crossing.size(); ++k) {
-    csv.cell(k).cell(result.crossing_phase[k]);
+    csv.cell(k).cell(result.crossing_phase[k]).cell(result.crossing_rate[k]);
     for (const double x : result.crossing.point(k)) csv.cell(x);
     csv.end_row();
   }
@@ -119,10 +119,6 @@ void write_crossing_csv(const std::filesystem::path& file, const RunOutput& outp
 }
 
 bool has_history(const RunResult& r) { return !r.history.columns.empty(); }
-/// An evolution that failed leaves growth, but no exponents.
-bool has_exponents(const RunResult& r) { return !r.exponents.per_s.empty() && !r.exponents.growth.empty(); }
-bool has_multipliers(const RunResult& r) { return r.multipliers && !r.multipliers->values.empty(); }
-bool has_crossing(const RunResult& r) { return r.crossing.size() > 0; }
 
 // ---------------------------------------------------------------------------------------------------------------------
 // results.h5
@@ -294,6 +290,7 @@ void write_exponents(Hdf5File& h5, const RunResult& r) {
   g.number("dimension", r.dimension, "-");
   if (!r.checks) return;
   Group checks(h5, "/exponents/checks");
+  checks.integer("intervals", r.checks->intervals, "mesh periods");
   checks.number("sum", r.checks->sum, "per tau");
   checks.number("divergence", r.checks->divergence, "per tau");
   if (r.checks->multipliers) {
@@ -430,8 +427,6 @@ std::string multiplier_text(const analysis::Multipliers& m, std::size_t k) {
   return text;
 }
 
-std::string mesh_periods(int n) { return n == 1 ? "1 mesh period" : fmt::format("{} mesh periods", n); }
-
 std::string regime_sentence(const RunResult& r) {
   const studies::PointResult& p = r.point;
   switch (p.regime) {
@@ -498,11 +493,11 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
   }
   text += bullet(p.recurrence.period > 0
                      ? fmt::format("The record of {:g} mesh periods repeats after {}, to {:.2g} [b_c, b_c per tau].",
-                                   static_cast<double>(output.sweep.recorded_periods),
+                                   static_cast<double>(output.points.sweep.recorded_periods),
                                    mesh_periods(p.recurrence.period), p.recurrence.error)
                      : fmt::format("The record of {:g} mesh periods does not repeat: nearest after {}, to {:.2g} "
                                    "[b_c, b_c per tau].",
-                                   static_cast<double>(output.sweep.recorded_periods),
+                                   static_cast<double>(output.points.sweep.recorded_periods),
                                    mesh_periods(p.recurrence.best_period), p.recurrence.error));
   return text;
 }
@@ -568,8 +563,9 @@ std::string exponents_text(const RunResult& r) {
   if (!r.checks) return text;
   text += bullet(fmt::format(
       "Sum of all: {:.10g} per tau; mean divergence of the field along the same motion: {:.10g}; difference "
-      "{:.2g}.",
-      r.checks->sum, r.checks->divergence, std::abs(r.checks->sum - r.checks->divergence)));
+      "{:.2g}. Over the first {} of them.",
+      r.checks->sum, r.checks->divergence, std::abs(r.checks->sum - r.checks->divergence),
+      mesh_periods(r.checks->intervals)));
   if (r.checks->multipliers)
     text += bullet(fmt::format(
         "Against log |multiplier| over the period: {} of {} within their intervals, largest difference {:.2g} "
@@ -616,6 +612,12 @@ std::string files_text(const RunOutput& output, const RunResult& r) {
 
 }  // namespace
 
+bool has_exponents(const RunResult& r) { return !r.exponents.per_s.empty() && !r.exponents.growth.empty(); }
+bool has_multipliers(const RunResult& r) { return r.multipliers && !r.multipliers->values.empty(); }
+bool has_crossing(const RunResult& r) { return r.crossing.size() > 0; }
+
+std::string mesh_periods(int n) { return n == 1 ? "1 mesh period" : fmt::format("{} mesh periods", n); }
+
 std::size_t first_row(const History& history, int periods) {
   const std::size_t wanted =
       static_cast<std::size_t>(std::max(0, periods)) * static_cast<std::size_t>(std::max(0, history.phases));
@@ -652,8 +654,8 @@ void write_run_tables(const std::filesystem::path& folder, const RunOutput& outp
 
 void write_run_h5(const std::filesystem::path& file, const RunOutput& output, const RunResult& result) {
   Hdf5File h5(file);
-  h5.set_attribute("/", "input_resolved", output.resolved_input);
-  h5.set_attribute("/", "title", output.title);
+  h5.set_attribute("/", "input_resolved", output.points.resolved_input);
+  h5.set_attribute("/", "title", output.points.title);
   write_point(h5, output, result);
 
   if (has_history(result)) {
@@ -668,7 +670,7 @@ void write_run_h5(const std::filesystem::path& file, const RunOutput& output, co
   for (const SignalSpectrum& s : result.spectra) write_spectrum(h5, s);
   {
     Group g(h5, "/poincare");
-    g.texts("columns", output.poincare_columns);
+    g.texts("columns", output.points.poincare_columns);
     g.table("values", result.point.poincare, result.point.poincare_rows(), result.point.poincare_columns,
             "b_c, b_c per tau");
   }
@@ -676,6 +678,7 @@ void write_run_h5(const std::filesystem::path& file, const RunOutput& output, co
     Group g(h5, "/crossing");
     g.texts("columns", state_names(output, result.crossing.dimension));
     g.numbers("phase", result.crossing_phase, "rad");
+    g.numbers("delta_sp_1_rate", result.crossing_rate, "b_c per tau");
     g.table("values", result.crossing.states, result.crossing.size(), result.crossing.dimension, "b_c, b_c per tau");
   }
   if (has_exponents(result)) write_exponents(h5, result);
@@ -690,7 +693,7 @@ void write_run_h5(const std::filesystem::path& file, const RunOutput& output, co
 }
 
 std::string run_summary(const RunOutput& output, const RunResult& r) {
-  std::string text = fmt::format("# {}\n\n", output.title);
+  std::string text = fmt::format("# {}\n\n", output.points.title);
   text +=
       wrapped(fmt::format("Operating point: mesh frequency ratio Ω = {}; half gaps b_sp = {}, b_rp = {} b_c (b_c = "
                           "{:g} µm); static mesh force F_0 = {:.1f} N.",

@@ -26,13 +26,10 @@ namespace epicyclic::io {
 
 /// What a run is written with besides its result.
 struct RunOutput {
-  studies::SweepOptions sweep;
+  SweepOutput points;
   studies::RunOptions options;
-  std::vector<std::string> poincare_columns;
-  std::string resolved_input;  ///< text of input.resolved.json, kept in results.h5 too
-  std::string title;           ///< of summary and figures
-  double half_gap_sp = 0;      ///< b_sp [b_c]
-  double half_gap_rp = 0;      ///< b_rp [b_c]
+  double half_gap_sp = 0;  ///< b_sp [b_c]
+  double half_gap_rp = 0;  ///< b_rp [b_c]
 };
 
 /// Highest frequency in spectrum.csv [mesh frequencies]; results.h5 has all.
@@ -51,6 +48,14 @@ void write_run_h5(const std::filesystem::path& file, const RunOutput& output, co
 /// @throws OutputError when data or scripts cannot be written
 [[nodiscard]] std::vector<DrawnFigure> draw_run_figures(const std::filesystem::path& figures_folder,
                                                         const RunOutput& output, const studies::RunResult& result);
+
+/// Is there something to write or draw? An evolution that failed leaves growth, but no exponents.
+[[nodiscard]] bool has_exponents(const studies::RunResult& result);
+[[nodiscard]] bool has_multipliers(const studies::RunResult& result);
+[[nodiscard]] bool has_crossing(const studies::RunResult& result);
+
+/// "1 mesh period", "2 mesh periods".
+[[nodiscard]] std::string mesh_periods(int n);
 
 /// First row of the last `periods` mesh periods of a record; 0 when it is no longer than that.
 [[nodiscard]] std::size_t first_row(const studies::History& history, int periods);

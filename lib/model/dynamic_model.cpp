@@ -72,8 +72,8 @@ std::vector<double> static_equilibrium(Parameters<double, N> p) {
 template <std::size_t N>
 bool planets_alike(const Parameters<double, N>& p) {
   constexpr double rounding = 1e-9;
-  const auto equal = [&](const Row<double, N>& row, double unit) {
-    return std::all_of(row.begin(), row.end(), [&](double x) { return std::abs(x - row[0]) <= rounding * unit; });
+  const auto equal = [&](const Row<double, N>& row) {
+    return std::all_of(row.begin(), row.end(), [&](double x) { return std::abs(x - row[0]) <= rounding; });
   };
   const auto mesh_alike = [&](const MeshParameters<double, N>& mesh) {
     bool alike = true;
@@ -82,8 +82,8 @@ bool planets_alike(const Parameters<double, N>& p) {
       alike = alike && std::abs(turns - std::round(turns)) <= rounding;
     }
     for (std::size_t h = 0; h < mesh.harmonics; ++h)
-      alike = alike && equal(mesh.stiffness_cos[h], 1.0) && equal(mesh.stiffness_sin[h], 1.0);
-    return alike && equal(mesh.error_cos, 1.0) && equal(mesh.error_sin, 1.0);
+      alike = alike && equal(mesh.stiffness_cos[h]) && equal(mesh.stiffness_sin[h]);
+    return alike && equal(mesh.error_cos) && equal(mesh.error_sin);
   };
   // Angles 2 pi / N apart: their N-th multiples are one angle, and no two are the same.
   std::array<double, N> angle;

@@ -278,7 +278,7 @@ class Examiner {
         },
         [this] { return stop_ == nullptr || !stop_->load(); });
     if (!e.evolution.reached() || e.growth.size() < static_cast<std::size_t>(periods)) return course;
-    course.exponent = {e.per_s.value * model.omega, e.per_s.half_width * model.omega};
+    course.exponent = e.per_s * model.omega;
     course.late_growth = analysis::late_growth(e.growth);
     course.state = std::move(state);
     return course;

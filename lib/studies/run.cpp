@@ -41,10 +41,17 @@ class Recorder {
     add("bearing_sun", "N");
   }
 
-  void see(std::size_t period, double s, std::span<const double> y) {
-    constexpr double whole = 2.0 * std::numbers::pi;
+  /// Deflections and forces at an instant, valid until the next one.
+  void look(double s, std::span<const double> y) {
     model_.deflections(s, y.data(), d_);
     model_.forces(s, y.data(), f_);
+  }
+  [[nodiscard]] const model::MeshDeflections& deflections() const { return d_; }
+  [[nodiscard]] const model::StageForces& forces() const { return f_; }
+
+  /// A row of the history, of the instant that was looked at.
+  void keep(std::size_t period, double s, std::span<const double> y) {
+    constexpr double whole = 2.0 * std::numbers::pi;
     const double phase = static_cast<double>(period) * whole + s;
     put(phase / whole);
     put(phase / model_.omega);
@@ -79,14 +86,6 @@ class Recorder {
   model::MeshDeflections d_;
   model::StageForces f_;
 };
-
-/// Uniform samples over one period, the end included and the beginning not.
-std::vector<double> phases_of(const Flow& flow, int count) {
-  std::vector<double> s;
-  for (int j = 1; j < count; ++j) s.push_back(flow.field().period * j / count);
-  s.push_back(flow.field().period);
-  return s;
-}
 
 /// One operating point, step by step into its result.
 class Run {
@@ -146,7 +145,7 @@ class Run {
   /// Histories, and the signals of the spectra, which are longer.
   void record(RunResult& r) {
     const auto carried = flow();
-    const std::vector<double> samples = phases_of(*carried, options_.dense_phases);
+    const std::vector<double> samples = analysis::uniform_phases(carried->field().period, options_.dense_phases);
     r.history.phases = options_.dense_phases;
     Recorder recorder(model_, scales_, r.history);
     const bool exact = r.orbit.has_value();
@@ -158,32 +157,29 @@ class Run {
     };
     std::vector<Signal> signals = {
         {"delta_sp_1", "um", {}}, {"delta_rp_1", "um", {}}, {"force_sp_1", "N", {}}, {"force_rp_1", "N", {}}};
-    model::MeshDeflections d;
-    model::StageForces f;
     std::vector<double> y = state_;
     const int periods = std::max(n, options_.history_periods);
     for (int k = 0; k < periods; ++k) {
       if (!go_on_()) return;
       const integrate::Evolution e = carried->evolve(
           y, 0.0, carried->field().period, samples, [&](std::size_t, double s, std::span<const double> now) {
-            if (k < options_.history_periods) recorder.see(static_cast<std::size_t>(k), s, now);
+            recorder.look(s, now);
+            if (k < options_.history_periods) recorder.keep(static_cast<std::size_t>(k), s, now);
             if (k >= n) return;
-            model_.deflections(s, now.data(), d);
-            model_.forces(s, now.data(), f);
-            signals[0].values.push_back(scales_.displacement_um(d.sun_planet[0]));
-            signals[1].values.push_back(scales_.displacement_um(d.ring_planet[0]));
-            signals[2].values.push_back(scales_.force_newton(f.sun_planet[0]));
-            signals[3].values.push_back(scales_.force_newton(f.ring_planet[0]));
+            signals[0].values.push_back(scales_.displacement_um(recorder.deflections().sun_planet[0]));
+            signals[1].values.push_back(scales_.displacement_um(recorder.deflections().ring_planet[0]));
+            signals[2].values.push_back(scales_.force_newton(recorder.forces().sun_planet[0]));
+            signals[3].values.push_back(scales_.force_newton(recorder.forces().ring_planet[0]));
           });
       if (!e.reached()) return;
     }
-    for (const Signal& signal : signals) {
+    for (Signal& signal : signals) {
       SignalSpectrum s;
       s.signal = signal.name;
       s.unit = signal.unit;
       s.exact = exact;
       const double dt = 1.0 / options_.dense_phases;  // in mesh periods
-      std::vector<double> values = signal.values;
+      std::vector<double>& values = signal.values;
       if (!exact) {
         // A window spreads the mean over its neighbours.
         const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -192,7 +188,7 @@ class Run {
       s.spectrum =
           analysis::amplitude_spectrum(values, dt, exact ? analysis::Window::rectangular : analysis::Window::flat_top);
       if (exact) {
-        s.lines = analysis::harmonics(signal.values, n);
+        s.lines = analysis::harmonics(values, n);
       } else {
         constexpr std::size_t most = 20;
         constexpr double floor = 1e-3;
@@ -245,6 +241,10 @@ class Run {
     analysis::SurfaceSection section =
         analysis::surface_section(*carried, y, surface, analysis::Crossing::rising,
                                   r.orbit ? r.point.period : sweep_.recorded_periods, sweep_.output_phases, go_on_);
+    for (std::size_t k = 0; k < section.section.size(); ++k) {
+      model_.deflections(section.phase[k], section.section.point(k).data(), d);
+      r.crossing_rate.push_back(d.sun_planet_rate[0]);
+    }
     r.crossing = std::move(section.section);
     r.crossing_phase = std::move(section.phase);
   }
@@ -257,7 +257,6 @@ class Run {
     constexpr std::size_t checked = 32;
     double along = 0.0;
     std::size_t intervals = 0;
-    const std::vector<double> start = state_;
     analysis::SpectrumOptions o;
     o.intervals = options_.exponent_periods;
     std::vector<double> first;
@@ -271,7 +270,7 @@ class Run {
       along += extended.back();
       ++intervals;
     };
-    std::vector<double> y = start;
+    std::vector<double> y = state_;
     r.exponents = analysis::lyapunov_spectrum(*tangents, y, o, go_on_);
     const std::size_t m = r.exponents.exponents;
     if (!go_on_() || !r.exponents.evolution.reached() || intervals == 0) return;
@@ -336,7 +335,7 @@ class Run {
     o.project = model_.remove_synchronous;
     const analysis::LargestExponent e = analysis::largest_exponent(*carried, y, o, {}, go_on_);
     if (e.evolution.reached() && e.growth.size() == static_cast<std::size_t>(o.periods))
-      r.transverse = {e.per_s.value * model_.omega, e.per_s.half_width * model_.omega};
+      r.transverse = e.per_s * model_.omega;
   }
 
   const model::DynamicModel& model_;

@@ -75,6 +75,7 @@ struct RunResult {
   std::vector<SignalSpectrum> spectra;
   analysis::PoincareSection crossing;    ///< states where delta_sp_1 rises through b (contact is made)
   std::vector<double> crossing_phase;    ///< mesh phase in [0, 2 pi) of each
+  std::vector<double> crossing_rate;     ///< delta_sp_1' of each [b_c per tau]
   analysis::LyapunovSpectrum exponents;  ///< per unit of s; empty if none were asked for
   std::optional<ExponentChecks> checks{};
   double dimension = 0;                                ///< Kaplan and Yorke's

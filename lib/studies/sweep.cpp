@@ -278,7 +278,7 @@ PointResult compute_point(const GridPoint& point, const model::DynamicModel& mod
 analysis::Estimate PointResult::lyapunov_max() const {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (!classified || outcome != integrate::Outcome::reached) return {none, none};
-  return {evidence.exponent.value * omega, evidence.exponent.half_width * omega};
+  return evidence.exponent * omega;
 }
 
 std::vector<PointResult> run_sweep(const SweepPlan& plan, const SweepOptions& sweep,

@@ -295,7 +295,7 @@ class PointStudy {
       step.outcome = e.evolution.outcome;
       step.right_hand_sides = own->right_hand_side_calls();
       if (!e.evolution.reached() || series[0].empty()) return;
-      step.exponent = {e.per_s.value * model.omega, e.per_s.half_width * model.omega};
+      step.exponent = e.per_s * model.omega;
       for (std::size_t k = 0; k < series.size(); ++k) {
         step.mean[k] = analysis::series_mean(series[k]);
         step.deviation[k] = analysis::series_deviation(series[k]);

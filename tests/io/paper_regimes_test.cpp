@@ -77,6 +77,16 @@ TEST(PaperRegimes, ARunChecksItsExponents) {
     EXPECT_NEAR(mesh.load_sharing, 1.0, 1e-6) << mesh.name;
     EXPECT_NEAR(mesh.drive + mesh.loss + mesh.back, 1.0, 1e-9) << mesh.name;
   }
+  // Contact is made on the flank, with a rate.
+  ASSERT_GT(r->crossing.size(), 0U);
+  ASSERT_EQ(r->crossing_rate.size(), r->crossing.size());
+  model::MeshDeflections d;
+  for (std::size_t k = 0; k < r->crossing.size(); ++k) {
+    m.deflections(r->crossing_phase[k], r->crossing.point(k).data(), d);
+    EXPECT_NEAR(d.sun_planet[0], m.sun_planet_half_gap, 1e-9);
+    EXPECT_EQ(d.sun_planet_rate[0], r->crossing_rate[k]);
+    EXPECT_GT(r->crossing_rate[k], 0.0);
+  }
   // A run of one period of record has its lines on whole multiples of the mesh frequency.
   ASSERT_FALSE(r->spectra.empty());
   EXPECT_TRUE(r->spectra[0].exact);

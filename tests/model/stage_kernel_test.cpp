@@ -15,18 +15,28 @@
 namespace epicyclic::model {
 namespace {
 
+/// One error for all planets: r1_nonlinear() has those of three.
+template <std::size_t N>
+Parameters<double, N> parameters(double smoothing, GapDamping damping) {
+  gear::Stage stage = problems::with_friction(problems::with_moving_stiffness(problems::with_gap(problems::r1())));
+  stage.planet_count = static_cast<int>(N);
+  return make_parameters<N>(stage, scales_of(stage), 0.9, {damping, Gyroscopic::automatic, smoothing});
+}
+
+template <std::size_t N>
+double phase_in(const Parameters<double, N>& p, std::size_t segment, int trial) {
+  return p.breakpoints.empty() ? 0.3 * trial : p.breakpoints[segment] + 0.01;
+}
+
 template <Layout L, std::size_t N>
 void expect_same_bits(double smoothing, GapDamping damping) {
   constexpr std::size_t dimension = 2 * degrees_of_freedom(L, N);
-  // One error for all planets: r1_nonlinear() has those of three.
-  gear::Stage stage = problems::with_friction(problems::with_moving_stiffness(problems::with_gap(problems::r1())));
-  stage.planet_count = static_cast<int>(N);
-  const auto p = make_parameters<N>(stage, scales_of(stage), 0.9, {damping, Gyroscopic::automatic, smoothing});
+  const auto p = parameters<N>(smoothing, damping);
   std::mt19937_64 random(71);
   std::uniform_real_distribution<double> component(-6.0, 6.0);  // on all three sides of the gaps
   for (int trial = 0; trial < 20; ++trial) {
     const std::size_t segment = static_cast<std::size_t>(trial) % p.segments.size();
-    const double s = p.breakpoints.empty() ? 0.3 * trial : p.breakpoints[segment] + 0.01;
+    const double s = phase_in(p, segment, trial);
     std::array<double, dimension> y;
     for (double& x : y) x = component(random);
     std::array<double, dimension> expected;
@@ -54,14 +64,12 @@ TEST(StageKernel, BitsDoNotDependOnTheInstructionSet) {
 template <Layout L, std::size_t N>
 void expect_same_tangents(double smoothing, GapDamping damping) {
   constexpr std::size_t dimension = 2 * degrees_of_freedom(L, N);
-  gear::Stage stage = problems::with_friction(problems::with_moving_stiffness(problems::with_gap(problems::r1())));
-  stage.planet_count = static_cast<int>(N);
-  const auto p = make_parameters<N>(stage, scales_of(stage), 0.9, {damping, Gyroscopic::automatic, smoothing});
+  const auto p = parameters<N>(smoothing, damping);
   std::mt19937_64 random(73);
   std::uniform_real_distribution<double> component(-6.0, 6.0);
   for (int trial = 0; trial < 5; ++trial) {
     const std::size_t segment = static_cast<std::size_t>(trial) % p.segments.size();
-    const double s = p.breakpoints.empty() ? 0.3 * trial : p.breakpoints[segment] + 0.01;
+    const double s = phase_in(p, segment, trial);
     std::array<Dual<4>, dimension> y;
     std::array<double, dimension> plain;
     for (std::size_t i = 0; i < dimension; ++i) {
