@@ -33,6 +33,9 @@ struct PoincareSection {
   [[nodiscard]] std::span<const double> point(std::size_t k) const {
     return {states.data() + k * dimension, dimension};
   }
+  void keep_last(std::size_t points) {
+    if (size() > points) states.erase(states.begin(), states.end() - static_cast<std::ptrdiff_t>(points * dimension));
+  }
 };
 
 /// Uniform values of s over one period, its end included and its beginning not: where the dense output is looked at.

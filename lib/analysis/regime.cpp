@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <tuple>
+#include <utility>
 
 #include "analysis/lyapunov.hpp"
 #include "analysis/zero_one_test.hpp"
@@ -22,6 +25,16 @@ constexpr int least_look = 16;
 constexpr int growth_look = 128;
 /// A recurrence error up to this part of the extent is that of a motion all but on its orbit.
 constexpr double settled = 0.01;
+/// Periods whose recurrence errors are this near recur alike: the shortest is sought.
+constexpr double alike = 10.0;
+/// A found orbit's residual is at most this part of the motion's own recurrence error, or so many times what was asked:
+/// kinks make an integrator's map rough.
+constexpr double least_gain = 0.1;
+constexpr double rough_map = 30.0;
+/// With a multiplier's error above this part of its distance from 1, tangents of the orbit's own are worth their price.
+constexpr double own_tangents = 0.1;
+/// An orbit that was sought in vain is sought again when the motion has come nearer to it by this factor.
+constexpr double nearer = 0.5;
 /// Looked at for each period of an orbit that is sought: all attempts together then cost about as much as the looks.
 constexpr int periods_per_orbit = 256;
 /// Periods over which e^2 is told from a small exponent.
@@ -65,7 +78,7 @@ class Classifier {
       if (is_torus()) return std::move(result_);
       // Where vectors neither grow nor shrink, no look tells anything that is not long.
       if (std::abs(seen.late_growth) <= neutral_growth && growth_.size() >= growth_look)
-        look = std::max(look, torus_look / 2);
+        look = std::max(look, (torus_look - static_cast<int>(growth_.size())) / 2);
     }
     result_.regime = Regime::undecided;
     if (seen.note.empty()) seen.note = "nothing is proven";
@@ -78,7 +91,6 @@ class Classifier {
   bool record(int periods) {
     section_ = {};
     section_.dimension = state_.size();
-    growth_.clear();
     // The look before goes along: it is of the same motion.
     series_.erase(series_.begin(), series_.begin() + static_cast<std::ptrdiff_t>(look_before_));
     look_before_ = series_.size();
@@ -95,8 +107,11 @@ class Classifier {
         go_on_);
     result_.evolution = e.evolution;
     result_.evidence.periods += static_cast<int>(e.growth.size());
-    growth_ = std::move(e.growth);
-    if (!result_.evolution.reached() || growth_.size() < static_cast<std::size_t>(periods)) return false;
+    growth_.insert(growth_.end(), e.growth.begin(), e.growth.end());
+    result_.evidence.late_growth = late_growth(e.growth);
+    if (!result_.evolution.reached() || e.growth.size() < static_cast<std::size_t>(periods)) return false;
+    // Orbits are told from where the motion is now, not from where a long look began.
+    section_.keep_last(growth_look);
     find_recurrence();
     return true;
   }
@@ -116,19 +131,34 @@ class Classifier {
     // What nearly recurs is tried, and where nothing moves much everything nearly recurs.
     const double wide = extent(section_);
     const double near = wide <= options_.near * scale_ ? wide : part * wide;
-    const int n = r.period > 0 ? r.period : r.error <= near ? r.best_period : 0;
-    if (n == 0) return false;
-    // Shorter ones come first: an orbit of period 1 recurs after 2. Beside a torus many long ones nearly close; none is
-    // sought that costs more than the looks so far, unless the motion is all but on it.
+    if (r.period == 0 && !(r.error <= near)) return false;
+    const auto shortest = [&](double error) {
+      int n = 1;
+      while (n < r.best_period && recurrence_error(section_, static_cast<std::size_t>(n)) > error) ++n;
+      return n;
+    };
+    if (r.period > 0) return settles_to_orbit_of(r.period);
+    // None is sought that costs more than the looks so far, unless the motion is all but on it. Beside a torus many
+    // long ones nearly close, and the short one in its middle is no candidate twice.
     const int affordable = std::max(1, (first_ + result_.evidence.periods) / periods_per_orbit);
-    const bool closed = r.period > 0 || r.error <= settled * wide;
-    for (int d = 1; d <= n; ++d)
-      if (n % d == 0 && (d <= affordable || (d == n && closed)) && settles_to_orbit_of(d)) return true;
+    const int n = shortest(alike * r.error);
+    if (r.error <= settled * wide) {
+      const int closed = shortest(settled * wide);
+      const int early = shortest(options_.near * wide);
+      return (early < closed && early <= affordable && settles_to_orbit_of(early)) || settles_to_orbit_of(closed) ||
+             (n > closed && settles_to_orbit_of(n));
+    }
+    // Shorter ones come first: an orbit of period 1 recurs after 2.
+    for (int d = 1; d <= std::min(n, affordable); ++d)
+      if (n % d == 0 && settles_to_orbit_of(d)) return true;
     return false;
   }
 
   bool settles_to_orbit_of(int n) {
     Evidence& seen = result_.evidence;
+    const auto vain = in_vain_.try_emplace(n, std::numeric_limits<double>::infinity()).first;
+    const double distance_now = recurrence_error(section_, static_cast<std::size_t>(n));
+    if (distance_now > nearer * vain->second) return false;
     const auto last = section_.point(section_.size() - 1);
     OrbitOptions o;
     o.residual = options_.residual * scale_;
@@ -136,24 +166,43 @@ class Classifier {
     o.iterations = 6;  // what attracts is near and found in three
     integrate::Flow& exact = options_.exact == nullptr ? flow_ : *options_.exact;
     PeriodicOrbit orbit = find_periodic_orbit(exact, last, n, o);
-    if (!orbit.found()) {
+    // On a torus, too, the motion comes back after n periods, and Newton's method gains nothing on that.
+    const auto gains = [&] {
+      const double residual = *std::min_element(orbit.residuals.begin(), orbit.residuals.end());
+      return residual <= std::max(least_gain * distance_now, rough_map * o.residual);
+    };
+    if (!orbit.found() || !gains()) {
       flow_.forget();
+      vain->second = distance_now;
       return false;
     }
-    if (const int least = least_period(orbit.state, n); least < n) return settles_to_orbit_of(least);
+    if (const int least = least_period(exact, orbit.state, n); least < n) {
+      if (settles_to_orbit_of(least)) return true;
+      if (std::isfinite(in_vain_[least])) vain->second = distance_now;
+      return false;
+    }
     // n + 1 pieces end within periods: other steps of the integrator all along.
     integrate::Flow& other = options_.coarser == nullptr ? exact : *options_.coarser;
     const int pieces = options_.coarser == nullptr ? n + 1 : 1;
     const PeriodicOrbit second = find_periodic_orbit(other, orbit.state, n, {.iterations = 1, .pieces = pieces});
     flow_.forget();
     if (second.pieces.empty()) return false;
-    const Multipliers multipliers = floquet_multipliers(orbit, second);
-    const double multiplier = std::abs(multipliers.values.front());
-    const double error = *std::max_element(multipliers.errors.begin(), multipliers.errors.end());
+    const auto multipliers_of = [&](const PeriodicOrbit& first) {
+      const Multipliers m = floquet_multipliers(first, second);
+      return std::pair{std::abs(m.values.front()), *std::max_element(m.errors.begin(), m.errors.end())};
+    };
+    auto [multiplier, error] = multipliers_of(orbit);
+    if (error > own_tangents * std::abs(1.0 - multiplier)) {
+      // The tangents that Newton's method kept are too far from the orbit.
+      PeriodicOrbit own = find_periodic_orbit(exact, orbit.state, n, {.iterations = 1});
+      if (!own.pieces.empty()) orbit = std::move(own);
+      std::tie(multiplier, error) = multipliers_of(orbit);
+    }
     const std::string name = "orbit of period " + std::to_string(n);
     if (!(multiplier + error < 1.0 - options_.neutral)) {
       seen.note = "the " + name + " near by does not attract (multiplier " + short_text(multiplier) + " +- " +
                   short_text(error) + ")";
+      if (multiplier - error > 1.0) vain->second = distance_now;
       return false;
     }
     // [A-settled], with the motion's own points.
@@ -185,11 +234,11 @@ class Classifier {
   }
 
   /// The least divisor d of n after which an orbit closes: one of period 1 is one of period 12, too.
-  int least_period(const std::vector<double>& orbit, int n) {
+  int least_period(integrate::Flow& flow, const std::vector<double>& orbit, int n) {
     std::vector<double> y = orbit;
-    flow_.forget();
+    flow.forget();
     for (int d = 1; d < n; ++d) {
-      if (!flow_.evolve(y, 0.0, flow_.field().period).reached()) break;
+      if (!flow.evolve(y, 0.0, flow.field().period).reached()) break;
       if (n % d == 0 && largest_difference(y, orbit) <= noise()) return d;
     }
     return n;
@@ -200,7 +249,6 @@ class Classifier {
     // The first quarter is left to the vector's turning and to what is left of the transient.
     const std::span<const double> counted = std::span(growth_).subspan(growth_.size() / 4);
     seen.exponent = series_mean(counted) / flow_.field().period;
-    seen.late_growth = late_growth(growth_);
     seen.zero_one = 0.0;
     if (series_.size() < 2 * static_cast<std::size_t>(growth_look)) return false;
     seen.zero_one = zero_one_test(series_, noise());
@@ -217,8 +265,10 @@ class Classifier {
 
   bool is_torus() {
     Evidence& seen = result_.evidence;
-    if (growth_.size() >= static_cast<std::size_t>(torus_look) && std::abs(seen.late_growth) <= neutral_growth &&
-        seen.zero_one < regular_vote) {
+    // What is drawn to an orbit slowly shrinks for long before it recurs.
+    const bool settles = seen.exponent.value + 3.0 * seen.exponent.half_width < 0.0;
+    if (growth_.size() >= static_cast<std::size_t>(torus_look) && std::abs(late_growth(growth_)) <= neutral_growth &&
+        !settles && seen.zero_one < regular_vote) {
       result_.regime = Regime::quasiperiodic;
       seen.note = "tangents neither grow nor shrink, 0-1 test " + short_text(seen.zero_one);
       return true;
@@ -235,11 +285,12 @@ class Classifier {
   const std::function<bool()>& go_on_;
   Classification result_;
   PoincareSection section_;
-  int first_ = 0;     ///< periods of the section that was seen before
-  double scale_ = 0;  ///< largest component of the section
-  std::vector<double> growth_;
-  std::vector<double> series_;   ///< the observable over the look before and this one
-  std::size_t look_before_ = 0;  ///< how many of them are of the look before
+  int first_ = 0;                  ///< periods of the section that was seen before
+  double scale_ = 0;               ///< largest component of the section
+  std::map<int, double> in_vain_;  ///< recurrence error after n periods when an orbit of period n was sought in vain
+  std::vector<double> growth_;     ///< g_k of all looks
+  std::vector<double> series_;     ///< the observable over the look before and this one
+  std::size_t look_before_ = 0;    ///< how many of them are of the look before
 };
 
 }  // namespace

@@ -2,18 +2,20 @@
 //
 // The state is carried on in looks. A look records a stroboscopic section and asks whether the motion is
 //
-// - periodic: recurrence [A-rec] names a candidate n; Newton's method finds an orbit y* of period n [A-orbit]; all its
-//   multipliers are inside the unit circle by more than `neutral` and by more than their error, which is the difference
-//   from those of another tolerance, or of shooting in n + 1 pieces; and the motion is already drawn to it,
+// - periodic: recurrence [A-rec] names candidates n; Newton's method finds an orbit y* of period n [A-orbit] with a
+//   residual far below the recurrence error; all its multipliers are inside the unit circle by more than `neutral` and
+//   by more than their error, which is the difference from those of another tolerance, or of shooting in n + 1 pieces;
+//   and the motion is already drawn to it,
 //
 //     | (y_n - y*) - M (y_0 - y*) | <= | y_0 - y* | / 10                                              [A-settled]
 //
 //   which is the proof: nothing but time is then between the motion and the orbit.
-// - chaotic: the largest exponent is positive by its interval [A-lyap], and the 0-1 test agrees. Where the test
-//   abstains the exponent has to be three times its half interval and vectors have to grow by e^8 in the last half of
-//   the look, by e^16 where the test says regular, as it does of chaos in narrow bands: no regular motion does that.
-// - quasiperiodic: over the last half of a long look tangent vectors neither grow nor shrink by more than e^2, as
-//   beside a torus, and the 0-1 test says regular.
+// - chaotic: the largest exponent, of the last three quarters of all looks, is positive by its interval [A-lyap], and
+//   the 0-1 test agrees. Where the test abstains the exponent has to be three times its half interval and vectors
+//   have to grow by e^8 in the last half of the last look, by e^16 where the test says regular, as it does of chaos in
+//   narrow bands: no regular motion does that.
+// - quasiperiodic: over the last half of all looks, long ones, tangent vectors neither grow nor shrink by more than e^2,
+//   as beside a torus, the exponent is not negative by three half intervals, and the 0-1 test says regular.
 //
 // If none of these holds the transient was too short or the look was: the next look is twice as long. When the budget
 // is spent the motion is undecided, and the evidence says what was seen. So a transient ends when the motion has
@@ -62,7 +64,7 @@ struct RegimeOptions {
 /// What the decision rests on.
 struct Evidence {
   int periods = 0;                ///< of the forcing, looked at altogether
-  Recurrence recurrence;          ///< of the last look
+  Recurrence recurrence;          ///< of the last 128 periods of the last look
   double residual = 0;            ///< of the orbit, if there is one
   double largest_multiplier = 0;  ///< modulus
   double multiplier_error = 0;

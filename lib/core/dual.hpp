@@ -119,6 +119,11 @@ template <std::size_t M>
 }
 
 template <std::size_t M>
+[[nodiscard]] constexpr Dual<M> chained(const Dual<M>& x, double f, double slope) {
+  return x.chained(f, slope);
+}
+
+template <std::size_t M>
 [[nodiscard]] constexpr Dual<M> select(bool mask, const Dual<M>& a, const Dual<M>& b) {
   return mask ? a : b;
 }

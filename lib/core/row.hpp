@@ -69,7 +69,7 @@ class Row {
     M chunk[chunks];  // a register type loses its attributes as a template argument of std::array
   };
 
-  Row() = default;
+  Row() = default;   // not set to anything: kernels write each row once
   Row(const T& x) {  // NOLINT(google-explicit-constructor): a constant is the same in every place
     if constexpr (registers) {
       for (std::size_t c = 0; c < chunks; ++c) at(c) = x - C{};
@@ -171,6 +171,9 @@ class Row {
     return of([&](std::size_t i) { return sqrt(a[i]); });
   }
 
+  friend const Row& value_of(const Row& a) requires(registers) { return a; }
+  friend const Row& chained(const Row& /*a*/, const Row& f, const Row& /*slope*/) requires(registers) { return f; }
+
   /// a_0 + a_1 + ... in this order.
   friend T sum(const Row& a) { return Row::sum(a, std::make_index_sequence<N>()); }
 
@@ -229,7 +232,7 @@ class Row {
   [[nodiscard]] C& at(std::size_t c) { return reinterpret_cast<C*>(value_.data())[c]; }
   [[nodiscard]] const C& at(std::size_t c) const { return reinterpret_cast<const C*>(value_.data())[c]; }
 
-  alignas(registers ? sizeof(T) * (padded < 4 ? padded : 4) : alignof(T)) std::array<T, padded> value_{};
+  alignas(registers ? sizeof(T) * (padded < 4 ? padded : 4) : alignof(T)) std::array<T, padded> value_;
 };
 
 /// N dual numbers: their values side by side, and their derivatives along each direction.
@@ -255,8 +258,10 @@ class Row<Dual<M>, N> {
   Row(const T& x) : value(x.value) {  // NOLINT(google-explicit-constructor): as for any scalar
     directions<M>([&](std::size_t j) { derivative[j] = V(x.derivative[j]); });
   }
-  Row(const V& x) : value(x) {}  // NOLINT(google-explicit-constructor): constants
-  Row(double x) : value(x) {}    // NOLINT(google-explicit-constructor)
+  Row(const V& x) : value(x) {  // NOLINT(google-explicit-constructor): constants
+    directions<M>([&](std::size_t j) { derivative[j] = V(0.0); });
+  }
+  Row(double x) : Row(V(x)) {}  // NOLINT(google-explicit-constructor)
 
   template <class F>
   [[nodiscard]] static Row of(const F& f) {
@@ -366,7 +371,8 @@ class Row<Dual<M>, N> {
   }
 
   friend Row operator-(const Row& a) {
-    Row r(-a.value);
+    Row r;
+    r.value = -a.value;
     directions<M>([&](std::size_t j) { r.derivative[j] = -a.derivative[j]; });
     return r;
   }
@@ -374,17 +380,28 @@ class Row<Dual<M>, N> {
   friend Mask operator>(const Row& a, const Row& b) { return b < a; }
 
   friend Row select(const Mask& mask, const Row& a, const Row& b) {
-    Row r(select(mask, a.value, b.value));
+    Row r;
+    r.value = select(mask, a.value, b.value);
     directions<M>([&](std::size_t j) { r.derivative[j] = select(mask, a.derivative[j], b.derivative[j]); });
     return r;
   }
 
   friend Row sqrt(const Row& a) {
-    Row r(sqrt(a.value));
+    Row r;
+    r.value = sqrt(a.value);
     const V slope = 0.5 / r.value;
     directions<M>([&](std::size_t j) { r.derivative[j] = slope * a.derivative[j]; });
     return r;
   }
+
+  /// The chain rule, f(a) with the slope f'(a).
+  friend Row chained(const Row& a, const V& f, const V& slope) {
+    Row r;
+    r.value = f;
+    directions<M>([&](std::size_t j) { r.derivative[j] = slope * a.derivative[j]; });
+    return r;
+  }
+  friend const V& value_of(const Row& a) { return a.value; }
 
   friend T sum(const Row& a) {
     T r(sum(a.value));

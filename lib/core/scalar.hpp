@@ -18,6 +18,12 @@ template <std::floating_point T>
   return x;
 }
 
+/// f(x) with the slope f'(x), of which a scalar without derivatives has no use.
+template <std::floating_point T>
+[[nodiscard]] constexpr T chained(T /*x*/, T f, T /*slope*/) {
+  return f;
+}
+
 /// mask ? a : b
 template <std::floating_point T>
 [[nodiscard]] constexpr T select(bool mask, T a, T b) {

@@ -10,6 +10,8 @@
 // at r = 0 for every scalar type (0/0 never arises in the value or in its derivatives).
 #pragma once
 
+#include <type_traits>
+
 #include "core/scalar.hpp"
 
 namespace epicyclic::model {
@@ -46,6 +48,18 @@ template <class T, class B>
 template <class T, class B>
 [[nodiscard]] Closure<T> closure(const T& d, const B& b, const B& w, bool smooth) {
   return smooth ? closure_smooth(d, b, w) : closure_exact(d, b);
+}
+
+/// The value alone. Of dual numbers it is the plain value and the plain slope: a fraction of what [M-fw] costs on them.
+template <class T, class B>
+[[nodiscard]] T closed_by(const T& d, const B& b, const B& w, bool smooth) {
+  if constexpr (std::is_same_v<B, double> && !std::is_same_v<T, double> &&
+                requires { chained(d, value_of(d), value_of(d)); }) {
+    const auto plain = closure(value_of(d), b, w, smooth);
+    return chained(d, plain.value, plain.slope);
+  } else {
+    return closure(d, b, w, smooth).value;
+  }
 }
 
 /// sqrt(x^2 + y^2) whose derivative at the origin is 0 instead of 0/0.

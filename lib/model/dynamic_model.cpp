@@ -103,7 +103,7 @@ template <Layout L, std::size_t N>
 void remove_synchronous(const Parameters<double, N>& p, std::span<double> deviation) {
   constexpr std::size_t n = degrees_of_freedom(L, N);
   for (std::size_t half = 0; half < 2; ++half) {
-    Coordinates<double, N> q = unpack<L, N>(deviation.data() + half * n);
+    Coordinates<double, N> q = unpack<N>(Arranged<L>{}, deviation.data() + half * n);
     q.w_s = q.u_r = q.u_c = 0.0;
     // Along the radius through the planet and across.
     const Row<double, N> radial = q.x_p * p.cos_phi + q.y_p * p.sin_phi;

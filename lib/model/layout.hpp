@@ -63,8 +63,12 @@ struct Coordinates {
   T x_c, y_c, u_c;
 };
 
-template <Layout L, std::size_t N, class T>
-[[nodiscard]] Coordinates<T, N> unpack(const T* q) {
+/// A layout as the type of an argument.
+template <Layout L>
+struct Arranged {};
+
+template <std::size_t N, Layout L, class T>
+[[nodiscard]] Coordinates<T, N> unpack(Arranged<L> /*layout*/, const T* q) {
   Coordinates<T, N> c;
   c.x_s = q[Slots::x_s];
   c.y_s = q[Slots::y_s];

@@ -30,16 +30,16 @@ namespace epicyclic::model {
 /// One kind of mesh of N planets.
 template <class T, std::size_t N>
 struct MeshParameters {
-  Row<T, N> sine, cosine;  ///< of phi_spi = alpha_sp - phi_i, or phi_rpi = alpha_rp + phi_i
-  T half_gap;              ///< b
-  T damping;               ///< c
-  T stiffness;             ///< k_0
+  Row<T, N> sine{}, cosine{};  ///< of phi_spi = alpha_sp - phi_i, or phi_rpi = alpha_rp + phi_i
+  T half_gap;                  ///< b
+  T damping;                   ///< c
+  T stiffness;                 ///< k_0
   std::size_t harmonics = 0;
   std::vector<Row<T, N>> stiffness_cos, stiffness_sin;      ///< C_hi, S_hi; [harmonics][N]
-  Row<T, N> error_cos, error_sin;                           ///< a_i, b_i
+  Row<T, N> error_cos{}, error_sin{};                       ///< a_i, b_i
   std::shared_ptr<const PeriodicTrack<1>> stiffness_curve;  ///< in place of k_0 and harmonics; null without
   std::shared_ptr<const FrictionTrack> friction;            ///< null without friction
-  Row<double, N> turns;                                     ///< mesh phase of planet i over 2 pi, at s = 0
+  Row<double, N> turns{};                                   ///< mesh phase of planet i over 2 pi, at s = 0
 };
 
 /// Places of one kind of mesh in its tables while s is between two neighbouring breakpoints.
@@ -55,8 +55,8 @@ struct Segment {
 
 template <class T, std::size_t N>
 struct Parameters {
-  T omega;                     ///< Omega = omega_m / omega_sn
-  Row<T, N> sin_phi, cos_phi;  ///< of the planets' angles
+  T omega;                         ///< Omega = omega_m / omega_sn
+  Row<T, N> sin_phi{}, cos_phi{};  ///< of the planets' angles
   T cos_alpha_sp, cos_alpha_rp;
   T mass_s, mass_p, mass_r, mass_c;                                  ///< M
   T inertia_s, inertia_p, inertia_r, inertia_c;                      ///< I / r^2

@@ -94,10 +94,12 @@ template <class T, class P, std::size_t N>
   if (mesh.stiffness_curve)
     m.stiffness =
         Row<P, N>::of([&](std::size_t i) { return mesh.stiffness_curve->at(places.stiffness[i], own_phase(i))[0]; });
-  const Closure<R> gap = closure<R>(m.delta, mesh.half_gap, p.smoothing, p.smooth);
-  m.elastic = m.stiffness * gap.value;
-  const R weight = p.gap_damping == GapDamping::contact_slope ? gap.slope : R(1.0);
-  m.force = m.elastic + mesh.damping * weight * m.rate;
+  m.elastic = m.stiffness * closed_by<R>(m.delta, mesh.half_gap, p.smoothing, p.smooth);
+  if (p.gap_damping == GapDamping::contact_slope) {
+    m.force = m.elastic + mesh.damping * closure<R>(m.delta, mesh.half_gap, p.smoothing, p.smooth).slope * m.rate;
+  } else {
+    m.force = m.elastic + mesh.damping * m.rate;
+  }
   if (mesh.friction) {
     std::array<FrictionRatios<P>, N> ratios;
     for (std::size_t i = 0; i < N; ++i) ratios[i] = mesh.friction->at(places.friction[i], own_phase(i));
@@ -120,7 +122,7 @@ template <class T, class P, std::size_t N>
 [[nodiscard]] BearingForce<T> sun_bearing_force(const Parameters<P, N>& p, const T& x, const T& y) {
   using epicyclic::power_3_2;
   using gear::BearingLaw;
-  const auto gap = [&](const T& d) { return closure(d, p.sun_half_gap, p.smoothing, p.smooth).value; };
+  const auto gap = [&](const T& d) { return closed_by(d, p.sun_half_gap, p.smoothing, p.smooth); };
   // k(d) d of [G-11], odd in the closure d
   const auto hertz = [&](const T& d) {
     const T magnitude = select(d > T(0.0), d, T(-d));
@@ -145,28 +147,30 @@ template <class T, class P, std::size_t N>
   return {T(0.0), T(0.0)};
 }
 
-/// Forces of the stage at one instant, before they act on masses.
+/// Forces of the stage at one instant, before they act on masses. Each part is made where it stays: copies of it would
+/// cost as much as its arithmetic.
 template <class T, std::size_t N, class P = T>
 struct StageState {
   Coordinates<T, N> q, v;
   Deflections<T, N> d, d_rate;
   MeshState<T, N, P> sun_planet, ring_planet;
+
+  template <Layout L>
+  StageState(Arranged<L> arranged, const Parameters<P, N>& p, const Segment<N>& places, const P& s,
+             const HarmonicBasis<P>& basis, const T* y)
+      : q(unpack<N>(arranged, y)),
+        v(unpack<N>(arranged, y + degrees_of_freedom(L, N))),
+        d(deflections(p, q)),
+        d_rate(deflections(p, v)),
+        sun_planet(mesh_state(p, p.sun_planet, places.sun_planet, s, basis, d.sun_planet, d_rate.sun_planet)),
+        ring_planet(mesh_state(p, p.ring_planet, places.ring_planet, s, basis, d.ring_planet, d_rate.ring_planet)) {}
 };
 
 template <Layout L, class T, class P, std::size_t N>
 [[nodiscard]] StageState<T, N, P> stage_state(const Parameters<P, N>& p, std::size_t segment,
                                               const std::type_identity_t<P>& s, const T* y) {
-  StageState<T, N, P> g;
-  g.q = unpack<L, N>(y);
-  g.v = unpack<L, N>(y + degrees_of_freedom(L, N));
-  g.d = deflections(p, g.q);
-  g.d_rate = deflections(p, g.v);
-  const std::size_t harmonics = std::max(p.sun_planet.harmonics, p.ring_planet.harmonics);
-  const HarmonicBasis<P> basis(s, harmonics);
-  const Segment<N>& places = p.segments[segment];
-  g.sun_planet = mesh_state(p, p.sun_planet, places.sun_planet, s, basis, g.d.sun_planet, g.d_rate.sun_planet);
-  g.ring_planet = mesh_state(p, p.ring_planet, places.ring_planet, s, basis, g.d.ring_planet, g.d_rate.ring_planet);
-  return g;
+  const HarmonicBasis<P> basis(s, std::max(p.sun_planet.harmonics, p.ring_planet.harmonics));
+  return {Arranged<L>{}, p, p.segments[segment], s, basis, y};
 }
 
 /// Accelerations d^2/d tau^2 of the full coordinates from [M-17]..[M-20].
@@ -244,10 +248,9 @@ template <Layout L, class T, class P, std::size_t N>
   return a;
 }
 
-/// The combinations of full accelerations that the layout's relative coordinates are [M-rel].
+/// From full accelerations to the combinations of them that the layout's relative coordinates are [M-rel].
 template <Layout L, class T, class P, std::size_t N>
-[[nodiscard]] Coordinates<T, N> relative_accelerations(const Parameters<P, N>& p, const Coordinates<T, N>& full) {
-  Coordinates<T, N> a = full;
+void make_relative(const Parameters<P, N>& p, Coordinates<T, N>& a) {
   if constexpr (L == Layout::relative_to_ring) {
     a.w_s += a.u_r;
     a.w_p -= a.u_r;
@@ -257,7 +260,6 @@ template <Layout L, class T, class P, std::size_t N>
     a.x_p += a.u_c * p.sin_phi;
     a.y_p -= a.u_c * p.cos_phi;
   }
-  return a;
 }
 
 /// dy/ds at mesh phase s.
@@ -269,7 +271,8 @@ void right_hand_side(const Parameters<P, N>& p, std::size_t segment, const std::
                      T* dyds) {
   constexpr std::size_t n = degrees_of_freedom(L, N);
   const StageState<T, N, P> g = stage_state<L>(p, segment, s, y);
-  const Coordinates<T, N> a = relative_accelerations<L>(p, accelerations<L>(p, g));
+  Coordinates<T, N> a = accelerations<L>(p, g);
+  make_relative<L>(p, a);
   const P per_phase = 1.0 / p.omega;
   pack<L, N>(a, dyds + n);
   for (std::size_t k = 0; k < n; ++k) {

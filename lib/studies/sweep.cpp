@@ -213,15 +213,20 @@ PointResult compute_point(const GridPoint& point, const model::DynamicModel& mod
     // Kinks make an integrator's own map rough to some of its tolerances.
     options.residual = std::max(options.residual, 3.0 * integrator.relative_tolerance);
     options.observable = std::min(model::Slots::w_s, model.dimension - 1);
-    // Growth is a statistical matter, for which ten times the tolerance is as good; orbits are sought at the study's
-    // own.
-    integrate::IntegratorOptions loose = integrator;
-    loose.relative_tolerance *= 10.0;
-    loose.absolute_tolerance *= 10.0;
-    const auto looks = integrate::make_flow(vector_field(model), loose);
+    // Growth is a statistical matter, for which a looser tolerance is as good; orbits are sought at the study's own.
+    constexpr double statistical = 1e-6;
+    const auto loosened = [&](double factor) {
+      integrate::IntegratorOptions o = integrator;
+      o.relative_tolerance *= factor;
+      o.absolute_tolerance *= factor;
+      return o;
+    };
+    const auto looks = integrate::make_flow(
+        vector_field(model), loosened(std::clamp(statistical / integrator.relative_tolerance, 10.0, 100.0)));
     integrate::IntegratorOptions controlled = integrator;
     controlled.tangent_error_control = true;
     const auto exact = integrate::make_flow(vector_field(model), controlled);
+    integrate::IntegratorOptions loose = loosened(10.0);
     loose.tangent_error_control = true;
     const auto coarser = integrate::make_flow(vector_field(model), loose);
     options.exact = exact.get();

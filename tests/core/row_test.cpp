@@ -30,8 +30,8 @@ template <std::size_t N>
 void expect_values_of_their_own() {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> number(-3.0, 3.0);
-  Row<double, N> a;
-  Row<double, N> b;
+  Row<double, N> a{};
+  Row<double, N> b{};
   for (double& x : a) x = number(random);
   for (double& x : b) x = number(random);
   b[0] = a[0];  // neither less nor greater
@@ -76,8 +76,8 @@ TEST(Row, OfDualsHasTheDerivativesOfEach) {
 
 TEST(Row, OfLanesPicksInEachLane) {
   using L = Lanes<4>;
-  Row<L, 3> a;
-  Row<L, 3> b;
+  Row<L, 3> a{};
+  Row<L, 3> b{};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t lane = 0; lane < 4; ++lane) {
       a[i].set(lane, std::sin(static_cast<double>(i + 3 * lane)));

@@ -216,7 +216,7 @@ TEST(Forces, ElasticPartIsMinusTheGradientOfThePotential) {
 /// Deflections of a displacement of the full coordinates, without errors.
 Deflections<double, planets> deflections_of(const gear::Stage& stage, const std::array<double, dof>& q) {
   const auto p = make_parameters<planets>(stage, scales_of(stage), 1.0, {});
-  return deflections(p, unpack<Layout::full, planets>(q.data()));
+  return deflections(p, unpack<planets>(Arranged<Layout::full>{}, q.data()));
 }
 
 double largest_deflection(const Deflections<double, planets>& d, bool carrier = true) {
