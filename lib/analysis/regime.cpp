@@ -205,13 +205,16 @@ class Classifier {
       if (multiplier - error > 1.0) vain->second = distance_now;
       return false;
     }
-    // [A-settled], with the motion's own points.
-    const auto before = section_.point(section_.size() - 1 - static_cast<std::size_t>(n));
-    Eigen::VectorXd from(static_cast<Eigen::Index>(before.size()));
+    // [A-settled], by the flow that the orbit belongs to: looks may be rougher.
+    std::vector<double> onwards(last.begin(), last.end());
+    exact.forget();
+    for (int k = 0; k < n; ++k)
+      if (!exact.evolve(onwards, 0.0, exact.field().period).reached()) return false;
+    Eigen::VectorXd from(static_cast<Eigen::Index>(last.size()));
     Eigen::VectorXd to(from.size());
-    for (std::size_t i = 0; i < before.size(); ++i) {
-      from(static_cast<Eigen::Index>(i)) = before[i] - orbit.state[i];
-      to(static_cast<Eigen::Index>(i)) = last[i] - orbit.state[i];
+    for (std::size_t i = 0; i < last.size(); ++i) {
+      from(static_cast<Eigen::Index>(i)) = last[i] - orbit.state[i];
+      to(static_cast<Eigen::Index>(i)) = onwards[i] - orbit.state[i];
     }
     const double distance = from.lpNorm<Eigen::Infinity>();
     const double off = (to - orbit.monodromy * from).lpNorm<Eigen::Infinity>();

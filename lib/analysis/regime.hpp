@@ -9,12 +9,14 @@
 //
 //     | (y_n - y*) - M (y_0 - y*) | <= | y_0 - y* | / 10                                              [A-settled]
 //
-//   which is the proof: nothing but time is then between the motion and the orbit.
+//   y_0 the motion's last point and y_n that of n periods later, which is the proof: nothing but time is then between
+//   the motion and the orbit.
 // - chaotic: the largest exponent, of the last three quarters of all looks, is positive by its interval [A-lyap], and
-//   the 0-1 test agrees. Where the test abstains the exponent has to be three times its half interval and vectors
-//   have to grow by e^8 in the last half of the last look, by e^16 where the test says regular, as it does of chaos in
-//   narrow bands: no regular motion does that.
-// - quasiperiodic: over the last half of all looks, long ones, tangent vectors neither grow nor shrink by more than e^2,
+//   the 0-1 test agrees. Where the test abstains the exponent has to be three times its half interval and
+//   vectors have to grow by e^8 in the last half of the last look, by e^16 where the test says regular, as it does of
+//   chaos in narrow bands: no regular motion does that.
+// - quasiperiodic: over the last half of all looks, long ones, tangent vectors neither grow nor shrink by more than
+// e^2,
 //   as beside a torus, the exponent is not negative by three half intervals, and the 0-1 test says regular.
 //
 // If none of these holds the transient was too short or the look was: the next look is twice as long. When the budget

@@ -304,6 +304,26 @@ void mesh_period_at_equal_error(benchmark::State& state) {
   state.counters["tolerance"] = tolerance;
 }
 
+/// A mesh period with tangent vectors in the steps of the state alone; first argument: how many, 0 for the bare period.
+void mesh_period_with_tangents(benchmark::State& state) {
+  const auto model = model_at(1.2);
+  const auto flow = epicyclic::integrate::make_arkode_flow(epicyclic::studies::vector_field(model), options(1e-7));
+  State y = settled(model);
+  const auto vectors = static_cast<std::size_t>(state.range(0));
+  State v(vectors * y.size());
+  for (auto _ : state) {
+    if (vectors == 0) {
+      flow->evolve(y, 0.0, period);
+      continue;
+    }
+    for (std::size_t i = 0; i < vectors; ++i) {  // unit vectors, which do not overflow
+      std::fill_n(v.begin() + static_cast<std::ptrdiff_t>(i * y.size()), y.size(), 0.0);
+      v[i * y.size() + i] = 1.0;
+    }
+    flow->evolve_tangents(y, v, 0.0, period);
+  }
+}
+
 /// What the machine's other work has disturbed least.
 void with_least(benchmark::internal::Benchmark* b) {
   b->ComputeStatistics("least", [](const std::vector<double>& v) { return *std::min_element(v.begin(), v.end()); });
@@ -319,6 +339,8 @@ void speeds_and_tolerances(benchmark::internal::Benchmark* b) {
 BENCHMARK(mesh_period_arkode)->Apply(speeds_and_tolerances);
 BENCHMARK(mesh_period_arkode_stock)->Apply(speeds_and_tolerances);
 BENCHMARK(mesh_period_odeint)->Apply(speeds_and_tolerances);
+
+BENCHMARK(mesh_period_with_tangents)->ArgName("vectors")->Arg(0)->Arg(1)->Arg(34)->Apply(with_least);
 
 void orbits_and_errors(benchmark::internal::Benchmark* b) {
   b->ArgNames({"omega_percent", "error_digits"});
