@@ -1,28 +1,57 @@
 // SIMD lanes: W values side by side, one trajectory each, as a plain scalar type for kernels.
 //
-// Limits: the instruction set is that of the translation unit (std::experimental::simd of GCC 12); comparison gives a
-// mask with one bit a lane, and select() picks per lane, so that lanes may be on different sides of a kink.
+// Sine and cosine: Cody and Waite's reduction by multiples of pi / 2 in three parts, then the polynomials of Cephes
+// (S. Moshier, sin.c, cos.c) on [-pi/4, pi/4]; within 2 units in the last place for |x| up to 1e4.
+//
+// Limits: the instruction set is that of the translation unit; values never depend on it nor on W, because each lane
+// has its own operations and nothing is contracted (-ffp-contract=off). Comparison gives a mask with all bits of a lane
+// set or none, and select() picks per lane, so that lanes may be on different sides of a kink.
 #pragma once
 
+#include <array>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 
-#include <experimental/simd>
-
+#include "core/row.hpp"
 #include "core/scalar.hpp"
+
+// Packs wider than the registers of a translation unit are passed in memory, and the compiler warns that others with
+// wider registers would not. They do not meet: each set's kernels take pointers to doubles. For whoever includes this.
+#pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace epicyclic {
 
-/// W doubles. Converts from double by broadcast.
+namespace detail {
+
+/// The compiler sees an attribute that depends on a template parameter only through a member of another class.
+template <std::size_t W>
+struct LanePack {
+  using Values [[gnu::vector_size(8 * W), gnu::may_alias]] = double;
+  using Bits [[gnu::vector_size(8 * W), gnu::may_alias]] = long long;
+};
+
+}  // namespace detail
+
+/// W doubles, W = 2, 4, 8, ... Converts from double by repeating it.
 template <std::size_t W>
 struct Lanes {
-  using Pack = std::experimental::fixed_size_simd<double, static_cast<int>(W)>;
-  using Mask = typename Pack::mask_type;
+  using Pack = typename detail::LanePack<W>::Values;
+  using Bits = typename detail::LanePack<W>::Bits;
 
-  Pack pack = 0.0;
+  /// What comparisons give.
+  struct Mask {
+    Bits bits;
+    [[nodiscard]] bool operator[](std::size_t lane) const { return bits[lane] != 0; }
+    friend Mask operator&&(const Mask& a, const Mask& b) { return {a.bits & b.bits}; }
+    friend Mask operator||(const Mask& a, const Mask& b) { return {a.bits | b.bits}; }
+    friend Mask operator!(const Mask& a) { return {~a.bits}; }
+  };
 
-  Lanes() = default;
-  Lanes(double x) : pack(x) {}  // NOLINT(google-explicit-constructor): a constant is the same in every lane
-  explicit Lanes(const Pack& p) : pack(p) {}
+  Pack pack;
+
+  Lanes() = default;                     // not set to anything: kernels write each value once
+  Lanes(double x) : pack(x - Pack{}) {}  // NOLINT(google-explicit-constructor): a constant is the same in every lane
 
   [[nodiscard]] double operator[](std::size_t lane) const { return pack[lane]; }
   void set(std::size_t lane, double x) { pack[lane] = x; }
@@ -44,37 +73,109 @@ struct Lanes {
     return *this;
   }
 
-  friend Lanes operator+(Lanes a, const Lanes& b) { return a += b; }
-  friend Lanes operator-(Lanes a, const Lanes& b) { return a -= b; }
-  friend Lanes operator*(Lanes a, const Lanes& b) { return a *= b; }
-  friend Lanes operator/(Lanes a, const Lanes& b) { return a /= b; }
-  friend Lanes operator-(const Lanes& a) { return Lanes(-a.pack); }
+  friend Lanes operator+(const Lanes& a, const Lanes& b) { return of(a.pack + b.pack); }
+  friend Lanes operator-(const Lanes& a, const Lanes& b) { return of(a.pack - b.pack); }
+  friend Lanes operator*(const Lanes& a, const Lanes& b) { return of(a.pack * b.pack); }
+  friend Lanes operator/(const Lanes& a, const Lanes& b) { return of(a.pack / b.pack); }
+  friend Lanes operator-(const Lanes& a) { return of(-a.pack); }
 
-  friend Mask operator<(const Lanes& a, const Lanes& b) { return a.pack < b.pack; }
-  friend Mask operator>(const Lanes& a, const Lanes& b) { return a.pack > b.pack; }
+  friend Mask operator<(const Lanes& a, const Lanes& b) { return {a.pack < b.pack}; }
+  friend Mask operator>(const Lanes& a, const Lanes& b) { return {a.pack > b.pack}; }
+  friend Mask operator<=(const Lanes& a, const Lanes& b) { return {a.pack <= b.pack}; }
+
+  friend Lanes select(const Mask& mask, const Lanes& a, const Lanes& b) { return of(mask.bits ? a.pack : b.pack); }
+
+  friend Lanes sqrt(const Lanes& a) {
+    Lanes r;
+    for (std::size_t lane = 0; lane < W; ++lane) r.pack[lane] = std::sqrt(a.pack[lane]);
+    return r;
+  }
+
+  friend Lanes abs(const Lanes& a) { return of(a.pack < 0.0 ? -a.pack : a.pack); }
+  friend Lanes max(const Lanes& a, const Lanes& b) { return of(a.pack > b.pack ? a.pack : b.pack); }
+  friend Lanes min(const Lanes& a, const Lanes& b) { return of(a.pack < b.pack ? a.pack : b.pack); }
+
+  /// The whole number nearest to each, |x| < 2^51.
+  friend Lanes nearest_whole(const Lanes& a) {
+    constexpr double no_fraction = 0x1.8p52;
+    return of((a.pack + no_fraction) - no_fraction);
+  }
+  /// As counts: whole numbers from 0 on, below 2^51.
+  [[nodiscard]] Bits counts() const {
+    constexpr double no_fraction = 0x1p52;
+    return std::bit_cast<Bits>(pack + no_fraction) & 0xfffffffffffffLL;
+  }
+
+  friend Lanes power_3_2(const Lanes& a) { return a * sqrt(a); }
+
+  friend SineCosine<Lanes> sine_cosine(const Lanes& x) {
+    constexpr double two_by_pi = 0.63661977236758134308;
+    constexpr double no_fraction = 0x1.8p52;
+    // pi / 2 in parts of 28 bits, so that multiples up to 2^25 are exact.
+    constexpr double part_1 = 2.0 * 7.85398125648498535156e-1;
+    constexpr double part_2 = 2.0 * 3.77489470793079817668e-8;
+    constexpr double part_3 = 2.0 * 2.69515142907905952645e-15;
+    const Pack shifted = x.pack * two_by_pi + no_fraction;
+    const Pack quarters = shifted - no_fraction;
+    const Bits quarter = std::bit_cast<Bits>(shifted);  // its last bits count the quarter turns
+    const Pack r = ((x.pack - quarters * part_1) - quarters * part_2) - quarters * part_3;
+    const Pack z = r * r;
+    const Pack sine =
+        r + r * z *
+                (((((1.58962301576546568060e-10 * z - 2.50507477628578072866e-8) * z + 2.75573136213857245213e-6) * z -
+                   1.98412698295895385996e-4) *
+                      z +
+                  8.33333333332211858878e-3) *
+                     z -
+                 1.66666666666666307295e-1);
+    const Pack cosine =
+        (1.0 - 0.5 * z) +
+        z * z *
+            (((((-1.13585365213876817300e-11 * z + 2.08757008419747316778e-9) * z - 2.75573141792967388112e-7) * z +
+               2.48015872888517045348e-5) *
+                  z -
+              1.38888888888730564116e-3) *
+                 z +
+             4.16666666666665929218e-2);
+    const Bits odd = (quarter & 1) != 0;
+    const Bits sine_negative = (quarter & 2) != 0;
+    const Bits cosine_negative = ((quarter + 1) & 2) != 0;
+    const Pack s = odd ? cosine : sine;
+    const Pack c = odd ? sine : cosine;
+    return {of(sine_negative ? -s : s), of(cosine_negative ? -c : c)};
+  }
+
+ private:
+  static Lanes of(const Pack& p) {
+    Lanes r;
+    r.pack = p;
+    return r;
+  }
 };
 
-template <std::size_t W>
-[[nodiscard]] Lanes<W> select(const typename std::type_identity_t<Lanes<W>>::Mask& mask, const Lanes<W>& a,
-                              const Lanes<W>& b) {
-  Lanes<W> r = b;
-  where(mask, r.pack) = a.pack;
-  return r;
-}
-
-template <std::size_t W>
-[[nodiscard]] Lanes<W> sqrt(const Lanes<W>& x) {
-  return Lanes<W>(std::experimental::sqrt(x.pack));
-}
-
-template <std::size_t W>
-[[nodiscard]] Lanes<W> power_3_2(const Lanes<W>& x) {
-  return x * sqrt(x);
-}
-
-template <std::size_t W>
-[[nodiscard]] SineCosine<Lanes<W>> sine_cosine(const Lanes<W>& x) {
-  return {Lanes<W>(std::experimental::sin(x.pack)), Lanes<W>(std::experimental::cos(x.pack))};
+/// K values of each lane, one row each, as K packs.
+template <std::size_t W, std::size_t K>
+[[nodiscard]] std::array<Lanes<W>, K> transposed(const std::array<Row<double, K>, W>& rows) {
+  std::array<Lanes<W>, K> columns;
+  if constexpr (W == 4 && Row<double, K>::padded == 4) {
+    using Four = typename detail::LanePack<4>::Values;
+    const Four a = std::bit_cast<Four>(rows[0]);
+    const Four b = std::bit_cast<Four>(rows[1]);
+    const Four c = std::bit_cast<Four>(rows[2]);
+    const Four d = std::bit_cast<Four>(rows[3]);
+    const Four ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+    const Four ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+    const Four cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+    const Four cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+    columns[0].pack = __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5);
+    if constexpr (K > 1) columns[1].pack = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5);
+    if constexpr (K > 2) columns[2].pack = __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7);
+    if constexpr (K > 3) columns[3].pack = __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7);
+  } else {
+    for (std::size_t j = 0; j < K; ++j)
+      for (std::size_t lane = 0; lane < W; ++lane) columns[j].pack[lane] = rows[lane][j];
+  }
+  return columns;
 }
 
 }  // namespace epicyclic

@@ -97,43 +97,36 @@ class Row {
   [[nodiscard]] const T* end() const { return value_.data() + N; }
   void fill(const T& x) { *this = Row(x); }
 
-  // Registers give a new register: a copied row would be read back before it is written. Any other scalar is worked on
-  // in a copy, and with a single value as it is: it may be large (dual numbers), and copies cost more than arithmetic.
-#define EPICYCLIC_ROW_OPERATOR(op)                                           \
-  Row& operator op##=(const Row& b) {                                        \
-    for (std::size_t c = 0; c < chunks; ++c) at(c) op## = b.at(c);           \
-    return *this;                                                            \
-  }                                                                          \
-  template <Single<Row, T> S>                                                \
-  Row& operator op##=(const S& single) {                                     \
-    const T& b = single;                                                     \
-    for (std::size_t c = 0; c < chunks; ++c) at(c) op## = b;                 \
-    return *this;                                                            \
-  }                                                                          \
-  friend Row operator op(const Row& a, const Row& b) {                       \
-    if constexpr (registers) {                                               \
-      Row r;                                                                 \
-      for (std::size_t c = 0; c < chunks; ++c) r.at(c) = a.at(c) op b.at(c); \
-      return r;                                                              \
-    } else {                                                                 \
-      Row r = a;                                                             \
-      r op## = b;                                                            \
-      return r;                                                              \
-    }                                                                        \
-  }                                                                          \
-  template <Single<Row, T> S>                                                \
-  friend Row operator op(const Row& a, const S& b) {                         \
-    if constexpr (registers) {                                               \
-      return a op Row(T(b));                                                 \
-    } else {                                                                 \
-      Row r = a;                                                             \
-      r op## = b;                                                            \
-      return r;                                                              \
-    }                                                                        \
-  }                                                                          \
-  template <Single<Row, T> S>                                                \
-  friend Row operator op(const S& a, const Row& b) {                         \
-    return Row(T(a)) op b;                                                   \
+  // A new row, not a copy that is worked on: it would be read back before it is written.
+#define EPICYCLIC_ROW_OPERATOR(op)                                         \
+  Row& operator op##=(const Row& b) {                                      \
+    for (std::size_t c = 0; c < chunks; ++c) at(c) op## = b.at(c);         \
+    return *this;                                                          \
+  }                                                                        \
+  template <Single<Row, T> S>                                              \
+  Row& operator op##=(const S& single) {                                   \
+    const T& b = single;                                                   \
+    for (std::size_t c = 0; c < chunks; ++c) at(c) op## = b;               \
+    return *this;                                                          \
+  }                                                                        \
+  friend Row operator op(const Row& a, const Row& b) {                     \
+    Row r;                                                                 \
+    for (std::size_t c = 0; c < chunks; ++c) r.at(c) = a.at(c) op b.at(c); \
+    return r;                                                              \
+  }                                                                        \
+  template <Single<Row, T> S>                                              \
+  friend Row operator op(const Row& a, const S& single) {                  \
+    const T& b = single;                                                   \
+    Row r;                                                                 \
+    for (std::size_t c = 0; c < chunks; ++c) r.at(c) = a.at(c) op b;       \
+    return r;                                                              \
+  }                                                                        \
+  template <Single<Row, T> S>                                              \
+  friend Row operator op(const S& single, const Row& b) {                  \
+    const T& a = single;                                                   \
+    Row r;                                                                 \
+    for (std::size_t c = 0; c < chunks; ++c) r.at(c) = a op b.at(c);       \
+    return r;                                                              \
   }
   EPICYCLIC_ROW_OPERATOR(+)
   EPICYCLIC_ROW_OPERATOR(-)

@@ -38,6 +38,17 @@ std::vector<double> breakpoints_between(const VectorField& field, double from, d
   return between;
 }
 
+void check_tangents(const VectorField& field, std::span<const double> tangents, LastTangent last) {
+  if (!field.tangents) throw InputError("tangent vectors are asked of a field without tangents");
+  if (field.jumps_at_surfaces)
+    throw InputError("tangent vectors are asked of a field that jumps where the state crosses a surface");
+  if (last == LastTangent::parameter && !field.parameter_derivative)
+    throw InputError("the derivative with respect to a parameter is asked of a field without one");
+  if (tangents.empty() || tangents.size() % field.dimension != 0)
+    throw InputError("tangents of " + std::to_string(tangents.size()) + " numbers for a field of dimension " +
+                     std::to_string(field.dimension));
+}
+
 void jacobian(const VectorField& field, std::size_t segment, double s, const double* y, std::span<double> jacobian) {
   const std::size_t n = field.dimension;
   if (!field.tangents) throw InputError("a Jacobian is asked of a field without tangents");

@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,6 +47,9 @@ struct VectorField {
 
   /// dg/dp at fixed y; empty if no parameter is varied.
   std::function<void(std::size_t segment, double s, const double* y, double* dgdp)> parameter_derivative;
+
+  /// What it was made of, for lanes that know the type (integrate/lane_ensemble.hpp); may be null.
+  std::shared_ptr<const void> origin;
 
   std::vector<SwitchingSurface> surfaces;
 
@@ -143,6 +147,10 @@ class Flow {
 
 /// Breakpoints strictly inside (from, to), in order, all periods.
 [[nodiscard]] std::vector<double> breakpoints_between(const VectorField& field, double from, double to);
+
+/// What every evolve_tangents() asks of its arguments.
+/// @throws InputError as documented there
+void check_tangents(const VectorField& field, std::span<const double> tangents, LastTangent last);
 
 /// dg/dy, column by column.
 ///

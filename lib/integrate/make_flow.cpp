@@ -5,6 +5,7 @@
 #include "core/errors.hpp"
 #include "integrate/arkode_flow.hpp"
 #include "integrate/cvode_flow.hpp"
+#include "integrate/lane_flow.hpp"
 #include "integrate/methods.hpp"
 
 namespace epicyclic::integrate {
@@ -12,6 +13,7 @@ namespace epicyclic::integrate {
 std::unique_ptr<Flow> make_flow(VectorField field, const IntegratorOptions& options) {
   const Method* method = find_method(options.method);
   if (method == nullptr) throw InputError("integrator method '" + options.method + "' is not known");
+  if (method->family == Family::lanes) return make_lane_flow(std::move(field), options);
   return method->multistep() ? make_cvode_flow(std::move(field), options) : make_arkode_flow(std::move(field), options);
 }
 

@@ -34,6 +34,7 @@ const std::vector<Method>& methods() {
       {"arkode-esdirk547b", dirk, "ARKODE_ESDIRK547L2SA2_7_4_5", 5, 4, 7},
       {"cvode-adams", adams, "", 12, 0, 0},
       {"cvode-bdf", bdf, "", 5, 0, 0},
+      {"lanes-dopri5", lanes, "", 5, 4, 7},
   };
   return all;
 }

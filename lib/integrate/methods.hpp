@@ -12,12 +12,13 @@ enum class Family {
   dirk,   ///< diagonally implicit Runge-Kutta with an embedded solution (ARKODE, ARKStep), Newton's method
   adams,  ///< Adams-Moulton of variable order (CVODE), functional iteration
   bdf,    ///< backward differentiation of variable order (CVODE), Newton's method
+  lanes,  ///< explicit Runge-Kutta by the lane ensemble
 };
 
 struct Method {
-  std::string_view name;  ///< as in the input: "arkode-..." or "cvode-..."
+  std::string_view name;  ///< as in the input: "arkode-...", "cvode-..." or "lanes-..."
   Family family;
-  std::string_view table;  ///< ARKODE's name of the Butcher table; empty for CVODE
+  std::string_view table;  ///< ARKODE's name of the Butcher table; empty elsewhere
   int order;               ///< of the solution that is carried on; the highest one for CVODE
   int embedded_order;      ///< of the solution that measures the error; 0 for CVODE
   int stages;              ///< 0 for CVODE

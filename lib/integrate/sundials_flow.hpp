@@ -313,14 +313,7 @@ class SundialsFlow final : public Flow {
     check_state(state);
     const std::size_t n = field_.dimension;
     const bool parameter = last == LastTangent::parameter;
-    if (!field_.tangents) throw InputError("tangent vectors are asked of a field without tangents");
-    if (field_.jumps_at_surfaces)
-      throw InputError("tangent vectors are asked of a field that jumps where the state crosses a surface");
-    if (parameter && !field_.parameter_derivative)
-      throw InputError("the derivative with respect to a parameter is asked of a field without one");
-    if (tangents.empty() || tangents.size() % n != 0)
-      throw InputError("tangents of " + std::to_string(tangents.size()) + " numbers for a field of dimension " +
-                       std::to_string(n));
+    check_tangents(field_, tangents, last);
     const std::size_t m = tangents.size() / n;
     if (!tangents_ || tangents_->shape().columns != m + 1 || tangents_->parameter() != parameter) {
       if (tangents_) add(tangents_->work(), earlier_);

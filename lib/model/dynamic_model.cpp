@@ -10,6 +10,7 @@
 #include <Eigen/Dense>
 
 #include "core/errors.hpp"
+#include "model/dispatch.hpp"
 #include "model/right_hand_side.hpp"
 #include "model/stage_kernel.hpp"
 
@@ -157,44 +158,13 @@ DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mes
     const BearingForce<double> sun = sun_bearing_force(*p, g.q.x_s, g.q.y_s);
     out.sun_bearing = std::hypot(sun.x + p->damping_s * g.v.x_s, sun.y + p->damping_s * g.v.y_s);
   };
+  m.constants = p;
   m.static_mesh_force = p->drive / static_cast<double>(N);
   if (planets_alike(*p)) {
     m.remove_synchronous = [p](std::span<double> deviation) { remove_synchronous<L>(*p, deviation); };
   }
   m.default_start = static_equilibrium<L>(*p);
   return m;
-}
-
-/// f.template operator()<L, N>() for the layout and number of planets at run time.
-template <class F>
-auto dispatch(Layout layout, int planets, const F& f) {
-  const auto with_layout = [&]<Layout L>() {
-    switch (planets) {
-      case 2:
-        return f.template operator()<L, 2>();
-      case 3:
-        return f.template operator()<L, 3>();
-      case 4:
-        return f.template operator()<L, 4>();
-      case 5:
-        return f.template operator()<L, 5>();
-      case 6:
-        return f.template operator()<L, 6>();
-      default:
-        throw InputError("planets: " + std::to_string(planets) + " is not in 2 to 6");
-    }
-  };
-  switch (layout) {
-    case Layout::relative_to_ring:
-      return with_layout.template operator()<Layout::relative_to_ring>();
-    case Layout::relative_to_carrier:
-      return with_layout.template operator()<Layout::relative_to_carrier>();
-    case Layout::relative_to_carrier_rigid_ring:
-      return with_layout.template operator()<Layout::relative_to_carrier_rigid_ring>();
-    case Layout::full:
-      return with_layout.template operator()<Layout::full>();
-  }
-  throw std::logic_error("unknown layout");
 }
 
 }  // namespace

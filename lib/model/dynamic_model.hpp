@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -59,6 +60,9 @@ struct DynamicModel {
 
   /// Likewise.
   std::function<void(double s, const double* y, StageForces& out)> forces;
+
+  /// The folded constants, Parameters<double, planets>, for lanes (model/lane_model.hpp).
+  std::shared_ptr<const void> constants;
 
   double static_mesh_force = 0;  ///< T_D / (N r_bs) [m_0 omega_sn^2 b_c]
 

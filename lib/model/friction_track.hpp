@@ -50,6 +50,9 @@ class FrictionTrack {
     return {values[0], values[1], values[2]};
   }
 
+  /// force, moment_driving and moment_driven, for callers that guess the interval: PeriodicTrack::at().
+  [[nodiscard]] const PeriodicTrack<3>& track() const { return track_; }
+
  private:
   PeriodicTrack<3> track_;
 };

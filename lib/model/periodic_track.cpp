@@ -85,7 +85,13 @@ PeriodicTrack<K>::PeriodicTrack(const std::vector<TrackRow<K>>& given_rows,
 template <std::size_t K>
 TrackPiece PeriodicTrack<K>::piece(std::size_t lo, std::size_t hi) const {
   const double width = starts_[hi] - starts_[lo];
-  return {lo, hi, starts_[lo], hi > lo ? static_cast<double>(hi - lo) / width : 0.0};
+  TrackPiece p{lo, hi, starts_[lo], hi > lo ? static_cast<double>(hi - lo) / width : 0.0, true};
+  constexpr double rounding = 1e-9;  // of an interval
+  for (std::size_t k = lo; k <= hi; ++k) {
+    const double off = (starts_[k] - p.start) * p.intervals_per_phase - static_cast<double>(k - lo);
+    p.even = p.even && std::abs(off) <= rounding;
+  }
+  return p;
 }
 
 template <std::size_t K>

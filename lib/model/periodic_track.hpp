@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "core/dual.hpp"
-#include "core/lanes.hpp"
 #include "core/row.hpp"
 #include "core/scalar.hpp"
 
@@ -27,6 +26,7 @@ struct TrackPiece {
   std::size_t lo = 0, hi = 0;
   double start = 0;                ///< of interval lo
   double intervals_per_phase = 0;  ///< mean, from the starts of the first and the last interval
+  bool even = false;               ///< all intervals are of one length, to rounding
 };
 
 /// The piece that holds a phase, and where: phases are met within half a turn of it, so that they may count whole turns
@@ -71,11 +71,11 @@ class PeriodicTrack {
   [[nodiscard]] Row<T, K> at(const TrackPlace& place, const T& phase) const {
     const T x = phase - T(nearest_whole(static_cast<double>(value_of(phase)) - place.centre));
     const std::size_t k = interval(place.piece, value_of(x));
-    const T t = x - starts_[k];
-    const Cubics& c = cubics_[k];
     if constexpr (std::is_same_v<T, double>) {
-      return cubic(c, t);
+      return on_interval(k, x);
     } else {
+      const T t = x - starts_[k];
+      const Cubics& c = cubics_[k];
       Row<T, K> values =
           Row<T, K>::of([&](std::size_t j) { return c[0][j] + t * (c[1][j] + t * (c[2][j] + t * c[3][j])); });
       if constexpr (is_dual<T>) {
@@ -87,22 +87,21 @@ class PeriodicTrack {
     }
   }
 
-  template <std::size_t W>
-  [[nodiscard]] Row<Lanes<W>, K> at(const TrackPlace& place, const Lanes<W>& phase) const {
-    Row<Lanes<W>, K> values;
-    for (std::size_t lane = 0; lane < W; ++lane) {
-      const Row<double, K> one = at(place, phase[lane]);
-      for (std::size_t j = 0; j < K; ++j) values[j].set(lane, one[j]);
-    }
-    return values;
+  using Cubics = std::array<Row<double, K>, 4>;  ///< coefficients of the powers of phase - start of the interval
+
+  /// What at() does after whole turns are taken off, for callers that guess for several lanes at once.
+  /// @param x      within half a turn of the place's centre
+  /// @param guess  interval that x is in, or near, counted from the piece's first one; any number within the piece
+  [[nodiscard]] Row<double, K> at(const TrackPiece& piece, double x, std::size_t guess) const {
+    return on_interval(walked(piece, x, piece.lo + guess), x);
   }
-
- private:
-  using Cubics = std::array<Row<double, K>, 4>;  ///< coefficients of the powers of phase - start
-
+  [[nodiscard]] const Cubics* cubics(const TrackPiece& piece) const { return cubics_.data() + piece.lo; }
   [[nodiscard]] static Row<double, K> cubic(const Cubics& c, double t) {
     return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
   }
+
+ private:
+  [[nodiscard]] Row<double, K> on_interval(std::size_t k, double x) const { return cubic(cubics_[k], x - starts_[k]); }
 
   /// Guessed as if the intervals were equal, which they mostly are, then walked to.
   template <class V>
@@ -111,7 +110,10 @@ class PeriodicTrack {
     const auto most = static_cast<double>(piece.hi - piece.lo);
     const double above = guess > 0.0 ? guess : 0.0;  // no number is 0
     const double within = above < most ? above : most;
-    std::size_t k = piece.lo + static_cast<std::size_t>(static_cast<long long>(within));
+    return walked(piece, x, piece.lo + static_cast<std::size_t>(static_cast<long long>(within)));
+  }
+  template <class V>
+  [[nodiscard]] std::size_t walked(const TrackPiece& piece, V x, std::size_t k) const {
     while (k > piece.lo && x < starts_[k]) --k;
     while (k < piece.hi && x >= starts_[k + 1]) ++k;
     return k;

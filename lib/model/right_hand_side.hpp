@@ -78,10 +78,10 @@ struct MeshState {
   Row<T, N> moment_driven;   ///< F_f h_2 / r_b2
 };
 
-/// [M-27] of one kind of mesh; `places` are those of the current segment.
-template <class T, class P, std::size_t N>
+/// [M-27] of one kind of mesh; `places` are those of the current segment (MeshPlaces, or one of them for each lane).
+template <class T, class P, std::size_t N, class Places>
 [[nodiscard]] MeshState<T, N, P> mesh_state(const Parameters<P, N>& p, const MeshParameters<P, N>& mesh,
-                                            const MeshPlaces<N>& places, const P& s, const HarmonicBasis<P>& basis,
+                                            const Places& places, const P& s, const HarmonicBasis<P>& basis,
                                             const Row<T, N>& displacement, const Row<T, N>& velocity) {
   using R = Row<T, N>;
   const auto own_phase = [&](std::size_t i) -> P { return s * (0.5 * std::numbers::inv_pi) + mesh.turns[i]; };
@@ -92,8 +92,7 @@ template <class T, class P, std::size_t N>
   for (std::size_t h = 0; h < mesh.harmonics; ++h)
     m.stiffness += mesh.stiffness_cos[h] * basis.cosine[h] + mesh.stiffness_sin[h] * basis.sine[h];
   if (mesh.stiffness_curve)
-    m.stiffness =
-        Row<P, N>::of([&](std::size_t i) { return mesh.stiffness_curve->at(places.stiffness[i], own_phase(i))[0]; });
+    m.stiffness = Row<P, N>::of([&](std::size_t i) { return stiffness_at(mesh, places, i, own_phase(i)); });
   m.elastic = m.stiffness * closed_by<R>(m.delta, mesh.half_gap, p.smoothing, p.smooth);
   if (p.gap_damping == GapDamping::contact_slope) {
     m.force = m.elastic + mesh.damping * closure<R>(m.delta, mesh.half_gap, p.smoothing, p.smooth).slope * m.rate;
@@ -102,7 +101,7 @@ template <class T, class P, std::size_t N>
   }
   if (mesh.friction) {
     std::array<FrictionRatios<P>, N> ratios;
-    for (std::size_t i = 0; i < N; ++i) ratios[i] = mesh.friction->at(places.friction[i], own_phase(i));
+    for (std::size_t i = 0; i < N; ++i) ratios[i] = friction_at(mesh, places, i, own_phase(i));
     m.friction = Row<P, N>::of([&](std::size_t i) { return ratios[i].force; }) * m.force;
     m.moment_driving = Row<P, N>::of([&](std::size_t i) { return ratios[i].moment_driving; }) * m.force;
     m.moment_driven = Row<P, N>::of([&](std::size_t i) { return ratios[i].moment_driven; }) * m.force;
@@ -155,8 +154,8 @@ struct StageState {
   Deflections<T, N> d, d_rate;
   MeshState<T, N, P> sun_planet, ring_planet;
 
-  template <Layout L>
-  StageState(Arranged<L> arranged, const Parameters<P, N>& p, const Segment<N>& places, const P& s,
+  template <Layout L, class Places>
+  StageState(Arranged<L> arranged, const Parameters<P, N>& p, const Places& places, const P& s,
              const HarmonicBasis<P>& basis, const T* y)
       : q(unpack<N>(arranged, y)),
         v(unpack<N>(arranged, y + degrees_of_freedom(L, N))),
@@ -166,11 +165,16 @@ struct StageState {
         ring_planet(mesh_state(p, p.ring_planet, places.ring_planet, s, basis, d.ring_planet, d_rate.ring_planet)) {}
 };
 
-template <Layout L, class T, class P, std::size_t N>
-[[nodiscard]] StageState<T, N, P> stage_state(const Parameters<P, N>& p, std::size_t segment,
+/// @param places  a segment of p, by its number or itself, or one for each lane
+template <Layout L, class T, class P, std::size_t N, class Places>
+[[nodiscard]] StageState<T, N, P> stage_state(const Parameters<P, N>& p, const Places& places,
                                               const std::type_identity_t<P>& s, const T* y) {
   const HarmonicBasis<P> basis(s, std::max(p.sun_planet.harmonics, p.ring_planet.harmonics));
-  return {Arranged<L>{}, p, p.segments[segment], s, basis, y};
+  if constexpr (std::is_integral_v<Places>) {
+    return {Arranged<L>{}, p, p.segments[static_cast<std::size_t>(places)], s, basis, y};
+  } else {
+    return {Arranged<L>{}, p, places, s, basis, y};
+  }
 }
 
 /// Accelerations d^2/d tau^2 of the full coordinates from [M-17]..[M-20].
@@ -264,13 +268,14 @@ void make_relative(const Parameters<P, N>& p, Coordinates<T, N>& a) {
 
 /// dy/ds at mesh phase s.
 ///
-/// @param y     2 n numbers, n = degrees_of_freedom(L, N): displacements [b_c], then velocities [b_c per tau]
-/// @param dyds  2 n numbers
-template <Layout L, class T, class P, std::size_t N>
-void right_hand_side(const Parameters<P, N>& p, std::size_t segment, const std::type_identity_t<P>& s, const T* y,
+/// @param places  as for stage_state()
+/// @param y       2 n numbers, n = degrees_of_freedom(L, N): displacements [b_c], then velocities [b_c per tau]
+/// @param dyds    2 n numbers
+template <Layout L, class T, class P, std::size_t N, class Places>
+void right_hand_side(const Parameters<P, N>& p, const Places& places, const std::type_identity_t<P>& s, const T* y,
                      T* dyds) {
   constexpr std::size_t n = degrees_of_freedom(L, N);
-  const StageState<T, N, P> g = stage_state<L>(p, segment, s, y);
+  const StageState<T, N, P> g = stage_state<L>(p, places, s, y);
   Coordinates<T, N> a = accelerations<L>(p, g);
   make_relative<L>(p, a);
   const P per_phase = 1.0 / p.omega;

@@ -1,7 +1,11 @@
 #include "studies/operating_point.hpp"
 
+#include <memory>
 #include <numbers>
 #include <vector>
+
+#include "core/errors.hpp"
+#include "model/lane_model.hpp"
 
 namespace epicyclic::studies {
 
@@ -29,6 +33,7 @@ integrate::VectorField vector_field(const model::DynamicModel& model) {
   integrate::VectorField field;
   field.dimension = model.dimension;
   field.period = 2.0 * std::numbers::pi;
+  field.origin = std::make_shared<const model::DynamicModel>(model);
   field.breakpoints = model.breakpoints;
   field.right_hand_side = model.right_hand_side;
   field.tangents = model.tangents;
@@ -51,6 +56,21 @@ integrate::VectorField vector_field(const model::DynamicModel& model) {
     flank("drive_rp_" + planet, &model::MeshDeflections::ring_planet, i, b_rp);
     flank("back_rp_" + planet, &model::MeshDeflections::ring_planet, i, -b_rp);
   }
+  return field;
+}
+
+integrate::LaneField lane_field(const model::DynamicModel& like, const integrate::LaneKernels& kernels) {
+  const model::LaneModel lanes = model::make_lane_model(like, kernels.name);
+  if (lanes.width != kernels.width) return integrate::one_by_one(kernels.width, like.dimension);
+  integrate::LaneField field;
+  field.dimension = lanes.dimension;
+  field.load = [lanes](std::size_t lane, const integrate::VectorField& system) {
+    const auto* const made_of = static_cast<const model::DynamicModel*>(system.origin.get());
+    if (made_of == nullptr) throw InputError("a system that is not a stage in a stage's lane");
+    lanes.load(lane, *made_of);
+  };
+  field.set_segment = lanes.set_segment;
+  field.right_hand_side = lanes.right_hand_side;
   return field;
 }
 

@@ -6,6 +6,7 @@
 
 #include "gear/stage.hpp"
 #include "integrate/flow.hpp"
+#include "integrate/lane_ensemble.hpp"
 #include "model/dynamic_model.hpp"
 #include "model/options.hpp"
 
@@ -25,5 +26,11 @@ struct OperatingPoint {
 /// The model as an integrator sees it; period 2 pi in the mesh phase; the switching surfaces are the flanks of all
 /// gaps.
 [[nodiscard]] integrate::VectorField vector_field(const model::DynamicModel& model);
+
+/// Lanes for models of one structure, as the kernels have them; each by its own right-hand side where the model layer
+/// has no lanes (full coordinates).
+///
+/// Its load() takes fields that vector_field() made.
+[[nodiscard]] integrate::LaneField lane_field(const model::DynamicModel& like, const integrate::LaneKernels& kernels);
 
 }  // namespace epicyclic::studies

@@ -26,6 +26,7 @@
 #include "analysis/poincare.hpp"
 #include "core/fit.hpp"
 #include "integrate/arkode_flow.hpp"
+#include "integrate/lane_ensemble.hpp"
 #include "io/study_model.hpp"
 #include "studies/operating_point.hpp"
 
@@ -304,6 +305,30 @@ void mesh_period_at_equal_error(benchmark::State& state) {
   state.counters["tolerance"] = tolerance;
 }
 
+/// A mesh period in the lane ensemble, all lanes at work: at one speed, each from a state of its own.
+void mesh_period_lanes(benchmark::State& state) {
+  const auto model = model_at(static_cast<double>(state.range(0)) / 100.0);
+  const auto field = epicyclic::studies::vector_field(model);
+  const auto& kernels = epicyclic::integrate::lane_kernels();
+  epicyclic::integrate::LaneEnsemble lanes(epicyclic::studies::lane_field(model, kernels),
+                                           options(std::pow(10.0, -static_cast<double>(state.range(1)))), kernels);
+  State y = settled(model);
+  const auto flow = epicyclic::integrate::make_arkode_flow(field, options(1e-8));
+  for (std::size_t lane = 0; lane < lanes.width(); ++lane) {
+    for (int k = 0; k < 3; ++k) flow->evolve(y, 0.0, period);
+    lanes.load(lane, field);
+    lanes.begin(lane, y, 0.0, period);
+  }
+  long calls = 0;
+  for (auto _ : state) {
+    const std::size_t lane = lanes.run();
+    lanes.copy_state(lane, y);
+    lanes.begin(lane, y, 0.0, period);
+  }
+  for (std::size_t lane = 0; lane < lanes.width(); ++lane) calls += lanes.work(lane).right_hand_sides;
+  state.counters["rhs_per_period"] = benchmark::Counter(static_cast<double>(calls), benchmark::Counter::kAvgIterations);
+}
+
 /// A mesh period with tangent vectors in the steps of the state alone; first argument: how many, 0 for the bare period.
 void mesh_period_with_tangents(benchmark::State& state) {
   const auto model = model_at(1.2);
@@ -339,6 +364,7 @@ void speeds_and_tolerances(benchmark::internal::Benchmark* b) {
 BENCHMARK(mesh_period_arkode)->Apply(speeds_and_tolerances);
 BENCHMARK(mesh_period_arkode_stock)->Apply(speeds_and_tolerances);
 BENCHMARK(mesh_period_odeint)->Apply(speeds_and_tolerances);
+BENCHMARK(mesh_period_lanes)->Apply(speeds_and_tolerances);
 
 BENCHMARK(mesh_period_with_tangents)->ArgName("vectors")->Arg(0)->Arg(1)->Arg(34)->Apply(with_least);
 

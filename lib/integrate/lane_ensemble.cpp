@@ -1,0 +1,419 @@
+#include "integrate/lane_ensemble.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <utility>
+
+#include "core/errors.hpp"
+
+namespace epicyclic::integrate {
+
+namespace {
+
+/// Dormand and Prince's pair: rows of A, of which the last is b, and b - b^.
+constexpr std::size_t stages = 7;
+constexpr std::array<double, stages> nodes = {0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0};
+constexpr std::array<std::array<double, stages - 1>, stages> rows = {{
+    {},
+    {1.0 / 5.0},
+    {3.0 / 40.0, 9.0 / 40.0},
+    {44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0},
+    {19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0},
+    {9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0},
+    {35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0},
+}};
+constexpr std::array<double, stages> differences = {71.0 / 57600.0,      0.0,          -71.0 / 16695.0, 71.0 / 1920.0,
+                                                    -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0};
+
+// ARKODE's I controller.
+constexpr double safety = 0.96;
+constexpr double bias = 1.5;
+constexpr double most_growth = 20.0;
+constexpr double least_shrinkage = 0.1;
+constexpr double worth_growing = 1.5;
+/// After two refusals in a row.
+constexpr double refused_again = 0.3;
+/// A step is no step when s does not move, or hardly.
+constexpr double least_step = 1e-14;
+
+/// Memory aligned for registers.
+class Numbers {
+ public:
+  explicit Numbers(std::size_t count)
+      : data_(static_cast<double*>(::operator new(count * sizeof(double), std::align_val_t(64)))) {
+    std::fill_n(data_.get(), count, 0.0);
+  }
+  [[nodiscard]] double* get() { return data_.get(); }
+  [[nodiscard]] const double* get() const { return data_.get(); }
+  double& operator[](std::size_t i) { return data_.get()[i]; }
+  double operator[](std::size_t i) const { return data_.get()[i]; }
+
+ private:
+  struct Deleter {
+    void operator()(double* p) const { ::operator delete(p, std::align_val_t(64)); }
+  };
+  std::unique_ptr<double, Deleter> data_;
+};
+
+double factor(double norm) {
+  constexpr double order = 5.0;
+  constexpr double tiny = 1e-10;
+  return safety * std::pow(bias * std::max(norm, tiny), -1.0 / order);
+}
+
+}  // namespace
+
+LaneField one_by_one(std::size_t width, std::size_t dimension) {
+  struct Lane {
+    const VectorField* field = nullptr;
+    std::size_t segment = 0;
+  };
+  struct All {
+    std::vector<Lane> lanes;
+    std::vector<double> y, f;
+  };
+  const auto all = std::make_shared<All>();
+  all->lanes.resize(width);
+  all->y.resize(dimension);
+  all->f.resize(dimension);
+  LaneField field;
+  field.dimension = dimension;
+  field.load = [all, dimension](std::size_t lane, const VectorField& system) {
+    if (system.dimension != dimension)
+      throw InputError("a system of dimension " + std::to_string(system.dimension) + " in a lane of " +
+                       std::to_string(dimension));
+    all->lanes[lane] = {&system, 0};
+  };
+  field.set_segment = [all](std::size_t lane, std::size_t segment) { all->lanes[lane].segment = segment; };
+  field.right_hand_side = [all, width, dimension](const double* s, const double* y, double* dyds) {
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      const Lane& own = all->lanes[lane];
+      if (own.field == nullptr) continue;
+      for (std::size_t i = 0; i < dimension; ++i) all->y[i] = y[i * width + lane];
+      own.field->right_hand_side(own.segment, s[lane], all->y.data(), all->f.data());
+      for (std::size_t i = 0; i < dimension; ++i) dyds[i * width + lane] = all->f[i];
+    }
+  };
+  return field;
+}
+
+class LaneEnsemble::Impl {
+ public:
+  Impl(LaneField field, const IntegratorOptions& options, const LaneKernels& kernels)
+      : field_(std::move(field)),
+        options_(options),
+        kernels_(kernels),
+        w_(kernels.width),
+        n_(field_.dimension),
+        y_(n_ * w_),
+        next_(n_ * w_),
+        k_{Numbers(n_ * w_), Numbers(n_ * w_), Numbers(n_ * w_), Numbers(n_ * w_),
+           Numbers(n_ * w_), Numbers(n_ * w_), Numbers(n_ * w_)},
+        s_(w_),
+        at_(w_),
+        h_(w_),
+        norm_(w_),
+        largest_(w_),
+        lanes_(w_),
+        sample_(n_) {
+    if (options_.locate_contacts) throw InputError("lanes do not locate contact changes");
+  }
+
+  std::size_t width() const { return w_; }
+
+  void control(std::size_t n, std::size_t vectors, bool last_is_parameter) {
+    controlled_ = n;
+    vectors_ = vectors;
+    last_is_parameter_ = last_is_parameter;
+  }
+
+  void load(std::size_t lane, const VectorField& system) {
+    field_.load(lane, system);
+    Lane& l = lanes_[lane];
+    l = {};
+    l.system = &system;
+  }
+
+  void begin(std::size_t lane, std::span<const double> state, double from, double to, std::span<const double> samples,
+             const Observer& observer) {
+    Lane& l = lanes_[lane];
+    if (state.size() != n_)
+      throw InputError("a state of " + std::to_string(state.size()) + " numbers for a field of dimension " +
+                       std::to_string(n_));
+    for (std::size_t i = 0; i < n_; ++i) y_[i * w_ + lane] = state[i];
+    s_[lane] = from;
+    l.to = to;
+    l.samples = samples;
+    l.observer = observer ? &observer : nullptr;
+    l.next_sample = 0;
+    l.stops = breakpoints_between(*l.system, from, to);
+    l.stops.push_back(to);
+    l.next_stop = 0;
+    const double periods = l.system->period > 0.0 ? std::ceil((to - from) / l.system->period) : 1.0;
+    l.attempts_left = static_cast<long>(std::max(1.0, periods)) * options_.max_steps_per_period;
+    l.refusals = 0;
+    l.evolution = {Outcome::reached, from, {}};
+    l.busy = true;
+    enter_segment(lane);
+  }
+
+  bool busy(std::size_t lane) const { return lanes_[lane].busy; }
+
+  std::size_t run() {
+    for (std::size_t lane = 0; lane < w_; ++lane)
+      if (lanes_[lane].busy && lanes_[lane].ended) return take(lane);
+    if (std::none_of(lanes_.begin(), lanes_.end(), [](const Lane& l) { return l.busy; })) return w_;
+    for (;;) {
+      step();
+      for (std::size_t lane = 0; lane < w_; ++lane)
+        if (lanes_[lane].ended) return take(lane);
+    }
+  }
+
+  const Evolution& evolution(std::size_t lane) const { return lanes_[lane].evolution; }
+  void copy_state(std::size_t lane, std::span<double> state) const {
+    for (std::size_t i = 0; i < n_; ++i) state[i] = y_[i * w_ + lane];
+  }
+  double next_step(std::size_t lane) const { return lanes_[lane].proposed; }
+  void set_next_step(std::size_t lane, double step) { lanes_[lane].proposed = step; }
+  Work work(std::size_t lane) const { return lanes_[lane].work; }
+  double occupancy() const { return evaluated_ == 0 ? 0.0 : under_way_ / (static_cast<double>(evaluated_ * w_)); }
+
+ private:
+  struct Lane {
+    const VectorField* system = nullptr;
+    bool busy = false;
+    bool ended = false;
+    bool fresh = false;  ///< its first slope is not that of this place yet
+    double to = 0;
+    double proposed = 0;  ///< length of the next step; 0 if not known
+    double tried = 0;     ///< length of this step
+    bool cut = false;     ///< to a stop
+    int refusals = 0;     ///< in a row
+    long attempts_left = 0;
+    std::vector<double> stops;  ///< breakpoints on the way, and the end
+    std::size_t next_stop = 0;
+    std::span<const double> samples;
+    const Observer* observer = nullptr;
+    std::size_t next_sample = 0;
+    Evolution evolution;
+    Work work;
+  };
+
+  std::size_t take(std::size_t lane) {
+    lanes_[lane].busy = lanes_[lane].ended = false;
+    return lane;
+  }
+
+  void end(Lane& l, Outcome outcome, double s, std::string message) {
+    l.evolution = {outcome, s, std::move(message)};
+    l.ended = true;
+  }
+
+  void enter_segment(std::size_t lane) {
+    Lane& l = lanes_[lane];
+    field_.set_segment(lane, segment_after(*l.system, s_[lane]));
+    l.fresh = true;
+  }
+
+  void evaluate(const double* s, const double* y, Numbers& slope) {
+    field_.right_hand_side(s, y, slope.get());
+    ++evaluated_;
+    for (const Lane& l : lanes_) under_way_ += l.busy ? 1.0 : 0.0;
+  }
+
+  /// One attempt in each lane.
+  void step() {
+    if (std::any_of(lanes_.begin(), lanes_.end(), [](const Lane& l) { return l.busy && l.fresh; })) {
+      // The other lanes' slopes are taken anew at the same places: the same bits.
+      evaluate(s_.get(), y_.get(), k_[0]);
+      for (Lane& l : lanes_) {
+        if (l.busy && l.fresh) ++l.work.right_hand_sides;
+        l.fresh = false;
+      }
+    }
+    for (std::size_t lane = 0; lane < w_; ++lane) {
+      Lane& l = lanes_[lane];
+      h_[lane] = 0.0;
+      if (!l.busy) continue;
+      if (l.proposed <= 0.0) l.proposed = first_step(lane);
+      const double left = l.stops[l.next_stop] - s_[lane];
+      constexpr double nearly = 1e-10;  // of a step: not worth one of its own
+      l.cut = l.proposed * (1.0 + nearly) >= left;
+      l.tried = h_[lane] = l.cut ? left : l.proposed;
+    }
+    std::array<const double*, stages> slopes;
+    for (std::size_t j = 0; j < stages; ++j) slopes[j] = k_[j].get();
+    for (std::size_t j = 1; j < stages; ++j) {
+      kernels_.stage(n_, j, rows[j].data(), slopes.data(), h_.get(), y_.get(), next_.get());
+      for (std::size_t lane = 0; lane < w_; ++lane)
+        at_[lane] = j + 1 == stages ? arrival(lane) : s_[lane] + nodes[j] * h_[lane];
+      evaluate(at_.get(), next_.get(), k_[j]);
+    }
+    kernels_.error(controlled_, stages, differences.data(), slopes.data(), h_.get(), y_.get(), next_.get(),
+                   options_.relative_tolerance, options_.absolute_tolerance, norm_.get(), largest_.get());
+    for (std::size_t j = 1; j <= vectors_; ++j) worst_with_vector(j, slopes);
+    alignas(64) std::array<long long, most_lanes> accepted{};
+    for (std::size_t lane = 0; lane < w_; ++lane)
+      if (lanes_[lane].busy) accepted[lane] = judge(lane) ? 1 : 0;
+    // Samples need the slopes at both ends.
+    for (std::size_t lane = 0; lane < w_; ++lane)
+      if (accepted[lane] != 0) observe(lane, arrival(lane));
+    std::array<double, most_lanes> arrived{};
+    for (std::size_t lane = 0; lane < w_; ++lane) arrived[lane] = arrival(lane);
+    kernels_.accept(n_, accepted.data(), next_.get(), k_[stages - 1].get(), y_.get(), k_[0].get());
+    for (std::size_t lane = 0; lane < w_; ++lane)
+      if (accepted[lane] != 0) arrive(lane, arrived[lane]);
+  }
+
+  /// Lanes have no kernel for tangents of their own: theirs is plain text.
+  void worst_with_vector(std::size_t j, const std::array<const double*, stages>& slopes) {
+    for (std::size_t lane = 0; lane < w_; ++lane) {
+      if (!lanes_[lane].busy) continue;
+      double size = last_is_parameter_ && (j + 1) * controlled_ == n_ ? 1.0 : 0.0;
+      const std::size_t first = j * controlled_;
+      for (std::size_t i = first; i < first + controlled_; ++i) size = std::max(size, std::abs(y_[i * w_ + lane]));
+      if (!(size > 0.0)) size = 1.0;
+      double squares = 0.0;
+      for (std::size_t i = first; i < first + controlled_; ++i) {
+        double e = 0.0;
+        for (std::size_t k = 0; k < stages; ++k) e += differences[k] * slopes[k][i * w_ + lane];
+        const double part =
+            h_[lane] * e /
+            (options_.relative_tolerance * std::abs(y_[i * w_ + lane]) + options_.absolute_tolerance * size);
+        squares += part * part;
+      }
+      const double square = squares / static_cast<double>(controlled_);
+      if (!(square <= norm_[lane])) norm_[lane] = square;
+    }
+  }
+
+  /// Where a step of this length ends: on the stop to the last bit.
+  double arrival(std::size_t lane) const {
+    const Lane& l = lanes_[lane];
+    return l.busy && l.cut ? l.stops[l.next_stop] : s_[lane] + h_[lane];
+  }
+
+  /// Is the step accepted? How long is the next one?
+  bool judge(std::size_t lane) {
+    Lane& l = lanes_[lane];
+    ++l.work.steps;
+    --l.attempts_left;
+    l.work.right_hand_sides += static_cast<long>(stages) - 1;
+    const double norm = std::sqrt(norm_[lane]);
+    const double wanted = factor(norm);
+    if (norm <= 1.0 && std::isfinite(largest_[lane])) {
+      if (largest_[lane] > options_.escape_bound) {
+        end(l, Outcome::diverged, s_[lane], "a component left the escape bound");
+        return false;
+      }
+      double grown = std::min(wanted, l.refusals > 0 ? 1.0 : most_growth);
+      if (grown >= 1.0 && grown <= worth_growing) grown = 1.0;
+      grown = std::max(grown, least_shrinkage);
+      // A step that was cut says nothing against the longer one that it was cut from.
+      l.proposed = l.cut ? std::max(l.proposed, grown * l.tried) : grown * l.tried;
+      l.refusals = 0;
+      return true;
+    }
+    ++l.refusals;
+    double shrunk = std::isfinite(wanted) ? std::min(std::max(wanted, least_shrinkage), 1.0) : least_shrinkage;
+    if (l.refusals >= 2) shrunk = std::min(shrunk, refused_again);
+    l.proposed = shrunk * l.tried;
+    if (l.proposed < least_step * std::max(1.0, std::abs(s_[lane]))) {
+      end(l, Outcome::failed, s_[lane], "no step is accepted");
+    } else if (l.attempts_left <= 0) {
+      end(l, Outcome::step_limit, s_[lane], "more steps than allowed");
+    }
+    return false;
+  }
+
+  void arrive(std::size_t lane, double s) {
+    Lane& l = lanes_[lane];
+    s_[lane] = s;
+    if (l.cut) {
+      ++l.next_stop;
+      if (l.next_stop == l.stops.size()) return end(l, Outcome::reached, s, {});
+      enter_segment(lane);
+    }
+    if (l.attempts_left <= 0) end(l, Outcome::step_limit, s, "more steps than allowed");
+  }
+
+  /// A first guess of which the change by the slope is a hundredth of the state, both in the norm of the error.
+  double first_step(std::size_t lane) const {
+    double size = 0.0;
+    double speed = 0.0;
+    for (std::size_t i = 0; i < controlled_; ++i) {
+      const double x = y_[i * w_ + lane];
+      const double scale = options_.relative_tolerance * std::abs(x) + options_.absolute_tolerance;
+      size += x / scale * (x / scale);
+      speed += k_[0][i * w_ + lane] / scale * (k_[0][i * w_ + lane] / scale);
+    }
+    const Lane& l = lanes_[lane];
+    const double whole = l.stops[l.next_stop] - s_[lane];
+    constexpr double part = 1e-2;
+    constexpr double careful = 1e-6;
+    const double h = size > 0.0 && speed > 0.0 ? part * std::sqrt(size / speed) : careful * whole;
+    return std::isfinite(h) ? std::min(h, whole) : careful * whole;
+  }
+
+  void observe(std::size_t lane, double arrived) {
+    Lane& l = lanes_[lane];
+    while (l.next_sample < l.samples.size() && l.samples[l.next_sample] <= arrived) {
+      const double at = l.samples[l.next_sample];
+      const double h = h_[lane];
+      const double u = (at - s_[lane]) / h;
+      const double v = 1.0 - u;
+      for (std::size_t i = 0; i < n_; ++i) {
+        const std::size_t c = i * w_ + lane;
+        sample_[i] = at == arrived ? next_[c]
+                                   : (1.0 + 2.0 * u) * v * v * y_[c] + u * u * (1.0 + 2.0 * v) * next_[c] +
+                                         u * v * h * (v * k_[0][c] - u * k_[stages - 1][c]);
+      }
+      if (l.observer != nullptr) (*l.observer)(l.next_sample, at, sample_);
+      ++l.next_sample;
+    }
+  }
+
+  LaneField field_;
+  IntegratorOptions options_;
+  const LaneKernels& kernels_;
+  std::size_t w_;
+  std::size_t n_;
+  std::size_t controlled_ = n_;  ///< components of the state, whose error counts
+  std::size_t vectors_ = 0;      ///< tangent vectors whose error counts too
+  bool last_is_parameter_ = false;
+  Numbers y_, next_;
+  std::array<Numbers, stages> k_;
+  Numbers s_, at_, h_, norm_, largest_;
+  std::vector<Lane> lanes_;
+  std::vector<double> sample_;
+  std::size_t evaluated_ = 0;
+  double under_way_ = 0;
+};
+
+LaneEnsemble::LaneEnsemble(LaneField field, const IntegratorOptions& options, const LaneKernels& kernels)
+    : impl_(std::make_unique<Impl>(std::move(field), options, kernels)) {}
+LaneEnsemble::~LaneEnsemble() = default;
+
+std::size_t LaneEnsemble::width() const { return impl_->width(); }
+void LaneEnsemble::control(std::size_t n, std::size_t vectors, bool last_is_parameter) {
+  impl_->control(n, vectors, last_is_parameter);
+}
+void LaneEnsemble::load(std::size_t lane, const VectorField& system) { impl_->load(lane, system); }
+void LaneEnsemble::begin(std::size_t lane, std::span<const double> state, double from, double to,
+                         std::span<const double> samples, const Observer& observer) {
+  impl_->begin(lane, state, from, to, samples, observer);
+}
+bool LaneEnsemble::busy(std::size_t lane) const { return impl_->busy(lane); }
+std::size_t LaneEnsemble::run() { return impl_->run(); }
+const Evolution& LaneEnsemble::evolution(std::size_t lane) const { return impl_->evolution(lane); }
+void LaneEnsemble::copy_state(std::size_t lane, std::span<double> state) const { impl_->copy_state(lane, state); }
+double LaneEnsemble::next_step(std::size_t lane) const { return impl_->next_step(lane); }
+void LaneEnsemble::set_next_step(std::size_t lane, double step) { impl_->set_next_step(lane, step); }
+Work LaneEnsemble::work(std::size_t lane) const { return impl_->work(lane); }
+double LaneEnsemble::occupancy() const { return impl_->occupancy(); }
+
+}  // namespace epicyclic::integrate

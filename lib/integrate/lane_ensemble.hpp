@@ -1,0 +1,92 @@
+// The lane ensemble: many trajectories at once, one SIMD lane each, every one with its own phase, step and acceptance.
+//
+//   y' = y + h sum_j b_j k_j ,  e = h sum_j (b_j - b^_j) k_j     Dormand and Prince 5(4), first same as last
+//   accepted when  | e | <= 1  in the weighted root mean square of integrate/options.hpp, weights of the step's start
+//   h <- h min(20, max(0.1, 0.96 (1.5 |e|)^(-1/5))), kept where it would grow by less than half         [I-lane]
+//
+// the norm, the safety and bias factors and the limits of ARKODE's I controller. A lane is never in step with the
+// others: its bits are those of a run alone, whatever the other lanes carry and however wide the registers are.
+//
+// An evolution is begun in a lane and run() goes on until the first one has ended; the caller looks at it, and begins
+// the next one, of the same system or of another. Breakpoints are stepped onto; samples come from the cubic Hermite
+// polynomial through both ends of a step, as ARKODE's do. Source of the pair: J. R. Dormand, P. J. Prince, J. Comput.
+// Appl. Math. 6 (1980) 19.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "integrate/flow.hpp"
+#include "integrate/lane_kernels.hpp"
+#include "integrate/options.hpp"
+
+namespace epicyclic::integrate {
+
+/// Right-hand sides of W systems side by side. Component i of lane w lies at [i W + w].
+struct LaneField {
+  std::size_t dimension = 0;
+  /// Puts a system into a lane.
+  /// @throws InputError when the systems cannot run side by side
+  std::function<void(std::size_t lane, const VectorField& field)> load;
+  /// Which side of its breakpoints the lane's system is on.
+  std::function<void(std::size_t lane, std::size_t segment)> set_segment;
+  /// dy/ds of all lanes, each at its own s.
+  std::function<void(const double* s, const double* y, double* dyds)> right_hand_side;
+};
+
+/// Any systems of one dimension, each lane by its own right-hand side: nothing is gained but the lanes' bookkeeping.
+[[nodiscard]] LaneField one_by_one(std::size_t width, std::size_t dimension);
+
+class LaneEnsemble {
+ public:
+  /// @param field  of kernels.width lanes
+  /// @throws InputError for options that lanes do not have: another method, located contacts
+  LaneEnsemble(LaneField field, const IntegratorOptions& options, const LaneKernels& kernels = lane_kernels());
+  ~LaneEnsemble();
+  LaneEnsemble(const LaneEnsemble&) = delete;
+  LaneEnsemble& operator=(const LaneEnsemble&) = delete;
+
+  [[nodiscard]] std::size_t width() const;
+
+  /// The systems are a state of n components and tangent vectors of as many: the state's error is controlled, and that
+  /// of the first `vectors` of them, each in parts of its largest component; of the last one, if it is the derivative
+  /// with respect to a parameter, in parts of 1 until it is longer. The step's error is then that of the worst.
+  void control(std::size_t n, std::size_t vectors, bool last_is_parameter);
+
+  /// Puts a system into a lane in which nothing is under way. `system` is kept until the next one.
+  void load(std::size_t lane, const VectorField& system);
+
+  /// As Flow::evolve(), but it has only begun; samples and observer are kept until it has ended.
+  void begin(std::size_t lane, std::span<const double> state, double from, double to,
+             std::span<const double> samples = {}, const Observer& observer = {});
+
+  [[nodiscard]] bool busy(std::size_t lane) const;
+
+  /// Goes on until an evolution has ended.
+  /// @returns its lane, or width() if nothing is under way
+  std::size_t run();
+
+  /// Of the lane's last evolution, once it has ended.
+  [[nodiscard]] const Evolution& evolution(std::size_t lane) const;
+  void copy_state(std::size_t lane, std::span<double> state) const;
+
+  /// As of a Flow, for each lane.
+  [[nodiscard]] double next_step(std::size_t lane) const;
+  void set_next_step(std::size_t lane, double step);
+
+  /// Right-hand sides that a lane's evolutions took since it was loaded, and steps attempted.
+  [[nodiscard]] Work work(std::size_t lane) const;
+
+  /// Of all lanes at once: evaluations of the kernel, and the lanes among them that were under way.
+  [[nodiscard]] double occupancy() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace epicyclic::integrate

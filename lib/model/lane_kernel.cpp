@@ -1,0 +1,56 @@
+#include "model/lane_kernel.hpp"
+
+#include <string_view>
+
+namespace epicyclic::model {
+
+#define EPICYCLIC_DECLARE_KERNELS                   \
+  template <Layout L, std::size_t N, std::size_t W> \
+  void evaluate_lanes(const LaneParameters<N, W>&, const double*, const double*, double*);
+#define EPICYCLIC_DECLARE(L, N, W) \
+  extern template void evaluate_lanes<L, N, W>(const LaneParameters<N, W>&, const double*, const double*, double*);
+#define EPICYCLIC_DECLARE_FOUR(L, N) EPICYCLIC_DECLARE(L, N, 4)
+#define EPICYCLIC_DECLARE_EIGHT(L, N) EPICYCLIC_DECLARE(L, N, 8)
+namespace baseline {
+EPICYCLIC_DECLARE_KERNELS
+EPICYCLIC_FOR_TANGENT_KERNELS(EPICYCLIC_DECLARE_FOUR)
+}  // namespace baseline
+#ifdef EPICYCLIC_X86_KERNELS
+namespace avx2 {
+EPICYCLIC_DECLARE_KERNELS
+EPICYCLIC_FOR_TANGENT_KERNELS(EPICYCLIC_DECLARE_FOUR)
+}  // namespace avx2
+namespace avx512 {
+EPICYCLIC_DECLARE_KERNELS
+EPICYCLIC_FOR_TANGENT_KERNELS(EPICYCLIC_DECLARE_EIGHT)
+}  // namespace avx512
+#endif
+
+template <Layout L, std::size_t N, std::size_t W>
+LaneKernel<N, W> lane_kernel(const char* name) {
+  const std::string_view wanted(name);
+  if constexpr (W == 4) {
+    if (wanted == "baseline") return &baseline::evaluate_lanes<L, N, W>;
+#ifdef EPICYCLIC_X86_KERNELS
+    if (wanted == "avx2" && __builtin_cpu_supports("avx2") != 0) return &avx2::evaluate_lanes<L, N, W>;
+#endif
+  } else {
+#ifdef EPICYCLIC_X86_KERNELS
+    if (wanted == "avx512" && __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0)
+      return &avx512::evaluate_lanes<L, N, W>;
+#endif
+  }
+  return nullptr;
+}
+
+#define EPICYCLIC_DEFINE(L, N)                                      \
+  template LaneKernel<N, 4> lane_kernel<L, N, 4>(const char* name); \
+  template LaneKernel<N, 8> lane_kernel<L, N, 8>(const char* name);
+EPICYCLIC_FOR_TANGENT_KERNELS(EPICYCLIC_DEFINE)
+#undef EPICYCLIC_DEFINE
+#undef EPICYCLIC_DECLARE
+#undef EPICYCLIC_DECLARE_FOUR
+#undef EPICYCLIC_DECLARE_EIGHT
+#undef EPICYCLIC_DECLARE_KERNELS
+
+}  // namespace epicyclic::model

@@ -1,0 +1,25 @@
+// The right-hand side of W operating points side by side, compiled once per instruction set and chosen at run time.
+//
+// The text is that of model/right_hand_side.hpp, with lanes for scalars. Each lane's bits depend neither on the others
+// nor on W nor on the instruction set; they differ from those of model/stage_kernel.hpp by the rounding of sine, cosine
+// and of places in tables. Limits: relative coordinates.
+#pragma once
+
+#include <cstddef>
+
+#include "model/lane_parameters.hpp"
+#include "model/layout.hpp"
+#include "model/stage_kernel.hpp"
+
+namespace epicyclic::model {
+
+/// s has W numbers, y and dyds 2 degrees_of_freedom(L, N) times W, component by component, aligned to 64 bytes.
+template <std::size_t N, std::size_t W>
+using LaneKernel = void (*)(const LaneParameters<N, W>& p, const double* s, const double* y, double* dyds);
+
+/// That of one instruction set, or nullptr if it was not compiled or this machine does not run it.
+/// @param name "baseline" or "avx2" (W = 4), "avx512" (W = 8)
+template <Layout L, std::size_t N, std::size_t W>
+[[nodiscard]] LaneKernel<N, W> lane_kernel(const char* name);
+
+}  // namespace epicyclic::model

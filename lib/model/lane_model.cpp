@@ -1,0 +1,42 @@
+#include "model/lane_model.hpp"
+
+#include <memory>
+
+#include "core/errors.hpp"
+#include "model/dispatch.hpp"
+#include "model/lane_kernel.hpp"
+
+namespace epicyclic::model {
+
+namespace {
+
+template <Layout L, std::size_t N, std::size_t W>
+LaneModel lanes_of(const DynamicModel& like, LaneKernel<N, W> kernel) {
+  const auto point = [](const DynamicModel& m) {
+    if (m.layout != L || m.planets != static_cast<int>(N))
+      throw InputError("operating points of different structure cannot run side by side");
+    return std::static_pointer_cast<const Parameters<double, N>>(m.constants);
+  };
+  const auto lanes = std::make_shared<LaneParameters<N, W>>(point(like));
+  LaneModel m;
+  m.width = W;
+  m.dimension = like.dimension;
+  m.load = [lanes, point](std::size_t lane, const DynamicModel& model) { lanes->load(lane, point(model)); };
+  m.set_segment = [lanes](std::size_t lane, std::size_t segment) { lanes->set_segment(lane, segment); };
+  m.right_hand_side = [lanes, kernel](const double* s, const double* y, double* dyds) { kernel(*lanes, s, y, dyds); };
+  return m;
+}
+
+}  // namespace
+
+LaneModel make_lane_model(const DynamicModel& like, const char* instruction_set) {
+  return dispatch(like.layout, like.planets, [&]<Layout L, std::size_t N>() -> LaneModel {
+    if constexpr (L != Layout::full) {
+      if (const auto kernel = lane_kernel<L, N, 4>(instruction_set)) return lanes_of<L, N, 4>(like, kernel);
+      if (const auto kernel = lane_kernel<L, N, 8>(instruction_set)) return lanes_of<L, N, 8>(like, kernel);
+    }
+    return {};
+  });
+}
+
+}  // namespace epicyclic::model

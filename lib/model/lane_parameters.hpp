@@ -1,0 +1,147 @@
+// Parameters of W operating points side by side, one lane each, and where each lane is in its own tables.
+//
+// The points share what decides on the text of the equations (number of planets, laws, switches, harmonics); every
+// constant, table and breakpoint is a lane's own.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/errors.hpp"
+#include "core/lanes.hpp"
+#include "model/parameters.hpp"
+
+namespace epicyclic::model {
+
+/// Where each lane is in one of its tables.
+template <std::size_t K, std::size_t W>
+struct LanePlace {
+  using Track = PeriodicTrack<K>;
+
+  std::array<const Track*, W> track{};
+  std::array<TrackPiece, W> piece{};
+  std::array<const typename Track::Cubics*, W> cubics{};
+  Lanes<W> centre, start, intervals_per_phase, interval, most;
+  bool even = false;  ///< in all lanes
+
+  void set(std::size_t lane, const Track& of, const TrackPlace& place) {
+    const TrackPiece& p = place.piece;
+    track[lane] = &of;
+    piece[lane] = p;
+    cubics[lane] = of.cubics(p);
+    centre.set(lane, place.centre);
+    start.set(lane, p.start);
+    intervals_per_phase.set(lane, p.intervals_per_phase);
+    interval.set(lane, p.hi > p.lo ? 1.0 / p.intervals_per_phase : 0.0);
+    most.set(lane, static_cast<double>(p.hi - p.lo));
+    even = true;
+    for (std::size_t k = 0; k < W; ++k) even = even && track[k] != nullptr && piece[k].even;
+  }
+
+  /// The K functions at each lane's phase: those of PeriodicTrack::at() to rounding.
+  [[nodiscard]] std::array<Lanes<W>, K> at(const Lanes<W>& phase) const {
+    const Lanes<W> x = phase - nearest_whole(phase - centre);
+    const Lanes<W> beyond = x - start;
+    // Half an interval less, which rounding to the nearest gives back.
+    const Lanes<W> guess = nearest_whole(min(max(beyond * intervals_per_phase - 0.5, Lanes<W>(0.0)), most));
+    const auto k = guess.counts();
+    std::array<Row<double, K>, W> rows;
+    if (even) {
+      const Lanes<W> t = beyond - guess * interval;
+      for (std::size_t lane = 0; lane < W; ++lane) rows[lane] = Track::cubic(cubics[lane][k[lane]], t[lane]);
+    } else {
+      for (std::size_t lane = 0; lane < W; ++lane)
+        rows[lane] = track[lane]->at(piece[lane], x[lane], static_cast<std::size_t>(k[lane]));
+    }
+    return transposed<W, K>(rows);
+  }
+};
+
+/// One kind of mesh: each planet's places in the tables that there are.
+template <std::size_t N, std::size_t W>
+struct LaneMeshPlaces {
+  std::array<LanePlace<1, W>, N> stiffness;
+  std::array<LanePlace<3, W>, N> friction;
+
+  void set(std::size_t lane, const MeshParameters<double, N>& mesh, const MeshPlaces<N>& places) {
+    for (std::size_t i = 0; i < N; ++i) {
+      if (mesh.stiffness_curve) stiffness[i].set(lane, *mesh.stiffness_curve, places.stiffness[i]);
+      if (mesh.friction) friction[i].set(lane, mesh.friction->track(), places.friction[i]);
+    }
+  }
+};
+
+template <std::size_t N, std::size_t W>
+struct LaneSegment {
+  LaneMeshPlaces<N, W> sun_planet, ring_planet;
+};
+
+template <std::size_t N, std::size_t W>
+[[nodiscard]] Lanes<W> stiffness_at(const MeshParameters<Lanes<W>, N>& /*mesh*/, const LaneMeshPlaces<N, W>& places,
+                                    std::size_t i, const Lanes<W>& phase) {
+  return places.stiffness[i].at(phase)[0];
+}
+
+template <std::size_t N, std::size_t W>
+[[nodiscard]] FrictionRatios<Lanes<W>> friction_at(const MeshParameters<Lanes<W>, N>& /*mesh*/,
+                                                   const LaneMeshPlaces<N, W>& places, std::size_t i,
+                                                   const Lanes<W>& phase) {
+  const auto values = places.friction[i].at(phase);
+  return {values[0], values[1], values[2]};
+}
+
+template <std::size_t N, std::size_t W>
+class LaneParameters {
+ public:
+  using Point = std::shared_ptr<const Parameters<double, N>>;
+
+  /// All lanes at one point.
+  explicit LaneParameters(const Point& first) : constants_(convert<Lanes<W>>(*first)) {
+    for (std::size_t lane = 0; lane < W; ++lane) load(lane, first);
+  }
+
+  /// @throws InputError when the point does not have the structure of the first one
+  void load(std::size_t lane, const Point& point) {
+    check(*point);
+    std::vector<double> values;
+    for_each_constant(*point, [&](double x) { values.push_back(x); });
+    auto next = values.begin();
+    for_each_constant(constants_, [&](Lanes<W>& x) { x.set(lane, *next++); });
+    points_[lane] = point;
+    set_segment(lane, 0);
+  }
+
+  void set_segment(std::size_t lane, std::size_t segment) {
+    const Parameters<double, N>& p = *points_[lane];
+    segment_.sun_planet.set(lane, p.sun_planet, p.segments[segment].sun_planet);
+    segment_.ring_planet.set(lane, p.ring_planet, p.segments[segment].ring_planet);
+  }
+
+  [[nodiscard]] const Parameters<Lanes<W>, N>& constants() const { return constants_; }
+  [[nodiscard]] const LaneSegment<N, W>& segment() const { return segment_; }
+
+ private:
+  void check(const Parameters<double, N>& p) const {
+    const auto& own = constants_;
+    const auto mesh_fits = [](const MeshParameters<double, N>& m, const MeshParameters<Lanes<W>, N>& to) {
+      bool alike = m.harmonics == to.harmonics && (m.friction != nullptr) == (to.friction != nullptr) &&
+                   (m.stiffness_curve != nullptr) == (to.stiffness_curve != nullptr);
+      for (std::size_t i = 0; i < N; ++i) alike = alike && m.turns[i] == to.turns[i];
+      return alike;
+    };
+    if (!mesh_fits(p.sun_planet, own.sun_planet) || !mesh_fits(p.ring_planet, own.ring_planet) ||
+        p.sun_law != own.sun_law || p.gyroscopic_relative != own.gyroscopic_relative ||
+        p.gyroscopic_carrier_row != own.gyroscopic_carrier_row || p.smooth != own.smooth ||
+        p.gap_damping != own.gap_damping)
+      throw InputError("operating points of different structure cannot run side by side");
+  }
+
+  Parameters<Lanes<W>, N> constants_;
+  LaneSegment<N, W> segment_;
+  std::array<Point, W> points_;
+};
+
+}  // namespace epicyclic::model

@@ -1,0 +1,220 @@
+#include "integrate/lane_ensemble.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/errors.hpp"
+#include "core/fit.hpp"
+#include "integrate/arkode_flow.hpp"
+#include "problems/known_systems.hpp"
+
+namespace epicyclic::integrate {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+IntegratorOptions tolerance(double t) {
+  IntegratorOptions o;
+  o.relative_tolerance = t;
+  o.absolute_tolerance = t;
+  return o;
+}
+
+/// A state carried over `periods` periods in one lane, period by period.
+std::vector<double> carried(LaneEnsemble& lanes, std::size_t lane, const VectorField& system, std::vector<double> state,
+                            int periods) {
+  lanes.load(lane, system);
+  for (int k = 0; k < periods; ++k) {
+    lanes.begin(lane, state, 0.0, system.period);
+    while (lanes.run() != lane) {
+    }
+    lanes.copy_state(lane, state);
+  }
+  return state;
+}
+
+LaneEnsemble ensemble_of(const LaneKernels& kernels, double t, std::size_t dimension = 2) {
+  return {one_by_one(kernels.width, dimension), tolerance(t), kernels};
+}
+
+TEST(LaneEnsemble, BitsOfALaneDependOnNoOtherLane) {
+  const LaneKernels& kernels = lane_kernels();
+  std::vector<VectorField> systems;
+  for (int k = 0; k < 7; ++k) systems.push_back(problems::duffing(0.15, -1.0, 0.2 + 0.05 * k, 1.0));
+  std::vector<std::vector<double>> alone;
+  for (const VectorField& system : systems) {
+    LaneEnsemble lanes = ensemble_of(kernels, 1e-8);
+    alone.push_back(carried(lanes, 0, system, {0.5, 0.1}, 20));
+  }
+  // All at once, more systems than lanes: each goes where a lane is free.
+  LaneEnsemble lanes = ensemble_of(kernels, 1e-8);
+  struct Own {
+    std::size_t system;
+    int left;
+    std::vector<double> state;
+  };
+  std::vector<Own> own(lanes.width());
+  std::size_t next = 0;
+  std::size_t finished = 0;
+  const auto start = [&](std::size_t lane) {
+    if (next == systems.size()) return;
+    own[lane] = {next++, 20, {0.5, 0.1}};
+    lanes.load(lane, systems[own[lane].system]);
+    lanes.begin(lane, own[lane].state, 0.0, systems[own[lane].system].period);
+  };
+  for (std::size_t lane = 0; lane < lanes.width(); ++lane) start(lane);
+  for (std::size_t lane = lanes.run(); lane != lanes.width(); lane = lanes.run()) {
+    Own& o = own[lane];
+    lanes.copy_state(lane, o.state);
+    if (--o.left > 0) {
+      lanes.begin(lane, o.state, 0.0, systems[o.system].period);
+      continue;
+    }
+    EXPECT_EQ(o.state, alone[o.system]) << "system " << o.system;
+    ++finished;
+    start(lane);
+  }
+  EXPECT_EQ(finished, systems.size());
+  EXPECT_GT(lanes.occupancy(), 0.5);
+}
+
+TEST(LaneEnsemble, BitsAreTheSameOnEveryInstructionSetAndWidth) {
+  const VectorField system = problems::duffing(0.15, -1.0, 0.3, 1.0);
+  LaneEnsemble first = ensemble_of(*lane_kernels("baseline"), 1e-9);
+  const std::vector<double> expected = carried(first, 1, system, {0.5, 0.1}, 10);
+  int compared = 0;
+  for (const char* name : {"avx2", "avx512"}) {
+    const LaneKernels* kernels = lane_kernels(name);
+    if (kernels == nullptr) continue;
+    LaneEnsemble lanes = ensemble_of(*kernels, 1e-9);
+    EXPECT_EQ(carried(lanes, 2, system, {0.5, 0.1}, 10), expected) << name;
+    ++compared;
+  }
+  if (compared == 0) GTEST_SKIP() << "this machine has the baseline only";
+}
+
+TEST(LaneEnsemble, ErrorFallsWithTheToleranceAsThatOfArkode) {
+  // One period of a smooth system: errors at tolerances 1e-6 to 1e-10 lie on a line of slope near 1.
+  const VectorField system = problems::smooth_follower();
+  std::vector<double> logs;
+  std::vector<double> errors;
+  for (int digits = 6; digits <= 10; ++digits) {
+    const double t = std::pow(10.0, -digits);
+    LaneEnsemble lanes = ensemble_of(lane_kernels(), t, 1);
+    lanes.load(0, system);
+    lanes.begin(0, std::array{1.0}, 0.0, 20.0);
+    lanes.run();
+    std::array<double, 1> y{};
+    lanes.copy_state(0, y);
+    ASSERT_TRUE(lanes.evolution(0).reached());
+    logs.push_back(-digits);
+    errors.push_back(std::log10(std::abs(y[0] - std::cos(20.0))));
+    const auto flow = make_arkode_flow(system, tolerance(t));
+    std::vector<double> peer = {1.0};
+    ASSERT_TRUE(flow->evolve(peer, 0.0, 20.0).reached());
+    // The same controller: steps differ by what the first one costs.
+    const auto ours = static_cast<double>(lanes.work(0).steps);
+    EXPECT_NEAR(ours / static_cast<double>(flow->work().steps), 1.0, 0.15) << t;
+  }
+  EXPECT_NEAR(fitted_slope(logs, errors), 1.0, 0.2);
+}
+
+TEST(LaneEnsemble, BreakpointsAreSteppedOnto) {
+  // Two periods with three jumps each, against a flow that steps onto them too.
+  const VectorField system = problems::jumping(true);
+  LaneEnsemble lanes = ensemble_of(lane_kernels(), 1e-11, 1);
+  lanes.load(3, system);
+  lanes.begin(3, std::array{0.5}, 0.0, 2.0);
+  EXPECT_EQ(lanes.run(), 3U);
+  std::array<double, 1> y{};
+  lanes.copy_state(3, y);
+  const auto flow = make_arkode_flow(system, tolerance(1e-13));
+  std::vector<double> reference = {0.5};
+  ASSERT_TRUE(flow->evolve(reference, 0.0, 2.0).reached());
+  constexpr double steps_times_tolerance = 1e-9;
+  EXPECT_NEAR(y[0], reference[0], steps_times_tolerance);
+  EXPECT_EQ(lanes.evolution(3).s, 2.0);
+}
+
+TEST(LaneEnsemble, SamplesAreSeenInOrderAndChangeNothing) {
+  const VectorField system = problems::smooth_follower();
+  const auto end_with = [&](int count, double* worst) {
+    LaneEnsemble lanes = ensemble_of(lane_kernels(), 1e-8, 1);
+    std::vector<double> samples;
+    for (int k = 1; k <= count; ++k) samples.push_back(5.0 * k / count);
+    std::size_t seen = 0;
+    const Observer observer = [&](std::size_t index, double s, std::span<const double> y) {
+      EXPECT_EQ(index, seen++);
+      EXPECT_EQ(s, samples[index]);
+      *worst = std::max(*worst, std::abs(y[0] - std::cos(s)));
+    };
+    lanes.load(0, system);
+    lanes.begin(0, std::array{1.0}, 0.0, 5.0, samples, observer);
+    lanes.run();
+    EXPECT_EQ(seen, samples.size());
+    std::array<double, 1> y{};
+    lanes.copy_state(0, y);
+    return y[0];
+  };
+  double worst = 0.0;
+  const double without = end_with(0, &worst);
+  EXPECT_EQ(end_with(97, &worst), without);
+  // The cubic's error, h^4 / 384 of the fourth derivative, with steps of about a tenth.
+  EXPECT_LT(worst, 1e-5);
+  EXPECT_GT(worst, 0.0);
+}
+
+TEST(LaneEnsemble, WhatCannotGoOnEndsWithItsOutcome) {
+  VectorField growing;
+  growing.dimension = 1;
+  growing.right_hand_side = [](std::size_t, double, const double* y, double* f) { f[0] = 5.0 * y[0]; };
+  VectorField broken = growing;
+  broken.right_hand_side = [](std::size_t, double s, const double*, double* f) {
+    f[0] = s > 0.5 ? std::numeric_limits<double>::quiet_NaN() : 1.0;
+  };
+  IntegratorOptions o = tolerance(1e-8);
+  o.escape_bound = 100.0;
+  o.max_steps_per_period = 500;
+  LaneEnsemble lanes(one_by_one(lane_kernels().width, 1), o);
+  VectorField quick;
+  quick.dimension = 1;
+  quick.right_hand_side = [](std::size_t, double s, const double*, double* f) { f[0] = std::cos(1e5 * s); };
+  lanes.load(0, growing);
+  lanes.load(1, broken);
+  lanes.load(2, quick);
+  lanes.begin(0, std::array{1.0}, 0.0, 2.0);
+  lanes.begin(1, std::array{1.0}, 0.0, 2.0);
+  lanes.begin(2, std::array{1.0}, 0.0, 2.0);
+  while (lanes.run() != lanes.width()) {
+  }
+  EXPECT_EQ(lanes.evolution(0).outcome, Outcome::diverged);
+  EXPECT_EQ(lanes.evolution(1).outcome, Outcome::failed);
+  EXPECT_NEAR(lanes.evolution(1).s, 0.5, 1e-6);
+  EXPECT_EQ(lanes.evolution(2).outcome, Outcome::step_limit);
+  // The state is the last accepted one.
+  std::array<double, 1> y{};
+  lanes.copy_state(0, y);
+  EXPECT_LE(y[0], 100.0);
+  EXPECT_NEAR(y[0], std::exp(5.0 * lanes.evolution(0).s), 1e-5);
+}
+
+TEST(LaneEnsemble, NothingUnderWayIsSaidSo) {
+  LaneEnsemble lanes = ensemble_of(lane_kernels(), 1e-8);
+  EXPECT_EQ(lanes.run(), lanes.width());
+  EXPECT_THROW(lanes.load(0, problems::smooth_follower()), InputError);
+  IntegratorOptions o = tolerance(1e-8);
+  o.locate_contacts = true;
+  EXPECT_THROW(LaneEnsemble(one_by_one(lane_kernels().width, 2), o), InputError);
+}
+
+}  // namespace
+}  // namespace epicyclic::integrate
