@@ -9,11 +9,12 @@ namespace epicyclic::model {
   void evaluate_lanes(const LaneParameters<N, W>&, const double*, const double*, double*);
 #define EPICYCLIC_DECLARE(L, N, W) \
   extern template void evaluate_lanes<L, N, W>(const LaneParameters<N, W>&, const double*, const double*, double*);
+#define EPICYCLIC_DECLARE_TWO(L, N) EPICYCLIC_DECLARE(L, N, 2)
 #define EPICYCLIC_DECLARE_FOUR(L, N) EPICYCLIC_DECLARE(L, N, 4)
 #define EPICYCLIC_DECLARE_EIGHT(L, N) EPICYCLIC_DECLARE(L, N, 8)
 namespace baseline {
 EPICYCLIC_DECLARE_KERNELS
-EPICYCLIC_FOR_TANGENT_KERNELS(EPICYCLIC_DECLARE_FOUR)
+EPICYCLIC_FOR_TANGENT_KERNELS(EPICYCLIC_DECLARE_TWO)
 }  // namespace baseline
 #ifdef EPICYCLIC_X86_KERNELS
 namespace avx2 {
@@ -29,26 +30,29 @@ EPICYCLIC_FOR_TANGENT_KERNELS(EPICYCLIC_DECLARE_EIGHT)
 template <Layout L, std::size_t N, std::size_t W>
 LaneKernel<N, W> lane_kernel(const char* name) {
   const std::string_view wanted(name);
-  if constexpr (W == 4) {
+  if constexpr (W == 2) {
     if (wanted == "baseline") return &baseline::evaluate_lanes<L, N, W>;
+  }
 #ifdef EPICYCLIC_X86_KERNELS
+  if constexpr (W == 4) {
     if (wanted == "avx2" && __builtin_cpu_supports("avx2") != 0) return &avx2::evaluate_lanes<L, N, W>;
-#endif
-  } else {
-#ifdef EPICYCLIC_X86_KERNELS
+  }
+  if constexpr (W == 8) {
     if (wanted == "avx512" && __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0)
       return &avx512::evaluate_lanes<L, N, W>;
-#endif
   }
+#endif
   return nullptr;
 }
 
 #define EPICYCLIC_DEFINE(L, N)                                      \
+  template LaneKernel<N, 2> lane_kernel<L, N, 2>(const char* name); \
   template LaneKernel<N, 4> lane_kernel<L, N, 4>(const char* name); \
   template LaneKernel<N, 8> lane_kernel<L, N, 8>(const char* name);
 EPICYCLIC_FOR_TANGENT_KERNELS(EPICYCLIC_DEFINE)
 #undef EPICYCLIC_DEFINE
 #undef EPICYCLIC_DECLARE
+#undef EPICYCLIC_DECLARE_TWO
 #undef EPICYCLIC_DECLARE_FOUR
 #undef EPICYCLIC_DECLARE_EIGHT
 #undef EPICYCLIC_DECLARE_KERNELS

@@ -18,7 +18,7 @@ template <std::size_t N, std::size_t W>
 using LaneKernel = void (*)(const LaneParameters<N, W>& p, const double* s, const double* y, double* dyds);
 
 /// That of one instruction set, or nullptr if it was not compiled or this machine does not run it.
-/// @param name "baseline" or "avx2" (W = 4), "avx512" (W = 8)
+/// @param name "baseline" (W = 2), "avx2" (4) or "avx512" (8)
 template <Layout L, std::size_t N, std::size_t W>
 [[nodiscard]] LaneKernel<N, W> lane_kernel(const char* name);
 

@@ -1,3 +1,3 @@
 #define EPICYCLIC_KERNELS baseline
-#define EPICYCLIC_LANES 4
+#define EPICYCLIC_LANES 2
 #include "model/lane_kernel.inc"

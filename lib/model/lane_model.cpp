@@ -32,6 +32,7 @@ LaneModel lanes_of(const DynamicModel& like, LaneKernel<N, W> kernel) {
 LaneModel make_lane_model(const DynamicModel& like, const char* instruction_set) {
   return dispatch(like.layout, like.planets, [&]<Layout L, std::size_t N>() -> LaneModel {
     if constexpr (L != Layout::full) {
+      if (const auto kernel = lane_kernel<L, N, 2>(instruction_set)) return lanes_of<L, N, 2>(like, kernel);
       if (const auto kernel = lane_kernel<L, N, 4>(instruction_set)) return lanes_of<L, N, 4>(like, kernel);
       if (const auto kernel = lane_kernel<L, N, 8>(instruction_set)) return lanes_of<L, N, 8>(like, kernel);
     }

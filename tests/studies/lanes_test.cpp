@@ -1,0 +1,117 @@
+// The stage in lanes: its own kernel against the right-hand sides one by one, and against ARKODE.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/errors.hpp"
+#include "core/largest_difference.hpp"
+#include "integrate/arkode_flow.hpp"
+#include "integrate/lane_ensemble.hpp"
+#include "model/lane_model.hpp"
+#include "problems/gear_flow.hpp"
+#include "problems/known_systems.hpp"
+#include "problems/r1.hpp"
+#include "studies/operating_point.hpp"
+
+namespace epicyclic::studies {
+namespace {
+
+constexpr double period = 2.0 * std::numbers::pi;
+
+/// Friction, gaps, unequal planets: breakpoints at places of their own for each speed.
+model::DynamicModel model_at(double omega, model::CoordinateChoice choice = model::CoordinateChoice::relative) {
+  const gear::Stage stage = problems::with_unequal_angles(problems::r1_nonlinear());
+  return model::make_dynamic_model(stage, model::scales_of(stage), omega, {}, choice);
+}
+
+/// States after some periods at several speeds, all lanes at work.
+std::vector<std::vector<double>> states(const std::vector<double>& omegas, const integrate::LaneKernels& kernels,
+                                        bool own_kernel, double tolerance, int periods) {
+  const model::DynamicModel like = model_at(1.0);
+  integrate::LaneEnsemble lanes(
+      own_kernel ? lane_field(like, kernels) : integrate::one_by_one(kernels.width, like.dimension),
+      problems::tight(tolerance), kernels);
+  std::vector<integrate::VectorField> fields;
+  std::vector<std::vector<double>> y;
+  for (const double omega : omegas) {
+    const model::DynamicModel m = model_at(omega);
+    fields.push_back(vector_field(m));
+    y.push_back(m.default_start);
+  }
+  std::vector<std::size_t> system(lanes.width());
+  std::vector<int> left(lanes.width());
+  std::size_t next = 0;
+  const auto start = [&](std::size_t lane) {
+    if (next == fields.size()) return;
+    system[lane] = next++;
+    left[lane] = periods;
+    lanes.load(lane, fields[system[lane]]);
+    lanes.begin(lane, y[system[lane]], 0.0, period);
+  };
+  for (std::size_t lane = 0; lane < lanes.width(); ++lane) start(lane);
+  for (std::size_t lane = lanes.run(); lane != lanes.width(); lane = lanes.run()) {
+    EXPECT_TRUE(lanes.evolution(lane).reached());
+    lanes.copy_state(lane, y[system[lane]]);
+    if (--left[lane] > 0) {
+      lanes.begin(lane, y[system[lane]], 0.0, period);
+    } else {
+      start(lane);
+    }
+  }
+  return y;
+}
+
+const std::vector<double> speeds = {0.6, 0.8, 1.0, 1.2, 1.4, 1.7, 2.0, 2.5, 3.0, 3.3};
+
+TEST(Lanes, OfTheStageGoWhereArkodeGoes) {
+  ASSERT_EQ(model::make_lane_model(model_at(1.0), integrate::lane_kernels().name).width,
+            integrate::lane_kernels().width);
+  constexpr double tolerance = 1e-11;
+  const auto y = states(speeds, integrate::lane_kernels(), true, tolerance, 3);
+  const auto single = states(speeds, integrate::lane_kernels(), false, tolerance, 3);
+  // Steps times the tolerance, stretched by a few periods of a motion that may be chaotic.
+  constexpr double accuracy = 1e-7;
+  for (std::size_t k = 0; k < speeds.size(); ++k) {
+    std::vector<double> reference = model_at(speeds[k]).default_start;
+    const auto flow = integrate::make_arkode_flow(vector_field(model_at(speeds[k])), problems::tight(tolerance));
+    for (int n = 0; n < 3; ++n) ASSERT_TRUE(flow->evolve(reference, 0.0, period).reached());
+    EXPECT_LT(largest_difference(y[k], reference), accuracy) << speeds[k];
+    EXPECT_LT(largest_difference(single[k], reference), accuracy) << speeds[k];
+  }
+}
+
+TEST(Lanes, OfTheStageHaveTheSameBitsOnEveryInstructionSet) {
+  const auto expected = states(speeds, *integrate::lane_kernels("baseline"), true, 1e-8, 5);
+  int compared = 0;
+  for (const char* name : {"avx2", "avx512"}) {
+    const integrate::LaneKernels* kernels = integrate::lane_kernels(name);
+    if (kernels == nullptr) continue;
+    EXPECT_EQ(states(speeds, *kernels, true, 1e-8, 5), expected) << name;
+    ++compared;
+  }
+  if (compared == 0) GTEST_SKIP() << "this machine has the baseline only";
+}
+
+TEST(Lanes, TakeStagesOfTheirStructureOnly) {
+  const integrate::LaneKernels& kernels = integrate::lane_kernels();
+  const integrate::LaneField field = lane_field(model_at(1.0), kernels);
+  EXPECT_NO_THROW(field.load(0, vector_field(model_at(2.0))));
+  EXPECT_THROW(field.load(0, problems::lorenz()), InputError);
+  const gear::Stage other = problems::r1_nonlinear();
+  const model::DynamicModel in_phase = model::make_dynamic_model(other, model::scales_of(other), 1.0, {});
+  EXPECT_THROW(field.load(0, vector_field(in_phase)), InputError);
+  // Full coordinates have no kernel: one by one.
+  const model::DynamicModel full = model_at(1.0, model::CoordinateChoice::full);
+  const integrate::LaneField each = lane_field(full, kernels);
+  EXPECT_EQ(each.dimension, full.dimension);
+  EXPECT_NO_THROW(each.load(0, vector_field(full)));
+}
+
+}  // namespace
+}  // namespace epicyclic::studies
