@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "core/largest_difference.hpp"
 #include "core/root_finding.hpp"
@@ -15,28 +16,41 @@ std::vector<double> uniform_phases(double period, int count) {
   return s;
 }
 
+StrobeProgress::StrobeProgress(std::size_t dimension, double period, const StrobeOptions& options,
+                               const integrate::Observer& observer)
+    : options_(options),
+      last_(std::max(0, options.transient_periods) + std::max(0, options.recorded_periods)),
+      samples_(uniform_phases(period, options.phases)) {
+  see_ = [this, observer](std::size_t j, double s, std::span<const double> y) {
+    const auto recorded = static_cast<std::size_t>(carried_ - options_.transient_periods);
+    observer(recorded * samples_.size() + j, s, y);
+  };
+  strobe_.section.dimension = dimension;
+  strobe_.section.states.reserve(static_cast<std::size_t>(std::max(0, options.recorded_periods)) * dimension);
+}
+
+std::span<const double> StrobeProgress::samples() const {
+  if (carried_ < options_.transient_periods) return {};
+  return samples_;
+}
+
+void StrobeProgress::take(const integrate::Evolution& evolution, std::span<const double> state) {
+  strobe_.evolution = evolution;
+  if (!evolution.reached()) return;
+  if (carried_ >= options_.transient_periods)
+    strobe_.section.states.insert(strobe_.section.states.end(), state.begin(), state.end());
+  ++carried_;
+}
+
 Strobe strobe(integrate::Flow& flow, std::span<double> state, const StrobeOptions& options,
               const integrate::Observer& observer, const std::function<bool()>& go_on) {
   const double period = flow.field().period;
-  Strobe result;
-  result.section.dimension = flow.field().dimension;
-  for (int k = 0; k < options.transient_periods; ++k) {
-    if (!go_on()) return result;
-    result.evolution = flow.evolve(state, 0.0, period);
-    if (!result.evolution.reached()) return result;
+  StrobeProgress progress(flow.field().dimension, period, options, observer);
+  while (!progress.over() && go_on()) {
+    const integrate::Evolution e = flow.evolve(state, 0.0, period, progress.samples(), progress.observer());
+    progress.take(e, state);
   }
-  const std::vector<double> samples = uniform_phases(period, options.phases);
-  result.section.states.reserve(static_cast<std::size_t>(options.recorded_periods) * result.section.dimension);
-  for (int k = 0; k < options.recorded_periods; ++k) {
-    if (!go_on()) return result;
-    const std::size_t first = static_cast<std::size_t>(k) * samples.size();
-    result.evolution =
-        flow.evolve(state, 0.0, period, samples,
-                    [&](std::size_t j, double s, std::span<const double> y) { observer(first + j, s, y); });
-    if (!result.evolution.reached()) return result;
-    result.section.states.insert(result.section.states.end(), state.begin(), state.end());
-  }
-  return result;
+  return std::move(progress.result());
 }
 
 SurfaceSection surface_section(integrate::Flow& flow, std::span<double> state,

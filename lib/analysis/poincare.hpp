@@ -52,6 +52,34 @@ struct Strobe {
   PoincareSection section;         ///< after each recorded period
 };
 
+/// A strobe period by period, for whoever carries several motions at once: evolve the state from 0 over the period with
+/// samples() and observer(), take() what came of it, until it is over.
+class StrobeProgress {
+ public:
+  /// @param observer  as for strobe()
+  StrobeProgress(std::size_t dimension, double period, const StrobeOptions& options,
+                 const integrate::Observer& observer);
+  StrobeProgress(const StrobeProgress&) = delete;  // its observer knows where it is
+  StrobeProgress& operator=(const StrobeProgress&) = delete;
+
+  /// All periods are carried, or an evolution failed.
+  [[nodiscard]] bool over() const { return !strobe_.evolution.reached() || carried_ == last_; }
+  /// Of the next period; empty in the transient.
+  [[nodiscard]] std::span<const double> samples() const;
+  [[nodiscard]] const integrate::Observer& observer() const { return see_; }
+  void take(const integrate::Evolution& evolution, std::span<const double> state);
+
+  [[nodiscard]] Strobe& result() { return strobe_; }
+
+ private:
+  StrobeOptions options_;
+  int carried_ = 0;  ///< periods
+  int last_ = 0;
+  std::vector<double> samples_;
+  integrate::Observer see_;
+  Strobe strobe_;
+};
+
 /// Carries `state` over the transient, then records.
 ///
 /// @param state     replaced by the last state

@@ -34,8 +34,11 @@ struct LanePack {
 }  // namespace detail
 
 /// W doubles, W = 2, 4, 8, ... Converts from double by repeating it.
+///
+/// Aligned to its size in every translation unit: without it, vector types wider than the registers have the alignment
+/// of the registers, and kernels of another instruction set would meet memory that theirs cannot load.
 template <std::size_t W>
-struct Lanes {
+struct alignas(8 * W) Lanes {
   using Pack = typename detail::LanePack<W>::Values;
   using Bits = typename detail::LanePack<W>::Bits;
 
@@ -152,6 +155,9 @@ struct Lanes {
     return r;
   }
 };
+
+template <std::size_t W>
+inline constexpr bool is_lanes<Lanes<W>> = true;
 
 /// K values of each lane, one row each, as K packs.
 template <std::size_t W, std::size_t K>

@@ -12,6 +12,10 @@
 
 namespace epicyclic {
 
+/// Values of several trajectories side by side (core/lanes.hpp).
+template <class T>
+inline constexpr bool is_lanes = false;
+
 /// The value without derivatives.
 template <std::floating_point T>
 [[nodiscard]] constexpr T value_of(T x) {

@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "core/instruction_set.hpp"
+
 namespace epicyclic::integrate {
 
 namespace baseline {
@@ -20,9 +22,8 @@ const VectorKernels* vector_kernels(const char* name) {
   const std::string_view wanted(name);
   if (wanted == "baseline") return &baseline::kernels;
 #ifdef EPICYCLIC_X86_KERNELS
-  if (wanted == "avx2" && __builtin_cpu_supports("avx2") != 0) return &avx2::kernels;
-  if (wanted == "avx512" && __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0)
-    return &avx512::kernels;
+  if (wanted == "avx2" && machine_runs(wanted)) return &avx2::kernels;
+  if (wanted == "avx512" && machine_runs(wanted)) return &avx512::kernels;
 #endif
   return nullptr;
 }

@@ -77,11 +77,7 @@ bool planets_alike(const Parameters<double, N>& p) {
     return std::all_of(row.begin(), row.end(), [&](double x) { return std::abs(x - row[0]) <= rounding; });
   };
   const auto mesh_alike = [&](const MeshParameters<double, N>& mesh) {
-    bool alike = true;
-    for (std::size_t i = 1; i < N; ++i) {
-      const double turns = mesh.turns[i] - mesh.turns[0];
-      alike = alike && std::abs(turns - std::round(turns)) <= rounding;
-    }
+    bool alike = mesh.in_phase;
     for (std::size_t h = 0; h < mesh.harmonics; ++h)
       alike = alike && equal(mesh.stiffness_cos[h]) && equal(mesh.stiffness_sin[h]);
     return alike && equal(mesh.error_cos) && equal(mesh.error_sin);

@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "core/instruction_set.hpp"
+
 namespace epicyclic::model {
 
 #define EPICYCLIC_DECLARE_KERNELS                   \
@@ -35,11 +37,10 @@ LaneKernel<N, W> lane_kernel(const char* name) {
   }
 #ifdef EPICYCLIC_X86_KERNELS
   if constexpr (W == 4) {
-    if (wanted == "avx2" && __builtin_cpu_supports("avx2") != 0) return &avx2::evaluate_lanes<L, N, W>;
+    if (wanted == "avx2" && machine_runs(wanted)) return &avx2::evaluate_lanes<L, N, W>;
   }
   if constexpr (W == 8) {
-    if (wanted == "avx512" && __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0)
-      return &avx512::evaluate_lanes<L, N, W>;
+    if (wanted == "avx512" && machine_runs(wanted)) return &avx512::evaluate_lanes<L, N, W>;
   }
 #endif
   return nullptr;

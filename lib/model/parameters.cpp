@@ -60,6 +60,12 @@ void fill_mesh(MeshParameters<double, N>& m, const gear::Mesh& mesh, const std::
     m.error_cos[i] = amplitude * std::sin(theta);
     m.error_sin[i] = amplitude * std::cos(theta);
   }
+  constexpr double rounding = 1e-9;  // of a mesh period
+  m.in_phase = true;
+  for (const double turns : m.turns) {
+    const double apart = turns - m.turns[0];
+    m.in_phase = m.in_phase && std::abs(apart - std::round(apart)) <= rounding;
+  }
 }
 
 /// @param lead  what turns the common phase of a given table into the mesh's own phase; a path has its own phase

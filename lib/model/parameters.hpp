@@ -40,6 +40,7 @@ struct MeshParameters {
   std::shared_ptr<const PeriodicTrack<1>> stiffness_curve;  ///< in place of k_0 and harmonics; null without
   std::shared_ptr<const FrictionTrack> friction;            ///< null without friction
   Row<double, N> turns{};                                   ///< mesh phase of planet i over 2 pi, at s = 0
+  bool in_phase = false;                                    ///< the same for all planets, to rounding
 };
 
 /// Places of one kind of mesh in its tables while s is between two neighbouring breakpoints.
@@ -187,6 +188,7 @@ template <class T, std::size_t N>
     to.stiffness_curve = from.stiffness_curve;
     to.friction = from.friction;
     to.turns = from.turns;
+    to.in_phase = from.in_phase;
   };
   mesh(p.sun_planet, r.sun_planet);
   mesh(p.ring_planet, r.ring_planet);

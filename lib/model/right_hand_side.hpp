@@ -88,11 +88,22 @@ template <class T, class P, std::size_t N, class Places>
   MeshState<T, N, P> m;
   m.delta = displacement - (mesh.error_cos * basis.cosine[0] + mesh.error_sin * basis.sine[0]);
   m.rate = velocity - p.omega * (mesh.error_sin * basis.cosine[0] - mesh.error_cos * basis.sine[0]);
-  m.stiffness = mesh.stiffness;
-  for (std::size_t h = 0; h < mesh.harmonics; ++h)
-    m.stiffness += mesh.stiffness_cos[h] * basis.cosine[h] + mesh.stiffness_sin[h] * basis.sine[h];
-  if (mesh.stiffness_curve)
-    m.stiffness = Row<P, N>::of([&](std::size_t i) { return stiffness_at(mesh, places, i, own_phase(i)); });
+  // Planets that mesh in phase have one stiffness and one friction. Where planets are in registers nothing is gained by
+  // it, and where constants carry derivatives they are each planet's own.
+  const bool shared = is_lanes<P> && mesh.in_phase;
+  if (shared) {
+    P stiffness = mesh.stiffness;
+    for (std::size_t h = 0; h < mesh.harmonics; ++h)
+      stiffness += mesh.stiffness_cos[h][0] * basis.cosine[h] + mesh.stiffness_sin[h][0] * basis.sine[h];
+    if (mesh.stiffness_curve) stiffness = stiffness_at(mesh, places, 0, own_phase(0));
+    m.stiffness = Row<P, N>(stiffness);
+  } else {
+    m.stiffness = mesh.stiffness;
+    for (std::size_t h = 0; h < mesh.harmonics; ++h)
+      m.stiffness += mesh.stiffness_cos[h] * basis.cosine[h] + mesh.stiffness_sin[h] * basis.sine[h];
+    if (mesh.stiffness_curve)
+      m.stiffness = Row<P, N>::of([&](std::size_t i) { return stiffness_at(mesh, places, i, own_phase(i)); });
+  }
   m.elastic = m.stiffness * closed_by<R>(m.delta, mesh.half_gap, p.smoothing, p.smooth);
   if (p.gap_damping == GapDamping::contact_slope) {
     m.force = m.elastic + mesh.damping * closure<R>(m.delta, mesh.half_gap, p.smoothing, p.smooth).slope * m.rate;
@@ -101,10 +112,10 @@ template <class T, class P, std::size_t N, class Places>
   }
   if (mesh.friction) {
     std::array<FrictionRatios<P>, N> ratios;
-    for (std::size_t i = 0; i < N; ++i) ratios[i] = friction_at(mesh, places, i, own_phase(i));
-    m.friction = Row<P, N>::of([&](std::size_t i) { return ratios[i].force; }) * m.force;
-    m.moment_driving = Row<P, N>::of([&](std::size_t i) { return ratios[i].moment_driving; }) * m.force;
-    m.moment_driven = Row<P, N>::of([&](std::size_t i) { return ratios[i].moment_driven; }) * m.force;
+    for (std::size_t i = 0; i < (shared ? 1 : N); ++i) ratios[i] = friction_at(mesh, places, i, own_phase(i));
+    m.friction = Row<P, N>::of([&](std::size_t i) { return ratios[shared ? 0 : i].force; }) * m.force;
+    m.moment_driving = Row<P, N>::of([&](std::size_t i) { return ratios[shared ? 0 : i].moment_driving; }) * m.force;
+    m.moment_driven = Row<P, N>::of([&](std::size_t i) { return ratios[shared ? 0 : i].moment_driven; }) * m.force;
   } else {
     m.friction = m.moment_driving = m.moment_driven = T(0.0);
   }

@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "core/instruction_set.hpp"
+
 namespace epicyclic::model {
 
 #define EPICYCLIC_DECLARE_KERNELS                                                                              \
@@ -37,7 +39,7 @@ StageKernel<N> stage_kernel(const char* name) {
   const std::string_view wanted(name);
   if (wanted == "baseline") return &baseline::evaluate<L, N>;
 #ifdef EPICYCLIC_X86_KERNELS
-  if (wanted == "avx2" && __builtin_cpu_supports("avx2") != 0) return &avx2::evaluate<L, N>;
+  if (wanted == "avx2" && machine_runs(wanted)) return &avx2::evaluate<L, N>;
 #endif
   return nullptr;
 }
@@ -56,7 +58,7 @@ TangentKernel<N, M> tangent_kernel(const char* name) {
   }
 #ifdef EPICYCLIC_X86_KERNELS
   if constexpr (M == 1 || L != Layout::full) {
-    if (wanted == "avx2" && __builtin_cpu_supports("avx2") != 0) return &avx2::evaluate_tangents<L, N, M>;
+    if (wanted == "avx2" && machine_runs(wanted)) return &avx2::evaluate_tangents<L, N, M>;
   }
 #endif
   return nullptr;

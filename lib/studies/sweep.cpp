@@ -5,12 +5,15 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <numbers>
 #include <optional>
 
 #include "core/errors.hpp"
+#include "integrate/lane_ensemble.hpp"
 #include "integrate/make_flow.hpp"
+#include "integrate/methods.hpp"
 #include "studies/operating_point.hpp"
 #include "studies/units.hpp"
 
@@ -65,6 +68,146 @@ class Watch {
   model::MeshDeflections now_;
 };
 
+/// Are several points carried side by side?
+bool in_lanes(const integrate::IntegratorOptions& o) {
+  const integrate::Method* method = integrate::find_method(o.method);
+  return method != nullptr && method->family == integrate::Family::lanes;
+}
+
+/// One point, in steps: a transient that ends by evidence, the periods of the strobe, which may be carried by anyone,
+/// and what is told from them.
+class PointRun {
+ public:
+  PointRun(const GridPoint& point, model::DynamicModel model, const std::vector<double>& start,
+           const SweepOptions& sweep, const integrate::IntegratorOptions& integrator, std::function<bool()> go_on)
+      : model_(std::move(model)),
+        field_(vector_field(model_)),
+        sweep_(sweep),
+        integrator_(scalar(integrator)),
+        go_on_(std::move(go_on)),
+        state_(start.empty() ? model_.default_start : start),
+        // Without tangents there is nothing but recurrence, and no end of a transient.
+        classifies_(sweep.classification_periods > 0 && model_.tangents && !model_.jumps_at_contact),
+        adaptive_(classifies_ && sweep.transient == Transient::adaptive),
+        watch_(model_, result_),
+        strobe_(model_.dimension, field_.period,
+                {adaptive_ ? 0 : sweep.transient_periods, sweep.recorded_periods, sweep.output_phases},
+                [this](std::size_t, double s, std::span<const double> y) { watch_.see(s, y); }) {
+    if (state_.size() != model_.dimension)
+      throw InputError("a start of " + std::to_string(state_.size()) + " numbers for a state of " +
+                       std::to_string(model_.dimension));
+    result_.point = point;
+    result_.omega = model_.omega;
+    if (!adaptive_) return;
+    const analysis::Classification told = tell(state_, nullptr);
+    if (!told.evolution.reached()) {
+      strobe_.take(told.evolution, state_);
+    } else if (told.orbit) {
+      state_ = told.orbit->state;
+    }
+  }
+
+  [[nodiscard]] const integrate::VectorField& field() const { return field_; }
+  [[nodiscard]] std::vector<double>& state() { return state_; }
+  [[nodiscard]] analysis::StrobeProgress& strobe() { return strobe_; }
+
+  /// @param right_hand_sides  that the strobe took
+  [[nodiscard]] PointResult finish(long right_hand_sides) {
+    const analysis::Strobe& strobe = strobe_.result();
+    result_.outcome = strobe.evolution.outcome;
+    result_.message = strobe.evolution.message;
+    result_.poincare_columns = model_.dimension + 2 * static_cast<std::size_t>(model_.planets);
+    model::MeshDeflections d;
+    for (std::size_t k = 0; k < strobe.section.size(); ++k) {
+      const auto y = strobe.section.point(k);
+      model_.deflections(0.0, y.data(), d);
+      result_.poincare.insert(result_.poincare.end(), y.begin(), y.end());
+      result_.poincare.insert(result_.poincare.end(), d.sun_planet.begin(), d.sun_planet.end());
+      result_.poincare.insert(result_.poincare.end(), d.ring_planet.begin(), d.ring_planet.end());
+    }
+    if (strobe.evolution.reached()) {
+      result_.recurrence = analysis::recurrence(strobe.section, sweep_.period_max, sweep_.recurrence_tolerance);
+      if (!classifies_) {
+        result_.period = result_.recurrence.period;
+        result_.regime = result_.period > 0 ? analysis::Regime::periodic : analysis::Regime::undecided;
+      } else if (!adaptive_) {
+        std::vector<double> onwards = state_;  // the next point of a chain starts where the record ends
+        (void)tell(onwards, &strobe.section);
+      }
+      result_.end_state = std::move(state_);
+    }
+    result_.rhs_evaluations = right_hand_sides + classification_work_;
+    return std::move(result_);
+  }
+
+ private:
+  /// Tangents and orbits are a matter of one trajectory: where lanes carry the strobe, ARKODE has the same pair.
+  static integrate::IntegratorOptions scalar(integrate::IntegratorOptions o) {
+    if (in_lanes(o)) o.method = "arkode-dopri5";
+    return o;
+  }
+
+  analysis::Classification tell(std::vector<double>& from, const analysis::PoincareSection* seen) {
+    analysis::RegimeOptions options;
+    options.budget = std::max(options.look, sweep_.classification_periods);
+    options.longest_period = sweep_.period_max;
+    // Kinks make an integrator's own map rough to some of its tolerances.
+    options.residual = std::max(options.residual, 3.0 * integrator_.relative_tolerance);
+    options.observable = std::min(model::Slots::w_s, model_.dimension - 1);
+    // Growth is a statistical matter, for which a looser tolerance is as good; orbits are sought at the study's own.
+    constexpr double statistical = 1e-6;
+    const auto loosened = [&](double factor) {
+      integrate::IntegratorOptions o = integrator_;
+      o.relative_tolerance *= factor;
+      o.absolute_tolerance *= factor;
+      return o;
+    };
+    const auto looks =
+        integrate::make_flow(field_, loosened(std::clamp(statistical / integrator_.relative_tolerance, 10.0, 100.0)));
+    integrate::IntegratorOptions controlled = integrator_;
+    controlled.tangent_error_control = true;
+    const auto exact = integrate::make_flow(field_, controlled);
+    integrate::IntegratorOptions loose = loosened(10.0);
+    loose.tangent_error_control = true;
+    const auto coarser = integrate::make_flow(field_, loose);
+    options.exact = exact.get();
+    options.coarser = coarser.get();
+    analysis::Classification told = analysis::classify(*looks, from, options, go_on_, seen);
+    for (const auto* each : {&looks, &exact, &coarser}) classification_work_ += (*each)->right_hand_side_calls();
+    result_.classified = told.evolution.reached();
+    result_.regime = told.regime;
+    result_.period = told.period;
+    result_.evidence = told.evidence;
+    return told;
+  }
+
+  model::DynamicModel model_;
+  integrate::VectorField field_;
+  const SweepOptions& sweep_;
+  integrate::IntegratorOptions integrator_;
+  std::function<bool()> go_on_;
+  std::vector<double> state_;
+  bool classifies_;
+  bool adaptive_;
+  PointResult result_;
+  Watch watch_;
+  analysis::StrobeProgress strobe_;
+  long classification_work_ = 0;
+};
+
+/// The strobe of one point by a flow of its own.
+/// @returns right-hand sides
+long carry(PointRun& run, const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on) {
+  analysis::StrobeProgress& strobe = run.strobe();
+  const auto flow = integrate::make_flow(run.field(), integrator);
+  while (!strobe.over() && go_on()) {
+    const integrate::Evolution e =
+        flow->evolve(run.state(), 0.0, run.field().period, strobe.samples(), strobe.observer());
+    strobe.take(e, run.state());
+  }
+  return flow->right_hand_side_calls();
+}
+
 /// Runs a chain from its first point that is not done. Returns false if stopped.
 class ChainRunner {
  public:
@@ -79,6 +222,17 @@ class ChainRunner {
       follow(plan_.chains[chain]);
     } catch (...) {
       failed_ = true;  // the other chains' points under way are given up
+      throw;
+    }
+  }
+
+  /// Several chains at once, each in a lane of its own; a lane that is through with its chain takes the next one.
+  /// @param most  lanes that are used
+  void run_chains_in_lanes(std::size_t most) {
+    try {
+      follow_in_lanes(most);
+    } catch (...) {
+      failed_ = true;
       throw;
     }
   }
@@ -111,6 +265,91 @@ class ChainRunner {
     }
   }
 
+  /// A chain under way.
+  struct Way {
+    std::size_t chain = 0;
+    std::size_t next = 0;  ///< place in the chain
+    std::vector<double> start;
+    std::unique_ptr<PointRun> point;  ///< in the lane; null when there is none
+  };
+
+  void follow_in_lanes(std::size_t most) {
+    const integrate::LaneKernels& kernels = integrate::lane_kernels();
+    // The same for every thread: which points have lanes does not depend on who came first.
+    const model::DynamicModel like = model_at_(plan_.points.front().value);
+    integrate::LaneEnsemble lanes(lane_field(like, kernels), integrator_, kernels);
+    std::vector<Way> ways(std::min(most, lanes.width()));
+    for (std::size_t lane = 0; lane < ways.size(); ++lane)
+      if (next_chain(ways[lane])) next_point(lanes, lane, ways[lane]);
+    for (std::size_t lane = lanes.run(); lane != lanes.width(); lane = lanes.run()) {
+      if (stopped()) return;
+      Way& way = ways[lane];
+      lanes.copy_state(lane, way.point->state());
+      way.point->strobe().take(lanes.evolution(lane), way.point->state());
+      if (way.point->strobe().over()) {
+        finish(way, lanes.work(lane).right_hand_sides);
+        next_point(lanes, lane, way);
+      } else {
+        begin_period(lanes, lane, *way.point);
+      }
+    }
+  }
+
+  bool next_chain(Way& way) {
+    const std::size_t chain = next_chain_.fetch_add(1);
+    if (chain >= plan_.chains.size()) return false;
+    way = {chain, 0, {}, nullptr};
+    return true;
+  }
+
+  /// Puts the chain's next point that is not known into the lane, or that of the next chain; leaves it empty if there
+  /// is none.
+  void next_point(integrate::LaneEnsemble& lanes, std::size_t lane, Way& way) {
+    while (!stopped()) {
+      if (way.next == plan_.chains[way.chain].size()) {
+        if (!next_chain(way)) return;
+        continue;
+      }
+      const std::size_t index = plan_.chains[way.chain][way.next];
+      if (const auto known = find(index)) {
+        way.start = *known;
+        ++way.next;
+        continue;
+      }
+      way.point = std::make_unique<PointRun>(plan_.points[index], model_at_(plan_.points[index].value), way.start,
+                                             sweep_, integrator_, [this] { return !stopped(); });
+      if (stopped()) return;
+      if (way.point->strobe().over()) {
+        finish(way, 0);
+        continue;
+      }
+      try {
+        lanes.load(lane, way.point->field());
+      } catch (const InputError&) {
+        // Of another structure than the first point, as where a swept value turns something off.
+        finish(way, carry(*way.point, integrator_, [this] { return !stopped(); }));
+        continue;
+      }
+      begin_period(lanes, lane, *way.point);
+      return;
+    }
+  }
+
+  static void begin_period(integrate::LaneEnsemble& lanes, std::size_t lane, PointRun& point) {
+    lanes.begin(lane, point.state(), 0.0, point.field().period, point.strobe().samples(), point.strobe().observer());
+  }
+
+  void finish(Way& way, long right_hand_sides) {
+    PointResult result = way.point->finish(right_hand_sides);
+    if (stopped()) return;
+    way.start = result.end_state;
+    ++way.next;
+    const std::size_t index = result.point.index;
+    const std::scoped_lock lock(mutex_);
+    if (run_.point_finished) run_.point_finished(result);
+    results_.emplace(index, std::move(result));
+  }
+
   std::optional<std::vector<double>> find(std::size_t index) {
     const std::scoped_lock lock(mutex_);
     const auto it = results_.find(index);
@@ -124,6 +363,7 @@ class ChainRunner {
   const ModelAt& model_at_;
   SweepRun& run_;
   std::atomic<bool> failed_{false};
+  std::atomic<std::size_t> next_chain_{0};
   std::mutex mutex_;
   std::map<std::size_t, PointResult> results_;
 };
@@ -194,90 +434,8 @@ std::vector<std::string> poincare_columns(const model::DynamicModel& model) {
 PointResult compute_point(const GridPoint& point, const model::DynamicModel& model, const std::vector<double>& start,
                           const SweepOptions& sweep, const integrate::IntegratorOptions& integrator,
                           const std::function<bool()>& go_on) {
-  PointResult result;
-  result.point = point;
-  const auto flow = integrate::make_flow(vector_field(model), integrator);
-  std::vector<double> state = start.empty() ? model.default_start : start;
-  if (state.size() != model.dimension)
-    throw InputError("a start of " + std::to_string(state.size()) + " numbers for a state of " +
-                     std::to_string(model.dimension));
-  result.omega = model.omega;
-  // Without tangents there is nothing but recurrence, and no end of a transient.
-  const bool classifies = sweep.classification_periods > 0 && model.tangents && !model.jumps_at_contact;
-  const bool adaptive = classifies && sweep.transient == Transient::adaptive;
-  long classification_work = 0;
-  const auto tell = [&](std::vector<double>& from, const analysis::PoincareSection* seen) {
-    analysis::RegimeOptions options;
-    options.budget = std::max(options.look, sweep.classification_periods);
-    options.longest_period = sweep.period_max;
-    // Kinks make an integrator's own map rough to some of its tolerances.
-    options.residual = std::max(options.residual, 3.0 * integrator.relative_tolerance);
-    options.observable = std::min(model::Slots::w_s, model.dimension - 1);
-    // Growth is a statistical matter, for which a looser tolerance is as good; orbits are sought at the study's own.
-    constexpr double statistical = 1e-6;
-    const auto loosened = [&](double factor) {
-      integrate::IntegratorOptions o = integrator;
-      o.relative_tolerance *= factor;
-      o.absolute_tolerance *= factor;
-      return o;
-    };
-    const auto looks = integrate::make_flow(
-        vector_field(model), loosened(std::clamp(statistical / integrator.relative_tolerance, 10.0, 100.0)));
-    integrate::IntegratorOptions controlled = integrator;
-    controlled.tangent_error_control = true;
-    const auto exact = integrate::make_flow(vector_field(model), controlled);
-    integrate::IntegratorOptions loose = loosened(10.0);
-    loose.tangent_error_control = true;
-    const auto coarser = integrate::make_flow(vector_field(model), loose);
-    options.exact = exact.get();
-    options.coarser = coarser.get();
-    analysis::Classification told = analysis::classify(*looks, from, options, go_on, seen);
-    for (const auto* each : {&looks, &exact, &coarser}) classification_work += (*each)->right_hand_side_calls();
-    result.classified = told.evolution.reached();
-    result.regime = told.regime;
-    result.period = told.period;
-    result.evidence = told.evidence;
-    return told;
-  };
-  Watch watch(model, result);
-  if (adaptive) {
-    const analysis::Classification told = tell(state, nullptr);
-    if (!told.evolution.reached()) {
-      result.outcome = told.evolution.outcome;
-      result.message = told.evolution.message;
-      result.rhs_evaluations = flow->right_hand_side_calls() + classification_work;
-      return result;
-    }
-    if (told.orbit) state = told.orbit->state;
-  }
-  const analysis::Strobe strobe = analysis::strobe(
-      *flow, state, {adaptive ? 0 : sweep.transient_periods, sweep.recorded_periods, sweep.output_phases},
-      [&](std::size_t, double s, std::span<const double> y) { watch.see(s, y); }, go_on);
-  result.outcome = strobe.evolution.outcome;
-  result.message = strobe.evolution.message;
-
-  model::MeshDeflections d;
-  result.poincare_columns = model.dimension + 2 * static_cast<std::size_t>(model.planets);
-  for (std::size_t k = 0; k < strobe.section.size(); ++k) {
-    const auto y = strobe.section.point(k);
-    model.deflections(0.0, y.data(), d);
-    result.poincare.insert(result.poincare.end(), y.begin(), y.end());
-    result.poincare.insert(result.poincare.end(), d.sun_planet.begin(), d.sun_planet.end());
-    result.poincare.insert(result.poincare.end(), d.ring_planet.begin(), d.ring_planet.end());
-  }
-  if (strobe.evolution.reached()) {
-    result.recurrence = analysis::recurrence(strobe.section, sweep.period_max, sweep.recurrence_tolerance);
-    if (!classifies) {
-      result.period = result.recurrence.period;
-      result.regime = result.period > 0 ? analysis::Regime::periodic : analysis::Regime::undecided;
-    } else if (!adaptive) {
-      std::vector<double> onwards = state;  // the next point of a chain starts where the record ends
-      (void)tell(onwards, &strobe.section);
-    }
-    result.end_state = std::move(state);
-  }
-  result.rhs_evaluations = flow->right_hand_side_calls() + classification_work;
-  return result;
+  PointRun run(point, model, start, sweep, integrator, go_on);
+  return run.finish(carry(run, integrator, go_on));
 }
 
 analysis::Estimate PointResult::lyapunov_max() const {
@@ -290,7 +448,13 @@ std::vector<PointResult> run_sweep(const SweepPlan& plan, const SweepOptions& sw
                                    const integrate::IntegratorOptions& integrator, const ModelAt& model_at,
                                    SweepRun run) {
   ChainRunner runner(plan, sweep, integrator, model_at, run);
-  for_units(plan.chains.size(), run.threads, run.stop, [&](std::size_t chain) { runner.run_chain(chain); });
+  if (in_lanes(integrator) && !plan.points.empty()) {
+    const auto threads = static_cast<std::size_t>(std::max(1, run.threads));
+    const std::size_t lanes = (plan.chains.size() + threads - 1) / threads;
+    for_units(threads, run.threads, run.stop, [&](std::size_t) { runner.run_chains_in_lanes(lanes); });
+  } else {
+    for_units(plan.chains.size(), run.threads, run.stop, [&](std::size_t chain) { runner.run_chain(chain); });
+  }
   return runner.take();
 }
 

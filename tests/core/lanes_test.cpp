@@ -34,6 +34,11 @@ TEST(Lanes, ArithmeticIsThatOfEachLaneToTheBit) {
   }
 }
 
+TEST(Lanes, AreAlignedAsTheKernelsLoadThem) {
+  EXPECT_EQ(alignof(Lanes<4>), 32U);
+  EXPECT_EQ(alignof(Lanes<8>), 64U);
+}
+
 TEST(Lanes, SelectPicksPerLane) {
   const L x = of({-3.0, -0.5, 0.5, 3.0});
   const L y = limited(x, L(-1.0), L(1.0));

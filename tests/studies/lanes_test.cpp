@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -18,6 +20,7 @@
 #include "problems/known_systems.hpp"
 #include "problems/r1.hpp"
 #include "studies/operating_point.hpp"
+#include "studies/sweep.hpp"
 
 namespace epicyclic::studies {
 namespace {
@@ -96,6 +99,63 @@ TEST(Lanes, OfTheStageHaveTheSameBitsOnEveryInstructionSet) {
     ++compared;
   }
   if (compared == 0) GTEST_SKIP() << "this machine has the baseline only";
+}
+
+/// Every second point has a bearing of another law, which cannot run beside the first.
+model::DynamicModel mixed(double omega) {
+  gear::Stage stage = problems::with_unequal_angles(problems::r1_nonlinear());
+  if (omega > 1.5 && omega < 2.5) stage.sun_bearing.law = gear::BearingLaw::linear_radial;
+  return model::make_dynamic_model(stage, model::scales_of(stage), omega, {});
+}
+
+std::vector<PointResult> swept(const SweepOptions& sweep, const char* method, int threads, const ModelAt& at,
+                               std::map<std::size_t, PointResult> done = {}) {
+  integrate::IntegratorOptions o = problems::tight(1e-11);
+  o.method = method;
+  SweepRun run;
+  run.threads = threads;
+  run.done = std::move(done);
+  return run_sweep(plan_sweep(sweep), sweep, o, at, std::move(run));
+}
+
+TEST(Lanes, SweepsHaveTheSameBytesAtAnyNumberOfThreads) {
+  const ModelAt at = [](double omega) { return mixed(omega); };
+  for (const Start start : {Start::cold, Start::carried}) {
+    SweepOptions sweep;
+    sweep.from = 0.6;
+    sweep.to = 3.4;
+    sweep.points = 9;
+    sweep.directions = {Direction::up, Direction::down};
+    sweep.start = start;
+    sweep.transient_periods = 6;
+    sweep.recorded_periods = 4;
+    sweep.classification_periods = 0;
+    const auto expected = swept(sweep, "lanes-dopri5", 1, at);
+    ASSERT_EQ(expected.size(), 18U);
+    for (const int threads : {2, 3, 8}) {
+      const auto again = swept(sweep, "lanes-dopri5", threads, at);
+      ASSERT_EQ(again.size(), expected.size());
+      for (std::size_t k = 0; k < expected.size(); ++k) {
+        EXPECT_EQ(again[k].poincare, expected[k].poincare) << k;
+        EXPECT_EQ(again[k].rhs_evaluations, expected[k].rhs_evaluations) << k;
+        EXPECT_EQ(again[k].sun_planet[0].delta_max, expected[k].sun_planet[0].delta_max) << k;
+      }
+    }
+    // What is known already is not computed again, and carries on.
+    std::map<std::size_t, PointResult> done;
+    for (const std::size_t k : {0U, 1U, 2U, 9U, 10U}) done.emplace(k, expected[k]);
+    const auto resumed = swept(sweep, "lanes-dopri5", 2, at, std::move(done));
+    ASSERT_EQ(resumed.size(), expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_EQ(resumed[k].poincare, expected[k].poincare) << k;
+    // ARKODE's motion to the error of ten periods, which a chaotic motion stretches.
+    const auto peer = swept(sweep, "arkode-dopri5", 2, at);
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      EXPECT_EQ(expected[k].outcome, integrate::Outcome::reached);
+      if (start == Start::cold) {
+        EXPECT_LT(largest_difference(peer[k].poincare, expected[k].poincare), 1e-5) << k;
+      }
+    }
+  }
 }
 
 TEST(Lanes, TakeStagesOfTheirStructureOnly) {
