@@ -42,14 +42,17 @@ void StrobeProgress::take(const integrate::Evolution& evolution, std::span<const
   ++carried_;
 }
 
+void carry(integrate::Flow& flow, std::span<double> state, StrobeProgress& strobe, const std::function<bool()>& go_on) {
+  while (!strobe.over() && go_on()) {
+    const integrate::Evolution e = flow.evolve(state, 0.0, flow.field().period, strobe.samples(), strobe.observer());
+    strobe.take(e, state);
+  }
+}
+
 Strobe strobe(integrate::Flow& flow, std::span<double> state, const StrobeOptions& options,
               const integrate::Observer& observer, const std::function<bool()>& go_on) {
-  const double period = flow.field().period;
-  StrobeProgress progress(flow.field().dimension, period, options, observer);
-  while (!progress.over() && go_on()) {
-    const integrate::Evolution e = flow.evolve(state, 0.0, period, progress.samples(), progress.observer());
-    progress.take(e, state);
-  }
+  StrobeProgress progress(flow.field().dimension, flow.field().period, options, observer);
+  carry(flow, state, progress, go_on);
   return std::move(progress.result());
 }
 

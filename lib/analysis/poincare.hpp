@@ -80,6 +80,10 @@ class StrobeProgress {
   Strobe strobe_;
 };
 
+/// Carries a strobe to its end by one flow.
+/// @param go_on  asked before each period; false leaves it where it is
+void carry(integrate::Flow& flow, std::span<double> state, StrobeProgress& strobe, const std::function<bool()>& go_on);
+
 /// Carries `state` over the transient, then records.
 ///
 /// @param state     replaced by the last state

@@ -68,7 +68,8 @@ double factor(double norm) {
 
 LaneField one_by_one(std::size_t width, std::size_t dimension) {
   struct Lane {
-    const VectorField* field = nullptr;
+    // Its own: a lane that is idle is evaluated with the others, and its system may be gone.
+    decltype(VectorField::right_hand_side) right_hand_side;
     std::size_t segment = 0;
   };
   struct All {
@@ -85,15 +86,15 @@ LaneField one_by_one(std::size_t width, std::size_t dimension) {
     if (system.dimension != dimension)
       throw InputError("a system of dimension " + std::to_string(system.dimension) + " in a lane of " +
                        std::to_string(dimension));
-    all->lanes[lane] = {&system, 0};
+    all->lanes[lane] = {system.right_hand_side, 0};
   };
   field.set_segment = [all](std::size_t lane, std::size_t segment) { all->lanes[lane].segment = segment; };
   field.right_hand_side = [all, width, dimension](const double* s, const double* y, double* dyds) {
     for (std::size_t lane = 0; lane < width; ++lane) {
       const Lane& own = all->lanes[lane];
-      if (own.field == nullptr) continue;
+      if (!own.right_hand_side) continue;
       for (std::size_t i = 0; i < dimension; ++i) all->y[i] = y[i * width + lane];
-      own.field->right_hand_side(own.segment, s[lane], all->y.data(), all->f.data());
+      own.right_hand_side(own.segment, s[lane], all->y.data(), all->f.data());
       for (std::size_t i = 0; i < dimension; ++i) dyds[i * width + lane] = all->f[i];
     }
   };

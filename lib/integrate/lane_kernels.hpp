@@ -5,13 +5,11 @@
 // order: its bits depend neither on W nor on the instruction set nor on the other lanes. No fused multiply-add.
 #pragma once
 
-#include <array>
 #include <cstddef>
 
 namespace epicyclic::integrate {
 
 inline constexpr std::size_t most_lanes = 8;
-inline constexpr std::size_t most_slopes = 7;
 
 struct LaneKernels {
   const char* name = nullptr;  ///< "baseline", "avx2", "avx512"

@@ -197,14 +197,9 @@ class PointRun {
 
 /// The strobe of one point by a flow of its own.
 /// @returns right-hand sides
-long carry(PointRun& run, const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on) {
-  analysis::StrobeProgress& strobe = run.strobe();
+long carry_alone(PointRun& run, const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on) {
   const auto flow = integrate::make_flow(run.field(), integrator);
-  while (!strobe.over() && go_on()) {
-    const integrate::Evolution e =
-        flow->evolve(run.state(), 0.0, run.field().period, strobe.samples(), strobe.observer());
-    strobe.take(e, run.state());
-  }
+  analysis::carry(*flow, run.state(), run.strobe(), go_on);
   return flow->right_hand_side_calls();
 }
 
@@ -327,7 +322,7 @@ class ChainRunner {
         lanes.load(lane, way.point->field());
       } catch (const InputError&) {
         // Of another structure than the first point, as where a swept value turns something off.
-        finish(way, carry(*way.point, integrator_, [this] { return !stopped(); }));
+        finish(way, carry_alone(*way.point, integrator_, [this] { return !stopped(); }));
         continue;
       }
       begin_period(lanes, lane, *way.point);
@@ -435,7 +430,7 @@ PointResult compute_point(const GridPoint& point, const model::DynamicModel& mod
                           const SweepOptions& sweep, const integrate::IntegratorOptions& integrator,
                           const std::function<bool()>& go_on) {
   PointRun run(point, model, start, sweep, integrator, go_on);
-  return run.finish(carry(run, integrator, go_on));
+  return run.finish(carry_alone(run, integrator, go_on));
 }
 
 analysis::Estimate PointResult::lyapunov_max() const {

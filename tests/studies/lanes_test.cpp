@@ -73,8 +73,9 @@ std::vector<std::vector<double>> states(const std::vector<double>& omegas, const
 const std::vector<double> speeds = {0.6, 0.8, 1.0, 1.2, 1.4, 1.7, 2.0, 2.5, 3.0, 3.3};
 
 TEST(Lanes, OfTheStageGoWhereArkodeGoes) {
-  ASSERT_EQ(model::make_lane_model(model_at(1.0), integrate::lane_kernels().name).width,
-            integrate::lane_kernels().width);
+  // Without optimisation the stage has lanes for the baseline only, and others are one by one.
+  const integrate::LaneKernels& baseline = *integrate::lane_kernels("baseline");
+  ASSERT_EQ(model::make_lane_model(model_at(1.0), baseline.name).width, baseline.width);
   constexpr double tolerance = 1e-11;
   const auto y = states(speeds, integrate::lane_kernels(), true, tolerance, 3);
   const auto single = states(speeds, integrate::lane_kernels(), false, tolerance, 3);
@@ -94,11 +95,11 @@ TEST(Lanes, OfTheStageHaveTheSameBitsOnEveryInstructionSet) {
   int compared = 0;
   for (const char* name : {"avx2", "avx512"}) {
     const integrate::LaneKernels* kernels = integrate::lane_kernels(name);
-    if (kernels == nullptr) continue;
+    if (kernels == nullptr || model::make_lane_model(model_at(1.0), name).width == 0) continue;
     EXPECT_EQ(states(speeds, *kernels, true, 1e-8, 5), expected) << name;
     ++compared;
   }
-  if (compared == 0) GTEST_SKIP() << "this machine has the baseline only";
+  if (compared == 0) GTEST_SKIP() << "this machine or build has the baseline only";
 }
 
 /// Every second point has a bearing of another law, which cannot run beside the first.
