@@ -196,6 +196,9 @@ class Row {
   [[nodiscard]] static Row of(const F& f, std::index_sequence<I...> /*places*/) {
     Row r;
     ((r.template put<I>(f)), ...);
+    if constexpr (registers) {  // whole registers of padding
+      for (std::size_t c = (N + Chunk::values - 1) / Chunk::values; c < chunks; ++c) r.at(c) = C{};
+    }
     return r;
   }
   /// A register is made of its values at once, not value by value in memory.

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <new>
+#include <string_view>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -13,20 +17,73 @@ namespace epicyclic::integrate {
 
 namespace {
 
-/// Dormand and Prince's pair: rows of A, of which the last is b, and b - b^.
-constexpr std::size_t stages = 7;
-constexpr std::array<double, stages> nodes = {0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0};
-constexpr std::array<std::array<double, stages - 1>, stages> rows = {{
-    {},
-    {1.0 / 5.0},
-    {3.0 / 40.0, 9.0 / 40.0},
-    {44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0},
-    {19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0},
-    {9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0},
-    {35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0},
+constexpr std::size_t most_stages = 7;
+
+/// A weighted sum of slopes, without the slopes of weight 0.
+struct Terms {
+  std::size_t count = 0;
+  std::array<double, most_stages> weight{};
+  std::array<std::size_t, most_stages> slope{};
+
+  constexpr Terms() = default;
+  constexpr Terms(std::initializer_list<double> weights) {
+    std::size_t j = 0;
+    for (const double w : weights) {
+      if (w != 0.0) {
+        weight[count] = w;
+        slope[count++] = j;
+      }
+      ++j;
+    }
+  }
+};
+
+/// An explicit pair of orders 5 and 4.
+struct Pair {
+  std::string_view name;
+  std::size_t stages;
+  bool first_same_as_last;                ///< the last slope is taken at the step's end, where the next step starts
+  std::array<double, most_stages> nodes;  ///< c
+  std::array<Terms, most_stages> rows;    ///< of A, from the second on
+  Terms weights;                          ///< b
+  Terms differences;                      ///< b - b^
+};
+
+constexpr std::array<Pair, 2> pairs = {{
+    {"lanes-dopri5",
+     7,
+     true,
+     {0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0},
+     {{{},
+       {1.0 / 5.0},
+       {3.0 / 40.0, 9.0 / 40.0},
+       {44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0},
+       {19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0},
+       {9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0},
+       {35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0}}},
+     {35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0},
+     {71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0}},
+    {"lanes-cash-karp",
+     6,
+     false,
+     {0.0, 1.0 / 5.0, 3.0 / 10.0, 3.0 / 5.0, 1.0, 7.0 / 8.0},
+     {{{},
+       {1.0 / 5.0},
+       {3.0 / 40.0, 9.0 / 40.0},
+       {3.0 / 10.0, -9.0 / 10.0, 6.0 / 5.0},
+       {-11.0 / 54.0, 5.0 / 2.0, -70.0 / 27.0, 35.0 / 27.0},
+       {1631.0 / 55296.0, 175.0 / 512.0, 575.0 / 13824.0, 44275.0 / 110592.0, 253.0 / 4096.0}}},
+     {37.0 / 378.0, 0.0, 250.0 / 621.0, 125.0 / 594.0, 0.0, 512.0 / 1771.0},
+     {37.0 / 378.0 - 2825.0 / 27648.0, 0.0, 250.0 / 621.0 - 18575.0 / 48384.0, 125.0 / 594.0 - 13525.0 / 55296.0,
+      -277.0 / 14336.0, 512.0 / 1771.0 - 1.0 / 4.0}},
 }};
-constexpr std::array<double, stages> differences = {71.0 / 57600.0,      0.0,          -71.0 / 16695.0, 71.0 / 1920.0,
-                                                    -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0};
+
+/// @throws InputError for a method that is not one of lanes
+const Pair& pair_of(const std::string& method) {
+  const auto it = std::find_if(pairs.begin(), pairs.end(), [&](const Pair& p) { return p.name == method; });
+  if (it == pairs.end()) throw InputError("lanes have no method " + method);
+  return *it;
+}
 
 // ARKODE's I controller.
 constexpr double safety = 0.96;
@@ -58,10 +115,22 @@ class Numbers {
   std::unique_ptr<double, Deleter> data_;
 };
 
+/// x^(-1/5) of x > 0 by Newton's method on y^-5 = x, from a straight line through the exponents that is within 4 %. The
+/// library's pow() need not have the same bits on another machine. 0 for what is infinite or no number.
+double inverse_fifth_root(double x) {
+  if (!(x < std::numeric_limits<double>::infinity())) return 0.0;
+  constexpr auto one = std::bit_cast<std::uint64_t>(1.0);
+  auto y = std::bit_cast<double>(one + one / 5 - std::bit_cast<std::uint64_t>(x) / 5);
+  for (int k = 0; k < 4; ++k) {
+    const double square = y * y;
+    y *= 1.2 - 0.2 * (x * y) * (square * square);
+  }
+  return y;
+}
+
 double factor(double norm) {
-  constexpr double order = 5.0;
   constexpr double tiny = 1e-10;
-  return safety * std::pow(bias * std::max(norm, tiny), -1.0 / order);
+  return safety * inverse_fifth_root(bias * std::max(norm, tiny));
 }
 
 }  // namespace
@@ -106,6 +175,7 @@ class LaneEnsemble::Impl {
   Impl(LaneField field, const IntegratorOptions& options, const LaneKernels& kernels)
       : field_(std::move(field)),
         options_(options),
+        pair_(pair_of(options.method)),
         kernels_(kernels),
         w_(kernels.width),
         n_(field_.dimension),
@@ -223,19 +293,51 @@ class LaneEnsemble::Impl {
   void evaluate(const double* s, const double* y, Numbers& slope) {
     field_.right_hand_side(s, y, slope.get());
     ++evaluated_;
-    for (const Lane& l : lanes_) under_way_ += l.busy ? 1.0 : 0.0;
+    under_way_ += running_;
+  }
+
+  /// The slopes that a sum is made of.
+  std::array<const double*, most_stages> slopes_of(const Terms& terms) const {
+    std::array<const double*, most_stages> slopes{};
+    for (std::size_t j = 0; j < terms.count; ++j) slopes[j] = k_[terms.slope[j]].get();
+    return slopes;
+  }
+
+  void advance_by(const Terms& terms) {
+    kernels_.stage(n_, terms.count, terms.weight.data(), slopes_of(terms).data(), h_.get(), y_.get(), next_.get());
+  }
+
+  /// The first slope of each lane's step.
+  void take_first_slopes() {
+    if (pair_.first_same_as_last &&
+        std::none_of(lanes_.begin(), lanes_.end(), [](const Lane& l) { return l.busy && l.fresh; }))
+      return;
+    // Lanes that have theirs take them anew at the same places: the same bits.
+    evaluate(s_.get(), y_.get(), k_[0]);
+    for (Lane& l : lanes_) {
+      if (l.busy && (l.fresh || !pair_.first_same_as_last)) ++l.work.right_hand_sides;
+      l.fresh = false;
+    }
+  }
+
+  /// Slopes at the ends of the steps, if a sample inside of one is wanted.
+  void take_last_slopes(const std::array<long long, most_lanes>& accepted) {
+    if (pair_.first_same_as_last) return;
+    bool wanted = false;
+    for (std::size_t lane = 0; lane < w_; ++lane) {
+      Lane& l = lanes_[lane];
+      if (accepted[lane] == 0 || l.next_sample == l.samples.size() || l.samples[l.next_sample] >= arrival(lane))
+        continue;
+      ++l.work.right_hand_sides;
+      wanted = true;
+    }
+    if (wanted) evaluate(at_.get(), next_.get(), k_[most_stages - 1]);
   }
 
   /// One attempt in each lane.
   void step() {
-    if (std::any_of(lanes_.begin(), lanes_.end(), [](const Lane& l) { return l.busy && l.fresh; })) {
-      // The other lanes' slopes are taken anew at the same places: the same bits.
-      evaluate(s_.get(), y_.get(), k_[0]);
-      for (Lane& l : lanes_) {
-        if (l.busy && l.fresh) ++l.work.right_hand_sides;
-        l.fresh = false;
-      }
-    }
+    running_ = static_cast<double>(std::count_if(lanes_.begin(), lanes_.end(), [](const Lane& l) { return l.busy; }));
+    take_first_slopes();
     for (std::size_t lane = 0; lane < w_; ++lane) {
       Lane& l = lanes_[lane];
       h_[lane] = 0.0;
@@ -246,32 +348,46 @@ class LaneEnsemble::Impl {
       l.cut = l.proposed * (1.0 + nearly) >= left;
       l.tried = h_[lane] = l.cut ? left : l.proposed;
     }
-    std::array<const double*, stages> slopes;
-    for (std::size_t j = 0; j < stages; ++j) slopes[j] = k_[j].get();
-    for (std::size_t j = 1; j < stages; ++j) {
-      kernels_.stage(n_, j, rows[j].data(), slopes.data(), h_.get(), y_.get(), next_.get());
+    for (std::size_t j = 1; j < pair_.stages; ++j) {
+      advance_by(pair_.rows[j]);
       for (std::size_t lane = 0; lane < w_; ++lane)
-        at_[lane] = j + 1 == stages ? arrival(lane) : s_[lane] + nodes[j] * h_[lane];
+        at_[lane] = pair_.nodes[j] == 1.0 ? arrival(lane) : s_[lane] + pair_.nodes[j] * h_[lane];
       evaluate(at_.get(), next_.get(), k_[j]);
     }
-    kernels_.error(controlled_, stages, differences.data(), slopes.data(), h_.get(), y_.get(), next_.get(),
+    if (!pair_.first_same_as_last) {
+      advance_by(pair_.weights);
+      for (std::size_t lane = 0; lane < w_; ++lane) at_[lane] = arrival(lane);
+    }
+    const Terms& e = pair_.differences;
+    kernels_.error(controlled_, e.count, e.weight.data(), slopes_of(e).data(), h_.get(), y_.get(), next_.get(),
                    options_.relative_tolerance, options_.absolute_tolerance, norm_.get(), largest_.get());
-    for (std::size_t j = 1; j <= vectors_; ++j) worst_with_vector(j, slopes);
+    for (std::size_t j = 1; j <= vectors_; ++j) worst_with_vector(j);
     alignas(64) std::array<long long, most_lanes> accepted{};
+    std::size_t taken = 0;
+    for (std::size_t lane = 0; lane < w_; ++lane) {
+      if (!lanes_[lane].busy || !judge(lane)) continue;
+      accepted[lane] = 1;
+      ++taken;
+    }
+    take_last_slopes(accepted);
     for (std::size_t lane = 0; lane < w_; ++lane)
-      if (lanes_[lane].busy) accepted[lane] = judge(lane) ? 1 : 0;
-    // Samples need the slopes at both ends.
+      if (accepted[lane] != 0) observe(lane, at_[lane]);
+    Numbers& last = k_[most_stages - 1];
+    if (taken == w_) {
+      std::swap(y_, next_);
+      if (pair_.first_same_as_last) std::swap(k_[0], last);
+    } else {
+      kernels_.accept(n_, accepted.data(), next_.get(), y_.get());
+      if (pair_.first_same_as_last) kernels_.accept(n_, accepted.data(), last.get(), k_[0].get());
+    }
     for (std::size_t lane = 0; lane < w_; ++lane)
-      if (accepted[lane] != 0) observe(lane, arrival(lane));
-    std::array<double, most_lanes> arrived{};
-    for (std::size_t lane = 0; lane < w_; ++lane) arrived[lane] = arrival(lane);
-    kernels_.accept(n_, accepted.data(), next_.get(), k_[stages - 1].get(), y_.get(), k_[0].get());
-    for (std::size_t lane = 0; lane < w_; ++lane)
-      if (accepted[lane] != 0) arrive(lane, arrived[lane]);
+      if (accepted[lane] != 0) arrive(lane, at_[lane]);
   }
 
   /// Lanes have no kernel for tangents of their own: theirs is plain text.
-  void worst_with_vector(std::size_t j, const std::array<const double*, stages>& slopes) {
+  void worst_with_vector(std::size_t j) {
+    const Terms& terms = pair_.differences;
+    const auto slopes = slopes_of(terms);
     for (std::size_t lane = 0; lane < w_; ++lane) {
       if (!lanes_[lane].busy) continue;
       double size = last_is_parameter_ && (j + 1) * controlled_ == n_ ? 1.0 : 0.0;
@@ -281,7 +397,7 @@ class LaneEnsemble::Impl {
       double squares = 0.0;
       for (std::size_t i = first; i < first + controlled_; ++i) {
         double e = 0.0;
-        for (std::size_t k = 0; k < stages; ++k) e += differences[k] * slopes[k][i * w_ + lane];
+        for (std::size_t k = 0; k < terms.count; ++k) e += terms.weight[k] * slopes[k][i * w_ + lane];
         const double part =
             h_[lane] * e /
             (options_.relative_tolerance * std::abs(y_[i * w_ + lane]) + options_.absolute_tolerance * size);
@@ -303,7 +419,7 @@ class LaneEnsemble::Impl {
     Lane& l = lanes_[lane];
     ++l.work.steps;
     --l.attempts_left;
-    l.work.right_hand_sides += static_cast<long>(stages) - 1;
+    l.work.right_hand_sides += static_cast<long>(pair_.stages) - 1;
     const double norm = std::sqrt(norm_[lane]);
     const double wanted = factor(norm);
     if (norm <= 1.0 && std::isfinite(largest_[lane])) {
@@ -371,7 +487,7 @@ class LaneEnsemble::Impl {
         const std::size_t c = i * w_ + lane;
         sample_[i] = at == arrived ? next_[c]
                                    : (1.0 + 2.0 * u) * v * v * y_[c] + u * u * (1.0 + 2.0 * v) * next_[c] +
-                                         u * v * h * (v * k_[0][c] - u * k_[stages - 1][c]);
+                                         u * v * h * (v * k_[0][c] - u * k_[most_stages - 1][c]);
       }
       if (l.observer != nullptr) (*l.observer)(l.next_sample, at, sample_);
       ++l.next_sample;
@@ -380,6 +496,7 @@ class LaneEnsemble::Impl {
 
   LaneField field_;
   IntegratorOptions options_;
+  const Pair& pair_;
   const LaneKernels& kernels_;
   std::size_t w_;
   std::size_t n_;
@@ -387,12 +504,13 @@ class LaneEnsemble::Impl {
   std::size_t vectors_ = 0;      ///< tangent vectors whose error counts too
   bool last_is_parameter_ = false;
   Numbers y_, next_;
-  std::array<Numbers, stages> k_;
+  std::array<Numbers, most_stages> k_;  ///< the last one: slopes at the end of the step
   Numbers s_, at_, h_, norm_, largest_;
   std::vector<Lane> lanes_;
   std::vector<double> sample_;
   std::size_t evaluated_ = 0;
   double under_way_ = 0;
+  double running_ = 0;  ///< lanes under way
 };
 
 LaneEnsemble::LaneEnsemble(LaneField field, const IntegratorOptions& options, const LaneKernels& kernels)

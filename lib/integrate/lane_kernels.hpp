@@ -25,9 +25,8 @@ struct LaneKernels {
                 const double* y, const double* next, double relative, double absolute, double* norm_square,
                 double* largest) = nullptr;
 
-  /// y <- next and first <- last in the lanes with accepted[w] != 0.
-  void (*accept)(std::size_t dimension, const long long* accepted, const double* next, const double* last, double* y,
-                 double* first) = nullptr;
+  /// to <- from in the lanes with accepted[w] != 0.
+  void (*accept)(std::size_t dimension, const long long* accepted, const double* from, double* to) = nullptr;
 };
 
 /// The widest that this machine runs.

@@ -35,6 +35,7 @@ const std::vector<Method>& methods() {
       {"cvode-adams", adams, "", 12, 0, 0},
       {"cvode-bdf", bdf, "", 5, 0, 0},
       {"lanes-dopri5", lanes, "", 5, 4, 7},
+      {"lanes-cash-karp", lanes, "", 5, 4, 6},
   };
   return all;
 }
@@ -43,6 +44,11 @@ const Method* find_method(std::string_view name) {
   const auto& all = methods();
   const auto it = std::find_if(all.begin(), all.end(), [&](const Method& m) { return m.name == name; });
   return it == all.end() ? nullptr : &*it;
+}
+
+std::string arkode_twin(std::string_view method) {
+  constexpr std::string_view lanes = "lanes-";
+  return method.starts_with(lanes) ? "arkode-" + std::string(method.substr(lanes.size())) : std::string(method);
 }
 
 std::vector<std::string> method_names() {

@@ -38,6 +38,9 @@ struct Method {
 /// @returns the method of that name, or nullptr
 [[nodiscard]] const Method* find_method(std::string_view name);
 
+/// The same pair by ARKODE of a method of lanes; any other method itself.
+[[nodiscard]] std::string arkode_twin(std::string_view method);
+
 /// Names of all methods, for messages and the schema.
 [[nodiscard]] std::vector<std::string> method_names();
 

@@ -67,15 +67,33 @@ struct Coordinates {
 template <Layout L>
 struct Arranged {};
 
-template <std::size_t N, Layout L, class T>
-[[nodiscard]] Coordinates<T, N> unpack(Arranged<L> /*layout*/, const T* q) {
-  Coordinates<T, N> c;
+/// Planets first, ..., first + G - 1 of N.
+template <std::size_t N, std::size_t G = N>
+struct Planets {
+  std::size_t first = 0;
+
+  /// Their part of a row.
+  template <class T>
+  [[nodiscard]] decltype(auto) operator()(const Row<T, N>& row) const {
+    if constexpr (G == N) {
+      return (row);
+    } else {
+      return Row<T, G>::of([&](std::size_t i) -> const T& { return row[first + i]; });
+    }
+  }
+};
+
+/// All members with some of the planets.
+template <Layout L, class T, std::size_t N, std::size_t G>
+[[nodiscard]] Coordinates<T, G> unpack(Arranged<L> /*layout*/, Planets<N, G> planets, const T* q) {
+  const std::size_t first = planets.first;
+  Coordinates<T, G> c;
   c.x_s = q[Slots::x_s];
   c.y_s = q[Slots::y_s];
   c.w_s = q[Slots::w_s];
-  c.x_p = Row<T, N>::of([q](std::size_t i) -> const T& { return q[Slots::x_p(i)]; });
-  c.y_p = Row<T, N>::of([q](std::size_t i) -> const T& { return q[Slots::y_p(i)]; });
-  c.w_p = Row<T, N>::of([q](std::size_t i) -> const T& { return q[Slots::w_p(i)]; });
+  c.x_p = Row<T, G>::of([q, first](std::size_t i) -> const T& { return q[Slots::x_p(first + i)]; });
+  c.y_p = Row<T, G>::of([q, first](std::size_t i) -> const T& { return q[Slots::y_p(first + i)]; });
+  c.w_p = Row<T, G>::of([q, first](std::size_t i) -> const T& { return q[Slots::w_p(first + i)]; });
   c.x_r = q[Slots::x_r(N)];
   c.y_r = q[Slots::y_r(N)];
   c.x_c = q[Slots::x_c(N)];
@@ -91,6 +109,11 @@ template <std::size_t N, Layout L, class T>
     c.u_c = T(0.0);
   }
   return c;
+}
+
+template <std::size_t N, Layout L, class T>
+[[nodiscard]] Coordinates<T, N> unpack(Arranged<L> layout, const T* q) {
+  return unpack(layout, Planets<N>{}, q);
 }
 
 template <Layout L, std::size_t N, class T>

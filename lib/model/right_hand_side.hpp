@@ -15,6 +15,9 @@
 // that tangents do not carry the derivatives of constants along.
 // Smoothness: C0 in the state with kinks at delta = +-b (analytic for w > 0); with contact-slope damping and w = 0 it
 // jumps there; in s analytic but for jumps of friction and of a stiffness curve at `breakpoints`.
+//
+// Planets are gone through in groups. Where a register holds one value of each planet, all are one group; lanes take
+// them one by one, so that what a planet is worked on with stays in registers.
 #pragma once
 
 #include <algorithm>
@@ -37,17 +40,25 @@ struct Deflections {
   Row<T, N> carrier_x, carrier_y, carrier_u;
 };
 
-template <class T, class P, std::size_t N>
-[[nodiscard]] Deflections<T, N> deflections(const Parameters<P, N>& p, const Coordinates<T, N>& q) {
-  Deflections<T, N> d;
+template <class T, class P, std::size_t N, std::size_t G>
+[[nodiscard]] Deflections<T, G> deflections(const Parameters<P, N>& p, const Planets<N, G>& planets,
+                                            const Coordinates<T, G>& q) {
+  Deflections<T, G> d;
   const auto& sp = p.sun_planet;
   const auto& rp = p.ring_planet;
-  d.sun_planet = (q.x_s - q.x_p) * sp.sine + (q.y_s - q.y_p) * sp.cosine + q.w_s + q.w_p;
-  d.ring_planet = (q.x_p - q.x_r) * rp.sine - (q.y_p - q.y_r) * rp.cosine + q.u_r - q.w_p;
-  d.carrier_x = q.x_p - q.x_c + q.u_c * p.sin_phi;
-  d.carrier_y = q.y_p - q.y_c - q.u_c * p.cos_phi;
-  d.carrier_u = -(q.x_p - q.x_c) * p.sin_phi + (q.y_p - q.y_c) * p.cos_phi - q.u_c;
+  const auto& sin_phi = planets(p.sin_phi);
+  const auto& cos_phi = planets(p.cos_phi);
+  d.sun_planet = (q.x_s - q.x_p) * planets(sp.sine) + (q.y_s - q.y_p) * planets(sp.cosine) + q.w_s + q.w_p;
+  d.ring_planet = (q.x_p - q.x_r) * planets(rp.sine) - (q.y_p - q.y_r) * planets(rp.cosine) + q.u_r - q.w_p;
+  d.carrier_x = q.x_p - q.x_c + q.u_c * sin_phi;
+  d.carrier_y = q.y_p - q.y_c - q.u_c * cos_phi;
+  d.carrier_u = -(q.x_p - q.x_c) * sin_phi + (q.y_p - q.y_c) * cos_phi - q.u_c;
   return d;
+}
+
+template <class T, class P, std::size_t N>
+[[nodiscard]] Deflections<T, N> deflections(const Parameters<P, N>& p, const Coordinates<T, N>& q) {
+  return deflections(p, Planets<N>{}, q);
 }
 
 /// cos h s and sin h s, h = 1 ... H, by the angle-addition theorem.
@@ -78,31 +89,58 @@ struct MeshState {
   Row<T, N> moment_driven;   ///< F_f h_2 / r_b2
 };
 
+/// What one kind of mesh has of the phase alone, where its planets share it: planets that mesh in phase have one
+/// stiffness and one friction. Where planets are in registers nothing is gained by it, and where constants carry
+/// derivatives they are each planet's own.
+template <class P, std::size_t N>
+struct SharedMesh {
+  bool shared = false;
+  P stiffness;
+  FrictionRatios<P> ratios;
+
+  template <class Places>
+  SharedMesh(const MeshParameters<P, N>& mesh, const Places& places, const P& s, const HarmonicBasis<P>& basis)
+      : shared(is_lanes<P> && mesh.in_phase) {
+    if (!shared) return;
+    const P phase = own_phase(mesh, s, 0);
+    if (mesh.stiffness_curve) {
+      stiffness = stiffness_at(mesh, places, 0, phase);
+    } else {
+      stiffness = mesh.stiffness;
+      for (std::size_t h = 0; h < mesh.harmonics; ++h)
+        stiffness += mesh.stiffness_cos[h][0] * basis.cosine[h] + mesh.stiffness_sin[h][0] * basis.sine[h];
+    }
+    if (mesh.friction) ratios = friction_at(mesh, places, 0, phase);
+  }
+
+  /// Of planet i, over 2 pi.
+  [[nodiscard]] static P own_phase(const MeshParameters<P, N>& mesh, const P& s, std::size_t i) {
+    return s * (0.5 * std::numbers::inv_pi) + mesh.turns[i];
+  }
+};
+
 /// [M-27] of one kind of mesh; `places` are those of the current segment (MeshPlaces, or one of them for each lane).
-template <class T, class P, std::size_t N, class Places>
-[[nodiscard]] MeshState<T, N, P> mesh_state(const Parameters<P, N>& p, const MeshParameters<P, N>& mesh,
+template <class T, class P, std::size_t N, std::size_t G, class Places>
+[[nodiscard]] MeshState<T, G, P> mesh_state(const Parameters<P, N>& p, const Planets<N, G>& planets,
+                                            const MeshParameters<P, N>& mesh, const SharedMesh<P, N>& shared,
                                             const Places& places, const P& s, const HarmonicBasis<P>& basis,
-                                            const Row<T, N>& displacement, const Row<T, N>& velocity) {
-  using R = Row<T, N>;
-  const auto own_phase = [&](std::size_t i) -> P { return s * (0.5 * std::numbers::inv_pi) + mesh.turns[i]; };
-  MeshState<T, N, P> m;
-  m.delta = displacement - (mesh.error_cos * basis.cosine[0] + mesh.error_sin * basis.sine[0]);
-  m.rate = velocity - p.omega * (mesh.error_sin * basis.cosine[0] - mesh.error_cos * basis.sine[0]);
-  // Planets that mesh in phase have one stiffness and one friction. Where planets are in registers nothing is gained by
-  // it, and where constants carry derivatives they are each planet's own.
-  const bool shared = is_lanes<P> && mesh.in_phase;
-  if (shared) {
-    P stiffness = mesh.stiffness;
-    for (std::size_t h = 0; h < mesh.harmonics; ++h)
-      stiffness += mesh.stiffness_cos[h][0] * basis.cosine[h] + mesh.stiffness_sin[h][0] * basis.sine[h];
-    if (mesh.stiffness_curve) stiffness = stiffness_at(mesh, places, 0, own_phase(0));
-    m.stiffness = Row<P, N>(stiffness);
+                                            const Row<T, G>& displacement, const Row<T, G>& velocity) {
+  using R = Row<T, G>;
+  using C = Row<P, G>;
+  const auto own_phase = [&](std::size_t i) { return shared.own_phase(mesh, s, planets.first + i); };
+  const auto& error_cos = planets(mesh.error_cos);
+  const auto& error_sin = planets(mesh.error_sin);
+  MeshState<T, G, P> m;
+  m.delta = displacement - (error_cos * basis.cosine[0] + error_sin * basis.sine[0]);
+  m.rate = velocity - p.omega * (error_sin * basis.cosine[0] - error_cos * basis.sine[0]);
+  if (shared.shared) {
+    m.stiffness = C(shared.stiffness);
+  } else if (mesh.stiffness_curve) {
+    m.stiffness = C::of([&](std::size_t i) { return stiffness_at(mesh, places, planets.first + i, own_phase(i)); });
   } else {
     m.stiffness = mesh.stiffness;
     for (std::size_t h = 0; h < mesh.harmonics; ++h)
-      m.stiffness += mesh.stiffness_cos[h] * basis.cosine[h] + mesh.stiffness_sin[h] * basis.sine[h];
-    if (mesh.stiffness_curve)
-      m.stiffness = Row<P, N>::of([&](std::size_t i) { return stiffness_at(mesh, places, i, own_phase(i)); });
+      m.stiffness += planets(mesh.stiffness_cos[h]) * basis.cosine[h] + planets(mesh.stiffness_sin[h]) * basis.sine[h];
   }
   m.elastic = m.stiffness * closed_by<R>(m.delta, mesh.half_gap, p.smoothing, p.smooth);
   if (p.gap_damping == GapDamping::contact_slope) {
@@ -111,11 +149,12 @@ template <class T, class P, std::size_t N, class Places>
     m.force = m.elastic + mesh.damping * m.rate;
   }
   if (mesh.friction) {
-    std::array<FrictionRatios<P>, N> ratios;
-    for (std::size_t i = 0; i < (shared ? 1 : N); ++i) ratios[i] = friction_at(mesh, places, i, own_phase(i));
-    m.friction = Row<P, N>::of([&](std::size_t i) { return ratios[shared ? 0 : i].force; }) * m.force;
-    m.moment_driving = Row<P, N>::of([&](std::size_t i) { return ratios[shared ? 0 : i].moment_driving; }) * m.force;
-    m.moment_driven = Row<P, N>::of([&](std::size_t i) { return ratios[shared ? 0 : i].moment_driven; }) * m.force;
+    std::array<FrictionRatios<P>, G> ratios;
+    for (std::size_t i = 0; i < G; ++i)
+      ratios[i] = shared.shared ? shared.ratios : friction_at(mesh, places, planets.first + i, own_phase(i));
+    m.friction = C::of([&](std::size_t i) { return ratios[i].force; }) * m.force;
+    m.moment_driving = C::of([&](std::size_t i) { return ratios[i].moment_driving; }) * m.force;
+    m.moment_driven = C::of([&](std::size_t i) { return ratios[i].moment_driven; }) * m.force;
   } else {
     m.friction = m.moment_driving = m.moment_driven = T(0.0);
   }
@@ -157,109 +196,207 @@ template <class T, class P, std::size_t N>
   return {T(0.0), T(0.0)};
 }
 
-/// Forces of the stage at one instant, before they act on masses. Each part is made where it stays: copies of it would
-/// cost as much as its arithmetic.
-template <class T, std::size_t N, class P = T>
-struct StageState {
-  Coordinates<T, N> q, v;
-  Deflections<T, N> d, d_rate;
-  MeshState<T, N, P> sun_planet, ring_planet;
+/// What the phase alone decides.
+template <class P, std::size_t N, class Places>
+struct Instant {
+  const P& s;
+  const Places& places;
+  HarmonicBasis<P> basis;
+  SharedMesh<P, N> sun_planet, ring_planet;
 
-  template <Layout L, class Places>
-  StageState(Arranged<L> arranged, const Parameters<P, N>& p, const Places& places, const P& s,
-             const HarmonicBasis<P>& basis, const T* y)
-      : q(unpack<N>(arranged, y)),
-        v(unpack<N>(arranged, y + degrees_of_freedom(L, N))),
-        d(deflections(p, q)),
-        d_rate(deflections(p, v)),
-        sun_planet(mesh_state(p, p.sun_planet, places.sun_planet, s, basis, d.sun_planet, d_rate.sun_planet)),
-        ring_planet(mesh_state(p, p.ring_planet, places.ring_planet, s, basis, d.ring_planet, d_rate.ring_planet)) {}
+  Instant(const Parameters<P, N>& p, const Places& at, const P& phase)
+      : s(phase),
+        places(at),
+        basis(phase, std::max(p.sun_planet.harmonics, p.ring_planet.harmonics)),
+        sun_planet(p.sun_planet, at.sun_planet, phase, basis),
+        ring_planet(p.ring_planet, at.ring_planet, phase, basis) {}
+};
+
+/// Forces of the stage at one instant, before they act on masses, with a group of G planets. Each part is made where it
+/// stays: copies of it would cost as much as its arithmetic.
+template <class T, std::size_t G, class P = T>
+struct StageState {
+  Coordinates<T, G> q, v;
+  Deflections<T, G> d, d_rate;
+  MeshState<T, G, P> sun_planet, ring_planet;
+
+  template <Layout L, std::size_t N, class Places>
+  StageState(Arranged<L> arranged, const Parameters<P, N>& p, const Planets<N, G>& planets,
+             const Instant<P, N, Places>& now, const T* y)
+      : q(unpack(arranged, planets, y)),
+        v(unpack(arranged, planets, y + degrees_of_freedom(L, N))),
+        d(deflections(p, planets, q)),
+        d_rate(deflections(p, planets, v)),
+        sun_planet(mesh_state(p, planets, p.sun_planet, now.sun_planet, now.places.sun_planet, now.s, now.basis,
+                              d.sun_planet, d_rate.sun_planet)),
+        ring_planet(mesh_state(p, planets, p.ring_planet, now.ring_planet, now.places.ring_planet, now.s, now.basis,
+                               d.ring_planet, d_rate.ring_planet)) {}
 };
 
 /// @param places  a segment of p, by its number or itself, or one for each lane
-template <Layout L, class T, class P, std::size_t N, class Places>
-[[nodiscard]] StageState<T, N, P> stage_state(const Parameters<P, N>& p, const Places& places,
-                                              const std::type_identity_t<P>& s, const T* y) {
-  const HarmonicBasis<P> basis(s, std::max(p.sun_planet.harmonics, p.ring_planet.harmonics));
+template <class P, std::size_t N, class Places>
+[[nodiscard]] decltype(auto) segment_of(const Parameters<P, N>& p, const Places& places) {
   if constexpr (std::is_integral_v<Places>) {
-    return {Arranged<L>{}, p, p.segments[static_cast<std::size_t>(places)], s, basis, y};
+    return (p.segments[static_cast<std::size_t>(places)]);
   } else {
-    return {Arranged<L>{}, p, places, s, basis, y};
+    return (places);
   }
 }
 
-/// Accelerations d^2/d tau^2 of the full coordinates from [M-17]..[M-20].
-template <Layout L, class T, class P, std::size_t N>
-[[nodiscard]] Coordinates<T, N> accelerations(const Parameters<P, N>& p, const StageState<T, N, P>& g) {
-  using R = Row<T, N>;
-  const Coordinates<T, N>& q = g.q;
-  const Coordinates<T, N>& v = g.v;
-  const MeshState<T, N, P>& sp = g.sun_planet;
-  const MeshState<T, N, P>& rp = g.ring_planet;
+/// With all planets.
+template <Layout L, class T, class P, std::size_t N, class Places>
+[[nodiscard]] StageState<T, N, P> stage_state(const Parameters<P, N>& p, const Places& places,
+                                              const std::type_identity_t<P>& s, const T* y) {
+  return {Arranged<L>{}, p, Planets<N>{}, Instant(p, segment_of(p, places), s), y};
+}
+
+/// Sums over planets of what they do to the other members.
+template <class T>
+struct Reactions {
+  T sun_x, sun_y, sun_u;              ///< of the sun's meshes
+  T ring_x, ring_y, ring_u;           ///< of the ring's
+  T carrier_x, carrier_y, carrier_u;  ///< of the planets' bearings
+  T frame_u;                          ///< of their rotating-frame terms, on the carrier
+
+  Reactions& operator+=(const Reactions& b) {
+    sun_x += b.sun_x;
+    sun_y += b.sun_y;
+    sun_u += b.sun_u;
+    ring_x += b.ring_x;
+    ring_y += b.ring_y;
+    ring_u += b.ring_u;
+    carrier_x += b.carrier_x;
+    carrier_y += b.carrier_y;
+    carrier_u += b.carrier_u;
+    frame_u += b.frame_u;
+    return *this;
+  }
+};
+
+/// Planets [M-18], full accelerations d^2/d tau^2.
+/// @returns what they do to sun, ring and carrier
+template <class T, class P, std::size_t N, std::size_t G>
+[[nodiscard]] Reactions<T> accelerate_planets(const Parameters<P, N>& p, const Planets<N, G>& planets,
+                                              const StageState<T, G, P>& g, Coordinates<T, G>& a) {
+  using R = Row<T, G>;
+  const Coordinates<T, G>& q = g.q;
+  const Coordinates<T, G>& v = g.v;
+  const MeshState<T, G, P>& sp = g.sun_planet;
+  const MeshState<T, G, P>& rp = g.ring_planet;
+  const auto& sin_sp = planets(p.sun_planet.sine);
+  const auto& cos_sp = planets(p.sun_planet.cosine);
+  const auto& sin_rp = planets(p.ring_planet.sine);
+  const auto& cos_rp = planets(p.ring_planet.cosine);
+  const auto& sin_phi = planets(p.sin_phi);
+  const auto& cos_phi = planets(p.cos_phi);
   const P& wc = p.carrier_speed;
   const P wc2 = wc * wc;
-  Coordinates<T, N> a;
+  Reactions<T> r;
 
-  // Sun [M-17]
-  const BearingForce<T> bearing = sun_bearing_force(p, q.x_s, q.y_s);
-  T force_x = -bearing.x - p.damping_s * v.x_s;
-  T force_y = -bearing.y - p.damping_s * v.y_s;
-  T force_u = p.drive;
-  force_x -= sum(sp.force * p.sun_planet.sine + sp.friction * p.sun_planet.cosine);
-  force_y -= sum(sp.force * p.sun_planet.cosine - sp.friction * p.sun_planet.sine);
-  force_u -= sum(sp.force - sp.moment_driving);
-  a.x_s = force_x * p.inverse_mass_s + 2.0 * wc * v.y_s + wc2 * q.x_s;
-  a.y_s = force_y * p.inverse_mass_s - 2.0 * wc * v.x_s + wc2 * q.y_s;
-  a.w_s = force_u * p.inverse_inertia_s;
+  r.sun_x = sum(sp.force * sin_sp + sp.friction * cos_sp);
+  r.sun_y = sum(sp.force * cos_sp - sp.friction * sin_sp);
+  r.sun_u = sum(sp.force - sp.moment_driving);
 
-  // Planets [M-18] and what their bearings and rotating-frame terms do to the carrier
-  T carrier_x = -p.support_c * q.x_c - p.damping_c * v.x_c;
-  T carrier_y = -p.support_c * q.y_c - p.damping_c * v.y_c;
-  T carrier_u = -p.torsion_c * q.u_c - p.torsion_damping_c * v.u_c - p.carrier_load;
   const R spring_x = p.bearing_p * g.d.carrier_x + p.bearing_damping_p * g.d_rate.carrier_x;
   const R spring_y = p.bearing_p * g.d.carrier_y + p.bearing_damping_p * g.d_rate.carrier_y;
-  carrier_x += sum(spring_x);
-  carrier_y += sum(spring_y);
-  carrier_u += sum(p.bearing_p * g.d.carrier_u + p.bearing_damping_p * g.d_rate.carrier_u);
+  r.carrier_x = sum(spring_x);
+  r.carrier_y = sum(spring_y);
+  r.carrier_u = sum(p.bearing_p * g.d.carrier_u + p.bearing_damping_p * g.d_rate.carrier_u);
 
   R x = q.x_p;
   R y = q.y_p;
   R x_rate = v.x_p;
   R y_rate = v.y_p;
   if (p.gyroscopic_relative) {
-    x += q.u_c * p.sin_phi;
-    y -= q.u_c * p.cos_phi;
-    x_rate += v.u_c * p.sin_phi;
-    y_rate -= v.u_c * p.cos_phi;
+    x += q.u_c * sin_phi;
+    y -= q.u_c * cos_phi;
+    x_rate += v.u_c * sin_phi;
+    y_rate -= v.u_c * cos_phi;
   }
   const R frame_x = p.mass_p * (wc2 * x + 2.0 * wc * y_rate);
   const R frame_y = p.mass_p * (wc2 * y - 2.0 * wc * x_rate);
-  if (p.gyroscopic_relative) carrier_u += sum(frame_x * p.sin_phi - frame_y * p.cos_phi);
-  if (p.gyroscopic_carrier_row) carrier_u -= static_cast<double>(N) * p.mass_p * wc2 * q.u_c;
+  if (p.gyroscopic_relative) {
+    r.frame_u = sum(frame_x * sin_phi - frame_y * cos_phi);
+  } else {
+    r.frame_u = T(0.0);
+  }
 
-  a.x_p = (frame_x - spring_x + sp.force * p.sun_planet.sine + sp.friction * p.sun_planet.cosine -
-           rp.force * p.ring_planet.sine - rp.friction * p.ring_planet.cosine) *
+  a.x_p = (frame_x - spring_x + sp.force * sin_sp + sp.friction * cos_sp - rp.force * sin_rp - rp.friction * cos_rp) *
           p.inverse_mass_p;
-  a.y_p = (frame_y - spring_y + sp.force * p.sun_planet.cosine - sp.friction * p.sun_planet.sine +
-           rp.force * p.ring_planet.cosine - rp.friction * p.ring_planet.sine) *
+  a.y_p = (frame_y - spring_y + sp.force * cos_sp - sp.friction * sin_sp + rp.force * cos_rp - rp.friction * sin_rp) *
           p.inverse_mass_p;
   a.w_p = (-sp.force + sp.moment_driven + rp.force - rp.moment_driving) * p.inverse_inertia_p;
 
-  // Ring [M-19]
-  force_x = -p.support_r * q.x_r - p.damping_r * v.x_r;
-  force_y = -p.support_r * q.y_r - p.damping_r * v.y_r;
-  force_u = -p.torsion_r * q.u_r - p.torsion_damping_r * v.u_r + p.ring_drive;
-  force_x += sum(rp.force * p.ring_planet.sine + rp.friction * p.ring_planet.cosine);
-  force_y -= sum(rp.force * p.ring_planet.cosine - rp.friction * p.ring_planet.sine);
-  force_u -= sum(rp.force - rp.moment_driven);
-  a.x_r = force_x * p.inverse_mass_r + 2.0 * wc * v.y_r + wc2 * q.x_r;
-  a.y_r = force_y * p.inverse_mass_r - 2.0 * wc * v.x_r + wc2 * q.y_r;
-  a.u_r = force_u * p.inverse_inertia_r;
+  r.ring_x = sum(rp.force * sin_rp + rp.friction * cos_rp);
+  r.ring_y = sum(rp.force * cos_rp - rp.friction * sin_rp);
+  r.ring_u = sum(rp.force - rp.moment_driven);
+  return r;
+}
 
-  // Carrier [M-20]
+/// Sun [M-17], ring [M-19] and carrier [M-20], full accelerations.
+template <class T, class P, std::size_t N, std::size_t G>
+void accelerate_members(const Parameters<P, N>& p, const Coordinates<T, G>& q, const Coordinates<T, G>& v,
+                        const Reactions<T>& r, Coordinates<T, N>& a) {
+  const P& wc = p.carrier_speed;
+  const P wc2 = wc * wc;
+
+  const BearingForce<T> bearing = sun_bearing_force(p, q.x_s, q.y_s);
+  const T sun_x = -bearing.x - p.damping_s * v.x_s - r.sun_x;
+  const T sun_y = -bearing.y - p.damping_s * v.y_s - r.sun_y;
+  const T sun_u = p.drive - r.sun_u;
+  a.x_s = sun_x * p.inverse_mass_s + 2.0 * wc * v.y_s + wc2 * q.x_s;
+  a.y_s = sun_y * p.inverse_mass_s - 2.0 * wc * v.x_s + wc2 * q.y_s;
+  a.w_s = sun_u * p.inverse_inertia_s;
+
+  const T ring_x = -p.support_r * q.x_r - p.damping_r * v.x_r + r.ring_x;
+  const T ring_y = -p.support_r * q.y_r - p.damping_r * v.y_r - r.ring_y;
+  const T ring_u = -p.torsion_r * q.u_r - p.torsion_damping_r * v.u_r + p.ring_drive - r.ring_u;
+  a.x_r = ring_x * p.inverse_mass_r + 2.0 * wc * v.y_r + wc2 * q.x_r;
+  a.y_r = ring_y * p.inverse_mass_r - 2.0 * wc * v.x_r + wc2 * q.y_r;
+  a.u_r = ring_u * p.inverse_inertia_r;
+
+  const T carrier_x = -p.support_c * q.x_c - p.damping_c * v.x_c + r.carrier_x;
+  const T carrier_y = -p.support_c * q.y_c - p.damping_c * v.y_c + r.carrier_y;
+  T carrier_u = -p.torsion_c * q.u_c - p.torsion_damping_c * v.u_c - p.carrier_load + r.carrier_u;
+  if (p.gyroscopic_relative) carrier_u += r.frame_u;
+  if (p.gyroscopic_carrier_row) carrier_u -= static_cast<double>(N) * p.mass_p * wc2 * q.u_c;
   a.x_c = carrier_x * p.inverse_mass_c + 2.0 * wc * v.y_c + wc2 * q.x_c;
   a.y_c = carrier_y * p.inverse_mass_c - 2.0 * wc * v.x_c + wc2 * q.y_c;
   a.u_c = carrier_u * p.inverse_inertia_c;
+}
+
+/// Accelerations d^2/d tau^2 of the full coordinates from [M-17]..[M-20].
+template <class T, class P, std::size_t N>
+[[nodiscard]] Coordinates<T, N> accelerations(const Parameters<P, N>& p, const StageState<T, N, P>& g) {
+  Coordinates<T, N> a;
+  const Reactions<T> r = accelerate_planets(p, Planets<N>{}, g, a);
+  accelerate_members(p, g.q, g.v, r, a);
+  return a;
+}
+
+/// The same with the planets one by one; sums are in the same order.
+template <Layout L, class T, class P, std::size_t N, class Places>
+[[nodiscard]] Coordinates<T, N> accelerations_by_planet(const Parameters<P, N>& p, const Instant<P, N, Places>& now,
+                                                        const T* y) {
+  using Group = Planets<N, 1>;
+  Coordinates<T, N> a;
+  Reactions<T> total;
+#pragma GCC unroll 8
+  for (std::size_t i = 0; i < N; ++i) {
+    Coordinates<T, 1> own;
+    const Reactions<T> r =
+        accelerate_planets(p, Group{i}, StageState<T, 1, P>(Arranged<L>{}, p, Group{i}, now, y), own);
+    a.x_p[i] = own.x_p[0];
+    a.y_p[i] = own.y_p[0];
+    a.w_p[i] = own.w_p[0];
+    if (i == 0) {
+      total = r;
+    } else {
+      total += r;
+    }
+  }
+  accelerate_members(p, unpack(Arranged<L>{}, Group{0}, y),
+                     unpack(Arranged<L>{}, Group{0}, y + degrees_of_freedom(L, N)), total, a);
   return a;
 }
 
@@ -286,8 +423,14 @@ template <Layout L, class T, class P, std::size_t N, class Places>
 void right_hand_side(const Parameters<P, N>& p, const Places& places, const std::type_identity_t<P>& s, const T* y,
                      T* dyds) {
   constexpr std::size_t n = degrees_of_freedom(L, N);
-  const StageState<T, N, P> g = stage_state<L>(p, places, s, y);
-  Coordinates<T, N> a = accelerations<L>(p, g);
+  const Instant now(p, segment_of(p, places), s);
+  Coordinates<T, N> a;
+  if constexpr (is_lanes<T>) {
+    a = accelerations_by_planet<L>(p, now, y);
+  } else {
+    const StageState<T, N, P> g(Arranged<L>{}, p, Planets<N>{}, now, y);
+    a = accelerations(p, g);
+  }
   make_relative<L>(p, a);
   const P per_phase = 1.0 / p.omega;
   pack<L, N>(a, dyds + n);

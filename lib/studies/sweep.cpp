@@ -141,9 +141,10 @@ class PointRun {
   }
 
  private:
-  /// Tangents and orbits are a matter of one trajectory: where lanes carry the strobe, ARKODE has the same pair.
+  /// Tangents and orbits are a matter of one trajectory: where lanes carry the strobe, ARKODE has the
+  /// same pair.
   static integrate::IntegratorOptions scalar(integrate::IntegratorOptions o) {
-    if (in_lanes(o)) o.method = "arkode-dopri5";
+    o.method = integrate::arkode_twin(o.method);
     return o;
   }
 

@@ -231,6 +231,75 @@ class OurArkode {
   State y_;
 };
 
+epicyclic::integrate::IntegratorOptions in_lanes(epicyclic::integrate::IntegratorOptions o) {
+  o.method = "lanes-cash-karp";
+  return o;
+}
+
+/// One lane of the lane ensemble, the others idle.
+class OneLane {
+ public:
+  OneLane(const epicyclic::model::DynamicModel& model, double tolerance, const State& start)
+      : field_(epicyclic::studies::vector_field(model)),
+        lanes_(epicyclic::studies::lane_field(model, epicyclic::integrate::lane_kernels()),
+               in_lanes(options(tolerance))),
+        y_(start) {
+    lanes_.load(0, field_);
+  }
+  void mesh_period() {
+    lanes_.begin(0, y_, 0.0, period);
+    lanes_.run();
+    lanes_.copy_state(0, y_);
+  }
+  [[nodiscard]] State state() const { return y_; }
+
+ private:
+  epicyclic::integrate::VectorField field_;
+  epicyclic::integrate::LaneEnsemble lanes_;
+  State y_;
+};
+
+/// All lanes at work, at neighbouring speeds, as in a sweep: a mesh period is one of any lane.
+class AllLanes {
+ public:
+  AllLanes(const epicyclic::model::DynamicModel& model, double tolerance, const State& start)
+      : lanes_(epicyclic::studies::lane_field(model, epicyclic::integrate::lane_kernels()),
+               in_lanes(options(tolerance))),
+        y_(start) {
+    constexpr double apart = 0.002;
+    for (std::size_t lane = 0; lane < lanes_.width(); ++lane) {
+      models_.push_back(
+          std::make_unique<epicyclic::model::DynamicModel>(model_at(model.omega + apart * static_cast<double>(lane))));
+      fields_.push_back(
+          std::make_unique<epicyclic::integrate::VectorField>(epicyclic::studies::vector_field(*models_.back())));
+      lanes_.load(lane, *fields_.back());
+      lanes_.begin(lane, start, 0.0, period);
+    }
+    constexpr int out_of_step = 40;  // periods after which lanes are wherever they are
+    for (int k = 0; k < out_of_step; ++k) mesh_period();
+    before_ = all_calls();
+  }
+  void mesh_period() {
+    const std::size_t lane = lanes_.run();
+    lanes_.copy_state(lane, y_);
+    lanes_.begin(lane, y_, 0.0, period);
+  }
+  [[nodiscard]] double calls() const { return static_cast<double>(all_calls() - before_); }
+
+ private:
+  [[nodiscard]] long all_calls() const {
+    long sum = 0;
+    for (std::size_t lane = 0; lane < lanes_.width(); ++lane) sum += lanes_.work(lane).right_hand_sides;
+    return sum;
+  }
+
+  std::vector<std::unique_ptr<epicyclic::model::DynamicModel>> models_;
+  std::vector<std::unique_ptr<epicyclic::integrate::VectorField>> fields_;
+  epicyclic::integrate::LaneEnsemble lanes_;
+  State y_;
+  long before_ = 0;
+};
+
 class OurCashKarp : public OurArkode {
  public:
   OurCashKarp(const epicyclic::model::DynamicModel& model, double tolerance, State start)
@@ -275,7 +344,8 @@ State on_orbit(const epicyclic::model::DynamicModel& model) {
 /// Cost of a mesh period of a periodic orbit at the tolerance that gives a global error of 10^-digits. The error grows
 /// with the tolerance but not smoothly (steps come and go): the tolerance is read from the straight line through the
 /// errors of all tolerances, in twentieths of a decade, whose error is within a factor of 10 of the wanted one.
-template <class Integrator>
+/// @tparam Alone  tells the error where Integrator carries other motions too
+template <class Integrator, class Alone = Integrator>
 void mesh_period_at_equal_error(benchmark::State& state) {
   const auto model = model_at(static_cast<double>(state.range(0)) / 100.0);
   const State start = on_orbit(model);
@@ -288,7 +358,7 @@ void mesh_period_at_equal_error(benchmark::State& state) {
   std::vector<double> errors;
   for (int k = 0; k <= 160; ++k) {
     const double tolerance = -12.0 + k / 20.0;
-    const double error = std::log10(global_error<Integrator>(model, std::pow(10.0, tolerance), start, reference));
+    const double error = std::log10(global_error<Alone>(model, std::pow(10.0, tolerance), start, reference));
     if (std::abs(error - wanted) > 1.0) continue;
     tolerances.push_back(tolerance);
     errors.push_back(error);
@@ -305,28 +375,12 @@ void mesh_period_at_equal_error(benchmark::State& state) {
   state.counters["tolerance"] = tolerance;
 }
 
-/// A mesh period in the lane ensemble, all lanes at work: at one speed, each from a state of its own.
+/// A mesh period in the lane ensemble, all lanes at work.
 void mesh_period_lanes(benchmark::State& state) {
   const auto model = model_at(static_cast<double>(state.range(0)) / 100.0);
-  const auto field = epicyclic::studies::vector_field(model);
-  const auto& kernels = epicyclic::integrate::lane_kernels();
-  epicyclic::integrate::LaneEnsemble lanes(epicyclic::studies::lane_field(model, kernels),
-                                           options(std::pow(10.0, -static_cast<double>(state.range(1)))), kernels);
-  State y = settled(model);
-  const auto flow = epicyclic::integrate::make_arkode_flow(field, options(1e-8));
-  for (std::size_t lane = 0; lane < lanes.width(); ++lane) {
-    for (int k = 0; k < 3; ++k) flow->evolve(y, 0.0, period);
-    lanes.load(lane, field);
-    lanes.begin(lane, y, 0.0, period);
-  }
-  long calls = 0;
-  for (auto _ : state) {
-    const std::size_t lane = lanes.run();
-    lanes.copy_state(lane, y);
-    lanes.begin(lane, y, 0.0, period);
-  }
-  for (std::size_t lane = 0; lane < lanes.width(); ++lane) calls += lanes.work(lane).right_hand_sides;
-  state.counters["rhs_per_period"] = benchmark::Counter(static_cast<double>(calls), benchmark::Counter::kAvgIterations);
+  AllLanes lanes(model, std::pow(10.0, -static_cast<double>(state.range(1))), settled(model));
+  for (auto _ : state) lanes.mesh_period();
+  state.counters["rhs_per_period"] = benchmark::Counter(lanes.calls(), benchmark::Counter::kAvgIterations);
 }
 
 /// A mesh period with tangent vectors in the steps of the state alone; first argument: how many, 0 for the bare period.
@@ -378,5 +432,6 @@ BENCHMARK_TEMPLATE(mesh_period_at_equal_error, OurArkode)->Apply(orbits_and_erro
 BENCHMARK_TEMPLATE(mesh_period_at_equal_error, OurCashKarp)->Apply(orbits_and_errors);
 BENCHMARK_TEMPLATE(mesh_period_at_equal_error, StockArkode)->Apply(orbits_and_errors);
 BENCHMARK_TEMPLATE(mesh_period_at_equal_error, Odeint)->Apply(orbits_and_errors);
+BENCHMARK_TEMPLATE(mesh_period_at_equal_error, AllLanes, OneLane)->Apply(orbits_and_errors);
 
 }  // namespace

@@ -15,17 +15,11 @@
 #include "core/errors.hpp"
 #include "core/fit.hpp"
 #include "integrate/arkode_flow.hpp"
+#include "integrate/methods.hpp"
 #include "problems/known_systems.hpp"
 
 namespace epicyclic::integrate {
 namespace {
-
-IntegratorOptions tolerance(double t) {
-  IntegratorOptions o;
-  o.relative_tolerance = t;
-  o.absolute_tolerance = t;
-  return o;
-}
 
 /// A state carried over `periods` periods in one lane, period by period.
 std::vector<double> carried(LaneEnsemble& lanes, std::size_t lane, const VectorField& system, std::vector<double> state,
@@ -40,11 +34,25 @@ std::vector<double> carried(LaneEnsemble& lanes, std::size_t lane, const VectorF
   return state;
 }
 
-LaneEnsemble ensemble_of(const LaneKernels& kernels, double t, std::size_t dimension = 2) {
-  return {one_by_one(kernels.width, dimension), tolerance(t), kernels};
-}
+class LaneEnsembles : public testing::TestWithParam<const char*> {
+ protected:
+  static IntegratorOptions tolerance(double t) {
+    IntegratorOptions o;
+    o.method = GetParam();
+    o.relative_tolerance = t;
+    o.absolute_tolerance = t;
+    return o;
+  }
+  static IntegratorOptions by_arkode(IntegratorOptions o) {
+    o.method = arkode_twin(o.method);
+    return o;
+  }
+  static LaneEnsemble ensemble_of(const LaneKernels& kernels, double t, std::size_t dimension = 2) {
+    return {one_by_one(kernels.width, dimension), tolerance(t), kernels};
+  }
+};
 
-TEST(LaneEnsemble, BitsOfALaneDependOnNoOtherLane) {
+TEST_P(LaneEnsembles, BitsOfALaneDependOnNoOtherLane) {
   const LaneKernels& kernels = lane_kernels();
   std::vector<VectorField> systems;
   for (int k = 0; k < 7; ++k) systems.push_back(problems::duffing(0.15, -1.0, 0.2 + 0.05 * k, 1.0));
@@ -85,7 +93,7 @@ TEST(LaneEnsemble, BitsOfALaneDependOnNoOtherLane) {
   EXPECT_GT(lanes.occupancy(), 0.5);
 }
 
-TEST(LaneEnsemble, BitsAreTheSameOnEveryInstructionSetAndWidth) {
+TEST_P(LaneEnsembles, BitsAreTheSameOnEveryInstructionSetAndWidth) {
   const VectorField system = problems::duffing(0.15, -1.0, 0.3, 1.0);
   LaneEnsemble first = ensemble_of(*lane_kernels("baseline"), 1e-9);
   const std::vector<double> expected = carried(first, 1, system, {0.5, 0.1}, 10);
@@ -100,7 +108,7 @@ TEST(LaneEnsemble, BitsAreTheSameOnEveryInstructionSetAndWidth) {
   if (compared == 0) GTEST_SKIP() << "this machine has the baseline only";
 }
 
-TEST(LaneEnsemble, ErrorFallsWithTheToleranceAsThatOfArkode) {
+TEST_P(LaneEnsembles, ErrorFallsWithTheToleranceAsThatOfArkode) {
   // One period of a smooth system: errors at tolerances 1e-6 to 1e-10 lie on a line of slope near 1.
   const VectorField system = problems::smooth_follower();
   std::vector<double> logs;
@@ -116,7 +124,7 @@ TEST(LaneEnsemble, ErrorFallsWithTheToleranceAsThatOfArkode) {
     ASSERT_TRUE(lanes.evolution(0).reached());
     logs.push_back(-digits);
     errors.push_back(std::log10(std::abs(y[0] - std::cos(20.0))));
-    const auto flow = make_arkode_flow(system, tolerance(t));
+    const auto flow = make_arkode_flow(system, by_arkode(tolerance(t)));
     std::vector<double> peer = {1.0};
     ASSERT_TRUE(flow->evolve(peer, 0.0, 20.0).reached());
     // The same controller: steps differ by what the first one costs.
@@ -126,7 +134,7 @@ TEST(LaneEnsemble, ErrorFallsWithTheToleranceAsThatOfArkode) {
   EXPECT_NEAR(fitted_slope(logs, errors), 1.0, 0.2);
 }
 
-TEST(LaneEnsemble, BreakpointsAreSteppedOnto) {
+TEST_P(LaneEnsembles, BreakpointsAreSteppedOnto) {
   // Two periods with three jumps each, against a flow that steps onto them too.
   const VectorField system = problems::jumping(true);
   LaneEnsemble lanes = ensemble_of(lane_kernels(), 1e-11, 1);
@@ -136,7 +144,7 @@ TEST(LaneEnsemble, BreakpointsAreSteppedOnto) {
   EXPECT_EQ(lanes.run(), last);
   std::array<double, 1> y{};
   lanes.copy_state(last, y);
-  const auto flow = make_arkode_flow(system, tolerance(1e-13));
+  const auto flow = make_arkode_flow(system, by_arkode(tolerance(1e-13)));
   std::vector<double> reference = {0.5};
   ASSERT_TRUE(flow->evolve(reference, 0.0, 2.0).reached());
   constexpr double steps_times_tolerance = 1e-9;
@@ -144,7 +152,7 @@ TEST(LaneEnsemble, BreakpointsAreSteppedOnto) {
   EXPECT_EQ(lanes.evolution(last).s, 2.0);
 }
 
-TEST(LaneEnsemble, SamplesAreSeenInOrderAndChangeNothing) {
+TEST_P(LaneEnsembles, SamplesAreSeenInOrderAndChangeNothing) {
   const VectorField system = problems::smooth_follower();
   const auto end_with = [&](int count, double* worst) {
     LaneEnsemble lanes = ensemble_of(lane_kernels(), 1e-8, 1);
@@ -172,7 +180,7 @@ TEST(LaneEnsemble, SamplesAreSeenInOrderAndChangeNothing) {
   EXPECT_GT(worst, 0.0);
 }
 
-TEST(LaneEnsemble, WhatCannotGoOnEndsWithItsOutcome) {
+TEST_P(LaneEnsembles, WhatCannotGoOnEndsWithItsOutcome) {
   VectorField growing;
   growing.dimension = 1;
   growing.right_hand_side = [](std::size_t, double, const double* y, double* f) { f[0] = 5.0 * y[0]; };
@@ -204,14 +212,18 @@ TEST(LaneEnsemble, WhatCannotGoOnEndsWithItsOutcome) {
   EXPECT_NEAR(y[0], std::exp(5.0 * lanes.evolution(0).s), 1e-5);
 }
 
-TEST(LaneEnsemble, NothingUnderWayIsSaidSo) {
+TEST_P(LaneEnsembles, NothingUnderWayIsSaidSo) {
   LaneEnsemble lanes = ensemble_of(lane_kernels(), 1e-8);
   EXPECT_EQ(lanes.run(), lanes.width());
   EXPECT_THROW(lanes.load(0, problems::smooth_follower()), InputError);
   IntegratorOptions o = tolerance(1e-8);
   o.locate_contacts = true;
   EXPECT_THROW(LaneEnsemble(one_by_one(lane_kernels().width, 2), o), InputError);
+  EXPECT_THROW(LaneEnsemble(one_by_one(lane_kernels().width, 2), by_arkode(tolerance(1e-8))), InputError);
 }
+
+INSTANTIATE_TEST_SUITE_P(Each, LaneEnsembles, testing::Values("lanes-dopri5", "lanes-cash-karp"),
+                         [](const auto& of) { return std::string(of.param).substr(6, 4); });
 
 }  // namespace
 }  // namespace epicyclic::integrate

@@ -106,6 +106,10 @@ TEST(Methods, NamesAreFoundAndDistinct) {
                                  : method.family == Family::lanes ? "lanes-"
                                                                   : "arkode-"));
     EXPECT_EQ(find_method(name)->name, name);
+    const Method* twin = find_method(arkode_twin(name));
+    ASSERT_NE(twin, nullptr);
+    EXPECT_EQ(twin->family, method.family == Family::lanes ? Family::erk : method.family);
+    EXPECT_EQ(twin->stages, method.stages);
   }
   EXPECT_EQ(find_method("dopri5"), nullptr);
   EXPECT_NE(find_method(IntegratorOptions{}.method), nullptr);
