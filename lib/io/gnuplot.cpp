@@ -15,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/errors.hpp"
 #include "io/atomic_file.hpp"
 #include "io/csv.hpp"
 
@@ -304,7 +305,8 @@ FigureOutcome draw_figure(const fs::path& folder, std::string_view stem, std::st
   FigureOutcome outcome = run_gnuplot(named(".gp"));
   if (!outcome.drawn()) return outcome;
   if (!ends_with(named(".png"), png_end) || !ends_with(named(".svg"), svg_end)) {
-    return {fmt::format("gnuplot did not finish {} (disk full?)", named(".png").string())};
+    throw OutputError(fmt::format("{}: gnuplot did not finish it (disk full?); make room and repeat the command",
+                                  named(".png").string()));
   }
   return outcome;
 }
