@@ -194,7 +194,9 @@ FigureOutcome run_gnuplot(const fs::path& script) {
   ::posix_spawnattr_init(&attributes);
   ::posix_spawnattr_setsigmask(&attributes, &none);
   ::posix_spawnattr_setsigdefault(&attributes, &all);
-  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  // Nor is Ctrl-C on a terminal, which goes to the whole process group: this process decides what is drawn to the end.
+  ::posix_spawnattr_setpgroup(&attributes, 0);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   pid_t child = 0;
   const int error =
       ::posix_spawnp(&child, program.c_str(), &actions, &attributes, arguments.data(), environment.data());

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "core/errors.hpp"
 #include "io/bifurcation_figure.hpp"
@@ -134,6 +135,17 @@ TEST(Gnuplot, StemMustBeAPlainFileName) {
   for (const char* stem : {"", "../a", "a/b", "a b", "a'b", ".hidden"}) {
     EXPECT_THROW(draw_figure(folder.path(), stem, "", ""), std::invalid_argument) << stem;
   }
+}
+
+TEST(Gnuplot, CtrlCDoesNotReachIt) {
+  EPICYCLIC_NEEDS_GNUPLOT();
+  const TemporaryFolder folder;
+  // The process group is the fifth word; "cut" is a name without blanks.
+  test::put_file(folder / "a.gp", "set print 'group'\nprint system(\"cut -d' ' -f5 /proc/self/stat\")\n");
+  ASSERT_TRUE(run_gnuplot(folder / "a.gp").drawn());
+  const std::string group = contents(folder / "group");
+  ASSERT_FALSE(group.empty());
+  EXPECT_NE(std::stol(group), ::getpgrp());
 }
 
 TEST(Gnuplot, OldPictureDoesNotPassForANewOne) {
