@@ -15,7 +15,7 @@ RANDOM=$seed
 echo "KILLS=$kills SEED=$seed"
 
 points=20
-study=("$inputs/tang2020_speed.json" --set "/study/points=$((points / 2))" --set /study/transient_periods=60
+study=("$inputs/tang2020_speed.json" --set "/study/points=$((points / 2))" --set /study/transient_periods=150
   --set /study/recorded_periods=8 --set /study/classification_periods=64)
 methods=(arkode-dopri5 lanes-dopri5)
 threads=(1 2 8)
@@ -53,7 +53,7 @@ while [ "$killed" -lt "$kills" ]; do
   for ((left = 1 + RANDOM % 6; left > 0 && killed < kills; --left)); do
     "${command[@]}" >stdout 2>stderr &
     pid=$!
-    if [ $((RANDOM % 3)) = 0 ]; then # while the results are written
+    if [ $((RANDOM % 4)) = 0 ]; then # while the results are written
       until compgen -G "$folder/.points.csv.*.tmp" >/dev/null || [ -e "$folder/points.csv" ]; do
         kill -0 "$pid" 2>/dev/null || break
         sleep 0.002
