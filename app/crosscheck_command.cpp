@@ -19,6 +19,7 @@
 namespace epicyclic::app {
 
 int crosscheck_command(const Arguments& arguments) {
+  stop_on_signals();
   const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
   require_points(input, arguments, "crosscheck");
   const studies::SweepOptions& sweep = *input.study.sweep;
@@ -34,7 +35,6 @@ int crosscheck_command(const Arguments& arguments) {
   const io::OutputFolder folder(arguments.output, identity);
   if (const auto code = refuse_or_finish(folder)) return *code;
   io::Provenance facts = provenance(arguments.threads);
-  stop_on_signals();
   const std::string resolved = write_inputs(folder, input);
   folder.write_run(io::RunState::running, io::run_facts(facts));
 
@@ -54,6 +54,7 @@ int crosscheck_command(const Arguments& arguments) {
   std::size_t failed = 0;
   for (const auto& [key, result] : run.done) failed += result.outcome == integrate::Outcome::reached ? 0 : 1;
   io::Progress progress("crosscheck", points * variants.size(), finished);
+  progress.update(finished, failed);
   run.point_finished = [&](std::size_t variant, const studies::PointResult& result) {
     journal.append(variant * points + result.point.index, io::encode_point(result));
     failed += result.outcome == integrate::Outcome::reached ? 0 : 1;

@@ -15,6 +15,7 @@
 namespace epicyclic::app {
 
 int run_command(const Arguments& arguments) {
+  stop_on_signals();
   const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
   require_kind(input, arguments, "run");
   const io::Study& study = input.study;
@@ -24,7 +25,6 @@ int run_command(const Arguments& arguments) {
   const io::OutputFolder folder(arguments.output, io::identity(input, "run"));
   if (const auto code = refuse_or_finish(folder)) return *code;
   io::Provenance facts = provenance(1);
-  stop_on_signals();
   const std::string resolved = write_inputs(folder, input);
   folder.write_run(io::RunState::running, io::run_facts(facts));
 

@@ -25,6 +25,7 @@ bool computed(const studies::PointResult& r) { return r.outcome == integrate::Ou
 }  // namespace
 
 int sweep_command(const Arguments& arguments) {
+  stop_on_signals();
   const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
   require_points(input, arguments, "sweep");
   const studies::SweepOptions& sweep = *input.study.sweep;
@@ -40,7 +41,6 @@ int sweep_command(const Arguments& arguments) {
   const io::OutputFolder folder(arguments.output, io::identity(input, "sweep"));
   if (const auto code = refuse_or_finish(folder)) return *code;
   io::Provenance facts = provenance(arguments.threads);
-  stop_on_signals();
   const std::string resolved = write_inputs(folder, input);
   folder.write_run(io::RunState::running, io::run_facts(facts));
 
@@ -57,6 +57,7 @@ int sweep_command(const Arguments& arguments) {
                plan.points.size());
 
   io::Progress progress("sweep", plan.points.size(), finished);
+  progress.update(finished, failed);
   run.point_finished = [&](const studies::PointResult& result) {
     journal.append(result.point.index, io::encode_point(result));
     failed += computed(result) ? 0 : 1;

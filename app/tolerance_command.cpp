@@ -20,6 +20,7 @@
 namespace epicyclic::app {
 
 int tolerance_command(const Arguments& arguments) {
+  stop_on_signals();
   const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
   require_points(input, arguments, "tolerance");
   const studies::SweepOptions sweep = studies::by_recurrence_alone(*input.study.sweep);
@@ -33,7 +34,6 @@ int tolerance_command(const Arguments& arguments) {
   const io::OutputFolder folder(arguments.output, identity);
   if (const auto code = refuse_or_finish(folder)) return *code;
   io::Provenance facts = provenance(arguments.threads);
-  stop_on_signals();
   const std::string resolved = write_inputs(folder, input);
   folder.write_run(io::RunState::running, io::run_facts(facts));
 
@@ -65,6 +65,7 @@ int tolerance_command(const Arguments& arguments) {
   for (const auto& [index, result] : run.done) count_failure(result);
   const std::size_t total = 2 * plan.points.size();
   io::Progress progress("tolerance", total, finished);
+  progress.update(finished, failed);
   run.point_finished = [&](const studies::PointResult& result) {
     journal.append(result.point.index, io::encode_point(result));
     count_failure(result);

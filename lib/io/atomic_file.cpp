@@ -43,7 +43,9 @@ void FileDescriptor::close(const std::filesystem::path& path) {
 }
 
 void throw_output_error(const std::filesystem::path& path, std::string_view action, int error) {
-  throw OutputError(fmt::format("{}: cannot {}: {}", path.string(), action, std::generic_category().message(error)));
+  const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
+  throw OutputError(fmt::format("{}: cannot {}: {}{}", path.string(), action, std::generic_category().message(error),
+                                full ? "; what was written before is kept: make room and repeat the command" : ""));
 }
 
 FileDescriptor open_descriptor(const std::filesystem::path& path, int flags) {

@@ -38,7 +38,8 @@ class FileDescriptor {
   int descriptor_ = -1;
 };
 
-/// @throws OutputError always: "PATH: cannot ACTION: REASON", the reason from the errno value `error`
+/// @throws OutputError always: "PATH: cannot ACTION: REASON", the reason from the errno value `error`, and what to do
+/// if it is a lack of room
 [[noreturn]] void throw_output_error(const std::filesystem::path& path, std::string_view action, int error);
 
 /// open(2) with O_CLOEXEC, repeated when interrupted; not open, with errno set, when it fails.

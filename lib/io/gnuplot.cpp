@@ -15,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/errors.hpp"
 #include "io/atomic_file.hpp"
 #include "io/csv.hpp"
 
@@ -193,7 +194,9 @@ FigureOutcome run_gnuplot(const fs::path& script) {
   ::posix_spawnattr_init(&attributes);
   ::posix_spawnattr_setsigmask(&attributes, &none);
   ::posix_spawnattr_setsigdefault(&attributes, &all);
-  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  // Nor is Ctrl-C on a terminal, which goes to the whole process group: this process decides what is drawn to the end.
+  ::posix_spawnattr_setpgroup(&attributes, 0);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   pid_t child = 0;
   const int error =
       ::posix_spawnp(&child, program.c_str(), &actions, &attributes, arguments.data(), environment.data());
@@ -304,7 +307,8 @@ FigureOutcome draw_figure(const fs::path& folder, std::string_view stem, std::st
   FigureOutcome outcome = run_gnuplot(named(".gp"));
   if (!outcome.drawn()) return outcome;
   if (!ends_with(named(".png"), png_end) || !ends_with(named(".svg"), svg_end)) {
-    return {fmt::format("gnuplot did not finish {} (disk full?)", named(".png").string())};
+    throw OutputError(fmt::format("{}: gnuplot did not finish it (disk full?); make room and repeat the command",
+                                  named(".png").string()));
   }
   return outcome;
 }

@@ -83,7 +83,7 @@ std::string figure_script(std::string_view stem, const FigureText& text, const F
 std::string panel_script(std::string_view stem, std::string_view extra, std::string_view panels);
 
 /// Writes STEM.dat and STEM.gp to `folder`, which is created if need be, and draws.
-/// @throws OutputError           when data or script cannot be written
+/// @throws OutputError           when data or script cannot be written, or gnuplot leaves a picture unfinished
 /// @throws std::invalid_argument when the stem is not a plain file name (letters, digits, '_', '-', '.')
 FigureOutcome draw_figure(const std::filesystem::path& folder, std::string_view stem, std::string_view data,
                           std::string_view script);

@@ -1,8 +1,10 @@
 #include "io/journal.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include <fcntl.h>
@@ -22,7 +24,7 @@ constexpr std::size_t identity_size = 64;
 constexpr std::size_t crc_size = 4;
 constexpr std::size_t header_size = file_magic.size() + 4 + identity_size + crc_size;
 constexpr std::size_t record_head_size = record_magic.size() + 4 + 8;
-constexpr std::chrono::seconds sync_interval{1};
+constexpr std::chrono::seconds commit_interval{1};
 
 template <typename T>
 void put(std::string& bytes, T value) {
@@ -103,7 +105,7 @@ Journal::Journal(std::filesystem::path path, std::string_view identity) : path_(
     write_file_atomically(path_, header);
     descriptor_ = open_descriptor(path_, O_RDWR);
     if (!descriptor_.is_open()) throw_output_error(path_, "open the journal", errno);
-    end_ = header_size;
+    synced_ = end_ = header_size;
     return;
   }
 
@@ -116,6 +118,8 @@ Journal::Journal(std::filesystem::path path, std::string_view identity) : path_(
     records_.push_back({get<std::uint64_t>(record.substr(record_magic.size() + 4)), {payload.begin(), payload.end()}});
     end_ += *size;
   }
+  // What an earlier session left is on the disk by now, or is flushed with the first group.
+  synced_ = end_;
   if (end_ == bytes.size()) return;
   if (good_record_after(bytes, end_)) {
     throw DamagedData(
@@ -151,9 +155,9 @@ void Journal::append(std::uint64_t point, std::span<const std::byte> payload) {
   record.append(reinterpret_cast<const char*>(payload.data()), payload.size());
   put(record, crc_of(record));
 
-  const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
   if (!descriptor_.is_open()) throw std::logic_error("Journal: append after close");
-  if (broken_) throw OutputError(fmt::format("{}: the disk failed earlier", path_.string()));
+  if (!failure_.empty()) throw OutputError(failure_);
   std::string_view rest = record;
   // Always at the end of the last good record, not of the file: the rest of a failed append is overwritten.
   std::size_t offset = end_;
@@ -169,33 +173,68 @@ void Journal::append(std::uint64_t point, std::span<const std::byte> payload) {
       throw_output_error(path_, "append to the journal", error);
     }
   }
+  const bool first_of_group = synced_ == end_;
   end_ = offset;
-  unsynced_ = true;
-  if (std::chrono::steady_clock::now() - last_sync_ >= sync_interval) sync_unlocked();
+  if (!first_of_group) return;
+  commit_due_ = std::chrono::steady_clock::now() + commit_interval;
+  try {
+    if (!committer_.joinable()) committer_ = std::thread([this] { commit_groups(); });
+  } catch (const std::system_error&) {
+    flush(lock);  // The system gives no more threads: each record is a group of its own.
+  }
+  changed_.notify_all();
 }
 
 void Journal::sync() {
-  const std::lock_guard lock(mutex_);
-  sync_unlocked();
+  std::unique_lock lock(mutex_);
+  if (descriptor_.is_open()) flush(lock);
 }
 
-void Journal::sync_unlocked() {
-  if (!unsynced_ || !descriptor_.is_open()) return;
+/// Without the lock while the disk works, so that others may append.
+void Journal::flush(std::unique_lock<std::mutex>& lock) {
+  if (!failure_.empty()) throw OutputError(failure_);
+  if (synced_ == end_) return;
+  const std::size_t end = end_;
+  const auto begun = std::chrono::steady_clock::now();
+  lock.unlock();
   try {
     sync_descriptor(descriptor_.get(), path_);
-  } catch (const OutputError&) {
+  } catch (const OutputError& e) {
+    lock.lock();
     // After a failed fsync the kernel may have dropped the pages and report success next time: trust it no more.
-    broken_ = true;
-    unsynced_ = false;
+    failure_ = e.what();
     throw;
   }
-  unsynced_ = false;
-  last_sync_ = std::chrono::steady_clock::now();
+  lock.lock();
+  synced_ = std::max(synced_, end);
+  // What came meanwhile is the next group.
+  commit_due_ = begun + commit_interval;
+}
+
+void Journal::commit_groups() {
+  std::unique_lock lock(mutex_);
+  while (failure_.empty()) {
+    changed_.wait(lock, [this] { return closing_ || synced_ != end_; });
+    changed_.wait_until(lock, commit_due_, [this] { return closing_; });
+    if (closing_) return;
+    try {
+      flush(lock);
+    } catch (const OutputError&) {
+      // The next append(), sync() or close() reports it.
+    }
+  }
 }
 
 void Journal::close() {
-  const std::lock_guard lock(mutex_);
-  sync_unlocked();
+  {
+    const std::lock_guard lock(mutex_);
+    closing_ = true;
+  }
+  changed_.notify_all();
+  if (committer_.joinable()) committer_.join();
+  std::unique_lock lock(mutex_);
+  if (!descriptor_.is_open()) return;
+  flush(lock);
   descriptor_.close(path_);
 }
 

@@ -10,11 +10,13 @@
 // of an append that did not finish, and are cut away; with a good record after them something that once was good has
 // been damaged, and the journal is refused.
 //
-// A record is handed to the kernel at once (it survives the death of the process) and flushed to the disk at most once
-// a second and on close (so much may be lost with the machine, and is then computed again).
+// A record is handed to the kernel at once (it survives the death of the process). A thread of the journal's own
+// flushes to the disk what has come within a second, whether more follows or not (so much may be lost with the machine,
+// and is then computed again); appending does not wait for the disk.
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -23,6 +25,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "io/atomic_file.hpp"
@@ -72,31 +75,36 @@ class Journal {
   [[nodiscard]] std::size_t cut_bytes() const { return cut_bytes_; }
 
   /// Appends a record.
-  /// @throws OutputError           when it cannot be written or flushed (disk full included); records appended before
-  ///                               stay readable, and after a failed write, once there is room, append() works again
+  /// @throws OutputError           when it cannot be written (disk full included); records appended before stay
+  ///                               readable, and once there is room, append() works again. Also when a flush has
+  ///                               failed: then for good
   /// @throws std::invalid_argument when the payload is longer than journal_max_payload
   void append(std::uint64_t point, std::span<const std::byte> payload);
 
   /// Flushes to the disk what is not yet there.
-  /// @throws OutputError when that fails
+  /// @throws OutputError when that fails or has failed before
   void sync();
 
   /// Flushes and closes. The destructor does so too, but cannot report a failure.
-  /// @throws OutputError when that fails
+  /// @throws OutputError when that fails, or a flush has failed before
   void close();
 
  private:
-  void sync_unlocked();
+  void flush(std::unique_lock<std::mutex>& lock);
+  void commit_groups();
 
   std::filesystem::path path_;
   FileDescriptor descriptor_;
   std::vector<JournalRecord> records_;
   std::size_t cut_bytes_ = 0;
-  std::size_t end_ = 0;
-  bool unsynced_ = false;
-  bool broken_ = false;
-  std::chrono::steady_clock::time_point last_sync_;
+  std::size_t end_ = 0;     ///< of the last good record [bytes]
+  std::size_t synced_ = 0;  ///< of what is on the disk [bytes]
+  std::string failure_;     ///< of a flush; empty if there was none
+  bool closing_ = false;
+  std::chrono::steady_clock::time_point commit_due_;
   std::mutex mutex_;
+  std::condition_variable changed_;
+  std::thread committer_;  ///< begins with the first record
 };
 
 }  // namespace epicyclic::io

@@ -89,9 +89,11 @@ OutputFolder::OutputFolder(fs::path path, std::string identity)
 }
 
 FolderOutcome OutputFolder::open() {
+  // The lock file is looked for last: another process may just be making the folder, and then the lock file is there
+  // before any file that is seen here.
   std::error_code ignored;
-  const bool has_lock_file = fs::exists(file(lock_name), ignored);
-  if (!has_lock_file && !is_ours(read_run()) && holds_files(path_)) return FolderOutcome::foreign;
+  if (!is_ours(read_run()) && holds_files(path_) && !fs::exists(file(lock_name), ignored))
+    return FolderOutcome::foreign;
 
   FileDescriptor lock = open_lock_file(file(lock_name));
   const bool locked = try_lock(lock, path_);

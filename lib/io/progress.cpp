@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,8 +15,9 @@ namespace epicyclic::io {
 
 namespace {
 
+/// Shortest time between two lines on a terminal, and the longest, after which time left is counted down.
 constexpr std::chrono::milliseconds terminal_interval{100};
-constexpr std::chrono::minutes plain_interval{1};
+constexpr std::chrono::seconds terminal_silence{1};
 constexpr int widest_bar = 30;
 constexpr int default_terminal_width = 80;
 
@@ -64,16 +66,23 @@ std::string progress_line(const std::string& label, const ProgressState& state, 
   return line;
 }
 
-Progress::Progress(std::string label, std::size_t total, std::size_t already_done, int descriptor)
+Progress::Progress(std::string label, std::size_t total, std::size_t already_done, int descriptor,
+                   std::chrono::milliseconds plain_interval)
     : label_(std::move(label)),
       already_done_(already_done),
       descriptor_(descriptor),
       terminal_(is_terminal(descriptor)),
       start_(Clock::now()),
-      last_drawn_(start_) {
+      last_drawn_(start_),
+      longest_silence_(terminal_ ? Clock::duration(terminal_silence) : Clock::duration(plain_interval)) {
   state_.done = already_done;
   state_.total = total;
   draw(start_, /*last=*/false);
+  try {
+    drawer_ = std::thread([this] { draw_when_due(); });
+  } catch (const std::system_error&) {
+    // The system gives no more threads: then lines come from update() alone.
+  }
 }
 
 Progress::~Progress() { finish(); }
@@ -84,15 +93,28 @@ void Progress::update(std::size_t done, std::size_t failed) {
   state_.done = done;
   state_.failed = failed;
   const Clock::time_point now = Clock::now();
-  if (now - last_drawn_ >= (terminal_ ? Clock::duration(terminal_interval) : Clock::duration(plain_interval))) {
+  if (now - last_drawn_ >= (terminal_ ? Clock::duration(terminal_interval) : longest_silence_)) {
     draw(now, /*last=*/false);
   }
 }
 
+void Progress::draw_when_due() {
+  std::unique_lock lock(mutex_);
+  while (!over_.wait_until(lock, last_drawn_ + longest_silence_, [this] { return finished_; })) {
+    const Clock::time_point now = Clock::now();
+    // update() may have drawn meanwhile.
+    if (now - last_drawn_ >= longest_silence_) draw(now, /*last=*/false);
+  }
+}
+
 void Progress::finish() {
-  const std::lock_guard lock(mutex_);
-  if (std::exchange(finished_, true)) return;
-  draw(Clock::now(), /*last=*/true);
+  {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(finished_, true)) return;
+    draw(Clock::now(), /*last=*/true);
+  }
+  over_.notify_all();
+  if (drawer_.joinable()) drawer_.join();
 }
 
 void Progress::draw(Clock::time_point now, bool last) {

@@ -1,13 +1,16 @@
 // Progress of a long computation, on stderr (stdout belongs to the data).
 //
 // On a terminal: one line, redrawn at most ten times a second. Elsewhere (a log file, a batch system): a plain line a
-// minute and one at the end. Nothing runs in the background: lines are written from within update().
+// minute and one at the end. A thread writes the line when it is due, so that it comes also while nothing is finished:
+// whoever reads a log sees that the program lives.
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstddef>
 #include <mutex>
 #include <string>
+#include <thread>
 
 namespace epicyclic::io {
 
@@ -28,9 +31,11 @@ std::string duration_text(double seconds);
 /// Thread-safe. Failures to write are ignored: nothing depends on the display.
 class Progress {
  public:
-  /// @param already_done units that an earlier session has done; they do not count for the rate
-  /// @param descriptor   where to write: stderr, but for tests
-  Progress(std::string label, std::size_t total, std::size_t already_done = 0, int descriptor = 2);
+  /// @param already_done   units that an earlier session has done; they do not count for the rate
+  /// @param descriptor     where to write: stderr, but for tests
+  /// @param plain_interval between lines where there is no terminal: a minute, but for tests
+  Progress(std::string label, std::size_t total, std::size_t already_done = 0, int descriptor = 2,
+           std::chrono::milliseconds plain_interval = std::chrono::minutes(1));
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress();
@@ -44,6 +49,7 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
   void draw(Clock::time_point now, bool last);
+  void draw_when_due();
 
   std::string label_;
   std::size_t already_done_;
@@ -53,7 +59,10 @@ class Progress {
   ProgressState state_;
   Clock::time_point start_;
   Clock::time_point last_drawn_;
+  Clock::duration longest_silence_;
   std::mutex mutex_;
+  std::condition_variable over_;
+  std::thread drawer_;
 };
 
 }  // namespace epicyclic::io

@@ -5,23 +5,7 @@
 # another kind.
 set -euo pipefail
 
-epicyclic=$1
-inputs=$2/inputs
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-failed=0
-
-fail() {
-  echo "FAILED: $1"
-  failed=$((failed + 1))
-}
-
-code_of() {
-  local code=0
-  "$@" >stdout 2>stderr </dev/null || code=$?
-  echo "$code"
-}
+source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 
 cat >crosscheck.json <<END
 { "stage": "$inputs/tang2020.json",
@@ -94,5 +78,4 @@ grep -q "arkode-dopri5" stderr || fail "the message must name the methods: $(<st
 [ "$(code_of "$epicyclic" sweep "$inputs/tang2020_speed.json" -o x --set /integrator/locate_contacts=true --set /integrator/method=cvode-bdf --set /study/points=2 --set /study/transient_periods=1 --set /study/recorded_periods=1)" = 2 ] ||
   fail "BDF cannot locate contacts: $(<stderr)"
 
-[ "$failed" = 0 ] || exit 1
-echo "all checks passed"
+finish

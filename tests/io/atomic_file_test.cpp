@@ -73,7 +73,9 @@ TEST(AtomicFile, NoSpaceIsReportedAsSuch) {
   const FileDescriptor full = open_descriptor("/dev/full", O_WRONLY);
   ASSERT_TRUE(full.is_open());
   const std::string message = message_of<OutputError>([&] { write_all(full.get(), "x", "/dev/full"); });
-  EXPECT_EQ(message, "/dev/full: cannot write: No space left on device");
+  EXPECT_EQ(message,
+            "/dev/full: cannot write: No space left on device; what was written before is kept: make room and "
+            "repeat the command");
 }
 
 TEST(AtomicFile, MissingFolderIsAnOutputError) {

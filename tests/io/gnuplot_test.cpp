@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "core/errors.hpp"
 #include "io/bifurcation_figure.hpp"
@@ -136,11 +137,23 @@ TEST(Gnuplot, StemMustBeAPlainFileName) {
   }
 }
 
+TEST(Gnuplot, CtrlCDoesNotReachIt) {
+  EPICYCLIC_NEEDS_GNUPLOT();
+  const TemporaryFolder folder;
+  // The process group is the fifth word; "cut" is a name without blanks.
+  test::put_file(folder / "a.gp", "set print 'group'\nprint system(\"cut -d' ' -f5 /proc/self/stat\")\n");
+  ASSERT_TRUE(run_gnuplot(folder / "a.gp").drawn());
+  const std::string group = contents(folder / "group");
+  ASSERT_FALSE(group.empty());
+  EXPECT_NE(std::stol(group), ::getpgrp());
+}
+
 TEST(Gnuplot, OldPictureDoesNotPassForANewOne) {
+  EPICYCLIC_NEEDS_GNUPLOT();
   const TemporaryFolder folder;
   test::put_file(folder / "a.png", "old");
   test::put_file(folder / "a.svg", "old");
-  EXPECT_FALSE(draw_figure(folder.path(), "a", "1 2\n", "# draws nothing\n").drawn());
+  EXPECT_THROW(draw_figure(folder.path(), "a", "1 2\n", "# draws nothing\n"), OutputError);
   EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
   EXPECT_FALSE(std::filesystem::exists(folder / "a.svg"));
 }

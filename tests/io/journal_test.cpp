@@ -1,5 +1,8 @@
 #include "io/journal.hpp"
 
+#include <atomic>
+#include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <string>
@@ -8,11 +11,30 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "core/errors.hpp"
 #include "temporary_folder.hpp"
+
+namespace {
+
+std::atomic<int> flushes{0};
+std::atomic<bool> disk_fails{false};
+
+}  // namespace
+
+/// In place of the C library's in this program: counts, and fails on request.
+extern "C" int fsync(int descriptor) {
+  if (disk_fails) {
+    errno = EIO;
+    return -1;
+  }
+  const auto result = static_cast<int>(::syscall(SYS_fsync, descriptor));
+  ++flushes;
+  return result;
+}
 
 namespace epicyclic::io {
 namespace {
@@ -253,6 +275,78 @@ TEST(Journal, TakesRecordsFromSeveralThreads) {
   const Journal journal(path, identity);
   ASSERT_EQ(journal.records().size(), 800U);
   for (const JournalRecord& record : journal.records()) EXPECT_EQ(record.payload.size(), record.point % 1000);
+}
+
+/// Until `condition` holds; what takes this long has failed.
+template <typename Condition>
+double seconds_until(Condition condition) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  while (!condition() && elapsed() < 20.0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  return elapsed();
+}
+
+/// A second, and as much again for a machine that does other things too.
+constexpr double commit_bound = 2.0;
+
+TEST(Journal, LastRecordReachesTheDiskWithinASecondThoughNoneFollows) {
+  const TemporaryFolder folder;
+  Journal journal(folder / "journal.bin", identity);
+  for (std::uint64_t group = 0; group < 2; ++group) {
+    const int before = flushes;
+    journal.append(group, bytes_of("x"));
+    EXPECT_EQ(flushes, before) << "append must not wait for the disk";
+    EXPECT_LT(seconds_until([&] { return flushes > before; }), commit_bound);
+  }
+  const int before = flushes;
+  journal.close();
+  EXPECT_EQ(flushes, before) << "nothing was left to flush";
+}
+
+TEST(Journal, RecordsAreFlushedInGroups) {
+  const TemporaryFolder folder;
+  Journal journal(folder / "journal.bin", identity);
+  const int before = flushes;
+  std::uint64_t appended = 0;
+  const double elapsed = seconds_until([&] {
+    journal.append(appended++, bytes_of("x"));
+    return flushes >= before + 2;
+  });
+  EXPECT_LT(elapsed, 2 * commit_bound);
+  EXPECT_GT(elapsed, 1.9) << "two groups, each a second long";
+  EXPECT_GT(appended, 50U);
+}
+
+TEST(Journal, FailedFlushIsReportedByAppendSyncAndCloseForGood) {
+  const TemporaryFolder folder;
+  Journal journal(folder / "journal.bin", identity);
+  disk_fails = true;
+  journal.append(1, bytes_of("x"));
+  EXPECT_THROW(journal.sync(), OutputError);
+  disk_fails = false;
+  const std::string message = message_of<OutputError>([&] { journal.append(2, bytes_of("y")); });
+  EXPECT_NE(message.find("flush to the disk"), std::string::npos) << message;
+  EXPECT_THROW(journal.sync(), OutputError);
+  EXPECT_THROW(journal.close(), OutputError);
+}
+
+TEST(Journal, FlushThatFailsBetweenRecordsStopsTheNextOne) {
+  const TemporaryFolder folder;
+  Journal journal(folder / "journal.bin", identity);
+  disk_fails = true;
+  journal.append(1, bytes_of("x"));
+  bool refused = false;
+  const double elapsed = seconds_until([&] {
+    try {
+      journal.append(2, bytes_of("y"));
+    } catch (const OutputError&) {
+      refused = true;
+    }
+    return refused;
+  });
+  disk_fails = false;
+  EXPECT_TRUE(refused);
+  EXPECT_LT(elapsed, commit_bound);
 }
 
 TEST(Journal, UnusablePathIsAnOutputError) {

@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# signals.sh EPICYCLIC SOURCE_DIR
+#
+# SIGINT and SIGTERM: the program ends within 2 s with code 75, at any moment, in the midst of a long point too, and the same
+# command ends with the same bytes. MOMENTS (5) random ones, seeded by SEED, for each signal and method.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
+
+moments=${MOMENTS:-5}
+seed=${SEED:-$RANDOM}
+RANDOM=$seed
+echo "MOMENTS=$moments SEED=$seed"
+bound_ms=2000 # the contract's
+
+now_ms() { date +%s%3N; }
+
+# Runs `epicyclic sweep` with what follows, waits for its first line of progress (before it has set up its handlers, a job in the
+# background ignores SIGINT) and for $2 more, sends it the signal $1; sets code and took_ms.
+interrupted() {
+  local signal=$1 delay=$2 begun
+  rm -f stderr
+  "$epicyclic" sweep "${@:3}" -o "$folder" >stdout 2>stderr &
+  local pid=$!
+  until grep -qs '^sweep ' stderr; do
+    kill -0 "$pid" 2>/dev/null || break
+    sleep 0.005
+  done
+  sleep "$delay"
+  begun=$(now_ms)
+  kill -s "$signal" "$pid" 2>/dev/null || true
+  code=0
+  wait "$pid" || code=$?
+  took_ms=$(($(now_ms) - begun))
+}
+
+longest() {
+  [ "$took_ms" -le "$bound_ms" ] || fail "$1: took $took_ms ms"
+  if [ "$took_ms" -gt "$most" ]; then most=$took_ms; fi
+}
+
+short=("$inputs/tang2020_speed.json" --set /study/points=12 --set /study/transient_periods=60 --set /study/recorded_periods=8
+  --set /study/classification_periods=640 --threads 2)
+# One mesh period of it takes minutes.
+long=("$inputs/tang2020_speed.json" --set /study/points=2 --set /study/from=1e-5 --set /study/to=2e-5
+  --set /integrator/relative_tolerance=1e-13 --set /integrator/max_steps_per_period=1000000000 --threads 2)
+for method in arkode-dopri5 lanes-dopri5; do
+  [ "$(code_of "$epicyclic" sweep "${short[@]}" --set "/integrator/method=$method" -o "$method")" = 0 ] || fail "$method: $(<stderr)"
+  for signal in INT TERM; do
+    what="SIG$signal, $method"
+    most=0
+    stopped=0
+    code=0
+    for k in $(seq "$moments"); do
+      if [ "$code" = 0 ]; then folder=short$signal$method$k; fi
+      interrupted "$signal" "$(moment 1500)" "${short[@]}" --set "/integrator/method=$method"
+      case $code in
+        0) ;;
+        75) stopped=$((stopped + 1)) ;;
+        *) fail "$what: exit code $code: $(<stderr)" ;;
+      esac
+      longest "$what"
+    done
+    [ "$(code_of "$epicyclic" sweep "${short[@]}" --set "/integrator/method=$method" -o "$folder")" = 0 ] || fail "resumed after $what: $(<stderr)"
+    same_results "$method" "$folder"
+    echo "$what: $most ms at most, $stopped of $moments stopped"
+
+    most=0
+    folder=long$signal$method
+    interrupted "$signal" 0.5 "${long[@]}" --set "/integrator/method=$method"
+    [ "$code" = 75 ] || fail "$what in a long point: exit code $code: $(<stderr)"
+    grep -q 'the same command goes on' stderr || fail "$what in a long point does not say that the same command goes on"
+    longest "$what in a long point"
+    echo "$what in a long point: $most ms"
+  done
+done
+finish
