@@ -44,6 +44,9 @@ int guarded(const std::function<int()>& command) {
   } catch (const io::DamagedData& e) {
     fmt::print(stderr, "damaged data: {}\n", e.what());
     return damaged_data;
+  } catch (const io::JournalInUse& e) {
+    fmt::print(stderr, "{}\n", e.what());
+    return folder_in_use;
   } catch (const std::system_error& e) {
     fmt::print(stderr, "output: {}\n", e.what());
     return output_failed;

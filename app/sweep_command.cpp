@@ -9,8 +9,7 @@
 
 #include "commands.hpp"
 #include "folder.hpp"
-#include "io/journal.hpp"
-#include "io/point_record.hpp"
+#include "io/point_store.hpp"
 #include "io/progress.hpp"
 #include "io/study_model.hpp"
 #include "io/sweep_output.hpp"
@@ -44,52 +43,56 @@ int sweep_command(const Arguments& arguments) {
   const std::string resolved = write_inputs(folder, input);
   folder.write_run(io::RunState::running, io::run_facts(facts));
 
-  io::Journal journal(folder.file("journal.bin"), io::identity(input, "sweep"));
+  io::PointStore store(folder.path(), io::identity(input, "sweep"), plan.points.size());
+  std::size_t failed = 0;
   studies::SweepRun run;
   run.threads = arguments.threads;
   run.stop = &stop_requested();
-  run.done = known_points(journal.take_records(), plan);
-  std::size_t finished = run.done.size();
-  std::size_t failed = 0;
-  for (const auto& [index, result] : run.done) failed += computed(result) ? 0 : 1;
-  if (finished > 0)
-    fmt::print(stderr, "{}: {} of {} points were there already\n", folder.path().string(), finished,
+  run.done.resize(plan.points.size());
+  for (std::size_t i = 0; i < plan.points.size(); ++i) {
+    run.done[i] = store.holds(i);
+    if (run.done[i]) failed += computed(store.read_brief(i)) ? 0 : 1;
+  }
+  if (store.size() > 0)
+    fmt::print(stderr, "{}: {} of {} points were there already\n", folder.path().string(), store.size(),
                plan.points.size());
 
-  io::Progress progress("sweep", plan.points.size(), finished);
+  io::Progress progress("sweep", plan.points.size(), store.size());
+  run.end_state = [&](std::size_t index) { return store.read_brief(index).end_state; };
   run.point_finished = [&](const studies::PointResult& result) {
-    journal.append(result.point.index, io::encode_point(result));
+    store.append(result);
     failed += computed(result) ? 0 : 1;
-    progress.update(++finished, failed);
+    progress.update(store.size(), failed);
   };
-  const std::vector<studies::PointResult> results =
-      studies::run_sweep(plan, sweep, input.study.integrator, model_at, std::move(run));
+  (void)studies::run_sweep(plan, sweep, input.study.integrator, model_at, run);
   progress.finish();
-  journal.close();
+  store.sync();
 
   const auto close_run = [&](io::RunState state) {
     facts.ended = io::utc_now();
     facts.counts = {{"points", static_cast<std::int64_t>(plan.points.size())},
-                    {"computed", static_cast<std::int64_t>(results.size())},
+                    {"computed", static_cast<std::int64_t>(store.size())},
                     {"failed", static_cast<std::int64_t>(failed)}};
     folder.write_run(state, io::run_facts(facts));
   };
-  if (results.size() < plan.points.size()) {
+  if (store.size() < plan.points.size()) {
     close_run(io::RunState::stopped);
-    fmt::print(stderr, "stopped after {} of {} points; the same command goes on\n", results.size(), plan.points.size());
+    fmt::print(stderr, "stopped after {} of {} points; the same command goes on\n", store.size(), plan.points.size());
     return stopped_early;
   }
 
   const io::SweepOutput output{sweep, studies::poincare_columns(first_model), resolved, io::figure_title(input.study)};
-  io::write_points_csv(folder.file("points.csv"), results);
-  io::write_poincare_csv(folder.file("poincare.csv"), output, results);
-  io::write_results_h5(folder.file("results.h5"), output, results);
-  const std::vector<io::DrawnFigure> figures = io::draw_sweep_figures(folder.file("figures"), output, results);
+  const io::PointSource points = store.source();
+  io::write_points_csv(folder.file("points.csv"), points);
+  io::write_poincare_csv(folder.file("poincare.csv"), output, points);
+  io::write_results_h5(folder.file("results.h5"), output, points);
+  const std::vector<io::DrawnFigure> figures = io::draw_sweep_figures(folder.file("figures"), output, points);
   close_run(io::RunState::complete);
 
   std::map<std::string, std::size_t> regimes;
   std::size_t settling = 0;
-  for (const studies::PointResult& r : results) {
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const studies::PointResult r = points.read_brief(i);
     if (!computed(r)) continue;
     ++regimes[to_string(r.regime)];
     const bool recurs_late = !r.classified && r.regime == analysis::Regime::undecided &&
