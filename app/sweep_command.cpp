@@ -2,17 +2,21 @@
 
 #include <cstdio>
 #include <map>
+#include <mutex>
 #include <string>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "failure.hpp"
 #include "folder.hpp"
 #include "io/point_store.hpp"
 #include "io/progress.hpp"
 #include "io/study_model.hpp"
 #include "io/sweep_output.hpp"
+#include "ranks.hpp"
+#include "shared_sweep.hpp"
 #include "stop.hpp"
 
 namespace epicyclic::app {
@@ -21,9 +25,8 @@ namespace {
 
 bool computed(const studies::PointResult& r) { return r.outcome == integrate::Outcome::reached; }
 
-}  // namespace
-
-int sweep_command(const Arguments& arguments) {
+/// @param leader  of the other ranks; null: there are none
+int lead_sweep(const Arguments& arguments, SweepLeader* leader) {
   const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
   require_points(input, arguments, "sweep");
   const studies::SweepOptions& sweep = *input.study.sweep;
@@ -36,6 +39,7 @@ int sweep_command(const Arguments& arguments) {
   if (sweep.parameter != "mesh_frequency_ratio")
     fmt::print(stderr, "operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
 
+  if (leader != nullptr) leader->gather(arguments, io::identity(input, "sweep"));
   const io::OutputFolder folder(arguments.output, io::identity(input, "sweep"));
   if (const auto code = refuse_or_finish(folder)) return *code;
   io::Provenance facts = provenance(arguments.threads);
@@ -58,13 +62,26 @@ int sweep_command(const Arguments& arguments) {
                plan.points.size());
 
   io::Progress progress("sweep", plan.points.size(), store.size());
+  std::mutex counting;
+  std::size_t elsewhere = 0;  // points of other ranks
   run.end_state = [&](std::size_t index) { return store.read_brief(index).end_state; };
   run.point_finished = [&](const studies::PointResult& result) {
     store.append(result);
+    const std::scoped_lock lock(counting);
     failed += computed(result) ? 0 : 1;
-    progress.update(store.size(), failed);
+    progress.update(store.size() + elsewhere, failed);
   };
-  (void)studies::run_sweep(plan, sweep, input.study.integrator, model_at, run);
+  if (leader == nullptr) {
+    (void)studies::run_sweep(plan, sweep, input.study.integrator, model_at, run);
+  } else {
+    leader->run(plan, sweep, input.study.integrator, model_at, run, [&](std::size_t finished, std::size_t without) {
+      const std::scoped_lock lock(counting);
+      elsewhere += finished;
+      failed += without;
+      progress.update(store.size() + elsewhere, failed);
+    });
+    store.read_others();
+  }
   progress.finish();
   store.sync();
 
@@ -124,6 +141,25 @@ int sweep_command(const Arguments& arguments) {
     for (const auto& figure : summary["figures"]) fmt::print("figure: {}\n", figure.get<std::string>());
   }
   return failed == 0 ? done : done_with_failures;
+}
+
+}  // namespace
+
+int sweep_command(const Arguments& arguments) {
+  Ranks& ranks = *arguments.ranks;
+  if (ranks.size() == 1) return lead_sweep(arguments, nullptr);
+  if (ranks.rank() > 0) return follow_sweep(arguments);
+  SweepLeader leader(ranks);
+  int code = bug;
+  try {
+    code = lead_sweep(arguments, &leader);
+  } catch (...) {
+    const Failure failure = failure_of(std::current_exception());
+    fmt::print(stderr, "{}\n", failure.what());
+    code = failure.exit_code();
+  }
+  leader.dismiss(code);
+  return code;
 }
 
 }  // namespace epicyclic::app
