@@ -7,6 +7,8 @@
 
 namespace epicyclic::app {
 
+class Ranks;
+
 enum ExitCode : int {
   done = 0,
   done_with_failures = 1,
@@ -26,6 +28,7 @@ struct Arguments {
   std::vector<std::string> sets;
   int threads = 1;
   bool json = false;
+  Ranks* ranks = nullptr;
 };
 
 int run_command(const Arguments& arguments);

@@ -43,11 +43,11 @@ int crosscheck_command(const Arguments& arguments) {
   studies::CrosscheckRun run;
   run.threads = arguments.threads;
   run.stop = &stop_requested();
-  for (const io::JournalRecord& record : journal.take_records()) {
-    studies::PointResult result = io::decode_point(record.payload);
-    const std::size_t variant = record.point / points;
-    if (variant >= variants.size() || result.point.index != record.point % points)
-      throw io::DamagedData("the journal holds result " + std::to_string(record.point) + ", which the study has not");
+  for (const io::JournalEntry& entry : journal.entries()) {
+    studies::PointResult result = io::decode_point(journal.read(entry));
+    const std::size_t variant = entry.point / points;
+    if (variant >= variants.size() || result.point.index != entry.point % points)
+      throw io::DamagedData("the journal holds result " + std::to_string(entry.point) + ", which the study has not");
     run.done.insert_or_assign({variant, result.point.index}, std::move(result));
   }
   std::size_t finished = run.done.size();
@@ -79,8 +79,9 @@ int crosscheck_command(const Arguments& arguments) {
   }
 
   const io::SweepOutput output{sweep, studies::poincare_columns(first_model), resolved, io::figure_title(input.study)};
-  io::write_points_csv(folder.file("points.csv"), all.reference);
-  io::write_poincare_csv(folder.file("poincare.csv"), output, all.reference);
+  const io::PointSource reference = io::points_in_memory(all.reference);
+  io::write_points_csv(folder.file("points.csv"), reference);
+  io::write_poincare_csv(folder.file("poincare.csv"), output, reference);
   io::write_crosscheck_csv(folder.file("crosscheck.csv"), all);
   const std::string summary = io::crosscheck_summary(all);
   io::write_file_atomically(folder.file("crosscheck.md"), summary);

@@ -39,13 +39,14 @@ std::int64_t failed_points(const io::OutputFolder& folder) {
 
 }  // namespace
 
-std::map<std::size_t, studies::PointResult> known_points(const std::vector<io::JournalRecord>& records,
+std::map<std::size_t, studies::PointResult> known_points(const io::Journal& journal,
+                                                         std::span<const io::JournalEntry> entries,
                                                          const studies::SweepPlan& plan) {
   std::map<std::size_t, studies::PointResult> known;
-  for (const io::JournalRecord& record : records) {
-    studies::PointResult result = io::decode_point(record.payload);
-    if (result.point.index >= plan.points.size() || result.point.index != record.point)
-      throw io::DamagedData("the journal holds point " + std::to_string(record.point) + ", which the study has not");
+  for (const io::JournalEntry& entry : entries) {
+    studies::PointResult result = io::decode_point(journal.read(entry));
+    if (result.point.index >= plan.points.size() || result.point.index != entry.point)
+      throw io::DamagedData("the journal holds point " + std::to_string(entry.point) + ", which the study has not");
     known.insert_or_assign(result.point.index, std::move(result));
   }
   return known;

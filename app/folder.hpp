@@ -3,9 +3,9 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "commands.hpp"
 #include "io/journal.hpp"
@@ -27,9 +27,10 @@ void require_kind(const io::LoadedInput& input, const Arguments& arguments, std:
 /// Versions and machine, for run.json.
 [[nodiscard]] io::Provenance provenance(int threads);
 
-/// Points of earlier sessions, from the journal's records.
-/// @throws DamagedData when it holds points that the study has not
-[[nodiscard]] std::map<std::size_t, studies::PointResult> known_points(const std::vector<io::JournalRecord>& records,
+/// Points of earlier sessions, from records of the journal.
+/// @throws DamagedData when they are of points that the study has not
+[[nodiscard]] std::map<std::size_t, studies::PointResult> known_points(const io::Journal& journal,
+                                                                       std::span<const io::JournalEntry> entries,
                                                                        const studies::SweepPlan& plan);
 
 /// Says on stderr why a folder cannot be used.

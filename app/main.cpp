@@ -5,60 +5,61 @@
 #include <cstdio>
 #include <exception>
 #include <functional>
-#include <system_error>
-#include <thread>
+#include <iostream>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
+#include <sched.h>
 
 #include "commands.hpp"
 #include "core/errors.hpp"
 #include "core/version.hpp"
-#include "io/journal.hpp"
+#include "failure.hpp"
 #include "io/study_input.hpp"
 #include "io/versions.hpp"
+#include "ranks.hpp"
 
 namespace epicyclic::app {
 
 std::string version_text() {
   std::string text =
       fmt::format("epicyclic {}\ncommit {}\nSIMD {}\n", EPICYCLIC_VERSION, EPICYCLIC_COMMIT, io::simd_level());
+  if (const std::string mpi = mpi_version(); !mpi.empty()) text += fmt::format("MPI {}\n", mpi);
   for (const auto& [name, version] : io::dependency_versions()) text += fmt::format("{} {}\n", name, version);
   return text;
 }
 
 namespace {
 
-/// Runs a subcommand; every exception becomes an exit code and one message.
-int guarded(const std::function<int()>& command) {
+/// Runs a subcommand; every exception becomes an exit code and one message, whatever the number of ranks.
+int guarded(const Ranks& ranks, const std::function<int()>& command) {
   try {
     const int code = command();
     if (std::fflush(stdout) != 0) throw OutputError("standard output: cannot be written");
     return code;
-  } catch (const InputError& e) {
-    fmt::print(stderr, "{}\n", e.what());
-    return bad_input;
-  } catch (const OutputError& e) {
-    fmt::print(stderr, "{}\n", e.what());
-    return output_failed;
-  } catch (const io::DamagedData& e) {
-    fmt::print(stderr, "damaged data: {}\n", e.what());
-    return damaged_data;
-  } catch (const std::system_error& e) {
-    fmt::print(stderr, "output: {}\n", e.what());
-    return output_failed;
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "internal error, please report it: {}\n", e.what());
-    return bug;
+  } catch (...) {
+    const Failure failure = failure_of(std::current_exception());
+    if (ranks.rank() == 0) fmt::print(stderr, "{}\n", failure.what());
+    return failure.exit_code();
   }
 }
 
+/// Cores that this process may run on: a launcher may have bound each rank to some.
+int own_cores() {
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  return ::sched_getaffinity(0, sizeof cores, &cores) == 0 ? std::max(1, CPU_COUNT(&cores)) : 1;
+}
+
 int run(int argc, char** argv) {
+  Ranks ranks;
   CLI::App cli("Nonlinear dynamics of planetary gear trains, with proof.", "epicyclic");
   cli.set_version_flag("--version", version_text);
   cli.require_subcommand(1);
   Arguments arguments;
-  arguments.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  arguments.threads = own_cores();
+  arguments.ranks = &ranks;
 
   const auto with_input = [&](CLI::App* command) {
     command->add_option("INPUT", arguments.input, "study or stage file (JSON)")->required();
@@ -100,9 +101,14 @@ int run(int argc, char** argv) {
   try {
     cli.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return cli.exit(e) == 0 ? done : bad_input;
+    std::ostringstream unsaid;
+    const bool talks = ranks.rank() == 0;
+    return cli.exit(e, talks ? std::cout : unsaid, talks ? std::cerr : unsaid) == 0 ? done : bad_input;
   }
-  return guarded([&] {
+  return guarded(ranks, [&] {
+    if (ranks.size() > 1 && !ranks.connected())
+      throw InputError("several processes cannot share the work: this program was built without MPI");
+    if (ranks.size() > 1 && !sweep->parsed()) throw InputError("only sweep runs on several processes");
     if (gear->parsed()) return gear_command(arguments);
     if (run_point->parsed()) return run_command(arguments);
     if (sweep->parsed()) return sweep_command(arguments);

@@ -42,8 +42,9 @@ int run_command(const Arguments& arguments) {
   const io::RunOutput output{points, study.run, model.sun_planet_half_gap, model.ring_planet_half_gap};
   const bool computed = result->point.outcome == integrate::Outcome::reached;
   const std::string summary = io::run_summary(output, *result);
-  io::write_points_csv(folder.file("points.csv"), {result->point});
-  io::write_poincare_csv(folder.file("poincare.csv"), points, {result->point});
+  const io::PointSource point = io::points_in_memory({&result->point, 1});
+  io::write_points_csv(folder.file("points.csv"), point);
+  io::write_poincare_csv(folder.file("poincare.csv"), points, point);
   io::write_run_tables(folder.path(), output, *result);
   io::write_run_h5(folder.file("results.h5"), output, *result);
   io::write_file_atomically(folder.file("summary.md"), summary);

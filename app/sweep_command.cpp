@@ -2,18 +2,21 @@
 
 #include <cstdio>
 #include <map>
+#include <mutex>
 #include <string>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "failure.hpp"
 #include "folder.hpp"
-#include "io/journal.hpp"
-#include "io/point_record.hpp"
+#include "io/point_store.hpp"
 #include "io/progress.hpp"
 #include "io/study_model.hpp"
 #include "io/sweep_output.hpp"
+#include "ranks.hpp"
+#include "shared_sweep.hpp"
 #include "stop.hpp"
 
 namespace epicyclic::app {
@@ -22,9 +25,8 @@ namespace {
 
 bool computed(const studies::PointResult& r) { return r.outcome == integrate::Outcome::reached; }
 
-}  // namespace
-
-int sweep_command(const Arguments& arguments) {
+/// @param leader  of the other ranks; null: there are none
+int lead_sweep(const Arguments& arguments, SweepLeader* leader) {
   stop_on_signals();
   const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
   require_points(input, arguments, "sweep");
@@ -38,59 +40,77 @@ int sweep_command(const Arguments& arguments) {
   if (sweep.parameter != "mesh_frequency_ratio")
     fmt::print(stderr, "operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
 
+  if (leader != nullptr) leader->gather(arguments, io::identity(input, "sweep"));
   const io::OutputFolder folder(arguments.output, io::identity(input, "sweep"));
   if (const auto code = refuse_or_finish(folder)) return *code;
   io::Provenance facts = provenance(arguments.threads);
   const std::string resolved = write_inputs(folder, input);
   folder.write_run(io::RunState::running, io::run_facts(facts));
 
-  io::Journal journal(folder.file("journal.bin"), io::identity(input, "sweep"));
+  io::PointStore store(folder.path(), io::identity(input, "sweep"), plan.points.size());
+  std::size_t failed = 0;
   studies::SweepRun run;
   run.threads = arguments.threads;
   run.stop = &stop_requested();
-  run.done = known_points(journal.take_records(), plan);
-  std::size_t finished = run.done.size();
-  std::size_t failed = 0;
-  for (const auto& [index, result] : run.done) failed += computed(result) ? 0 : 1;
-  if (finished > 0)
-    fmt::print(stderr, "{}: {} of {} points were there already\n", folder.path().string(), finished,
+  run.done.resize(plan.points.size());
+  for (std::size_t i = 0; i < plan.points.size(); ++i) {
+    run.done[i] = store.holds(i);
+    if (run.done[i]) failed += computed(store.read_brief(i)) ? 0 : 1;
+  }
+  if (store.size() > 0)
+    fmt::print(stderr, "{}: {} of {} points were there already\n", folder.path().string(), store.size(),
                plan.points.size());
 
-  io::Progress progress("sweep", plan.points.size(), finished);
-  progress.update(finished, failed);
+  io::Progress progress("sweep", plan.points.size(), store.size());
+  progress.update(store.size(), failed);
+  std::mutex counting;
+  std::size_t elsewhere = 0;  // points of other ranks
+  run.end_state = [&](std::size_t index) { return store.read_brief(index).end_state; };
   run.point_finished = [&](const studies::PointResult& result) {
-    journal.append(result.point.index, io::encode_point(result));
+    store.append(result);
+    const std::scoped_lock lock(counting);
     failed += computed(result) ? 0 : 1;
-    progress.update(++finished, failed);
+    progress.update(store.size() + elsewhere, failed);
   };
-  const std::vector<studies::PointResult> results =
-      studies::run_sweep(plan, sweep, input.study.integrator, model_at, std::move(run));
+  if (leader == nullptr) {
+    (void)studies::run_sweep(plan, sweep, input.study.integrator, model_at, run);
+  } else {
+    leader->run(plan, sweep, input.study.integrator, model_at, run, [&](std::size_t finished, std::size_t without) {
+      const std::scoped_lock lock(counting);
+      elsewhere += finished;
+      failed += without;
+      progress.update(store.size() + elsewhere, failed);
+    });
+    store.read_others();
+  }
   progress.finish();
-  journal.close();
+  store.sync();
 
   const auto close_run = [&](io::RunState state) {
     facts.ended = io::utc_now();
     facts.counts = {{"points", static_cast<std::int64_t>(plan.points.size())},
-                    {"computed", static_cast<std::int64_t>(results.size())},
+                    {"computed", static_cast<std::int64_t>(store.size())},
                     {"failed", static_cast<std::int64_t>(failed)}};
     folder.write_run(state, io::run_facts(facts));
   };
-  if (results.size() < plan.points.size()) {
+  if (store.size() < plan.points.size()) {
     close_run(io::RunState::stopped);
-    fmt::print(stderr, "stopped after {} of {} points; the same command goes on\n", results.size(), plan.points.size());
+    fmt::print(stderr, "stopped after {} of {} points; the same command goes on\n", store.size(), plan.points.size());
     return stopped_early;
   }
 
   const io::SweepOutput output{sweep, studies::poincare_columns(first_model), resolved, io::figure_title(input.study)};
-  io::write_points_csv(folder.file("points.csv"), results);
-  io::write_poincare_csv(folder.file("poincare.csv"), output, results);
-  io::write_results_h5(folder.file("results.h5"), output, results);
-  const std::vector<io::DrawnFigure> figures = io::draw_sweep_figures(folder.file("figures"), output, results);
+  const io::PointSource points = store.source();
+  io::write_points_csv(folder.file("points.csv"), points);
+  io::write_poincare_csv(folder.file("poincare.csv"), output, points);
+  io::write_results_h5(folder.file("results.h5"), output, points);
+  const std::vector<io::DrawnFigure> figures = io::draw_sweep_figures(folder.file("figures"), output, points);
   close_run(io::RunState::complete);
 
   std::map<std::string, std::size_t> regimes;
   std::size_t settling = 0;
-  for (const studies::PointResult& r : results) {
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const studies::PointResult r = points.read_brief(i);
     if (!computed(r)) continue;
     ++regimes[to_string(r.regime)];
     const bool recurs_late = !r.classified && r.regime == analysis::Regime::undecided &&
@@ -122,6 +142,25 @@ int sweep_command(const Arguments& arguments) {
     for (const auto& figure : summary["figures"]) fmt::print("figure: {}\n", figure.get<std::string>());
   }
   return failed == 0 ? done : done_with_failures;
+}
+
+}  // namespace
+
+int sweep_command(const Arguments& arguments) {
+  Ranks& ranks = *arguments.ranks;
+  if (ranks.size() == 1) return lead_sweep(arguments, nullptr);
+  if (ranks.rank() > 0) return follow_sweep(arguments);
+  SweepLeader leader(ranks);
+  int code = bug;
+  try {
+    code = lead_sweep(arguments, &leader);
+  } catch (...) {
+    const Failure failure = failure_of(std::current_exception());
+    fmt::print(stderr, "{}\n", failure.what());
+    code = failure.exit_code();
+  }
+  leader.dismiss(code);
+  return code;
 }
 
 }  // namespace epicyclic::app

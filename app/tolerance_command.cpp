@@ -39,30 +39,28 @@ int tolerance_command(const Arguments& arguments) {
 
   // Record k < n is the study's own point k, record n + k what was measured on it.
   io::Journal journal(folder.file("journal.bin"), identity);
-  std::vector<io::JournalRecord> records = journal.take_records();
-  const auto measurements = std::stable_partition(records.begin(), records.end(), [&](const io::JournalRecord& record) {
-    return record.point < plan.points.size();
-  });
+  std::vector<io::JournalEntry> entries = journal.entries();
+  const auto measurements = std::stable_partition(
+      entries.begin(), entries.end(), [&](const io::JournalEntry& entry) { return entry.point < plan.points.size(); });
   std::map<std::size_t, studies::TolerancePoint> measured;
-  for (auto record = measurements; record != records.end(); ++record) {
-    studies::TolerancePoint point = io::decode_tolerance_point(record->payload);
+  for (auto entry = measurements; entry != entries.end(); ++entry) {
+    studies::TolerancePoint point = io::decode_tolerance_point(journal.read(*entry));
     const std::size_t index = point.point.index;
-    if (index >= plan.points.size() || record->point != plan.points.size() + index)
-      throw io::DamagedData("the journal holds measurement " + std::to_string(record->point) +
+    if (index >= plan.points.size() || entry->point != plan.points.size() + index)
+      throw io::DamagedData("the journal holds measurement " + std::to_string(entry->point) +
                             ", which the study has not");
     measured.insert_or_assign(index, std::move(point));
   }
-  records.erase(measurements, records.end());
   studies::SweepRun run;
   run.threads = arguments.threads;
   run.stop = &stop_requested();
-  run.done = known_points(records, plan);
-  std::size_t finished = run.done.size() + measured.size();
+  auto known = known_points(journal, {entries.begin(), measurements}, plan);
+  std::size_t finished = known.size() + measured.size();
   std::size_t failed = 0;
   const auto count_failure = [&](const studies::PointResult& r) {
     failed += r.outcome == integrate::Outcome::reached ? 0 : 1;
   };
-  for (const auto& [index, result] : run.done) count_failure(result);
+  for (const auto& [index, result] : known) count_failure(result);
   const std::size_t total = 2 * plan.points.size();
   io::Progress progress("tolerance", total, finished);
   progress.update(finished, failed);
@@ -71,8 +69,9 @@ int tolerance_command(const Arguments& arguments) {
     count_failure(result);
     progress.update(++finished, failed);
   };
-  const auto studied = studies::run_sweep(
-      plan, sweep, input.study.integrator, [&](double value) { return model_at(value, width); }, std::move(run));
+  const auto studied = studies::run_sweep_in_memory(
+      plan, sweep, input.study.integrator, [&](double value) { return model_at(value, width); }, std::move(run),
+      std::move(known));
   std::vector<studies::TolerancePoint> points;
   for (const studies::PointResult& result : studied) {
     if (stop_requested()) break;
@@ -108,7 +107,7 @@ int tolerance_command(const Arguments& arguments) {
       input.study.tolerance,
       input.study.integrator,
       first_model.dimension};
-  io::write_points_csv(folder.file("points.csv"), studied);
+  io::write_points_csv(folder.file("points.csv"), io::points_in_memory(studied));
   const std::string summary = io::write_tolerance_tables(folder.path(), output, points);
   const auto figures = io::draw_tolerance_figures(folder.file("figures"), output, points);
   close_run(io::RunState::complete);

@@ -84,6 +84,9 @@ class AtomicFile {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
+  /// Where it stands until commit(), for a library that writes by name; empty afterwards.
+  [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
+
  private:
   void discard() noexcept;
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -24,12 +26,50 @@ std::size_t cell_of(double value, const FigureRange& range, std::size_t cells) {
   return std::min(cells - 1, static_cast<std::size_t>(position));
 }
 
+/// The text of a data file, written in blocks.
+class DataWriter {
+ public:
+  explicit DataWriter(AtomicFile& file) : file_(file) {}
+
+  void comment(std::string_view text) { buffer_ += fmt::format("# {}\n", text); }
+
+  void row(std::initializer_list<double> values) {
+    const char* separator = "";
+    for (const double value : values) {
+      buffer_ += separator;
+      append_number(buffer_, value);
+      separator = " ";
+    }
+    buffer_ += '\n';
+    empty_ = false;
+    constexpr std::size_t block_bytes = std::size_t{1} << 20;
+    if (buffer_.size() >= block_bytes) flush();
+  }
+
+  /// Ends a data set of gnuplot's (index). It does not count one without any line.
+  void end_data_set(std::string_view nothing) {
+    if (empty_) buffer_ += nothing;
+    buffer_ += "\n\n";
+    empty_ = true;
+  }
+
+  void flush() {
+    file_.write(buffer_);
+    buffer_.clear();
+  }
+
+ private:
+  AtomicFile& file_;
+  std::string buffer_;
+  bool empty_ = true;
+};
+
 /// Points on the grid, each cell once.
 class CellWriter {
  public:
   CellWriter(const FigureRange& x, const FigureRange& y) : x_(x), y_(y), seen_(cells_x * cells_y) {}
 
-  void append(std::string& data, double x, const std::vector<double>& values) {
+  void append(DataWriter& data, double x, const std::vector<double>& values) {
     if (!std::isfinite(x)) return;
     const std::size_t column = cell_of(x, x_, cells_x) * cells_y;
     for (const double y : values) {
@@ -37,10 +77,7 @@ class CellWriter {
       std::vector<bool>::reference cell = seen_[column + cell_of(y, y_, cells_y)];
       if (cell) continue;
       cell = true;
-      append_number(data, x);
-      data += ' ';
-      append_number(data, y);
-      data += '\n';
+      data.row({x, y});
     }
   }
 
@@ -48,12 +85,6 @@ class CellWriter {
   FigureRange x_, y_;
   std::vector<bool> seen_;
 };
-
-/// Ends a data set of gnuplot's (index). It does not count one without any line.
-void end_data_set(std::string& data, bool empty, std::string_view nothing) {
-  if (empty) data += nothing;
-  data += "\n\n";
-}
 
 /// Each dot is a line of (nearly) no length with round ends: in the SVG file that takes a third of the bytes of a point
 /// symbol. Lines of no length at all are dropped, and what leaves the frame is clipped: hence towards the middle.
@@ -115,24 +146,28 @@ FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::strin
   FigureRange x_range;
   FigureRange y_range;
   for (const BifurcationSeries& each : series) {
-    if (each.x.size() != each.y.size()) throw std::invalid_argument("bifurcation_figure: x and y differ in length");
-    for (const double x : each.x) x_range.include(x);
-    for (const std::vector<double>& values : each.y) {
-      for (const double y : values) y_range.include(y);
+    for (std::size_t i = 0; i < each.count; ++i) {
+      const auto point = each.at(i);
+      if (!point) continue;
+      x_range.include(point->x);
+      for (const double y : point->section) y_range.include(y);
     }
   }
   if (x_range.empty() || y_range.empty()) return {"there is no finite point to draw"};
   x_range = x_range.widened(0);
   y_range = y_range.widened(figure_margin);
 
-  std::string data;
-  for (const BifurcationSeries& each : series) {
-    data += fmt::format("# {}\n", gnuplot_quoted(each.label));
-    const std::size_t size = data.size();
-    CellWriter cells(x_range, y_range);
-    for (std::size_t i = 0; i < each.x.size(); ++i) cells.append(data, each.x[i], each.y[i]);
-    end_data_set(data, data.size() == size, "NaN NaN\n");
-  }
+  const auto write_data = [&](AtomicFile& file) {
+    DataWriter data(file);
+    for (const BifurcationSeries& each : series) {
+      data.comment(gnuplot_quoted(each.label));
+      CellWriter cells(x_range, y_range);
+      for (std::size_t i = 0; i < each.count; ++i)
+        if (const auto point = each.at(i)) cells.append(data, point->x, point->section);
+      data.end_data_set("NaN NaN\n");
+    }
+    data.flush();
+  };
 
   std::string plot;
   for (std::size_t i = series.size(); i-- > 0;) {
@@ -141,17 +176,21 @@ FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::strin
   }
   const std::size_t legend_entries = series.size() > 1 ? series.size() : 0;
   for (std::size_t i = 0; i < legend_entries; ++i) plot += legend_entry(colours[i], series[i].label);
-  return draw_figure(folder, stem, data,
+  return draw_figure(folder, stem, write_data,
                      figure_script(stem, text, x_range, y_range, legend_entries, markers, dot_settings(x_range), plot));
 }
 
 FigureOutcome regime_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
-                            const std::vector<RegimePoint>& points) {
+                            std::size_t count, const std::function<std::optional<RegimePoint>(std::size_t)>& at) {
   FigureRange x;
   FigureRange y;
   FigureRange exponents;
   std::array<std::size_t, looks.size()> counts{};
-  for (const RegimePoint& p : points) {
+  std::vector<std::pair<std::size_t, RegimePoint>> points;  // without their sections
+  for (std::size_t i = 0; i < count; ++i) {
+    auto point = at(i);
+    if (!point) continue;
+    RegimePoint& p = *point;
     x.include(p.x);
     for (const double v : p.section) y.include(v);
     if (p.regime == analysis::Regime::periodic) {
@@ -161,6 +200,8 @@ FigureOutcome regime_figure(const std::filesystem::path& folder, std::string_vie
       exponents.include(p.exponent.high());
     }
     ++counts[look_of(p)];
+    p.section = {};
+    points.emplace_back(i, std::move(p));
   }
   if (x.empty() || y.empty()) return {"there is no finite point to draw"};
   x = x.widened(0);
@@ -169,27 +210,23 @@ FigureOutcome regime_figure(const std::filesystem::path& folder, std::string_vie
   exponents = exponents.widened(2.0 * figure_margin);
 
   // A data set of dots and one of exponents for each regime.
-  std::string data;
-  CellWriter cells(x, y);
-  for (std::size_t k = 0; k < looks.size(); ++k) {
-    data += fmt::format("# {}: section\n", looks[k].label);
-    std::size_t size = data.size();
-    for (const RegimePoint& p : points)
-      if (look_of(p) == k) cells.append(data, p.x, p.section);
-    end_data_set(data, data.size() == size, "NaN NaN\n");
-    data += fmt::format("# {}: exponent and half its interval\n", looks[k].label);
-    size = data.size();
-    for (const RegimePoint& p : points) {
-      if (look_of(p) != k || !std::isfinite(p.exponent.value)) continue;
-      append_number(data, p.x);
-      data += ' ';
-      append_number(data, p.exponent.value);
-      data += ' ';
-      append_number(data, std::isfinite(p.exponent.half_width) ? p.exponent.half_width : 0.0);
-      data += '\n';
+  const auto write_data = [&](AtomicFile& file) {
+    DataWriter data(file);
+    CellWriter cells(x, y);
+    for (std::size_t k = 0; k < looks.size(); ++k) {
+      data.comment(fmt::format("{}: section", looks[k].label));
+      for (const auto& [i, p] : points)
+        if (look_of(p) == k) cells.append(data, p.x, at(i)->section);
+      data.end_data_set("NaN NaN\n");
+      data.comment(fmt::format("{}: exponent and half its interval", looks[k].label));
+      for (const auto& [i, p] : points) {
+        if (look_of(p) != k || !std::isfinite(p.exponent.value)) continue;
+        data.row({p.x, p.exponent.value, std::isfinite(p.exponent.half_width) ? p.exponent.half_width : 0.0});
+      }
+      data.end_data_set("NaN NaN NaN\n");
     }
-    end_data_set(data, data.size() == size, "NaN NaN NaN\n");
-  }
+    data.flush();
+  };
 
   std::string dots;
   std::string legend;
@@ -235,7 +272,7 @@ FigureOutcome regime_figure(const std::filesystem::path& folder, std::string_vie
       number(x.low), number(x.high), number(y.low), number(y.high), gnuplot_quoted(portable_text(text.title)),
       gnuplot_quoted(portable_text(text.y_label)), dots, legend, gnuplot_quoted(portable_text(text.x_label)),
       gnuplot_quoted("Exponent  λ_1 / ω_{sn}"), number(exponents.low), number(exponents.high), bars);
-  return draw_figure(folder, stem, data, panel_script(stem, dot_settings(x), panels));
+  return draw_figure(folder, stem, write_data, panel_script(stem, dot_settings(x), panels));
 }
 
 }  // namespace epicyclic::io

@@ -5,7 +5,10 @@
 // same files. Values that are not finite are left out.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,11 +18,18 @@
 
 namespace epicyclic::io {
 
-/// The points of one sweep, in one direction.
+/// One value of the parameter with the section's values over it.
+struct SectionPoint {
+  double x = 0;
+  std::vector<double> section;  ///< empty where there are none
+};
+
+/// The points of one sweep, in one direction, in any order.
 struct BifurcationSeries {
-  std::string label;                   ///< for the legend, as "increasing {/Symbol W}"
-  std::vector<double> x;               ///< the parameter, in any order
-  std::vector<std::vector<double>> y;  ///< y[i]: the section's values at x[i]; empty where there are none
+  std::string label;  ///< for the legend, as "increasing {/Symbol W}"
+  std::size_t count = 0;
+  /// The i-th, nothing if it is not to be drawn. Asked twice for each: not all need fit into memory.
+  std::function<std::optional<SectionPoint>(std::size_t i)> at;
 };
 
 /// Draws one or two series (the first, dark blue, over the second, muted red) to `folder`/STEM.png and .svg, from
@@ -27,25 +37,23 @@ struct BifurcationSeries {
 /// range; the ordinate has a margin of 4 %.
 /// @returns what became of the figure; not drawn, too, when there is no finite point
 /// @throws OutputError           when data or script cannot be written
-/// @throws std::invalid_argument when there is no series or more than two, when x and y of one differ in length, or
-///                               when the stem is not a plain file name
+/// @throws std::invalid_argument when there is no series or more than two, or when the stem is not a plain file name
 FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
                                  const std::vector<BifurcationSeries>& series,
                                  const std::vector<FigureMarker>& markers = {});
 
 /// One value of the parameter with what its motion is.
-struct RegimePoint {
-  double x = 0;
-  std::vector<double> section;  ///< as BifurcationSeries::y
+struct RegimePoint : SectionPoint {
   analysis::Regime regime = analysis::Regime::undecided;
   int period = 0;               ///< n, if periodic
   analysis::Estimate exponent;  ///< largest, per tau; drawn if finite
 };
 
 /// The bifurcation diagram coloured by regime, and under it on the same axis the largest Lyapunov exponent with its
-/// interval. Files, ranges and outcome as above; the points may be in any order.
+/// interval. Files, ranges and outcome as above.
+/// @param at  as in BifurcationSeries
 /// @throws OutputError, std::invalid_argument for a stem that is not a plain file name
 FigureOutcome regime_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
-                            const std::vector<RegimePoint>& points);
+                            std::size_t count, const std::function<std::optional<RegimePoint>(std::size_t i)>& at);
 
 }  // namespace epicyclic::io

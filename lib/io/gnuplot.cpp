@@ -290,6 +290,12 @@ std::string panel_script(std::string_view stem, std::string_view extra, std::str
 
 FigureOutcome draw_figure(const fs::path& folder, std::string_view stem, std::string_view data,
                           std::string_view script) {
+  return draw_figure(
+      folder, stem, [data](AtomicFile& file) { file.write(data); }, script);
+}
+
+FigureOutcome draw_figure(const fs::path& folder, std::string_view stem,
+                          const std::function<void(AtomicFile&)>& write_data, std::string_view script) {
   const bool plain = !stem.empty() && stem.front() != '.' && std::ranges::all_of(stem, [](char character) {
     return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
            (character >= '0' && character <= '9') || character == '_' || character == '-' || character == '.';
@@ -302,7 +308,9 @@ FigureOutcome draw_figure(const fs::path& folder, std::string_view stem, std::st
   const auto named = [&](std::string_view suffix) { return folder / fmt::format("{}{}", stem, suffix); };
   // An old picture must not pass for one of these data.
   for (const std::string_view suffix : {".png", ".svg"}) fs::remove(named(suffix), error);
-  write_file_atomically(named(".dat"), data);
+  AtomicFile data(named(".dat"));
+  write_data(data);
+  data.commit();
   write_file_atomically(named(".gp"), script);
   FigureOutcome outcome = run_gnuplot(named(".gp"));
   if (!outcome.drawn()) return outcome;

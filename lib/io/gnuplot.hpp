@@ -11,10 +11,13 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "io/atomic_file.hpp"
 
 namespace epicyclic::io {
 
@@ -87,5 +90,10 @@ std::string panel_script(std::string_view stem, std::string_view extra, std::str
 /// @throws std::invalid_argument when the stem is not a plain file name (letters, digits, '_', '-', '.')
 FigureOutcome draw_figure(const std::filesystem::path& folder, std::string_view stem, std::string_view data,
                           std::string_view script);
+
+/// The same for data that need not fit into memory.
+/// @param write_data  writes them to STEM.dat
+FigureOutcome draw_figure(const std::filesystem::path& folder, std::string_view stem,
+                          const std::function<void(AtomicFile&)>& write_data, std::string_view script);
 
 }  // namespace epicyclic::io

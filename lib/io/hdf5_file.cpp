@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cerrno>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <hdf5.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include "core/errors.hpp"
-#include "io/atomic_file.hpp"
 
 namespace epicyclic::io {
 
@@ -29,6 +32,8 @@ constexpr unsigned deflate_level = 4;
 class QuietErrors {
  public:
   QuietErrors() {
+    // A file that could not be written stays open, and HDF5 crashes when it closes it as the program ends.
+    [[maybe_unused]] static const herr_t not_at_exit = H5dont_atexit();
     H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
@@ -50,6 +55,12 @@ herr_t keep_description(unsigned, const H5E_error2_t* error, void* text) {
 std::string error_text() {
   std::string text;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_description, &text);
+  // Of a failed system call the rest is place and time.
+  constexpr std::string_view before = "error message = '";
+  if (const auto reason = text.find(before); reason != std::string::npos) {
+    text = text.substr(reason + before.size());
+    text = text.substr(0, text.find('\''));
+  }
   return text.empty() ? "HDF5 gave no reason" : text;
 }
 
@@ -105,12 +116,13 @@ Handle text_type(std::size_t size) {
   return type;
 }
 
-/// Gives the superblock of an image from H5Fget_file_image its checksum. That function clears the status flags without
-/// doing so, which makes the file unreadable (HDF5 issue 1915, mended in 2025; repeating it does no harm). The checksum
-/// is Jenkins' lookup3 over the 44 bytes before it, for a superblock of version 2 with 8-byte addresses: "HDF5 File
-/// Format Specification 3.0", sections II.A and III.A.
-void mend_superblock(std::string& image) {
+/// Clears the status flags of a superblock (the file is not open for writing any more) and gives it its checksum:
+/// Jenkins' lookup3 over the 44 bytes before it, for a superblock of version 2 with 8-byte addresses: "HDF5 File Format
+/// Specification 3.0", sections II.A and III.A.
+void close_superblock(std::array<char, 48>& image) {
+  constexpr std::size_t flags = 11;
   constexpr std::size_t words = 11;
+  image[flags] = 0;
   const auto word = [&](std::size_t i) {
     std::uint32_t value = 0;
     for (std::size_t k = 4; k-- > 0;) value = value << 8 | static_cast<unsigned char>(image[4 * i + k]);
@@ -153,19 +165,35 @@ std::string without_padding(std::string_view text) {
 
 }  // namespace
 
-Hdf5File::Hdf5File(std::filesystem::path path) : path_(std::move(path)) {
+Hdf5File::Hdf5File(std::filesystem::path path) : path_(std::move(path)), disk_(path_) {
   const QuietErrors quiet;
   const Handle creation = untimed(H5P_FILE_CREATE);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18);
-  H5Pset_fapl_core(access.get(), std::size_t{1} << 20, /*backing_store=*/false);
-  file_ = checked<OutputError>(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), path_, "the file",
-                               "create");
+  // What is still open goes with the file.
+  H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG);
+  // The name is nobody else's, and not every file system knows locks.
+  H5Pset_file_locking(access.get(), /*use_file_locking=*/false, /*ignore_when_disabled=*/true);
+  nowhere_ = FileDescriptor(::memfd_create("hdf5", MFD_CLOEXEC));
+  if (!nowhere_.is_open()) throw_output_error(path_, "create the file", errno);
+  // HDF5 does not survive a full disk while it creates a file: it must find room for its first block.
+  disk_.write(std::string(4096, '\0'));
+  file_ = checked<OutputError>(H5Fcreate(disk_.temporary().c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), path_,
+                               "the file", "create");
 }
 
-Hdf5File::~Hdf5File() {
+Hdf5File::~Hdf5File() { abandon(); }
+
+/// Closes the file without touching the disk any more: what HDF5 still wants to write goes into memory that is thrown
+/// away. After a flush it would only take back spare room at the end of the file, and after a failure there may be no
+/// room.
+void Hdf5File::abandon() noexcept {
+  if (file_ < 0) return;
   const QuietErrors quiet;
-  if (file_ >= 0) H5Fclose(file_);
+  void* handle = nullptr;
+  if (H5Fget_vfd_handle(file_, H5P_DEFAULT, &handle) >= 0)
+    ::dup3(nowhere_.get(), *static_cast<const int*>(handle), O_CLOEXEC);
+  H5Fclose(std::exchange(file_, -1));
 }
 
 void Hdf5File::create_group(std::string_view path) {
@@ -183,35 +211,110 @@ void Hdf5File::create_group(std::string_view path) {
   }
 }
 
-void Hdf5File::write_values(std::string_view path, std::int64_t file_type, std::int64_t memory_type,
-                            std::size_t value_size, const void* values, std::span<const std::size_t> shape) {
+void Hdf5File::write_rows(std::string_view path, std::int64_t file_type, std::int64_t memory_type,
+                          std::size_t value_size, std::span<const std::size_t> shape, const FillRows& fill) {
   const QuietErrors quiet;
   const std::string name(path);
   if (const auto slash = path.rfind('/'); slash != std::string_view::npos && slash > 0) {
     create_group(path.substr(0, slash));
   }
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
-  std::size_t count = 1;
-  for (const std::size_t length : shape) count *= length;
+  std::size_t row_size = value_size;
+  for (const std::size_t length : shape.subspan(1)) row_size *= length;
 
   const Handle space(checked<OutputError>(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
                                           path_, name, "shape"),
                      H5Sclose);
   const Handle creation = untimed(H5P_DATASET_CREATE);
-  if (count * value_size > compress_above) {
+  std::size_t rows_at_once = shape[0];
+  if (shape[0] * row_size > compress_above) {
     const std::vector<hsize_t> chunk = chunk_shape(extent, value_size);
     checked<OutputError>(H5Pset_chunk(creation.get(), static_cast<int>(chunk.size()), chunk.data()), path_, name,
                          "chunk");
     checked<OutputError>(H5Pset_shuffle(creation.get()), path_, name, "shuffle");
     checked<OutputError>(H5Pset_deflate(creation.get(), deflate_level), path_, name, "compress");
+    // Whole chunks: each is compressed and written once.
+    rows_at_once = static_cast<std::size_t>(chunk[0]);
   }
   const Handle dataset(checked<OutputError>(H5Dcreate2(file_, name.c_str(), file_type, space.get(), H5P_DEFAULT,
                                                        creation.get(), H5P_DEFAULT),
                                             path_, name, "create the dataset"),
                        H5Dclose);
-  if (count == 0) return;
-  checked<OutputError>(H5Dwrite(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path_, name,
-                       "write the dataset");
+  if (shape[0] * row_size == 0) return;
+  std::vector<hsize_t> start(extent.size(), 0);
+  std::vector<hsize_t> block = extent;
+  for (std::size_t row = 0; row < shape[0]; row += rows_at_once) {
+    const std::size_t rows = std::min(rows_at_once, shape[0] - row);
+    const std::byte* bytes = fill(row, rows);
+    start[0] = row;
+    block[0] = rows;
+    checked<OutputError>(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr),
+                         path_, name, "select rows of");
+    const Handle memory(checked<OutputError>(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr),
+                                             path_, name, "shape"),
+                        H5Sclose);
+    checked<OutputError>(H5Dwrite(dataset.get(), memory_type, memory.get(), space.get(), H5P_DEFAULT, bytes), path_,
+                         name, "write the dataset");
+  }
+  // Closing would do the same, but could not say that it failed.
+  checked<OutputError>(H5Dflush(dataset.get()), path_, name, "write the dataset");
+}
+
+void Hdf5File::write_values(std::string_view path, std::int64_t file_type, std::int64_t memory_type,
+                            std::size_t value_size, const void* values, std::span<const std::size_t> shape) {
+  std::size_t row_size = value_size;
+  for (const std::size_t length : shape.subspan(1)) row_size *= length;
+  write_rows(path, file_type, memory_type, value_size, shape, [&](std::size_t row, std::size_t /*rows*/) {
+    return static_cast<const std::byte*>(values) + row * row_size;
+  });
+}
+
+void Hdf5File::write(std::string_view path, std::size_t rows, const Column<double>& value) {
+  const std::array shape{rows};
+  std::vector<double> block;
+  write_rows(path, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, sizeof(double), shape, [&](std::size_t row, std::size_t count) {
+    block.resize(count);
+    for (std::size_t k = 0; k < count; ++k) block[k] = value(row + k);
+    return reinterpret_cast<const std::byte*>(block.data());
+  });
+}
+
+void Hdf5File::write(std::string_view path, std::size_t rows, const Column<std::int64_t>& value) {
+  const std::array shape{rows};
+  std::vector<std::int64_t> block;
+  write_rows(path, H5T_STD_I64LE, H5T_NATIVE_INT64, sizeof(std::int64_t), shape,
+             [&](std::size_t row, std::size_t count) {
+               block.resize(count);
+               for (std::size_t k = 0; k < count; ++k) block[k] = value(row + k);
+               return reinterpret_cast<const std::byte*>(block.data());
+             });
+}
+
+void Hdf5File::write(std::string_view path, std::size_t rows, const Column<std::string>& value) {
+  std::size_t size = 1;
+  for (std::size_t row = 0; row < rows; ++row) size = std::max(size, value(row).size());
+  const Handle type = text_type(size);
+  const std::array shape{rows};
+  std::string block;
+  write_rows(path, type.get(), type.get(), size, shape, [&](std::size_t row, std::size_t count) {
+    block.clear();
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::string text = value(row + k);
+      block.append(text).append(size - text.size(), '\0');
+    }
+    return reinterpret_cast<const std::byte*>(block.data());
+  });
+}
+
+void Hdf5File::write(std::string_view path, std::size_t rows, std::size_t columns,
+                     const std::function<void(std::size_t, std::span<double>)>& row_values) {
+  const std::array shape{rows, columns};
+  std::vector<double> block;
+  write_rows(path, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, sizeof(double), shape, [&](std::size_t row, std::size_t count) {
+    block.resize(count * columns);
+    for (std::size_t k = 0; k < count; ++k) row_values(row + k, std::span(block).subspan(k * columns, columns));
+    return reinterpret_cast<const std::byte*>(block.data());
+  });
 }
 
 void Hdf5File::write(std::string_view path, std::span<const double> values) {
@@ -225,14 +328,7 @@ void Hdf5File::write(std::string_view path, std::span<const std::int64_t> values
 }
 
 void Hdf5File::write(std::string_view path, std::span<const std::string> values) {
-  std::size_t size = 1;
-  for (const std::string& value : values) size = std::max(size, value.size());
-  std::string bytes;
-  bytes.reserve(size * values.size());
-  for (const std::string& value : values) bytes.append(value).append(size - value.size(), '\0');
-  const Handle type = text_type(size);
-  const std::array shape{values.size()};
-  write_values(path, type.get(), type.get(), size, bytes.data(), shape);
+  write(path, values.size(), Column<std::string>([&](std::size_t row) { return values[row]; }));
 }
 
 void Hdf5File::write(std::string_view path, std::span<const double> values, std::size_t rows, std::size_t columns) {
@@ -280,12 +376,14 @@ void Hdf5File::close() {
   const QuietErrors quiet;
   if (file_ < 0) throw std::logic_error("Hdf5File: close after close");
   checked<OutputError>(H5Fflush(file_, H5F_SCOPE_GLOBAL), path_, "the file", "finish");
-  const ssize_t size = checked<OutputError>(H5Fget_file_image(file_, nullptr, 0), path_, "the file", "measure");
-  std::string image(static_cast<std::size_t>(size), '\0');
-  checked<OutputError>(H5Fget_file_image(file_, image.data(), image.size()), path_, "the file", "copy");
-  H5Fclose(std::exchange(file_, -1));
-  mend_superblock(image);
-  write_file_atomically(path_, image);
+  abandon();
+  const FileDescriptor file = open_descriptor(disk_.temporary(), O_RDWR);
+  std::array<char, 48> superblock{};
+  const auto size = static_cast<ssize_t>(superblock.size());
+  if (::pread(file.get(), superblock.data(), superblock.size(), 0) != size) throw_output_error(path_, "read", errno);
+  close_superblock(superblock);
+  if (::pwrite(file.get(), superblock.data(), superblock.size(), 0) != size) throw_output_error(path_, "write", errno);
+  disk_.commit();
 }
 
 namespace {

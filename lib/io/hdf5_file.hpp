@@ -2,8 +2,8 @@
 //
 // The same data give the same bytes: no time stamps, a fixed version of the file format (that of HDF5 1.8, which every
 // reader in use knows), fixed chunking and compression (shuffle + deflate for data above 64 KiB), texts of fixed
-// length. The file is built in memory and written in one go by write_file_atomically: a full disk can then never leave
-// HDF5 with a file that it cannot close. So a file must fit into memory, up to twice while it is closed.
+// length. The file grows on the disk under a temporary name (io/atomic_file.hpp), and datasets may be given row by row:
+// it need not fit into memory.
 //
 // HDF5 is not safe to use from several threads at once: one thread at a time, over all files. Its own error printing is
 // silenced during each call, and its error stack becomes the text of the OutputError.
@@ -12,10 +12,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "io/atomic_file.hpp"
 
 namespace epicyclic::io {
 
@@ -43,6 +46,19 @@ class Hdf5File {
   void write(std::string_view path, std::span<const double> values, std::size_t rows, std::size_t columns);
   void write(std::string_view path, std::span<const std::int64_t> values, std::size_t rows, std::size_t columns);
 
+  /// The value in a row.
+  template <class Value>
+  using Column = std::function<Value(std::size_t row)>;
+
+  /// A dataset with one axis that is not kept in memory: rows are asked for in order, each once; texts twice.
+  void write(std::string_view path, std::size_t rows, const Column<double>& value);
+  void write(std::string_view path, std::size_t rows, const Column<std::int64_t>& value);
+  void write(std::string_view path, std::size_t rows, const Column<std::string>& value);
+
+  /// The same with two axes.
+  void write(std::string_view path, std::size_t rows, std::size_t columns,
+             const std::function<void(std::size_t row, std::span<double> values)>& row_values);
+
   /// An attribute of a dataset or group ("/" is the file itself).
   void set_attribute(std::string_view object, std::string_view name, std::string_view value);
   void set_attribute(std::string_view object, std::string_view name, double value);
@@ -59,12 +75,20 @@ class Hdf5File {
   void close();
 
  private:
+  /// Bytes of `rows` rows from `row` on, valid until the next call.
+  using FillRows = std::function<const std::byte*(std::size_t row, std::size_t rows)>;
+
+  void abandon() noexcept;
+  void write_rows(std::string_view path, std::int64_t file_type, std::int64_t memory_type, std::size_t value_size,
+                  std::span<const std::size_t> shape, const FillRows& fill);
   void write_values(std::string_view path, std::int64_t file_type, std::int64_t memory_type, std::size_t value_size,
                     const void* values, std::span<const std::size_t> shape);
   void write_attribute(std::string_view object, std::string_view name, std::int64_t file_type, std::int64_t memory_type,
                        const void* value);
 
   std::filesystem::path path_;
+  AtomicFile disk_;
+  FileDescriptor nowhere_;  // memory, for what must not reach the disk any more
   std::int64_t file_ = -1;  // an hid_t, kept out of this header with the rest of hdf5.h
 };
 

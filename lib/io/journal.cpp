@@ -1,6 +1,7 @@
 #include "io/journal.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <optional>
@@ -9,6 +10,8 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -38,8 +41,32 @@ T get(std::string_view bytes) {
   return value;
 }
 
-std::uint32_t crc_of(std::string_view bytes) {
-  return static_cast<std::uint32_t>(::crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+/// @param before  CRC of the bytes before these
+std::uint32_t crc_of(std::string_view bytes, std::uint32_t before = 0) {
+  if (bytes.data() == nullptr) return before;  // which zlib takes for a new start
+  return static_cast<std::uint32_t>(::crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+/// @returns bytes read: less than asked for only at the file's end
+std::size_t read_at(int descriptor, const std::filesystem::path& path, std::size_t offset, char* bytes,
+                    std::size_t length) {
+  std::size_t done = 0;
+  while (done < length) {
+    const ssize_t got = ::pread(descriptor, bytes + done, length - done, static_cast<off_t>(offset + done));
+    if (got == 0) break;
+    if (got > 0) {
+      done += static_cast<std::size_t>(got);
+    } else if (errno != EINTR) {
+      throw_output_error(path, "read the journal", errno);
+    }
+  }
+  return done;
+}
+
+void put_head(std::string& bytes, std::uint64_t point, std::size_t length) {
+  bytes += record_magic;
+  put(bytes, static_cast<std::uint32_t>(length));
+  put(bytes, point);
 }
 
 std::string header_bytes(std::string_view identity) {
@@ -50,28 +77,76 @@ std::string header_bytes(std::string_view identity) {
   return bytes;
 }
 
+/// A file seen through a window that follows the reader: a journal may be larger than memory.
+class FileWindow {
+ public:
+  FileWindow(int descriptor, const std::filesystem::path& path) : descriptor_(descriptor), path_(path) {
+    struct stat status {};
+    if (::fstat(descriptor, &status) != 0) throw_output_error(path, "measure the journal", errno);
+    size_ = static_cast<std::size_t>(status.st_size);
+  }
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+  /// At most `length` bytes, window_size of them, those of the file; valid until the next call.
+  std::string_view at(std::size_t offset, std::size_t length) {
+    length = std::min({length, window_size, size_ - std::min(offset, size_)});
+    if (offset < start_ || offset + length > start_ + bytes_.size()) {
+      bytes_.resize(std::min(window_size, size_ - offset));
+      bytes_.resize(read_at(descriptor_, path_, offset, bytes_.data(), bytes_.size()));
+      start_ = offset;
+    }
+    return std::string_view(bytes_).substr(offset - start_, length);
+  }
+
+  static constexpr std::size_t window_size = std::size_t{1} << 18;
+
+ private:
+  int descriptor_;
+  const std::filesystem::path& path_;
+  std::size_t size_ = 0;
+  std::size_t start_ = 0;
+  std::string bytes_;
+};
+
 /// Size of the good record that starts at `offset`, if there is one.
-std::optional<std::size_t> good_record_at(std::string_view bytes, std::size_t offset) {
-  const std::string_view rest = bytes.substr(offset);
-  if (rest.size() < record_head_size + crc_size || !rest.starts_with(record_magic)) return std::nullopt;
-  const std::size_t length = get<std::uint32_t>(rest.substr(record_magic.size()));
-  if (length > journal_max_payload || length > rest.size() - record_head_size - crc_size) return std::nullopt;
+std::optional<std::size_t> good_record_at(FileWindow& file, std::size_t offset) {
+  const std::string_view head = file.at(offset, record_head_size);
+  if (head.size() < record_head_size || !head.starts_with(record_magic)) return std::nullopt;
+  const std::size_t length = get<std::uint32_t>(head.substr(record_magic.size()));
+  const std::size_t rest = file.size() - offset - record_head_size;
+  if (length > journal_max_payload || rest < crc_size || length > rest - crc_size) return std::nullopt;
   const std::size_t covered = record_head_size + length;
-  if (get<std::uint32_t>(rest.substr(covered)) != crc_of(rest.substr(0, covered))) return std::nullopt;
+  std::uint32_t crc = crc_of({});
+  for (std::size_t done = 0; done < covered;) {
+    const std::string_view part = file.at(offset + done, covered - done);
+    if (part.empty()) return std::nullopt;
+    crc = crc_of(part, crc);
+    done += part.size();
+  }
+  const std::string_view written = file.at(offset + covered, crc_size);
+  if (written.size() < crc_size || get<std::uint32_t>(written) != crc) return std::nullopt;
   return covered + crc_size;
 }
 
-bool good_record_after(std::string_view bytes, std::size_t offset) {
-  for (;;) {
-    offset = bytes.find(record_magic, offset + 1);
-    if (offset == std::string_view::npos) return false;
-    if (good_record_at(bytes, offset)) return true;
+bool good_record_after(FileWindow& file, std::size_t offset) {
+  for (++offset; offset < file.size();) {
+    const std::string_view part = file.at(offset, FileWindow::window_size);
+    const std::size_t found = part.find(record_magic);
+    if (found != std::string_view::npos) {
+      offset += found;
+      if (good_record_at(file, offset)) return true;
+      ++offset;
+    } else {
+      // The letters may stand across the window's end.
+      offset += std::max<std::size_t>(part.size(), record_magic.size()) - (record_magic.size() - 1);
+    }
   }
+  return false;
 }
 
-void check_header(std::string_view bytes, std::string_view expected, const std::filesystem::path& path) {
+void check_header(std::string_view header, std::string_view expected, const std::filesystem::path& path) {
   constexpr std::string_view advice = "restore the file from a copy, or remove it to compute the study anew";
-  const std::string_view header = bytes.substr(0, header_size);
   if (header == expected) return;
   if (header.size() < header_size || !header.starts_with(file_magic) ||
       get<std::uint32_t>(header.substr(header_size - crc_size)) != crc_of(header.substr(0, header_size - crc_size))) {
@@ -96,42 +171,56 @@ Journal::Journal(std::filesystem::path path, std::string_view identity) : path_(
   descriptor_ = open_descriptor(path_, O_RDWR);
   if (!descriptor_.is_open() && errno != ENOENT) throw_output_error(path_, "open the journal", errno);
 
-  std::string bytes;
-  if (descriptor_.is_open()) bytes = read_all(descriptor_.get(), path_);
-  if (bytes.size() < header_size && header.starts_with(bytes)) {
+  std::optional<FileWindow> file;
+  std::string start;
+  if (descriptor_.is_open()) lock_file();
+  if (descriptor_.is_open()) start = file.emplace(descriptor_.get(), path_).at(0, header_size);
+  if (start.size() < header_size && header.starts_with(start)) {
     // New, or torn before the first record could be there. Written whole at once, so that a header, once there, is
     // good.
-    cut_bytes_ = bytes.size();
+    cut_bytes_ = start.size();
     write_file_atomically(path_, header);
     descriptor_ = open_descriptor(path_, O_RDWR);
     if (!descriptor_.is_open()) throw_output_error(path_, "open the journal", errno);
+    lock_file();
     synced_ = end_ = header_size;
     return;
   }
 
-  check_header(bytes, header, path_);
+  check_header(start, header, path_);
   end_ = header_size;
-  while (const auto size = good_record_at(bytes, end_)) {
-    const std::string_view record = std::string_view(bytes).substr(end_, *size);
-    const auto payload =
-        std::as_bytes(std::span(record)).subspan(record_head_size, *size - record_head_size - crc_size);
-    records_.push_back({get<std::uint64_t>(record.substr(record_magic.size() + 4)), {payload.begin(), payload.end()}});
+  while (const auto size = good_record_at(*file, end_)) {
+    const std::string_view head = file->at(end_, record_head_size);
+    entries_.push_back({get<std::uint64_t>(head.substr(record_magic.size() + 4)), end_});
     end_ += *size;
   }
   // What an earlier session left is on the disk by now, or is flushed with the first group.
   synced_ = end_;
-  if (end_ == bytes.size()) return;
-  if (good_record_after(bytes, end_)) {
+  if (end_ == file->size()) return;
+  if (good_record_after(*file, end_)) {
     throw DamagedData(
         fmt::format("{}: the record after byte {} ({} good records before it) is damaged, but good ones "
                     "follow; restore the file from a copy, or remove it to compute the study anew",
-                    path_.string(), end_, records_.size()));
+                    path_.string(), end_, entries_.size()));
   }
-  cut_bytes_ = bytes.size() - end_;
+  cut_bytes_ = file->size() - end_;
   if (::ftruncate(descriptor_.get(), static_cast<off_t>(end_)) != 0) {
     throw_output_error(path_, "cut the torn tail of the journal", errno);
   }
   sync_descriptor(descriptor_.get(), path_);
+}
+
+void Journal::lock_file() const {
+  while (::flock(descriptor_.get(), LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EWOULDBLOCK) throw JournalInUse(fmt::format("{}: is in use by another process", path_.string()));
+    if (errno != EINTR) throw_output_error(path_, "lock the journal", errno);
+  }
+}
+
+void Journal::release() {
+  const std::lock_guard lock(mutex_);
+  released_ = true;
+  if (::flock(descriptor_.get(), LOCK_UN) != 0) throw_output_error(path_, "unlock the journal", errno);
 }
 
 Journal::~Journal() {
@@ -142,21 +231,54 @@ Journal::~Journal() {
   }
 }
 
-void Journal::append(std::uint64_t point, std::span<const std::byte> payload) {
+std::vector<std::byte> Journal::read(const JournalEntry& entry) const {
+  std::vector<std::byte> payload = read_beginning(entry, journal_max_payload);
+  std::string head;
+  put_head(head, entry.point, payload.size());
+  const std::uint32_t crc = crc_of({reinterpret_cast<const char*>(payload.data()), payload.size()}, crc_of(head));
+  std::array<char, crc_size> written{};
+  const std::size_t end = static_cast<std::size_t>(entry.offset) + record_head_size + payload.size();
+  if (read_at(descriptor_.get(), path_, end, written.data(), crc_size) != crc_size ||
+      get<std::uint32_t>({written.data(), crc_size}) != crc)
+    throw changed(entry);
+  return payload;
+}
+
+std::vector<std::byte> Journal::read_beginning(const JournalEntry& entry, std::size_t most) const {
+  const auto offset = static_cast<std::size_t>(entry.offset);
+  std::array<char, record_head_size> bytes{};
+  if (read_at(descriptor_.get(), path_, offset, bytes.data(), bytes.size()) != bytes.size()) throw changed(entry);
+  const std::string_view head(bytes.data(), bytes.size());
+  const std::size_t length = get<std::uint32_t>(head.substr(record_magic.size()));
+  if (!head.starts_with(record_magic) || length > journal_max_payload ||
+      get<std::uint64_t>(head.substr(record_magic.size() + 4)) != entry.point)
+    throw changed(entry);
+  std::vector<std::byte> payload(std::min(length, most));
+  if (read_at(descriptor_.get(), path_, offset + record_head_size, reinterpret_cast<char*>(payload.data()),
+              payload.size()) != payload.size())
+    throw changed(entry);
+  return payload;
+}
+
+DamagedData Journal::changed(const JournalEntry& entry) const {
+  return DamagedData(
+      fmt::format("{}: the record after byte {} is not the one that was there before", path_.string(), entry.offset));
+}
+
+JournalEntry Journal::append(std::uint64_t point, std::span<const std::byte> payload) {
   if (payload.size() > journal_max_payload) {
     throw std::invalid_argument(
         fmt::format("Journal: a payload of {} bytes, more than {}", payload.size(), journal_max_payload));
   }
   std::string record;
   record.reserve(record_head_size + payload.size() + crc_size);
-  record += record_magic;
-  put(record, static_cast<std::uint32_t>(payload.size()));
-  put(record, point);
+  put_head(record, point, payload.size());
   record.append(reinterpret_cast<const char*>(payload.data()), payload.size());
   put(record, crc_of(record));
 
   std::unique_lock lock(mutex_);
   if (!descriptor_.is_open()) throw std::logic_error("Journal: append after close");
+  if (released_) throw std::logic_error("Journal: append after release");
   if (!failure_.empty()) throw OutputError(failure_);
   std::string_view rest = record;
   // Always at the end of the last good record, not of the file: the rest of a failed append is overwritten.
@@ -173,9 +295,10 @@ void Journal::append(std::uint64_t point, std::span<const std::byte> payload) {
       throw_output_error(path_, "append to the journal", error);
     }
   }
+  const JournalEntry entry{point, end_};
   const bool first_of_group = synced_ == end_;
   end_ = offset;
-  if (!first_of_group) return;
+  if (!first_of_group) return entry;
   commit_due_ = std::chrono::steady_clock::now() + commit_interval;
   try {
     if (!committer_.joinable()) committer_ = std::thread([this] { commit_groups(); });
@@ -183,6 +306,7 @@ void Journal::append(std::uint64_t point, std::span<const std::byte> payload) {
     flush(lock);  // The system gives no more threads: each record is a group of its own.
   }
   changed_.notify_all();
+  return entry;
 }
 
 void Journal::sync() {

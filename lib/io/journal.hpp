@@ -44,21 +44,29 @@ class DamagedData : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// One record as read back.
-struct JournalRecord {
-  std::uint64_t point = 0;
-  std::vector<std::byte> payload;
+/// Another process writes to the journal.
+class JournalInUse : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
-/// An open journal. append() and sync() may be called from several threads. One process at a time: the folder's lock
-/// sees to that.
+/// Where a record stands. Records stay on the disk and are read when they are asked for: a journal may be larger than
+/// memory.
+struct JournalEntry {
+  std::uint64_t point = 0;
+  std::uint64_t offset = 0;  ///< of the record in the file [bytes]
+};
+
+/// An open journal. append(), sync() and reading may be called from several threads. One process at a time: the
+/// folder's lock sees to that.
 class Journal {
  public:
-  /// Opens the journal, or creates an empty one; reads the good records; cuts away a torn tail.
+  /// Opens the journal, or creates an empty one; finds the good records; cuts away a torn tail.
   /// @param identity 64 hexadecimal digits: the study whose journal this is
   /// @throws DamagedData           when a damaged record is followed by a good one, the header is damaged, of another
   ///                               format version or of another study
-  /// @throws OutputError           when the file cannot be created, read or cut
+  /// @throws JournalInUse          when another process has it open
+  /// @throws OutputError           when the file cannot be created, locked, read or cut
   /// @throws std::invalid_argument when the identity is not of 64 digits
   Journal(std::filesystem::path path, std::string_view identity);
   Journal(const Journal&) = delete;
@@ -66,20 +74,33 @@ class Journal {
   ~Journal();
 
   /// The records found at opening, in the order of appending.
-  [[nodiscard]] const std::vector<JournalRecord>& records() const { return records_; }
+  [[nodiscard]] const std::vector<JournalEntry>& entries() const { return entries_; }
 
-  /// The same, handed over, so that the memory can be released.
-  std::vector<JournalRecord> take_records() { return std::move(records_); }
+  /// Gives their memory back.
+  void forget_entries() { entries_ = {}; }
+
+  /// The payload of a record.
+  /// @throws DamagedData when the record is no more what it was
+  /// @throws OutputError when reading fails, or after close()
+  [[nodiscard]] std::vector<std::byte> read(const JournalEntry& entry) const;
+
+  /// The first bytes of a payload, `most` at most, without looking at the CRC of the whole.
+  /// @throws as read()
+  [[nodiscard]] std::vector<std::byte> read_beginning(const JournalEntry& entry, std::size_t most) const;
+
+  /// Lets another process write to it; from now on this one only reads.
+  void release();
 
   /// Bytes of a torn tail that were cut away at opening.
   [[nodiscard]] std::size_t cut_bytes() const { return cut_bytes_; }
 
   /// Appends a record.
+  /// @returns where it stands
   /// @throws OutputError           when it cannot be written (disk full included); records appended before stay
   ///                               readable, and once there is room, append() works again. Also when a flush has
   ///                               failed: then for good
   /// @throws std::invalid_argument when the payload is longer than journal_max_payload
-  void append(std::uint64_t point, std::span<const std::byte> payload);
+  JournalEntry append(std::uint64_t point, std::span<const std::byte> payload);
 
   /// Flushes to the disk what is not yet there.
   /// @throws OutputError when that fails or has failed before
@@ -90,17 +111,20 @@ class Journal {
   void close();
 
  private:
+  void lock_file() const;
   void flush(std::unique_lock<std::mutex>& lock);
   void commit_groups();
+  [[nodiscard]] DamagedData changed(const JournalEntry& entry) const;
 
   std::filesystem::path path_;
   FileDescriptor descriptor_;
-  std::vector<JournalRecord> records_;
+  std::vector<JournalEntry> entries_;
   std::size_t cut_bytes_ = 0;
   std::size_t end_ = 0;     ///< of the last good record [bytes]
   std::size_t synced_ = 0;  ///< of what is on the disk [bytes]
   std::string failure_;     ///< of a flush; empty if there was none
   bool closing_ = false;
+  bool released_ = false;
   std::chrono::steady_clock::time_point commit_due_;
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -169,10 +169,16 @@ void pass(A& a, std::vector<T>& values) {
   for (T& v : values) pass(a, v);
 }
 
+/// All but the Poincare section.
+template <class A>
+void pass_brief(A& a, studies::PointResult& r) {
+  pass_all(a, r.point, r.outcome, r.message, r.recurrence, r.regime, r.period, r.classified, r.evidence, r.sun_planet,
+           r.ring_planet, r.planet_spread, r.rhs_evaluations, r.end_state, r.omega, r.poincare_columns);
+}
 template <class A>
 void pass(A& a, studies::PointResult& r) {
-  pass_all(a, r.point, r.outcome, r.message, r.recurrence, r.regime, r.period, r.classified, r.evidence, r.sun_planet,
-           r.ring_planet, r.planet_spread, r.rhs_evaluations, r.end_state, r.omega, r.poincare_columns, r.poincare);
+  pass_brief(a, r);
+  pass(a, r.poincare);
   a.require(r.poincare_columns == 0 ? r.poincare.empty() : r.poincare.size() % r.poincare_columns == 0,
             "has a Poincare section that is not whole rows");
 }
@@ -216,6 +222,18 @@ T decode(std::span<const std::byte> record) {
 std::vector<std::byte> encode_point(const studies::PointResult& result) { return encode(result); }
 
 studies::PointResult decode_point(std::span<const std::byte> record) { return decode<studies::PointResult>(record); }
+
+std::optional<studies::PointResult> decode_point_beginning(std::span<const std::byte> beginning) {
+  Decoder d(beginning);
+  studies::PointResult result;
+  try {
+    pass_brief(d, result);
+  } catch (const DamagedData&) {
+    // Cut off, or damaged: the whole record tells.
+    return std::nullopt;
+  }
+  return result;
+}
 
 std::vector<std::byte> encode_tolerance_point(const studies::TolerancePoint& point) { return encode(point); }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,10 @@ namespace epicyclic::io {
 
 /// @throws DamagedData when the record is not one of encode_point()
 [[nodiscard]] studies::PointResult decode_point(std::span<const std::byte> record);
+
+/// From the first bytes of a record: all but the Poincare section, which comes last.
+/// @returns nothing when they do not reach that far
+[[nodiscard]] std::optional<studies::PointResult> decode_point_beginning(std::span<const std::byte> beginning);
 
 /// All of a point of a tolerance study.
 [[nodiscard]] std::vector<std::byte> encode_tolerance_point(const studies::TolerancePoint& point);

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace epicyclic::io {
@@ -60,6 +61,8 @@ nlohmann::json run_facts(const Provenance& provenance) {
       {"started", provenance.started},
   };
   if (!provenance.ended.empty()) facts["ended"] = provenance.ended;
+  rusage usage{};
+  if (::getrusage(RUSAGE_SELF, &usage) == 0) facts["peak_memory_KiB"] = usage.ru_maxrss;
   return facts;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "io/bifurcation_figure.hpp"
@@ -22,6 +24,31 @@ bool ok(const PointResult& r) { return r.outcome == integrate::Outcome::reached;
 
 /// Periodic by an orbit and its multipliers.
 bool proven(const PointResult& r) { return ok(r) && r.classified && r.regime == analysis::Regime::periodic; }
+
+/// The rows of all Poincare sections one after another.
+class SectionRows {
+ public:
+  explicit SectionRows(const PointSource& points) {
+    for (std::size_t i = 0; i < points.count; ++i) {
+      rows_.push_back(static_cast<std::uint32_t>(points.read(i).poincare_rows()));
+      count_ += rows_.back();
+    }
+  }
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+  /// Point and index of a row; quick in the order of rows.
+  std::pair<std::size_t, std::size_t> at(std::size_t row) {
+    if (row < first_) first_ = point_ = 0;
+    while (row - first_ >= rows_[point_]) first_ += rows_[point_++];
+    return {point_, row - first_};
+  }
+
+ private:
+  std::vector<std::uint32_t> rows_;  ///< by point
+  std::size_t count_ = 0;
+  std::size_t point_ = 0, first_ = 0;  ///< last asked for, and its first row
+};
 
 /// Extrema that were never seen are empty cells.
 double seen(double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::quiet_NaN(); }
@@ -68,7 +95,12 @@ std::string status_word(integrate::Outcome outcome) {
   return "failed";
 }
 
-void write_points_csv(const std::filesystem::path& file, const std::vector<PointResult>& results) {
+PointSource points_in_memory(std::span<const PointResult> results) {
+  const auto read = [results](std::size_t point) { return results[point]; };
+  return {results.size(), read, read};
+}
+
+void write_points_csv(const std::filesystem::path& file, const PointSource& points) {
   std::vector<std::string> columns = {"point",
                                       "direction",
                                       "value",
@@ -93,7 +125,7 @@ void write_points_csv(const std::filesystem::path& file, const std::vector<Point
                                       "zero_one",
                                       "classified_periods",
                                       "evidence"};
-  const std::size_t planets = results.empty() ? 0 : results.front().sun_planet.size();
+  const std::size_t planets = points.count == 0 ? 0 : points.read_brief(0).sun_planet.size();
   for (const char* mesh : {"sp", "rp"})
     for (std::size_t i = 1; i <= planets; ++i) {
       const std::string name = std::string(mesh) + "_" + std::to_string(i);
@@ -104,7 +136,8 @@ void write_points_csv(const std::filesystem::path& file, const std::vector<Point
   columns.emplace_back("message");
   CsvWriter csv(file, columns);
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  for (const PointResult& r : results) {
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const PointResult r = points.read_brief(i);
     const MeshRecord& sp = r.sun_planet.front();
     const MeshRecord& rp = r.ring_planet.front();
     csv.cell(r.point.index)
@@ -139,33 +172,32 @@ void write_points_csv(const std::filesystem::path& file, const std::vector<Point
   csv.commit();
 }
 
-void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& output,
-                        const std::vector<PointResult>& results) {
+void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& output, const PointSource& points) {
   std::vector<std::string> columns = {"point", "index"};
   columns.insert(columns.end(), output.poincare_columns.begin(), output.poincare_columns.end());
   CsvWriter csv(file, columns);
-  for (const PointResult& r : results)
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const PointResult r = points.read(i);
     for (std::size_t k = 0; k < r.poincare_rows(); ++k) {
       csv.cell(r.point.index).cell(k);
       for (std::size_t j = 0; j < r.poincare_columns; ++j) csv.cell(r.poincare[k * r.poincare_columns + j]);
       csv.end_row();
     }
+  }
   csv.commit();
 }
 
-void write_results_h5(const std::filesystem::path& file, const SweepOutput& output,
-                      const std::vector<PointResult>& results) {
+void write_results_h5(const std::filesystem::path& file, const SweepOutput& output, const PointSource& points) {
   Hdf5File h5(file);
   h5.set_attribute("/", "input_resolved", output.resolved_input);
   h5.set_attribute("/", "sweep_parameter", output.sweep.parameter);
 
   h5.create_group("/points");
   const auto column = [&](const std::string& name, auto&& value, const char* units) {
-    using Value = std::decay_t<decltype(value(results.front()))>;
-    std::vector<Value> values;
-    values.reserve(results.size());
-    for (const PointResult& r : results) values.push_back(value(r));
-    h5.write("/points/" + name, std::span<const Value>(values));
+    using Value = std::decay_t<decltype(value(std::declval<PointResult>()))>;
+    // Column after column through the points: a row of all columns at once would need each column's chunk in memory.
+    h5.write("/points/" + name, points.count,
+             Hdf5File::Column<Value>([&](std::size_t row) { return value(points.read_brief(row)); }));
     if (units != nullptr) h5.set_units("/points/" + name, units);
   };
   const auto integer = [](auto x) { return static_cast<std::int64_t>(x); };
@@ -209,7 +241,7 @@ void write_results_h5(const std::filesystem::path& file, const SweepOutput& outp
       "rhs_evaluations", [&](const PointResult& r) { return integer(r.rhs_evaluations); }, "1");
   column(
       "message", [](const PointResult& r) { return r.message; }, nullptr);
-  const std::size_t planets = results.empty() ? 0 : results.front().sun_planet.size();
+  const std::size_t planets = points.count == 0 ? 0 : points.read_brief(0).sun_planet.size();
   for (std::size_t i = 0; i < planets; ++i) {
     const std::string planet = "_" + std::to_string(i + 1);
     column(
@@ -227,26 +259,25 @@ void write_results_h5(const std::filesystem::path& file, const SweepOutput& outp
   }
 
   h5.create_group("/poincare");
-  std::vector<std::int64_t> point;
-  std::vector<std::int64_t> index;
-  std::vector<double> values;
-  for (const PointResult& r : results) {
-    for (std::size_t k = 0; k < r.poincare_rows(); ++k) {
-      point.push_back(integer(r.point.index));
-      index.push_back(integer(k));
-    }
-    values.insert(values.end(), r.poincare.begin(), r.poincare.end());
-  }
+  SectionRows section(points);
   h5.write("/poincare/columns", std::span<const std::string>(output.poincare_columns));
-  h5.write("/poincare/point", std::span<const std::int64_t>(point));
-  h5.write("/poincare/index", std::span<const std::int64_t>(index));
-  h5.write("/poincare/values", std::span<const double>(values), point.size(), output.poincare_columns.size());
+  h5.write("/poincare/point", section.count(),
+           Hdf5File::Column<std::int64_t>([&](std::size_t row) { return integer(section.at(row).first); }));
+  h5.write("/poincare/index", section.count(),
+           Hdf5File::Column<std::int64_t>([&](std::size_t row) { return integer(section.at(row).second); }));
+  const std::size_t columns = output.poincare_columns.size();
+  PointResult current;
+  h5.write("/poincare/values", section.count(), columns, [&](std::size_t row, std::span<double> values) {
+    const auto [point, k] = section.at(row);
+    if (k == 0) current = points.read(point);
+    std::copy_n(current.poincare.begin() + static_cast<std::ptrdiff_t>(k * columns), columns, values.begin());
+  });
   h5.set_units("/poincare/values", "b_c, b_c per tau");
   h5.close();
 }
 
 std::vector<DrawnFigure> draw_sweep_figures(const std::filesystem::path& folder, const SweepOutput& output,
-                                            const std::vector<PointResult>& results) {
+                                            const PointSource& points) {
   std::vector<DrawnFigure> figures;
   const struct {
     const char* column;
@@ -254,44 +285,40 @@ std::vector<DrawnFigure> draw_sweep_figures(const std::filesystem::path& folder,
     const char* label;
   } drawn[] = {{"delta_sp_1", "bifurcation_delta_sp", "Poincaré points of  δ_{sp} / b_c"},
                {"delta_rp_1", "bifurcation_delta_rp", "Poincaré points of  δ_{rp} / b_c"}};
+  const auto place_of = [&](const char* column) {
+    const auto& columns = output.poincare_columns;
+    return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin());
+  };
+  // Points are numbered along the first direction, then the second.
+  const std::size_t each = points.count / output.sweep.directions.size();
+  const auto section = [&](std::size_t direction, std::size_t column) {
+    return [&points, first = direction * each, column](std::size_t i) -> std::optional<RegimePoint> {
+      const PointResult r = points.read(first + i);
+      if (!ok(r)) return std::nullopt;
+      RegimePoint p{{r.point.value, {}}, r.regime, r.period, r.lyapunov_max()};
+      for (std::size_t k = 0; k < r.poincare_rows(); ++k)
+        p.section.push_back(r.poincare[k * r.poincare_columns + column]);
+      return p;
+    };
+  };
   for (const auto& figure : drawn) {
-    const auto found = std::find(output.poincare_columns.begin(), output.poincare_columns.end(), figure.column);
-    const auto column = static_cast<std::size_t>(found - output.poincare_columns.begin());
+    const std::size_t column = place_of(figure.column);
     std::vector<BifurcationSeries> series;
-    for (const Direction direction : output.sweep.directions) {
-      BifurcationSeries s;
-      s.label = direction_word(direction);
-      for (const PointResult& r : results) {
-        if (r.point.direction != direction || !ok(r)) continue;
-        s.x.push_back(r.point.value);
-        s.y.emplace_back();
-        for (std::size_t k = 0; k < r.poincare_rows(); ++k)
-          s.y.back().push_back(r.poincare[k * r.poincare_columns + column]);
-      }
-      series.push_back(std::move(s));
-    }
+    for (std::size_t d = 0; d < output.sweep.directions.size(); ++d)
+      series.push_back({direction_word(output.sweep.directions[d]), each, section(d, column)});
     const FigureText text{literal_text(output.title), parameter_label(output.sweep.parameter), figure.label};
     figures.push_back(
         {folder / (std::string(figure.stem) + ".png"), bifurcation_figure(folder, figure.stem, text, series)});
   }
   if (output.sweep.classification_periods == 0) return figures;
   // One for each direction: colours are needed for the regimes.
-  const auto& columns = output.poincare_columns;
-  const auto delta =
-      static_cast<std::size_t>(std::find(columns.begin(), columns.end(), drawn[0].column) - columns.begin());
-  for (const Direction direction : output.sweep.directions) {
-    std::vector<RegimePoint> points;
-    for (const PointResult& r : results) {
-      if (r.point.direction != direction || !ok(r)) continue;
-      RegimePoint p{r.point.value, {}, r.regime, r.period, r.lyapunov_max()};
-      for (std::size_t k = 0; k < r.poincare_rows(); ++k)
-        p.section.push_back(r.poincare[k * r.poincare_columns + delta]);
-      points.push_back(std::move(p));
-    }
-    const std::string stem = std::string("regimes_delta_sp_") + direction_word(direction);
-    const FigureText text{literal_text(output.title) + ", " + direction_word(direction),
-                          parameter_label(output.sweep.parameter), drawn[0].label};
-    figures.push_back({folder / (stem + ".png"), regime_figure(folder, stem, text, points)});
+  for (std::size_t d = 0; d < output.sweep.directions.size(); ++d) {
+    const std::string word = direction_word(output.sweep.directions[d]);
+    const std::string stem = "regimes_delta_sp_" + word;
+    const FigureText text{literal_text(output.title) + ", " + word, parameter_label(output.sweep.parameter),
+                          drawn[0].label};
+    figures.push_back(
+        {folder / (stem + ".png"), regime_figure(folder, stem, text, each, section(d, place_of(drawn[0].column)))});
   }
   return figures;
 }

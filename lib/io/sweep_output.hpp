@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,12 +38,20 @@ struct SweepOutput {
   std::string title;           ///< of the figures
 };
 
-/// @throws OutputError
-void write_points_csv(const std::filesystem::path& file, const std::vector<studies::PointResult>& results);
-void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& output,
-                        const std::vector<studies::PointResult>& results);
-void write_results_h5(const std::filesystem::path& file, const SweepOutput& output,
-                      const std::vector<studies::PointResult>& results);
+/// Points that writers read one by one, as often as they need: a study may be larger than memory.
+struct PointSource {
+  std::size_t count = 0;
+  std::function<studies::PointResult(std::size_t point)> read;
+  std::function<studies::PointResult(std::size_t point)> read_brief;  ///< without the Poincare section
+};
+
+/// Those of a study of few points; `results` must live longer.
+[[nodiscard]] PointSource points_in_memory(std::span<const studies::PointResult> results);
+
+/// @throws OutputError, and what reading points throws
+void write_points_csv(const std::filesystem::path& file, const PointSource& points);
+void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& output, const PointSource& points);
+void write_results_h5(const std::filesystem::path& file, const SweepOutput& output, const PointSource& points);
 
 struct DrawnFigure {
   std::filesystem::path png;
@@ -51,7 +60,6 @@ struct DrawnFigure {
 
 /// Bifurcation figures of delta_sp and delta_rp of planet 1 in `folder`.
 [[nodiscard]] std::vector<DrawnFigure> draw_sweep_figures(const std::filesystem::path& folder,
-                                                          const SweepOutput& output,
-                                                          const std::vector<studies::PointResult>& results);
+                                                          const SweepOutput& output, const PointSource& points);
 
 }  // namespace epicyclic::io

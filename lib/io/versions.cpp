@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "integrate/arkode_flow.hpp"
+#include "integrate/lane_kernels.hpp"
 
 namespace epicyclic::io {
 
@@ -22,6 +23,6 @@ std::map<std::string, std::string> dependency_versions() {
   };
 }
 
-std::string simd_level() { return "baseline"; }
+std::string simd_level() { return integrate::lane_kernels().name; }
 
 }  // namespace epicyclic::io

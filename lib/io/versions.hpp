@@ -9,7 +9,7 @@ namespace epicyclic::io {
 /// name -> version of each library that results depend on
 [[nodiscard]] std::map<std::string, std::string> dependency_versions();
 
-/// Instruction set of the kernels in use: "baseline" (x86-64 with SSE2) in this version.
+/// Instruction set of the kernels in use: "baseline" (x86-64 with SSE2), "avx2" or "avx512".
 [[nodiscard]] std::string simd_level();
 
 }  // namespace epicyclic::io

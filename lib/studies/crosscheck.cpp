@@ -371,12 +371,14 @@ Crosscheck run_crosscheck(const SweepPlan& plan, const SweepOptions& as_given, c
   SweepRun reference;
   reference.threads = run.threads;
   reference.stop = run.stop;
+  std::map<std::size_t, PointResult> known_reference;
   for (const auto& [key, result] : run.done)
-    if (key.first == 0) reference.done.emplace(key.second, result);
+    if (key.first == 0) known_reference.emplace(key.second, result);
   reference.point_finished = [&](const PointResult& r) { tell(0, r); };
-  all.reference = run_sweep(
+  all.reference = run_sweep_in_memory(
       plan, sweep, all.variants[0].integrator,
-      [&](double value) { return model_at(value, all.variants[0].clearance_smoothing); }, std::move(reference));
+      [&](double value) { return model_at(value, all.variants[0].clearance_smoothing); }, std::move(reference),
+      std::move(known_reference));
   if (all.reference.size() < plan.points.size()) return all;
 
   const Examiner examiner(sweep, options, all.variants, model_at, run.stop);

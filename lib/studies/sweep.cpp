@@ -204,61 +204,48 @@ long carry_alone(PointRun& run, const integrate::IntegratorOptions& integrator, 
   return flow->right_hand_side_calls();
 }
 
-/// Runs a chain from its first point that is not done. Returns false if stopped.
+/// Runs chains, each from its first point that is not done.
 class ChainRunner {
  public:
   ChainRunner(const SweepPlan& plan, const SweepOptions& sweep, const integrate::IntegratorOptions& integrator,
-              const ModelAt& model_at, SweepRun& run)
-      : plan_(plan), sweep_(sweep), integrator_(integrator), model_at_(model_at), run_(run) {
-    for (auto& [index, result] : run.done) results_.emplace(index, std::move(result));
+              const ModelAt& model_at, const SweepRun& run)
+      : plan_(plan), sweep_(sweep), integrator_(integrator), model_at_(model_at), run_(run) {}
+
+  /// One chain after another.
+  void run_chains() {
+    give_up_on_failure([this] {
+      while (const auto chain = next_chain()) follow(plan_.chains[*chain]);
+    });
   }
 
-  void run_chain(std::size_t chain) {
+  /// Several chains at once, each in a lane of its own; a lane that is through with its chain takes the next one.
+  /// @param most  lanes that are used
+  void run_chains_in_lanes(std::size_t most) {
+    give_up_on_failure([&] { follow_in_lanes(most); });
+  }
+
+  [[nodiscard]] std::size_t finished() const { return finished_; }
+
+ private:
+  template <class F>
+  void give_up_on_failure(F&& run) {
     try {
-      follow(plan_.chains[chain]);
+      run();
     } catch (...) {
       failed_ = true;  // the other chains' points under way are given up
       throw;
     }
   }
 
-  /// Several chains at once, each in a lane of its own; a lane that is through with its chain takes the next one.
-  /// @param most  lanes that are used
-  void run_chains_in_lanes(std::size_t most) {
-    try {
-      follow_in_lanes(most);
-    } catch (...) {
-      failed_ = true;
-      throw;
-    }
-  }
-
-  std::vector<PointResult> take() {
-    std::vector<PointResult> ordered;
-    for (auto& [index, result] : results_) ordered.push_back(std::move(result));
-    return ordered;
-  }
-
- private:
   [[nodiscard]] bool stopped() const { return failed_ || (run_.stop != nullptr && run_.stop->load()); }
+  [[nodiscard]] bool done(std::size_t index) const { return index < run_.done.size() && run_.done[index]; }
 
-  void follow(const std::vector<std::size_t>& chain) {
-    std::vector<double> start;
-    for (const std::size_t index : chain) {
-      if (stopped()) return;
-      if (const auto known = find(index)) {
-        start = *known;
-        continue;
-      }
-      const model::DynamicModel model = model_at_(plan_.points[index].value);
-      PointResult result =
-          compute_point(plan_.points[index], model, start, sweep_, integrator_, [this] { return !stopped(); });
-      if (stopped()) return;
-      start = result.end_state;
-      const std::scoped_lock lock(mutex_);
-      if (run_.point_finished) run_.point_finished(result);
-      results_.emplace(index, std::move(result));
-    }
+  std::optional<std::size_t> next_chain() {
+    if (stopped()) return std::nullopt;
+    if (run_.next_chain) return run_.next_chain();
+    const std::size_t chain = next_chain_.fetch_add(1);
+    if (chain >= plan_.chains.size()) return std::nullopt;
+    return chain;
   }
 
   /// A chain under way.
@@ -268,6 +255,31 @@ class ChainRunner {
     std::vector<double> start;
     std::unique_ptr<PointRun> point;  ///< in the lane; null when there is none
   };
+
+  /// Goes to the chain's next point that is not done, with its start.
+  /// @returns nothing at the chain's end
+  std::optional<std::size_t> advance(const std::vector<std::size_t>& chain, std::size_t& next,
+                                     std::vector<double>& start) const {
+    const std::size_t first = next;
+    while (next < chain.size() && done(chain[next])) ++next;
+    if (next == chain.size()) return std::nullopt;
+    if (next > first) start = run_.end_state(chain[next - 1]);
+    return chain[next];
+  }
+
+  void follow(const std::vector<std::size_t>& chain) {
+    std::vector<double> start;
+    for (std::size_t next = 0; !stopped(); ++next) {
+      const auto index = advance(chain, next, start);
+      if (!index) return;
+      const model::DynamicModel model = model_at_(plan_.points[*index].value);
+      PointResult result =
+          compute_point(plan_.points[*index], model, start, sweep_, integrator_, [this] { return !stopped(); });
+      if (stopped()) return;
+      tell(result);
+      start = std::move(result.end_state);
+    }
+  }
 
   void follow_in_lanes(std::size_t most) {
     const integrate::LaneKernels& kernels = integrate::lane_kernels();
@@ -292,27 +304,22 @@ class ChainRunner {
   }
 
   bool next_chain(Way& way) {
-    const std::size_t chain = next_chain_.fetch_add(1);
-    if (chain >= plan_.chains.size()) return false;
-    way = {chain, 0, {}, nullptr};
+    const auto chain = next_chain();
+    if (!chain) return false;
+    way = {*chain, 0, {}, nullptr};
     return true;
   }
 
-  /// Puts the chain's next point that is not known into the lane, or that of the next chain; leaves it empty if there
+  /// Puts the chain's next point that is not done into the lane, or that of the next chain; leaves it empty if there
   /// is none.
   void next_point(integrate::LaneEnsemble& lanes, std::size_t lane, Way& way) {
     while (!stopped()) {
-      if (way.next == plan_.chains[way.chain].size()) {
+      const auto index = advance(plan_.chains[way.chain], way.next, way.start);
+      if (!index) {
         if (!next_chain(way)) return;
         continue;
       }
-      const std::size_t index = plan_.chains[way.chain][way.next];
-      if (const auto known = find(index)) {
-        way.start = *known;
-        ++way.next;
-        continue;
-      }
-      way.point = std::make_unique<PointRun>(plan_.points[index], model_at_(plan_.points[index].value), way.start,
+      way.point = std::make_unique<PointRun>(plan_.points[*index], model_at_(plan_.points[*index].value), way.start,
                                              sweep_, integrator_, [this] { return !stopped(); });
       if (stopped()) return;
       if (way.point->strobe().over()) {
@@ -338,30 +345,26 @@ class ChainRunner {
   void finish(Way& way, long right_hand_sides) {
     PointResult result = way.point->finish(right_hand_sides);
     if (stopped()) return;
-    way.start = result.end_state;
+    tell(result);
+    way.start = std::move(result.end_state);
     ++way.next;
-    const std::size_t index = result.point.index;
-    const std::scoped_lock lock(mutex_);
-    if (run_.point_finished) run_.point_finished(result);
-    results_.emplace(index, std::move(result));
   }
 
-  std::optional<std::vector<double>> find(std::size_t index) {
+  void tell(const PointResult& result) {
     const std::scoped_lock lock(mutex_);
-    const auto it = results_.find(index);
-    if (it == results_.end()) return std::nullopt;
-    return it->second.end_state;
+    if (run_.point_finished) run_.point_finished(result);
+    ++finished_;
   }
 
   const SweepPlan& plan_;
   const SweepOptions& sweep_;
   const integrate::IntegratorOptions& integrator_;
   const ModelAt& model_at_;
-  SweepRun& run_;
+  const SweepRun& run_;
   std::atomic<bool> failed_{false};
   std::atomic<std::size_t> next_chain_{0};
   std::mutex mutex_;
-  std::map<std::size_t, PointResult> results_;
+  std::size_t finished_ = 0;
 };
 
 /// The value at a share of the way; both ends exactly as given, between them rounded to 12 digits, so that 1.1 is 1.1
@@ -440,18 +443,42 @@ analysis::Estimate PointResult::lyapunov_max() const {
   return evidence.exponent * omega;
 }
 
-std::vector<PointResult> run_sweep(const SweepPlan& plan, const SweepOptions& sweep,
-                                   const integrate::IntegratorOptions& integrator, const ModelAt& model_at,
-                                   SweepRun run) {
+std::size_t run_sweep(const SweepPlan& plan, const SweepOptions& sweep, const integrate::IntegratorOptions& integrator,
+                      const ModelAt& model_at, const SweepRun& run) {
+  if (plan.points.empty()) return 0;
   ChainRunner runner(plan, sweep, integrator, model_at, run);
-  if (in_lanes(integrator) && !plan.points.empty()) {
-    const auto threads = static_cast<std::size_t>(std::max(1, run.threads));
-    const std::size_t lanes = (plan.chains.size() + threads - 1) / threads;
-    for_units(threads, run.threads, run.stop, [&](std::size_t) { runner.run_chains_in_lanes(lanes); });
-  } else {
-    for_units(plan.chains.size(), run.threads, run.stop, [&](std::size_t chain) { runner.run_chain(chain); });
+  const auto threads_of_all = static_cast<std::size_t>(std::max({1, run.threads, run.threads_of_all}));
+  const std::size_t share = (plan.chains.size() + threads_of_all - 1) / threads_of_all;
+  const bool lanes = in_lanes(integrator);
+  const std::size_t threads = std::min(plan.chains.size(), static_cast<std::size_t>(std::max(1, run.threads)));
+  for_units(threads, run.threads, run.stop, [&](std::size_t) {
+    if (lanes) {
+      runner.run_chains_in_lanes(share);
+    } else {
+      runner.run_chains();
+    }
+  });
+  return runner.finished();
+}
+
+std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const SweepOptions& sweep,
+                                             const integrate::IntegratorOptions& integrator, const ModelAt& model_at,
+                                             SweepRun run, std::map<std::size_t, PointResult> done) {
+  std::map<std::size_t, std::vector<double>> ends;
+  run.done.assign(plan.points.size(), false);
+  for (const auto& [index, result] : done) {
+    run.done[index] = true;
+    ends.emplace(index, result.end_state);
   }
-  return runner.take();
+  run.end_state = [&](std::size_t index) { return ends.at(index); };
+  run.point_finished = [&, told = std::move(run.point_finished)](const PointResult& result) {
+    if (told) told(result);
+    done.emplace(result.point.index, result);
+  };
+  (void)run_sweep(plan, sweep, integrator, model_at, run);
+  std::vector<PointResult> ordered;
+  for (auto& [index, result] : done) ordered.push_back(std::move(result));
+  return ordered;
 }
 
 }  // namespace epicyclic::studies

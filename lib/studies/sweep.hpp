@@ -10,6 +10,7 @@
 #include <atomic>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -92,18 +93,35 @@ using ModelAt = std::function<model::DynamicModel(double value)>;
                                         const integrate::IntegratorOptions& integrator,
                                         const std::function<bool()>& go_on);
 
-/// How a sweep is run; none of it changes a result.
+/// How a sweep is run; none of it changes a result. Results are not kept here: a sweep may be larger than memory.
 struct SweepRun {
   int threads = 1;
-  const std::atomic<bool>* stop = nullptr;                 ///< set to true: return soon, without the points under way
-  std::map<std::size_t, PointResult> done;                 ///< points of an earlier run
+  const std::atomic<bool>* stop = nullptr;  ///< set to true: return soon, without the points under way
+
+  std::vector<bool> done;  ///< points of an earlier run, by index; empty: none
+  /// Where such a point ended; asked by several threads at once. Needed if chains have more than one point.
+  std::function<std::vector<double>(std::size_t index)> end_state;
+
   std::function<void(const PointResult&)> point_finished;  ///< called for each new point, one at a time
+
+  /// The next chain to compute, nothing if there are no more; asked by several threads at once. Where there is none,
+  /// all chains, in order.
+  std::function<std::optional<std::size_t>()> next_chain;
+  int threads_of_all = 0;  ///< of all processes that take chains from next_chain; 0: only those here
 };
 
+/// @returns how many points are new; fewer than were missing only if stopped, or if others took chains
+/// @throws the first exception of a point or of a function of `run`
+[[nodiscard]] std::size_t run_sweep(const SweepPlan& plan, const SweepOptions& sweep,
+                                    const integrate::IntegratorOptions& integrator, const ModelAt& model_at,
+                                    const SweepRun& run);
+
+/// The same for studies of few points, which are kept in memory.
+/// @param done  points of an earlier run
 /// @returns points in order of their index; incomplete only if stopped
-/// @throws the first exception of a point or of point_finished
-[[nodiscard]] std::vector<PointResult> run_sweep(const SweepPlan& plan, const SweepOptions& sweep,
-                                                 const integrate::IntegratorOptions& integrator,
-                                                 const ModelAt& model_at, SweepRun run);
+[[nodiscard]] std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const SweepOptions& sweep,
+                                                           const integrate::IntegratorOptions& integrator,
+                                                           const ModelAt& model_at, SweepRun run,
+                                                           std::map<std::size_t, PointResult> done = {});
 
 }  // namespace epicyclic::studies

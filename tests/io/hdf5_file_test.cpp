@@ -72,6 +72,38 @@ TEST(Hdf5File, SameDataGiveSameBytes) {
   EXPECT_EQ(contents(folder / "a.h5"), contents(folder / "b.h5"));
 }
 
+TEST(Hdf5File, RowByRowGivesTheBytesOfTheWhole) {
+  const TemporaryFolder folder;
+  for (const std::size_t rows : {0U, 7U, 3000U, 70'001U}) {
+    const std::vector<double> values = smooth_values(rows * 5);
+    std::vector<std::int64_t> integers;
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < rows; ++i) {
+      integers.push_back(static_cast<std::int64_t>(i * i));
+      texts.push_back(std::string(i % 9, 'x'));
+    }
+    Hdf5File whole(folder / "whole.h5");
+    whole.write("/a", std::span<const double>(values).first(rows));
+    whole.write("/b", integers);
+    whole.write("/c", texts);
+    whole.write("/d", values, rows, 5);
+    whole.close();
+    Hdf5File by_row(folder / "by_row.h5");
+    by_row.write("/a", rows, Hdf5File::Column<double>([&](std::size_t row) { return values[row]; }));
+    by_row.write("/b", rows, Hdf5File::Column<std::int64_t>([&](std::size_t row) { return integers[row]; }));
+    by_row.write("/c", rows, Hdf5File::Column<std::string>([&](std::size_t row) { return texts[row]; }));
+    std::size_t next = 0;
+    by_row.write("/d", rows, 5, [&](std::size_t row, std::span<double> to) {
+      EXPECT_EQ(row, next++);
+      for (std::size_t j = 0; j < 5; ++j) to[j] = values[5 * row + j];
+    });
+    by_row.close();
+    EXPECT_EQ(contents(folder / "whole.h5"), contents(folder / "by_row.h5")) << rows;
+    EXPECT_EQ(read_hdf5(folder / "by_row.h5", "/d").values, values);
+    EXPECT_EQ(read_hdf5_texts(folder / "by_row.h5", "/c"), texts);
+  }
+}
+
 TEST(Hdf5File, LargeDataAreCompressed) {
   const TemporaryFolder folder;
   const std::size_t count = 400'000;
@@ -115,7 +147,10 @@ TEST(Hdf5File, AppearsOnlyWhenClosed) {
   {
     Hdf5File file(folder / "a.h5");
     file.write("/x", std::vector<double>{1});
-    EXPECT_EQ(test::entries(folder.path()), 0U);
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.h5"));
+    // What a killed program leaves is known by its name, and removed by the next.
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+      EXPECT_TRUE(is_temporary_name(entry.path().filename().string()));
   }
   EXPECT_EQ(test::entries(folder.path()), 0U);
 }
@@ -126,9 +161,13 @@ TEST(Hdf5File, FullDiskKeepsTheOldFile) {
   write_example(path);
   const std::string before = contents(path);
   {
-    const test::FileSizeLimit limit(4096);
-    const std::string message = message_of<OutputError>([&] { write_example(path); });
-    EXPECT_NE(message.find(path.string()), std::string::npos) << message;
+    testing::internal::CaptureStderr();
+    for (const rlim_t most : {1, 100, 1000, 4096, 20'000, 100'000}) {
+      const test::FileSizeLimit limit(most);
+      const std::string message = message_of<OutputError>([&] { write_example(path); });
+      EXPECT_NE(message.find(path.string()), std::string::npos) << message;
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   }
   EXPECT_EQ(contents(path), before);
   EXPECT_EQ(test::entries(folder.path()), 1U);

@@ -61,8 +61,9 @@ std::uint32_t crc_of(std::string_view bytes) {
 
 std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
 
-std::string text_of(const JournalRecord& record) {
-  return {reinterpret_cast<const char*>(record.payload.data()), record.payload.size()};
+std::string text_of(const Journal& journal, const JournalEntry& entry) {
+  const std::vector<std::byte> payload = journal.read(entry);
+  return {reinterpret_cast<const char*>(payload.data()), payload.size()};
 }
 
 const std::vector<std::string> payloads{"first", "", std::string("\0\xff binary", 9), std::string(300, 'z')};
@@ -75,10 +76,10 @@ void write_example(const std::filesystem::path& path) {
 }
 
 void expect_first_records(const Journal& journal, std::size_t count) {
-  ASSERT_EQ(journal.records().size(), count);
+  ASSERT_EQ(journal.entries().size(), count);
   for (std::size_t i = 0; i < count; ++i) {
-    EXPECT_EQ(journal.records()[i].point, 100 + i);
-    EXPECT_EQ(text_of(journal.records()[i]), payloads[i]);
+    EXPECT_EQ(journal.entries()[i].point, 100 + i);
+    EXPECT_EQ(text_of(journal, journal.entries()[i]), payloads[i]);
   }
 }
 
@@ -88,17 +89,16 @@ TEST(Journal, GivesBackWhatWasAppended) {
   Journal journal(folder / "journal.bin", identity);
   EXPECT_EQ(journal.cut_bytes(), 0U);
   expect_first_records(journal, payloads.size());
-  EXPECT_EQ(journal.take_records().size(), payloads.size());
 }
 
 TEST(Journal, GrowsOverSeveralSessions) {
   const TemporaryFolder folder;
   for (std::uint64_t session = 0; session < 5; ++session) {
     Journal journal(folder / "journal.bin", identity);
-    EXPECT_EQ(journal.records().size(), session);
+    EXPECT_EQ(journal.entries().size(), session);
     journal.append(std::uint64_t{1} << (8 * session), bytes_of("x"));
   }
-  EXPECT_EQ(Journal(folder / "journal.bin", identity).records().back().point, std::uint64_t{1} << 32);
+  EXPECT_EQ(Journal(folder / "journal.bin", identity).entries().back().point, std::uint64_t{1} << 32);
 }
 
 TEST(Journal, LayoutIsTheOneDocumented) {
@@ -138,8 +138,8 @@ TEST(Journal, TornTailIsCutAtEveryByte) {
       journal.append(7, bytes_of("next"));
     }
     const Journal again(path, identity);
-    ASSERT_EQ(again.records().size(), good + 1) << length;
-    EXPECT_EQ(text_of(again.records().back()), "next");
+    ASSERT_EQ(again.entries().size(), good + 1) << length;
+    EXPECT_EQ(text_of(again, again.entries().back()), "next");
   }
 }
 
@@ -237,8 +237,8 @@ TEST(Journal, FullDiskKeepsWhatWasAppendedBefore) {
   journal.close();
   const Journal again(path, identity);
   EXPECT_EQ(again.cut_bytes(), 0U);
-  ASSERT_EQ(again.records().size(), appended);
-  for (std::size_t i = 0; i < appended; ++i) EXPECT_EQ(again.records()[i].point, i);
+  ASSERT_EQ(again.entries().size(), appended);
+  for (std::size_t i = 0; i < appended; ++i) EXPECT_EQ(again.entries()[i].point, i);
 }
 
 TEST(Journal, SurvivesKillMinus9) {
@@ -254,7 +254,7 @@ TEST(Journal, SurvivesKillMinus9) {
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);
   ASSERT_TRUE(WIFSIGNALED(status));
-  EXPECT_EQ(Journal(path, identity).records().size(), 50U);
+  EXPECT_EQ(Journal(path, identity).entries().size(), 50U);
 }
 
 TEST(Journal, TakesRecordsFromSeveralThreads) {
@@ -273,8 +273,77 @@ TEST(Journal, TakesRecordsFromSeveralThreads) {
     for (std::thread& thread : threads) thread.join();
   }
   const Journal journal(path, identity);
-  ASSERT_EQ(journal.records().size(), 800U);
-  for (const JournalRecord& record : journal.records()) EXPECT_EQ(record.payload.size(), record.point % 1000);
+  ASSERT_EQ(journal.entries().size(), 800U);
+  for (const JournalEntry& entry : journal.entries()) EXPECT_EQ(journal.read(entry).size(), entry.point % 1000);
+}
+
+TEST(Journal, ReadsWhatWasJustAppendedAndBeginnings) {
+  const TemporaryFolder folder;
+  Journal journal(folder / "journal.bin", identity);
+  std::vector<JournalEntry> entries;
+  for (std::size_t i = 0; i < payloads.size(); ++i) entries.push_back(journal.append(i, bytes_of(payloads[i])));
+  for (std::size_t i = 0; i < payloads.size(); ++i) {
+    EXPECT_EQ(entries[i].point, i);
+    EXPECT_EQ(text_of(journal, entries[i]), payloads[i]);
+    EXPECT_EQ(journal.read_beginning(entries[i], 3).size(), std::min<std::size_t>(3, payloads[i].size()));
+  }
+}
+
+TEST(Journal, RecordChangedBehindItsBackIsDamage) {
+  const TemporaryFolder folder;
+  const auto path = folder / "journal.bin";
+  write_example(path);
+  const Journal journal(path, identity);
+  const JournalEntry& last = journal.entries().back();
+  const std::string whole = contents(path);
+  for (std::size_t i = last.offset; i < whole.size(); ++i) {
+    std::string changed = whole;
+    changed[i] = static_cast<char>(changed[i] ^ 0x10);
+    put_file(path, changed);
+    EXPECT_THROW((void)journal.read(last), DamagedData) << i;
+  }
+  put_file(path, std::string_view(whole).substr(0, whole.size() - 1));
+  EXPECT_THROW((void)journal.read(last), DamagedData);
+}
+
+TEST(Journal, RecordsAndDamageAcrossTheReadersWindow) {
+  // Larger than the window that a journal is read through, with the letters of a record everywhere.
+  const TemporaryFolder folder;
+  const auto path = folder / "journal.bin";
+  std::string large;
+  while (large.size() < 700'001) large += "EPJREPJ";
+  {
+    Journal journal(path, identity);
+    for (std::uint64_t i = 0; i < 3; ++i) journal.append(i, bytes_of(large));
+  }
+  const std::string whole = contents(path);
+  {
+    const Journal journal(path, identity);
+    ASSERT_EQ(journal.entries().size(), 3U);
+    for (const JournalEntry& entry : journal.entries()) EXPECT_EQ(text_of(journal, entry), large);
+  }
+  const std::size_t record = overhead + large.size();
+  std::string damaged = whole;
+  damaged[header_size + record + 300'000] ^= 1;
+  put_file(path, damaged);
+  EXPECT_THROW(Journal(path, identity), DamagedData);
+  damaged = whole;
+  damaged[header_size + 2 * record + 300'000] ^= 1;
+  put_file(path, damaged);
+  EXPECT_EQ(Journal(path, identity).entries().size(), 2U);
+}
+
+TEST(Journal, HasOneWriterAtATime) {
+  const TemporaryFolder folder;
+  const auto path = folder / "journal.bin";
+  Journal first(path, identity);
+  const JournalEntry entry = first.append(1, bytes_of("x"));
+  EXPECT_THROW(Journal(path, identity), JournalInUse);
+  first.release();
+  EXPECT_THROW(first.append(2, bytes_of("y")), std::logic_error);
+  Journal second(path, identity);
+  second.append(2, bytes_of("y"));
+  EXPECT_EQ(text_of(first, entry), "x");
 }
 
 /// Until `condition` holds; what takes this long has failed.

@@ -119,8 +119,7 @@ std::vector<PointResult> swept(const SweepOptions& sweep, const char* method, in
   o.method = method;
   SweepRun run;
   run.threads = threads;
-  run.done = std::move(done);
-  return run_sweep(plan_sweep(sweep), sweep, o, at, std::move(run));
+  return run_sweep_in_memory(plan_sweep(sweep), sweep, o, at, std::move(run), std::move(done));
 }
 
 TEST(Lanes, SweepsHaveTheSameBytesAtAnyNumberOfThreads) {

@@ -90,7 +90,7 @@ TEST(Sweep, RecordsExtremaContactAndPeriodOfAKnownResponse) {
   // s.
   constexpr double settled = 1e-6;  // exp(-0.2 * 2 pi * 40) of the transient and the tolerance of the integrator
   const SweepOptions o = few_points();
-  const auto results = run_sweep(plan_sweep(o), o, {}, oscillator, {});
+  const auto results = run_sweep_in_memory(plan_sweep(o), o, {}, oscillator, {});
   ASSERT_EQ(results.size(), 4U);
   for (const PointResult& r : results) {
     const double amplitude = r.point.value / 0.4;
@@ -108,13 +108,13 @@ TEST(Sweep, ThreadsAndResumptionLeaveEachNumberUnchanged) {
   SweepOptions o = few_points();
   o.directions = {Direction::up, Direction::down};
   const SweepPlan plan = plan_sweep(o);
-  const auto one = run_sweep(plan, o, {}, oscillator, {});
+  const auto one = run_sweep_in_memory(plan, o, {}, oscillator, {});
   SweepRun resumed;
   resumed.threads = 8;
-  resumed.done = {{0, one[0]}, {1, one[1]}, {4, one[4]}};
   std::set<std::size_t> computed;
   resumed.point_finished = [&](const PointResult& r) { computed.insert(r.point.index); };
-  const auto two = run_sweep(plan, o, {}, oscillator, std::move(resumed));
+  const auto two =
+      run_sweep_in_memory(plan, o, {}, oscillator, std::move(resumed), {{0, one[0]}, {1, one[1]}, {4, one[4]}});
   EXPECT_EQ(computed, (std::set<std::size_t>{2, 3, 5, 6, 7}));
   ASSERT_EQ(two.size(), one.size());
   for (std::size_t k = 0; k < one.size(); ++k) {
@@ -127,9 +127,9 @@ TEST(Sweep, CarriedStartIsTheEndOfThePointBefore) {
   SweepOptions o = few_points();
   o.transient_periods = 0;
   o.recorded_periods = 1;
-  const auto carried = run_sweep(plan_sweep(o), o, {}, oscillator, {});
+  const auto carried = run_sweep_in_memory(plan_sweep(o), o, {}, oscillator, {});
   o.start = Start::cold;
-  const auto cold = run_sweep(plan_sweep(o), o, {}, oscillator, {});
+  const auto cold = run_sweep_in_memory(plan_sweep(o), o, {}, oscillator, {});
   EXPECT_EQ(carried[0].end_state, cold[0].end_state);
   EXPECT_NE(carried[1].end_state, cold[1].end_state);
   const auto again = compute_point(plan_sweep(o).points[1], oscillator(carried[1].point.value), carried[0].end_state, o,
@@ -148,7 +148,7 @@ TEST(Sweep, GoesOnAfterAPointThatDiverges) {
       };
     return m;
   };
-  const auto results = run_sweep(plan_sweep(o), o, {}, unstable, {});
+  const auto results = run_sweep_in_memory(plan_sweep(o), o, {}, unstable, {});
   EXPECT_EQ(results[1].outcome, integrate::Outcome::diverged);
   EXPECT_FALSE(results[1].message.empty());
   EXPECT_TRUE(results[1].end_state.empty());
@@ -161,7 +161,7 @@ TEST(Sweep, StopsSoonAndKeepsWhatWasFinished) {
   SweepRun run;
   run.stop = &stop;
   run.point_finished = [&](const PointResult& r) { stop = r.point.index == 1; };
-  EXPECT_EQ(run_sweep(plan_sweep(o), o, {}, oscillator, std::move(run)).size(), 2U);
+  EXPECT_EQ(run_sweep_in_memory(plan_sweep(o), o, {}, oscillator, std::move(run)).size(), 2U);
 }
 
 TEST(Sweep, ExceptionOfAPointArrivesUnchanged) {
@@ -170,7 +170,7 @@ TEST(Sweep, ExceptionOfAPointArrivesUnchanged) {
     if (value > 0.25) throw std::domain_error("no such point");
     return oscillator(value);
   };
-  EXPECT_THROW((void)run_sweep(plan_sweep(o), o, {}, throwing, {}), std::domain_error);
+  EXPECT_THROW((void)run_sweep_in_memory(plan_sweep(o), o, {}, throwing, {}), std::domain_error);
 }
 
 }  // namespace

@@ -235,8 +235,8 @@ TEST(OrbitDistance, IsThatOfTheBestShift) {
 
 TolerancePoint study(double w, const ToleranceOptions& options, double tolerance, int threads = 1) {
   const SweepOptions sweep = points(w, w, 1);
-  const auto motion = run_sweep(plan_sweep(sweep), sweep, integrator(tolerance),
-                                [](double value) { return oscillator(value, 0.0); }, {});
+  const auto motion = run_sweep_in_memory(plan_sweep(sweep), sweep, integrator(tolerance),
+                                          [](double value) { return oscillator(value, 0.0); }, {});
   return compute_tolerance_point(motion.front(), sweep, options, integrator(tolerance), 0.0, oscillator, threads,
                                  nullptr);
 }

@@ -1,0 +1,23 @@
+// An exception as what the command line tells: an exit code and one message.
+#pragma once
+
+#include <exception>
+#include <stdexcept>
+#include <string>
+
+namespace epicyclic::app {
+
+/// An error that has its exit code already, as one of another rank.
+class Failure : public std::runtime_error {
+ public:
+  Failure(int exit_code, const std::string& message) : std::runtime_error(message), exit_code_(exit_code) {}
+  [[nodiscard]] int exit_code() const { return exit_code_; }
+
+ private:
+  int exit_code_;
+};
+
+/// Exit code (architecture section 5) and message of any exception.
+[[nodiscard]] Failure failure_of(const std::exception_ptr& error);
+
+}  // namespace epicyclic::app

@@ -1,0 +1,405 @@
+#include "shared_sweep.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <cstring>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "failure.hpp"
+#include "io/journal.hpp"
+#include "io/point_record.hpp"
+#include "io/point_store.hpp"
+#include "io/study_model.hpp"
+#include "ranks.hpp"
+#include "stop.hpp"
+
+namespace epicyclic::app {
+
+namespace {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+/// How long a message may lie before it is looked at: short beside a point, long beside the looking.
+constexpr std::chrono::milliseconds look_interval{2};
+constexpr std::chrono::milliseconds progress_interval{100};
+/// How long ranks that were told to stop may take: all of it must fit into the 2 s of a signal.
+constexpr std::chrono::milliseconds farewell{1500};
+
+std::string text_of(const json& message) { return message.dump(-1, ' ', false, json::error_handler_t::replace); }
+
+template <class T>
+std::string bytes_of(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+template <class T>
+std::vector<T> values_of(const std::string& bytes) {
+  std::vector<T> values(bytes.size() / sizeof(T));
+  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+  return values;
+}
+
+using Index = std::uint64_t;
+
+/// The chains in which something is left to do, in order.
+class OpenChains {
+ public:
+  OpenChains(const studies::SweepPlan& plan, const std::vector<bool>& done) {
+    for (std::size_t chain = 0; chain < plan.chains.size(); ++chain)
+      if (!std::ranges::all_of(plan.chains[chain], [&](std::size_t point) { return done[point]; }))
+        chains_.push_back(chain);
+  }
+
+  std::optional<std::size_t> take() {
+    const std::scoped_lock lock(mutex_);
+    if (next_ == chains_.size()) return std::nullopt;
+    return static_cast<std::size_t>(chains_[next_++]);
+  }
+
+  /// For a rank that has no more: a part of what is left that shrinks towards the end, so that many small chains cost
+  /// few messages and all ranks are through at the same time.
+  std::vector<Index> take_some(int threads_of_all) {
+    constexpr std::size_t most = 1000;
+    const std::scoped_lock lock(mutex_);
+    const std::size_t left = chains_.size() - next_;
+    const std::size_t share = left / (4 * static_cast<std::size_t>(std::max(1, threads_of_all)));
+    const auto first = chains_.begin() + static_cast<std::ptrdiff_t>(next_);
+    const auto count = static_cast<std::ptrdiff_t>(std::min(left, std::clamp<std::size_t>(share, 1, most)));
+    next_ += static_cast<std::size_t>(count);
+    return {first, first + count};
+  }
+
+ private:
+  std::vector<Index> chains_;
+  std::size_t next_ = 0;
+  std::mutex mutex_;
+};
+
+std::string host_name() {
+  std::string name(256, '\0');
+  if (::gethostname(name.data(), name.size() - 1) != 0) return "unknown";
+  return name.c_str();
+}
+
+/// What a rank tells of itself when it is through, or cannot begin.
+json report_of(const Ranks& ranks, const std::exception_ptr& error) {
+  if (!error) return {{"exit_code", static_cast<int>(done)}};
+  const Failure failure = failure_of(error);
+  return {{"exit_code", failure.exit_code()},
+          {"message", fmt::format("rank {} on {}: {}", ranks.rank(), host_name(), failure.what())}};
+}
+
+std::optional<Failure> failure_in(const json& report) {
+  const int code = report.at("exit_code").get<int>();
+  if (code == done) return std::nullopt;
+  return Failure(code, report.at("message").get<std::string>());
+}
+
+}  // namespace
+
+void SweepLeader::gather(const Arguments& arguments, const std::string& identity) {
+  threads_of_all_ = arguments.threads;
+  for (int missing = ranks_.size() - 1; missing > 0;) {
+    const auto message = ranks_.receive();
+    if (!message) {
+      std::this_thread::sleep_for(look_interval);
+      continue;
+    }
+    if (message->topic != Topic::hello) continue;
+    --missing;
+    const json hello = json::parse(message->bytes);
+    if (const auto failure = failure_in(hello)) throw *failure;
+    const std::string who = fmt::format("rank {} on {}", message->from, hello.at("host").get<std::string>());
+    if (hello.at("program") != version_text())
+      throw Failure(bad_input,
+                    fmt::format("{} runs another program:\n{}", who, hello.at("program").get<std::string>()));
+    if (hello.at("identity") != identity) throw Failure(bad_input, who + " reads another input from the same path");
+    threads_of_all_ += hello.at("threads").get<int>();
+  }
+}
+
+void SweepLeader::run(const studies::SweepPlan& plan, const studies::SweepOptions& sweep,
+                      const integrate::IntegratorOptions& integrator, const studies::ModelAt& model_at,
+                      studies::SweepRun run, const std::function<void(std::size_t, std::size_t)>& points_elsewhere) {
+  const std::atomic<bool>& signal = *run.stop;
+  std::atomic<bool> stop{false};
+  OpenChains chains(plan, run.done);
+  run.stop = &stop;
+  run.next_chain = [&chains] { return chains.take(); };
+  run.threads_of_all = threads_of_all_;
+
+  std::string done_points(plan.points.size(), '0');
+  for (std::size_t i = 0; i < done_points.size(); ++i)
+    if (run.done[i]) done_points[i] = '1';
+  const std::string begin = text_of({{"threads_of_all", threads_of_all_}, {"done", done_points}});
+  for (int rank = 1; rank < ranks_.size(); ++rank) ranks_.send(rank, Topic::begin, begin);
+
+  std::exception_ptr error;
+  std::atomic<bool> computed{false};
+  // The computation has a thread of its own, because messages belong to this one.
+  std::thread worker([&] {
+    try {
+      (void)studies::run_sweep(plan, sweep, integrator, model_at, run);
+    } catch (...) {
+      error = std::current_exception();
+    }
+    computed = true;
+  });
+
+  std::optional<Failure> failure;
+  bool stop_wanted = false;
+  std::vector<bool> through(static_cast<std::size_t>(ranks_.size()), false);
+  through[0] = true;
+  const auto all_through = [&] { return std::ranges::all_of(through, [](bool b) { return b; }); };
+  const auto answer = [&](const Message& message) {
+    switch (message.topic) {
+      case Topic::ask_chains:
+        ranks_.send(message.from, Topic::chains, bytes_of(chains.take_some(threads_of_all_)));
+        break;
+      case Topic::ask_end_state: {
+        const Index point = values_of<Index>(message.bytes).at(0);
+        const std::string head = bytes_of(std::vector<Index>{point});
+        ranks_.send(message.from, Topic::end_state, head + bytes_of(run.end_state(static_cast<std::size_t>(point))));
+        break;
+      }
+      case Topic::progress: {
+        const auto counts = values_of<Index>(message.bytes);
+        points_elsewhere(static_cast<std::size_t>(counts.at(0)), static_cast<std::size_t>(counts.at(1)));
+        break;
+      }
+      case Topic::stop:
+        stop_wanted = true;
+        break;
+      case Topic::finished:
+        through[static_cast<std::size_t>(message.from)] = true;
+        if (!failure) failure = failure_in(json::parse(message.bytes));
+        break;
+      default:
+        break;
+    }
+  };
+  std::optional<Clock::time_point> stopped;
+  while (!computed || !all_through()) {
+    const auto message = ranks_.receive();
+    if (message) {
+      try {
+        answer(*message);
+      } catch (...) {
+        if (!failure) failure = failure_of(std::current_exception());
+      }
+    }
+    if (!stopped && (signal || stop_wanted || failure || (computed && error))) {
+      stop = true;
+      stopped = Clock::now();
+      for (int rank = 1; rank < ranks_.size(); ++rank) ranks_.send(rank, Topic::stop, {});
+    }
+    if (computed && stopped && Clock::now() - *stopped > farewell) {
+      silent_ = true;
+      break;
+    }
+    if (!message) std::this_thread::sleep_for(look_interval);
+  }
+  worker.join();
+  if (error) std::rethrow_exception(error);
+  if (failure) throw *failure;
+  if (silent_) throw Failure(stopped_early, "a rank does not answer; the same command goes on");
+}
+
+void SweepLeader::dismiss(int exit_code) {
+  if (silent_) ranks_.abort(exit_code);
+  for (int rank = 1; rank < ranks_.size(); ++rank)
+    ranks_.send(rank, Topic::leave, bytes_of(std::vector<Index>{static_cast<Index>(exit_code)}));
+}
+
+namespace {
+
+/// What a rank's threads ask for and its messages bring.
+class Exchange {
+ public:
+  explicit Exchange(Ranks& ranks) : ranks_(ranks) {}
+
+  [[nodiscard]] const std::atomic<bool>& stop() const { return stop_; }
+
+  // For the threads that compute.
+
+  std::optional<std::size_t> next_chain() {
+    std::unique_lock lock(mutex_);
+    ++waiting_;
+    wake_.notify_all();
+    answered_.wait(lock, [this] { return stop_ || no_more_ || !chains_.empty(); });
+    --waiting_;
+    if (stop_ || chains_.empty()) return std::nullopt;
+    const auto chain = static_cast<std::size_t>(chains_.front());
+    chains_.pop_front();
+    return chain;
+  }
+
+  std::vector<double> end_state(std::size_t point) {
+    std::unique_lock lock(mutex_);
+    questions_.push_back(point);
+    wake_.notify_all();
+    answered_.wait(lock, [&] { return stop_ || end_states_.contains(point); });
+    const auto answer = end_states_.extract(point);
+    return answer.empty() ? std::vector<double>{} : answer.mapped();
+  }
+
+  void count(bool failed) {
+    const std::scoped_lock lock(mutex_);
+    ++finished_;
+    failed_ += failed ? 1 : 0;
+  }
+
+  void threads_are_through() {
+    const std::scoped_lock lock(mutex_);
+    through_ = true;
+    wake_.notify_all();
+  }
+
+  // For the thread of the messages.
+
+  /// Until the threads are through.
+  void serve() {
+    bool told_to_stop = false;
+    auto last_progress = Clock::now();
+    for (;;) {
+      while (const auto message = ranks_.receive()) take(*message);
+      if (stop_requested() && !std::exchange(told_to_stop, true)) ranks_.send(0, Topic::stop, {});
+      std::unique_lock lock(mutex_);
+      if (through_) break;
+      if (wants_chains()) {
+        asked_ = true;
+        ranks_.send(0, Topic::ask_chains, {});
+      }
+      for (const Index point : std::exchange(questions_, {}))
+        ranks_.send(0, Topic::ask_end_state, bytes_of(std::vector<Index>{point}));
+      if (Clock::now() - last_progress >= progress_interval) {
+        last_progress = Clock::now();
+        tell_progress();
+      }
+      wake_.wait_for(lock, look_interval, [this] { return through_ || wants_chains() || !questions_.empty(); });
+    }
+    const std::scoped_lock lock(mutex_);
+    tell_progress();
+  }
+
+ private:
+  [[nodiscard]] bool wants_chains() const { return waiting_ > 0 && chains_.empty() && !asked_ && !no_more_ && !stop_; }
+
+  void take(const Message& message) {
+    const std::scoped_lock lock(mutex_);
+    if (message.topic == Topic::chains) {
+      const auto chains = values_of<Index>(message.bytes);
+      chains_.insert(chains_.end(), chains.begin(), chains.end());
+      no_more_ = chains.empty();
+      asked_ = false;
+    } else if (message.topic == Topic::end_state) {
+      const Index point = values_of<Index>(message.bytes.substr(0, sizeof(Index))).at(0);
+      end_states_[point] = values_of<double>(message.bytes.substr(sizeof(Index)));
+    } else if (message.topic == Topic::stop) {
+      stop_ = true;
+    }
+    answered_.notify_all();
+  }
+
+  void tell_progress() {
+    if (finished_ == 0) return;
+    ranks_.send(0, Topic::progress, bytes_of(std::vector<Index>{finished_, failed_}));
+    finished_ = failed_ = 0;
+  }
+
+  Ranks& ranks_;
+  std::mutex mutex_;
+  std::condition_variable wake_, answered_;
+  std::atomic<bool> stop_{false};
+  std::deque<Index> chains_;
+  bool asked_ = false, no_more_ = false, through_ = false;
+  int waiting_ = 0;
+  std::vector<Index> questions_;
+  std::map<Index, std::vector<double>> end_states_;
+  Index finished_ = 0, failed_ = 0;
+};
+
+/// Computes what the leader gives.
+void compute_share(const Arguments& arguments, const io::LoadedInput& input, const std::string& identity,
+                   const json& begin) {
+  const studies::SweepOptions& sweep = *input.study.sweep;
+  const studies::SweepPlan plan = studies::plan_sweep(sweep);
+  io::Journal journal(arguments.output / io::rank_journal_name(arguments.ranks->rank()), identity);
+  Exchange exchange(*arguments.ranks);
+  studies::SweepRun run;
+  run.threads = arguments.threads;
+  run.threads_of_all = begin.at("threads_of_all").get<int>();
+  run.stop = &exchange.stop();
+  for (const char c : begin.at("done").get_ref<const std::string&>()) run.done.push_back(c == '1');
+  run.end_state = [&](std::size_t point) { return exchange.end_state(point); };
+  run.next_chain = [&] { return exchange.next_chain(); };
+  run.point_finished = [&](const studies::PointResult& result) {
+    journal.append(result.point.index, io::encode_point(result));
+    exchange.count(result.outcome != integrate::Outcome::reached);
+  };
+  std::exception_ptr error;
+  std::thread worker([&] {
+    try {
+      (void)studies::run_sweep(plan, sweep, input.study.integrator, io::model_at(input), run);
+      journal.close();
+    } catch (...) {
+      error = std::current_exception();
+    }
+    exchange.threads_are_through();
+  });
+  exchange.serve();
+  worker.join();
+  if (error) std::rethrow_exception(error);
+}
+
+}  // namespace
+
+int follow_sweep(const Arguments& arguments) {
+  Ranks& ranks = *arguments.ranks;
+  stop_on_signals();
+  std::optional<io::LoadedInput> input;
+  std::string identity;
+  std::exception_ptr error;
+  try {
+    input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
+    identity = io::identity(*input, "sweep");
+  } catch (...) {
+    error = std::current_exception();
+  }
+  json hello = report_of(ranks, error);
+  hello["host"] = host_name();
+  hello["program"] = version_text();
+  hello["identity"] = identity;
+  hello["threads"] = arguments.threads;
+  ranks.send(0, Topic::hello, text_of(hello));
+  for (;;) {
+    const auto message = ranks.receive();
+    if (message && message->topic == Topic::leave) return static_cast<int>(values_of<Index>(message->bytes).at(0));
+    if (message && message->topic == Topic::begin) {
+      error = nullptr;
+      try {
+        compute_share(arguments, *input, identity, json::parse(message->bytes));
+      } catch (...) {
+        error = std::current_exception();
+      }
+      ranks.send(0, Topic::finished, text_of(report_of(ranks, error)));
+    }
+    if (!message) std::this_thread::sleep_for(10 * look_interval);
+  }
+}
+
+}  // namespace epicyclic::app

@@ -1,0 +1,48 @@
+// A sweep on several ranks. Rank 0 leads: it holds the folder, knows what is done, hands out chains as ranks become
+// free, talks to the user, and writes the results. The others follow: each computes the chains that it is given, with
+// threads and lanes of its own, and keeps its points in a journal of its own in the folder.
+//
+// Chains are fixed by the input and a point is a function of its value and start, so that it does not matter who
+// computes what. Nothing is lost with a rank but the points it had not finished.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+#include "commands.hpp"
+#include "io/study_input.hpp"
+#include "studies/sweep.hpp"
+
+namespace epicyclic::app {
+
+/// What the leader does besides computing.
+class SweepLeader {
+ public:
+  explicit SweepLeader(Ranks& ranks) : ranks_(ranks) {}
+
+  /// Waits until all have said who they are.
+  /// @throws Failure when a rank cannot take part: it cannot read the input, has another one, or is another program
+  void gather(const Arguments& arguments, const std::string& identity);
+
+  /// run_sweep on all ranks, until all have ended and closed their journals.
+  /// @param points_elsewhere  called now and then with how many points a rank has finished since, and how many failed
+  /// @throws the first exception here or Failure of another rank, after all have ended
+  void run(const studies::SweepPlan& plan, const studies::SweepOptions& sweep,
+           const integrate::IntegratorOptions& integrator, const studies::ModelAt& model_at, studies::SweepRun run,
+           const std::function<void(std::size_t finished, std::size_t failed)>& points_elsewhere);
+
+  /// Lets the others go.
+  void dismiss(int exit_code);
+
+ private:
+  Ranks& ranks_;
+  int threads_of_all_ = 0;
+  bool silent_ = false;  ///< a rank did not answer when told to stop
+};
+
+/// Ranks but the first. Says nothing: what goes wrong is told by the leader.
+/// @returns the exit code of all
+int follow_sweep(const Arguments& arguments);
+
+}  // namespace epicyclic::app

@@ -1,0 +1,120 @@
+#include "io/point_store.hpp"
+
+#include <charconv>
+#include <set>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "io/point_record.hpp"
+
+namespace epicyclic::io {
+
+namespace {
+
+/// All of a record but the Poincare section, as a rule; notes may be longer.
+constexpr std::size_t brief_bytes = 2048;
+
+constexpr std::string_view rank_journal_start = "journal.rank-";
+constexpr std::string_view rank_journal_end = ".bin";
+
+/// Ranks that have left a journal, in order.
+std::set<int> ranks_with_journal(const std::filesystem::path& folder) {
+  std::set<int> ranks;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(rank_journal_start)) continue;
+    int rank = 0;
+    std::from_chars(name.data() + rank_journal_start.size(), name.data() + name.size(), rank);
+    if (rank > 0 && name == rank_journal_name(rank)) ranks.insert(rank);
+  }
+  if (error) throw_output_error(folder, "list the folder", error.value());
+  return ranks;
+}
+
+}  // namespace
+
+std::string rank_journal_name(int rank) { return fmt::format("{}{}{}", rank_journal_start, rank, rank_journal_end); }
+
+PointStore::PointStore(std::filesystem::path folder, std::string identity, std::size_t points)
+    : folder_(std::move(folder)), identity_(std::move(identity)), places_(points) {
+  open(folder_ / "journal.bin");
+  read_others();
+}
+
+void PointStore::read_others() {
+  const std::scoped_lock lock(mutex_);
+  journals_.resize(1);
+  for (Place& place : places_) {
+    if (place.journal == 0) continue;
+    place = {};
+    --size_;
+  }
+  for (const int rank : ranks_with_journal(folder_)) open(folder_ / rank_journal_name(rank)).release();
+}
+
+Journal& PointStore::open(const std::filesystem::path& file) {
+  journals_.push_back(std::make_unique<Journal>(file, identity_));
+  Journal& journal = *journals_.back();
+  for (const JournalEntry& entry : journal.entries()) take(journals_.size() - 1, entry);
+  journal.forget_entries();
+  return journal;
+}
+
+void PointStore::take(std::size_t journal, const JournalEntry& entry) {
+  if (entry.point >= places_.size())
+    throw DamagedData(fmt::format("the journal holds point {}, which the study has not", entry.point));
+  Place& known = places_[static_cast<std::size_t>(entry.point)];
+  if (known.offset == absent) {
+    known = {static_cast<std::uint32_t>(journal), entry.offset};
+    ++size_;
+  } else if (journals_[known.journal]->read({entry.point, known.offset}) != journals_[journal]->read(entry)) {
+    throw DamagedData(fmt::format("{}: two records of point {} differ", folder_.string(), entry.point));
+  }
+}
+
+void PointStore::append(const studies::PointResult& result) {
+  const JournalEntry entry = journals_.front()->append(result.point.index, encode_point(result));
+  const std::scoped_lock lock(mutex_);
+  take(0, entry);
+}
+
+std::size_t PointStore::size() const {
+  const std::scoped_lock lock(mutex_);
+  return size_;
+}
+
+bool PointStore::holds(std::size_t point) const { return place(point).offset != absent; }
+
+PointStore::Place PointStore::place(std::size_t point) const {
+  const std::scoped_lock lock(mutex_);
+  return places_.at(point);
+}
+
+studies::PointResult PointStore::read(std::size_t point) const {
+  const Place at = place(point);
+  studies::PointResult result = decode_point(journals_[at.journal]->read({point, at.offset}));
+  if (result.point.index != point) throw DamagedData(fmt::format("the record of point {} is of another", point));
+  return result;
+}
+
+studies::PointResult PointStore::read_brief(std::size_t point) const {
+  const Place at = place(point);
+  auto result = decode_point_beginning(journals_[at.journal]->read_beginning({point, at.offset}, brief_bytes));
+  if (!result) {
+    result = read(point);
+    result->poincare.clear();
+  }
+  if (result->point.index != point) throw DamagedData(fmt::format("the record of point {} is of another", point));
+  return *std::move(result);
+}
+
+PointSource PointStore::source() const {
+  return {places_.size(), [this](std::size_t point) { return read(point); },
+          [this](std::size_t point) { return read_brief(point); }};
+}
+
+}  // namespace epicyclic::io

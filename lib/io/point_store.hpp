@@ -1,0 +1,76 @@
+// The points of a sweep where they are: in the journals of its folder. Memory holds 16 bytes for each.
+//
+// journal.bin is this process's own; journal.rank-1.bin and so on are of other processes that took part, now or
+// earlier. Which process computed a point says nothing about it: two records of one point are the same bytes, or one of
+// them is damaged.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "io/journal.hpp"
+#include "io/sweep_output.hpp"
+#include "studies/sweep.hpp"
+
+namespace epicyclic::io {
+
+/// Name of the journal of another process than the first.
+[[nodiscard]] std::string rank_journal_name(int rank);
+
+/// append() and reading may be called from several threads.
+class PointStore {
+ public:
+  /// Opens all journals of the folder; its own is created if need be, the others may be written to by other processes
+  /// afterwards.
+  /// @param points  of the study
+  /// @throws as Journal, and DamagedData when two records of a point differ or one is of a point that the study has not
+  PointStore(std::filesystem::path folder, std::string identity, std::size_t points);
+
+  /// @throws OutputError when it cannot be written
+  void append(const studies::PointResult& result);
+
+  /// Flushes to the disk.
+  /// @throws OutputError
+  void sync() { journals_.front()->sync(); }
+
+  /// Reads the journals of other processes once more, when these have closed them.
+  /// @throws as the constructor
+  void read_others();
+
+  [[nodiscard]] std::size_t size() const;  ///< points that are there
+  [[nodiscard]] bool holds(std::size_t point) const;
+
+  /// @throws DamagedData when the record is damaged; OutputError when reading fails
+  [[nodiscard]] studies::PointResult read(std::size_t point) const;
+
+  /// Without the Poincare section, which is most of a record.
+  [[nodiscard]] studies::PointResult read_brief(std::size_t point) const;
+
+  /// For the writers, when all points are there.
+  [[nodiscard]] PointSource source() const;
+
+ private:
+  static constexpr std::uint64_t absent = ~std::uint64_t{0};
+  struct Place {
+    std::uint32_t journal = 0;
+    std::uint64_t offset = absent;
+  };
+
+  Journal& open(const std::filesystem::path& file);
+  void take(std::size_t journal, const JournalEntry& entry);
+  [[nodiscard]] Place place(std::size_t point) const;
+
+  std::filesystem::path folder_;
+  std::string identity_;
+  std::vector<std::unique_ptr<Journal>> journals_;  ///< the first is our own
+  std::vector<Place> places_;                       ///< by point
+  std::size_t size_ = 0;
+  mutable std::mutex mutex_;
+};
+
+}  // namespace epicyclic::io
