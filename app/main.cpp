@@ -82,6 +82,12 @@ int run(int argc, char** argv) {
   CLI::App* sweep = cli.add_subcommand("sweep", "bifurcation diagram along one parameter, up, down or both");
   with_input(sweep);
   with_output(sweep);
+  CLI::App* map = cli.add_subcommand("map", "regimes over two parameters");
+  with_input(map);
+  with_output(map);
+  CLI::App* basins = cli.add_subcommand("basins", "coexisting attractors over a plane of initial conditions");
+  with_input(basins);
+  with_output(basins);
   CLI::App* tolerance =
       cli.add_subcommand("tolerance", "answers against tolerance, clearance smoothing and method, with error bars");
   with_input(tolerance);
@@ -89,7 +95,7 @@ int run(int argc, char** argv) {
   CLI::App* crosscheck = cli.add_subcommand("crosscheck", "the same points by several methods, compared");
   with_input(crosscheck);
   with_output(crosscheck);
-  for (CLI::App* command : {sweep, tolerance, crosscheck})
+  for (CLI::App* command : {sweep, map, basins, tolerance, crosscheck})
     command->add_option("--threads", arguments.threads, "threads; the results do not depend on it")
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
@@ -106,6 +112,8 @@ int run(int argc, char** argv) {
     if (gear->parsed()) return gear_command(arguments);
     if (run_point->parsed()) return run_command(arguments);
     if (sweep->parsed()) return sweep_command(arguments);
+    if (map->parsed()) return map_command(arguments);
+    if (basins->parsed()) return basins_command(arguments);
     if (tolerance->parsed()) return tolerance_command(arguments);
     if (crosscheck->parsed()) return crosscheck_command(arguments);
     if (check->parsed()) return check_command(arguments);

@@ -159,7 +159,7 @@ void pass(A& a, studies::MeshRecord& m) {
 }
 template <class A>
 void pass(A& a, studies::GridPoint& p) {
-  pass_all(a, p.index, p.direction, p.value);
+  pass_all(a, p.index, p.direction, p.value, p.second_value);
 }
 
 /// Elements take eight bytes at least.
@@ -170,9 +170,18 @@ void pass(A& a, std::vector<T>& values) {
 }
 
 template <class A>
+void pass(A& a, analysis::AttractorRecord& r) {
+  pass_all(a, r.regime, r.dimension, r.orbit, r.orbit_error, r.waves, r.means, r.deviations, r.exponent);
+  a.require(r.dimension == 0 ? r.orbit.empty() : r.orbit.size() % r.dimension == 0,
+            "has an orbit that is not whole states");
+  a.require(r.means.size() == r.deviations.size(), "has means without deviations");
+}
+
+template <class A>
 void pass(A& a, studies::PointResult& r) {
   pass_all(a, r.point, r.outcome, r.message, r.recurrence, r.regime, r.period, r.classified, r.evidence, r.sun_planet,
-           r.ring_planet, r.planet_spread, r.rhs_evaluations, r.end_state, r.omega, r.poincare_columns, r.poincare);
+           r.ring_planet, r.planet_spread, r.rhs_evaluations, r.end_state, r.omega, r.poincare_columns, r.poincare,
+           r.attractor);
   a.require(r.poincare_columns == 0 ? r.poincare.empty() : r.poincare.size() % r.poincare_columns == 0,
             "has a Poincare section that is not whole rows");
 }

@@ -68,7 +68,8 @@ std::string status_word(integrate::Outcome outcome) {
   return "failed";
 }
 
-void write_points_csv(const std::filesystem::path& file, const std::vector<PointResult>& results) {
+void write_points_csv(const std::filesystem::path& file, const std::vector<PointResult>& results,
+                      const std::vector<PointColumn>& more) {
   std::vector<std::string> columns = {"point",
                                       "direction",
                                       "value",
@@ -93,6 +94,8 @@ void write_points_csv(const std::filesystem::path& file, const std::vector<Point
                                       "zero_one",
                                       "classified_periods",
                                       "evidence"};
+  for (std::size_t k = 0; k < more.size(); ++k)
+    columns.insert(columns.begin() + 3 + static_cast<std::ptrdiff_t>(k), more[k].name);
   const std::size_t planets = results.empty() ? 0 : results.front().sun_planet.size();
   for (const char* mesh : {"sp", "rp"})
     for (std::size_t i = 1; i <= planets; ++i) {
@@ -107,10 +110,9 @@ void write_points_csv(const std::filesystem::path& file, const std::vector<Point
   for (const PointResult& r : results) {
     const MeshRecord& sp = r.sun_planet.front();
     const MeshRecord& rp = r.ring_planet.front();
-    csv.cell(r.point.index)
-        .cell(direction_word(r.point.direction))
-        .cell(r.point.value)
-        .cell(status_word(r.outcome))
+    csv.cell(r.point.index).cell(direction_word(r.point.direction)).cell(r.point.value);
+    for (const PointColumn& column : more) csv.cell(column.value(r));
+    csv.cell(status_word(r.outcome))
         .cell(regime_word(r))
         .cell(ok(r) ? r.period : 0)
         .cell(r.lyapunov_max().value)
@@ -153,12 +155,7 @@ void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& ou
   csv.commit();
 }
 
-void write_results_h5(const std::filesystem::path& file, const SweepOutput& output,
-                      const std::vector<PointResult>& results) {
-  Hdf5File h5(file);
-  h5.set_attribute("/", "input_resolved", output.resolved_input);
-  h5.set_attribute("/", "sweep_parameter", output.sweep.parameter);
-
+void write_point_columns(Hdf5File& h5, const std::vector<PointResult>& results) {
   h5.create_group("/points");
   const auto column = [&](const std::string& name, auto&& value, const char* units) {
     using Value = std::decay_t<decltype(value(results.front()))>;
@@ -225,6 +222,15 @@ void write_results_h5(const std::filesystem::path& file, const SweepOutput& outp
     column(
         "contact_rp" + planet, [i](const PointResult& r) { return r.ring_planet[i].contact(); }, nullptr);
   }
+}
+
+void write_results_h5(const std::filesystem::path& file, const SweepOutput& output,
+                      const std::vector<PointResult>& results) {
+  Hdf5File h5(file);
+  h5.set_attribute("/", "input_resolved", output.resolved_input);
+  h5.set_attribute("/", "sweep_parameter", output.sweep.parameter);
+
+  write_point_columns(h5, results);
 
   h5.create_group("/poincare");
   std::vector<std::int64_t> point;
@@ -232,8 +238,8 @@ void write_results_h5(const std::filesystem::path& file, const SweepOutput& outp
   std::vector<double> values;
   for (const PointResult& r : results) {
     for (std::size_t k = 0; k < r.poincare_rows(); ++k) {
-      point.push_back(integer(r.point.index));
-      index.push_back(integer(k));
+      point.push_back(static_cast<std::int64_t>(r.point.index));
+      index.push_back(static_cast<std::int64_t>(k));
     }
     values.insert(values.end(), r.poincare.begin(), r.poincare.end());
   }

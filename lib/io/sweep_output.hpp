@@ -5,11 +5,13 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "io/gnuplot.hpp"
+#include "io/hdf5_file.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::io {
@@ -37,12 +39,22 @@ struct SweepOutput {
   std::string title;           ///< of the figures
 };
 
+/// A column of numbers that a kind of study adds, behind `value`.
+struct PointColumn {
+  std::string name;
+  std::function<double(const studies::PointResult&)> value;
+};
+
 /// @throws OutputError
-void write_points_csv(const std::filesystem::path& file, const std::vector<studies::PointResult>& results);
+void write_points_csv(const std::filesystem::path& file, const std::vector<studies::PointResult>& results,
+                      const std::vector<PointColumn>& more = {});
 void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& output,
                         const std::vector<studies::PointResult>& results);
 void write_results_h5(const std::filesystem::path& file, const SweepOutput& output,
                       const std::vector<studies::PointResult>& results);
+
+/// The group /points of results.h5, one dataset a column.
+void write_point_columns(Hdf5File& h5, const std::vector<studies::PointResult>& results);
 
 struct DrawnFigure {
   std::filesystem::path png;
