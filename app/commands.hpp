@@ -33,6 +33,8 @@ struct Arguments {
 
 int run_command(const Arguments& arguments);
 int sweep_command(const Arguments& arguments);
+int map_command(const Arguments& arguments);
+int basins_command(const Arguments& arguments);
 int crosscheck_command(const Arguments& arguments);
 int tolerance_command(const Arguments& arguments);
 int gear_command(const Arguments& arguments);

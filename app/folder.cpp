@@ -19,8 +19,9 @@ namespace epicyclic::app {
 namespace {
 
 // Names that the program writes itself: a stage file of such a name is stored under another.
-constexpr std::array<std::string_view, 7> own_names = {
-    "run.json", "input.json", "input.resolved.json", "journal.bin", "points.csv", "poincare.csv", "results.h5"};
+constexpr std::array<std::string_view, 8> own_names = {"run.json",       "input.json", "input.resolved.json",
+                                                       "journal.bin",    "points.csv", "poincare.csv",
+                                                       "attractors.csv", "results.h5"};
 
 std::string stage_copy_name(const std::string& name) {
   for (const auto own : own_names)

@@ -83,6 +83,12 @@ int run(int argc, char** argv) {
   CLI::App* sweep = cli.add_subcommand("sweep", "bifurcation diagram along one parameter, up, down or both");
   with_input(sweep);
   with_output(sweep);
+  CLI::App* map = cli.add_subcommand("map", "regimes over two parameters");
+  with_input(map);
+  with_output(map);
+  CLI::App* basins = cli.add_subcommand("basins", "coexisting attractors over a plane of initial conditions");
+  with_input(basins);
+  with_output(basins);
   CLI::App* tolerance =
       cli.add_subcommand("tolerance", "answers against tolerance, clearance smoothing and method, with error bars");
   with_input(tolerance);
@@ -90,7 +96,7 @@ int run(int argc, char** argv) {
   CLI::App* crosscheck = cli.add_subcommand("crosscheck", "the same points by several methods, compared");
   with_input(crosscheck);
   with_output(crosscheck);
-  for (CLI::App* command : {sweep, tolerance, crosscheck})
+  for (CLI::App* command : {sweep, map, basins, tolerance, crosscheck})
     command->add_option("--threads", arguments.threads, "threads; the results do not depend on it")
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
@@ -108,10 +114,13 @@ int run(int argc, char** argv) {
   return guarded(ranks, [&] {
     if (ranks.size() > 1 && !ranks.connected())
       throw InputError("several processes cannot share the work: this program was built without MPI");
-    if (ranks.size() > 1 && !sweep->parsed()) throw InputError("only sweep runs on several processes");
+    if (ranks.size() > 1 && !sweep->parsed() && !map->parsed() && !basins->parsed())
+      throw InputError("only sweep, map and basins run on several processes");
     if (gear->parsed()) return gear_command(arguments);
     if (run_point->parsed()) return run_command(arguments);
     if (sweep->parsed()) return sweep_command(arguments);
+    if (map->parsed()) return map_command(arguments);
+    if (basins->parsed()) return basins_command(arguments);
     if (tolerance->parsed()) return tolerance_command(arguments);
     if (crosscheck->parsed()) return crosscheck_command(arguments);
     if (check->parsed()) return check_command(arguments);

@@ -133,7 +133,7 @@ void SweepLeader::gather(const Arguments& arguments, const std::string& identity
 }
 
 void SweepLeader::run(const studies::SweepPlan& plan, const studies::SweepOptions& sweep,
-                      const integrate::IntegratorOptions& integrator, const studies::ModelAt& model_at,
+                      const integrate::IntegratorOptions& integrator, const studies::ModelAtPoint& model_at,
                       studies::SweepRun run, const std::function<void(std::size_t, std::size_t)>& points_elsewhere) {
   const std::atomic<bool>& signal = *run.stop;
   std::atomic<bool> stop{false};
@@ -337,7 +337,7 @@ class Exchange {
 void compute_share(const Arguments& arguments, const io::LoadedInput& input, const std::string& identity,
                    const json& begin) {
   const studies::SweepOptions& sweep = *input.study.sweep;
-  const studies::SweepPlan plan = studies::plan_sweep(sweep);
+  const studies::SweepPlan plan = io::plan_of(input.study);
   io::Journal journal(arguments.output / io::rank_journal_name(arguments.ranks->rank()), identity);
   Exchange exchange(*arguments.ranks);
   studies::SweepRun run;
@@ -354,7 +354,7 @@ void compute_share(const Arguments& arguments, const io::LoadedInput& input, con
   std::exception_ptr error;
   std::thread worker([&] {
     try {
-      (void)studies::run_sweep(plan, sweep, input.study.integrator, io::model_at(input), run);
+      (void)studies::run_sweep(plan, sweep, input.study.integrator, io::model_at_point(input), run);
       journal.close();
     } catch (...) {
       error = std::current_exception();
@@ -368,7 +368,7 @@ void compute_share(const Arguments& arguments, const io::LoadedInput& input, con
 
 }  // namespace
 
-int follow_sweep(const Arguments& arguments) {
+int follow(const Arguments& arguments, std::string_view command) {
   Ranks& ranks = *arguments.ranks;
   stop_on_signals();
   std::optional<io::LoadedInput> input;
@@ -376,7 +376,7 @@ int follow_sweep(const Arguments& arguments) {
   std::exception_ptr error;
   try {
     input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
-    identity = io::identity(*input, "sweep");
+    identity = io::identity(*input, command);
   } catch (...) {
     error = std::current_exception();
   }

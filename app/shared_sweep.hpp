@@ -29,7 +29,7 @@ class SweepLeader {
   /// @param points_elsewhere  called now and then with how many points a rank has finished since, and how many failed
   /// @throws the first exception here or Failure of another rank, after all have ended
   void run(const studies::SweepPlan& plan, const studies::SweepOptions& sweep,
-           const integrate::IntegratorOptions& integrator, const studies::ModelAt& model_at, studies::SweepRun run,
+           const integrate::IntegratorOptions& integrator, const studies::ModelAtPoint& model_at, studies::SweepRun run,
            const std::function<void(std::size_t finished, std::size_t failed)>& points_elsewhere);
 
   /// Lets the others go.
@@ -43,6 +43,6 @@ class SweepLeader {
 
 /// Ranks but the first. Says nothing: what goes wrong is told by the leader.
 /// @returns the exit code of all
-int follow_sweep(const Arguments& arguments);
+int follow(const Arguments& arguments, std::string_view command);
 
 }  // namespace epicyclic::app

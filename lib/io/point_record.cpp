@@ -159,7 +159,7 @@ void pass(A& a, studies::MeshRecord& m) {
 }
 template <class A>
 void pass(A& a, studies::GridPoint& p) {
-  pass_all(a, p.index, p.direction, p.value);
+  pass_all(a, p.index, p.direction, p.value, p.second_value);
 }
 
 /// Elements take eight bytes at least.
@@ -169,12 +169,21 @@ void pass(A& a, std::vector<T>& values) {
   for (T& v : values) pass(a, v);
 }
 
+template <class A>
+void pass(A& a, analysis::AttractorRecord& r) {
+  pass_all(a, r.regime, r.dimension, r.orbit, r.orbit_error, r.waves, r.means, r.deviations, r.exponent);
+  a.require(r.dimension == 0 ? r.orbit.empty() : r.orbit.size() % r.dimension == 0,
+            "has an orbit that is not whole states");
+  a.require(r.means.size() == r.deviations.size(), "has means without deviations");
+}
+
 /// All but the Poincare section.
 template <class A>
 void pass_brief(A& a, studies::PointResult& r) {
   pass_all(a, r.point, r.outcome, r.message, r.recurrence, r.regime, r.period, r.classified, r.evidence, r.sun_planet,
-           r.ring_planet, r.planet_spread, r.rhs_evaluations, r.end_state, r.omega, r.poincare_columns);
+           r.ring_planet, r.planet_spread, r.rhs_evaluations, r.end_state, r.omega, r.poincare_columns, r.attractor);
 }
+
 template <class A>
 void pass(A& a, studies::PointResult& r) {
   pass_brief(a, r);

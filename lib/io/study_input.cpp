@@ -1,13 +1,15 @@
 #include "io/study_input.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
 #include <utility>
 
 #include "io/stage_completion.hpp"
-#include "studies/sweep.hpp"
+#include "model/dynamic_model.hpp"
+#include "studies/plane.hpp"
 
 namespace epicyclic::io {
 
@@ -371,10 +373,23 @@ Study read_study(json& whole, bool bare, ReadContext& context) {
   } else {
     study_table().collect("", context.places);
     study_table().read(whole, "", study, context);
-    // A run is a sweep of one point, at the speed that is given.
-    if (study.kind == "run" && study.sweep) {
-      study.sweep->from = study.sweep->to = study.mesh_frequency_ratio;
-      study.sweep->points = 1;
+    if (study.sweep) {
+      // A run is a sweep of one point, at the speed that is given; basins are of one speed, too.
+      if (study.kind == "run" || study.kind == "basins") {
+        study.sweep->from = study.sweep->to = study.mesh_frequency_ratio;
+        study.sweep->points = 1;
+      }
+      if (study.kind == "basins") {
+        study.sweep->start = studies::Start::cold;
+        study.sweep->keep = studies::Keep::attractor;
+      }
+      if (study.kind == "map") {
+        study.sweep->parameter = study.plane.first.name;
+        study.sweep->from = study.plane.first.from;
+        study.sweep->to = study.plane.first.to;
+        study.sweep->points = study.plane.first.points;
+        study.sweep->keep = studies::Keep::row;
+      }
     }
   }
 
@@ -411,50 +426,124 @@ Study read_study(json& whole, bool bare, ReadContext& context) {
   return study;
 }
 
-/// Rules of a sweep that span its keys.
+/// Rules of a range of values that span its keys.
 ///
-/// @param is_bad tells whether the value at a pointer is not the one in the text
+/// @param place   of the object with from, to and points
+/// @param is_bad  tells whether the value at a pointer is not the one in the text
+/// @param hint    added where from is above to
 template <class F>
-void check_sweep(const studies::SweepOptions& sweep, F is_bad, ReadContext& context) {
-  const bool range = !is_bad("/study/from") && !is_bad("/study/to");
-  if (range && sweep.from > sweep.to) {
-    context.add(Finding::Kind::rule, "/study/from",
-                "is " + number_text(sweep.from) + ", must be <= to = " + number_text(sweep.to) +
-                    "; to go downwards give \"directions\": [\"down\"]");
+void check_range(const studies::Axis& axis, const std::string& place, F is_bad, const std::string& hint,
+                 ReadContext& context) {
+  if (is_bad(place + "/from") || is_bad(place + "/to")) return;
+  if (axis.from > axis.to) {
+    context.add(Finding::Kind::rule, place + "/from",
+                "is " + number_text(axis.from) + ", must be <= to = " + number_text(axis.to) + hint);
   }
-  if (range && sweep.points == 1 && sweep.from != sweep.to) {
-    context.add(Finding::Kind::rule, "/study/points",
-                "is 1, must be >= 2 for the range from " + number_text(sweep.from) + " to " + number_text(sweep.to));
+  if (axis.points == 1 && axis.from != axis.to) {
+    context.add(Finding::Kind::rule, place + "/points",
+                "is 1, must be >= 2 for the range from " + number_text(axis.from) + " to " + number_text(axis.to));
   }
-  if (!is_bad("/study/points") && sweep.segments > sweep.points) {
-    context.add(Finding::Kind::rule, "/study/segments",
-                "is " + std::to_string(sweep.segments) + ", must be <= points = " + std::to_string(sweep.points));
+}
+
+/// A parameter with a name, and its values. Pointers are checked with the values in place.
+void check_named_parameter(const studies::Axis& axis, const std::string& place, ReadContext& context) {
+  if (axis.name.rfind('/', 0) == 0) return;
+  const auto& parameters = named_parameters();
+  const auto it =
+      std::find_if(parameters.begin(), parameters.end(), [&](const NamedParameter& p) { return p.name == axis.name; });
+  if (it == parameters.end()) {
+    std::vector<std::string> names;
+    for (const auto& p : parameters) names.push_back(p.name);
+    context.add(Finding::Kind::range, place + "/parameter",
+                "is \"" + axis.name + "\", must be one of: " + listed(names) +
+                    ", or a JSON pointer to a number, such as /stage/lumped/planet/bearing_N_per_m" +
+                    suggestion(axis.name, names));
+    return;
   }
+  for (const auto& [key, value] : {std::pair("/from", axis.from), std::pair("/to", axis.to)}) {
+    if (!it->bounds.contains(value)) {
+      context.add(
+          Finding::Kind::range, place + key,
+          "is " + number_text(value) + ", must be " + it->bounds.text() + " for " + it->name + ", " + it->description);
+    }
+  }
+}
+
+/// Pointers of the input that a parameter stands for.
+std::vector<std::string> values_set_by(const std::string& parameter) {
+  for (const auto& p : named_parameters())
+    if (p.name == parameter) return p.sets;
+  return {parameter};
+}
+
+/// Rules of the two parameters of a map.
+template <class F>
+void check_map(const studies::PlaneOptions& plane, F is_bad, ReadContext& context) {
+  const auto named = [&](const std::string& place) { return !is_bad(place) && !is_bad(place + "/parameter"); };
+  for (const auto& [axis, place] : {std::pair(&plane.first, "/study/first"), {&plane.second, "/study/second"}}) {
+    check_range(*axis, place, is_bad, "", context);
+    if (named(place)) check_named_parameter(*axis, place, context);
+  }
+  if (!named("/study/first") || !named("/study/second")) return;
+  const auto first = values_set_by(plane.first.name);
+  for (const auto& pointer : values_set_by(plane.second.name))
+    if (std::find(first.begin(), first.end(), pointer) != first.end()) {
+      context.add(
+          Finding::Kind::rule, "/study/second/parameter",
+          "is \"" + plane.second.name + "\", which the first axis varies already, by \"" + plane.first.name + "\"");
+      return;
+    }
+}
+
+/// Rules of the components that basins start from.
+template <class F>
+void check_basins(const studies::PlaneOptions& plane, const gear::Stage& stage, F is_bad, ReadContext& context) {
+  if (stage.planet_count < gear::planets_min || stage.planet_count > gear::planets_max) return;
+  std::vector<std::string> names =
+      model::coordinate_names(model::layout_of(stage, model::CoordinateChoice::relative), stage.planet_count);
+  for (std::size_t k = 0, n = names.size(); k < n; ++k) names.push_back(names[k] + "_rate");
+  const auto known = [&](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  const auto named = [&](const std::string& place) { return !is_bad(place) && !is_bad(place + "/component"); };
+  const std::string those = ", which is no component of the state of this stage: " + listed(names);
+  for (const auto& [axis, at] : {std::pair(&plane.first, "/study/first"), {&plane.second, "/study/second"}}) {
+    const std::string place = at;
+    check_range(*axis, place, is_bad, "", context);
+    if (named(place) && !known(axis->name))
+      context.add(Finding::Kind::range, place + "/component",
+                  "is \"" + axis->name + "\"" + those + suggestion(axis->name, names));
+  }
+  if (plane.first.name == plane.second.name && named("/study/first") && named("/study/second"))
+    context.add(Finding::Kind::rule, "/study/second/component",
+                "is \"" + plane.second.name + "\", which the first axis varies already");
+  for (const auto& [name, value] : plane.base) {
+    const std::string place = "/study/base" + pointer_step(name);
+    if (!known(name)) {
+      context.add(Finding::Kind::unknown_key, place, "unknown key '" + name + "'" + those + suggestion(name, names));
+    } else if (name == plane.first.name || name == plane.second.name) {
+      context.add(Finding::Kind::rule, place, "is given, but an axis varies this component");
+    }
+  }
+}
+
+/// Rules of a study of points that span its keys.
+template <class F>
+void check_points(const Study& study, F is_bad, ReadContext& context) {
+  const studies::SweepOptions& sweep = *study.sweep;
   if (sweep.transient == studies::Transient::adaptive && sweep.classification_periods == 0) {
     context.add(Finding::Kind::rule, "/study/classification_periods",
                 "is 0, must be >= 1 for an adaptive transient, which ends when the regime is told");
   }
-  if (sweep.parameter.rfind('/', 0) == 0) return;  // checked with the values in place
-
-  const auto& parameters = named_parameters();
-  const auto it = std::find_if(parameters.begin(), parameters.end(),
-                               [&](const NamedParameter& p) { return p.name == sweep.parameter; });
-  if (it == parameters.end()) {
-    std::vector<std::string> names;
-    for (const auto& p : parameters) names.push_back(p.name);
-    context.add(Finding::Kind::range, "/study/parameter",
-                "is \"" + sweep.parameter + "\", must be one of: " + listed(names) +
-                    ", or a JSON pointer to a number, such as /stage/lumped/planet/bearing_N_per_m" +
-                    suggestion(sweep.parameter, names));
-    return;
+  if (study.kind == "map") return check_map(study.plane, is_bad, context);
+  if (study.kind == "basins") return check_basins(study.plane, study.stage, is_bad, context);
+  const studies::Axis axis{sweep.parameter, sweep.from, sweep.to, sweep.points};
+  check_range(axis, "/study", is_bad, "; to go downwards give \"directions\": [\"down\"]", context);
+  if (!is_bad("/study/points") && sweep.segments > sweep.points) {
+    context.add(Finding::Kind::rule, "/study/segments",
+                "is " + std::to_string(sweep.segments) + ", must be <= points = " + std::to_string(sweep.points));
   }
-  for (const auto& [key, value] : {std::pair("/study/from", sweep.from), std::pair("/study/to", sweep.to)}) {
-    if (!it->bounds.contains(value)) {
-      context.add(
-          Finding::Kind::range, key,
-          "is " + number_text(value) + ", must be " + it->bounds.text() + " for " + it->name + ", " + it->description);
-    }
-  }
+  check_named_parameter(axis, "/study", context);
 }
 
 /// Collects problems in the order of the texts: study, stage, assignments.
@@ -597,8 +686,8 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
   if (input.study.sweep) {
     std::set<std::string, std::less<>> found;
     for (const auto& finding : context.findings) found.insert(finding.pointer);
-    check_sweep(
-        *input.study.sweep,
+    check_points(
+        input.study,
         [&](const std::string& pointer) { return found.count(pointer) > 0 || sources->is_unreadable(pointer); },
         context);
   }
@@ -627,38 +716,67 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
     if (!problems.empty()) raise();
   }
 
-  if (input.study.sweep && input.study.sweep->parameter.rfind('/', 0) == 0) {
-    const auto& sweep = *input.study.sweep;
+  const auto is_pointer = [](const std::string& parameter) { return parameter.rfind('/', 0) == 0; };
+  // A parameter that is a pointer, at each of its values. @returns whether all is well
+  const auto check_pointer = [&](const studies::Axis& axis, const std::string& place) {
+    if (!is_pointer(axis.name)) return true;
     Study unused;
-    const bool integrator = pointer_within(sweep.parameter, "/integrator");
-    if ((integrator && sweep.parameter != "/integrator/clearance_smoothing") ||
-        sweep.parameter == "/stage/planets/count") {
-      problems.add(sources->locate(
-          "/study/parameter", integrator
-                                  ? "an option of the integrator is not a parameter of the motion and cannot be swept"
-                                  : "the number of planets changes the state itself and cannot be swept"));
-    } else if (!find_at(input.resolved, sweep.parameter) || !find_at(input.resolved, sweep.parameter)->is_number() ||
-               pointer_within(sweep.parameter, "/study")) {
-      for (auto& problem : input.check_with(sweep.parameter, sweep.from, unused))
-        problems.add(sources->locate("/study/parameter", std::move(problem.message)));
+    bool sound = true;
+    const auto refuse = [&](const std::string& pointer, std::string message) {
+      problems.add(sources->locate(pointer, std::move(message)));
+      sound = false;
+    };
+    const bool integrator = pointer_within(axis.name, "/integrator");
+    if ((integrator && axis.name != "/integrator/clearance_smoothing") || axis.name == "/stage/planets/count") {
+      refuse(place + "/parameter",
+             integrator ? "an option of the integrator is not a parameter of the motion and cannot be swept"
+                        : "the number of planets changes the state itself and cannot be swept");
+    } else if (!find_at(input.resolved, axis.name) || !find_at(input.resolved, axis.name)->is_number() ||
+               pointer_within(axis.name, "/study")) {
+      for (auto& problem : input.check_with(std::array{PointerValue{axis.name, axis.from}}, unused))
+        refuse(place + "/parameter", std::move(problem.message));
     } else {
-      bool ends = true;
-      for (const auto& [key, value] : {std::pair("/study/from", sweep.from), std::pair("/study/to", sweep.to)})
-        for (const auto& problem : input.check_with(sweep.parameter, value, unused)) {
-          problems.add(sources->locate(
-              key, "is " + number_text(value) + ", with which " + problem.pointer + " " + problem.message));
-          ends = false;
-        }
+      for (const auto& [key, value] : {std::pair("/from", axis.from), std::pair("/to", axis.to)})
+        for (const auto& problem : input.check_with(std::array{PointerValue{axis.name, value}}, unused))
+          refuse(place + key, "is " + number_text(value) + ", with which " + problem.pointer + " " + problem.message);
       // The values between, so that nothing is begun that cannot be finished; the first bad one tells.
-      const auto points = studies::plan_sweep(sweep).points;
-      for (std::size_t k = 1; ends && k + 1 < static_cast<std::size_t>(sweep.points); ++k)
-        for (const auto& problem : input.check_with(sweep.parameter, points[k].value, unused)) {
-          problems.add(sources->locate("/study/parameter", "takes the value " + number_text(points[k].value) +
-                                                               ", with which " + problem.pointer + " " +
-                                                               problem.message));
-          ends = false;
-        }
+      for (std::size_t k = 1; sound && k + 1 < static_cast<std::size_t>(axis.points); ++k) {
+        const double value = studies::axis_value(axis, k);
+        for (const auto& problem : input.check_with(std::array{PointerValue{axis.name, value}}, unused))
+          refuse(place + "/parameter",
+                 "takes the value " + number_text(value) + ", with which " + problem.pointer + " " + problem.message);
+      }
     }
+    return sound;
+  };
+  if (input.study.kind == "map") {
+    const studies::PlaneOptions& plane = input.study.plane;
+    bool sound = true;
+    for (const auto& [axis, place] : {std::pair(&plane.first, "/study/first"), {&plane.second, "/study/second"}})
+      sound = check_pointer(*axis, place) && sound;
+    // Two values together, on the edges of the plane: within them a rule that both have to keep is kept.
+    if (sound && is_pointer(plane.first.name) && is_pointer(plane.second.name)) {
+      const auto edge = [&](const studies::Axis& along, const studies::Axis& ends, const char* place) {
+        for (const double end : {ends.from, ends.to})
+          for (std::size_t k = 0; sound && k < static_cast<std::size_t>(along.points); ++k) {
+            const double value = studies::axis_value(along, k);
+            Study unused;
+            for (const auto& problem :
+                 input.check_with(std::array{PointerValue{along.name, value}, PointerValue{ends.name, end}}, unused)) {
+              problems.add(sources->locate(std::string(place) + "/parameter",
+                                           "takes the value " + number_text(value) + ", with which, and " + ends.name +
+                                               " = " + number_text(end) + ", " + problem.pointer + " " +
+                                               problem.message));
+              sound = false;
+            }
+          }
+      };
+      edge(plane.first, plane.second, "/study/first");
+      edge(plane.second, plane.first, "/study/second");
+    }
+  } else if (input.study.sweep) {
+    const auto& sweep = *input.study.sweep;
+    (void)check_pointer({sweep.parameter, sweep.from, sweep.to, sweep.points}, "/study");
   }
   if (!problems.empty()) raise();
   return input;
@@ -671,24 +789,25 @@ std::vector<std::string> LoadedInput::number_pointers() const {
   return pointers;
 }
 
-std::vector<Problem> LoadedInput::check_with(std::string_view pointer, double value, Study& changed) const {
-  std::string place(pointer);
-  if (sources_->bare && pointer_within(place, stage_root)) place.erase(0, stage_root.size());
-  const auto refuse = [&](std::string message) {
-    return std::vector<Problem>{sources_->locate(std::string(pointer), std::move(message))};
-  };
-  const json* there = place.empty() || place[0] != '/' ? nullptr : find_at(resolved, place);
-  if (pointer_within(place, "/study"))
-    return refuse("\"" + place + "\" is part of the plan, which a study cannot vary");
-  if (there == nullptr) {
-    return refuse("\"" + place + "\" is no value of the resolved input" + suggestion(place, number_pointers()));
-  }
-  if (!there->is_number()) return refuse("\"" + place + "\" is " + described(*there) + ", must be a number");
-  if (!std::isfinite(value)) return refuse("is " + number_text(value) + ", must be a finite number");
-
+std::vector<Problem> LoadedInput::check_with(std::span<const PointerValue> values, Study& changed) const {
   json whole = resolved;
-  *find_at(whole, place) = value;
-  keep_from_computing(whole, place);
+  for (const auto& [pointer, value] : values) {
+    std::string place = pointer;
+    if (sources_->bare && pointer_within(place, stage_root)) place.erase(0, stage_root.size());
+    const auto refuse = [&](std::string message) {
+      return std::vector<Problem>{sources_->locate(pointer, std::move(message))};
+    };
+    const json* there = place.empty() || place[0] != '/' ? nullptr : find_at(resolved, place);
+    if (pointer_within(place, "/study"))
+      return refuse("\"" + place + "\" is part of the plan, which a study cannot vary");
+    if (there == nullptr) {
+      return refuse("\"" + place + "\" is no value of the resolved input" + suggestion(place, number_pointers()));
+    }
+    if (!there->is_number()) return refuse("\"" + place + "\" is " + described(*there) + ", must be a number");
+    if (!std::isfinite(value)) return refuse("is " + number_text(value) + ", must be a finite number");
+    *find_at(whole, place) = value;
+    keep_from_computing(whole, place);
+  }
   ReadContext context;
   changed = read_study(whole, sources_->bare, context);
   std::vector<Problem> problems;
@@ -698,8 +817,12 @@ std::vector<Problem> LoadedInput::check_with(std::string_view pointer, double va
 }
 
 Study LoadedInput::with_value(std::string_view pointer, double value) const {
+  return with_values(std::array{PointerValue{std::string(pointer), value}});
+}
+
+Study LoadedInput::with_values(std::span<const PointerValue> values) const {
   Study changed;
-  if (auto problems = check_with(pointer, value, changed); !problems.empty()) throw InputProblems(std::move(problems));
+  if (auto problems = check_with(values, changed); !problems.empty()) throw InputProblems(std::move(problems));
   return changed;
 }
 

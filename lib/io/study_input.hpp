@@ -27,6 +27,7 @@
 #include "io/json_source.hpp"
 #include "model/options.hpp"
 #include "studies/crosscheck_options.hpp"
+#include "studies/plane_options.hpp"
 #include "studies/run_options.hpp"
 #include "studies/sweep_options.hpp"
 #include "studies/tolerance_options.hpp"
@@ -40,7 +41,7 @@ inline constexpr std::array<std::string_view, 11> origin_words = {"source",   "t
 
 struct Study {
   std::string name;
-  std::string kind;  ///< "sweep", "run", "crosscheck", "tolerance"; "stage" for a stage file without a study
+  std::string kind;  ///< "sweep", "map", "basins", "run", "crosscheck", "tolerance"; "stage" for a stage file alone
   gear::Stage stage;
   double mesh_frequency_ratio = 1;  ///< Omega = omega_m / omega_sn where no sweep varies it [-]
   model::ModelOptions model;
@@ -48,6 +49,7 @@ struct Study {
   std::optional<studies::SweepOptions> sweep;  ///< the points of every kind of study
   studies::CrosscheckOptions crosscheck{};     ///< as given by that kind, else the defaults
   studies::RunOptions run{};                   ///< likewise
+  studies::PlaneOptions plane{};               ///< axes of a map or of basins
   studies::ToleranceOptions tolerance{};       ///< likewise
 };
 
@@ -67,6 +69,7 @@ struct NamedParameter {
   std::string name;
   Bounds bounds;
   std::string description;
+  std::vector<std::string> sets;  ///< pointers of the input that it stands for
 };
 [[nodiscard]] const std::vector<NamedParameter>& named_parameters();
 
@@ -74,6 +77,12 @@ struct NamedParameter {
 struct RawFile {
   std::string name;  ///< without folders
   std::string bytes;
+};
+
+/// A number in place of another one.
+struct PointerValue {
+  std::string pointer;
+  double value = 0;
 };
 
 class LoadedInput {
@@ -87,6 +96,8 @@ class LoadedInput {
   /// The study with the number at this pointer of the resolved input replaced, checked as strictly as a file.
   /// @throws InputProblems when the pointer is not one of a number, or the study is not valid with that value
   [[nodiscard]] Study with_value(std::string_view pointer, double value) const;
+  /// The same with several.
+  [[nodiscard]] Study with_values(std::span<const PointerValue> values) const;
 
   /// Pointers of all numbers that with_value() takes.
   [[nodiscard]] std::vector<std::string> number_pointers() const;
@@ -94,7 +105,7 @@ class LoadedInput {
  private:
   friend LoadedInput load_input(const std::filesystem::path&, std::span<const Assignment>);
   struct Sources;
-  [[nodiscard]] std::vector<Problem> check_with(std::string_view pointer, double value, Study& changed) const;
+  [[nodiscard]] std::vector<Problem> check_with(std::span<const PointerValue> values, Study& changed) const;
   std::shared_ptr<const Sources> sources_;
 };
 

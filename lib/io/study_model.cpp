@@ -1,5 +1,9 @@
 #include "io/study_model.hpp"
 
+#include <array>
+#include <span>
+#include <vector>
+
 #include "core/errors.hpp"
 #include "gear/gear_set.hpp"
 #include "integrate/methods.hpp"
@@ -8,37 +12,67 @@
 #include "io/journal.hpp"
 #include "io/stage_completion.hpp"
 #include "studies/operating_point.hpp"
+#include "studies/plane.hpp"
 
 namespace epicyclic::io {
 
 namespace {
 
-/// The operating point at a value of the sweep parameter.
-studies::OperatingPoint point_at(const LoadedInput& input, double value) {
-  const std::string& parameter = input.study.sweep->parameter;
-  const bool pointer = !parameter.empty() && parameter.front() == '/';
-  const Study study = pointer ? input.with_value(parameter, value) : input.study;
+/// The operating point at values of parameters, by names or pointers.
+studies::OperatingPoint point_at(const LoadedInput& input, std::span<const PointerValue> values) {
+  std::vector<PointerValue> pointers;
+  for (const PointerValue& v : values)
+    if (v.pointer.rfind('/', 0) == 0) pointers.push_back(v);
+  const Study study = pointers.empty() ? input.study : input.with_values(pointers);
   studies::OperatingPoint point{study.stage, study.mesh_frequency_ratio, study.model};
-  if (!pointer && !studies::set_parameter(point, parameter, value))
-    throw InputError("/study/parameter: no sweep parameter '" + parameter + "'");
+  for (const PointerValue& v : values)
+    if (v.pointer.rfind('/', 0) != 0 && !studies::set_parameter(point, v.pointer, v.value))
+      throw InputError("/study/parameter: no sweep parameter '" + v.pointer + "'");
   return point;
+}
+
+model::DynamicModel model_of(const studies::OperatingPoint& point, const model::Scales& scales) {
+  return model::make_dynamic_model(point.stage, scales, point.mesh_frequency_ratio, point.model);
 }
 
 }  // namespace
 
 studies::ModelAt model_at(const LoadedInput& input) {
   return [&input, scales = model::scales_of(input.study.stage)](double value) {
-    const studies::OperatingPoint point = point_at(input, value);
-    return model::make_dynamic_model(point.stage, scales, point.mesh_frequency_ratio, point.model);
+    return model_of(point_at(input, std::array{PointerValue{input.study.sweep->parameter, value}}), scales);
   };
+}
+
+studies::SweepPlan plan_of(const Study& study) {
+  if (study.kind == "map") return studies::plan_map(*study.sweep, study.plane);
+  if (study.kind == "basins") return studies::plan_basins(study.plane);
+  return studies::plan_sweep(*study.sweep);
+}
+
+studies::ModelAtPoint model_at_point(const LoadedInput& input) {
+  const Study& study = input.study;
+  if (study.kind == "map")
+    return [&input, scales = model::scales_of(study.stage)](const studies::GridPoint& p) {
+      const studies::PlaneOptions& plane = input.study.plane;
+      return model_of(point_at(input, std::array{PointerValue{plane.first.name, p.value},
+                                                 PointerValue{plane.second.name, p.second_value}}),
+                      scales);
+    };
+  if (study.kind == "basins")
+    return [&input, model = model_at(input)(study.mesh_frequency_ratio)](const studies::GridPoint& p) {
+      model::DynamicModel started = model;
+      started.default_start = studies::start_in_plane(model, input.study.plane, p);
+      return started;
+    };
+  return [at = model_at(input)](const studies::GridPoint& p) { return at(p.value); };
 }
 
 std::function<model::DynamicModel(double value, double clearance_smoothing)> smoothed_model_at(
     const LoadedInput& input) {
   return [&input, scales = model::scales_of(input.study.stage)](double value, double clearance_smoothing) {
-    studies::OperatingPoint point = point_at(input, value);
+    studies::OperatingPoint point = point_at(input, std::array{PointerValue{input.study.sweep->parameter, value}});
     point.model.clearance_smoothing = clearance_smoothing;
-    return model::make_dynamic_model(point.stage, scales, point.mesh_frequency_ratio, point.model);
+    return model_of(point, scales);
   };
 }
 
@@ -51,9 +85,9 @@ std::vector<std::string> warnings(const LoadedInput& input) {
       !input.study.integrator.locate_contacts)
     lines.push_back("warning: /integrator/method: the error estimate of \"" + std::string(method->name) +
                     "\" misses the kinks of the exact clearance; its errors are far above its tolerance");
-  if (input.study.sweep && input.study.sweep->classification_periods > 0 &&
-      (input.study.kind == "sweep" || input.study.kind == "run") &&
-      input.study.model.gap_damping == model::GapDamping::contact_slope && input.study.model.clearance_smoothing == 0.0)
+  if (input.study.sweep && input.study.sweep->classification_periods > 0 && input.study.kind != "crosscheck" &&
+      input.study.kind != "tolerance" && input.study.model.gap_damping == model::GapDamping::contact_slope &&
+      input.study.model.clearance_smoothing == 0.0)
     lines.emplace_back(
         "warning: /model/gap_damping: with the exact clearance its damping jumps, and tangent vectors with it; regimes "
         "are told from recurrence alone, unless /integrator/clearance_smoothing > 0");
@@ -91,7 +125,11 @@ std::string figure_title(const Study& study) {
   const gear::Boundary b = study.stage.boundary;
   const char* boundary = b == gear::Boundary::literal ? "literal" : b == gear::Boundary::star ? "star" : "fixed ring";
   std::string title = (study.name.empty() ? study.stage.name : study.name) + ", boundary " + boundary;
-  if (study.kind == "run" || (study.sweep && study.sweep->parameter != "mesh_frequency_ratio")) {
+  const bool speed_is_given = study.kind == "run" || study.kind == "basins";
+  const bool speed_is_varied =
+      study.sweep && (study.sweep->parameter == "mesh_frequency_ratio" ||
+                      (study.kind == "map" && study.plane.second.name == "mesh_frequency_ratio"));
+  if (speed_is_given || (study.sweep && !speed_is_varied)) {
     title += ", Ω = ";
     append_number(title, study.mesh_frequency_ratio);
   }
@@ -100,27 +138,27 @@ std::string figure_title(const Study& study) {
 
 Cost estimate_cost(const LoadedInput& input) {
   const studies::SweepOptions& sweep = *input.study.sweep;
-  const studies::SweepPlan plan = studies::plan_sweep(sweep);
+  const studies::SweepPlan plan = plan_of(input.study);
   Cost cost;
   cost.points = plan.points.size();
   cost.chains = plan.chains.size();
   cost.mesh_periods =
       static_cast<std::int64_t>(plan.points.size()) * (sweep.transient_periods + sweep.recorded_periods);
-  const studies::ModelAt at = model_at(input);
+  const studies::ModelAtPoint at = model_at_point(input);
   constexpr int probed_periods = 4;
   studies::SweepOptions probe = studies::by_recurrence_alone(sweep);
   probe.transient_periods = 0;
   probe.recorded_periods = probed_periods;
   double calls = 0.0;
-  const double values[] = {sweep.from, 0.5 * (sweep.from + sweep.to), sweep.to};
-  for (const double value : values) {
-    const model::DynamicModel model = at(value);
+  const studies::GridPoint probed[] = {plan.points.front(), plan.points[plan.points.size() / 2], plan.points.back()};
+  for (const studies::GridPoint& point : probed) {
+    const model::DynamicModel model = at(point);
     cost.dimension = model.dimension;
-    const studies::PointResult result = studies::compute_point({0, studies::Direction::up, value}, model, {}, probe,
-                                                               input.study.integrator, [] { return true; });
+    const studies::PointResult result =
+        studies::compute_point(point, model, {}, probe, input.study.integrator, [] { return true; });
     calls += static_cast<double>(result.rhs_evaluations);
   }
-  cost.rhs_per_period = calls / (probed_periods * std::size(values));
+  cost.rhs_per_period = calls / (probed_periods * std::size(probed));
   return cost;
 }
 

@@ -16,7 +16,13 @@ namespace epicyclic::io {
 /// given. `input` must outlive the result. A call throws InputError when the study is not valid at that value.
 [[nodiscard]] studies::ModelAt model_at(const LoadedInput& input);
 
-/// The same with another width of the smooth clearance.
+/// Points and chains of the study, a sweep's, a map's or those of basins.
+[[nodiscard]] studies::SweepPlan plan_of(const Study& study);
+
+/// The model at each of them; of basins with the point's own start for the default one. Otherwise as above.
+[[nodiscard]] studies::ModelAtPoint model_at_point(const LoadedInput& input);
+
+/// The model at a value of the sweep parameter with another width of the smooth clearance.
 [[nodiscard]] std::function<model::DynamicModel(double value, double clearance_smoothing)> smoothed_model_at(
     const LoadedInput& input);
 

@@ -38,6 +38,7 @@ const Bounds damping_coefficient = between(0, 1e12);
 const Bounds frequency_ratio = above_up_to(0, 100);
 const Bounds integrator_tolerance = between(1e-15, 0.1);
 const Bounds smoothing_width = between(0, 10);
+const Bounds component_value = between(-1e6, 1e6);  // below it a motion has diverged
 
 constexpr auto itself = [](auto& t) -> auto& { return t; };
 
@@ -424,10 +425,21 @@ void add_kind(Table<Study>& t, const std::string& name) {
   t.custom(std::move(kind)).required();
 }
 
-/// Points along one parameter.
-void add_grid(Table<Study>& t) {
+/// Directions and start, for sweeps and maps.
+void add_course(Table<Study>& t) {
   using studies::Direction;
   using studies::Start;
+  const auto of = sweep_of;
+  t.choices("directions", of(&SweepOptions::directions),
+            std::vector<std::pair<std::string, Direction>>{{"up", Direction::up}, {"down", Direction::down}},
+            "Directions, numbered one after the other; each is a chain of its own from the default start.");
+  t.choice("start", of(&SweepOptions::start),
+           std::vector<std::pair<std::string, Start>>{{"carried", Start::carried}, {"cold", Start::cold}},
+           "Where a point starts: from the end of the one before in its chain, or from the default start.");
+}
+
+/// Points along one parameter.
+void add_grid(Table<Study>& t) {
   const auto of = sweep_of;
   t.text("parameter", of(&SweepOptions::parameter),
          "Name of the parameter, or a JSON pointer to a number of the input.");
@@ -435,12 +447,7 @@ void add_grid(Table<Study>& t) {
   t.number("to", of(&SweepOptions::to), between(-1e300, 1e300), "Last value of the parameter, in its unit.");
   t.integer("points", of(&SweepOptions::points), between(1, 100000),
             "Number of points, evenly spaced, ends included [-].");
-  t.choices("directions", of(&SweepOptions::directions),
-            std::vector<std::pair<std::string, Direction>>{{"up", Direction::up}, {"down", Direction::down}},
-            "Directions, numbered one after the other; each is a chain of its own from the default start.");
-  t.choice("start", of(&SweepOptions::start),
-           std::vector<std::pair<std::string, Start>>{{"carried", Start::carried}, {"cold", Start::cold}},
-           "Where a point starts: from the end of the one before in its chain, or from the default start.");
+  add_course(t);
   t.integer("segments", of(&SweepOptions::segments), between(1, 100000),
             "Chains per direction of a carried sweep [-].");
 }
@@ -476,6 +483,92 @@ const Table<Study>& sweep_table() {
     Table<Study> t("sweep", "A sweep along one parameter.");
     add_kind(t, "sweep");
     add_grid(t);
+    add_look(t);
+    add_classification(t);
+    return t;
+  }();
+  return table;
+}
+
+void add_axis_range(Table<studies::Axis>& t) {
+  using studies::Axis;
+  t.number("from", &Axis::from, between(-1e300, 1e300), "First value, in its unit.").required();
+  t.number("to", &Axis::to, between(-1e300, 1e300), "Last value, in its unit.").required();
+  t.integer("points", &Axis::points, between(1, 10000), "Number of values, evenly spaced, ends included [-].");
+}
+
+const Table<studies::Axis>& parameter_axis_table() {
+  static const auto table = [] {
+    Table<studies::Axis> t("parameter_axis", "A parameter and its values.");
+    t.text("parameter", &studies::Axis::name, "Name of the parameter, or a JSON pointer to a number of the input.")
+        .required();
+    add_axis_range(t);
+    return t;
+  }();
+  return table;
+}
+
+const Table<studies::Axis>& component_axis_table() {
+  static const auto table = [] {
+    Table<studies::Axis> t("component_axis", "A component of the state and its values at the start.");
+    t.text("component", &studies::Axis::name,
+           "Name of the component, as in poincare.csv: x_s, ... [b_c], x_s_rate, ... [b_c per tau].")
+        .required();
+    add_axis_range(t);
+    return t;
+  }();
+  return table;
+}
+
+const Table<Study>& map_table() {
+  static const auto table = [] {
+    using studies::PlaneOptions;
+    Table<Study> t("map", "Regimes over two parameters.");
+    add_kind(t, "map");
+    t.object("first", chain(&Study::plane, &PlaneOptions::first), parameter_axis_table()).required();
+    t.object("second", chain(&Study::plane, &PlaneOptions::second), parameter_axis_table()).required();
+    add_course(t);
+    add_look(t);
+    add_classification(t);
+    return t;
+  }();
+  return table;
+}
+
+/// Values by the names of the state's components, which the stage decides: names are checked when it is known.
+Field<Study> base_field() {
+  Field<Study> base;
+  base.key = "base";
+  base.description = "Start of the components that are on no axis, where it is not the default start.";
+  const Bounds bounds = component_value;
+  base.read = [bounds](const json& value, const std::string& pointer, Study& study, ReadContext& context) {
+    if (!table_detail::check_object(value, pointer, context)) return;
+    for (const auto& [key, number] : value.items()) {
+      if (key == "origin" || key == "note") continue;
+      const auto read = table_detail::read_number(number, pointer + pointer_step(key), key, bounds, context);
+      // Kept if it is none, for its name to be checked.
+      study.plane.base[key] = read.value_or(0.0);
+    }
+  };
+  base.write = [](const Study& study) {
+    json object;
+    for (const auto& [name, value] : study.plane.base) object[name] = value;
+    return object;
+  };
+  base.schema = [bounds] {
+    return ordered_json{{"type", "object"}, {"additionalProperties", table_detail::number_schema(bounds)}};
+  };
+  return base;
+}
+
+const Table<Study>& basins_table() {
+  static const auto table = [] {
+    using studies::PlaneOptions;
+    Table<Study> t("basins", "The attractors that motions from a plane of starts end on, at one operating point.");
+    add_kind(t, "basins");
+    t.object("first", chain(&Study::plane, &PlaneOptions::first), component_axis_table()).required();
+    t.object("second", chain(&Study::plane, &PlaneOptions::second), component_axis_table()).required();
+    t.custom(base_field());
     add_look(t);
     add_classification(t);
     return t;
@@ -562,10 +655,12 @@ const Table<Study>& tolerance_table() {
 
 /// Kinds of study and their tables.
 const std::vector<std::pair<std::string, const Table<Study>& (*)()>> kinds = {
-    {"sweep", &sweep_table}, {"run", &run_table}, {"crosscheck", &crosscheck_table}, {"tolerance", &tolerance_table}};
+    {"sweep", &sweep_table},           {"map", &map_table},
+    {"basins", &basins_table},         {"run", &run_table},
+    {"crosscheck", &crosscheck_table}, {"tolerance", &tolerance_table}};
 
 /// Kinds that the input format knows and this version does not compute.
-const std::vector<std::string> kinds_to_come = {"continue", "map", "basins", "calibrate"};
+const std::vector<std::string> kinds_to_come = {"continue", "calibrate"};
 
 const Table<Study>& table_of_kind(const std::string& kind) {
   for (const auto& [name, table] : kinds)
@@ -605,11 +700,26 @@ void read_plan(const json& value, const std::string& pointer, Study& study, Read
 
 const std::vector<NamedParameter>& named_parameters() {
   static const std::vector<NamedParameter> parameters = {
-      {"mesh_frequency_ratio", frequency_ratio, "mesh frequency over omega_sn [-]"},
-      {"damping_ratio", damping_ratio, "damping ratio of both meshes [-]"},
-      {"sun_planet_backlash", between(0, gap_max), "half the backlash of the sun-planet mesh [b_c]"},
-      {"ring_planet_backlash", between(0, gap_max), "half the backlash of the ring-planet mesh [b_c]"},
-      {"sun_bearing_clearance", between(0, gap_max), "half the clearance of the sun's bearing [b_c]"},
+      {"mesh_frequency_ratio",
+       frequency_ratio,
+       "mesh frequency over omega_sn [-]",
+       {"/operation/mesh_frequency_ratio"}},
+      {"damping_ratio",
+       damping_ratio,
+       "damping ratio of both meshes [-]",
+       {"/stage/lumped/sun_planet_mesh/damping_ratio", "/stage/lumped/ring_planet_mesh/damping_ratio"}},
+      {"sun_planet_backlash",
+       between(0, gap_max),
+       "half the backlash of the sun-planet mesh [b_c]",
+       {"/stage/lumped/sun_planet_mesh/backlash_half_um"}},
+      {"ring_planet_backlash",
+       between(0, gap_max),
+       "half the backlash of the ring-planet mesh [b_c]",
+       {"/stage/lumped/ring_planet_mesh/backlash_half_um"}},
+      {"sun_bearing_clearance",
+       between(0, gap_max),
+       "half the clearance of the sun's bearing [b_c]",
+       {"/stage/lumped/sun/bearing_clearance_half_um"}},
   };
   return parameters;
 }

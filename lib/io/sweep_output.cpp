@@ -100,7 +100,15 @@ PointSource points_in_memory(std::span<const PointResult> results) {
   return {results.size(), read, read};
 }
 
-void write_points_csv(const std::filesystem::path& file, const PointSource& points) {
+std::vector<PointResult> all_brief(const PointSource& points) {
+  std::vector<PointResult> all;
+  all.reserve(points.count);
+  for (std::size_t i = 0; i < points.count; ++i) all.push_back(points.read_brief(i));
+  return all;
+}
+
+void write_points_csv(const std::filesystem::path& file, const PointSource& points,
+                      const std::vector<PointColumn>& more) {
   std::vector<std::string> columns = {"point",
                                       "direction",
                                       "value",
@@ -125,6 +133,8 @@ void write_points_csv(const std::filesystem::path& file, const PointSource& poin
                                       "zero_one",
                                       "classified_periods",
                                       "evidence"};
+  for (std::size_t k = 0; k < more.size(); ++k)
+    columns.insert(columns.begin() + 3 + static_cast<std::ptrdiff_t>(k), more[k].name);
   const std::size_t planets = points.count == 0 ? 0 : points.read_brief(0).sun_planet.size();
   for (const char* mesh : {"sp", "rp"})
     for (std::size_t i = 1; i <= planets; ++i) {
@@ -140,10 +150,9 @@ void write_points_csv(const std::filesystem::path& file, const PointSource& poin
     const PointResult r = points.read_brief(i);
     const MeshRecord& sp = r.sun_planet.front();
     const MeshRecord& rp = r.ring_planet.front();
-    csv.cell(r.point.index)
-        .cell(direction_word(r.point.direction))
-        .cell(r.point.value)
-        .cell(status_word(r.outcome))
+    csv.cell(r.point.index).cell(direction_word(r.point.direction)).cell(r.point.value);
+    for (const PointColumn& column : more) csv.cell(column.value(r));
+    csv.cell(status_word(r.outcome))
         .cell(regime_word(r))
         .cell(ok(r) ? r.period : 0)
         .cell(r.lyapunov_max().value)
@@ -187,11 +196,7 @@ void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& ou
   csv.commit();
 }
 
-void write_results_h5(const std::filesystem::path& file, const SweepOutput& output, const PointSource& points) {
-  Hdf5File h5(file);
-  h5.set_attribute("/", "input_resolved", output.resolved_input);
-  h5.set_attribute("/", "sweep_parameter", output.sweep.parameter);
-
+void write_point_columns(Hdf5File& h5, const PointSource& points) {
   h5.create_group("/points");
   const auto column = [&](const std::string& name, auto&& value, const char* units) {
     using Value = std::decay_t<decltype(value(std::declval<PointResult>()))>;
@@ -257,14 +262,24 @@ void write_results_h5(const std::filesystem::path& file, const SweepOutput& outp
     column(
         "contact_rp" + planet, [i](const PointResult& r) { return r.ring_planet[i].contact(); }, nullptr);
   }
+}
+
+void write_results_h5(const std::filesystem::path& file, const SweepOutput& output, const PointSource& points) {
+  Hdf5File h5(file);
+  h5.set_attribute("/", "input_resolved", output.resolved_input);
+  h5.set_attribute("/", "sweep_parameter", output.sweep.parameter);
+
+  write_point_columns(h5, points);
 
   h5.create_group("/poincare");
   SectionRows section(points);
   h5.write("/poincare/columns", std::span<const std::string>(output.poincare_columns));
-  h5.write("/poincare/point", section.count(),
-           Hdf5File::Column<std::int64_t>([&](std::size_t row) { return integer(section.at(row).first); }));
-  h5.write("/poincare/index", section.count(),
-           Hdf5File::Column<std::int64_t>([&](std::size_t row) { return integer(section.at(row).second); }));
+  h5.write("/poincare/point", section.count(), Hdf5File::Column<std::int64_t>([&](std::size_t row) {
+             return static_cast<std::int64_t>(section.at(row).first);
+           }));
+  h5.write("/poincare/index", section.count(), Hdf5File::Column<std::int64_t>([&](std::size_t row) {
+             return static_cast<std::int64_t>(section.at(row).second);
+           }));
   const std::size_t columns = output.poincare_columns.size();
   PointResult current;
   h5.write("/poincare/values", section.count(), columns, [&](std::size_t row, std::span<double> values) {

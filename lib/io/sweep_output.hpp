@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/gnuplot.hpp"
+#include "io/hdf5_file.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::io {
@@ -48,10 +49,23 @@ struct PointSource {
 /// Those of a study of few points; `results` must live longer.
 [[nodiscard]] PointSource points_in_memory(std::span<const studies::PointResult> results);
 
+/// All of them without their Poincare sections, for studies whose points are small: some 1 KB each.
+[[nodiscard]] std::vector<studies::PointResult> all_brief(const PointSource& points);
+
+/// A column of numbers that a kind of study adds, behind `value`.
+struct PointColumn {
+  std::string name;
+  std::function<double(const studies::PointResult&)> value;
+};
+
 /// @throws OutputError, and what reading points throws
-void write_points_csv(const std::filesystem::path& file, const PointSource& points);
+void write_points_csv(const std::filesystem::path& file, const PointSource& points,
+                      const std::vector<PointColumn>& more = {});
 void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& output, const PointSource& points);
 void write_results_h5(const std::filesystem::path& file, const SweepOutput& output, const PointSource& points);
+
+/// The group /points of results.h5, one dataset a column.
+void write_point_columns(Hdf5File& h5, const PointSource& points);
 
 struct DrawnFigure {
   std::filesystem::path png;

@@ -16,14 +16,14 @@
 
 namespace epicyclic::model {
 
-namespace {
-
 std::size_t segment_at(const std::vector<double>& breakpoints, double s) {
   std::size_t segment = breakpoints.empty() ? 0 : breakpoints.size() - 1;
   for (std::size_t k = 0; k < breakpoints.size(); ++k)
     if (s >= breakpoints[k]) segment = k;
   return segment;
 }
+
+namespace {
 
 /// Equilibrium of the linearised stage at s = 0: mean stiffness, gaps closed on the drive flank, no friction, no
 /// frame terms, errors frozen. From the kernel itself: with b = 0 its accelerations are linear in the displacements.

@@ -84,6 +84,9 @@ struct DynamicModel {
   }
 };
 
+/// The segment of right_hand_side that a phase in [0, 2 pi) lies in.
+[[nodiscard]] std::size_t segment_at(const std::vector<double>& breakpoints, double s);
+
 /// Rotations relative to the boundary's reference member, or all 3N + 9 with the rigid rotation (for comparisons).
 enum class CoordinateChoice { relative, full };
 

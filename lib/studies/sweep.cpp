@@ -99,12 +99,13 @@ class PointRun {
     result_.point = point;
     result_.omega = model_.omega;
     if (!adaptive_) return;
-    const analysis::Classification told = tell(state_, nullptr);
+    analysis::Classification told = tell(state_, nullptr);
     if (!told.evolution.reached()) {
       strobe_.take(told.evolution, state_);
     } else if (told.orbit) {
       state_ = told.orbit->state;
     }
+    orbit_ = std::move(told.orbit);
   }
 
   [[nodiscard]] const integrate::VectorField& field() const { return field_; }
@@ -116,15 +117,7 @@ class PointRun {
     const analysis::Strobe& strobe = strobe_.result();
     result_.outcome = strobe.evolution.outcome;
     result_.message = strobe.evolution.message;
-    result_.poincare_columns = model_.dimension + 2 * static_cast<std::size_t>(model_.planets);
-    model::MeshDeflections d;
-    for (std::size_t k = 0; k < strobe.section.size(); ++k) {
-      const auto y = strobe.section.point(k);
-      model_.deflections(0.0, y.data(), d);
-      result_.poincare.insert(result_.poincare.end(), y.begin(), y.end());
-      result_.poincare.insert(result_.poincare.end(), d.sun_planet.begin(), d.sun_planet.end());
-      result_.poincare.insert(result_.poincare.end(), d.ring_planet.begin(), d.ring_planet.end());
-    }
+    if (sweep_.keep == Keep::section) keep_section(strobe.section);
     if (strobe.evolution.reached()) {
       result_.recurrence = analysis::recurrence(strobe.section, sweep_.period_max, sweep_.recurrence_tolerance);
       if (!classifies_) {
@@ -132,8 +125,9 @@ class PointRun {
         result_.regime = result_.period > 0 ? analysis::Regime::periodic : analysis::Regime::undecided;
       } else if (!adaptive_) {
         std::vector<double> onwards = state_;  // the next point of a chain starts where the record ends
-        (void)tell(onwards, &strobe.section);
+        orbit_ = tell(onwards, &strobe.section).orbit;
       }
+      if (sweep_.keep == Keep::attractor) keep_attractor(strobe.section);
       result_.end_state = std::move(state_);
     }
     result_.rhs_evaluations = right_hand_sides + classification_work_;
@@ -141,8 +135,35 @@ class PointRun {
   }
 
  private:
-  /// Tangents and orbits are a matter of one trajectory: where lanes carry the strobe, ARKODE has the
-  /// same pair.
+  void keep_section(const analysis::PoincareSection& section) {
+    result_.poincare_columns = model_.dimension + 2 * static_cast<std::size_t>(model_.planets);
+    model::MeshDeflections d;
+    for (std::size_t k = 0; k < section.size(); ++k) {
+      const auto y = section.point(k);
+      model_.deflections(0.0, y.data(), d);
+      result_.poincare.insert(result_.poincare.end(), y.begin(), y.end());
+      result_.poincare.insert(result_.poincare.end(), d.sun_planet.begin(), d.sun_planet.end());
+      result_.poincare.insert(result_.poincare.end(), d.ring_planet.begin(), d.ring_planet.end());
+    }
+  }
+
+  void keep_attractor(const analysis::PoincareSection& section) {
+    if (orbit_) {
+      const auto flow = integrate::make_flow(field_, integrator_);
+      result_.attractor = analysis::record_of_orbit(*flow, *orbit_, result_.period, map_error());
+      classification_work_ += flow->right_hand_side_calls();
+    } else {
+      result_.attractor =
+          analysis::record_of_section(section, result_.regime, result_.recurrence, result_.lyapunov_max(), map_error());
+    }
+  }
+
+  /// Kinks make an integrator's own map rough to some of its tolerances.
+  [[nodiscard]] double map_error() const {
+    return std::max(analysis::RegimeOptions{}.residual, 3.0 * integrator_.relative_tolerance);
+  }
+
+  /// Tangents and orbits are a matter of one trajectory: where lanes carry the strobe, ARKODE has the same pair.
   static integrate::IntegratorOptions scalar(integrate::IntegratorOptions o) {
     o.method = integrate::arkode_twin(o.method);
     return o;
@@ -152,8 +173,7 @@ class PointRun {
     analysis::RegimeOptions options;
     options.budget = std::max(options.look, sweep_.classification_periods);
     options.longest_period = sweep_.period_max;
-    // Kinks make an integrator's own map rough to some of its tolerances.
-    options.residual = std::max(options.residual, 3.0 * integrator_.relative_tolerance);
+    options.residual = map_error();
     options.observable = std::min(model::Slots::w_s, model_.dimension - 1);
     // Growth is a statistical matter, for which a looser tolerance is as good; orbits are sought at the study's own.
     constexpr double statistical = 1e-6;
@@ -193,6 +213,7 @@ class PointRun {
   PointResult result_;
   Watch watch_;
   analysis::StrobeProgress strobe_;
+  std::optional<analysis::PeriodicOrbit> orbit_;  ///< of a motion that is periodic by evidence
   long classification_work_ = 0;
 };
 
@@ -208,7 +229,7 @@ long carry_alone(PointRun& run, const integrate::IntegratorOptions& integrator, 
 class ChainRunner {
  public:
   ChainRunner(const SweepPlan& plan, const SweepOptions& sweep, const integrate::IntegratorOptions& integrator,
-              const ModelAt& model_at, const SweepRun& run)
+              const ModelAtPoint& model_at, const SweepRun& run)
       : plan_(plan), sweep_(sweep), integrator_(integrator), model_at_(model_at), run_(run) {}
 
   /// One chain after another.
@@ -272,7 +293,7 @@ class ChainRunner {
     for (std::size_t next = 0; !stopped(); ++next) {
       const auto index = advance(chain, next, start);
       if (!index) return;
-      const model::DynamicModel model = model_at_(plan_.points[*index].value);
+      const model::DynamicModel model = model_at_(plan_.points[*index]);
       PointResult result =
           compute_point(plan_.points[*index], model, start, sweep_, integrator_, [this] { return !stopped(); });
       if (stopped()) return;
@@ -284,7 +305,7 @@ class ChainRunner {
   void follow_in_lanes(std::size_t most) {
     const integrate::LaneKernels& kernels = integrate::lane_kernels();
     // The same for every thread: which points have lanes does not depend on who came first.
-    const model::DynamicModel like = model_at_(plan_.points.front().value);
+    const model::DynamicModel like = model_at_(plan_.points.front());
     integrate::LaneEnsemble lanes(lane_field(like, kernels), integrator_, kernels);
     std::vector<Way> ways(std::min(most, lanes.width()));
     for (std::size_t lane = 0; lane < ways.size(); ++lane)
@@ -319,8 +340,8 @@ class ChainRunner {
         if (!next_chain(way)) return;
         continue;
       }
-      way.point = std::make_unique<PointRun>(plan_.points[*index], model_at_(plan_.points[*index].value), way.start,
-                                             sweep_, integrator_, [this] { return !stopped(); });
+      way.point = std::make_unique<PointRun>(plan_.points[*index], model_at_(plan_.points[*index]), way.start, sweep_,
+                                             integrator_, [this] { return !stopped(); });
       if (stopped()) return;
       if (way.point->strobe().over()) {
         finish(way, 0);
@@ -359,7 +380,7 @@ class ChainRunner {
   const SweepPlan& plan_;
   const SweepOptions& sweep_;
   const integrate::IntegratorOptions& integrator_;
-  const ModelAt& model_at_;
+  const ModelAtPoint& model_at_;
   const SweepRun& run_;
   std::atomic<bool> failed_{false};
   std::atomic<std::size_t> next_chain_{0};
@@ -367,27 +388,25 @@ class ChainRunner {
   std::size_t finished_ = 0;
 };
 
-/// The value at a share of the way; both ends exactly as given, between them rounded to 12 digits, so that 1.1 is 1.1
-/// and a value typed from a table is the value that was computed.
-double grid_value(const SweepOptions& options, double share) {
-  if (share == 0.0) return options.from;
-  if (share == 1.0) return options.to;
-  constexpr int digits = 12;
-  std::array<char, 64> text;
-  const double value = (1.0 - share) * options.from + share * options.to;
-  const auto written =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific, digits - 1);
-  double rounded = value;
-  std::from_chars(text.data(), written.ptr, rounded);
-  return rounded;
-}
-
 }  // namespace
 
 SweepOptions by_recurrence_alone(SweepOptions options) {
   options.classification_periods = 0;
   options.transient = Transient::fixed;
   return options;
+}
+
+double grid_value(double from, double to, double share) {
+  if (share == 0.0) return from;
+  if (share == 1.0) return to;
+  constexpr int digits = 12;
+  std::array<char, 64> text;
+  const double value = (1.0 - share) * from + share * to;
+  const auto written =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific, digits - 1);
+  double rounded = value;
+  std::from_chars(text.data(), written.ptr, rounded);
+  return rounded;
 }
 
 SweepPlan plan_sweep(const SweepOptions& options) {
@@ -398,7 +417,7 @@ SweepPlan plan_sweep(const SweepOptions& options) {
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t step = direction == Direction::up ? k : count - 1 - k;
       const double share = count == 1 ? 0.0 : static_cast<double>(step) / static_cast<double>(count - 1);
-      plan.points.push_back({first + k, direction, grid_value(options, share)});
+      plan.points.push_back({first + k, direction, grid_value(options.from, options.to, share)});
     }
     const std::size_t chains = options.start == Start::cold ? count : static_cast<std::size_t>(options.segments);
     for (std::size_t c = 0; c < chains; ++c) {
@@ -444,7 +463,7 @@ analysis::Estimate PointResult::lyapunov_max() const {
 }
 
 std::size_t run_sweep(const SweepPlan& plan, const SweepOptions& sweep, const integrate::IntegratorOptions& integrator,
-                      const ModelAt& model_at, const SweepRun& run) {
+                      const ModelAtPoint& model_at, const SweepRun& run) {
   if (plan.points.empty()) return 0;
   ChainRunner runner(plan, sweep, integrator, model_at, run);
   const auto threads_of_all = static_cast<std::size_t>(std::max({1, run.threads, run.threads_of_all}));
@@ -462,8 +481,9 @@ std::size_t run_sweep(const SweepPlan& plan, const SweepOptions& sweep, const in
 }
 
 std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const SweepOptions& sweep,
-                                             const integrate::IntegratorOptions& integrator, const ModelAt& model_at,
-                                             SweepRun run, std::map<std::size_t, PointResult> done) {
+                                             const integrate::IntegratorOptions& integrator,
+                                             const ModelAtPoint& model_at, SweepRun run,
+                                             std::map<std::size_t, PointResult> done) {
   std::map<std::size_t, std::vector<double>> ends;
   run.done.assign(plan.points.size(), false);
   for (const auto& [index, result] : done) {
@@ -479,6 +499,13 @@ std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const SweepO
   std::vector<PointResult> ordered;
   for (auto& [index, result] : done) ordered.push_back(std::move(result));
   return ordered;
+}
+
+std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const SweepOptions& sweep,
+                                             const integrate::IntegratorOptions& integrator, const ModelAt& model_at,
+                                             SweepRun run, std::map<std::size_t, PointResult> done) {
+  const ModelAtPoint at = [&model_at](const GridPoint& point) { return model_at(point.value); };
+  return run_sweep_in_memory(plan, sweep, integrator, at, std::move(run), std::move(done));
 }
 
 }  // namespace epicyclic::studies

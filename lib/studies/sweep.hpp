@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/attractors.hpp"
 #include "analysis/poincare.hpp"
 #include "analysis/regime.hpp"
 #include "integrate/options.hpp"
@@ -23,7 +24,7 @@
 namespace epicyclic::studies {
 
 /// Raised when a change makes the same input give other numbers: results of two versions are never mixed in one folder.
-inline constexpr int numerics_version = 5;
+inline constexpr int numerics_version = 6;
 
 /// The same points without the classification of their regimes, for studies that look at their points otherwise.
 [[nodiscard]] SweepOptions by_recurrence_alone(SweepOptions options);
@@ -33,6 +34,7 @@ struct GridPoint {
   std::size_t index = 0;
   Direction direction = Direction::up;
   double value = 0;
+  double second_value = 0;  ///< along the second axis of a plane [studies/plane.hpp]
 };
 
 /// Points in order, and the chains that they are computed in.
@@ -42,6 +44,10 @@ struct SweepPlan {
 };
 
 [[nodiscard]] SweepPlan plan_sweep(const SweepOptions& options);
+
+/// The value at a share of the way; both ends exactly as given, between them rounded to 12 digits, so that 1.1 is 1.1
+/// and a value typed from a table is the value that was computed.
+[[nodiscard]] double grid_value(double from, double to, double share);
 
 /// What was seen of one mesh over the record.
 struct MeshRecord {
@@ -68,9 +74,10 @@ struct PointResult {
   double planet_spread = 0;             ///< largest difference between planets' deflections of one kind of mesh [b_c]
   long rhs_evaluations = 0;
   std::vector<double> end_state;  ///< what the next point of a chain starts from
-  std::vector<double> poincare;   ///< rows of poincare_columns(): state, delta_sp_i, delta_rp_i
+  std::vector<double> poincare;   ///< rows of poincare_columns(): state, delta_sp_i, delta_rp_i; if Keep::section
   std::size_t poincare_columns = 0;
-  double omega = 0;  ///< Omega: what is per unit of the mesh phase, times Omega, is per tau
+  analysis::AttractorRecord attractor;  ///< if Keep::attractor
+  double omega = 0;                     ///< Omega: what is per unit of the mesh phase, times Omega, is per tau
 
   /// Largest Lyapunov exponent per tau; not a number where there is none.
   [[nodiscard]] analysis::Estimate lyapunov_max() const;
@@ -85,6 +92,9 @@ struct PointResult {
 
 /// The model at a value of the sweep parameter; called from several threads at once.
 using ModelAt = std::function<model::DynamicModel(double value)>;
+
+/// The same where a value does not say all: of two values, or with a default start of the point's own.
+using ModelAtPoint = std::function<model::DynamicModel(const GridPoint& point)>;
 
 /// Computes one point.
 /// @param start  end state of the point before; empty: the model's default start
@@ -113,12 +123,16 @@ struct SweepRun {
 /// @returns how many points are new; fewer than were missing only if stopped, or if others took chains
 /// @throws the first exception of a point or of a function of `run`
 [[nodiscard]] std::size_t run_sweep(const SweepPlan& plan, const SweepOptions& sweep,
-                                    const integrate::IntegratorOptions& integrator, const ModelAt& model_at,
+                                    const integrate::IntegratorOptions& integrator, const ModelAtPoint& model_at,
                                     const SweepRun& run);
 
 /// The same for studies of few points, which are kept in memory.
 /// @param done  points of an earlier run
 /// @returns points in order of their index; incomplete only if stopped
+[[nodiscard]] std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const SweepOptions& sweep,
+                                                           const integrate::IntegratorOptions& integrator,
+                                                           const ModelAtPoint& model_at, SweepRun run,
+                                                           std::map<std::size_t, PointResult> done = {});
 [[nodiscard]] std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const SweepOptions& sweep,
                                                            const integrate::IntegratorOptions& integrator,
                                                            const ModelAt& model_at, SweepRun run,

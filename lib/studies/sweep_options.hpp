@@ -18,6 +18,13 @@ enum class Transient {
   adaptive,  ///< until the regime is told; a periodic motion is then put onto its orbit
 };
 
+/// What is kept of a point besides its row of points.csv.
+enum class Keep {
+  section,    ///< its Poincare points
+  row,        ///< nothing
+  attractor,  ///< what its attractor is told from
+};
+
 struct SweepOptions {
   std::string parameter = "mesh_frequency_ratio";  ///< a name of architecture section 6, or a JSON pointer
   double from = 0.2;
@@ -38,6 +45,8 @@ struct SweepOptions {
 
   /// Mesh periods that the regime may be looked for beyond the record; 0: it is told from recurrence alone.
   int classification_periods = 1280;
+
+  Keep keep = Keep::section;  ///< by the kind of study, not by the input
 };
 
 }  // namespace epicyclic::studies

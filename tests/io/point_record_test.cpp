@@ -30,6 +30,15 @@ studies::PointResult example() {
   r.end_state = {1.0, -0.0, 3.0};
   r.poincare_columns = 2;
   r.poincare = {1, 2, 3, 4};
+  r.point.second_value = -0.25;
+  r.attractor.regime = analysis::Regime::chaotic;
+  r.attractor.dimension = 2;
+  r.attractor.orbit = {1, 2, 3, 4};
+  r.attractor.orbit_error = 1e-9;
+  r.attractor.waves = 4;
+  r.attractor.means = {{1, 0.5}, {2, std::numeric_limits<double>::infinity()}};
+  r.attractor.deviations = {{3, 0.25}, {4, 0.125}};
+  r.attractor.exponent = {0.1, 0.01};
   return r;
 }
 
@@ -92,6 +101,13 @@ TEST(PointRecord, ComesBackExactly) {
   EXPECT_EQ(b.rhs_evaluations, a.rhs_evaluations);
   EXPECT_EQ(b.sun_planet[0].contact(), "loss+back");
   EXPECT_EQ(b.poincare, a.poincare);
+  EXPECT_EQ(b.point.second_value, -0.25);
+  EXPECT_EQ(b.attractor.regime, analysis::Regime::chaotic);
+  EXPECT_EQ(b.attractor.period(), 2U);
+  EXPECT_EQ(b.attractor.orbit, a.attractor.orbit);
+  EXPECT_EQ(b.attractor.waves, 4);
+  EXPECT_EQ(b.attractor.deviations[1].half_width, 0.125);
+  EXPECT_EQ(b.attractor.exponent.value, 0.1);
 }
 
 TEST(PointRecord, AnyPartOfItIsRefused) {

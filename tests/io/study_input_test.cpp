@@ -564,6 +564,9 @@ class SchemaAndReader : public ::testing::Test {
       check_object(schema["$defs"]["stage"], pointer);
     } else if (property.contains("properties")) {
       check_object(property, pointer);
+    } else if (property.contains("additionalProperties")) {  // keys by names that the stage decides
+      EXPECT_TRUE(found(with(pointer, 1), pointer, Finding::Kind::type)) << pointer;
+      check_number(property["additionalProperties"], pointer + "/x_s", pointer + "/x_s");
     } else if (property.contains("anyOf") && property["anyOf"][0].contains("properties")) {
       for (const auto& alternative : property["anyOf"]) {  // kinds of study
         const json before = whole;

@@ -1,0 +1,159 @@
+#include "points.hpp"
+
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <mutex>
+
+#include <fmt/core.h>
+
+#include "failure.hpp"
+#include "folder.hpp"
+#include "io/progress.hpp"
+#include "io/study_model.hpp"
+#include "ranks.hpp"
+#include "shared_sweep.hpp"
+#include "stop.hpp"
+
+namespace epicyclic::app {
+
+namespace {
+
+bool computed(const studies::PointResult& r) { return r.outcome == integrate::Outcome::reached; }
+
+/// Computes what the store does not hold.
+/// @param leader  of the other ranks; null: there are none
+/// @returns how many points of all failed
+std::size_t compute_missing(const Arguments& arguments, std::string_view command, std::string_view noun,
+                            const io::LoadedInput& input, const studies::SweepPlan& plan,
+                            const studies::ModelAtPoint& model_at, io::PointStore& store, SweepLeader* leader) {
+  const studies::SweepOptions& sweep = *input.study.sweep;
+  std::size_t failed = 0;
+  studies::SweepRun run;
+  run.threads = arguments.threads;
+  run.stop = &stop_requested();
+  run.done.resize(plan.points.size());
+  for (std::size_t i = 0; i < plan.points.size(); ++i) {
+    run.done[i] = store.holds(i);
+    if (run.done[i]) failed += computed(store.read_brief(i)) ? 0 : 1;
+  }
+  if (store.size() > 0)
+    fmt::print(stderr, "{}: {} of {} {} were there already\n", arguments.output.string(), store.size(),
+               plan.points.size(), noun);
+
+  io::Progress progress(std::string(command), plan.points.size(), store.size());
+  progress.update(store.size(), failed);
+  std::mutex counting;
+  std::size_t elsewhere = 0;  // points of other ranks
+  run.end_state = [&](std::size_t index) { return store.read_brief(index).end_state; };
+  run.point_finished = [&](const studies::PointResult& result) {
+    store.append(result);
+    const std::scoped_lock lock(counting);
+    failed += computed(result) ? 0 : 1;
+    progress.update(store.size() + elsewhere, failed);
+  };
+  if (leader == nullptr) {
+    (void)studies::run_sweep(plan, sweep, input.study.integrator, model_at, run);
+  } else {
+    leader->run(plan, sweep, input.study.integrator, model_at, run, [&](std::size_t finished, std::size_t without) {
+      const std::scoped_lock lock(counting);
+      elsewhere += finished;
+      failed += without;
+      progress.update(store.size() + elsewhere, failed);
+    });
+    store.read_others();
+  }
+  progress.finish();
+  store.sync();
+  return failed;
+}
+
+int lead(const Arguments& arguments, std::string_view command, std::string_view noun,
+         const std::function<WrittenPoints(const ComputedPoints&)>& write, SweepLeader* leader) {
+  stop_on_signals();
+  const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
+  require_kind(input, arguments, command);
+  const studies::SweepPlan plan = io::plan_of(input.study);
+  const studies::ModelAtPoint model_at = io::model_at_point(input);
+  // Options that do not fit show here, before anything is written.
+  const model::DynamicModel first_model = model_at(plan.points.front());
+  for (const std::string& warning : io::warnings(input)) fmt::print(stderr, "{}\n", warning);
+  if (command == "sweep" && input.study.sweep->parameter != "mesh_frequency_ratio")
+    fmt::print(stderr, "operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
+
+  const std::string identity = io::identity(input, command);
+  if (leader != nullptr) leader->gather(arguments, identity);
+  const io::OutputFolder folder(arguments.output, identity);
+  if (const auto code = refuse_or_finish(folder)) return *code;
+  io::Provenance facts = provenance(arguments.threads);
+  const std::string resolved = write_inputs(folder, input);
+  folder.write_run(io::RunState::running, io::run_facts(facts));
+
+  io::PointStore store(folder.path(), identity, plan.points.size());
+  const std::size_t failed = compute_missing(arguments, command, noun, input, plan, model_at, store, leader);
+  const auto close_run = [&](io::RunState state) {
+    facts.ended = io::utc_now();
+    facts.counts = {{"points", static_cast<std::int64_t>(plan.points.size())},
+                    {"computed", static_cast<std::int64_t>(store.size())},
+                    {"failed", static_cast<std::int64_t>(failed)}};
+    folder.write_run(state, io::run_facts(facts));
+  };
+  if (store.size() < plan.points.size()) {
+    close_run(io::RunState::stopped);
+    fmt::print(stderr, "stopped after {} of {} {}; the same command goes on\n", store.size(), plan.points.size(), noun);
+    return stopped_early;
+  }
+
+  const io::PointSource points = store.source();
+  const WrittenPoints written = write({folder, input, first_model, resolved, points});
+  close_run(io::RunState::complete);
+
+  std::map<std::string, std::size_t> regimes;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const studies::PointResult r = points.read_brief(i);
+    if (computed(r)) ++regimes[to_string(r.regime)];
+  }
+  nlohmann::json summary = {{"folder", folder.path().string()},
+                            {"points", plan.points.size()},
+                            {"failed", failed},
+                            {"regimes", regimes},
+                            {"figures", nlohmann::json::array()}};
+  summary.update(written.summary);
+  for (const io::DrawnFigure& figure : written.figures) {
+    if (figure.outcome.drawn())
+      summary["figures"].push_back(figure.png.string());
+    else
+      fmt::print(stderr, "{} was not drawn: {}\n", figure.png.string(), figure.outcome.message);
+  }
+  if (arguments.json) {
+    fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else {
+    fmt::print("{} {}, {} failed, in {}\n", plan.points.size(), noun, failed, folder.path().string());
+    for (const auto& [regime, count] : regimes) fmt::print("{}: {}\n", regime, count);
+    for (const std::string& line : written.lines) fmt::print("{}\n", line);
+    for (const auto& figure : summary["figures"]) fmt::print("figure: {}\n", figure.get<std::string>());
+  }
+  return failed == 0 ? done : done_with_failures;
+}
+
+}  // namespace
+
+int points_command(const Arguments& arguments, std::string_view command, std::string_view noun,
+                   const std::function<WrittenPoints(const ComputedPoints&)>& write) {
+  Ranks& ranks = *arguments.ranks;
+  if (ranks.size() == 1) return lead(arguments, command, noun, write, nullptr);
+  if (ranks.rank() > 0) return follow(arguments, command);
+  SweepLeader leader(ranks);
+  int code = bug;
+  try {
+    code = lead(arguments, command, noun, write, &leader);
+  } catch (...) {
+    const Failure failure = failure_of(std::current_exception());
+    fmt::print(stderr, "{}\n", failure.what());
+    code = failure.exit_code();
+  }
+  leader.dismiss(code);
+  return code;
+}
+
+}  // namespace epicyclic::app

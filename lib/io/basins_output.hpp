@@ -1,0 +1,46 @@
+// What basins leave in their folder: points.csv, attractors.csv, results.h5, a figure. There is no poincare.csv: of a
+// cell's motion only what its attractor is told from is kept, and that in the journal.
+//
+// All of it follows from the points alone and is the same, byte for byte, for the same study (architecture section 7).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "analysis/attractors.hpp"
+#include "io/sweep_output.hpp"
+#include "studies/plane.hpp"
+#include "studies/sweep.hpp"
+
+namespace epicyclic::io {
+
+struct BasinsOutput {
+  studies::PlaneOptions plane;
+  std::vector<std::string> state_names;
+  std::vector<studies::PlanetTurn> turns;  ///< symmetries that images of attractors were looked for with
+  std::string resolved_input;              ///< text of input.resolved.json, kept in results.h5 too
+  std::string title;                       ///< of the figure
+};
+
+/// "period 2", "chaotic".
+[[nodiscard]] std::string attractor_word(const analysis::AttractorRecord& record);
+
+/// Axis label of a component of the state.
+[[nodiscard]] std::string component_label(const std::string& component);
+
+/// @throws OutputError
+void write_basins_csv(const std::filesystem::path& file, const std::vector<studies::PointResult>& results,
+                      const analysis::Attractors& attractors);
+void write_attractors_csv(const std::filesystem::path& file, const BasinsOutput& output,
+                          const std::vector<studies::PointResult>& results, const analysis::Attractors& attractors);
+void write_basins_h5(const std::filesystem::path& file, const BasinsOutput& output,
+                     const std::vector<studies::PointResult>& results, const analysis::Attractors& attractors);
+
+/// A colour for each of the twelve largest attractors.
+[[nodiscard]] std::vector<DrawnFigure> draw_basins_figure(const std::filesystem::path& folder,
+                                                          const BasinsOutput& output,
+                                                          const std::vector<studies::PointResult>& results,
+                                                          const analysis::Attractors& attractors);
+
+}  // namespace epicyclic::io

@@ -1,0 +1,194 @@
+#include "io/cell_figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "io/csv.hpp"
+
+namespace epicyclic::io {
+
+namespace {
+
+void check(const CellGrid& grid, std::size_t cells) {
+  if (grid.x.empty() || grid.y.empty() || cells != grid.x.size() * grid.y.size())
+    throw std::invalid_argument(fmt::format("{} cells on a grid of {} x {}", cells, grid.x.size(), grid.y.size()));
+}
+
+/// Edges between cells, and those of the outer ones.
+std::vector<double> edges_of(const std::vector<double>& centres) {
+  std::vector<double> edges;
+  const std::size_t n = centres.size();
+  const auto outer = [&](std::size_t at, std::size_t inner) {
+    if (n > 1) return centres[at] + 0.5 * (centres[at] - centres[inner]);
+    const double half = std::max(1e-12, 0.05 * std::abs(centres[0]));
+    return centres[0] + (edges.empty() ? -half : half);
+  };
+  edges.push_back(outer(0, std::min<std::size_t>(1, n - 1)));
+  for (std::size_t k = 1; k < n; ++k) edges.push_back(0.5 * (centres[k - 1] + centres[k]));
+  edges.push_back(outer(n - 1, n > 1 ? n - 2 : 0));
+  return edges;
+}
+
+/// Rectangles of cells that look alike, one a line: x from, x to, y from, y to, and what `value` says; none where that
+/// is empty.
+template <class Alike, class Value>
+std::string rectangles(const CellGrid& grid, Alike alike, Value value) {
+  const auto x = edges_of(grid.x);
+  const auto y = edges_of(grid.y);
+  std::string data;
+  const auto number = [&](double v, char end) {
+    append_number(data, v);
+    data += end;
+  };
+  const std::size_t columns = grid.x.size();
+  for (std::size_t row = 0; row < grid.y.size(); ++row)
+    for (std::size_t first = 0; first < columns;) {
+      std::size_t last = first;
+      while (last + 1 < columns && alike(row * columns + first, row * columns + last + 1)) ++last;
+      if (const std::string text = value(row * columns + first); !text.empty()) {
+        number(x[first], ' ');
+        number(x[last + 1], ' ');
+        number(y[row], ' ');
+        number(y[row + 1], ' ');
+        data += text + '\n';
+      }
+      first = last + 1;
+    }
+  return data;
+}
+
+/// Neighbours overlap a little, each over the one before: else their blurred edges would let the ground through.
+std::string overlap(const CellGrid& grid) {
+  const auto x = edges_of(grid.x);
+  const auto y = edges_of(grid.y);
+  const auto part = [](const std::vector<double>& edges) {
+    std::string text;
+    append_number(text, 0.3 * (edges.back() - edges.front()) / static_cast<double>(edges.size() - 1));
+    return text;
+  };
+  return fmt::format("dx = {}\ndy = {}\n", part(x), part(y));
+}
+
+/// Outline of a rectangle and its colour.
+constexpr std::string_view boxes = "using 1:3:1:($2 + dx):3:($4 + dy):5 with boxxyerror fillstyle solid 1 noborder";
+
+FigureRange span_of(const std::vector<double>& centres) {
+  const auto edges = edges_of(centres);
+  return {edges.front(), edges.back()};
+}
+
+/// Legend beside the figure, on the right.
+constexpr std::string_view legend_place =
+    "set rmargin screen 0.72\n"
+    "set tics out nomirror\n"
+    "set key at screen 0.735, graph 1 left top vertical maxcols 1 Left reverse samplen 0.6 spacing 1.25 width 0 "
+    "font ',20'\n";
+
+std::string legend_entry(const CellClass& c) {
+  return fmt::format(", \\\n  keyentry with points pointtype 5 pointsize 1.6*mark linecolor '{}' title {}", c.colour,
+                     gnuplot_quoted(portable_text(c.label)));
+}
+
+}  // namespace
+
+FigureOutcome class_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
+                           const CellGrid& grid, const std::vector<CellClass>& classes,
+                           const std::vector<std::size_t>& cells) {
+  check(grid, cells.size());
+  std::vector<bool> seen(classes.size(), false);
+  for (const std::size_t c : cells) {
+    if (c >= classes.size()) throw std::invalid_argument(fmt::format("class_figure: there is no class {}", c));
+    seen[c] = true;
+  }
+  const std::string data = "# x from, x to, y from, y to, colour, class\n" +
+                           rectangles(
+                               grid, [&](std::size_t a, std::size_t b) { return cells[a] == cells[b]; },
+                               [&](std::size_t cell) {
+                                 const CellClass& c = classes[cells[cell]];
+                                 return fmt::format("0x{} {}", c.colour.substr(1), gnuplot_quoted(c.label));
+                               });
+  std::string plot = fmt::format("'{}.dat' {} linecolor rgbcolor variable notitle", stem, boxes);
+  for (std::size_t c = 0; c < classes.size(); ++c)
+    if (seen[c]) plot += legend_entry(classes[c]);
+  return draw_figure(folder, stem, data,
+                     figure_script(stem, text, span_of(grid.x), span_of(grid.y), 0, {},
+                                   overlap(grid) + std::string(legend_place), plot));
+}
+
+FigureOutcome value_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
+                           const CellGrid& grid, const std::string& bar_label, const std::string& grey_label,
+                           const std::vector<double>& cells) {
+  check(grid, cells.size());
+  FigureRange range;
+  bool grey = false;
+  for (const double v : cells) {
+    range.include(v);
+    grey = grey || !std::isfinite(v);
+  }
+  if (range.empty()) return {"there is no finite value to draw"};
+  range.include(0.0);
+  // A side that hardly leaves zero is not to look as strong as the other.
+  constexpr double least_side = 0.1;
+  range.include(-least_side * range.high);
+  range.include(-least_side * range.low);
+  range = range.widened(0);
+  const auto number = [](double v) {
+    std::string t;
+    append_number(t, v);
+    return t;
+  };
+  const auto alike = [&](std::size_t a, std::size_t b) {
+    return cells[a] == cells[b] || (!std::isfinite(cells[a]) && !std::isfinite(cells[b]));
+  };
+  std::string data = "# x from, x to, y from, y to, value\n" + rectangles(grid, alike, [&](std::size_t cell) {
+                       return std::isfinite(cells[cell]) ? number(cells[cell]) : std::string();
+                     });
+  if (grey)
+    data += "\n\n# without a value\n" + rectangles(grid, alike, [&](std::size_t cell) {
+              return std::isfinite(cells[cell]) ? std::string() : std::string("NaN");
+            });
+  // After Brewer's RdBu, which colour-blind eyes tell apart.
+  std::string palette;
+  const auto colour = [&](double at, std::string_view name) {
+    palette += fmt::format("{}{} '{}'", palette.empty() ? "" : ", ", number(at), name);
+  };
+  if (range.low < 0.0) {
+    colour(range.low, "#053061");
+    colour(0.6 * range.low, "#4393c3");
+    colour(0.2 * range.low, "#d1e5f0");
+  }
+  colour(0.0, "#ffffff");
+  if (range.high > 0.0) {
+    colour(0.2 * range.high, "#fddbc7");
+    colour(0.6 * range.high, "#d6604d");
+    colour(range.high, "#67001f");
+  }
+  const std::string extra =
+      overlap(grid) + std::string(legend_place) +
+      fmt::format(
+          "set palette defined ({})\n"
+          "set palette maxcolors 0\n"
+          "set cbrange [{}:{}]\n"
+          "set cblabel {} offset 1.5,0\n"
+          "set colorbox user origin screen 0.745, graph 0 size screen 0.03, graph {}\n"
+          "set cbtics font ',20'\n"
+          "set format cb '%h'\n",
+          palette, number(range.low), number(range.high), gnuplot_quoted(portable_text(bar_label)), grey ? 0.9 : 1.0);
+  // Grey lies under the coloured cells' blurred edges, and over what they overlap.
+  const auto greys = [&](std::string_view outline) {
+    return fmt::format(
+        "'{}.dat' index 1 using 1:3:{} with boxxyerror fillstyle solid 1 noborder linecolor '#9a9a9a' notitle", stem,
+        outline);
+  };
+  std::string plot = grey ? greys("1:($2 + dx):3:($4 + dy)") + ", \\\n  " : "";
+  plot += fmt::format("'{}.dat' index 0 {} linecolor palette notitle", stem, boxes);
+  if (grey) plot += ", \\\n  " + greys("1:2:3:4");
+  if (grey) plot += legend_entry({grey_label, "#9a9a9a"});
+  return draw_figure(folder, stem, data,
+                     figure_script(stem, text, span_of(grid.x), span_of(grid.y), 0, {}, extra, plot));
+}
+
+}  // namespace epicyclic::io

@@ -1,0 +1,129 @@
+#include "io/map_output.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "io/cell_figure.hpp"
+#include "io/hdf5_file.hpp"
+#include "studies/plane.hpp"
+
+namespace epicyclic::io {
+
+namespace {
+
+using studies::Direction;
+using studies::PointResult;
+
+/// What a figure or a matrix shows of each cell, row by row with both axes ascending.
+template <class T>
+std::vector<T> matrix(const MapOutput& output, const std::vector<PointResult>& results, Direction direction,
+                      const std::function<T(const PointResult&)>& value) {
+  const auto columns = static_cast<std::size_t>(output.plane.first.points);
+  std::vector<T> cells;
+  for (const PointResult& r : results)
+    if (r.point.direction == direction) cells.push_back(value(r));
+  if (direction == Direction::down)
+    for (std::size_t first = 0; first < cells.size(); first += columns)
+      std::reverse(cells.begin() + static_cast<std::ptrdiff_t>(first),
+                   cells.begin() + static_cast<std::ptrdiff_t>(first + columns));
+  return cells;
+}
+
+/// Periods in blues and purples, by rising brightness; after Okabe and Ito otherwise, as in the figures of sweeps.
+const std::vector<CellClass>& classes() {
+  static const std::vector<CellClass> all = {
+      {"period 1", "#12285c"},      {"period 2", "#3f8fd0"},   {"period 3", "#9bd7f2"},      {"period 4", "#6b3f8f"},
+      {"period 5 to 8", "#b08fd0"}, {"period > 8", "#e3d3f0"}, {"quasiperiodic", "#1b8a6b"}, {"chaotic", "#c8553d"},
+      {"undecided", "#b8b8b8"},     {"failed", "#000000"}};
+  return all;
+}
+
+std::size_t class_of(const PointResult& r) {
+  if (r.outcome != integrate::Outcome::reached) return 9;
+  switch (r.regime) {
+    case analysis::Regime::periodic:
+      return r.period <= 4 ? static_cast<std::size_t>(r.period - 1) : r.period <= 8 ? 4 : 5;
+    case analysis::Regime::quasiperiodic:
+      return 6;
+    case analysis::Regime::chaotic:
+      return 7;
+    case analysis::Regime::undecided:
+      break;
+  }
+  return 8;
+}
+
+}  // namespace
+
+void write_map_csv(const std::filesystem::path& file, const std::vector<PointResult>& results) {
+  write_points_csv(file, points_in_memory(results),
+                   {{"second_value", [](const PointResult& r) { return r.point.second_value; }}});
+}
+
+void write_map_h5(const std::filesystem::path& file, const MapOutput& output, const std::vector<PointResult>& results) {
+  Hdf5File h5(file);
+  h5.set_attribute("/", "input_resolved", output.resolved_input);
+  h5.set_attribute("/", "parameter", output.plane.first.name);
+  h5.set_attribute("/", "second_parameter", output.plane.second.name);
+  write_point_columns(h5, points_in_memory(results));
+  std::vector<double> second;
+  for (const PointResult& r : results) second.push_back(r.point.second_value);
+  h5.write("/points/second_value", std::span<const double>(second));
+
+  // Rows along the second parameter, columns along the first, both ascending.
+  h5.create_group("/map");
+  h5.write("/map/value", std::span<const double>(axis_values(output.plane.first)));
+  h5.write("/map/second_value", std::span<const double>(axis_values(output.plane.second)));
+  const auto columns = static_cast<std::size_t>(output.plane.first.points);
+  const auto rows = static_cast<std::size_t>(output.plane.second.points);
+  for (const Direction direction : output.sweep.directions) {
+    const std::string group = "/map/" + direction_word(direction);
+    h5.create_group(group);
+    const auto integers = [&](const char* name, const std::function<std::int64_t(const PointResult&)>& value) {
+      h5.write(group + "/" + name, std::span<const std::int64_t>(matrix(output, results, direction, value)), rows,
+               columns);
+    };
+    const auto numbers = [&](const char* name, const std::function<double(const PointResult&)>& value) {
+      h5.write(group + "/" + name, std::span<const double>(matrix(output, results, direction, value)), rows, columns);
+      h5.set_units(group + "/" + name, "1 per tau");
+    };
+    integers("regime", [](const PointResult& r) {
+      return r.outcome == integrate::Outcome::reached ? static_cast<std::int64_t>(r.regime) : -1;
+    });
+    h5.set_attribute(group + "/regime", "codes", "-1 failed, 0 periodic, 1 quasiperiodic, 2 chaotic, 3 undecided");
+    integers("period", [](const PointResult& r) {
+      return r.outcome == integrate::Outcome::reached ? static_cast<std::int64_t>(r.period) : 0;
+    });
+    h5.set_units(group + "/period", "mesh periods");
+    numbers("lyapunov_max", [](const PointResult& r) { return r.lyapunov_max().value; });
+    numbers("lyapunov_max_error", [](const PointResult& r) { return r.lyapunov_max().half_width; });
+  }
+  h5.close();
+}
+
+std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, const MapOutput& output,
+                                          const std::vector<PointResult>& results) {
+  std::vector<DrawnFigure> figures;
+  const CellGrid grid{axis_values(output.plane.first), axis_values(output.plane.second)};
+  for (const Direction direction : output.sweep.directions) {
+    const std::string word = direction_word(direction);
+    const FigureText text{literal_text(output.title) + (output.sweep.directions.size() > 1 ? ", " + word : ""),
+                          parameter_label(output.plane.first.name), parameter_label(output.plane.second.name)};
+    const std::string regimes = "regimes_" + word;
+    figures.push_back(
+        {folder / (regimes + ".png"), class_figure(folder, regimes, text, grid, classes(),
+                                                   matrix<std::size_t>(output, results, direction, class_of))});
+    if (output.sweep.classification_periods == 0) continue;
+    const std::string exponents = "lyapunov_max_" + word;
+    figures.push_back({folder / (exponents + ".png"),
+                       value_figure(folder, exponents, text, grid, "Largest exponent  λ_1 / ω_{sn}", "not told",
+                                    matrix<double>(output, results, direction,
+                                                   [](const PointResult& r) { return r.lyapunov_max().value; }))});
+  }
+  return figures;
+}
+
+}  // namespace epicyclic::io

@@ -1,0 +1,33 @@
+// What a map leaves in its folder: points.csv, results.h5 with a matrix for each direction, figures. There is no
+// poincare.csv: a cell keeps its row alone.
+//
+// All of it follows from the points alone and is the same, byte for byte, for the same study (architecture section 7).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/sweep_output.hpp"
+#include "studies/plane_options.hpp"
+#include "studies/sweep.hpp"
+
+namespace epicyclic::io {
+
+struct MapOutput {
+  studies::SweepOptions sweep;
+  studies::PlaneOptions plane;
+  std::string resolved_input;  ///< text of input.resolved.json, kept in results.h5 too
+  std::string title;           ///< of the figures
+};
+
+/// @throws OutputError
+void write_map_csv(const std::filesystem::path& file, const std::vector<studies::PointResult>& results);
+void write_map_h5(const std::filesystem::path& file, const MapOutput& output,
+                  const std::vector<studies::PointResult>& results);
+
+/// For each direction the regimes and, where they were told by more than recurrence, the largest exponent.
+[[nodiscard]] std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, const MapOutput& output,
+                                                        const std::vector<studies::PointResult>& results);
+
+}  // namespace epicyclic::io

@@ -1,0 +1,53 @@
+// Planes of points, computed as sweeps are [studies/sweep.hpp].
+//
+// A map varies two parameters. Cells are numbered along the first axis, then the second, for the first direction, then
+// the other. Along the first axis a map is carried as a sweep is: each row, one value of the second parameter, is a
+// chain of its own from the default start, so that chains are fixed by the input.
+//
+// Basins vary two components of the start; the system stays. Each cell is a chain of its own. What the motions end on
+// is told by analysis/attractors.hpp.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "analysis/attractors.hpp"
+#include "model/dynamic_model.hpp"
+#include "studies/plane_options.hpp"
+#include "studies/sweep.hpp"
+
+namespace epicyclic::studies {
+
+/// The value of an axis at one of its points; as grid_value().
+[[nodiscard]] double axis_value(const Axis& axis, std::size_t point);
+
+/// All of them.
+[[nodiscard]] std::vector<double> axis_values(const Axis& axis);
+
+/// @param sweep  directions and start; the grid is the plane's
+[[nodiscard]] SweepPlan plan_map(const SweepOptions& sweep, const PlaneOptions& plane);
+
+[[nodiscard]] SweepPlan plan_basins(const PlaneOptions& plane);
+
+/// Where the motion of a cell of basins starts: the model's default start, the base, then both axes.
+/// @throws InputError for a component that the state has not
+[[nodiscard]] std::vector<double> start_in_plane(const model::DynamicModel& model, const PlaneOptions& plane,
+                                                 const GridPoint& point);
+
+/// A turn that takes each planet to the place of another.
+struct PlanetTurn {
+  int planets = 0;  ///< that each moves on by
+  analysis::Symmetry map;
+};
+
+/// All of them, for equally spaced planets. Where a turned orbit is one of another attractor, the turn is a symmetry of
+/// these motions, if not of the stage: a clearance with a law along x and y has directions of its own, but only for
+/// motions that reach its edge.
+[[nodiscard]] std::vector<PlanetTurn> planet_turns(const model::DynamicModel& model);
+
+/// The attractors that the cells ended on, images by turns of the planets among them.
+/// @param results  of all cells, in order; their records are taken out
+[[nodiscard]] analysis::Attractors attractors_of(std::vector<PointResult>& results,
+                                                 const std::vector<PlanetTurn>& turns);
+
+}  // namespace epicyclic::studies

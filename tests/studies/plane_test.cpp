@@ -1,0 +1,174 @@
+// Maps and basins: numbering, chains, starts, the turns of the planets.
+
+#include "studies/plane.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/errors.hpp"
+#include "core/largest_difference.hpp"
+#include "model/scales.hpp"
+#include "problems/r1.hpp"
+
+namespace epicyclic::studies {
+namespace {
+
+PlaneOptions plane() {
+  PlaneOptions p;
+  p.first = {"mesh_frequency_ratio", 0.5, 0.9, 5};
+  p.second = {"damping_ratio", 0.02, 0.06, 3};
+  return p;
+}
+
+TEST(Plane, AMapIsNumberedAlongTheFirstAxisAndEachRowIsAChain) {
+  SweepOptions sweep;
+  sweep.directions = {Direction::up, Direction::down};
+  const SweepPlan plan = plan_map(sweep, plane());
+  ASSERT_EQ(plan.points.size(), 30U);
+  ASSERT_EQ(plan.chains.size(), 6U);
+  EXPECT_EQ(plan.points[1].value, 0.6);
+  EXPECT_EQ(plan.points[1].second_value, 0.02);
+  EXPECT_EQ(plan.points[5].value, 0.5);
+  EXPECT_EQ(plan.points[5].second_value, 0.04);
+  EXPECT_EQ(plan.points[15].value, 0.9);
+  EXPECT_EQ(plan.points[15].direction, Direction::down);
+  std::set<std::size_t> seen;
+  for (const auto& chain : plan.chains)
+    for (const std::size_t k : chain) {
+      EXPECT_EQ(plan.points[k].index, k);
+      EXPECT_EQ(plan.points[k].second_value, plan.points[chain[0]].second_value);
+      seen.insert(k);
+    }
+  EXPECT_EQ(seen.size(), 30U);
+  sweep.start = Start::cold;
+  EXPECT_EQ(plan_map(sweep, plane()).chains.size(), 30U);
+}
+
+TEST(Plane, BasinsStartWhereBaseAndAxesSay) {
+  model::DynamicModel m;
+  m.state_names = {"x_s", "y_s", "x_s_rate", "y_s_rate"};
+  m.default_start = {1, 2, 3, 4};
+  PlaneOptions p;
+  p.first = {"y_s", -1, 1, 3};
+  p.second = {"x_s_rate", 10, 20, 2};
+  p.base = {{"x_s", 7}};
+  const SweepPlan plan = plan_basins(p);
+  ASSERT_EQ(plan.points.size(), 6U);
+  EXPECT_EQ(plan.chains.size(), 6U);
+  EXPECT_EQ(start_in_plane(m, p, plan.points[0]), (std::vector<double>{7, -1, 10, 4}));
+  EXPECT_EQ(start_in_plane(m, p, plan.points[5]), (std::vector<double>{7, 1, 20, 4}));
+  p.base["z"] = 1;
+  EXPECT_THROW((void)start_in_plane(m, p, plan.points[0]), InputError);
+}
+
+TEST(Plane, EqualPlanetsTurnMotionsIntoMotions) {
+  gear::Stage s = problems::with_friction(problems::with_moving_stiffness(problems::with_gap(problems::r1())));
+  s.sun_bearing.law = gear::BearingLaw::linear_radial;
+  const model::DynamicModel m = model::make_dynamic_model(s, model::scales_of(s), 1.0, {});
+  ASSERT_TRUE(m.remove_synchronous) << "the planets of R1 are alike";
+  const auto turns = planet_turns(m);
+  ASSERT_EQ(turns.size(), static_cast<std::size_t>(m.planets - 1));
+  std::vector<double> y = m.default_start;
+  for (std::size_t j = 0; j < y.size(); ++j) y[j] += 3.0 * std::sin(1.0 + static_cast<double>(j));
+  constexpr double rounding = 1e-10;  // of sums of some 1e3 in size
+  std::vector<double> f(m.dimension);
+  std::vector<double> f_of_turned(m.dimension);
+  for (const PlanetTurn& turn : turns)
+    for (const double phase : {0.1, 2.0, 5.0}) {
+      const std::size_t segment = model::segment_at(m.breakpoints, phase);
+      m.right_hand_side(segment, phase, y.data(), f.data());
+      m.right_hand_side(segment, phase, turn.map(y).data(), f_of_turned.data());
+      EXPECT_LT(largest_difference(turn.map(f), f_of_turned), rounding) << turn.planets;
+      EXPECT_GT(largest_difference(f, f_of_turned), 0.1);
+    }
+  // A turn by one planet, N times over, is none.
+  std::vector<double> turned = y;
+  for (int k = 0; k < m.planets; ++k) turned = turns[0].map(turned);
+  EXPECT_LT(largest_difference(turned, y), rounding);
+}
+
+/// A damped oscillator between two wells, x'' + 0.3 x' - x + x^3 = second cos s, that plays the role of a stage.
+model::DynamicModel wells(double drive) {
+  model::DynamicModel m;
+  m.planets = 1;
+  m.dimension = 2;
+  m.state_names = {"x", "x_rate"};
+  m.omega = 1.0;
+  m.right_hand_side = [drive](std::size_t, double s, const double* y, double* f) {
+    f[0] = y[1];
+    f[1] = drive * std::cos(s) - 0.3 * y[1] + y[0] - y[0] * y[0] * y[0];
+  };
+  m.deflections = [](double, const double* y, model::MeshDeflections& d) {
+    d.sun_planet = d.ring_planet = {y[0]};
+    d.sun_planet_rate = d.ring_planet_rate = {y[1]};
+  };
+  m.default_start = {1.0, 0.0};
+  return m;
+}
+
+TEST(Plane, BasinsTellTheWellsApartAtAnyNumberOfThreads) {
+  PlaneOptions p;
+  p.first = {"x", -1.6, 1.6, 6};
+  p.second = {"x_rate", -0.8, 0.8, 5};
+  SweepOptions sweep;
+  sweep.keep = Keep::attractor;
+  sweep.transient_periods = 60;
+  sweep.recorded_periods = 16;
+  sweep.output_phases = 16;
+  const ModelAtPoint at = [&](const GridPoint& point) {
+    model::DynamicModel m = wells(0.1);
+    m.default_start = start_in_plane(m, p, point);
+    return m;
+  };
+  std::vector<std::size_t> expected;
+  for (const int threads : {1, 2, 5}) {
+    SweepRun run;
+    run.threads = threads;
+    auto results = run_sweep_in_memory(plan_basins(p), sweep, {}, at, std::move(run));
+    ASSERT_EQ(results.size(), 30U);
+    std::vector<double> x_ends;
+    for (const PointResult& r : results) {
+      EXPECT_TRUE(r.poincare.empty());
+      ASSERT_EQ(r.attractor.period(), 1U);
+      x_ends.push_back(r.end_state[0]);
+    }
+    const analysis::Attractors told = attractors_of(results, {});
+    EXPECT_EQ(told.all.size(), 2U);
+    for (std::size_t k = 0; k < x_ends.size(); ++k)
+      EXPECT_EQ(told.number[k] == told.number[0], x_ends[k] * x_ends[0] > 0.0) << k;
+    if (expected.empty()) expected = told.number;
+    EXPECT_EQ(told.number, expected) << threads;
+  }
+}
+
+TEST(Plane, AMapsCellIsThePointOfASweepAtItsSecondValue) {
+  SweepOptions sweep;
+  sweep.keep = Keep::row;
+  sweep.transient_periods = 5;
+  sweep.recorded_periods = 8;
+  sweep.parameter = "drive";
+  sweep.from = 0.05;
+  sweep.to = 0.15;
+  sweep.points = 4;
+  PlaneOptions p;
+  p.first = {"drive", 0.05, 0.15, 4};
+  p.second = {"offset", 0.0, 0.02, 2};
+  const auto cells = run_sweep_in_memory(
+      plan_map(sweep, p), sweep, {},
+      ModelAtPoint([](const GridPoint& point) { return wells(point.value + point.second_value); }), {});
+  const auto row =
+      run_sweep_in_memory(plan_sweep(sweep), sweep, {}, [](double value) { return wells(value + 0.02); }, {});
+  ASSERT_EQ(cells.size(), 8U);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(cells[4 + k].end_state, row[k].end_state) << k;
+    EXPECT_TRUE(cells[4 + k].poincare.empty());
+  }
+  EXPECT_NE(cells[0].end_state, cells[4].end_state);
+}
+
+}  // namespace
+}  // namespace epicyclic::studies
