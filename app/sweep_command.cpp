@@ -4,30 +4,12 @@
 
 #include <fmt/core.h>
 
-#include "analysis/poincare.hpp"
 #include "commands.hpp"
 #include "io/study_model.hpp"
 #include "io/sweep_output.hpp"
 #include "points.hpp"
 
 namespace epicyclic::app {
-
-namespace {
-
-/// Points whose regime a longer look would tell.
-std::size_t still_settling(const io::PointSource& points, const studies::SweepOptions& sweep) {
-  std::size_t settling = 0;
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const studies::PointResult r = points.read_brief(i);
-    const bool recurs_late = r.outcome == integrate::Outcome::reached && !r.classified &&
-                             r.regime == analysis::Regime::undecided &&
-                             analysis::still_settling(r.recurrence, sweep.recurrence_tolerance);
-    settling += recurs_late ? 1 : 0;
-  }
-  return settling;
-}
-
-}  // namespace
 
 int sweep_command(const Arguments& arguments) {
   return points_command(arguments, "sweep", "points", [](const ComputedPoints& all) {
@@ -39,7 +21,10 @@ int sweep_command(const Arguments& arguments) {
     io::write_results_h5(all.folder.file("results.h5"), output, all.points);
     WrittenPoints written;
     written.figures = io::draw_sweep_figures(all.folder.file("figures"), output, all.points);
-    if (const std::size_t settling = still_settling(all.points, sweep); settling > 0)
+    std::size_t settling = 0;
+    for (std::size_t i = 0; i < all.points.count; ++i)
+      settling += studies::still_settling(all.points.read_brief(i), sweep) ? 1 : 0;
+    if (settling > 0)
       fmt::print(stderr,
                  "{} undecided points were still settling (recurrence_error_late below recurrence_error): "
                  "/study/classification_periods > 0, or a larger /study/transient_periods, decides them\n",

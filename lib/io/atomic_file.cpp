@@ -42,10 +42,14 @@ void FileDescriptor::close(const std::filesystem::path& path) {
   if (::close(release()) != 0 && errno != EINTR) throw_output_error(path, "close the file", errno);
 }
 
-void throw_output_error(const std::filesystem::path& path, std::string_view action, int error) {
+std::string_view advice_on(int error) {
   const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
+  return full ? "; what was written before is kept: make room and repeat the command" : "";
+}
+
+void throw_output_error(const std::filesystem::path& path, std::string_view action, int error) {
   throw OutputError(fmt::format("{}: cannot {}: {}{}", path.string(), action, std::generic_category().message(error),
-                                full ? "; what was written before is kept: make room and repeat the command" : ""));
+                                advice_on(error)));
 }
 
 FileDescriptor open_descriptor(const std::filesystem::path& path, int flags) {

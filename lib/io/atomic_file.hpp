@@ -38,6 +38,9 @@ class FileDescriptor {
   int descriptor_ = -1;
 };
 
+/// What to do about an errno value, to follow its message: on a lack of room; else empty.
+[[nodiscard]] std::string_view advice_on(int error);
+
 /// @throws OutputError always: "PATH: cannot ACTION: REASON", the reason from the errno value `error`, and what to do
 /// if it is a lack of room
 [[noreturn]] void throw_output_error(const std::filesystem::path& path, std::string_view action, int error);

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cerrno>
+#include <charconv>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -56,10 +57,15 @@ std::string error_text() {
   std::string text;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_description, &text);
   // Of a failed system call the rest is place and time.
+  constexpr std::string_view number = "errno = ";
   constexpr std::string_view before = "error message = '";
+  int error = 0;
+  if (const auto found = text.find(number); found != std::string::npos)
+    std::from_chars(text.data() + found + number.size(), text.data() + text.size(), error);
   if (const auto reason = text.find(before); reason != std::string::npos) {
     text = text.substr(reason + before.size());
     text = text.substr(0, text.find('\''));
+    text += advice_on(error);
   }
   return text.empty() ? "HDF5 gave no reason" : text;
 }

@@ -450,6 +450,8 @@ void add_grid(Table<Study>& t) {
   add_course(t);
   t.integer("segments", of(&SweepOptions::segments), between(1, 100000),
             "Chains per direction of a carried sweep [-].");
+  t.integer("coarse_periods", of(&SweepOptions::coarse_periods), between(1, 1e6),
+            "Mesh periods of each point in the pass along the range that says where segments start [-].");
 }
 
 /// How long each point is looked at.

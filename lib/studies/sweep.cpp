@@ -14,6 +14,7 @@
 #include "integrate/lane_ensemble.hpp"
 #include "integrate/make_flow.hpp"
 #include "integrate/methods.hpp"
+#include "studies/coarse_pass.hpp"
 #include "studies/operating_point.hpp"
 #include "studies/units.hpp"
 
@@ -230,7 +231,12 @@ class ChainRunner {
  public:
   ChainRunner(const SweepPlan& plan, const SweepOptions& sweep, const integrate::IntegratorOptions& integrator,
               const ModelAtPoint& model_at, const SweepRun& run)
-      : plan_(plan), sweep_(sweep), integrator_(integrator), model_at_(model_at), run_(run) {}
+      : plan_(plan),
+        sweep_(sweep),
+        integrator_(integrator),
+        model_at_(model_at),
+        run_(run),
+        coarse_(plan, sweep, integrator, model_at) {}
 
   /// One chain after another.
   void run_chains() {
@@ -280,10 +286,11 @@ class ChainRunner {
   /// Goes to the chain's next point that is not done, with its start.
   /// @returns nothing at the chain's end
   std::optional<std::size_t> advance(const std::vector<std::size_t>& chain, std::size_t& next,
-                                     std::vector<double>& start) const {
+                                     std::vector<double>& start) {
     const std::size_t first = next;
     while (next < chain.size() && done(chain[next])) ++next;
     if (next == chain.size()) return std::nullopt;
+    if (next == 0) start = coarse_.start_of(chain.front(), [this] { return !stopped(); });
     if (next > first) start = run_.end_state(chain[next - 1]);
     return chain[next];
   }
@@ -382,6 +389,7 @@ class ChainRunner {
   const integrate::IntegratorOptions& integrator_;
   const ModelAtPoint& model_at_;
   const SweepRun& run_;
+  CoarsePass coarse_;
   std::atomic<bool> failed_{false};
   std::atomic<std::size_t> next_chain_{0};
   std::mutex mutex_;
@@ -440,6 +448,12 @@ std::string MeshRecord::contact() const {
   add(loss, "loss");
   add(back, "back");
   return text;
+}
+
+bool still_settling(const PointResult& result, const SweepOptions& sweep) {
+  return result.outcome == integrate::Outcome::reached && !result.classified &&
+         result.regime == analysis::Regime::undecided &&
+         analysis::still_settling(result.recurrence, sweep.recurrence_tolerance);
 }
 
 std::vector<std::string> poincare_columns(const model::DynamicModel& model) {

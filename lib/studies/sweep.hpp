@@ -87,6 +87,9 @@ struct PointResult {
   }
 };
 
+/// Not periodic yet, but on its way: a longer look would tell the regime.
+[[nodiscard]] bool still_settling(const PointResult& result, const SweepOptions& sweep);
+
 /// Names of the columns of PointResult::poincare.
 [[nodiscard]] std::vector<std::string> poincare_columns(const model::DynamicModel& model);
 

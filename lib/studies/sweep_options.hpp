@@ -32,7 +32,8 @@ struct SweepOptions {
   int points = 661;
   std::vector<Direction> directions = {Direction::up};
   Start start = Start::carried;
-  int segments = 1;  ///< chains per direction of a carried sweep
+  int segments = 1;         ///< chains per direction of a carried sweep
+  int coarse_periods = 30;  ///< mesh periods of a point in the pass that says where segments start [coarse_pass.hpp]
   Transient transient = Transient::fixed;
   int transient_periods = 300;  ///< mesh periods before the record, if fixed
   int recorded_periods = 128;   ///< mesh periods recorded, one Poincare point each

@@ -111,7 +111,7 @@ template <class T>
 std::array<T, dof> forces(const Parameters<T, planets>& p, std::size_t segment, const T& s,
                           const std::array<T, 2 * dof>& y) {
   const StageState<T, planets> g = stage_state<Layout::full>(p, segment, s, y.data());
-  Coordinates<T, planets> a = accelerations<Layout::full>(p, g);
+  Coordinates<T, planets> a = accelerations(p, g);
   a.x_s *= p.mass_s;
   a.y_s *= p.mass_s;
   a.w_s *= p.inertia_s;

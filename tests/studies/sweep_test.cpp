@@ -104,6 +104,48 @@ TEST(Sweep, RecordsExtremaContactAndPeriodOfAKnownResponse) {
   }
 }
 
+/// A double well with a static load: two equilibria coexist for |value| < 2 / (3 sqrt 3).
+model::DynamicModel wells(double value) {
+  model::DynamicModel m = oscillator(value);
+  m.default_start = {-1.2, 0.0};
+  m.right_hand_side = [value](std::size_t, double, const double* y, double* f) {
+    f[0] = y[1];
+    f[1] = y[0] - y[0] * y[0] * y[0] + value - 0.5 * y[1];
+  };
+  return m;
+}
+
+TEST(Sweep, SegmentsKeepHysteresis) {
+  SweepOptions o = few_points();
+  o.from = -0.6;
+  o.to = 0.6;
+  o.points = 61;
+  o.directions = {Direction::up, Direction::down};
+  const auto position = [](const PointResult& r) { return r.end_state.at(0); };
+  const auto whole = run_sweep_in_memory(plan_sweep(o), o, {}, wells, {});
+  o.segments = 6;
+  const auto parts = run_sweep_in_memory(plan_sweep(o), o, {}, wells, {});
+  ASSERT_EQ(parts.size(), 122U);
+  // Until both jumps both branches are there, and each direction keeps to its own. The transient settles to 1e-4.
+  int two_branches = 0;
+  for (std::size_t k = 0; k < 122; ++k) EXPECT_NEAR(position(parts[k]), position(whole[k]), 1e-3) << k;
+  for (std::size_t k = 0; k < 61; ++k) two_branches += position(parts[121 - k]) - position(parts[k]) > 1.0 ? 1 : 0;
+  EXPECT_GT(two_branches, 30);
+  EXPECT_LT(two_branches, 61);
+  // Cold segments would not: their first point is on the branch of the default start.
+  o.start = Start::cold;
+  const auto cold = run_sweep_in_memory(plan_sweep(o), o, {}, wells, {});
+  EXPECT_GT(position(parts[91]) - position(cold[91]), 1.0);
+  // Threads, and points that are known, change nothing.
+  o.start = Start::carried;
+  SweepRun threads;
+  threads.threads = 3;
+  std::map<std::size_t, PointResult> done;
+  for (const std::size_t k : {0U, 1U, 12U, 30U, 31U, 61U, 90U}) done.emplace(k, parts[k]);
+  const auto again = run_sweep_in_memory(plan_sweep(o), o, {}, wells, std::move(threads), std::move(done));
+  for (std::size_t k = 0; k < 122; ++k) EXPECT_EQ(again[k].poincare, parts[k].poincare) << k;
+}
+
 TEST(Sweep, ThreadsAndResumptionLeaveEachNumberUnchanged) {
   SweepOptions o = few_points();
   o.directions = {Direction::up, Direction::down};

@@ -1,0 +1,39 @@
+#include "studies/coarse_pass.hpp"
+
+#include "integrate/make_flow.hpp"
+#include "integrate/methods.hpp"
+#include "studies/operating_point.hpp"
+
+namespace epicyclic::studies {
+
+std::vector<double> CoarsePass::start_of(std::size_t first, const std::function<bool()>& go_on) {
+  const auto count = static_cast<std::size_t>(sweep_.points);
+  if (sweep_.segments <= 1 || sweep_.start != Start::carried || first % count == 0) return {};
+  const std::size_t direction = first / count;
+  integrate::IntegratorOptions options = integrator_;
+  options.method = integrate::arkode_twin(options.method);  // one trajectory
+  const std::scoped_lock lock(mutex_);
+  Way& way = ways_[direction];
+  for (; way.next < first - direction * count; keep(way, direction * count)) {
+    const model::DynamicModel model = model_at_(plan_.points[direction * count + way.next]);
+    std::vector<double> state = way.state.empty() ? model.default_start : way.state;
+    const auto flow = integrate::make_flow(vector_field(model), options);
+    for (int k = 0; k < sweep_.coarse_periods && !state.empty(); ++k) {
+      if (!go_on()) return {};
+      if (!flow->evolve(state, 0.0, flow->field().period).reached()) state.clear();
+    }
+    way.state = std::move(state);
+  }
+  return way.starts.at(first);
+}
+
+void CoarsePass::keep(Way& way, std::size_t first_of_direction) {
+  ++way.next;
+  const auto count = static_cast<std::size_t>(sweep_.points);
+  const auto segments = static_cast<std::size_t>(sweep_.segments);
+  // Is it the first point of a segment? They start at c count / segments, rounded down.
+  const std::size_t c = (way.next * segments + count - 1) / count;
+  if (c * count / segments == way.next) way.starts[first_of_direction + way.next] = way.state;
+}
+
+}  // namespace epicyclic::studies

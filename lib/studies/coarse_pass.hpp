@@ -1,0 +1,52 @@
+// Where the segments of a carried sweep start: a pass along the whole range, each grid point for a few mesh periods
+// only, that follows the same branches as the sweep in one chain does, so that hysteresis is kept.
+//
+// A segment starts from the pass's state after the point before its first. The pass is a pure function of the input: it
+// is the same whoever asks and whenever, and is computed again by each process that needs it, as far as it needs it.
+//
+// Limits: near a boundary between two basins, and where the sweep in one chain is still settling after its transient, a
+// shorter look may leave the branch earlier or later, and what follows to the next change of the motion differs.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <vector>
+
+#include "studies/sweep.hpp"
+
+namespace epicyclic::studies {
+
+class CoarsePass {
+ public:
+  /// All of them have to live longer.
+  CoarsePass(const SweepPlan& plan, const SweepOptions& sweep, const integrate::IntegratorOptions& integrator,
+             const ModelAtPoint& model_at)
+      : plan_(plan), sweep_(sweep), integrator_(integrator), model_at_(model_at) {}
+
+  /// The state that a chain starts from whose first point is this one; empty, for the default start, at the first point
+  /// of a direction, without segments and after a motion that did not reach its end. May be called from several
+  /// threads.
+  /// @param go_on  returns false to give up: the result is then empty
+  [[nodiscard]] std::vector<double> start_of(std::size_t first, const std::function<bool()>& go_on);
+
+ private:
+  struct Way {
+    std::size_t next = 0;  ///< point that the pass has come to, counted within the direction
+    std::vector<double> state;
+    std::map<std::size_t, std::vector<double>> starts;
+  };
+
+  /// Goes to the next point, and keeps the state if a segment starts there.
+  void keep(Way& way, std::size_t first_of_direction);
+
+  const SweepPlan& plan_;
+  const SweepOptions& sweep_;
+  const integrate::IntegratorOptions& integrator_;
+  const ModelAtPoint& model_at_;
+  std::mutex mutex_;
+  std::map<std::size_t, Way> ways_;  ///< by direction
+};
+
+}  // namespace epicyclic::studies
