@@ -1,6 +1,6 @@
 // The lane ensemble: many trajectories at once, one SIMD lane each, every one with its own phase, step and acceptance.
 //
-//   y' = y + h sum_j b_j k_j ,  e = h sum_j (b_j - b^_j) k_j     Dormand and Prince 5(4), first same as last
+//   y' = y + h sum_j b_j k_j ,  e = h sum_j (b_j - b^_j) k_j     Dormand and Prince 5(4), or Cash and Karp 5(4)
 //   accepted when  | e | <= 1  in the weighted root mean square of integrate/options.hpp, weights of the step's start
 //   h <- h min(20, max(0.1, 0.96 (1.5 |e|)^(-1/5))), kept where it would grow by less than half         [I-lane]
 //
@@ -9,8 +9,8 @@
 //
 // An evolution is begun in a lane and run() goes on until the first one has ended; the caller looks at it, and begins
 // the next one, of the same system or of another. Breakpoints are stepped onto; samples come from the cubic Hermite
-// polynomial through both ends of a step, as ARKODE's do. Source of the pair: J. R. Dormand, P. J. Prince, J. Comput.
-// Appl. Math. 6 (1980) 19.
+// polynomial through both ends of a step, as ARKODE's do. Sources of the pairs: J. R. Dormand, P. J. Prince, J. Comput.
+// Appl. Math. 6 (1980) 19; J. R. Cash, A. H. Karp, ACM Trans. Math. Softw. 16 (1990) 201.
 #pragma once
 
 #include <cstddef>
