@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -293,33 +295,54 @@ double global_error(const epicyclic::model::DynamicModel& model, double toleranc
   return difference / largest;
 }
 
-/// Cost of a mesh period of a periodic orbit at the tolerance that gives a global error of 10^-digits. The error grows
-/// with the tolerance but not smoothly (steps come and go): the tolerance is read from the straight line through the
-/// errors of all tolerances, in twentieths of a decade, whose error is within a factor of 10 of the wanted one.
-/// @tparam Alone  tells the error where Integrator carries other motions too
-template <class Integrator, class Alone = Integrator>
-void mesh_period_at_equal_error(benchmark::State& state) {
-  const auto model = model_at(static_cast<double>(state.range(0)) / 100.0);
-  const State start = on_orbit(model);
-  if (start.empty()) return state.SkipWithError("no attracting periodic orbit here");
-  const State reference = reference_from(model, start);
-  const double wanted = -static_cast<double>(state.range(1));
+/// A periodic orbit's state, empty without one, and where it leads: the same for all integrators and repetitions.
+struct Motion {
+  explicit Motion(double omega) : model(model_at(omega)), start(on_orbit(model)) {
+    if (!start.empty()) reference = reference_from(model, start);
+  }
+  epicyclic::model::DynamicModel model;
+  State start, reference;
+};
+const Motion& motion_at(int omega_percent) {
+  static std::map<int, Motion> motions;
+  return motions.try_emplace(omega_percent, static_cast<double>(omega_percent) / 100.0).first->second;
+}
+
+/// The tolerance that gives a global error of 10^-digits; 0 if there is none. The error grows with the tolerance but
+/// not smoothly (steps come and go): the tolerance is read from the straight line through the errors of all
+/// tolerances, in twentieths of a decade, whose error is within a factor of 10 of the wanted one.
+template <class Integrator>
+double tolerance_for(const Motion& motion, double digits) {
   std::vector<double> tolerances;
   std::vector<double> errors;
   for (int k = 0; k <= 160; ++k) {
     const double tolerance = -12.0 + k / 20.0;
-    const double error = std::log10(global_error<Alone>(model, std::pow(10.0, tolerance), start, reference));
-    if (std::abs(error - wanted) > 1.0) continue;
+    const double error =
+        std::log10(global_error<Integrator>(motion.model, std::pow(10.0, tolerance), motion.start, motion.reference));
+    if (std::abs(error + digits) > 1.0) continue;
     tolerances.push_back(tolerance);
     errors.push_back(error);
   }
-  if (errors.size() < 10) return state.SkipWithError("too few tolerances give an error near the wanted one");
+  if (errors.size() < 10) return 0.0;
   const double slope = epicyclic::fitted_slope(errors, tolerances);
   const auto mean = [](const std::vector<double>& x) {
     return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
   };
-  const double tolerance = std::pow(10.0, mean(tolerances) + slope * (wanted - mean(errors)));
-  Integrator integrator(model, tolerance, start);
+  return std::pow(10.0, mean(tolerances) - slope * (digits + mean(errors)));
+}
+
+/// Cost of a mesh period of a periodic orbit at equal global error.
+/// @tparam Alone  tells the error where Integrator carries other motions too
+template <class Integrator, class Alone = Integrator>
+void mesh_period_at_equal_error(benchmark::State& state) {
+  const Motion& motion = motion_at(static_cast<int>(state.range(0)));
+  if (motion.start.empty()) return state.SkipWithError("no attracting periodic orbit here");
+  static std::map<std::pair<std::int64_t, std::int64_t>, double> known;  // repetitions have the same
+  const auto [found, is_new] = known.try_emplace({state.range(0), state.range(1)});
+  if (is_new) found->second = tolerance_for<Alone>(motion, static_cast<double>(state.range(1)));
+  const double tolerance = found->second;
+  if (tolerance == 0.0) return state.SkipWithError("too few tolerances give an error near the wanted one");
+  Integrator integrator(motion.model, tolerance, motion.start);
   for (auto _ : state) integrator.mesh_period();
   state.counters["rhs_per_period"] = benchmark::Counter(integrator.calls(), benchmark::Counter::kAvgIterations);
   state.counters["tolerance"] = tolerance;

@@ -45,7 +45,7 @@ void lane_kernel(benchmark::State& state) {
     for (std::size_t w = 0; w < lanes.width; ++w) s[w] += 1e-9;
   }
   State f(y.size());
-  const auto operations = epicyclic::model::operations_of_lane(model, 0, 0.0, y.data(), f.data());
+  const auto operations = epicyclic::model::operations_of_lane(model, 0, 0.3, y.data(), f.data());
   state.counters["lanes"] = static_cast<double>(lanes.width);
   state.counters["operations"] = static_cast<double>(operations.arithmetic());
 }

@@ -12,7 +12,7 @@
 #include "analysis/periodic_orbit.hpp"
 #include "analysis/poincare.hpp"
 #include "integrate/make_flow.hpp"
-#include "io/study_model.hpp"
+#include "problems/r1.hpp"
 #include "studies/operating_point.hpp"
 
 namespace epicyclic::bench {
@@ -21,18 +21,14 @@ using State = std::vector<double>;
 inline constexpr double period = 2.0 * std::numbers::pi;
 inline constexpr int orbit_periods = 20;
 
-inline const io::LoadedInput& paper() {
-  static const auto input = io::load_input(EPICYCLIC_SOURCE_DIR "/inputs/tang2020_speed.json");
-  return input;
-}
-
 inline model::DynamicModel model_at(double omega, bool friction = true) {
-  gear::Stage stage = paper().study.stage;
+  const gear::Stage paper = problems::tang2020();
+  gear::Stage stage = paper;
   for (auto* mesh : {&stage.sun_planet_mesh, &stage.ring_planet_mesh}) {
     if (friction) break;
     mesh->friction = {};
   }
-  return model::make_dynamic_model(stage, model::scales_of(paper().study.stage), omega, {});
+  return model::make_dynamic_model(stage, model::scales_of(paper), omega, {});
 }
 
 inline integrate::IntegratorOptions options(double tolerance, std::string method = "arkode-dopri5") {
