@@ -381,6 +381,7 @@ template <Layout L, class T, class P, std::size_t N, class Places>
   using Group = Planets<N, 1>;
   Coordinates<T, N> a;
   Reactions<T> total;
+  // Each planet's arithmetic waits for itself: unrolled, the next one's fills the time.
 #pragma GCC unroll 8
   for (std::size_t i = 0; i < N; ++i) {
     Coordinates<T, 1> own;
