@@ -70,7 +70,7 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
 
 int lead(const Arguments& arguments, std::string_view command, std::string_view noun,
          const std::function<WrittenPoints(const ComputedPoints&)>& write, SweepLeader* leader) {
-  stop_on_signals();
+  stop_on_signals(leader != nullptr ? patience_of_ranks : patience);
   const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
   require_kind(input, arguments, command);
   const studies::SweepPlan plan = io::plan_of(input.study);

@@ -49,7 +49,7 @@ std::string bytes_of(const std::vector<T>& values) {
 template <class T>
 std::vector<T> values_of(const std::string& bytes) {
   std::vector<T> values(bytes.size() / sizeof(T));
-  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
   return values;
 }
 
@@ -370,7 +370,7 @@ void compute_share(const Arguments& arguments, const io::LoadedInput& input, con
 
 int follow(const Arguments& arguments, std::string_view command) {
   Ranks& ranks = *arguments.ranks;
-  stop_on_signals();
+  stop_on_signals(patience_of_ranks);
   std::optional<io::LoadedInput> input;
   std::string identity;
   std::exception_ptr error;

@@ -1,7 +1,10 @@
 #include "stop.hpp"
 
+#include <cerrno>
 #include <csignal>
+#include <ctime>
 #include <string_view>
+#include <system_error>
 
 #include <unistd.h>
 
@@ -14,8 +17,9 @@ namespace {
 std::atomic<bool> requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "the signal handler may only touch lock-free atomics");
 
-/// Half of the two seconds within which the program promises to end [s].
-constexpr unsigned patience = 1;
+/// Set before the handlers that use them are.
+timer_t last_call;
+itimerspec patience_left{};
 
 // Signal handlers: async-signal-safe calls only.
 
@@ -27,14 +31,22 @@ void end_at_once(int /*signal*/) {
 
 void request(int /*signal*/) {
   // Repeated signals do not put the end off.
-  if (!requested.exchange(true)) ::alarm(patience);
+  if (!requested.exchange(true)) ::timer_settime(last_call, 0, &patience_left, nullptr);
 }
 
 }  // namespace
 
 const std::atomic<bool>& stop_requested() { return requested; }
 
-void stop_on_signals() {
+void stop_on_signals(std::chrono::milliseconds until_the_end) {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(until_the_end);
+  patience_left.it_value.tv_sec = seconds.count();
+  patience_left.it_value.tv_nsec = std::chrono::nanoseconds(until_the_end - seconds).count();
+  sigevent alarm{};
+  alarm.sigev_notify = SIGEV_SIGNAL;
+  alarm.sigev_signo = SIGALRM;
+  if (::timer_create(CLOCK_MONOTONIC, &alarm, &last_call) != 0)
+    throw std::system_error(errno, std::generic_category(), "no timer");
   std::signal(SIGALRM, end_at_once);
   std::signal(SIGINT, request);
   std::signal(SIGTERM, request);

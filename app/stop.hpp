@@ -3,17 +3,23 @@
 // The first of them raises a flag, at which a study gives up the points under way, leaves its folder in order and ends
 // with code 75, commonly within milliseconds. What does not look at the flag for a second (a mesh period that takes
 // minutes, the writing of large results) is ended there with the same code: a folder is sound at any moment, as after
-// kill -9, so that this costs nothing but the state "stopped" in run.json.
+// kill -9, so that this costs nothing but the state "stopped" in run.json. Ranks have half of that: Open MPI's mpirun
+// passes a SIGTERM or SIGINT on after a second, answers none of them any more, and kills them a second later.
 #pragma once
 
 #include <atomic>
+#include <chrono>
 
 namespace epicyclic::app {
 
 /// Set by the first SIGINT or SIGTERM after stop_on_signals().
 [[nodiscard]] const std::atomic<bool>& stop_requested();
 
-/// To be called before anything is written.
-void stop_on_signals();
+/// Half of the two seconds within which the program promises to end; and that of ranks.
+constexpr std::chrono::milliseconds patience{1000};
+constexpr std::chrono::milliseconds patience_of_ranks{500};
+
+/// To be called once, before anything is written.
+void stop_on_signals(std::chrono::milliseconds until_the_end = patience);
 
 }  // namespace epicyclic::app

@@ -15,6 +15,7 @@
 #include "io/cell_figure.hpp"
 #include "io/csv.hpp"
 #include "io/hdf5_file.hpp"
+#include "io/plane_output.hpp"
 
 namespace epicyclic::io {
 
@@ -102,10 +103,10 @@ std::string component_label(const std::string& component) {
 
 void write_basins_csv(const std::filesystem::path& file, const std::vector<PointResult>& results,
                       const Attractors& attractors) {
-  write_points_csv(
-      file, points_in_memory(results),
-      {{"second_value", [](const PointResult& r) { return r.point.second_value; }},
-       {"attractor", [&](const PointResult& r) { return static_cast<double>(attractors.number[r.point.index]); }}});
+  write_points_csv(file, points_in_memory(results),
+                   {second_value_column(), {"attractor", [&](const PointResult& r) {
+                                              return static_cast<double>(attractors.number[r.point.index]);
+                                            }}});
 }
 
 void write_attractors_csv(const std::filesystem::path& file, const BasinsOutput& output,
@@ -131,20 +132,10 @@ void write_attractors_csv(const std::filesystem::path& file, const BasinsOutput&
 void write_basins_h5(const std::filesystem::path& file, const BasinsOutput& output,
                      const std::vector<PointResult>& results, const Attractors& attractors) {
   Hdf5File h5(file);
-  h5.set_attribute("/", "input_resolved", output.resolved_input);
-  h5.set_attribute("/", "component", output.plane.first.name);
-  h5.set_attribute("/", "second_component", output.plane.second.name);
-  write_point_columns(h5, points_in_memory(results));
-  std::vector<double> second;
-  for (const PointResult& r : results) second.push_back(r.point.second_value);
-  h5.write("/points/second_value", std::span<const double>(second));
+  // The matrix: rows along the second component, columns along the first, both ascending.
+  write_plane(h5, "/basins", "component", output.plane, output.resolved_input, results);
   const std::vector<std::int64_t> numbers(attractors.number.begin(), attractors.number.end());
   h5.write("/points/attractor", std::span<const std::int64_t>(numbers));
-
-  // Rows along the second component, columns along the first, both ascending.
-  h5.create_group("/basins");
-  h5.write("/basins/value", std::span<const double>(axis_values(output.plane.first)));
-  h5.write("/basins/second_value", std::span<const double>(axis_values(output.plane.second)));
   h5.write("/basins/attractor", std::span<const std::int64_t>(numbers),
            static_cast<std::size_t>(output.plane.second.points), static_cast<std::size_t>(output.plane.first.points));
 

@@ -8,6 +8,7 @@
 
 #include "io/cell_figure.hpp"
 #include "io/hdf5_file.hpp"
+#include "io/plane_output.hpp"
 #include "studies/plane.hpp"
 
 namespace epicyclic::io {
@@ -59,24 +60,13 @@ std::size_t class_of(const PointResult& r) {
 }  // namespace
 
 void write_map_csv(const std::filesystem::path& file, const std::vector<PointResult>& results) {
-  write_points_csv(file, points_in_memory(results),
-                   {{"second_value", [](const PointResult& r) { return r.point.second_value; }}});
+  write_points_csv(file, points_in_memory(results), {second_value_column()});
 }
 
 void write_map_h5(const std::filesystem::path& file, const MapOutput& output, const std::vector<PointResult>& results) {
   Hdf5File h5(file);
-  h5.set_attribute("/", "input_resolved", output.resolved_input);
-  h5.set_attribute("/", "parameter", output.plane.first.name);
-  h5.set_attribute("/", "second_parameter", output.plane.second.name);
-  write_point_columns(h5, points_in_memory(results));
-  std::vector<double> second;
-  for (const PointResult& r : results) second.push_back(r.point.second_value);
-  h5.write("/points/second_value", std::span<const double>(second));
-
-  // Rows along the second parameter, columns along the first, both ascending.
-  h5.create_group("/map");
-  h5.write("/map/value", std::span<const double>(axis_values(output.plane.first)));
-  h5.write("/map/second_value", std::span<const double>(axis_values(output.plane.second)));
+  // Matrices: rows along the second parameter, columns along the first, both ascending.
+  write_plane(h5, "/map", "parameter", output.plane, output.resolved_input, results);
   const auto columns = static_cast<std::size_t>(output.plane.first.points);
   const auto rows = static_cast<std::size_t>(output.plane.second.points);
   for (const Direction direction : output.sweep.directions) {

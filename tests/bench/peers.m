@@ -3,6 +3,7 @@
 %   octave-cli --path FOLDER_OF_peer_rhs.mex peers.m OMEGA DIGITS REPETITIONS SECONDS
 % Prints right-hand sides a period, microseconds a period and the tolerance.
 1;
+crash_dumps_octave_core (false);
 
 function [y, step] = mesh_period (y, step, stops, tolerance)
   s = 0;

@@ -3,36 +3,14 @@
 #
 # `basins`: tables, figure, attractors counted, the same bytes at 1, 2 and 3 threads and after kills, bad input.
 set -euo pipefail
-
-epicyclic=$1
-inputs=$2/inputs
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-failed=0
-
-fail() {
-  echo "FAILED: $1"
-  failed=$((failed + 1))
-}
-
-code_of() {
-  local code=0
-  "$@" >stdout 2>stderr </dev/null || code=$?
-  echo "$code"
-}
+source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 
 # At this speed every start that is near leads to one orbit of period 1.
 small=(--set /operation/mesh_frequency_ratio=2.8 --set /study/first/points=3 --set /study/second/points=2
   --set /study/transient_periods=100 --set /study/recorded_periods=32)
 basins() { "$epicyclic" basins "$inputs/tang2020_basins.json" "${small[@]}" "$@"; }
 
-same_results() {
-  local file
-  for file in points.csv attractors.csv results.h5 input.json input.resolved.json figures/basins.dat; do
-    cmp -s "$1/$file" "$2/$file" || fail "$file differs between $1 and $2"
-  done
-}
+result_files=(points.csv attractors.csv results.h5 input.json input.resolved.json figures/basins.dat)
 
 for threads in 1 2 3; do
   [ "$(code_of basins -o "t$threads" --threads "$threads")" = 0 ] || fail "basins with $threads threads: $(<stderr)"
@@ -57,17 +35,8 @@ cmp -s t1/points.csv resolved/points.csv || fail "the resolved input gives other
 grep -q '^1,periodic,1,6,1,' base/attractors.csv || fail "with a base: $(cut -c1-200 base/attractors.csv)"
 cmp -s t1/points.csv base/points.csv && fail "the base must move the starts"
 
-# Stopped and killed: the same bytes.
-kills=0
-for tenths in $(seq 1 100); do
-  code=0
-  timeout -s KILL "$((tenths / 10)).$((tenths % 10))" "$epicyclic" basins "$inputs/tang2020_basins.json" "${small[@]}" \
-    -o cut --threads 2 >stdout 2>stderr </dev/null || code=$?
-  [ "$code" = 0 ] && break
-  [ "$code" = 137 ] || fail "killed basins ended with $code: $(<stderr)"
-  kills=$((kills + 1))
-done
-[ "$kills" -gt 0 ] || fail "no run was killed"
+# Killed again and again: the same bytes.
+killed_until_done 100 "$epicyclic" basins "$inputs/tang2020_basins.json" "${small[@]}" -o cut --threads 2
 same_results t1 cut
 
 refused() {
@@ -83,5 +52,4 @@ refused --set '/study/base={"y_s": "much"}'
 refused --set /study/first/parameter=x_s
 [ "$(code_of "$epicyclic" sweep "$inputs/tang2020_basins.json" -o refused)" = 2 ] || fail "basins are no sweep"
 
-[ "$failed" = 0 ] || exit 1
-echo "all checks passed"
+finish

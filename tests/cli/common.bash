@@ -32,11 +32,28 @@ code_of() {
   echo "$code"
 }
 
+# What a study must have the same bytes in; scripts on other kinds than sweeps have a list of their own.
+result_files=(points.csv poincare.csv results.h5 input.json input.resolved.json figures/bifurcation_delta_sp.dat)
 same_results() {
   local file
-  for file in points.csv poincare.csv results.h5 input.json input.resolved.json figures/bifurcation_delta_sp.dat; do
+  for file in "${result_files[@]}"; do
     cmp -s "$1/$file" "$2/$file" || fail "$file differs between $1 and $2"
   done
+}
+
+# Kills a study again and again, $1 milliseconds later each time, until it ends by itself.
+killed_until_done() {
+  local step=$1 code ms kills=0
+  shift
+  for ((ms = step; ms < 100 * step; ms += step)); do
+    code=0
+    timeout -s KILL "$(printf '%d.%03d' $((ms / 1000)) $((ms % 1000)))" "$@" >stdout 2>stderr </dev/null || code=$?
+    [ "$code" != 0 ] || break
+    [ "$code" = 137 ] || fail "killed, it ended with $code: $(<stderr)"
+    kills=$((kills + 1))
+  done
+  [ "$code" = 0 ] || fail "not done after $kills kills"
+  [ "$kills" -gt 0 ] || fail "no run was killed"
 }
 
 # A random moment in seconds, up to $1 milliseconds.

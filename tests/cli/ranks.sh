@@ -6,25 +6,9 @@
 # once, by its exit code. Skipped (77) without MPI.
 set -euo pipefail
 
-epicyclic=$1
-inputs=$2/inputs
-"$epicyclic" --version | grep -q '^MPI ' || { echo "built without MPI"; exit 77; }
-command -v mpirun >/dev/null || { echo "no mpirun"; exit 77; }
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-failed=0
-
-fail() {
-  echo "FAILED: $1"
-  failed=$((failed + 1))
-}
-
-code_of() {
-  local code=0
-  "$@" >stdout 2>stderr </dev/null || code=$?
-  echo "$code"
-}
+source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
+"$epicyclic" --version | grep -q '^MPI ' || skip "built without MPI"
+command -v mpirun >/dev/null || skip "no mpirun"
 
 # More ranks than cores are enough for bytes; Open MPI wants to be asked for that, and for running as root.
 launch=(mpirun --oversubscribe)
@@ -34,13 +18,6 @@ study=(sweep "$inputs/tang2020_speed.json" --set /study/points=8 --set /study/tr
   --set /study/recorded_periods=8 --set /study/classification_periods=64 --set '/study/start="cold"')
 carried=("${study[@]}" --set '/study/start="carried"')
 lanes=("${study[@]}" --set '/integrator/method="lanes-dopri5"')
-
-same_results() {
-  local file
-  for file in points.csv poincare.csv results.h5 input.json input.resolved.json figures/bifurcation_delta_sp.dat; do
-    cmp -s "$1/$file" "$2/$file" || fail "$file differs between $1 and $2"
-  done
-}
 
 for kind in study carried lanes; do
   declare -n arguments=$kind
@@ -76,7 +53,9 @@ for victim in 0 1; do
   done
 done
 
-# SIGTERM to mpirun: all ranks are gone within 2 s.
+# SIGTERM to mpirun: the ranks are gone within the contract's 2 s, mpirun, which gives them as long, right after.
+# A process that has ended may wait for somebody to ask how (Z).
+under_way() { grep -qE '^[0-9]+ \([^)]*\) [^ZX]' "/proc/$1/stat" 2>/dev/null; }
 long=("${carried[@]}" --set /study/transient_periods=100000)
 for signal in TERM INT; do
   rm -rf stopped
@@ -85,20 +64,21 @@ for signal in TERM INT; do
   sleep 1.5
   mapfile -t ranks < <(pgrep -P $pid -x epicyclic || true)
   [ ${#ranks[@]} = 2 ] || fail "not two ranks but ${#ranks[@]}: $(<stderr)"
-  start=$(date +%s%N)
+  start=$(date +%s%3N)
   kill -s $signal $pid
+  for rank in "${ranks[@]}"; do
+    while under_way "$rank" && [ $(($(date +%s%3N) - start)) -lt 5000 ]; do sleep 0.01; done
+  done
+  gone=$(($(date +%s%3N) - start))
+  [ $gone -le 2000 ] || fail "SIG$signal: a rank is still there after $gone ms"
   code=0
   wait $pid || code=$?
-  took=$((($(date +%s%N) - start) / 1000000))
+  took=$(($(date +%s%3N) - start))
   [ "$code" != 0 ] || fail "SIG$signal: exit code 0"
   [ $took -lt 2500 ] || fail "SIG$signal: took $took ms"
-  # A process that has ended may wait for somebody to ask how (Z).
-  for rank in "${ranks[@]}"; do
-    ! grep -qE '^[0-9]+ \([^)]*\) [^ZX]' "/proc/$rank/stat" 2>/dev/null || fail "SIG$signal: a rank is still there"
-  done
   # mpirun's own exit code, when it is mpirun that was signalled, is 1; the study says what became of it.
   grep -q '"state": *"stopped"' stopped/run.json || fail "SIG$signal: the study is not stopped"
-  echo "SIG$signal: exit code $code after $took ms"
+  echo "SIG$signal: ranks gone after $gone ms, exit code $code after $took ms"
 done
 # To one rank: all stop, and say so once.
 rm -rf stopped
@@ -160,5 +140,4 @@ if [ "$(id -u)" = 0 ] && unshare -m true 2>/dev/null; then
   same_results study full
 fi
 
-echo "$failed failures"
-[ "$failed" = 0 ]
+finish

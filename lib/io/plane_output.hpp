@@ -1,0 +1,22 @@
+// What maps and basins have in common in their folders.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/hdf5_file.hpp"
+#include "io/sweep_output.hpp"
+#include "studies/plane_options.hpp"
+#include "studies/sweep.hpp"
+
+namespace epicyclic::io {
+
+/// Of points.csv.
+[[nodiscard]] PointColumn second_value_column();
+
+/// The input, what the axes are, the group /points, and `group` with the values along both axes, ascending.
+/// @param axis  "parameter" or "component": of the attributes
+void write_plane(Hdf5File& h5, const std::string& group, const std::string& axis, const studies::PlaneOptions& plane,
+                 const std::string& resolved_input, const std::vector<studies::PointResult>& results);
+
+}  // namespace epicyclic::io
