@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <initializer_list>
 #include <limits>
 #include <new>
@@ -47,6 +45,26 @@ struct Pair {
   std::array<Terms, most_stages> rows;    ///< of A, from the second on
   Terms weights;                          ///< b
   Terms differences;                      ///< b - b^
+
+  /// Slopes at one node are taken at one place: the places' nodes, and which one each slope has. Place 0 is the step's
+  /// start, `end` its end.
+  struct Places {
+    std::size_t count = 0;
+    std::size_t end = 0;
+    std::array<double, most_stages> node{};
+    std::array<std::size_t, most_stages> of{};
+  };
+  [[nodiscard]] constexpr Places places() const {
+    Places p;
+    for (std::size_t j = 0; j < stages; ++j) {
+      std::size_t k = 0;
+      while (k < p.count && p.node[k] != nodes[j]) ++k;
+      if (k == p.count) p.node[p.count++] = nodes[j];
+      if (nodes[j] == 1.0) p.end = k;
+      p.of[j] = k;
+    }
+    return p;
+  }
 };
 
 constexpr std::array<Pair, 2> pairs = {{
@@ -85,14 +103,9 @@ const Pair& pair_of(const std::string& method) {
   return *it;
 }
 
-// ARKODE's I controller.
-constexpr double safety = 0.96;
-constexpr double bias = 1.5;
-constexpr double most_growth = 20.0;
+/// Of ARKODE's controller after a refusal; the rest of it is in the kernels.
 constexpr double least_shrinkage = 0.1;
-constexpr double worth_growing = 1.5;
-/// After two refusals in a row.
-constexpr double refused_again = 0.3;
+constexpr double refused_again = 0.3;  ///< after two in a row
 /// A step is no step when s does not move, or hardly.
 constexpr double least_step = 1e-14;
 
@@ -115,24 +128,6 @@ class Numbers {
   std::unique_ptr<double, Deleter> data_;
 };
 
-/// x^(-1/5) of x > 0 by Newton's method on y^-5 = x, from a straight line through the exponents that is within 4 %. The
-/// library's pow() need not have the same bits on another machine. 0 for what is infinite or no number.
-double inverse_fifth_root(double x) {
-  if (!(x < std::numeric_limits<double>::infinity())) return 0.0;
-  constexpr auto one = std::bit_cast<std::uint64_t>(1.0);
-  auto y = std::bit_cast<double>(one + one / 5 - std::bit_cast<std::uint64_t>(x) / 5);
-  for (int k = 0; k < 4; ++k) {
-    const double square = y * y;
-    y *= 1.2 - 0.2 * (x * y) * (square * square);
-  }
-  return y;
-}
-
-double factor(double norm) {
-  constexpr double tiny = 1e-10;
-  return safety * inverse_fifth_root(bias * std::max(norm, tiny));
-}
-
 }  // namespace
 
 LaneField one_by_one(std::size_t width, std::size_t dimension) {
@@ -143,7 +138,7 @@ LaneField one_by_one(std::size_t width, std::size_t dimension) {
   };
   struct All {
     std::vector<Lane> lanes;
-    std::vector<double> y, f;
+    std::vector<double> places, y, f;
   };
   const auto all = std::make_shared<All>();
   all->lanes.resize(width);
@@ -158,7 +153,9 @@ LaneField one_by_one(std::size_t width, std::size_t dimension) {
     all->lanes[lane] = {system.right_hand_side, 0};
   };
   field.set_segment = [all](std::size_t lane, std::size_t segment) { all->lanes[lane].segment = segment; };
-  field.right_hand_side = [all, width, dimension](const double* s, const double* y, double* dyds) {
+  field.set_places = [all, width](std::size_t count, const double* s) { all->places.assign(s, s + count * width); };
+  field.right_hand_side = [all, width, dimension](std::size_t place, const double* y, double* dyds) {
+    const double* const s = all->places.data() + place * width;
     for (std::size_t lane = 0; lane < width; ++lane) {
       const Lane& own = all->lanes[lane];
       if (!own.right_hand_side) continue;
@@ -176,6 +173,7 @@ class LaneEnsemble::Impl {
       : field_(std::move(field)),
         options_(options),
         pair_(pair_of(options.method)),
+        places_(pair_.places()),
         kernels_(kernels),
         w_(kernels.width),
         n_(field_.dimension),
@@ -183,11 +181,7 @@ class LaneEnsemble::Impl {
         next_(n_ * w_),
         k_{Numbers(n_ * w_), Numbers(n_ * w_), Numbers(n_ * w_), Numbers(n_ * w_),
            Numbers(n_ * w_), Numbers(n_ * w_), Numbers(n_ * w_)},
-        s_(w_),
-        at_(w_),
-        h_(w_),
-        norm_(w_),
-        largest_(w_),
+        at_(most_stages * w_),
         lanes_(w_),
         sample_(n_) {
     if (options_.locate_contacts) throw InputError("lanes do not locate contact changes");
@@ -206,6 +200,7 @@ class LaneEnsemble::Impl {
     Lane& l = lanes_[lane];
     l = {};
     l.system = &system;
+    steps_.attempts[lane] = 0;
   }
 
   void begin(std::size_t lane, std::span<const double> state, double from, double to, std::span<const double> samples,
@@ -215,8 +210,6 @@ class LaneEnsemble::Impl {
       throw InputError("a state of " + std::to_string(state.size()) + " numbers for a field of dimension " +
                        std::to_string(n_));
     for (std::size_t i = 0; i < n_; ++i) y_[i * w_ + lane] = state[i];
-    s_[lane] = from;
-    l.to = to;
     l.samples = samples;
     l.observer = observer ? &observer : nullptr;
     l.next_sample = 0;
@@ -224,10 +217,17 @@ class LaneEnsemble::Impl {
     l.stops.push_back(to);
     l.next_stop = 0;
     const double periods = l.system->period > 0.0 ? std::ceil((to - from) / l.system->period) : 1.0;
-    l.attempts_left = static_cast<long>(std::max(1.0, periods)) * options_.max_steps_per_period;
     l.refusals = 0;
     l.evolution = {Outcome::reached, from, {}};
-    l.busy = true;
+    if (!std::exchange(l.busy, true)) ++running_;
+    steps_.s[lane] = from;
+    steps_.stop[lane] = l.stops.front();
+    steps_.proposed[lane] = l.proposed;
+    steps_.running[lane] = all_bits;
+    steps_.refused[lane] = 0;
+    steps_.allowed[lane] =
+        steps_.attempts[lane] + static_cast<long long>(std::max(1.0, periods)) * options_.max_steps_per_period;
+    await_sample(lane);
     enter_segment(lane);
   }
 
@@ -236,9 +236,9 @@ class LaneEnsemble::Impl {
   std::size_t run() {
     for (std::size_t lane = 0; lane < w_; ++lane)
       if (lanes_[lane].busy && lanes_[lane].ended) return take(lane);
-    if (std::none_of(lanes_.begin(), lanes_.end(), [](const Lane& l) { return l.busy; })) return w_;
+    if (running_ == 0) return w_;
     for (;;) {
-      step();
+      if (!step()) continue;
       for (std::size_t lane = 0; lane < w_; ++lane)
         if (lanes_[lane].ended) return take(lane);
     }
@@ -250,32 +250,44 @@ class LaneEnsemble::Impl {
   }
   double next_step(std::size_t lane) const { return lanes_[lane].proposed; }
   void set_next_step(std::size_t lane, double step) { lanes_[lane].proposed = step; }
-  Work work(std::size_t lane) const { return lanes_[lane].work; }
-  double occupancy() const { return evaluated_ == 0 ? 0.0 : under_way_ / (static_cast<double>(evaluated_ * w_)); }
+  Work work(std::size_t lane) const {
+    Work work;
+    work.steps = static_cast<long>(steps_.attempts[lane]);
+    work.right_hand_sides =
+        lanes_[lane].more_slopes + work.steps * static_cast<long>(pair_.stages - (pair_.first_same_as_last ? 1 : 0));
+    return work;
+  }
+  double occupancy() const {
+    return evaluated_ == 0 ? 0.0 : static_cast<double>(under_way_) / static_cast<double>(evaluated_ * w_);
+  }
 
  private:
+  static constexpr long long all_bits = -1;
+
   struct Lane {
     const VectorField* system = nullptr;
     bool busy = false;
     bool ended = false;
-    bool fresh = false;  ///< its first slope is not that of this place yet
-    double to = 0;
-    double proposed = 0;  ///< length of the next step; 0 if not known
-    double tried = 0;     ///< length of this step
-    bool cut = false;     ///< to a stop
-    int refusals = 0;     ///< in a row
-    long attempts_left = 0;
+    bool fresh = false;         ///< its first slope is not that of this place yet
+    double proposed = 0;        ///< length of the next evolution's first step; 0 if not known
+    int refusals = 0;           ///< in a row
     std::vector<double> stops;  ///< breakpoints on the way, and the end
     std::size_t next_stop = 0;
     std::span<const double> samples;
     const Observer* observer = nullptr;
     std::size_t next_sample = 0;
     Evolution evolution;
-    Work work;
+    long more_slopes = 0;  ///< than those of its attempts, since it was loaded
   };
 
   std::size_t take(std::size_t lane) {
-    lanes_[lane].busy = lanes_[lane].ended = false;
+    Lane& l = lanes_[lane];
+    l.busy = l.ended = false;
+    l.proposed = steps_.proposed[lane];
+    // An idle lane takes steps of length 0.
+    steps_.proposed[lane] = 0.0;
+    steps_.running[lane] = 0;
+    --running_;
     return lane;
   }
 
@@ -286,12 +298,19 @@ class LaneEnsemble::Impl {
 
   void enter_segment(std::size_t lane) {
     Lane& l = lanes_[lane];
-    field_.set_segment(lane, segment_after(*l.system, s_[lane]));
+    field_.set_segment(lane, segment_after(*l.system, steps_.s[lane]));
     l.fresh = true;
+    ++fresh_;
   }
 
-  void evaluate(const double* s, const double* y, Numbers& slope) {
-    field_.right_hand_side(s, y, slope.get());
+  /// Tells the field the step's places, without that of its start if its slopes are there.
+  void set_places(bool with_start) {
+    first_place_ = with_start ? 0 : 1;
+    field_.set_places(places_.count - first_place_, at_.get() + first_place_ * w_);
+  }
+
+  void evaluate(std::size_t place, const double* y, Numbers& slope) {
+    field_.right_hand_side(place - first_place_, y, slope.get());
     ++evaluated_;
     under_way_ += running_;
   }
@@ -304,84 +323,105 @@ class LaneEnsemble::Impl {
   }
 
   void advance_by(const Terms& terms) {
-    kernels_.stage(n_, terms.count, terms.weight.data(), slopes_of(terms).data(), h_.get(), y_.get(), next_.get());
+    kernels_.stage(n_, terms.count, terms.weight.data(), slopes_of(terms).data(), steps_.h.data(), y_.get(),
+                   next_.get());
   }
 
-  /// The first slope of each lane's step.
-  void take_first_slopes() {
-    if (pair_.first_same_as_last &&
-        std::none_of(lanes_.begin(), lanes_.end(), [](const Lane& l) { return l.busy && l.fresh; }))
-      return;
-    // Lanes that have theirs take them anew at the same places: the same bits.
-    evaluate(s_.get(), y_.get(), k_[0]);
+  /// The first slope of each lane's step. Lanes that have theirs take them anew at the same places: the same bits.
+  void take_first_slopes(std::size_t place) {
+    evaluate(place, y_.get(), k_[0]);
+    if (fresh_ == 0) return;
     for (Lane& l : lanes_) {
-      if (l.busy && (l.fresh || !pair_.first_same_as_last)) ++l.work.right_hand_sides;
+      if (l.busy && l.fresh && pair_.first_same_as_last) ++l.more_slopes;
       l.fresh = false;
     }
+    fresh_ = 0;
   }
 
   /// Slopes at the ends of the steps, if a sample inside of one is wanted.
-  void take_last_slopes(const std::array<long long, most_lanes>& accepted) {
+  void take_last_slopes() {
     if (pair_.first_same_as_last) return;
     bool wanted = false;
     for (std::size_t lane = 0; lane < w_; ++lane) {
-      Lane& l = lanes_[lane];
-      if (accepted[lane] == 0 || l.next_sample == l.samples.size() || l.samples[l.next_sample] >= arrival(lane))
-        continue;
-      ++l.work.right_hand_sides;
+      if (steps_.accepted[lane] == 0 || steps_.sample[lane] >= steps_.end[lane]) continue;
+      ++lanes_[lane].more_slopes;
       wanted = true;
     }
-    if (wanted) evaluate(at_.get(), next_.get(), k_[most_stages - 1]);
+    if (wanted) evaluate(places_.end, next_.get(), k_[most_stages - 1]);
+  }
+
+  /// A first guess of a step's length is made of the slope.
+  bool needs_guess(std::size_t lane) const { return lanes_[lane].busy && steps_.proposed[lane] <= 0.0; }
+
+  void guess_first_steps() {
+    bool needed = false;
+    for (std::size_t lane = 0; lane < w_; ++lane) needed = needed || needs_guess(lane);
+    if (!needed) return;
+    first_place_ = 0;
+    field_.set_places(1, steps_.s.data());
+    take_first_slopes(0);
+    have_first_ = true;
+    for (std::size_t lane = 0; lane < w_; ++lane)
+      if (needs_guess(lane)) steps_.proposed[lane] = first_step(lane);
   }
 
   /// One attempt in each lane.
-  void step() {
-    running_ = static_cast<double>(std::count_if(lanes_.begin(), lanes_.end(), [](const Lane& l) { return l.busy; }));
-    take_first_slopes();
-    for (std::size_t lane = 0; lane < w_; ++lane) {
-      Lane& l = lanes_[lane];
-      h_[lane] = 0.0;
-      if (!l.busy) continue;
-      if (l.proposed <= 0.0) l.proposed = first_step(lane);
-      const double left = l.stops[l.next_stop] - s_[lane];
-      constexpr double nearly = 1e-10;  // of a step: not worth one of its own
-      l.cut = l.proposed * (1.0 + nearly) >= left;
-      l.tried = h_[lane] = l.cut ? left : l.proposed;
+  /// @returns whether a lane may have ended
+  bool step() {
+    // The field still has the places of the last step, at whose end all lanes are.
+    have_first_ = fresh_ == 0 && pair_.first_same_as_last;
+    if (fresh_ > 0) {
+      guess_first_steps();
+    } else if (!have_first_ && all_at_end_) {
+      take_first_slopes(places_.end);
+      have_first_ = true;
     }
+    kernels_.measure(steps_, places_.count, places_.node.data(), at_.get());
+    first_place_ = have_first_ ? 1 : 0;
+    field_.set_places(places_.count - first_place_, at_.get() + first_place_ * w_);
+    if (!have_first_) take_first_slopes(0);
     for (std::size_t j = 1; j < pair_.stages; ++j) {
       advance_by(pair_.rows[j]);
-      for (std::size_t lane = 0; lane < w_; ++lane)
-        at_[lane] = pair_.nodes[j] == 1.0 ? arrival(lane) : s_[lane] + pair_.nodes[j] * h_[lane];
-      evaluate(at_.get(), next_.get(), k_[j]);
+      evaluate(places_.of[j], next_.get(), k_[j]);
     }
-    if (!pair_.first_same_as_last) {
-      advance_by(pair_.weights);
-      for (std::size_t lane = 0; lane < w_; ++lane) at_[lane] = arrival(lane);
-    }
+    if (!pair_.first_same_as_last) advance_by(pair_.weights);
     const Terms& e = pair_.differences;
-    kernels_.error(controlled_, e.count, e.weight.data(), slopes_of(e).data(), h_.get(), y_.get(), next_.get(),
-                   options_.relative_tolerance, options_.absolute_tolerance, norm_.get(), largest_.get());
+    kernels_.error(controlled_, e.count, e.weight.data(), slopes_of(e).data(), steps_.h.data(), y_.get(), next_.get(),
+                   options_.relative_tolerance, options_.absolute_tolerance, steps_.norm.data(), steps_.largest.data());
     for (std::size_t j = 1; j <= vectors_; ++j) worst_with_vector(j);
-    alignas(64) std::array<long long, most_lanes> accepted{};
+    const bool eventful = kernels_.judge(steps_, options_.escape_bound);
+    if (eventful) look_closer();
     std::size_t taken = 0;
-    for (std::size_t lane = 0; lane < w_; ++lane) {
-      if (!lanes_[lane].busy || !judge(lane)) continue;
-      accepted[lane] = 1;
-      ++taken;
-    }
-    take_last_slopes(accepted);
-    for (std::size_t lane = 0; lane < w_; ++lane)
-      if (accepted[lane] != 0) observe(lane, at_[lane]);
+    for (std::size_t lane = 0; lane < w_; ++lane) taken += steps_.accepted[lane] != 0 ? 1 : 0;
+    all_at_end_ = taken == running_;
     Numbers& last = k_[most_stages - 1];
     if (taken == w_) {
       std::swap(y_, next_);
       if (pair_.first_same_as_last) std::swap(k_[0], last);
     } else {
-      kernels_.accept(n_, accepted.data(), next_.get(), y_.get());
-      if (pair_.first_same_as_last) kernels_.accept(n_, accepted.data(), last.get(), k_[0].get());
+      kernels_.accept(n_, steps_.accepted.data(), next_.get(), y_.get());
+      if (pair_.first_same_as_last) kernels_.accept(n_, steps_.accepted.data(), last.get(), k_[0].get());
     }
     for (std::size_t lane = 0; lane < w_; ++lane)
-      if (accepted[lane] != 0) arrive(lane, at_[lane]);
+      if (steps_.accepted[lane] != 0) steps_.s[lane] = steps_.end[lane];
+    if (eventful) arrive();
+    return eventful;
+  }
+
+  /// At lanes whose steps were refused, and at samples.
+  void look_closer() {
+    for (std::size_t lane = 0; lane < w_; ++lane) {
+      if (!lanes_[lane].busy) continue;
+      if (steps_.accepted[lane] == 0) {
+        refuse(lane);
+      } else {
+        lanes_[lane].refusals = 0;
+        steps_.refused[lane] = 0;
+      }
+    }
+    take_last_slopes();
+    for (std::size_t lane = 0; lane < w_; ++lane)
+      if (steps_.accepted[lane] != 0) observe(lane);
   }
 
   /// Lanes have no kernel for tangents of their own: theirs is plain text.
@@ -399,63 +439,50 @@ class LaneEnsemble::Impl {
         double e = 0.0;
         for (std::size_t k = 0; k < terms.count; ++k) e += terms.weight[k] * slopes[k][i * w_ + lane];
         const double part =
-            h_[lane] * e /
+            steps_.h[lane] * e /
             (options_.relative_tolerance * std::abs(y_[i * w_ + lane]) + options_.absolute_tolerance * size);
         squares += part * part;
       }
       const double square = squares / static_cast<double>(controlled_);
-      if (!(square <= norm_[lane])) norm_[lane] = square;
+      if (!(square <= steps_.norm[lane])) steps_.norm[lane] = square;
     }
   }
 
-  /// Where a step of this length ends: on the stop to the last bit.
-  double arrival(std::size_t lane) const {
-    const Lane& l = lanes_[lane];
-    return l.busy && l.cut ? l.stops[l.next_stop] : s_[lane] + h_[lane];
-  }
-
-  /// Is the step accepted? How long is the next one?
-  bool judge(std::size_t lane) {
+  /// A step that was not accepted: beyond the escape bound, or with too large an error.
+  void refuse(std::size_t lane) {
     Lane& l = lanes_[lane];
-    ++l.work.steps;
-    --l.attempts_left;
-    l.work.right_hand_sides += static_cast<long>(pair_.stages) - 1;
-    const double norm = std::sqrt(norm_[lane]);
-    const double wanted = factor(norm);
-    if (norm <= 1.0 && std::isfinite(largest_[lane])) {
-      if (largest_[lane] > options_.escape_bound) {
-        end(l, Outcome::diverged, s_[lane], "a component left the escape bound");
-        return false;
-      }
-      double grown = std::min(wanted, l.refusals > 0 ? 1.0 : most_growth);
-      if (grown >= 1.0 && grown <= worth_growing) grown = 1.0;
-      grown = std::max(grown, least_shrinkage);
-      // A step that was cut says nothing against the longer one that it was cut from.
-      l.proposed = l.cut ? std::max(l.proposed, grown * l.tried) : grown * l.tried;
-      l.refusals = 0;
-      return true;
-    }
+    const double s = steps_.s[lane];
+    if (steps_.norm[lane] <= 1.0 && std::isfinite(steps_.largest[lane]))
+      return end(l, Outcome::diverged, s, "a component left the escape bound");
     ++l.refusals;
+    steps_.refused[lane] = all_bits;
+    const double wanted = steps_.wanted[lane];
     double shrunk = std::isfinite(wanted) ? std::min(std::max(wanted, least_shrinkage), 1.0) : least_shrinkage;
     if (l.refusals >= 2) shrunk = std::min(shrunk, refused_again);
-    l.proposed = shrunk * l.tried;
-    if (l.proposed < least_step * std::max(1.0, std::abs(s_[lane]))) {
-      end(l, Outcome::failed, s_[lane], "no step is accepted");
-    } else if (l.attempts_left <= 0) {
-      end(l, Outcome::step_limit, s_[lane], "more steps than allowed");
+    steps_.proposed[lane] = shrunk * steps_.h[lane];
+    if (steps_.proposed[lane] < least_step * std::max(1.0, std::abs(s))) {
+      end(l, Outcome::failed, s, "no step is accepted");
+    } else if (steps_.attempts[lane] >= steps_.allowed[lane]) {
+      end(l, Outcome::step_limit, s, "more steps than allowed");
     }
-    return false;
   }
 
-  void arrive(std::size_t lane, double s) {
-    Lane& l = lanes_[lane];
-    s_[lane] = s;
-    if (l.cut) {
-      ++l.next_stop;
-      if (l.next_stop == l.stops.size()) return end(l, Outcome::reached, s, {});
-      enter_segment(lane);
+  /// Lanes that have come to a stop, or have had as many attempts as allowed.
+  void arrive() {
+    for (std::size_t lane = 0; lane < w_; ++lane) {
+      if (steps_.accepted[lane] == 0) continue;
+      Lane& l = lanes_[lane];
+      const double s = steps_.s[lane];
+      if (steps_.cut[lane] != 0) {
+        if (++l.next_stop == l.stops.size()) {
+          end(l, Outcome::reached, s, {});
+          continue;
+        }
+        steps_.stop[lane] = l.stops[l.next_stop];
+        enter_segment(lane);
+      }
+      if (steps_.attempts[lane] >= steps_.allowed[lane]) end(l, Outcome::step_limit, s, "more steps than allowed");
     }
-    if (l.attempts_left <= 0) end(l, Outcome::step_limit, s, "more steps than allowed");
   }
 
   /// A first guess of which the change by the slope is a hundredth of the state, both in the norm of the error.
@@ -468,20 +495,26 @@ class LaneEnsemble::Impl {
       size += x / scale * (x / scale);
       speed += k_[0][i * w_ + lane] / scale * (k_[0][i * w_ + lane] / scale);
     }
-    const Lane& l = lanes_[lane];
-    const double whole = l.stops[l.next_stop] - s_[lane];
+    const double whole = steps_.stop[lane] - steps_.s[lane];
     constexpr double part = 1e-2;
     constexpr double careful = 1e-6;
     const double h = size > 0.0 && speed > 0.0 ? part * std::sqrt(size / speed) : careful * whole;
     return std::isfinite(h) ? std::min(h, whole) : careful * whole;
   }
 
-  void observe(std::size_t lane, double arrived) {
+  void await_sample(std::size_t lane) {
+    const Lane& l = lanes_[lane];
+    steps_.sample[lane] =
+        l.next_sample < l.samples.size() ? l.samples[l.next_sample] : std::numeric_limits<double>::infinity();
+  }
+
+  void observe(std::size_t lane) {
     Lane& l = lanes_[lane];
-    while (l.next_sample < l.samples.size() && l.samples[l.next_sample] <= arrived) {
-      const double at = l.samples[l.next_sample];
-      const double h = h_[lane];
-      const double u = (at - s_[lane]) / h;
+    const double arrived = steps_.end[lane];
+    while (steps_.sample[lane] <= arrived) {
+      const double at = steps_.sample[lane];
+      const double h = steps_.h[lane];
+      const double u = (at - steps_.s[lane]) / h;
       const double v = 1.0 - u;
       for (std::size_t i = 0; i < n_; ++i) {
         const std::size_t c = i * w_ + lane;
@@ -491,12 +524,14 @@ class LaneEnsemble::Impl {
       }
       if (l.observer != nullptr) (*l.observer)(l.next_sample, at, sample_);
       ++l.next_sample;
+      await_sample(lane);
     }
   }
 
   LaneField field_;
   IntegratorOptions options_;
   const Pair& pair_;
+  Pair::Places places_;
   const LaneKernels& kernels_;
   std::size_t w_;
   std::size_t n_;
@@ -505,12 +540,17 @@ class LaneEnsemble::Impl {
   bool last_is_parameter_ = false;
   Numbers y_, next_;
   std::array<Numbers, most_stages> k_;  ///< the last one: slopes at the end of the step
-  Numbers s_, at_, h_, norm_, largest_;
+  LaneSteps steps_;
+  Numbers at_;  ///< places of the slopes
   std::vector<Lane> lanes_;
   std::vector<double> sample_;
+  std::size_t running_ = 0;      ///< lanes under way
+  std::size_t fresh_ = 0;        ///< above 0 if there is a fresh one
+  bool have_first_ = false;      ///< slopes at the starts of the steps
+  bool all_at_end_ = false;      ///< all lanes under way are where their last step was to end
+  std::size_t first_place_ = 0;  ///< that the field was told
   std::size_t evaluated_ = 0;
-  double under_way_ = 0;
-  double running_ = 0;  ///< lanes under way
+  std::size_t under_way_ = 0;  ///< lanes, summed over evaluations
 };
 
 LaneEnsemble::LaneEnsemble(LaneField field, const IntegratorOptions& options, const LaneKernels& kernels)

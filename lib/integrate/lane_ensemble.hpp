@@ -34,8 +34,11 @@ struct LaneField {
   std::function<void(std::size_t lane, const VectorField& field)> load;
   /// Which side of its breakpoints the lane's system is on.
   std::function<void(std::size_t lane, std::size_t segment)> set_segment;
-  /// dy/ds of all lanes, each at its own s.
-  std::function<void(const double* s, const double* y, double* dyds)> right_hand_side;
+  /// The places of a step's slopes, W numbers each, in the lanes' present segments: what a field has of s alone it may
+  /// make for all of them at once.
+  std::function<void(std::size_t count, const double* s)> set_places;
+  /// dy/ds of all lanes at one of those places.
+  std::function<void(std::size_t place, const double* y, double* dyds)> right_hand_side;
 };
 
 /// Any systems of one dimension, each lane by its own right-hand side: nothing is gained but the lanes' bookkeeping.

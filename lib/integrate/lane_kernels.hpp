@@ -5,11 +5,34 @@
 // order: its bits depend neither on W nor on the instruction set nor on the other lanes. No fused multiply-add.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 namespace epicyclic::integrate {
 
 inline constexpr std::size_t most_lanes = 8;
+
+/// An attempt of a step in each lane, and what it is decided by: W numbers each. Masks have all bits of a lane or none.
+struct alignas(64) LaneSteps {
+  template <class T>
+  using Each = std::array<T, most_lanes>;
+
+  alignas(64) Each<double> s{};            ///< where a lane is
+  alignas(64) Each<double> stop{};         ///< where it has to stop next, a breakpoint or the end
+  alignas(64) Each<double> sample{};       ///< the next place at which a sample is wanted; infinite if none is
+  alignas(64) Each<double> proposed{};     ///< length of the next step; 0 if not known
+  alignas(64) Each<double> h{};            ///< length of this one
+  alignas(64) Each<double> end{};          ///< where it ends: on a stop to the last bit
+  alignas(64) Each<double> norm{};         ///< of its error, squared
+  alignas(64) Each<double> largest{};      ///< component at its end
+  alignas(64) Each<double> wanted{};       ///< factor of the next one by the norm
+  alignas(64) Each<long long> running{};   ///< mask
+  alignas(64) Each<long long> cut{};       ///< mask: the step is one to a stop
+  alignas(64) Each<long long> accepted{};  ///< mask
+  alignas(64) Each<long long> refused{};   ///< mask: the last attempt was refused
+  alignas(64) Each<long long> attempts{};  ///< so far
+  alignas(64) Each<long long> allowed{};   ///< attempts
+};
 
 struct LaneKernels {
   const char* name = nullptr;  ///< "baseline", "avx2", "avx512"
@@ -25,7 +48,15 @@ struct LaneKernels {
                 const double* y, const double* next, double relative, double absolute, double* norm_square,
                 double* largest) = nullptr;
 
-  /// to <- from in the lanes with accepted[w] != 0.
+  /// Sets h, end and cut, and out_k = s + c_k h for each of `count` nodes, the end itself where c_k = 1.
+  void (*measure)(LaneSteps& steps, std::size_t count, const double* c, double* out) = nullptr;
+
+  /// Sets `accepted`, counts the attempts, and proposes the next steps of accepted ones as ARKODE's I controller does.
+  /// @returns whether there is a lane of which more has to be thought: a step refused now or just before, a stop or
+  ///          a sample reached, as many attempts as allowed
+  bool (*judge)(LaneSteps& steps, double escape_bound) = nullptr;
+
+  /// to <- from in the lanes of the mask.
   void (*accept)(std::size_t dimension, const long long* accepted, const double* from, double* to) = nullptr;
 };
 

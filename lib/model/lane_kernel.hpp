@@ -7,17 +7,25 @@
 
 #include <cstddef>
 
+#include "model/instant.hpp"
 #include "model/lane_parameters.hpp"
 #include "model/layout.hpp"
 #include "model/stage_kernel.hpp"
 
 namespace epicyclic::model {
 
-/// s has W numbers, y and dyds 2 degrees_of_freedom(L, N) times W, component by component, aligned to 64 bytes.
 template <std::size_t N, std::size_t W>
-using LaneKernel = void (*)(const LaneParameters<N, W>& p, const double* s, const double* y, double* dyds);
+struct LaneKernel {
+  using Instants = Instant<Lanes<W>, N>;
 
-/// That of one instruction set, or nullptr if it was not compiled or this machine does not run it.
+  /// `count` instants of W phases each, all in the lanes' segments.
+  void (*prepare)(const LaneParameters<N, W>& p, std::size_t count, const double* s, Instants* instants) = nullptr;
+
+  /// y and dyds have 2 degrees_of_freedom(L, N) times W numbers, component by component, aligned to 64 bytes.
+  void (*evaluate)(const LaneParameters<N, W>& p, const Instants& now, const double* y, double* dyds) = nullptr;
+};
+
+/// That of one instruction set, empty if it was not compiled or this machine does not run it.
 /// @param name "baseline" (W = 2), "avx2" (4) or "avx512" (8)
 template <Layout L, std::size_t N, std::size_t W>
 [[nodiscard]] LaneKernel<N, W> lane_kernel(const char* name);

@@ -1,6 +1,7 @@
 #include "model/lane_model.hpp"
 
 #include <memory>
+#include <vector>
 
 #include "core/errors.hpp"
 #include "model/dispatch.hpp"
@@ -17,13 +18,23 @@ LaneModel lanes_of(const DynamicModel& like, LaneKernel<N, W> kernel) {
       throw InputError("operating points of different structure cannot run side by side");
     return std::static_pointer_cast<const Parameters<double, N>>(m.constants);
   };
-  const auto lanes = std::make_shared<LaneParameters<N, W>>(point(like));
+  struct State {
+    LaneParameters<N, W> lanes;
+    std::vector<Instant<Lanes<W>, N>> instants;
+  };
+  const auto state = std::make_shared<State>(State{LaneParameters<N, W>(point(like)), {}});
   LaneModel m;
   m.width = W;
   m.dimension = like.dimension;
-  m.load = [lanes, point](std::size_t lane, const DynamicModel& model) { lanes->load(lane, point(model)); };
-  m.set_segment = [lanes](std::size_t lane, std::size_t segment) { lanes->set_segment(lane, segment); };
-  m.right_hand_side = [lanes, kernel](const double* s, const double* y, double* dyds) { kernel(*lanes, s, y, dyds); };
+  m.load = [state, point](std::size_t lane, const DynamicModel& model) { state->lanes.load(lane, point(model)); };
+  m.set_segment = [state](std::size_t lane, std::size_t segment) { state->lanes.set_segment(lane, segment); };
+  m.set_places = [state, kernel](std::size_t count, const double* s) {
+    if (state->instants.size() < count) state->instants.resize(count);
+    kernel.prepare(state->lanes, count, s, state->instants.data());
+  };
+  m.right_hand_side = [state, kernel](std::size_t place, const double* y, double* dyds) {
+    kernel.evaluate(state->lanes, state->instants[place], y, dyds);
+  };
   return m;
 }
 
@@ -32,9 +43,12 @@ LaneModel lanes_of(const DynamicModel& like, LaneKernel<N, W> kernel) {
 LaneModel make_lane_model(const DynamicModel& like, const char* instruction_set) {
   return dispatch(like.layout, like.planets, [&]<Layout L, std::size_t N>() -> LaneModel {
     if constexpr (L != Layout::full) {
-      if (const auto kernel = lane_kernel<L, N, 2>(instruction_set)) return lanes_of<L, N, 2>(like, kernel);
-      if (const auto kernel = lane_kernel<L, N, 4>(instruction_set)) return lanes_of<L, N, 4>(like, kernel);
-      if (const auto kernel = lane_kernel<L, N, 8>(instruction_set)) return lanes_of<L, N, 8>(like, kernel);
+      if (const auto kernel = lane_kernel<L, N, 2>(instruction_set); kernel.evaluate != nullptr)
+        return lanes_of<L, N, 2>(like, kernel);
+      if (const auto kernel = lane_kernel<L, N, 4>(instruction_set); kernel.evaluate != nullptr)
+        return lanes_of<L, N, 4>(like, kernel);
+      if (const auto kernel = lane_kernel<L, N, 8>(instruction_set); kernel.evaluate != nullptr)
+        return lanes_of<L, N, 8>(like, kernel);
     }
     return {};
   });

@@ -18,8 +18,10 @@ struct LaneModel {
   std::function<void(std::size_t lane, const DynamicModel& model)> load;
   /// Segment k follows breakpoint k of the lane's own model.
   std::function<void(std::size_t lane, std::size_t segment)> set_segment;
-  /// dy/ds of all lanes, each at its own mesh phase.
-  std::function<void(const double* s, const double* y, double* dyds)> right_hand_side;
+  /// Mesh phases that right-hand sides will be wanted at, W numbers each, in the lanes' present segments.
+  std::function<void(std::size_t count, const double* s)> set_places;
+  /// dy/ds of all lanes at one of those places.
+  std::function<void(std::size_t place, const double* y, double* dyds)> right_hand_side;
 };
 
 /// @param like             each lane begins with it, and others have to have its structure

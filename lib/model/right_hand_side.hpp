@@ -20,14 +20,13 @@
 // them one by one, so that what a planet is worked on with stays in registers.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numbers>
 #include <type_traits>
 
 #include "core/scalar.hpp"
 #include "model/clearance.hpp"
+#include "model/instant.hpp"
 #include "model/layout.hpp"
 #include "model/parameters.hpp"
 
@@ -61,22 +60,6 @@ template <class T, class P, std::size_t N>
   return deflections(p, Planets<N>{}, q);
 }
 
-/// cos h s and sin h s, h = 1 ... H, by the angle-addition theorem.
-template <class T>
-struct HarmonicBasis {
-  std::array<T, gear::harmonics_max> cosine, sine;
-
-  HarmonicBasis(const T& s, std::size_t harmonics) {
-    const SineCosine<T> first = sine_cosine(s);
-    cosine[0] = first.cosine;
-    sine[0] = first.sine;
-    for (std::size_t h = 1; h < harmonics; ++h) {
-      cosine[h] = cosine[h - 1] * first.cosine - sine[h - 1] * first.sine;
-      sine[h] = sine[h - 1] * first.cosine + cosine[h - 1] * first.sine;
-    }
-  }
-};
-
 /// Everything that one kind of mesh does at one instant.
 template <class T, std::size_t N, class P = T>
 struct MeshState {
@@ -89,59 +72,16 @@ struct MeshState {
   Row<T, N> moment_driven;   ///< F_f h_2 / r_b2
 };
 
-/// What one kind of mesh has of the phase alone, where its planets share it: planets that mesh in phase have one
-/// stiffness and one friction. Where planets are in registers nothing is gained by it, and where constants carry
-/// derivatives they are each planet's own.
-template <class P, std::size_t N>
-struct SharedMesh {
-  bool shared = false;
-  P stiffness;
-  FrictionRatios<P> ratios;
-
-  template <class Places>
-  SharedMesh(const MeshParameters<P, N>& mesh, const Places& places, const P& s, const HarmonicBasis<P>& basis)
-      : shared(is_lanes<P> && mesh.in_phase) {
-    if (!shared) return;
-    const P phase = own_phase(mesh, s, 0);
-    if (mesh.stiffness_curve) {
-      stiffness = stiffness_at(mesh, places, 0, phase);
-    } else {
-      stiffness = mesh.stiffness;
-      for (std::size_t h = 0; h < mesh.harmonics; ++h)
-        stiffness += mesh.stiffness_cos[h][0] * basis.cosine[h] + mesh.stiffness_sin[h][0] * basis.sine[h];
-    }
-    if (mesh.friction) ratios = friction_at(mesh, places, 0, phase);
-  }
-
-  /// Of planet i, over 2 pi.
-  [[nodiscard]] static P own_phase(const MeshParameters<P, N>& mesh, const P& s, std::size_t i) {
-    return s * (0.5 * std::numbers::inv_pi) + mesh.turns[i];
-  }
-};
-
-/// [M-27] of one kind of mesh; `places` are those of the current segment (MeshPlaces, or one of them for each lane).
-template <class T, class P, std::size_t N, std::size_t G, class Places>
+/// [M-27] of one kind of mesh, given what the phase decides.
+template <class T, class P, std::size_t N, std::size_t G>
 [[nodiscard]] MeshState<T, G, P> mesh_state(const Parameters<P, N>& p, const Planets<N, G>& planets,
-                                            const MeshParameters<P, N>& mesh, const SharedMesh<P, N>& shared,
-                                            const Places& places, const P& s, const HarmonicBasis<P>& basis,
+                                            const MeshParameters<P, N>& mesh, const MeshInstant<P, N>& now,
                                             const Row<T, G>& displacement, const Row<T, G>& velocity) {
   using R = Row<T, G>;
-  using C = Row<P, G>;
-  const auto own_phase = [&](std::size_t i) { return shared.own_phase(mesh, s, planets.first + i); };
-  const auto& error_cos = planets(mesh.error_cos);
-  const auto& error_sin = planets(mesh.error_sin);
   MeshState<T, G, P> m;
-  m.delta = displacement - (error_cos * basis.cosine[0] + error_sin * basis.sine[0]);
-  m.rate = velocity - p.omega * (error_sin * basis.cosine[0] - error_cos * basis.sine[0]);
-  if (shared.shared) {
-    m.stiffness = C(shared.stiffness);
-  } else if (mesh.stiffness_curve) {
-    m.stiffness = C::of([&](std::size_t i) { return stiffness_at(mesh, places, planets.first + i, own_phase(i)); });
-  } else {
-    m.stiffness = mesh.stiffness;
-    for (std::size_t h = 0; h < mesh.harmonics; ++h)
-      m.stiffness += planets(mesh.stiffness_cos[h]) * basis.cosine[h] + planets(mesh.stiffness_sin[h]) * basis.sine[h];
-  }
+  m.delta = displacement - planets(now.error);
+  m.rate = velocity - planets(now.error_rate);
+  m.stiffness = now.each(planets, now.stiffness);
   m.elastic = m.stiffness * closed_by<R>(m.delta, mesh.half_gap, p.smoothing, p.smooth);
   if (p.gap_damping == GapDamping::contact_slope) {
     m.force = m.elastic + mesh.damping * closure<R>(m.delta, mesh.half_gap, p.smoothing, p.smooth).slope * m.rate;
@@ -149,12 +89,9 @@ template <class T, class P, std::size_t N, std::size_t G, class Places>
     m.force = m.elastic + mesh.damping * m.rate;
   }
   if (mesh.friction) {
-    std::array<FrictionRatios<P>, G> ratios;
-    for (std::size_t i = 0; i < G; ++i)
-      ratios[i] = shared.shared ? shared.ratios : friction_at(mesh, places, planets.first + i, own_phase(i));
-    m.friction = C::of([&](std::size_t i) { return ratios[i].force; }) * m.force;
-    m.moment_driving = C::of([&](std::size_t i) { return ratios[i].moment_driving; }) * m.force;
-    m.moment_driven = C::of([&](std::size_t i) { return ratios[i].moment_driven; }) * m.force;
+    m.friction = now.each(planets, now.friction) * m.force;
+    m.moment_driving = now.each(planets, now.moment_driving) * m.force;
+    m.moment_driven = now.each(planets, now.moment_driven) * m.force;
   } else {
     m.friction = m.moment_driving = m.moment_driven = T(0.0);
   }
@@ -196,22 +133,6 @@ template <class T, class P, std::size_t N>
   return {T(0.0), T(0.0)};
 }
 
-/// What the phase alone decides.
-template <class P, std::size_t N, class Places>
-struct Instant {
-  const P& s;
-  const Places& places;
-  HarmonicBasis<P> basis;
-  SharedMesh<P, N> sun_planet, ring_planet;
-
-  Instant(const Parameters<P, N>& p, const Places& at, const P& phase)
-      : s(phase),
-        places(at),
-        basis(phase, std::max(p.sun_planet.harmonics, p.ring_planet.harmonics)),
-        sun_planet(p.sun_planet, at.sun_planet, phase, basis),
-        ring_planet(p.ring_planet, at.ring_planet, phase, basis) {}
-};
-
 /// Forces of the stage at one instant, before they act on masses, with a group of G planets. Each part is made where it
 /// stays: copies of it would cost as much as its arithmetic.
 template <class T, std::size_t G, class P = T>
@@ -220,34 +141,22 @@ struct StageState {
   Deflections<T, G> d, d_rate;
   MeshState<T, G, P> sun_planet, ring_planet;
 
-  template <Layout L, std::size_t N, class Places>
-  StageState(Arranged<L> arranged, const Parameters<P, N>& p, const Planets<N, G>& planets,
-             const Instant<P, N, Places>& now, const T* y)
+  template <Layout L, std::size_t N>
+  StageState(Arranged<L> arranged, const Parameters<P, N>& p, const Planets<N, G>& planets, const Instant<P, N>& now,
+             const T* y)
       : q(unpack(arranged, planets, y)),
         v(unpack(arranged, planets, y + degrees_of_freedom(L, N))),
         d(deflections(p, planets, q)),
         d_rate(deflections(p, planets, v)),
-        sun_planet(mesh_state(p, planets, p.sun_planet, now.sun_planet, now.places.sun_planet, now.s, now.basis,
-                              d.sun_planet, d_rate.sun_planet)),
-        ring_planet(mesh_state(p, planets, p.ring_planet, now.ring_planet, now.places.ring_planet, now.s, now.basis,
-                               d.ring_planet, d_rate.ring_planet)) {}
+        sun_planet(mesh_state(p, planets, p.sun_planet, now.sun_planet, d.sun_planet, d_rate.sun_planet)),
+        ring_planet(mesh_state(p, planets, p.ring_planet, now.ring_planet, d.ring_planet, d_rate.ring_planet)) {}
 };
-
-/// @param places  a segment of p, by its number or itself, or one for each lane
-template <class P, std::size_t N, class Places>
-[[nodiscard]] decltype(auto) segment_of(const Parameters<P, N>& p, const Places& places) {
-  if constexpr (std::is_integral_v<Places>) {
-    return (p.segments[static_cast<std::size_t>(places)]);
-  } else {
-    return (places);
-  }
-}
 
 /// With all planets.
 template <Layout L, class T, class P, std::size_t N, class Places>
 [[nodiscard]] StageState<T, N, P> stage_state(const Parameters<P, N>& p, const Places& places,
                                               const std::type_identity_t<P>& s, const T* y) {
-  return {Arranged<L>{}, p, Planets<N>{}, Instant(p, segment_of(p, places), s), y};
+  return {Arranged<L>{}, p, Planets<N>{}, Instant<P, N>(p, places, s), y};
 }
 
 /// Sums over planets of what they do to the other members.
@@ -375,8 +284,8 @@ template <class T, class P, std::size_t N>
 }
 
 /// The same with the planets one by one; sums are in the same order.
-template <Layout L, class T, class P, std::size_t N, class Places>
-[[nodiscard]] Coordinates<T, N> accelerations_by_planet(const Parameters<P, N>& p, const Instant<P, N, Places>& now,
+template <Layout L, class T, class P, std::size_t N>
+[[nodiscard]] Coordinates<T, N> accelerations_by_planet(const Parameters<P, N>& p, const Instant<P, N>& now,
                                                         const T* y) {
   using Group = Planets<N, 1>;
   Coordinates<T, N> a;
@@ -415,16 +324,13 @@ void make_relative(const Parameters<P, N>& p, Coordinates<T, N>& a) {
   }
 }
 
-/// dy/ds at mesh phase s.
+/// dy/ds at an instant.
 ///
-/// @param places  as for stage_state()
-/// @param y       2 n numbers, n = degrees_of_freedom(L, N): displacements [b_c], then velocities [b_c per tau]
-/// @param dyds    2 n numbers
-template <Layout L, class T, class P, std::size_t N, class Places>
-void right_hand_side(const Parameters<P, N>& p, const Places& places, const std::type_identity_t<P>& s, const T* y,
-                     T* dyds) {
+/// @param y     2 n numbers, n = degrees_of_freedom(L, N): displacements [b_c], then velocities [b_c per tau]
+/// @param dyds  2 n numbers
+template <Layout L, class T, class P, std::size_t N>
+void right_hand_side(const Parameters<P, N>& p, const Instant<P, N>& now, const T* y, T* dyds) {
   constexpr std::size_t n = degrees_of_freedom(L, N);
-  const Instant now(p, segment_of(p, places), s);
   Coordinates<T, N> a;
   if constexpr (is_lanes<T>) {
     a = accelerations_by_planet<L>(p, now, y);
@@ -439,6 +345,15 @@ void right_hand_side(const Parameters<P, N>& p, const Places& places, const std:
     dyds[k] = y[n + k] * per_phase;
     dyds[n + k] = dyds[n + k] * per_phase;
   }
+}
+
+/// dy/ds at mesh phase s.
+///
+/// @param places  as for Instant
+template <Layout L, class T, class P, std::size_t N, class Places>
+void right_hand_side(const Parameters<P, N>& p, const Places& places, const std::type_identity_t<P>& s, const T* y,
+                     T* dyds) {
+  right_hand_side<L>(p, Instant<P, N>(p, places, s), y, dyds);
 }
 
 }  // namespace epicyclic::model

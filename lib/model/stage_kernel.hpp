@@ -46,6 +46,8 @@ template <Layout L, std::size_t N, std::size_t M>
 
 /// X(layout, planets) for each kernel that there is.
 /// EPICYCLIC_FOR_TANGENT_KERNELS(X) for each that takes four directions.
+/// EPICYCLIC_FOR_PLANETS(X) for each number of planets: X(planets).
+#define EPICYCLIC_FOR_PLANETS(X) X(2) X(3) X(4) X(5) X(6)
 #define EPICYCLIC_FOR_RELATIVE_LAYOUTS(X, N) \
   X(Layout::relative_to_ring, N)             \
   X(Layout::relative_to_carrier, N)          \

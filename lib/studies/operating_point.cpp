@@ -70,6 +70,7 @@ integrate::LaneField lane_field(const model::DynamicModel& like, const integrate
     lanes.load(lane, *made_of);
   };
   field.set_segment = lanes.set_segment;
+  field.set_places = lanes.set_places;
   field.right_hand_side = lanes.right_hand_side;
   return field;
 }

@@ -1,8 +1,9 @@
-// The lane kernel alone, and what the machine's adders and multipliers do at most: the share of the peak.
+// The lane kernel alone, for the slopes of a step, and what the machine's adders and multipliers do at most: the share
+// of the peak.
 //
-// Counters: operations of one right-hand side in one lane, as counted by model/counted_lanes.hpp; lanes; and, of the
-// peak, operations per second. Contraction is off in the kernels, so the peak is that of separate additions and
-// multiplications, half that of fused ones.
+// Counters: operations of one right-hand side in one lane, as counted by model/counted_lanes.hpp; lanes times slopes;
+// and, of the peak, operations per second. Contraction is off in the kernels, so the peak is that of separate additions
+// and multiplications, half that of fused ones.
 
 #include <algorithm>
 #include <cstddef>
@@ -34,19 +35,23 @@ void lane_kernel(benchmark::State& state) {
   const auto& kernels = epicyclic::integrate::lane_kernels();
   const auto lanes = epicyclic::model::make_lane_model(model, kernels.name);
   const auto numbers = [](std::size_t n) { return Numbers(new (std::align_val_t(alignment)) double[n]()); };
-  const auto s = numbers(lanes.width);
+  constexpr std::size_t slopes = 6;  // of a step
+  const auto s = numbers(slopes * lanes.width);
   const auto in = numbers(lanes.width * y.size());
   const auto out = numbers(lanes.width * y.size());
   for (std::size_t i = 0; i < y.size(); ++i) std::fill_n(in.get() + i * lanes.width, lanes.width, y[i]);
   for (auto _ : state) {
-    lanes.right_hand_side(s.get(), in.get(), out.get());
-    benchmark::DoNotOptimize(out.get());
-    benchmark::ClobberMemory();
-    for (std::size_t w = 0; w < lanes.width; ++w) s[w] += 1e-9;
+    lanes.set_places(slopes, s.get());
+    for (std::size_t k = 0; k < slopes; ++k) {
+      lanes.right_hand_side(k, in.get(), out.get());
+      benchmark::DoNotOptimize(out.get());
+      benchmark::ClobberMemory();
+    }
+    for (std::size_t w = 0; w < slopes * lanes.width; ++w) s[w] += 1e-9;
   }
   State f(y.size());
   const auto operations = epicyclic::model::operations_of_lane(model, 0, 0.3, y.data(), f.data());
-  state.counters["lanes"] = static_cast<double>(lanes.width);
+  state.counters["lanes"] = static_cast<double>(slopes * lanes.width);
   state.counters["operations"] = static_cast<double>(operations.arithmetic());
 }
 

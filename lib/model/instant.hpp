@@ -1,0 +1,137 @@
+// What the mesh phase alone decides of the stage: errors, stiffness and friction of the meshes, before any state is
+// known.
+//
+//   e_i = e_c,i cos s + e_s,i sin s ,  e_i' = Omega (e_s,i cos s - e_c,i sin s)                          [M-13], [M-14]
+//   k_i(s), A_i(s), B_i(s)  by harmonics or tables on the mesh's own phase s / 2 pi + turns_i                    [M-27]
+//
+// The slopes of a Runge-Kutta step are taken at phases that are known when the step begins; lanes make their instants
+// all at once, because this is mostly waiting for one's own results.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numbers>
+#include <type_traits>
+
+#include "core/row.hpp"
+#include "core/scalar.hpp"
+#include "model/layout.hpp"
+#include "model/parameters.hpp"
+
+namespace epicyclic::model {
+
+/// cos h s and sin h s, h = 1 ... H, by the angle-addition theorem.
+template <class T>
+struct HarmonicBasis {
+  std::array<T, gear::harmonics_max> cosine, sine;
+
+  HarmonicBasis(const T& s, std::size_t harmonics) {
+    const SineCosine<T> first = sine_cosine(s);
+    cosine[0] = first.cosine;
+    sine[0] = first.sine;
+    for (std::size_t h = 1; h < harmonics; ++h) {
+      cosine[h] = cosine[h - 1] * first.cosine - sine[h - 1] * first.sine;
+      sine[h] = sine[h - 1] * first.cosine + cosine[h - 1] * first.sine;
+    }
+  }
+};
+
+/// Of one kind of mesh.
+template <class P, std::size_t N>
+struct MeshInstant {
+  Row<P, N> error, error_rate;                        ///< e, e' [b_c, b_c per tau]
+  Row<P, N> stiffness;                                ///< k_i(s)
+  Row<P, N> friction, moment_driving, moment_driven;  ///< A, B_1 / r_b1, B_2 / r_b2; only with friction
+  /// Planets that mesh in phase have one stiffness and one friction, and lanes take them once, as those of planet 0.
+  /// Where planets are in registers nothing is gained by it, and where constants carry derivatives they are each
+  /// planet's own.
+  bool shared = false;
+
+  MeshInstant() = default;
+
+  /// What harmonics decide.
+  MeshInstant(const Parameters<P, N>& p, const MeshParameters<P, N>& mesh, const HarmonicBasis<P>& basis)
+      : error(mesh.error_cos * basis.cosine[0] + mesh.error_sin * basis.sine[0]),
+        error_rate(p.omega * (mesh.error_sin * basis.cosine[0] - mesh.error_cos * basis.sine[0])),
+        shared(is_lanes<P> && mesh.in_phase) {
+    if (mesh.stiffness_curve) return;
+    if (is_lanes<P> && shared) {
+      P k = mesh.stiffness;
+      for (std::size_t h = 0; h < mesh.harmonics; ++h)
+        k += mesh.stiffness_cos[h][0] * basis.cosine[h] + mesh.stiffness_sin[h][0] * basis.sine[h];
+      stiffness.set(0, k);
+    } else {
+      stiffness = mesh.stiffness;
+      for (std::size_t h = 0; h < mesh.harmonics; ++h)
+        stiffness += mesh.stiffness_cos[h] * basis.cosine[h] + mesh.stiffness_sin[h] * basis.sine[h];
+    }
+  }
+
+  /// What tables do.
+  /// @param places  those of the current segment (MeshPlaces, or one of them for each lane)
+  template <class Places>
+  void look_up(const MeshParameters<P, N>& mesh, const Places& places, const P& s) {
+    const auto own_phase = [&](std::size_t i) { return s * (0.5 * std::numbers::inv_pi) + mesh.turns[i]; };
+    if (is_lanes<P> && shared) {
+      const P phase = own_phase(0);
+      if (mesh.stiffness_curve) stiffness.set(0, stiffness_at(mesh, places, 0, phase));
+      if (mesh.friction) {
+        const FrictionRatios<P> ratios = friction_at(mesh, places, 0, phase);
+        friction.set(0, ratios.force);
+        moment_driving.set(0, ratios.moment_driving);
+        moment_driven.set(0, ratios.moment_driven);
+      }
+      return;
+    }
+    if (mesh.stiffness_curve)
+      stiffness = Row<P, N>::of([&](std::size_t i) { return stiffness_at(mesh, places, i, own_phase(i)); });
+    if (mesh.friction) {
+      std::array<FrictionRatios<P>, N> ratios;
+      for (std::size_t i = 0; i < N; ++i) ratios[i] = friction_at(mesh, places, i, own_phase(i));
+      friction = Row<P, N>::of([&](std::size_t i) { return ratios[i].force; });
+      moment_driving = Row<P, N>::of([&](std::size_t i) { return ratios[i].moment_driving; });
+      moment_driven = Row<P, N>::of([&](std::size_t i) { return ratios[i].moment_driven; });
+    }
+  }
+
+  /// One of the rows that planets may share, of some planets.
+  template <std::size_t G>
+  [[nodiscard]] Row<P, G> each(const Planets<N, G>& planets, const Row<P, N>& row) const {
+    if (is_lanes<P> && shared) return Row<P, G>(row[0]);
+    return planets(row);
+  }
+};
+
+/// @param places  a segment of p, by its number or itself, or one for each lane
+template <class P, std::size_t N, class Places>
+[[nodiscard]] decltype(auto) segment_of(const Parameters<P, N>& p, const Places& places) {
+  if constexpr (std::is_integral_v<Places>) {
+    return (p.segments[static_cast<std::size_t>(places)]);
+  } else {
+    return (places);
+  }
+}
+
+/// Of the stage.
+template <class P, std::size_t N>
+struct Instant {
+  MeshInstant<P, N> sun_planet, ring_planet;
+
+  Instant() = default;
+
+  /// @param places  a segment of p, by its number or itself, or one for each lane
+  template <class Places>
+  Instant(const Parameters<P, N>& p, const Places& places, const P& s)
+      : Instant(p, HarmonicBasis<P>(s, std::max(p.sun_planet.harmonics, p.ring_planet.harmonics))) {
+    sun_planet.look_up(p.sun_planet, segment_of(p, places).sun_planet, s);
+    ring_planet.look_up(p.ring_planet, segment_of(p, places).ring_planet, s);
+  }
+
+ private:
+  /// Without the tables.
+  Instant(const Parameters<P, N>& p, const HarmonicBasis<P>& basis)
+      : sun_planet(p, p.sun_planet, basis), ring_planet(p, p.ring_planet, basis) {}
+};
+
+}  // namespace epicyclic::model

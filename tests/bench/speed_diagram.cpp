@@ -1,0 +1,65 @@
+// The paper's speed diagram, 661 speeds in both directions, each carried from the one before, at a tolerance of 1e-7:
+// 300 + 128 mesh periods a point. Boost.odeint's dopri5 advances the states and does nothing else; ours record the last
+// periods, at 64 phases each, and tell regimes by recurrence. One thread. Minutes; asked for by name:
+//   bench --benchmark_filter=speed_diagram
+
+#include <utility>
+
+#include <benchmark/benchmark.h>
+
+#include "bench/odeint.hpp"
+#include "bench/orbit.hpp"
+#include "studies/sweep.hpp"
+
+namespace {
+
+using namespace epicyclic::bench;
+using epicyclic::studies::Direction;
+
+constexpr double tolerance = 1e-7;
+
+epicyclic::studies::SweepOptions diagram() {
+  epicyclic::studies::SweepOptions sweep;
+  sweep.directions = {Direction::up, Direction::down};
+  return epicyclic::studies::by_recurrence_alone(sweep);
+}
+
+void by_odeint(benchmark::State& state) {
+  const auto sweep = diagram();
+  double calls = 0.0;
+  for (auto _ : state) {
+    for (const Direction direction : sweep.directions) {
+      State y;
+      for (const auto& point : plan_sweep(sweep).points) {
+        if (point.direction != direction) continue;
+        const auto model = model_at(point.value);
+        if (y.empty()) y = model.default_start;
+        Odeint odeint(model, tolerance, std::move(y));
+        for (int k = 0; k < sweep.transient_periods + sweep.recorded_periods; ++k) odeint.mesh_period();
+        y = odeint.state();
+        calls += odeint.calls();
+      }
+    }
+  }
+  state.counters["rhs"] = calls;
+}
+
+void by_us(benchmark::State& state, const char* method, int segments) {
+  auto sweep = diagram();
+  sweep.segments = segments;
+  double calls = 0.0;
+  for (auto _ : state) {
+    const auto points = epicyclic::studies::run_sweep_in_memory(plan_sweep(sweep), sweep, options(tolerance, method),
+                                                                [](double omega) { return model_at(omega); }, {});
+    for (const auto& point : points) calls += static_cast<double>(point.rhs_evaluations);
+  }
+  state.counters["rhs"] = calls;
+}
+
+void once(benchmark::internal::Benchmark* b) { b->Iterations(1)->Unit(benchmark::kSecond); }
+BENCHMARK(by_odeint)->Name("speed_diagram/odeint-dopri5")->Apply(once);
+BENCHMARK_CAPTURE(by_us, lanes_cash_karp, "lanes-cash-karp", 8)->Name("speed_diagram/lanes-cash-karp")->Apply(once);
+BENCHMARK_CAPTURE(by_us, lanes_dopri5, "lanes-dopri5", 8)->Name("speed_diagram/lanes-dopri5")->Apply(once);
+BENCHMARK_CAPTURE(by_us, arkode_dopri5, "arkode-dopri5", 1)->Name("speed_diagram/arkode-dopri5")->Apply(once);
+
+}  // namespace
