@@ -1,5 +1,7 @@
 #include "studies/coarse_pass.hpp"
 
+#include <algorithm>
+
 #include "integrate/make_flow.hpp"
 #include "integrate/methods.hpp"
 #include "studies/operating_point.hpp"
@@ -12,6 +14,11 @@ std::vector<double> CoarsePass::start_of(std::size_t first, const std::function<
   const std::size_t direction = first / count;
   integrate::IntegratorOptions options = integrator_;
   options.method = integrate::arkode_twin(options.method);  // one trajectory
+  // Which branch it is on is all that is asked.
+  constexpr double enough = 1e-5;
+  const double factor = std::clamp(enough / options.relative_tolerance, 1.0, 100.0);
+  options.relative_tolerance *= factor;
+  options.absolute_tolerance *= factor;
   const std::scoped_lock lock(mutex_);
   Way& way = ways_[direction];
   for (; way.next < first - direction * count; keep(way, direction * count)) {

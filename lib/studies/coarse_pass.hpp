@@ -1,5 +1,6 @@
 // Where the segments of a carried sweep start: a pass along the whole range, each grid point for a few mesh periods
-// only, that follows the same branches as the sweep in one chain does, so that hysteresis is kept.
+// only and at up to a hundred times the tolerance, that follows the same branches as the sweep in one chain does, so
+// that hysteresis is kept.
 //
 // A segment starts from the pass's state after the point before its first. The pass is a pure function of the input: it
 // is the same whoever asks and whenever, and is computed again by each process that needs it, as far as it needs it.
