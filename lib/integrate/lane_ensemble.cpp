@@ -377,8 +377,7 @@ class LaneEnsemble::Impl {
       have_first_ = true;
     }
     kernels_.measure(steps_, places_.count, places_.node.data(), at_.get());
-    first_place_ = have_first_ ? 1 : 0;
-    field_.set_places(places_.count - first_place_, at_.get() + first_place_ * w_);
+    set_places(!have_first_);
     if (!have_first_) take_first_slopes(0);
     for (std::size_t j = 1; j < pair_.stages; ++j) {
       advance_by(pair_.rows[j]);
