@@ -278,7 +278,8 @@ class Classifier {
     }
     if (seen.note.empty())
       seen.note = "exponent " + short_text(seen.exponent.value) + " +- " + short_text(seen.exponent.half_width) +
-                  ", 0-1 test " + short_text(seen.zero_one);
+                  " per radian of the phase, " +
+                  (seen.zero_one == 0.0 ? "too few periods for a 0-1 test" : "0-1 test " + short_text(seen.zero_one));
     return false;
   }
 

@@ -218,6 +218,9 @@ std::vector<DrawnFigure> draw_basins_figure(const std::filesystem::path& folder,
     const bool failed = r.outcome != integrate::Outcome::reached;
     cells.push_back(number > 0 ? class_of[number - 1] : classes.size() - (failed ? 1 : 2));
   }
+  const std::size_t undecided = classes.size() - 2;
+  classes[undecided].label +=
+      ", " + share_text(static_cast<double>(std::count(cells.begin(), cells.end(), undecided)) / total);
   const FigureText text{literal_text(output.title), component_label(output.plane.first.name),
                         component_label(output.plane.second.name)};
   return {{folder / "basins.png",

@@ -103,6 +103,9 @@ std::string plot_dots(std::string_view stem, std::size_t index, std::string_view
       stem, index, colour);
 }
 
+/// In parts of the range: half a step of the grid on each side, so that the dots of its ends are not on the frame.
+double grid_margin(std::size_t points) { return points > 1 ? 0.5 / static_cast<double>(points - 1) : 0.0; }
+
 /// Dots as small as those of the diagram could not be told apart in a legend.
 std::string legend_entry(std::string_view colour, std::string_view label) {
   return fmt::format(", \\\n  keyentry with points pointtype 7 pointsize mark linecolor '{}' title {}", colour,
@@ -154,7 +157,7 @@ FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::strin
     }
   }
   if (x_range.empty() || y_range.empty()) return {"there is no finite point to draw"};
-  x_range = x_range.widened(0);
+  x_range = x_range.widened(grid_margin(series.front().count));
   y_range = y_range.widened(figure_margin);
 
   const auto write_data = [&](AtomicFile& file) {
@@ -204,7 +207,7 @@ FigureOutcome regime_figure(const std::filesystem::path& folder, std::string_vie
     points.emplace_back(i, std::move(p));
   }
   if (x.empty() || y.empty()) return {"there is no finite point to draw"};
-  x = x.widened(0);
+  x = x.widened(grid_margin(count));
   y = y.widened(figure_margin);
   exponents.include(0.0);
   exponents = exponents.widened(2.0 * figure_margin);

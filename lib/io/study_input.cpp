@@ -543,6 +543,10 @@ void check_points(const Study& study, F is_bad, ReadContext& context) {
     context.add(Finding::Kind::rule, "/study/segments",
                 "is " + std::to_string(sweep.segments) + ", must be <= points = " + std::to_string(sweep.points));
   }
+  if (sweep.segments > 1 && sweep.start == studies::Start::cold) {
+    context.add(Finding::Kind::rule, "/study/segments",
+                "is " + std::to_string(sweep.segments) + ", but points that start cold are chains of their own");
+  }
   check_named_parameter(axis, "/study", context);
 }
 

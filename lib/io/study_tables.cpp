@@ -547,7 +547,7 @@ Field<Study> base_field() {
     if (!table_detail::check_object(value, pointer, context)) return;
     for (const auto& [key, number] : value.items()) {
       if (key == "origin" || key == "note") continue;
-      const auto read = table_detail::read_number(number, pointer + pointer_step(key), key, bounds, context);
+      const auto read = table_detail::read_number(number, pointer + pointer_step(key), "base", bounds, context);
       // Kept if it is none, for its name to be checked.
       study.plane.base[key] = read.value_or(0.0);
     }

@@ -25,6 +25,12 @@ bool ok(const PointResult& r) { return r.outcome == integrate::Outcome::reached;
 /// Periodic by an orbit and its multipliers.
 bool proven(const PointResult& r) { return ok(r) && r.classified && r.regime == analysis::Regime::periodic; }
 
+/// K of the 0-1 test; none where it was not asked.
+double zero_one(const PointResult& r) {
+  return r.classified && !proven(r) && r.evidence.zero_one != 0.0 ? r.evidence.zero_one
+                                                                  : std::numeric_limits<double>::quiet_NaN();
+}
+
 /// The rows of all Poincare sections one after another.
 class SectionRows {
  public:
@@ -170,7 +176,7 @@ void write_points_csv(const std::filesystem::path& file, const PointSource& poin
         .cell(proven(r) ? r.evidence.largest_multiplier : unknown)
         .cell(proven(r) ? r.evidence.multiplier_error : unknown)
         .cell(proven(r) ? r.evidence.residual : unknown)
-        .cell(r.classified && !proven(r) ? r.evidence.zero_one : unknown)
+        .cell(zero_one(r))
         .cell(r.evidence.periods)
         .cell(r.evidence.note);
     for (const auto* meshes : {&r.sun_planet, &r.ring_planet})
@@ -230,8 +236,7 @@ void write_point_columns(Hdf5File& h5, const PointSource& points) {
   column(
       "orbit_residual", [](const PointResult& r) { return proven(r) ? r.evidence.residual : unknown; },
       "b_c, b_c per tau");
-  column(
-      "zero_one", [](const PointResult& r) { return r.classified && !proven(r) ? r.evidence.zero_one : unknown; }, "1");
+  column("zero_one", zero_one, "1");
   column(
       "classified_periods", [&](const PointResult& r) { return integer(r.evidence.periods); }, "mesh periods");
   column(
