@@ -11,10 +11,10 @@ namespace epicyclic::model {
 
 namespace {
 
-template <Layout L, std::size_t N, std::size_t W>
+template <std::size_t N, std::size_t W>
 LaneModel lanes_of(const DynamicModel& like, LaneKernel<N, W> kernel) {
-  const auto point = [](const DynamicModel& m) {
-    if (m.layout != L || m.planets != static_cast<int>(N))
+  const auto point = [layout = like.layout](const DynamicModel& m) {
+    if (m.layout != layout || m.planets != static_cast<int>(N))
       throw InputError("operating points of different structure cannot run side by side");
     return std::static_pointer_cast<const Parameters<double, N>>(m.constants);
   };
@@ -44,11 +44,11 @@ LaneModel make_lane_model(const DynamicModel& like, const char* instruction_set)
   return dispatch(like.layout, like.planets, [&]<Layout L, std::size_t N>() -> LaneModel {
     if constexpr (L != Layout::full) {
       if (const auto kernel = lane_kernel<L, N, 2>(instruction_set); kernel.evaluate != nullptr)
-        return lanes_of<L, N, 2>(like, kernel);
+        return lanes_of<N, 2>(like, kernel);
       if (const auto kernel = lane_kernel<L, N, 4>(instruction_set); kernel.evaluate != nullptr)
-        return lanes_of<L, N, 4>(like, kernel);
+        return lanes_of<N, 4>(like, kernel);
       if (const auto kernel = lane_kernel<L, N, 8>(instruction_set); kernel.evaluate != nullptr)
-        return lanes_of<L, N, 8>(like, kernel);
+        return lanes_of<N, 8>(like, kernel);
     }
     return {};
   });
