@@ -1,9 +1,9 @@
 // The lane kernel alone, for the slopes of a step, and what the machine's adders and multipliers do at most: the share
 // of the peak.
 //
-// Counters: operations of one right-hand side in one lane, as counted by model/counted_lanes.hpp; lanes times slopes;
-// and, of the peak, operations per second. Contraction is off in the kernels, so the peak is that of separate additions
-// and multiplications, half that of fused ones.
+// Counters: operations of one right-hand side in one lane, as counted by model/counted_lanes.hpp; evaluations, lanes
+// times slopes; and, of the peak, operations per second. Contraction is off in the kernels, so the peak is that of
+// separate additions and multiplications, half that of fused ones.
 
 #include <algorithm>
 #include <cstddef>
@@ -51,7 +51,7 @@ void lane_kernel(benchmark::State& state) {
   }
   State f(y.size());
   const auto operations = epicyclic::model::operations_of_lane(model, 0, 0.3, y.data(), f.data());
-  state.counters["lanes"] = static_cast<double>(slopes * lanes.width);
+  state.counters["evaluations"] = static_cast<double>(slopes * lanes.width);
   state.counters["operations"] = static_cast<double>(operations.arithmetic());
 }
 
