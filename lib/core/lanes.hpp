@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/cubics.hpp"
 #include "core/row.hpp"
 #include "core/scalar.hpp"
 
@@ -182,6 +183,44 @@ template <std::size_t W, std::size_t K>
       for (std::size_t lane = 0; lane < W; ++lane) columns[j].pack[lane] = rows[lane][j];
   }
   return columns;
+}
+
+/// K cubics of each lane, of its own coefficients at its own place.
+template <std::size_t W, std::size_t K>
+[[nodiscard]] std::array<Lanes<W>, K> cubics_at(const std::array<const Cubics<K>*, W>& c, const Lanes<W>& t) {
+  if constexpr (W == 8 && Row<double, K>::padded == 4) {
+    // Lanes i and i + 4 share a register: half the operations, and the transposition is that of four rows.
+    using Four = typename detail::LanePack<4>::Values;
+    using Eight = typename detail::LanePack<8>::Values;
+    const auto half = [&](std::size_t i) {
+      const auto power = [&](std::size_t k) {
+        return __builtin_shufflevector(std::bit_cast<Four>((*c[i])[k]), std::bit_cast<Four>((*c[i + 4])[k]), 0, 1, 2, 3,
+                                       4, 5, 6, 7);
+      };
+      using Bits = typename detail::LanePack<8>::Bits;
+      const auto i0 = static_cast<long long>(i);
+      const Eight x = __builtin_shuffle(t.pack, Bits{i0, i0, i0, i0, i0 + 4, i0 + 4, i0 + 4, i0 + 4});
+      return power(0) + x * (power(1) + x * (power(2) + x * power(3)));
+    };
+    const Eight a = half(0);
+    const Eight b = half(1);
+    const Eight d = half(2);
+    const Eight e = half(3);
+    const Eight ab_even = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+    const Eight ab_odd = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+    const Eight de_even = __builtin_shufflevector(d, e, 0, 8, 2, 10, 4, 12, 6, 14);
+    const Eight de_odd = __builtin_shufflevector(d, e, 1, 9, 3, 11, 5, 13, 7, 15);
+    std::array<Lanes<8>, K> columns;
+    columns[0].pack = __builtin_shufflevector(ab_even, de_even, 0, 1, 8, 9, 4, 5, 12, 13);
+    if constexpr (K > 1) columns[1].pack = __builtin_shufflevector(ab_odd, de_odd, 0, 1, 8, 9, 4, 5, 12, 13);
+    if constexpr (K > 2) columns[2].pack = __builtin_shufflevector(ab_even, de_even, 2, 3, 10, 11, 6, 7, 14, 15);
+    if constexpr (K > 3) columns[3].pack = __builtin_shufflevector(ab_odd, de_odd, 2, 3, 10, 11, 6, 7, 14, 15);
+    return columns;
+  } else {
+    std::array<Row<double, K>, W> rows;
+    for (std::size_t lane = 0; lane < W; ++lane) rows[lane] = cubics_at(*c[lane], t[lane]);
+    return transposed<W, K>(rows);
+  }
 }
 
 }  // namespace epicyclic

@@ -103,12 +103,6 @@ const Pair& pair_of(const std::string& method) {
   return *it;
 }
 
-/// Of ARKODE's controller after a refusal; the rest of it is in the kernels.
-constexpr double least_shrinkage = 0.1;
-constexpr double refused_again = 0.3;  ///< after two in a row
-/// A step is no step when s does not move, or hardly.
-constexpr double least_step = 1e-14;
-
 /// Memory aligned for registers.
 class Numbers {
  public:
@@ -185,6 +179,7 @@ class LaneEnsemble::Impl {
         lanes_(w_),
         sample_(n_) {
     if (options_.locate_contacts) throw InputError("lanes do not locate contact changes");
+    find_slopes();
   }
 
   std::size_t width() const { return w_; }
@@ -217,7 +212,6 @@ class LaneEnsemble::Impl {
     l.stops.push_back(to);
     l.next_stop = 0;
     const double periods = l.system->period > 0.0 ? std::ceil((to - from) / l.system->period) : 1.0;
-    l.refusals = 0;
     l.evolution = {Outcome::reached, from, {}};
     if (!std::exchange(l.busy, true)) ++running_;
     steps_.s[lane] = from;
@@ -270,7 +264,6 @@ class LaneEnsemble::Impl {
     bool ended = false;
     bool fresh = false;         ///< its first slope is not that of this place yet
     double proposed = 0;        ///< length of the next evolution's first step; 0 if not known
-    int refusals = 0;           ///< in a row
     std::vector<double> stops;  ///< breakpoints on the way, and the end
     std::size_t next_stop = 0;
     std::span<const double> samples;
@@ -316,15 +309,22 @@ class LaneEnsemble::Impl {
   }
 
   /// The slopes that a sum is made of.
-  std::array<const double*, most_stages> slopes_of(const Terms& terms) const {
-    std::array<const double*, most_stages> slopes{};
-    for (std::size_t j = 0; j < terms.count; ++j) slopes[j] = k_[terms.slope[j]].get();
-    return slopes;
+  using Slopes = std::array<const double*, most_stages>;
+
+  /// To be called when slopes have changed places.
+  void find_slopes() {
+    const auto of = [&](const Terms& terms) {
+      Slopes slopes{};
+      for (std::size_t j = 0; j < terms.count; ++j) slopes[j] = k_[terms.slope[j]].get();
+      return slopes;
+    };
+    for (std::size_t j = 0; j < pair_.stages; ++j) row_slopes_[j] = of(pair_.rows[j]);
+    weight_slopes_ = of(pair_.weights);
+    difference_slopes_ = of(pair_.differences);
   }
 
-  void advance_by(const Terms& terms) {
-    kernels_.stage(n_, terms.count, terms.weight.data(), slopes_of(terms).data(), steps_.h.data(), y_.get(),
-                   next_.get());
+  void advance_by(const Terms& terms, const Slopes& slopes) {
+    kernels_.stage(n_, terms.count, terms.weight.data(), slopes.data(), steps_.h.data(), y_.get(), next_.get());
   }
 
   /// The first slope of each lane's step. Lanes that have theirs take them anew at the same places: the same bits.
@@ -343,7 +343,7 @@ class LaneEnsemble::Impl {
     if (pair_.first_same_as_last) return;
     bool wanted = false;
     for (std::size_t lane = 0; lane < w_; ++lane) {
-      if (steps_.accepted[lane] == 0 || steps_.sample[lane] >= steps_.end[lane]) continue;
+      if (steps_.event[lane] == 0 || steps_.accepted[lane] == 0 || steps_.sample[lane] >= steps_.end[lane]) continue;
       ++lanes_[lane].more_slopes;
       wanted = true;
     }
@@ -380,53 +380,50 @@ class LaneEnsemble::Impl {
     set_places(!have_first_);
     if (!have_first_) take_first_slopes(0);
     for (std::size_t j = 1; j < pair_.stages; ++j) {
-      advance_by(pair_.rows[j]);
+      advance_by(pair_.rows[j], row_slopes_[j]);
       evaluate(places_.of[j], next_.get(), k_[j]);
     }
-    if (!pair_.first_same_as_last) advance_by(pair_.weights);
+    if (!pair_.first_same_as_last) advance_by(pair_.weights, weight_slopes_);
     const Terms& e = pair_.differences;
-    kernels_.error(controlled_, e.count, e.weight.data(), slopes_of(e).data(), steps_.h.data(), y_.get(), next_.get(),
-                   options_.relative_tolerance, options_.absolute_tolerance, steps_.norm.data(), steps_.largest.data());
+    kernels_.error(controlled_, e.count, e.weight.data(), difference_slopes_.data(), steps_.h.data(), y_.get(),
+                   next_.get(), options_.relative_tolerance, options_.absolute_tolerance, steps_.norm.data(),
+                   steps_.largest.data());
     for (std::size_t j = 1; j <= vectors_; ++j) worst_with_vector(j);
-    const bool eventful = kernels_.judge(steps_, options_.escape_bound);
-    if (eventful) look_closer();
-    std::size_t taken = 0;
-    for (std::size_t lane = 0; lane < w_; ++lane) taken += steps_.accepted[lane] != 0 ? 1 : 0;
-    all_at_end_ = taken == running_;
-    Numbers& last = k_[most_stages - 1];
-    if (taken == w_) {
+    const LaneVerdict verdict = kernels_.judge(steps_, options_.escape_bound);
+    if (verdict.eventful) look_closer();
+    all_at_end_ = verdict.accepted == running_;
+    if (verdict.accepted == w_) {
       std::swap(y_, next_);
-      if (pair_.first_same_as_last) std::swap(k_[0], last);
+      if (pair_.first_same_as_last) {
+        std::swap(k_[0], k_[most_stages - 1]);
+        find_slopes();
+      }
     } else {
       kernels_.accept(n_, steps_.accepted.data(), next_.get(), y_.get());
-      if (pair_.first_same_as_last) kernels_.accept(n_, steps_.accepted.data(), last.get(), k_[0].get());
+      if (pair_.first_same_as_last) kernels_.accept(n_, steps_.accepted.data(), k_[most_stages - 1].get(), k_[0].get());
     }
-    for (std::size_t lane = 0; lane < w_; ++lane)
-      if (steps_.accepted[lane] != 0) steps_.s[lane] = steps_.end[lane];
-    if (eventful) arrive();
-    return eventful;
+    kernels_.accept(1, steps_.accepted.data(), steps_.end.data(), steps_.s.data());
+    if (verdict.eventful) arrive();
+    return verdict.eventful;
   }
 
-  /// At lanes whose steps were refused, and at samples.
+  /// At events other than stops.
   void look_closer() {
+    take_last_slopes();
     for (std::size_t lane = 0; lane < w_; ++lane) {
-      if (!lanes_[lane].busy) continue;
-      if (steps_.accepted[lane] == 0) {
-        refuse(lane);
+      if (steps_.event[lane] == 0) continue;
+      if (steps_.accepted[lane] != 0) {
+        observe(lane);
       } else {
-        lanes_[lane].refusals = 0;
-        steps_.refused[lane] = 0;
+        give_up(lane);
       }
     }
-    take_last_slopes();
-    for (std::size_t lane = 0; lane < w_; ++lane)
-      if (steps_.accepted[lane] != 0) observe(lane);
   }
 
   /// Lanes have no kernel for tangents of their own: theirs is plain text.
   void worst_with_vector(std::size_t j) {
     const Terms& terms = pair_.differences;
-    const auto slopes = slopes_of(terms);
+    const Slopes& slopes = difference_slopes_;
     for (std::size_t lane = 0; lane < w_; ++lane) {
       if (!lanes_[lane].busy) continue;
       double size = last_is_parameter_ && (j + 1) * controlled_ == n_ ? 1.0 : 0.0;
@@ -447,29 +444,23 @@ class LaneEnsemble::Impl {
     }
   }
 
-  /// A step that was not accepted: beyond the escape bound, or with too large an error.
-  void refuse(std::size_t lane) {
+  /// Of a lane whose step was not accepted, and will not be.
+  void give_up(std::size_t lane) {
     Lane& l = lanes_[lane];
     const double s = steps_.s[lane];
-    if (steps_.norm[lane] <= 1.0 && std::isfinite(steps_.largest[lane]))
-      return end(l, Outcome::diverged, s, "a component left the escape bound");
-    ++l.refusals;
-    steps_.refused[lane] = all_bits;
-    const double wanted = steps_.wanted[lane];
-    double shrunk = std::isfinite(wanted) ? std::min(std::max(wanted, least_shrinkage), 1.0) : least_shrinkage;
-    if (l.refusals >= 2) shrunk = std::min(shrunk, refused_again);
-    steps_.proposed[lane] = shrunk * steps_.h[lane];
-    if (steps_.proposed[lane] < least_step * std::max(1.0, std::abs(s))) {
-      end(l, Outcome::failed, s, "no step is accepted");
+    if (steps_.norm[lane] <= 1.0 && std::isfinite(steps_.largest[lane])) {
+      end(l, Outcome::diverged, s, "a component left the escape bound");
     } else if (steps_.attempts[lane] >= steps_.allowed[lane]) {
       end(l, Outcome::step_limit, s, "more steps than allowed");
+    } else {
+      end(l, Outcome::failed, s, "no step is accepted");
     }
   }
 
   /// Lanes that have come to a stop, or have had as many attempts as allowed.
   void arrive() {
     for (std::size_t lane = 0; lane < w_; ++lane) {
-      if (steps_.accepted[lane] == 0) continue;
+      if (steps_.event[lane] == 0 || steps_.accepted[lane] == 0) continue;
       Lane& l = lanes_[lane];
       const double s = steps_.s[lane];
       if (steps_.cut[lane] != 0) {
@@ -539,6 +530,8 @@ class LaneEnsemble::Impl {
   bool last_is_parameter_ = false;
   Numbers y_, next_;
   std::array<Numbers, most_stages> k_;  ///< the last one: slopes at the end of the step
+  std::array<Slopes, most_stages> row_slopes_{};
+  Slopes weight_slopes_{}, difference_slopes_{};
   LaneSteps steps_;
   Numbers at_;  ///< places of the slopes
   std::vector<Lane> lanes_;

@@ -30,8 +30,15 @@ struct alignas(64) LaneSteps {
   alignas(64) Each<long long> cut{};       ///< mask: the step is one to a stop
   alignas(64) Each<long long> accepted{};  ///< mask
   alignas(64) Each<long long> refused{};   ///< mask: the last attempt was refused
+  alignas(64) Each<long long> event{};     ///< mask: more has to be thought of this lane
   alignas(64) Each<long long> attempts{};  ///< so far
   alignas(64) Each<long long> allowed{};   ///< attempts
+};
+
+/// Of an attempt of a step in each lane.
+struct LaneVerdict {
+  bool eventful = false;     ///< there is a lane with an event
+  std::size_t accepted = 0;  ///< lanes
 };
 
 struct LaneKernels {
@@ -51,10 +58,10 @@ struct LaneKernels {
   /// Sets h, end and cut, and out_k = s + c_k h for each of `count` nodes, the end itself where c_k = 1.
   void (*measure)(LaneSteps& steps, std::size_t count, const double* c, double* out) = nullptr;
 
-  /// Sets `accepted`, counts the attempts, and proposes the next steps of accepted ones as ARKODE's I controller does.
-  /// @returns whether there is a lane of which more has to be thought: a step refused now or just before, a stop or
-  ///          a sample reached, as many attempts as allowed
-  bool (*judge)(LaneSteps& steps, double escape_bound) = nullptr;
+  /// Sets `accepted` and `refused`, counts the attempts, and proposes the next steps as ARKODE's I controller does.
+  /// Sets `event` where a stop or a sample is reached, the escape bound is left, no step is accepted or none is allowed
+  /// any more.
+  LaneVerdict (*judge)(LaneSteps& steps, double escape_bound) = nullptr;
 
   /// to <- from in the lanes of the mask.
   void (*accept)(std::size_t dimension, const long long* accepted, const double* from, double* to) = nullptr;

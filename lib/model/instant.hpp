@@ -12,7 +12,6 @@
 #include <array>
 #include <cstddef>
 #include <numbers>
-#include <type_traits>
 
 #include "core/row.hpp"
 #include "core/scalar.hpp"
@@ -26,8 +25,7 @@ template <class T>
 struct HarmonicBasis {
   std::array<T, gear::harmonics_max> cosine, sine;
 
-  HarmonicBasis(const T& s, std::size_t harmonics) {
-    const SineCosine<T> first = sine_cosine(s);
+  HarmonicBasis(const SineCosine<T>& first, std::size_t harmonics) {
     cosine[0] = first.cosine;
     sine[0] = first.sine;
     for (std::size_t h = 1; h < harmonics; ++h) {
@@ -68,27 +66,16 @@ struct MeshInstant {
     }
   }
 
-  /// What tables do.
-  /// @param places  those of the current segment (MeshPlaces, or one of them for each lane)
-  template <class Places>
-  void look_up(const MeshParameters<P, N>& mesh, const Places& places, const P& s) {
+  /// What tables do; of lanes model/lane_instants.hpp.
+  /// @param places  those of the current segment
+  void look_up(const MeshParameters<P, N>& mesh, const MeshPlaces<N>& places, const P& s) {
     const auto own_phase = [&](std::size_t i) { return s * (0.5 * std::numbers::inv_pi) + mesh.turns[i]; };
-    if (is_lanes<P> && shared) {
-      const P phase = own_phase(0);
-      if (mesh.stiffness_curve) stiffness.set(0, stiffness_at(mesh, places, 0, phase));
-      if (mesh.friction) {
-        const FrictionRatios<P> ratios = friction_at(mesh, places, 0, phase);
-        friction.set(0, ratios.force);
-        moment_driving.set(0, ratios.moment_driving);
-        moment_driven.set(0, ratios.moment_driven);
-      }
-      return;
-    }
     if (mesh.stiffness_curve)
-      stiffness = Row<P, N>::of([&](std::size_t i) { return stiffness_at(mesh, places, i, own_phase(i)); });
+      stiffness =
+          Row<P, N>::of([&](std::size_t i) { return mesh.stiffness_curve->at(places.stiffness[i], own_phase(i))[0]; });
     if (mesh.friction) {
       std::array<FrictionRatios<P>, N> ratios;
-      for (std::size_t i = 0; i < N; ++i) ratios[i] = friction_at(mesh, places, i, own_phase(i));
+      for (std::size_t i = 0; i < N; ++i) ratios[i] = mesh.friction->at(places.friction[i], own_phase(i));
       friction = Row<P, N>::of([&](std::size_t i) { return ratios[i].force; });
       moment_driving = Row<P, N>::of([&](std::size_t i) { return ratios[i].moment_driving; });
       moment_driven = Row<P, N>::of([&](std::size_t i) { return ratios[i].moment_driven; });
@@ -103,14 +90,9 @@ struct MeshInstant {
   }
 };
 
-/// @param places  a segment of p, by its number or itself, or one for each lane
-template <class P, std::size_t N, class Places>
-[[nodiscard]] decltype(auto) segment_of(const Parameters<P, N>& p, const Places& places) {
-  if constexpr (std::is_integral_v<Places>) {
-    return (p.segments[static_cast<std::size_t>(places)]);
-  } else {
-    return (places);
-  }
+template <class P, std::size_t N>
+[[nodiscard]] std::size_t harmonics_of(const Parameters<P, N>& p) {
+  return std::max(p.sun_planet.harmonics, p.ring_planet.harmonics);
 }
 
 /// Of the stage.
@@ -120,18 +102,16 @@ struct Instant {
 
   Instant() = default;
 
-  /// @param places  a segment of p, by its number or itself, or one for each lane
-  template <class Places>
-  Instant(const Parameters<P, N>& p, const Places& places, const P& s)
-      : Instant(p, HarmonicBasis<P>(s, std::max(p.sun_planet.harmonics, p.ring_planet.harmonics))) {
-    sun_planet.look_up(p.sun_planet, segment_of(p, places).sun_planet, s);
-    ring_planet.look_up(p.ring_planet, segment_of(p, places).ring_planet, s);
-  }
-
- private:
   /// Without the tables.
   Instant(const Parameters<P, N>& p, const HarmonicBasis<P>& basis)
       : sun_planet(p, p.sun_planet, basis), ring_planet(p, p.ring_planet, basis) {}
+
+  /// @param segment  of p, that of s
+  Instant(const Parameters<P, N>& p, std::size_t segment, const P& s)
+      : Instant(p, HarmonicBasis<P>(sine_cosine(s), harmonics_of(p))) {
+    sun_planet.look_up(p.sun_planet, p.segments[segment].sun_planet, s);
+    ring_planet.look_up(p.ring_planet, p.segments[segment].ring_planet, s);
+  }
 };
 
 }  // namespace epicyclic::model

@@ -16,6 +16,14 @@
 
 namespace epicyclic::model {
 
+/// The interval of its table that each lane is in.
+template <std::size_t W>
+struct LaneInterval {
+  Lanes<W> x;       ///< phase without whole turns
+  Lanes<W> number;  ///< counted from the piece's first one; a guess where intervals are not even
+  Lanes<W> t;       ///< phase since its start, where they are
+};
+
 /// Where each lane is in one of its tables.
 template <std::size_t K, std::size_t W>
 struct LanePlace {
@@ -23,7 +31,7 @@ struct LanePlace {
 
   std::array<const Track*, W> track{};
   std::array<TrackPiece, W> piece{};
-  std::array<const typename Track::Cubics*, W> cubics{};
+  std::array<const Cubics<K>*, W> cubics{};
   Lanes<W> centre, start, intervals_per_phase, interval, most;
   bool even = false;  ///< in all lanes
 
@@ -41,21 +49,28 @@ struct LanePlace {
     for (std::size_t k = 0; k < W; ++k) even = even && track[k] != nullptr && piece[k].even;
   }
 
-  /// The K functions at each lane's phase: those of PeriodicTrack::at() to rounding.
-  [[nodiscard]] std::array<Lanes<W>, K> at(const Lanes<W>& phase) const {
-    const Lanes<W> x = phase - nearest_whole(phase - centre);
-    const Lanes<W> beyond = x - start;
+  /// @param phase  each lane's, within half a turn of its place, whole turns apart
+  [[nodiscard]] LaneInterval<W> find(const Lanes<W>& phase) const {
+    LaneInterval<W> found;
+    found.x = phase - nearest_whole(phase - centre);
+    const Lanes<W> beyond = found.x - start;
     // Half an interval less, which rounding to the nearest gives back.
-    const Lanes<W> guess = nearest_whole(min(max(beyond * intervals_per_phase - 0.5, Lanes<W>(0.0)), most));
-    const auto k = guess.counts();
-    std::array<Row<double, K>, W> rows;
+    found.number = nearest_whole(min(max(beyond * intervals_per_phase - 0.5, Lanes<W>(0.0)), most));
+    found.t = beyond - found.number * interval;
+    return found;
+  }
+
+  /// The K functions there: those of PeriodicTrack::at() to rounding.
+  [[nodiscard]] std::array<Lanes<W>, K> at(const LaneInterval<W>& found) const {
+    const auto k = found.number.counts();
     if (even) {
-      const Lanes<W> t = beyond - guess * interval;
-      for (std::size_t lane = 0; lane < W; ++lane) rows[lane] = Track::cubic(cubics[lane][k[lane]], t[lane]);
-    } else {
-      for (std::size_t lane = 0; lane < W; ++lane)
-        rows[lane] = track[lane]->at(piece[lane], x[lane], static_cast<std::size_t>(k[lane]));
+      std::array<const Cubics<K>*, W> own;
+      for (std::size_t lane = 0; lane < W; ++lane) own[lane] = cubics[lane] + k[lane];
+      return cubics_at<W, K>(own, found.t);
     }
+    std::array<Row<double, K>, W> rows;
+    for (std::size_t lane = 0; lane < W; ++lane)
+      rows[lane] = track[lane]->at(piece[lane], found.x[lane], static_cast<std::size_t>(k[lane]));
     return transposed<W, K>(rows);
   }
 };
@@ -78,20 +93,6 @@ template <std::size_t N, std::size_t W>
 struct LaneSegment {
   LaneMeshPlaces<N, W> sun_planet, ring_planet;
 };
-
-template <std::size_t N, std::size_t W>
-[[nodiscard]] Lanes<W> stiffness_at(const MeshParameters<Lanes<W>, N>& /*mesh*/, const LaneMeshPlaces<N, W>& places,
-                                    std::size_t i, const Lanes<W>& phase) {
-  return places.stiffness[i].at(phase)[0];
-}
-
-template <std::size_t N, std::size_t W>
-[[nodiscard]] FrictionRatios<Lanes<W>> friction_at(const MeshParameters<Lanes<W>, N>& /*mesh*/,
-                                                   const LaneMeshPlaces<N, W>& places, std::size_t i,
-                                                   const Lanes<W>& phase) {
-  const auto values = places.friction[i].at(phase);
-  return {values[0], values[1], values[2]};
-}
 
 template <std::size_t N, std::size_t W>
 class LaneParameters {

@@ -54,19 +54,6 @@ struct Segment {
   MeshPlaces<N> sun_planet, ring_planet;
 };
 
-/// The stiffness curve of planet i's mesh at a phase of its own.
-template <class P, std::size_t N, class T>
-[[nodiscard]] T stiffness_at(const MeshParameters<P, N>& mesh, const MeshPlaces<N>& places, std::size_t i,
-                             const T& phase) {
-  return mesh.stiffness_curve->at(places.stiffness[i], phase)[0];
-}
-/// Its friction ratios.
-template <class P, std::size_t N, class T>
-[[nodiscard]] FrictionRatios<T> friction_at(const MeshParameters<P, N>& mesh, const MeshPlaces<N>& places,
-                                            std::size_t i, const T& phase) {
-  return mesh.friction->at(places.friction[i], phase);
-}
-
 template <class T, std::size_t N>
 struct Parameters {
   T omega;                         ///< Omega = omega_m / omega_sn

@@ -112,7 +112,7 @@ void PeriodicTrack<K>::append_piece(const std::vector<TrackRow<K>>& rows) {
     for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
       const double h = x[k + 1] - x[k];
       const double secant = (y[k + 1] - y[k]) / h;
-      Cubics& c = cubics_[first + k];
+      Cubics<K>& c = cubics_[first + k];
       c[0][j] = y[k];
       c[1][j] = slope[k];
       c[2][j] = (3.0 * secant - 2.0 * slope[k] - slope[k + 1]) / h;

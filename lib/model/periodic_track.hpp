@@ -15,6 +15,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/cubics.hpp"
 #include "core/dual.hpp"
 #include "core/row.hpp"
 #include "core/scalar.hpp"
@@ -75,19 +76,17 @@ class PeriodicTrack {
       return on_interval(k, x);
     } else {
       const T t = x - starts_[k];
-      const Cubics& c = cubics_[k];
+      const Cubics<K>& c = cubics_[k];
       Row<T, K> values =
           Row<T, K>::of([&](std::size_t j) { return c[0][j] + t * (c[1][j] + t * (c[2][j] + t * c[3][j])); });
       if constexpr (is_dual<T>) {
         if (!parameter_cubics_.empty()) {
-          values.derivative[0] += cubic(parameter_cubics_[k], value_of(t));
+          values.derivative[0] += cubics_at(parameter_cubics_[k], value_of(t));
         }
       }
       return values;
     }
   }
-
-  using Cubics = std::array<Row<double, K>, 4>;  ///< coefficients of the powers of phase - start of the interval
 
   /// What at() does after whole turns are taken off, for callers that guess for several lanes at once.
   /// @param x      within half a turn of the place's centre
@@ -95,13 +94,12 @@ class PeriodicTrack {
   [[nodiscard]] Row<double, K> at(const TrackPiece& piece, double x, std::size_t guess) const {
     return on_interval(walked(piece, x, piece.lo + guess), x);
   }
-  [[nodiscard]] const Cubics* cubics(const TrackPiece& piece) const { return cubics_.data() + piece.lo; }
-  [[nodiscard]] static Row<double, K> cubic(const Cubics& c, double t) {
-    return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
-  }
+  [[nodiscard]] const Cubics<K>* cubics(const TrackPiece& piece) const { return cubics_.data() + piece.lo; }
 
  private:
-  [[nodiscard]] Row<double, K> on_interval(std::size_t k, double x) const { return cubic(cubics_[k], x - starts_[k]); }
+  [[nodiscard]] Row<double, K> on_interval(std::size_t k, double x) const {
+    return cubics_at(cubics_[k], x - starts_[k]);
+  }
 
   /// Guessed as if the intervals were equal, which they mostly are, then walked to.
   template <class V>
@@ -123,8 +121,8 @@ class PeriodicTrack {
   void append_piece(const std::vector<TrackRow<K>>& rows);
 
   std::vector<double> starts_;
-  std::vector<Cubics> cubics_;
-  std::vector<Cubics> parameter_cubics_;  ///< their derivatives with respect to a parameter; empty without one
+  std::vector<Cubics<K>> cubics_;
+  std::vector<Cubics<K>> parameter_cubics_;  ///< their derivatives with respect to a parameter; empty without one
   std::vector<TrackPiece> pieces_;
   std::vector<double> breakpoints_;
 };

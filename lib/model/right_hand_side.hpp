@@ -20,7 +20,6 @@
 // them one by one, so that what a planet is worked on with stays in registers.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <type_traits>
 
@@ -153,10 +152,10 @@ struct StageState {
 };
 
 /// With all planets.
-template <Layout L, class T, class P, std::size_t N, class Places>
-[[nodiscard]] StageState<T, N, P> stage_state(const Parameters<P, N>& p, const Places& places,
+template <Layout L, class T, class P, std::size_t N>
+[[nodiscard]] StageState<T, N, P> stage_state(const Parameters<P, N>& p, std::size_t segment,
                                               const std::type_identity_t<P>& s, const T* y) {
-  return {Arranged<L>{}, p, Planets<N>{}, Instant<P, N>(p, places, s), y};
+  return {Arranged<L>{}, p, Planets<N>{}, Instant<P, N>(p, segment, s), y};
 }
 
 /// Sums over planets of what they do to the other members.
@@ -349,11 +348,11 @@ void right_hand_side(const Parameters<P, N>& p, const Instant<P, N>& now, const 
 
 /// dy/ds at mesh phase s.
 ///
-/// @param places  as for Instant
-template <Layout L, class T, class P, std::size_t N, class Places>
-void right_hand_side(const Parameters<P, N>& p, const Places& places, const std::type_identity_t<P>& s, const T* y,
+/// @param segment  of p, that of s
+template <Layout L, class T, class P, std::size_t N>
+void right_hand_side(const Parameters<P, N>& p, std::size_t segment, const std::type_identity_t<P>& s, const T* y,
                      T* dyds) {
-  right_hand_side<L>(p, Instant<P, N>(p, places, s), y, dyds);
+  right_hand_side<L>(p, Instant<P, N>(p, segment, s), y, dyds);
 }
 
 }  // namespace epicyclic::model

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <limits>
 #include <random>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -69,73 +68,145 @@ TEST(LaneKernels, ProposeStepsByTheErrorsFifthRoot) {
     for (const LaneKernels* kernels : sets()) {
       const std::size_t lane = static_cast<std::size_t>(k) % kernels->width;
       LaneSteps steps = alone(one, lane);
-      const bool eventful = kernels->judge(steps, bound);
+      const LaneVerdict verdict = kernels->judge(steps, bound);
       EXPECT_NEAR(steps.wanted[lane], wanted, 1e-14 * wanted) << kernels->name;
       if (kernels == sets().front()) first_bits = steps.wanted[lane];
       EXPECT_EQ(steps.wanted[lane], first_bits) << kernels->name;
       EXPECT_EQ(steps.attempts[lane], 8);
+      EXPECT_FALSE(verdict.eventful);
       if (one.norm[0] > 1.0) {
+        EXPECT_EQ(verdict.accepted, 0U);
         EXPECT_EQ(steps.accepted[lane], 0);
-        EXPECT_EQ(steps.proposed[lane], 0.5);
-        EXPECT_TRUE(eventful);
+        EXPECT_EQ(steps.refused[lane], -1);
+        EXPECT_EQ(steps.proposed[lane], 0.5 * std::clamp(steps.wanted[lane], 0.1, 1.0));
         continue;
       }
+      EXPECT_EQ(verdict.accepted, 1U);
       EXPECT_EQ(steps.accepted[lane], -1);
-      EXPECT_FALSE(eventful);
+      EXPECT_EQ(steps.refused[lane], 0);
       const double grown = std::min(steps.wanted[lane], 20.0);
       EXPECT_EQ(steps.proposed[lane], 0.5 * (grown >= 1.0 && grown <= 1.5 ? 1.0 : grown));
     }
   }
 }
 
+/// `one` judged in the last lane, and what became of it in lane 0.
+LaneSteps judged(const LaneKernels& kernels, const LaneSteps& one) {
+  const std::size_t lane = kernels.width - 1;
+  LaneSteps steps = alone(one, lane);
+  const LaneVerdict verdict = kernels.judge(steps, bound);
+  EXPECT_EQ(verdict.eventful, steps.event[lane] != 0);
+  EXPECT_EQ(verdict.accepted, steps.accepted[lane] != 0 ? 1U : 0U);
+  for (auto member : {&LaneSteps::accepted, &LaneSteps::refused, &LaneSteps::event})
+    (steps.*member)[0] = (steps.*member)[lane];
+  steps.proposed[0] = steps.proposed[lane];
+  return steps;
+}
+
 TEST(LaneKernels, TellWhatHasToBeLookedAt) {
-  const auto judged = [](const LaneKernels& kernels, const LaneSteps& one, LaneSteps& steps) {
-    const std::size_t lane = kernels.width - 1;
-    steps = alone(one, lane);
-    const bool eventful = kernels.judge(steps, bound);
-    steps.accepted[0] = steps.accepted[lane];
-    steps.proposed[0] = steps.proposed[lane];
-    return eventful;
-  };
   for (const LaneKernels* kernels : sets()) {
     SCOPED_TRACE(kernels->name);
-    LaneSteps steps;
-    for (const double norm : {none, infinite, 1.0001}) {
-      LaneSteps one = plain();
-      one.norm[0] = norm;
-      EXPECT_TRUE(judged(*kernels, one, steps));
-      EXPECT_EQ(steps.accepted[0], 0) << norm;
-    }
-    for (const double largest : {infinite, 2.0 * bound}) {
-      LaneSteps one = plain();
-      one.largest[0] = largest;
-      EXPECT_TRUE(judged(*kernels, one, steps));
-      EXPECT_EQ(steps.accepted[0], 0) << largest;
-    }
     LaneSteps cut = plain();
     cut.cut[0] = -1;
     cut.h[0] = 1e-3;  // far shorter than proposed: that stays
-    EXPECT_TRUE(judged(*kernels, cut, steps));
-    EXPECT_EQ(steps.accepted[0], -1);
-    EXPECT_EQ(steps.proposed[0], 0.5);
-    LaneSteps refused = plain();
-    refused.refused[0] = -1;  // does not grow
-    refused.norm[0] = 1e-8;
-    EXPECT_TRUE(judged(*kernels, refused, steps));
-    EXPECT_EQ(steps.proposed[0], 0.5);
+    const LaneSteps arrived = judged(*kernels, cut);
+    EXPECT_EQ(arrived.event[0], -1);
+    EXPECT_EQ(arrived.accepted[0], -1);
+    EXPECT_EQ(arrived.proposed[0], 0.5);
+    cut.norm[0] = 2.0;  // refused: nothing is reached
+    EXPECT_EQ(judged(*kernels, cut).event[0], 0);
     LaneSteps sampled = plain();
     sampled.sample[0] = 1.5;
-    EXPECT_TRUE(judged(*kernels, sampled, steps));
+    EXPECT_EQ(judged(*kernels, sampled).event[0], -1);
     sampled.sample[0] = 1.5000001;
-    EXPECT_FALSE(judged(*kernels, sampled, steps));
+    EXPECT_EQ(judged(*kernels, sampled).event[0], 0);
     LaneSteps last = plain();
     last.allowed[0] = 8;
-    EXPECT_TRUE(judged(*kernels, last, steps));
+    EXPECT_EQ(judged(*kernels, last).event[0], -1);
+    last.allowed[0] = 9;
+    EXPECT_EQ(judged(*kernels, last).event[0], 0);
+    LaneSteps far = plain();
+    far.largest[0] = 2.0 * bound;
+    EXPECT_EQ(judged(*kernels, far).event[0], -1);
+    EXPECT_EQ(judged(*kernels, far).accepted[0], 0);
     LaneSteps idle = plain();
     idle.running[0] = 0;
     idle.norm[0] = none;
-    EXPECT_FALSE(judged(*kernels, idle, steps));
-    EXPECT_EQ(steps.accepted[0], 0);
+    EXPECT_EQ(judged(*kernels, idle).event[0], 0);
+    EXPECT_EQ(judged(*kernels, idle).accepted[0], 0);
+    EXPECT_EQ(judged(*kernels, idle).refused[0], 0);
+    EXPECT_EQ(judged(*kernels, idle).proposed[0], 0.5);
+  }
+}
+
+TEST(LaneKernels, ShortenRefusedSteps) {
+  for (const LaneKernels* kernels : sets()) {
+    SCOPED_TRACE(kernels->name);
+    for (const double norm : {none, infinite, 1e30}) {  // as far as one refusal may
+      LaneSteps one = plain();
+      one.norm[0] = norm;
+      const LaneSteps steps = judged(*kernels, one);
+      EXPECT_EQ(steps.accepted[0], 0) << norm;
+      EXPECT_EQ(steps.refused[0], -1) << norm;
+      EXPECT_EQ(steps.proposed[0], 0.05) << norm;
+    }
+    LaneSteps endless = plain();
+    endless.largest[0] = infinite;  // with a norm that says nothing
+    EXPECT_EQ(judged(*kernels, endless).accepted[0], 0);
+    EXPECT_EQ(judged(*kernels, endless).event[0], 0);
+    LaneSteps twice = plain();
+    twice.norm[0] = 1.1;
+    EXPECT_GT(judged(*kernels, twice).proposed[0], 0.4);
+    twice.refused[0] = -1;
+    EXPECT_EQ(judged(*kernels, twice).proposed[0], 0.15);
+    LaneSteps after = plain();
+    after.refused[0] = -1;  // accepted after a refusal: does not grow
+    after.norm[0] = 1e-8;
+    EXPECT_EQ(judged(*kernels, after).proposed[0], 0.5);
+    EXPECT_EQ(judged(*kernels, after).refused[0], 0);
+    EXPECT_EQ(judged(*kernels, after).event[0], 0);
+    LaneSteps stuck = plain();
+    stuck.s[0] = -100.0;
+    stuck.norm[0] = none;
+    stuck.h[0] = 1.1e-11;
+    EXPECT_EQ(judged(*kernels, stuck).event[0], 0);
+    stuck.h[0] = 0.9e-11;
+    EXPECT_EQ(judged(*kernels, stuck).event[0], -1);
+  }
+}
+
+/// Of an odd number of components and of an even one: they are gone through in twos.
+TEST(LaneKernels, MeasureTheWeightedRootMeanSquare) {
+  constexpr std::size_t most = 7;
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> any(-3.0, 3.0);
+  for (const LaneKernels* kernels : sets()) {
+    const std::size_t width = kernels->width;
+    for (std::size_t dimension = 1; dimension <= most; ++dimension) {
+      alignas(64) std::array<std::array<double, most * most_lanes>, 5> numbers{};
+      for (auto& values : numbers)
+        for (double& x : values) x = any(random);
+      alignas(64) std::array<double, most_lanes> h{}, square{}, largest{};
+      h.fill(0.3);
+      const std::array<double, 3> e = {0.5, -0.2, 0.1};
+      const std::array<const double*, 3> k = {numbers[0].data(), numbers[1].data(), numbers[2].data()};
+      kernels->error(dimension, 3, e.data(), k.data(), h.data(), numbers[3].data(), numbers[4].data(), 1e-3, 1e-5,
+                     square.data(), largest.data());
+      for (std::size_t lane = 0; lane < width; ++lane) {
+        double squares = 0.0;
+        double longest = 0.0;
+        for (std::size_t i = 0; i < dimension; ++i) {
+          const std::size_t at = i * width + lane;
+          const double error = 0.3 * (0.5 * numbers[0][at] - 0.2 * numbers[1][at] + 0.1 * numbers[2][at]);
+          const double part = error / (1e-3 * std::abs(numbers[3][at]) + 1e-5);
+          squares += part * part;
+          longest = std::max(longest, std::abs(numbers[4][at]));
+        }
+        const double expected = squares / static_cast<double>(dimension);
+        EXPECT_NEAR(square[lane], expected, 1e-14 * expected) << kernels->name << " " << dimension;
+        EXPECT_EQ(largest[lane], longest);
+      }
+    }
   }
 }
 

@@ -11,6 +11,7 @@
 #include "core/lanes.hpp"
 #include "model/dispatch.hpp"
 #include "model/dynamic_model.hpp"
+#include "model/lane_instants.hpp"
 #include "model/lane_parameters.hpp"
 #include "model/right_hand_side.hpp"
 
@@ -113,7 +114,9 @@ inline Operations operations_of_lane(const DynamicModel& model, std::size_t segm
       std::vector<Lanes<1>> out(model.dimension);
       const Lanes<1> at(s);
       counted::operations = {};
-      right_hand_side<L>(p.constants(), p.segment(), at, in.data(), out.data());
+      Instant<Lanes<1>, N> now;
+      make_instants(p, 1, &at, &now);
+      right_hand_side<L>(p.constants(), now, in.data(), out.data());
       counts = counted::operations;
       for (std::size_t i = 0; i < model.dimension; ++i) dyds[i] = out[i][0];
     }

@@ -16,6 +16,7 @@
 #include "core/dual.hpp"
 #include "core/errors.hpp"
 #include "core/lanes.hpp"
+#include "model/lane_instants.hpp"
 #include "model/lane_parameters.hpp"
 #include "model/parameters.hpp"
 #include "model/right_hand_side.hpp"
@@ -88,7 +89,9 @@ TEST(Scalars, LanesWithParametersOfTheirOwnAreTheSingleRuns) {
         packed.set_segment(lane, segments[lane]);
         s.set(lane, middle(*single[lane], segments[lane]) + 2.0 * std::numbers::pi * static_cast<double>(lane));
       }
-      right_hand_side<layout>(packed.constants(), packed.segment(), s, y.data(), f.data());
+      Instant<L, planets> now;
+      make_instants(packed, 1, &s, &now);
+      right_hand_side<layout>(packed.constants(), now, y.data(), f.data());
       for (std::size_t lane = 0; lane < width; ++lane) {
         const State expected = evaluate(*single[lane], segments[lane], s[lane], states[lane]);
         double largest = 0.0;
