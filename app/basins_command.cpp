@@ -12,41 +12,43 @@
 
 namespace epicyclic::app {
 
-int basins_command(const Arguments& arguments) {
-  return points_command(arguments, "basins", "cells", [](const ComputedPoints& plane) {
-    std::vector<studies::PointResult> results = io::all_brief(plane.points);
-    const io::Study& study = plane.input.study;
-    const io::BasinsOutput output{study.plane, plane.first_model.state_names, studies::planet_turns(plane.first_model),
-                                  plane.resolved, io::figure_title(study)};
-    const analysis::Attractors attractors = studies::attractors_of(results, output.turns);
-    io::write_basins_csv(plane.folder.file("points.csv"), results, attractors);
-    io::write_attractors_csv(plane.folder.file("attractors.csv"), output, results, attractors);
-    io::write_basins_h5(plane.folder.file("results.h5"), output, results, attractors);
-    WrittenPoints written;
-    written.figures = io::draw_basins_figure(plane.folder.file("figures"), output, results, attractors);
-    written.summary["attractors"] = nlohmann::json::array();
-    std::size_t told = 0;
-    for (std::size_t k = 0; k < attractors.all.size(); ++k) {
-      const analysis::Attractor& a = attractors.all[k];
-      told += a.members.size();
-      nlohmann::json one = {{"attractor", k + 1},
-                            {"regime", to_string(a.record.regime)},
-                            {"period", a.record.period()},
-                            {"cells", a.members.size()}};
-      std::string line =
-          fmt::format("attractor {}: {}, {} cells", k + 1, io::attractor_word(a.record), a.members.size());
-      if (a.image_of > 0) {
-        one["image_of"] = a.image_of;
-        line +=
-            fmt::format(", attractor {} with each planet moved on by {}", a.image_of, output.turns[a.image_by].planets);
-      }
-      written.summary["attractors"].push_back(std::move(one));
-      written.lines.push_back(std::move(line));
+namespace {
+
+WrittenPoints write_results(const ComputedPoints& plane) {
+  std::vector<studies::PointResult> results = io::all_brief(plane.points);
+  const io::Study& study = plane.input.study;
+  const io::BasinsOutput output{study.plane, plane.first_model.state_names, studies::planet_turns(plane.first_model),
+                                plane.resolved, io::figure_title(study)};
+  const analysis::Attractors attractors = studies::attractors_of(results, output.turns);
+  io::write_basins_csv(plane.folder / "points.csv", results, attractors);
+  io::write_attractors_csv(plane.folder / "attractors.csv", output, results, attractors);
+  io::write_basins_h5(plane.folder / "results.h5", output, results, attractors);
+  WrittenPoints written;
+  written.figures = io::draw_basins_figure(plane.folder / "figures", output, results, attractors);
+  written.summary["attractors"] = nlohmann::json::array();
+  std::size_t told = 0;
+  for (std::size_t k = 0; k < attractors.all.size(); ++k) {
+    const analysis::Attractor& a = attractors.all[k];
+    told += a.members.size();
+    nlohmann::json one = {{"attractor", k + 1},
+                          {"regime", to_string(a.record.regime)},
+                          {"period", a.record.period()},
+                          {"cells", a.members.size()}};
+    std::string line = fmt::format("attractor {}: {}, {} cells", k + 1, io::attractor_word(a.record), a.members.size());
+    if (a.image_of > 0) {
+      one["image_of"] = a.image_of;
+      line +=
+          fmt::format(", attractor {} with each planet moved on by {}", a.image_of, output.turns[a.image_by].planets);
     }
-    if (told < results.size())
-      written.lines.push_back(fmt::format("no attractor told: {} cells", results.size() - told));
-    return written;
-  });
+    written.summary["attractors"].push_back(std::move(one));
+    written.lines.push_back(std::move(line));
+  }
+  if (told < results.size()) written.lines.push_back(fmt::format("no attractor told: {} cells", results.size() - told));
+  return written;
 }
+
+}  // namespace
+
+int basins_command(const Arguments& arguments) { return points_command(arguments, "basins", "cells", {write_results}); }
 
 }  // namespace epicyclic::app

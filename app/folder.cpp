@@ -100,8 +100,10 @@ std::optional<int> refuse_or_finish(const io::OutputFolder& folder) {
   return bug;
 }
 
+std::string resolved_text(const io::LoadedInput& input) { return input.resolved.dump(2) + "\n"; }
+
 std::string write_inputs(const io::OutputFolder& folder, const io::LoadedInput& input) {
-  std::string resolved = input.resolved.dump(2) + "\n";
+  std::string resolved = resolved_text(input);
   io::write_file_atomically(folder.file("input.json"), input.study_file.bytes);
   if (input.stage_file)
     io::write_file_atomically(folder.file(stage_copy_name(input.stage_file->name)), input.stage_file->bytes);

@@ -37,6 +37,9 @@ void require_kind(const io::LoadedInput& input, const Arguments& arguments, std:
 /// @returns the exit code, or nothing if the study may be computed in it
 [[nodiscard]] std::optional<int> refuse_or_finish(const io::OutputFolder& folder);
 
+/// What input.resolved.json holds.
+[[nodiscard]] std::string resolved_text(const io::LoadedInput& input);
+
 /// input.json, the stage file beside it, input.resolved.json.
 /// @returns text of the resolved input
 /// @throws OutputError

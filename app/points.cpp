@@ -1,19 +1,24 @@
 #include "points.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <iterator>
 #include <map>
 #include <mutex>
+#include <utility>
 
 #include <fmt/core.h>
 
 #include "failure.hpp"
 #include "folder.hpp"
+#include "io/output_folder.hpp"
 #include "io/progress.hpp"
 #include "io/study_model.hpp"
 #include "ranks.hpp"
 #include "shared_sweep.hpp"
 #include "stop.hpp"
+#include "studies/units.hpp"
 
 namespace epicyclic::app {
 
@@ -68,15 +73,34 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
   return failed;
 }
 
+/// All parts, side by side: each of them reads the journals and writes files of its own.
+WrittenPoints write_results(const Arguments& arguments, const std::vector<ResultsPart>& parts,
+                            const ComputedPoints& computed, SweepLeader* leader) {
+  std::vector<WrittenPoints> written(parts.size());
+  if (leader == nullptr) {
+    studies::for_units(parts.size(), arguments.threads, nullptr,
+                       [&](std::size_t part) { written[part] = parts[part](computed); });
+  } else {
+    written = leader->write(parts, computed, arguments.threads);
+  }
+  WrittenPoints all;
+  for (WrittenPoints& part : written) {
+    std::ranges::move(part.figures, std::back_inserter(all.figures));
+    std::ranges::move(part.lines, std::back_inserter(all.lines));
+    std::ranges::move(part.notes, std::back_inserter(all.notes));
+    all.summary.update(part.summary);
+  }
+  return all;
+}
+
 int lead(const Arguments& arguments, std::string_view command, std::string_view noun,
-         const std::function<WrittenPoints(const ComputedPoints&)>& write, SweepLeader* leader) {
+         const std::vector<ResultsPart>& parts, SweepLeader* leader) {
   stop_on_signals(leader != nullptr ? patience_of_ranks : patience);
   const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
   require_kind(input, arguments, command);
   const studies::SweepPlan plan = io::plan_of(input.study);
   const studies::ModelAtPoint model_at = io::model_at_point(input);
-  // Options that do not fit show here, before anything is written.
-  const model::DynamicModel first_model = model_at(plan.points.front());
+  (void)model_at(plan.points.front());  // options that do not fit show here, before anything is written
   for (const std::string& warning : io::warnings(input)) fmt::print(stderr, "{}\n", warning);
   if (command == "sweep" && input.study.sweep->parameter != "mesh_frequency_ratio")
     fmt::print(stderr, "operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
@@ -86,7 +110,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   const io::OutputFolder folder(arguments.output, identity);
   if (const auto code = refuse_or_finish(folder)) return *code;
   io::Provenance facts = provenance(arguments.threads);
-  const std::string resolved = write_inputs(folder, input);
+  write_inputs(folder, input);
   folder.write_run(io::RunState::running, io::run_facts(facts));
 
   io::PointStore store(folder.path(), identity, plan.points.size());
@@ -104,9 +128,11 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
     return stopped_early;
   }
 
-  const io::PointSource points = store.source();
-  const WrittenPoints written = write({folder, input, first_model, resolved, points});
+  const ComputedPoints computed_points(folder.path(), input, store.source());
+  const io::PointSource& points = computed_points.points;
+  const WrittenPoints written = write_results(arguments, parts, computed_points, leader);
   close_run(io::RunState::complete);
+  for (const std::string& note : written.notes) fmt::print(stderr, "{}\n", note);
 
   std::map<std::string, std::size_t> regimes;
   for (std::size_t i = 0; i < points.count; ++i) {
@@ -138,15 +164,22 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
 
 }  // namespace
 
+ComputedPoints::ComputedPoints(const std::filesystem::path& where, const io::LoadedInput& what, io::PointSource source)
+    : folder(where),
+      input(what),
+      first_model(io::model_at_point(what)(io::plan_of(what.study).points.front())),
+      resolved(resolved_text(what)),
+      points(std::move(source)) {}
+
 int points_command(const Arguments& arguments, std::string_view command, std::string_view noun,
-                   const std::function<WrittenPoints(const ComputedPoints&)>& write) {
+                   const std::vector<ResultsPart>& parts) {
   Ranks& ranks = *arguments.ranks;
-  if (ranks.size() == 1) return lead(arguments, command, noun, write, nullptr);
-  if (ranks.rank() > 0) return follow(arguments, command);
+  if (ranks.size() == 1) return lead(arguments, command, noun, parts, nullptr);
+  if (ranks.rank() > 0) return follow(arguments, command, parts);
   SweepLeader leader(ranks);
   int code = bug;
   try {
-    code = lead(arguments, command, noun, write, &leader);
+    code = lead(arguments, command, noun, parts, &leader);
   } catch (...) {
     const Failure failure = failure_of(std::current_exception());
     fmt::print(stderr, "{}\n", failure.what());

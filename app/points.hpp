@@ -2,7 +2,7 @@
 // several ranks.
 #pragma once
 
-#include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "io/output_folder.hpp"
 #include "io/point_store.hpp"
 #include "io/study_input.hpp"
 #include "io/sweep_output.hpp"
@@ -21,11 +20,13 @@ namespace epicyclic::app {
 
 /// What the results are written with, once all points are there.
 struct ComputedPoints {
-  const io::OutputFolder& folder;
+  const std::filesystem::path& folder;
   const io::LoadedInput& input;
-  const model::DynamicModel& first_model;
-  const std::string& resolved;
-  const io::PointSource& points;
+  const model::DynamicModel first_model;
+  const std::string resolved;
+  const io::PointSource points;
+
+  ComputedPoints(const std::filesystem::path& where, const io::LoadedInput& what, io::PointSource source);
 };
 
 /// What was written.
@@ -33,14 +34,18 @@ struct WrittenPoints {
   std::vector<io::DrawnFigure> figures{};
   nlohmann::json summary = nlohmann::json::object();  ///< joins that of --json
   std::vector<std::string> lines{};                   ///< for stdout
+  std::vector<std::string> notes{};                   ///< for stderr
 };
+
+/// Writes files of its own, on any rank and beside the other parts.
+using ResultsPart = std::function<WrittenPoints(const ComputedPoints&)>;
 
 /// The life of a study of points: input, folder, journal, points, results, summary.
 /// @param command  its name, which is the kind of its study
 /// @param noun     what a point is called: "points", "cells"
-/// @param write    writes tables and figures
+/// @param parts    write tables and figures, the longest first
 /// @returns exit code
 int points_command(const Arguments& arguments, std::string_view command, std::string_view noun,
-                   const std::function<WrittenPoints(const ComputedPoints&)>& write);
+                   const std::vector<ResultsPart>& parts);
 
 }  // namespace epicyclic::app

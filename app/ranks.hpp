@@ -13,7 +13,20 @@
 namespace epicyclic::app {
 
 /// What a message is about; see shared_sweep.cpp.
-enum class Topic : int { hello, begin, ask_chains, chains, ask_end_state, end_state, progress, stop, finished, leave };
+enum class Topic : int {
+  hello,
+  begin,
+  ask_chains,
+  chains,
+  ask_end_state,
+  end_state,
+  progress,
+  stop,
+  finished,
+  write,
+  written,
+  leave
+};
 
 struct Message {
   int from = 0;

@@ -25,6 +25,7 @@
 #include "io/study_model.hpp"
 #include "ranks.hpp"
 #include "stop.hpp"
+#include "studies/units.hpp"
 
 namespace epicyclic::app {
 
@@ -107,6 +108,23 @@ std::optional<Failure> failure_in(const json& report) {
   const int code = report.at("exit_code").get<int>();
   if (code == done) return std::nullopt;
   return Failure(code, report.at("message").get<std::string>());
+}
+
+json written_to(const WrittenPoints& written) {
+  json figures = json::array();
+  for (const io::DrawnFigure& figure : written.figures)
+    figures.push_back({{"png", figure.png.string()}, {"message", figure.outcome.message}});
+  return {{"figures", figures}, {"summary", written.summary}, {"lines", written.lines}, {"notes", written.notes}};
+}
+
+WrittenPoints written_from(const json& report) {
+  WrittenPoints written;
+  for (const json& figure : report.at("figures"))
+    written.figures.push_back({figure.at("png").get<std::string>(), {figure.at("message").get<std::string>()}});
+  written.summary = report.at("summary");
+  written.lines = report.at("lines").get<std::vector<std::string>>();
+  written.notes = report.at("notes").get<std::vector<std::string>>();
+  return written;
 }
 
 }  // namespace
@@ -217,6 +235,51 @@ void SweepLeader::run(const studies::SweepPlan& plan, const studies::SweepOption
   if (error) std::rethrow_exception(error);
   if (failure) throw *failure;
   if (silent_) throw Failure(stopped_early, "a rank does not answer; the same command goes on");
+}
+
+std::vector<WrittenPoints> SweepLeader::write(const std::vector<ResultsPart>& parts, const ComputedPoints& computed,
+                                              int threads) {
+  std::vector<WrittenPoints> written(parts.size());
+  std::atomic<std::size_t> next{0};
+  std::exception_ptr error;
+  std::atomic<bool> through{false};
+  std::thread worker([&] {
+    try {
+      studies::for_units(parts.size(), threads, nullptr, [&](std::size_t /*unit*/) {
+        const std::size_t part = next++;
+        if (part < parts.size()) written[part] = parts[part](computed);
+      });
+    } catch (...) {
+      error = std::current_exception();
+    }
+    through = true;
+  });
+
+  std::optional<Failure> failure;
+  int elsewhere = 0;  // parts
+  const auto give = [&](int rank) {
+    const Index part = failure ? parts.size() : next++;
+    if (part >= parts.size()) return;
+    ++elsewhere;
+    ranks_.send(rank, Topic::write, bytes_of(std::vector<Index>{part}));
+  };
+  for (int rank = 1; rank < ranks_.size(); ++rank) give(rank);
+  while (!through || elsewhere > 0) {
+    const auto message = ranks_.receive();
+    if (!message) {
+      std::this_thread::sleep_for(look_interval);
+    } else if (message->topic == Topic::written) {
+      --elsewhere;
+      const json report = json::parse(message->bytes);
+      if (!failure) failure = failure_in(report);
+      if (!failure) written.at(report.at("part").get<std::size_t>()) = written_from(report);
+      give(message->from);
+    }
+  }
+  worker.join();
+  if (error) std::rethrow_exception(error);
+  if (failure) throw *failure;
+  return written;
 }
 
 void SweepLeader::dismiss(int exit_code) {
@@ -366,9 +429,17 @@ void compute_share(const Arguments& arguments, const io::LoadedInput& input, con
   if (error) std::rethrow_exception(error);
 }
 
+/// A part of the results, with the journals of all ranks.
+json write_part(const Arguments& arguments, const io::LoadedInput& input, const std::string& identity,
+                const ResultsPart& part) {
+  const io::PointStore store(arguments.output, identity, io::plan_of(input.study).points.size(),
+                             io::Journal::Use::read);
+  return written_to(part(ComputedPoints(arguments.output, input, store.source())));
+}
+
 }  // namespace
 
-int follow(const Arguments& arguments, std::string_view command) {
+int follow(const Arguments& arguments, std::string_view command, const std::vector<ResultsPart>& parts) {
   Ranks& ranks = *arguments.ranks;
   stop_on_signals(patience_of_ranks);
   std::optional<io::LoadedInput> input;
@@ -397,6 +468,20 @@ int follow(const Arguments& arguments, std::string_view command) {
         error = std::current_exception();
       }
       ranks.send(0, Topic::finished, text_of(report_of(ranks, error)));
+    }
+    if (message && message->topic == Topic::write) {
+      const Index part = values_of<Index>(message->bytes).at(0);
+      json written = json::object();
+      error = nullptr;
+      try {
+        written = write_part(arguments, *input, identity, parts.at(static_cast<std::size_t>(part)));
+      } catch (...) {
+        error = std::current_exception();
+      }
+      json report = report_of(ranks, error);
+      report.update(written);
+      report["part"] = part;
+      ranks.send(0, Topic::written, text_of(report));
     }
     if (!message) std::this_thread::sleep_for(10 * look_interval);
   }

@@ -1,6 +1,7 @@
 // A sweep on several ranks. Rank 0 leads: it holds the folder, knows what is done, hands out chains as ranks become
-// free, talks to the user, and writes the results. The others follow: each computes the chains that it is given, with
-// threads and lanes of its own, and keeps its points in a journal of its own in the folder.
+// free, and talks to the user. The others follow: each computes the chains that it is given, with threads and lanes of
+// its own, and keeps its points in a journal of its own in the folder. The parts of the results, too, are written by
+// whoever is free.
 //
 // Chains are fixed by the input and a point is a function of its value and start, so that it does not matter who
 // computes what. Nothing is lost with a rank but the points it had not finished.
@@ -9,9 +10,12 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "commands.hpp"
 #include "io/study_input.hpp"
+#include "points.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::app {
@@ -32,6 +36,12 @@ class SweepLeader {
            const integrate::IntegratorOptions& integrator, const studies::ModelAtPoint& model_at, studies::SweepRun run,
            const std::function<void(std::size_t finished, std::size_t failed)>& points_elsewhere);
 
+  /// Once all points are in the journals, which nobody appends to any more.
+  /// @param computed  what the parts are written with here
+  /// @returns what each part has written
+  /// @throws the first exception here or Failure of another rank, after all have ended
+  std::vector<WrittenPoints> write(const std::vector<ResultsPart>& parts, const ComputedPoints& computed, int threads);
+
   /// Lets the others go.
   void dismiss(int exit_code);
 
@@ -43,6 +53,6 @@ class SweepLeader {
 
 /// Ranks but the first. Says nothing: what goes wrong is told by the leader.
 /// @returns the exit code of all
-int follow(const Arguments& arguments, std::string_view command);
+int follow(const Arguments& arguments, std::string_view command, const std::vector<ResultsPart>& parts);
 
 }  // namespace epicyclic::app

@@ -163,19 +163,20 @@ void check_header(std::string_view header, std::string_view expected, const std:
 
 }  // namespace
 
-Journal::Journal(std::filesystem::path path, std::string_view identity) : path_(std::move(path)) {
+Journal::Journal(std::filesystem::path path, std::string_view identity, Use use)
+    : path_(std::move(path)), released_(use == Use::read) {
   if (identity.size() != identity_size) {
     throw std::invalid_argument(fmt::format("Journal: an identity of {} characters, not 64", identity.size()));
   }
   const std::string header = header_bytes(identity);
-  descriptor_ = open_descriptor(path_, O_RDWR);
-  if (!descriptor_.is_open() && errno != ENOENT) throw_output_error(path_, "open the journal", errno);
+  descriptor_ = open_descriptor(path_, released_ ? O_RDONLY : O_RDWR);
+  if (!descriptor_.is_open() && (released_ || errno != ENOENT)) throw_output_error(path_, "open the journal", errno);
 
   std::optional<FileWindow> file;
   std::string start;
-  if (descriptor_.is_open()) lock_file();
+  if (descriptor_.is_open() && !released_) lock_file();
   if (descriptor_.is_open()) start = file.emplace(descriptor_.get(), path_).at(0, header_size);
-  if (start.size() < header_size && header.starts_with(start)) {
+  if (!released_ && start.size() < header_size && header.starts_with(start)) {
     // New, or torn before the first record could be there. Written whole at once, so that a header, once there, is
     // good.
     cut_bytes_ = start.size();
@@ -203,6 +204,7 @@ Journal::Journal(std::filesystem::path path, std::string_view identity) : path_(
                     "follow; restore the file from a copy, or remove it to compute the study anew",
                     path_.string(), end_, entries_.size()));
   }
+  if (released_) return;
   cut_bytes_ = file->size() - end_;
   if (::ftruncate(descriptor_.get(), static_cast<off_t>(end_)) != 0) {
     throw_output_error(path_, "cut the torn tail of the journal", errno);

@@ -61,14 +61,19 @@ struct JournalEntry {
 /// folder's lock sees to that.
 class Journal {
  public:
-  /// Opens the journal, or creates an empty one; finds the good records; cuts away a torn tail.
+  enum class Use {
+    append,  ///< opens the journal, or creates an empty one; locks it; cuts away a torn tail
+    read,    ///< changes nothing, whoever has it open
+  };
+
+  /// Finds the good records.
   /// @param identity 64 hexadecimal digits: the study whose journal this is
   /// @throws DamagedData           when a damaged record is followed by a good one, the header is damaged, of another
   ///                               format version or of another study
-  /// @throws JournalInUse          when another process has it open
-  /// @throws OutputError           when the file cannot be created, locked, read or cut
+  /// @throws JournalInUse          to append, when another process has it open
+  /// @throws OutputError           when the file cannot be created, locked, read or cut; to read, when it is not there
   /// @throws std::invalid_argument when the identity is not of 64 digits
-  Journal(std::filesystem::path path, std::string_view identity);
+  Journal(std::filesystem::path path, std::string_view identity, Use use = Use::append);
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
   ~Journal();

@@ -39,8 +39,8 @@ std::set<int> ranks_with_journal(const std::filesystem::path& folder) {
 
 std::string rank_journal_name(int rank) { return fmt::format("{}{}{}", rank_journal_start, rank, rank_journal_end); }
 
-PointStore::PointStore(std::filesystem::path folder, std::string identity, std::size_t points)
-    : folder_(std::move(folder)), identity_(std::move(identity)), places_(points) {
+PointStore::PointStore(std::filesystem::path folder, std::string identity, std::size_t points, Journal::Use use)
+    : folder_(std::move(folder)), identity_(std::move(identity)), use_(use), places_(points) {
   open(folder_ / "journal.bin");
   read_others();
 }
@@ -53,11 +53,14 @@ void PointStore::read_others() {
     place = {};
     --size_;
   }
-  for (const int rank : ranks_with_journal(folder_)) open(folder_ / rank_journal_name(rank)).release();
+  for (const int rank : ranks_with_journal(folder_)) {
+    Journal& journal = open(folder_ / rank_journal_name(rank));
+    if (use_ == Journal::Use::append) journal.release();
+  }
 }
 
 Journal& PointStore::open(const std::filesystem::path& file) {
-  journals_.push_back(std::make_unique<Journal>(file, identity_));
+  journals_.push_back(std::make_unique<Journal>(file, identity_, use_));
   Journal& journal = *journals_.back();
   for (const JournalEntry& entry : journal.entries()) take(journals_.size() - 1, entry);
   journal.forget_entries();

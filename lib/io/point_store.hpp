@@ -28,8 +28,10 @@ class PointStore {
   /// Opens all journals of the folder; its own is created if need be, the others may be written to by other processes
   /// afterwards.
   /// @param points  of the study
+  /// @param use     `read`: of all of them, journal.bin included, nothing is changed
   /// @throws as Journal, and DamagedData when two records of a point differ or one is of a point that the study has not
-  PointStore(std::filesystem::path folder, std::string identity, std::size_t points);
+  PointStore(std::filesystem::path folder, std::string identity, std::size_t points,
+             Journal::Use use = Journal::Use::append);
 
   /// @throws OutputError when it cannot be written
   void append(const studies::PointResult& result);
@@ -67,6 +69,7 @@ class PointStore {
 
   std::filesystem::path folder_;
   std::string identity_;
+  Journal::Use use_;
   std::vector<std::unique_ptr<Journal>> journals_;  ///< the first is our own
   std::vector<Place> places_;                       ///< by point
   std::size_t size_ = 0;
