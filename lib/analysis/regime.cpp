@@ -230,7 +230,7 @@ class Classifier {
     // Of a multiplier that is nothing but error, the logarithm says no more than that.
     const double time = n * flow_.field().period;
     seen.exponent = {std::log(multiplier) / time, std::log1p(error / multiplier) / time};
-    seen.zero_one = 0.0;
+    seen.zero_one.reset();
     seen.note = "drawn to the " + name + " from " + short_text(distance) + " away";
     result_.orbit = std::move(orbit);
     return true;
@@ -252,17 +252,18 @@ class Classifier {
     // The first quarter is left to the vector's turning and to what is left of the transient.
     const std::span<const double> counted = std::span(growth_).subspan(growth_.size() / 4);
     seen.exponent = series_mean(counted) / flow_.field().period;
-    seen.zero_one = 0.0;
+    seen.zero_one.reset();
     if (series_.size() < 2 * static_cast<std::size_t>(growth_look)) return false;
-    seen.zero_one = zero_one_test(series_, noise());
+    const double k = zero_one_test(series_, noise());
+    seen.zero_one = k;
     const bool grows = seen.exponent.low() > 0.0 && seen.late_growth > neutral_growth;
     const bool clearly = seen.exponent.value > 3.0 * seen.exponent.half_width;
-    const bool votes = seen.zero_one > chaotic_vote;
-    const bool abstains = seen.zero_one > regular_vote;
+    const bool votes = k > chaotic_vote;
+    const bool abstains = k > regular_vote;
     if (!grows) return false;
     if (!votes && !(clearly && seen.late_growth > (abstains ? 4.0 : 8.0) * neutral_growth)) return false;
     result_.regime = Regime::chaotic;
-    seen.note = "exponent positive by its interval, 0-1 test " + short_text(seen.zero_one);
+    seen.note = "exponent positive by its interval, 0-1 test " + short_text(k);
     return true;
   }
 
@@ -271,15 +272,15 @@ class Classifier {
     // What is drawn to an orbit slowly shrinks for long before it recurs.
     const bool settles = seen.exponent.value + 3.0 * seen.exponent.half_width < 0.0;
     if (growth_.size() >= static_cast<std::size_t>(torus_look) && std::abs(late_growth(growth_)) <= neutral_growth &&
-        !settles && seen.zero_one < regular_vote) {
+        !settles && seen.zero_one && *seen.zero_one < regular_vote) {
       result_.regime = Regime::quasiperiodic;
-      seen.note = "tangents neither grow nor shrink, 0-1 test " + short_text(seen.zero_one);
+      seen.note = "tangents neither grow nor shrink, 0-1 test " + short_text(*seen.zero_one);
       return true;
     }
     if (seen.note.empty())
       seen.note = "exponent " + short_text(seen.exponent.value) + " +- " + short_text(seen.exponent.half_width) +
                   " per radian of the phase, " +
-                  (seen.zero_one == 0.0 ? "too few periods for a 0-1 test" : "0-1 test " + short_text(seen.zero_one));
+                  (seen.zero_one ? "0-1 test " + short_text(*seen.zero_one) : "too few periods for a 0-1 test");
     return false;
   }
 

@@ -70,10 +70,10 @@ struct Evidence {
   double residual = 0;            ///< of the orbit, if there is one
   double largest_multiplier = 0;  ///< modulus
   double multiplier_error = 0;
-  Estimate exponent;       ///< largest, per unit of s: measured, or log of the multiplier over the period
-  double late_growth = 0;  ///< log growth of a tangent vector over the last half of the last look
-  double zero_one = 0;     ///< K of the last look; 0 if it was not asked
-  std::string note;        ///< in words
+  Estimate exponent;                 ///< largest, per unit of s: measured, or log of the multiplier over the period
+  double late_growth = 0;            ///< log growth of a tangent vector over the last half of the last look
+  std::optional<double> zero_one{};  ///< K of the last look, if it was asked
+  std::string note;                  ///< in words
 };
 
 struct Classification {

@@ -1,8 +1,11 @@
 #include "io/point_record.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -131,6 +134,13 @@ void pass_all(A& a, T&... values) {
   (pass(a, values), ...);
 }
 
+/// What there is not is no number.
+template <class A>
+void pass(A& a, std::optional<double>& x) {
+  double value = x.value_or(std::numeric_limits<double>::quiet_NaN());
+  pass(a, value);
+  x = std::isnan(value) ? std::nullopt : std::optional(value);
+}
 template <class A>
 void pass(A& a, analysis::Estimate& e) {
   pass_all(a, e.value, e.half_width);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <span>
 
@@ -214,7 +215,7 @@ void write_point(Hdf5File& h5, const RunOutput& output, const RunResult& r) {
   evidence.number("exponent", e.exponent.value * r.omega, "per tau");
   evidence.number("exponent_half_width", e.exponent.half_width * r.omega, "per tau");
   evidence.number("late_growth", e.late_growth, "-");
-  evidence.number("zero_one", e.zero_one, "-");
+  evidence.number("zero_one", e.zero_one.value_or(std::numeric_limits<double>::quiet_NaN()), "-");
   evidence.text("note", e.note);
 }
 
@@ -484,7 +485,8 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
                                p.regime == Regime::periodic ? ", of the multiplier" : "",
                                exponent_text(largest_exponent(r), r.omega)));
     if (p.regime != Regime::periodic) {
-      text += bullet(fmt::format("0-1 test: K = {:.3f} (0: regular, 1: chaotic).", e.zero_one));
+      text += bullet(e.zero_one ? fmt::format("0-1 test: K = {:.3f} (0: regular, 1: chaotic).", *e.zero_one)
+                                : "0-1 test: not asked, too few periods were looked at.");
       text +=
           bullet(fmt::format("A tangent vector grew by e^{:.3g} over the last half of the last look.", e.late_growth));
     }

@@ -27,8 +27,7 @@ bool proven(const PointResult& r) { return ok(r) && r.classified && r.regime == 
 
 /// K of the 0-1 test; none where it was not asked.
 double zero_one(const PointResult& r) {
-  return r.classified && !proven(r) && r.evidence.zero_one != 0.0 ? r.evidence.zero_one
-                                                                  : std::numeric_limits<double>::quiet_NaN();
+  return r.evidence.zero_one.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 /// The rows of all Poincare sections one after another.

@@ -44,7 +44,7 @@ TEST(Regime, DuffingsCascade) {
   const Classification c = regime_of(problems::duffing(0.3, -1.0, 0.5, 1.2), {1.0, 0.0});
   EXPECT_EQ(c.regime, Regime::chaotic) << c.evidence.note;
   EXPECT_GT(c.evidence.exponent.low(), 0.0);
-  EXPECT_GT(c.evidence.zero_one, 0.5);
+  EXPECT_GT(c.evidence.zero_one.value(), 0.5);
 }
 
 TEST(Regime, ASlowTransientIsProvenBeforeItIsOver) {

@@ -162,7 +162,7 @@ int main() {
     (answer == "undecided" ? undecided : wrong) += 1;
     fmt::print("{} {:.6f}: {} told {} (period {}, exponent {:.2g} +- {:.2g}, growth {:.2g}, K {:.3f}: {})\n", c.system,
                c.parameter, c.label, answer, r.period, r.evidence.exponent.value, r.evidence.exponent.half_width,
-               r.evidence.late_growth, r.evidence.zero_one, r.evidence.note);
+               r.evidence.late_growth, r.evidence.zero_one.value_or(std::nan("")), r.evidence.note);
   }
   fmt::print("\n| known \\ told |");
   for (const std::string& a : answers) fmt::print(" {} |", a);

@@ -418,6 +418,24 @@ TEST(Journal, FlushThatFailsBetweenRecordsStopsTheNextOne) {
   EXPECT_LT(elapsed, commit_bound);
 }
 
+TEST(Journal, IsReadBesideItsWriterAndChangedByNoReader) {
+  const TemporaryFolder folder;
+  const auto path = folder / "journal.bin";
+  EXPECT_THROW(Journal(path, identity, Journal::Use::read), OutputError);
+  EXPECT_FALSE(std::filesystem::exists(path));
+  Journal writer(path, identity);
+  for (std::size_t i = 0; i < payloads.size(); ++i) writer.append(100 + i, bytes_of(payloads[i]));
+  const std::string torn = contents(path) + "EPJR";
+  put_file(path, torn);
+  Journal first(path, identity, Journal::Use::read);
+  const Journal second(path, identity, Journal::Use::read);
+  expect_first_records(first, payloads.size());
+  expect_first_records(second, payloads.size());
+  EXPECT_THROW(first.append(7, bytes_of("more")), std::logic_error);
+  EXPECT_EQ(contents(path), torn);
+  EXPECT_THROW(Journal(path, other_identity, Journal::Use::read), DamagedData);
+}
+
 TEST(Journal, UnusablePathIsAnOutputError) {
   const TemporaryFolder folder;
   EXPECT_THROW(Journal(folder / "no/such/journal.bin", identity), OutputError);

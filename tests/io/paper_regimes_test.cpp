@@ -49,7 +49,7 @@ TEST(PaperRegimes, AreToldWithTheirEvidence) {
   EXPECT_EQ(chaotic.regime, analysis::Regime::chaotic);
   EXPECT_EQ(chaotic.period, 0);
   EXPECT_GT(chaotic.lyapunov_max().low(), 0.0);
-  EXPECT_GT(chaotic.evidence.zero_one, 0.5);
+  EXPECT_GT(chaotic.evidence.zero_one.value(), 0.5);
 }
 
 TEST(PaperRegimes, ARunChecksItsExponents) {

@@ -108,6 +108,12 @@ TEST(PointRecord, ComesBackExactly) {
   EXPECT_EQ(b.attractor.waves, 4);
   EXPECT_EQ(b.attractor.deviations[1].half_width, 0.125);
   EXPECT_EQ(b.attractor.exponent.value, 0.1);
+  EXPECT_FALSE(b.evidence.zero_one.has_value());
+  for (const double k : {0.0, 0.75}) {
+    studies::PointResult asked = a;
+    asked.evidence.zero_one = k;
+    EXPECT_EQ(decode_point(encode_point(asked)).evidence.zero_one, k);
+  }
 }
 
 TEST(PointRecord, AnyPartOfItIsRefused) {
