@@ -14,6 +14,7 @@
 
 #include "commands.hpp"
 #include "core/errors.hpp"
+#include "core/instruction_set.hpp"
 #include "core/version.hpp"
 #include "failure.hpp"
 #include "io/study_input.hpp"
@@ -112,6 +113,7 @@ int run(int argc, char** argv) {
     return cli.exit(e, talks ? std::cout : unsaid, talks ? std::cerr : unsaid) == 0 ? done : bad_input;
   }
   return guarded(ranks, [&] {
+    check_instruction_set_limit();
     if (ranks.size() > 1 && !ranks.connected())
       throw InputError("several processes cannot share the work: this program was built without MPI");
     if (ranks.size() > 1 && !sweep->parsed() && !map->parsed() && !basins->parsed())

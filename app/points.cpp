@@ -110,6 +110,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   const io::OutputFolder folder(arguments.output, identity);
   if (const auto code = refuse_or_finish(folder)) return *code;
   io::Provenance facts = provenance(arguments.threads);
+  facts.ranks = arguments.ranks->size();
   write_inputs(folder, input);
   folder.write_run(io::RunState::running, io::run_facts(facts));
 

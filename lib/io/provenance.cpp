@@ -54,6 +54,7 @@ nlohmann::json run_facts(const Provenance& provenance) {
       {"dependencies", provenance.dependencies},
       {"simd", provenance.simd_level},
       {"threads", provenance.threads},
+      {"ranks", provenance.ranks},
       {"counts", provenance.counts},
       {"host", provenance.host},
       {"cpu", provenance.cpu_model},

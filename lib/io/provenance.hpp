@@ -16,7 +16,8 @@ struct Provenance {
   std::string commit;                               ///< given by the caller
   std::map<std::string, std::string> dependencies;  ///< name -> version; given by the caller
   std::string simd_level;                           ///< given by the caller: "baseline", "avx2", ...
-  int threads = 1;                                  ///< given by the caller
+  int threads = 1;                                  ///< of this process; given by the caller
+  int ranks = 1;                                    ///< processes; given by the caller
   std::map<std::string, std::int64_t> counts;       ///< points, failed points, ...; given by the caller
   std::string host;
   std::string cpu_model;

@@ -27,6 +27,7 @@ for kind in study carried lanes; do
     [ "$(code_of "${launch[@]}" -n $ranks "$epicyclic" "${arguments[@]}" -o "$folder" --threads 1)" = 0 ] ||
       fail "$kind, $ranks ranks: $(<stderr)"
     same_results $kind "$folder"
+    grep -q "\"ranks\": $ranks," "$folder/run.json" || fail "$kind, $ranks ranks: run.json says otherwise"
     # One rank talks.
     [ "$(grep -c ' points, 0 failed' stdout)" = 1 ] || fail "$kind, $ranks ranks: not one summary: $(<stdout)"
     [ "$(grep -c '16/16' stderr)" = 1 ] || fail "$kind, $ranks ranks: not one last line of progress: $(<stderr)"

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # sweep.sh EPICYCLIC SOURCE_DIR
 #
-# The life of an output folder: same bytes at 1, 2 and 8 threads, complete, another study, in use, damaged journal, files that
-# cannot grow, resolved input that reproduces the study. Signals, kill -9, a full disk and simultaneous starts: see there.
+# The life of an output folder: same bytes at 1, 2 and 8 threads and with each instruction set, complete, another study, in use,
+# damaged journal, files that cannot grow, resolved input that reproduces the study. Signals, kill -9, a full disk and simultaneous
+# starts: see there.
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
@@ -16,6 +17,18 @@ for threads in 1 2 8; do
 done
 same_results t1 t2
 same_results t1 t8
+# Whatever the machine's instruction set: each as wide as it may be and the machine is.
+for method in arkode-dopri5 lanes-cash-karp; do
+  for simd in baseline avx2 avx512; do
+    export EPICYCLIC_SIMD=$simd
+    [ "$(code_of sweep --set "/integrator/method=$method" -o "$method.$simd")" = 0 ] || fail "$method, $simd: $(<stderr)"
+    same_results "$method.baseline" "$method.$simd"
+  done
+  grep -q '"simd": "baseline"' "$method.baseline/run.json" || fail "$method: EPICYCLIC_SIMD was no limit"
+done
+[ "$(EPICYCLIC_SIMD=sse code_of sweep -o none)" = 2 ] || fail "an unknown instruction set must give exit 2"
+[ ! -e none ] || fail "an unknown instruction set left a folder"
+unset EPICYCLIC_SIMD
 [ "$(wc -l <t1/points.csv)" = 13 ] || fail "points.csv must have a header and 12 rows"
 [ "$(wc -l <t1/poincare.csv)" = 97 ] || fail "poincare.csv must have a header and 12 x 8 rows"
 for figure in bifurcation_delta_sp bifurcation_delta_rp; do
