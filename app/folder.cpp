@@ -1,9 +1,11 @@
 #include "folder.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
 #include <string_view>
+#include <vector>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -11,7 +13,9 @@
 #include "core/errors.hpp"
 #include "core/version.hpp"
 #include "io/atomic_file.hpp"
+#include "io/json_source.hpp"
 #include "io/point_record.hpp"
+#include "io/study_model.hpp"
 #include "io/versions.hpp"
 
 namespace epicyclic::app {
@@ -36,6 +40,18 @@ std::int64_t failed_points(const io::OutputFolder& folder) {
   if (counts == run.end() || !counts->is_object() || !counts->contains("failed")) return 0;
   const nlohmann::json& failed = (*counts)["failed"];
   return failed.is_number_integer() ? failed.get<std::int64_t>() : 0;
+}
+
+void tell_differences(const io::OutputFolder& folder, const io::LoadedInput& input) {
+  constexpr std::size_t most = 5;
+  const io::JsonSource other = io::read_json_file(folder.file("input.resolved.json"));
+  // That the study is another one is known from run.json.
+  if (!other.complete || !other.value.is_object()) return;
+  const std::vector<std::string> lines = io::differences(other.value, input);
+  if (lines.empty())
+    fmt::print(stderr, "  the inputs are alike: another command, or another version of its numerics\n");
+  for (std::size_t k = 0; k < std::min(lines.size(), most); ++k) fmt::print(stderr, "  {}\n", lines[k]);
+  if (lines.size() > most) fmt::print(stderr, "  and {} more\n", lines.size() - most);
 }
 
 }  // namespace
@@ -77,15 +93,15 @@ io::Provenance provenance(int threads) {
   return p;
 }
 
-std::optional<int> refuse_or_finish(const io::OutputFolder& folder) {
+std::optional<int> refuse_or_finish(const io::OutputFolder& folder, const io::LoadedInput& input) {
   const std::string where = folder.path().string();
   switch (folder.outcome()) {
     case io::FolderOutcome::complete:
       fmt::print(stderr, "{}: this study is complete already; nothing to compute\n", where);
       return failed_points(folder) > 0 ? done_with_failures : done;
     case io::FolderOutcome::other_study:
-      fmt::print(stderr, "{}: holds another study (its input or the numerics version differs); choose another -o\n",
-                 where);
+      fmt::print(stderr, "{}: holds another study; choose another -o\n", where);
+      tell_differences(folder, input);
       return other_study;
     case io::FolderOutcome::foreign:
       fmt::print(stderr, "{}: holds files that are not a study's; choose an empty or new folder for -o\n", where);

@@ -33,9 +33,9 @@ void require_kind(const io::LoadedInput& input, const Arguments& arguments, std:
                                                                        std::span<const io::JournalEntry> entries,
                                                                        const studies::SweepPlan& plan);
 
-/// Says on stderr why a folder cannot be used.
+/// Says on stderr why a folder cannot be used; of another study, in which values it differs.
 /// @returns the exit code, or nothing if the study may be computed in it
-[[nodiscard]] std::optional<int> refuse_or_finish(const io::OutputFolder& folder);
+[[nodiscard]] std::optional<int> refuse_or_finish(const io::OutputFolder& folder, const io::LoadedInput& input);
 
 /// What input.resolved.json holds.
 [[nodiscard]] std::string resolved_text(const io::LoadedInput& input);

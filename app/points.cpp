@@ -108,7 +108,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   const std::string identity = io::identity(input, command);
   if (leader != nullptr) leader->gather(arguments, identity);
   const io::OutputFolder folder(arguments.output, identity);
-  if (const auto code = refuse_or_finish(folder)) return *code;
+  if (const auto code = refuse_or_finish(folder, input)) return *code;
   io::Provenance facts = provenance(arguments.threads);
   facts.ranks = arguments.ranks->size();
   write_inputs(folder, input);

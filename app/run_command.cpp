@@ -23,7 +23,7 @@ int run_command(const Arguments& arguments) {
   for (const std::string& warning : io::warnings(input)) fmt::print(stderr, "{}\n", warning);
 
   const io::OutputFolder folder(arguments.output, io::identity(input, "run"));
-  if (const auto code = refuse_or_finish(folder)) return *code;
+  if (const auto code = refuse_or_finish(folder, input)) return *code;
   io::Provenance facts = provenance(1);
   const std::string resolved = write_inputs(folder, input);
   folder.write_run(io::RunState::running, io::run_facts(facts));

@@ -2,7 +2,10 @@
 
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "core/errors.hpp"
 #include "gear/gear_set.hpp"
@@ -119,6 +122,27 @@ std::string identity(const LoadedInput& input, std::string_view command) {
                                {"journal_format", journal_format_version},
                                {"numerics", studies::numerics_version}};
   return sha256_hex(canonical_json(what));
+}
+
+std::vector<std::string> differences(const nlohmann::json& other, const LoadedInput& input) {
+  nlohmann::json there = other;
+  nlohmann::json here = input.resolved;
+  drop_computed(there);
+  drop_computed(here);
+  const auto text = [](const nlohmann::json& whole, const nlohmann::json::json_pointer& at) {
+    constexpr std::size_t longest = 60;
+    if (!whole.contains(at)) return std::string("nothing");
+    std::string value = whole.at(at).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return value.size() <= longest ? value : std::string("another value");
+  };
+  std::vector<std::string> lines;
+  for (const nlohmann::json& change : nlohmann::json::diff(there, here)) {
+    const std::string pointer = change.at("path");
+    if (pointer.ends_with("/origin") || pointer.find("/origin/") != std::string::npos) continue;
+    const nlohmann::json::json_pointer at(pointer);
+    lines.push_back(fmt::format("{}: {} there, {} here", pointer, text(there, at), text(here, at)));
+  }
+  return lines;
 }
 
 std::string figure_title(const Study& study) {

@@ -37,6 +37,10 @@ namespace epicyclic::io {
 /// numerics.
 [[nodiscard]] std::string identity(const LoadedInput& input, std::string_view command);
 
+/// Where another study's resolved input differs from this one's in what identifies them, a line each: pointer and both
+/// values. Origins are left out.
+[[nodiscard]] std::vector<std::string> differences(const nlohmann::json& other, const LoadedInput& input);
+
 /// Name of study or stage with the boundary and, unless it is swept, the speed: for figures.
 [[nodiscard]] std::string figure_title(const Study& study);
 

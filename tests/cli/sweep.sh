@@ -41,7 +41,11 @@ before=$(sha256sum t1/points.csv t1/run.json)
 [ "$before" = "$(sha256sum t1/points.csv t1/run.json)" ] || fail "a complete folder was changed"
 
 # Another study, a foreign folder, a folder in use.
-[ "$(code_of sweep -o t1 --set /integrator/relative_tolerance=1e-7)" = 3 ] || fail "another study must give exit 3"
+[ "$(code_of sweep -o t1 --set /integrator/relative_tolerance=1e-7 --set /study/to=3)" = 3 ] || fail "another study must give exit 3"
+for line in '/integrator/relative_tolerance: 1e-08 there, 1e-07 here' '/study/to: 3.5 there, 3.0 here'; do
+  grep -qxF "  $line" stderr || fail "exit 3 does not say: $line"
+done
+[ "$(wc -l <stderr)" = 3 ] || fail "exit 3 says more: $(<stderr)"
 mkdir foreign && echo mine >foreign/thesis.txt
 [ "$(code_of sweep -o foreign)" = 3 ] || fail "a foreign folder must give exit 3"
 [ "$(ls foreign)" = thesis.txt ] || fail "a foreign folder was written to"
