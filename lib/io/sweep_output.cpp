@@ -26,9 +26,7 @@ bool ok(const PointResult& r) { return r.outcome == integrate::Outcome::reached;
 bool proven(const PointResult& r) { return ok(r) && r.classified && r.regime == analysis::Regime::periodic; }
 
 /// K of the 0-1 test; none where it was not asked.
-double zero_one(const PointResult& r) {
-  return r.evidence.zero_one.value_or(std::numeric_limits<double>::quiet_NaN());
-}
+double zero_one(const PointResult& r) { return r.evidence.zero_one.value_or(std::numeric_limits<double>::quiet_NaN()); }
 
 /// The rows of all Poincare sections one after another.
 class SectionRows {
