@@ -100,7 +100,8 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   require_kind(input, arguments, command);
   const studies::SweepPlan plan = io::plan_of(input.study);
   const studies::ModelAtPoint model_at = io::model_at_point(input);
-  (void)model_at(plan.points.front());  // options that do not fit show here, before anything is written
+  // Options that do not fit show here, before anything is written.
+  const model::DynamicModel first_model = model_at(plan.points.front());
   for (const std::string& warning : io::warnings(input)) fmt::print(stderr, "{}\n", warning);
   if (command == "sweep" && input.study.sweep->parameter != "mesh_frequency_ratio")
     fmt::print(stderr, "operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
@@ -111,7 +112,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   if (const auto code = refuse_or_finish(folder, input)) return *code;
   io::Provenance facts = provenance(arguments.threads);
   facts.ranks = arguments.ranks->size();
-  write_inputs(folder, input);
+  const std::string resolved = write_inputs(folder, input);
   folder.write_run(io::RunState::running, io::run_facts(facts));
 
   io::PointStore store(folder.path(), identity, plan.points.size());
@@ -129,7 +130,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
     return stopped_early;
   }
 
-  const ComputedPoints computed_points(folder.path(), input, store.source());
+  const ComputedPoints computed_points{folder.path(), input, first_model, resolved, store.source()};
   const io::PointSource& points = computed_points.points;
   const WrittenPoints written = write_results(arguments, parts, computed_points, leader);
   close_run(io::RunState::complete);
@@ -164,13 +165,6 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
 }
 
 }  // namespace
-
-ComputedPoints::ComputedPoints(const std::filesystem::path& where, const io::LoadedInput& what, io::PointSource source)
-    : folder(where),
-      input(what),
-      first_model(io::model_at_point(what)(io::plan_of(what.study).points.front())),
-      resolved(resolved_text(what)),
-      points(std::move(source)) {}
 
 int points_command(const Arguments& arguments, std::string_view command, std::string_view noun,
                    const std::vector<ResultsPart>& parts) {

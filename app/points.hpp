@@ -22,11 +22,9 @@ namespace epicyclic::app {
 struct ComputedPoints {
   const std::filesystem::path& folder;
   const io::LoadedInput& input;
-  const model::DynamicModel first_model;
-  const std::string resolved;
+  const model::DynamicModel& first_model;
+  const std::string& resolved;
   const io::PointSource points;
-
-  ComputedPoints(const std::filesystem::path& where, const io::LoadedInput& what, io::PointSource source);
 };
 
 /// What was written.

@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #include "failure.hpp"
+#include "folder.hpp"
 #include "io/journal.hpp"
 #include "io/point_record.hpp"
 #include "io/point_store.hpp"
@@ -243,7 +244,8 @@ std::vector<WrittenPoints> SweepLeader::write(const std::vector<ResultsPart>& pa
   std::atomic<std::size_t> next{0};
   std::exception_ptr error;
   std::atomic<bool> through{false};
-  std::thread worker([&] {
+  // Joined however this function is left.
+  std::jthread worker([&] {
     try {
       studies::for_units(parts.size(), threads, nullptr, [&](std::size_t /*unit*/) {
         const std::size_t part = next++;
@@ -251,6 +253,7 @@ std::vector<WrittenPoints> SweepLeader::write(const std::vector<ResultsPart>& pa
       });
     } catch (...) {
       error = std::current_exception();
+      next = parts.size();  // nothing more is begun, here or elsewhere
     }
     through = true;
   });
@@ -258,7 +261,7 @@ std::vector<WrittenPoints> SweepLeader::write(const std::vector<ResultsPart>& pa
   std::optional<Failure> failure;
   int elsewhere = 0;  // parts
   const auto give = [&](int rank) {
-    const Index part = failure ? parts.size() : next++;
+    const Index part = next++;
     if (part >= parts.size()) return;
     ++elsewhere;
     ranks_.send(rank, Topic::write, bytes_of(std::vector<Index>{part}));
@@ -271,8 +274,12 @@ std::vector<WrittenPoints> SweepLeader::write(const std::vector<ResultsPart>& pa
     } else if (message->topic == Topic::written) {
       --elsewhere;
       const json report = json::parse(message->bytes);
-      if (!failure) failure = failure_in(report);
-      if (!failure) written.at(report.at("part").get<std::size_t>()) = written_from(report);
+      if (const auto failed = failure_in(report)) {
+        if (!failure) failure = failed;
+        next = parts.size();
+      } else {
+        written.at(report.at("part").get<std::size_t>()) = written_from(report);
+      }
       give(message->from);
     }
   }
@@ -429,13 +436,29 @@ void compute_share(const Arguments& arguments, const io::LoadedInput& input, con
   if (error) std::rethrow_exception(error);
 }
 
-/// A part of the results, with the journals of all ranks.
-json write_part(const Arguments& arguments, const io::LoadedInput& input, const std::string& identity,
-                const ResultsPart& part) {
-  const io::PointStore store(arguments.output, identity, io::plan_of(input.study).points.size(),
-                             io::Journal::Use::read);
-  return written_to(part(ComputedPoints(arguments.output, input, store.source())));
-}
+/// What a rank writes its parts with: the journals of all ranks, opened when the first part is given.
+class PartWriter {
+ public:
+  PartWriter(const Arguments& arguments, const io::LoadedInput& input, const std::string& identity)
+      : folder_(arguments.output),
+        input_(input),
+        plan_(io::plan_of(input.study)),
+        first_model_(io::model_at_point(input)(plan_.points.front())),
+        resolved_(resolved_text(input)),
+        store_(folder_, identity, plan_.points.size(), io::Journal::Use::read) {}
+
+  [[nodiscard]] json write(const ResultsPart& part) const {
+    return written_to(part({folder_, input_, first_model_, resolved_, store_.source()}));
+  }
+
+ private:
+  const std::filesystem::path& folder_;
+  const io::LoadedInput& input_;
+  const studies::SweepPlan plan_;
+  const model::DynamicModel first_model_;
+  const std::string resolved_;
+  const io::PointStore store_;
+};
 
 }  // namespace
 
@@ -443,6 +466,7 @@ int follow(const Arguments& arguments, std::string_view command, const std::vect
   Ranks& ranks = *arguments.ranks;
   stop_on_signals(patience_of_ranks);
   std::optional<io::LoadedInput> input;
+  std::optional<PartWriter> writer;
   std::string identity;
   std::exception_ptr error;
   try {
@@ -474,7 +498,8 @@ int follow(const Arguments& arguments, std::string_view command, const std::vect
       json written = json::object();
       error = nullptr;
       try {
-        written = write_part(arguments, *input, identity, parts.at(static_cast<std::size_t>(part)));
+        if (!writer) writer.emplace(arguments, *input, identity);
+        written = writer->write(parts.at(static_cast<std::size_t>(part)));
       } catch (...) {
         error = std::current_exception();
       }

@@ -12,6 +12,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "core/cubics.hpp"
 #include "core/row.hpp"
@@ -160,29 +161,43 @@ struct alignas(8 * W) Lanes {
 template <std::size_t W>
 inline constexpr bool is_lanes<Lanes<W>> = true;
 
+namespace detail {
+
+/// Four registers as the rows of a matrix, or side by side of several, one for each four of their places: the first K
+/// columns.
+template <std::size_t K, class Pack, std::size_t... I>
+[[nodiscard]] std::array<Lanes<sizeof...(I)>, K> columns_of(const Pack& a, const Pack& b, const Pack& c, const Pack& d,
+                                                            std::index_sequence<I...> /*places*/) {
+  constexpr std::size_t W = sizeof...(I);
+  const Pack ab_even = __builtin_shufflevector(a, b, (I % 2 == 0 ? I : W + I - 1)...);
+  const Pack ab_odd = __builtin_shufflevector(a, b, (I % 2 == 0 ? I + 1 : W + I)...);
+  const Pack cd_even = __builtin_shufflevector(c, d, (I % 2 == 0 ? I : W + I - 1)...);
+  const Pack cd_odd = __builtin_shufflevector(c, d, (I % 2 == 0 ? I + 1 : W + I)...);
+  const std::array<Pack, 4> all{__builtin_shufflevector(ab_even, cd_even, (I % 4 < 2 ? I : W + I - 2)...),
+                                __builtin_shufflevector(ab_odd, cd_odd, (I % 4 < 2 ? I : W + I - 2)...),
+                                __builtin_shufflevector(ab_even, cd_even, (I % 4 < 2 ? I + 2 : W + I)...),
+                                __builtin_shufflevector(ab_odd, cd_odd, (I % 4 < 2 ? I + 2 : W + I)...)};
+  std::array<Lanes<W>, K> columns;
+  for (std::size_t k = 0; k < K; ++k) columns[k].pack = all[k];
+  return columns;
+}
+
+}  // namespace detail
+
 /// K values of each lane, one row each, as K packs.
 template <std::size_t W, std::size_t K>
 [[nodiscard]] std::array<Lanes<W>, K> transposed(const std::array<Row<double, K>, W>& rows) {
-  std::array<Lanes<W>, K> columns;
   if constexpr (W == 4 && Row<double, K>::padded == 4) {
     using Four = typename detail::LanePack<4>::Values;
-    const Four a = std::bit_cast<Four>(rows[0]);
-    const Four b = std::bit_cast<Four>(rows[1]);
-    const Four c = std::bit_cast<Four>(rows[2]);
-    const Four d = std::bit_cast<Four>(rows[3]);
-    const Four ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);
-    const Four ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-    const Four cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6);
-    const Four cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-    columns[0].pack = __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5);
-    if constexpr (K > 1) columns[1].pack = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5);
-    if constexpr (K > 2) columns[2].pack = __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7);
-    if constexpr (K > 3) columns[3].pack = __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7);
+    return detail::columns_of<K>(std::bit_cast<Four>(rows[0]), std::bit_cast<Four>(rows[1]),
+                                 std::bit_cast<Four>(rows[2]), std::bit_cast<Four>(rows[3]),
+                                 std::make_index_sequence<4>());
   } else {
+    std::array<Lanes<W>, K> columns;
     for (std::size_t j = 0; j < K; ++j)
       for (std::size_t lane = 0; lane < W; ++lane) columns[j].pack[lane] = rows[lane][j];
+    return columns;
   }
-  return columns;
 }
 
 /// K cubics of each lane, of its own coefficients at its own place.
@@ -191,31 +206,17 @@ template <std::size_t W, std::size_t K>
   if constexpr (W == 8 && Row<double, K>::padded == 4) {
     // Lanes i and i + 4 share a register: half the operations, and the transposition is that of four rows.
     using Four = typename detail::LanePack<4>::Values;
-    using Eight = typename detail::LanePack<8>::Values;
-    const auto half = [&](std::size_t i) {
+    using Bits = typename detail::LanePack<8>::Bits;
+    const auto both = [&](std::size_t i) {
       const auto power = [&](std::size_t k) {
         return __builtin_shufflevector(std::bit_cast<Four>((*c[i])[k]), std::bit_cast<Four>((*c[i + 4])[k]), 0, 1, 2, 3,
                                        4, 5, 6, 7);
       };
-      using Bits = typename detail::LanePack<8>::Bits;
       const auto i0 = static_cast<long long>(i);
-      const Eight x = __builtin_shuffle(t.pack, Bits{i0, i0, i0, i0, i0 + 4, i0 + 4, i0 + 4, i0 + 4});
+      const auto x = __builtin_shuffle(t.pack, Bits{i0, i0, i0, i0, i0 + 4, i0 + 4, i0 + 4, i0 + 4});
       return power(0) + x * (power(1) + x * (power(2) + x * power(3)));
     };
-    const Eight a = half(0);
-    const Eight b = half(1);
-    const Eight d = half(2);
-    const Eight e = half(3);
-    const Eight ab_even = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
-    const Eight ab_odd = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
-    const Eight de_even = __builtin_shufflevector(d, e, 0, 8, 2, 10, 4, 12, 6, 14);
-    const Eight de_odd = __builtin_shufflevector(d, e, 1, 9, 3, 11, 5, 13, 7, 15);
-    std::array<Lanes<8>, K> columns;
-    columns[0].pack = __builtin_shufflevector(ab_even, de_even, 0, 1, 8, 9, 4, 5, 12, 13);
-    if constexpr (K > 1) columns[1].pack = __builtin_shufflevector(ab_odd, de_odd, 0, 1, 8, 9, 4, 5, 12, 13);
-    if constexpr (K > 2) columns[2].pack = __builtin_shufflevector(ab_even, de_even, 2, 3, 10, 11, 6, 7, 14, 15);
-    if constexpr (K > 3) columns[3].pack = __builtin_shufflevector(ab_odd, de_odd, 2, 3, 10, 11, 6, 7, 14, 15);
-    return columns;
+    return detail::columns_of<K>(both(0), both(1), both(2), both(3), std::make_index_sequence<8>());
   } else {
     std::array<Row<double, K>, W> rows;
     for (std::size_t lane = 0; lane < W; ++lane) rows[lane] = cubics_at(*c[lane], t[lane]);

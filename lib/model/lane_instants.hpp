@@ -30,7 +30,7 @@ void look_up(const MeshParameters<Lanes<W>, N>& mesh, const LaneMeshPlaces<N, W>
       found[k] = place.find(s[k] * (0.5 * std::numbers::inv_pi) + mesh.turns[planet]);
     for (std::size_t k = 0; k < count; ++k) take(instants[k].*kind, place.at(found[k]));
   };
-  for (std::size_t i = 0; i < (mesh.in_phase ? 1 : N); ++i) {
+  for (std::size_t i = 0; i < ((instants->*kind).shared ? 1 : N); ++i) {
     if (mesh.stiffness_curve)
       each(i, places.stiffness[i], [i](auto& now, const auto& values) { now.stiffness.set(i, values[0]); });
     if (mesh.friction)

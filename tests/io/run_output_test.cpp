@@ -424,6 +424,10 @@ TEST(RunSummary, TellsChaosAndWhatIsNotDecided) {
   EXPECT_FALSE(contains(chaos, "multipliers.csv"));
   r.point.regime = analysis::Regime::undecided;
   EXPECT_TRUE(contains(run_summary(output(), r), "Undecided: "));
+  r.point.evidence.zero_one.reset();
+  const std::string unasked = on_one_line(run_summary(output(), r));
+  EXPECT_TRUE(contains(unasked, "0-1 test: not asked, too few periods were looked at")) << unasked;
+  EXPECT_FALSE(contains(unasked, "K = ")) << unasked;
 }
 
 TEST(RunSummary, SaysWhyAPointFailed) {
