@@ -106,7 +106,7 @@ integrate::VectorField with_divergence(const integrate::VectorField& field) {
   extended.dimension = n + 1;
   extended.tangents = {};
   extended.parameter_derivative = {};
-  extended.surfaces.clear();
+  extended.surfaces = {};
   extended.right_hand_side = [field, n, matrix = std::vector<double>(n * n)](std::size_t segment, double s,
                                                                              const double* y, double* dyds) mutable {
     field.right_hand_side(segment, s, y, dyds);

@@ -1,7 +1,8 @@
 // Instruction sets that kernels are compiled for besides the baseline, by name: "baseline", "avx2", "avx512".
 //
 // The widest one that the machine runs is taken. EPICYCLIC_SIMD in the environment sets a limit, to compare them:
-// results are the same bits on each.
+// results are the same bits on each. The C library chooses among its own by itself: its sine has other last bits on
+// processors without fused multiply-add.
 #pragma once
 
 #include <string_view>

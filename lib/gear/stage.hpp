@@ -69,6 +69,11 @@ enum class BearingLaw {
   palmgren_radial,  ///< (2/3) k(d) d with k from Eq. (11) at d = max(r - b, 0), along the radius
 };
 
+/// Is the clearance a circle?
+[[nodiscard]] constexpr bool is_radial(BearingLaw law) {
+  return law == BearingLaw::linear_radial || law == BearingLaw::palmgren_radial;
+}
+
 /// The sun's bearing: clearance and law. Rolling-element data are needed by the Palmgren laws only (Table 3).
 struct SunBearing {
   double clearance_half_um = 0;  ///< half gap b_s [um]

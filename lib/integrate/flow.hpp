@@ -23,10 +23,11 @@
 
 namespace epicyclic::integrate {
 
-/// A surface in state space where the vector field is not smooth: it is crossed when `value` changes sign.
-struct SwitchingSurface {
-  std::string name;
-  std::function<double(double s, std::span<const double> y)> value;
+/// Surfaces in state space where the vector field is not smooth: each is crossed when its value changes sign.
+struct SwitchingSurfaces {
+  std::size_t count = 0;
+  /// Values at a state, and d/ds of them along the motion through it, `count` numbers each.
+  std::function<void(double s, const double* y, double* values, double* rates)> evaluate;
 };
 
 /// The right-hand side of a system.
@@ -51,7 +52,7 @@ struct VectorField {
   /// What it was made of, for lanes that know the type (integrate/lane_ensemble.hpp); may be null.
   std::shared_ptr<const void> origin;
 
-  std::vector<SwitchingSurface> surfaces;
+  SwitchingSurfaces surfaces;
 
   /// g itself jumps across a surface: tangent vectors would have to jump there, which no Flow does.
   bool jumps_at_surfaces = false;

@@ -122,29 +122,41 @@ class Numbers {
   std::unique_ptr<double, Deleter> data_;
 };
 
+/// Values of switching surfaces and d/ds of them.
+struct SurfaceValues {
+  explicit SurfaceValues(std::size_t count) : values(count), rates(count) {}
+  Numbers values, rates;
+};
+
 }  // namespace
 
-LaneField one_by_one(std::size_t width, std::size_t dimension) {
+LaneField one_by_one(std::size_t width, std::size_t dimension, std::size_t surfaces) {
   struct Lane {
     // Its own: a lane that is idle is evaluated with the others, and its system may be gone.
     decltype(VectorField::right_hand_side) right_hand_side;
+    SwitchingSurfaces surfaces;
     std::size_t segment = 0;
   };
   struct All {
     std::vector<Lane> lanes;
-    std::vector<double> places, y, f;
+    std::vector<double> places, y, f, values, rates;
   };
   const auto all = std::make_shared<All>();
   all->lanes.resize(width);
   all->y.resize(dimension);
   all->f.resize(dimension);
+  all->values.resize(surfaces);
+  all->rates.resize(surfaces);
   LaneField field;
   field.dimension = dimension;
-  field.load = [all, dimension](std::size_t lane, const VectorField& system) {
+  field.load = [all, dimension, surfaces](std::size_t lane, const VectorField& system) {
     if (system.dimension != dimension)
       throw InputError("a system of dimension " + std::to_string(system.dimension) + " in a lane of " +
                        std::to_string(dimension));
-    all->lanes[lane] = {system.right_hand_side, 0};
+    if (surfaces > 0 && system.surfaces.count != surfaces)
+      throw InputError("a system of " + std::to_string(system.surfaces.count) + " switching surfaces in a lane of " +
+                       std::to_string(surfaces));
+    all->lanes[lane] = {system.right_hand_side, system.surfaces, 0};
   };
   field.set_segment = [all](std::size_t lane, std::size_t segment) { all->lanes[lane].segment = segment; };
   field.set_places = [all, width](std::size_t count, const double* s) { all->places.assign(s, s + count * width); };
@@ -156,6 +168,21 @@ LaneField one_by_one(std::size_t width, std::size_t dimension) {
       for (std::size_t i = 0; i < dimension; ++i) all->y[i] = y[i * width + lane];
       own.right_hand_side(own.segment, s[lane], all->y.data(), all->f.data());
       for (std::size_t i = 0; i < dimension; ++i) dyds[i * width + lane] = all->f[i];
+    }
+  };
+  field.surfaces = surfaces;
+  field.surface_values = [all, width, dimension, surfaces](std::size_t place, const double* y, double* values,
+                                                           double* rates) {
+    const double* const s = all->places.data() + place * width;
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      const Lane& own = all->lanes[lane];
+      if (!own.surfaces.evaluate) continue;
+      for (std::size_t i = 0; i < dimension; ++i) all->y[i] = y[i * width + lane];
+      own.surfaces.evaluate(s[lane], all->y.data(), all->values.data(), all->rates.data());
+      for (std::size_t k = 0; k < surfaces; ++k) {
+        values[k * width + lane] = all->values[k];
+        rates[k * width + lane] = all->rates[k];
+      }
     }
   };
   return field;
@@ -175,6 +202,8 @@ class LaneEnsemble::Impl {
         next_(n_ * w_),
         k_{Numbers(n_ * w_), Numbers(n_ * w_), Numbers(n_ * w_), Numbers(n_ * w_),
            Numbers(n_ * w_), Numbers(n_ * w_), Numbers(n_ * w_)},
+        start_(field_.surfaces * w_),
+        end_(field_.surfaces * w_),
         at_(most_stages * w_),
         lanes_(w_),
         sample_(n_) {
@@ -308,6 +337,11 @@ class LaneEnsemble::Impl {
     under_way_ += running_;
   }
 
+  void measure_surfaces(std::size_t place, const double* y, SurfaceValues& surfaces) {
+    if (field_.surfaces > 0)
+      field_.surface_values(place - first_place_, y, surfaces.values.get(), surfaces.rates.get());
+  }
+
   /// The slopes that a sum is made of.
   using Slopes = std::array<const double*, most_stages>;
 
@@ -331,6 +365,7 @@ class LaneEnsemble::Impl {
   void take_first_slopes(std::size_t place) {
     evaluate(place, y_.get(), k_[0]);
     if (fresh_ == 0) return;
+    measure_surfaces(place, y_.get(), start_);
     for (Lane& l : lanes_) {
       if (l.busy && l.fresh && pair_.first_same_as_last) ++l.more_slopes;
       l.fresh = false;
@@ -390,16 +425,23 @@ class LaneEnsemble::Impl {
                    steps_.largest.data());
     for (std::size_t j = 1; j <= vectors_; ++j) worst_with_vector(j);
     const LaneVerdict verdict = kernels_.judge(steps_, options_.escape_bound);
+    measure_surfaces(places_.end, next_.get(), end_);
+    if (verdict.accepted < running_)
+      kernels_.land(steps_, field_.surfaces, start_.values.get(), start_.rates.get(), end_.values.get(),
+                    end_.rates.get());
     if (verdict.eventful) look_closer();
     all_at_end_ = verdict.accepted == running_;
     if (verdict.accepted == w_) {
       std::swap(y_, next_);
+      std::swap(start_, end_);
       if (pair_.first_same_as_last) {
         std::swap(k_[0], k_[most_stages - 1]);
         find_slopes();
       }
     } else {
       kernels_.accept(n_, steps_.accepted.data(), next_.get(), y_.get());
+      kernels_.accept(field_.surfaces, steps_.accepted.data(), end_.values.get(), start_.values.get());
+      kernels_.accept(field_.surfaces, steps_.accepted.data(), end_.rates.get(), start_.rates.get());
       if (pair_.first_same_as_last) kernels_.accept(n_, steps_.accepted.data(), k_[most_stages - 1].get(), k_[0].get());
     }
     kernels_.accept(1, steps_.accepted.data(), steps_.end.data(), steps_.s.data());
@@ -533,7 +575,8 @@ class LaneEnsemble::Impl {
   std::array<Slopes, most_stages> row_slopes_{};
   Slopes weight_slopes_{}, difference_slopes_{};
   LaneSteps steps_;
-  Numbers at_;  ///< places of the slopes
+  SurfaceValues start_, end_;  ///< at the ends of the step
+  Numbers at_;                 ///< places of the slopes
   std::vector<Lane> lanes_;
   std::vector<double> sample_;
   std::size_t running_ = 0;      ///< lanes under way

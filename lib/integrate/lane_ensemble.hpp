@@ -7,6 +7,15 @@
 // the norm, the safety and bias factors and the limits of ARKODE's I controller. A lane is never in step with the
 // others: its bits are those of a run alone, whatever the other lanes carry and however wide the registers are.
 //
+// That formula is one for smooth fields. Behind a kink the error falls with the square of the step's length and not
+// with its fifth power, so that a kink costs several refusals and the short steps after them. Where a refused step has
+// crossed a switching surface, the next attempt ends on it instead:
+//
+//   h <- h t ,  t the first root of the cubic through g and dg/ds at both ends of the step                [I-land]
+//
+// The kink then lies at the start of the step after that, but for an error that is squared. Nothing depends on the
+// root: the step is judged as any other, and its slopes are those of the field as it is.
+//
 // An evolution is begun in a lane and run() goes on until the first one has ended; the caller looks at it, and begins
 // the next one, of the same system or of another. Breakpoints are stepped onto; samples come from the cubic Hermite
 // polynomial through both ends of a step, as ARKODE's do. Sources of the pairs: J. R. Dormand, P. J. Prince, J. Comput.
@@ -39,10 +48,14 @@ struct LaneField {
   std::function<void(std::size_t count, const double* s)> set_places;
   /// dy/ds of all lanes at one of those places.
   std::function<void(std::size_t place, const double* y, double* dyds)> right_hand_side;
+  std::size_t surfaces = 0;  ///< that steps land on
+  /// SwitchingSurfaces::evaluate of all lanes at one of those places.
+  std::function<void(std::size_t place, const double* y, double* values, double* rates)> surface_values;
 };
 
 /// Any systems of one dimension, each lane by its own right-hand side: nothing is gained but the lanes' bookkeeping.
-[[nodiscard]] LaneField one_by_one(std::size_t width, std::size_t dimension);
+/// @param surfaces  that each system has and steps land on, or 0: those of the systems are ignored
+[[nodiscard]] LaneField one_by_one(std::size_t width, std::size_t dimension, std::size_t surfaces = 0);
 
 class LaneEnsemble {
  public:

@@ -16,7 +16,7 @@ struct Extended {
       : vectors(m),
         parameter(with_parameter),
         system(extended(field, m, with_parameter)),
-        lanes(one_by_one(lane_kernels().width, system.dimension), options, lane_kernels()) {
+        lanes(one_by_one(lane_kernels().width, system.dimension, field.surfaces.count), options, lane_kernels()) {
     lanes.control(field.dimension, options.tangent_error_control ? m : 0, with_parameter);
     lanes.load(0, system);
   }
@@ -27,6 +27,7 @@ struct Extended {
     all.dimension = n * (1 + m);
     all.period = field.period;
     all.breakpoints = field.breakpoints;
+    all.surfaces = field.surfaces;
     all.right_hand_side = [&field, n, m, with_parameter, dgdp = std::vector<double>(n)](
                               std::size_t segment, double s, const double* y, double* f) mutable {
       field.tangents(segment, s, y, {y + n, m, n}, f, {f + n, m, n});
@@ -48,7 +49,7 @@ class LaneFlow final : public Flow {
   LaneFlow(VectorField field, const IntegratorOptions& options)
       : field_(std::move(field)),
         options_(options),
-        lanes_(one_by_one(lane_kernels().width, field_.dimension), options, lane_kernels()) {
+        lanes_(one_by_one(lane_kernels().width, field_.dimension, field_.surfaces.count), options, lane_kernels()) {
     lanes_.load(lane, field_);
   }
 

@@ -30,6 +30,7 @@ struct alignas(64) LaneSteps {
   alignas(64) Each<long long> cut{};       ///< mask: the step is one to a stop
   alignas(64) Each<long long> accepted{};  ///< mask
   alignas(64) Each<long long> refused{};   ///< mask: the last attempt was refused
+  alignas(64) Each<long long> again{};     ///< mask: and so was the one before
   alignas(64) Each<long long> event{};     ///< mask: more has to be thought of this lane
   alignas(64) Each<long long> attempts{};  ///< so far
   alignas(64) Each<long long> allowed{};   ///< attempts
@@ -58,10 +59,15 @@ struct LaneKernels {
   /// Sets h, end and cut, and out_k = s + c_k h for each of `count` nodes, the end itself where c_k = 1.
   void (*measure)(LaneSteps& steps, std::size_t count, const double* c, double* out) = nullptr;
 
-  /// Sets `accepted` and `refused`, counts the attempts, and proposes the next steps as ARKODE's I controller does.
-  /// Sets `event` where a stop or a sample is reached, the escape bound is left, no step is accepted or none is allowed
-  /// any more.
+  /// Sets `accepted`, `refused` and `again`, counts the attempts, and proposes the next steps as ARKODE's I controller
+  /// does. Sets `event` where a stop or a sample is reached, the escape bound is left, no step is accepted or none is
+  /// allowed any more.
   LaneVerdict (*judge)(LaneSteps& steps, double escape_bound) = nullptr;
+
+  /// A refused step that crosses one of `count` surfaces is followed by one that ends on the first crossing: the root
+  /// of the cubic through the values at both ends of the step and d/ds of them. W numbers for each surface.
+  void (*land)(LaneSteps& steps, std::size_t count, const double* values, const double* rates,
+               const double* values_at_end, const double* rates_at_end) = nullptr;
 
   /// to <- from in the lanes of the mask.
   void (*accept)(std::size_t dimension, const long long* accepted, const double* from, double* to) = nullptr;

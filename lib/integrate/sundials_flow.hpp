@@ -193,21 +193,28 @@ class Integration {
 
   // ---- contact changes ----------------------------------------------------------------------------------------------
 
-  [[nodiscard]] double surface(std::size_t k, double s, N_Vector y) const {
-    return system_.field->surfaces[k].value(s, {data_of(y), system_.field->dimension});
+  /// Values of all surfaces.
+  const std::vector<double>& surfaces(double s, N_Vector y) {
+    const SwitchingSurfaces& all = system_.field->surfaces;
+    values_.resize(all.count);
+    rates_.resize(all.count);
+    if (all.count > 0) all.evaluate(s, data_of(y), values_.data(), rates_.data());
+    return values_;
   }
+  [[nodiscard]] double surface(std::size_t k, double s, N_Vector y) { return surfaces(s, y)[k]; }
 
   void find_sides(double s) {
-    side_.resize(system_.field->surfaces.size());
-    for (std::size_t k = 0; k < side_.size(); ++k) side_[k] = surface(k, s, y_.get()) > 0.0;
+    side_.clear();
+    for (const double value : surfaces(s, y_.get())) side_.push_back(value > 0.0);
   }
 
   /// The first surface that the accepted step from a to b has crossed, and where: the root of its value along steps of
   /// the method itself, so that the crossing is as accurate as the method and not as its dense output.
   bool find_crossing(double a, double b, double first_step, Crossing& crossing) {
     bool found = false;
+    const std::vector<double> at_end = surfaces(b, y_.get());
     for (std::size_t k = 0; k < side_.size(); ++k) {
-      if ((surface(k, b, y_.get()) > 0.0) == side_[k]) continue;
+      if ((at_end[k] > 0.0) == side_[k]) continue;
       const double sign = side_[k] ? 1.0 : -1.0;
       // Where the state is just after a crossing of this very surface, its value is rounding, of either sign.
       const double at_start = sign * surface(k, a, before_.get());
@@ -273,6 +280,7 @@ class Integration {
   long steps_left_ = 0;
   long spent_ = 0;  ///< attempts before the last restart within a segment
   std::vector<bool> side_;
+  std::vector<double> values_, rates_;  ///< of surfaces
 };
 
 template <class Stepper>

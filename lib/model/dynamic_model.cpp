@@ -143,6 +143,11 @@ DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mes
     out.sun_planet_rate.assign(g.sun_planet.rate.begin(), g.sun_planet.rate.end());
     out.ring_planet_rate.assign(g.ring_planet.rate.begin(), g.ring_planet.rate.end());
   };
+  m.contacts = contacts_of(*p);
+  m.contact_distances = [p](double s, const double* y, double* distances, double* rates) {
+    const Instant<double, N> now(*p, HarmonicBasis<double>(sine_cosine(s), harmonics_of(*p)));
+    contact_distances<L>(*p, now, y, distances, rates);
+  };
   m.forces = [p](double s, const double* y, StageForces& out) {
     const StageState<double, N> g = stage_state<L>(*p, segment_at(p->breakpoints, s), s, y);
     out.sun_planet.assign(g.sun_planet.force.begin(), g.sun_planet.force.end());

@@ -61,6 +61,12 @@ struct DynamicModel {
   /// Likewise.
   std::function<void(double s, const double* y, StageForces& out)> forces;
 
+  std::size_t contacts = 0;  ///< 4 N + 4, or 4 N + 1 with a radial bearing law
+
+  /// How far each contact is from being made or lost, and d/ds of it, `contacts` numbers each: contact_distances() of
+  /// model/right_hand_side.hpp.
+  std::function<void(double s, const double* y, double* distances, double* rates)> contact_distances;
+
   /// The folded constants, Parameters<double, planets>, for lanes (model/lane_model.hpp).
   std::shared_ptr<const void> constants;
 

@@ -23,6 +23,10 @@ struct LaneKernel {
 
   /// y and dyds have 2 degrees_of_freedom(L, N) times W numbers, component by component, aligned to 64 bytes.
   void (*evaluate)(const LaneParameters<N, W>& p, const Instants& now, const double* y, double* dyds) = nullptr;
+
+  /// contact_distances(), contacts_of(p) times W numbers each.
+  void (*measure_contacts)(const LaneParameters<N, W>& p, const Instants& now, const double* y, double* distances,
+                           double* rates) = nullptr;
 };
 
 /// That of one instruction set, empty if it was not compiled or this machine does not run it.

@@ -35,6 +35,10 @@ LaneModel lanes_of(const DynamicModel& like, LaneKernel<N, W> kernel) {
   m.right_hand_side = [state, kernel](std::size_t place, const double* y, double* dyds) {
     kernel.evaluate(state->lanes, state->instants[place], y, dyds);
   };
+  m.contacts = like.contacts;
+  m.contact_distances = [state, kernel](std::size_t place, const double* y, double* distances, double* rates) {
+    kernel.measure_contacts(state->lanes, state->instants[place], y, distances, rates);
+  };
   return m;
 }
 

@@ -22,6 +22,10 @@ struct LaneModel {
   std::function<void(std::size_t count, const double* s)> set_places;
   /// dy/ds of all lanes at one of those places.
   std::function<void(std::size_t place, const double* y, double* dyds)> right_hand_side;
+
+  std::size_t contacts = 0;
+  /// As of DynamicModel, of all lanes at one of those places: `contacts` times W numbers each.
+  std::function<void(std::size_t place, const double* y, double* distances, double* rates)> contact_distances;
 };
 
 /// @param like             each lane begins with it, and others have to have its structure

@@ -346,6 +346,54 @@ void right_hand_side(const Parameters<P, N>& p, const Instant<P, N>& now, const 
   }
 }
 
+/// Numbers of contact_distances().
+template <class P, std::size_t N>
+[[nodiscard]] std::size_t contacts_of(const Parameters<P, N>& p) {
+  return 4 * N + (gear::is_radial(p.sun_law) ? 1 : 4);
+}
+
+/// How far each contact is from where its clearance function has a kink: delta - b and delta + b of each planet's sun
+/// mesh and ring mesh, then of the sun's bearing x - b, x + b, y - b, y + b, or r - b of a radial law.
+///
+/// @param y          as of right_hand_side()
+/// @param distances  contacts_of(p) numbers [b_c]
+/// @param rates      d/ds of them
+template <Layout L, class T, class P, std::size_t N>
+void contact_distances(const Parameters<P, N>& p, const Instant<P, N>& now, const T* y, T* distances, T* rates) {
+  const P per_phase = 1.0 / p.omega;
+  const auto flanks = [&](const T& x, const T& rate, const P& half_gap) {
+    *distances++ = x - half_gap;
+    *distances++ = x + half_gap;
+    const T along = rate * per_phase;
+    *rates++ = along;
+    *rates++ = along;
+  };
+  const T* const velocities = y + degrees_of_freedom(L, N);
+  for (std::size_t i = 0; i < N; ++i) {
+    const Planets<N, 1> own{i};
+    const Deflections<T, 1> d = deflections(p, own, unpack(Arranged<L>{}, own, y));
+    const Deflections<T, 1> d_rate = deflections(p, own, unpack(Arranged<L>{}, own, velocities));
+    const auto mesh = [&](const MeshParameters<P, N>& m, const MeshInstant<P, N>& instant, const Row<T, 1>& x,
+                          const Row<T, 1>& rate) {
+      flanks(x[0] - instant.error[i], rate[0] - instant.error_rate[i], m.half_gap);
+    };
+    mesh(p.sun_planet, now.sun_planet, d.sun_planet, d_rate.sun_planet);
+    mesh(p.ring_planet, now.ring_planet, d.ring_planet, d_rate.ring_planet);
+  }
+  const T& x_s = y[Slots::x_s];
+  const T& y_s = y[Slots::y_s];
+  const T& x_rate = velocities[Slots::x_s];
+  const T& y_rate = velocities[Slots::y_s];
+  if (gear::is_radial(p.sun_law)) {
+    const T r = safe_radius(x_s, y_s);
+    *distances = r - p.sun_half_gap;
+    *rates = (x_s * x_rate + y_s * y_rate) / r * per_phase;
+  } else {
+    flanks(x_s, x_rate, p.sun_half_gap);
+    flanks(y_s, y_rate, p.sun_half_gap);
+  }
+}
+
 /// dy/ds at mesh phase s.
 ///
 /// @param segment  of p, that of s

@@ -39,29 +39,13 @@ integrate::VectorField vector_field(const model::DynamicModel& model) {
   field.tangents = model.tangents;
   field.parameter_derivative = model.parameter_derivative;
   field.jumps_at_surfaces = model.jumps_at_contact;
-  const auto flank = [&](std::string name, auto member, std::size_t planet, double gap) {
-    field.surfaces.push_back(
-        {std::move(name), [deflections = model.deflections, member, planet, gap](double s, std::span<const double> y) {
-           model::MeshDeflections d;
-           deflections(s, y.data(), d);
-           return (d.*member)[planet] - gap;
-         }});
-  };
-  for (std::size_t i = 0; i < static_cast<std::size_t>(model.planets); ++i) {
-    const std::string planet = std::to_string(i + 1);
-    const double b_sp = model.sun_planet_half_gap;
-    const double b_rp = model.ring_planet_half_gap;
-    flank("drive_sp_" + planet, &model::MeshDeflections::sun_planet, i, b_sp);
-    flank("back_sp_" + planet, &model::MeshDeflections::sun_planet, i, -b_sp);
-    flank("drive_rp_" + planet, &model::MeshDeflections::ring_planet, i, b_rp);
-    flank("back_rp_" + planet, &model::MeshDeflections::ring_planet, i, -b_rp);
-  }
+  field.surfaces = {model.contacts, model.contact_distances};
   return field;
 }
 
 integrate::LaneField lane_field(const model::DynamicModel& like, const integrate::LaneKernels& kernels) {
   const model::LaneModel lanes = model::make_lane_model(like, kernels.name);
-  if (lanes.width != kernels.width) return integrate::one_by_one(kernels.width, like.dimension);
+  if (lanes.width != kernels.width) return integrate::one_by_one(kernels.width, like.dimension, like.contacts);
   integrate::LaneField field;
   field.dimension = lanes.dimension;
   field.load = [lanes](std::size_t lane, const integrate::VectorField& system) {
@@ -72,6 +56,8 @@ integrate::LaneField lane_field(const model::DynamicModel& like, const integrate
   field.set_segment = lanes.set_segment;
   field.set_places = lanes.set_places;
   field.right_hand_side = lanes.right_hand_side;
+  field.surfaces = lanes.contacts;
+  field.surface_values = lanes.contact_distances;
   return field;
 }
 

@@ -23,8 +23,8 @@ struct OperatingPoint {
 /// @returns false if there is no parameter of that name
 [[nodiscard]] bool set_parameter(OperatingPoint& point, std::string_view name, double value);
 
-/// The model as an integrator sees it; period 2 pi in the mesh phase; the switching surfaces are the flanks of all
-/// gaps.
+/// The model as an integrator sees it; period 2 pi in the mesh phase; the switching surfaces are those of
+/// DynamicModel::contact_distances.
 [[nodiscard]] integrate::VectorField vector_field(const model::DynamicModel& model);
 
 /// Lanes for models of one structure, as the kernels have them; each by its own right-hand side where the model layer

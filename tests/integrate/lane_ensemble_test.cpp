@@ -134,6 +134,40 @@ TEST_P(LaneEnsembles, ErrorFallsWithTheToleranceAsThatOfArkode) {
   EXPECT_NEAR(fitted_slope(logs, errors), 1.0, 0.2);
 }
 
+TEST_P(LaneEnsembles, LandingOnGapsSavesAttemptsAndLosesNothing) {
+  // A gear pair that loses contact: its gap's flanks are kinks of the field.
+  const VectorField system = problems::clearance_oscillator(0.9);
+  std::vector<double> reference = {1.1, 0.0};
+  IntegratorOptions exact = by_arkode(tolerance(1e-13));
+  exact.locate_contacts = true;
+  const auto flow = make_arkode_flow(system, exact);
+  int crossings = 0;
+  for (int k = 0; k < 20; ++k) {
+    const double before = reference[0];
+    flow->evolve(reference, 0.0, system.period);
+    crossings += (before > 1.0) != (reference[0] > 1.0) ? 1 : 0;
+  }
+  EXPECT_GT(crossings, 0);
+  struct Cost {
+    double error, attempts;
+  };
+  const auto cost = [&](std::size_t surfaces, double t) {
+    LaneEnsemble lanes(one_by_one(lane_kernels().width, 2, surfaces), tolerance(t));
+    const std::vector<double> end = carried(lanes, 0, system, {1.1, 0.0}, 20);
+    return Cost{std::hypot(end[0] - reference[0], end[1] - reference[1]), static_cast<double>(lanes.work(0).steps)};
+  };
+  double attempts = 0.0;
+  double attempts_landing = 0.0;
+  for (const double t : {1e-5, 1e-6, 1e-7, 1e-8, 1e-9}) {
+    const Cost plain = cost(0, t);
+    const Cost landing = cost(2, t);
+    EXPECT_LT(landing.error, plain.error) << t;
+    attempts += plain.attempts;
+    attempts_landing += landing.attempts;
+  }
+  EXPECT_LT(attempts_landing, 0.85 * attempts);
+}
+
 TEST_P(LaneEnsembles, BreakpointsAreSteppedOnto) {
   // Two periods with three jumps each, against a flow that steps onto them too.
   const VectorField system = problems::jumping(true);

@@ -176,6 +176,91 @@ TEST(LaneKernels, ShortenRefusedSteps) {
 }
 
 /// Of an odd number of components and of an even one: they are gone through in twos.
+/// A surface's values and slopes at both ends of a step in the last lane; elsewhere no number.
+struct Surfaces {
+  Surfaces(const LaneKernels& kernels, std::size_t count)
+      : width(kernels.width), at(4, std::vector<double>(count * width, none)) {}
+  /// The cubic (t - root) (b + c t + d t^2) along a step of length h.
+  void set(std::size_t k, double root, double b, double c, double d, double h) {
+    const std::size_t i = k * width + width - 1;
+    at[0][i] = -root * b;
+    at[1][i] = (b - root * c) / h;
+    at[2][i] = (1.0 - root) * (b + c + d);
+    at[3][i] = ((b + c + d) + (1.0 - root) * (c + 2.0 * d)) / h;
+  }
+  std::size_t width;
+  std::vector<std::vector<double>> at;  ///< values, rates, and both at the end
+};
+
+/// What is proposed after a refused step of length 0.5.
+double landed(const LaneKernels& kernels, const Surfaces& s, std::size_t count, bool again = false,
+              bool refused = true) {
+  struct alignas(64) Aligned {
+    std::array<double, 4 * most_lanes> x{};
+  };
+  std::array<Aligned, 4> copies{};
+  for (std::size_t j = 0; j < 4; ++j)
+    for (std::size_t i = 0; i < count * kernels.width; ++i) copies[j].x[i] = s.at[j][i];
+  const std::size_t lane = kernels.width - 1;
+  LaneSteps steps = alone(plain(), lane);
+  steps.proposed[lane] = 0.05;
+  steps.refused[lane] = refused ? -1 : 0;
+  steps.again[lane] = again ? -1 : 0;
+  kernels.land(steps, count, copies[0].x.data(), copies[1].x.data(), copies[2].x.data(), copies[3].x.data());
+  for (std::size_t other = 0; other < lane; ++other) EXPECT_EQ(steps.proposed[other], 0.0);
+  return steps.proposed[lane];
+}
+
+TEST(LaneKernels, LandOnTheFirstCrossing) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(0.01, 0.99);
+  std::uniform_real_distribution<double> part(-0.7, 0.7);
+  for (int k = 0; k < 200; ++k) {
+    const double root = place(random);
+    // b + c t + d t^2 has no root in [0, 1]: | c | + | d | < b.
+    const double b = k % 2 == 0 ? 1.0 : -1.0;
+    const double c = part(random);
+    const double d = (1.0 - std::abs(c)) * part(random);
+    double first_bits = 0.0;
+    for (const LaneKernels* kernels : sets()) {
+      Surfaces s(*kernels, 2);
+      s.set(0, root, b, c, d, 0.5);
+      s.set(1, 0.995, b, c, d, 0.5);  // later
+      const double h = landed(*kernels, s, 2);
+      EXPECT_NEAR(h, 0.5 * root, 1e-9) << kernels->name << ": " << b << " " << c << " " << d;
+      if (kernels == sets().front()) first_bits = h;
+      EXPECT_EQ(h, first_bits) << kernels->name;
+      s.set(0, 0.995, b, c, d, 0.5);
+      s.set(1, root, b, c, d, 0.5);
+      EXPECT_NEAR(landed(*kernels, s, 2), 0.5 * root, 1e-9) << kernels->name;
+    }
+  }
+}
+
+TEST(LaneKernels, LandNowhereElse) {
+  for (const LaneKernels* kernels : sets()) {
+    SCOPED_TRACE(kernels->name);
+    constexpr double proposed = 0.05;
+    Surfaces s(*kernels, 1);
+    EXPECT_EQ(landed(*kernels, s, 1), proposed);  // no number
+    EXPECT_EQ(landed(*kernels, s, 0), proposed);
+    s.set(0, 0.4, 1.0, 0.0, 0.0, 0.5);
+    EXPECT_NEAR(landed(*kernels, s, 1), 0.2, 1e-15);
+    EXPECT_NEAR(landed(*kernels, s, 1, true), 0.2, 1e-15);
+    EXPECT_EQ(landed(*kernels, s, 1, false, false), proposed);  // not refused
+    s.set(0, 1.4, 1.0, 0.0, 0.0, 0.5);
+    EXPECT_EQ(landed(*kernels, s, 1), proposed);  // not crossed
+    s.set(0, 5e-4, 1.0, 0.0, 0.0, 0.5);
+    EXPECT_EQ(landed(*kernels, s, 1), proposed);  // where the step began
+    s.set(0, 0.95, 1.0, 0.0, 0.0, 0.5);
+    EXPECT_NEAR(landed(*kernels, s, 1), 0.475, 1e-15);
+    EXPECT_EQ(landed(*kernels, s, 1, true), proposed);  // refused for something else
+    // The slope is 0 on the way: halving finds it.
+    s.set(0, 0.5, 0.25, -1.0, 1.0, 0.5);  // (t - 1/2)^3
+    EXPECT_NEAR(landed(*kernels, s, 1), 0.25, 0.02);
+  }
+}
+
 TEST(LaneKernels, MeasureTheWeightedRootMeanSquare) {
   constexpr std::size_t most = 7;
   std::mt19937 random(2);

@@ -264,6 +264,70 @@ TEST(Phases, Of28And80TeethAreTwoThirds) {
   }
 }
 
+TEST(Contacts, DistancesAreDeflectionsFromTheGapsAndTheirRates) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(-2.0, 2.0);
+  for (const gear::BearingLaw law : {gear::BearingLaw::linear_xy, gear::BearingLaw::linear_radial})
+    for (const auto& base : {problems::r1_nonlinear(), problems::literal(problems::r1_nonlinear()),
+                             problems::rigid_ring(problems::r1_nonlinear())})
+      for (const CoordinateChoice choice : {CoordinateChoice::relative, CoordinateChoice::full}) {
+        gear::Stage stage = base;
+        stage.sun_bearing.law = law;
+        stage.sun_bearing.clearance_half_um = 8.0;
+        const DynamicModel m = model_of(stage, 0.7, choice);
+        const std::size_t n = static_cast<std::size_t>(m.planets);
+        ASSERT_EQ(m.contacts, 4 * n + (law == gear::BearingLaw::linear_xy ? 4 : 1));
+        std::vector<double> y(m.dimension);
+        for (double& x : y) x = any(random);
+        const double s = 1.0 + any(random) / 4.0;
+        std::vector<double> distances(m.contacts);
+        std::vector<double> rates(m.contacts);
+        m.contact_distances(s, y.data(), distances.data(), rates.data());
+        MeshDeflections d;
+        m.deflections(s, y.data(), d);
+        constexpr double rounding = 1e-13;
+        for (std::size_t i = 0; i < n; ++i) {
+          EXPECT_NEAR(distances[4 * i], d.sun_planet[i] - m.sun_planet_half_gap, rounding);
+          EXPECT_NEAR(distances[4 * i + 1], d.sun_planet[i] + m.sun_planet_half_gap, rounding);
+          EXPECT_NEAR(distances[4 * i + 2], d.ring_planet[i] - m.ring_planet_half_gap, rounding);
+          EXPECT_NEAR(distances[4 * i + 3], d.ring_planet[i] + m.ring_planet_half_gap, rounding);
+          for (const std::size_t side : {0U, 1U}) {
+            EXPECT_NEAR(rates[4 * i + side], d.sun_planet_rate[i] / m.omega, rounding);
+            EXPECT_NEAR(rates[4 * i + 2 + side], d.ring_planet_rate[i] / m.omega, rounding);
+          }
+        }
+        // Along the motion, by differences.
+        const std::size_t segment = segment_at(m.breakpoints, s);
+        std::vector<double> f(m.dimension);
+        m.right_hand_side(segment, s, y.data(), f.data());
+        constexpr double e = 1e-6;
+        const auto beside = [&](double way) {
+          std::vector<double> there(m.dimension);
+          for (std::size_t k = 0; k < there.size(); ++k) there[k] = y[k] + way * f[k];
+          std::vector<double> values(m.contacts);
+          std::vector<double> unused(m.contacts);
+          m.contact_distances(s + way, there.data(), values.data(), unused.data());
+          return values;
+        };
+        const std::vector<double> after = beside(e);
+        const std::vector<double> before = beside(-e);
+        for (std::size_t k = 0; k < m.contacts; ++k)
+          EXPECT_NEAR((after[k] - before[k]) / (2.0 * e), rates[k], 1e-7 * (1.0 + std::abs(rates[k]))) << k;
+        // The sun's bearing opens where its distances say so.
+        const std::vector<double> bearing(distances.begin() + static_cast<std::ptrdiff_t>(4 * n), distances.end());
+        const double b = bearing.size() == 4 ? (bearing[1] - bearing[0]) / 2.0 : std::hypot(y[0], y[1]) - bearing[0];
+        EXPECT_GT(b, 0.0);
+        StageForces forces;
+        y[0] = b * (1.0 - 1e-9);
+        y[1] = y[m.dimension / 2] = y[m.dimension / 2 + 1] = 0.0;
+        m.forces(s, y.data(), forces);
+        EXPECT_EQ(forces.sun_bearing, 0.0);
+        y[0] = b * (1.0 + 1e-9);
+        m.forces(s, y.data(), forces);
+        EXPECT_GT(forces.sun_bearing, 0.0);
+      }
+}
+
 TEST(Phases, BreakpointsAreRisingAndOnePerPieceOfEachMesh) {
   const gear::Stage base = problems::with_friction(problems::r1());
   for (const gear::Stage& s : {base, problems::with_moving_stiffness(base), problems::with_teeth(base, 28, 26, 80, 3),

@@ -122,8 +122,11 @@ inline integrate::VectorField clearance_oscillator(double w, double smoothing = 
     dgdp[0] = (D(y[1]) / omega).derivative[0];
     dgdp[1] = equation(omega, s, D(y[0]), D(y[1])).derivative[0];
   };
-  field.surfaces = {{"drive", [](double, std::span<const double> y) { return y[0] - 1.0; }},
-                    {"back", [](double, std::span<const double> y) { return y[0] + 1.0; }}};
+  field.surfaces = {2, [w](double, const double* y, double* values, double* rates) {
+                      values[0] = y[0] - 1.0;
+                      values[1] = y[0] + 1.0;
+                      rates[0] = rates[1] = y[1] / w;
+                    }};
   return field;
 }
 

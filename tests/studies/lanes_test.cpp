@@ -41,7 +41,8 @@ std::vector<std::vector<double>> states(const std::vector<double>& omegas, const
   integrate::IntegratorOptions o = problems::tight(tolerance);
   o.method = method;
   integrate::LaneEnsemble lanes(
-      own_kernel ? lane_field(like, kernels) : integrate::one_by_one(kernels.width, like.dimension), o, kernels);
+      own_kernel ? lane_field(like, kernels) : integrate::one_by_one(kernels.width, like.dimension, like.contacts), o,
+      kernels);
   std::vector<integrate::VectorField> fields;
   std::vector<std::vector<double>> y;
   for (const double omega : omegas) {
@@ -175,7 +176,11 @@ TEST(Lanes, TakeStagesOfTheirStructureOnly) {
   const model::DynamicModel full = model_at(1.0, model::CoordinateChoice::full);
   const integrate::LaneField each = lane_field(full, kernels);
   EXPECT_EQ(each.dimension, full.dimension);
+  EXPECT_EQ(each.surfaces, full.contacts);
   EXPECT_NO_THROW(each.load(0, vector_field(full)));
+  integrate::VectorField without = vector_field(full);
+  without.surfaces = {};
+  EXPECT_THROW(each.load(0, without), InputError);
 }
 
 }  // namespace
