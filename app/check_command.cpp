@@ -24,9 +24,10 @@ int check_command(const Arguments& arguments) {
   fmt::print("{}\n", input.resolved.dump(2));
   fmt::print(stderr,
              "{}: valid\n"
-             "cost: {} points in {} chains, {} mesh periods, {} state variables, about {:.2g} right-hand sides\n",
+             "cost: {} points in {} chains, {} mesh periods, {} state variables, about {:.2g} right-hand sides{}\n",
              arguments.input.string(), cost.points, cost.chains, cost.mesh_periods, cost.dimension,
-             cost.rhs_evaluations());
+             cost.rhs_evaluations(),
+             input.study.sweep->classification_periods > 0 ? " and what it takes to tell the regimes" : "");
   return done;
 }
 
