@@ -9,6 +9,11 @@ work=$(mktemp -d)
 trap 'rm -rf "$work" 2>/dev/null || { sleep 1; rm -rf "$work"; }' EXIT
 cd "$work"
 
+# $1, or $2 in a build with sanitizers, which is tens of times slower.
+or_if_slow() {
+  if grep -qaE '__(asan|tsan)_init' "$epicyclic"; then echo "$2"; else echo "$1"; fi
+}
+
 fail() {
   echo "FAILED: $1"
   failed=$((failed + 1))

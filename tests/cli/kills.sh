@@ -1,22 +1,23 @@
 #!/usr/bin/env bash
 # kills.sh EPICYCLIC SOURCE_DIR
 #
-# kill -9 at random moments: KILLS of them (50), seeded by SEED, over sweeps with 1, 2 and 8 threads, with one trajectory at
-# a time and in lanes; of fresh runs, of resumed ones, and while the results are written. Whatever record was in the
-# journal stays, no point is computed twice, the same command ends with the same bytes, nothing is done by hand. Some
-# kills are followed by half a record, which only the death of a machine leaves.
+# kill -9 at random moments: KILLS of them (50, with sanitizers 12), seeded by SEED, over sweeps with 1, 2 and 8 threads,
+# with one trajectory at a time and in lanes; of fresh runs, of resumed ones, and while the results are written. Whatever
+# record was in the journal stays, no point is computed twice, the same command ends with the same bytes, nothing is done by
+# hand. Some kills are followed by half a record, which only the death of a machine leaves.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 command -v perl >/dev/null || skip "there is no perl to read the journal with"
 
-kills=${KILLS:-50}
+kills=${KILLS:-$(or_if_slow 50 12)}
 seed=${SEED:-$RANDOM}
 RANDOM=$seed
 echo "KILLS=$kills SEED=$seed"
 
 points=20
-study=("$inputs/tang2020_speed.json" --set "/study/points=$((points / 2))" --set /study/transient_periods=150
-  --set /study/recorded_periods=8 --set /study/classification_periods=64)
+study=("$inputs/tang2020_speed.json" --set "/study/points=$((points / 2))"
+  --set "/study/transient_periods=$(or_if_slow 150 20)" --set /study/recorded_periods=8
+  --set "/study/classification_periods=$(or_if_slow 64 0)")
 methods=(arkode-dopri5 lanes-dopri5)
 threads=(1 2 8)
 # Longest time to a kill: about that of a whole run on a small machine, so that some are killed as they start and some as they end.

@@ -2,11 +2,11 @@
 # signals.sh EPICYCLIC SOURCE_DIR
 #
 # SIGINT and SIGTERM: the program ends within 2 s with code 75, at any moment, in the midst of a long point too, and the same
-# command ends with the same bytes. MOMENTS (5) random ones, seeded by SEED, for each signal and method.
+# command ends with the same bytes. MOMENTS (5, with sanitizers 2) random ones, seeded by SEED, for each signal and method.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 
-moments=${MOMENTS:-5}
+moments=${MOMENTS:-$(or_if_slow 5 2)}
 seed=${SEED:-$RANDOM}
 RANDOM=$seed
 echo "MOMENTS=$moments SEED=$seed"
@@ -39,7 +39,7 @@ longest() {
 }
 
 short=("$inputs/tang2020_speed.json" --set /study/points=12 --set /study/transient_periods=60 --set /study/recorded_periods=8
-  --set /study/classification_periods=640 --threads 2)
+  --set "/study/classification_periods=$(or_if_slow 640 64)" --threads 2)
 # One mesh period of it takes minutes.
 long=("$inputs/tang2020_speed.json" --set /study/points=2 --set /study/from=1e-5 --set /study/to=2e-5
   --set /integrator/relative_tolerance=1e-13 --set /integrator/max_steps_per_period=1000000000 --threads 2)
