@@ -64,6 +64,11 @@ for method in arkode-dopri5 lanes-dopri5; do
     same_results "$method" "$folder"
     echo "$what: $most ms at most, $stopped of $moments stopped"
 
+    # ThreadSanitizer keeps a signal for a thread until it calls the C library, which lanes do not within a mesh period.
+    if [ "$method" = lanes-dopri5 ] && grep -qa '__tsan_init' "$epicyclic"; then
+      echo "$what in a long point: not with ThreadSanitizer"
+      continue
+    fi
     most=0
     folder=long$signal$method
     interrupted "$signal" 0.5 "${long[@]}" --set "/integrator/method=$method"
