@@ -28,9 +28,16 @@ WrittenPoints write_h5(const ComputedPoints& all) {
   return {};
 }
 
+template <io::DrawnMesh mesh>
 WrittenPoints draw(const ComputedPoints& all) {
   WrittenPoints written;
-  written.figures = io::draw_sweep_figures(all.folder / "figures", output_of(all), all.points);
+  written.figures.push_back(io::draw_bifurcation(all.folder / "figures", output_of(all), all.points, mesh));
+  return written;
+}
+
+WrittenPoints draw_regimes(const ComputedPoints& all) {
+  WrittenPoints written;
+  written.figures = io::draw_regimes(all.folder / "figures", output_of(all), all.points);
   return written;
 }
 
@@ -51,7 +58,10 @@ WrittenPoints write_points(const ComputedPoints& all) {
 }  // namespace
 
 int sweep_command(const Arguments& arguments) {
-  return points_command(arguments, "sweep", "points", {write_section, write_h5, draw, write_points});
+  // The longest first: they are handed out in this order.
+  return points_command(arguments, "sweep", "points",
+                        {write_h5, write_section, draw<io::DrawnMesh::sun_planet>, draw<io::DrawnMesh::ring_planet>,
+                         draw_regimes, write_points});
 }
 
 }  // namespace epicyclic::app

@@ -56,6 +56,40 @@ class SectionRows {
 /// Extrema that were never seen are empty cells.
 double seen(double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::quiet_NaN(); }
 
+/// What the figures show of a mesh.
+struct DrawnColumn {
+  const char* column;  ///< of the Poincare section
+  const char* stem;
+  const char* label;
+};
+
+const DrawnColumn& drawn_column(DrawnMesh mesh) {
+  static const DrawnColumn sun_planet{"delta_sp_1", "bifurcation_delta_sp", "Poincaré points of  δ_{sp} / b_c"};
+  static const DrawnColumn ring_planet{"delta_rp_1", "bifurcation_delta_rp", "Poincaré points of  δ_{rp} / b_c"};
+  return mesh == DrawnMesh::sun_planet ? sun_planet : ring_planet;
+}
+
+/// Points are numbered along the first direction, then the second.
+std::size_t points_each_way(const SweepOutput& output, const PointSource& points) {
+  return points.count / output.sweep.directions.size();
+}
+
+/// Points along one direction as a figure takes them; `points` must live longer.
+auto section(const SweepOutput& output, const PointSource& points, std::size_t direction, const DrawnColumn& drawn) {
+  const auto& columns = output.poincare_columns;
+  const auto column =
+      static_cast<std::size_t>(std::find(columns.begin(), columns.end(), drawn.column) - columns.begin());
+  return [&points, column,
+          first = direction * points_each_way(output, points)](std::size_t i) -> std::optional<RegimePoint> {
+    const PointResult r = points.read(first + i);
+    if (!ok(r)) return std::nullopt;
+    RegimePoint p{{r.point.value, {}}, r.regime, r.period, r.lyapunov_max()};
+    for (std::size_t k = 0; k < r.poincare_rows(); ++k)
+      p.section.push_back(r.poincare[k * r.poincare_columns + column]);
+    return p;
+  };
+}
+
 }  // namespace
 
 std::string direction_word(Direction direction) { return direction == Direction::up ? "up" : "down"; }
@@ -293,49 +327,29 @@ void write_results_h5(const std::filesystem::path& file, const SweepOutput& outp
   h5.close();
 }
 
-std::vector<DrawnFigure> draw_sweep_figures(const std::filesystem::path& folder, const SweepOutput& output,
-                                            const PointSource& points) {
+DrawnFigure draw_bifurcation(const std::filesystem::path& folder, const SweepOutput& output, const PointSource& points,
+                             DrawnMesh mesh) {
+  const DrawnColumn& drawn = drawn_column(mesh);
+  std::vector<BifurcationSeries> series;
+  for (std::size_t d = 0; d < output.sweep.directions.size(); ++d)
+    series.push_back({direction_word(output.sweep.directions[d]), points_each_way(output, points),
+                      section(output, points, d, drawn)});
+  const FigureText text{literal_text(output.title), parameter_label(output.sweep.parameter), drawn.label};
+  return {folder / (std::string(drawn.stem) + ".png"), bifurcation_figure(folder, drawn.stem, text, series)};
+}
+
+std::vector<DrawnFigure> draw_regimes(const std::filesystem::path& folder, const SweepOutput& output,
+                                      const PointSource& points) {
   std::vector<DrawnFigure> figures;
-  const struct {
-    const char* column;
-    const char* stem;
-    const char* label;
-  } drawn[] = {{"delta_sp_1", "bifurcation_delta_sp", "Poincaré points of  δ_{sp} / b_c"},
-               {"delta_rp_1", "bifurcation_delta_rp", "Poincaré points of  δ_{rp} / b_c"}};
-  const auto place_of = [&](const char* column) {
-    const auto& columns = output.poincare_columns;
-    return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin());
-  };
-  // Points are numbered along the first direction, then the second.
-  const std::size_t each = points.count / output.sweep.directions.size();
-  const auto section = [&](std::size_t direction, std::size_t column) {
-    return [&points, first = direction * each, column](std::size_t i) -> std::optional<RegimePoint> {
-      const PointResult r = points.read(first + i);
-      if (!ok(r)) return std::nullopt;
-      RegimePoint p{{r.point.value, {}}, r.regime, r.period, r.lyapunov_max()};
-      for (std::size_t k = 0; k < r.poincare_rows(); ++k)
-        p.section.push_back(r.poincare[k * r.poincare_columns + column]);
-      return p;
-    };
-  };
-  for (const auto& figure : drawn) {
-    const std::size_t column = place_of(figure.column);
-    std::vector<BifurcationSeries> series;
-    for (std::size_t d = 0; d < output.sweep.directions.size(); ++d)
-      series.push_back({direction_word(output.sweep.directions[d]), each, section(d, column)});
-    const FigureText text{literal_text(output.title), parameter_label(output.sweep.parameter), figure.label};
-    figures.push_back(
-        {folder / (std::string(figure.stem) + ".png"), bifurcation_figure(folder, figure.stem, text, series)});
-  }
   if (output.sweep.classification_periods == 0) return figures;
-  // One for each direction: colours are needed for the regimes.
+  const DrawnColumn& drawn = drawn_column(DrawnMesh::sun_planet);
   for (std::size_t d = 0; d < output.sweep.directions.size(); ++d) {
     const std::string word = direction_word(output.sweep.directions[d]);
     const std::string stem = "regimes_delta_sp_" + word;
     const FigureText text{literal_text(output.title) + ", " + word, parameter_label(output.sweep.parameter),
-                          drawn[0].label};
-    figures.push_back(
-        {folder / (stem + ".png"), regime_figure(folder, stem, text, each, section(d, place_of(drawn[0].column)))});
+                          drawn.label};
+    figures.push_back({folder / (stem + ".png"), regime_figure(folder, stem, text, points_each_way(output, points),
+                                                               section(output, points, d, drawn))});
   }
   return figures;
 }

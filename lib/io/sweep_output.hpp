@@ -72,8 +72,15 @@ struct DrawnFigure {
   FigureOutcome outcome;
 };
 
-/// Bifurcation figures of delta_sp and delta_rp of planet 1 in `folder`.
-[[nodiscard]] std::vector<DrawnFigure> draw_sweep_figures(const std::filesystem::path& folder,
-                                                          const SweepOutput& output, const PointSource& points);
+enum class DrawnMesh { sun_planet, ring_planet };
+
+/// Bifurcation figure of delta_sp or delta_rp of planet 1 in `folder`.
+[[nodiscard]] DrawnFigure draw_bifurcation(const std::filesystem::path& folder, const SweepOutput& output,
+                                           const PointSource& points, DrawnMesh mesh);
+
+/// Its regimes, one figure of delta_sp for each direction, because colours are needed for the regimes; none if the
+/// sweep does not tell them.
+[[nodiscard]] std::vector<DrawnFigure> draw_regimes(const std::filesystem::path& folder, const SweepOutput& output,
+                                                    const PointSource& points);
 
 }  // namespace epicyclic::io
