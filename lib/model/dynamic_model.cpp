@@ -115,6 +115,12 @@ void remove_synchronous(const Parameters<double, N>& p, std::span<double> deviat
   }
 }
 
+/// The instant of what looks at deflections alone: stiffness and friction in tables are not looked up.
+template <std::size_t N>
+Instant<double, N> without_tables(const Parameters<double, N>& p, double s) {
+  return {p, HarmonicBasis<double>(sine_cosine(s), harmonics_of(p))};
+}
+
 template <Layout L, std::size_t N>
 DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mesh_frequency_ratio,
                       const ModelOptions& options) {
@@ -137,16 +143,22 @@ DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mes
   };
   m.tangents = make_tangents<L>(*p);
   m.deflections = [p](double s, const double* y, MeshDeflections& out) {
-    const StageState<double, N> g = stage_state<L>(*p, segment_at(p->breakpoints, s), s, y);
-    out.sun_planet.assign(g.sun_planet.delta.begin(), g.sun_planet.delta.end());
-    out.ring_planet.assign(g.ring_planet.delta.begin(), g.ring_planet.delta.end());
-    out.sun_planet_rate.assign(g.sun_planet.rate.begin(), g.sun_planet.rate.end());
-    out.ring_planet_rate.assign(g.ring_planet.rate.begin(), g.ring_planet.rate.end());
+    constexpr Planets<N> all;
+    const Deflections<double, N> d = deflections(*p, all, unpack(Arranged<L>{}, all, y));
+    const Deflections<double, N> d_rate =
+        deflections(*p, all, unpack(Arranged<L>{}, all, y + degrees_of_freedom(L, N)));
+    const Instant<double, N> now = without_tables(*p, s);
+    const auto set = [](std::vector<double>& row, const Row<double, N>& values) {
+      row.assign(values.begin(), values.end());
+    };
+    set(out.sun_planet, now.sun_planet.delta(all, d.sun_planet));
+    set(out.ring_planet, now.ring_planet.delta(all, d.ring_planet));
+    set(out.sun_planet_rate, now.sun_planet.rate(all, d_rate.sun_planet));
+    set(out.ring_planet_rate, now.ring_planet.rate(all, d_rate.ring_planet));
   };
   m.contacts = contacts_of(*p);
   m.contact_distances = [p](double s, const double* y, double* distances, double* rates) {
-    const Instant<double, N> now(*p, HarmonicBasis<double>(sine_cosine(s), harmonics_of(*p)));
-    contact_distances<L>(*p, now, y, distances, rates);
+    contact_distances<L>(*p, without_tables(*p, s), y, distances, rates);
   };
   m.forces = [p](double s, const double* y, StageForces& out) {
     const StageState<double, N> g = stage_state<L>(*p, segment_at(p->breakpoints, s), s, y);

@@ -82,6 +82,16 @@ struct MeshInstant {
     }
   }
 
+  /// Deflection of some planets' meshes, given their displacements along the line of action, and its rate.
+  template <std::size_t G, class T>
+  [[nodiscard]] Row<T, G> delta(const Planets<N, G>& planets, const Row<T, G>& displacement) const {
+    return displacement - planets(error);
+  }
+  template <std::size_t G, class T>
+  [[nodiscard]] Row<T, G> rate(const Planets<N, G>& planets, const Row<T, G>& velocity) const {
+    return velocity - planets(error_rate);
+  }
+
   /// One of the rows that planets may share, of some planets.
   template <std::size_t G>
   [[nodiscard]] Row<P, G> each(const Planets<N, G>& planets, const Row<P, N>& row) const {

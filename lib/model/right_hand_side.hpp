@@ -78,8 +78,8 @@ template <class T, class P, std::size_t N, std::size_t G>
                                             const Row<T, G>& displacement, const Row<T, G>& velocity) {
   using R = Row<T, G>;
   MeshState<T, G, P> m;
-  m.delta = displacement - planets(now.error);
-  m.rate = velocity - planets(now.error_rate);
+  m.delta = now.delta(planets, displacement);
+  m.rate = now.rate(planets, velocity);
   m.stiffness = now.each(planets, now.stiffness);
   m.elastic = m.stiffness * closed_by<R>(m.delta, mesh.half_gap, p.smoothing, p.smooth);
   if (p.gap_damping == GapDamping::contact_slope) {
@@ -375,7 +375,7 @@ void contact_distances(const Parameters<P, N>& p, const Instant<P, N>& now, cons
     const Deflections<T, 1> d_rate = deflections(p, own, unpack(Arranged<L>{}, own, velocities));
     const auto mesh = [&](const MeshParameters<P, N>& m, const MeshInstant<P, N>& instant, const Row<T, 1>& x,
                           const Row<T, 1>& rate) {
-      flanks(x[0] - instant.error[i], rate[0] - instant.error_rate[i], m.half_gap);
+      flanks(instant.delta(own, x)[0], instant.rate(own, rate)[0], m.half_gap);
     };
     mesh(p.sun_planet, now.sun_planet, d.sun_planet, d_rate.sun_planet);
     mesh(p.ring_planet, now.ring_planet, d.ring_planet, d_rate.ring_planet);

@@ -58,8 +58,14 @@ void by_us(benchmark::State& state, const char* method, int segments) {
 
 void once(benchmark::internal::Benchmark* b) { b->Iterations(1)->Unit(benchmark::kSecond); }
 BENCHMARK(by_odeint)->Name("speed_diagram/odeint-dopri5")->Apply(once);
-BENCHMARK_CAPTURE(by_us, lanes_cash_karp, "lanes-cash-karp", 8)->Name("speed_diagram/lanes-cash-karp")->Apply(once);
-BENCHMARK_CAPTURE(by_us, lanes_dopri5, "lanes-dopri5", 8)->Name("speed_diagram/lanes-dopri5")->Apply(once);
+// As many chains as AVX2 needs (eight segments), and AVX-512.
+BENCHMARK_CAPTURE(by_us, cash_karp_8, "lanes-cash-karp", 8)
+    ->Name("speed_diagram/lanes-cash-karp/segments:8")
+    ->Apply(once);
+BENCHMARK_CAPTURE(by_us, cash_karp_32, "lanes-cash-karp", 32)
+    ->Name("speed_diagram/lanes-cash-karp/segments:32")
+    ->Apply(once);
+BENCHMARK_CAPTURE(by_us, dopri5_32, "lanes-dopri5", 32)->Name("speed_diagram/lanes-dopri5/segments:32")->Apply(once);
 BENCHMARK_CAPTURE(by_us, arkode_dopri5, "arkode-dopri5", 1)->Name("speed_diagram/arkode-dopri5")->Apply(once);
 
 }  // namespace
