@@ -58,7 +58,7 @@ void by_us(benchmark::State& state, const char* method, int segments) {
 
 void once(benchmark::internal::Benchmark* b) { b->Iterations(1)->Unit(benchmark::kSecond); }
 BENCHMARK(by_odeint)->Name("speed_diagram/odeint-dopri5")->Apply(once);
-// As many chains as AVX2 needs (eight segments), and AVX-512.
+// Eight segments in both directions keep four lanes busy, and not quite eight.
 BENCHMARK_CAPTURE(by_us, cash_karp_8, "lanes-cash-karp", 8)
     ->Name("speed_diagram/lanes-cash-karp/segments:8")
     ->Apply(once);
