@@ -60,7 +60,7 @@ WrittenPoints write_points(const ComputedPoints& all) {
 int sweep_command(const Arguments& arguments) {
   // The longest first: they are handed out in this order.
   return points_command(arguments, "sweep", "points",
-                        {write_h5, write_section, draw<io::DrawnMesh::sun_planet>, draw<io::DrawnMesh::ring_planet>,
+                        {write_h5, draw<io::DrawnMesh::sun_planet>, draw<io::DrawnMesh::ring_planet>, write_section,
                          draw_regimes, write_points});
 }
 
