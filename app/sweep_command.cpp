@@ -58,7 +58,7 @@ WrittenPoints write_points(const ComputedPoints& all) {
 }  // namespace
 
 int sweep_command(const Arguments& arguments) {
-  // The longest first: they are handed out in this order.
+  // The longest first, in which order they are handed out. Regimes follow a classification, which takes far longer.
   return points_command(arguments, "sweep", "points",
                         {write_h5, draw<io::DrawnMesh::sun_planet>, draw<io::DrawnMesh::ring_planet>, write_section,
                          draw_regimes, write_points});
