@@ -49,6 +49,8 @@ WrittenPoints write_results(const ComputedPoints& plane) {
 
 }  // namespace
 
-int basins_command(const Arguments& arguments) { return points_command(arguments, "basins", "cells", {write_results}); }
+int basins_command(const Arguments& arguments) {
+  return points_command(arguments, "basins", "cells", {{write_results}});
+}
 
 }  // namespace epicyclic::app

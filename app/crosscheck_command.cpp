@@ -91,7 +91,7 @@ int crosscheck_command(const Arguments& arguments) {
 
   const std::size_t different = io::differences(all);
   if (!figure.outcome.drawn())
-    fmt::print(stderr, "{} was not drawn: {}\n", figure.png.string(), figure.outcome.message);
+    fmt::print(stderr, "{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
   if (arguments.json) {
     fmt::print("{}\n", nlohmann::json{{"folder", folder.path().string()},
                                       {"points", points},
@@ -101,7 +101,7 @@ int crosscheck_command(const Arguments& arguments) {
                            .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     fmt::print("{}", summary);
-    if (figure.outcome.drawn()) fmt::print("\nfigure: {}\n", figure.png.string());
+    if (figure.outcome.drawn()) fmt::print("\nfigure: {}\n", figure.file.string());
   }
   return different == 0 && failed == 0 ? done : done_with_failures;
 }

@@ -24,6 +24,6 @@ WrittenPoints write_results(const ComputedPoints& plane) {
 
 }  // namespace
 
-int map_command(const Arguments& arguments) { return points_command(arguments, "map", "cells", {write_results}); }
+int map_command(const Arguments& arguments) { return points_command(arguments, "map", "cells", {{write_results}}); }
 
 }  // namespace epicyclic::app

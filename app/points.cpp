@@ -13,12 +13,14 @@
 #include "failure.hpp"
 #include "folder.hpp"
 #include "io/output_folder.hpp"
+#include "io/point_store.hpp"
 #include "io/progress.hpp"
+#include "io/study_input.hpp"
 #include "io/study_model.hpp"
 #include "ranks.hpp"
 #include "shared_sweep.hpp"
 #include "stop.hpp"
-#include "studies/units.hpp"
+#include "studies/sweep.hpp"
 
 namespace epicyclic::app {
 
@@ -78,8 +80,8 @@ WrittenPoints write_results(const Arguments& arguments, const std::vector<Result
                             const ComputedPoints& computed, SweepLeader* leader) {
   std::vector<WrittenPoints> written(parts.size());
   if (leader == nullptr) {
-    studies::for_units(parts.size(), arguments.threads, nullptr,
-                       [&](std::size_t part) { written[part] = parts[part](computed); });
+    PartQueue queue(parts);
+    write_parts(parts, computed, arguments.threads, queue, written);
   } else {
     written = leader->write(parts, computed, arguments.threads);
   }
@@ -149,9 +151,9 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   summary.update(written.summary);
   for (const io::DrawnFigure& figure : written.figures) {
     if (figure.outcome.drawn())
-      summary["figures"].push_back(figure.png.string());
+      summary["figures"].push_back(figure.file.string());
     else
-      fmt::print(stderr, "{} was not drawn: {}\n", figure.png.string(), figure.outcome.message);
+      fmt::print(stderr, "{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
   }
   if (arguments.json) {
     fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));

@@ -60,9 +60,9 @@ int run_command(const Arguments& arguments) {
                          {"figures", nlohmann::json::array()}};
   for (const io::DrawnFigure& figure : figures) {
     if (figure.outcome.drawn())
-      told["figures"].push_back(figure.png.string());
+      told["figures"].push_back(figure.file.string());
     else
-      fmt::print(stderr, "{} was not drawn: {}\n", figure.png.string(), figure.outcome.message);
+      fmt::print(stderr, "{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
   }
   if (arguments.json) {
     fmt::print("{}\n", told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));

@@ -26,7 +26,6 @@
 #include "io/study_model.hpp"
 #include "ranks.hpp"
 #include "stop.hpp"
-#include "studies/units.hpp"
 
 namespace epicyclic::app {
 
@@ -114,14 +113,14 @@ std::optional<Failure> failure_in(const json& report) {
 json written_to(const WrittenPoints& written) {
   json figures = json::array();
   for (const io::DrawnFigure& figure : written.figures)
-    figures.push_back({{"png", figure.png.string()}, {"message", figure.outcome.message}});
+    figures.push_back({{"file", figure.file.string()}, {"message", figure.outcome.message}});
   return {{"figures", figures}, {"summary", written.summary}, {"lines", written.lines}, {"notes", written.notes}};
 }
 
 WrittenPoints written_from(const json& report) {
   WrittenPoints written;
   for (const json& figure : report.at("figures"))
-    written.figures.push_back({figure.at("png").get<std::string>(), {figure.at("message").get<std::string>()}});
+    written.figures.push_back({figure.at("file").get<std::string>(), {figure.at("message").get<std::string>()}});
   written.summary = report.at("summary");
   written.lines = report.at("lines").get<std::vector<std::string>>();
   written.notes = report.at("notes").get<std::vector<std::string>>();
@@ -241,46 +240,44 @@ void SweepLeader::run(const studies::SweepPlan& plan, const studies::SweepOption
 std::vector<WrittenPoints> SweepLeader::write(const std::vector<ResultsPart>& parts, const ComputedPoints& computed,
                                               int threads) {
   std::vector<WrittenPoints> written(parts.size());
-  std::atomic<std::size_t> next{0};
+  PartQueue queue(parts);
   std::exception_ptr error;
   std::atomic<bool> through{false};
   // Joined however this function is left.
   std::jthread worker([&] {
     try {
-      studies::for_units(parts.size(), threads, nullptr, [&](std::size_t /*unit*/) {
-        const std::size_t part = next++;
-        if (part < parts.size()) written[part] = parts[part](computed);
-      });
+      write_parts(parts, computed, threads, queue, written);
     } catch (...) {
       error = std::current_exception();
-      next = parts.size();  // nothing more is begun, here or elsewhere
     }
     through = true;
   });
 
   std::optional<Failure> failure;
-  int elsewhere = 0;  // parts
-  const auto give = [&](int rank) {
-    const Index part = next++;
-    if (part >= parts.size()) return;
-    ++elsewhere;
-    ranks_.send(rank, Topic::write, bytes_of(std::vector<Index>{part}));
+  // What each rank writes; what is left may have to wait for a part that another writes.
+  std::vector<std::optional<std::size_t>> elsewhere(static_cast<std::size_t>(ranks_.size()));
+  const auto give = [&] {
+    for (std::size_t rank = 1; rank < elsewhere.size(); ++rank) {
+      if (elsewhere[rank] || !(elsewhere[rank] = queue.take_now())) continue;
+      ranks_.send(static_cast<int>(rank), Topic::write, bytes_of(std::vector<Index>{*elsewhere[rank]}));
+    }
   };
-  for (int rank = 1; rank < ranks_.size(); ++rank) give(rank);
-  while (!through || elsewhere > 0) {
+  const auto any_elsewhere = [&] { return std::ranges::any_of(elsewhere, [](auto part) { return part.has_value(); }); };
+  for (give(); !through || any_elsewhere(); give()) {
     const auto message = ranks_.receive();
     if (!message) {
       std::this_thread::sleep_for(look_interval);
     } else if (message->topic == Topic::written) {
-      --elsewhere;
       const json report = json::parse(message->bytes);
+      const auto part = elsewhere.at(static_cast<std::size_t>(message->from)).value();
+      elsewhere[static_cast<std::size_t>(message->from)].reset();
       if (const auto failed = failure_in(report)) {
         if (!failure) failure = failed;
-        next = parts.size();
+        queue.close();
       } else {
-        written.at(report.at("part").get<std::size_t>()) = written_from(report);
+        written[part] = written_from(report);
       }
-      give(message->from);
+      queue.ended(part);
     }
   }
   worker.join();
@@ -448,7 +445,7 @@ class PartWriter {
         store_(folder_, identity, plan_.points.size(), io::Journal::Use::read) {}
 
   [[nodiscard]] json write(const ResultsPart& part) const {
-    return written_to(part({folder_, input_, first_model_, resolved_, store_.source()}));
+    return written_to(part.write({folder_, input_, first_model_, resolved_, store_.source()}));
   }
 
  private:
@@ -505,7 +502,6 @@ int follow(const Arguments& arguments, std::string_view command, const std::vect
       }
       json report = report_of(ranks, error);
       report.update(written);
-      report["part"] = part;
       ranks.send(0, Topic::written, text_of(report));
     }
     if (!message) std::this_thread::sleep_for(10 * look_interval);

@@ -15,7 +15,7 @@
 
 #include "commands.hpp"
 #include "io/study_input.hpp"
-#include "points.hpp"
+#include "parts.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::app {

@@ -1,6 +1,9 @@
 // epicyclic sweep: bifurcation diagram along one parameter.
 
 #include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -28,16 +31,18 @@ WrittenPoints write_h5(const ComputedPoints& all) {
   return {};
 }
 
-template <io::DrawnMesh mesh>
-WrittenPoints draw(const ComputedPoints& all) {
+WrittenPoints write_figure(const ComputedPoints& all, io::SweepFigure figure) {
   WrittenPoints written;
-  written.figures.push_back(io::draw_bifurcation(all.folder / "figures", output_of(all), all.points, mesh));
+  if (auto none = io::write_sweep_figure(all.folder / "figures", output_of(all), all.points, figure))
+    written.figures.push_back(std::move(*none));
   return written;
 }
 
-WrittenPoints draw_regimes(const ComputedPoints& all) {
+WrittenPoints draw_picture(const ComputedPoints& all, io::SweepFigure figure, io::Pictures picture) {
   WrittenPoints written;
-  written.figures = io::draw_regimes(all.folder / "figures", output_of(all), all.points);
+  auto drawn = io::draw_sweep_picture(all.folder / "figures", output_of(all), figure, picture);
+  // A figure is called by its PNG picture.
+  if (drawn && (picture == io::Pictures::png || !drawn->outcome.drawn())) written.figures.push_back(std::move(*drawn));
   return written;
 }
 
@@ -55,13 +60,26 @@ WrittenPoints write_points(const ComputedPoints& all) {
   return written;
 }
 
+/// In the order in which they are handed out: the longest first, but for figures' data, which their pictures wait for.
+std::vector<ResultsPart> parts_of_sweep() {
+  using enum io::SweepFigure;
+  std::vector<ResultsPart> parts = {{write_h5}};
+  std::map<io::SweepFigure, std::size_t> written_by;
+  for (const io::SweepFigure figure : {delta_sp, delta_rp, regimes_first, regimes_second}) {
+    written_by[figure] = parts.size();
+    parts.push_back({[figure](const ComputedPoints& all) { return write_figure(all, figure); }});
+  }
+  parts.push_back({write_section});
+  for (const io::Pictures picture : {io::Pictures::png, io::Pictures::svg})
+    for (const auto& [figure, part] : written_by)
+      parts.push_back(
+          {[figure, picture](const ComputedPoints& all) { return draw_picture(all, figure, picture); }, part});
+  parts.push_back({write_points});
+  return parts;
+}
+
 }  // namespace
 
-int sweep_command(const Arguments& arguments) {
-  // The longest first, in which order they are handed out. Regimes follow a classification, which takes far longer.
-  return points_command(arguments, "sweep", "points",
-                        {write_h5, draw<io::DrawnMesh::sun_planet>, draw<io::DrawnMesh::ring_planet>, write_section,
-                         draw_regimes, write_points});
-}
+int sweep_command(const Arguments& arguments) { return points_command(arguments, "sweep", "points", parts_of_sweep()); }
 
 }  // namespace epicyclic::app

@@ -118,9 +118,9 @@ int tolerance_command(const Arguments& arguments) {
                            {"figures", nlohmann::json::array()}};
   for (const io::DrawnFigure& figure : figures) {
     if (figure.outcome.drawn())
-      result["figures"].push_back(figure.png.string());
+      result["figures"].push_back(figure.file.string());
     else
-      fmt::print(stderr, "{} was not drawn: {}\n", figure.png.string(), figure.outcome.message);
+      fmt::print(stderr, "{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
   }
   if (const auto best = studies::recommend(points, first_model.dimension, input.study.tolerance.target_error))
     result["recommendation"] = {{"method", best->method}, {"relative_tolerance", best->tolerance}};

@@ -141,8 +141,8 @@ std::size_t look_of(const RegimePoint& p) {
 }  // namespace
 
 FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
-                                 const std::vector<BifurcationSeries>& series,
-                                 const std::vector<FigureMarker>& markers) {
+                                 const std::vector<BifurcationSeries>& series, const std::vector<FigureMarker>& markers,
+                                 Pictures which) {
   if (series.empty() || series.size() > colours.size()) {
     throw std::invalid_argument(fmt::format("bifurcation_figure: {} series, not 1 or 2", series.size()));
   }
@@ -180,11 +180,13 @@ FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::strin
   const std::size_t legend_entries = series.size() > 1 ? series.size() : 0;
   for (std::size_t i = 0; i < legend_entries; ++i) plot += legend_entry(colours[i], series[i].label);
   return draw_figure(folder, stem, write_data,
-                     figure_script(stem, text, x_range, y_range, legend_entries, markers, dot_settings(x_range), plot));
+                     figure_script(stem, text, x_range, y_range, legend_entries, markers, dot_settings(x_range), plot),
+                     which);
 }
 
 FigureOutcome regime_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
-                            std::size_t count, const std::function<std::optional<RegimePoint>(std::size_t)>& at) {
+                            std::size_t count, const std::function<std::optional<RegimePoint>(std::size_t)>& at,
+                            Pictures which) {
   FigureRange x;
   FigureRange y;
   FigureRange exponents;
@@ -275,7 +277,7 @@ FigureOutcome regime_figure(const std::filesystem::path& folder, std::string_vie
       number(x.low), number(x.high), number(y.low), number(y.high), gnuplot_quoted(portable_text(text.title)),
       gnuplot_quoted(portable_text(text.y_label)), dots, legend, gnuplot_quoted(portable_text(text.x_label)),
       gnuplot_quoted("Exponent  λ_1 / ω_{sn}"), number(exponents.low), number(exponents.high), bars);
-  return draw_figure(folder, stem, write_data, panel_script(stem, dot_settings(x), panels));
+  return draw_figure(folder, stem, write_data, panel_script(stem, dot_settings(x), panels), which);
 }
 
 }  // namespace epicyclic::io

@@ -35,12 +35,13 @@ struct BifurcationSeries {
 /// Draws one or two series (the first, dark blue, over the second, muted red) to `folder`/STEM.png and .svg, from
 /// STEM.dat with the script STEM.gp. A legend appears when there are two. The abscissa spans exactly the parameter's
 /// range; the ordinate has a margin of 4 %.
+/// @param which  pictures; none: data and script are written, and draw_pictures follows
 /// @returns what became of the figure; not drawn, too, when there is no finite point
 /// @throws OutputError           when data or script cannot be written
 /// @throws std::invalid_argument when there is no series or more than two, or when the stem is not a plain file name
 FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
                                  const std::vector<BifurcationSeries>& series,
-                                 const std::vector<FigureMarker>& markers = {});
+                                 const std::vector<FigureMarker>& markers = {}, Pictures which = Pictures::both);
 
 /// One value of the parameter with what its motion is.
 struct RegimePoint : SectionPoint {
@@ -54,6 +55,7 @@ struct RegimePoint : SectionPoint {
 /// @param at  as in BifurcationSeries
 /// @throws OutputError, std::invalid_argument for a stem that is not a plain file name
 FigureOutcome regime_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
-                            std::size_t count, const std::function<std::optional<RegimePoint>(std::size_t i)>& at);
+                            std::size_t count, const std::function<std::optional<RegimePoint>(std::size_t i)>& at,
+                            Pictures which = Pictures::both);
 
 }  // namespace epicyclic::io

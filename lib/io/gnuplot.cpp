@@ -8,6 +8,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
+#include <tuple>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -133,18 +134,25 @@ std::string opening(std::string_view stem) {
       stem);
 }
 
-std::string png_terminal(const FigureCanvas& canvas = {}) {
-  return fmt::format(
-      "set terminal pngcairo enhanced rounded size {},{} font 'DejaVu Sans,24' linewidth 1.5 background '#ffffff'\n"
-      "mark = 1.4\n",
-      canvas.width, canvas.height);
-}
+constexpr std::string_view png = "png";
+constexpr std::string_view svg = "svg";
 
-std::string svg_terminal(const FigureCanvas& canvas = {}) {
+/// The commands, for each of the two files or for the one that the script is called with.
+std::string drawn_to_files(std::string_view stem, std::string_view commands, const FigureCanvas& canvas = {}) {
   return fmt::format(
-      "set terminal svg enhanced round size {},{} font 'DejaVu Sans,24' linewidth 1.2 background '#ffffff'\n"
-      "mark = 0.7\n",
-      4 * canvas.width / 5, 4 * canvas.height / 5);
+      "do for [kind in (ARGC > 0 ? ARG1 : '{1} {2}')] {{\n"
+      "if (kind eq '{1}') {{\n"
+      "set terminal pngcairo enhanced rounded size {3},{4} font 'DejaVu Sans,24' linewidth 1.5 background '#ffffff'\n"
+      "mark = 1.4\n"
+      "}} else {{\n"
+      "set terminal svg enhanced round size {5},{6} font 'DejaVu Sans,24' linewidth 1.2 background '#ffffff'\n"
+      "mark = 0.7\n"
+      "}}\n"
+      "set output '{0}.'.kind\n"
+      "{7}"
+      "unset output\n"
+      "}}\n",
+      stem, png, svg, canvas.width, canvas.height, 4 * canvas.width / 5, 4 * canvas.height / 5, commands);
 }
 
 }  // namespace
@@ -160,7 +168,7 @@ FigureRange FigureRange::widened(double share) const {
   return {low - margin, high + margin};
 }
 
-FigureOutcome run_gnuplot(const fs::path& script) {
+FigureOutcome run_gnuplot(const fs::path& script, Pictures which) {
   const fs::path folder = script.has_parent_path() ? script.parent_path() : fs::path(".");
   std::array<int, 2> pipe_ends{};
   if (::pipe2(pipe_ends.data(), O_CLOEXEC) != 0) return {"cannot run gnuplot: " + reason(errno)};
@@ -175,8 +183,13 @@ FigureOutcome run_gnuplot(const fs::path& script) {
   // "./" keeps a script whose name begins with a dash from being taken for an option.
   std::string program = "gnuplot";
   std::string without_user_settings = "-d";
+  std::string called_with_argument = "-c";
   std::string script_name = "./" + script.filename().string();
-  std::array<char*, 4> arguments{program.data(), without_user_settings.data(), script_name.data(), nullptr};
+  std::string argument(which == Pictures::svg ? svg : png);
+  std::array<char*, 6> arguments{
+      program.data(), without_user_settings.data(), called_with_argument.data(), script_name.data(), argument.data(),
+      nullptr};
+  if (which == Pictures::both) arguments = {program.data(), without_user_settings.data(), script_name.data(), nullptr};
 
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
@@ -272,30 +285,34 @@ std::string figure_script(std::string_view stem, const FigureText& text, const F
         text_of(marker.x), gnuplot_quoted(portable_text(marker.label)));
   }
   script += extra;
-  script += fmt::format(
-      "{2}set output '{0}.png'\n"
-      "plot {1}\n"
-      "{3}set output '{0}.svg'\n"
-      "replot\n"
-      "unset output\n",
-      stem, plot, png_terminal(canvas), svg_terminal(canvas));
-  return script;
+  return script + drawn_to_files(stem, fmt::format("plot {}\n", plot), canvas);
 }
 
 std::string panel_script(std::string_view stem, std::string_view extra, std::string_view panels) {
-  return fmt::format(
-      "{0}set rmargin screen 0.975\n{1}{2}set output '{5}.png'\n{4}{3}set output '{5}.svg'\n{4}unset output\n",
-      opening(stem), extra, png_terminal(), svg_terminal(), panels, stem);
+  return fmt::format("{}set rmargin screen 0.975\n{}{}", opening(stem), extra, drawn_to_files(stem, panels));
 }
 
-FigureOutcome draw_figure(const fs::path& folder, std::string_view stem, std::string_view data,
-                          std::string_view script) {
+FigureOutcome draw_pictures(const fs::path& folder, std::string_view stem, Pictures which) {
+  if (which == Pictures::none) return {};
+  const auto named = [&](std::string_view suffix) { return folder / fmt::format("{}.{}", stem, suffix); };
+  FigureOutcome outcome = run_gnuplot(named("gp"), which);
+  if (!outcome.drawn()) return outcome;
+  for (const auto& [other, suffix, end] : {std::tuple(Pictures::svg, png, png_end), {Pictures::png, svg, svg_end}}) {
+    if (which == other || ends_with(named(suffix), end)) continue;
+    throw OutputError(fmt::format("{}: gnuplot did not finish it (disk full?); make room and repeat the command",
+                                  named(suffix).string()));
+  }
+  return outcome;
+}
+
+FigureOutcome draw_figure(const fs::path& folder, std::string_view stem, std::string_view data, std::string_view script,
+                          Pictures which) {
   return draw_figure(
-      folder, stem, [data](AtomicFile& file) { file.write(data); }, script);
+      folder, stem, [data](AtomicFile& file) { file.write(data); }, script, which);
 }
 
 FigureOutcome draw_figure(const fs::path& folder, std::string_view stem,
-                          const std::function<void(AtomicFile&)>& write_data, std::string_view script) {
+                          const std::function<void(AtomicFile&)>& write_data, std::string_view script, Pictures which) {
   const bool plain = !stem.empty() && stem.front() != '.' && std::ranges::all_of(stem, [](char character) {
     return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
            (character >= '0' && character <= '9') || character == '_' || character == '-' || character == '.';
@@ -312,13 +329,7 @@ FigureOutcome draw_figure(const fs::path& folder, std::string_view stem,
   write_data(data);
   data.commit();
   write_file_atomically(named(".gp"), script);
-  FigureOutcome outcome = run_gnuplot(named(".gp"));
-  if (!outcome.drawn()) return outcome;
-  if (!ends_with(named(".png"), png_end) || !ends_with(named(".svg"), svg_end)) {
-    throw OutputError(fmt::format("{}: gnuplot did not finish it (disk full?); make room and repeat the command",
-                                  named(".png").string()));
-  }
-  return outcome;
+  return draw_pictures(folder, stem, which);
 }
 
 }  // namespace epicyclic::io

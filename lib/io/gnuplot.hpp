@@ -64,9 +64,13 @@ struct FigureCanvas {
 /// For axes of equal scale.
 inline constexpr FigureCanvas square_canvas{1200, 1100};
 
+/// Which of its two files a script draws. Drawn apart, they can be drawn side by side.
+enum class Pictures { none, png, svg, both };
+
 /// Runs gnuplot on the script, without a shell, in the script's folder, in the C locale and without the user's own
 /// settings (~/.gnuplot).
-FigureOutcome run_gnuplot(const std::filesystem::path& script);
+/// @param which  of the files of figure_script or panel_script; not none
+FigureOutcome run_gnuplot(const std::filesystem::path& script, Pictures which = Pictures::both);
 
 /// The text as a gnuplot string in single quotes, in which gnuplot neither expands nor executes anything.
 std::string gnuplot_quoted(std::string_view text);
@@ -75,8 +79,9 @@ std::string gnuplot_quoted(std::string_view text);
 std::string portable_text(std::string_view text);
 
 /// The script of a figure: encoding, white ground, thin frame, tics, ranges, labels, legend, markers; then `plot`,
-/// which is one plot command (without the word) and is drawn twice, to STEM.png and to STEM.svg. It may use the
-/// variable `mark`, the size of a clearly visible dot, which differs between the two. `extra` are commands before it.
+/// which is one plot command (without the word) and is drawn twice, to STEM.png and to STEM.svg, or to the one that
+/// the script is called with (`gnuplot -c STEM.gp svg`). It may use the variable `mark`, the size of a clearly visible
+/// dot, which differs between the two. `extra` are commands before it.
 std::string figure_script(std::string_view stem, const FigureText& text, const FigureRange& x, const FigureRange& y,
                           std::size_t legend_entries, const std::vector<FigureMarker>& markers, std::string_view extra,
                           std::string_view plot, const FigureCanvas& canvas = {});
@@ -85,15 +90,21 @@ std::string figure_script(std::string_view stem, const FigureText& text, const F
 /// `panels`, complete commands from `set multiplot` to `unset multiplot`, for each of the two files.
 std::string panel_script(std::string_view stem, std::string_view extra, std::string_view panels);
 
+/// Draws STEM.png, STEM.svg or both from STEM.dat with STEM.gp, which are in `folder`.
+/// @throws OutputError  when gnuplot leaves a picture unfinished
+FigureOutcome draw_pictures(const std::filesystem::path& folder, std::string_view stem, Pictures which);
+
 /// Writes STEM.dat and STEM.gp to `folder`, which is created if need be, and draws.
+/// @param which  none: draw_pictures follows
 /// @throws OutputError           when data or script cannot be written, or gnuplot leaves a picture unfinished
 /// @throws std::invalid_argument when the stem is not a plain file name (letters, digits, '_', '-', '.')
 FigureOutcome draw_figure(const std::filesystem::path& folder, std::string_view stem, std::string_view data,
-                          std::string_view script);
+                          std::string_view script, Pictures which = Pictures::both);
 
 /// The same for data that need not fit into memory.
 /// @param write_data  writes them to STEM.dat
 FigureOutcome draw_figure(const std::filesystem::path& folder, std::string_view stem,
-                          const std::function<void(AtomicFile&)>& write_data, std::string_view script);
+                          const std::function<void(AtomicFile&)>& write_data, std::string_view script,
+                          Pictures which = Pictures::both);
 
 }  // namespace epicyclic::io

@@ -8,6 +8,8 @@
 #include <type_traits>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "io/bifurcation_figure.hpp"
 #include "io/csv.hpp"
 #include "io/hdf5_file.hpp"
@@ -56,17 +58,30 @@ class SectionRows {
 /// Extrema that were never seen are empty cells.
 double seen(double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::quiet_NaN(); }
 
-/// What the figures show of a mesh.
-struct DrawnColumn {
-  const char* column;  ///< of the Poincare section
-  const char* stem;
-  const char* label;
-};
+/// Which direction the regimes of a figure are of; 0 for the diagrams of both.
+std::size_t direction_of(SweepFigure figure) { return figure == SweepFigure::regimes_second ? 1 : 0; }
 
-const DrawnColumn& drawn_column(DrawnMesh mesh) {
-  static const DrawnColumn sun_planet{"delta_sp_1", "bifurcation_delta_sp", "Poincaré points of  δ_{sp} / b_c"};
-  static const DrawnColumn ring_planet{"delta_rp_1", "bifurcation_delta_rp", "Poincaré points of  δ_{rp} / b_c"};
-  return mesh == DrawnMesh::sun_planet ? sun_planet : ring_planet;
+bool shows_regimes(SweepFigure figure) {
+  return figure == SweepFigure::regimes_first || figure == SweepFigure::regimes_second;
+}
+
+/// File name without its ending; nothing if the study has no such figure.
+std::optional<std::string> stem_of(const SweepOutput& output, SweepFigure figure) {
+  if (figure == SweepFigure::delta_sp) return "bifurcation_delta_sp";
+  if (figure == SweepFigure::delta_rp) return "bifurcation_delta_rp";
+  const std::size_t direction = direction_of(figure);
+  if (output.sweep.classification_periods == 0 || direction >= output.sweep.directions.size()) return std::nullopt;
+  return "regimes_delta_sp_" + direction_word(output.sweep.directions[direction]);
+}
+
+/// Of the Poincare section.
+const char* column_of(SweepFigure figure) { return figure == SweepFigure::delta_rp ? "delta_rp_1" : "delta_sp_1"; }
+
+FigureText text_of(const SweepOutput& output, SweepFigure figure) {
+  FigureText text{literal_text(output.title), parameter_label(output.sweep.parameter),
+                  fmt::format("Poincaré points of  δ_{{{}}} / b_c", figure == SweepFigure::delta_rp ? "rp" : "sp")};
+  if (shows_regimes(figure)) text.title += ", " + direction_word(output.sweep.directions[direction_of(figure)]);
+  return text;
 }
 
 /// Points are numbered along the first direction, then the second.
@@ -75,10 +90,10 @@ std::size_t points_each_way(const SweepOutput& output, const PointSource& points
 }
 
 /// Points along one direction as a figure takes them; `points` must live longer.
-auto section(const SweepOutput& output, const PointSource& points, std::size_t direction, const DrawnColumn& drawn) {
+auto section(const SweepOutput& output, const PointSource& points, std::size_t direction, SweepFigure figure) {
   const auto& columns = output.poincare_columns;
   const auto column =
-      static_cast<std::size_t>(std::find(columns.begin(), columns.end(), drawn.column) - columns.begin());
+      static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column_of(figure)) - columns.begin());
   return [&points, column,
           first = direction * points_each_way(output, points)](std::size_t i) -> std::optional<RegimePoint> {
     const PointResult r = points.read(first + i);
@@ -327,31 +342,32 @@ void write_results_h5(const std::filesystem::path& file, const SweepOutput& outp
   h5.close();
 }
 
-DrawnFigure draw_bifurcation(const std::filesystem::path& folder, const SweepOutput& output, const PointSource& points,
-                             DrawnMesh mesh) {
-  const DrawnColumn& drawn = drawn_column(mesh);
-  std::vector<BifurcationSeries> series;
-  for (std::size_t d = 0; d < output.sweep.directions.size(); ++d)
-    series.push_back({direction_word(output.sweep.directions[d]), points_each_way(output, points),
-                      section(output, points, d, drawn)});
-  const FigureText text{literal_text(output.title), parameter_label(output.sweep.parameter), drawn.label};
-  return {folder / (std::string(drawn.stem) + ".png"), bifurcation_figure(folder, drawn.stem, text, series)};
+std::optional<DrawnFigure> write_sweep_figure(const std::filesystem::path& folder, const SweepOutput& output,
+                                              const PointSource& points, SweepFigure figure) {
+  const auto stem = stem_of(output, figure);
+  if (!stem) return std::nullopt;
+  const FigureText text = text_of(output, figure);
+  FigureOutcome outcome;
+  if (shows_regimes(figure)) {
+    outcome = regime_figure(folder, *stem, text, points_each_way(output, points),
+                            section(output, points, direction_of(figure), figure), Pictures::none);
+  } else {
+    std::vector<BifurcationSeries> series;
+    for (std::size_t d = 0; d < output.sweep.directions.size(); ++d)
+      series.push_back({direction_word(output.sweep.directions[d]), points_each_way(output, points),
+                        section(output, points, d, figure)});
+    outcome = bifurcation_figure(folder, *stem, text, series, {}, Pictures::none);
+  }
+  if (outcome.drawn()) return std::nullopt;
+  return DrawnFigure{folder / (*stem + ".png"), outcome};
 }
 
-std::vector<DrawnFigure> draw_regimes(const std::filesystem::path& folder, const SweepOutput& output,
-                                      const PointSource& points) {
-  std::vector<DrawnFigure> figures;
-  if (output.sweep.classification_periods == 0) return figures;
-  const DrawnColumn& drawn = drawn_column(DrawnMesh::sun_planet);
-  for (std::size_t d = 0; d < output.sweep.directions.size(); ++d) {
-    const std::string word = direction_word(output.sweep.directions[d]);
-    const std::string stem = "regimes_delta_sp_" + word;
-    const FigureText text{literal_text(output.title) + ", " + word, parameter_label(output.sweep.parameter),
-                          drawn.label};
-    figures.push_back({folder / (stem + ".png"), regime_figure(folder, stem, text, points_each_way(output, points),
-                                                               section(output, points, d, drawn))});
-  }
-  return figures;
+std::optional<DrawnFigure> draw_sweep_picture(const std::filesystem::path& folder, const SweepOutput& output,
+                                              SweepFigure figure, Pictures picture) {
+  const auto stem = stem_of(output, figure);
+  if (!stem || !std::filesystem::exists(folder / (*stem + ".gp"))) return std::nullopt;
+  return DrawnFigure{folder / (*stem + (picture == Pictures::svg ? ".svg" : ".png")),
+                     draw_pictures(folder, *stem, picture)};
 }
 
 }  // namespace epicyclic::io

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -68,19 +69,27 @@ void write_results_h5(const std::filesystem::path& file, const SweepOutput& outp
 void write_point_columns(Hdf5File& h5, const PointSource& points);
 
 struct DrawnFigure {
-  std::filesystem::path png;
+  std::filesystem::path file;  ///< the PNG picture, as a rule
   FigureOutcome outcome;
 };
 
-enum class DrawnMesh { sun_planet, ring_planet };
+/// The figures of a sweep: bifurcation diagrams of the meshes of planet 1, and of its sun mesh coloured by regime, one
+/// for each direction, because the colours are needed for the regimes.
+enum class SweepFigure { delta_sp, delta_rp, regimes_first, regimes_second };
 
-/// Bifurcation figure of delta_sp or delta_rp of planet 1 in `folder`.
-[[nodiscard]] DrawnFigure draw_bifurcation(const std::filesystem::path& folder, const SweepOutput& output,
-                                           const PointSource& points, DrawnMesh mesh);
+/// Data and script of a figure in `folder`, for draw_sweep_picture.
+/// @returns why there is nothing to draw; nothing, too, if the study has no such figure: one direction, regimes not
+/// told
+/// @throws OutputError, and what reading points throws
+[[nodiscard]] std::optional<DrawnFigure> write_sweep_figure(const std::filesystem::path& folder,
+                                                            const SweepOutput& output, const PointSource& points,
+                                                            SweepFigure figure);
 
-/// Its regimes, one figure of delta_sp for each direction, because colours are needed for the regimes; none if the
-/// sweep does not tell them.
-[[nodiscard]] std::vector<DrawnFigure> draw_regimes(const std::filesystem::path& folder, const SweepOutput& output,
-                                                    const PointSource& points);
+/// Draws one of its pictures from them.
+/// @returns nothing if there is nothing to draw
+/// @throws OutputError
+[[nodiscard]] std::optional<DrawnFigure> draw_sweep_picture(const std::filesystem::path& folder,
+                                                            const SweepOutput& output, SweepFigure figure,
+                                                            Pictures picture);
 
 }  // namespace epicyclic::io

@@ -163,6 +163,30 @@ TEST(Gnuplot, OldPictureDoesNotPassForANewOne) {
   EXPECT_FALSE(std::filesystem::exists(folder / "a.svg"));
 }
 
+TEST(Gnuplot, PicturesDrawnApartAreTheSame) {
+  EPICYCLIC_NEEDS_GNUPLOT();
+  const TemporaryFolder folder;
+  const auto figure = [](const std::filesystem::path& to, Pictures which) {
+    return bifurcation_figure(to, "a", {"", "x", "y"}, {logistic(20, 4, 0.3)}, {}, which);
+  };
+  ASSERT_TRUE(figure(folder / "both", Pictures::both).drawn());
+  ASSERT_TRUE(figure(folder / "apart", Pictures::none).drawn());
+  EXPECT_EQ(test::entries(folder / "apart"), 2U);
+  ASSERT_TRUE(draw_pictures(folder / "apart", "a", Pictures::svg).drawn());
+  EXPECT_FALSE(std::filesystem::exists(folder / "apart/a.png"));
+  ASSERT_TRUE(draw_pictures(folder / "apart", "a", Pictures::png).drawn());
+  for (const char* file : {"a.dat", "a.gp", "a.png", "a.svg"})
+    EXPECT_EQ(contents(folder / "both" / file), contents(folder / "apart" / file)) << file;
+}
+
+TEST(Gnuplot, EachPictureThatIsNotFinishedIsNoticed) {
+  EPICYCLIC_NEEDS_GNUPLOT();
+  const TemporaryFolder folder;
+  test::put_file(folder / "a.gp", "# draws nothing\n");
+  EXPECT_THROW((void)draw_pictures(folder.path(), "a", Pictures::png), OutputError);
+  EXPECT_THROW((void)draw_pictures(folder.path(), "a", Pictures::svg), OutputError);
+}
+
 TEST(Gnuplot, PictureThatEndsEarlyIsNoticed) {
   EPICYCLIC_NEEDS_GNUPLOT();
   const TemporaryFolder folder;

@@ -440,7 +440,7 @@ TEST(RunSummary, SaysWhyAPointFailed) {
 
 std::vector<std::string> stems(const std::vector<DrawnFigure>& figures) {
   std::vector<std::string> names;
-  for (const DrawnFigure& f : figures) names.push_back(f.png.stem().string());
+  for (const DrawnFigure& f : figures) names.push_back(f.file.stem().string());
   return names;
 }
 
@@ -454,7 +454,7 @@ TEST(RunFigures, AreDrawnEachWithDataAndScript) {
   for (const DrawnFigure& f : figures) {
     EXPECT_TRUE(f.outcome.drawn()) << f.outcome.message;
     for (const char* end : {".png", ".svg", ".dat", ".gp"})
-      EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(f.png).replace_extension(end))) << f.png << end;
+      EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(f.file).replace_extension(end))) << f.file << end;
   }
 }
 
@@ -515,7 +515,7 @@ TEST(RunFigures, AreTheSameTwice) {
   (void)draw_run_figures(folder / "b", output(), result_of());
   for (const DrawnFigure& f : figures)
     for (const char* end : {".dat", ".gp"}) {
-      const std::string name = f.png.stem().string() + end;
+      const std::string name = f.file.stem().string() + end;
       EXPECT_EQ(contents(folder.path() / "a" / name), contents(folder.path() / "b" / name)) << name;
     }
 }
