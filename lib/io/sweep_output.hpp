@@ -78,8 +78,8 @@ struct DrawnFigure {
 enum class SweepFigure { delta_sp, delta_rp, regimes_first, regimes_second };
 
 /// Data and script of a figure in `folder`, for draw_sweep_picture.
-/// @returns why there is nothing to draw; nothing, too, if the study has no such figure: one direction, regimes not
-/// told
+/// @returns nothing, or why there is nothing to draw; that the study has no such figure (one direction, regimes not
+/// told) is no reason
 /// @throws OutputError, and what reading points throws
 [[nodiscard]] std::optional<DrawnFigure> write_sweep_figure(const std::filesystem::path& folder,
                                                             const SweepOutput& output, const PointSource& points,
