@@ -8,7 +8,6 @@
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
-#include <tuple>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -297,11 +296,13 @@ FigureOutcome draw_pictures(const fs::path& folder, std::string_view stem, Pictu
   const auto named = [&](std::string_view suffix) { return folder / fmt::format("{}.{}", stem, suffix); };
   FigureOutcome outcome = run_gnuplot(named("gp"), which);
   if (!outcome.drawn()) return outcome;
-  for (const auto& [other, suffix, end] : {std::tuple(Pictures::svg, png, png_end), {Pictures::png, svg, svg_end}}) {
-    if (which == other || ends_with(named(suffix), end)) continue;
+  const auto check = [&](std::string_view suffix, std::string_view end) {
+    if (ends_with(named(suffix), end)) return;
     throw OutputError(fmt::format("{}: gnuplot did not finish it (disk full?); make room and repeat the command",
                                   named(suffix).string()));
-  }
+  };
+  if (which != Pictures::svg) check(png, png_end);
+  if (which != Pictures::png) check(svg, svg_end);
   return outcome;
 }
 
