@@ -20,6 +20,7 @@
 #include "io/study_input.hpp"
 #include "io/versions.hpp"
 #include "ranks.hpp"
+#include "stop.hpp"
 
 namespace epicyclic::app {
 
@@ -112,7 +113,7 @@ int run(int argc, char** argv) {
     const bool talks = ranks.rank() == 0;
     return cli.exit(e, talks ? std::cout : unsaid, talks ? std::cerr : unsaid) == 0 ? done : bad_input;
   }
-  return guarded(ranks, [&] {
+  const int code = guarded(ranks, [&] {
     check_instruction_set_limit();
     if (ranks.size() > 1 && !ranks.connected())
       throw InputError("several processes cannot share the work: this program was built without MPI");
@@ -129,6 +130,8 @@ int run(int argc, char** argv) {
     if (schema->parsed()) fmt::print("{}\n", io::schema_text());
     return static_cast<int>(done);
   });
+  if (ranks.size() > 1) leave_ranks(code);
+  return code;
 }
 
 }  // namespace

@@ -16,25 +16,42 @@ namespace epicyclic::app {
 namespace {
 
 std::atomic<bool> requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "the signal handler may only touch lock-free atomics");
+/// Of a rank that leaves; none before.
+constexpr int not_leaving = -1;
+std::atomic<int> code_of_leaving{not_leaving};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+              "the signal handlers may only touch lock-free atomics");
 
 /// Set before the handlers that use them are.
 timer_t last_call;
 itimerspec patience_left{};
+itimerspec patience_left_for_mpi{};
+
+itimerspec once_after(std::chrono::milliseconds time) {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(time);
+  itimerspec timer{};
+  timer.it_value.tv_sec = seconds.count();
+  timer.it_value.tv_nsec = std::chrono::nanoseconds(time - seconds).count();
+  return timer;
+}
 
 // Signal handlers: async-signal-safe calls only.
 
 void end_at_once(int /*signal*/) {
-  constexpr std::string_view message = "stopped in the midst; the same command goes on\n";
-  [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, message.data(), message.size());
+  const int leaving = code_of_leaving;
+  if (leaving == not_leaving) {
+    constexpr std::string_view message = "stopped in the midst; the same command goes on\n";
+    [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, message.data(), message.size());
+  }
   // What _exit() is in the C library; with ThreadSanitizer's _exit() threads that nobody waited for would be an error,
   // and here it is meant that nobody waits.
-  ::syscall(SYS_exit_group, stopped_early);
+  ::syscall(SYS_exit_group, leaving == not_leaving ? stopped_early : leaving);
 }
 
 void request(int /*signal*/) {
   // Repeated signals do not put the end off.
-  if (!requested.exchange(true)) ::timer_settime(last_call, 0, &patience_left, nullptr);
+  if (!requested.exchange(true))
+    ::timer_settime(last_call, 0, code_of_leaving == not_leaving ? &patience_left : &patience_left_for_mpi, nullptr);
 }
 
 }  // namespace
@@ -42,9 +59,8 @@ void request(int /*signal*/) {
 const std::atomic<bool>& stop_requested() { return requested; }
 
 void stop_on_signals(std::chrono::milliseconds until_the_end) {
-  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(until_the_end);
-  patience_left.it_value.tv_sec = seconds.count();
-  patience_left.it_value.tv_nsec = std::chrono::nanoseconds(until_the_end - seconds).count();
+  patience_left = once_after(until_the_end);
+  patience_left_for_mpi = once_after(patience_for_mpi);
   sigevent alarm{};
   alarm.sigev_notify = SIGEV_SIGNAL;
   alarm.sigev_signo = SIGALRM;
@@ -53,6 +69,11 @@ void stop_on_signals(std::chrono::milliseconds until_the_end) {
   std::signal(SIGALRM, end_at_once);
   std::signal(SIGINT, request);
   std::signal(SIGTERM, request);
+}
+
+void leave_ranks(int exit_code) {
+  code_of_leaving = exit_code;
+  if (requested) ::timer_settime(last_call, 0, &patience_left_for_mpi, nullptr);
 }
 
 }  // namespace epicyclic::app

@@ -3,8 +3,10 @@
 // The first of them raises a flag, at which a study gives up the points under way, leaves its folder in order and ends
 // with code 75, commonly within milliseconds. What does not look at the flag for a second (a mesh period that takes
 // minutes, the writing of large results) is ended there with the same code: a folder is sound at any moment, as after
-// kill -9, so that this costs nothing but the state "stopped" in run.json. Ranks have half of that: Open MPI's mpirun
-// passes a SIGTERM or SIGINT on after a second, answers none of them any more, and kills them a second later.
+// kill -9, so that this costs nothing but the state "stopped" in run.json.
+//
+// Ranks have one second for all of it: Open MPI's mpirun passes a SIGTERM or SIGINT on after a second, answers none of
+// them any more, so that MPI's own end waits for nothing, and kills them a second later.
 #pragma once
 
 #include <atomic>
@@ -15,11 +17,17 @@ namespace epicyclic::app {
 /// Set by the first SIGINT or SIGTERM after stop_on_signals().
 [[nodiscard]] const std::atomic<bool>& stop_requested();
 
-/// Half of the two seconds within which the program promises to end; and that of ranks.
+/// Half of the two seconds within which the program promises to end; what ranks have to put the folder in order, and
+/// then for MPI's end.
 constexpr std::chrono::milliseconds patience{1000};
-constexpr std::chrono::milliseconds patience_of_ranks{500};
+constexpr std::chrono::milliseconds patience_of_ranks{650};
+constexpr std::chrono::milliseconds patience_for_mpi{300};
 
 /// To be called once, before anything is written.
 void stop_on_signals(std::chrono::milliseconds until_the_end = patience);
+
+/// For a rank that has written and said everything: if a signal has come, or comes now, the program ends with this code
+/// at the latest after patience_for_mpi, without a word.
+void leave_ranks(int exit_code);
 
 }  // namespace epicyclic::app

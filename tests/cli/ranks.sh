@@ -79,6 +79,7 @@ for signal in TERM INT; do
   [ $took -lt 2500 ] || fail "SIG$signal: took $took ms"
   # mpirun's own exit code, when it is mpirun that was signalled, is 1; the study says what became of it.
   grep -q '"state": *"stopped"' stopped/run.json || fail "SIG$signal: the study is not stopped"
+  [ "$(grep -c '^stopped ' stderr)" = 1 ] || fail "SIG$signal: not said once that it is stopped: $(<stderr)"
   echo "SIG$signal: ranks gone after $gone ms, exit code $code after $took ms"
 done
 # To one rank: all stop, and say so once.
