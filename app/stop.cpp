@@ -22,18 +22,19 @@ std::atomic<int> code_of_leaving{not_leaving};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
               "the signal handlers may only touch lock-free atomics");
 
-/// Set before the handlers that use them are.
-timer_t last_call;
-itimerspec patience_left{};
-itimerspec patience_left_for_mpi{};
-
-itimerspec once_after(std::chrono::milliseconds time) {
+constexpr itimerspec once_after(std::chrono::milliseconds time) {
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(time);
   itimerspec timer{};
   timer.it_value.tv_sec = seconds.count();
   timer.it_value.tv_nsec = std::chrono::nanoseconds(time - seconds).count();
   return timer;
 }
+
+constexpr itimerspec patience_left_for_mpi = once_after(patience_for_mpi);
+
+/// Set before the handlers that use them are.
+timer_t last_call;
+itimerspec patience_left{};
 
 // Signal handlers: async-signal-safe calls only.
 
@@ -50,8 +51,7 @@ void end_at_once(int /*signal*/) {
 
 void request(int /*signal*/) {
   // Repeated signals do not put the end off.
-  if (!requested.exchange(true))
-    ::timer_settime(last_call, 0, code_of_leaving == not_leaving ? &patience_left : &patience_left_for_mpi, nullptr);
+  if (!requested.exchange(true)) ::timer_settime(last_call, 0, &patience_left, nullptr);
 }
 
 }  // namespace
@@ -60,7 +60,6 @@ const std::atomic<bool>& stop_requested() { return requested; }
 
 void stop_on_signals(std::chrono::milliseconds until_the_end) {
   patience_left = once_after(until_the_end);
-  patience_left_for_mpi = once_after(patience_for_mpi);
   sigevent alarm{};
   alarm.sigev_notify = SIGEV_SIGNAL;
   alarm.sigev_signo = SIGALRM;

@@ -26,8 +26,8 @@ constexpr std::chrono::milliseconds patience_for_mpi{300};
 /// To be called once, before anything is written.
 void stop_on_signals(std::chrono::milliseconds until_the_end = patience);
 
-/// For a rank that has written and said everything: if a signal has come, or comes now, the program ends with this code
-/// at the latest after patience_for_mpi, without a word.
+/// For a rank that has written and said everything: if a signal has come, the program ends after patience_for_mpi at
+/// the latest; then, and if one comes now, without a word and with this code.
 void leave_ranks(int exit_code);
 
 }  // namespace epicyclic::app
