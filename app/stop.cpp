@@ -22,15 +22,13 @@ std::atomic<int> code_of_leaving{not_leaving};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
               "the signal handlers may only touch lock-free atomics");
 
-constexpr itimerspec once_after(std::chrono::milliseconds time) {
+itimerspec once_after(std::chrono::milliseconds time) {
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(time);
   itimerspec timer{};
   timer.it_value.tv_sec = seconds.count();
   timer.it_value.tv_nsec = std::chrono::nanoseconds(time - seconds).count();
   return timer;
 }
-
-constexpr itimerspec patience_left_for_mpi = once_after(patience_for_mpi);
 
 /// Set before the handlers that use them are.
 timer_t last_call;
@@ -72,7 +70,8 @@ void stop_on_signals(std::chrono::milliseconds until_the_end) {
 
 void leave_ranks(int exit_code) {
   code_of_leaving = exit_code;
-  if (requested) ::timer_settime(last_call, 0, &patience_left_for_mpi, nullptr);
+  const itimerspec left = once_after(patience_for_mpi);
+  if (requested) ::timer_settime(last_call, 0, &left, nullptr);
 }
 
 }  // namespace epicyclic::app
