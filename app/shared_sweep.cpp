@@ -410,6 +410,7 @@ void compute_share(const Arguments& arguments, const io::LoadedInput& input, con
   studies::SweepRun run;
   run.threads = arguments.threads;
   run.threads_of_all = begin.at("threads_of_all").get<int>();
+  run.process = static_cast<std::size_t>(arguments.ranks->rank());
   run.stop = &exchange.stop();
   for (const char c : begin.at("done").get_ref<const std::string&>()) run.done.push_back(c == '1');
   run.end_state = [&](std::size_t point) { return exchange.end_state(point); };

@@ -548,12 +548,15 @@ class LaneEnsemble::Impl {
       const double h = steps_.h[lane];
       const double u = (at - steps_.s[lane]) / h;
       const double v = 1.0 - u;
-      for (std::size_t i = 0; i < n_; ++i) {
-        const std::size_t c = i * w_ + lane;
-        sample_[i] = at == arrived ? next_[c]
-                                   : (1.0 + 2.0 * u) * v * v * y_[c] + u * u * (1.0 + 2.0 * v) * next_[c] +
-                                         u * v * h * (v * k_[0][c] - u * k_[most_stages - 1][c]);
-      }
+      const double of_start = (1.0 + 2.0 * u) * v * v;
+      const double of_end = u * u * (1.0 + 2.0 * v);
+      const double of_slopes = u * v * h;
+      const double* const first = k_[0].get() + lane;
+      const double* const last = k_[most_stages - 1].get() + lane;
+      for (std::size_t i = 0, c = lane; i < n_; ++i, c += w_)
+        sample_[i] = at == arrived
+                         ? next_[c]
+                         : of_start * y_[c] + of_end * next_[c] + of_slopes * (v * first[i * w_] - u * last[i * w_]);
       if (l.observer != nullptr) (*l.observer)(l.next_sample, at, sample_);
       ++l.next_sample;
       await_sample(lane);
@@ -562,9 +565,10 @@ class LaneEnsemble::Impl {
 
   LaneField field_;
   IntegratorOptions options_;
-  const Pair& pair_;
-  Pair::Places places_;
-  const LaneKernels& kernels_;
+  // Copies: two cores share no more of what each step reads than they have to, see kernel_copies.
+  const Pair pair_;
+  const Pair::Places places_;
+  const LaneKernels kernels_;
   std::size_t w_;
   std::size_t n_;
   std::size_t controlled_ = n_;  ///< components of the state, whose error counts

@@ -44,6 +44,7 @@ struct LaneVerdict {
 
 struct LaneKernels {
   const char* name = nullptr;  ///< "baseline", "avx2", "avx512"
+  std::size_t copy = 0;        ///< which one of kernel_copies
   std::size_t width = 0;       ///< W
 
   /// out = y + h sum_j a_j k_j, in the order of j; h has W numbers.
@@ -74,10 +75,11 @@ struct LaneKernels {
 };
 
 /// The widest that this machine runs.
-[[nodiscard]] const LaneKernels& lane_kernels();
+/// @param copy  any number: kernel_copies of them are taken in turn
+[[nodiscard]] const LaneKernels& lane_kernels(std::size_t copy = 0);
 
 /// Those of one instruction set, or nullptr if it was not compiled or this machine does not run it.
 /// @param name "baseline", "avx2" or "avx512"
-[[nodiscard]] const LaneKernels* lane_kernels(const char* name);
+[[nodiscard]] const LaneKernels* lane_kernels(const char* name, std::size_t copy = 0);
 
 }  // namespace epicyclic::integrate

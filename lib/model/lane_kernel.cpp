@@ -20,37 +20,52 @@ EPICYCLIC_DECLARE_KERNELS
 namespace avx2 {
 EPICYCLIC_DECLARE_KERNELS
 }  // namespace avx2
+namespace avx2_again {
+EPICYCLIC_DECLARE_KERNELS
+}  // namespace avx2_again
 namespace avx512 {
 EPICYCLIC_DECLARE_KERNELS
 }  // namespace avx512
+namespace avx512_again {
+EPICYCLIC_DECLARE_KERNELS
+}  // namespace avx512_again
 #endif
 
+#define EPICYCLIC_KERNELS_OF(set) \
+  { &set::prepare_lanes<N, W>, &set::evaluate_lanes<L, N, W>, &set::measure_contacts<L, N, W> }
+
 template <Layout L, std::size_t N, std::size_t W>
-LaneKernel<N, W> lane_kernel(const char* name) {
+LaneKernel<N, W> lane_kernel(const char* name, [[maybe_unused]] std::size_t copy) {
   const std::string_view wanted(name);
   if constexpr (W == 2) {
-    if (wanted == "baseline")
-      return {&baseline::prepare_lanes<N, W>, &baseline::evaluate_lanes<L, N, W>, &baseline::measure_contacts<L, N, W>};
+    if (wanted == "baseline") return EPICYCLIC_KERNELS_OF(baseline);
   }
 #ifdef EPICYCLIC_X86_KERNELS
+  static_assert(kernel_copies == 2);
+  const bool again = copy % kernel_copies == 1;
   if constexpr (W == 4) {
-    if (wanted == "avx2" && machine_runs(wanted))
-      return {&avx2::prepare_lanes<N, W>, &avx2::evaluate_lanes<L, N, W>, &avx2::measure_contacts<L, N, W>};
+    if (wanted == "avx2" && machine_runs(wanted)) {
+      if (again) return EPICYCLIC_KERNELS_OF(avx2_again);
+      return EPICYCLIC_KERNELS_OF(avx2);
+    }
   }
   if constexpr (W == 8) {
-    if (wanted == "avx512" && machine_runs(wanted))
-      return {&avx512::prepare_lanes<N, W>, &avx512::evaluate_lanes<L, N, W>, &avx512::measure_contacts<L, N, W>};
+    if (wanted == "avx512" && machine_runs(wanted)) {
+      if (again) return EPICYCLIC_KERNELS_OF(avx512_again);
+      return EPICYCLIC_KERNELS_OF(avx512);
+    }
   }
 #endif
   return {};
 }
 
-#define EPICYCLIC_DEFINE(L, N)                                      \
-  template LaneKernel<N, 2> lane_kernel<L, N, 2>(const char* name); \
-  template LaneKernel<N, 4> lane_kernel<L, N, 4>(const char* name); \
-  template LaneKernel<N, 8> lane_kernel<L, N, 8>(const char* name);
+#define EPICYCLIC_DEFINE(L, N)                                                        \
+  template LaneKernel<N, 2> lane_kernel<L, N, 2>(const char* name, std::size_t copy); \
+  template LaneKernel<N, 4> lane_kernel<L, N, 4>(const char* name, std::size_t copy); \
+  template LaneKernel<N, 8> lane_kernel<L, N, 8>(const char* name, std::size_t copy);
 EPICYCLIC_FOR_TANGENT_KERNELS(EPICYCLIC_DEFINE)
 #undef EPICYCLIC_DEFINE
+#undef EPICYCLIC_KERNELS_OF
 #undef EPICYCLIC_DECLARE_KERNELS
 
 }  // namespace epicyclic::model

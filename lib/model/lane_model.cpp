@@ -44,14 +44,14 @@ LaneModel lanes_of(const DynamicModel& like, LaneKernel<N, W> kernel) {
 
 }  // namespace
 
-LaneModel make_lane_model(const DynamicModel& like, const char* instruction_set) {
+LaneModel make_lane_model(const DynamicModel& like, const char* instruction_set, std::size_t copy) {
   return dispatch(like.layout, like.planets, [&]<Layout L, std::size_t N>() -> LaneModel {
     if constexpr (L != Layout::full) {
-      if (const auto kernel = lane_kernel<L, N, 2>(instruction_set); kernel.evaluate != nullptr)
+      if (const auto kernel = lane_kernel<L, N, 2>(instruction_set, copy); kernel.evaluate != nullptr)
         return lanes_of<N, 2>(like, kernel);
-      if (const auto kernel = lane_kernel<L, N, 4>(instruction_set); kernel.evaluate != nullptr)
+      if (const auto kernel = lane_kernel<L, N, 4>(instruction_set, copy); kernel.evaluate != nullptr)
         return lanes_of<N, 4>(like, kernel);
-      if (const auto kernel = lane_kernel<L, N, 8>(instruction_set); kernel.evaluate != nullptr)
+      if (const auto kernel = lane_kernel<L, N, 8>(instruction_set, copy); kernel.evaluate != nullptr)
         return lanes_of<N, 8>(like, kernel);
     }
     return {};

@@ -30,7 +30,8 @@ struct LaneModel {
 
 /// @param like             each lane begins with it, and others have to have its structure
 /// @param instruction_set  "baseline", "avx2" or "avx512"
+/// @param copy             of its kernels; any number
 /// @returns lanes of width 0 where there are none: in full coordinates, or on a machine without the instruction set
-[[nodiscard]] LaneModel make_lane_model(const DynamicModel& like, const char* instruction_set);
+[[nodiscard]] LaneModel make_lane_model(const DynamicModel& like, const char* instruction_set, std::size_t copy = 0);
 
 }  // namespace epicyclic::model

@@ -44,7 +44,7 @@ integrate::VectorField vector_field(const model::DynamicModel& model) {
 }
 
 integrate::LaneField lane_field(const model::DynamicModel& like, const integrate::LaneKernels& kernels) {
-  const model::LaneModel lanes = model::make_lane_model(like, kernels.name);
+  const model::LaneModel lanes = model::make_lane_model(like, kernels.name, kernels.copy);
   if (lanes.width != kernels.width) return integrate::one_by_one(kernels.width, like.dimension, like.contacts);
   integrate::LaneField field;
   field.dimension = lanes.dimension;

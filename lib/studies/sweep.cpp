@@ -246,9 +246,10 @@ class ChainRunner {
   }
 
   /// Several chains at once, each in a lane of its own; a lane that is through with its chain takes the next one.
-  /// @param most  lanes that are used
-  void run_chains_in_lanes(std::size_t most) {
-    give_up_on_failure([&] { follow_in_lanes(most); });
+  /// @param thread  which of those side by side this is
+  /// @param most    lanes that are used
+  void run_chains_in_lanes(std::size_t thread, std::size_t most) {
+    give_up_on_failure([&] { follow_in_lanes(thread, most); });
   }
 
   [[nodiscard]] std::size_t finished() const { return finished_; }
@@ -309,8 +310,8 @@ class ChainRunner {
     }
   }
 
-  void follow_in_lanes(std::size_t most) {
-    const integrate::LaneKernels& kernels = integrate::lane_kernels();
+  void follow_in_lanes(std::size_t thread, std::size_t most) {
+    const integrate::LaneKernels& kernels = integrate::lane_kernels(thread);
     // The same for every thread: which points have lanes does not depend on who came first.
     const model::DynamicModel like = model_at_(plan_.points.front());
     integrate::LaneEnsemble lanes(lane_field(like, kernels), integrator_, kernels);
@@ -484,9 +485,9 @@ std::size_t run_sweep(const SweepPlan& plan, const SweepOptions& sweep, const in
   const std::size_t share = (plan.chains.size() + threads_of_all - 1) / threads_of_all;
   const bool lanes = in_lanes(integrator);
   const std::size_t threads = std::min(plan.chains.size(), static_cast<std::size_t>(std::max(1, run.threads)));
-  for_units(threads, run.threads, run.stop, [&](std::size_t) {
+  for_units(threads, run.threads, run.stop, [&](std::size_t thread) {
     if (lanes) {
-      runner.run_chains_in_lanes(share);
+      runner.run_chains_in_lanes(run.process + thread, share);
     } else {
       runner.run_chains();
     }

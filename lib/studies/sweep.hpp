@@ -120,7 +120,8 @@ struct SweepRun {
   /// The next chain to compute, nothing if there are no more; asked by several threads at once. Where there is none,
   /// all chains, in order.
   std::function<std::optional<std::size_t>()> next_chain;
-  int threads_of_all = 0;  ///< of all processes that take chains from next_chain; 0: only those here
+  int threads_of_all = 0;   ///< of all processes that take chains from next_chain; 0: only those here
+  std::size_t process = 0;  ///< which of them this is
 };
 
 /// @returns how many points are new; fewer than were missing only if stopped, or if others took chains

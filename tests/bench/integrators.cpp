@@ -195,9 +195,9 @@ class OneLane {
 template <const auto& method>
 class AllLanes {
  public:
-  AllLanes(const epicyclic::model::DynamicModel& model, double tolerance, const State& start)
-      : lanes_(epicyclic::studies::lane_field(model, epicyclic::integrate::lane_kernels()), options(tolerance, method)),
-        y_(start) {
+  AllLanes(const epicyclic::model::DynamicModel& model, double tolerance, const State& start,
+           const epicyclic::integrate::LaneKernels& kernels = epicyclic::integrate::lane_kernels())
+      : lanes_(epicyclic::studies::lane_field(model, kernels), options(tolerance, method), kernels), y_(start) {
     constexpr double apart = 0.002;
     for (std::size_t lane = 0; lane < lanes_.width(); ++lane) {
       models_.push_back(
@@ -304,10 +304,11 @@ void mesh_period_at_equal_error(benchmark::State& state) {
   state.counters["tolerance"] = tolerance;
 }
 
-/// A mesh period in the lane ensemble, all lanes at work.
+/// A mesh period in the lane ensemble, all lanes at work; last argument: with which copy of its kernels.
 void mesh_period_lanes(benchmark::State& state) {
   const auto model = model_at(static_cast<double>(state.range(0)) / 100.0);
-  LanesCashKarp lanes(model, std::pow(10.0, -static_cast<double>(state.range(1))), settled(model));
+  LanesCashKarp lanes(model, std::pow(10.0, -static_cast<double>(state.range(1))), settled(model),
+                      epicyclic::integrate::lane_kernels(static_cast<std::size_t>(state.range(2))));
   for (auto _ : state) lanes.mesh_period();
   state.counters["rhs_per_period"] = benchmark::Counter(lanes.calls(), benchmark::Counter::kAvgIterations);
 }
@@ -344,10 +345,18 @@ void speeds_and_tolerances(benchmark::internal::Benchmark* b) {
     for (const int digits : {7, 9}) b->Args({omega, digits});
   with_least(b);
 }
+
+void speeds_tolerances_and_copies(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"omega_percent", "digits", "copy"});
+  for (const int omega : {280, 120})
+    for (const int digits : {7, 9})
+      for (const int copy : {0, 1}) b->Args({omega, digits, copy});
+  with_least(b);
+}
 BENCHMARK(mesh_period_arkode)->Apply(speeds_and_tolerances);
 BENCHMARK(mesh_period_arkode_stock)->Apply(speeds_and_tolerances);
 BENCHMARK(mesh_period_odeint)->Apply(speeds_and_tolerances);
-BENCHMARK(mesh_period_lanes)->Apply(speeds_and_tolerances);
+BENCHMARK(mesh_period_lanes)->Apply(speeds_tolerances_and_copies);
 
 BENCHMARK(mesh_period_with_tangents)->ArgName("vectors")->Arg(0)->Arg(1)->Arg(34)->Apply(with_least);
 

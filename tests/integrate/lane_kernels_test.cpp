@@ -12,19 +12,16 @@
 
 #include <gtest/gtest.h>
 
+#include "problems/lane_sets.hpp"
+
 namespace epicyclic::integrate {
 namespace {
+
+using problems::lane_sets;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double bound = 1e6;
-
-std::vector<const LaneKernels*> sets() {
-  std::vector<const LaneKernels*> all;
-  for (const char* name : {"baseline", "avx2", "avx512"})
-    if (const LaneKernels* kernels = lane_kernels(name)) all.push_back(kernels);
-  return all;
-}
 
 /// One lane of `steps` in lane `lane` of otherwise idle ones.
 LaneSteps alone(const LaneSteps& one, std::size_t lane) {
@@ -65,12 +62,12 @@ TEST(LaneKernels, ProposeStepsByTheErrorsFifthRoot) {
     const double norm = std::max(std::sqrt(one.norm[0]), 1e-10);
     const double wanted = 0.96 * std::pow(1.5 * norm, -0.2);
     double first_bits = 0.0;
-    for (const LaneKernels* kernels : sets()) {
+    for (const LaneKernels* kernels : lane_sets()) {
       const std::size_t lane = static_cast<std::size_t>(k) % kernels->width;
       LaneSteps steps = alone(one, lane);
       const LaneVerdict verdict = kernels->judge(steps, bound);
       EXPECT_NEAR(steps.wanted[lane], wanted, 1e-14 * wanted) << kernels->name;
-      if (kernels == sets().front()) first_bits = steps.wanted[lane];
+      if (kernels == lane_sets().front()) first_bits = steps.wanted[lane];
       EXPECT_EQ(steps.wanted[lane], first_bits) << kernels->name;
       EXPECT_EQ(steps.attempts[lane], 8);
       EXPECT_FALSE(verdict.eventful);
@@ -104,7 +101,7 @@ LaneSteps judged(const LaneKernels& kernels, const LaneSteps& one) {
 }
 
 TEST(LaneKernels, TellWhatHasToBeLookedAt) {
-  for (const LaneKernels* kernels : sets()) {
+  for (const LaneKernels* kernels : lane_sets()) {
     SCOPED_TRACE(kernels->name);
     LaneSteps cut = plain();
     cut.cut[0] = -1;
@@ -140,7 +137,7 @@ TEST(LaneKernels, TellWhatHasToBeLookedAt) {
 }
 
 TEST(LaneKernels, ShortenRefusedSteps) {
-  for (const LaneKernels* kernels : sets()) {
+  for (const LaneKernels* kernels : lane_sets()) {
     SCOPED_TRACE(kernels->name);
     for (const double norm : {none, infinite, 1e30}) {  // as far as one refusal may
       LaneSteps one = plain();
@@ -222,13 +219,13 @@ TEST(LaneKernels, LandOnTheFirstCrossing) {
     const double c = part(random);
     const double d = (1.0 - std::abs(c)) * part(random);
     double first_bits = 0.0;
-    for (const LaneKernels* kernels : sets()) {
+    for (const LaneKernels* kernels : lane_sets()) {
       Surfaces s(*kernels, 2);
       s.set(0, root, b, c, d, 0.5);
       s.set(1, 0.995, b, c, d, 0.5);  // later
       const double h = landed(*kernels, s, 2);
       EXPECT_NEAR(h, 0.5 * root, 1e-9) << kernels->name << ": " << b << " " << c << " " << d;
-      if (kernels == sets().front()) first_bits = h;
+      if (kernels == lane_sets().front()) first_bits = h;
       EXPECT_EQ(h, first_bits) << kernels->name;
       s.set(0, 0.995, b, c, d, 0.5);
       s.set(1, root, b, c, d, 0.5);
@@ -238,7 +235,7 @@ TEST(LaneKernels, LandOnTheFirstCrossing) {
 }
 
 TEST(LaneKernels, LandNowhereElse) {
-  for (const LaneKernels* kernels : sets()) {
+  for (const LaneKernels* kernels : lane_sets()) {
     SCOPED_TRACE(kernels->name);
     constexpr double proposed = 0.05;
     Surfaces s(*kernels, 1);
@@ -265,7 +262,7 @@ TEST(LaneKernels, MeasureTheWeightedRootMeanSquare) {
   constexpr std::size_t most = 7;
   std::mt19937 random(2);
   std::uniform_real_distribution<double> any(-3.0, 3.0);
-  for (const LaneKernels* kernels : sets()) {
+  for (const LaneKernels* kernels : lane_sets()) {
     const std::size_t width = kernels->width;
     for (std::size_t dimension = 1; dimension <= most; ++dimension) {
       alignas(64) std::array<std::array<double, most * most_lanes>, 5> numbers{};
@@ -297,7 +294,7 @@ TEST(LaneKernels, MeasureTheWeightedRootMeanSquare) {
 
 TEST(LaneKernels, EndStepsOnStopsToTheLastBit) {
   const double nodes[] = {0.0, 0.3, 1.0};
-  for (const LaneKernels* kernels : sets()) {
+  for (const LaneKernels* kernels : lane_sets()) {
     SCOPED_TRACE(kernels->name);
     const std::size_t width = kernels->width;
     alignas(64) std::array<double, 3 * most_lanes> at{};
@@ -326,6 +323,21 @@ TEST(LaneKernels, EndStepsOnStopsToTheLastBit) {
     EXPECT_EQ(at[3 * width - 1], stop);
     // Nearly there is there.
     EXPECT_EQ(measured(0.5 - 1e-12, 1.5).end[0], 1.5);
+  }
+}
+
+TEST(LaneKernels, CopiesLieInMemoryOfTheirOwn) {
+  // A linker that folds the same text into one would undo them.
+  if (lane_sets().size() == 1) GTEST_SKIP() << "this machine has the baseline only";
+  for (const char* name : {"avx2", "avx512"}) {
+    const LaneKernels* first = lane_kernels(name, 0);
+    if (first == nullptr) continue;
+    const LaneKernels* second = lane_kernels(name, 1);
+    EXPECT_NE(first->stage, second->stage) << name;
+    EXPECT_NE(first->error, second->error) << name;
+    EXPECT_EQ(first->copy, 0U) << name;
+    EXPECT_EQ(second->copy, 1U) << name;
+    EXPECT_EQ(lane_kernels(name, kernel_copies), first) << name;
   }
 }
 

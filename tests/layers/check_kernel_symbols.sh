@@ -3,7 +3,7 @@
 #
 # An object file compiled for an instruction set of its own may define symbols in that set's namespace only. An inline
 # function outside it has the same name in the baseline's object files, and the linker keeps one of them: on a machine
-# without the instruction set the program would die. Object files are told by their names, *_avx2.cpp and *_avx512.cpp.
+# without the instruction set the program would die. Object files are told by their names, *_avx2.cpp, *_avx512.cpp, *_again.cpp.
 set -euo pipefail
 
 looked_at=0
@@ -21,7 +21,7 @@ for archive in "$@"; do
       echo "$object: $kind $name"
       offences=$((offences + 1))
     done < <(nm -C --defined-only "$archive" 2>/dev/null | awk -v o="$object:" '/\.o:$/ { on = $0 == o; next } on && NF > 2')
-  done < <(ar t "$archive" | sed -nE 's/^(.*_(avx[0-9]+)\.cpp\.o)$/\1 \2/p')
+  done < <(ar t "$archive" | sed -nE 's/^(.*_(avx[0-9]+(_again)?)\.cpp\.o)$/\1 \2/p')
 done
 if [ "$looked_at" = 0 ]; then
   echo "no object file of an instruction set in $*"

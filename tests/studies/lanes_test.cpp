@@ -15,9 +15,11 @@
 #include "core/largest_difference.hpp"
 #include "integrate/arkode_flow.hpp"
 #include "integrate/lane_ensemble.hpp"
+#include "model/lane_kernel.hpp"
 #include "model/lane_model.hpp"
 #include "problems/gear_flow.hpp"
 #include "problems/known_systems.hpp"
+#include "problems/lane_sets.hpp"
 #include "problems/r1.hpp"
 #include "studies/operating_point.hpp"
 #include "studies/sweep.hpp"
@@ -96,15 +98,25 @@ TEST(Lanes, OfTheStageGoWhereArkodeGoes) {
 }
 
 TEST(Lanes, OfTheStageHaveTheSameBitsOnEveryInstructionSet) {
-  const auto expected = states(speeds, *integrate::lane_kernels("baseline"), true, 1e-8, 5);
-  int compared = 0;
-  for (const char* name : {"avx2", "avx512"}) {
-    const integrate::LaneKernels* kernels = integrate::lane_kernels(name);
-    if (kernels == nullptr || model::make_lane_model(model_at(1.0), name).width == 0) continue;
-    EXPECT_EQ(states(speeds, *kernels, true, 1e-8, 5), expected) << name;
+  std::vector<std::vector<double>> expected;
+  int compared = -1;
+  for (const integrate::LaneKernels* kernels : problems::lane_sets()) {
+    if (model::make_lane_model(model_at(1.0), kernels->name).width == 0) continue;
+    const auto y = states(speeds, *kernels, true, 1e-8, 5);
+    if (expected.empty()) expected = y;
+    EXPECT_EQ(y, expected) << kernels->name << kernels->copy;
     ++compared;
   }
   if (compared == 0) GTEST_SKIP() << "this machine or build has the baseline only";
+}
+
+TEST(Lanes, OfTheStageHaveCopiesOfTheirKernelsInMemoryOfTheirOwn) {
+  const auto first = model::lane_kernel<model::Layout::relative_to_ring, 4, 4>("avx2", 0);
+  const auto second = model::lane_kernel<model::Layout::relative_to_ring, 4, 4>("avx2", 1);
+  if (first.evaluate == nullptr) GTEST_SKIP() << "this machine or build has the baseline only";
+  EXPECT_NE(first.evaluate, second.evaluate);
+  EXPECT_NE(first.prepare, second.prepare);
+  EXPECT_NE(first.measure_contacts, second.measure_contacts);
 }
 
 /// Every second point has a bearing of another law, which cannot run beside the first.

@@ -1,0 +1,20 @@
+// The kernels of lanes that this machine runs.
+#pragma once
+
+#include <vector>
+
+#include "core/instruction_set.hpp"
+#include "integrate/lane_kernels.hpp"
+
+namespace epicyclic::problems {
+
+/// Every copy for every instruction set, the baseline first.
+inline std::vector<const integrate::LaneKernels*> lane_sets() {
+  std::vector<const integrate::LaneKernels*> all{integrate::lane_kernels("baseline")};
+  for (const char* name : {"avx2", "avx512"})
+    for (std::size_t copy = 0; copy < kernel_copies; ++copy)
+      if (const integrate::LaneKernels* kernels = integrate::lane_kernels(name, copy)) all.push_back(kernels);
+  return all;
+}
+
+}  // namespace epicyclic::problems
