@@ -3,7 +3,8 @@
 #
 # An object file compiled for an instruction set of its own may define symbols in that set's namespace only. An inline
 # function outside it has the same name in the baseline's object files, and the linker keeps one of them: on a machine
-# without the instruction set the program would die. Object files are told by their names, *_avx2.cpp, *_avx512.cpp, *_again.cpp.
+# without the instruction set the program would die. Object files are told by their names: *_avx2.cpp, *_avx512.cpp,
+# and *_again.cpp for copies.
 set -euo pipefail
 
 looked_at=0
