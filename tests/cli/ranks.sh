@@ -58,13 +58,21 @@ done
 # A process that has ended may wait for somebody to ask how (Z).
 under_way() { grep -qE '^[0-9]+ \([^)]*\) [^ZX]' "/proc/$1/stat" 2>/dev/null; }
 long=("${carried[@]}" --set /study/transient_periods=100000)
-for signal in TERM INT; do
+# Begins that study on two ranks, `ranks`, children of `pid`, and returns when both compute.
+begin_long_study() {
   rm -rf stopped
   "${launch[@]}" -n 2 "$epicyclic" "${long[@]}" -o stopped --threads 1 >stdout 2>stderr &
   pid=$!
-  sleep 1.5
+  for ((k = 0; k < 300; ++k)); do
+    [ ! -e stopped/journal.rank-1.bin ] || break
+    sleep 0.1
+  done
+  sleep 0.5
   mapfile -t ranks < <(pgrep -P $pid -x epicyclic || true)
   [ ${#ranks[@]} = 2 ] || fail "not two ranks but ${#ranks[@]}: $(<stderr)"
+}
+for signal in TERM INT; do
+  begin_long_study
   start=$(date +%s%3N)
   kill -s $signal $pid
   for rank in "${ranks[@]}"; do
@@ -83,11 +91,7 @@ for signal in TERM INT; do
   echo "SIG$signal: ranks gone after $gone ms, exit code $code after $took ms"
 done
 # To one rank: all stop, and say so once.
-rm -rf stopped
-"${launch[@]}" -n 2 "$epicyclic" "${long[@]}" -o stopped --threads 1 >stdout 2>stderr &
-pid=$!
-sleep 1.5
-mapfile -t ranks < <(pgrep -P $pid -x epicyclic || true)
+begin_long_study
 kill -TERM "${ranks[1]}"
 code=0
 wait $pid || code=$?
