@@ -1,5 +1,5 @@
-// Loops of an explicit Runge-Kutta step over W trajectories side by side, compiled once per instruction set and chosen
-// at run time.
+// Loops of an explicit Runge-Kutta step over W trajectories side by side, compiled for each instruction set, the wider
+// ones kernel_copies times [core/instruction_set.hpp], and chosen at run time.
 //
 // Component i of lane w lies at [i W + w], memory is aligned to 64 bytes. Each lane has its own operations in one fixed
 // order: its bits depend neither on W nor on the instruction set nor on the other lanes. No fused multiply-add.

@@ -1,4 +1,5 @@
-// The right-hand side of W operating points side by side, compiled once per instruction set and chosen at run time.
+// The right-hand side of W operating points side by side, compiled for each instruction set, the wider ones
+// kernel_copies times [core/instruction_set.hpp], and chosen at run time.
 //
 // The text is that of model/right_hand_side.hpp, with lanes for scalars. Each lane's bits depend neither on the others
 // nor on W nor on the instruction set; they differ from those of model/stage_kernel.hpp by the rounding of sine, cosine
