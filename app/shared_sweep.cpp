@@ -34,8 +34,10 @@ namespace {
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-/// How long a message may lie before it is looked at: short beside a point, long beside the looking.
+/// How long a message may lie before it is looked at: at first, and when nothing was asked or answered for long. Each
+/// look wakes a thread on a core that computes.
 constexpr std::chrono::milliseconds look_interval{2};
+constexpr std::chrono::milliseconds rare_look_interval{20};
 constexpr std::chrono::milliseconds progress_interval{100};
 /// How long ranks that were told to stop may take: all of it must fit into the 2 s of a signal.
 constexpr std::chrono::milliseconds farewell{1500};
@@ -55,6 +57,20 @@ std::vector<T> values_of(const std::string& bytes) {
 }
 
 using Index = std::uint64_t;
+
+/// When to look for messages: the sooner, the less time has passed since a question or its answer.
+class Attention {
+ public:
+  void rouse() { roused_ = Clock::now(); }
+
+  [[nodiscard]] std::chrono::milliseconds pause() const {
+    const auto quiet = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - roused_);
+    return std::clamp(quiet / 50, look_interval, rare_look_interval);
+  }
+
+ private:
+  Clock::time_point roused_ = Clock::now();
+};
 
 /// The chains in which something is left to do, in order.
 class OpenChains {
@@ -180,6 +196,7 @@ void SweepLeader::run(const studies::SweepPlan& plan, const studies::SweepOption
 
   std::optional<Failure> failure;
   bool stop_wanted = false;
+  Attention attention;
   std::vector<bool> through(static_cast<std::size_t>(ranks_.size()), false);
   through[0] = true;
   const auto all_through = [&] { return std::ranges::all_of(through, [](bool b) { return b; }); };
@@ -214,6 +231,7 @@ void SweepLeader::run(const studies::SweepPlan& plan, const studies::SweepOption
   while (!computed || !all_through()) {
     const auto message = ranks_.receive();
     if (message) {
+      if (message->topic != Topic::progress) attention.rouse();
       try {
         answer(*message);
       } catch (...) {
@@ -223,13 +241,14 @@ void SweepLeader::run(const studies::SweepPlan& plan, const studies::SweepOption
     if (!stopped && (signal || stop_wanted || failure || (computed && error))) {
       stop = true;
       stopped = Clock::now();
+      attention.rouse();
       for (int rank = 1; rank < ranks_.size(); ++rank) ranks_.send(rank, Topic::stop, {});
     }
     if (computed && stopped && Clock::now() - *stopped > farewell) {
       silent_ = true;
       break;
     }
-    if (!message) std::this_thread::sleep_for(look_interval);
+    if (!message) std::this_thread::sleep_for(attention.pause());
   }
   worker.join();
   if (error) std::rethrow_exception(error);
@@ -312,6 +331,7 @@ class Exchange {
     if (stop_ || chains_.empty()) return std::nullopt;
     const auto chain = static_cast<std::size_t>(chains_.front());
     chains_.pop_front();
+    if (wants_chains()) wake_.notify_all();
     return chain;
   }
 
@@ -343,28 +363,37 @@ class Exchange {
     bool told_to_stop = false;
     auto last_progress = Clock::now();
     for (;;) {
-      while (const auto message = ranks_.receive()) take(*message);
+      while (const auto message = ranks_.receive()) {
+        attention_.rouse();
+        take(*message);
+      }
       if (stop_requested() && !std::exchange(told_to_stop, true)) ranks_.send(0, Topic::stop, {});
       std::unique_lock lock(mutex_);
       if (through_) break;
       if (wants_chains()) {
         asked_ = true;
+        attention_.rouse();
         ranks_.send(0, Topic::ask_chains, {});
       }
-      for (const Index point : std::exchange(questions_, {}))
+      for (const Index point : std::exchange(questions_, {})) {
+        attention_.rouse();
         ranks_.send(0, Topic::ask_end_state, bytes_of(std::vector<Index>{point}));
+      }
       if (Clock::now() - last_progress >= progress_interval) {
         last_progress = Clock::now();
         tell_progress();
       }
-      wake_.wait_for(lock, look_interval, [this] { return through_ || wants_chains() || !questions_.empty(); });
+      wake_.wait_for(lock, attention_.pause(), [this] { return through_ || wants_chains() || !questions_.empty(); });
     }
     const std::scoped_lock lock(mutex_);
     tell_progress();
   }
 
  private:
-  [[nodiscard]] bool wants_chains() const { return waiting_ > 0 && chains_.empty() && !asked_ && !no_more_ && !stop_; }
+  /// While many are left, the next are asked for before a thread has to wait for them.
+  [[nodiscard]] bool wants_chains() const {
+    return chains_.empty() && (waiting_ > 0 || many_left_) && !asked_ && !no_more_ && !stop_;
+  }
 
   void take(const Message& message) {
     const std::scoped_lock lock(mutex_);
@@ -372,6 +401,7 @@ class Exchange {
       const auto chains = values_of<Index>(message.bytes);
       chains_.insert(chains_.end(), chains.begin(), chains.end());
       no_more_ = chains.empty();
+      many_left_ = chains.size() > 1;
       asked_ = false;
     } else if (message.topic == Topic::end_state) {
       const Index point = values_of<Index>(message.bytes.substr(0, sizeof(Index))).at(0);
@@ -393,8 +423,9 @@ class Exchange {
   std::condition_variable wake_, answered_;
   std::atomic<bool> stop_{false};
   std::deque<Index> chains_;
-  bool asked_ = false, no_more_ = false, through_ = false;
+  bool asked_ = false, no_more_ = false, many_left_ = false, through_ = false;
   int waiting_ = 0;
+  Attention attention_;
   std::vector<Index> questions_;
   std::map<Index, std::vector<double>> end_states_;
   Index finished_ = 0, failed_ = 0;
