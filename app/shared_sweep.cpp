@@ -325,13 +325,12 @@ class Exchange {
   std::optional<std::size_t> next_chain() {
     std::unique_lock lock(mutex_);
     ++waiting_;
-    wake_.notify_all();
+    wake_.notify_all();  // it looks when the lock is free: at what is left after this
     answered_.wait(lock, [this] { return stop_ || no_more_ || !chains_.empty(); });
     --waiting_;
     if (stop_ || chains_.empty()) return std::nullopt;
     const auto chain = static_cast<std::size_t>(chains_.front());
     chains_.pop_front();
-    if (wants_chains()) wake_.notify_all();
     return chain;
   }
 
@@ -372,13 +371,10 @@ class Exchange {
       if (through_) break;
       if (wants_chains()) {
         asked_ = true;
-        attention_.rouse();
-        ranks_.send(0, Topic::ask_chains, {});
+        ask(Topic::ask_chains, {});
       }
-      for (const Index point : std::exchange(questions_, {})) {
-        attention_.rouse();
-        ranks_.send(0, Topic::ask_end_state, bytes_of(std::vector<Index>{point}));
-      }
+      for (const Index point : std::exchange(questions_, {}))
+        ask(Topic::ask_end_state, bytes_of(std::vector<Index>{point}));
       if (Clock::now() - last_progress >= progress_interval) {
         last_progress = Clock::now();
         tell_progress();
@@ -393,6 +389,11 @@ class Exchange {
   /// While many are left, the next are asked for before a thread has to wait for them.
   [[nodiscard]] bool wants_chains() const {
     return chains_.empty() && (waiting_ > 0 || many_left_) && !asked_ && !no_more_ && !stop_;
+  }
+
+  void ask(Topic topic, std::string bytes) {
+    attention_.rouse();
+    ranks_.send(0, topic, std::move(bytes));
   }
 
   void take(const Message& message) {
