@@ -183,7 +183,13 @@ void SweepLeader::run(const studies::SweepPlan& plan, const studies::SweepOption
   for (int rank = 1; rank < ranks_.size(); ++rank) ranks_.send(rank, Topic::begin, begin);
 
   std::exception_ptr error;
-  std::atomic<bool> computed{false};
+  std::mutex mutex;
+  std::condition_variable wake;
+  bool ended = false;
+  const auto computed_within = [&](std::chrono::milliseconds pause) {
+    std::unique_lock lock(mutex);
+    return wake.wait_for(lock, pause, [&] { return ended; });
+  };
   // The computation has a thread of its own, because messages belong to this one.
   std::thread worker([&] {
     try {
@@ -191,11 +197,13 @@ void SweepLeader::run(const studies::SweepPlan& plan, const studies::SweepOption
     } catch (...) {
       error = std::current_exception();
     }
-    computed = true;
+    const std::scoped_lock lock(mutex);
+    ended = true;
+    wake.notify_all();
   });
 
   std::optional<Failure> failure;
-  bool stop_wanted = false;
+  bool computed = false, stop_wanted = false;
   Attention attention;
   std::vector<bool> through(static_cast<std::size_t>(ranks_.size()), false);
   through[0] = true;
@@ -248,7 +256,11 @@ void SweepLeader::run(const studies::SweepPlan& plan, const studies::SweepOption
       silent_ = true;
       break;
     }
-    if (!message) std::this_thread::sleep_for(attention.pause());
+    if (message) continue;
+    if (computed)
+      std::this_thread::sleep_for(look_interval);  // on a core that has nothing else to do
+    else
+      computed = computed_within(attention.pause());
   }
   worker.join();
   if (error) std::rethrow_exception(error);
@@ -511,7 +523,7 @@ int follow(const Arguments& arguments, std::string_view command, const std::vect
   hello["identity"] = identity;
   hello["threads"] = arguments.threads;
   ranks.send(0, Topic::hello, text_of(hello));
-  for (;;) {
+  for (Attention attention;;) {
     const auto message = ranks.receive();
     if (message && message->topic == Topic::leave) return static_cast<int>(values_of<Index>(message->bytes).at(0));
     if (message && message->topic == Topic::begin) {
@@ -537,7 +549,10 @@ int follow(const Arguments& arguments, std::string_view command, const std::vect
       report.update(written);
       ranks.send(0, Topic::written, text_of(report));
     }
-    if (!message) std::this_thread::sleep_for(10 * look_interval);
+    if (message)
+      attention.rouse();
+    else
+      std::this_thread::sleep_for(attention.pause());
   }
 }
 
