@@ -10,11 +10,16 @@
 
 #include <gtest/gtest.h>
 
+#include "gnuplot_guard.hpp"
+#include "problems/lin_parker.hpp"
+#include "problems/table1.hpp"
 #include "temporary_folder.hpp"
 
 namespace epicyclic::io {
 namespace {
 
+using problems::lin_parker;
+using problems::table1;
 using test::contents;
 using test::TemporaryFolder;
 
@@ -25,85 +30,19 @@ constexpr double reach_mm = 15.0;
 
 const gear::MeshLoad load{1750.0, 57.0};
 
-bool have_gnuplot() {
-  const TemporaryFolder folder;
-  test::put_file(folder / "empty.gp", "\n");
-  return run_gnuplot(folder / "empty.gp").drawn();
-}
-
-#define EPICYCLIC_NEEDS_GNUPLOT() \
-  if (!have_gnuplot()) GTEST_SKIP() << "gnuplot is not installed"
-
-gear::GearData gear_data(int teeth, double module_mm, double angle_deg, double shift) {
-  gear::GearData d;
-  d.teeth = teeth;
-  d.module_mm = module_mm;
-  d.pressure_angle_deg = angle_deg;
-  d.profile_shift = shift;
-  d.width_mm = 60.0;
-  return d;
-}
-
-/// Catalogue data of Tang et al. 2020, Table 1.
-gear::Stage tang() {
-  gear::Catalogue c;
-  c.sun.data = gear_data(27, 2.63, 25.0, 0.623);
-  c.sun.bore_mm = 30.0;
-  c.sun.body_radius_ratio = 2.0;
-  c.planet.data = gear_data(25, 2.63, 25.0, 0.775);
-  c.planet.bore_mm = 44.0;
-  c.ring.data = gear_data(81, 2.57, 22.3, 1.0);
-  c.ring.outer_diameter_mm = 240.0;
-  c.ring.base_pitch = gear::BasePitch::of_planet;
-  c.sun_bearing = gear::SupportBearing{"6213", 10.0};
-  c.carrier.bearing = gear::SupportBearing{"6020", 10.0};
-  c.lubrication = gear::Lubrication{};
-  gear::Stage stage;
-  stage.name = "tang2020";
-  stage.catalogue = c;
-  return stage;
-}
-
 /// A standard set of 20 degrees without shifts, whose meshes straddle their pitch points.
 gear::Stage standard() {
-  gear::Stage stage = tang();
+  gear::Stage stage = table1();
   gear::Catalogue& c = *stage.catalogue;
-  c.sun.data = gear_data(30, 2.0, 20.0, 0.0);
-  c.planet.data = gear_data(30, 2.0, 20.0, 0.0);
-  c.ring.data = gear_data(90, 2.0, 20.0, 0.0);
-  c.ring.data.addendum_coefficient = 0.8;  // full tips would reach below the planet's involute
+  c.sun.data = c.planet.data = {30, 2.0, 20.0, 0.0, 1.0, 0.25, 60.0, {}, {}};
+  c.ring.data = {90, 2.0, 20.0, 0.0, 0.8, 0.25, 60.0, {}, {}};  // full tips would reach below the planet's involute
   c.planet.bore_mm = 20.0;
   return stage;
 }
 
-gear::CentralMember member(double mass, double inertia, double support, double torsional_support = 0.0) {
-  gear::CentralMember m;
-  m.mass_kg = mass;
-  m.inertia_over_r2_kg = inertia;
-  m.support_N_per_m = support;
-  m.torsional_support_N_per_m = torsional_support;
-  return m;
-}
-
-/// Lin and Parker, J. Vib. Acoust. 121 (1999) 316, Table 1: masses and stiffnesses only.
-gear::Stage lin_parker(int planets) {
-  gear::Stage s;
-  s.name = "lin_parker_1999";
-  s.planet_count = planets;
-  s.sun = member(0.4, 0.39, 1e8);
-  s.ring = member(2.35, 3.0, 1e8, 1e9);
-  s.carrier = member(5.43, 6.29, 1e8);
-  s.planet.mass_kg = 0.66;
-  s.planet.inertia_over_r2_kg = 0.61;
-  s.planet.bearing_N_per_m = 1e8;
-  s.sun_planet_mesh.stiffness_N_per_m = s.ring_planet_mesh.stiffness_N_per_m = 5e8;
-  s.sun_planet_mesh.operating_pressure_angle_deg = s.ring_planet_mesh.operating_pressure_angle_deg = 24.6;
-  return s;
-}
-
 std::vector<gear::Pair> pairs() {
   std::vector<gear::Pair> pairs;
-  for (const gear::Stage& stage : {tang(), standard()}) {
+  for (const gear::Stage& stage : {table1(), standard()}) {
     const gear::GearSet set = gear::make_gear_set(stage);
     pairs.push_back(set.sun_planet.pair);
     pairs.push_back(set.ring_planet.pair);
@@ -250,7 +189,7 @@ TEST(MeshDrawing, OutlinesHaveNoGap) {
 }
 
 TEST(MeshDrawing, ThePathOfTheRingMeshOfThePaperLiesBeyondThePitchPoint) {
-  const MeshDrawing d = mesh_drawing(gear::make_gear_set(tang()).ring_planet.pair, 0.1, reach_mm);
+  const MeshDrawing d = mesh_drawing(gear::make_gear_set(table1()).ring_planet.pair, 0.1, reach_mm);
   EXPECT_GT(d.start.x, 1.0);
   EXPECT_GT(d.end.x, d.start.x);
 }
@@ -258,7 +197,7 @@ TEST(MeshDrawing, ThePathOfTheRingMeshOfThePaperLiesBeyondThePitchPoint) {
 TEST(GearFigures, AllAppear) {
   EPICYCLIC_NEEDS_GNUPLOT();
   const TemporaryFolder folder;
-  const gear::Stage stage = tang();
+  const gear::Stage stage = table1();
   const auto figures = draw_gear_set_figures(folder / "figures", gear::make_gear_set(stage), load, stage);
   EXPECT_EQ(stems(figures),
             (std::set<std::string>{"stiffness_sp", "stiffness_rp", "load_sharing", "friction", "friction_ratio",
@@ -268,7 +207,7 @@ TEST(GearFigures, AllAppear) {
 
 TEST(GearFigures, WhatHasNothingToShowIsLeftOut) {
   const TemporaryFolder folder;
-  gear::Stage stage = tang();
+  gear::Stage stage = table1();
   stage.catalogue->lubrication.reset();
   stage.catalogue->sun_bearing.reset();
   stage.catalogue->carrier.bearing.reset();
@@ -281,7 +220,7 @@ TEST(GearFigures, WhatHasNothingToShowIsLeftOut) {
 TEST(GearFigures, SameDataGiveTheSameFiles) {
   const TemporaryFolder first;
   const TemporaryFolder second;
-  const gear::Stage stage = tang();
+  const gear::Stage stage = table1();
   const gear::GearSet set = gear::make_gear_set(stage);
   const auto figures = draw_gear_set_figures(first.path(), set, load, stage);
   draw_gear_set_figures(second.path(), set, load, stage);
@@ -292,7 +231,7 @@ TEST(GearFigures, SameDataGiveTheSameFiles) {
 
 TEST(GearFigures, FrictionVanishesAtThePitchPointOfTheSunMeshOnly) {
   const TemporaryFolder folder;
-  const gear::Stage stage = tang();
+  const gear::Stage stage = table1();
   draw_gear_set_figures(folder.path(), gear::make_gear_set(stage), load, stage);
   // Data sets: zero line, sun-planet, ring-planet, ends.
   const std::string data = contents(folder / "friction.dat");

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "core/errors.hpp"
+#include "gnuplot_guard.hpp"
 #include "io/bifurcation_figure.hpp"
 #include "io/line_figure.hpp"
 #include "temporary_folder.hpp"
@@ -40,15 +41,6 @@ class Environment {
   const char* name_;
   std::string old_;
 };
-
-bool have_gnuplot() {
-  const TemporaryFolder folder;
-  test::put_file(folder / "empty.gp", "\n");
-  return run_gnuplot(folder / "empty.gp").drawn();
-}
-
-#define EPICYCLIC_NEEDS_GNUPLOT() \
-  if (!have_gnuplot()) GTEST_SKIP() << "gnuplot is not installed"
 
 BifurcationSeries series_of(std::string label, std::vector<SectionPoint> points) {
   const std::size_t count = points.size();

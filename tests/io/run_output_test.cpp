@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
+#include "gnuplot_guard.hpp"
 #include "io/hdf5_file.hpp"
 #include "temporary_folder.hpp"
 
@@ -29,15 +30,6 @@ constexpr double omega = 1.25;
 constexpr double rounding = 1e-14;  // a few operations on numbers of order 1
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-bool have_gnuplot() {
-  const TemporaryFolder folder;
-  test::put_file(folder / "empty.gp", "\n");
-  return run_gnuplot(folder / "empty.gp").drawn();
-}
-
-#define EPICYCLIC_NEEDS_GNUPLOT() \
-  if (!have_gnuplot()) GTEST_SKIP() << "gnuplot is not installed"
 
 constexpr double start = 0.4;  // of the motion [rad], so that nothing falls onto a sample by chance
 

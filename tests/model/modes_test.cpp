@@ -10,39 +10,14 @@
 
 #include <gtest/gtest.h>
 
+#include "problems/lin_parker.hpp"
+
 namespace epicyclic::model {
 namespace {
 
-gear::CentralMember member(double mass, double inertia, double support, double torsional_support = 0.0) {
-  gear::CentralMember m;
-  m.mass_kg = mass;
-  m.inertia_over_r2_kg = inertia;
-  m.support_N_per_m = support;
-  m.torsional_support_N_per_m = torsional_support;
-  return m;
-}
-
-gear::Planet planet(double mass, double inertia, double bearing) {
-  gear::Planet p;
-  p.mass_kg = mass;
-  p.inertia_over_r2_kg = inertia;
-  p.bearing_N_per_m = bearing;
-  return p;
-}
-
-/// Lin and Parker, J. Vib. Acoust. 121 (1999) 316, Table 1.
-gear::Stage lin_parker(int planets) {
-  gear::Stage s;
-  s.boundary = gear::Boundary::fixed_ring;
-  s.planet_count = planets;
-  s.sun = member(0.4, 0.39, 1e8);
-  s.ring = member(2.35, 3.0, 1e8, 1e9);
-  s.carrier = member(5.43, 6.29, 1e8);
-  s.planet = planet(0.66, 0.61, 1e8);
-  s.sun_planet_mesh.stiffness_N_per_m = s.ring_planet_mesh.stiffness_N_per_m = 5e8;
-  s.sun_planet_mesh.operating_pressure_angle_deg = s.ring_planet_mesh.operating_pressure_angle_deg = 24.6;
-  return s;
-}
+using problems::lin_parker;
+using problems::undamped_member;
+using problems::undamped_planet;
 
 struct Published {
   ModeType type;
@@ -129,10 +104,10 @@ gear::Stage torsional(const Torsion& t) {
   // With angles alpha the coordinates here are on base circles and r_c, so the carrier's part of the mesh deflection is
   // u_c cos alpha; a planet's own mass rides on the carrier.
   constexpr double planet_mass = 0.1;
-  s.sun = member(1.0, t.m_s, gear::rigid);
-  s.ring = member(1.0, 1.0, gear::rigid, gear::rigid);
-  s.carrier = member(1.0, t.m_c - t.planets * planet_mass, gear::rigid);
-  s.planet = planet(planet_mass, t.m_p, gear::rigid);
+  s.sun = undamped_member(1.0, t.m_s, gear::rigid);
+  s.ring = undamped_member(1.0, 1.0, gear::rigid, gear::rigid);
+  s.carrier = undamped_member(1.0, t.m_c - t.planets * planet_mass, gear::rigid);
+  s.planet = undamped_planet(planet_mass, t.m_p, gear::rigid);
   s.sun_planet_mesh.stiffness_N_per_m = t.k_s;
   s.ring_planet_mesh.stiffness_N_per_m = t.k_r;
   s.sun_planet_mesh.operating_pressure_angle_deg = t.alpha_s;
