@@ -454,8 +454,9 @@ class Table {
     return object;
   }
 
-  [[nodiscard]] nlohmann::ordered_json schema() const {
-    const json defaults = write(T{});
+  /// @param plain the object that reading starts from: what it holds are the defaults
+  [[nodiscard]] nlohmann::ordered_json schema(const T& plain = {}) const {
+    const json defaults = write(plain);
     ordered_json properties = ordered_json::object();
     std::vector<std::string> required;
     for (const auto& field : fields_) {

@@ -767,8 +767,10 @@ const Table<Study>& study_table() {
     plan.read = read_plan;
     plan.write = [](const Study& study) { return study.sweep ? table_of_kind(study.kind).write(study) : json(); };
     plan.schema = [] {
+      Study plain;
+      plain.sweep.emplace();  // as in read_plan
       ordered_json any = ordered_json::array();
-      for (const auto& [name, table_of] : kinds) any.push_back(table_of().schema());
+      for (const auto& [name, table_of] : kinds) any.push_back(table_of().schema(plain));
       return ordered_json{{"anyOf", any}};
     };
     plan.collect = [](const std::string& pointer, std::vector<KeyPlace>& places) {

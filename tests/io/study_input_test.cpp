@@ -630,6 +630,34 @@ TEST_F(SchemaAndReader, AgreeOnMethodsAndOrigins) {
       json::parse(R"([{"$ref": "#/$defs/study"}, {"$ref": "#/$defs/stage"}, {"$ref": "#/$defs/catalogue_stage"}])"));
 }
 
+TEST_F(SchemaAndReader, AgreeOnDefaults) {
+  const json& study_keys = schema["$defs"]["study"]["properties"];
+  int defaults = 0;
+  const auto compare = [&](const json& at, const json& read) {
+    for (const auto& [key, property] : at["properties"].items()) {
+      if (!property.contains("default")) continue;
+      EXPECT_EQ(property["default"], read.value(key, json())) << at["title"] << " " << key;
+      ++defaults;
+    }
+  };
+  for (const json& plan : study_keys["study"]["anyOf"]) {
+    json bare = whole;
+    for (const char* key : {"operation", "integrator", "model"}) bare.erase(key);
+    bare["study"] = {{"kind", plan["properties"]["kind"]["const"]}};
+    ReadContext context;  // what is missing is found, the rest is read
+    Study study;
+    study_table().read(bare, "", study, context);
+    const json written = study_table().write(study);
+    compare(plan, written["study"]);
+    for (const char* key : {"operation", "integrator", "model"}) compare(study_keys[key], written[key]);
+  }
+  EXPECT_GT(defaults, 100);
+  const json& sweep = study_keys["study"]["anyOf"][0]["properties"];
+  EXPECT_EQ(sweep["parameter"]["default"], "mesh_frequency_ratio");
+  EXPECT_EQ(sweep["segments"]["default"], 1);
+  EXPECT_EQ(sweep["directions"]["default"], json({"up"}));
+}
+
 TEST_F(SchemaAndReader, EveryKeyThatIsWrittenIsInTheSchema) {
   const std::function<void(const json&, const json&, const std::string&)> walk = [&](const json& value, const json& at,
                                                                                      const std::string& pointer) {
