@@ -8,6 +8,7 @@ set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 "$epicyclic" --version | grep -q '^MPI ' || skip "built without MPI"
+leaks_are_not_asked_for
 command -v mpirun >/dev/null || skip "no mpirun"
 
 # More ranks than cores are enough for bytes; Open MPI wants to be asked for that, and for running as root.

@@ -9,6 +9,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 [ -n "${EPICYCLIC_SRUN:-}" ] || skip "EPICYCLIC_SRUN is not set"
 "$epicyclic" --version | grep -q '^MPI ' || skip "built without MPI"
+leaks_are_not_asked_for
 read -ra launch <<<"$EPICYCLIC_SRUN"
 
 carried=(sweep "$inputs/tang2020_speed.json" --set /study/points=8 --set /study/transient_periods=60

@@ -13,9 +13,20 @@
 
 #include "core/errors.hpp"
 #include "temporary_folder.hpp"
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+#endif
 
 namespace epicyclic::io {
 namespace {
+
+/// HDF5 1.10 does not free what it holds of a file whose last flush fails; while this lives, AddressSanitizer does not
+/// ask.
+#ifdef __SANITIZE_ADDRESS__
+using LeaksOfHdf5 = __lsan::ScopedDisabler;
+#else
+struct LeaksOfHdf5 {};
+#endif
 
 using test::contents;
 using test::message_of;
@@ -156,6 +167,7 @@ TEST(Hdf5File, AppearsOnlyWhenClosed) {
 }
 
 TEST(Hdf5File, FullDiskKeepsTheOldFile) {
+  [[maybe_unused]] const LeaksOfHdf5 unseen{};  // from the first file on, whose memory HDF5 uses again
   const TemporaryFolder folder;
   const auto path = folder / "a.h5";
   write_example(path);

@@ -14,6 +14,7 @@ for archive in "$@"; do
     looked_at=$((looked_at + 1))
     # W, V, u: one of several definitions is kept. Upper case otherwise: another object file can call it.
     while read -r _ kind name; do
+      [[ $name == __odr_asan.* ]] && continue  # AddressSanitizer's, one for each variable that is looked at here too
       case $kind in
         [A-TX-Z]) [[ $name == *"::$set::"* ]] && continue ;;
         [WVvwu]) [[ $name == *"::$set::"* ]] && continue ;;
