@@ -409,10 +409,7 @@ const Table<model::ModelOptions>& model_table() {
   return table;
 }
 
-constexpr auto sweep_of = [](auto member) {
-  return chain(
-      [](auto& study) -> auto& { return *study.sweep; }, member);
-};
+constexpr auto sweep_of = [](auto member) { return within(&Study::sweep, member); };
 
 /// Which kind of study it is.
 void add_kind(Table<Study>& t, const std::string& name) {

@@ -14,10 +14,8 @@ or_if_slow() {
   if grep -qaE '__(asan|tsan)_init' "$epicyclic"; then echo "$2"; else echo "$1"; fi
 }
 
-# MPI libraries keep memory until a program ends: for scripts on ranks.
-leaks_are_not_asked_for() {
-  export ASAN_OPTIONS=detect_leaks=0
-}
+# Before what starts ranks: MPI libraries keep memory until a program ends, and AddressSanitizer is not to ask for it.
+leaks_of_mpi=(env "ASAN_OPTIONS=${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0")
 
 fail() {
   echo "FAILED: $1"

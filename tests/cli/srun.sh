@@ -9,8 +9,8 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 [ -n "${EPICYCLIC_SRUN:-}" ] || skip "EPICYCLIC_SRUN is not set"
 "$epicyclic" --version | grep -q '^MPI ' || skip "built without MPI"
-leaks_are_not_asked_for
 read -ra launch <<<"$EPICYCLIC_SRUN"
+launch=("${leaks_of_mpi[@]}" "${launch[@]}")
 
 carried=(sweep "$inputs/tang2020_speed.json" --set /study/points=8 --set /study/transient_periods=60
   --set /study/recorded_periods=8 --set /study/classification_periods=64)
