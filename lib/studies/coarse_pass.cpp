@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "integrate/make_flow.hpp"
-#include "integrate/methods.hpp"
+#include "studies/motion.hpp"
 #include "studies/operating_point.hpp"
 
 namespace epicyclic::studies {
@@ -12,8 +12,7 @@ std::vector<double> CoarsePass::start_of(std::size_t first, const std::function<
   const auto count = static_cast<std::size_t>(sweep_.points);
   if (sweep_.segments <= 1 || sweep_.start != Start::carried || first % count == 0) return {};
   const std::size_t direction = first / count;
-  integrate::IntegratorOptions options = integrator_;
-  options.method = integrate::arkode_twin(options.method);  // one trajectory
+  integrate::IntegratorOptions options = of_one_trajectory(integrator_);
   // Which branch it is on is all that is asked.
   constexpr double enough = 1e-5;
   const double factor = std::clamp(enough / options.relative_tolerance, 1.0, 100.0);

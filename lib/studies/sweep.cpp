@@ -15,6 +15,7 @@
 #include "integrate/make_flow.hpp"
 #include "integrate/methods.hpp"
 #include "studies/coarse_pass.hpp"
+#include "studies/motion.hpp"
 #include "studies/operating_point.hpp"
 #include "studies/units.hpp"
 
@@ -84,11 +85,11 @@ class PointRun {
       : model_(std::move(model)),
         field_(vector_field(model_)),
         sweep_(sweep),
-        integrator_(scalar(integrator)),
+        integrator_(of_one_trajectory(integrator)),
         go_on_(std::move(go_on)),
         state_(start.empty() ? model_.default_start : start),
         // Without tangents there is nothing but recurrence, and no end of a transient.
-        classifies_(sweep.classification_periods > 0 && model_.tangents && !model_.jumps_at_contact),
+        classifies_(sweep.classification_periods > 0 && has_classification(field_)),
         adaptive_(classifies_ && sweep.transient == Transient::adaptive),
         watch_(model_, result_),
         strobe_(model_.dimension, field_.period,
@@ -151,56 +152,22 @@ class PointRun {
   void keep_attractor(const analysis::PoincareSection& section) {
     if (orbit_) {
       const auto flow = integrate::make_flow(field_, integrator_);
-      result_.attractor = analysis::record_of_orbit(*flow, *orbit_, result_.period, map_error());
+      result_.attractor = analysis::record_of_orbit(*flow, *orbit_, result_.period, map_error(integrator_));
       classification_work_ += flow->right_hand_side_calls();
     } else {
-      result_.attractor =
-          analysis::record_of_section(section, result_.regime, result_.recurrence, result_.lyapunov_max(), map_error());
+      result_.attractor = analysis::record_of_section(section, result_.regime, result_.recurrence,
+                                                      result_.lyapunov_max(), map_error(integrator_));
     }
   }
 
-  /// Kinks make an integrator's own map rough to some of its tolerances.
-  [[nodiscard]] double map_error() const {
-    return std::max(analysis::RegimeOptions{}.residual, 3.0 * integrator_.relative_tolerance);
-  }
-
-  /// Tangents and orbits are a matter of one trajectory: where lanes carry the strobe, ARKODE has the same pair.
-  static integrate::IntegratorOptions scalar(integrate::IntegratorOptions o) {
-    o.method = integrate::arkode_twin(o.method);
-    return o;
-  }
-
   analysis::Classification tell(std::vector<double>& from, const analysis::PoincareSection* seen) {
-    analysis::RegimeOptions options;
-    options.budget = std::max(options.look, sweep_.classification_periods);
-    options.longest_period = sweep_.period_max;
-    options.residual = map_error();
-    options.observable = std::min(model::Slots::w_s, model_.dimension - 1);
-    // Growth is a statistical matter, for which a looser tolerance is as good; orbits are sought at the study's own.
-    constexpr double statistical = 1e-6;
-    const auto loosened = [&](double factor) {
-      integrate::IntegratorOptions o = integrator_;
-      o.relative_tolerance *= factor;
-      o.absolute_tolerance *= factor;
-      return o;
-    };
-    const auto looks =
-        integrate::make_flow(field_, loosened(std::clamp(statistical / integrator_.relative_tolerance, 10.0, 100.0)));
-    integrate::IntegratorOptions controlled = integrator_;
-    controlled.tangent_error_control = true;
-    const auto exact = integrate::make_flow(field_, controlled);
-    integrate::IntegratorOptions loose = loosened(10.0);
-    loose.tangent_error_control = true;
-    const auto coarser = integrate::make_flow(field_, loose);
-    options.exact = exact.get();
-    options.coarser = coarser.get();
-    analysis::Classification told = analysis::classify(*looks, from, options, go_on_, seen);
-    for (const auto* each : {&looks, &exact, &coarser}) classification_work_ += (*each)->right_hand_side_calls();
-    result_.classified = told.evolution.reached();
-    result_.regime = told.regime;
-    result_.period = told.period;
-    result_.evidence = told.evidence;
-    return told;
+    ToldMotion motion = tell_motion(field_, from, sweep_, integrator_, go_on_, seen);
+    classification_work_ += motion.right_hand_sides;
+    result_.classified = motion.told.evolution.reached();
+    result_.regime = motion.told.regime;
+    result_.period = motion.told.period;
+    result_.evidence = motion.told.evidence;
+    return std::move(motion.told);
   }
 
   model::DynamicModel model_;

@@ -1,0 +1,44 @@
+// What a motion of a stage is: the one way in which all studies ask [analysis/regime.hpp].
+//
+// Three flows of one method: looks, whose growth is a matter of statistics, at a tolerance up to a hundred times
+// looser; orbits at the study's own, tangents under error control; and once more at ten times that, for what
+// multipliers are known to. Where lanes carry the strobe ARKODE's twin of their pair asks, since tangents are a matter
+// of one trajectory.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "analysis/poincare.hpp"
+#include "analysis/regime.hpp"
+#include "integrate/flow.hpp"
+#include "integrate/options.hpp"
+#include "studies/sweep_options.hpp"
+
+namespace epicyclic::studies {
+
+/// Has the field tangents wherever it goes? Without them there is nothing but recurrence.
+[[nodiscard]] bool has_classification(const integrate::VectorField& field);
+
+/// Tangents and orbits are a matter of one trajectory: where lanes carry the strobe, ARKODE has the same pair.
+[[nodiscard]] integrate::IntegratorOptions of_one_trajectory(integrate::IntegratorOptions integrator);
+
+/// What an integrator leaves of an orbit, in parts of its largest component: kinks make its map rough to some of its
+/// tolerances [-].
+[[nodiscard]] double map_error(const integrate::IntegratorOptions& integrator);
+
+struct ToldMotion {
+  analysis::Classification told;
+  long right_hand_sides = 0;
+};
+
+/// @param field  with has_classification()
+/// @param state  replaced by the last state
+/// @param sweep  classification_periods and period_max are read
+/// @param seen   a section of this very motion that ends in `state`; may be null
+[[nodiscard]] ToldMotion tell_motion(const integrate::VectorField& field, std::vector<double>& state,
+                                     const SweepOptions& sweep, const integrate::IntegratorOptions& integrator,
+                                     const std::function<bool()>& go_on,
+                                     const analysis::PoincareSection* seen = nullptr);
+
+}  // namespace epicyclic::studies
