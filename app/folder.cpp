@@ -1,7 +1,6 @@
 #include "folder.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <string_view>
@@ -21,17 +20,6 @@
 namespace epicyclic::app {
 
 namespace {
-
-// Names that the program writes itself: a stage file of such a name is stored under another.
-constexpr std::array<std::string_view, 8> own_names = {"run.json",       "input.json", "input.resolved.json",
-                                                       "journal.bin",    "points.csv", "poincare.csv",
-                                                       "attractors.csv", "results.h5"};
-
-std::string stage_copy_name(const std::string& name) {
-  for (const auto own : own_names)
-    if (name == own) return "stage." + name;
-  return name;
-}
 
 /// Failed points of a complete study, from its run.json.
 std::int64_t failed_points(const io::OutputFolder& folder) {
@@ -83,13 +71,15 @@ void require_points(const io::LoadedInput& input, const Arguments& arguments, st
   if (!input.study.sweep || input.study.kind != "sweep") require_kind(input, arguments, command);
 }
 
-io::Provenance provenance(int threads) {
+io::Provenance provenance(int threads, const io::LoadedInput& input) {
   io::Provenance p = io::begin_provenance();
   p.library_version = EPICYCLIC_VERSION;
   p.commit = EPICYCLIC_COMMIT;
   p.dependencies = io::dependency_versions();
   p.simd_level = io::simd_level();
   p.threads = threads;
+  p.input_files["input.json"] = input.study_file.name;
+  if (input.stage_file) p.input_files["input.stage.json"] = input.stage_file->name;
   return p;
 }
 
@@ -121,8 +111,8 @@ std::string resolved_text(const io::LoadedInput& input) { return input.resolved.
 std::string write_inputs(const io::OutputFolder& folder, const io::LoadedInput& input) {
   std::string resolved = resolved_text(input);
   io::write_file_atomically(folder.file("input.json"), input.study_file.bytes);
-  if (input.stage_file)
-    io::write_file_atomically(folder.file(stage_copy_name(input.stage_file->name)), input.stage_file->bytes);
+  // Names of ours alone: by the user's, a copy could take the place of any other file here. run.json has those.
+  if (input.stage_file) io::write_file_atomically(folder.file("input.stage.json"), input.stage_file->bytes);
   io::write_file_atomically(folder.file("input.resolved.json"), resolved);
   return resolved;
 }

@@ -24,8 +24,8 @@ void require_points(const io::LoadedInput& input, const Arguments& arguments, st
 /// @throws InputError
 void require_kind(const io::LoadedInput& input, const Arguments& arguments, std::string_view kind);
 
-/// Versions and machine, for run.json.
-[[nodiscard]] io::Provenance provenance(int threads);
+/// Versions, machine and the names that the input files came by, for run.json.
+[[nodiscard]] io::Provenance provenance(int threads, const io::LoadedInput& input);
 
 /// Points of earlier sessions, from records of the journal.
 /// @throws DamagedData when they are of points that the study has not
@@ -40,7 +40,7 @@ void require_kind(const io::LoadedInput& input, const Arguments& arguments, std:
 /// What input.resolved.json holds.
 [[nodiscard]] std::string resolved_text(const io::LoadedInput& input);
 
-/// input.json, the stage file beside it, input.resolved.json.
+/// input.json, the stage file as input.stage.json, input.resolved.json.
 /// @returns text of the resolved input
 /// @throws OutputError
 std::string write_inputs(const io::OutputFolder& folder, const io::LoadedInput& input);

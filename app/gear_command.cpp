@@ -14,7 +14,7 @@ int gear_command(const Arguments& arguments) {
   const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
   const io::OutputFolder folder(arguments.output, io::identity(input, "gear"));
   if (const auto code = refuse_or_finish(folder, input)) return *code;
-  io::Provenance facts = provenance(1);
+  io::Provenance facts = provenance(1, input);
   write_inputs(folder, input);
   const io::GearOutput written = io::write_gear_output(folder.path(), input);
   facts.ended = io::utc_now();

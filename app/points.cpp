@@ -112,7 +112,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   if (leader != nullptr) leader->gather(arguments, identity);
   const io::OutputFolder folder(arguments.output, identity);
   if (const auto code = refuse_or_finish(folder, input)) return *code;
-  io::Provenance facts = provenance(arguments.threads);
+  io::Provenance facts = provenance(arguments.threads, input);
   facts.ranks = arguments.ranks->size();
   const std::string resolved = write_inputs(folder, input);
   folder.write_run(io::RunState::running, io::run_facts(facts));

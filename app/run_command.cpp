@@ -24,7 +24,7 @@ int run_command(const Arguments& arguments) {
 
   const io::OutputFolder folder(arguments.output, io::identity(input, "run"));
   if (const auto code = refuse_or_finish(folder, input)) return *code;
-  io::Provenance facts = provenance(1);
+  io::Provenance facts = provenance(1, input);
   const std::string resolved = write_inputs(folder, input);
   folder.write_run(io::RunState::running, io::run_facts(facts));
 

@@ -33,7 +33,7 @@ int tolerance_command(const Arguments& arguments) {
   const std::string identity = io::identity(input, "tolerance");
   const io::OutputFolder folder(arguments.output, identity);
   if (const auto code = refuse_or_finish(folder, input)) return *code;
-  io::Provenance facts = provenance(arguments.threads);
+  io::Provenance facts = provenance(arguments.threads, input);
   const std::string resolved = write_inputs(folder, input);
   folder.write_run(io::RunState::running, io::run_facts(facts));
 

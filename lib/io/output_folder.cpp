@@ -136,7 +136,8 @@ void OutputFolder::write_run(RunState state, const nlohmann::json& facts) const 
     sessions.push_back(std::move(last));
     run["earlier_sessions"] = std::move(sessions);
   }
-  write_file_atomically(file(run_name), run.dump(indent) + "\n");
+  // The name of an input file need not be UTF-8.
+  write_file_atomically(file(run_name), run.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace epicyclic::io

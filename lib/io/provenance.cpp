@@ -55,6 +55,7 @@ nlohmann::json run_facts(const Provenance& provenance) {
       {"simd", provenance.simd_level},
       {"threads", provenance.threads},
       {"ranks", provenance.ranks},
+      {"input_files", provenance.input_files},
       {"counts", provenance.counts},
       {"host", provenance.host},
       {"cpu", provenance.cpu_model},

@@ -18,6 +18,7 @@ struct Provenance {
   std::string simd_level;                           ///< given by the caller: "baseline", "avx2", ...
   int threads = 1;                                  ///< of this process; given by the caller
   int ranks = 1;                                    ///< processes; given by the caller
+  std::map<std::string, std::string> input_files;   ///< copy in the folder -> name of the file; given by the caller
   std::map<std::string, std::int64_t> counts;       ///< points, failed points, ...; given by the caller
   std::string host;
   std::string cpu_model;
