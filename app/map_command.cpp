@@ -12,13 +12,12 @@ namespace epicyclic::app {
 namespace {
 
 WrittenPoints write_results(const ComputedPoints& plane) {
-  std::vector<studies::PointResult> results = io::all_brief(plane.points);
   const io::Study& study = plane.input.study;
   const io::MapOutput output{*study.sweep, study.plane, plane.resolved, io::figure_title(study)};
-  io::write_map_csv(plane.folder / "points.csv", results);
-  io::write_map_h5(plane.folder / "results.h5", output, results);
+  io::write_map_csv(plane.folder / "points.csv", plane.points);
+  io::write_map_h5(plane.folder / "results.h5", output, plane.points);
   WrittenPoints written;
-  written.figures = io::draw_map_figures(plane.folder / "figures", output, results);
+  written.figures = io::draw_map_figures(plane.folder / "figures", output, plane.points);
   return written;
 }
 

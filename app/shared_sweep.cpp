@@ -10,6 +10,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -72,19 +73,17 @@ class Attention {
   Clock::time_point roused_ = Clock::now();
 };
 
-/// The chains in which something is left to do, in order.
+/// The chains in which something is left to do, in order. Both arguments must live longer.
 class OpenChains {
  public:
-  OpenChains(const studies::SweepPlan& plan, const std::vector<bool>& done) {
-    for (std::size_t chain = 0; chain < plan.chains.size(); ++chain)
-      if (!std::ranges::all_of(plan.chains[chain], [&](std::size_t point) { return done[point]; }))
-        chains_.push_back(chain);
+  OpenChains(const studies::SweepPlan& plan, const std::vector<bool>& done) : plan_(plan), done_(done) {
+    for (std::size_t chain = 0; chain < plan.chains.size(); ++chain) left_ += is_open(chain) ? 1 : 0;
   }
 
   std::optional<std::size_t> take() {
     const std::scoped_lock lock(mutex_);
-    if (next_ == chains_.size()) return std::nullopt;
-    return static_cast<std::size_t>(chains_[next_++]);
+    if (left_ == 0) return std::nullopt;
+    return next();
   }
 
   /// For a rank that has no more: a part of what is left that shrinks towards the end, so that many small chains cost
@@ -92,19 +91,56 @@ class OpenChains {
   std::vector<Index> take_some(int threads_of_all) {
     constexpr std::size_t most = 1000;
     const std::scoped_lock lock(mutex_);
-    const std::size_t left = chains_.size() - next_;
-    const std::size_t share = left / (4 * static_cast<std::size_t>(std::max(1, threads_of_all)));
-    const auto first = chains_.begin() + static_cast<std::ptrdiff_t>(next_);
-    const auto count = static_cast<std::ptrdiff_t>(std::min(left, std::clamp<std::size_t>(share, 1, most)));
-    next_ += static_cast<std::size_t>(count);
-    return {first, first + count};
+    const std::size_t share = left_ / (4 * static_cast<std::size_t>(std::max(1, threads_of_all)));
+    std::vector<Index> some(std::min(left_, std::clamp<std::size_t>(share, 1, most)));
+    for (Index& chain : some) chain = next();
+    return some;
   }
 
  private:
-  std::vector<Index> chains_;
+  [[nodiscard]] bool is_open(std::size_t chain) const {
+    for (const std::size_t point : plan_.chains[chain])
+      if (!done_[point]) return true;
+    return false;
+  }
+
+  /// While there are some left.
+  std::size_t next() {
+    while (!is_open(next_)) ++next_;
+    --left_;
+    return next_++;
+  }
+
+  const studies::SweepPlan& plan_;
+  const std::vector<bool>& done_;
+  std::size_t left_ = 0;
   std::size_t next_ = 0;
   std::mutex mutex_;
 };
+
+/// Flags as hexadecimal digits, four in each, for a message.
+std::string text_of_flags(const std::vector<bool>& flags) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  std::string text;
+  text.reserve((flags.size() + 3) / 4);
+  for (std::size_t first = 0; first < flags.size(); first += 4) {
+    std::size_t digit = 0;
+    for (std::size_t k = first; k < std::min(first + 4, flags.size()); ++k)
+      digit |= std::size_t{flags[k]} << (k - first);
+    text += digits[digit];
+  }
+  return text;
+}
+
+/// @param size  how many they are
+std::vector<bool> flags_in(std::string_view text, std::size_t size) {
+  std::vector<bool> flags(size);
+  for (std::size_t k = 0; k < size; ++k) {
+    const char digit = text.at(k / 4);
+    flags[k] = (((digit <= '9' ? digit - '0' : digit - 'a' + 10) >> (k % 4)) & 1) != 0;
+  }
+  return flags;
+}
 
 std::string host_name() {
   std::string name(256, '\0');
@@ -176,10 +212,7 @@ void SweepLeader::run(const studies::SweepPlan& plan, const studies::SweepOption
   run.next_chain = [&chains] { return chains.take(); };
   run.threads_of_all = threads_of_all_;
 
-  std::string done_points(plan.points.size(), '0');
-  for (std::size_t i = 0; i < done_points.size(); ++i)
-    if (run.done[i]) done_points[i] = '1';
-  const std::string begin = text_of({{"threads_of_all", threads_of_all_}, {"done", done_points}});
+  const std::string begin = text_of({{"threads_of_all", threads_of_all_}, {"done", text_of_flags(run.done)}});
   for (int rank = 1; rank < ranks_.size(); ++rank) ranks_.send(rank, Topic::begin, begin);
 
   std::exception_ptr error;
@@ -456,7 +489,7 @@ void compute_share(const Arguments& arguments, const io::LoadedInput& input, con
   run.threads_of_all = begin.at("threads_of_all").get<int>();
   run.process = static_cast<std::size_t>(arguments.ranks->rank());
   run.stop = &exchange.stop();
-  for (const char c : begin.at("done").get_ref<const std::string&>()) run.done.push_back(c == '1');
+  run.done = flags_in(begin.at("done").get_ref<const std::string&>(), plan.points.size());
   run.end_state = [&](std::size_t point) { return exchange.end_state(point); };
   run.next_chain = [&] { return exchange.next_chain(); };
   run.point_finished = [&](const studies::PointResult& result) {

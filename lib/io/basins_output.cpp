@@ -133,7 +133,7 @@ void write_basins_h5(const std::filesystem::path& file, const BasinsOutput& outp
                      const std::vector<PointResult>& results, const Attractors& attractors) {
   Hdf5File h5(file);
   // The matrix: rows along the second component, columns along the first, both ascending.
-  write_plane(h5, "/basins", "component", output.plane, output.resolved_input, results);
+  write_plane(h5, "/basins", "component", output.plane, output.resolved_input, points_in_memory(results));
   const std::vector<std::int64_t> numbers(attractors.number.begin(), attractors.number.end());
   h5.write("/points/attractor", std::span<const std::int64_t>(numbers));
   h5.write("/basins/attractor", std::span<const std::int64_t>(numbers),

@@ -32,10 +32,11 @@ std::vector<double> edges_of(const std::vector<double>& centres) {
   return edges;
 }
 
-/// Rectangles of cells that look alike, one a line: x from, x to, y from, y to, and what `value` says; none where that
-/// is empty.
+/// Writes rectangles of cells that look alike, one a line: x from, x to, y from, y to, and what `value` says; none
+/// where that is empty.
 template <class Alike, class Value>
-std::string rectangles(const CellGrid& grid, Alike alike, Value value) {
+void write_rectangles(AtomicFile& file, const CellGrid& grid, Alike alike, Value value) {
+  constexpr std::size_t block = std::size_t{1} << 20;
   const auto x = edges_of(grid.x);
   const auto y = edges_of(grid.y);
   std::string data;
@@ -56,8 +57,11 @@ std::string rectangles(const CellGrid& grid, Alike alike, Value value) {
         data += text + '\n';
       }
       first = last + 1;
+      if (data.size() < block) continue;
+      file.write(data);
+      data.clear();
     }
-  return data;
+  file.write(data);
 }
 
 /// Neighbours overlap a little, each over the one before: else their blurred edges would let the ground through.
@@ -103,17 +107,19 @@ FigureOutcome class_figure(const std::filesystem::path& folder, std::string_view
     if (c >= classes.size()) throw std::invalid_argument(fmt::format("class_figure: there is no class {}", c));
     seen[c] = true;
   }
-  const std::string data = "# x from, x to, y from, y to, colour, class\n" +
-                           rectangles(
-                               grid, [&](std::size_t a, std::size_t b) { return cells[a] == cells[b]; },
-                               [&](std::size_t cell) {
-                                 const CellClass& c = classes[cells[cell]];
-                                 return fmt::format("0x{} {}", c.colour.substr(1), gnuplot_quoted(c.label));
-                               });
+  const auto write_data = [&](AtomicFile& file) {
+    file.write("# x from, x to, y from, y to, colour, class\n");
+    write_rectangles(
+        file, grid, [&](std::size_t a, std::size_t b) { return cells[a] == cells[b]; },
+        [&](std::size_t cell) {
+          const CellClass& c = classes[cells[cell]];
+          return fmt::format("0x{} {}", c.colour.substr(1), gnuplot_quoted(c.label));
+        });
+  };
   std::string plot = fmt::format("'{}.dat' {} linecolor rgbcolor variable notitle", stem, boxes);
   for (std::size_t c = 0; c < classes.size(); ++c)
     if (seen[c]) plot += legend_entry(classes[c]);
-  return draw_figure(folder, stem, data,
+  return draw_figure(folder, stem, write_data,
                      figure_script(stem, text, span_of(grid.x), span_of(grid.y), 0, {},
                                    overlap(grid) + std::string(legend_place), plot));
 }
@@ -143,13 +149,16 @@ FigureOutcome value_figure(const std::filesystem::path& folder, std::string_view
   const auto alike = [&](std::size_t a, std::size_t b) {
     return cells[a] == cells[b] || (!std::isfinite(cells[a]) && !std::isfinite(cells[b]));
   };
-  std::string data = "# x from, x to, y from, y to, value\n" + rectangles(grid, alike, [&](std::size_t cell) {
-                       return std::isfinite(cells[cell]) ? number(cells[cell]) : std::string();
-                     });
-  if (grey)
-    data += "\n\n# without a value\n" + rectangles(grid, alike, [&](std::size_t cell) {
-              return std::isfinite(cells[cell]) ? std::string() : std::string("NaN");
-            });
+  const auto write_data = [&](AtomicFile& file) {
+    file.write("# x from, x to, y from, y to, value\n");
+    write_rectangles(file, grid, alike, [&](std::size_t cell) {
+      return std::isfinite(cells[cell]) ? number(cells[cell]) : std::string();
+    });
+    if (!grey) return;
+    file.write("\n\n# without a value\n");
+    write_rectangles(file, grid, alike,
+                     [&](std::size_t cell) { return std::isfinite(cells[cell]) ? std::string() : std::string("NaN"); });
+  };
   // After Brewer's RdBu, which colour-blind eyes tell apart.
   std::string palette;
   const auto colour = [&](double at, std::string_view name) {
@@ -187,7 +196,7 @@ FigureOutcome value_figure(const std::filesystem::path& folder, std::string_view
   plot += fmt::format("'{}.dat' index 0 {} linecolor palette notitle", stem, boxes);
   if (grey) plot += ", \\\n  " + greys("1:2:3:4");
   if (grey) plot += legend_entry({grey_label, "#9a9a9a"});
-  return draw_figure(folder, stem, data,
+  return draw_figure(folder, stem, write_data,
                      figure_script(stem, text, span_of(grid.x), span_of(grid.y), 0, {}, extra, plot));
 }
 

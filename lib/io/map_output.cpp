@@ -20,16 +20,18 @@ using studies::PointResult;
 
 /// What a figure or a matrix shows of each cell, row by row with both axes ascending.
 template <class T>
-std::vector<T> matrix(const MapOutput& output, const std::vector<PointResult>& results, Direction direction,
+std::vector<T> matrix(const MapOutput& output, const PointSource& points, Direction direction,
                       const std::function<T(const PointResult&)>& value) {
   const auto columns = static_cast<std::size_t>(output.plane.first.points);
-  std::vector<T> cells;
-  for (const PointResult& r : results)
-    if (r.point.direction == direction) cells.push_back(value(r));
-  if (direction == Direction::down)
-    for (std::size_t first = 0; first < cells.size(); first += columns)
-      std::reverse(cells.begin() + static_cast<std::ptrdiff_t>(first),
-                   cells.begin() + static_cast<std::ptrdiff_t>(first + columns));
+  const auto& directions = output.sweep.directions;
+  const std::size_t count = points.count / directions.size();
+  const auto which = static_cast<std::size_t>(std::ranges::find(directions, direction) - directions.begin());
+  std::vector<T> cells(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t column = k % columns;
+    const std::size_t at = direction == Direction::up ? k : k - column + (columns - 1 - column);
+    cells[at] = value(points.read_brief(which * count + k));
+  }
   return cells;
 }
 
@@ -59,25 +61,25 @@ std::size_t class_of(const PointResult& r) {
 
 }  // namespace
 
-void write_map_csv(const std::filesystem::path& file, const std::vector<PointResult>& results) {
-  write_points_csv(file, points_in_memory(results), {second_value_column()});
+void write_map_csv(const std::filesystem::path& file, const PointSource& points) {
+  write_points_csv(file, points, {second_value_column()});
 }
 
-void write_map_h5(const std::filesystem::path& file, const MapOutput& output, const std::vector<PointResult>& results) {
+void write_map_h5(const std::filesystem::path& file, const MapOutput& output, const PointSource& points) {
   Hdf5File h5(file);
   // Matrices: rows along the second parameter, columns along the first, both ascending.
-  write_plane(h5, "/map", "parameter", output.plane, output.resolved_input, results);
+  write_plane(h5, "/map", "parameter", output.plane, output.resolved_input, points);
   const auto columns = static_cast<std::size_t>(output.plane.first.points);
   const auto rows = static_cast<std::size_t>(output.plane.second.points);
   for (const Direction direction : output.sweep.directions) {
     const std::string group = "/map/" + direction_word(direction);
     h5.create_group(group);
     const auto integers = [&](const char* name, const std::function<std::int64_t(const PointResult&)>& value) {
-      h5.write(group + "/" + name, std::span<const std::int64_t>(matrix(output, results, direction, value)), rows,
+      h5.write(group + "/" + name, std::span<const std::int64_t>(matrix(output, points, direction, value)), rows,
                columns);
     };
     const auto numbers = [&](const char* name, const std::function<double(const PointResult&)>& value) {
-      h5.write(group + "/" + name, std::span<const double>(matrix(output, results, direction, value)), rows, columns);
+      h5.write(group + "/" + name, std::span<const double>(matrix(output, points, direction, value)), rows, columns);
       h5.set_units(group + "/" + name, "1 per tau");
     };
     integers("regime", [](const PointResult& r) {
@@ -95,7 +97,7 @@ void write_map_h5(const std::filesystem::path& file, const MapOutput& output, co
 }
 
 std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, const MapOutput& output,
-                                          const std::vector<PointResult>& results) {
+                                          const PointSource& points) {
   std::vector<DrawnFigure> figures;
   const CellGrid grid{axis_values(output.plane.first), axis_values(output.plane.second)};
   for (const Direction direction : output.sweep.directions) {
@@ -105,12 +107,12 @@ std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, c
     const std::string regimes = "regimes_" + word;
     figures.push_back(
         {folder / (regimes + ".png"), class_figure(folder, regimes, text, grid, classes(),
-                                                   matrix<std::size_t>(output, results, direction, class_of))});
+                                                   matrix<std::size_t>(output, points, direction, class_of))});
     if (output.sweep.classification_periods == 0) continue;
     const std::string exponents = "lyapunov_max_" + word;
     figures.push_back({folder / (exponents + ".png"),
                        value_figure(folder, exponents, text, grid, "Largest exponent  λ_1 / ω_{sn}", "not told",
-                                    matrix<double>(output, results, direction,
+                                    matrix<double>(output, points, direction,
                                                    [](const PointResult& r) { return r.lyapunov_max().value; }))});
   }
   return figures;

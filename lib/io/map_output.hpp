@@ -1,6 +1,8 @@
 // What a map leaves in its folder: points.csv, results.h5 with a matrix for each direction, figures. There is no
 // poincare.csv: a cell keeps its row alone.
 //
+// Cells are read where they are, one after the other; a matrix and the cells of a figure take eight bytes each.
+//
 // All of it follows from the points alone and is the same, byte for byte, for the same study (architecture section 7).
 #pragma once
 
@@ -22,12 +24,11 @@ struct MapOutput {
 };
 
 /// @throws OutputError
-void write_map_csv(const std::filesystem::path& file, const std::vector<studies::PointResult>& results);
-void write_map_h5(const std::filesystem::path& file, const MapOutput& output,
-                  const std::vector<studies::PointResult>& results);
+void write_map_csv(const std::filesystem::path& file, const PointSource& points);
+void write_map_h5(const std::filesystem::path& file, const MapOutput& output, const PointSource& points);
 
 /// For each direction the regimes and, where they were told by more than recurrence, the largest exponent.
 [[nodiscard]] std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, const MapOutput& output,
-                                                        const std::vector<studies::PointResult>& results);
+                                                        const PointSource& points);
 
 }  // namespace epicyclic::io

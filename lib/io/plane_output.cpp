@@ -13,15 +13,14 @@ PointColumn second_value_column() {
 }
 
 void write_plane(Hdf5File& h5, const std::string& group, const std::string& axis, const studies::PlaneOptions& plane,
-                 const std::string& resolved_input, const std::vector<PointResult>& results) {
+                 const std::string& resolved_input, const PointSource& points) {
   h5.set_attribute("/", "input_resolved", resolved_input);
   h5.set_attribute("/", axis, plane.first.name);
   h5.set_attribute("/", "second_" + axis, plane.second.name);
-  write_point_columns(h5, points_in_memory(results));
+  write_point_columns(h5, points);
   const PointColumn column = second_value_column();
-  std::vector<double> second;
-  for (const PointResult& r : results) second.push_back(column.value(r));
-  h5.write("/points/" + column.name, std::span<const double>(second));
+  h5.write("/points/" + column.name, points.count,
+           Hdf5File::Column<double>([&](std::size_t row) { return column.value(points.read_brief(row)); }));
   h5.create_group(group);
   h5.write(group + "/value", std::span<const double>(axis_values(plane.first)));
   h5.write(group + "/" + column.name, std::span<const double>(axis_values(plane.second)));

@@ -17,6 +17,6 @@ namespace epicyclic::io {
 /// The input, what the axes are, the group /points, and `group` with the values along both axes, ascending.
 /// @param axis  "parameter" or "component": of the attributes
 void write_plane(Hdf5File& h5, const std::string& group, const std::string& axis, const studies::PlaneOptions& plane,
-                 const std::string& resolved_input, const std::vector<studies::PointResult>& results);
+                 const std::string& resolved_input, const PointSource& points);
 
 }  // namespace epicyclic::io

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/errors.hpp"
 #include "io/point_record.hpp"
 
 namespace epicyclic::io {
@@ -60,6 +61,7 @@ void PointStore::read_others() {
 }
 
 Journal& PointStore::open(const std::filesystem::path& file) {
+  if (journals_.size() == journals_max) throw OutputError(folder_.string() + ": holds too many journals");
   journals_.push_back(std::make_unique<Journal>(file, identity_, use_));
   Journal& journal = *journals_.back();
   for (const JournalEntry& entry : journal.entries()) take(journals_.size() - 1, entry);
@@ -72,7 +74,8 @@ void PointStore::take(std::size_t journal, const JournalEntry& entry) {
     throw DamagedData(fmt::format("the journal holds point {}, which the study has not", entry.point));
   Place& known = places_[static_cast<std::size_t>(entry.point)];
   if (known.offset == absent) {
-    known = {static_cast<std::uint32_t>(journal), entry.offset};
+    if (entry.offset >= absent) throw OutputError(folder_.string() + ": the journal is too long");
+    known = {static_cast<std::uint16_t>(journal), entry.offset & absent};
     ++size_;
   } else if (journals_[known.journal]->read({entry.point, known.offset}) != journals_[journal]->read(entry)) {
     throw DamagedData(fmt::format("{}: two records of point {} differ", folder_.string(), entry.point));

@@ -1,4 +1,4 @@
-// The points of a sweep where they are: in the journals of its folder. Memory holds 16 bytes for each.
+// The points of a sweep where they are: in the journals of its folder. Memory holds 8 bytes for each.
 //
 // journal.bin is this process's own; journal.rank-1.bin and so on are of other processes that took part, now or
 // earlier. Which process computed a point says nothing about it: two records of one point are the same bytes, or one of
@@ -57,11 +57,13 @@ class PointStore {
   [[nodiscard]] PointSource source() const;
 
  private:
-  static constexpr std::uint64_t absent = ~std::uint64_t{0};
+  /// Where a record stands. There are as many processes and bytes on one machine as fit.
   struct Place {
-    std::uint32_t journal = 0;
-    std::uint64_t offset = absent;
+    std::uint64_t journal : 16 = 0;
+    std::uint64_t offset : 48 = absent;
   };
+  static constexpr std::size_t journals_max = std::size_t{1} << 16;
+  static constexpr std::uint64_t absent = (std::uint64_t{1} << 48) - 1;
 
   Journal& open(const std::filesystem::path& file);
   void take(std::size_t journal, const JournalEntry& entry);

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <set>
+#include <thread>
 #include <utility>
 
 #include "io/stage_completion.hpp"
 #include "model/dynamic_model.hpp"
 #include "studies/plane.hpp"
+#include "studies/units.hpp"
 
 namespace epicyclic::io {
 
@@ -356,13 +360,23 @@ struct LoadedInput::Sources {
 
 namespace {
 
+/// Is this a value that others are computed from [stage_completion.hpp]?
+bool feeds_completion(std::string_view pointer, bool bare) {
+  const std::string root = bare ? "" : std::string(stage_root);
+  return pointer_within(pointer, root + "/catalogue") || pointer_within(pointer, root + "/planets");
+}
+
 /// Reads the whole input from one JSON value, which is completed from catalogue data first: the tables, then the rules
 /// that span objects.
-Study read_study(json& whole, bool bare, ReadContext& context) {
+///
+/// @param is_completed  it has been already, from these very catalogue data
+Study read_study(json& whole, bool bare, ReadContext& context, bool is_completed = false) {
   Study study;
   const std::string root = bare ? "" : std::string(stage_root);
   bool complete = true;
-  if (bare)
+  if (is_completed)
+    complete = true;
+  else if (bare)
     complete = complete_stage(whole, root, context);
   else if (const auto stage = whole.find("stage"); stage != whole.end())
     complete = complete_stage(*stage, root, context);
@@ -424,6 +438,31 @@ Study read_study(json& whole, bool bare, ReadContext& context) {
       context.add(Finding::Kind::rule, pointer, colon == std::string::npos ? rule : rule.substr(colon + 2));
   }
   return study;
+}
+
+/// The first value at which something is wrong, and what; nothing if all are sound.
+struct Unsound {
+  std::size_t value = 0;
+  std::vector<Problem> problems;
+};
+
+/// @param problems_at  what is wrong at a value; asked by several threads at once
+template <class F>
+Unsound first_unsound(std::size_t values, F problems_at) {
+  Unsound first{values, {}};
+  std::mutex mutex;
+  std::atomic<std::size_t> least{values};
+  constexpr std::size_t few = 16;  // not worth a thread
+  const int threads = values < few ? 1 : static_cast<int>(std::thread::hardware_concurrency());
+  (void)studies::for_units(values, threads, nullptr, [&](std::size_t k) {
+    if (k > least) return;
+    std::vector<Problem> problems = problems_at(k);
+    const std::scoped_lock lock(mutex);
+    if (problems.empty() || k > first.value) return;
+    first = {k, std::move(problems)};
+    least = k;
+  });
+  return first;
 }
 
 /// Rules of a range of values that span its keys.
@@ -721,15 +760,28 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
   }
 
   const auto is_pointer = [](const std::string& parameter) { return parameter.rfind('/', 0) == 0; };
-  // A parameter that is a pointer, at each of its values. @returns whether all is well
-  const auto check_pointer = [&](const studies::Axis& axis, const std::string& place) {
-    if (!is_pointer(axis.name)) return true;
-    Study unused;
-    bool sound = true;
-    const auto refuse = [&](const std::string& pointer, std::string message) {
-      problems.add(sources->locate(pointer, std::move(message)));
-      sound = false;
+  bool sound = true;
+  const auto refuse = [&](const std::string& pointer, std::string message) {
+    problems.add(sources->locate(pointer, std::move(message)));
+    sound = false;
+  };
+  // At each of its values, so that nothing is begun that cannot be finished; the first bad one tells.
+  const auto check_values = [&](const studies::Axis& axis, const std::string& place, const json& base,
+                                const std::vector<PointerValue>& beside, const std::string& words) {
+    const auto at = [&](std::size_t k) {
+      std::vector<PointerValue> values = beside;
+      values.push_back({axis.name, studies::axis_value(axis, k)});
+      Study unused;
+      return input.check_with(base, values, unused);
     };
+    const auto bad = first_unsound(static_cast<std::size_t>(axis.points), at);
+    for (const auto& problem : bad.problems)
+      refuse(place + "/parameter", "takes the value " + number_text(studies::axis_value(axis, bad.value)) +
+                                       ", with which" + words + " " + problem.pointer + " " + problem.message);
+  };
+  // A parameter that is a pointer: its place, and the ends of its range.
+  const auto check_ends = [&](const studies::Axis& axis, const std::string& place) {
+    Study unused;
     const bool integrator = pointer_within(axis.name, "/integrator");
     if ((integrator && axis.name != "/integrator/clearance_smoothing") || axis.name == "/stage/planets/count") {
       refuse(place + "/parameter",
@@ -737,51 +789,43 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
                         : "the number of planets changes the state itself and cannot be swept");
     } else if (!find_at(input.resolved, axis.name) || !find_at(input.resolved, axis.name)->is_number() ||
                pointer_within(axis.name, "/study")) {
-      for (auto& problem : input.check_with(std::array{PointerValue{axis.name, axis.from}}, unused))
+      for (auto& problem : input.check_with(input.resolved, std::array{PointerValue{axis.name, axis.from}}, unused))
         refuse(place + "/parameter", std::move(problem.message));
     } else {
       for (const auto& [key, value] : {std::pair("/from", axis.from), std::pair("/to", axis.to)})
-        for (const auto& problem : input.check_with(std::array{PointerValue{axis.name, value}}, unused))
+        for (const auto& problem : input.check_with(input.resolved, std::array{PointerValue{axis.name, value}}, unused))
           refuse(place + key, "is " + number_text(value) + ", with which " + problem.pointer + " " + problem.message);
-      // The values between, so that nothing is begun that cannot be finished; the first bad one tells.
-      for (std::size_t k = 1; sound && k + 1 < static_cast<std::size_t>(axis.points); ++k) {
-        const double value = studies::axis_value(axis, k);
-        for (const auto& problem : input.check_with(std::array{PointerValue{axis.name, value}}, unused))
-          refuse(place + "/parameter",
-                 "takes the value " + number_text(value) + ", with which " + problem.pointer + " " + problem.message);
-      }
     }
-    return sound;
   };
+  std::vector<std::pair<studies::Axis, std::string>> axes;
   if (input.study.kind == "map") {
-    const studies::PlaneOptions& plane = input.study.plane;
-    bool sound = true;
-    for (const auto& [axis, place] : {std::pair(&plane.first, "/study/first"), {&plane.second, "/study/second"}})
-      sound = check_pointer(*axis, place) && sound;
-    // Two values together, on the edges of the plane: within them a rule that both have to keep is kept.
-    if (sound && is_pointer(plane.first.name) && is_pointer(plane.second.name)) {
-      const auto edge = [&](const studies::Axis& along, const studies::Axis& ends, const char* place) {
-        for (const double end : {ends.from, ends.to})
-          for (std::size_t k = 0; sound && k < static_cast<std::size_t>(along.points); ++k) {
-            const double value = studies::axis_value(along, k);
-            Study unused;
-            for (const auto& problem :
-                 input.check_with(std::array{PointerValue{along.name, value}, PointerValue{ends.name, end}}, unused)) {
-              problems.add(sources->locate(std::string(place) + "/parameter",
-                                           "takes the value " + number_text(value) + ", with which, and " + ends.name +
-                                               " = " + number_text(end) + ", " + problem.pointer + " " +
-                                               problem.message));
-              sound = false;
-            }
-          }
-      };
-      edge(plane.first, plane.second, "/study/first");
-      edge(plane.second, plane.first, "/study/second");
-    }
+    axes = {{input.study.plane.first, "/study/first"}, {input.study.plane.second, "/study/second"}};
   } else if (input.study.sweep) {
     const auto& sweep = *input.study.sweep;
-    (void)check_pointer({sweep.parameter, sweep.from, sweep.to, sweep.points}, "/study");
+    axes = {{{sweep.parameter, sweep.from, sweep.to, sweep.points}, "/study"}};
   }
+  std::erase_if(axes, [&](const auto& axis) { return !is_pointer(axis.first.name); });
+  for (const auto& [axis, place] : axes) check_ends(axis, place);
+  if (sound && axes.size() == 1) check_values(axes[0].first, axes[0].second, input.resolved, {}, "");
+  // Two values together, on the edges of the plane: within them a rule that both have to keep is kept.
+  if (sound && axes.size() == 2)
+    for (const std::size_t k : {0U, 1U}) {
+      const auto& [along, place] = axes[k];
+      const studies::Axis& other = axes[1 - k].first;
+      for (const double end : {other.from, other.to}) {
+        if (!sound) break;
+        const PointerValue fixed{other.name, end};
+        const std::string words = ", and " + other.name + " = " + number_text(end) + ",";
+        // What is computed from catalogue data is computed once, where only the value that stays is one of those.
+        Study unused;
+        json base;
+        if (!feeds_completion(along.name, sources->bare) && feeds_completion(other.name, sources->bare) &&
+            input.check_with(input.resolved, std::array{fixed}, unused, &base).empty())
+          check_values(along, place, base, {}, words);
+        else
+          check_values(along, place, input.resolved, {fixed}, words);
+      }
+    }
   if (!problems.empty()) raise();
   return input;
 }
@@ -793,8 +837,10 @@ std::vector<std::string> LoadedInput::number_pointers() const {
   return pointers;
 }
 
-std::vector<Problem> LoadedInput::check_with(std::span<const PointerValue> values, Study& changed) const {
-  json whole = resolved;
+std::vector<Problem> LoadedInput::check_with(const json& base, std::span<const PointerValue> values, Study& changed,
+                                             json* completed) const {
+  json whole = base;
+  bool is_completed = true;
   for (const auto& [pointer, value] : values) {
     std::string place = pointer;
     if (sources_->bare && pointer_within(place, stage_root)) place.erase(0, stage_root.size());
@@ -809,11 +855,13 @@ std::vector<Problem> LoadedInput::check_with(std::span<const PointerValue> value
     }
     if (!there->is_number()) return refuse("\"" + place + "\" is " + described(*there) + ", must be a number");
     if (!std::isfinite(value)) return refuse("is " + number_text(value) + ", must be a finite number");
+    is_completed = is_completed && !feeds_completion(place, sources_->bare);
     *find_at(whole, place) = value;
     keep_from_computing(whole, place);
   }
   ReadContext context;
-  changed = read_study(whole, sources_->bare, context);
+  changed = read_study(whole, sources_->bare, context, is_completed);
+  if (completed != nullptr) *completed = std::move(whole);
   std::vector<Problem> problems;
   for (auto& finding : context.findings)
     problems.push_back(sources_->locate(finding.pointer, std::move(finding.message)));
@@ -826,7 +874,8 @@ Study LoadedInput::with_value(std::string_view pointer, double value) const {
 
 Study LoadedInput::with_values(std::span<const PointerValue> values) const {
   Study changed;
-  if (auto problems = check_with(values, changed); !problems.empty()) throw InputProblems(std::move(problems));
+  if (auto problems = check_with(resolved, values, changed); !problems.empty())
+    throw InputProblems(std::move(problems));
   return changed;
 }
 

@@ -105,7 +105,9 @@ class LoadedInput {
  private:
   friend LoadedInput load_input(const std::filesystem::path&, std::span<const Assignment>);
   struct Sources;
-  [[nodiscard]] std::vector<Problem> check_with(std::span<const PointerValue> values, Study& changed) const;
+  /// @param base  a resolved input: this one's, or as `completed` left it
+  [[nodiscard]] std::vector<Problem> check_with(const nlohmann::json& base, std::span<const PointerValue> values,
+                                                Study& changed, nlohmann::json* completed = nullptr) const;
   std::shared_ptr<const Sources> sources_;
 };
 

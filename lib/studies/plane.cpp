@@ -41,11 +41,6 @@ std::vector<double> turned(const model::DynamicModel& model, int steps, std::spa
 
 }  // namespace
 
-double axis_value(const Axis& axis, std::size_t point) {
-  const double share = axis.points == 1 ? 0.0 : static_cast<double>(point) / static_cast<double>(axis.points - 1);
-  return grid_value(axis.from, axis.to, share);
-}
-
 std::vector<double> axis_values(const Axis& axis) {
   std::vector<double> values;
   for (std::size_t k = 0; k < static_cast<std::size_t>(axis.points); ++k) values.push_back(axis_value(axis, k));
@@ -53,25 +48,9 @@ std::vector<double> axis_values(const Axis& axis) {
 }
 
 SweepPlan plan_map(const SweepOptions& sweep, const PlaneOptions& plane) {
-  SweepPlan plan;
-  const auto columns = static_cast<std::size_t>(plane.first.points);
-  const auto rows = static_cast<std::size_t>(plane.second.points);
-  for (const Direction direction : sweep.directions)
-    for (std::size_t row = 0; row < rows; ++row) {
-      std::vector<std::size_t> chain;
-      for (std::size_t k = 0; k < columns; ++k) {
-        const std::size_t column = direction == Direction::up ? k : columns - 1 - k;
-        chain.push_back(plan.points.size());
-        plan.points.push_back(
-            {plan.points.size(), direction, axis_value(plane.first, column), axis_value(plane.second, row)});
-      }
-      if (sweep.start == Start::carried) {
-        plan.chains.push_back(std::move(chain));
-      } else {
-        for (const std::size_t point : chain) plan.chains.push_back({point});
-      }
-    }
-  return plan;
+  const bool carried = sweep.start == Start::carried;
+  return SweepPlan(
+      {plane.first, plane.second, sweep.directions, carried ? 1 : static_cast<std::size_t>(plane.first.points)});
 }
 
 SweepPlan plan_basins(const PlaneOptions& plane) {

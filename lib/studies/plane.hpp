@@ -18,10 +18,7 @@
 
 namespace epicyclic::studies {
 
-/// The value of an axis at one of its points; as grid_value().
-[[nodiscard]] double axis_value(const Axis& axis, std::size_t point);
-
-/// All of them.
+/// All values of an axis.
 [[nodiscard]] std::vector<double> axis_values(const Axis& axis);
 
 /// @param sweep  directions and start; the grid is the plane's

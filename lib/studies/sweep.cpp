@@ -1,8 +1,6 @@
 #include "studies/sweep.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -253,8 +251,7 @@ class ChainRunner {
 
   /// Goes to the chain's next point that is not done, with its start.
   /// @returns nothing at the chain's end
-  std::optional<std::size_t> advance(const std::vector<std::size_t>& chain, std::size_t& next,
-                                     std::vector<double>& start) {
+  std::optional<std::size_t> advance(const Chain& chain, std::size_t& next, std::vector<double>& start) {
     const std::size_t first = next;
     while (next < chain.size() && done(chain[next])) ++next;
     if (next == chain.size()) return std::nullopt;
@@ -263,7 +260,7 @@ class ChainRunner {
     return chain[next];
   }
 
-  void follow(const std::vector<std::size_t>& chain) {
+  void follow(const Chain& chain) {
     std::vector<double> start;
     for (std::size_t next = 0; !stopped(); ++next) {
       const auto index = advance(chain, next, start);
@@ -370,39 +367,6 @@ SweepOptions by_recurrence_alone(SweepOptions options) {
   options.classification_periods = 0;
   options.transient = Transient::fixed;
   return options;
-}
-
-double grid_value(double from, double to, double share) {
-  if (share == 0.0) return from;
-  if (share == 1.0) return to;
-  constexpr int digits = 12;
-  std::array<char, 64> text;
-  const double value = (1.0 - share) * from + share * to;
-  const auto written =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific, digits - 1);
-  double rounded = value;
-  std::from_chars(text.data(), written.ptr, rounded);
-  return rounded;
-}
-
-SweepPlan plan_sweep(const SweepOptions& options) {
-  SweepPlan plan;
-  const auto count = static_cast<std::size_t>(options.points);
-  for (const Direction direction : options.directions) {
-    const std::size_t first = plan.points.size();
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t step = direction == Direction::up ? k : count - 1 - k;
-      const double share = count == 1 ? 0.0 : static_cast<double>(step) / static_cast<double>(count - 1);
-      plan.points.push_back({first + k, direction, grid_value(options.from, options.to, share)});
-    }
-    const std::size_t chains = options.start == Start::cold ? count : static_cast<std::size_t>(options.segments);
-    for (std::size_t c = 0; c < chains; ++c) {
-      std::vector<std::size_t> chain;
-      for (std::size_t k = c * count / chains; k < (c + 1) * count / chains; ++k) chain.push_back(first + k);
-      plan.chains.push_back(std::move(chain));
-    }
-  }
-  return plan;
 }
 
 std::string MeshRecord::contact() const {

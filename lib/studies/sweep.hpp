@@ -20,6 +20,7 @@
 #include "integrate/options.hpp"
 #include "model/dynamic_model.hpp"
 #include "studies/sweep_options.hpp"
+#include "studies/sweep_plan.hpp"
 
 namespace epicyclic::studies {
 
@@ -28,26 +29,6 @@ inline constexpr int numerics_version = 9;
 
 /// The same points without the classification of their regimes, for studies that look at their points otherwise.
 [[nodiscard]] SweepOptions by_recurrence_alone(SweepOptions options);
-
-/// One point of the grid.
-struct GridPoint {
-  std::size_t index = 0;
-  Direction direction = Direction::up;
-  double value = 0;
-  double second_value = 0;  ///< along the second axis of a plane [studies/plane.hpp]
-};
-
-/// Points in order, and the chains that they are computed in.
-struct SweepPlan {
-  std::vector<GridPoint> points;
-  std::vector<std::vector<std::size_t>> chains;  ///< indices of points, each chain in order
-};
-
-[[nodiscard]] SweepPlan plan_sweep(const SweepOptions& options);
-
-/// The value at a share of the way; both ends exactly as given, between them rounded to 12 digits, so that 1.1 is 1.1
-/// and a value typed from a table is the value that was computed.
-[[nodiscard]] double grid_value(double from, double to, double share);
 
 /// What was seen of one mesh over the record.
 struct MeshRecord {

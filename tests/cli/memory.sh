@@ -2,7 +2,8 @@
 # memory.sh EPICYCLIC SOURCE_DIR
 #
 # Peak memory of a sweep, results included, does not grow with its points: 4500 more points of 3.4 kB each take no more
-# than 100 bytes each. Skipped (77) with sanitizers, whose bookkeeping grows.
+# than 100 bytes each; nor does that of a map. `check` of the largest studies takes less than 200 MB. Skipped (77) with
+# sanitizers, whose bookkeeping grows.
 set -euo pipefail
 
 epicyclic=$1
@@ -12,17 +13,37 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 
+# Of a study with little to compute: $1 command, $2 input, the rest what it is set to.
 peak_of() {
-  "$epicyclic" sweep "$inputs/tang2020_speed.json" -o "points.$1" --threads 2 --set "/study/points=$1" \
-    --set '/study/directions=["up"]' --set '/study/start="cold"' --set '/integrator/method="lanes-dopri5"' \
-    --set /integrator/relative_tolerance=1e-4 --set /study/transient_periods=0 --set /study/recorded_periods=8 \
-    --set /study/classification_periods=0 >stdout 2>stderr || { cat stderr >&2; exit 1; }
-  sed -n 's/.*"peak_memory_KiB": *\([0-9]*\).*/\1/p' "points.$1/run.json" | tail -n 1
+  local command=$1 input=$2
+  shift 2
+  "$epicyclic" "$command" "$inputs/$input" -o out --threads 2 --set '/study/start="cold"' --set '/study/directions=["up"]' \
+    --set '/integrator/method="lanes-dopri5"' --set /integrator/relative_tolerance=1e-4 --set /study/transient_periods=0 \
+    --set /study/recorded_periods=8 --set /study/classification_periods=0 "$@" >stdout 2>stderr || { cat stderr >&2; exit 1; }
+  sed -n 's/.*"peak_memory_KiB": *\([0-9]*\).*/\1/p' out/run.json | tail -n 1
+  rm -rf out
 }
 
-few=$(peak_of 500)
-many=$(peak_of 5000)
-echo "500 points: $few KiB, 5000 points: $many KiB"
-# Plan, chains, places, and 4 MiB for buffers of fixed size that few points do not fill (tables and figures are written
-# in blocks of 1 MiB, HDF5 keeps as much). Points kept in memory would take 53 MiB more.
-[ $((many - few)) -lt $((4500 * 100 / 1024 + 4096)) ]
+# Places, and 4 MiB for buffers of fixed size that few points do not fill (tables and figures are written in blocks of
+# 1 MiB, HDF5 keeps as much). Points of sweeps kept in memory would take 53 MiB more, cells of maps 13 MiB.
+is_flat() {
+  echo "$1: few points $2 KiB, $3 more $4 KiB"
+  [ $(($4 - $2)) -lt $(($3 * 100 / 1024 + 4096)) ] || { echo "FAILED: memory grows"; exit 1; }
+}
+few=$(peak_of sweep tang2020_speed.json --set /study/points=500)
+is_flat sweep "$few" 4500 "$(peak_of sweep tang2020_speed.json --set /study/points=5000)"
+cells=(--set /study/recorded_periods=2 --set /study/period_max=1 --set /study/output_phases=4)
+few=$(peak_of map tang2020_map.json "${cells[@]}" --set /study/first/points=20 --set /study/second/points=20)
+is_flat map "$few" 11700 "$(peak_of map tang2020_map.json "${cells[@]}" --set /study/first/points=110 --set /study/second/points=110)"
+
+# A limit on private writable memory, which is what all points of a plan would be.
+checked() {
+  (ulimit -d 200000 && "$epicyclic" check "$@" >/dev/null 2>stderr) || { echo "FAILED: check $*: $(<stderr)"; exit 1; }
+  grep -q " $expected points" stderr || { echo "FAILED: check counts other points: $(<stderr)"; exit 1; }
+}
+expected=200000 checked "$inputs/tang2020_speed.json" --set /study/points=100000 --set '/study/start="cold"'
+for start in cold carried; do
+  expected=200000000 checked "$inputs/tang2020_map.json" --set /study/first/points=10000 --set /study/second/points=10000 \
+    --set '/study/directions=["up","down"]' --set "/study/start=\"$start\""
+done
+expected=100000000 checked "$inputs/tang2020_basins.json" --set /study/first/points=10000 --set /study/second/points=10000

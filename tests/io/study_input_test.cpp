@@ -185,6 +185,53 @@ TEST_F(StudyInput, EveryNumberCanBeReplacedByItself) {
   }
 }
 
+// Values that follow from catalogue data are not computed anew for a number that they do not follow from.
+TEST(Inputs, ANumberReplacedIsANumberWrittenIntoTheResolvedInput) {
+  const test::TemporaryFolder folder;
+  const LoadedInput input = load_input(inputs / "tang2020_speed.json");
+  for (const char* pointer :
+       {"/stage/lumped/planet/bearing_N_per_m", "/stage/lumped/sun/mass_kg", "/stage/lumped/ring_mesh_lead_1",
+        "/stage/lumped/sun_planet_mesh/stiffness_N_per_m", "/stage/lumped/sun_planet_mesh/backlash_half_um",
+        "/stage/lumped/ring_planet_mesh/friction/lubricated/viscosity_mPas", "/stage/lumped/sun/bearing/balls",
+        "/stage/load/power_kW", "/stage/planets/centre_distance_mm", "/stage/catalogue/sun/bore_mm",
+        "/stage/catalogue/sun_bearing/approach_um", "/operation/mesh_frequency_ratio"}) {
+    const json::json_pointer at(pointer);
+    ASSERT_TRUE(input.resolved.contains(at)) << pointer;
+    const double value = pointer == std::string_view("/stage/lumped/sun/bearing/balls")
+                             ? 9
+                             : 1.0001 * input.resolved.at(at).get<double>();
+    json written = input.resolved;
+    written[at] = value;
+    if (json& object = written[at.parent_pointer()]; object.contains("origin")) object["origin"].erase(at.back());
+    put_file(folder / "written.json", written.dump());
+    EXPECT_EQ(study_table().write(input.with_value(pointer, value)),
+              study_table().write(load_input(folder / "written.json").study))
+        << pointer;
+  }
+}
+
+TEST(Inputs, TheFirstValueThatIsNotSoundIsTold) {
+  const auto refusal = [](const std::vector<std::string>& texts, const char* study) {
+    return test::message_of<InputError>([&] { (void)load_input(inputs / study, sets(texts)); });
+  };
+  const std::string alone = refusal(
+      {"/study/parameter=/stage/lumped/sun/bearing/balls", "/study/from=10", "/study/to=12", "/study/points=401"},
+      "tang2020_speed.json");
+  EXPECT_NE(alone.find("/study/parameter: takes the value 10.005, with which /stage/lumped/sun/bearing/balls"),
+            std::string::npos)
+      << alone;
+  EXPECT_EQ(alone.find("10.01"), std::string::npos) << alone;
+  const std::string both =
+      refusal({"/study/first/parameter=/stage/lumped/sun/bearing/balls", "/study/first/from=10", "/study/first/to=12",
+               "/study/first/points=401", "/study/second/parameter=/stage/catalogue/ring/outer_diameter_mm",
+               "/study/second/from=240", "/study/second/to=250", "/study/second/points=3"},
+              "tang2020_map.json");
+  EXPECT_NE(both.find("/study/first/parameter: takes the value 10.005, with which, and "
+                      "/stage/catalogue/ring/outer_diameter_mm = 240, /stage/lumped/sun/bearing/balls"),
+            std::string::npos)
+      << both;
+}
+
 TEST_F(StudyInput, RefusesAValueAsStrictlyAsAFile) {
   const auto input = load();
   const auto message = [&](const std::string& pointer, double value) {

@@ -48,6 +48,31 @@ TEST(Plane, AMapIsNumberedAlongTheFirstAxisAndEachRowIsAChain) {
   EXPECT_EQ(plan_map(sweep, plane()).chains.size(), 30U);
 }
 
+TEST(Plane, APlanOfAnySizeIsTheSameRule) {
+  SweepOptions sweep;
+  sweep.directions = {Direction::up, Direction::down};
+  sweep.start = Start::cold;
+  PlaneOptions large = plane();
+  large.first.points = 10000;
+  large.second.points = 10000;
+  const SweepPlan plan = plan_map(sweep, large);  // its points would take 6 GB
+  ASSERT_EQ(plan.points.size(), 200000000U);
+  ASSERT_EQ(plan.chains.size(), 200000000U);
+  EXPECT_EQ(plan.points.front().value, 0.5);
+  EXPECT_EQ(plan.points.back().index, 199999999U);
+  EXPECT_EQ(plan.points.back().value, 0.5) << "downwards a line ends at the first value";
+  EXPECT_EQ(plan.points.back().second_value, 0.06);
+  EXPECT_EQ(plan.points[100000000].value, 0.9);
+  EXPECT_EQ(plan.points[100000000].second_value, 0.02);
+  EXPECT_EQ(plan.chains[123456789].front(), 123456789U);
+  EXPECT_EQ(plan.chains[123456789].size(), 1U);
+  sweep.start = Start::carried;
+  const SweepPlan carried = plan_map(sweep, large);
+  ASSERT_EQ(carried.chains.size(), 20000U);
+  EXPECT_EQ(carried.chains[15000].front(), 150000000U);
+  EXPECT_EQ(carried.chains[15000].back(), 150009999U);
+}
+
 TEST(Plane, BasinsStartWhereBaseAndAxesSay) {
   model::DynamicModel m;
   m.state_names = {"x_s", "y_s", "x_s_rate", "y_s_rate"};

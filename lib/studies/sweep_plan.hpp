@@ -1,0 +1,114 @@
+// The points of a sweep or a plane and the chains that they are computed in: told by rule, so that a plan of any size
+// takes no memory.
+//
+// Points are numbered along the first axis, then the second, for the first direction, then the other. A line is the
+// points of one direction and one value of the second axis; it is cut into chains of consecutive points.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "studies/plane_options.hpp"
+#include "studies/sweep_options.hpp"
+
+namespace epicyclic::studies {
+
+/// One point of the grid.
+struct GridPoint {
+  std::size_t index = 0;
+  Direction direction = Direction::up;
+  double value = 0;
+  double second_value = 0;  ///< along the second axis of a plane [studies/plane.hpp]
+};
+
+/// The value at a share of the way; both ends exactly as given, between them rounded to 12 digits, so that 1.1 is 1.1
+/// and a value typed from a table is the value that was computed.
+[[nodiscard]] double grid_value(double from, double to, double share);
+
+/// The value of an axis at one of its points; as grid_value().
+[[nodiscard]] double axis_value(const Axis& axis, std::size_t point);
+
+/// What has a size and an element for each index, without holding them.
+template <class Derived>
+class Indexed {
+ public:
+  class iterator {
+   public:
+    iterator(const Derived& of, std::size_t at) : of_(&of), at_(at) {}
+    [[nodiscard]] auto operator*() const { return (*of_)[at_]; }
+    iterator& operator++() {
+      ++at_;
+      return *this;
+    }
+    [[nodiscard]] bool operator==(const iterator& other) const { return at_ == other.at_; }
+
+   private:
+    const Derived* of_;
+    std::size_t at_;
+  };
+
+  [[nodiscard]] bool empty() const { return self().size() == 0; }
+  [[nodiscard]] auto front() const { return self()[0]; }
+  [[nodiscard]] auto back() const { return self()[self().size() - 1]; }
+  [[nodiscard]] iterator begin() const { return {self(), 0}; }
+  [[nodiscard]] iterator end() const { return {self(), self().size()}; }
+
+ private:
+  [[nodiscard]] const Derived& self() const { return static_cast<const Derived&>(*this); }
+};
+
+/// The grid that a plan is made of.
+struct PlanGrid {
+  Axis first;
+  Axis second = {{}, 0, 0, 1};
+  std::vector<Direction> directions;
+  std::size_t chains_per_line = 1;  ///< at most as many as the first axis has points
+
+  [[nodiscard]] std::size_t columns() const { return static_cast<std::size_t>(first.points); }
+  [[nodiscard]] std::size_t rows() const { return static_cast<std::size_t>(second.points); }
+  [[nodiscard]] std::size_t lines() const { return directions.size() * rows(); }
+};
+
+class PlanPoints : public Indexed<PlanPoints> {
+ public:
+  explicit PlanPoints(PlanGrid grid) : grid_(std::move(grid)) {}
+  [[nodiscard]] std::size_t size() const { return grid_.lines() * grid_.columns(); }
+  [[nodiscard]] GridPoint operator[](std::size_t index) const;
+
+ private:
+  PlanGrid grid_;
+};
+
+/// Indices of consecutive points, in the order in which they are computed.
+class Chain : public Indexed<Chain> {
+ public:
+  Chain(std::size_t first, std::size_t size) : first_(first), size_(size) {}
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] std::size_t operator[](std::size_t place) const { return first_ + place; }
+
+ private:
+  std::size_t first_;
+  std::size_t size_;
+};
+
+class PlanChains : public Indexed<PlanChains> {
+ public:
+  explicit PlanChains(PlanGrid grid) : grid_(std::move(grid)) {}
+  [[nodiscard]] std::size_t size() const { return grid_.lines() * grid_.chains_per_line; }
+  [[nodiscard]] Chain operator[](std::size_t chain) const;
+
+ private:
+  PlanGrid grid_;
+};
+
+struct SweepPlan {
+  PlanPoints points;
+  PlanChains chains;
+
+  explicit SweepPlan(const PlanGrid& grid) : points(grid), chains(grid) {}
+};
+
+[[nodiscard]] SweepPlan plan_sweep(const SweepOptions& options);
+
+}  // namespace epicyclic::studies
