@@ -195,6 +195,7 @@ const Table<gear::Lubrication>& lubrication_table() {
     t.number("viscosity_mPas", &Lubrication::viscosity_mPas, between(1, 2000),
              "Dynamic viscosity of the oil at its inlet [mPa s].");
     t.number("roughness_um", &Lubrication::roughness_um, between(0, 1.5), "RMS roughness of the flanks [um].");
+    t.rule(KeyRule::Kind::not_empty, {"viscosity_mPas", "roughness_um"});
     return t;
   }();
   return table;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <utility>
 
 namespace epicyclic::io {
 
@@ -55,20 +56,34 @@ std::string with_unit(std::string_view key) {
   return "'" + std::string(key) + "'" + (unit.empty() ? "" : " (unit " + unit + ")");
 }
 
+/// The beginning of a text of any length.
+std::string cut(const std::string& text) {
+  constexpr std::size_t longest = 100;
+  return text.size() > longest ? text.substr(0, longest) + "..." : text;
+}
+
 /// What is said about a key that the object does not know, and the key that was meant.
 std::pair<std::string, std::string> unknown_key(const std::string& key, const std::string& pointer,
                                                 const std::vector<std::string>& known, const ReadContext& context) {
+  std::string message = "unknown key '" + cut(key) + "'";
+  if (context.findings.size() >= findings_told) return {message, ""};
   std::vector<std::string> same_quantity;
+  const std::string quantity = stem(key, true);
   for (const auto& candidate : known)
-    if (stem(candidate, false) == stem(key, true)) same_quantity.push_back(candidate);
-  std::string message = "unknown key '" + key + "'";
+    if (stem(candidate, false) == quantity) same_quantity.push_back(candidate);
   if (same_quantity.size() == 1 && !unit_of(same_quantity.front()).empty()) {
     message += "; did you mean " + with_unit(same_quantity.front()) + "?";
     return {message, pointer + pointer_step(same_quantity.front())};
   }
   std::vector<std::string> elsewhere;
-  for (const auto& place : context.places)
-    if (place.key == key) elsewhere.push_back(place.pointer);
+  bool stands_here = false;
+  for (const auto& place : context.places) {
+    if (place.key != key) continue;
+    stands_here = stands_here || place.pointer == pointer + pointer_step(key);
+    if (std::find(elsewhere.begin(), elsewhere.end(), place.pointer) == elsewhere.end())
+      elsewhere.push_back(place.pointer);
+  }
+  if (stands_here) return {message + " in an object of this kind; known here: " + listed(known), ""};
   if (!elsewhere.empty()) {
     // The nearest branches of the tree only.
     const auto shared = [&](const std::string& other) {
@@ -84,6 +99,12 @@ std::pair<std::string, std::string> unknown_key(const std::string& key, const st
   if (const auto near = nearest(key, known); !near.empty())
     return {message + "; did you mean " + with_unit(near) + "?", pointer + pointer_step(near)};
   return {message + "; known here: " + listed(known), ""};
+}
+
+/// What is wrong with a text that was meant to be a number.
+std::string number_hint(const nlohmann::json& value) {
+  const std::string hint = value.is_string() ? misspelt_number(value.get_ref<const std::string&>()) : std::string();
+  return hint.empty() ? "" : "; " + hint;
 }
 
 std::string shown_with_unit(const std::string& bound, std::string_view key) {
@@ -154,6 +175,9 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(1, (word.size() + 1) / 3) + 1;
   for (const auto& candidate : candidates) {
+    const std::size_t longer = std::max(word.size(), candidate.size()),
+                      shorter = std::min(word.size(), candidate.size());
+    if (longer - shorter >= best_distance) continue;
     const auto d = distance(word, candidate);
     if (d < best_distance) {
       best = candidate;
@@ -176,6 +200,11 @@ std::string listed(const std::vector<std::string>& names) {
 
 namespace table_detail {
 
+void check_note(const json& object, const std::string& pointer, ReadContext& context) {
+  if (const auto note = object.find("note"); note != object.end() && !note->is_string())
+    context.add(Finding::Kind::type, pointer + "/note", "is " + described(*note) + ", must be a string");
+}
+
 bool check_object(const json& value, const std::string& pointer, ReadContext& context) {
   if (value.is_object()) return true;
   context.add(Finding::Kind::type, pointer, "is " + described(value) + ", must be an object");
@@ -189,8 +218,7 @@ void check_keys(const json& object, const std::string& pointer, const std::vecto
     auto [message, meant] = unknown_key(key, pointer, known, context);
     context.findings.push_back({Finding::Kind::unknown_key, pointer + pointer_step(key), message, meant});
   }
-  if (const auto note = object.find("note"); note != object.end() && !note->is_string())
-    context.add(Finding::Kind::type, pointer + "/note", "is " + described(*note) + ", must be a string");
+  check_note(object, pointer, context);
 
   for (const auto& rule : rules) {
     std::vector<std::string> present, absent;
@@ -219,6 +247,15 @@ void check_keys(const json& object, const std::string& pointer, const std::vecto
           context.add(Finding::Kind::rule, pointer + pointer_step(rule.keys[0]),
                       "needs '" + rule.keys[1] + "' beside it");
         break;
+      case KeyRule::Kind::not_empty: {
+        const auto says_something = [](const auto& item) { return item.key() != "origin" && item.key() != "note"; };
+        const auto items = object.items();
+        if (std::none_of(items.begin(), items.end(), says_something))
+          context.add(Finding::Kind::rule, pointer,
+                      "is an object with nothing in it: give one at least of " + quoted(rule.keys) +
+                          ", or leave the whole of it out");
+        break;
+      }
     }
   }
 }
@@ -228,7 +265,7 @@ std::optional<double> read_number(const json& value, const std::string& pointer,
   if (!value.is_number()) {
     context.add(Finding::Kind::type, pointer,
                 "is " + described(value) + ", must be a number" + std::string(also) + ", " +
-                    shown_with_unit(bounds.text(), key));
+                    shown_with_unit(bounds.text(), key) + number_hint(value));
     return std::nullopt;
   }
   const double number = value.get<double>();
@@ -242,7 +279,8 @@ std::optional<double> read_number(const json& value, const std::string& pointer,
 std::optional<double> read_integer(const json& value, const std::string& pointer, const Bounds& bounds,
                                    ReadContext& context) {
   if (!value.is_number()) {
-    context.add(Finding::Kind::type, pointer, "is " + described(value) + ", must be an integer " + bounds.text());
+    context.add(Finding::Kind::type, pointer,
+                "is " + described(value) + ", must be an integer " + bounds.text() + number_hint(value));
     return std::nullopt;
   }
   const double number = value.get<double>();
@@ -291,6 +329,30 @@ std::optional<std::size_t> read_name(const json& value, const std::string& point
   return std::nullopt;
 }
 
+std::string boolean_hint(const json& value) {
+  std::string word = value.is_string() ? lower_case(value.get_ref<const std::string&>()) : value.dump();
+  for (const auto& [meant, words] :
+       {std::pair("true", std::array{"true", "yes", "on", "1"}), {"false", std::array{"false", "no", "off", "0"}}})
+    for (const char* other : words)
+      if (word == other) return std::string("; did you mean ") + meant + "?";
+  return {};
+}
+
+std::string array_hint(const json& value, const std::vector<std::string>& names) {
+  if (!value.is_string()) return {};
+  json meant = json::array();
+  std::string word;
+  for (const char c : value.get_ref<const std::string&>() + ",") {
+    if (c != ',' && c != ' ') {
+      word += c;
+    } else if (!word.empty()) {
+      if (std::find(names.begin(), names.end(), word) == names.end()) return {};
+      meant.push_back(std::exchange(word, {}));
+    }
+  }
+  return meant.empty() ? "" : "; did you mean " + meant.dump() + "?";
+}
+
 ordered_json number_schema(const Bounds& bounds, bool integer) {
   ordered_json schema = {{"type", integer ? "integer" : "number"}};
   bounds.describe(schema);
@@ -329,6 +391,12 @@ ordered_json object_schema(const std::string& title, const std::string& descript
       case KeyRule::Kind::needs:
         schema["dependentRequired"][rule.keys[0]] = ordered_json::array({rule.keys[1]});
         break;
+      case KeyRule::Kind::not_empty: {
+        ordered_json some = ordered_json::array();
+        for (const auto& key : rule.keys) some.push_back({{"required", ordered_json::array({key})}});
+        all.push_back({{"anyOf", some}});
+        break;
+      }
     }
   }
   if (!all.empty()) schema["allOf"] = all;

@@ -83,6 +83,7 @@ struct KeyRule {
     at_most_one,  ///< of the keys
     together,     ///< all of the keys or none
     needs,        ///< the first needs the second
+    not_empty,    ///< one at least: that the object is there says something
   };
   Kind kind;
   std::vector<std::string> keys;
@@ -99,6 +100,9 @@ struct KeyRule {
 
 /// The candidate nearest to `word` by edit distance, or empty if none is near.
 [[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
+
+/// Findings that are told each with what was probably meant; beyond them the first words suffice.
+inline constexpr std::size_t findings_told = 200;
 
 /// "; did you mean 'x'?", or nothing.
 [[nodiscard]] std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
@@ -144,6 +148,7 @@ auto access(F member) {
 }
 
 // Pieces that do not depend on the type read.
+void check_note(const json& object, const std::string& pointer, ReadContext& context);
 bool check_object(const json& value, const std::string& pointer, ReadContext& context);
 void check_keys(const json& object, const std::string& pointer, const std::vector<std::string>& known,
                 const std::vector<KeyRule>& rules, ReadContext& context);
@@ -156,6 +161,9 @@ std::optional<std::vector<double>> read_numbers(const json& value, const std::st
                                                 ReadContext& context);
 std::optional<std::size_t> read_name(const json& value, const std::string& pointer,
                                      const std::vector<std::string>& names, ReadContext& context);
+/// What a value that is no boolean, or no array of these names, was probably meant to be: "; did you mean ...?".
+std::string boolean_hint(const json& value);
+std::string array_hint(const json& value, const std::vector<std::string>& names);
 ordered_json number_schema(const Bounds& bounds, bool integer = false);
 ordered_json numbers_schema(const Bounds& bounds, std::size_t size_min, std::size_t size_max);
 ordered_json object_schema(const std::string& title, const std::string& description, const ordered_json& properties,
@@ -247,7 +255,8 @@ class Table {
       if (value.is_boolean()) {
         at.make(t) = value.template get<bool>();
       } else {
-        context.add(Finding::Kind::type, pointer, "is " + described(value) + ", must be true or false");
+        context.add(Finding::Kind::type, pointer,
+                    "is " + described(value) + ", must be true or false" + table_detail::boolean_hint(value));
       }
     };
     field.schema = [] { return ordered_json{{"type", "boolean"}}; };
@@ -308,7 +317,8 @@ class Table {
     field.read = [at, choices, names](const json& value, const std::string& pointer, T& t, ReadContext& context) {
       if (!value.is_array() || value.empty()) {
         context.add(Finding::Kind::type, pointer,
-                    "is " + described(value) + ", must be an array of one or more of: " + listed(names));
+                    "is " + described(value) + ", must be an array of one or more of: " + listed(names) +
+                        table_detail::array_hint(value, names));
         return;
       }
       std::vector<E> read;

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -290,6 +291,9 @@ std::optional<Repair> comment_at(std::string_view text, std::size_t at) {
   return std::nullopt;
 }
 
+constexpr const char* unit_message = "a number stands alone; its unit stands in the key";
+constexpr const char* decimal_message = "a point stands before decimals, no comma, and nothing between thousands";
+
 std::string word_message(std::string_view word, bool overflow) {
   const std::string shown = "'" + std::string(word.substr(0, 40)) + "'";
   if (overflow) return "number overflow: " + std::string(word) + " is beyond what a double holds (about 1.8e308)";
@@ -298,6 +302,7 @@ std::string word_message(std::string_view word, bool overflow) {
   if (bare == "nan" || bare == "inf" || bare == "infinity")
     return shown + " is not a number in JSON: give a finite number";
   if (bare == "true" || bare == "false" || bare == "null") return shown + " is not JSON: write " + bare;
+  if (const std::string hint = misspelt_number(word); !hint.empty()) return shown + " is not a number in JSON: " + hint;
   if (is_number_character(word[0]) && word[0] != 'e' && word[0] != 'E')
     return shown + " is not a number in JSON: no sign +, leading zeros, bare point, digit groups or hexadecimals";
   return shown + " is not JSON: a string stands in double quotes";
@@ -321,6 +326,26 @@ std::optional<Repair> word_at(std::string_view text, std::size_t at, bool overfl
   return Repair{begin, end, "0", word_message(word, overflow), true};
 }
 
+/// A unit behind a number, which the lexer stumbled over at its first character.
+std::optional<Repair> unit_at(std::string_view text, std::size_t at) {
+  std::size_t before = at;
+  while (before > 0 && (text[before - 1] == ' ' || text[before - 1] == '\t')) --before;
+  if (before == 0 || std::isdigit(static_cast<unsigned char>(text[before - 1])) == 0) return std::nullopt;
+  const bool word = before < at && std::isalpha(static_cast<unsigned char>(text[at])) != 0;  // else word_at() tells
+  if (!word && text[at] != '%' && static_cast<unsigned char>(text[at]) < 0x80) return std::nullopt;
+  const std::size_t end = std::min(text.find_first_of(",]}\n\"", at), text.size());
+  return Repair{at, end, "", unit_message, true};
+}
+
+/// A comma before the decimals of a number, where a key is expected behind it.
+std::optional<Repair> decimals_at(std::string_view text, std::size_t at) {
+  while (at > 0 && !is_number_character(text[at])) --at;
+  const std::size_t end = at + 1;
+  while (at > 0 && is_number_character(text[at - 1])) --at;
+  const bool comma = at > 1 && text[at - 1] == ',' && std::isdigit(static_cast<unsigned char>(text[at - 2])) != 0;
+  return comma ? std::optional(Repair{at - 1, end, "", decimal_message, true}) : std::nullopt;
+}
+
 std::optional<Repair> repair_for(std::string_view text, const Stumble& stumble) {
   if (stumble.consumed == 0 || text.empty()) return std::nullopt;
   const std::size_t at = std::min(stumble.consumed, text.size()) - 1;
@@ -334,7 +359,9 @@ std::optional<Repair> repair_for(std::string_view text, const Stumble& stumble) 
     if (before > 0 && text[before - 1] == ',')
       return Repair{before - 1, before, "", std::string("a comma before '") + text[at] + "' is not JSON"};
   }
-  if (says("while parsing object key")) return std::nullopt;
+  if (says("while parsing object key")) return says("unexpected number literal") ? decimals_at(text, at) : std::nullopt;
+  if (says("invalid literal"))
+    if (auto unit = unit_at(text, at)) return unit;
   if (says("invalid literal") || says("invalid number") || says("unexpected number literal"))
     return word_at(text, at, false);
   return std::nullopt;
@@ -476,6 +503,40 @@ JsonSource read_json_file(const std::filesystem::path& path, std::string name) {
   }
   if (file.bad()) return refuse("a read error occurred");
   return parse_json(std::move(bytes), std::move(name));
+}
+
+std::string misspelt_number(std::string_view text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  if (text.empty() || text.size() > 100) return {};
+  if (json::accept(text)) {
+    const json value = json::parse(text);
+    return value.is_number() ? "write " + std::string(text) + " without quotes" : std::string();
+  }
+  if (text.front() == '+') text.remove_prefix(1);
+  const std::string copy(text);
+  char* end = nullptr;
+  const double number = std::strtod(copy.c_str(), &end);
+  const std::string_view rest = std::string_view(copy).substr(static_cast<std::size_t>(end - copy.c_str()));
+  const bool decimal = copy.find_first_not_of("0123456789.eE+-") == std::string::npos;
+  if (rest.size() == copy.size() || !std::isfinite(number)) return {};
+  if (rest.empty()) return decimal ? "write " + json(number).dump() : std::string();
+  const bool digits = rest.size() > 1 && std::isdigit(static_cast<unsigned char>(rest[1])) != 0;
+  if (rest[0] == ',' && digits) return decimal_message;
+  if (std::string_view("/*^").find(rest[0]) != std::string_view::npos && digits)
+    return "nothing is calculated here: write the number itself";
+  std::size_t unit = 0;
+  while (unit < rest.size() && is_space(rest[unit])) ++unit;
+  constexpr std::string_view of_units = "/%^*-()0123456789.\xC2\xB5\xCE\xBC\xB0\xB7\xB2\xB3 ";
+  const auto in_unit = [&](char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) != 0 || of_units.find(c) != std::string_view::npos;
+  };
+  const bool begins = std::isalpha(static_cast<unsigned char>(rest[unit])) != 0 || rest[unit] == '%' ||
+                      static_cast<unsigned char>(rest[unit]) >= 0x80;
+  if (begins && lower_case(rest) != "e" && std::all_of(rest.begin(), rest.end(), in_unit) &&
+      lower_case(copy.substr(0, 2)) != "0x")
+    return unit_message;
+  return {};
 }
 
 std::string lower_case(std::string_view text) {

@@ -69,6 +69,10 @@ struct JsonSource {
 /// Reads a file; a file that cannot be read is a problem too. `name` is what messages call it (default: the path).
 [[nodiscard]] JsonSource read_json_file(const std::filesystem::path& path, std::string name = {});
 
+/// What is wrong with a text that was meant to be a number: a unit behind it, a decimal comma, ...; empty if it is
+/// none.
+[[nodiscard]] std::string misspelt_number(std::string_view text);
+
 /// The text with ASCII letters in lower case.
 [[nodiscard]] std::string lower_case(std::string_view text);
 

@@ -18,25 +18,43 @@ namespace {
 
 using nlohmann::json;
 
-bool is_computed(const json& origin) {
-  return origin.is_string() && origin.get_ref<const std::string&>().rfind(computed_word, 0) == 0;
+/// Is it a number, or a row of numbers? All that is computed is.
+bool is_numeric(const json& value) {
+  return value.is_number() || (value.is_array() && std::all_of(value.begin(), value.end(),
+                                                               [](const json& number) { return number.is_number(); }));
 }
 
-/// Writes values that are not there yet, with their origins.
+/// Is there a value that was given: neither computed nor a default, by what the object says itself? One of a wrong type
+/// is left as it is, to the tables.
+bool is_given(const json& object, const std::string& key) {
+  if (!object.contains(key)) return false;
+  if (!is_numeric(object.at(key))) return true;
+  const auto origin = object.find("origin");
+  if (origin == object.end() || !origin->is_object()) return true;
+  const auto text = origin->find(key);
+  return text == origin->end() || !gives_way(*text);
+}
+
+/// Is any value given?
+bool gives(const json& object) {
+  for (const auto& [key, value] : object.items())
+    if (key != "origin" && key != "note" && is_given(object, key)) return true;
+  return false;
+}
+
+/// Writes values with the origin of what is computed.
 class Filler {
  public:
   explicit Filler(json& object) : object_(&object) {
-    if (!object.is_object()) object = json::object();
+    if (object.is_null()) object = json::object();
   }
 
   /// @param formula  tag and words, behind "computed: "
   template <class V>
   void fill(const std::string& key, const V& value, const std::string& formula) {
-    if (object_->contains(key)) return;
     (*object_)[key] = value;
     (*object_)["origin"][key] = std::string(computed_word) + ": " + formula;
   }
-  [[nodiscard]] bool has(const std::string& key) const { return object_->contains(key); }
   /// The object below a key, made if it is not there.
   [[nodiscard]] Filler below(const std::string& key) { return Filler((*object_)[key]); }
 
@@ -45,12 +63,9 @@ class Filler {
 };
 
 /// What of the stage the gear set needs, read by the tables' own means; nothing if it cannot be read.
-std::optional<gear::Stage> readable_part(const json& stage) {
+std::optional<gear::Stage> readable_part(const json& asked) {
   gear::Stage part;
   ReadContext context;
-  json asked = json::object();
-  for (const char* key : {"boundary", "planets", "catalogue"})
-    if (const auto it = stage.find(key); it != stage.end()) asked[key] = *it;
   stage_table().read(asked, "", part, context);
   const auto of_lumped = [](const Finding& f) {
     return f.kind == Finding::Kind::missing_key && f.pointer.rfind("/lumped", 0) == 0;
@@ -86,29 +101,23 @@ void fill_mesh(Filler mesh, const gear::MeshedPair& pair, const gear::FourierSer
                const gear::Catalogue& catalogue, const std::optional<gear::Tolerances>& first,
                const std::optional<gear::Tolerances>& second) {
   mesh.fill("stiffness_N_per_m", series.mean, "[G-k] energy method, mean over a mesh period");
-  const bool harmonics_given = mesh.has("stiffness_cos_N_per_m") || mesh.has("stiffness_sin_N_per_m");
   if (catalogue.stiffness.form == gear::StiffnessForm::harmonics) {
-    if (!mesh.has("stiffness_curve")) {
-      mesh.fill("stiffness_cos_N_per_m", series.cosine, "[G-4] energy method, Fourier series");
-      mesh.fill("stiffness_sin_N_per_m", series.sine, "[G-4] energy method, Fourier series");
-    }
-  } else if (!harmonics_given) {
+    mesh.fill("stiffness_cos_N_per_m", series.cosine, "[G-4] energy method, Fourier series");
+    mesh.fill("stiffness_sin_N_per_m", series.sine, "[G-4] energy method, Fourier series");
+  } else {
     const gear::StiffnessCurve curve = gear::stiffness_curve(pair);
     Filler rows = mesh.below("stiffness_curve");
     const std::string tag = "[G-k] energy method";
-    // Given rows stand as a whole.
-    if (!rows.has("phase") && !rows.has("stiffness_N_per_m")) {
-      rows.fill("phase", curve.phase, tag);
-      rows.fill("stiffness_N_per_m", curve.stiffness_N_per_m, tag);
-      rows.fill("breakpoints", curve.breakpoints, tag);
-    }
+    rows.fill("phase", curve.phase, tag);
+    rows.fill("stiffness_N_per_m", curve.stiffness_N_per_m, tag);
+    rows.fill("breakpoints", curve.breakpoints, tag);
   }
   mesh.fill("backlash_half_um", 500.0 * std::max(0.0, pair.pair.normal_backlash_mm()),
             "[G-j] half of the nominal normal backlash at the centre distance");
   if (first || second)
     mesh.fill("error_amplitude_um", std::max(first ? first->single_pitch : 0.0, second ? second->single_pitch : 0.0),
               "[G-1328] single pitch deviation of the accuracy grade, the larger of the two members");
-  if (catalogue.lubrication && !mesh.has("friction")) {
+  if (catalogue.lubrication) {
     const gear::Friction::Ehl e = gear::ehl_of(pair, *catalogue.lubrication);
     Filler friction = mesh.below("friction").below("lubricated");
     friction.fill("viscosity_mPas", e.viscosity_mPas, "as in catalogue");
@@ -122,7 +131,9 @@ void fill_mesh(Filler mesh, const gear::MeshedPair& pair, const gear::FourierSer
   }
 }
 
-void fill_stage(json& stage, const gear::Stage& read) {
+/// All that the catalogue data give, at its places in a stage, whatever the stage gives itself.
+json computed_values(const gear::Stage& read) {
+  json stage = json::object();
   const gear::GearSet set = gear::make_gear_set(read);
   const gear::Catalogue& c = set.catalogue;
   const gear::Bodies bodies = gear::bodies(set);
@@ -165,33 +176,8 @@ void fill_stage(json& stage, const gear::Stage& read) {
   fill_mesh(lumped.below("ring_planet_mesh"), set.ring_planet, set.ring_planet_stiffness, c, tolerances.planet,
             tolerances.ring);
   lumped.fill("ring_mesh_lead_1", set.ring_mesh_lead, "[G-1] from the paths of contact");
+  return stage;
 }
-
-}  // namespace
-
-void drop_computed(json& object) {
-  if (!object.is_object()) return;
-  if (const auto origin = object.find("origin"); origin != object.end() && origin->is_object()) {
-    std::vector<std::string> dropped;
-    for (const auto& [key, text] : origin->items())
-      if (is_computed(text)) dropped.push_back(key);
-    for (const std::string& key : dropped) {
-      object["origin"].erase(key);
-      object.erase(key);
-    }
-    if (object["origin"].empty()) object.erase("origin");
-  }
-  std::vector<std::string> emptied;
-  for (auto& [key, child] : object.items()) {
-    if (!child.is_object() || key == "origin") continue;
-    const bool was_empty = child.empty();
-    drop_computed(child);
-    if (child.empty() && !was_empty) emptied.push_back(key);
-  }
-  for (const std::string& key : emptied) object.erase(key);
-}
-
-namespace {
 
 /// Differs by more than the rounding of another machine's library?
 bool differs(const json& a, const json& b) {
@@ -206,71 +192,92 @@ bool differs(const json& a, const json& b) {
   return a != b;
 }
 
-/// Puts back what was dropped as computed and nothing computes.
-void restore(const json& given, json& now) {
-  if (!given.is_object()) return;
-  if (!now.is_object()) now = json::object();
-  const auto origin = given.find("origin");
-  for (const auto& [key, value] : given.items()) {
-    if (key == "origin" || key == "note") continue;
+/// Writes what is computed where nothing is given; a number in place of a row, or a row in place of a number, is.
+void complete(json& object, const json& computed, const std::string& pointer, std::vector<std::string>& notes) {
+  for (const auto& [key, value] : computed.items()) {
+    if (key == "origin") continue;
+    const std::string place = pointer + pointer_step(key);
+    const auto there = object.find(key);
     if (value.is_object()) {
-      restore(value, now[key]);
-      if (now[key].empty()) now.erase(key);
-    } else if (!now.contains(key)) {
-      now[key] = value;
-      if (origin != given.end() && origin->is_object() && origin->contains(key)) now["origin"][key] = (*origin)[key];
+      if (there == object.end())
+        object[key] = value;
+      else if (there->is_object())
+        complete(*there, value, place, notes);
+      continue;
     }
+    if (there != object.end()) {
+      if (is_given(object, key) || there->is_array() != value.is_array()) continue;
+      if (differs(*there, value))
+        notes.push_back(place + ": the value in the file is ignored and computed anew, since its origin says " +
+                        object["origin"][key].dump() + "; give it another origin to make it stand");
+    }
+    object[key] = value;
+    json& origin = object["origin"];
+    if (!origin.is_object()) origin = json::object();
+    origin[key] = computed.at("origin").at(key);
   }
 }
 
-/// Values that were given as computed, and were computed anew to something else.
-void note_ignored(const json& given, const json& now, const std::string& pointer, std::vector<std::string>& notes) {
-  if (!given.is_object() || !now.is_object()) return;
-  const auto origin = given.find("origin");
-  for (const auto& [key, value] : given.items()) {
-    if (key == "origin" || key == "note") continue;
-    const std::string place = pointer + pointer_step(key);
-    const auto there = now.find(key);
-    if (value.is_object()) {
-      if (there != now.end()) note_ignored(value, *there, place, notes);
-    } else if (origin != given.end() && origin->is_object() && origin->contains(key) && is_computed((*origin)[key]) &&
-               there != now.end() && differs(value, *there)) {
-      notes.push_back(place +
-                      ": the value in the file is ignored and computed anew, since its origin says \"computed\"; "
-                      "give it another origin to make it stand");
+/// Stiffness and friction of a mesh have several forms. What is computed gives way to another form that is given, and
+/// takes the place of one that was computed once.
+void settle_forms(json& mesh, json& computed) {
+  const auto rows = mesh.find("stiffness_curve");
+  if (computed.contains("stiffness_curve")) {
+    // Given rows, and given harmonics, stand as a whole.
+    bool given = rows != mesh.end() && (!rows->is_object() || gives(*rows));
+    for (const char* key : {"stiffness_cos_N_per_m", "stiffness_sin_N_per_m"}) given = given || is_given(mesh, key);
+    if (given) {
+      computed.erase("stiffness_curve");
+    } else {
+      for (const char* key : {"stiffness_cos_N_per_m", "stiffness_sin_N_per_m"})
+        if (mesh.erase(key) > 0) mesh["origin"].erase(key);
     }
+  } else if (rows != mesh.end()) {
+    if (rows->is_object() && !gives(*rows)) {
+      mesh.erase(rows);
+    } else {
+      computed.erase("stiffness_cos_N_per_m");
+      computed.erase("stiffness_sin_N_per_m");
+    }
+  }
+  if (const auto friction = mesh.find("friction"); friction != mesh.end()) {
+    const auto once = friction->is_object() ? friction->find("lubricated") : friction->end();
+    const bool of_the_form = once != friction->end() && once->is_object() && once->contains("origin") && !gives(*once);
+    if (!of_the_form) computed.erase("friction");
   }
 }
 
 }  // namespace
 
-bool complete_stage(json& stage, const std::string& root, ReadContext& context) {
-  if (!stage.is_object() || !stage.contains("catalogue")) return true;
-  json given = json::object();
-  for (const char* key : {"planets", "lumped"})
-    if (const auto it = stage.find(key); it != stage.end()) {
-      if (!it->is_object()) return false;
-      given[key] = *it;
-      drop_computed(*it);
-    }
-  // Of the planets only the centre distance is ever computed.
-  if (given.contains("planets")) {
-    json kept = given["planets"];
-    kept.erase("centre_distance_mm");
-    restore(kept, stage["planets"]);
-  }
-  const auto read = readable_part(stage);
-  if (!read) return false;
+bool gives_way(const json& origin) { return is_computed(origin) || origin == "default"; }
+
+bool is_computed(const json& origin) {
+  return origin.is_string() && origin.get_ref<const std::string&>().rfind(computed_word, 0) == 0;
+}
+
+Completion complete_stage(json& stage, const std::string& root, ReadContext& context) {
+  if (!stage.is_object() || !stage.contains("catalogue")) return {};
+  json asked = json::object();
+  for (const char* key : {"boundary", "planets", "catalogue"})
+    if (const auto it = stage.find(key); it != stage.end()) asked[key] = *it;
+  if (const auto planets = asked.find("planets"); planets != asked.end() && planets->is_object())
+    if (!is_given(*planets, "centre_distance_mm")) planets->erase("centre_distance_mm");
+  const auto read = readable_part(asked);
+  if (!read) return {.complete = false, .computed = {}};
   const auto problems = gear::catalogue_problems(*read);
   for (const std::string& problem : problems) {
     const auto colon = problem.find(": ");
     context.add(Finding::Kind::rule, root + problem.substr(0, colon), problem.substr(colon + 2));
   }
-  if (!problems.empty()) return false;
-  fill_stage(stage, *read);
-  if (given.contains("lumped")) restore(given["lumped"], stage["lumped"]);
-  note_ignored(given, stage, root, context.notes);
-  return true;
+  if (!problems.empty()) return {.complete = false, .computed = {}};
+  Completion completion{.complete = true, .computed = computed_values(*read)};
+  json computed = completion.computed;
+  if (const auto lumped = stage.find("lumped"); lumped != stage.end() && lumped->is_object())
+    for (const char* key : {"sun_planet_mesh", "ring_planet_mesh"})
+      if (const auto mesh = lumped->find(key); mesh != lumped->end() && mesh->is_object())
+        settle_forms(*mesh, computed["lumped"][key]);
+  complete(stage, computed, root, context.notes);
+  return completion;
 }
 
 }  // namespace epicyclic::io

@@ -1,8 +1,9 @@
 // Lumped values from catalogue data: what a stage file does not give in "planets" and "lumped" is computed.
 //
 // Works on the JSON of a stage, before the tables read it. A computed value carries the origin "computed: ..." with the
-// tag of its formula; values with that origin are dropped first and computed anew, so that a resolved input follows a
-// change of its catalogue data, while a value with any other origin stands.
+// tag of its formula; values with that origin, and defaults, are computed anew, so that a resolved input follows a
+// change of its catalogue data. A value with any other origin stands, and so does one that says "computed" where
+// nothing computes it.
 #pragma once
 
 #include <string>
@@ -17,13 +18,21 @@ namespace epicyclic::io {
 /// First word of the origin of values that the program computes.
 inline constexpr std::string_view computed_word = "computed";
 
-/// Removes the values whose origin says that they were computed, with their origins.
-void drop_computed(nlohmann::json& object);
+/// Is this the origin of a value that was computed?
+[[nodiscard]] bool is_computed(const nlohmann::json& origin);
+
+/// Is this the origin of a value that nobody gave: computed, or a default?
+[[nodiscard]] bool gives_way(const nlohmann::json& origin);
+
+/// What came of the completion of a stage.
+struct Completion {
+  bool complete = true;     ///< false: there are catalogue data, but nothing could be computed; the reasons are among
+                            ///< the findings, or will be when the tables read the stage
+  nlohmann::json computed;  ///< all that the catalogue data give, at its places in the stage; null without such data
+};
 
 /// @param stage  a stage, origins spread to maps
 /// @param root   pointer of the stage, for findings
-/// @returns false when catalogue data are there but nothing could be computed: the reasons are among the findings, or
-///          will be when the tables read the stage
-bool complete_stage(nlohmann::json& stage, const std::string& root, ReadContext& context);
+Completion complete_stage(nlohmann::json& stage, const std::string& root, ReadContext& context);
 
 }  // namespace epicyclic::io

@@ -4,10 +4,12 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <set>
 #include <thread>
+#include <tuple>
 #include <utility>
 
 #include "io/stage_completion.hpp"
@@ -58,11 +60,13 @@ void check_origins(const json& value, const std::string& pointer, ReadContext& c
     if (origin->is_object()) {
       std::vector<std::string> keys;
       for (const auto& [key, child] : value.items())
-        if (!is_bookkeeping(key)) keys.push_back(key);
+        if (!is_bookkeeping(key) && keys.size() < findings_told) keys.push_back(key);
       for (const auto& [key, text] : origin->items()) {
-        if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+        if (is_bookkeeping(key) || !value.contains(key)) {
+          const bool in_words = context.findings.size() < findings_told;
           context.add(Finding::Kind::unknown_key, place + pointer_step(key),
-                      "'" + key + "' is not a key of the object that this origin belongs to" + suggestion(key, keys));
+                      "'" + key + "' is not a key of the object that this origin belongs to" +
+                          (in_words ? suggestion(key, keys) : std::string()));
         } else {
           check_origin_text(text, place + pointer_step(key), context);
         }
@@ -194,6 +198,60 @@ void collect_numbers(const json& value, const std::string& pointer, std::vector<
   }
 }
 
+/// The steps of what somebody wrote for a pointer, whatever stands between them; without an element's number.
+std::vector<std::string> loose_steps(std::string_view text) {
+  std::vector<std::string> steps;
+  std::string step;
+  for (const char c : std::string(text) + "/") {
+    if (std::string_view("/.:\\>[]\"' ").find(c) == std::string_view::npos)
+      step += c;
+    else if (!step.empty())
+      steps.push_back(lower_case(std::exchange(step, {})));
+  }
+  while (!steps.empty() && steps.back().find_first_not_of("0123456789") == std::string::npos) steps.pop_back();
+  if (!steps.empty()) steps.front().erase(0, steps.front().find_first_not_of("-$"));
+  if (!steps.empty() && steps.front().empty()) steps.erase(steps.begin());
+  return steps;
+}
+
+/// Pointers of keys that end in the last of the steps and have the others on their way: what was probably meant. Of
+/// these the one that is the same, or those that have nothing between the steps, if there are any.
+std::vector<std::string> meant_pointers(std::string_view text, const std::vector<KeyPlace>& places) {
+  const std::vector<std::string> steps = loose_steps(text);
+  std::array<std::vector<std::string>, 3> meant;  // the same, with the same end, with the same steps
+  if (steps.empty()) return {};
+  for (const auto& place : places) {
+    const std::vector<std::string> there = loose_steps(place.pointer);
+    if (there.empty() || there.back() != steps.back()) continue;
+    std::size_t found = 0;
+    for (const std::string& step : there)
+      if (found < steps.size() && step == steps[found]) ++found;
+    if (found < steps.size()) continue;
+    const bool same_end = std::equal(steps.rbegin(), steps.rend(), there.rbegin());
+    auto& these = meant[!same_end ? 2 : there.size() == steps.size() ? 0 : 1];
+    if (std::find(these.begin(), these.end(), place.pointer) == these.end()) these.push_back(place.pointer);
+  }
+  const auto best = std::find_if(meant.begin(), meant.end(), [](const auto& these) { return !these.empty(); });
+  return best == meant.end() ? std::vector<std::string>() : *best;
+}
+
+/// "; did you mean 'x'?" of some pointers, or nothing.
+std::string suggested(const std::vector<std::string>& meant) {
+  constexpr std::size_t most = 4;
+  if (meant.empty() || meant.size() > most) return {};
+  return "; did you mean " + (meant.size() == 1 ? "'" + meant.front() + "'" : "one of: " + listed(meant)) + "?";
+}
+
+/// Keys of a study with its stage, and where they stand.
+const std::vector<KeyPlace>& all_places() {
+  static const auto places = [] {
+    std::vector<KeyPlace> all;
+    study_table().collect("", all);
+    return all;
+  }();
+  return places;
+}
+
 /// A value that is set is not computed any more: its origin says so, or would have it computed anew.
 void keep_from_computing(json& root, const std::string& pointer) {
   json* at = &root;
@@ -201,9 +259,7 @@ void keep_from_computing(json& root, const std::string& pointer) {
     if (!at->is_object()) break;
     if (const auto origin = at->find("origin"); origin != at->end() && origin->is_object()) {
       const auto text = origin->find(step);
-      if (text != origin->end() && text->is_string() &&
-          text->get_ref<const std::string&>().rfind(computed_word, 0) == 0)
-        *text = "set: parameter";
+      if (text != origin->end() && gives_way(*text)) *text = "set: parameter";
     }
     at = find_at(*at, pointer_step(step));
     if (at == nullptr) break;
@@ -258,18 +314,25 @@ std::string assign(json& root, std::string_view pointer, const json& value) {
 
 std::vector<Assignment> parse_assignments(std::span<const std::string> texts) {
   std::vector<Assignment> sets;
-  std::vector<Problem> problems;
   for (const auto& text : texts) {
-    const auto refuse = [&](std::string message) { problems.push_back({"--set " + text, 0, "", std::move(message)}); };
     const auto equals = text.find('=');
+    Assignment& set = sets.emplace_back(Assignment{text.substr(0, equals), {}, text});
+    const auto refuse = [&](std::string message) { set.problems.push_back(std::move(message)); };
     if (equals == std::string::npos) {
-      refuse("must be /json/pointer=value: there is no '='");
+      const auto end = text.find_last_of(": \t");
+      const auto meant =
+          end == std::string::npos ? std::vector<std::string>() : meant_pointers(text.substr(0, end), all_places());
+      refuse("must be /json/pointer=value: there is no '='" +
+             (meant.size() == 1 ? "; did you mean '" + meant.front() + "=" + text.substr(end + 1) + "'?" : ""));
       continue;
     }
-    Assignment set{text.substr(0, equals), {}, text};
     if (set.pointer.size() < 2 || set.pointer[0] != '/') {
-      refuse("must be /json/pointer=value: a pointer begins with '/'" +
-             (set.pointer.empty() ? "" : "; did you mean '/" + set.pointer + "'?"));
+      std::string hint = suggested(meant_pointers(set.pointer, all_places()));
+      if (const auto steps = loose_steps(set.pointer); hint.empty() && !steps.empty()) {
+        for (const std::string& step : steps) hint += pointer_step(step);
+        hint = "; did you mean '" + hint + "'?";
+      }
+      refuse("must be /json/pointer=value: a pointer begins with '/'" + hint);
       continue;
     }
     if (const auto steps = steps_of(set.pointer); std::find(steps.begin(), steps.end(), "origin") != steps.end()) {
@@ -287,15 +350,17 @@ std::vector<Assignment> parse_assignments(std::span<const std::string> texts) {
     for (auto& finding : context.findings) refuse("the value: " + finding.pointer + " " + finding.message);
     if (parsed.complete && parsed.problems.empty()) {
       set.value = std::move(parsed.value);
+    } else if (const std::string hint = misspelt_number(value); !hint.empty()) {
+      refuse("the value: '" + value + "' is not a number in JSON: " + hint);
     } else if (value.find_first_of("{[\"+-0123456789") == 0) {  // sets out to be more than a word
-      for (const auto& problem : parsed.problems) refuse("the value: " + problem.message);
-      continue;
+      const bool word = parsed.problems.size() == 1 && value.find_first_of("{[\"") != 0;
+      for (const auto& problem : parsed.problems)
+        refuse("the value: " + problem.message +
+               (word ? "; a text that begins like a number stands in double quotes" : ""));
     } else {
       set.value = value;
     }
-    sets.push_back(std::move(set));
   }
-  if (!problems.empty()) throw InputProblems(std::move(problems));
   return sets;
 }
 
@@ -336,6 +401,17 @@ struct LoadedInput::Sources {
     return study.unreadable.count(pointer) > 0;
   }
 
+  /// The message of a finding; of an unknown key that an assignment made, with the pointer that was probably meant.
+  [[nodiscard]] std::string meant_by_set(const Finding& finding) const {
+    if (finding.kind == Finding::Kind::unknown_key && !stands(finding.pointer))
+      for (auto set = sets.rbegin(); set != sets.rend(); ++set) {
+        if (!pointer_within(set->pointer, finding.pointer)) continue;
+        const std::string meant = suggested(meant_pointers(set->pointer, all_places()));
+        if (!meant.empty()) return finding.message.substr(0, finding.message.find("'; ") + 1) + meant;
+      }
+    return finding.message;
+  }
+
  private:
   [[nodiscard]] bool stands(const std::string& pointer) const {
     if (study.line.count(pointer) > 0) return true;
@@ -360,6 +436,32 @@ struct LoadedInput::Sources {
 
 namespace {
 
+/// Whether a rule of gear can be judged at a pointer, when some values were not read and stand at their defaults.
+class Judge {
+ public:
+  /// @param unread  pointers, relative to the stage
+  explicit Judge(std::vector<std::string> unread) : unread_(std::move(unread)) {}
+
+  [[nodiscard]] bool can_tell(std::string_view pointer) const {
+    const std::string_view member = member_of(pointer);
+    return std::none_of(unread_.begin(), unread_.end(), [&](const std::string& u) {
+      const std::string_view other = member_of(u);
+      // On these, and on whole objects, many rules rest; the pressure angle follows from the members that mesh.
+      const bool far = other == "/boundary" || other == "/planets" || other.empty() || other == "/lumped";
+      const bool angle = pointer.ends_with("/operating_pressure_angle_deg") && pointer_within(other, "/lumped");
+      return far || angle || other == member;
+    });
+  }
+
+ private:
+  /// "/lumped/sun", "/load", ...
+  static std::string_view member_of(std::string_view pointer) {
+    constexpr std::string_view lumped = "/lumped/";
+    return pointer.substr(0, pointer.find('/', pointer.starts_with(lumped) ? lumped.size() : 1));
+  }
+  std::vector<std::string> unread_;
+};
+
 /// Is this a value that others are computed from [stage_completion.hpp]?
 bool feeds_completion(std::string_view pointer, bool bare) {
   const std::string root = bare ? "" : std::string(stage_root);
@@ -368,24 +470,29 @@ bool feeds_completion(std::string_view pointer, bool bare) {
 
 /// Reads the whole input from one JSON value, which is completed from catalogue data first: the tables, then the rules
 /// that span objects.
-///
-/// @param is_completed  it has been already, from these very catalogue data
-Study read_study(json& whole, bool bare, ReadContext& context, bool is_completed = false) {
+/// @param computed  becomes what the catalogue data give, at its places; null: the input has been completed already,
+///                  from these very catalogue data
+/// @returns false beside the study if values of the stage could not be read or computed
+std::pair<Study, bool> read_study(json& whole, bool bare, ReadContext& context, json* computed) {
   Study study;
   const std::string root = bare ? "" : std::string(stage_root);
-  bool complete = true;
-  if (is_completed)
-    complete = true;
+  Completion completion;
+  if (computed == nullptr)
+    completion.complete = true;
   else if (bare)
-    complete = complete_stage(whole, root, context);
+    completion = complete_stage(whole, root, context);
   else if (const auto stage = whole.find("stage"); stage != whole.end())
-    complete = complete_stage(*stage, root, context);
+    completion = complete_stage(*stage, root, context);
+  const bool complete = completion.complete;
+  if (computed != nullptr)
+    *computed = bare || completion.computed.is_null() ? std::move(completion.computed)
+                                                      : json{{"stage", std::move(completion.computed)}};
   if (bare) {
     study.kind = "stage";
     stage_table().collect("", context.places);
     stage_table().read(whole, "", study.stage, context);
   } else {
-    study_table().collect("", context.places);
+    context.places = all_places();
     study_table().read(whole, "", study, context);
     if (study.sweep) {
       // A run is a sweep of one point, at the speed that is given; basins are of one speed, too.
@@ -415,29 +522,62 @@ Study read_study(json& whole, bool bare, ReadContext& context, bool is_completed
 
   // The rules of gear need values to judge; they say nothing new about what was found already.
   std::set<std::string, std::less<>> known;
-  bool judged = complete;
+  std::vector<std::string> unread;
   for (const auto& finding : context.findings) {
     known.insert(finding.pointer);
     if (!finding.meant.empty()) known.insert(finding.meant);
     const bool leaves_value = finding.kind == Finding::Kind::unknown_key || finding.kind == Finding::Kind::range;
-    if (pointer_within(finding.pointer, root) && !leaves_value) judged = false;
+    const bool of_catalogue = pointer_within(finding.pointer, root + "/catalogue");
+    if (pointer_within(finding.pointer, root) && !leaves_value && !of_catalogue)
+      unread.push_back(finding.pointer.substr(root.size()));
   }
-  if (!judged || study.stage.planet_count < gear::planets_min || study.stage.planet_count > gear::planets_max)
-    return study;
+  const bool sound = complete && unread.empty();
+  if (study.stage.planet_count < gear::planets_min || study.stage.planet_count > gear::planets_max)
+    return {std::move(study), sound};
   auto rules = gear::problems_for_modes(study.stage);
   if (study.sweep) {
     const auto more = gear::problems_for_motion(study.stage);
     rules.insert(rules.end(), more.begin(), more.end());
   }
+  const Judge judge(std::move(unread));
   std::set<std::string> told;
   for (const auto& rule : rules) {
     if (!told.insert(rule).second) continue;
     const auto colon = rule.find(": ");
-    const std::string pointer = root + (colon == std::string::npos ? "" : rule.substr(0, colon));
+    const std::string place = colon == std::string::npos ? "" : rule.substr(0, colon);
+    const std::string pointer = root + place;
+    // What was not computed can break no rule.
+    if (!judge.can_tell(place) || (!complete && find_at(whole, pointer) == nullptr)) continue;
     if (known.count(pointer) == 0)
       context.add(Finding::Kind::rule, pointer, colon == std::string::npos ? rule : rule.substr(colon + 2));
   }
-  return study;
+  return {std::move(study), sound};
+}
+
+/// Values that say that they were computed, where nothing computes them: in one line, or none.
+void note_uncomputed(const json& resolved, const json& computed, std::vector<std::string>& notes) {
+  std::vector<std::string> found;
+  const std::function<void(const json&, const json*, const std::string&)> walk = [&](const json& object,
+                                                                                     const json* known,
+                                                                                     const std::string& pointer) {
+    const auto origin = object.find("origin");
+    for (const auto& [key, value] : object.items()) {
+      if (is_bookkeeping(key)) continue;
+      const json* there = known != nullptr && known->is_object() && known->contains(key) ? &known->at(key) : nullptr;
+      const std::string place = pointer + pointer_step(key);
+      if (value.is_object()) {
+        walk(value, there, place);
+      } else if (origin != object.end() && origin->contains(key) && is_computed(origin->at(key)) &&
+                 (there == nullptr || *there != value)) {
+        found.push_back(place);
+      }
+    }
+  };
+  walk(resolved, &computed, "");
+  if (found.empty()) return;
+  const std::string others = found.size() == 1 ? "" : " and " + std::to_string(found.size() - 1) + " more";
+  notes.push_back(found.front() + others + ": \"computed\" is the origin in the file, but nothing computes " +
+                  (others.empty() ? "it here; it stands" : "them here; they stand") + " as given");
 }
 
 /// The first value at which something is wrong, and what; nothing if all are sound.
@@ -485,7 +625,8 @@ void check_range(const studies::Axis& axis, const std::string& place, F is_bad, 
 }
 
 /// A parameter with a name, and its values. Pointers are checked with the values in place.
-void check_named_parameter(const studies::Axis& axis, const std::string& place, ReadContext& context) {
+template <class F>
+void check_named_parameter(const studies::Axis& axis, const std::string& place, F is_bad, ReadContext& context) {
   if (axis.name.rfind('/', 0) == 0) return;
   const auto& parameters = named_parameters();
   const auto it =
@@ -496,11 +637,12 @@ void check_named_parameter(const studies::Axis& axis, const std::string& place, 
     context.add(Finding::Kind::range, place + "/parameter",
                 "is \"" + axis.name + "\", must be one of: " + listed(names) +
                     ", or a JSON pointer to a number, such as /stage/lumped/planet/bearing_N_per_m" +
-                    suggestion(axis.name, names));
+                    (nearest(axis.name, names).empty() ? suggested(meant_pointers(axis.name, context.places))
+                                                       : suggestion(axis.name, names)));
     return;
   }
   for (const auto& [key, value] : {std::pair("/from", axis.from), std::pair("/to", axis.to)}) {
-    if (!it->bounds.contains(value)) {
+    if (!it->bounds.contains(value) && !is_bad(place + key)) {
       context.add(
           Finding::Kind::range, place + key,
           "is " + number_text(value) + ", must be " + it->bounds.text() + " for " + it->name + ", " + it->description);
@@ -521,7 +663,7 @@ void check_map(const studies::PlaneOptions& plane, F is_bad, ReadContext& contex
   const auto named = [&](const std::string& place) { return !is_bad(place) && !is_bad(place + "/parameter"); };
   for (const auto& [axis, place] : {std::pair(&plane.first, "/study/first"), {&plane.second, "/study/second"}}) {
     check_range(*axis, place, is_bad, "", context);
-    if (named(place)) check_named_parameter(*axis, place, context);
+    if (named(place)) check_named_parameter(*axis, place, is_bad, context);
   }
   if (!named("/study/first") || !named("/study/second")) return;
   const auto first = values_set_by(plane.first.name);
@@ -559,7 +701,9 @@ void check_basins(const studies::PlaneOptions& plane, const gear::Stage& stage, 
   for (const auto& [name, value] : plane.base) {
     const std::string place = "/study/base" + pointer_step(name);
     if (!known(name)) {
-      context.add(Finding::Kind::unknown_key, place, "unknown key '" + name + "'" + those + suggestion(name, names));
+      const bool in_words = context.findings.size() < findings_told;
+      context.add(Finding::Kind::unknown_key, place,
+                  "unknown key '" + name + "'" + (in_words ? those + suggestion(name, names) : std::string()));
     } else if (name == plane.first.name || name == plane.second.name) {
       context.add(Finding::Kind::rule, place, "is given, but an axis varies this component");
     }
@@ -586,7 +730,7 @@ void check_points(const Study& study, F is_bad, ReadContext& context) {
     context.add(Finding::Kind::rule, "/study/segments",
                 "is " + std::to_string(sweep.segments) + ", but points that start cold are chains of their own");
   }
-  check_named_parameter(axis, "/study", context);
+  if (!is_bad("/study/parameter")) check_named_parameter(axis, "/study", is_bad, context);
 }
 
 /// Collects problems in the order of the texts: study, stage, assignments.
@@ -632,8 +776,11 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
   Problems problems;
   JsonSource& file = sources->study;
   file = read_json_file(path);
-  sources->sets.assign(sets.begin(), sets.end());
   problems.add(file);
+  for (const Assignment& set : sets) {
+    if (set.problems.empty()) sources->sets.push_back(set);
+    for (const std::string& message : set.problems) problems.add({shown(set), 0, "", message});
+  }
   const auto raise = [&] { problems.raise(file.name, sources->stage); };
   if (file.complete && !file.value.is_object())
     problems.add({file.name, file.line_of(""), "", "is " + described(file.value) + ", must be an object"});
@@ -725,45 +872,57 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
 
   ReadContext context;
   LoadedInput input;
-  input.study = read_study(whole, sources->bare, context);
-  if (input.study.sweep) {
-    std::set<std::string, std::less<>> found;
-    for (const auto& finding : context.findings) found.insert(finding.pointer);
-    check_points(
-        input.study,
-        [&](const std::string& pointer) { return found.count(pointer) > 0 || sources->is_unreadable(pointer); },
-        context);
-  }
-  for (auto& finding : context.findings) {
-    if (stage_missing && pointer_within(finding.pointer, stage_root)) continue;
-    if (sources->is_unreadable(finding.pointer)) continue;
-    problems.add(sources->locate(finding.pointer, std::move(finding.message)));
-  }
-  if (!problems.empty()) raise();
-
+  bool sound = false;
+  std::tie(input.study, sound) = read_study(whole, sources->bare, context, &input.computed);
+  std::set<std::string, std::less<>> found;
+  for (const auto& finding : context.findings) found.insert(finding.pointer);
+  const auto is_bad = [&](const std::string& pointer) {
+    return found.count(pointer) > 0 || sources->is_unreadable(pointer);
+  };
+  if (input.study.sweep) check_points(input.study, is_bad, context);
   input.resolved = sources->bare ? stage_table().write(input.study.stage) : study_table().write(input.study);
   fill_origins(input.resolved, whole);
+  note_uncomputed(input.resolved, input.computed, context.notes);
   input.study_file = {path.filename().string(), file.bytes};
   input.stage_file = std::move(stage_file);
   input.sources_ = sources;
   input.notes = std::move(context.notes);
+  for (const auto& finding : context.findings) {
+    if (stage_missing && pointer_within(finding.pointer, stage_root)) continue;
+    if (sources->is_unreadable(finding.pointer)) continue;
+    problems.add(sources->locate(finding.pointer, sources->meant_by_set(finding)));
+  }
 
+  bool has_range = true;
   if (input.study.sweep && input.study.sweep->parameter != studies::SweepOptions().parameter) {
     // The default range is one of speeds.
     const nlohmann::json origins = input.resolved["study"].value("origin", nlohmann::json::object());
     for (const char* key : {"from", "to"})
-      if (origins.is_object() && origins.value(key, std::string()) == "default")
+      if (origins.is_object() && origins.value(key, std::string()) == "default") {
         problems.add(
             sources->locate(std::string("/study/") + key,
                             "is missing; a sweep of " + input.study.sweep->parameter + " needs a range of its own"));
-    if (!problems.empty()) raise();
+        has_range = false;
+      }
   }
 
+  for (const auto& finding : context.findings) found.insert(finding.pointer);
   const auto is_pointer = [](const std::string& parameter) { return parameter.rfind('/', 0) == 0; };
-  bool sound = true;
+  bool ends_are_sound = true;
   const auto refuse = [&](const std::string& pointer, std::string message) {
     problems.add(sources->locate(pointer, std::move(message)));
-    sound = false;
+    ends_are_sound = false;
+  };
+  // What a value of a parameter does wrong, where the rest of the input does nothing wrong itself: anywhere, if all of
+  // the rest was read, else at the parameter's own place.
+  const auto check_with = [&](const json& base, const studies::Axis& axis, const std::vector<PointerValue>& values,
+                              json* completed = nullptr) {
+    Study unused;
+    std::vector<Problem> wrong = input.check_with(base, values, unused, completed);
+    std::erase_if(wrong, [&](const Problem& problem) {
+      return found.count(problem.pointer) > 0 || (!sound && problem.pointer != axis.name);
+    });
+    return wrong;
   };
   // At each of its values, so that nothing is begun that cannot be finished; the first bad one tells.
   const auto check_values = [&](const studies::Axis& axis, const std::string& place, const json& base,
@@ -771,29 +930,31 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
     const auto at = [&](std::size_t k) {
       std::vector<PointerValue> values = beside;
       values.push_back({axis.name, studies::axis_value(axis, k)});
-      Study unused;
-      return input.check_with(base, values, unused);
+      return check_with(base, axis, values);
     };
     const auto bad = first_unsound(static_cast<std::size_t>(axis.points), at);
     for (const auto& problem : bad.problems)
       refuse(place + "/parameter", "takes the value " + number_text(studies::axis_value(axis, bad.value)) +
                                        ", with which" + words + " " + problem.pointer + " " + problem.message);
   };
-  // A parameter that is a pointer: its place, and the ends of its range.
-  const auto check_ends = [&](const studies::Axis& axis, const std::string& place) {
-    Study unused;
+  // A parameter that is a pointer: its place, and the ends of its range, if there is one.
+  const auto check_ends = [&](const studies::Axis& axis, const std::string& place, bool has_values) {
     const bool integrator = pointer_within(axis.name, "/integrator");
+    const json* there = find_at(input.resolved, axis.name);
     if ((integrator && axis.name != "/integrator/clearance_smoothing") || axis.name == "/stage/planets/count") {
       refuse(place + "/parameter",
              integrator ? "an option of the integrator is not a parameter of the motion and cannot be swept"
                         : "the number of planets changes the state itself and cannot be swept");
-    } else if (!find_at(input.resolved, axis.name) || !find_at(input.resolved, axis.name)->is_number() ||
-               pointer_within(axis.name, "/study")) {
+    } else if (there == nullptr || !there->is_number() || pointer_within(axis.name, "/study")) {
+      // Whether there is a value that was not read, or not computed, cannot be told.
+      const auto at_place = [&](const KeyPlace& p) { return p.pointer == axis.name; };
+      if (there == nullptr && !sound && std::any_of(context.places.begin(), context.places.end(), at_place)) return;
+      Study unused;
       for (auto& problem : input.check_with(input.resolved, std::array{PointerValue{axis.name, axis.from}}, unused))
         refuse(place + "/parameter", std::move(problem.message));
-    } else {
+    } else if (has_values) {
       for (const auto& [key, value] : {std::pair("/from", axis.from), std::pair("/to", axis.to)})
-        for (const auto& problem : input.check_with(input.resolved, std::array{PointerValue{axis.name, value}}, unused))
+        for (const auto& problem : check_with(input.resolved, axis, {PointerValue{axis.name, value}}))
           refuse(place + key, "is " + number_text(value) + ", with which " + problem.pointer + " " + problem.message);
     }
   };
@@ -804,23 +965,32 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
     const auto& sweep = *input.study.sweep;
     axes = {{{sweep.parameter, sweep.from, sweep.to, sweep.points}, "/study"}};
   }
-  std::erase_if(axes, [&](const auto& axis) { return !is_pointer(axis.first.name); });
-  for (const auto& [axis, place] : axes) check_ends(axis, place);
-  if (sound && axes.size() == 1) check_values(axes[0].first, axes[0].second, input.resolved, {}, "");
+  std::erase_if(axes, [&](const auto& axis) {
+    const auto& [a, place] = axis;
+    return !is_pointer(a.name) || is_bad(place) || is_bad(place + "/parameter") ||
+           (stage_missing && pointer_within(a.name, stage_root));
+  });
+  bool have_values = has_range;
+  for (const auto& [axis, place] : axes) {
+    const bool values = has_range && !is_bad(place + "/from") && !is_bad(place + "/to") && !is_bad(place + "/points");
+    check_ends(axis, place, values);
+    have_values = have_values && values;
+  }
+  if (ends_are_sound && have_values && axes.size() == 1)
+    check_values(axes[0].first, axes[0].second, input.resolved, {}, "");
   // Two values together, on the edges of the plane: within them a rule that both have to keep is kept.
-  if (sound && axes.size() == 2)
+  if (problems.empty() && axes.size() == 2)
     for (const std::size_t k : {0U, 1U}) {
       const auto& [along, place] = axes[k];
       const studies::Axis& other = axes[1 - k].first;
       for (const double end : {other.from, other.to}) {
-        if (!sound) break;
+        if (!ends_are_sound) break;
         const PointerValue fixed{other.name, end};
         const std::string words = ", and " + other.name + " = " + number_text(end) + ",";
         // What is computed from catalogue data is computed once, where only the value that stays is one of those.
-        Study unused;
         json base;
         if (!feeds_completion(along.name, sources->bare) && feeds_completion(other.name, sources->bare) &&
-            input.check_with(input.resolved, std::array{fixed}, unused, &base).empty())
+            check_with(input.resolved, other, {fixed}, &base).empty())
           check_values(along, place, base, {}, words);
         else
           check_values(along, place, input.resolved, {fixed}, words);
@@ -851,16 +1021,25 @@ std::vector<Problem> LoadedInput::check_with(const json& base, std::span<const P
     if (pointer_within(place, "/study"))
       return refuse("\"" + place + "\" is part of the plan, which a study cannot vary");
     if (there == nullptr) {
-      return refuse("\"" + place + "\" is no value of the resolved input" + suggestion(place, number_pointers()));
+      const auto& places = all_places();
+      const auto at_place = [&](const KeyPlace& p) { return p.pointer == pointer; };
+      if (std::any_of(places.begin(), places.end(), at_place))
+        return refuse("\"" + pointer + "\" is no value of the resolved input: the input does not give it");
+      const auto meant = meant_pointers(place, places);
+      return refuse("\"" + pointer + "\" is no value of the resolved input" +
+                    (meant.empty() ? suggestion(place, number_pointers()) : suggested(meant)));
     }
-    if (!there->is_number()) return refuse("\"" + place + "\" is " + described(*there) + ", must be a number");
+    if (!there->is_number())
+      return refuse("\"" + place + "\" is " + described(*there) + ", must be a number" +
+                    (there->is_array() && !there->empty() ? "; did you mean '" + pointer + "/0'?" : ""));
     if (!std::isfinite(value)) return refuse("is " + number_text(value) + ", must be a finite number");
     is_completed = is_completed && !feeds_completion(place, sources_->bare);
     *find_at(whole, place) = value;
     keep_from_computing(whole, place);
   }
   ReadContext context;
-  changed = read_study(whole, sources_->bare, context, is_completed);
+  json unused;
+  changed = read_study(whole, sources_->bare, context, is_completed ? nullptr : &unused).first;
   if (completed != nullptr) *completed = std::move(whole);
   std::vector<Problem> problems;
   for (auto& finding : context.findings)

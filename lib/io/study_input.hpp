@@ -57,11 +57,11 @@ struct Study {
 struct Assignment {
   std::string pointer;
   nlohmann::json value;
-  std::string text;  ///< as given
+  std::string text;                     ///< as given
+  std::vector<std::string> problems{};  ///< what is wrong with it as such; load_input() tells it with all else
 };
 
 /// The value is JSON, or a bare word that stands for a string.
-/// @throws InputProblems with one entry per assignment that is malformed
 [[nodiscard]] std::vector<Assignment> parse_assignments(std::span<const std::string> texts);
 
 /// A sweep parameter with a name of its own; all others are JSON pointers.
@@ -91,6 +91,7 @@ class LoadedInput {
   nlohmann::json resolved;            ///< a valid input that resolves to itself
   RawFile study_file;                 ///< the file that was named: a study, or a stage alone
   std::optional<RawFile> stage_file;  ///< if the study names one
+  nlohmann::json computed;            ///< what catalogue data give at this load, at the places of `resolved`; or null
   std::vector<std::string> notes;     ///< values that were ignored, and why
 
   /// The study with the number at this pointer of the resolved input replaced, checked as strictly as a file.

@@ -113,34 +113,53 @@ std::vector<std::string> catalogue_warnings(const LoadedInput& input) {
   return lines;
 }
 
+namespace {
+
+/// What decides results: values without origins and notes. One that is what the catalogue data give, to the last digit,
+/// is written as such: it follows from the rest, and its last digits from the machine's mathematical library. So two
+/// inputs have the same identifying values exactly where they have the same values, on each machine.
+nlohmann::json identifying_values(nlohmann::json value, const nlohmann::json& computed) {
+  if (!value.is_object()) return !computed.is_null() && value == computed ? nlohmann::json(computed_word) : value;
+  value.erase("origin");
+  value.erase("note");
+  static const nlohmann::json nothing;
+  for (auto& [key, child] : value.items()) {
+    const bool known = computed.is_object() && computed.contains(key);
+    child = identifying_values(std::move(child), known ? computed.at(key) : nothing);
+  }
+  return value;
+}
+
+}  // namespace
+
 std::string identity(const LoadedInput& input, std::string_view command) {
-  // Computed values follow from the rest, and their last digits from the machine's mathematical library.
-  nlohmann::json given = input.resolved;
-  drop_computed(given);
   const nlohmann::json what = {{"command", command},
-                               {"input", given},
+                               {"input", identifying_values(input.resolved, input.computed)},
                                {"journal_format", journal_format_version},
                                {"numerics", studies::numerics_version}};
   return sha256_hex(canonical_json(what));
 }
 
 std::vector<std::string> differences(const nlohmann::json& other, const LoadedInput& input) {
-  nlohmann::json there = other;
-  nlohmann::json here = input.resolved;
-  drop_computed(there);
-  drop_computed(here);
-  const auto text = [](const nlohmann::json& whole, const nlohmann::json::json_pointer& at) {
+  // The other one as this machine computes it.
+  nlohmann::json whole = other;
+  const bool bare = !whole.contains("stage");
+  ReadContext unused;
+  nlohmann::json computed = complete_stage(bare ? whole : whole["stage"], "", unused).computed;
+  if (!bare) computed = {{"stage", computed}};
+  const nlohmann::json there = identifying_values(whole, computed);
+  const nlohmann::json here = identifying_values(input.resolved, input.computed);
+  const auto text = [](const nlohmann::json& values, const nlohmann::json::json_pointer& at) {
     constexpr std::size_t longest = 60;
-    if (!whole.contains(at)) return std::string("nothing");
-    std::string value = whole.at(at).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    if (!values.contains(at)) return std::string("nothing");
+    std::string value = values.at(at).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     return value.size() <= longest ? value : std::string("another value");
   };
   std::vector<std::string> lines;
   for (const nlohmann::json& change : nlohmann::json::diff(there, here)) {
     const std::string pointer = change.at("path");
-    if (pointer.ends_with("/origin") || pointer.find("/origin/") != std::string::npos) continue;
     const nlohmann::json::json_pointer at(pointer);
-    lines.push_back(fmt::format("{}: {} there, {} here", pointer, text(there, at), text(here, at)));
+    lines.push_back(fmt::format("{}: {} there, {} here", pointer, text(whole, at), text(input.resolved, at)));
   }
   return lines;
 }

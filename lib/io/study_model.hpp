@@ -34,7 +34,9 @@ namespace epicyclic::io {
 [[nodiscard]] std::vector<std::string> catalogue_warnings(const LoadedInput& input);
 
 /// What identifies the study's results: SHA-256 of the canonical resolved input with the versions of journal and
-/// numerics.
+/// numerics. On one machine two inputs share it exactly where their resolved inputs, without origins and notes, are
+/// equal; on another machine an input keeps it, although last digits of what is computed from catalogue data may
+/// differ.
 [[nodiscard]] std::string identity(const LoadedInput& input, std::string_view command);
 
 /// Where another study's resolved input differs from this one's in what identifies them, a line each: pointer and both

@@ -1,5 +1,6 @@
 // The tables of all objects of the input: every key, its bounds and its meaning. Defaults stand on the typed structs.
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -253,6 +254,7 @@ const Table<Friction>& friction_table() {
     t.custom(std::move(moment));
     t.numbers("breakpoints", within(&Friction::table, &Friction::Table::breakpoints), from_below(0, 1), 0, 1000,
               "Phases where the table jumps or kinks [-].");
+    t.rule(KeyRule::Kind::not_empty, {"coefficient", "phase", "lubricated"});
     t.rule(KeyRule::Kind::at_most_one, {"coefficient", "phase", "lubricated"});
     t.rule(KeyRule::Kind::together, {"phase", "force_ratio", "moment_ratio_mm"});
     t.rule(KeyRule::Kind::needs, {"contact_ratio", "coefficient"});
@@ -542,6 +544,7 @@ Field<Study> base_field() {
   const Bounds bounds = component_value;
   base.read = [bounds](const json& value, const std::string& pointer, Study& study, ReadContext& context) {
     if (!table_detail::check_object(value, pointer, context)) return;
+    table_detail::check_note(value, pointer, context);
     for (const auto& [key, number] : value.items()) {
       if (key == "origin" || key == "note") continue;
       const auto read = table_detail::read_number(number, pointer + pointer_step(key), "base", bounds, context);
@@ -667,9 +670,24 @@ const Table<Study>& table_of_kind(const std::string& kind) {
   return sweep_table();
 }
 
+/// The kind that has least to find fault with.
+std::string likely_kind(const json& plan, const std::string& pointer) {
+  std::string likely;
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  for (const auto& [name, table] : kinds) {
+    Study study;
+    study.sweep.emplace();
+    ReadContext context;
+    table().read(plan, pointer, study, context);
+    if (context.findings.size() >= fewest) continue;
+    fewest = context.findings.size();
+    likely = name;
+  }
+  return likely;
+}
+
 void read_plan(const json& value, const std::string& pointer, Study& study, ReadContext& context) {
   if (!table_detail::check_object(value, pointer, context)) return;
-  study.kind = "sweep";
   std::vector<std::string> names;
   for (const auto& [name, table] : kinds) names.push_back(name);
   const auto kind = value.find("kind");
@@ -691,6 +709,7 @@ void read_plan(const json& value, const std::string& pointer, Study& study, Read
     context.add(Finding::Kind::type, pointer + "/kind",
                 "is " + described(*kind) + ", must be one of: " + listed(names));
   }
+  if (study.kind.empty()) study.kind = likely_kind(value, pointer);
   study.sweep.emplace();
   table_of_kind(study.kind).read(value, pointer, study, context);
 }

@@ -1,6 +1,8 @@
 #include "io/study_input.hpp"
 
 #include <cmath>
+#include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <functional>
 #include <sstream>
@@ -285,12 +287,15 @@ TEST(Assignments, TakeJsonAndBareWords) {
   EXPECT_EQ(all[6].pointer, "/a/b");
 }
 
-TEST(Assignments, AreAllCheckedAtOnce) {
+TEST_F(StudyInput, TellsMalformedAssignmentsWithAllElse) {
+  auto text = text_of(bad_inputs / "stage.json");
+  text.replace(text.find("1.654"), 5, "-1.65");
+  put_file(folder / "stage.json", text);
   try {
-    (void)sets({"/a", "/b=[1", "/c=1e999", "ok=1", "/fine=1", "/x/origin=source"});
+    (void)load({"/a", "/b=[1", "/c=1e999", "ok=1", "/study/points=4", "/x/origin=source"});
     FAIL();
   } catch (const InputProblems& error) {
-    EXPECT_EQ(error.problems().size(), 5U) << error.what();
+    EXPECT_EQ(error.problems().size(), 6U) << error.what();
   }
 }
 
@@ -470,6 +475,42 @@ TEST(BadInputs, AreRefusedWithAClearMessage) {
         EXPECT_NE(message.find(part), std::string::npos) << part << "\n in: " << message;
       EXPECT_EQ(error.problems().size(), bad.lines) << message;
     }
+  }
+}
+
+/// Processor time of an action, which other programs on the machine do not lengthen [s].
+template <class F>
+double cpu_seconds(F action) {
+  const std::clock_t begin = std::clock();
+  action();
+  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+}
+
+// Half a million mistakes cost about what reading the text costs.
+TEST(BadInputs, ManyMistakesAreToldInTheTimeOfReading) {
+  const test::TemporaryFolder folder;
+  constexpr int many = 200000;
+  std::string keys, origins, base;
+  for (int k = 0; k < many; ++k) {
+    keys += "\"key_" + std::to_string(k) + "\": 0, ";
+    origins += std::string(k == 0 ? "" : ", ") + "\"of_" + std::to_string(k) + "\": \"set\"";
+  }
+  const auto stage = text_of(bad_inputs / "stage.json");
+  const auto in_stage = [&](const std::string& text) { return "{" + text + stage.substr(1); };
+  for (const std::string& text : {in_stage(keys), in_stage(keys + "\"origin\": {" + origins + "}, ")}) {
+    put_file(folder / "stage.json", text);
+    const double reading = cpu_seconds([&] { (void)parse_json(text, "stage.json"); });
+    std::size_t told = 0;
+    const double all = cpu_seconds([&] {
+      try {
+        (void)load_input(folder / "stage.json");
+      } catch (const InputProblems& error) {
+        told = error.problems().size();
+      }
+    });
+    EXPECT_EQ(told, 201U);  // and that there are more
+    EXPECT_LT(all, 12.0 * reading);
+    std::printf("%.2f s of reading, %.2f s in all\n", reading, all);
   }
 }
 

@@ -1,0 +1,379 @@
+// A study's identity: equal exactly where the values that decide its results are, whatever is done to an input.
+//
+// Each place of each input in inputs/, and of its resolved form, is changed in each way. The model is judged by its
+// right-hand side, which knows nothing of identities.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "io/digest.hpp"
+#include "io/study_input.hpp"
+#include "io/study_model.hpp"
+#include "temporary_folder.hpp"
+
+namespace epicyclic::io {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::put_file;
+
+enum class Change { value, last_digit, computed, empty_object, empty_array, null, text, erased };
+constexpr Change changes[] = {Change::value,       Change::last_digit, Change::computed, Change::empty_object,
+                              Change::empty_array, Change::null,       Change::text,     Change::erased};
+constexpr const char* names[] = {"value", "last digit", "computed", "{}", "[]", "null", "text", "erased"};
+
+struct Case {
+  const json* input;  ///< unchanged
+  std::string pointer;
+  Change change;
+  [[nodiscard]] std::string text() const { return pointer + " " + names[static_cast<std::size_t>(change)]; }
+};
+
+/// Pointers of all values below, objects and the ends of arrays too.
+void collect(const json& value, const std::string& pointer, std::vector<std::string>& pointers) {
+  if (!pointer.empty()) pointers.push_back(pointer);
+  if (value.is_object())
+    for (const auto& [key, child] : value.items()) collect(child, pointer + pointer_step(key), pointers);
+  if (value.is_array() && !value.empty())
+    for (const std::size_t k : std::set<std::size_t>{0, value.size() - 1})
+      collect(value[k], pointer + "/" + std::to_string(k), pointers);
+}
+
+json without_bookkeeping(json value) {
+  if (!value.is_object()) return value;
+  value.erase("origin");
+  value.erase("note");
+  for (auto& [key, child] : value.items()) child = without_bookkeeping(std::move(child));
+  return value;
+}
+
+/// Is the pointer that of an origin, a note, or of something in them?
+bool in_bookkeeping(const std::string& pointer) {
+  return (pointer + "/").find("/origin/") != std::string::npos || pointer.ends_with("/note");
+}
+
+/// Another value of the same kind, one that is a name from those that the schema lists.
+json another(const json& value, const std::string& pointer) {
+  if (value.is_boolean()) return !value.get<bool>();
+  if (value.is_number_integer()) return value.get<int>() + 1;
+  if (value.is_number()) return value.get<double>() == 0.0 ? 0.25 : value.get<double>() * 1.001;
+  if (value.is_array()) {
+    json changed = value;
+    if (changed.empty()) return json::array({0.5});
+    changed[0] = another(changed[0], pointer);
+    return changed;
+  }
+  static const std::map<std::string, std::string> other_names = {{"arkode-dopri5", "arkode-cash-karp"},
+                                                                 {"lanes-dopri5", "lanes-cash-karp"},
+                                                                 {"always", "contact_slope"},
+                                                                 {"automatic", "off"},
+                                                                 {"up", "down"},
+                                                                 {"carried", "cold"},
+                                                                 {"fixed", "adaptive"},
+                                                                 {"literal", "star"},
+                                                                 {"linear_xy", "linear_radial"},
+                                                                 {"full", "shortened"},
+                                                                 {"shortened", "full"},
+                                                                 {"harmonics", "curve"},
+                                                                 {"none", "trochoid"},
+                                                                 {"half_plane", "rigid"},
+                                                                 {"centreline", "contact_height"},
+                                                                 {"6213", "6020"},
+                                                                 {"damping_ratio", "sun_planet_backlash"}};
+  const std::string text = value.get<std::string>();
+  const auto it = other_names.find(text);
+  return it == other_names.end() ? text + ": another" : it->second;
+}
+
+/// @returns nothing if there is no such change of that value
+std::optional<json> changed(const Case& c) {
+  json whole = *c.input;
+  const json::json_pointer at(c.pointer);
+  json& value = whole.at(at);
+  json& parent = whole.at(at.parent_pointer());
+  switch (c.change) {
+    case Change::value:
+      if (value.is_object()) return std::nullopt;
+      value = another(value, c.pointer);
+      break;
+    case Change::last_digit:
+      if (!value.is_number_float()) return std::nullopt;
+      value = std::nextafter(value.get<double>(), 1e300);
+      break;
+    case Change::computed: {
+      if (value.is_object() || c.pointer.ends_with("/note")) return std::nullopt;
+      if (in_bookkeeping(c.pointer)) {
+        value = "computed: x";
+      } else if (parent.is_object()) {
+        if (!parent.contains("origin") || !parent["origin"].is_object()) parent["origin"] = json::object();
+        parent["origin"][at.back()] = "computed: x";
+      } else {
+        return std::nullopt;
+      }
+      break;
+    }
+    case Change::empty_object:
+      value = json::object();
+      break;
+    case Change::empty_array:
+      value = json::array();
+      break;
+    case Change::null:
+      value = nullptr;
+      break;
+    case Change::text:
+      value = "oops";
+      break;
+    case Change::erased:
+      if (!parent.is_object()) return std::nullopt;
+      if (parent.contains("origin") && parent["origin"].is_object()) parent["origin"].erase(at.back());
+      parent.erase(at.back());
+      break;
+  }
+  return whole;
+}
+
+/// Must the change be refused, as a value of the wrong type?
+bool is_wrong_type(const Case& c) {
+  const json& value = c.input->at(json::json_pointer(c.pointer));
+  const bool patch = c.pointer.starts_with("/stage_patch");
+  switch (c.change) {
+    case Change::empty_object:
+      return !value.is_object() && !c.pointer.ends_with("/origin");
+    case Change::empty_array:
+      return !value.is_array();
+    case Change::null:
+      return !patch || in_bookkeeping(c.pointer);  // in a patch it removes what is there
+    case Change::text:
+      return !value.is_string() || in_bookkeeping(c.pointer + "/");
+    default:
+      return false;
+  }
+}
+
+/// Numbers that depend on everything in the model: its right-hand side at a few states, on and off the teeth.
+std::string fingerprint(const LoadedInput& input) {
+  const Study& study = input.study;
+  if (!study.sweep) return {};
+  const studies::GridPoint first = plan_of(study).points.front();
+  const model::DynamicModel model = model_at_point(input)(first);
+  std::string bytes;
+  const auto append = [&](double number) { bytes.append(reinterpret_cast<const char*>(&number), sizeof number); };
+  std::vector<double> state = model.default_start, rate(model.dimension);
+  for (std::size_t k = 0; k < 6; ++k) {
+    const double s = 0.1 + static_cast<double>(k);
+    model.right_hand_side(model::segment_at(model.breakpoints, s), s, state.data(), rate.data());
+    for (const double r : rate) append(r);
+    for (std::size_t i = 0; i < state.size(); ++i) state[i] += std::sin(1.0 + static_cast<double>(i * (k + 3)));
+  }
+  for (const double x : model.default_start) append(x);
+  return bytes;
+}
+
+class Property {
+ public:
+  Property() {
+    std::set<fs::path> files;
+    for (const auto& entry : fs::directory_iterator("inputs"))
+      if (entry.path().extension() == ".json") files.insert(entry.path());
+    for (const fs::path& file : files) {
+      fs::copy_file(file, folder_ / file.filename().string());
+      inputs_.push_back(json::parse(test::contents(file)));
+      inputs_.push_back(load_input(file).resolved);
+    }
+    for (const json& input : inputs_) {
+      std::vector<std::string> pointers;
+      collect(input, "", pointers);
+      for (const std::string& pointer : pointers)
+        for (const Change change : changes) cases_.push_back({&input, pointer, change});
+    }
+  }
+
+  [[nodiscard]] std::vector<Case>& cases() { return cases_; }
+  [[nodiscard]] int tried() const { return tried_; }
+  [[nodiscard]] int refused() const { return refused_; }
+  [[nodiscard]] int same() const { return same_; }
+
+  void check(const Case& c) {
+    const std::optional<json> text = changed(c);
+    if (!text) return;
+    ++tried_;
+    SCOPED_TRACE(c.input->value("name", "") + " " + c.text());
+    const std::optional<LoadedInput> input = loaded(*text);
+    if (!input) {
+      ++refused_;
+      if (is_wrong_type(c) && !c.pointer.ends_with("/stage")) {
+        EXPECT_EQ(problems_, 1U) << message_;
+      }
+      return;
+    }
+    EXPECT_FALSE(is_wrong_type(c)) << "accepted";
+    check_identity(*input);
+    if (c.change == Change::empty_object) {
+      const std::optional<json> without = changed({c.input, c.pointer, Change::erased});
+      const std::optional<LoadedInput> erased = without ? loaded(*without) : std::nullopt;
+      EXPECT_TRUE(erased && identity(*erased, "x") == identity(*input, "x") &&
+                  without_bookkeeping(erased->resolved) == without_bookkeeping(input->resolved))
+          << "{} is not what erased is";
+    }
+    const std::string bytes = input->resolved.dump(2);
+    const std::optional<LoadedInput> again = loaded(input->resolved);
+    ASSERT_TRUE(again) << message_;
+    EXPECT_TRUE(again->resolved.dump(2) == bytes) << json::diff(input->resolved, again->resolved).dump(1);
+    EXPECT_EQ(identity(*again, "x"), identity(*input, "x"));
+  }
+
+ private:
+  std::optional<LoadedInput> loaded(const json& text) {
+    put_file(folder_ / "case.json", text.dump());
+    try {
+      return load_input(folder_ / "case.json");
+    } catch (const InputProblems& error) {
+      problems_ = error.problems().size();
+      message_ = error.what();
+      return std::nullopt;
+    }
+  }
+
+  void check_identity(const LoadedInput& input) {
+    const std::string id = identity(input, "x");
+    const Seen now{sha256_hex(without_bookkeeping(input.resolved).dump()), sha256_hex(fingerprint(input))};
+    const auto [seen, fresh] = by_identity_.emplace(id, now);
+    same_ += fresh ? 0 : 1;
+    EXPECT_EQ(seen->second.values, now.values) << "one identity, other values";
+    EXPECT_EQ(seen->second.model, now.model) << "one identity, another model";
+    EXPECT_EQ(by_values_.emplace(now.values, id).first->second, id) << "the same values, another identity";
+  }
+
+  struct Seen {
+    std::string values, model;  ///< digests
+  };
+  test::TemporaryFolder folder_;
+  std::deque<json> inputs_;
+  std::vector<Case> cases_;
+  std::map<std::string, Seen> by_identity_;
+  std::map<std::string, std::string> by_values_;
+  int tried_ = 0, refused_ = 0, same_ = 0;
+  std::size_t problems_ = 0;
+  std::string message_;
+};
+
+// Equal identity exactly where the resolved values are equal, and then the model is; what resolves, resolves to itself;
+// a wrong type is refused with one message; {} is refused or is what nothing there is.
+TEST(Identity, IsThatOfTheValuesWhateverIsDoneToAnInput) {
+  Property property;
+  std::mt19937 random(28);
+  std::shuffle(property.cases().begin(), property.cases().end(), random);
+  for (const Case& c : property.cases()) {
+    property.check(c);
+    if (property.tried() == 500) break;
+  }
+  EXPECT_EQ(property.tried(), 500);
+  EXPECT_GT(property.refused(), 100);
+  EXPECT_GT(property.same(), 100);
+}
+
+TEST(Identity, LongIsThatOfTheValuesWhateverIsDoneToAnInput) {
+  Property property;
+  for (const Case& c : property.cases()) property.check(c);
+  EXPECT_GE(property.tried(), 15000);
+  std::printf("%d cases, %d refused, %d of an identity seen before\n", property.tried(), property.refused(),
+              property.same());
+}
+
+// ---- what was wrong once
+
+class IdentityOf : public ::testing::Test {
+ protected:
+  [[nodiscard]] LoadedInput load(const json& text, const std::vector<std::string>& sets = {}) const {
+    put_file(folder / "study.json", text.dump());
+    return load_input(folder / "study.json", parse_assignments(sets));
+  }
+  json resolved = load_input("inputs/tang2020_speed.json").resolved;
+  test::TemporaryFolder folder;
+};
+
+TEST_F(IdentityOf, AStudyDependsOnValuesThatOnlySayThatTheyWereComputed) {
+  const std::string before = identity(load(resolved), "sweep");
+  for (const char* change :
+       {R"({"integrator": {"relative_tolerance": 1e-3, "origin": {"relative_tolerance": "computed: x"}}})",
+        R"({"operation": {"mesh_frequency_ratio": 2, "origin": {"mesh_frequency_ratio": "computed"}}})",
+        R"({"study": {"to": 3, "origin": {"to": "computed: x"}}})",
+        R"({"stage": {"lumped": {"planet": {"support_damping_ratio": 0.07,
+                                            "origin": {"support_damping_ratio": "computed: x"}}}}})"}) {
+    json changed = resolved;
+    changed.merge_patch(json::parse(change));
+    EXPECT_NE(identity(load(changed), "sweep"), before) << change;
+  }
+}
+
+TEST_F(IdentityOf, AStageWithoutItsCatalogueDependsOnItsMasses) {
+  resolved["stage"].erase("catalogue");
+  const LoadedInput before = load(resolved);
+  ASSERT_EQ(before.notes.size(), 1U);
+  EXPECT_NE(before.notes[0].find("nothing computes them here; they stand as given"), std::string::npos)
+      << before.notes[0];
+  resolved["stage"]["lumped"]["sun"]["mass_kg"] = 1.7;
+  const LoadedInput after = load(resolved);
+  EXPECT_EQ(after.study.stage.sun.mass_kg, 1.7);
+  EXPECT_NE(identity(before, "sweep"), identity(after, "sweep"));
+  const std::vector<std::string> lines = differences(before.resolved, after);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0].rfind("/stage/lumped/sun/mass_kg: 1.65", 0), 0U) << lines[0];
+}
+
+TEST_F(IdentityOf, AStudyIsTheSameWhereLastDigitsOfWhatIsComputedAreOthers) {
+  LoadedInput input = load(resolved);
+  const std::string before = identity(input, "sweep");
+  // Another machine computes another last digit ...
+  const json::json_pointer mass("/stage/lumped/sun/mass_kg");
+  const double there = std::nextafter(input.resolved.at(mass).get<double>(), 10.0);
+  input.resolved.at(mass) = there;
+  input.computed.at(mass) = there;
+  EXPECT_EQ(identity(input, "sweep"), before);
+  // ... but one that is given counts to its last digit, and so does one in a sweep of another width.
+  input.computed.at(mass) = std::nextafter(there, 10.0);
+  EXPECT_NE(identity(input, "sweep"), before);
+  EXPECT_NE(identity(load(resolved, {"/stage/catalogue/sun/width_mm=61"}), "sweep"), before);
+}
+
+TEST_F(IdentityOf, AStudyToldAsAnotherSaysInWhatIsGiven) {
+  const LoadedInput wider = load(resolved, {"/stage/catalogue/sun/width_mm=61"});
+  EXPECT_EQ(differences(resolved, wider),
+            std::vector<std::string>{"/stage/catalogue/sun/width_mm: 60.0 there, 61.0 here"});
+  const LoadedInput heavier = load(resolved, {"/stage/lumped/sun/mass_kg=2"});
+  const auto lines = differences(resolved, heavier);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0].rfind("/stage/lumped/sun/mass_kg: 1.65", 0), 0U) << lines[0];
+}
+
+TEST_F(IdentityOf, AnEmptyObjectSwitchesNothing) {
+  json study = json::parse(test::contents("inputs/tang2020_speed.json"));
+  study["stage"] = json::parse(test::contents("inputs/tang2020.json"));
+  const std::string before = identity(load(study), "sweep");
+  const auto with = [&](const std::string& set) { return identity(load(study, {set}), "sweep"); };
+  const std::string mesh = "/stage/lumped/sun_planet_mesh/";
+  EXPECT_EQ(with(mesh + "stiffness_curve={}"), before);
+  const auto message = [&](const std::string& set) {
+    return test::message_of<InputError>([&] { (void)load(study, {set}); });
+  };
+  for (const std::string& set : {mesh + "friction={}", std::string("/stage/catalogue/lubrication={}")})
+    EXPECT_NE(message(set).find("is an object with nothing in it"), std::string::npos) << set;
+  EXPECT_NE(message(mesh + "friction/lubricated={}").find("/friction/lubricated/width_mm: is missing"),
+            std::string::npos);
+  EXPECT_NE(message("/stage/lumped/sun=oops").find("is the string \"oops\", must be an object"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace epicyclic::io
