@@ -12,14 +12,12 @@ namespace epicyclic::app {
 
 int check_command(const Arguments& arguments) {
   const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
-  if (!input.study.sweep)
-    for (const std::string& line : io::catalogue_warnings(input)) fmt::print(stderr, "warning: {}\n", line);
+  for (const std::string& warning : io::warnings(input)) fmt::print(stderr, "{}\n", warning);
   if (!input.study.sweep) {
     fmt::print("{}\n", input.resolved.dump(2));
     fmt::print(stderr, "{}: valid; a stage alone, for `epicyclic gear`\n", arguments.input.string());
     return done;
   }
-  for (const std::string& warning : io::warnings(input)) fmt::print(stderr, "{}\n", warning);
   const io::Cost cost = io::estimate_cost(input);
   fmt::print("{}\n", input.resolved.dump(2));
   fmt::print(stderr,

@@ -12,6 +12,7 @@ namespace epicyclic::app {
 
 int gear_command(const Arguments& arguments) {
   const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
+  io::require_finite_numbers(input);
   const io::OutputFolder folder(arguments.output, io::identity(input, "gear"));
   if (const auto code = refuse_or_finish(folder, input)) return *code;
   io::Provenance facts = provenance(1, input);

@@ -17,10 +17,10 @@ namespace epicyclic::gear {
 /// Sun or planet.
 struct ExternalGear {
   GearData data;
-  std::optional<int> accuracy_grade;          ///< ISO 1328-1:1995
-  double bore_mm = 0;                         ///< diameter
-  std::optional<double> body_radius_ratio;    ///< h_f of Sainsot; default r_f over the radius of the bore, at most 7
-  std::optional<double> root_half_angle_deg;  ///< theta_f; default that of the profile
+  std::optional<int> accuracy_grade;            ///< ISO 1328-1:1995
+  double bore_mm = 0;                           ///< diameter
+  double body_radius_ratio = solid_body_ratio;  ///< h_f of Sainsot
+  std::optional<double> root_half_angle_deg;    ///< theta_f; default that of the profile
 };
 
 /// Where the base pitch of the ring comes from when its rounded module does not fit the planet's.

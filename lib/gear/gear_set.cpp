@@ -25,12 +25,11 @@ constexpr double base_pitch_tolerance = 1e-4;
 constexpr double rounded_module = 0.02;
 // A nominal overlap of this share of the module is more than any rounding of a centre distance.
 constexpr double overlap_tolerance = 0.01;
-// Usual least values of design guides, in modules.
-constexpr double tip_thickness_usual = 0.25;
-constexpr double tip_clearance_usual = 0.1;
-constexpr double planet_gap_usual = 0.5;
-constexpr double sainsot_ratio_max = 7.0;
 constexpr int message_digits = 6;
+
+const std::string sun_pointer = "/catalogue/sun";
+const std::string planet_pointer = "/catalogue/planet";
+const std::string ring_pointer = "/catalogue/ring";
 
 GearData of_planet_base_pitch(GearData ring, const GearData& planet) {
   ring.module_mm =
@@ -41,11 +40,7 @@ GearData of_planet_base_pitch(GearData ring, const GearData& planet) {
 double base_pitch(const GearData& d) { return pi * d.module_mm * std::cos(d.pressure_angle_deg * radian); }
 
 ToothBody body_of(const ExternalGear& gear, const Tooth& tooth, const Material& material) {
-  ToothBody body{tooth, material, sainsot_ratio_max, {}};
-  if (gear.body_radius_ratio)
-    body.radius_ratio = *gear.body_radius_ratio;
-  else if (gear.bore_mm > 0.0)
-    body.radius_ratio = std::min(tooth.root_radius_mm / (0.5 * gear.bore_mm), sainsot_ratio_max);
+  ToothBody body{tooth, material, gear.body_radius_ratio, {}};
   if (gear.root_half_angle_deg) body.root_half_angle = *gear.root_half_angle_deg * radian;
   return body;
 }
@@ -144,10 +139,6 @@ bool tried(Problems& out, const std::string& pointer, const std::function<void()
     return false;
   }
 }
-
-const std::string sun_pointer = "/catalogue/sun";
-const std::string planet_pointer = "/catalogue/planet";
-const std::string ring_pointer = "/catalogue/ring";
 
 /// Contact on the fillet has no stiffness in this model.
 void check_fillet(Problems& out, const GearSet& set) {
@@ -275,54 +266,6 @@ std::vector<std::string> catalogue_problems(const Stage& stage) {
     (void)stiffness_range(set.ring_planet);
     (void)bodies(set);
   });
-  return out.take();
-}
-
-std::vector<std::string> catalogue_warnings(const GearSet& set) {
-  Problems out(message_digits);
-  const auto tooth = [&](const Tooth& t, const std::string& pointer) {
-    const double tip = t.thickness_at(t.tip_radius_mm) / t.module_mm;
-    if (tip < tip_thickness_usual)
-      out.add(pointer, "tip thickness ", tip, " modules; at least ", tip_thickness_usual, " is usual");
-    if (!t.internal && t.profile_shift < t.undercut_limit())
-      out.add(pointer, "undercut: the profile shift ", t.profile_shift, " is below ", t.undercut_limit());
-  };
-  tooth(set.sun, sun_pointer);
-  tooth(set.planet, planet_pointer);
-  tooth(set.ring, ring_pointer);
-  const auto pair = [&](const Pair& p, const std::string& driving, const std::string& driven, const std::string& mesh) {
-    if (p.tip_clearance_1_mm() < tip_clearance_usual * p.driving.module_mm)
-      out.add(driving, "tip clearance of ", p.tip_clearance_1_mm(), " mm in the ", mesh, " mesh");
-    if (p.tip_clearance_2_mm() < tip_clearance_usual * p.driving.module_mm)
-      out.add(driven, "tip clearance of ", p.tip_clearance_2_mm(), " mm in the ", mesh, " mesh");
-    constexpr double rounding_mm = 1e-6;
-    if (p.backlash_mm() < -rounding_mm)
-      out.add(driven, "nominal teeth of the ", mesh, " mesh overlap by ", -p.backlash_mm(),
-              " mm; thinning must make up for it");
-    if (p.radius_1_mm(p.start_mm) < p.driving.form_radius_mm())
-      out.add(driving, "contact of the ", mesh, " mesh reaches down to radius ", p.radius_1_mm(p.start_mm),
-              " mm, below the end of the rack-cut involute at ", p.driving.form_radius_mm(), " mm");
-    if (!p.internal() && p.radius_2_mm(p.end_mm) < p.driven.form_radius_mm())
-      out.add(driven, "contact of the ", mesh, " mesh reaches down to radius ", p.radius_2_mm(p.end_mm),
-              " mm, below the end of the rack-cut involute at ", p.driven.form_radius_mm(), " mm");
-  };
-  pair(set.sun_planet.pair, sun_pointer, planet_pointer, "sun-planet");
-  pair(set.ring_planet.pair, planet_pointer, ring_pointer, "ring-planet");
-  if (set.catalogue.ring.base_pitch == BasePitch::of_planet && set.base_pitch_mismatch_mm != 0.0)
-    out.add(ring_pointer + "/module_mm", "replaced: ", set.catalogue.ring.data.module_mm,
-            " mm would give base pitches that differ by ", 1e3 * std::abs(set.base_pitch_mismatch_mm), " um; ",
-            set.ring_module_mm, " mm is used");
-  if (planet_gap_mm(set) < planet_gap_usual * set.planet.module_mm)
-    out.add("/planets/count", "neighbouring planets leave a gap of ", planet_gap_mm(set), " mm only");
-  const auto body = [&](const MeshedPair& m, const ToothBody& b, const std::string& pointer) {
-    if (b.tooth.internal || !m.options.foundation) return;
-    const double theta = b.root_half_angle.value_or(root_half_angle(b.tooth, m.options.fillet));
-    if (!sainsot_coefficients(theta, b.radius_ratio).in_range)
-      out.add(pointer, "Sainsot's body compliance is used outside its range: h_f ", b.radius_ratio,
-              " (1.4 to 7), theta_f ", theta, " rad (0.01 to 0.12)");
-  };
-  body(set.sun_planet, set.sun_planet.driving, sun_pointer);
-  body(set.sun_planet, set.sun_planet.driven, planet_pointer);
   return out.take();
 }
 

@@ -41,9 +41,6 @@ struct GearSet {
 /// What is wrong with the catalogue data, "pointer: message" with pointers relative to the stage; empty if all is well.
 [[nodiscard]] std::vector<std::string> catalogue_problems(const Stage& stage);
 
-/// What is allowed but rarely meant: thin tips, undercut, little room between planets, formulas out of range.
-[[nodiscard]] std::vector<std::string> catalogue_warnings(const GearSet& set);
-
 /// Mesh phases of planet i at s = 0, in periods, in [0, 1): [M-phase].
 struct PlanetPhases {
   double sun_planet, ring_planet;

@@ -124,7 +124,10 @@ IsoStiffness iso_stiffness(const MeshedPair& mesh) {
   const double width_mm = std::min(mesh.driving.tooth.width_mm, mesh.driven.tooth.width_mm);
   constexpr double theory_to_measurement = 0.8;
   constexpr double per_mm_um = 1e6;  // N / (mm um) times mm, in N/m
-  const double single = theory_to_measurement / q * width_mm * per_mm_um;
+  constexpr double steel_GPa = 206.0;
+  const double e_1 = mesh.driving.material.youngs_modulus_GPa;
+  const double e_2 = mesh.driven.material.youngs_modulus_GPa;
+  const double single = theory_to_measurement / q * width_mm * per_mm_um * (2.0 * e_1 * e_2 / (e_1 + e_2) / steel_GPa);
   return {single, single * (0.75 * mesh.contact_ratio() + 0.25)};
 }
 

@@ -4,7 +4,8 @@
 //   k(phase) = sum over pairs j with phase + j < epsilon of k_pair(phase + j)                           [G-k]
 //   L_j = k_pair,j / k : equal total deformation of the pairs in contact                                [G-L]
 //   k = k_0 + sum_h [ A_h cos 2 pi h phase + B_h sin 2 pi h phase ]                                     [G-4]
-//   ISO 6336-1, method B: c'_th from the teeth and shifts, c' = 0.8 c'_th, c_gamma = c' (0.75 eps + 0.25) [G-iso]
+//   ISO 6336-1:2006, 9.3, method B, c'_th from the teeth and shifts:                                     [G-iso]
+//   c' = 0.8 c'_th E / E_St ,  c_gamma = c' (0.75 eps + 0.25) ,  E = 2 E_1 E_2 / (E_1 + E_2) ,  E_St = 206 GPa
 //
 // phase = s / 2 pi of the mesh's own period, 0 where a pair enters; position = phase + j of a pair in base pitches from
 // the start of contact. Source: Tang et al. 2020, section 1.3 and Eq. (4) (with the time shift inside the angle);
@@ -67,7 +68,7 @@ struct StiffnessRange {
 };
 [[nodiscard]] StiffnessRange stiffness_range(const MeshedPair& mesh);
 
-/// The estimate of ISO 6336-1:2006, method B, for solid discs of steel; the factor of the reference profile, C_B,
+/// The estimate of ISO 6336-1:2006, 9.3, method B, for solid discs; the factor of the reference profile, C_B,
 /// is taken as 1 (20 degrees, dedendum 1.2), as in the numbers that it is compared with.
 /// An internal gear counts as one of infinitely many teeth.
 struct IsoStiffness {

@@ -75,7 +75,10 @@ double Pair::backlash_mm() const {
   const double r_1 = pitch_radius_1_mm();
   const double r_2 = pitch_radius_2_mm();
   const double pitch = 2.0 * pi * r_1 / driving.teeth;
-  return pitch - driving.thickness_at(r_1) - driven.thickness_at(r_2);
+  const double backlash = pitch - driving.thickness_at(r_1) - driven.thickness_at(r_2);
+  // What rounding leaves of the terms of a mesh without backlash is none.
+  constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+  return std::abs(backlash) <= rounding * pitch ? 0.0 : backlash;
 }
 
 double Pair::normal_backlash_mm() const { return backlash_mm() * std::cos(pressure_angle); }

@@ -230,27 +230,6 @@ void check_compatibility(Problems& out, const Stage& s) {
             " (relative difference at most ", radii_tolerance, ")");
 }
 
-/// Teeth fit both meshes only where (z_s + z_r)(phi_i - phi_1) / 2 pi is whole.
-void warn_of_assembly(Problems& out, const Stage& s) {
-  if (!s.sun.teeth || !s.ring.teeth) return;
-  const std::vector<double> angles = s.planet_angles_deg();
-  constexpr double angle_digits_deg = 1e-3;
-  const double teeth = *s.sun.teeth + *s.ring.teeth;
-  for (std::size_t i = 1; i < angles.size(); ++i) {
-    const double turns = teeth * (angles[i] - angles[0]) / 360.0;
-    if (std::abs(turns - std::round(turns)) > teeth * angle_digits_deg / 360.0)
-      out.add(s.angles_deg.empty() ? "/planets/count" : "/planets/angles_deg/" + std::to_string(i), "planet ",
-              static_cast<double>(i + 1), " at ", angles[i],
-              " deg cannot be assembled: (z_s + z_r)(phi_i - phi_1) / 360 deg = ", turns, " is not whole");
-  }
-}
-
-void warn_of_undamped(Problems& out, const char* pointer, double stiffness, double mass,
-                      const SupportDamping& damping) {
-  if (stiffness > 0.0 && damping.of(stiffness, mass) == 0.0)
-    out.add(pointer, "has a support without damping; motions of its modes may never settle");
-}
-
 void check_mesh_for_motion(Problems& out, const std::string& pointer, const Mesh& mesh) {
   if (!mesh.damping_ratio) out.add(pointer + "/damping_ratio", "is missing; time integration needs it");
 }
@@ -322,16 +301,6 @@ std::vector<std::string> problems_for_motion(const Stage& s) {
     out.add("/lumped/sun/bearing/ball_diameter_mm", "is missing; the Palmgren laws need it");
   if (s.load.power_kW.has_value() == s.load.torque_Nm.has_value())
     out.add("/load", s.load.power_kW ? "power_kW and torque_Nm exclude each other" : "needs power_kW or torque_Nm");
-  return out.take();
-}
-
-std::vector<std::string> warnings_for_motion(const Stage& s) {
-  Problems out;
-  warn_of_assembly(out, s);
-  warn_of_undamped(out, "/lumped/sun", s.sun.support_N_per_m, s.sun.mass_kg, s.sun.damping);
-  warn_of_undamped(out, "/lumped/ring", s.ring.support_N_per_m, s.ring.mass_kg, s.ring.damping);
-  warn_of_undamped(out, "/lumped/carrier", s.carrier.support_N_per_m, s.carrier.mass_kg, s.carrier.damping);
-  warn_of_undamped(out, "/lumped/planet", s.planet.bearing_N_per_m, s.planet.mass_kg, s.planet.damping);
   return out.take();
 }
 

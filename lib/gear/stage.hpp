@@ -186,7 +186,4 @@ struct Stage {
 /// What must hold, beyond that, for time integration: supports that fit the boundary, compatible radii, a load, ...
 [[nodiscard]] std::vector<std::string> problems_for_motion(const Stage& stage);
 
-/// What is allowed but rarely meant in time integration: planets that cannot be assembled, supports without damping.
-[[nodiscard]] std::vector<std::string> warnings_for_motion(const Stage& stage);
-
 }  // namespace epicyclic::gear

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/errors.hpp"
 #include "gear/bearing.hpp"
 #include "gear/ehl_friction.hpp"
 #include "gear/gear_set.hpp"
@@ -218,6 +219,30 @@ void note_figures(GearOutput& out, const std::vector<GearFigure>& figures) {
 
 }  // namespace
 
+void require_finite_numbers(const LoadedInput& input) {
+  const gear::Stage& stage = input.study.stage;
+  const model::Scales scales = model::scales_of(stage);
+  std::vector<Quantity> all = operating_quantities(stage, input.study.mesh_frequency_ratio);
+  if (stage.catalogue)
+    for (Quantity& q : gear_quantities(gear::make_gear_set(stage), stage)) all.push_back(std::move(q));
+  std::vector<std::string> names;
+  for (const Quantity& q : all)
+    if (!std::isfinite(q.value)) names.push_back(q.name);
+  if (names.empty())
+    for (const model::Mode& mode : model::modes(stage, scales))
+      if (!std::isfinite(mode.frequency_ratio) || !mode.shapes.allFinite()) {
+        names.emplace_back("the natural frequencies");
+        break;
+      }
+  if (names.empty()) return;
+  constexpr std::size_t most = 5;
+  if (names.size() > most) names.resize(most);
+  throw InputError(input.study_file.name +
+                   ": its numbers are within their bounds, but not together: no finite number "
+                   "comes out for " +
+                   listed(names));
+}
+
 GearOutput write_gear_output(const std::filesystem::path& path, const LoadedInput& input) {
   const gear::Stage& stage = input.study.stage;
   const model::Scales scales = model::scales_of(stage);
@@ -227,6 +252,7 @@ GearOutput write_gear_output(const std::filesystem::path& path, const LoadedInpu
   const std::filesystem::path figures = path / "figures";
   Folder folder(path);
   GearOutput out;
+  out.warnings = gear_warnings(input);
   GearPage page;
   page.title = stage.name.empty() ? "Planetary stage" : "Planetary stage " + stage.name;
 
@@ -239,7 +265,6 @@ GearOutput write_gear_output(const std::filesystem::path& path, const LoadedInpu
     page.quantities = gear_quantities(set, stage);
     out.verdicts = contact_verdicts(set, stage);
     if (moves) out.verdicts.insert(out.verdicts.begin(), operation_verdict(stage, input.study.mesh_frequency_ratio));
-    out.warnings = catalogue_warnings(input);
     const auto both = meshes(set, stage);
     folder.write("stiffness.csv", stiffness_csv(set));
     folder.write("load_sharing.csv", load_sharing_csv(both, set.catalogue.lubrication.value_or(gear::Lubrication{})));

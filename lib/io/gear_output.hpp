@@ -20,6 +20,10 @@ struct GearOutput {
   std::vector<std::string> undrawn;  ///< "stem: why not"
 };
 
+/// Numbers within their bounds can be out of all reason together: to be asked before anything is written.
+/// @throws InputError naming what of geometry, operating point and modes is not a finite number
+void require_finite_numbers(const LoadedInput& input);
+
 /// Writes everything to a folder; the operating point is the study's, Omega = 1 for a stage alone.
 /// @throws OutputError
 GearOutput write_gear_output(const std::filesystem::path& folder, const LoadedInput& input);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -65,11 +66,8 @@ void add_pair(std::vector<Quantity>& all, const gear::Pair& p, const std::string
   g.add(name("start_beyond_pitch_point"), "CB_2", p.start_mm - p.pitch_arm_mm, "mm", "[G-path]");
   g.add(name("end_beyond_pitch_point"), "CB_1", p.end_mm - p.pitch_arm_mm, "mm", "[G-path]");
   g.add(name("contact_ratio"), "ε_" + index, p.contact_ratio(), "-", "[G-path]");
-  // A pair without backlash has one at rounding level.
-  constexpr double rounding_mm = 1e-12;
-  const bool none = std::abs(p.backlash_mm()) < rounding_mm;
-  g.add(name("backlash"), "j_t", none ? 0.0 : p.backlash_mm(), "mm", "[G-j]");
-  g.add(name("normal_backlash"), "j_bn", none ? 0.0 : p.normal_backlash_mm(), "mm", "[G-j]");
+  g.add(name("backlash"), "j_t", p.backlash_mm(), "mm", "[G-j]");
+  g.add(name("normal_backlash"), "j_bn", p.normal_backlash_mm(), "mm", "[G-j]");
   g.add(name("tip_clearance_driving"), "c_1", p.tip_clearance_1_mm(), "mm", "[G-pair]");
   g.add(name("tip_clearance_driven"), "c_2", p.tip_clearance_2_mm(), "mm", "[G-pair]");
   g.add(name("active_radius_driving"), "r_A1", p.radius_1_mm(p.start_mm), "mm", "[G-path]");
@@ -92,7 +90,14 @@ void add_stiffness(std::vector<Quantity>& all, const gear::MeshedPair& m, const 
   }
   g.add(name("iso_single_stiffness"), "c'b", iso.single, "N/m", "[G-iso]");
   g.add(name("iso_mesh_stiffness"), "c_γ b", iso.mesh, "N/m", "[G-iso]");
+  g.add(name("iso_ratio"), "k_0/(c_γ b)", series.mean / iso.mesh, "-", "[G-iso]");
   const auto compliance = [&](const gear::ToothBody& body, double radius, const std::string& member) {
+    if (!body.tooth.internal) {
+      g.add(name(member + "_body_radius_ratio"), "h_f", body.radius_ratio, "-", "[G-kf], fitted for 1.4 to 7");
+      g.add(name(member + "_root_half_angle"), "θ_f",
+            body.root_half_angle.value_or(gear::root_half_angle(body.tooth, m.options.fillet)), "rad",
+            "[G-kf], fitted for 0.01 to 0.12");
+    }
     const gear::ToothCompliance c = gear::tooth_compliance(body, radius, m.options);
     g.add(name(member + "_bending_compliance"), "1/k_b", c.bending, "m/N", body.tooth.internal ? "[G-kr]" : "[G-kb]");
     g.add(name(member + "_shear_compliance"), "1/k_s", c.shear, "m/N", body.tooth.internal ? "[G-kr]" : "[G-ks]");
@@ -166,6 +171,36 @@ void append_values(std::string& page, const nlohmann::json& value, const std::st
     text = value.is_string() ? value.get<std::string>() : value.dump();
   }
   page += fmt::format("| `{}` | {} | {} | {} |\n", cell(pointer), cell(text), unit_of(key), cell(origin));
+}
+
+/// Which modes are rotational, and what of the mesh frequency excites them: harmonic h of equally spaced, equal planets
+/// reaches planet i with the phase 2 pi h z_s i / N, the same for all only where h z_s / N is whole (Parker, J. Sound
+/// Vib. 236 (2000) 561).
+std::string rotational_modes(const gear::Stage& stage, const std::vector<model::Mode>& modes) {
+  std::string list;
+  for (const model::Mode& mode : modes)
+    if (mode.type == model::ModeType::rotational && mode.frequency_ratio > 0.0)
+      list += fmt::format("{}{:.3f}", list.empty() ? "" : ", ", mode.frequency_ratio);
+  if (list.empty())
+    return "None of these modes is rotational: only planets that are equally spaced can all move alike.";
+  std::string text =
+      "Rotational modes, in which all planets move alike in their own directions, stand at ω/ω_sn = " + list + ".";
+  const std::vector<double> angles = stage.planet_angles_deg();
+  constexpr double angle_rounding_deg = 1e-9;
+  for (std::size_t i = 0; i < angles.size(); ++i)
+    if (std::abs(angles[i] - angles[0] - 360.0 * static_cast<double>(i) / static_cast<double>(angles.size())) >
+        angle_rounding_deg)
+      return text;
+  if (!stage.sun.teeth) return text;
+  const int common = std::gcd(*stage.sun.teeth, stage.planet_count);
+  if (common == stage.planet_count)
+    return text + fmt::format(" The planets mesh in phase (z_s/N = {} is whole): equal planets excite these alone.",
+                              *stage.sun.teeth / stage.planet_count);
+  return text +
+         fmt::format(
+             " The planets mesh out of phase (z_s/N = {}/{}): of equal planets only the harmonics {}, {}, ... of "
+             "the mesh frequency excite these, the others translational and planet modes.",
+             *stage.sun.teeth, stage.planet_count, stage.planet_count / common, 2 * stage.planet_count / common);
 }
 
 }  // namespace
@@ -335,17 +370,9 @@ std::string gear_page(const GearPage& page, const LoadedInput& input, const std:
                         model::to_string(mode.type), mode.multiplicity, where);
   }
   text += fmt::format(
-      "\nThe scale ω_sn = {:.1f} rad/s [M-23] is that of one sun-planet pair alone and none of these modes. In-phase "
-      "(rotational) modes, which equal planets in phase can excite, stand at ω/ω_sn =",
-      scales.omega_sn);
-  const char* separator = " ";
-  for (const model::Mode& mode : modes)
-    if (mode.type == model::ModeType::rotational && mode.frequency_ratio > 0.0) {
-      text += fmt::format("{}{:.3f}", separator, mode.frequency_ratio);
-      separator = ", ";
-    }
-  text +=
-      ".\n\n## All values of the model and where they come from\n\n| value | | unit | origin |\n|---|---|---|---|\n";
+      "\nThe scale ω_sn = {:.1f} rad/s [M-23] is that of one sun-planet pair alone and none of these modes. {}",
+      scales.omega_sn, rotational_modes(input.study.stage, modes));
+  text += "\n\n## All values of the model and where they come from\n\n| value | | unit | origin |\n|---|---|---|---|\n";
   const nlohmann::json& resolved = input.resolved;
   const nlohmann::json& stage = resolved.contains("stage") ? resolved["stage"] : resolved;
   nlohmann::json shown_parts = nlohmann::json::object();

@@ -1,6 +1,12 @@
 #include "io/study_model.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <optional>
+#include <random>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,6 +15,7 @@
 
 #include "core/errors.hpp"
 #include "gear/gear_set.hpp"
+#include "gear/warnings.hpp"
 #include "integrate/methods.hpp"
 #include "io/csv.hpp"
 #include "io/digest.hpp"
@@ -35,7 +42,15 @@ studies::OperatingPoint point_at(const LoadedInput& input, std::span<const Point
 }
 
 model::DynamicModel model_of(const studies::OperatingPoint& point, const model::Scales& scales) {
-  return model::make_dynamic_model(point.stage, scales, point.mesh_frequency_ratio, point.model);
+  model::DynamicModel model = model::make_dynamic_model(point.stage, scales, point.mesh_frequency_ratio, point.model);
+  std::vector<double> rate(model.dimension);
+  model.right_hand_side(model::segment_at(model.breakpoints, 0.0), 0.0, model.default_start.data(), rate.data());
+  const auto finite = [](double x) { return std::isfinite(x); };
+  if (!std::ranges::all_of(rate, finite) || !std::ranges::all_of(model.default_start, finite) ||
+      !(model.static_mesh_force != 0.0))
+    throw InputError("/stage: its numbers are within their bounds, but not together: at Omega = " +
+                     number_text(point.mesh_frequency_ratio) + " the equations of motion are not finite");
+  return model;
 }
 
 }  // namespace
@@ -79,36 +94,135 @@ std::function<model::DynamicModel(double value, double clearance_smoothing)> smo
   };
 }
 
-std::vector<std::string> warnings(const LoadedInput& input) {
+namespace {
+
+/// Warnings on a stage that passes problems_for_modes(), at mesh frequencies [rad/s] if it may move.
+void warn_of_stage(std::vector<gear::Warning>& out, const gear::Stage& stage, double mesh_frequency) {
+  const auto append = [&](std::vector<gear::Warning> more) { std::ranges::move(more, std::back_inserter(out)); };
+  std::optional<gear::GearSet> set;
+  if (stage.catalogue) {
+    set = gear::make_gear_set(stage);
+    append(gear::catalogue_warnings(*set, stage));
+  }
+  if (!gear::problems_for_motion(stage).empty()) return;
+  append(gear::warnings_for_motion(stage));
+  append(gear::warnings_at(stage, mesh_frequency, set ? &*set : nullptr));
+}
+
+struct VariedParameter {
+  std::string name, place;
+  double from, to;
+};
+
+/// What the study varies.
+std::vector<VariedParameter> varied_parameters(const Study& study) {
+  if (!study.sweep || study.kind == "run" || study.kind == "basins") return {};
+  const auto varied = [](const studies::Axis& axis, const std::string& place) {
+    return VariedParameter{axis.name, place + "/parameter", axis.from, axis.points > 1 ? axis.to : axis.from};
+  };
+  if (study.kind == "map")
+    return {varied(study.plane.first, "/study/first"), varied(study.plane.second, "/study/second")};
+  const studies::SweepOptions& sweep = *study.sweep;
+  return {varied({sweep.parameter, sweep.from, sweep.to, sweep.points}, "/study")};
+}
+
+/// Do two models answer alike, wherever the state is? Looked at states of all sizes, so that gaps of any width are
+/// crossed.
+bool same_motion(const model::DynamicModel& a, const model::DynamicModel& b) {
+  if (a.dimension != b.dimension || a.breakpoints != b.breakpoints || a.omega != b.omega) return false;
+  constexpr double size_max = 1e6;
+  constexpr int phases = 8;
+  std::minstd_rand random;
+  std::vector<double> y(a.dimension);
+  std::vector<double> rate_a(a.dimension);
+  std::vector<double> rate_b(a.dimension);
+  for (double size = 1e-3; size <= size_max; size *= 10.0)
+    for (int k = 0; k < phases; ++k) {
+      const double s = 2.0 * std::numbers::pi * (k + 0.5) / phases;
+      for (double& component : y) component = size * std::uniform_real_distribution(-1.0, 1.0)(random);
+      const std::size_t segment = model::segment_at(a.breakpoints, s);
+      a.right_hand_side(segment, s, y.data(), rate_a.data());
+      b.right_hand_side(segment, s, y.data(), rate_b.data());
+      if (rate_a != rate_b) return false;
+    }
+  return true;
+}
+
+/// Warnings at the operating points at the ends of what the study varies, and on parameters that change nothing.
+void warn_of_points(std::vector<gear::Warning>& out, const LoadedInput& input) {
+  const model::Scales scales = model::scales_of(input.study.stage);
+  const std::vector<VariedParameter> varied = varied_parameters(input.study);
+  const std::size_t corners = std::size_t{1} << varied.size();
+  for (std::size_t corner = 0; corner < corners; ++corner) {
+    std::vector<PointerValue> values;
+    for (std::size_t k = 0; k < varied.size(); ++k)
+      values.push_back({varied[k].name, (corner >> k & 1U) != 0U ? varied[k].to : varied[k].from});
+    const studies::OperatingPoint point = point_at(input, values);
+    warn_of_stage(out, point.stage, point.mesh_frequency_ratio * scales.omega_sn);
+  }
+  for (const VariedParameter& parameter : varied) {
+    if (parameter.from == parameter.to) continue;
+    const auto model = [&](double value) {
+      return model_of(point_at(input, std::array{PointerValue{parameter.name, value}}), scales);
+    };
+    if (same_motion(model(parameter.from), model(parameter.to)))
+      out.push_back({gear::Rank::doubtful, 1.0, parameter.place, parameter.place,
+                     fmt::format("{} has no effect on the motion: the equations at {} and at {} are the same",
+                                 parameter.name, parameter.from, parameter.to)});
+  }
+}
+
+std::vector<std::string> texts(std::vector<gear::Warning> warnings) {
+  gear::put_in_order(warnings);
   std::vector<std::string> lines;
-  for (const std::string& line : gear::warnings_for_motion(input.study.stage))
-    lines.push_back("warning: /stage" + line);
-  if (const auto* method = integrate::find_method(input.study.integrator.method);
-      method != nullptr && method->misses_kinks && input.study.model.clearance_smoothing == 0.0 &&
-      !input.study.integrator.locate_contacts)
-    lines.push_back("warning: /integrator/method: the error estimate of \"" + std::string(method->name) +
-                    "\" misses the kinks of the exact clearance; its errors are far above its tolerance");
-  if (input.study.sweep && input.study.sweep->classification_periods > 0 && input.study.kind != "crosscheck" &&
-      input.study.kind != "tolerance" && input.study.model.gap_damping == model::GapDamping::contact_slope &&
-      input.study.model.clearance_smoothing == 0.0)
-    lines.emplace_back(
-        "warning: /model/gap_damping: with the exact clearance its damping jumps, and tangent vectors with it; regimes "
-        "are told from recurrence alone, unless /integrator/clearance_smoothing > 0");
-  for (const std::string& line : input.notes) lines.push_back("warning: " + line);
+  for (const gear::Warning& w : warnings) lines.push_back(w.text());
   return lines;
 }
 
-std::vector<std::string> catalogue_warnings(const LoadedInput& input) {
+}  // namespace
+
+std::vector<std::string> warnings(const LoadedInput& input) {
+  const Study& study = input.study;
   std::vector<std::string> lines;
+  if (!study.sweep) {
+    lines = gear_warnings(input);
+  } else {
+    std::vector<gear::Warning> all;
+    warn_of_points(all, input);
+    std::erase_if(
+        all, [](const gear::Warning& w) { return w.rank == gear::Rank::note && w.pointer.starts_with("/catalogue"); });
+    for (gear::Warning& w : all)
+      if (!w.pointer.starts_with("/study")) w.pointer.insert(0, "/stage");
+    if (const auto* method = integrate::find_method(study.integrator.method);
+        method != nullptr && method->misses_kinks && study.model.clearance_smoothing == 0.0 &&
+        !study.integrator.locate_contacts)
+      all.push_back({gear::Rank::doubtful, 1.0, "/integrator/method", "kinks",
+                     "the error estimate of \"" + std::string(method->name) +
+                         "\" misses the kinks of the exact clearance; its errors are far above its tolerance"});
+    if (study.sweep->classification_periods > 0 && study.kind != "crosscheck" && study.kind != "tolerance" &&
+        study.model.gap_damping == model::GapDamping::contact_slope && study.model.clearance_smoothing == 0.0)
+      all.push_back({gear::Rank::note, 1.0, "/model/gap_damping", "tangents",
+                     "with the exact clearance its damping jumps, and tangent vectors with it; regimes are told from "
+                     "recurrence alone, unless /integrator/clearance_smoothing > 0"});
+    lines = texts(std::move(all));
+    lines.insert(lines.end(), input.notes.begin(), input.notes.end());
+  }
+  for (std::string& line : lines) line.insert(0, "warning: ");
+  return lines;
+}
+
+std::vector<std::string> gear_warnings(const LoadedInput& input) {
   const gear::Stage& stage = input.study.stage;
-  if (!stage.catalogue) return lines;
-  for (const std::string& line : gear::catalogue_warnings(gear::make_gear_set(stage))) lines.push_back(line);
-  if (stage.catalogue->carrier.shaft && stage.boundary == gear::Boundary::fixed_ring)
-    lines.emplace_back("/catalogue/carrier/shaft: not used; with boundary fixed_ring the carrier turns freely");
-  const auto problems = gear::problems_for_motion(stage);
-  for (const std::string& line : problems) lines.push_back("no motion in time, no operating point: " + line);
-  if (problems.empty())
-    for (const std::string& line : gear::warnings_for_motion(stage)) lines.push_back(line);
+  std::vector<gear::Warning> all;
+  warn_of_stage(all, stage, input.study.mesh_frequency_ratio * model::scales_of(stage).omega_sn);
+  if (stage.catalogue && stage.catalogue->carrier.shaft && stage.boundary == gear::Boundary::fixed_ring)
+    all.push_back({gear::Rank::note, 1.0, "/catalogue/carrier/shaft", "shaft",
+                   "not used; with boundary fixed_ring the carrier turns freely"});
+  std::vector<std::string> lines = texts(std::move(all));
+  // A lumped stage may be one of modes alone; drawings are given of stages that move.
+  if (stage.catalogue)
+    for (const std::string& line : gear::problems_for_motion(stage))
+      lines.push_back("no motion in time, no operating point: " + line);
   lines.insert(lines.end(), input.notes.begin(), input.notes.end());
   return lines;
 }

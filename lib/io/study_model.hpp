@@ -26,12 +26,14 @@ namespace epicyclic::io {
 [[nodiscard]] std::function<model::DynamicModel(double value, double clearance_smoothing)> smoothed_model_at(
     const LoadedInput& input);
 
-/// Lines for stderr on what is allowed but rarely meant.
+/// What is allowed but rarely meant, most important first (gear/warnings.hpp): the stage, the operating points at the
+/// ends of what the study varies, the study itself, values that were ignored. Of a study without the notes on its
+/// drawings, which `epicyclic gear` has.
 [[nodiscard]] std::vector<std::string> warnings(const LoadedInput& input);
 
-/// The same on a stage of catalogue data: thin tips, undercut, a module replaced, formulas out of range, why it cannot
-/// be moved in time; empty without such data.
-[[nodiscard]] std::vector<std::string> catalogue_warnings(const LoadedInput& input);
+/// The same for `epicyclic gear`: of the stage and its operating point alone, with notes, and why it cannot be moved in
+/// time.
+[[nodiscard]] std::vector<std::string> gear_warnings(const LoadedInput& input);
 
 /// What identifies the study's results: SHA-256 of the canonical resolved input with the versions of journal and
 /// numerics. On one machine two inputs share it exactly where their resolved inputs, without origins and notes, are

@@ -25,7 +25,7 @@
 namespace epicyclic::studies {
 
 /// Raised when a change makes the same input give other numbers: results of two versions are never mixed in one folder.
-inline constexpr int numerics_version = 9;
+inline constexpr int numerics_version = 10;
 
 /// The same points without the classification of their regimes, for studies that look at their points otherwise.
 [[nodiscard]] SweepOptions by_recurrence_alone(SweepOptions options);

@@ -497,5 +497,29 @@ TEST(ToothCompliance, ReproducesThePublishedNumberOfRoss) {
   RecordProperty("greatest_N_per_m", std::to_string(greatest));
 }
 
+TEST(ToothCompliance, SainsotsBodyWithoutItsWindUpIsAnElasticDisc) {
+  // [G-disc]: a solid disc under a tangential load spread over the tooth's foot, referred to its rigid-body motion;
+  // the annulus of the fit without the torsion about its held inner circle, (1 + nu)/(2 pi) (h^2 - 1).
+  constexpr double nu = 0.3;
+  const auto disc = [&](double theta) {
+    double sum = 0.0;
+    for (int n = 2; n < 20000; ++n) {
+      const double spread = std::sin(n * theta) / (n * theta);
+      sum += spread * spread * ((3.0 - nu) / (n + 1) + (1.0 + nu) / (n - 1));
+    }
+    return (1.0 + nu) / (6.0 * pi) + (3.0 + nu) / (2.0 * pi) + sum / (2.0 * pi);
+  };
+  constexpr double of_the_fit = 0.02;
+  const double h = solid_body_ratio;
+  const double wind_up = (1.0 + nu) / (2.0 * pi) * (h * h - 1.0);
+  for (const double theta : {0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09}) {
+    const SainsotCoefficients c = sainsot_coefficients(theta, h);
+    EXPECT_TRUE(c.in_range);
+    EXPECT_NEAR((c.p - wind_up) / disc(theta), 1.0, of_the_fit) << theta;
+    EXPECT_LT(c.p / disc(theta), 1.12) << theta;
+    EXPECT_GT(sainsot_coefficients(theta, 7.0).p / disc(theta), 4.0) << theta;
+  }
+}
+
 }  // namespace
 }  // namespace epicyclic::gear

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "io/gnuplot_guard.hpp"
 #include "io/study_input.hpp"
 #include "io/temporary_folder.hpp"
 
@@ -167,6 +168,53 @@ TEST(GearOutput, OfALumpedStageIsItsModes) {
   EXPECT_TRUE(std::filesystem::exists(folder / "campbell.csv"));
   EXPECT_FALSE(std::filesystem::exists(folder / "stiffness.csv"));
   EXPECT_NE(output.modes.find("mode,frequency_Hz,frequency_ratio,type,multiplicity"), std::string::npos);
+}
+
+/// gear.md without figures.
+std::string page_of(const std::string& file, const std::vector<std::string>& sets) {
+  const test::WithoutGnuplot guard;
+  const TemporaryFolder folder;
+  (void)write_gear_output(folder.path(), load_input(file, parse_assignments(sets)));
+  std::ifstream in(folder / "gear.md");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(GearOutput, SaysWhichHarmonicsExciteRotationalModes) {
+  const std::string file = "inputs/lin_parker_1999_n3.json";
+  const std::string stand = "Rotational modes, in which all planets move alike in their own directions, stand at";
+  const std::string in_phase = page_of(file, {"/lumped/sun/teeth=27"});
+  EXPECT_TRUE(contains(in_phase, stand));
+  EXPECT_TRUE(contains(in_phase, "mesh in phase (z_s/N = 9 is whole)"));
+  const std::string out_of_phase = page_of(file, {"/lumped/sun/teeth=28"});
+  EXPECT_TRUE(contains(out_of_phase, stand));
+  EXPECT_TRUE(contains(out_of_phase, "(z_s/N = 28/3): of equal planets only the harmonics 3, 6, ..."));
+  const std::string four = page_of("inputs/lin_parker_1999_n4.json", {"/lumped/sun/teeth=26"});
+  EXPECT_TRUE(contains(four, "(z_s/N = 26/4): of equal planets only the harmonics 2, 4, ..."));
+  // Without equal spacing no mode is rotational, and the sentence does not end in nothing.
+  const std::string uneven = page_of(file, {"/lumped/sun/teeth=27", "/planets/angles_deg=[0,117,243]"});
+  EXPECT_FALSE(contains(uneven, "stand at"));
+  EXPECT_TRUE(contains(uneven, "None of these modes is rotational"));
+}
+
+TEST(GearOutput, TellsTheBodyUnderTheTeethAndWhatIsoSays) {
+  const std::string page = page_of("inputs/tang2020.json", {"/catalogue/sun/body_radius_ratio=null"});
+  for (const char* row : {"| sun_planet_driving_body_radius_ratio | h_f | 1.4 |",
+                          "| sun_planet_driven_body_radius_ratio | h_f | 1.437534 |", "_root_half_angle | θ_f | 0.0",
+                          "| sun_planet_iso_ratio | k_0/(c_γ b) | 1.", "| `/catalogue/sun/body_radius_ratio` | 1.4 |"})
+    EXPECT_TRUE(contains(page, row)) << row;
+}
+
+TEST(GearOutput, AMeshWithoutBacklashHasNone) {
+  // At the centre distance without backlash rounding left 4e-12 um.
+  for (const char* shift : {"0.623", "0.61", "0.6", "0.59"}) {
+    const LoadedInput input =
+        load_input("inputs/tang2020.json",
+                   parse_assignments(std::vector<std::string>{"/lumped/sun_planet_mesh/backlash_half_um=null",
+                                                              std::string("/catalogue/sun/profile_shift=") + shift}));
+    EXPECT_EQ(input.study.stage.sun_planet_mesh.backlash_half_um, 0.0) << shift;
+  }
 }
 
 }  // namespace

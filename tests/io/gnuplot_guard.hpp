@@ -1,5 +1,8 @@
-// Tests that draw are skipped, and said to be, where gnuplot is missing.
+// Tests that draw are skipped, and said to be, where gnuplot is missing; others have no use for the time it takes.
 #pragma once
+
+#include <cstdlib>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -13,6 +16,18 @@ inline bool have_gnuplot() {
   put_file(folder / "empty.gp", "\n");
   return run_gnuplot(folder / "empty.gp").drawn();
 }
+
+/// While it lives no gnuplot is found: figures are not drawn, what they would be drawn from is written all the same.
+class WithoutGnuplot {
+ public:
+  WithoutGnuplot() : path_(std::getenv("PATH")) { ::setenv("PATH", "/nowhere", 1); }
+  ~WithoutGnuplot() { ::setenv("PATH", path_.c_str(), 1); }
+  WithoutGnuplot(const WithoutGnuplot&) = delete;
+  WithoutGnuplot& operator=(const WithoutGnuplot&) = delete;
+
+ private:
+  std::string path_;
+};
 
 }  // namespace epicyclic::io::test
 

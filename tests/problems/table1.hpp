@@ -27,7 +27,7 @@ inline gear::GearData table1_ring() { return {81, 2.57, 22.3, 1, 1, 0.25, 60, {}
 inline gear::Catalogue table1_catalogue() {
   gear::Catalogue c;
   c.sun = {table1_sun(), 6, 30, 2.0, {}};
-  c.planet = {table1_planet(), 6, 44, {}, {}};
+  c.planet = {table1_planet(), 6, 44, 1.437534090909091, {}};
   c.sun_bearing = gear::SupportBearing{"6213", 10};
   c.ring = {table1_ring(), 6, 240, gear::BasePitch::of_planet, {}};
   c.carrier.body = gear::CarrierBody{2, 15, 194, 70, 30, 90};

@@ -1,0 +1,332 @@
+#include "gear/warnings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "gear/ehl_friction.hpp"
+#include "gear/friction_path.hpp"
+#include "gear/kinematics.hpp"
+
+namespace epicyclic::gear {
+
+namespace {
+
+constexpr double radian = std::numbers::pi / 180.0;
+
+// Usual values of design guides, in modules.
+constexpr double tip_thickness_usual = 0.25;
+constexpr double tip_clearance_least = 0.1;
+constexpr double tip_clearance_most = 0.6;
+constexpr double planet_gap_usual = 0.5;
+// Of tooth heights and of modules.
+constexpr double external_rim_usual = 1.2;
+constexpr double ring_rim_usual = 3.5;
+// Over ISO/TR 10064-2's least one.
+constexpr double backlash_most = 4.0;
+constexpr double half_clearance_most = 0.5;  // in modules
+constexpr double strength_Pa = 1e9;
+constexpr double pressure_most_GPa = 1.65 * 1.6;
+constexpr double mass_most = 3.0;            // over that of the drawing
+constexpr double gyration_most = 2.0;        // over the member's radius
+constexpr double stiffness_deviation = 0.3;  // from ISO 6336-1
+
+const std::string sun_pointer = "/catalogue/sun";
+const std::string planet_pointer = "/catalogue/planet";
+const std::string ring_pointer = "/catalogue/ring";
+
+/// Recommended least backlash of ISO/TR 10064-2, normal to the flanks [mm].
+double recommended_backlash_mm(double centre_distance_mm, double module_mm) {
+  return (0.06 + 0.0005 * centre_distance_mm + 0.03 * module_mm) * 2.0 / 3.0;
+}
+
+void check_backlash(Warnings& out, const std::string& pointer, const std::string& mesh, double backlash_mm,
+                    double centre_distance_mm, double module_mm, const std::string& remedy) {
+  const double recommended = recommended_backlash_mm(centre_distance_mm, module_mm);
+  const double times = backlash_mm / recommended;
+  if (times > backlash_most)
+    out.add_once(Rank::doubtful, times / backlash_most, pointer, "backlash of the " + mesh + " mesh", "the ", mesh,
+                 " mesh has ", backlash_mm, " mm of backlash on its line of action, ", backlash_mm / module_mm,
+                 " modules and ", times, " times the least that ISO/TR 10064-2 recommends (", recommended, " mm)",
+                 remedy);
+}
+
+void check_tooth(Warnings& out, const Tooth& t, const std::string& pointer) {
+  const double tip = t.thickness_at(t.tip_radius_mm) / t.module_mm;
+  if (tip < tip_thickness_usual)
+    out.add(Rank::note, tip_thickness_usual / tip, pointer, "tip", "tip thickness ", tip, " modules; at least ",
+            tip_thickness_usual, " is usual");
+  if (!t.internal && t.profile_shift < t.undercut_limit())
+    out.add(Rank::note, 1.0, pointer, "undercut", "undercut: the profile shift ", t.profile_shift, " is below ",
+            t.undercut_limit());
+}
+
+/// @param driving, driven  pointers
+void check_pair(Warnings& out, const Pair& p, const std::string& driving, const std::string& driven,
+                const std::string& mesh, const std::string& remedy) {
+  const double module = p.driving.module_mm;
+  const auto tip = [&](const std::string& pointer, double clearance) {
+    const double modules = clearance / module;
+    if (modules < tip_clearance_least)
+      out.add(Rank::note, 1.0, pointer, "tip clearance in the " + mesh + " mesh", "tip clearance of ", clearance,
+              " mm in the ", mesh, " mesh, ", modules, " modules; at least ", tip_clearance_least, " is usual");
+    if (modules > tip_clearance_most)
+      out.add_once(Rank::doubtful, modules / tip_clearance_most, pointer, "wide tip clearance in the " + mesh + " mesh",
+                   "tip clearance of ", clearance, " mm in the ", mesh, " mesh, ", modules, " modules; at most ",
+                   tip_clearance_most, " is usual");
+  };
+  tip(driving, p.tip_clearance_1_mm());
+  tip(driven, p.tip_clearance_2_mm());
+  constexpr double rounding_mm = 1e-6;
+  if (p.backlash_mm() < -rounding_mm)
+    out.add(Rank::note, 1.0, driven, "overlap", "nominal teeth of the ", mesh, " mesh overlap by ", -p.backlash_mm(),
+            " mm; thinning must make up for it");
+  check_backlash(out, driven, mesh, p.normal_backlash_mm(), p.centre_distance_mm, module, remedy);
+  if (p.radius_1_mm(p.start_mm) < p.driving.form_radius_mm())
+    out.add(Rank::note, 1.0, driving, "form of the " + mesh + " mesh", "contact of the ", mesh,
+            " mesh reaches down to radius ", p.radius_1_mm(p.start_mm),
+            " mm, below the end of the rack-cut involute at ", p.driving.form_radius_mm(), " mm");
+  if (!p.internal() && p.radius_2_mm(p.end_mm) < p.driven.form_radius_mm())
+    out.add(Rank::note, 1.0, driven, "form of the " + mesh + " mesh", "contact of the ", mesh,
+            " mesh reaches down to radius ", p.radius_2_mm(p.end_mm), " mm, below the end of the rack-cut involute at ",
+            p.driven.form_radius_mm(), " mm");
+}
+
+void check_body(Warnings& out, const MeshedPair& m, const ToothBody& b, double bore_mm, const std::string& pointer) {
+  if (!m.options.foundation) return;
+  const double theta = b.root_half_angle.value_or(root_half_angle(b.tooth, m.options.fillet));
+  if (!sainsot_coefficients(theta, b.radius_ratio).in_range)
+    out.add(Rank::note, 1.0, pointer, "fit of the body", "Sainsot's body compliance is used outside its fit: h_f ",
+            b.radius_ratio, " (1.4 to 7), theta_f ", theta, " rad (0.01 to 0.12)");
+  const double rim = b.tooth.root_radius_mm - 0.5 * bore_mm;
+  const double usual = external_rim_usual * (b.tooth.tip_radius_mm - b.tooth.root_radius_mm);
+  if (rim < usual)
+    out.add(Rank::note, usual / rim, pointer, "rim", "the bore leaves a rim of ", rim,
+            " mm under the teeth; the mesh stiffness counts no bending of a rim, which ISO 6336-3 (Y_B) does below ",
+            usual, " mm, ", external_rim_usual, " tooth heights");
+}
+
+/// Mass and gyration of a member against its drawing; without one, gyration against its radius.
+void check_member(Warnings& out, const std::string& member, double mass, double inertia_over_r2, double radius_mm,
+                  const std::optional<MassAndInertia>& body) {
+  const std::string pointer = "/lumped/" + member;
+  const double gyration = std::sqrt(inertia_over_r2 / mass);
+  if (gyration > gyration_most)
+    out.add(Rank::doubtful, gyration / gyration_most, pointer + "/inertia_over_r2_kg", "gyration", "is ",
+            inertia_over_r2, " kg with a mass of ", mass, " kg: a radius of gyration of ", gyration,
+            " times the member's own radius of reference; is a rotor counted in, or the unit another one?");
+  if (!body) return;
+  const double heavier = mass / body->mass_kg;
+  if (heavier > mass_most)
+    out.add(Rank::doubtful, heavier / mass_most, pointer + "/mass_kg", "mass", "is ", mass, " kg, ", heavier,
+            " times the ", body->mass_kg, " kg of the body that the catalogue data describe");
+  const double radius_m = radius_mm * 1e-3;
+  const double inertia = body->inertia_kg_m2 / (radius_m * radius_m);
+  const double slower = inertia_over_r2 / inertia;
+  if (slower > mass_most)
+    out.add(Rank::doubtful, slower / mass_most, pointer + "/inertia_over_r2_kg", "gyration", "is ", inertia_over_r2,
+            " kg, ", slower, " times the ", inertia, " kg of the body that the catalogue data describe");
+}
+
+void check_iso(Warnings& out, const std::string& pointer, double stiffness, const MeshedPair& mesh) {
+  const double iso = iso_stiffness(mesh).mesh;
+  const double ratio = stiffness / iso;
+  if (std::abs(ratio - 1.0) > stiffness_deviation)
+    out.add(Rank::doubtful, std::abs(ratio - 1.0) / stiffness_deviation, pointer + "/stiffness_N_per_m", "ISO", "is ",
+            stiffness, " N/m, ", ratio, " times c_gamma b of ISO 6336-1:2006, 9.3, method B, ", iso,
+            " N/m; models of this kind differ by ", 100.0 * stiffness_deviation, " %");
+}
+
+/// Teeth fit both meshes only where (z_s + z_r)(phi_i - phi_1) / 2 pi is whole.
+void check_assembly(Warnings& out, const Stage& s) {
+  const std::vector<double> angles = s.planet_angles_deg();
+  constexpr double angle_digits_deg = 1e-3;
+  const double teeth = *s.sun.teeth + *s.ring.teeth;
+  for (std::size_t i = 1; i < angles.size(); ++i) {
+    const double turns = teeth * (angles[i] - angles[0]) / 360.0;
+    if (std::abs(turns - std::round(turns)) > teeth * angle_digits_deg / 360.0)
+      out.add(Rank::impossible, 1.0,
+              s.angles_deg.empty() ? "/planets/count" : "/planets/angles_deg/" + std::to_string(i),
+              "assembly of planet " + std::to_string(i + 1), "planet ", static_cast<double>(i + 1), " at ", angles[i],
+              " deg cannot be assembled: (z_s + z_r)(phi_i - phi_1) / 360 deg = ", turns, " is not whole");
+  }
+}
+
+void check_damping(Warnings& out, const std::string& pointer, double stiffness, double mass,
+                   const SupportDamping& damping) {
+  if (!(stiffness > 0.0) || !std::isfinite(stiffness)) return;
+  const double c = damping.of(stiffness, mass);
+  if (c == 0.0)
+    out.add(Rank::note, 1.0, pointer, "damping",
+            "has a support without damping; motions of its modes may never settle");
+  const double ratio = c / (2.0 * std::sqrt(stiffness * mass));
+  if (ratio >= 1.0)
+    out.add(Rank::doubtful, ratio, pointer, "damping", "its support is damped ", ratio,
+            " times critically; steel in bearings has 0.01 to 0.1");
+}
+
+void check_mesh_damping(Warnings& out, const std::string& pointer, const Mesh& mesh) {
+  if (const double ratio = mesh.damping_ratio.value_or(0.0); ratio >= 1.0)
+    out.add(Rank::doubtful, ratio, pointer + "/damping_ratio", "damping", "is ", ratio,
+            ", at or above critical; meshes have 0.03 to 0.17");
+}
+
+/// m of the drawing, or of teeth of 20 degrees.
+double module_mm(const Stage& s) {
+  if (s.catalogue) return s.catalogue->planet.data.module_mm;
+  return 2.0 * *s.planet.base_radius_mm / (*s.planet.teeth * std::cos(20.0 * radian));
+}
+
+void check_speed(Warnings& out, const std::string& pointer, const std::string& what, double angular, double radius_mm,
+                 double density) {
+  const double speed = std::abs(angular) * radius_mm * 1e-3;
+  const double stress = density * speed * speed;
+  constexpr double rpm = 30.0 / std::numbers::pi;
+  if (stress > strength_Pa)
+    out.add(Rank::impossible, speed / std::sqrt(strength_Pa / density), pointer, "speed", what, " run at ", speed,
+            " m/s (", std::abs(angular) * rpm, " rpm): a rim at that speed bears ", 1e-6 * stress,
+            " MPa of hoop stress, and gear steel breaks at some ", 1e-6 * strength_Pa, " MPa");
+}
+
+void check_deflection(Warnings& out, const std::string& pointer, const std::string& what, double deflection_m,
+                      double module) {
+  const double modules = 1e3 * deflection_m / module;
+  if (modules > 1.0)
+    out.add(Rank::impossible, modules, pointer, "deflection", what, " yields by ", 1e3 * deflection_m, " mm, ", modules,
+            " modules, under the static load");
+}
+
+void check_pressure(Warnings& out, const Friction::Ehl& contact, const LineOfAction& line, const MeshLoad& load,
+                    const std::string& mesh) {
+  const double pressure = lubrication_range(contact, line, load).greatest_pressure_GPa;
+  if (pressure > pressure_most_GPa)
+    out.add_once(Rank::impossible, pressure / pressure_most_GPa, "/load", "force", "the mean force of the ", mesh,
+                 " mesh, ", load.force_N, " N on a width of ", contact.width_mm, " mm, presses its flanks with ",
+                 pressure, " GPa; the best case-hardened steel bears ", pressure_most_GPa, " GPa, and at rest only");
+}
+
+}  // namespace
+
+std::vector<Warning> catalogue_warnings(const GearSet& set) {
+  Warnings out;
+  check_tooth(out, set.sun, sun_pointer);
+  check_tooth(out, set.planet, planet_pointer);
+  check_tooth(out, set.ring, ring_pointer);
+  // Wide meshes mostly come from tooth numbers that no centre distance suits.
+  std::string remedy;
+  const int reach = set.sun.teeth + 2 * set.planet.teeth;
+  if (reach != set.ring.teeth)
+    remedy = "; z_s + 2 z_p = " + std::to_string(reach) + " is not z_r = " + std::to_string(set.ring.teeth) +
+             ", which profile shifts and the centre distance have to make up for";
+  check_pair(out, set.sun_planet.pair, sun_pointer, planet_pointer, "sun-planet", remedy);
+  check_pair(out, set.ring_planet.pair, planet_pointer, ring_pointer, "ring-planet", remedy);
+  if (set.catalogue.ring.base_pitch == BasePitch::of_planet && set.base_pitch_mismatch_mm != 0.0)
+    out.add(Rank::note, 1.0, ring_pointer + "/module_mm", "module", "replaced: ", set.catalogue.ring.data.module_mm,
+            " mm would give base pitches that differ by ", 1e3 * std::abs(set.base_pitch_mismatch_mm), " um; ",
+            set.ring_module_mm, " mm is used");
+  if (planet_gap_mm(set) < planet_gap_usual * set.planet.module_mm)
+    out.add(Rank::note, 1.0, "/planets/count", "gap", "neighbouring planets leave a gap of ", planet_gap_mm(set),
+            " mm only");
+  check_body(out, set.sun_planet, set.sun_planet.driving, set.catalogue.sun.bore_mm, sun_pointer);
+  check_body(out, set.sun_planet, set.sun_planet.driven, set.catalogue.planet.bore_mm, planet_pointer);
+  if (const auto outer = set.catalogue.ring.outer_diameter_mm) {
+    const double rim = 0.5 * *outer - set.ring.root_radius_mm;
+    const double usual = ring_rim_usual * set.ring.module_mm;
+    if (rim < usual)
+      out.add(Rank::note, usual / rim, ring_pointer + "/outer_diameter_mm", "rim", "leaves a rim of ", rim,
+              " mm under the teeth; the mesh stiffness counts no bending of a rim, which ISO 6336-3 (Y_B) does below ",
+              usual, " mm, ", ring_rim_usual, " modules");
+  }
+  return out.take();
+}
+
+std::vector<Warning> catalogue_warnings(const GearSet& set, const Stage& stage) {
+  Warnings out;
+  check_iso(out, "/lumped/sun_planet_mesh", stage.sun_planet_mesh.stiffness_N_per_m, set.sun_planet);
+  check_iso(out, "/lumped/ring_planet_mesh", stage.ring_planet_mesh.stiffness_N_per_m, set.ring_planet);
+  const Bodies of_drawings = bodies(set);
+  const auto member = [&](const std::string& name, const auto& m, double radius_mm,
+                          const std::optional<MassAndInertia>& body) {
+    check_member(out, name, m.mass_kg, m.inertia_over_r2_kg, radius_mm, body);
+  };
+  member("sun", stage.sun, set.sun.base_radius_mm, of_drawings.sun);
+  member("planet", stage.planet, set.planet.base_radius_mm, of_drawings.planet);
+  member("ring", stage.ring, set.ring.base_radius_mm, of_drawings.ring);
+  member("carrier", stage.carrier, set.centre_distance_mm, of_drawings.carrier);
+  std::vector<Warning> all = catalogue_warnings(set);
+  std::ranges::move(out.take(), std::back_inserter(all));
+  return all;
+}
+
+std::vector<Warning> warnings_for_motion(const Stage& s) {
+  Warnings out;
+  check_assembly(out, s);
+  check_damping(out, "/lumped/sun", s.sun.support_N_per_m, s.sun.mass_kg, s.sun.damping);
+  check_damping(out, "/lumped/ring", s.ring.support_N_per_m, s.ring.mass_kg, s.ring.damping);
+  check_damping(out, "/lumped/carrier", s.carrier.support_N_per_m, s.carrier.mass_kg, s.carrier.damping);
+  check_damping(out, "/lumped/planet", s.planet.bearing_N_per_m, s.planet.mass_kg, s.planet.damping);
+  check_mesh_damping(out, "/lumped/sun_planet_mesh", s.sun_planet_mesh);
+  check_mesh_damping(out, "/lumped/ring_planet_mesh", s.ring_planet_mesh);
+  const double module = module_mm(s);
+  const auto backlash = [&](const std::string& pointer, const std::string& mesh, const Mesh& m) {
+    check_backlash(out, pointer + "/backlash_half_um", mesh, 2e-3 * m.backlash_half_um, *s.centre_distance_mm, module,
+                   "; the key takes half of it");
+  };
+  backlash("/lumped/sun_planet_mesh", "sun-planet", s.sun_planet_mesh);
+  backlash("/lumped/ring_planet_mesh", "ring-planet", s.ring_planet_mesh);
+  const double modules = 1e-3 * s.sun_bearing.clearance_half_um / module;
+  if (modules > half_clearance_most)
+    out.add(Rank::doubtful, modules / half_clearance_most, "/lumped/sun/bearing_clearance_half_um", "clearance", "is ",
+            s.sun_bearing.clearance_half_um, " um, ", modules,
+            " modules: the sun may move out of its meshes before its bearing holds it");
+  if (!s.catalogue)
+    for (const auto& [name, mass, inertia] : {std::tuple("sun", s.sun.mass_kg, s.sun.inertia_over_r2_kg),
+                                              std::tuple("planet", s.planet.mass_kg, s.planet.inertia_over_r2_kg),
+                                              std::tuple("ring", s.ring.mass_kg, s.ring.inertia_over_r2_kg),
+                                              std::tuple("carrier", s.carrier.mass_kg, s.carrier.inertia_over_r2_kg)})
+      check_member(out, name, mass, inertia, 0.0, std::nullopt);
+  return out.take();
+}
+
+std::vector<Warning> warnings_at(const Stage& s, double mesh_frequency, const GearSet* set) {
+  Warnings out;
+  const double density = s.catalogue ? s.catalogue->material.density_kg_per_m3 : Material{}.density_kg_per_m3;
+  const Speeds w = speeds(s, mesh_frequency);
+  check_speed(out, "/lumped/sun", "its teeth", w.sun, *s.sun.base_radius_mm, density);
+  check_speed(out, "/lumped/planet", "its teeth", w.carrier - mesh_frequency / *s.planet.teeth,
+              *s.planet.base_radius_mm, density);
+  check_speed(out, "/lumped/carrier", "the planets' axes", w.carrier, *s.centre_distance_mm, density);
+
+  const MeshLoad load = mean_mesh_load(s, mesh_frequency);
+  const PressureAngles alpha = pressure_angles(s);
+  const double module = module_mm(s);
+  const auto mesh = [&](const std::string& name, const Mesh& m, const LineOfAction& line, const MeshedPair* pair) {
+    check_deflection(out, "/lumped/" + name + "_mesh/stiffness_N_per_m", "the mesh", load.force_N / m.stiffness_N_per_m,
+                     module);
+    const std::string words = name == "sun_planet" ? "sun-planet" : "ring-planet";
+    if (pair != nullptr)
+      check_pressure(out, ehl_of(*pair, Lubrication{}), line, load, words);
+    else if (m.friction.ehl && !m.friction.ehl->share.empty())
+      check_pressure(out, *m.friction.ehl, line, load, words);
+  };
+  mesh("sun_planet", s.sun_planet_mesh, sun_planet_line(s), set == nullptr ? nullptr : &set->sun_planet);
+  mesh("ring_planet", s.ring_planet_mesh, ring_planet_line(s), set == nullptr ? nullptr : &set->ring_planet);
+  const double on_planet = load.force_N * std::hypot(std::cos(alpha.sun_planet) + std::cos(alpha.ring_planet),
+                                                     std::sin(alpha.sun_planet) - std::sin(alpha.ring_planet));
+  check_deflection(out, "/lumped/planet/bearing_N_per_m", "the planet's bearing", on_planet / s.planet.bearing_N_per_m,
+                   module);
+  if (s.boundary == Boundary::fixed_ring && std::isfinite(s.ring.torsional_support_N_per_m))
+    check_deflection(out, "/lumped/ring/torsional_support_N_per_m", "the ring's torsional support",
+                     s.planet_count * load.force_N / s.ring.torsional_support_N_per_m, module);
+  if (s.boundary == Boundary::star)
+    check_deflection(out, "/lumped/carrier/torsional_support_N_per_m", "the carrier's torsional support",
+                     s.planet_count * load.force_N * (std::cos(alpha.sun_planet) + std::cos(alpha.ring_planet)) /
+                         s.carrier.torsional_support_N_per_m,
+                     module);
+  return out.take();
+}
+
+}  // namespace epicyclic::gear

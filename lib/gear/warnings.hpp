@@ -1,0 +1,48 @@
+// Warnings: what is allowed but rarely meant, with the number that tells it, ranked.
+//
+//   backlash        j_bn > 4 (2/3)(0.06 + 0.0005 a + 0.03 m) mm, four times the least that ISO/TR 10064-2 recommends
+//   tip clearance   outside 0.1 to 0.6 m
+//   sun's bearing   half clearance > m / 2: the sun may leave the mesh
+//   speed           rho v^2 > 1000 MPa, the hoop stress of a thin ring at the base circle's speed (or at that of the
+//                   planets' axes): the tensile strength of quenched and tempered gear steels
+//   force           Hertz's pressure of the mean mesh force, load shared, > 2.64 GPa: sigma_H,lim 1650 MPa of the best
+//                   case-hardened steel (ISO 6336-5, ME) times Z_NT = 1.6 of a static load (ISO 6336-2)
+//   deflection      of a mesh, a planet's bearing or a torsional support under the static load, > m
+//   damping         at or above critical: zeta >= 1, c >= 2 sqrt(k m)
+//   mass            3 times that of the body on the drawing, or a radius of gyration of twice the member's radius
+//   stiffness       of a mesh more than 30 % from c_gamma of [G-iso], ISO 6336-1:2006, 9.3: that is how far models of
+//                   this kind differ
+//   rim             under external teeth thinner than 1.2 tooth heights, under a ring's than 3.5 m, where ISO 6336-3
+//                   begins to count its bending (Y_B); [G-kf], [G-kfr] have no rim
+//
+// A stage without catalogue data has m = 2 r_bp / (z_p cos 20 deg). Bounds are wide: they tell a slip of a unit or of a
+// tooth count, not a bold design. Limits: nominal loads, no dynamic factor; no tooth-root stress.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gear/gear_set.hpp"
+#include "gear/messages.hpp"
+#include "gear/stage.hpp"
+
+namespace epicyclic::gear {
+
+/// What is allowed but rarely meant about the drawings: thin tips, undercut, little room, formulas out of range.
+[[nodiscard]] std::vector<Warning> catalogue_warnings(const GearSet& set);
+
+/// What of the stage does not go with its drawings: masses, mesh stiffness.
+[[nodiscard]] std::vector<Warning> catalogue_warnings(const GearSet& set, const Stage& stage);
+
+/// What is allowed but rarely meant in time integration: planets that cannot be assembled, supports without damping or
+/// with more than critical, wide gaps.
+/// @param stage  passes problems_for_motion()
+[[nodiscard]] std::vector<Warning> warnings_for_motion(const Stage& stage);
+
+/// Speeds, forces and deflections at an operating point.
+/// @param stage  passes problems_for_motion()
+/// @param mesh_frequency  omega_m [rad/s]
+/// @param set  of the stage's catalogue data, for the pressure of its flanks; without it that of lubricated contact
+[[nodiscard]] std::vector<Warning> warnings_at(const Stage& stage, double mesh_frequency, const GearSet* set = nullptr);
+
+}  // namespace epicyclic::gear

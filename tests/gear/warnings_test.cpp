@@ -1,0 +1,240 @@
+#include "gear/warnings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "problems/r1.hpp"
+#include "problems/table1.hpp"
+
+namespace epicyclic::gear {
+namespace {
+
+Stage changed(const std::function<void(Stage&, Catalogue&)>& change) {
+  Stage s = problems::table1();
+  s.catalogue->stiffness.harmonics = 0;
+  change(s, *s.catalogue);
+  return s;
+}
+
+Stage as_it_is() {
+  return changed([](Stage&, Catalogue&) {});
+}
+
+std::vector<std::string> lines_of(std::vector<Warning> warnings) {
+  put_in_order(warnings);
+  std::vector<std::string> lines;
+  for (const Warning& w : warnings) lines.push_back(w.text());
+  return lines;
+}
+
+std::vector<std::string> drawn(const GearSet& set) { return lines_of(catalogue_warnings(set)); }
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string all;
+  for (const std::string& line : lines) all += line + "\n";
+  return all;
+}
+
+bool has_line(const std::vector<std::string>& lines, const std::string& pointer, const std::string& words) {
+  return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
+    return line.starts_with(pointer + ": ") && line.find(words) != std::string::npos;
+  });
+}
+
+struct Rule {
+  const char* pointer;
+  const char* words;
+  std::function<void(Stage&, Catalogue&)> break_it;
+};
+
+TEST(Warnings, Table1IsWarnedOfItsReplacedModuleOnly) {
+  const auto lines = drawn(make_gear_set(as_it_is()));
+  EXPECT_EQ(lines.size(), 1U) << joined(lines);
+  EXPECT_TRUE(has_line(lines, "/catalogue/ring/module_mm", "2.57627 mm is used")) << joined(lines);
+  EXPECT_TRUE(has_line(lines, "/catalogue/ring/module_mm", "differ by 18.2")) << joined(lines);
+}
+
+TEST(Warnings, EachOneOnDrawingsIsToldAtItsPlace) {
+  const std::vector<Rule> rules = {
+      {"/catalogue/planet", "tip thickness 0.2",
+       [](Stage&, Catalogue& c) {
+         c.tips = Tips::full;
+         c.planet.data.addendum_coefficient = 1.03;
+       }},
+      {"/catalogue/sun", "undercut: the profile shift 0.2 is below 0.298",
+       [](Stage&, Catalogue& c) {
+         c.sun.data = {12, 2, 20, 0.2, 1, 0.25, 20, {}, {}};
+         c.planet.data = {18, 2, 20, -0.2, 0.9, 0.25, 20, {}, {}};
+         c.ring.data = {48, 2, 20, -0.2, 0.8, 0.25, 20, {}, {}};
+         c.ring.base_pitch = BasePitch::as_given;
+         c.planet.bore_mm = 10;
+         c.sun.bore_mm = 5;
+       }},
+      {"/planets/count", "leave a gap of",
+       [](Stage& s, Catalogue& c) {
+         s.planet_count = 6;
+         c.planet.data.tip_diameter_mm = 71.0;
+       }},
+      {"/catalogue/sun", "tip clearance of",
+       [](Stage&, Catalogue& c) {
+         c.tips = Tips::full;
+         c.planet.data.clearance_coefficient = 0.2;
+       }},
+      {"/catalogue/ring", "overlap by", [](Stage&, Catalogue& c) { c.ring.data.profile_shift = 0.998; }},
+      {"/catalogue/planet", "the bore leaves a rim of 1.6", [](Stage&, Catalogue& c) { c.planet.bore_mm = 60; }},
+      {"/catalogue/ring/outer_diameter_mm", "leaves a rim of 4.8",
+       [](Stage&, Catalogue& c) { c.ring.outer_diameter_mm = 230; }},
+      {"/catalogue/sun", "Sainsot's body compliance", [](Stage&, Catalogue& c) { c.sun.body_radius_ratio = 7.1; }},
+      {"/catalogue/sun", "Sainsot's body compliance", [](Stage&, Catalogue& c) { c.sun.body_radius_ratio = 1.2; }},
+  };
+  for (const Rule& rule : rules) {
+    const auto lines = drawn(make_gear_set(changed(rule.break_it)));
+    EXPECT_TRUE(has_line(lines, rule.pointer, rule.words)) << rule.pointer << ": " << rule.words << "\nnot among:\n"
+                                                           << joined(lines);
+  }
+}
+
+TEST(Warnings, ContactBelowTheRackCutInvoluteIsAWarning) {
+  const GearSet usual = make_gear_set(as_it_is());
+  GearSet deep = usual;
+  deep.sun_planet.pair.start_mm =
+      0.9 * std::sqrt(std::pow(usual.sun.form_radius_mm(), 2) - std::pow(usual.sun.base_radius_mm, 2));
+  EXPECT_TRUE(has_line(drawn(deep), "/catalogue/sun", "below the end of the rack-cut involute"));
+}
+
+/// 21, 28 and 78 teeth of module 3 without shift: 21 + 2 x 28 = 77.
+Stage one_tooth_too_many(std::optional<double> centre_distance_mm) {
+  return changed([&](Stage& s, Catalogue& c) {
+    s.centre_distance_mm = centre_distance_mm;
+    c.sun.data = {21, 3, 20, 0, 1, 0.25, 30, {}, {}};
+    c.planet.data = {28, 3, 20, 0, 1, 0.25, 30, {}, {}};
+    c.ring.data = {78, 3, 20, 0, 1, 0.25, 30, {}, {}};
+    c.ring.base_pitch = BasePitch::as_given;
+    c.ring.outer_diameter_mm = 270;
+  });
+}
+
+TEST(Warnings, ToothNumbersThatDoNotFitLeaveWideMeshes) {
+  const auto by_sun = drawn(make_gear_set(one_tooth_too_many(std::nullopt)));
+  EXPECT_TRUE(has_line(by_sun, "/catalogue/ring", "mm of backlash on its line of action")) << joined(by_sun);
+  EXPECT_TRUE(has_line(by_sun, "/catalogue/ring", "z_s + 2 z_p = 77 is not z_r = 78")) << joined(by_sun);
+  EXPECT_TRUE(has_line(by_sun, "/catalogue/planet", "tip clearance of 2.25 mm in the ring-planet mesh, 0.75 modules"))
+      << joined(by_sun);
+  const auto by_ring = drawn(make_gear_set(one_tooth_too_many(75.0)));
+  EXPECT_TRUE(has_line(by_ring, "/catalogue/planet", "mm of backlash on its line of action")) << joined(by_ring);
+  EXPECT_TRUE(has_line(by_ring, "/catalogue/sun", "tip clearance of 2.25 mm in the sun-planet mesh"))
+      << joined(by_ring);
+  // With 77 teeth nothing is to be said of either.
+  Stage fits = one_tooth_too_many(std::nullopt);
+  fits.catalogue->ring.data.teeth = 77;
+  for (const std::string& line : drawn(make_gear_set(fits))) {
+    EXPECT_EQ(line.find("backlash"), std::string::npos) << line;
+    EXPECT_EQ(line.find("tip clearance"), std::string::npos) << line;
+  }
+}
+
+TEST(Warnings, GivenValuesAreHeldAgainstTheDrawings) {
+  const GearSet set = make_gear_set(as_it_is());
+  const auto lines = [&](const std::function<void(Stage&)>& change) {
+    Stage s = as_it_is();
+    // As the drawings have them.
+    s.sun_planet_mesh.stiffness_N_per_m = set.sun_planet_stiffness.mean;
+    s.ring_planet_mesh.stiffness_N_per_m = set.ring_planet_stiffness.mean;
+    change(s);
+    return lines_of(catalogue_warnings(set, s));
+  };
+  EXPECT_EQ(lines([](Stage&) {}).size(), 1U) << joined(lines([](Stage&) {}));
+  EXPECT_TRUE(has_line(lines([](Stage& s) { s.sun.mass_kg = 6.0; }), "/lumped/sun/mass_kg", "is 6 kg, 3.6"));
+  EXPECT_TRUE(has_line(lines([](Stage& s) { s.carrier.mass_kg = 24.0; }), "/lumped/carrier/mass_kg", "times the 7.5"));
+  EXPECT_TRUE(
+      has_line(lines([](Stage& s) { s.planet.inertia_over_r2_kg = 3.2; }), "/lumped/planet/inertia_over_r2_kg", "3.2"));
+  // 1.7 times by a factor, 0.58 by the bodies that a bore of 0 stood for.
+  EXPECT_TRUE(has_line(lines([](Stage& s) { s.sun_planet_mesh.stiffness_N_per_m *= 1.5; }),
+                       "/lumped/sun_planet_mesh/stiffness_N_per_m", "times c_gamma b of ISO 6336-1:2006, 9.3"));
+  EXPECT_TRUE(has_line(lines([](Stage& s) { s.ring_planet_mesh.stiffness_N_per_m *= 0.5; }),
+                       "/lumped/ring_planet_mesh/stiffness_N_per_m", "times c_gamma b"));
+}
+
+TEST(Warnings, EachOneOnTheMotionIsToldAtItsPlace) {
+  const Stage usual = problems::with_gap(problems::r1());
+  EXPECT_EQ(joined(lines_of(warnings_for_motion(usual))), "");
+  const struct {
+    const char* pointer;
+    const char* words;
+    std::function<void(Stage&)> break_it;
+  } rules[] = {
+      {"/planets/count", "cannot be assembled", [](Stage& s) { s.planet_count = 5; }},
+      {"/lumped/sun", "without damping", [](Stage& s) { s.sun.damping = {}; }},
+      {"/lumped/ring", "damped 1.5 times critically", [](Stage& s) { s.ring.damping.ratio = 1.5; }},
+      {"/lumped/planet", "times critically",
+       [](Stage& s) {
+         s.planet.damping = {std::nullopt, 1e6};
+       }},
+      {"/lumped/sun_planet_mesh/damping_ratio", "is 1, at or above critical",
+       [](Stage& s) { s.sun_planet_mesh.damping_ratio = 1.0; }},
+      {"/lumped/ring_planet_mesh/backlash_half_um", "has 1.2 mm of backlash",
+       [](Stage& s) { s.ring_planet_mesh.backlash_half_um = 600.0; }},
+      {"/lumped/sun/bearing_clearance_half_um", "modules: the sun may move out",
+       [](Stage& s) { s.sun_bearing.clearance_half_um = 1500.0; }},
+      {"/lumped/ring/inertia_over_r2_kg", "a radius of gyration of 3.4",
+       [](Stage& s) { s.ring.inertia_over_r2_kg = 50.0; }},
+  };
+  for (const auto& rule : rules) {
+    Stage s = usual;
+    rule.break_it(s);
+    const auto lines = lines_of(warnings_for_motion(s));
+    EXPECT_TRUE(has_line(lines, rule.pointer, rule.words)) << rule.pointer << ": " << rule.words << "\nnot among:\n"
+                                                           << joined(lines);
+  }
+}
+
+TEST(Warnings, EachOneOnAnOperatingPointIsToldAtItsPlace) {
+  constexpr double omega_sn = 47915.0;
+  const GearSet set = make_gear_set(as_it_is());
+  const auto at = [&](double omega, const std::function<void(Stage&)>& change) {
+    Stage s = problems::r1();
+    change(s);
+    return lines_of(warnings_at(s, omega * omega_sn, &set));
+  };
+  for (const double omega : {0.2, 1.0, 3.5}) EXPECT_EQ(joined(at(omega, [](Stage&) {})), "") << omega;
+  // rho v^2 of the sun's base circle is 1000 MPa at 357 m/s, Omega = 4.7.
+  EXPECT_EQ(joined(at(4.6, [](Stage&) {})), "");
+  EXPECT_TRUE(has_line(at(4.8, [](Stage&) {}), "/lumped/sun", "MPa of hoop stress"));
+  // The pressure goes with the root of the load: 0.52 GPa with 845 N m of Omega = 0.2 ... 2.64 GPa with some 5 times
+  // that of 1.2 GPa.
+  const auto load = [&](double torque) {
+    return at(1.0, [&](Stage& s) {
+      s.load.power_kW.reset();
+      s.load.torque_Nm = torque;
+    });
+  };
+  EXPECT_EQ(joined(load(845.0)), "");
+  EXPECT_TRUE(has_line(load(3e4), "/load", "presses its flanks with")) << joined(load(3e4));
+  EXPECT_TRUE(has_line(load(1e6), "/lumped/sun_planet_mesh/stiffness_N_per_m", "modules, under the static load"));
+  const auto weak = at(1.0, [](Stage& s) { s.planet.bearing_N_per_m = 1e5; });
+  EXPECT_TRUE(has_line(weak, "/lumped/planet/bearing_N_per_m", "yields by 3")) << joined(weak);
+  const auto loose = at(1.0, [](Stage& s) { s.ring.torsional_support_N_per_m = 1e6; });
+  EXPECT_TRUE(has_line(loose, "/lumped/ring/torsional_support_N_per_m", "yields by 5")) << joined(loose);
+}
+
+TEST(Warnings, TheMostImportantOnesComeFirstAndOnce) {
+  std::vector<Warning> all = {{Rank::note, 9, "/a", "a", "note"},
+                              {Rank::doubtful, 2, "/b", "b", "twice"},
+                              {Rank::doubtful, 3, "/b", "b", "three times"},
+                              {Rank::doubtful, 5, "/d", "d", "five times"},
+                              {Rank::impossible, 1, "/c", "c", "impossible"}};
+  put_in_order(all);
+  ASSERT_EQ(all.size(), 4U);
+  EXPECT_EQ(all[0].message, "impossible");
+  EXPECT_EQ(all[1].message, "five times");
+  EXPECT_EQ(all[2].message, "three times");
+  EXPECT_EQ(all[3].message, "note");
+}
+
+}  // namespace
+}  // namespace epicyclic::gear

@@ -1,0 +1,92 @@
+// Warnings of studies: nothing on the project's own inputs, and where they belong.
+#include "io/study_model.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace epicyclic::io {
+namespace {
+
+std::vector<std::string> told(const std::string& file, const std::vector<std::string>& sets = {}) {
+  return warnings(load_input(file, parse_assignments(sets)));
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string all;
+  for (const std::string& line : lines) all += line + "\n";
+  return all;
+}
+
+bool has(const std::vector<std::string>& lines, const std::string& part) {
+  return joined(lines).find(part) != std::string::npos;
+}
+
+TEST(StudyWarnings, TheProjectsOwnInputsHaveNone) {
+  int looked_at = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("inputs")) {
+    const std::vector<std::string> lines = told(entry.path().string());
+    ++looked_at;
+    if (entry.path().filename() == "tang2020.json") {  // a stage alone: notes too
+      ASSERT_EQ(lines.size(), 1U) << joined(lines);
+      EXPECT_TRUE(lines[0].starts_with("warning: /catalogue/ring/module_mm: replaced")) << lines[0];
+      continue;
+    }
+    EXPECT_EQ(joined(lines), "") << entry.path();
+  }
+  EXPECT_GT(looked_at, 15);
+}
+
+TEST(StudyWarnings, AParameterWithoutEffectIsTold) {
+  const std::string study = "inputs/tang2020_damping_1.21.json";
+  const auto swept = [&](const std::string& parameter, const std::string& from, const std::string& to,
+                         std::vector<std::string> more = {}) {
+    more.insert(more.end(),
+                {"/study/parameter=" + parameter, "/study/from=" + from, "/study/to=" + to, "/study/points=3"});
+    return told(study, more);
+  };
+  const std::string words = "warning: /study/parameter: ";
+  // A constant stiffness has no contact angle.
+  const std::string angle = "/stage/lumped/sun/bearing/contact_angle_deg";
+  EXPECT_TRUE(has(swept(angle, "0", "40"), words + angle + " has no effect on the motion"));
+  EXPECT_FALSE(has(swept(angle, "0", "40", {"/stage/lumped/sun/bearing/law=palmgren_radial"}), "no effect"));
+  // A given mass does not follow the bore.
+  const std::string bore = "/stage/catalogue/sun/bore_mm";
+  EXPECT_FALSE(has(swept(bore, "20", "40"), "no effect"));
+  EXPECT_TRUE(
+      has(swept(bore, "20", "40", {"/stage/lumped/sun/mass_kg=1.6", "/stage/lumped/sun/inertia_over_r2_kg=1.2"}),
+          words + bore + " has no effect on the motion"));
+  // Gaps far beyond any motion still change the equations.
+  EXPECT_FALSE(has(swept("sun_planet_backlash", "1000", "5000"), "no effect"));
+  EXPECT_FALSE(has(swept("sun_bearing_clearance", "0", "1"), "no effect"));
+}
+
+TEST(StudyWarnings, EndsOfARangeAreLookedAtAndTheWorstOneIsTold) {
+  const std::string speed = "inputs/tang2020_speed.json";
+  const auto fast = told(speed, {"/study/to=20"});
+  EXPECT_TRUE(has(fast, "warning: /stage/lumped/sun: its teeth run at")) << joined(fast);
+  const auto strong = told(speed, {"/stage/load/power_kW=100000"});
+  ASSERT_FALSE(strong.empty());
+  // Torque is power over speed: the greatest force is that of the lowest speed.
+  EXPECT_TRUE(has(strong, "warning: /stage/load: the mean force of the sun-planet mesh, 2.18")) << joined(strong);
+  const auto wide = told("inputs/tang2020_backlash_1.17.json", {"/study/to=100"});
+  EXPECT_TRUE(has(wide, "/stage/lumped/sun_planet_mesh/backlash_half_um: the sun-planet mesh has 2 mm"))
+      << joined(wide);
+  const auto damped = told("inputs/tang2020_map.json", {"/study/second/to=1.5"});
+  EXPECT_TRUE(has(damped, "/stage/lumped/sun_planet_mesh/damping_ratio: is 1.5")) << joined(damped);
+}
+
+TEST(StudyWarnings, TheMostImportantComesFirst) {
+  const auto lines =
+      told("inputs/tang2020_run.json", {"/stage/lumped/sun/support_damping_ratio=0", "/stage/lumped/ring/mass_kg=40",
+                                        "/operation/mesh_frequency_ratio=7"});
+  ASSERT_EQ(lines.size(), 3U) << joined(lines);
+  EXPECT_TRUE(has({lines[0]}, "its teeth run at")) << joined(lines);
+  EXPECT_TRUE(has({lines[1]}, "/stage/lumped/ring/mass_kg")) << joined(lines);
+  EXPECT_TRUE(has({lines[2]}, "without damping")) << joined(lines);
+}
+
+}  // namespace
+}  // namespace epicyclic::io
