@@ -13,10 +13,8 @@ using gear::ComplianceOptions;
 using gear::ExternalGear;
 using gear::RingGear;
 
-// Far beyond any gear; they catch a wrong unit.
-constexpr double length_max_mm = 1e6;
-
-const Bounds length = above_up_to(0, length_max_mm);
+const Bounds length = between(length_min_mm, length_max_mm);
+const Bounds factor = between(1e-6, 100);
 const Bounds coefficient = between(0, 5);
 
 template <class T>
@@ -54,7 +52,9 @@ const Table<ExternalGear>& external_table(const std::string& name) {
     add_gear_data(t);
     t.number("bore_mm", &ExternalGear::bore_mm, between(0, length_max_mm), "Diameter of the bore [mm].");
     t.number("body_radius_ratio", &ExternalGear::body_radius_ratio, between(1.01, 100),
-             "Root radius over inner radius of the elastic body under the teeth [-]; from the bore if not given.");
+             "Root radius over inner radius of the elastic body under the teeth, an annulus held fast along its inner "
+             "circle [-]. The default is for gears that do not wind up about their bore: solid, on a shaft of their "
+             "own, idling on a bearing.");
     return t;
   };
   static const auto sun = make("sun");
@@ -81,9 +81,9 @@ const Table<gear::Material>& material_table() {
   static const auto table = [] {
     using gear::Material;
     Table<Material> t("material", "Material of all gears.");
-    t.number("youngs_modulus_GPa", &Material::youngs_modulus_GPa, above_up_to(0, 2000), "Young's modulus [GPa].");
+    t.number("youngs_modulus_GPa", &Material::youngs_modulus_GPa, between(1e-6, 2000), "Young's modulus [GPa].");
     t.number("poisson_ratio", &Material::poisson_ratio, between(0, 0.49), "Poisson's ratio [-].");
-    t.number("density_kg_per_m3", &Material::density_kg_per_m3, above_up_to(0, 50000), "Density [kg/m3].");
+    t.number("density_kg_per_m3", &Material::density_kg_per_m3, between(1e-3, 50000), "Density [kg/m3].");
     return t;
   }();
   return table;
@@ -99,7 +99,7 @@ const Table<gear::SupportBearing>& bearing_table() {
     t.number("contact_angle_deg", &SupportBearing::contact_angle_deg, from_below(0, 90), "Contact angle [deg].");
     t.rule(KeyRule::Kind::exactly_one, {"type", "balls"});
     t.rule(KeyRule::Kind::together, {"balls", "ball_diameter_mm"});
-    t.number("approach_um", &SupportBearing::approach_um, above_up_to(0, 1e4),
+    t.number("approach_um", &SupportBearing::approach_um, between(1e-6, 1e4),
              "Elastic approach at which the tangent stiffness is taken [um].");
     return t;
   }();
@@ -179,9 +179,9 @@ const Table<gear::StiffnessOptions>& stiffness_table() {
                                                                 {"curve", StiffnessForm::curve}},
              "Fourier series, or the whole curve with its jumps.");
     t.integer("harmonics", &StiffnessOptions::harmonics, between(1, 64), "Harmonics of the Fourier series [-].");
-    t.number("sun_planet_factor", &StiffnessOptions::sun_planet_factor, above_up_to(0, 100),
+    t.number("sun_planet_factor", &StiffnessOptions::sun_planet_factor, factor,
              "Factor on the computed stiffness of the sun-planet mesh [-].");
-    t.number("ring_planet_factor", &StiffnessOptions::ring_planet_factor, above_up_to(0, 100),
+    t.number("ring_planet_factor", &StiffnessOptions::ring_planet_factor, factor,
              "Factor on the computed stiffness of the ring-planet mesh [-].");
     return t;
   }();

@@ -6,6 +6,10 @@
 
 namespace epicyclic::io {
 
+/// Far beyond any gear, on both sides; they catch a wrong unit and keep sums, squares and quotients finite.
+inline constexpr double length_min_mm = 1e-6;
+inline constexpr double length_max_mm = 1e6;
+
 [[nodiscard]] const Table<gear::Catalogue>& catalogue_table();
 
 }  // namespace epicyclic::io

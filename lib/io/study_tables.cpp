@@ -22,21 +22,24 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 using studies::SweepOptions;
 
-// Far beyond any gear; they catch a wrong unit and keep sums finite.
+// Far beyond any gear, on both sides; they catch a wrong unit and keep sums, squares and quotients finite.
+constexpr double mass_min = 1e-9;
 constexpr double mass_max = 1e7;
+constexpr double stiffness_min = 1e-3;
 constexpr double stiffness_max = 1e18;
-constexpr double length_max_mm = 1e6;
 constexpr double gap_max_um = 1e5;
 constexpr double gap_max = 1e4;  // the same in b_c
 constexpr double turns_deg = 3600;
+constexpr double tolerance_min = 1e-30;
 
-const Bounds mass = above_up_to(0, mass_max);
+const Bounds mass = between(mass_min, mass_max);
 const Bounds support = between(0, stiffness_max);
-const Bounds length = above_up_to(0, length_max_mm);
+const Bounds stiffness = between(stiffness_min, stiffness_max);
+const Bounds length = between(length_min_mm, length_max_mm);
 const Bounds gap = between(0, gap_max_um);
 const Bounds damping_ratio = between(0, 10);
 const Bounds damping_coefficient = between(0, 1e12);
-const Bounds frequency_ratio = above_up_to(0, 100);
+const Bounds frequency_ratio = between(1e-6, 100);
 const Bounds integrator_tolerance = between(1e-15, 0.1);
 const Bounds smoothing_width = between(0, 10);
 const Bounds component_value = between(-1e6, 1e6);  // below it a motion has diverged
@@ -201,7 +204,7 @@ const Table<Friction::Ehl>& lubricated_table() {
     t.number("viscosity_mPas", &Ehl::viscosity_mPas, between(1, 2000),
              "Dynamic viscosity of the oil at its inlet [mPa s].");
     t.number("roughness_um", &Ehl::roughness_um, between(0, 1.5), "RMS roughness of the flanks [um].");
-    t.number("equivalent_modulus_GPa", &Ehl::equivalent_modulus_GPa, above_up_to(0, 5000),
+    t.number("equivalent_modulus_GPa", &Ehl::equivalent_modulus_GPa, between(1e-6, 5000),
              "E' = 2 / ((1 - nu1^2) / E1 + (1 - nu2^2) / E2) [GPa].")
         .required();
     t.number("width_mm", &Ehl::width_mm, length, "Face width in contact [mm].").required();
@@ -272,7 +275,7 @@ const Table<gear::StiffnessCurve>& curve_table() {
     t.numbers("phase", &StiffnessCurve::phase, from_below(0, 1), 2, 100000,
               "Phase of the rows, 0 where a pair enters, rising; a jump is two rows of one phase [-].")
         .required();
-    t.numbers("stiffness_N_per_m", &StiffnessCurve::stiffness_N_per_m, above_up_to(0, stiffness_max), 2, 100000,
+    t.numbers("stiffness_N_per_m", &StiffnessCurve::stiffness_N_per_m, stiffness, 2, 100000,
               "Stiffness at each phase [N/m].")
         .required();
     t.numbers("breakpoints", &StiffnessCurve::breakpoints, from_below(0, 1), 0, 1000,
@@ -286,9 +289,7 @@ const Table<Mesh>& mesh_table() {
   static const auto table = [] {
     Table<Mesh> t("mesh", "A mesh, the same for all planets but for the errors.");
     const auto harmonic = between(-stiffness_max, stiffness_max);
-    t.number("stiffness_N_per_m", &Mesh::stiffness_N_per_m, above_up_to(0, stiffness_max),
-             "Mean mesh stiffness k_0 [N/m].")
-        .required();
+    t.number("stiffness_N_per_m", &Mesh::stiffness_N_per_m, stiffness, "Mean mesh stiffness k_0 [N/m].").required();
     t.numbers("stiffness_cos_N_per_m", &Mesh::stiffness_cos_N_per_m, harmonic, 0, gear::harmonics_max,
               "Cosine coefficients of the harmonics 1, 2, ... of the stiffness on the mesh's own phase [N/m].");
     t.numbers("stiffness_sin_N_per_m", &Mesh::stiffness_sin_N_per_m, harmonic, 0, gear::harmonics_max,
@@ -342,9 +343,9 @@ const Table<Stage>& planets_table() {
 const Table<gear::Load>& load_table() {
   static const auto table = [] {
     Table<gear::Load> t("load", "Load of the stage, on the sun: a power or a torque.");
-    t.number("power_kW", &gear::Load::power_kW, above_up_to(0, 1e6),
+    t.number("power_kW", &gear::Load::power_kW, between(1e-9, 1e6),
              "Power [kW]: the torque is power over the sun's speed, and falls with it.");
-    t.number("torque_Nm", &gear::Load::torque_Nm, above_up_to(0, 1e9), "Torque on the sun [N m], at every speed.");
+    t.number("torque_Nm", &gear::Load::torque_Nm, between(1e-9, 1e9), "Torque on the sun [N m], at every speed.");
     t.rule(KeyRule::Kind::exactly_one, {"power_kW", "torque_Nm"});
     return t;
   }();
@@ -371,7 +372,7 @@ const Table<Study>& integrator_table() {
         "Method: an embedded Runge-Kutta pair of ARKODE, explicit or implicit, or CVODE with Adams or BDF formulas.");
     t.number("relative_tolerance", of([](auto& i) -> auto& { return i.relative_tolerance; }), integrator_tolerance,
              "Relative tolerance of a step [-].");
-    t.number("absolute_tolerance", of([](auto& i) -> auto& { return i.absolute_tolerance; }), above_up_to(0, 1),
+    t.number("absolute_tolerance", of([](auto& i) -> auto& { return i.absolute_tolerance; }), between(tolerance_min, 1),
              "Absolute tolerance of a step, in the units of the state.");
     t.integer("max_steps_per_period", of([](auto& i) -> auto& { return i.max_steps_per_period; }), between(1, 1e9),
               "Steps attempted in one mesh period before a point is given up [-].");
@@ -463,7 +464,7 @@ void add_look(Table<Study>& t) {
             "Output points per recorded mesh period [-].");
   t.integer("period_max", of(&SweepOptions::period_max), between(1, 10000),
             "Longest period of the motion that is looked for, in mesh periods [-].");
-  t.number("recurrence_tolerance", of(&SweepOptions::recurrence_tolerance), above_up_to(0, 1),
+  t.number("recurrence_tolerance", of(&SweepOptions::recurrence_tolerance), between(tolerance_min, 1),
            "Two states recur if no component differs by more, in the units of the state.");
 }
 
@@ -622,7 +623,7 @@ const Table<Study>& crosscheck_table() {
               "Methods; the first is the reference of the others.");
     t.numbers("clearance_smoothings", of(&CrosscheckOptions::clearance_smoothings), smoothing_width, 1, 100,
               "Widths of the smooth clearance that the reference method is repeated with, in b_c [-].");
-    t.number("orbit_tolerance", of(&CrosscheckOptions::orbit_tolerance), above_up_to(0, 1),
+    t.number("orbit_tolerance", of(&CrosscheckOptions::orbit_tolerance), between(tolerance_min, 1),
              "Two orbits are the same if no component differs by more, in the units of the state.");
     t.integer("continued_periods", of(&CrosscheckOptions::continued_periods), between(1, 1e6),
               "Mesh periods that one answer is continued with the other method to explain a difference [-].");
@@ -642,11 +643,11 @@ const Table<Study>& tolerance_table() {
     t.choices("methods", of(&ToleranceOptions::methods), method_choices(), "Methods of the ladder.");
     t.numbers("tolerances", of(&ToleranceOptions::tolerances), integrator_tolerance, 1, 100,
               "Relative tolerances of the ladder [-]; the absolute ones keep the ratio of the study's integrator.");
-    t.numbers("clearance_smoothings", of(&ToleranceOptions::clearance_smoothings), above_up_to(0, 10), 1, 100,
+    t.numbers("clearance_smoothings", of(&ToleranceOptions::clearance_smoothings), between(tolerance_min, 10), 1, 100,
               "Widths of the smooth clearance, in b_c [-].");
     t.number("reference_tolerance", of(&ToleranceOptions::reference_tolerance), between(1e-15, 1e-6),
              "Relative and absolute tolerance of the reference orbits [-].");
-    t.number("target_error", of(&ToleranceOptions::target_error), above_up_to(0, 1),
+    t.number("target_error", of(&ToleranceOptions::target_error), between(tolerance_min, 1),
              "Error of an orbit that the recommendation has to meet, in the units of the state.");
     t.integer("chaotic_periods", of(&ToleranceOptions::chaotic_periods), between(64, 1e7),
               "Mesh periods of the statistics where the motion is not periodic [-].");

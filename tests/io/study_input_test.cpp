@@ -243,7 +243,7 @@ TEST_F(StudyInput, RefusesAValueAsStrictlyAsAFile) {
     return text.find(part) != std::string::npos;
   };
   const auto mass = message("/stage/lumped/sun/mass_kg", -1);
-  EXPECT_TRUE(contains(mass, "stage.json:13: /stage/lumped/sun/mass_kg: is -1, must be > 0")) << mass;
+  EXPECT_TRUE(contains(mass, "stage.json:13: /stage/lumped/sun/mass_kg: is -1, must be >= 1e-09")) << mass;
   const auto typo = message("/stage/lumped/sun/mas_kg", 1);
   EXPECT_TRUE(contains(typo, "did you mean '/stage/lumped/sun/mass_kg'?")) << typo;
   const auto teeth = message("/stage/lumped/sun/teeth", 27.5);
