@@ -142,6 +142,7 @@ void check_iso(Warnings& out, const std::string& pointer, double stiffness, cons
 
 /// Teeth fit both meshes only where (z_s + z_r)(phi_i - phi_1) / 2 pi is whole.
 void check_assembly(Warnings& out, const Stage& s) {
+  if (!s.sun.teeth || !s.ring.teeth) return;
   const std::vector<double> angles = s.planet_angles_deg();
   constexpr double angle_digits_deg = 1e-3;
   const double teeth = *s.sun.teeth + *s.ring.teeth;
