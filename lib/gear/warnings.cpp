@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <tuple>
@@ -181,6 +182,23 @@ double module_mm(const Stage& s) {
   return 2.0 * *s.planet.base_radius_mm / (*s.planet.teeth * std::cos(20.0 * radian));
 }
 
+/// A stage for modes alone has no module to measure gaps by.
+void check_gaps(Warnings& out, const Stage& s) {
+  if (!s.planet.teeth || !s.planet.base_radius_mm || !s.centre_distance_mm) return;
+  const double module = module_mm(s);
+  const auto backlash = [&](const std::string& pointer, const std::string& mesh, const Mesh& m) {
+    check_backlash(out, pointer + "/backlash_half_um", mesh, 2e-3 * m.backlash_half_um, *s.centre_distance_mm, module,
+                   "; the key takes half of it");
+  };
+  backlash("/lumped/sun_planet_mesh", "sun-planet", s.sun_planet_mesh);
+  backlash("/lumped/ring_planet_mesh", "ring-planet", s.ring_planet_mesh);
+  const double modules = 1e-3 * s.sun_bearing.clearance_half_um / module;
+  if (modules > half_clearance_most)
+    out.add(Rank::doubtful, modules / half_clearance_most, "/lumped/sun/bearing_clearance_half_um", "clearance", "is ",
+            s.sun_bearing.clearance_half_um, " um, ", modules,
+            " modules: the sun may move out of its meshes before its bearing holds it");
+}
+
 void check_speed(Warnings& out, const std::string& pointer, const std::string& what, double angular, double radius_mm,
                  double density) {
   const double speed = std::abs(angular) * radius_mm * 1e-3;
@@ -192,11 +210,14 @@ void check_speed(Warnings& out, const std::string& pointer, const std::string& w
             " MPa of hoop stress, and gear steel breaks at some ", 1e-6 * strength_Pa, " MPa");
 }
 
-void check_deflection(Warnings& out, const std::string& pointer, const std::string& what, double deflection_m,
-                      double module) {
-  const double modules = 1e3 * deflection_m / module;
-  if (modules > 1.0)
-    out.add(Rank::impossible, modules, pointer, "deflection", what, " yields by ", 1e3 * deflection_m, " mm, ", modules,
+void check_deflection(Warnings& out, const std::string& pointer, const std::string& what, double force,
+                      double stiffness, double module) {
+  const double modules = 1e3 * force / stiffness / module;
+  if (!std::isfinite(modules))
+    out.add(Rank::impossible, std::numeric_limits<double>::max(), pointer, "deflection", what, " with ", stiffness,
+            " N/m holds nothing against the static load of ", force, " N");
+  else if (modules > 1.0)
+    out.add(Rank::impossible, modules, pointer, "deflection", what, " yields by ", modules * module, " mm, ", modules,
             " modules, under the static load");
 }
 
@@ -271,18 +292,7 @@ std::vector<Warning> warnings_for_motion(const Stage& s) {
   check_damping(out, "/lumped/planet", s.planet.bearing_N_per_m, s.planet.mass_kg, s.planet.damping);
   check_mesh_damping(out, "/lumped/sun_planet_mesh", s.sun_planet_mesh);
   check_mesh_damping(out, "/lumped/ring_planet_mesh", s.ring_planet_mesh);
-  const double module = module_mm(s);
-  const auto backlash = [&](const std::string& pointer, const std::string& mesh, const Mesh& m) {
-    check_backlash(out, pointer + "/backlash_half_um", mesh, 2e-3 * m.backlash_half_um, *s.centre_distance_mm, module,
-                   "; the key takes half of it");
-  };
-  backlash("/lumped/sun_planet_mesh", "sun-planet", s.sun_planet_mesh);
-  backlash("/lumped/ring_planet_mesh", "ring-planet", s.ring_planet_mesh);
-  const double modules = 1e-3 * s.sun_bearing.clearance_half_um / module;
-  if (modules > half_clearance_most)
-    out.add(Rank::doubtful, modules / half_clearance_most, "/lumped/sun/bearing_clearance_half_um", "clearance", "is ",
-            s.sun_bearing.clearance_half_um, " um, ", modules,
-            " modules: the sun may move out of its meshes before its bearing holds it");
+  check_gaps(out, s);
   if (!s.catalogue)
     for (const auto& [name, mass, inertia] : {std::tuple("sun", s.sun.mass_kg, s.sun.inertia_over_r2_kg),
                                               std::tuple("planet", s.planet.mass_kg, s.planet.inertia_over_r2_kg),
@@ -294,6 +304,7 @@ std::vector<Warning> warnings_for_motion(const Stage& s) {
 
 std::vector<Warning> warnings_at(const Stage& s, double mesh_frequency, const GearSet* set) {
   Warnings out;
+  if (!problems_for_motion(s).empty()) return {};
   const double density = s.catalogue ? s.catalogue->material.density_kg_per_m3 : Material{}.density_kg_per_m3;
   const Speeds w = speeds(s, mesh_frequency);
   check_speed(out, "/lumped/sun", "its teeth", w.sun, *s.sun.base_radius_mm, density);
@@ -305,7 +316,7 @@ std::vector<Warning> warnings_at(const Stage& s, double mesh_frequency, const Ge
   const PressureAngles alpha = pressure_angles(s);
   const double module = module_mm(s);
   const auto mesh = [&](const std::string& name, const Mesh& m, const LineOfAction& line, const MeshedPair* pair) {
-    check_deflection(out, "/lumped/" + name + "_mesh/stiffness_N_per_m", "the mesh", load.force_N / m.stiffness_N_per_m,
+    check_deflection(out, "/lumped/" + name + "_mesh/stiffness_N_per_m", "the mesh", load.force_N, m.stiffness_N_per_m,
                      module);
     const std::string words = name == "sun_planet" ? "sun-planet" : "ring-planet";
     if (pair != nullptr)
@@ -317,16 +328,15 @@ std::vector<Warning> warnings_at(const Stage& s, double mesh_frequency, const Ge
   mesh("ring_planet", s.ring_planet_mesh, ring_planet_line(s), set == nullptr ? nullptr : &set->ring_planet);
   const double on_planet = load.force_N * std::hypot(std::cos(alpha.sun_planet) + std::cos(alpha.ring_planet),
                                                      std::sin(alpha.sun_planet) - std::sin(alpha.ring_planet));
-  check_deflection(out, "/lumped/planet/bearing_N_per_m", "the planet's bearing", on_planet / s.planet.bearing_N_per_m,
+  check_deflection(out, "/lumped/planet/bearing_N_per_m", "the planet's bearing", on_planet, s.planet.bearing_N_per_m,
                    module);
   if (s.boundary == Boundary::fixed_ring && std::isfinite(s.ring.torsional_support_N_per_m))
     check_deflection(out, "/lumped/ring/torsional_support_N_per_m", "the ring's torsional support",
-                     s.planet_count * load.force_N / s.ring.torsional_support_N_per_m, module);
+                     s.planet_count * load.force_N, s.ring.torsional_support_N_per_m, module);
   if (s.boundary == Boundary::star)
     check_deflection(out, "/lumped/carrier/torsional_support_N_per_m", "the carrier's torsional support",
-                     s.planet_count * load.force_N * (std::cos(alpha.sun_planet) + std::cos(alpha.ring_planet)) /
-                         s.carrier.torsional_support_N_per_m,
-                     module);
+                     s.planet_count * load.force_N * (std::cos(alpha.sun_planet) + std::cos(alpha.ring_planet)),
+                     s.carrier.torsional_support_N_per_m, module);
   return out.take();
 }
 

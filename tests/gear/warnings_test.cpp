@@ -193,6 +193,17 @@ TEST(Warnings, EachOneOnTheMotionIsToldAtItsPlace) {
   }
 }
 
+TEST(Warnings, AStageForModesAloneIsLookedAtAsFarAsItGoes) {
+  Stage s = problems::r1();
+  s.sun.teeth.reset();
+  s.planet.teeth.reset();
+  s.planet.base_radius_mm.reset();
+  s.centre_distance_mm.reset();
+  s.sun.damping = {};
+  EXPECT_EQ(lines_of(warnings_for_motion(s)).size(), 1U);
+  EXPECT_TRUE(warnings_at(s, 1e4).empty());
+}
+
 TEST(Warnings, EachOneOnAnOperatingPointIsToldAtItsPlace) {
   constexpr double omega_sn = 47915.0;
   const GearSet set = make_gear_set(as_it_is());
@@ -218,6 +229,8 @@ TEST(Warnings, EachOneOnAnOperatingPointIsToldAtItsPlace) {
   EXPECT_TRUE(has_line(load(1e6), "/lumped/sun_planet_mesh/stiffness_N_per_m", "modules, under the static load"));
   const auto weak = at(1.0, [](Stage& s) { s.planet.bearing_N_per_m = 1e5; });
   EXPECT_TRUE(has_line(weak, "/lumped/planet/bearing_N_per_m", "yields by 3")) << joined(weak);
+  const auto none = at(1.0, [](Stage& s) { s.planet.bearing_N_per_m = 5e-324; });
+  EXPECT_TRUE(has_line(none, "/lumped/planet/bearing_N_per_m", "holds nothing")) << joined(none);
   const auto loose = at(1.0, [](Stage& s) { s.ring.torsional_support_N_per_m = 1e6; });
   EXPECT_TRUE(has_line(loose, "/lumped/ring/torsional_support_N_per_m", "yields by 5")) << joined(loose);
 }
