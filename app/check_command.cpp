@@ -1,31 +1,28 @@
 // epicyclic check: validates, prints the resolved input on stdout and its cost on stderr; writes nothing.
 
-#include <cstdio>
-
-#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 #include "io/study_model.hpp"
+#include "streams.hpp"
 
 namespace epicyclic::app {
 
 int check_command(const Arguments& arguments) {
   const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
-  for (const std::string& warning : io::warnings(input)) fmt::print(stderr, "{}\n", warning);
+  for (const std::string& warning : io::warnings(input)) tell("{}\n", warning);
   if (!input.study.sweep) {
-    fmt::print("{}\n", input.resolved.dump(2));
-    fmt::print(stderr, "{}: valid; a stage alone, for `epicyclic gear`\n", arguments.input.string());
+    print("{}\n", input.resolved.dump(2));
+    tell("{}: valid; a stage alone, for `epicyclic gear`\n", arguments.input.string());
     return done;
   }
   const io::Cost cost = io::estimate_cost(input);
-  fmt::print("{}\n", input.resolved.dump(2));
-  fmt::print(stderr,
-             "{}: valid\n"
-             "cost: {} points in {} chains, {} mesh periods, {} state variables, about {:.2g} right-hand sides{}\n",
-             arguments.input.string(), cost.points, cost.chains, cost.mesh_periods, cost.dimension,
-             cost.rhs_evaluations(),
-             input.study.sweep->classification_periods > 0 ? " and what it takes to tell the regimes" : "");
+  print("{}\n", input.resolved.dump(2));
+  tell(
+      "{}: valid\n"
+      "cost: {} points in {} chains, {} mesh periods, {} state variables, about {:.2g} right-hand sides{}\n",
+      arguments.input.string(), cost.points, cost.chains, cost.mesh_periods, cost.dimension, cost.rhs_evaluations(),
+      input.study.sweep->classification_periods > 0 ? " and what it takes to tell the regimes" : "");
   return done;
 }
 

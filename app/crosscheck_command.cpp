@@ -3,7 +3,6 @@
 #include <map>
 #include <utility>
 
-#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
@@ -15,6 +14,8 @@
 #include "io/progress.hpp"
 #include "io/study_model.hpp"
 #include "stop.hpp"
+#include "streams.hpp"
+#include "watch.hpp"
 
 namespace epicyclic::app {
 
@@ -29,7 +30,7 @@ int crosscheck_command(const Arguments& arguments) {
   const model::DynamicModel first_model = model_at(plan.points.front().value, width);
   const std::vector<studies::Variant> variants =
       studies::crosscheck_variants(input.study.crosscheck, input.study.integrator, width);
-  for (const std::string& warning : io::warnings(input)) fmt::print(stderr, "{}\n", warning);
+  for (const std::string& warning : io::warnings(input)) tell("{}\n", warning);
 
   const std::string identity = io::identity(input, "crosscheck");
   const io::OutputFolder folder(arguments.output, identity);
@@ -37,9 +38,11 @@ int crosscheck_command(const Arguments& arguments) {
   io::Provenance facts = provenance(arguments.threads, input);
   const std::string resolved = write_inputs(folder, input);
   folder.write_run(io::RunState::running, io::run_facts(facts));
+  const FolderWatch watch(folder);
 
   const std::size_t points = plan.points.size();
   io::Journal journal(folder.file("journal.bin"), identity);
+  tell_cut_tail(folder.file("journal.bin"), journal.cut_bytes());
   studies::CrosscheckRun run;
   run.threads = arguments.threads;
   run.stop = &stop_requested();
@@ -73,11 +76,11 @@ int crosscheck_command(const Arguments& arguments) {
   };
   if (!all.complete(plan)) {
     close_run(io::RunState::stopped);
-    fmt::print(stderr, "stopped after {} of {} results; the same command goes on\n", finished,
-               points * variants.size());
+    tell("stopped after {} of {} results; the same command goes on\n", finished, points * variants.size());
     return stopped_early;
   }
 
+  folder.require_there();
   const io::SweepOutput output{sweep, studies::poincare_columns(first_model), resolved, io::figure_title(input.study)};
   const io::PointSource reference = io::points_in_memory(all.reference);
   io::write_points_csv(folder.file("points.csv"), reference);
@@ -90,18 +93,17 @@ int crosscheck_command(const Arguments& arguments) {
   close_run(io::RunState::complete);
 
   const std::size_t different = io::differences(all);
-  if (!figure.outcome.drawn())
-    fmt::print(stderr, "{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
+  if (!figure.outcome.drawn()) tell("{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
   if (arguments.json) {
-    fmt::print("{}\n", nlohmann::json{{"folder", folder.path().string()},
-                                      {"points", points},
-                                      {"comparisons", all.comparisons.size()},
-                                      {"differences", different},
-                                      {"failed", failed}}
-                           .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    print("{}\n", nlohmann::json{{"folder", folder.path().string()},
+                                 {"points", points},
+                                 {"comparisons", all.comparisons.size()},
+                                 {"differences", different},
+                                 {"failed", failed}}
+                      .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
-    fmt::print("{}", summary);
-    if (figure.outcome.drawn()) fmt::print("\nfigure: {}\n", figure.file.string());
+    print("{}", summary);
+    if (figure.outcome.drawn()) print("\nfigure: {}\n", figure.file.string());
   }
   return different == 0 && failed == 0 ? done : done_with_failures;
 }

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
 #include <string_view>
 #include <vector>
 
-#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
@@ -16,6 +14,7 @@
 #include "io/point_record.hpp"
 #include "io/study_model.hpp"
 #include "io/versions.hpp"
+#include "streams.hpp"
 
 namespace epicyclic::app {
 
@@ -36,13 +35,36 @@ void tell_differences(const io::OutputFolder& folder, const io::LoadedInput& inp
   // That the study is another one is known from run.json.
   if (!other.complete || !other.value.is_object()) return;
   const std::vector<std::string> lines = io::differences(other.value, input);
-  if (lines.empty())
-    fmt::print(stderr, "  the inputs are alike: another command, or another version of its numerics\n");
-  for (std::size_t k = 0; k < std::min(lines.size(), most); ++k) fmt::print(stderr, "  {}\n", lines[k]);
-  if (lines.size() > most) fmt::print(stderr, "  and {} more\n", lines.size() - most);
+  if (lines.empty()) tell("  the inputs are alike: another command, or another version of its numerics\n");
+  for (std::size_t k = 0; k < std::min(lines.size(), most); ++k) tell("  {}\n", lines[k]);
+  if (lines.size() > most) tell("  and {} more\n", lines.size() - most);
+}
+
+void tell_changes(const io::OutputFolder& folder) {
+  constexpr std::size_t most = 10;
+  const std::vector<io::ChangedFile>& changed = folder.changed();
+  tell("{}: this study is complete, but {}; all are made again\n", folder.path().string(),
+       changed.empty() ? "its run.json does not say which files it has" : "not all of its files are as it left them");
+  for (std::size_t k = 0; k < std::min(changed.size(), most); ++k) {
+    const io::ChangedFile& file = changed[k];
+    if (!file.bytes)
+      tell("  {}: {}\n", file.name, file.expected ? "missing" : "was not drawn");
+    else if (*file.bytes < file.expected->bytes)
+      tell("  {}: {} bytes, not {}; kept as {}.changed if they are not its first ones\n", file.name, *file.bytes,
+           file.expected->bytes, file.name);
+    else
+      tell("  {}: changed since; kept as {}.changed\n", file.name, file.name);
+  }
+  if (changed.size() > most) tell("  and {} more\n", changed.size() - most);
 }
 
 }  // namespace
+
+void tell_cut_tail(const std::filesystem::path& journal, std::size_t bytes) {
+  if (bytes > 0)
+    tell("{}: cut off the last {} bytes, of a record that was never finished; its point is computed again\n",
+         journal.string(), bytes);
+}
 
 std::map<std::size_t, studies::PointResult> known_points(const io::Journal& journal,
                                                          std::span<const io::JournalEntry> entries,
@@ -87,17 +109,20 @@ std::optional<int> refuse_or_finish(const io::OutputFolder& folder, const io::Lo
   const std::string where = folder.path().string();
   switch (folder.outcome()) {
     case io::FolderOutcome::complete:
-      fmt::print(stderr, "{}: this study is complete already; nothing to compute\n", where);
+      tell("{}: this study is complete already; nothing to compute\n", where);
       return failed_points(folder) > 0 ? done_with_failures : done;
+    case io::FolderOutcome::damaged:
+      tell_changes(folder);
+      return std::nullopt;
     case io::FolderOutcome::other_study:
-      fmt::print(stderr, "{}: holds another study; choose another -o\n", where);
+      tell("{}: holds another study; choose another -o\n", where);
       tell_differences(folder, input);
       return other_study;
     case io::FolderOutcome::foreign:
-      fmt::print(stderr, "{}: holds files that are not a study's; choose an empty or new folder for -o\n", where);
+      tell("{}: holds files that are not a study's; choose an empty or new folder for -o\n", where);
       return other_study;
     case io::FolderOutcome::in_use:
-      fmt::print(stderr, "{}: is in use by another process\n", where);
+      tell("{}: is in use by another process\n", where);
       return folder_in_use;
     case io::FolderOutcome::fresh:
     case io::FolderOutcome::resumable:

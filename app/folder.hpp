@@ -1,6 +1,7 @@
 // Opening a study's folder and what every subcommand leaves in it.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <span>
@@ -27,13 +28,17 @@ void require_kind(const io::LoadedInput& input, const Arguments& arguments, std:
 /// Versions, machine and the names that the input files came by, for run.json.
 [[nodiscard]] io::Provenance provenance(int threads, const io::LoadedInput& input);
 
+/// Says on stderr that half a record was cut from the end of a journal; nothing of 0 bytes.
+void tell_cut_tail(const std::filesystem::path& journal, std::size_t bytes);
+
 /// Points of earlier sessions, from records of the journal.
 /// @throws DamagedData when they are of points that the study has not
 [[nodiscard]] std::map<std::size_t, studies::PointResult> known_points(const io::Journal& journal,
                                                                        std::span<const io::JournalEntry> entries,
                                                                        const studies::SweepPlan& plan);
 
-/// Says on stderr why a folder cannot be used; of another study, in which values it differs.
+/// Says on stderr why a folder cannot be used, of another study, in which values it differs; and which files of a
+/// complete study have to be made again.
 /// @returns the exit code, or nothing if the study may be computed in it
 [[nodiscard]] std::optional<int> refuse_or_finish(const io::OutputFolder& folder, const io::LoadedInput& input);
 

@@ -1,12 +1,12 @@
 // epicyclic gear: what follows from the stage alone: geometry, stiffness, load sharing, friction, bearings, modes.
 
-#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 #include "folder.hpp"
 #include "io/gear_output.hpp"
 #include "io/study_model.hpp"
+#include "streams.hpp"
 
 namespace epicyclic::app {
 
@@ -20,17 +20,17 @@ int gear_command(const Arguments& arguments) {
   const io::GearOutput written = io::write_gear_output(folder.path(), input);
   facts.ended = io::utc_now();
   folder.write_run(io::RunState::complete, io::run_facts(facts));
-  for (const std::string& line : written.warnings) fmt::print(stderr, "warning: {}\n", line);
-  for (const std::string& line : written.undrawn) fmt::print(stderr, "figure not drawn: {}\n", line);
-  for (const std::string& line : written.verdicts) fmt::print(stderr, "{}\n", line);
-  fmt::print(stderr, "summary: {}\n", folder.file("gear.md").string());
+  for (const std::string& line : written.warnings) tell("warning: {}\n", line);
+  for (const std::string& line : written.undrawn) tell("figure not drawn: {}\n", line);
+  for (const std::string& line : written.verdicts) tell("{}\n", line);
+  tell("summary: {}\n", folder.file("gear.md").string());
   if (arguments.json)
-    fmt::print("{}\n", nlohmann::json{{"folder", folder.path().string()},
-                                      {"modes", folder.file("modes.csv").string()},
-                                      {"summary", folder.file("gear.md").string()}}
-                           .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    print("{}\n", nlohmann::json{{"folder", folder.path().string()},
+                                 {"modes", folder.file("modes.csv").string()},
+                                 {"summary", folder.file("gear.md").string()}}
+                      .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   else
-    fmt::print("{}", written.modes);
+    print("{}", written.modes);
   return done;
 }
 

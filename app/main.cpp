@@ -1,15 +1,12 @@
 // The command line: arguments, exit codes, nothing else.
 
 #include <algorithm>
-#include <csignal>
-#include <cstdio>
 #include <exception>
 #include <functional>
-#include <iostream>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <sched.h>
 
 #include "commands.hpp"
@@ -21,6 +18,7 @@
 #include "io/versions.hpp"
 #include "ranks.hpp"
 #include "stop.hpp"
+#include "streams.hpp"
 
 namespace epicyclic::app {
 
@@ -37,12 +35,10 @@ namespace {
 /// Runs a subcommand; every exception becomes an exit code and one message, whatever the number of ranks.
 int guarded(const Ranks& ranks, const std::function<int()>& command) {
   try {
-    const int code = command();
-    if (std::fflush(stdout) != 0) throw OutputError("standard output: cannot be written");
-    return code;
+    return command();
   } catch (...) {
     const Failure failure = failure_of(std::current_exception());
-    if (ranks.rank() == 0) fmt::print(stderr, "{}\n", failure.what());
+    if (ranks.rank() == 0) tell("{}\n", failure.what());
     return failure.exit_code();
   }
 }
@@ -52,6 +48,17 @@ int own_cores() {
   cpu_set_t cores;
   CPU_ZERO(&cores);
   return ::sched_getaffinity(0, sizeof cores, &cores) == 0 ? std::max(1, CPU_COUNT(&cores)) : 1;
+}
+
+/// --help, --version and what is wrong with the command line; once, whatever the number of ranks.
+int answer(const CLI::App& cli, const CLI::ParseError& asked, const Ranks& ranks) {
+  std::ostringstream data, words;
+  const int code = cli.exit(asked, data, words) == 0 ? done : bad_input;
+  if (ranks.rank() == 0) {
+    write_words(words.str());
+    write_data(data.str());
+  }
+  return code;
 }
 
 int run(int argc, char** argv) {
@@ -106,14 +113,12 @@ int run(int argc, char** argv) {
   with_input(check);
   const CLI::App* schema = cli.add_subcommand("schema", "the JSON Schema of the input");
 
-  try {
-    cli.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    std::ostringstream unsaid;
-    const bool talks = ranks.rank() == 0;
-    return cli.exit(e, talks ? std::cout : unsaid, talks ? std::cerr : unsaid) == 0 ? done : bad_input;
-  }
   const int code = guarded(ranks, [&] {
+    try {
+      cli.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+      return answer(cli, e, ranks);
+    }
     check_instruction_set_limit();
     if (ranks.size() > 1 && !ranks.connected())
       throw InputError("several processes cannot share the work: this program was built without MPI");
@@ -127,7 +132,7 @@ int run(int argc, char** argv) {
     if (tolerance->parsed()) return tolerance_command(arguments);
     if (crosscheck->parsed()) return crosscheck_command(arguments);
     if (check->parsed()) return check_command(arguments);
-    if (schema->parsed()) fmt::print("{}\n", io::schema_text());
+    if (schema->parsed()) print("{}\n", io::schema_text());
     return static_cast<int>(done);
   });
   if (ranks.size() > 1) leave_ranks(code);
@@ -139,7 +144,6 @@ int run(int argc, char** argv) {
 }  // namespace epicyclic::app
 
 int main(int argc, char** argv) {
-  // A limit on the size of files is an error of the write, like a full disk, not the end of the program.
-  std::signal(SIGXFSZ, SIG_IGN);
+  epicyclic::app::secure_streams();
   return epicyclic::app::run(argc, argv);
 }

@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/manifest.hpp"
 #include "io/study_input.hpp"
 #include "io/sweep_output.hpp"
 
@@ -32,6 +33,7 @@ struct WrittenPoints {
   nlohmann::json summary = nlohmann::json::object();  ///< joins that of --json
   std::vector<std::string> lines{};                   ///< for stdout
   std::vector<std::string> notes{};                   ///< for stderr
+  io::Manifest files{};                               ///< that another process put into the folder
 };
 
 /// Writes files of its own, on any rank and beside the other parts.

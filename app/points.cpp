@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
 #include <iterator>
 #include <map>
 #include <mutex>
 #include <utility>
-
-#include <fmt/core.h>
 
 #include "failure.hpp"
 #include "folder.hpp"
@@ -20,7 +17,9 @@
 #include "ranks.hpp"
 #include "shared_sweep.hpp"
 #include "stop.hpp"
+#include "streams.hpp"
 #include "studies/sweep.hpp"
+#include "watch.hpp"
 
 namespace epicyclic::app {
 
@@ -45,8 +44,7 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
     if (run.done[i]) failed += computed(store.read_brief(i)) ? 0 : 1;
   }
   if (store.size() > 0)
-    fmt::print(stderr, "{}: {} of {} {} were there already\n", arguments.output.string(), store.size(),
-               plan.points.size(), noun);
+    tell("{}: {} of {} {} were there already\n", arguments.output.string(), store.size(), plan.points.size(), noun);
 
   io::Progress progress(std::string(command), plan.points.size(), store.size());
   progress.update(store.size(), failed);
@@ -68,7 +66,6 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
       failed += without;
       progress.update(store.size() + elsewhere, failed);
     });
-    store.read_others();
   }
   progress.finish();
   store.sync();
@@ -91,6 +88,7 @@ WrittenPoints write_results(const Arguments& arguments, const std::vector<Result
     std::ranges::move(part.lines, std::back_inserter(all.lines));
     std::ranges::move(part.notes, std::back_inserter(all.notes));
     all.summary.update(part.summary);
+    all.files.merge(part.files);
   }
   return all;
 }
@@ -104,21 +102,25 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   const studies::ModelAtPoint model_at = io::model_at_point(input);
   // Options that do not fit show here, before anything is written.
   const model::DynamicModel first_model = model_at(plan.points.front());
-  for (const std::string& warning : io::warnings(input)) fmt::print(stderr, "{}\n", warning);
+  for (const std::string& warning : io::warnings(input)) tell("{}\n", warning);
   if (command == "sweep" && input.study.sweep->parameter != "mesh_frequency_ratio")
-    fmt::print(stderr, "operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
+    tell("operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
 
   const std::string identity = io::identity(input, command);
   if (leader != nullptr) leader->gather(arguments, identity);
-  const io::OutputFolder folder(arguments.output, identity);
+  io::OutputFolder folder(arguments.output, identity);
   if (const auto code = refuse_or_finish(folder, input)) return *code;
   io::Provenance facts = provenance(arguments.threads, input);
   facts.ranks = arguments.ranks->size();
   const std::string resolved = write_inputs(folder, input);
   folder.write_run(io::RunState::running, io::run_facts(facts));
+  const FolderWatch watch(folder);
 
   io::PointStore store(folder.path(), identity, plan.points.size());
+  for (const auto& [journal, bytes] : store.cut_tails()) tell_cut_tail(journal, bytes);
   const std::size_t failed = compute_missing(arguments, command, noun, input, plan, model_at, store, leader);
+  folder.require_there();
+  if (leader != nullptr) store.read_others();
   const auto close_run = [&](io::RunState state) {
     facts.ended = io::utc_now();
     facts.counts = {{"points", static_cast<std::int64_t>(plan.points.size())},
@@ -128,15 +130,17 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   };
   if (store.size() < plan.points.size()) {
     close_run(io::RunState::stopped);
-    fmt::print(stderr, "stopped after {} of {} {}; the same command goes on\n", store.size(), plan.points.size(), noun);
+    tell("stopped after {} of {} {}; the same command goes on\n", store.size(), plan.points.size(), noun);
     return stopped_early;
   }
 
+  folder.require_there();
   const ComputedPoints computed_points{folder.path(), input, first_model, resolved, store.source()};
   const io::PointSource& points = computed_points.points;
   const WrittenPoints written = write_results(arguments, parts, computed_points, leader);
+  folder.add(written.files);
   close_run(io::RunState::complete);
-  for (const std::string& note : written.notes) fmt::print(stderr, "{}\n", note);
+  for (const std::string& note : written.notes) tell("{}\n", note);
 
   std::map<std::string, std::size_t> regimes;
   for (std::size_t i = 0; i < points.count; ++i) {
@@ -153,15 +157,15 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
     if (figure.outcome.drawn())
       summary["figures"].push_back(figure.file.string());
     else
-      fmt::print(stderr, "{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
+      tell("{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
   }
   if (arguments.json) {
-    fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    print("{}\n", summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
-    fmt::print("{} {}, {} failed, in {}\n", plan.points.size(), noun, failed, folder.path().string());
-    for (const auto& [regime, count] : regimes) fmt::print("{}: {}\n", regime, count);
-    for (const std::string& line : written.lines) fmt::print("{}\n", line);
-    for (const auto& figure : summary["figures"]) fmt::print("figure: {}\n", figure.get<std::string>());
+    print("{} {}, {} failed, in {}\n", plan.points.size(), noun, failed, folder.path().string());
+    for (const auto& [regime, count] : regimes) print("{}: {}\n", regime, count);
+    for (const std::string& line : written.lines) print("{}\n", line);
+    for (const auto& figure : summary["figures"]) print("figure: {}\n", figure.get<std::string>());
   }
   return failed == 0 ? done : done_with_failures;
 }
@@ -179,7 +183,7 @@ int points_command(const Arguments& arguments, std::string_view command, std::st
     code = lead(arguments, command, noun, parts, &leader);
   } catch (...) {
     const Failure failure = failure_of(std::current_exception());
-    fmt::print(stderr, "{}\n", failure.what());
+    tell("{}\n", failure.what());
     code = failure.exit_code();
   }
   leader.dismiss(code);

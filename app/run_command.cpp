@@ -1,6 +1,5 @@
 // epicyclic run: one operating point with everything that analysis can say of it.
 
-#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
@@ -10,7 +9,9 @@
 #include "io/study_model.hpp"
 #include "io/sweep_output.hpp"
 #include "stop.hpp"
+#include "streams.hpp"
 #include "studies/run.hpp"
+#include "watch.hpp"
 
 namespace epicyclic::app {
 
@@ -20,13 +21,14 @@ int run_command(const Arguments& arguments) {
   require_kind(input, arguments, "run");
   const io::Study& study = input.study;
   const model::DynamicModel model = io::model_at(input)(study.mesh_frequency_ratio);
-  for (const std::string& warning : io::warnings(input)) fmt::print(stderr, "{}\n", warning);
+  for (const std::string& warning : io::warnings(input)) tell("{}\n", warning);
 
   const io::OutputFolder folder(arguments.output, io::identity(input, "run"));
   if (const auto code = refuse_or_finish(folder, input)) return *code;
   io::Provenance facts = provenance(1, input);
   const std::string resolved = write_inputs(folder, input);
   folder.write_run(io::RunState::running, io::run_facts(facts));
+  const FolderWatch watch(folder);
 
   // A minute at most: what is stopped begins anew.
   const auto result = studies::run_operating_point(model, model::scales_of(study.stage), *study.sweep, study.run,
@@ -34,10 +36,11 @@ int run_command(const Arguments& arguments) {
   if (!result) {
     facts.ended = io::utc_now();
     folder.write_run(io::RunState::stopped, io::run_facts(facts));
-    fmt::print(stderr, "stopped; the same command begins anew\n");
+    tell("stopped; the same command begins anew\n");
     return stopped_early;
   }
 
+  folder.require_there();
   const io::SweepOutput points{*study.sweep, studies::poincare_columns(model), resolved, io::figure_title(study)};
   const io::RunOutput output{points, study.run, model.sun_planet_half_gap, model.ring_planet_half_gap};
   const bool computed = result->point.outcome == integrate::Outcome::reached;
@@ -62,13 +65,13 @@ int run_command(const Arguments& arguments) {
     if (figure.outcome.drawn())
       told["figures"].push_back(figure.file.string());
     else
-      fmt::print(stderr, "{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
+      tell("{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
   }
   if (arguments.json) {
-    fmt::print("{}\n", told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    print("{}\n", told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
-    fmt::print("{}\n", summary);
-    for (const auto& figure : told["figures"]) fmt::print("figure: {}\n", figure.get<std::string>());
+    print("{}\n", summary);
+    for (const auto& figure : told["figures"]) print("figure: {}\n", figure.get<std::string>());
   }
   return computed ? done : done_with_failures;
 }

@@ -22,6 +22,7 @@
 #include "failure.hpp"
 #include "folder.hpp"
 #include "io/journal.hpp"
+#include "io/manifest.hpp"
 #include "io/point_record.hpp"
 #include "io/point_store.hpp"
 #include "io/study_model.hpp"
@@ -166,7 +167,11 @@ json written_to(const WrittenPoints& written) {
   json figures = json::array();
   for (const io::DrawnFigure& figure : written.figures)
     figures.push_back({{"file", figure.file.string()}, {"message", figure.outcome.message}});
-  return {{"figures", figures}, {"summary", written.summary}, {"lines", written.lines}, {"notes", written.notes}};
+  return {{"figures", figures},
+          {"summary", written.summary},
+          {"lines", written.lines},
+          {"notes", written.notes},
+          {"files", io::to_json(written.files)}};
 }
 
 WrittenPoints written_from(const json& report) {
@@ -176,6 +181,7 @@ WrittenPoints written_from(const json& report) {
   written.summary = report.at("summary");
   written.lines = report.at("lines").get<std::vector<std::string>>();
   written.notes = report.at("notes").get<std::vector<std::string>>();
+  written.files = io::manifest_from(report.at("files")).value();
   return written;
 }
 
@@ -523,7 +529,10 @@ class PartWriter {
         store_(folder_, identity, plan_.points.size(), io::Journal::Use::read) {}
 
   [[nodiscard]] json write(const ResultsPart& part) const {
-    return written_to(part.write({folder_, input_, first_model_, resolved_, store_.source()}));
+    const io::FileRecorder recorder(folder_);
+    WrittenPoints written = part.write({folder_, input_, first_model_, resolved_, store_.source()});
+    written.files = recorder.files();
+    return written_to(written);
   }
 
  private:

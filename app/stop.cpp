@@ -3,23 +3,24 @@
 #include <cerrno>
 #include <csignal>
 #include <ctime>
-#include <string_view>
 #include <system_error>
 
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include "commands.hpp"
+#include "io/atomic_file.hpp"
 
 namespace epicyclic::app {
 
 namespace {
 
 std::atomic<bool> requested{false};
-/// Of a rank that leaves; none before.
-constexpr int not_leaving = -1;
-std::atomic<int> code_of_leaving{not_leaving};
-static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+/// What a program that has to be ended says, or nothing, and its code.
+std::atomic<const char*> words_at_the_end{"stopped in the midst; the same command goes on\n"};
+std::atomic<int> code_at_the_end{stopped_early};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
+                  std::atomic<const char*>::is_always_lock_free,
               "the signal handlers may only touch lock-free atomics");
 
 itimerspec once_after(std::chrono::milliseconds time) {
@@ -37,14 +38,10 @@ itimerspec patience_left{};
 // Signal handlers: async-signal-safe calls only.
 
 void end_at_once(int /*signal*/) {
-  const int leaving = code_of_leaving;
-  if (leaving == not_leaving) {
-    constexpr std::string_view message = "stopped in the midst; the same command goes on\n";
-    [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, message.data(), message.size());
-  }
+  if (const char* words = words_at_the_end) io::write_without_waiting(STDERR_FILENO, words);
   // What _exit() is in the C library; with ThreadSanitizer's _exit() threads that nobody waited for would be an error,
   // and here it is meant that nobody waits.
-  ::syscall(SYS_exit_group, leaving == not_leaving ? stopped_early : leaving);
+  ::syscall(SYS_exit_group, code_at_the_end.load());
 }
 
 void request(int /*signal*/) {
@@ -68,8 +65,15 @@ void stop_on_signals(std::chrono::milliseconds until_the_end) {
   std::signal(SIGTERM, request);
 }
 
+void stop_soon(int exit_code, const char* last_words) {
+  words_at_the_end = last_words;
+  code_at_the_end = exit_code;
+  request(0);
+}
+
 void leave_ranks(int exit_code) {
-  code_of_leaving = exit_code;
+  words_at_the_end = nullptr;
+  code_at_the_end = exit_code;
   const itimerspec left = once_after(patience_for_mpi);
   if (requested) ::timer_settime(last_call, 0, &left, nullptr);
 }

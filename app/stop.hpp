@@ -26,6 +26,10 @@ constexpr std::chrono::milliseconds patience_for_mpi{300};
 /// To be called once, before anything is written.
 void stop_on_signals(std::chrono::milliseconds until_the_end = patience);
 
+/// As by a signal, but if the program has to be ended, then with these words and this code.
+/// @param last_words  a literal
+void stop_soon(int exit_code, const char* last_words);
+
 /// For a rank that has written and said everything: if a signal has come, the program ends after patience_for_mpi at
 /// the latest; then, and if one comes now, without a word and with this code.
 void leave_ranks(int exit_code);

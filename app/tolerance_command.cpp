@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
@@ -16,6 +15,8 @@
 #include "io/study_model.hpp"
 #include "io/tolerance_output.hpp"
 #include "stop.hpp"
+#include "streams.hpp"
+#include "watch.hpp"
 
 namespace epicyclic::app {
 
@@ -28,7 +29,7 @@ int tolerance_command(const Arguments& arguments) {
   const auto model_at = io::smoothed_model_at(input);
   const double width = input.study.model.clearance_smoothing;
   const model::DynamicModel first_model = model_at(plan.points.front().value, width);
-  for (const std::string& warning : io::warnings(input)) fmt::print(stderr, "{}\n", warning);
+  for (const std::string& warning : io::warnings(input)) tell("{}\n", warning);
 
   const std::string identity = io::identity(input, "tolerance");
   const io::OutputFolder folder(arguments.output, identity);
@@ -36,9 +37,11 @@ int tolerance_command(const Arguments& arguments) {
   io::Provenance facts = provenance(arguments.threads, input);
   const std::string resolved = write_inputs(folder, input);
   folder.write_run(io::RunState::running, io::run_facts(facts));
+  const FolderWatch watch(folder);
 
   // Record k < n is the study's own point k, record n + k what was measured on it.
   io::Journal journal(folder.file("journal.bin"), identity);
+  tell_cut_tail(folder.file("journal.bin"), journal.cut_bytes());
   std::vector<io::JournalEntry> entries = journal.entries();
   const auto measurements = std::stable_partition(
       entries.begin(), entries.end(), [&](const io::JournalEntry& entry) { return entry.point < plan.points.size(); });
@@ -98,10 +101,11 @@ int tolerance_command(const Arguments& arguments) {
   };
   if (stop_requested()) {
     close_run(io::RunState::stopped);
-    fmt::print(stderr, "stopped after {} of {} points; the same command goes on\n", points.size(), plan.points.size());
+    tell("stopped after {} of {} points; the same command goes on\n", points.size(), plan.points.size());
     return stopped_early;
   }
 
+  folder.require_there();
   const io::ToleranceOutput output{
       {sweep, studies::poincare_columns(first_model), resolved, io::figure_title(input.study)},
       input.study.tolerance,
@@ -120,15 +124,15 @@ int tolerance_command(const Arguments& arguments) {
     if (figure.outcome.drawn())
       result["figures"].push_back(figure.file.string());
     else
-      fmt::print(stderr, "{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
+      tell("{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
   }
   if (const auto best = studies::recommend(points, first_model.dimension, input.study.tolerance.target_error))
     result["recommendation"] = {{"method", best->method}, {"relative_tolerance", best->tolerance}};
   if (arguments.json) {
-    fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
-    fmt::print("{}\n", summary);
-    for (const auto& figure : result["figures"]) fmt::print("figure: {}\n", figure.get<std::string>());
+    print("{}\n", summary);
+    for (const auto& figure : result["figures"]) print("figure: {}\n", figure.get<std::string>());
   }
   return failed == 0 ? done : done_with_failures;
 }

@@ -8,9 +8,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include "core/errors.hpp"
+#include "io/manifest.hpp"
 
 namespace epicyclic::io {
 
@@ -18,6 +20,16 @@ namespace {
 
 std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+}
+
+/// @returns true when it takes bytes, or would say why not
+bool wait_until_writable(int descriptor, int milliseconds) {
+  pollfd state{descriptor, POLLOUT, 0};
+  int count = 0;
+  do {
+    count = ::poll(&state, 1, milliseconds);
+  } while (count < 0 && errno == EINTR);
+  return count > 0;
 }
 
 }  // namespace
@@ -63,11 +75,50 @@ FileDescriptor open_descriptor(const std::filesystem::path& path, int flags) {
 void write_all(int descriptor, std::string_view bytes, const std::filesystem::path& path) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written >= 0) {
+    if (written > 0) {
       bytes.remove_prefix(static_cast<std::size_t>(written));
+    } else if (written == 0) {
+      throw_output_error(path, "write", ENOSPC);  // else it would be tried for ever
+    } else if (errno == EAGAIN) {
+      wait_until_writable(descriptor, /*forever=*/-1);
     } else if (errno != EINTR) {
       throw_output_error(path, "write", errno);
     }
+  }
+}
+
+void write_at(int descriptor, std::string_view bytes, std::size_t offset, const std::filesystem::path& path) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (written > 0) {
+      offset += static_cast<std::size_t>(written);
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    } else if (written == 0 || errno != EINTR) {
+      throw_output_error(path, "write", written == 0 ? ENOSPC : errno);
+    }
+  }
+}
+
+std::size_t read_at(int descriptor, const std::filesystem::path& path, std::size_t offset, char* bytes,
+                    std::size_t length) {
+  std::size_t done = 0;
+  while (done < length) {
+    const ssize_t got = ::pread(descriptor, bytes + done, length - done, static_cast<off_t>(offset + done));
+    if (got == 0) break;
+    if (got > 0) {
+      done += static_cast<std::size_t>(got);
+    } else if (errno != EINTR) {
+      throw_output_error(path, "read", errno);
+    }
+  }
+  return done;
+}
+
+void write_without_waiting(int descriptor, std::string_view bytes) noexcept {
+  while (!bytes.empty() && wait_until_writable(descriptor, /*milliseconds=*/0)) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written == 0 || (written < 0 && errno != EINTR)) return;
+    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
   }
 }
 
@@ -96,6 +147,12 @@ void sync_descriptor(int descriptor, const std::filesystem::path& path) {
   }
 }
 
+void rename_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+  while (::rename(from.c_str(), to.c_str()) != 0) {
+    if (errno != EINTR) throw_output_error(to, "rename a file to this name", errno);
+  }
+}
+
 void sync_folder(const std::filesystem::path& folder) {
   const FileDescriptor descriptor = open_descriptor(folder, O_RDONLY | O_DIRECTORY);
   if (!descriptor.is_open()) throw_output_error(folder, "open the folder", errno);
@@ -104,6 +161,18 @@ void sync_folder(const std::filesystem::path& folder) {
     if (errno == EINVAL) return;
     if (errno != EINTR) throw_output_error(folder, "flush the folder to the disk", errno);
   }
+}
+
+void create_folder(const std::filesystem::path& folder, bool parents) {
+  std::error_code error;
+  do {
+    if (parents) {
+      std::filesystem::create_directories(folder, error);
+    } else {
+      std::filesystem::create_directory(folder, error);
+    }
+  } while (error == std::errc::interrupted);
+  if (error) throw_output_error(folder, "create the folder", error.value());
 }
 
 bool is_temporary_name(std::string_view file_name) { return file_name.starts_with('.') && file_name.ends_with(".tmp"); }
@@ -136,13 +205,14 @@ void AtomicFile::commit() {
   try {
     sync_descriptor(descriptor_.get(), path_);
     descriptor_.close(path_);
-    if (::rename(temporary_.c_str(), path_.c_str()) != 0) throw_output_error(path_, "rename the temporary file", errno);
+    rename_file(temporary_, path_);
   } catch (...) {
     discard();
     throw;
   }
   temporary_.clear();
   sync_folder(folder_of(path_));
+  note_file(path_);
 }
 
 void AtomicFile::discard() noexcept {

@@ -48,8 +48,20 @@ class FileDescriptor {
 /// open(2) with O_CLOEXEC, repeated when interrupted; not open, with errno set, when it fails.
 FileDescriptor open_descriptor(const std::filesystem::path& path, int flags);
 
+/// Waits for a reader that is slow, also where writing does not wait.
 /// @throws OutputError when not all bytes can be written (disk full included)
 void write_all(int descriptor, std::string_view bytes, const std::filesystem::path& path);
+
+/// Words that nothing depends on: as much of them as the descriptor takes at once. Async-signal-safe.
+void write_without_waiting(int descriptor, std::string_view bytes) noexcept;
+
+/// The same at an offset, wherever the descriptor stands.
+void write_at(int descriptor, std::string_view bytes, std::size_t offset, const std::filesystem::path& path);
+
+/// @returns bytes read: less than asked for only at the file's end
+/// @throws OutputError when reading fails
+std::size_t read_at(int descriptor, const std::filesystem::path& path, std::size_t offset, char* bytes,
+                    std::size_t length);
 
 /// Everything from the current position to the end of the file.
 /// @throws OutputError when reading fails
@@ -58,9 +70,17 @@ std::string read_all(int descriptor, const std::filesystem::path& path);
 /// @throws OutputError when fsync fails
 void sync_descriptor(int descriptor, const std::filesystem::path& path);
 
+/// rename(2), repeated when interrupted.
+/// @throws OutputError when it fails; `to` is named in the message
+void rename_file(const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// Makes names created, renamed or removed in `folder` durable.
 /// @throws OutputError when the folder cannot be opened or flushed
 void sync_folder(const std::filesystem::path& folder);
+
+/// Creates the folder, and its parents if they are wanted, where it is not there yet.
+/// @throws OutputError when that fails
+void create_folder(const std::filesystem::path& folder, bool parents);
 
 /// True of a name that AtomicFile gives to a file in the making.
 bool is_temporary_name(std::string_view file_name);

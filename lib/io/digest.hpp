@@ -5,6 +5,7 @@
 // 2^53 in magnitude are written without exponent; integers outside that range keep all their digits.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -12,7 +13,22 @@
 
 namespace epicyclic::io {
 
-/// SHA-256 (FIPS 180-4) of the bytes, 64 lower-case hexadecimal digits.
+/// SHA-256 (FIPS 180-4) of bytes that come one after another.
+class Sha256 {
+ public:
+  /// @throws std::runtime_error when OpenSSL refuses the algorithm, as do the others
+  Sha256();
+  ~Sha256();
+  void add(std::string_view bytes);
+  /// 64 lower-case hexadecimal digits; the end.
+  [[nodiscard]] std::string hex();
+
+ private:
+  struct Context;
+  std::unique_ptr<Context> context_;
+};
+
+/// The same of all bytes at once.
 /// @throws std::runtime_error when OpenSSL refuses the algorithm
 std::string sha256_hex(std::string_view bytes);
 

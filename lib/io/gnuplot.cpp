@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
-#include <fstream>
+#include <cstdlib>
 #include <stdexcept>
 #include <system_error>
 
@@ -18,6 +18,7 @@
 #include "core/errors.hpp"
 #include "io/atomic_file.hpp"
 #include "io/csv.hpp"
+#include "io/manifest.hpp"
 
 namespace epicyclic::io {
 
@@ -62,13 +63,10 @@ std::string one_line(std::string_view complaint) {
 }
 
 /// gnuplot does not always notice that its output could not be written (disk full), so the end of the file is checked.
-bool ends_with(const fs::path& path, std::string_view end) {
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : 0;
-  const std::streamoff tail = std::min<std::streamoff>(size, 64);
-  std::string text(static_cast<std::size_t>(tail), '\0');
-  file.seekg(size - tail);
-  return file.read(text.data(), tail) && text.find(end) != std::string::npos;
+bool ends_with(const FileDescriptor& picture, const fs::path& path, std::string_view end) {
+  const off_t size = picture.is_open() ? ::lseek(picture.get(), 0, SEEK_END) : 0;
+  if (size <= 0 || ::lseek(picture.get(), std::max<off_t>(0, size - 64), SEEK_SET) < 0) return false;
+  return read_all(picture.get(), path).find(end) != std::string::npos;
 }
 
 std::string with_greek_letters(std::string_view text) {
@@ -165,6 +163,18 @@ void FigureRange::include(double value) {
 FigureRange FigureRange::widened(double share) const {
   const double margin = high > low ? share * (high - low) : std::max(1e-12, 0.05 * std::abs(low));
   return {low - margin, high + margin};
+}
+
+bool gnuplot_is_installed() {
+  const char* variable = std::getenv("PATH");
+  std::string_view folders = variable != nullptr ? variable : "/bin:/usr/bin";
+  for (;;) {
+    const std::size_t end = std::min(folders.find(':'), folders.size());
+    const fs::path folder(end > 0 ? folders.substr(0, end) : ".");
+    if (::access((folder / "gnuplot").c_str(), X_OK) == 0) return true;
+    if (end == folders.size()) return false;
+    folders.remove_prefix(end + 1);
+  }
 }
 
 FigureOutcome run_gnuplot(const fs::path& script, Pictures which) {
@@ -294,15 +304,25 @@ std::string panel_script(std::string_view stem, std::string_view extra, std::str
 FigureOutcome draw_pictures(const fs::path& folder, std::string_view stem, Pictures which) {
   if (which == Pictures::none) return {};
   const auto named = [&](std::string_view suffix) { return folder / fmt::format("{}.{}", stem, suffix); };
-  FigureOutcome outcome = run_gnuplot(named("gp"), which);
-  if (!outcome.drawn()) return outcome;
-  const auto check = [&](std::string_view suffix, std::string_view end) {
-    if (ends_with(named(suffix), end)) return;
-    throw OutputError(fmt::format("{}: gnuplot did not finish it (disk full?); make room and repeat the command",
-                                  named(suffix).string()));
+  const FigureOutcome outcome = run_gnuplot(named("gp"), which);
+  const auto take = [&](std::string_view suffix, std::string_view end) {
+    const fs::path path = named(suffix);
+    if (!outcome.drawn()) {
+      std::error_code ignored;
+      fs::remove(path, ignored);  // a part of it
+      return note_undrawn(path);
+    }
+    const FileDescriptor picture = open_descriptor(path, O_RDONLY);
+    if (!ends_with(picture, path, end)) {
+      throw OutputError(
+          fmt::format("{}: gnuplot did not finish it (disk full?); make room and repeat the command", path.string()));
+    }
+    sync_descriptor(picture.get(), path);
+    note_file(path);
   };
-  if (which != Pictures::svg) check(png, png_end);
-  if (which != Pictures::png) check(svg, svg_end);
+  if (which != Pictures::svg) take(png, png_end);
+  if (which != Pictures::png) take(svg, svg_end);
+  if (outcome.drawn()) sync_folder(folder);
   return outcome;
 }
 
@@ -320,8 +340,8 @@ FigureOutcome draw_figure(const fs::path& folder, std::string_view stem,
   });
   if (!plain) throw std::invalid_argument(fmt::format("draw_figure: '{}' is not a plain file name", stem));
   std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw_output_error(folder, "create the folder", error.value());
+  // Not its parents: an output folder that was removed meanwhile must not come back as one of unknown origin.
+  create_folder(folder, /*parents=*/false);
 
   const auto named = [&](std::string_view suffix) { return folder / fmt::format("{}{}", stem, suffix); };
   // An old picture must not pass for one of these data.

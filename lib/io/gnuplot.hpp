@@ -67,6 +67,9 @@ inline constexpr FigureCanvas square_canvas{1200, 1100};
 /// Which of its two files a script draws. Drawn apart, they can be drawn side by side.
 enum class Pictures { none, png, svg, both };
 
+/// Is there a program of that name, where run_gnuplot looks for it?
+bool gnuplot_is_installed();
+
 /// Runs gnuplot on the script, without a shell, in the script's folder, in the C locale and without the user's own
 /// settings (~/.gnuplot).
 /// @param which  of the files of figure_script or panel_script; not none
@@ -94,7 +97,7 @@ std::string panel_script(std::string_view stem, std::string_view extra, std::str
 /// @throws OutputError  when gnuplot leaves a picture unfinished
 FigureOutcome draw_pictures(const std::filesystem::path& folder, std::string_view stem, Pictures which);
 
-/// Writes STEM.dat and STEM.gp to `folder`, which is created if need be, and draws.
+/// Writes STEM.dat and STEM.gp to `folder`, which is created in its parent if need be, and draws.
 /// @param which  none: draw_pictures follows
 /// @throws OutputError           when data or script cannot be written, or gnuplot leaves a picture unfinished
 /// @throws std::invalid_argument when the stem is not a plain file name (letters, digits, '_', '-', '.')

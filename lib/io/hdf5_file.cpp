@@ -54,19 +54,40 @@ herr_t keep_description(unsigned, const H5E_error2_t* error, void* text) {
 }
 
 /// The innermost entry of HDF5's error stack: the cause; the others only say who called whom.
-std::string error_text() {
+std::string innermost_error() {
   std::string text;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_description, &text);
+  return text;
+}
+
+/// errno of a failed system call; 0 if HDF5 failed otherwise.
+int number_in(std::string_view error) {
+  constexpr std::string_view before = "errno = ";
+  int number = 0;
+  if (const auto found = error.find(before); found != std::string_view::npos)
+    std::from_chars(error.data() + found + before.size(), error.data() + error.size(), number);
+  return number;
+}
+
+/// Calls HDF5 again when a signal interrupted it as it opened a file, which it takes for a failure. (An interrupted
+/// ftruncate as well; but a second flush would give other bytes, and no handler of the program interrupts one.)
+template <typename Call>
+auto uninterrupted(const Call& call) {
+  for (;;) {
+    const auto result = call();
+    if (result >= 0 || number_in(innermost_error()) != EINTR) return result;
+  }
+}
+
+std::string error_text() {
+  std::string text = innermost_error();
   // Of a failed system call the rest is place and time.
-  constexpr std::string_view number = "errno = ";
   constexpr std::string_view before = "error message = '";
-  int error = 0;
-  if (const auto found = text.find(number); found != std::string::npos)
-    std::from_chars(text.data() + found + number.size(), text.data() + text.size(), error);
   if (const auto reason = text.find(before); reason != std::string::npos) {
+    const std::string_view advice = advice_on(number_in(text));
     text = text.substr(reason + before.size());
     text = text.substr(0, text.find('\''));
-    text += advice_on(error);
+    text += advice;
   }
   return text.empty() ? "HDF5 gave no reason" : text;
 }
@@ -185,8 +206,9 @@ Hdf5File::Hdf5File(std::filesystem::path path) : path_(std::move(path)), disk_(p
   if (!nowhere_.is_open()) throw_output_error(path_, "create the file", errno);
   // HDF5 does not survive a full disk while it creates a file: it must find room for its first block.
   disk_.write(std::string(4096, '\0'));
-  file_ = checked<OutputError>(H5Fcreate(disk_.temporary().c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), path_,
-                               "the file", "create");
+  file_ = checked<OutputError>(
+      uninterrupted([&] { return H5Fcreate(disk_.temporary().c_str(), H5F_ACC_TRUNC, creation.get(), access.get()); }),
+      path_, "the file", "create");
 }
 
 Hdf5File::~Hdf5File() { abandon(); }
@@ -385,11 +407,12 @@ void Hdf5File::close() {
   checked<OutputError>(H5Fflush(file_, H5F_SCOPE_GLOBAL), path_, "the file", "finish");
   abandon();
   const FileDescriptor file = open_descriptor(disk_.temporary(), O_RDWR);
+  if (!file.is_open()) throw_output_error(path_, "open the file", errno);
   std::array<char, 48> superblock{};
-  const auto size = static_cast<ssize_t>(superblock.size());
-  if (::pread(file.get(), superblock.data(), superblock.size(), 0) != size) throw_output_error(path_, "read", errno);
+  if (read_at(file.get(), path_, 0, superblock.data(), superblock.size()) != superblock.size())
+    throw_output_error(path_, "read back its beginning", EIO);
   close_superblock(superblock);
-  if (::pwrite(file.get(), superblock.data(), superblock.size(), 0) != size) throw_output_error(path_, "write", errno);
+  write_at(file.get(), {superblock.data(), superblock.size()}, 0, path_);
   disk_.commit();
 }
 

@@ -47,22 +47,6 @@ std::uint32_t crc_of(std::string_view bytes, std::uint32_t before = 0) {
   return static_cast<std::uint32_t>(::crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-/// @returns bytes read: less than asked for only at the file's end
-std::size_t read_at(int descriptor, const std::filesystem::path& path, std::size_t offset, char* bytes,
-                    std::size_t length) {
-  std::size_t done = 0;
-  while (done < length) {
-    const ssize_t got = ::pread(descriptor, bytes + done, length - done, static_cast<off_t>(offset + done));
-    if (got == 0) break;
-    if (got > 0) {
-      done += static_cast<std::size_t>(got);
-    } else if (errno != EINTR) {
-      throw_output_error(path, "read the journal", errno);
-    }
-  }
-  return done;
-}
-
 void put_head(std::string& bytes, std::uint64_t point, std::size_t length) {
   bytes += record_magic;
   put(bytes, static_cast<std::uint32_t>(length));
@@ -206,8 +190,8 @@ Journal::Journal(std::filesystem::path path, std::string_view identity, Use use)
   }
   if (released_) return;
   cut_bytes_ = file->size() - end_;
-  if (::ftruncate(descriptor_.get(), static_cast<off_t>(end_)) != 0) {
-    throw_output_error(path_, "cut the torn tail of the journal", errno);
+  while (::ftruncate(descriptor_.get(), static_cast<off_t>(end_)) != 0) {
+    if (errno != EINTR) throw_output_error(path_, "cut the torn tail of the journal", errno);
   }
   sync_descriptor(descriptor_.get(), path_);
 }
@@ -282,24 +266,17 @@ JournalEntry Journal::append(std::uint64_t point, std::span<const std::byte> pay
   if (!descriptor_.is_open()) throw std::logic_error("Journal: append after close");
   if (released_) throw std::logic_error("Journal: append after release");
   if (!failure_.empty()) throw OutputError(failure_);
-  std::string_view rest = record;
   // Always at the end of the last good record, not of the file: the rest of a failed append is overwritten.
-  std::size_t offset = end_;
-  while (!rest.empty()) {
-    const ssize_t written = ::pwrite(descriptor_.get(), rest.data(), rest.size(), static_cast<off_t>(offset));
-    if (written >= 0) {
-      offset += static_cast<std::size_t>(written);
-      rest.remove_prefix(static_cast<std::size_t>(written));
-    } else if (errno != EINTR) {
-      const int error = errno;
-      // Tidy, not vital: opening would cut the tail as well.
-      [[maybe_unused]] const int ignored = ::ftruncate(descriptor_.get(), static_cast<off_t>(end_));
-      throw_output_error(path_, "append to the journal", error);
-    }
+  try {
+    write_at(descriptor_.get(), record, end_, path_);
+  } catch (const OutputError&) {
+    // Tidy, not vital: opening would cut the tail as well.
+    [[maybe_unused]] const int ignored = ::ftruncate(descriptor_.get(), static_cast<off_t>(end_));
+    throw;
   }
   const JournalEntry entry{point, end_};
   const bool first_of_group = synced_ == end_;
-  end_ = offset;
+  end_ += record.size();
   if (!first_of_group) return entry;
   commit_due_ = std::chrono::steady_clock::now() + commit_interval;
   try {

@@ -1,13 +1,20 @@
 #include "io/output_folder.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <fstream>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
+
+#include "core/errors.hpp"
+#include "io/gnuplot.hpp"
 
 namespace epicyclic::io {
 
@@ -18,6 +25,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view program_name = "epicyclic";
 constexpr std::string_view lock_name = ".lock";
 constexpr std::string_view run_name = "run.json";
+constexpr const char* files_key = "files";
 constexpr int indent = 2;
 
 /// Does the folder hold anything but what opening it may have left there?
@@ -65,10 +73,28 @@ bool try_lock(const FileDescriptor& descriptor, const fs::path& path) {
   return true;
 }
 
+/// Is all of the file `beginning` what `whole` begins with? False if one of them cannot be read.
+bool begins_with(const fs::path& whole, const fs::path& beginning) {
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(beginning, error))) return false;
+  std::ifstream first(whole, std::ios::binary);
+  std::ifstream second(beginning, std::ios::binary);
+  std::vector<char> expected(std::size_t{1} << 16);
+  std::vector<char> found(expected.size());
+  while (second) {
+    second.read(found.data(), static_cast<std::streamsize>(found.size()));
+    first.read(expected.data(), second.gcount());
+    if (first.gcount() != second.gcount() || !std::equal(found.data(), found.data() + second.gcount(), expected.data()))
+      return false;
+  }
+  return second.eof() && !second.bad();
+}
+
 }  // namespace
 
 std::string_view to_string(FolderOutcome outcome) {
-  constexpr std::array<std::string_view, 6> names{"fresh", "resumable", "complete", "other_study", "in_use", "foreign"};
+  constexpr std::array<std::string_view, 7> names{"fresh",       "resumable", "complete", "damaged",
+                                                  "other_study", "in_use",    "foreign"};
   return names.at(static_cast<std::size_t>(outcome));
 }
 
@@ -79,11 +105,15 @@ std::string_view to_string(RunState state) {
 
 OutputFolder::OutputFolder(fs::path path, std::string identity)
     : path_(std::move(path)), identity_(std::move(identity)) {
-  std::error_code error;
-  fs::create_directories(path_, error);
-  if (error) throw_output_error(path_, "create the folder", error.value());
+  create_folder(path_, /*parents=*/true);
   outcome_ = open();
-  if (outcome_ == FolderOutcome::fresh || outcome_ == FolderOutcome::resumable) remove_temporary_files(path_);
+  if (!lock_.is_open()) return;
+  place_ = open_descriptor(path_, O_RDONLY | O_DIRECTORY);
+  if (!is_there()) place_ = FileDescriptor();  // a file system that numbers its files anew
+  recorder_ = std::make_unique<FileRecorder>(path_);
+  if (outcome_ == FolderOutcome::complete) return;
+  remove_temporary_files(path_);
+  set_changed_files_aside();
   // At once, so that the study's identity stands before its first file.
   if (outcome_ == FolderOutcome::fresh) write_run(RunState::running, nlohmann::json::object());
 }
@@ -107,8 +137,61 @@ FolderOutcome OutputFolder::open() {
   if (!is_ours(previous_run_)) return FolderOutcome::foreign;
   if (previous_run_["identity"] != identity_) return FolderOutcome::other_study;
   lock_ = std::move(lock);
-  const bool complete = previous_run_.value("state", nlohmann::json()) == to_string(RunState::complete);
-  return complete ? FolderOutcome::complete : FolderOutcome::resumable;
+  if (previous_run_.value("state", nlohmann::json()) != to_string(RunState::complete)) return FolderOutcome::resumable;
+  const auto manifest = manifest_from(previous_run_.value(files_key, nlohmann::json()));
+  if (!manifest) return FolderOutcome::damaged;
+  changed_ = changed_files(path_, *manifest);
+  // Pictures that could not be drawn: perhaps they can be now.
+  if (!gnuplot_is_installed()) std::erase_if(changed_, [](const ChangedFile& file) { return !file.expected; });
+  return changed_.empty() ? FolderOutcome::complete : FolderOutcome::damaged;
+}
+
+void OutputFolder::set_changed_files_aside() {
+  for (const ChangedFile& file : changed_) {
+    const fs::path from = path_ / file.name;
+    std::error_code error;
+    // Also a link to nowhere, a folder of that name.
+    if (fs::symlink_status(from, error).type() == fs::file_type::not_found) continue;
+    fs::path to = from;
+    to += ".changed";
+    for (int number = 2; fs::symlink_status(to, error).type() != fs::file_type::not_found; ++number)
+      to = fmt::format("{}.changed-{}", from.string(), number);
+    rename_file(from, to);
+    set_aside_.emplace_back(from, to);
+  }
+}
+
+nlohmann::json OutputFolder::manifest_of_session() const {
+  const Manifest files = recorder_->files();
+  for (const auto& [name, facts] : files) {
+    std::error_code error;
+    if (facts && fs::file_size(file(name), error) != facts->bytes)
+      throw OutputError(
+          fmt::format("{}: was removed or changed while the study ran; repeat the command", file(name).string()));
+  }
+  return to_json(files);
+}
+
+void OutputFolder::remove_mere_beginnings() const {
+  for (const auto& [from, to] : set_aside_) {
+    std::error_code error;
+    if (begins_with(from, to)) fs::remove(to, error);
+  }
+}
+
+void OutputFolder::add(const Manifest& files) { recorder_->add(files); }
+
+bool OutputFolder::is_there() const {
+  struct stat here {};
+  struct stat there {};
+  if (!place_.is_open() || ::fstat(place_.get(), &here) != 0) return true;
+  if (::stat(path_.c_str(), &there) != 0) return errno != ENOENT && errno != ENOTDIR && errno != ESTALE;
+  return here.st_dev == there.st_dev && here.st_ino == there.st_ino;
+}
+
+void OutputFolder::require_there() const {
+  if (!is_there())
+    throw OutputError(fmt::format("{}: the folder was removed or moved while the study ran", path_.string()));
 }
 
 /// run.json as it is; null if there is none or it is not JSON (then it is not ours: ours is written atomically).
@@ -129,15 +212,18 @@ void OutputFolder::write_run(RunState state, const nlohmann::json& facts) const 
   run["program"] = program_name;
   run["identity"] = identity_;
   run["state"] = to_string(state);
+  require_there();
+  if (state == RunState::complete) run[files_key] = manifest_of_session();
   if (previous_run_.is_object()) {
     nlohmann::json last = previous_run_;
     nlohmann::json sessions = last.value("earlier_sessions", nlohmann::json::array());
-    for (const char* key : {"program", "identity", "earlier_sessions"}) last.erase(key);
+    for (const char* key : {"program", "identity", "earlier_sessions", files_key}) last.erase(key);
     sessions.push_back(std::move(last));
     run["earlier_sessions"] = std::move(sessions);
   }
   // The name of an input file need not be UTF-8.
   write_file_atomically(file(run_name), run.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  if (state == RunState::complete) remove_mere_beginnings();
 }
 
 }  // namespace epicyclic::io

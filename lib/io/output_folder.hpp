@@ -4,17 +4,25 @@
 // DIR/.lock is locked by flock(2) while an OutputFolder lives; the kernel releases it even on kill -9. The lock file
 // stays behind on purpose: removing it would let a second and a third opener lock two different files of that name.
 //
+// run.json of a complete study holds the manifest of its files too (see io/manifest.hpp). A folder in which one is
+// missing, cut or changed is not complete any more: all are made again, from the journal or by the same computation,
+// which gives the same bytes. What stood there instead may be somebody's own work and is set aside, never overwritten.
+//
 // Order of the judgement: a folder with files but neither lock nor run.json is foreign and is not touched; a folder
 // locked by another is in use, whatever it holds; only then is run.json read.
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "io/atomic_file.hpp"
+#include "io/manifest.hpp"
 
 namespace epicyclic::io {
 
@@ -23,6 +31,7 @@ enum class FolderOutcome {
   fresh,        ///< empty or new: ours now, run.json says running
   resumable,    ///< the same study, not complete: ours now, run.json unchanged so far
   complete,     ///< the same study, complete: ours now, nothing to compute
+  damaged,      ///< the same study, complete, but not all files are as they were left: ours now, to be made again
   other_study,  ///< another study; nothing was touched
   in_use,       ///< another process has it; nothing was touched
   foreign,      ///< files that are not from this program; nothing was touched
@@ -43,6 +52,7 @@ class OutputFolder {
  public:
   /// Opens the folder; creates it, parents included, if it is not there; locks it. Unfinished temporary files of a
   /// killed session are removed.
+  /// Of a complete study all files are read; what is not as it was left is set aside, as NAME.changed.
   /// @param identity SHA-256 of the study (64 hexadecimal digits)
   /// @throws OutputError when it cannot be created, read or written, or the file system knows no locks
   OutputFolder(std::filesystem::path path, std::string identity);
@@ -54,18 +64,40 @@ class OutputFolder {
   /// run.json as found at opening (of another study or process, too); null if there was none.
   [[nodiscard]] const nlohmann::json& previous_run() const { return previous_run_; }
 
-  /// Writes run.json: state and identity, the facts of this session, and those of the sessions before it.
-  /// @throws OutputError      when that fails; run.json is then unchanged
+  /// The files of a damaged folder that are not as they were left; none: it is not known which files there were.
+  [[nodiscard]] const std::vector<ChangedFile>& changed() const { return changed_; }
+
+  /// The manifest of what other processes have put into the folder.
+  void add(const Manifest& files);
+
+  /// Is it still what `path` leads to? A folder that was removed can be written to without an error.
+  [[nodiscard]] bool is_there() const;
+
+  /// @throws OutputError when it is not
+  void require_there() const;
+
+  /// Writes run.json: state and identity, the facts of this session, and those of the sessions before it; of a complete
+  /// study the manifest of all files that were put in place since the folder was opened. What was set aside is removed
+  /// then if it is only the beginning of what stands there now.
+  /// @throws OutputError      when that fails, the folder is not there any more or one of the files; run.json is then
+  ///                          unchanged
   /// @throws std::logic_error when the folder is not ours (outcome other_study, in_use or foreign)
   void write_run(RunState state, const nlohmann::json& facts) const;
 
  private:
   FolderOutcome open();
   [[nodiscard]] nlohmann::json read_run() const;
+  void set_changed_files_aside();
+  [[nodiscard]] nlohmann::json manifest_of_session() const;
+  void remove_mere_beginnings() const;
 
   std::filesystem::path path_;
   std::string identity_;
   FileDescriptor lock_;
+  FileDescriptor place_;  ///< the folder itself; not open where that says nothing
+  std::unique_ptr<FileRecorder> recorder_;
+  std::vector<ChangedFile> changed_;
+  std::vector<std::pair<std::filesystem::path, std::filesystem::path>> set_aside_;  ///< from, to
   nlohmann::json previous_run_;
   FolderOutcome outcome_ = FolderOutcome::foreign;
 };

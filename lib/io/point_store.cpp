@@ -66,6 +66,7 @@ Journal& PointStore::open(const std::filesystem::path& file) {
   Journal& journal = *journals_.back();
   for (const JournalEntry& entry : journal.entries()) take(journals_.size() - 1, entry);
   journal.forget_entries();
+  if (use_ == Journal::Use::append && journal.cut_bytes() > 0) cut_tails_[file] = journal.cut_bytes();
   return journal;
 }
 

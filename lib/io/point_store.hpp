@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -44,6 +45,9 @@ class PointStore {
   /// @throws as the constructor
   void read_others();
 
+  /// Bytes of a torn tail that were cut from each journal at its opening; only those that had one.
+  [[nodiscard]] const std::map<std::filesystem::path, std::size_t>& cut_tails() const { return cut_tails_; }
+
   [[nodiscard]] std::size_t size() const;  ///< points that are there
   [[nodiscard]] bool holds(std::size_t point) const;
 
@@ -74,6 +78,7 @@ class PointStore {
   Journal::Use use_;
   std::vector<std::unique_ptr<Journal>> journals_;  ///< the first is our own
   std::vector<Place> places_;                       ///< by point
+  std::map<std::filesystem::path, std::size_t> cut_tails_;
   std::size_t size_ = 0;
   mutable std::mutex mutex_;
 };

@@ -11,6 +11,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "io/atomic_file.hpp"
+
 namespace epicyclic::io {
 
 namespace {
@@ -134,7 +136,8 @@ void Progress::draw(Clock::time_point now, bool last) {
   } else {
     line = progress_line(label_, state_, 0) + (last ? fmt::format("  in {}\n", duration_text(elapsed)) : "\n");
   }
-  [[maybe_unused]] const ssize_t ignored = ::write(descriptor_, line.data(), line.size());
+  // A reader that stands still (a pager, a terminal after Ctrl-S) must not hold up the computation.
+  write_without_waiting(descriptor_, line);
 }
 
 }  // namespace epicyclic::io

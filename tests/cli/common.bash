@@ -49,6 +49,70 @@ same_results() {
   done
 }
 
+# How long something takes is decided by the machine's load as well, and no promise: it is judged only where TIMED=yes asks
+# for it, and while nobody else wants the cores.
+quiet() {
+  local pids=() pid busy=0
+  for ((k = 0; k < $(nproc); ++k)); do
+    perl -MTime::HiRes=time -e '$begun = time; while ((times)[0] + (times)[1] < 0.2) {} exit(time - $begun > 0.25)' &
+    pids+=($!)
+  done
+  for pid in "${pids[@]}"; do wait "$pid" || busy=1; done
+  [ $busy = 0 ]
+}
+
+# Before what is judged by its time: waits for a quiet moment, a minute at most.
+await_quiet() {
+  was_quiet=no
+  [ "${TIMED:-no}" = yes ] || return 0
+  for ((k = 0; k < 12; ++k)); do
+    if quiet; then was_quiet=yes && return 0; else sleep 5; fi
+  done
+}
+
+# After it: $1 took $2 ms and must not take more than $3.
+judge_time() {
+  [ "${TIMED:-no}" = yes ] || return 0
+  if [ "$2" -le "$3" ]; then
+    timed=$((${timed:-0} + 1))
+  elif [ "$was_quiet" = yes ] && quiet; then
+    fail "$1 took $2 ms, more than $3"
+  else
+    echo "$1 took $2 ms on a busy machine: not judged"
+  fi
+}
+
+# For tests that are not about what is drawn: a gnuplot that takes no time.
+without_drawing() {
+  mkdir bin
+  cat >bin/gnuplot <<'END'
+#!/bin/sh
+# As the program calls it: -d [-c] ./STEM.gp [KIND]
+kinds='png svg'
+for word; do
+  case $word in
+    ./*.gp) stem=${word%.gp} ;;
+    png | svg) kinds=$word ;;
+  esac
+done
+for kind in $kinds; do
+  case $kind in
+    png) printf 'a picture of %s\nIEND\256B`\202' "$stem" ;;
+    svg) printf '<svg>%s</svg>' "$stem" ;;
+  esac >"$stem.$kind" || exit 1
+done
+END
+  chmod +x bin/gnuplot
+  export PATH=$work/bin:$PATH
+}
+
+# $2 holds what $1 holds, but for what tells of the session, and is complete.
+same_folder() {
+  local difference
+  difference=$(diff -r -q -x run.json -x .lock -x 'journal*' "$1" "$2") || fail "$2 differs from $1: $difference"
+  grep -q '"state": "complete"' "$2/run.json" || fail "$2: run.json does not say complete"
+}
+
 # Kills a study again and again, later each time, at first by $1 milliseconds, until it ends by itself. By a quarter in
 # the end, so that slow builds end too.
 killed_until_done() {

@@ -1,11 +1,15 @@
 #include "io/atomic_file.hpp"
 
 #include <cerrno>
+#include <chrono>
 #include <stdexcept>
+#include <string>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "core/errors.hpp"
 #include "temporary_folder.hpp"
@@ -76,6 +80,47 @@ TEST(AtomicFile, NoSpaceIsReportedAsSuch) {
   EXPECT_EQ(message,
             "/dev/full: cannot write: No space left on device; what was written before is kept: make room and "
             "repeat the command");
+}
+
+/// A pipe that takes no more; what was written to it is lost.
+struct FullPipe {
+  FullPipe() {
+    int ends[2];
+    if (::pipe2(ends, O_NONBLOCK) != 0) throw std::runtime_error("no pipe");
+    read_end = FileDescriptor(ends[0]);
+    write_end = FileDescriptor(ends[1]);
+    const std::string block(4096, 'x');
+    while (::write(write_end.get(), block.data(), block.size()) > 0) {
+    }
+  }
+  FileDescriptor read_end;
+  FileDescriptor write_end;
+};
+
+TEST(AtomicFile, ASlowReaderIsWaitedForAlsoWhereWritingDoesNotWait) {
+  FullPipe pipe;
+  std::string got;
+  std::thread reader([&] {
+    std::string block(1 << 16, '\0');
+    while (!got.ends_with("the end")) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      const ssize_t count = ::read(pipe.read_end.get(), block.data(), block.size());
+      if (count > 0) got.append(block, 0, static_cast<std::size_t>(count));
+    }
+  });
+  const std::string text = std::string(300'000, 'y') + "the end";
+  write_all(pipe.write_end.get(), text, "pipe");
+  reader.join();
+  EXPECT_TRUE(got.ends_with(text));
+}
+
+TEST(AtomicFile, WordsAreNotWaitedFor) {
+  const FullPipe pipe;
+  write_without_waiting(pipe.write_end.get(), "lost");
+  // Also where writing would wait.
+  ASSERT_EQ(::fcntl(pipe.write_end.get(), F_SETFL, 0), 0);
+  write_without_waiting(pipe.write_end.get(), "lost");
+  write_without_waiting(-1, "lost");
 }
 
 TEST(AtomicFile, MissingFolderIsAnOutputError) {

@@ -1,6 +1,8 @@
 #include "io/output_folder.hpp"
 
 #include <csignal>
+#include <cstdlib>
+#include <map>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -9,6 +11,7 @@
 #include <unistd.h>
 
 #include "core/errors.hpp"
+#include "io/digest.hpp"
 #include "io/provenance.hpp"
 #include "temporary_folder.hpp"
 
@@ -169,6 +172,112 @@ TEST(OutputFolder, FullDiskKeepsTheOldRunJson) {
     EXPECT_THROW(out.write_run(RunState::complete, json::object()), OutputError);
   }
   EXPECT_EQ(contents(folder / "run.json"), before);
+}
+
+/// A complete study with two tables and a picture that was not drawn.
+void complete(const std::filesystem::path& folder) {
+  const OutputFolder out(folder, identity);
+  write_file_atomically(folder / "points.csv", "1,2\n3,4\n");
+  std::filesystem::create_directory(folder / "figures");
+  write_file_atomically(folder / "figures/a.dat", "5 6\n");
+  write_file_atomically(folder / "journal.bin", "not a result");
+  note_undrawn(folder / "figures/a.png");
+  out.write_run(RunState::complete, json::object());
+}
+
+TEST(OutputFolder, CompleteStudyKnowsItsFiles) {
+  const TemporaryFolder folder;
+  complete(folder.path());
+  const json files = run_of(folder.path())["files"];
+  EXPECT_EQ(files.size(), 3U) << files;
+  EXPECT_EQ(files["points.csv"]["bytes"], 8);
+  EXPECT_EQ(files["figures/a.dat"]["sha256"], sha256_hex("5 6\n"));
+  EXPECT_TRUE(files["figures/a.png"].is_null());
+  const auto manifest = manifest_from(files);
+  ASSERT_TRUE(manifest);
+  EXPECT_EQ(to_json(*manifest), files);
+  // Without a gnuplot there is no other picture to be had.
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", folder.path().c_str(), 1);
+  EXPECT_EQ(OutputFolder(folder.path(), identity).outcome(), FolderOutcome::complete);
+  put_file(folder / "gnuplot", "#!/bin/sh\n");
+  ASSERT_EQ(::chmod((folder / "gnuplot").c_str(), 0700), 0);
+  EXPECT_EQ(OutputFolder(folder.path(), identity).outcome(), FolderOutcome::damaged);
+  // Drawn by somebody.
+  put_file(folder / "figures/a.png", "a picture");
+  EXPECT_EQ(OutputFolder(folder.path(), identity).outcome(), FolderOutcome::complete);
+  ::setenv("PATH", path.c_str(), 1);
+}
+
+TEST(OutputFolder, MissingCutOrChangedFilesMakeItDamagedAndAreSetAside) {
+  const TemporaryFolder folder;
+  const auto table = folder / "points.csv";
+  for (const auto& [now, kept] : std::map<std::string, bool>{
+           {"", false}, {"1,2\n", false}, {"1,3\n", true}, {"1,2\n3,5\n", true}, {"1,2\n3,4\n5,6\n", true}}) {
+    std::filesystem::remove_all(folder / "figures");
+    complete(folder.path());
+    put_file(folder / "figures/a.png", "drawn");
+    put_file(table, now);
+    OutputFolder out(folder.path(), identity);
+    ASSERT_EQ(out.outcome(), FolderOutcome::damaged) << now;
+    ASSERT_EQ(out.changed().size(), 1U);
+    EXPECT_EQ(out.changed()[0].name, "points.csv");
+    EXPECT_EQ(out.changed()[0].bytes, now.size());
+    EXPECT_FALSE(std::filesystem::exists(table));
+    write_file_atomically(table, "1,2\n3,4\n");
+    out.write_run(RunState::complete, json::object());
+    EXPECT_EQ(std::filesystem::exists(folder / "points.csv.changed"), kept) << now;
+    if (kept) {
+      EXPECT_EQ(contents(folder / "points.csv.changed"), now);
+    }
+    std::filesystem::remove(folder / "points.csv.changed");
+  }
+  // Files of a complete study that are not known cannot be whole.
+  json run = run_of(folder.path());
+  run.erase("files");
+  put_file(folder / "run.json", run.dump());
+  const OutputFolder out(folder.path(), identity);
+  EXPECT_EQ(out.outcome(), FolderOutcome::damaged);
+  EXPECT_TRUE(out.changed().empty());
+}
+
+TEST(OutputFolder, ManifestNamesNothingOutsideTheFolder) {
+  for (const char* name : {"../a", "/etc/passwd", "figures/../../a", ".", "", "figures/", "./a", "run.json", ".lock",
+                           "journal.bin", "journal.rank-3.bin"})
+    EXPECT_FALSE(manifest_from(json{{name, nullptr}})) << name;
+  EXPECT_FALSE(manifest_from(json::parse(R"({"a": {"bytes": -1, "sha256": "b"}})")));
+  EXPECT_FALSE(manifest_from(json::parse(R"({"a": {"bytes": 1}})")));
+  EXPECT_FALSE(manifest_from(json::parse(R"([])")));
+  EXPECT_TRUE(manifest_from(json::parse(R"({"figures/a.png": null})")));
+}
+
+TEST(OutputFolder, CompleteOnlyWithAllFilesThatWereWritten) {
+  const TemporaryFolder folder;
+  const OutputFolder out(folder.path(), identity);
+  write_file_atomically(folder / "points.csv", "1,2\n");
+  std::filesystem::remove(folder / "points.csv");
+  EXPECT_THROW(out.write_run(RunState::complete, json::object()), OutputError);
+  EXPECT_EQ(run_of(folder.path())["state"], "running");
+}
+
+TEST(OutputFolder, RemovedMovedOrReplacedFolderIsNoticed) {
+  const TemporaryFolder parent;
+  const auto path = parent / "out";
+  for (const char* how : {"removed", "moved", "replaced"}) {
+    const OutputFolder out(path, identity);
+    EXPECT_TRUE(out.is_there());
+    if (how == std::string_view("moved")) {
+      std::filesystem::rename(path, parent / "elsewhere");
+    } else {
+      std::filesystem::remove_all(path);
+    }
+    if (how == std::string_view("replaced")) std::filesystem::create_directory(path);
+    EXPECT_FALSE(out.is_there()) << how;
+    const std::string message = message_of<OutputError>([&] { out.write_run(RunState::stopped, json::object()); });
+    EXPECT_NE(message.find("removed or moved"), std::string::npos) << message;
+    EXPECT_EQ(std::filesystem::exists(path), how == std::string_view("replaced"));
+  }
+  EXPECT_EQ(test::entries(path), 0U);
 }
 
 TEST(OutputFolder, FactsOfEarlierSessionsAreKept) {

@@ -1,0 +1,36 @@
+// The standard streams: data go to stdout, words to stderr.
+//
+// What stdout does not take is an I/O error, told and with a code of its own, like a file that cannot be written:
+// closed, full, or a reader that has gone. Words that stderr does not take are lost: no result depends on them.
+#pragma once
+
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace epicyclic::app {
+
+/// To be called before any file is opened: a stream that was closed at the start would else be the journal, and words
+/// would be written into it. Then too neither the end of a reader nor a limit on the size of files ends the program.
+void secure_streams();
+
+/// @throws OutputError
+void write_data(std::string_view text);
+
+void write_words(std::string_view text) noexcept;
+
+/// Data, on stdout.
+/// @throws OutputError
+template <class... Values>
+void print(fmt::format_string<Values...> format, Values&&... values) {
+  write_data(fmt::format(format, std::forward<Values>(values)...));
+}
+
+/// Words, on stderr.
+template <class... Values>
+void tell(fmt::format_string<Values...> format, Values&&... values) {
+  write_words(fmt::format(format, std::forward<Values>(values)...));
+}
+
+}  // namespace epicyclic::app

@@ -1,0 +1,81 @@
+// What a session has put into its folder, file by file, so that a later one can tell whether all of it is still there
+// and whole.
+//
+// A file is what it was if its size and its SHA-256 are; times and names of owners say nothing. AtomicFile and the
+// drawing of figures note each file that they put in place, wherever in the program that happens; a FileRecorder that
+// lives meanwhile keeps the notes of its folder. Journals and run.json are no results and are left out.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace epicyclic::io {
+
+struct FileFacts {
+  std::uintmax_t bytes = 0;
+  std::string sha256;  ///< 64 hexadecimal digits
+  bool operator==(const FileFacts&) const = default;
+};
+
+/// By name relative to the folder; nothing of a picture that could not be drawn.
+using Manifest = std::map<std::string, std::optional<FileFacts>>;
+
+/// As it stands in run.json.
+[[nodiscard]] nlohmann::json to_json(const Manifest& manifest);
+
+/// Nothing when it is no manifest, or names a place that is not below the folder.
+[[nodiscard]] std::optional<Manifest> manifest_from(const nlohmann::json& value);
+
+/// Of a file as it is now; nothing when there is no such file, or what has its name is none.
+/// @throws OutputError when it cannot be read
+[[nodiscard]] std::optional<FileFacts> facts_of(const std::filesystem::path& file);
+
+/// A file that is not as it was left.
+struct ChangedFile {
+  std::string name;
+  std::optional<FileFacts> expected{};    ///< nothing: a picture that was not drawn
+  std::optional<std::uintmax_t> bytes{};  ///< that it has now; nothing: it is missing
+};
+
+/// Reads all files of the manifest.
+/// @throws OutputError when one cannot be read
+[[nodiscard]] std::vector<ChangedFile> changed_files(const std::filesystem::path& folder, const Manifest& manifest);
+
+/// Keeps what is noted of the files below a folder while it lives.
+class FileRecorder {
+ public:
+  explicit FileRecorder(std::filesystem::path folder);
+  FileRecorder(const FileRecorder&) = delete;
+  FileRecorder& operator=(const FileRecorder&) = delete;
+  ~FileRecorder();
+
+  [[nodiscard]] Manifest files() const;
+
+  /// Those that another process has put in place.
+  void add(const Manifest& files);
+
+ private:
+  friend void note_file(const std::filesystem::path& path);
+  friend void note_undrawn(const std::filesystem::path& picture);
+  void note(const std::filesystem::path& path, const std::optional<FileFacts>& facts);
+
+  std::filesystem::path folder_;
+  Manifest files_;
+  mutable std::mutex mutex_;
+};
+
+/// For those who put files in place: this one is there now.
+/// @throws OutputError when it cannot be read
+void note_file(const std::filesystem::path& path);
+
+/// This picture could not be drawn.
+void note_undrawn(const std::filesystem::path& picture);
+
+}  // namespace epicyclic::io
