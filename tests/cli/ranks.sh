@@ -54,7 +54,8 @@ for victim in 0 1; do
   done
 done
 
-# SIGTERM to mpirun: the ranks are gone within the contract's 2 s, mpirun, which gives them as long, right after.
+# SIGTERM to mpirun: the ranks go, then mpirun. On a quiet machine (TIMED=yes) within the contract's 2 s, which is as long as
+# mpirun gives them: on a busy one it may have ended them in the midst.
 # A process that has ended may wait for somebody to ask how (Z).
 under_way() { grep -qE '^[0-9]+ \([^)]*\) [^ZX]' "/proc/$1/stat" 2>/dev/null; }
 long=("${carried[@]}" --set /study/transient_periods=100000)
@@ -72,22 +73,29 @@ begin_long_study() {
   [ ${#ranks[@]} = 2 ] || fail "not two ranks but ${#ranks[@]}: $(<stderr)"
 }
 for signal in TERM INT; do
+  await_quiet
   begin_long_study
   start=$(date +%s%3N)
   kill -s $signal $pid
   for rank in "${ranks[@]}"; do
-    while under_way "$rank" && [ $(($(date +%s%3N) - start)) -lt 5000 ]; do sleep 0.01; done
+    while under_way "$rank" && [ $(($(date +%s%3N) - start)) -lt 300000 ]; do sleep 0.01; done
+    ! under_way "$rank" || fail "SIG$signal: a rank does not end"
   done
   gone=$(($(date +%s%3N) - start))
-  [ $gone -le 2000 ] || fail "SIG$signal: a rank is still there after $gone ms"
+  judge_time "SIG$signal: the end of the ranks" $gone 2000
   code=0
   wait $pid || code=$?
   took=$(($(date +%s%3N) - start))
   [ "$code" != 0 ] || fail "SIG$signal: exit code 0"
-  [ $took -lt 2500 ] || fail "SIG$signal: took $took ms"
+  judge_time "SIG$signal: the end of mpirun" $took 2500
   # mpirun's own exit code, when it is mpirun that was signalled, is 1; the study says what became of it.
-  grep -q '"state": *"stopped"' stopped/run.json || fail "SIG$signal: the study is not stopped"
-  [ "$(grep -c '^stopped ' stderr)" = 1 ] || fail "SIG$signal: not said once that it is stopped: $(<stderr)"
+  state=$(grep -o '"state": *"[a-z]*"' stopped/run.json | head -n 1)
+  case $state in
+    *stopped*) [ "$(grep -c '^stopped ' stderr)" -le 1 ] || fail "SIG$signal: said more than once that it is stopped: $(<stderr)" ;;
+    *running*) [ "$was_quiet" = no ] || fail "SIG$signal: ranks had to be ended in the midst on a quiet machine" ;;
+    *) fail "SIG$signal: the study is neither stopped nor running: $state" ;;
+  esac
+  [ "$was_quiet" = no ] || [ "$(grep -c '^stopped ' stderr)" = 1 ] || fail "SIG$signal: not said once that it is stopped: $(<stderr)"
   echo "SIG$signal: ranks gone after $gone ms, exit code $code after $took ms"
 done
 # To one rank: all stop, and say so once.

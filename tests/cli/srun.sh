@@ -65,14 +65,16 @@ for end in "rank 0" "rank 1" job; do
   same_results carried cut
 done
 
-# Cancelled: the ranks are gone within the contract's 2 s.
+# Cancelled: the ranks go; on a quiet machine (TIMED=yes) within the contract's 2 s.
+await_quiet
 begin long "${carried[@]}" --set /study/transient_periods=100000
 sleep 1
 start=$(date +%s%3N)
 scancel --me --name=$job
-while [ -n "$(ranks_here)" ] && [ $(($(date +%s%3N) - start)) -lt 10000 ]; do sleep 0.01; done
+while [ -n "$(ranks_here)" ] && [ $(($(date +%s%3N) - start)) -lt 300000 ]; do sleep 0.01; done
+[ -z "$(ranks_here)" ] || fail "cancelled: a rank does not end"
 gone=$(($(date +%s%3N) - start))
-[ $gone -le 2000 ] || fail "cancelled: a rank is still there after $gone ms"
+judge_time "cancelled: the end of the ranks" $gone 2000
 echo "cancelled: ranks gone after $gone ms"
 kill $pid 2>/dev/null || true  # inside an allocation nothing has that name
 code=0
