@@ -62,7 +62,7 @@ void tell_changes(const io::OutputFolder& folder) {
 
 void tell_cut_tail(const std::filesystem::path& journal, std::size_t bytes) {
   if (bytes > 0)
-    tell("{}: cut off the last {} bytes, of a record that was never finished; its point is computed again\n",
+    tell("{}: cut off the last {} bytes, of a record that is not whole; its point is computed again\n",
          journal.string(), bytes);
 }
 
