@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
+#include <thread>
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -31,6 +35,15 @@ constexpr std::size_t longest_complaint = 400;
 
 constexpr std::string_view png_end("IEND\xae\x42\x60\x82", 8);
 constexpr std::string_view svg_end = "</svg>";
+
+/// How long a drawing may take: for a machine that is busy with other work.
+constexpr std::chrono::seconds least_limit{120};
+constexpr std::chrono::milliseconds limit_per_megabyte{10'000};
+/// Of the one after one that hung; each gets half of the time of the one before, so that many figures cost minutes.
+constexpr std::chrono::seconds last_limit{5};
+std::atomic<int> hung_in_a_row{0};
+
+using Clock = std::chrono::steady_clock;
 
 /// The environment with all locale settings replaced by the C locale.
 std::vector<std::string> c_locale_environment() {
@@ -60,6 +73,75 @@ std::string one_line(std::string_view complaint) {
   }
   if (line.size() > longest_complaint) line = "... " + line.substr(line.size() - longest_complaint);
   return line;
+}
+
+std::chrono::milliseconds limit_for(fs::path script) {
+  std::error_code error;
+  const std::uintmax_t bytes = fs::file_size(script.replace_extension(".dat"), error);
+  constexpr std::uintmax_t megabyte = 1'000'000;
+  const std::chrono::milliseconds limit =
+      least_limit + limit_per_megabyte * static_cast<std::int64_t>(error ? 0 : bytes / megabyte);
+  constexpr int most_halves = 20;
+  return std::max<std::chrono::milliseconds>(last_limit, limit / (1 << std::min(most_halves, hung_in_a_row.load())));
+}
+
+/// What a child process has said, its last words at least, and how it ended.
+struct Ended {
+  std::string words;
+  std::optional<int> status;  ///< of waitpid; nothing: it had to be ended
+  int error = 0;              ///< of a child that cannot be asked
+};
+
+/// Reads once from a pipe, when there is something within the time.
+/// @returns false when nothing more will come
+bool read_some(int pipe, int milliseconds, std::string& words) {
+  constexpr std::size_t most_words = std::size_t{1} << 16;
+  pollfd ready{pipe, POLLIN, 0};
+  if (::poll(&ready, 1, milliseconds) <= 0) return true;
+  std::array<char, 4096> block{};
+  const ssize_t count = ::read(pipe, block.data(), block.size());
+  if (count <= 0) return count < 0 && errno == EINTR;
+  words.append(block.data(), static_cast<std::size_t>(count));
+  if (words.size() > 2 * most_words) words.erase(0, words.size() - most_words);
+  return true;
+}
+
+/// Listens to a child, the leader of its own process group, until it ends or the time is over. Nothing of the group is
+/// left behind, not even a child's child that still holds the pipe.
+Ended listen_to(pid_t child, int pipe, std::chrono::milliseconds limit) {
+  constexpr int look_ms = 20;
+  constexpr std::chrono::milliseconds moment{1};
+  const Clock::time_point deadline = Clock::now() + limit;
+  Ended result;
+  bool listens = true;
+  // It stays a zombie until its group is ended, or the group's number might be another's.
+  const auto has_ended = [&] {
+    siginfo_t state{};
+    if (::waitid(P_PID, static_cast<id_t>(child), &state, WEXITED | WNOHANG | WNOWAIT) != 0 && errno != EINTR)
+      result.error = errno;
+    return state.si_pid == child;
+  };
+  bool ended = false;
+  while (!(ended = has_ended()) && result.error == 0 && Clock::now() < deadline) {
+    if (listens)
+      listens = read_some(pipe, look_ms, result.words);
+    else
+      std::this_thread::sleep_for(moment);
+  }
+  if (result.error != 0) return result;
+  ::kill(-child, SIGKILL);
+  constexpr int pipe_blocks = 17;  // as many as a pipe holds, and the end
+  for (int k = 0; k < pipe_blocks && listens; ++k) listens = read_some(pipe, 0, result.words);
+  int status = 0;
+  // A process that waits for a disk that is gone does not end: then it is left alone.
+  const Clock::time_point patience = Clock::now() + std::chrono::seconds(5);
+  for (pid_t gone = 0; gone != child; std::this_thread::sleep_for(moment)) {
+    gone = ::waitpid(child, &status, WNOHANG);
+    if (gone == child) break;
+    if ((gone < 0 && errno != EINTR) || Clock::now() >= patience) return result;
+  }
+  if (ended) result.status = status;
+  return result;
 }
 
 /// gnuplot does not always notice that its output could not be written (disk full), so the end of the file is checked.
@@ -177,7 +259,7 @@ bool gnuplot_is_installed() {
   }
 }
 
-FigureOutcome run_gnuplot(const fs::path& script, Pictures which) {
+FigureOutcome run_gnuplot(const fs::path& script, Pictures which, std::optional<std::chrono::milliseconds> limit) {
   const fs::path folder = script.has_parent_path() ? script.parent_path() : fs::path(".");
   std::array<int, 2> pipe_ends{};
   if (::pipe2(pipe_ends.data(), O_CLOEXEC) != 0) return {"cannot run gnuplot: " + reason(errno)};
@@ -230,21 +312,20 @@ FigureOutcome run_gnuplot(const fs::path& script, Pictures which) {
   }
   if (error != 0) return {"cannot run gnuplot: " + reason(error)};
 
-  std::string complaint;
-  std::array<char, 4096> block{};
-  for (;;) {
-    const ssize_t count = ::read(read_end.get(), block.data(), block.size());
-    if (count > 0) complaint.append(block.data(), static_cast<std::size_t>(count));
-    if (count == 0 || (count < 0 && errno != EINTR)) break;
+  const std::chrono::milliseconds patience = limit.value_or(limit_for(script));
+  const Ended gnuplot = listen_to(child, read_end.get(), patience);
+  if (gnuplot.error != 0) return {"lost sight of gnuplot: " + reason(gnuplot.error)};
+  if (!gnuplot.status) {
+    ++hung_in_a_row;
+    return {
+        fmt::format("gnuplot did not come to an end within {:.1f} s and was stopped; the figure's data and script are "
+                    "written: gnuplot {}",
+                    std::chrono::duration<double>(patience).count(), script.string())};
   }
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) return {"lost sight of gnuplot: " + reason(errno)};
-  }
-  if (WIFSIGNALED(status)) return {fmt::format("gnuplot was killed by signal {}", WTERMSIG(status))};
-  if (WEXITSTATUS(status) != 0) {
-    return {fmt::format("gnuplot failed on {}: {}", script.string(), one_line(complaint))};
-  }
+  hung_in_a_row = 0;
+  if (WIFSIGNALED(*gnuplot.status)) return {fmt::format("gnuplot was killed by signal {}", WTERMSIG(*gnuplot.status))};
+  if (WEXITSTATUS(*gnuplot.status) != 0)
+    return {fmt::format("gnuplot failed on {}: {}", script.string(), one_line(gnuplot.words))};
   return {};
 }
 

@@ -9,10 +9,12 @@
 // are (Ω, δ̄); {/Symbol W} and ~{x}{.6-} are turned into them, because gnuplot's SVG files show these wrongly.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -71,9 +73,12 @@ enum class Pictures { none, png, svg, both };
 bool gnuplot_is_installed();
 
 /// Runs gnuplot on the script, without a shell, in the script's folder, in the C locale and without the user's own
-/// settings (~/.gnuplot).
+/// settings (~/.gnuplot). A gnuplot that does not come to an end is ended, with its children.
 /// @param which  of the files of figure_script or panel_script; not none
-FigureOutcome run_gnuplot(const std::filesystem::path& script, Pictures which = Pictures::both);
+/// @param limit  longest time that it may take; none: two minutes and ten seconds for each megabyte of its data,
+///               some ten times what it needs; less after others that hung
+FigureOutcome run_gnuplot(const std::filesystem::path& script, Pictures which = Pictures::both,
+                          std::optional<std::chrono::milliseconds> limit = {});
 
 /// The text as a gnuplot string in single quotes, in which gnuplot neither expands nor executes anything.
 std::string gnuplot_quoted(std::string_view text);

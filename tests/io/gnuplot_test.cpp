@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -78,6 +79,83 @@ TEST(Gnuplot, MissingGnuplotIsAResult) {
   EXPECT_NE(outcome.message.find("gnuplot is not installed"), std::string::npos) << outcome.message;
   EXPECT_TRUE(std::filesystem::exists(folder / "figures/a.dat"));
   EXPECT_TRUE(std::filesystem::exists(folder / "figures/a.gp"));
+}
+
+/// A program in gnuplot's place.
+class FakeGnuplot {
+ public:
+  explicit FakeGnuplot(const std::string& commands)
+      : program_(put(folder_ / "gnuplot", "#!/bin/sh\n" + commands)),
+        path_("PATH", (folder_.path().string() + ":/usr/bin:/bin").c_str()) {}
+
+  [[nodiscard]] std::filesystem::path file(const char* name) const { return folder_ / name; }
+
+ private:
+  static std::filesystem::path put(const std::filesystem::path& file, const std::string& text) {
+    test::put_file(file, text);
+    std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+    return file;
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path program_;
+  Environment path_;
+};
+
+/// Whose number stands in the file; a zombie lives no more.
+bool lives(const std::filesystem::path& number) {
+  std::string id = contents(number);
+  id.erase(id.find_last_not_of('\n') + 1);
+  const std::string status = contents("/proc/" + id + "/stat");
+  return !id.empty() && !status.empty() && status.find(") Z ") == std::string::npos;
+}
+
+/// Processes that were killed need a moment.
+bool lives_on(const std::filesystem::path& number) {
+  for (int k = 0; k < 500 && lives(number); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  return lives(number);
+}
+
+constexpr const char* hangs = "cd \"$(dirname \"$0\")\"; echo $$ > self; sleep 1000 & echo $! > child; wait\n";
+
+TEST(Gnuplot, OneThatHangsIsEndedWithItsChildren) {
+  const TemporaryFolder folder;
+  const FakeGnuplot gnuplot(hangs);
+  test::put_file(folder / "a.gp", "\n");
+  const FigureOutcome outcome = run_gnuplot(folder / "a.gp", Pictures::both, std::chrono::milliseconds(700));
+  EXPECT_NE(outcome.message.find("did not come to an end within 0.7 s"), std::string::npos) << outcome.message;
+  ASSERT_FALSE(contents(gnuplot.file("child")).empty());
+  EXPECT_FALSE(lives_on(gnuplot.file("self")));
+  EXPECT_FALSE(lives_on(gnuplot.file("child")));
+}
+
+TEST(Gnuplot, OneThatTalksForEverIsEndedToo) {
+  const TemporaryFolder folder;
+  const FakeGnuplot gnuplot("exec yes 'no end'\n");
+  test::put_file(folder / "a.gp", "\n");
+  const FigureOutcome outcome = run_gnuplot(folder / "a.gp", Pictures::both, std::chrono::milliseconds(300));
+  EXPECT_NE(outcome.message.find("did not come to an end"), std::string::npos) << outcome.message;
+}
+
+TEST(Gnuplot, AChildThatOutlivesItIsNotWaitedFor) {
+  const TemporaryFolder folder;
+  const FakeGnuplot gnuplot("cd \"$(dirname \"$0\")\"; sleep 1000 & echo $! > child; echo said; exit 3\n");
+  test::put_file(folder / "a.gp", "\n");
+  const FigureOutcome outcome = run_gnuplot(folder / "a.gp");
+  EXPECT_NE(outcome.message.find("gnuplot failed on"), std::string::npos) << outcome.message;
+  EXPECT_NE(outcome.message.find("said"), std::string::npos) << outcome.message;
+  EXPECT_FALSE(lives_on(gnuplot.file("child")));
+}
+
+TEST(Gnuplot, HalfAPictureIsNone) {
+  const TemporaryFolder folder;
+  const FakeGnuplot gnuplot("for kind in png svg; do echo half > a.$kind; done; exit 1\n");
+  for (const Pictures which : {Pictures::png, Pictures::svg, Pictures::both}) {
+    test::put_file(folder / "a.gp", "\n");
+    EXPECT_FALSE(draw_pictures(folder.path(), "a", which).drawn());
+    EXPECT_EQ(std::filesystem::exists(folder / "a.png"), which == Pictures::svg);
+    EXPECT_EQ(std::filesystem::exists(folder / "a.svg"), which == Pictures::png);
+  }
 }
 
 TEST(Gnuplot, FailingScriptIsAResultWithGnuplotsWords) {
