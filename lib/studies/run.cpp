@@ -87,6 +87,28 @@ class Recorder {
   model::StageForces f_;
 };
 
+/// Samples of a portrait for each of the history: some for each oscillation of the fastest meshes, whose frequency is
+/// about twice omega_sn; fewer where many periods are drawn with a thin line.
+int portrait_detail(const model::DynamicModel& model, const RunOptions& options, int periods) {
+  constexpr double oscillation = 200;
+  constexpr double fastest = 2.0;
+  constexpr int most = 50000;  // samples
+  const double wanted = oscillation * std::max(1.0, fastest / model.omega) / options.dense_phases;
+  const int affordable = most / (std::max(1, periods) * options.dense_phases);
+  return std::max(1, std::min(static_cast<int>(std::ceil(std::min(wanted, double{most}))), affordable));
+}
+
+/// The samples, each behind detail - 1 others in even steps.
+std::vector<double> finer(const std::vector<double>& samples, int detail) {
+  std::vector<double> all;
+  double before = 0.0;
+  for (const double s : samples) {
+    for (int k = 1; k < detail; ++k) all.push_back(before + (s - before) * k / detail);
+    all.push_back(before = s);
+  }
+  return all;
+}
+
 /// One operating point, step by step into its result.
 class Run {
  public:
@@ -159,18 +181,29 @@ class Run {
         {"delta_sp_1", "um", {}}, {"delta_rp_1", "um", {}}, {"force_sp_1", "N", {}}, {"force_rp_1", "N", {}}};
     std::vector<double> y = state_;
     const int periods = std::max(n, options_.history_periods);
+    const int shown = exact ? std::max(n, options_.shown_periods) : portrait_periods;
+    const auto detail = static_cast<std::size_t>(portrait_detail(model_, options_, shown));
+    const std::vector<double> fine = finer(samples, static_cast<int>(detail));
+    r.portrait.phases = options_.dense_phases * static_cast<int>(detail);
     for (int k = 0; k < periods; ++k) {
       if (!go_on_()) return;
-      const integrate::Evolution e = carried->evolve(
-          y, 0.0, carried->field().period, samples, [&](std::size_t, double s, std::span<const double> now) {
-            recorder.look(s, now);
-            if (k < options_.history_periods) recorder.keep(static_cast<std::size_t>(k), s, now);
-            if (k >= n) return;
-            signals[0].values.push_back(scales_.displacement_um(recorder.deflections().sun_planet[0]));
-            signals[1].values.push_back(scales_.displacement_um(recorder.deflections().ring_planet[0]));
-            signals[2].values.push_back(scales_.force_newton(recorder.forces().sun_planet[0]));
-            signals[3].values.push_back(scales_.force_newton(recorder.forces().ring_planet[0]));
-          });
+      const bool drawn = k < options_.history_periods && k >= options_.history_periods - shown;
+      const integrate::Evolution e =
+          carried->evolve(y, 0.0, carried->field().period, drawn ? fine : samples,
+                          [&](std::size_t j, double s, std::span<const double> now) {
+                            recorder.look(s, now);
+                            if (drawn) {
+                              r.portrait.deflection.push_back(recorder.deflections().sun_planet[0]);
+                              r.portrait.rate.push_back(recorder.deflections().sun_planet_rate[0]);
+                              if ((j + 1) % detail != 0) return;
+                            }
+                            if (k < options_.history_periods) recorder.keep(static_cast<std::size_t>(k), s, now);
+                            if (k >= n) return;
+                            signals[0].values.push_back(scales_.displacement_um(recorder.deflections().sun_planet[0]));
+                            signals[1].values.push_back(scales_.displacement_um(recorder.deflections().ring_planet[0]));
+                            signals[2].values.push_back(scales_.force_newton(recorder.forces().sun_planet[0]));
+                            signals[3].values.push_back(scales_.force_newton(recorder.forces().ring_planet[0]));
+                          });
       if (!e.reached()) return;
     }
     for (Signal& signal : signals) {

@@ -36,6 +36,16 @@ struct History {
   [[nodiscard]] std::vector<double> column(const std::string& name) const;
 };
 
+/// delta_sp_1 against its rate over the last mesh periods of the history, so dense that a line through them has no
+/// corner to be seen.
+struct Portrait {
+  int phases = 0;                        ///< samples per mesh period: a multiple of the history's
+  std::vector<double> deflection, rate;  ///< [b_c], [b_c per tau]
+};
+
+/// Mesh periods of a portrait of a motion that does not repeat: beyond, a line fills the plane.
+inline constexpr int portrait_periods = 64;
+
 /// One mesh over the record.
 struct MeshSummary {
   std::string name;                                     ///< "sp_1", "rp_3"
@@ -69,7 +79,8 @@ struct ExponentChecks {
 
 struct RunResult {
   PointResult point;
-  History history;                  ///< whole record
+  History history;  ///< whole record
+  Portrait portrait{};
   std::vector<MeshSummary> meshes;  ///< sun-planet meshes, then ring-planet meshes
   double static_force = 0;          ///< F_0 [N]
   std::vector<SignalSpectrum> spectra;
