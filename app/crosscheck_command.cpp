@@ -67,11 +67,13 @@ int crosscheck_command(const Arguments& arguments) {
                                                           width, model_at, std::move(run));
   progress.finish();
   journal.close();
+  std::int64_t undrawn = 0;
   const auto close_run = [&](io::RunState state) {
     facts.ended = io::utc_now();
     facts.counts = {{"points", static_cast<std::int64_t>(points)},
                     {"comparisons", static_cast<std::int64_t>(all.comparisons.size())},
-                    {"failed", static_cast<std::int64_t>(failed)}};
+                    {"failed", static_cast<std::int64_t>(failed)},
+                    {"undrawn", undrawn}};
     folder.write_run(state, io::run_facts(facts));
   };
   if (!all.complete(plan)) {
@@ -90,10 +92,10 @@ int crosscheck_command(const Arguments& arguments) {
   io::write_file_atomically(folder.file("crosscheck.md"), summary);
   const io::DrawnFigure figure =
       io::draw_crosscheck_figure(folder.file("figures"), output, all, input.study.crosscheck.orbit_tolerance);
+  undrawn = tell_undrawn({figure});
   close_run(io::RunState::complete);
 
   const std::size_t different = io::differences(all);
-  if (!figure.outcome.drawn()) tell("{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
   if (arguments.json) {
     print("{}\n", nlohmann::json{{"folder", folder.path().string()},
                                  {"points", points},
@@ -105,7 +107,7 @@ int crosscheck_command(const Arguments& arguments) {
     print("{}", summary);
     if (figure.outcome.drawn()) print("\nfigure: {}\n", figure.file.string());
   }
-  return different == 0 && failed == 0 ? done : done_with_failures;
+  return different == 0 && failed == 0 && undrawn == 0 ? done : done_with_failures;
 }
 
 }  // namespace epicyclic::app

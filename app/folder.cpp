@@ -20,13 +20,13 @@ namespace epicyclic::app {
 
 namespace {
 
-/// Failed points of a complete study, from its run.json.
-std::int64_t failed_points(const io::OutputFolder& folder) {
+/// Of a complete study, from its run.json: failed points, say.
+std::int64_t counted(const io::OutputFolder& folder, const char* what) {
   const nlohmann::json& run = folder.previous_run();
   const auto counts = run.find("counts");
-  if (counts == run.end() || !counts->is_object() || !counts->contains("failed")) return 0;
-  const nlohmann::json& failed = (*counts)["failed"];
-  return failed.is_number_integer() ? failed.get<std::int64_t>() : 0;
+  if (counts == run.end() || !counts->is_object() || !counts->contains(what)) return 0;
+  const nlohmann::json& number = (*counts)[what];
+  return number.is_number_integer() ? number.get<std::int64_t>() : 0;
 }
 
 void tell_differences(const io::OutputFolder& folder, const io::LoadedInput& input) {
@@ -93,6 +93,16 @@ void require_points(const io::LoadedInput& input, const Arguments& arguments, st
   if (!input.study.sweep || input.study.kind != "sweep") require_kind(input, arguments, command);
 }
 
+std::int64_t tell_undrawn(const std::vector<io::DrawnFigure>& figures) {
+  std::int64_t count = 0;
+  for (const io::DrawnFigure& figure : figures) {
+    if (figure.outcome.drawn()) continue;
+    tell("{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
+    ++count;
+  }
+  return count;
+}
+
 io::Provenance provenance(int threads, const io::LoadedInput& input) {
   io::Provenance p = io::begin_provenance();
   p.library_version = EPICYCLIC_VERSION;
@@ -110,7 +120,7 @@ std::optional<int> refuse_or_finish(const io::OutputFolder& folder, const io::Lo
   switch (folder.outcome()) {
     case io::FolderOutcome::complete:
       tell("{}: this study is complete already; nothing to compute\n", where);
-      return failed_points(folder) > 0 ? done_with_failures : done;
+      return counted(folder, "failed") > 0 || counted(folder, "undrawn") > 0 ? done_with_failures : done;
     case io::FolderOutcome::damaged:
       tell_changes(folder);
       return std::nullopt;

@@ -1,18 +1,21 @@
 // Opening a study's folder and what every subcommand leaves in it.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "commands.hpp"
 #include "io/journal.hpp"
 #include "io/output_folder.hpp"
 #include "io/provenance.hpp"
 #include "io/study_input.hpp"
+#include "io/sweep_output.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::app {
@@ -44,6 +47,10 @@ void tell_cut_tail(const std::filesystem::path& journal, std::size_t bytes);
 
 /// What input.resolved.json holds.
 [[nodiscard]] std::string resolved_text(const io::LoadedInput& input);
+
+/// Says on stderr which figures were not drawn.
+/// @returns how many, for run.json: a study without one of its figures does not end with `done`
+[[nodiscard]] std::int64_t tell_undrawn(const std::vector<io::DrawnFigure>& figures);
 
 /// input.json, the stage file as input.stage.json, input.resolved.json.
 /// @returns text of the resolved input

@@ -1,4 +1,5 @@
-// epicyclic gear: what follows from the stage alone: geometry, stiffness, load sharing, friction, bearings, modes.
+// epicyclic gear: what follows from the stage alone: geometry, stiffness, load sharing of tooth pairs, friction,
+// bearings, modes.
 
 #include <nlohmann/json.hpp>
 
@@ -19,6 +20,7 @@ int gear_command(const Arguments& arguments) {
   write_inputs(folder, input);
   const io::GearOutput written = io::write_gear_output(folder.path(), input);
   facts.ended = io::utc_now();
+  facts.counts = {{"undrawn", static_cast<std::int64_t>(written.undrawn.size())}};
   folder.write_run(io::RunState::complete, io::run_facts(facts));
   for (const std::string& line : written.warnings) tell("warning: {}\n", line);
   for (const std::string& line : written.undrawn) tell("figure not drawn: {}\n", line);
@@ -31,7 +33,7 @@ int gear_command(const Arguments& arguments) {
                       .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   else
     print("{}", written.modes);
-  return done;
+  return written.undrawn.empty() ? done : done_with_failures;
 }
 
 }  // namespace epicyclic::app

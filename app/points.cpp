@@ -121,11 +121,13 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   const std::size_t failed = compute_missing(arguments, command, noun, input, plan, model_at, store, leader);
   folder.require_there();
   if (leader != nullptr) store.read_others();
+  std::int64_t undrawn = 0;
   const auto close_run = [&](io::RunState state) {
     facts.ended = io::utc_now();
     facts.counts = {{"points", static_cast<std::int64_t>(plan.points.size())},
                     {"computed", static_cast<std::int64_t>(store.size())},
-                    {"failed", static_cast<std::int64_t>(failed)}};
+                    {"failed", static_cast<std::int64_t>(failed)},
+                    {"undrawn", undrawn}};
     folder.write_run(state, io::run_facts(facts));
   };
   if (store.size() < plan.points.size()) {
@@ -139,6 +141,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   const io::PointSource& points = computed_points.points;
   const WrittenPoints written = write_results(arguments, parts, computed_points, leader);
   folder.add(written.files);
+  undrawn = tell_undrawn(written.figures);
   close_run(io::RunState::complete);
   for (const std::string& note : written.notes) tell("{}\n", note);
 
@@ -153,12 +156,8 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
                             {"regimes", regimes},
                             {"figures", nlohmann::json::array()}};
   summary.update(written.summary);
-  for (const io::DrawnFigure& figure : written.figures) {
-    if (figure.outcome.drawn())
-      summary["figures"].push_back(figure.file.string());
-    else
-      tell("{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
-  }
+  for (const io::DrawnFigure& figure : written.figures)
+    if (figure.outcome.drawn()) summary["figures"].push_back(figure.file.string());
   if (arguments.json) {
     print("{}\n", summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
@@ -167,7 +166,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
     for (const std::string& line : written.lines) print("{}\n", line);
     for (const auto& figure : summary["figures"]) print("figure: {}\n", figure.get<std::string>());
   }
-  return failed == 0 ? done : done_with_failures;
+  return failed == 0 && undrawn == 0 ? done : done_with_failures;
 }
 
 }  // namespace

@@ -52,8 +52,9 @@ int run_command(const Arguments& arguments) {
   io::write_run_h5(folder.file("results.h5"), output, *result);
   io::write_file_atomically(folder.file("summary.md"), summary);
   const auto figures = io::draw_run_figures(folder.file("figures"), output, *result);
+  const std::int64_t undrawn = tell_undrawn(figures);
   facts.ended = io::utc_now();
-  facts.counts = {{"points", 1}, {"failed", computed ? 0 : 1}};
+  facts.counts = {{"points", 1}, {"failed", computed ? 0 : 1}, {"undrawn", undrawn}};
   folder.write_run(io::RunState::complete, io::run_facts(facts));
 
   nlohmann::json told = {{"folder", folder.path().string()},
@@ -61,19 +62,15 @@ int run_command(const Arguments& arguments) {
                          {"regime", io::regime_word(result->point)},
                          {"period", result->point.period},
                          {"figures", nlohmann::json::array()}};
-  for (const io::DrawnFigure& figure : figures) {
-    if (figure.outcome.drawn())
-      told["figures"].push_back(figure.file.string());
-    else
-      tell("{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
-  }
+  for (const io::DrawnFigure& figure : figures)
+    if (figure.outcome.drawn()) told["figures"].push_back(figure.file.string());
   if (arguments.json) {
     print("{}\n", told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     print("{}\n", summary);
     for (const auto& figure : told["figures"]) print("figure: {}\n", figure.get<std::string>());
   }
-  return computed ? done : done_with_failures;
+  return computed && undrawn == 0 ? done : done_with_failures;
 }
 
 }  // namespace epicyclic::app

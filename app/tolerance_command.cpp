@@ -93,10 +93,12 @@ int tolerance_command(const Arguments& arguments) {
   }
   journal.close();
   progress.finish();
+  std::int64_t undrawn = 0;
   const auto close_run = [&](io::RunState state) {
     facts.ended = io::utc_now();
     facts.counts = {{"points", static_cast<std::int64_t>(plan.points.size())},
-                    {"failed", static_cast<std::int64_t>(failed)}};
+                    {"failed", static_cast<std::int64_t>(failed)},
+                    {"undrawn", undrawn}};
     folder.write_run(state, io::run_facts(facts));
   };
   if (stop_requested()) {
@@ -114,18 +116,15 @@ int tolerance_command(const Arguments& arguments) {
   io::write_points_csv(folder.file("points.csv"), io::points_in_memory(studied));
   const std::string summary = io::write_tolerance_tables(folder.path(), output, points);
   const auto figures = io::draw_tolerance_figures(folder.file("figures"), output, points);
+  undrawn = tell_undrawn(figures);
   close_run(io::RunState::complete);
 
   nlohmann::json result = {{"folder", folder.path().string()},
                            {"points", plan.points.size()},
                            {"failed", failed},
                            {"figures", nlohmann::json::array()}};
-  for (const io::DrawnFigure& figure : figures) {
-    if (figure.outcome.drawn())
-      result["figures"].push_back(figure.file.string());
-    else
-      tell("{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
-  }
+  for (const io::DrawnFigure& figure : figures)
+    if (figure.outcome.drawn()) result["figures"].push_back(figure.file.string());
   if (const auto best = studies::recommend(points, first_model.dimension, input.study.tolerance.target_error))
     result["recommendation"] = {{"method", best->method}, {"relative_tolerance", best->tolerance}};
   if (arguments.json) {
@@ -134,7 +133,7 @@ int tolerance_command(const Arguments& arguments) {
     print("{}\n", summary);
     for (const auto& figure : result["figures"]) print("figure: {}\n", figure.get<std::string>());
   }
-  return failed == 0 ? done : done_with_failures;
+  return failed == 0 && undrawn == 0 ? done : done_with_failures;
 }
 
 }  // namespace epicyclic::app

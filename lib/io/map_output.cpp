@@ -1,6 +1,7 @@
 #include "io/map_output.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -109,11 +110,13 @@ std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, c
         {folder / (regimes + ".png"), class_figure(folder, regimes, text, grid, classes(),
                                                    matrix<std::size_t>(output, points, direction, class_of))});
     if (output.sweep.classification_periods == 0) continue;
-    const std::string exponents = "lyapunov_max_" + word;
-    figures.push_back({folder / (exponents + ".png"),
-                       value_figure(folder, exponents, text, grid, "Largest exponent  λ_1 / ω_{sn}", "not told",
-                                    matrix<double>(output, points, direction,
-                                                   [](const PointResult& r) { return r.lyapunov_max().value; }))});
+    const auto exponents =
+        matrix<double>(output, points, direction, [](const PointResult& r) { return r.lyapunov_max().value; });
+    if (std::ranges::none_of(exponents, [](double x) { return std::isfinite(x); })) continue;
+    const std::string stem = "lyapunov_max_" + word;
+    figures.push_back(
+        {folder / (stem + ".png"),
+         value_figure(folder, stem, text, grid, "Largest exponent  λ_1 / ω_{sn}", "not told", exponents)});
   }
   return figures;
 }
