@@ -96,11 +96,14 @@ std::string dot_settings(const FigureRange& x) {
   return text + '\n';
 }
 
-std::string plot_dots(std::string_view stem, std::size_t index, std::string_view colour) {
+/// @param columns  values of the parameter: where there are few, dots may be larger
+std::string plot_dots(std::string_view stem, std::size_t index, std::string_view colour, std::size_t columns) {
+  constexpr double many = 661;
+  const double width = std::clamp(2.0 * std::sqrt(many / static_cast<double>(columns)), 2.0, 8.0);
   return fmt::format(
-      "'{0}.dat' index {1} using 1:2:($1 < middle ? dot : -dot):(0) with vectors nohead linewidth 2 "
+      "'{0}.dat' index {1} using 1:2:($1 < middle ? dot : -dot):(0) with vectors nohead linewidth {3:.1f} "
       "linecolor '{2}' notitle",
-      stem, index, colour);
+      stem, index, colour, width);
 }
 
 /// In parts of the range: half a step of the grid on each side, so that the dots of its ends are not on the frame.
@@ -174,14 +177,16 @@ FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::strin
 
   std::string plot;
   for (std::size_t i = series.size(); i-- > 0;) {
-    plot += plot_dots(stem, i, colours[i]);
+    plot += plot_dots(stem, i, colours[i], series.front().count);
     if (i > 0) plot += ", \\\n  ";
   }
-  const std::size_t legend_entries = series.size() > 1 ? series.size() : 0;
-  for (std::size_t i = 0; i < legend_entries; ++i) plot += legend_entry(colours[i], series[i].label);
+  std::vector<std::string> legend;
+  for (std::size_t i = 0; series.size() > 1 && i < series.size(); ++i) {
+    plot += legend_entry(colours[i], series[i].label);
+    legend.push_back(series[i].label);
+  }
   return draw_figure(folder, stem, write_data,
-                     figure_script(stem, text, x_range, y_range, legend_entries, markers, dot_settings(x_range), plot),
-                     which);
+                     figure_script(stem, text, x_range, y_range, legend, markers, dot_settings(x_range), plot), which);
 }
 
 FigureOutcome regime_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
@@ -233,51 +238,26 @@ FigureOutcome regime_figure(const std::filesystem::path& folder, std::string_vie
     data.flush();
   };
 
+  constexpr std::size_t few = 100;  // values of the parameter
   std::string dots;
-  std::string legend;
+  std::string entries;
+  std::vector<std::string> legend;
   std::string bars;
   for (std::size_t k = 0; k < looks.size(); ++k) {
     if (counts[k] == 0) continue;
-    dots += (dots.empty() ? "" : ", \\\n  ") + plot_dots(stem, 2 * k, looks[k].colour);
-    legend += legend_entry(looks[k].colour, fmt::format("{} ({})", looks[k].label, counts[k]));
+    dots += (dots.empty() ? "" : ", \\\n  ") + plot_dots(stem, 2 * k, looks[k].colour, count);
+    legend.push_back(fmt::format("{} ({})", looks[k].label, counts[k]));
+    entries += legend_entry(looks[k].colour, legend.back());
     bars += fmt::format(
-        ", \\\n  '{0}.dat' index {1} using 1:2:3 with yerrorbars pointtype 7 pointsize 0.25*mark linewidth 1 "
+        ", \\\n  '{0}.dat' index {1} using 1:2:3 with yerrorbars pointtype 7 pointsize {3:.2f}*mark linewidth {4} "
         "linecolor '{2}' notitle",
-        stem, 2 * k + 1, looks[k].colour);
+        stem, 2 * k + 1, looks[k].colour, count > few ? 0.25 : 0.6, count > few ? 1 : 2);
   }
-  const auto number = [](double v) {
-    std::string t;
-    append_number(t, v);
-    return t;
-  };
-  const std::string panels = fmt::format(
-      "set multiplot\n"
-      "set lmargin screen 0.1\n"
-      "set tmargin screen 0.875\n"
-      "set bmargin screen 0.42\n"
-      "set xrange [{0}:{1}]\n"
-      "set yrange [{2}:{3}]\n"
-      "set label 1 {4} at graph 0, screen 0.965 left\n"
-      "set key at graph 1, screen 0.95 right top horizontal maxrows 1 Left reverse samplen 0.6 width -1 font ',19'\n"
-      "set errorbars 0\n"
-      "set format x ''\n"
-      "unset xlabel\n"
-      "set label 2 {5} at screen 0.022, graph 0.5 center rotate by 90\n"
-      "plot {6}{7}\n"
-      "unset label 1\n"
-      "unset key\n"
-      "set tmargin screen 0.4\n"
-      "set bmargin screen 0.12\n"
-      "set format x '%h'\n"
-      "set xlabel {8}\n"
-      "set label 2 {9} at screen 0.022, graph 0.5 center rotate by 90\n"
-      "set yrange [{10}:{11}]\n"
-      "plot 0 with lines linewidth 1.2 linecolor '#808080' notitle{12}\n"
-      "unset multiplot\n",
-      number(x.low), number(x.high), number(y.low), number(y.high), gnuplot_quoted(portable_text(text.title)),
-      gnuplot_quoted(portable_text(text.y_label)), dots, legend, gnuplot_quoted(portable_text(text.x_label)),
-      gnuplot_quoted("Exponent  λ_1 / ω_{sn}"), number(exponents.low), number(exponents.high), bars);
-  return draw_figure(folder, stem, write_data, panel_script(stem, dot_settings(x), panels), which);
+  const std::vector<FigurePanel> panels = {
+      {text.y_label, y, dots + entries, 2.0},
+      {"Exponent  λ_1 / ω_{sn}", exponents, "0 with lines linewidth 1.2 linecolor '#808080' notitle" + bars, 1.0}};
+  return draw_figure(folder, stem, write_data,
+                     panel_script(stem, text, x, panels, legend, "set errorbars 0\n" + dot_settings(x)), which);
 }
 
 }  // namespace epicyclic::io

@@ -120,7 +120,7 @@ FigureOutcome class_figure(const std::filesystem::path& folder, std::string_view
   for (std::size_t c = 0; c < classes.size(); ++c)
     if (seen[c]) plot += legend_entry(classes[c]);
   return draw_figure(folder, stem, write_data,
-                     figure_script(stem, text, span_of(grid.x), span_of(grid.y), 0, {},
+                     figure_script(stem, text, span_of(grid.x), span_of(grid.y), {}, {},
                                    overlap(grid) + std::string(legend_place), plot));
 }
 
@@ -197,7 +197,7 @@ FigureOutcome value_figure(const std::filesystem::path& folder, std::string_view
   if (grey) plot += ", \\\n  " + greys("1:2:3:4");
   if (grey) plot += legend_entry({grey_label, "#9a9a9a"});
   return draw_figure(folder, stem, write_data,
-                     figure_script(stem, text, span_of(grid.x), span_of(grid.y), 0, {}, extra, plot));
+                     figure_script(stem, text, span_of(grid.x), span_of(grid.y), {}, {}, extra, plot));
 }
 
 }  // namespace epicyclic::io

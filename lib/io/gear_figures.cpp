@@ -25,24 +25,13 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 using namespace ink;
 
-/// A name that gnuplot shows as it stands: no character of it means anything in the "enhanced" notation.
-std::string literal(std::string_view name) {
-  constexpr std::string_view special = "\\_^{}@&~";
-  std::string text;
-  for (const char character : name) {
-    if (special.find(character) != std::string_view::npos) text += '\\';
-    text += character;
-  }
-  return text;
-}
-
 std::string titled(const gear::Stage& stage, std::string_view what) {
-  return stage.name.empty() ? std::string(what) : fmt::format("{}:  {}", literal(stage.name), what);
+  return stage.name.empty() ? std::string(what) : fmt::format("{}:  {}", literal_text(stage.name), what);
 }
 
 GearFigure draw(const Sketch& sketch, const fs::path& folder, const FigureText& text, const FigureRange& x,
-                const FigureRange& y, const std::vector<FigureMarker>& markers = {}) {
-  return {sketch.stem(), sketch.draw(folder, text, x, y, markers)};
+                const FigureRange& y, const std::vector<FigureMarker>& markers = {}, const FigureCanvas& canvas = {}) {
+  return {sketch.stem(), sketch.draw(folder, text, x, y, markers, canvas)};
 }
 
 /// Places on the canvas, in shares of its width and height.
@@ -50,15 +39,10 @@ struct Frame {
   double left, right, bottom;
 };
 
-/// For drawings that are true to scale: a frame of known shape, under a line for the title and one for the legend.
-void fix_frame(Sketch& sketch, std::string_view title, const Frame& frame) {
-  sketch.command(
-      fmt::format("set lmargin screen {}\nset rmargin screen {}\nset bmargin screen {}\n"
-                  "set tmargin screen 0.875",
-                  figure_number(frame.left), figure_number(frame.right), figure_number(frame.bottom)));
-  sketch.command(fmt::format("set label {} at screen {}, screen 0.916 center", gnuplot_quoted(portable_text(title)),
-                             figure_number(0.5 * (frame.left + frame.right))));
-  sketch.command("set key vertical maxrows 1 font ',20'");
+/// For drawings that are true to scale: a frame of known shape.
+void fix_frame(Sketch& sketch, const Frame& frame) {
+  sketch.command(fmt::format("set size ratio -1\nset lmargin screen {}\nset rmargin screen {}\nset bmargin screen {}",
+                             figure_number(frame.left), figure_number(frame.right), figure_number(frame.bottom)));
 }
 
 using Row2 = std::array<double, 2>;
@@ -133,8 +117,8 @@ GearFigure load_sharing_figure(const fs::path& folder, const gear::Stage& stage,
   add(set.sun_planet, solid(blue), "sun-planet");
   add(set.ring_planet, dashed(red, 2, "(14,6)"), "ring-planet");
   return draw(sketch, folder,
-              {titled(stage, "load sharing"), "Distance from the start of contact  [base pitches]",
-               "Share of the mesh force  L"},
+              {titled(stage, "load sharing of tooth pairs"), "Distance from the start of contact  [base pitches]",
+               "Share of a tooth pair in the mesh force  L"},
               {0.0, longest}, {0.0, 1.05});
 }
 
@@ -235,7 +219,7 @@ std::vector<NamedBearing> bearings_of(const gear::Catalogue& catalogue) {
   const auto add = [&](std::string_view member, const std::optional<gear::SupportBearing>& support) {
     if (!support) return;
     if (const auto data = gear::bearing_data(*support))
-      bearings.push_back({fmt::format("{}, {}", member, literal(data->name)), *support, data->coefficient()});
+      bearings.push_back({fmt::format("{}, {}", member, literal_text(data->name)), *support, data->coefficient()});
   };
   add("sun", catalogue.sun_bearing);
   add("carrier", catalogue.carrier.bearing);
@@ -509,10 +493,10 @@ GearFigure teeth_figure(const fs::path& folder, const gear::Stage& stage, const 
   const std::string title =
       fmt::format("{}-{} mesh,  α_{{{}}} = {:.2f}°,  ε_{{{}}} = {:.3f}", names.driving, names.driven, names.index,
                   pair.pressure_angle * 180.0 / pi, names.index, pair.contact_ratio());
-  fix_frame(sketch, titled(stage, title), {0.075, 0.975, 0.12});
+  fix_frame(sketch, {0.075, 0.975, 0.12});
   // Long lines are cut at the frame, and nothing filled hides the tics.
-  sketch.command("set size ratio -1\nset clip two\nset tics front\nset key width -1.5");
-  return draw(sketch, folder, {"", "x  [mm]", "y  [mm]"}, window.x, window.y);
+  sketch.command("set clip two\nset tics front");
+  return draw(sketch, folder, {titled(stage, title), "x  [mm]", "y  [mm]"}, window.x, window.y);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -741,38 +725,48 @@ class ShapeDrawing {
   std::array<Curve, 4> marks_;
 };
 
-std::string panel_title(const model::Mode& mode, double omega_sn) {
-  std::string title(model::to_string(mode.type));
-  if (mode.multiplicity > 1) title += fmt::format(" ×{}", mode.multiplicity);
-  if (mode.frequency_ratio == 0.0) return title + ",  rigid motion";
-  return title + fmt::format(",  {:.3f} ω_{{sn}},  {:.0f} Hz", mode.frequency_ratio,
-                             mode.frequency_ratio * omega_sn / (2.0 * pi));
+/// Type, and frequency in a line of its own.
+std::array<std::string, 2> panel_titles(const model::Mode& mode, double omega_sn) {
+  std::string type(model::to_string(mode.type));
+  if (mode.multiplicity > 1) type += fmt::format(" ×{}", mode.multiplicity);
+  if (mode.frequency_ratio == 0.0) return {type, "rigid motion"};
+  return {type, fmt::format("{:.3f} ω_{{sn}},  {:.0f} Hz", mode.frequency_ratio,
+                            mode.frequency_ratio * omega_sn / (2.0 * pi))};
 }
 
+/// All of them: the figure is as high as they need.
 GearFigure mode_shapes_figure(const fs::path& folder, const gear::Stage& stage, const std::vector<model::Mode>& modes,
                               double omega_sn) {
-  constexpr std::size_t panels_max = 12;
-  constexpr std::size_t columns = 4;
-  const std::size_t panels = std::min(panels_max, modes.size());
-  const std::size_t lines = (panels + columns - 1) / columns;
+  const std::size_t columns = modes.size() > 12 ? 6 : 4;
+  const std::size_t lines = (modes.size() + columns - 1) / columns;
   ShapeDrawing drawing(stage);
-  const double width = 3.8 * drawing.outer_radius();
-  const double height = 2.75 * drawing.outer_radius();
+  // In radii of the ring, which moves by no more than a sixth of it.
+  const double width = (columns > 4 ? 2.9 : 3.4) * drawing.outer_radius();
+  const double text_line = 0.19 * drawing.outer_radius() * static_cast<double>(columns) / 4.0;
+  const double height = 2.5 * drawing.outer_radius() + 2.0 * text_line;
   Sketch sketch("mode_shapes");
-  for (std::size_t k = 0; k < panels; ++k) {
-    const std::size_t line = k / columns;
+  for (std::size_t k = 0; k < modes.size(); ++k) {
     const double x = width * static_cast<double>(k % columns);
-    const double y = -height * static_cast<double>(line);
-    drawing.add_panel(modes[k], x, y);
-    const std::string text = panel_title(modes[k], omega_sn);
-    sketch.command(fmt::format("set label {} at first {}, first {} center font ',17'", gnuplot_quoted(text),
-                               figure_number(x), figure_number(y + 0.5 * height - 0.08 * drawing.outer_radius())));
+    const double y = -height * static_cast<double>(k / columns);
+    drawing.add_panel(modes[k], x, y - text_line);
+    double text_y = y + 0.5 * height - 0.5 * text_line;
+    for (const std::string& text : panel_titles(modes[k], omega_sn)) {
+      sketch.command(fmt::format("set label {} at first {}, first {} center font ',17'", gnuplot_quoted(text),
+                                 figure_number(x), figure_number(text_y)));
+      text_y -= text_line;
+    }
   }
   drawing.show(sketch);
-  sketch.command("set size ratio -1\nunset border\nunset tics");
-  fix_frame(sketch, titled(stage, "mode shapes"), {0.01, 0.99, 0.01});
-  return draw(sketch, folder, {"", "", ""}, {-0.5 * width, width * (static_cast<double>(columns) - 0.5)},
-              {-height * (static_cast<double>(lines) - 0.5), 0.5 * height});
+  sketch.command("unset border\nunset tics");
+  constexpr Frame frame{0.01, 0.99, 0.01};
+  fix_frame(sketch, frame);
+  constexpr double above = 110;  // title and legend [pixels]
+  FigureCanvas canvas;
+  const double scale = (frame.right - frame.left) * canvas.width / (width * static_cast<double>(columns));
+  canvas.height = static_cast<int>(above + scale * height * static_cast<double>(lines));
+  return draw(sketch, folder, {titled(stage, "mode shapes"), "", ""},
+              {-0.5 * width, width * (static_cast<double>(columns) - 0.5)},
+              {-height * (static_cast<double>(lines) - 0.5), 0.5 * height}, {}, canvas);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Figures of `epicyclic gear`: mesh stiffness, load sharing, friction, bearings, the teeth in mesh, natural modes.
+// Figures of `epicyclic gear`: mesh stiffness, load sharing of tooth pairs, friction, bearings, the teeth in mesh,
+// natural modes.
 //
 // Teeth in mesh stand by the geometry of the pair, not by eye [F-mesh]: with the pitch point at the origin, the axis of
 // the driving member below it and the driving member turning clockwise,

@@ -381,7 +381,10 @@ std::string gear_page(const GearPage& page, const LoadedInput& input, const std:
   append_values(text, shown_parts, "", "", "");
   if (!page.files.empty()) {
     text += "\n## Data\n\n";
-    for (const std::string& file : page.files) text += fmt::format("* [{0}]({0})\n", file);
+    for (const std::string& file : page.files)
+      text += fmt::format(
+          "* [{0}]({0}){1}\n", file,
+          file == "load_sharing.csv" ? ": of tooth pairs; that of planets is in motion, `epicyclic run`" : "");
   }
   text += "\nTags in brackets are those of lib/EQUATIONS.md.\n";
   return text;

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <optional>
 #include <stdexcept>
@@ -162,6 +163,11 @@ std::string with_greek_letters(std::string_view text) {
   for (;;) {
     const std::size_t start = text.find(opening);
     if (start == std::string_view::npos) break;
+    if (start > 0 && text[start - 1] == '\\') {  // as somebody has typed it
+      result.append(text.substr(0, start + opening.size()));
+      text.remove_prefix(start + opening.size());
+      continue;
+    }
     const std::size_t end = text.find_first_of("{}", start + opening.size());
     if (end == std::string_view::npos || text[end] != '}') break;
     result.append(text.substr(0, start)) += '{';
@@ -232,6 +238,208 @@ std::string drawn_to_files(std::string_view stem, std::string_view commands, con
       "unset output\n"
       "}}\n",
       stem, png, svg, canvas.width, canvas.height, 4 * canvas.width / 5, 4 * canvas.height / 5, commands);
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Texts
+
+constexpr char32_t no_character = 0xfffd;
+
+/// Of UTF-8; what is none stands as no_character.
+std::vector<char32_t> code_points(std::string_view text) {
+  std::vector<char32_t> points;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    const std::size_t length = lead < 0x80U ? 1 : lead >= 0xf0U ? 4 : lead >= 0xe0U ? 3 : lead >= 0xc0U ? 2 : 0;
+    constexpr std::array<unsigned, 5> bits{0, 0x7fU, 0x1fU, 0x0fU, 0x07U};
+    char32_t point = lead & bits[length];
+    std::size_t k = 1;
+    for (; k < length && i + k < text.size(); ++k) {
+      const auto next = static_cast<unsigned char>(text[i + k]);
+      if ((next & 0xc0U) != 0x80U) break;
+      point = (point << 6U) | (next & 0x3fU);
+    }
+    points.push_back(length > 0 && k == length ? point : no_character);
+    i += std::max<std::size_t>(1, length > 0 && k == length ? length : 1);
+  }
+  return points;
+}
+
+void append_utf8(std::string& text, char32_t point) {
+  const auto byte = [&](char32_t value) { text += static_cast<char>(value); };
+  const auto next = [&](unsigned shift) { byte(0x80U | ((point >> shift) & 0x3fU)); };
+  if (point < 0x80U) {
+    byte(point);
+  } else if (point < 0x800U) {
+    byte(0xc0U | (point >> 6U));
+    next(0);
+  } else if (point < 0x10000U) {
+    byte(0xe0U | (point >> 12U));
+    next(6);
+    next(0);
+  } else {
+    byte(0xf0U | (point >> 18U));
+    next(12);
+    next(6);
+    next(0);
+  }
+}
+
+bool between(char32_t point, char32_t first, char32_t last) { return point >= first && point <= last; }
+
+/// No control character, no separator of lines, nothing that XML forbids in an SVG file.
+bool has_picture(char32_t point) {
+  return point >= U' ' && !between(point, 0x7f, 0x9f) && !between(point, 0x2028, 0x2029) &&
+         !between(point, 0xd800, 0xdfff) && !between(point, 0xfdd0, 0xfdef) && (point & 0xfffeU) != 0xfffeU;
+}
+
+/// Embeddings, overrides and isolates of directions, which would reach into the words beside a name.
+bool turns_direction(char32_t point) {
+  return between(point, 0x202a, 0x202e) || between(point, 0x2066, 0x2069) || between(point, 0x200e, 0x200f) ||
+         point == 0x061c;
+}
+
+/// Hebrew, Arabic and their neighbours.
+bool from_the_right(char32_t point) {
+  return between(point, 0x0590, 0x08ff) || between(point, 0xfb1d, 0xfdff) || between(point, 0xfe70, 0xfeff) ||
+         between(point, 0x10800, 0x10fff) || between(point, 0x1e800, 0x1efff);
+}
+
+/// Not in the font that figures ask for, as far as one can say without looking: beyond Latin, Greek, Cyrillic and
+/// signs.
+bool is_rare(char32_t point) {
+  return point >= 0x0530 && !between(point, 0x1e00, 0x23ff) && !between(point, 0x2500, 0x27bf) && point != no_character;
+}
+
+/// Of DejaVu Sans, in heights of the font.
+double width_of(char32_t point) {
+  constexpr std::u32string_view narrow = U" ijltfrI.,:;'|!()[]/\\-";
+  constexpr std::u32string_view wide = U"mwMW%@";
+  if (between(point, 0x0300, 0x036f) || between(point, 0x200b, 0x200f)) return 0.0;
+  if (point >= 0x1100 && !between(point, 0x1e00, 0x23ff)) return 1.2;
+  if (narrow.find(point) != std::u32string_view::npos) return 0.4;
+  if (wide.find(point) != std::u32string_view::npos) return 1.0;
+  return point >= U'a' ? 0.63 : 0.69;
+}
+
+/// A character of a name in "enhanced" notation.
+void append_literal(std::string& text, char32_t point) {
+  constexpr std::u32string_view markup = U"_^{}@&~";
+  if (point == U'\\') {
+    // By itself: pngcairo shows the escape of a backslash, and both files make a letter of one before "U+0041".
+    text += "{\\\\}";
+  } else if (point == U'>') {
+    // Apart from what is before it: the SVG file does not escape it, and XML forbids it behind two brackets.
+    text += "{>}";
+  } else {
+    if (markup.find(point) != std::u32string_view::npos) text += '\\';
+    append_utf8(text, point);
+  }
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Layout, in pixels of the PNG picture
+
+constexpr double font_height = 32;         // of size 24
+constexpr double legend_font_height = 29;  // of size 22
+constexpr double right_edge = 0.975;       // of the canvas
+
+/// Tags of labels beyond those that gnuplot gives.
+constexpr int title_tag = 1000;
+constexpr int label_tag = 1001;
+
+/// %h has six digits: more where the range is a small part of its values.
+std::string more_digits(char axis, const FigureRange& range) {
+  const double largest = std::max(std::abs(range.low), std::abs(range.high));
+  return fmt::format("set format {} '{}'\n", axis, range.high - range.low < 1e-3 * largest ? "%.9h" : "%h");
+}
+
+/// Estimated width of the labels of tics.
+double tic_width(const FigureRange& range) {
+  constexpr double tics = 6;
+  const double largest = std::max(std::abs(range.low), std::abs(range.high));
+  const double step = (range.high - range.low) / tics;
+  if (!(step > 0.0) || !(largest > 0.0)) return font_height;
+  const double before = std::max(1.0, std::floor(std::log10(largest)) + 1.0);
+  const double behind = std::max(0.0, -std::floor(std::log10(step)));
+  const double characters = before + behind + (behind > 0.0 ? 1.0 : 0.0) + (range.low < 0.0 ? 1.0 : 0.0);
+  return 0.64 * font_height * std::min(characters, 11.0) + 20.0;
+}
+
+/// What stands above the frame.
+struct Head {
+  std::string settings;  ///< of the legend and of the upper margin
+  std::string title;     ///< the command that sets it, for each of the two files
+  double height = 0;     ///< from the upper edge of the canvas to the frame [pixels]
+};
+
+/// The title as an expression. Where no font has a character, pngcairo blackens the figure with a sign for it as large
+/// as that: there the PNG file, which cannot do better, shows no_character.
+std::string title_expression(const std::string& title) {
+  std::vector<char32_t> points = code_points(title);
+  std::string rare;
+  for (char32_t& point : points) {
+    if (!is_rare(point)) continue;
+    const std::string code = fmt::format(" {:x}", static_cast<std::uint32_t>(point));
+    if (rare.find(code + ' ') == std::string::npos) rare += code + ' ';
+    point = no_character;
+  }
+  if (rare.empty()) return gnuplot_quoted(title);
+  std::string plain;
+  for (const char32_t point : points) append_utf8(plain, point);
+  return fmt::format(
+      "(kind eq '{}' && system('for c in{}; do fc-list :charset=$c family 2>/dev/null | grep -q . || echo none; "
+      "done') ne '' ? {} : {})",
+      png, rare, gnuplot_quoted(plain), gnuplot_quoted(title));
+}
+
+Head head_of(const std::string& plain_title, const std::vector<std::string>& legend, const FigureCanvas& canvas) {
+  constexpr double pad = 12;
+  constexpr double title_line = 46;
+  constexpr double legend_line = 34;
+  constexpr double above_frame = 16;
+  constexpr double left = 190;  // of the frame, at most
+  constexpr double least_font = 10;
+  const double width = right_edge * canvas.width - left;
+  const std::string title = portable_text(plain_title);
+  const double title_width = font_height * text_width(title);
+  const auto vertical = [&](double pixels) { return text_of(1.0 - pixels / canvas.height); };
+  Head head;
+  double y = pad;
+  if (!title.empty()) {
+    const double font = std::max(least_font, std::floor(std::min(24.0, 24.0 * width / title_width)));
+    head.title = fmt::format("set label {} {} at graph 0, screen {} left font ',{}'\n", title_tag,
+                             title_expression(title), vertical(y + 0.5 * title_line), text_of(font));
+    y += title_line;
+  }
+  if (legend.empty()) {
+    head.settings += "unset key\n";
+  } else {
+    // gnuplot makes all columns as wide as the longest entry.
+    double longest = 0.0;
+    for (const std::string& entry : legend) longest = std::max(longest, text_width(portable_text(entry)));
+    // It counts 0.65 heights of the font for a character, which is more than they have.
+    constexpr double character = 0.65;
+    const double characters = longest / 0.57;
+    const double narrower = std::clamp(0.25 * (characters - 4.0), 0.0, 3.0);
+    constexpr double sample = 4.3;  // with the gaps about it, in characters
+    const double column = character * legend_font_height * (characters + sample - narrower);
+    const auto entries = static_cast<double>(legend.size());
+    const double columns = std::clamp(std::floor(width / column), 1.0, entries);
+    const double rows = std::ceil(entries / columns);
+    const bool beside = !title.empty() && title_width + entries * column + 2.0 * font_height < width;
+    if (beside) y = pad + 0.5 * (title_line - legend_line);
+    head.settings += fmt::format(
+        "set key at graph 1, screen {} right top horizontal maxcols {} maxrows {} Left reverse samplen 1.5 width "
+        "-{:.1f} "
+        "font ',22'\n",
+        vertical(y), columns, rows, narrower);
+    y = beside ? pad + title_line : y + rows * legend_line;
+  }
+  head.height = std::min(y + above_frame, 0.6 * canvas.height);
+  if (title.empty() && legend.empty()) head.height = 24;  // half a label of a tic
+  head.settings += fmt::format("set tmargin screen {}\n", vertical(head.height));
+  return head;
 }
 
 }  // namespace
@@ -330,40 +538,76 @@ FigureOutcome run_gnuplot(const fs::path& script, Pictures which, std::optional<
 }
 
 std::string gnuplot_quoted(std::string_view text) {
-  std::string quoted = "'";
+  // In single quotes nothing has a meaning, but gnuplot loses its way between two apostrophes side by side.
+  const bool single = text.find('\'') == std::string_view::npos;
+  constexpr std::string_view meaning = "\"\\`@";
+  std::string quoted;
   for (const char character : text) {
-    if (character == '\'') quoted += '\'';
     // A line break would end gnuplot's command.
-    quoted += static_cast<unsigned char>(character) < ' ' ? ' ' : character;
+    if (static_cast<unsigned char>(character) < ' ')
+      quoted += ' ';
+    else if (!single && meaning.find(character) != std::string_view::npos)
+      quoted += fmt::format("\\{:03o}", character);
+    else
+      quoted += character;
   }
-  return quoted + "'";
+  return single ? "'" + quoted + "'" : '"' + quoted + '"';
 }
 
 std::string portable_text(std::string_view text) { return with_macrons(with_greek_letters(text)); }
 
+std::string literal_text(std::string_view typed) {
+  constexpr double longest = 44;  // font heights
+  constexpr double kept_at_end = 14;
+  std::vector<char32_t> points = code_points(typed);
+  std::erase_if(points, turns_direction);
+  double width = 0.0;
+  for (char32_t& point : points) {
+    if (!has_picture(point)) point = U' ';
+    width += width_of(point);
+  }
+  if (width > longest) {
+    auto last = points.end();
+    for (double w = 0.0; w < kept_at_end; --last) w += width_of(*(last - 1));
+    auto first = points.begin();
+    for (double w = 0.0; w < longest - kept_at_end; ++first) w += width_of(*first);
+    *first = U'…';
+    points.erase(first + 1, last);
+  }
+  std::string text;
+  for (const char32_t point : points) append_literal(text, point);
+  // The words beside a name that is written from the right stay where they are.
+  constexpr std::string_view from_the_left = "\u200e";
+  if (std::ranges::any_of(points, from_the_right)) text = fmt::format("{0}{1}{0}", from_the_left, text);
+  return text;
+}
+
+double text_width(std::string_view text) {
+  double width = 0.0;
+  bool literal = false;
+  for (const char32_t point : code_points(text)) {
+    const bool markup =
+        !literal && (point == U'\\' || point == U'{' || point == U'}' || point == U'_' || point == U'^');
+    literal = !literal && point == U'\\';
+    if (!markup) width += width_of(point);
+  }
+  return width;
+}
+
 std::string figure_script(std::string_view stem, const FigureText& text, const FigureRange& x, const FigureRange& y,
-                          std::size_t legend_entries, const std::vector<FigureMarker>& markers, std::string_view extra,
-                          std::string_view plot, const FigureCanvas& canvas) {
+                          const std::vector<std::string>& legend, const std::vector<FigureMarker>& markers,
+                          std::string_view extra, std::string_view plot, const FigureCanvas& canvas) {
+  const Head head = head_of(text.title, legend, canvas);
   std::string script = opening(stem);
   script += fmt::format(
       "set xrange [{0}:{1}]\n"
       "set yrange [{2}:{3}]\n"
       "set xlabel {4}\n"
       "set ylabel {5}\n"
-      "set rmargin screen 0.975\n",
+      "set rmargin screen {6}\n",
       text_of(x.low), text_of(x.high), text_of(y.low), text_of(y.high), gnuplot_quoted(portable_text(text.x_label)),
-      gnuplot_quoted(portable_text(text.y_label)));
-  // Title on the left and legend on the right of one line, if both are short: gnuplot's own title takes a second line.
-  if (!text.title.empty()) {
-    const std::string title = gnuplot_quoted(portable_text(text.title));
-    script += legend_entries > 2 ? fmt::format("set title {}\n", title)
-                                 : fmt::format("set label {} at graph 0, graph 1 left offset character 0,0.9\n", title);
-  }
-  if (legend_entries > 0) {
-    script += "set key above right horizontal Left reverse samplen 1.5 width 1 font ',22'\n";
-  } else {
-    script += fmt::format("unset key\nset tmargin {}\n", text.title.empty() ? 1.0 : 2.4);
-  }
+      gnuplot_quoted(portable_text(text.y_label)), right_edge);
+  script += more_digits('x', x) + more_digits('y', y) + head.settings;
   if (!markers.empty()) script += "set style textbox opaque noborder fillcolor '#ffffff' margins 0.4,0.4\n";
   for (const FigureMarker& marker : markers) {
     if (!(marker.x >= x.low && marker.x <= x.high)) continue;
@@ -375,11 +619,49 @@ std::string figure_script(std::string_view stem, const FigureText& text, const F
         text_of(marker.x), gnuplot_quoted(portable_text(marker.label)));
   }
   script += extra;
-  return script + drawn_to_files(stem, fmt::format("plot {}\n", plot), canvas);
+  return script + drawn_to_files(stem, fmt::format("{}plot {}\n", head.title, plot), canvas);
 }
 
-std::string panel_script(std::string_view stem, std::string_view extra, std::string_view panels) {
-  return fmt::format("{}set rmargin screen 0.975\n{}{}", opening(stem), extra, drawn_to_files(stem, panels));
+std::string panel_script(std::string_view stem, const FigureText& text, const FigureRange& x,
+                         const std::vector<FigurePanel>& panels, const std::vector<std::string>& legend,
+                         std::string_view extra, const FigureCanvas& canvas) {
+  constexpr double bottom = 130;  // tics and label of the abscissa [pixels]
+  constexpr double apart = 28;    // half a label of a tic on both sides [pixels]
+  constexpr double label_place = 40;
+  const Head head = head_of(text.title, legend, canvas);
+  double left = 0.0;  // one edge for all
+  double parts = 0.0;
+  for (const FigurePanel& panel : panels) {
+    left = std::max(left, label_place + 45.0 + tic_width(panel.y));
+    parts += panel.height;
+  }
+  const auto vertical = [&](double pixels) { return text_of(1.0 - pixels / canvas.height); };
+  const double heights = canvas.height - head.height - bottom - apart * static_cast<double>(panels.size() - 1);
+  std::string commands = fmt::format(
+      "set multiplot\n"
+      "set lmargin screen {}\n"
+      "set xrange [{}:{}]\n"
+      "set format x ''\n",
+      text_of(left / canvas.width), text_of(x.low), text_of(x.high));
+  double top = head.height;
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    const FigurePanel& panel = panels[k];
+    const double height = heights * panel.height / parts;
+    commands += fmt::format("set tmargin screen {}\nset bmargin screen {}\n", vertical(top), vertical(top + height));
+    commands += fmt::format("set yrange [{}:{}]\n", text_of(panel.y.low), text_of(panel.y.high));
+    commands += fmt::format("set label {} {} at screen {}, graph 0.5 center rotate by 90\n", label_tag,
+                            gnuplot_quoted(portable_text(panel.y_label)), text_of(label_place / canvas.width));
+    commands += more_digits('y', panel.y);
+    if (k == 0) commands += head.title;
+    if (k + 1 == panels.size())
+      commands += fmt::format("set format x '%h'\n{}set xlabel {}\n", more_digits('x', x),
+                              gnuplot_quoted(portable_text(text.x_label)));
+    commands += fmt::format("plot {}\n", panel.plot);
+    if (k == 0) commands += fmt::format("unset label {}\nunset key\n", title_tag);
+    top += height + apart;
+  }
+  return fmt::format("{}set rmargin screen {}\n{}{}{}", opening(stem), right_edge, head.settings, extra,
+                     drawn_to_files(stem, commands + "unset multiplot\nset format x '%h'\nunset xlabel\n", canvas));
 }
 
 FigureOutcome draw_pictures(const fs::path& folder, std::string_view stem, Pictures which) {

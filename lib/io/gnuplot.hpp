@@ -6,7 +6,8 @@
 // text, never an exception.
 //
 // Texts are UTF-8 in gnuplot's "enhanced" notation (x_{sp}, 10^{-3}). Greek letters and bars are best written as they
-// are (Ω, δ̄); {/Symbol W} and ~{x}{.6-} are turned into them, because gnuplot's SVG files show these wrongly.
+// are (Ω, δ̄); {/Symbol W} and ~{x}{.6-} are turned into them, because gnuplot's SVG files show these wrongly. What
+// somebody has typed becomes such a text by literal_text().
 #pragma once
 
 #include <chrono>
@@ -44,7 +45,7 @@ struct FigureRange {
 /// Share of the height of the data that is left free above and below them [-].
 inline constexpr double figure_margin = 0.04;
 
-/// Title and axis labels of a figure; the title may be empty.
+/// Title and axis labels of a figure; the title may be empty. A long title is written smaller.
 struct FigureText {
   std::string title;
   std::string x_label;
@@ -63,8 +64,16 @@ struct FigureCanvas {
   int height = 1100;  ///< [pixels]
 };
 
-/// For axes of equal scale.
-inline constexpr FigureCanvas square_canvas{1200, 1100};
+/// For a square frame, with room above it for a title and a legend.
+inline constexpr FigureCanvas square_canvas{1200, 1240};
+
+/// One of several frames over each other on one abscissa.
+struct FigurePanel {
+  std::string y_label;
+  FigureRange y;
+  std::string plot;   ///< one plot command without the word
+  double height = 1;  ///< in parts of the sum of all
+};
 
 /// Which of its two files a script draws. Drawn apart, they can be drawn side by side.
 enum class Pictures { none, png, svg, both };
@@ -80,23 +89,34 @@ bool gnuplot_is_installed();
 FigureOutcome run_gnuplot(const std::filesystem::path& script, Pictures which = Pictures::both,
                           std::optional<std::chrono::milliseconds> limit = {});
 
-/// The text as a gnuplot string in single quotes, in which gnuplot neither expands nor executes anything.
+/// The text as a gnuplot string, in which gnuplot neither expands nor executes anything.
 std::string gnuplot_quoted(std::string_view text);
+
+/// What somebody has typed, as a text that shows it as it was typed: no character means anything. What has no picture
+/// (line breaks, control characters) is a blank, marks that turn the direction of writing are left out, and of a text
+/// that is longer than a line the middle is.
+std::string literal_text(std::string_view typed);
+
+/// Estimated width of a text in "enhanced" notation, rather too large than too small, in heights of its font.
+double text_width(std::string_view text);
 
 /// Symbol font and overprinted bars replaced by Greek letters and combining macrons; see above.
 std::string portable_text(std::string_view text);
 
-/// The script of a figure: encoding, white ground, thin frame, tics, ranges, labels, legend, markers; then `plot`,
-/// which is one plot command (without the word) and is drawn twice, to STEM.png and to STEM.svg, or to the one that
-/// the script is called with (`gnuplot -c STEM.gp svg`). It may use the variable `mark`, the size of a clearly visible
-/// dot, which differs between the two. `extra` are commands before it.
+/// The script of a figure: encoding, white ground, thin frame, tics, ranges, labels, title, legend under it (or beside
+/// it, where there is room), markers; then `plot`, which is one plot command (without the word) and is drawn twice, to
+/// STEM.png and to STEM.svg, or to the one that the script is called with (`gnuplot -c STEM.gp svg`). It may use the
+/// variable `mark`, the size of a clearly visible dot, which differs between the two.
+/// @param legend  the titles in `plot`
+/// @param extra   commands before it
 std::string figure_script(std::string_view stem, const FigureText& text, const FigureRange& x, const FigureRange& y,
-                          std::size_t legend_entries, const std::vector<FigureMarker>& markers, std::string_view extra,
-                          std::string_view plot, const FigureCanvas& canvas = {});
+                          const std::vector<std::string>& legend, const std::vector<FigureMarker>& markers,
+                          std::string_view extra, std::string_view plot, const FigureCanvas& canvas = {});
 
-/// The script of a figure with several panels: encoding, white ground, thin frame and tics; then `extra` once, and
-/// `panels`, complete commands from `set multiplot` to `unset multiplot`, for each of the two files.
-std::string panel_script(std::string_view stem, std::string_view extra, std::string_view panels);
+/// The same for panels over each other, from above; text.y_label is not used. The legend is that of the first panel.
+std::string panel_script(std::string_view stem, const FigureText& text, const FigureRange& x,
+                         const std::vector<FigurePanel>& panels, const std::vector<std::string>& legend,
+                         std::string_view extra, const FigureCanvas& canvas = {});
 
 /// Draws STEM.png, STEM.svg or both from STEM.dat with STEM.gp, which are in `folder`.
 /// @throws OutputError  when gnuplot leaves a picture unfinished

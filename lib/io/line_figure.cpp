@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "core/text.hpp"
 #include "io/csv.hpp"
+#include "io/sketch.hpp"
 
 namespace epicyclic::io {
 
@@ -14,6 +16,8 @@ namespace {
 
 /// After Okabe and Ito, darkened for thin lines on white: distinct for colour-blind eyes.
 constexpr std::array<std::string_view, 6> colours{"#12285c", "#c8553d", "#1b8a6b", "#b07a00", "#7a4a8c", "#4a4a4a"};
+/// For points, of gnuplot's filled ones.
+constexpr std::array<int, 6> marks{7, 5, 9, 13, 11, 15};
 /// Beyond six curves the colours repeat, dashed.
 constexpr std::array<std::string_view, 3> dashes{"solid", "(14,6)", "(4,5)"};
 
@@ -26,10 +30,33 @@ struct Axis {
 
   void include(double value) { range.include(logarithmic ? std::log10(value) : value); }
   [[nodiscard]] FigureRange widened(double share) const {
-    const FigureRange wide = range.widened(share);
+    constexpr double about_one = 0.5;  // decades
+    const FigureRange wide = logarithmic && range.low == range.high
+                                 ? FigureRange{range.low - about_one, range.high + about_one}
+                                 : range.widened(share);
     return logarithmic ? FigureRange{std::pow(10.0, wide.low), std::pow(10.0, wide.high)} : wide;
   }
 };
+
+/// Powers of ten are named, and where there would be less than three of them, twice and five times each.
+std::string logarithmic_axis(char axis, const FigureRange& range) {
+  std::string commands = fmt::format("set logscale {0}\nset m{0}tics 10\nset format {0} '10^{{%T}}'\n", axis);
+  const double decades = std::log10(range.high / range.low);
+  if (decades >= 3.0) return commands;
+  std::string tics;
+  for (int power = static_cast<int>(std::floor(std::log10(range.low))); std::pow(10.0, power) <= range.high; ++power)
+    for (int digit = 1; digit < 10; ++digit) {
+      const double value = digit * std::pow(10.0, power);
+      if (value < range.low || value > range.high) continue;
+      const bool named = digit == 1 || digit == 2 || digit == 5 || decades < 0.5;
+      const std::string label = power >= -2 && power <= 3 ? short_text(value, 6)
+                                : digit == 1              ? fmt::format("10^{{{}}}", power)
+                                                          : fmt::format("{}·10^{{{}}}", digit, power);
+      tics += fmt::format("{}'{}' {} {}", tics.empty() ? "" : ", ", named ? label : "", figure_number(value),
+                          named ? 0 : 1);
+    }
+  return commands + fmt::format("set {}tics ({})\n", axis, tics);
+}
 
 }  // namespace
 
@@ -39,7 +66,8 @@ FigureOutcome line_figure(const std::filesystem::path& folder, std::string_view 
   if (curves.empty()) throw std::invalid_argument("line_figure: no curve");
   std::string data;
   std::string plot;
-  std::size_t legend_entries = 0;
+  std::vector<std::string> legend;
+  bool points = false;
   Axis x_axis{axes.log_x};
   Axis y_axis{axes.log_y};
   for (std::size_t k = 0; k < curves.size(); ++k) {
@@ -69,20 +97,24 @@ FigureOutcome line_figure(const std::filesystem::path& folder, std::string_view 
 
     const std::string_view colour = colours[k % colours.size()];
     const std::string_view dash = dashes[k / colours.size() % dashes.size()];
-    const std::string look = curve.points ? fmt::format("points pointtype 7 pointsize 0.6*mark linecolor '{}'", colour)
-                                          : fmt::format("lines linewidth 2 dashtype {} linecolor '{}'", dash, colour);
-    if (!curve.label.empty()) ++legend_entries;
+    const std::string line = fmt::format("linewidth 2 dashtype {} linecolor '{}'", dash, colour);
+    const std::string mark = fmt::format("pointtype {} pointsize mark", marks[k % marks.size()]);
+    const std::string look = curve.points   ? fmt::format("points {} linecolor '{}'", mark, colour)
+                             : curve.marked ? fmt::format("linespoints {} {}", mark, line)
+                                            : "lines " + line;
+    points = points || curve.points || curve.marked;
+    if (!curve.label.empty()) legend.push_back(curve.label);
     plot += fmt::format("{}'{}.dat' index {} using 1:2 with {} {}", k > 0 ? ", \\\n  " : "", stem, k, look,
                         curve.label.empty() ? "notitle" : "title " + gnuplot_quoted(portable_text(curve.label)));
   }
   if (x_axis.range.empty()) return {"there is no finite point to draw"};
 
   std::string extra;
-  if (axes.log_x) extra += "set logscale x\nset mxtics 10\nset format x '10^{%T}'\n";
-  if (axes.log_y) extra += "set logscale y\nset mytics 10\nset format y '10^{%T}'\n";
-  return draw_figure(folder, stem, data,
-                     figure_script(stem, text, x_axis.widened(0), y_axis.widened(figure_margin), legend_entries,
-                                   markers, extra, plot));
+  const FigureRange x = x_axis.widened(points ? figure_margin : 0.0);
+  const FigureRange y = y_axis.widened(figure_margin);
+  if (axes.log_x) extra += logarithmic_axis('x', x);
+  if (axes.log_y) extra += logarithmic_axis('y', y);
+  return draw_figure(folder, stem, data, figure_script(stem, text, x, y, legend, markers, extra, plot));
 }
 
 }  // namespace epicyclic::io

@@ -17,6 +17,7 @@ struct FigureCurve {
   std::vector<double> x;  ///< in the order of drawing; need not ascend
   std::vector<double> y;  ///< as many
   bool points = false;    ///< points instead of a line
+  bool marked = false;    ///< points besides the line
 };
 
 /// Scales of the axes. On a logarithmic one, values that are not positive interrupt the curve.
@@ -26,7 +27,8 @@ struct FigureAxes {
 };
 
 /// Draws the curves to `folder`/STEM.png and .svg, from STEM.dat with the script STEM.gp. The legend has the labels
-/// that are not empty. The abscissa spans exactly the range of the data; the ordinate has a margin of 4 %.
+/// that are not empty. The ordinate has a margin of 4 %; the abscissa spans exactly the range of the
+/// data, but for a margin where there are points, which the frame would hide.
 /// @returns what became of the figure; not drawn, too, when there is no finite point
 /// @throws OutputError           when data or script cannot be written
 /// @throws std::invalid_argument when there is no curve, when x and y of one differ in length, or when the stem is not

@@ -35,8 +35,6 @@ constexpr std::string_view back_colour = red;
 constexpr std::string_view fine_dash = "(10,7)";
 /// Up to this difference, in parts of the values, planets are drawn as one.
 constexpr double coincident = 1e-6;
-/// A portrait of a motion that does not repeat shows no more mesh periods: beyond, a line fills the plane.
-constexpr int portrait_periods = 64;
 constexpr std::array<std::string_view, 6> planet_colours{blue, red, green, ochre, purple, dark_grey};
 constexpr std::string_view time_label = "Mesh periods  s / 2π";
 
@@ -151,8 +149,16 @@ class RunFigures {
 
   /// Deflection against rate in the last periods: all of a periodic motion, else as much as can be shown.
   [[nodiscard]] Window portrait_window() const {
-    return last_periods(h_,
-                        periodic() ? std::max(output_.options.shown_periods, result_.point.period) : portrait_periods);
+    return last_periods(
+        h_, periodic() ? std::max(output_.options.shown_periods, result_.point.period) : studies::portrait_periods);
+  }
+
+  /// delta_sp_1 against its rate over the window.
+  [[nodiscard]] Curve portrait(const Window& w) const {
+    const studies::Portrait& p = result_.portrait;
+    if (p.phases == 0) return pairs(h_.column("delta_sp_1"), h_.column("delta_sp_1_rate"), w.first);
+    const auto wanted = static_cast<std::size_t>(std::lround(w.periods * p.phases)) + 1;
+    return pairs(p.deflection, p.rate, p.deflection.size() - std::min(wanted, p.deflection.size()));
   }
 
   /// delta_sp_1 and its rate at whole mesh periods, over the rows from `first` on.
@@ -197,7 +203,7 @@ class RunFigures {
   void phase_portrait() {
     if (!has_column(h_, "delta_sp_1") || !has_column(h_, "delta_sp_1_rate")) return;
     const Window w = portrait_window();
-    const Curve curve = pairs(h_.column("delta_sp_1"), h_.column("delta_sp_1_rate"), w.first);
+    const Curve curve = portrait(w);
     const Curve points = section(w.first);
     const FigureRange x = y_range(range_of(curve, 0));
     const FigureRange y = y_range(range_of(curve, 1));
@@ -228,14 +234,15 @@ class RunFigures {
     FigureRange x = range_of(points, 0);
     FigureRange y = range_of(points, 1);
     const Window w = portrait_window();
-    const Curve portrait = pairs(h_.column("delta_sp_1"), h_.column("delta_sp_1_rate"), w.first);
-    const FigureRange wide_x = range_of(portrait, 0);
-    const FigureRange wide_y = range_of(portrait, 1);
+    const Curve motion = portrait(w);
+    const FigureRange wide_x = range_of(motion, 0);
+    const FigureRange wide_y = range_of(motion, 1);
     if (periodic()) {
       // A few points have no extent of their own: they stand where they are on the orbit.
       x = wide_x;
       y = wide_y;
-      sketch.add(points, dots(blue, 2.0));
+      sketch.add(motion, solid(light_grey, 1.5), "the orbit");
+      sketch.add(points, dots(blue, 2.0), "at whole mesh periods");
     } else {
       constexpr double part = 0.05;  // of the portrait's extent
       x = no_narrower(x, part * (wide_x.high - wide_x.low));
@@ -298,7 +305,7 @@ class RunFigures {
         return fmt::format("impulses linewidth 4 linecolor '{}'", colour);
       };
       const bool both = !between.empty();
-      sketch.add(mesh, impulses(blue), both ? "harmonics of the mesh frequency" : "");
+      sketch.add(mesh, impulses(blue), both ? "mesh harmonics" : "");
       sketch.add(between, impulses(red), both ? "between them" : "");
       label_lines(sketch, s, highest);
     } else {
@@ -332,7 +339,6 @@ class RunFigures {
     Sketch sketch("exponents");
     FigureRange x{0.0, static_cast<double>(e.growth.size() / e.exponents) * interval};
     FigureRange y;
-    y.include(0.0);
     const analysis::Estimate& first = e.per_s.front();
     const double low = first.low() * result_.omega;
     const double high = first.high() * result_.omega;
@@ -344,7 +350,6 @@ class RunFigures {
                  fmt::format("filledcurves fillstyle solid 1.0 noborder fillcolor '{}'", "#d5dbec"),
                  "95 % interval of λ_1");
     }
-    sketch.add(Curve{{x.low, 0.0}, {x.high, 0.0}}, solid(light_grey, 1));
     const std::size_t shown = std::min(most, e.exponents);
     for (std::size_t i = shown; i-- > 0;) {
       const std::vector<double> mean = e.history(i);
@@ -352,10 +357,15 @@ class RunFigures {
       for (std::size_t k = 0; k < mean.size(); ++k) {
         curve.push_back({static_cast<double>(k + 1) * interval, mean[k] * result_.omega});
         // The first means swing widely; what the figure is about comes later.
-        if (10 * k >= mean.size()) y.include(curve.back()[1]);
+        if (4 * k >= mean.size()) y.include(curve.back()[1]);
       }
       sketch.add(curve, solid(planet_colours[i], i == 0 ? 2.5 : 1.8));
     }
+    // Zero, which divides, is shown unless that would leave more of the figure empty than there is in it.
+    FigureRange with_zero = y;
+    with_zero.include(0.0);
+    if (with_zero.high - with_zero.low <= 2.0 * (y.high - y.low)) y = with_zero;
+    if (y.low <= 0.0 && y.high >= 0.0) sketch.add(Curve{{x.low, 0.0}, {x.high, 0.0}}, solid(light_grey, 1));
     for (std::size_t i = 0; i < shown; ++i)
       sketch.entry(solid(planet_colours[i], i == 0 ? 2.5 : 1.8), fmt::format("λ_{}", i + 1));
     finish(sketch, "Mesh periods counted", "Running mean of the exponents  λ_i  [1/τ]", x, y_range(y));
@@ -377,7 +387,7 @@ class RunFigures {
     // Its conjugate is as near to the circle.
     if (critical[0][1] != 0.0) critical.push_back({critical[0][0], -critical[0][1]});
     Sketch sketch("multipliers");
-    sketch.command("set size ratio -1\nset rmargin\nset key maxrows 1");
+    sketch.command("set size ratio -1");
     sketch.add(Curve{{-reach, 0.0}, {reach, 0.0}}, solid(light_grey, 1));
     sketch.add(Curve{{0.0, -reach}, {0.0, reach}}, solid(light_grey, 1));
     sketch.add(circle, solid(dark_grey, 1.5));
@@ -446,20 +456,29 @@ class RunFigures {
       return;
     const Window w = last_periods(h_, output_.options.shown_periods);
     Sketch sketch("mesh_force");
-    FigureRange y;
+    // Synchronous planets are one curve for each mesh; others have a frame for each mesh.
     const bool one = planets_coincide("force_sp", n, w) && planets_coincide("force_rp", n, w);
-    for (const char* mesh : {"sp", "rp"})
+    FigureRange both;
+    for (const char* mesh : {"sp", "rp"}) {
+      const bool sun = mesh[0] == 's';
+      std::vector<Curve> curves;
+      FigureRange y;
       for (std::size_t i = 0; i < (one ? 1 : n); ++i) {
         std::vector<double> force = h_.column(fmt::format("force_{}_{}", mesh, i + 1));
         for (double& f : force) f /= result_.static_force;
         include(y, force, w.first);
-        const bool sun = mesh[0] == 's';
-        const std::string_view colour = one && !sun ? red : planet_colours[i % planet_colours.size()];
-        sketch.add(over_time(h_, w, force), sun || one ? solid(colour, 2) : dashed(colour, 1.8, "(12,5)"),
-                   one ? fmt::format("F_{{{}}}, all planets", mesh) : fmt::format("F_{{{},{}}}", mesh, i + 1));
+        curves.push_back(over_time(h_, w, force));
       }
-    if (!one) sketch.command("set key maxrows 2");
-    finish(sketch, std::string(time_label), "Mesh force  F / F_0", {0.0, w.periods}, y_range(y));
+      both.include(y.low);
+      both.include(y.high);
+      if (!one) sketch.panel(fmt::format("F_{{{}}} / F_0", mesh), y_range(y));
+      for (std::size_t i = 0; i < curves.size(); ++i)
+        sketch.add(curves[i], solid(one && !sun ? red : planet_colours[i % planet_colours.size()]),
+                   one   ? fmt::format("F_{{{}}}, all planets", mesh)
+                   : sun ? fmt::format("planet {}", i + 1)
+                         : std::string());
+    }
+    finish(sketch, std::string(time_label), "Mesh force  F / F_0", {0.0, w.periods}, y_range(both));
   }
 
   static constexpr const char* delta_label = "Deflection  δ_{sp,1} / b_c";

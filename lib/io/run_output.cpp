@@ -516,11 +516,13 @@ std::string meshes_text(const RunResult& r) {
                     fmt::format("{:.4f}", m.load_sharing), percent(m.drive), percent(m.loss), percent(m.back),
                     fmt::format("{:.3g}", m.contact_losses / periods)});
   text += aligned(rows);
-  text += "\n" + wrapped(fmt::format("F: normal force; F_0 = {:.1f} N, the static one of a sun-planet mesh; sharing: N "
-                                     "mean F / sum of the means; drive, loss, back: parts of the time on the driving "
-                                     "flank, between the flanks, on the back; losses: times that the driving flank "
-                                     "was left, per mesh period. Over {:g} mesh periods.",
-                                     r.static_force, record_periods(r.history)));
+  text +=
+      "\n" + wrapped(fmt::format("F: normal force; F_0 = {:.1f} N, the static one of a sun-planet mesh; sharing: load "
+                                 "sharing of the planets, N mean F / sum of the means over one kind of mesh; drive, "
+                                 "loss, back: parts of the time on the driving "
+                                 "flank, between the flanks, on the back; losses: times that the driving flank "
+                                 "was left, per mesh period. Over {:g} mesh periods.",
+                                 r.static_force, record_periods(r.history)));
   text += "\n" + wrapped(fmt::format("Planets' spread: {:.3g} b_c, the largest difference between their deflections.",
                                      r.point.planet_spread));
   return text;

@@ -1,6 +1,6 @@
 // What a run of one operating point leaves in its folder, besides points.csv and poincare.csv (io/sweep_output.hpp).
 //
-//   history.csv      the last mesh periods of the record: states, deflections, forces, load sharing
+//   history.csv      the last mesh periods of the record: states, deflections, forces, load sharing of the planets
 //   spectrum.csv     amplitude and phase of each signal's lines: at p / n of the mesh frequency for a periodic motion
 //   exponents.csv    running means of the Lyapunov exponents, per tau
 //   multipliers.csv  of the periodic orbit, by falling modulus

@@ -27,11 +27,10 @@ std::string dots(std::string_view colour, double size, int type) {
 FigureOutcome Sketch::draw(const std::filesystem::path& folder, const FigureText& text, const FigureRange& x,
                            const FigureRange& y, const std::vector<FigureMarker>& markers,
                            const FigureCanvas& canvas) const {
-  // The script gives a title a line of its own when there are more than two entries; a long one needs it, too.
-  constexpr std::size_t half_line = 36;
-  const std::size_t entries = text.title.size() > half_line ? std::max<std::size_t>(3, entries_) : entries_;
+  if (!panels_.empty())
+    return draw_figure(folder, stem_, data_, panel_script(stem_, text, x, panels_, legend_, commands_, canvas));
   return draw_figure(folder, stem_, data_,
-                     figure_script(stem_, text, x, y, entries, markers, commands_, plot_, canvas));
+                     figure_script(stem_, text, x, y, legend_, markers, commands_, plot_, canvas));
 }
 
 void Sketch::end_set(bool gap, std::size_t columns, std::string_view look, std::string_view title) {
@@ -42,10 +41,11 @@ void Sketch::end_set(bool gap, std::size_t columns, std::string_view look, std::
 }
 
 void Sketch::clause(std::string_view source, std::string_view look, std::string_view title) {
-  if (!plot_.empty()) plot_ += ", \\\n  ";
-  plot_ += fmt::format("{} with {} {}", source, look,
-                       title.empty() ? "notitle" : "title " + gnuplot_quoted(portable_text(title)));
-  if (!title.empty()) ++entries_;
+  std::string& plot = panels_.empty() ? plot_ : panels_.back().plot;
+  if (!plot.empty()) plot += ", \\\n  ";
+  plot += fmt::format("{} with {} {}", source, look,
+                      title.empty() ? "notitle" : "title " + gnuplot_quoted(portable_text(title)));
+  if (!title.empty()) legend_.emplace_back(title);
 }
 
 }  // namespace epicyclic::io

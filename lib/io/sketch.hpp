@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/csv.hpp"
@@ -58,10 +59,13 @@ class Sketch {
   /// An entry of the legend without data.
   void entry(std::string_view look, std::string_view title) { clause("keyentry", look, title); }
 
+  /// What is added from here on stands in a frame of its own, under those before. Only the first has a legend.
+  void panel(std::string y_label, const FigureRange& y) { panels_.push_back({std::move(y_label), y, {}}); }
+
   /// Commands that stand before the plot command.
   void command(std::string_view line) { (commands_ += line) += '\n'; }
 
-  /// Writes the figure's files to `folder` and draws it.
+  /// Writes the figure's files to `folder` and draws it. With panels, y and the label of the ordinate are theirs.
   /// @throws OutputError when data or script cannot be written
   [[nodiscard]] FigureOutcome draw(const std::filesystem::path& folder, const FigureText& text, const FigureRange& x,
                                    const FigureRange& y, const std::vector<FigureMarker>& markers = {},
@@ -88,7 +92,9 @@ class Sketch {
   void clause(std::string_view source, std::string_view look, std::string_view title);
 
   std::string stem_, data_, plot_, commands_;
-  std::size_t sets_ = 0, entries_ = 0;
+  std::size_t sets_ = 0;
+  std::vector<std::string> legend_;
+  std::vector<FigurePanel> panels_;
 };
 
 }  // namespace epicyclic::io

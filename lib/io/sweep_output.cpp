@@ -1,6 +1,7 @@
 #include "io/sweep_output.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -105,32 +106,37 @@ auto section(const SweepOutput& output, const PointSource& points, std::size_t d
   };
 }
 
+struct ParameterText {
+  const char *name, *words, *symbol, *unit;
+};
+
+/// @returns nullptr for a number of the input, which has no words of its own
+const ParameterText* text_of(const std::string& parameter) {
+  static constexpr std::array<ParameterText, 5> texts{
+      {{"mesh_frequency_ratio", "Mesh frequency ratio", "Ω", " = ω_m / ω_{sn}"},
+       {"damping_ratio", "Mesh damping ratio", "ζ", ""},
+       {"sun_planet_backlash", "Half backlash of the sun-planet mesh", "b_{sp}", " / b_c"},
+       {"ring_planet_backlash", "Half backlash of the ring-planet mesh", "b_{rp}", " / b_c"},
+       {"sun_bearing_clearance", "Half clearance of the sun bearing", "b_s", " / b_c"}}};
+  const auto* const found =
+      std::ranges::find_if(texts, [&](const ParameterText& text) { return text.name == parameter; });
+  return found == texts.end() ? nullptr : found;
+}
+
 }  // namespace
 
 std::string direction_word(Direction direction) { return direction == Direction::up ? "up" : "down"; }
 
 std::string regime_word(const PointResult& r) { return ok(r) ? to_string(r.regime) : ""; }
 
-std::string literal_text(const std::string& name) {
-  std::string text;
-  for (const char c : name) {
-    if (c == '_') text += '\\';
-    text += c;
-  }
-  return text;
+std::string parameter_label(const std::string& parameter) {
+  const ParameterText* text = text_of(parameter);
+  return text == nullptr ? literal_text(parameter) : fmt::format("{}  {}{}", text->words, text->symbol, text->unit);
 }
 
-std::string parameter_label(const std::string& parameter) {
-  static const std::pair<const char*, const char*> labels[] = {
-      {"mesh_frequency_ratio", "Mesh frequency ratio  Ω = ω_m / ω_{sn}"},
-      {"damping_ratio", "Mesh damping ratio  ζ"},
-      {"sun_planet_backlash", "Half backlash of the sun-planet mesh  b_{sp} / b_c"},
-      {"ring_planet_backlash", "Half backlash of the ring-planet mesh  b_{rp} / b_c"},
-      {"sun_bearing_clearance", "Half clearance of the sun bearing  b_s / b_c"},
-  };
-  for (const auto& [name, label] : labels)
-    if (parameter == name) return label;
-  return literal_text(parameter);
+std::string parameter_symbol(const std::string& parameter) {
+  const ParameterText* text = text_of(parameter);
+  return text == nullptr ? literal_text(parameter) : text->symbol;
 }
 
 std::string status_word(integrate::Outcome outcome) {

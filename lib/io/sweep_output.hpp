@@ -26,11 +26,9 @@ namespace epicyclic::io {
 /// Regime of a point in points.csv: periodic, undecided; empty unless ok.
 [[nodiscard]] std::string regime_word(const studies::PointResult& result);
 
-/// A name as it is: in a figure's text an underscore would lower the letter after it.
-[[nodiscard]] std::string literal_text(const std::string& name);
-
-/// Axis label of a sweep parameter.
+/// Axis label of a sweep parameter, and the symbol in it.
 [[nodiscard]] std::string parameter_label(const std::string& parameter);
+[[nodiscard]] std::string parameter_symbol(const std::string& parameter);
 
 /// What a sweep is written with besides its points.
 struct SweepOutput {

@@ -75,7 +75,7 @@ std::vector<FigureCurve> ladder_curves(const ToleranceOutput& output, const std:
   const std::map<Key, Mean> all = means(output, points);
   std::vector<FigureCurve> curves;
   for (const std::string& method : output.options.methods) {
-    FigureCurve curve{literal_text(method), {}, {}, false};
+    FigureCurve curve{literal_text(method), {}, {}, false, true};
     for (const double tolerance : output.options.tolerances) {
       const auto m = all.find({method, tolerance});
       if (m == all.end()) continue;
@@ -245,13 +245,14 @@ std::vector<DrawnFigure> draw_tolerance_figures(const std::filesystem::path& fol
 
   std::vector<FigureCurve> bias;
   for (const TolerancePoint& p : points) {
-    FigureCurve curve{fmt::format("{} = {}, period {}", literal_text(output.sweep.sweep.parameter),
+    FigureCurve curve{fmt::format("{} = {}, period {}", parameter_symbol(output.sweep.sweep.parameter),
                                   short_text(p.point.value, 6), p.period),
                       {},
                       {},
-                      false};
+                      false,
+                      true};
     for (const SmoothingStep& s : p.smoothing) {
-      if (!s.found) continue;
+      if (!s.found || !(s.distance > 0.0)) continue;  // without contact loss a smooth clearance changes nothing
       curve.x.push_back(s.width);
       curve.y.push_back(s.distance);
     }

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "gnuplot_guard.hpp"
+#include "model/modes.hpp"
 #include "problems/lin_parker.hpp"
 #include "problems/table1.hpp"
 #include "temporary_folder.hpp"
@@ -250,6 +251,19 @@ TEST(GearFigures, AnyNameIsShownAsItStands) {
   const std::string svg = contents(folder / "campbell.svg");
   EXPECT_NE(svg.find("it's"), std::string::npos);
   EXPECT_NE(svg.find("`date`"), std::string::npos);
+}
+
+TEST(ModeFigures, ShowAllShapes) {
+  const TemporaryFolder folder;
+  gear::Stage stage = lin_parker(4);
+  stage.angles_deg = {0.0, 80.0, 190.0, 270.0};
+  const std::size_t modes = model::modes(stage, model::scales_of(stage)).size();
+  ASSERT_GT(modes, 12U);
+  draw_mode_figures(folder.path(), stage);
+  const std::string script = contents(folder / "mode_shapes.gp");
+  std::size_t titles = 0;
+  for (std::size_t at = script.find(" Hz'"); at != std::string::npos; at = script.find(" Hz'", at + 1)) ++titles;
+  EXPECT_EQ(titles + 1, modes) << "all but the rigid motion have a frequency";
 }
 
 TEST(ModeFigures, AppearForLumpedStagesOfAllKinds) {

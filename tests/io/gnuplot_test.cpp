@@ -186,7 +186,8 @@ TEST(Gnuplot, RunsInTheFolderOfTheScriptInTheCLocale) {
 }
 
 TEST(Gnuplot, QuotedTextExpandsNothing) {
-  EXPECT_EQ(gnuplot_quoted("it's `date`\n\"x\""), "'it''s `date` \"x\"'");
+  EXPECT_EQ(gnuplot_quoted("`date`\n\"x\""), "'`date` \"x\"'");
+  EXPECT_EQ(gnuplot_quoted("it's `date` \"x\" \\n"), R"("it's \140date\140 \042x\042 \134n")");
   EPICYCLIC_NEEDS_GNUPLOT();
   const TemporaryFolder folder;
   const std::string evil = "don't `touch touched` @x \" ; system('touch touched')\nexit status 1";
@@ -265,6 +266,48 @@ TEST(Gnuplot, PictureThatEndsEarlyIsNoticed) {
   const test::FileSizeLimit limit(8192);
   const FigureOutcome outcome = bifurcation_figure(folder.path(), "a", {"", "x", "y"}, {logistic(20, 4, 0.3)});
   EXPECT_FALSE(outcome.drawn());
+}
+
+/// The number behind `words` in a script.
+double number_behind(const std::string& script, const std::string& words) {
+  const std::size_t at = script.find(words);
+  return at == std::string::npos ? nan : std::stod(script.substr(at + words.size()));
+}
+
+TEST(Layout, LegendsStandUnderTitlesOrBesideThem) {
+  // Font heights: 32 pixels of a canvas of 1100 for the title, and somewhat less for the legend.
+  constexpr double line = 32.0 / 1100.0;
+  for (const std::string& title : {std::string("s"), std::string("a title of some length"), std::string(90, 't')})
+    for (const std::vector<std::string>& legend : {std::vector<std::string>{"up", "down"},
+                                                   {"harmonics of the mesh frequency", "between them"},
+                                                   {std::string(60, 'l'), std::string(70, 'l')},
+                                                   std::vector<std::string>(9, "an entry of nine")}) {
+      const std::string script = figure_script("a", {title, "x", "y"}, {0, 1}, {0, 1}, legend, {}, "", "x");
+      const double middle = number_behind(script, "at graph 0, screen ");
+      const double top = number_behind(script, "set key at graph 1, screen ");
+      const double rows = number_behind(script, "maxrows ");
+      const double frame = number_behind(script, "set tmargin screen ");
+      const double font = number_behind(script, "left font ',");
+      EXPECT_LT(middle + 0.5 * line, 1.0);
+      EXPECT_LT(frame, top - rows * line) << "the legend reaches into the frame";
+      EXPECT_LT(font * text_width(title), 24.0 * 1600.0 / 32.0) << "the title is wider than the frame";
+      double longest = 0.0;
+      for (const std::string& entry : legend) longest = std::max(longest, text_width(entry));
+      const double together = text_width(title) + static_cast<double>(legend.size()) * (longest + 2.0);
+      EXPECT_TRUE(top < middle - 0.5 * line || 32.0 * together < 1600.0) << "the legend is over the title " << title;
+    }
+}
+
+TEST(Layout, LabelsOfOrdinatesStandBesideTheTics) {
+  // The label ends 60 pixels from the left edge of 1800; a digit is 20 pixels wide.
+  const auto margin = [](const FigureRange& y) {
+    return 1800.0 *
+           number_behind(panel_script("a", {"t", "x", ""}, {0, 1}, {{"y", y, "x"}}, {}, ""), "set lmargin screen ");
+  };
+  EXPECT_GT(margin({0.0, 5.0}), 60.0 + 1.0 * 20.0);
+  EXPECT_GT(margin({-0.002, 0.0004}), 60.0 + 7.0 * 20.0);  // -0.0015
+  EXPECT_GT(margin({4.2, 4.47}), 60.0 + 4.0 * 20.0);       // 4.45
+  EXPECT_LT(margin({0.0, 5.0}), 250.0);
 }
 
 TEST(BifurcationFigure, WritesDataScriptAndBothPictures) {
@@ -390,6 +433,36 @@ TEST(LineFigure, LogarithmicAxesLeaveOutWhatIsNotPositive) {
                                             {{"", {1e-8, 1e-6, 0, 1e-4}, {1e-9, -1, 1, 1e-3}, false}}, {true, true});
   ASSERT_TRUE(outcome.drawn()) << outcome.message;
   EXPECT_EQ(data_lines(contents(folder / "a.dat")), 2U);
+}
+
+TEST(LineFigure, FramesHideNoPoints) {
+  EPICYCLIC_NEEDS_GNUPLOT();
+  const TemporaryFolder folder;
+  const std::vector<FigureCurve> lines{{"", {1e-8, 1e-4}, {1e-9, 1e-3}, false}};
+  ASSERT_TRUE(line_figure(folder.path(), "lines", {"", "x", "y"}, lines, {true, true}).drawn());
+  EXPECT_EQ(number_behind(contents(folder / "lines.gp"), "set xrange ["), 1e-8);
+  for (const bool points : {true, false}) {
+    const std::vector<FigureCurve> marks{{"", {1e-8, 1e-4}, {1e-9, 1e-3}, points, true}};
+    ASSERT_TRUE(line_figure(folder.path(), "marks", {"", "x", "y"}, marks, {true, true}).drawn());
+    EXPECT_LT(number_behind(contents(folder / "marks.gp"), "set xrange ["), 0.8e-8);
+  }
+}
+
+TEST(LineFigure, LogarithmicAxesOfLessThanThreeDecadesHaveNamesBetween) {
+  EPICYCLIC_NEEDS_GNUPLOT();
+  const TemporaryFolder folder;
+  const auto script = [&](double low, double high) {
+    EXPECT_TRUE(
+        line_figure(folder.path(), "a", {"", "x", "y"}, {{"", {low, high}, {1, 2}, false}}, {true, false}).drawn());
+    return contents(folder / "a.gp");
+  };
+  const std::string narrow = script(150, 1200);
+  for (const char* tic : {"'200' 200 0", "'500' 500 0", "'1000' 1000 0", "'' 300 1"})
+    EXPECT_NE(narrow.find(tic), std::string::npos) << tic;
+  EXPECT_NE(script(3e-5, 4e-4).find("'2·10^{-4}' 2"), std::string::npos);
+  EXPECT_EQ(script(1e-5, 1e-1).find("set xtics ("), std::string::npos);
+  // One value alone, at 1, where its logarithm vanishes.
+  EXPECT_NE(script(1, 1).find("'1' 1 0"), std::string::npos);
 }
 
 TEST(LineFigure, WrongCurvesAreRefused) {

@@ -488,14 +488,17 @@ TEST(RunFigures, PlanetsThatCoincideAreDrawnOnce) {
   EXPECT_TRUE(contains(contents(folder / "same/mesh_force.gp"), "all planets"));
   (void)draw_run_figures(folder / "apart", output(), result_of(0.01));
   EXPECT_FALSE(contains(contents(folder / "apart/mesh_force.gp"), "all planets"));
-  EXPECT_TRUE(contains(contents(folder / "apart/mesh_force.gp"), "F_{rp,3}"));
+  // A frame for each kind of mesh, in which each planet has a colour of its own.
+  const std::string apart = contents(folder / "apart/mesh_force.gp");
+  for (const char* part : {"F_{sp} / F_0", "F_{rp} / F_0", "planet 3", "set multiplot"})
+    EXPECT_TRUE(contains(apart, part)) << part;
 }
 
 TEST(RunFigures, MultipliersStandOnASquareCanvas) {
   const TemporaryFolder folder;
   (void)draw_run_figures(folder.path(), output(), result_of());
   const std::string script = contents(folder / "multipliers.gp");
-  EXPECT_TRUE(contains(script, "size 1200,1100")) << script;
+  EXPECT_TRUE(contains(script, "size 1200,1240")) << script;
   EXPECT_TRUE(contains(script, "set size ratio -1")) << script;
   // Both of the conjugate pair are marked.
   EXPECT_TRUE(contains(contents(folder / "multipliers.dat"), "0.3 0.4\n0.3 -0.4\n\n\n0.3 0.4\n0.3 -0.4\n"));
