@@ -94,14 +94,18 @@ inline integrate::VectorField van_der_pol(double mu, double f, double w) {
   });
 }
 
+struct ClearanceConstants {
+  double z = 0.05;
+  double mean = 0.1;  ///< F_m
+  double e = 0.05;
+};
+
 /// The gear clearance oscillator of validation.md section 4,
 ///   x'' + 2 z x' + f(x) = F_m + E W^2 sin W t , half gap 1, f exact or of width `smoothing`,
 /// in s = W t. State x, dx/dt. Its parameter is W.
-inline integrate::VectorField clearance_oscillator(double w, double smoothing = 0.0) {
-  constexpr double z = 0.05;
-  constexpr double mean = 0.1;
-  constexpr double e = 0.05;
-  const auto equation = [smoothing](const auto& omega, double s, const auto& x, const auto& v) {
+inline integrate::VectorField clearance_oscillator(double w, double smoothing = 0.0,
+                                                   const ClearanceConstants& constants = {}) {
+  const auto equation = [smoothing, constants](const auto& omega, double s, const auto& x, const auto& v) {
     using T = std::remove_cvref_t<decltype(x)>;
     using std::sqrt;
     const T below = x - 1.0;
@@ -109,6 +113,7 @@ inline integrate::VectorField clearance_oscillator(double w, double smoothing = 
     const T exact = select(x > T(1.0), below, select(x < T(-1.0), above, T(0.0)));
     const double w2 = smoothing * smoothing;
     const T f = smoothing > 0.0 ? T(x + 0.5 * (sqrt(below * below + w2) - sqrt(above * above + w2))) : exact;
+    const auto& [z, mean, e] = constants;
     return (mean + e * omega * omega * std::sin(s) - 2.0 * z * v - f) / omega;
   };
   integrate::VectorField field =
