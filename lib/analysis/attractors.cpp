@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include <Eigen/LU>
 #include <gsl/gsl_cdf.h>
 
 #include "core/errors.hpp"
@@ -167,10 +166,7 @@ AttractorRecord record_of_orbit(integrate::Flow& flow, const PeriodicOrbit& orbi
     if (k + 1 < n && !flow.evolve(y, 0.0, flow.field().period).reached()) return {};
   }
   r.regime = Regime::periodic;
-  const auto d = static_cast<Eigen::Index>(r.dimension);
-  const Eigen::MatrixXd inverse = (orbit.monodromy - Eigen::MatrixXd::Identity(d, d)).inverse();
-  const double residual = *std::min_element(orbit.residuals.begin(), orbit.residuals.end());
-  r.orbit_error = inverse.cwiseAbs().rowwise().sum().maxCoeff() * std::max(residual, map_error * largest(r.orbit));
+  r.orbit_error = std::max(orbit.error, orbit_error(orbit.monodromy, map_error * largest(r.orbit)));
   return r;
 }
 

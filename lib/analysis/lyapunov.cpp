@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include <Eigen/QR>
 
@@ -31,6 +32,10 @@ LargestExponent largest_exponent(integrate::Flow& flow, std::span<double> state,
     result.growth.push_back(0.5 * std::log(square));
     if (observer) observer(static_cast<std::size_t>(k), period, state);
   }
+  double square = 0.0;
+  for (const double x : v) square += x * x;
+  for (double& x : v) x /= std::sqrt(square);
+  result.direction = std::move(v);
   if (result.growth.empty()) return result;
   result.per_s = series_mean(result.growth) / period;
   return result;

@@ -29,6 +29,7 @@ struct LargestExponent {
   integrate::Evolution evolution;  ///< how it ended; growth holds the periods until then
   Estimate per_s;                  ///< lambda [1 / unit of s]; of no meaning unless reached
   std::vector<double> growth;      ///< g_k, one per counted period
+  std::vector<double> direction;   ///< v at the end, of length 1
 };
 
 /// @param state     carried on, replaced by the last state

@@ -151,13 +151,14 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
       orbit.monodromy = at.pieces[0];
       for (std::size_t i = 1; i < at.pieces.size(); ++i) orbit.monodromy = at.pieces[i] * orbit.monodromy;
       orbit.pieces = at.pieces;
+      orbit.error = orbit_error(orbit.monodromy, std::max(best, options.residual));
     }
     if (residual <= options.residual) {
       orbit.outcome = OrbitOutcome::converged;
       return orbit;
     }
     // At the integrator's own noise nothing falls any more.
-    if (k > 1 && !falls && best <= std::sqrt(options.residual)) {
+    if (k > 1 && !falls && orbit.error <= std::sqrt(options.residual)) {
       orbit.outcome = OrbitOutcome::stalled;
       orbit.message = "the residual stays at " + short_text(best);
       return orbit;
@@ -170,10 +171,20 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
     y += newton_step(at);
     kept = options.keep_tangents && options.pieces == 1;
   }
-  orbit.outcome = best <= std::sqrt(options.residual) ? OrbitOutcome::stalled : OrbitOutcome::not_converged;
-  orbit.message =
-      "the residual is " + short_text(best) + " after " + std::to_string(options.iterations) + " iterations";
+  orbit.outcome = orbit.error <= std::sqrt(options.residual) ? OrbitOutcome::stalled : OrbitOutcome::not_converged;
+  orbit.message = "the residual is " + short_text(best) + ", the error " + short_text(orbit.error) + " after " +
+                  std::to_string(orbit.residuals.size()) + " iterations";
   return orbit;
+}
+
+double orbit_error(const Eigen::MatrixXd& monodromy, double residual) {
+  constexpr double neutral = 1e-8;
+  const Eigen::MatrixXd a = monodromy - Eigen::MatrixXd::Identity(monodromy.rows(), monodromy.cols());
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::VectorXd inverted = svd.singularValues();
+  for (double& s : inverted) s = s > neutral ? 1.0 / s : 0.0;
+  const Eigen::MatrixXd inverse = svd.matrixV() * inverted.asDiagonal() * svd.matrixU().transpose();
+  return inverse.cwiseAbs().rowwise().sum().maxCoeff() * residual;
 }
 
 bool Multipliers::stable() const {

@@ -9,9 +9,16 @@
 //
 //   F_i = phi(s_i -> s_i+1)(y_i) - y_i+1 ,   M_i d_i - d_i+1 = -F_i ,   M = M_p-1 ... M_0                     [A-shoot]
 //
+// How far the state may be from the orbit follows from the residual rho, to first order,
+//
+//   e = | (M - I)^-1 | rho                                                                          [A-orbit-error]
+//
+// in the largest component. Near a fold, or near a flip for 2 n, M - I is nearly singular, and a small residual alone
+// says little.
+//
 // Limits: tangents may not grow beyond 1e8 over a piece. A neutral direction of the system (a free rigid rotation)
-// makes M - I singular: the step of least norm is taken. Source of both: R. Seydel, Practical Bifurcation and Stability
-// Analysis, 3rd ed., ch. 7.
+// makes M - I singular: the step of least norm is taken, and e leaves it out, since along it neighbours of an orbit are
+// orbits, too. Source of both: R. Seydel, Practical Bifurcation and Stability Analysis, 3rd ed., ch. 7.
 #pragma once
 
 #include <complex>
@@ -40,8 +47,8 @@ struct OrbitOptions {
 /// What the iteration came to.
 enum class OrbitOutcome {
   converged,  ///< state and monodromy are those of the orbit
-  stalled,    ///< the residual no longer falls, but is small (below the square root of what was asked for): likewise,
-              ///< to that residual
+  stalled,    ///< the residual no longer falls, but the error is small (below the square root of the residual that was
+              ///< asked for): likewise, to that error
   not_converged,  ///< state is the best one seen
   not_reached,    ///< an evolution failed: state is the best one seen
 };
@@ -52,6 +59,7 @@ struct PeriodicOrbit {
   Eigen::MatrixXd monodromy;            ///< M at `state`
   std::vector<Eigen::MatrixXd> pieces;  ///< M_i of the pieces, in the order of s
   std::vector<double> residuals;        ///< max |F|, one per iteration
+  double error = 0;                     ///< e, with the least of them, or the one asked for if that is more
   std::string message;                  ///< empty if converged
 
   [[nodiscard]] bool found() const { return outcome == OrbitOutcome::converged || outcome == OrbitOutcome::stalled; }
@@ -62,6 +70,11 @@ struct PeriodicOrbit {
 /// @throws DomainError for n < 1 or fewer than one piece
 [[nodiscard]] PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double> start, int n,
                                                 const OrbitOptions& options = {});
+
+/// e of [A-orbit-error]. Singular values of M - I below 1e-8 are those of neutral directions: errors of tangents could
+/// not tell them from 0.
+/// @param monodromy  M at the state
+[[nodiscard]] double orbit_error(const Eigen::MatrixXd& monodromy, double residual);
 
 /// Largest modulus of the orbit's Floquet multipliers, the eigenvalues of its monodromy.
 [[nodiscard]] double largest_multiplier(const PeriodicOrbit& orbit);

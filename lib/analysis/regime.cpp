@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -31,12 +32,16 @@ constexpr double alike = 10.0;
 /// kinks make an integrator's map rough.
 constexpr double least_gain = 0.1;
 constexpr double rough_map = 30.0;
+/// An orbit with an error above this part of the largest component is not known.
+constexpr double least_known = 0.01;
 /// With a multiplier's error above this part of its distance from 1, tangents of the orbit's own are worth their price.
 constexpr double own_tangents = 0.1;
 /// An orbit that was sought in vain is sought again when the motion has come nearer to it by this factor.
 constexpr double nearer = 0.5;
 /// Looked at for each period of an orbit that is sought: all attempts together then cost about as much as the looks.
 constexpr int periods_per_orbit = 256;
+/// Of the largest component, off something that repels: no attractor's basin is as narrow, and growth by e^7 shows it.
+constexpr double push = 1e-3;
 /// Periods over which e^2 is told from a small exponent.
 constexpr int torus_look = 1024;
 
@@ -73,9 +78,16 @@ class Classifier {
       look = std::min(look, options_.budget - seen.periods);
       if (look < least_look) break;
       if (!record(look)) return std::move(result_);
-      if (is_chaotic() || is_periodic(options_.near)) return std::move(result_);
+      // A long look may have ended on an orbit that it began far from.
+      if (is_periodic(settled)) return std::move(result_);
+      if (is_chaotic()) {
+        if (outlasts()) return std::move(result_);
+      } else if (is_periodic(options_.near)) {
+        return std::move(result_);
+      }
       if (!go_on_()) break;
       if (is_torus()) return std::move(result_);
+      leave_what_repels();
       // Where vectors neither grow nor shrink, no look tells anything that is not long.
       if (std::abs(seen.late_growth) <= neutral_growth && growth_.size() >= growth_look)
         look = std::max(look, (torus_look - static_cast<int>(growth_.size())) / 2);
@@ -109,6 +121,7 @@ class Classifier {
     result_.evidence.periods += static_cast<int>(e.growth.size());
     growth_.insert(growth_.end(), e.growth.begin(), e.growth.end());
     result_.evidence.late_growth = late_growth(e.growth);
+    direction_ = std::move(e.direction);
     if (!result_.evolution.reached() || e.growth.size() < static_cast<std::size_t>(periods)) return false;
     // Orbits are told from where the motion is now, not from where a long look began.
     section_.keep_last(growth_look);
@@ -154,49 +167,87 @@ class Classifier {
     return false;
   }
 
+  /// What an integrator leaves of a residual.
+  [[nodiscard]] double map_residual() const { return options_.residual * scale_; }
+
+  struct KnownOrbit {
+    PeriodicOrbit orbit;
+    PeriodicOrbit second;       ///< the same state with the tangents of other steps
+    bool own_tangents = false;  ///< the orbit's monodromy is that of its state
+  };
+
+  /// An orbit of period n near the motion's last point, with its error [A-orbit-error].
+  /// @param distance_now  the motion's recurrence error after n periods
+  std::optional<KnownOrbit> seek(std::span<const double> last, int n, double distance_now) {
+    integrate::Flow& exact = options_.exact == nullptr ? flow_ : *options_.exact;
+    // n + 1 pieces end within periods: other steps of the integrator all along.
+    integrate::Flow& other = options_.coarser == nullptr ? exact : *options_.coarser;
+    const int pieces = options_.coarser == nullptr ? n + 1 : 1;
+    const auto tangents_of_others = [&](const PeriodicOrbit& orbit) {
+      return find_periodic_orbit(other, orbit.state, n,
+                                 {.iterations = 1, .residual = map_residual(), .pieces = pieces});
+    };
+    const auto residual = [](const PeriodicOrbit& orbit) {
+      return *std::min_element(orbit.residuals.begin(), orbit.residuals.end());
+    };
+    OrbitOptions o;
+    o.residual = map_residual();
+    o.keep_tangents = true;
+    o.iterations = 6;  // what attracts is near and found in three
+    KnownOrbit known;
+    known.orbit = find_periodic_orbit(exact, last, n, o);
+    // On a torus, too, the motion comes back after n periods, and Newton's method gains nothing on that.
+    const double rough = rough_map * o.residual;
+    if (known.orbit.outcome == OrbitOutcome::not_reached ||
+        residual(known.orbit) > std::min(std::sqrt(o.residual), std::max(least_gain * distance_now, rough)))
+      return std::nullopt;
+    known.second = tangents_of_others(known.orbit);
+    if (known.second.pieces.empty()) return std::nullopt;
+    known.orbit.error = orbit_error(known.second.monodromy, std::max(residual(known.orbit), o.residual));
+    if (known.orbit.error <= noise()) return known;
+    // Near a fold, or a flip of a part of n: the residual says little, and kept tangents lead nowhere.
+    o.keep_tangents = false;
+    o.iterations = 24;
+    known.orbit = find_periodic_orbit(exact, known.orbit.state, n, o);
+    if (known.orbit.outcome == OrbitOutcome::not_reached || residual(known.orbit) > rough ||
+        known.orbit.error > least_known * scale_)
+      return std::nullopt;
+    known.own_tangents = true;
+    known.second = tangents_of_others(known.orbit);
+    if (known.second.pieces.empty()) return std::nullopt;
+    return known;
+  }
+
   bool settles_to_orbit_of(int n) {
     Evidence& seen = result_.evidence;
+    attracted_ = false;
     const auto vain = in_vain_.try_emplace(n, std::numeric_limits<double>::infinity()).first;
     const double distance_now = recurrence_error(section_, static_cast<std::size_t>(n));
     if (distance_now > nearer * vain->second) return false;
     const auto last = section_.point(section_.size() - 1);
-    OrbitOptions o;
-    o.residual = options_.residual * scale_;
-    o.keep_tangents = true;
-    o.iterations = 6;  // what attracts is near and found in three
     integrate::Flow& exact = options_.exact == nullptr ? flow_ : *options_.exact;
-    PeriodicOrbit orbit = find_periodic_orbit(exact, last, n, o);
-    // On a torus, too, the motion comes back after n periods, and Newton's method gains nothing on that.
-    const auto gains = [&] {
-      const double residual = *std::min_element(orbit.residuals.begin(), orbit.residuals.end());
-      return residual <= std::max(least_gain * distance_now, rough_map * o.residual);
-    };
-    if (!orbit.found() || !gains()) {
-      flow_.forget();
+    std::optional<KnownOrbit> known = seek(last, n, distance_now);
+    flow_.forget();
+    if (!known) {
       vain->second = distance_now;
       return false;
     }
-    if (const int least = least_period(exact, orbit.state, n); least < n) {
+    PeriodicOrbit& orbit = known->orbit;
+    if (const int least = least_period(exact, orbit, n); least < n) {
       if (settles_to_orbit_of(least)) return true;
       if (std::isfinite(in_vain_[least])) vain->second = distance_now;
       return false;
     }
-    // n + 1 pieces end within periods: other steps of the integrator all along.
-    integrate::Flow& other = options_.coarser == nullptr ? exact : *options_.coarser;
-    const int pieces = options_.coarser == nullptr ? n + 1 : 1;
-    const PeriodicOrbit second = find_periodic_orbit(other, orbit.state, n, {.iterations = 1, .pieces = pieces});
-    flow_.forget();
-    if (second.pieces.empty()) return false;
-    const auto multipliers_of = [&](const PeriodicOrbit& first) {
-      const Multipliers m = floquet_multipliers(first, second);
+    const auto multipliers = [&] {
+      const Multipliers m = floquet_multipliers(orbit, known->second);
       return std::pair{std::abs(m.values.front()), *std::max_element(m.errors.begin(), m.errors.end())};
     };
-    auto [multiplier, error] = multipliers_of(orbit);
-    if (error > own_tangents * std::abs(1.0 - multiplier)) {
+    auto [multiplier, error] = multipliers();
+    if (error > own_tangents * std::abs(1.0 - multiplier) && !known->own_tangents) {
       // The tangents that Newton's method kept are too far from the orbit.
-      PeriodicOrbit own = find_periodic_orbit(exact, orbit.state, n, {.iterations = 1});
+      PeriodicOrbit own = find_periodic_orbit(exact, orbit.state, n, {.iterations = 1, .residual = map_residual()});
       if (!own.pieces.empty()) orbit = std::move(own);
-      std::tie(multiplier, error) = multipliers_of(orbit);
+      std::tie(multiplier, error) = multipliers();
     }
     const std::string name = "orbit of period " + std::to_string(n);
     if (!(multiplier + error < 1.0 - options_.neutral)) {
@@ -219,12 +270,14 @@ class Classifier {
     const double distance = from.lpNorm<Eigen::Infinity>();
     const double off = (to - orbit.monodromy * from).lpNorm<Eigen::Infinity>();
     if (off > 0.1 * distance && off > noise()) {
+      attracted_ = true;
       seen.note = "not yet drawn to the " + name + " that is " + short_text(distance) + " away";
       return false;
     }
     result_.regime = Regime::periodic;
     result_.period = n;
     seen.residual = *std::min_element(orbit.residuals.begin(), orbit.residuals.end());
+    seen.orbit_error = orbit.error;
     seen.largest_multiplier = multiplier;
     seen.multiplier_error = error;
     // Of a multiplier that is nothing but error, the logarithm says no more than that.
@@ -236,13 +289,16 @@ class Classifier {
     return true;
   }
 
-  /// The least divisor d of n after which an orbit closes: one of period 1 is one of period 12, too.
-  int least_period(integrate::Flow& flow, const std::vector<double>& orbit, int n) {
-    std::vector<double> y = orbit;
+  /// The least divisor d of n after which an orbit closes, to within its error: one of period 1 is one of period 12,
+  /// too.
+  int least_period(integrate::Flow& flow, const PeriodicOrbit& orbit, int n) {
+    constexpr double safety = 10.0;  // the error is a bound of first order
+    const double closed = std::max(noise(), safety * orbit.error);
+    std::vector<double> y = orbit.state;
     flow.forget();
     for (int d = 1; d < n; ++d) {
       if (!flow.evolve(y, 0.0, flow.field().period).reached()) break;
-      if (n % d == 0 && largest_difference(y, orbit) <= noise()) return d;
+      if (n % d == 0 && largest_difference(y, orbit.state) <= closed) return d;
     }
     return n;
   }
@@ -256,15 +312,143 @@ class Classifier {
     if (series_.size() < 2 * static_cast<std::size_t>(growth_look)) return false;
     const double k = zero_one_test(series_, noise());
     seen.zero_one = k;
-    const bool grows = seen.exponent.low() > 0.0 && seen.late_growth > neutral_growth;
-    const bool clearly = seen.exponent.value > 3.0 * seen.exponent.half_width;
-    const bool votes = k > chaotic_vote;
-    const bool abstains = k > regular_vote;
-    if (!grows) return false;
-    if (!votes && !(clearly && seen.late_growth > (abstains ? 4.0 : 8.0) * neutral_growth)) return false;
+    if (!(seen.exponent.low() > 0.0 && seen.late_growth > neutral_growth)) return false;
+    if (k > chaotic_vote) return true;
+    const double late = late_growth(growth_);
+    // Beside what only repels vectors grow, too, for as long as the motion stays there.
+    return k > regular_vote ? late > 4.0 * neutral_growth : left_ && late > 8.0 * neutral_growth;
+  }
+
+  /// Whether what looks chaotic lasts: carries the motion on, without tangents if the 0-1 test is sure; for the whole
+  /// budget if an orbit attracts near by, which the motion may come to yet.
+  /// @returns true if the regime is told or the motion ended
+  bool outlasts() {
+    Evidence& seen = result_.evidence;
+    const auto lasted = [&] { return first_ + seen.periods; };
+    const int lasting = std::min(options_.lasting, options_.budget);
+    const auto last_until = [&](int end) {
+      while (lasted() < end)
+        if (!carry_on(std::min(lasted(), end - lasted())) || is_periodic(settled)) return false;
+      return true;
+    };
+    std::string beside;
+    if (lasted() < lasting) {
+      if (*seen.zero_one <= chaotic_vote) return false;
+      const std::vector<Return> returns = close_returns();
+      if (!last_until(lasting)) return true;
+      if (const int n = attracting_period(returns); n > 0) {
+        if (!last_until(first_ + options_.budget)) return true;
+        beside = ", beside an orbit of period " + std::to_string(n) + " that attracts";
+      }
+      seen.zero_one = zero_one_test(series_, noise());
+      if (*seen.zero_one <= chaotic_vote) {
+        // Another motion than the one whose growth is known.
+        growth_.clear();
+        return false;
+      }
+    }
     result_.regime = Regime::chaotic;
-    seen.note = "exponent positive by its interval, 0-1 test " + short_text(k);
+    seen.note = "exponent positive by its interval, 0-1 test " + short_text(*seen.zero_one) + ", for " +
+                std::to_string(lasted()) + " periods" + beside;
     return true;
+  }
+
+  /// A state that the motion all but comes back to after n periods, without having grown apart meanwhile.
+  struct Return {
+    std::vector<double> state;
+    int n = 0;
+    double distance = 0;
+  };
+
+  /// The closest for each n in the last look, the closest ones first. Near an orbit that attracts vectors shrink, and
+  /// what leads to one passes by.
+  [[nodiscard]] std::vector<Return> close_returns() const {
+    std::vector<Return> all;
+    const std::size_t points = std::min(section_.size(), growth_.size());
+    const std::size_t first_point = section_.size() - points;
+    const std::span<const double> growth = std::span(growth_).last(points);
+    const double near = options_.near * extent(section_);
+    for (std::size_t n = 1; n <= static_cast<std::size_t>(options_.longest_period) && n < points; ++n) {
+      Return best{{}, static_cast<int>(n), near};
+      std::size_t at = points;
+      for (std::size_t k = 0; k + n < points; ++k) {
+        // From point k to point k + n.
+        const double grown = std::accumulate(growth.begin() + static_cast<std::ptrdiff_t>(k + 1),
+                                             growth.begin() + static_cast<std::ptrdiff_t>(k + n + 1), 0.0);
+        const double d = largest_difference(section_.point(first_point + k), section_.point(first_point + k + n));
+        if (grown > 0.0 || d > best.distance) continue;
+        best.distance = d;
+        at = first_point + k;
+      }
+      if (at == points) continue;
+      const auto y = section_.point(at);
+      best.state.assign(y.begin(), y.end());
+      all.push_back(std::move(best));
+    }
+    std::sort(all.begin(), all.end(), [](const Return& a, const Return& b) { return a.distance < b.distance; });
+    return all;
+  }
+
+  /// Newton's method from these, for as much as a quarter of what the motion has cost.
+  /// @returns n of an orbit that attracts; 0 if none is found
+  int attracting_period(std::span<const Return> returns) {
+    constexpr double part = 0.25;
+    constexpr double tangents_per_state = 4.0;  // that cost as much as a state
+    const double cost = 1.0 + static_cast<double>(state_.size()) / tangents_per_state;
+    double left = part * (first_ + result_.evidence.periods) / cost;
+    int found = 0;
+    for (const Return& r : returns) {
+      OrbitOptions o;
+      o.residual = 1e2 * map_residual();  // looks are rougher than what orbits are sought with
+      o.iterations = 1;
+      left -= r.n;
+      if (left < 0.0) break;
+      PeriodicOrbit orbit = find_periodic_orbit(flow_, r.state, r.n, o);
+      // An orbit that attracts has no neighbours that part this fast.
+      constexpr double fast = 5.0;
+      if (orbit.pieces.empty() || largest_multiplier(orbit) > fast) continue;
+      o.iterations = std::min(8, static_cast<int>(left) / r.n);
+      if (o.iterations < 2) continue;
+      orbit = find_periodic_orbit(flow_, r.state, r.n, o);
+      left -= static_cast<double>(orbit.residuals.size()) * r.n;
+      if (!orbit.found() || largest_multiplier(orbit) >= 1.0) continue;
+      found = r.n;
+      break;
+    }
+    flow_.forget();
+    return found;
+  }
+
+  /// A stretch without tangents; the section and the series are those of its end.
+  /// @returns false if the motion ended
+  bool carry_on(int periods) {
+    StrobeOptions o;
+    o.recorded_periods = std::min(periods, growth_look);
+    o.transient_periods = periods - o.recorded_periods;
+    o.phases = 1;
+    Strobe s = strobe(
+        flow_, state_, o, [](std::size_t, double, std::span<const double>) {}, go_on_);
+    result_.evolution = s.evolution;
+    if (s.section.size() < static_cast<std::size_t>(o.recorded_periods)) return false;
+    result_.evidence.periods += periods;
+    for (std::size_t k = 0; k < s.section.size(); ++k) series_.push_back(s.section.point(k)[options_.observable]);
+    const auto most = 2 * static_cast<std::ptrdiff_t>(growth_look);
+    if (std::ssize(series_) > most) series_.erase(series_.begin(), series_.end() - most);  // as before a look
+    look_before_ = 0;
+    section_ = std::move(s.section);
+    find_recurrence();
+    return true;
+  }
+
+  /// Where vectors grow and the section says regular, the motion is on something that repels, as is a motion with a
+  /// symmetry that is not stable; only rounding is small enough to keep it there. It is pushed off.
+  void leave_what_repels() {
+    const Evidence& seen = result_.evidence;
+    if (left_ || direction_.empty() || !(seen.late_growth > neutral_growth) || !seen.zero_one ||
+        *seen.zero_one > regular_vote)
+      return;
+    for (std::size_t i = 0; i < state_.size(); ++i) state_[i] += push * scale_ * direction_[i];
+    left_ = true;
   }
 
   bool is_torus() {
@@ -273,6 +457,11 @@ class Classifier {
     const bool settles = seen.exponent.value + 3.0 * seen.exponent.half_width < 0.0;
     if (growth_.size() >= static_cast<std::size_t>(torus_look) && std::abs(late_growth(growth_)) <= neutral_growth &&
         !settles && seen.zero_one && *seen.zero_one < regular_vote) {
+      // Beside a flip of a long orbit all this holds, too, at any price of seeking it so far.
+      const Recurrence& r = seen.recurrence;
+      if (r.best_period > 0 && r.error <= options_.near * extent(section_) && settles_to_orbit_of(r.best_period))
+        return true;
+      if (attracted_) return false;
       result_.regime = Regime::quasiperiodic;
       seen.note = "tangents neither grow nor shrink, 0-1 test " + short_text(*seen.zero_one);
       return true;
@@ -295,7 +484,10 @@ class Classifier {
   std::map<int, double> in_vain_;  ///< recurrence error after n periods when an orbit of period n was sought in vain
   std::vector<double> growth_;     ///< g_k of all looks
   std::vector<double> series_;     ///< the observable over the look before and this one
-  std::size_t look_before_ = 0;    ///< how many of them are of the look before
+  std::vector<double> direction_;  ///< of the tangent vector at the end of the last look
+  bool attracted_ = false;       ///< the orbit that was sought last attracts, though the motion is not yet drawn to it
+  bool left_ = false;            ///< the motion was pushed off something that repels
+  std::size_t look_before_ = 0;  ///< how many of them are of the look before
 };
 
 }  // namespace

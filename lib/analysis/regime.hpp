@@ -3,27 +3,31 @@
 // The state is carried on in looks. A look records a stroboscopic section and asks whether the motion is
 //
 // - periodic: recurrence [A-rec] names candidates n; Newton's method finds an orbit y* of period n [A-orbit] with a
-//   residual far below the recurrence error; all its multipliers are inside the unit circle by more than `neutral` and
-//   by more than their error, which is the difference from those of another tolerance, or of shooting in n + 1 pieces;
-//   and the motion is already drawn to it,
+//   residual far below the recurrence error, of no shorter period to within its error [A-orbit-error]; all its
+//   multipliers are inside the unit circle by more than `neutral` and by more than their error, which is the difference
+//   from those of another tolerance, or of shooting in n + 1 pieces; and the motion is already drawn to it,
 //
 //     | (y_n - y*) - M (y_0 - y*) | <= | y_0 - y* | / 10                                              [A-settled]
 //
 //   y_0 the motion's last point and y_n that of n periods later, which is the proof: nothing but time is then between
 //   the motion and the orbit.
-// - chaotic: the largest exponent, of the last three quarters of all looks, is positive by its interval [A-lyap], and
-//   the 0-1 test agrees. Where the test abstains the exponent has to be three times its half interval and
-//   vectors have to grow by e^8 in the last half of the last look, by e^16 where the test says regular, as it does of
-//   chaos in narrow bands: no regular motion does that.
+// - chaotic: the largest exponent, of the last three quarters of all looks, is positive by its interval [A-lyap], the
+//   0-1 test agrees, and it lasts for `lasting` periods, through which the motion is carried without tangents;
+//   for the whole budget if Newton's method finds an orbit that attracts from one of the close returns of a look
+//   without growth, which is how a motion comes to an orbit in the end. Where the test abstains vectors have to grow by
+//   e^8 in the last half of all looks, by e^16 where it says regular, as it does of chaos in narrow bands: no regular
+//   motion does that, unless it repels, as one with a symmetry may. Where the test says regular and vectors grow the
+//   motion is therefore pushed a little in their direction, once: an attractor does not mind.
 // - quasiperiodic: over the last half of all looks, long ones, tangent vectors neither grow nor shrink by more than
-// e^2,
-//   as beside a torus, the exponent is not negative by three half intervals, and the 0-1 test says regular.
+//   e^2, as beside a torus, the exponent is not negative by three half intervals, the 0-1 test says regular, and what
+//   the motion all but comes back to after n periods is no orbit.
 //
 // If none of these holds the transient was too short or the look was: the next look is twice as long. When the budget
 // is spent the motion is undecided, and the evidence says what was seen. So a transient ends when the motion has
 // settled, not after a number of periods that somebody thought of.
 //
-// Limits: a chaotic transient that outlives the budget is called chaotic; a periodic orbit that loses its stability at
+// Limits: a chaotic transient that outlives `lasting` is called chaotic unless that search finds its end, one that
+// outlives the budget always; a periodic orbit that loses its stability at
 // this very parameter is undecided; a system without forcing may be given a period of its own choice, and its limit
 // cycles then are quasiperiodic.
 #pragma once
@@ -46,8 +50,9 @@ enum class Regime { periodic, quasiperiodic, chaotic, undecided };
 [[nodiscard]] std::string to_string(Regime regime);
 
 struct RegimeOptions {
-  int look = 64;               ///< periods of the first look
-  int budget = 8192;           ///< periods of all looks together
+  int look = 64;       ///< periods of the first look
+  int budget = 8192;   ///< periods of all looks together
+  int lasting = 4096;  ///< periods that chaos has to last, at most the budget: many a motion is chaotic only at first
   int longest_period = 16;     ///< largest n that is tried
   double near = 0.1;           ///< a recurrence error above this part of the section's extent makes no candidate [-]
   double residual = 1e-9;      ///< of the orbit, that counts as found, in parts of the largest component seen [-];
@@ -68,6 +73,7 @@ struct Evidence {
   int periods = 0;                ///< of the forcing, looked at altogether
   Recurrence recurrence;          ///< of the last 128 periods of the last look
   double residual = 0;            ///< of the orbit, if there is one
+  double orbit_error = 0;         ///< how far its points may be from the orbit [A-orbit-error]
   double largest_multiplier = 0;  ///< modulus
   double multiplier_error = 0;
   Estimate exponent;                 ///< largest, per unit of s: measured, or log of the multiplier over the period

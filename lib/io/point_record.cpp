@@ -151,8 +151,8 @@ void pass(A& a, analysis::Recurrence& r) {
 }
 template <class A>
 void pass(A& a, analysis::Evidence& e) {
-  pass_all(a, e.periods, e.recurrence, e.residual, e.largest_multiplier, e.multiplier_error, e.exponent, e.late_growth,
-           e.zero_one, e.note);
+  pass_all(a, e.periods, e.recurrence, e.residual, e.orbit_error, e.largest_multiplier, e.multiplier_error, e.exponent,
+           e.late_growth, e.zero_one, e.note);
 }
 template <class A>
 void pass(A& a, integrate::Work& w) {

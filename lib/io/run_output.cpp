@@ -210,6 +210,7 @@ void write_point(Hdf5File& h5, const RunOutput& output, const RunResult& r) {
   evidence.integer("recurrence_period", e.recurrence.period, "mesh periods");
   evidence.number("recurrence_error", e.recurrence.error, "b_c, b_c per tau");
   evidence.number("residual", e.residual, "b_c, b_c per tau");
+  evidence.number("orbit_error", e.orbit_error, "b_c, b_c per tau");
   evidence.number("largest_multiplier", e.largest_multiplier, "-");
   evidence.number("multiplier_error", e.multiplier_error, "-");
   evidence.number("exponent", e.exponent.value * r.omega, "per tau");
@@ -325,6 +326,7 @@ void write_orbit(Hdf5File& h5, const RunOutput& output, const RunResult& r) {
   g.numbers("state", o.state, "b_c, b_c per tau");
   g.matrix("monodromy", o.monodromy, "b_c, b_c per tau of the row over those of the column");
   g.numbers("residuals", o.residuals, "b_c, b_c per tau");
+  g.number("error", o.error, "b_c, b_c per tau");
 }
 
 void write_multipliers(Hdf5File& h5, const analysis::Multipliers& m) {
@@ -465,10 +467,12 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
   std::string text = wrapped(regime_sentence(r)) + "\n";
   if (p.regime == Regime::periodic && p.classified) {
     std::string line =
-        fmt::format("The orbit closes to {:.2g} in its largest component [b_c, b_c per tau]", e.residual);
+        fmt::format("The orbit closes to {:.2g} in its largest component [b_c, b_c per tau] and is known to {:.2g}",
+                    e.residual, e.orbit_error);
     if (r.orbit && !r.orbit->residuals.empty())
-      line += fmt::format("; sought again at tolerance {:g}, to {:.2g}", output.options.check_tolerance,
-                          *std::min_element(r.orbit->residuals.begin(), r.orbit->residuals.end()));
+      line += fmt::format("; sought again at tolerance {:g}, it closes to {:.2g} and is known to {:.2g}",
+                          output.options.check_tolerance,
+                          *std::min_element(r.orbit->residuals.begin(), r.orbit->residuals.end()), r.orbit->error);
     text += bullet(line + ".");
   }
   if (has_multipliers(r)) {

@@ -188,6 +188,7 @@ void write_points_csv(const std::filesystem::path& file, const PointSource& poin
                                       "multiplier_max",
                                       "multiplier_error",
                                       "orbit_residual",
+                                      "orbit_error",
                                       "zero_one",
                                       "classified_periods",
                                       "evidence"};
@@ -228,6 +229,7 @@ void write_points_csv(const std::filesystem::path& file, const PointSource& poin
         .cell(proven(r) ? r.evidence.largest_multiplier : unknown)
         .cell(proven(r) ? r.evidence.multiplier_error : unknown)
         .cell(proven(r) ? r.evidence.residual : unknown)
+        .cell(proven(r) ? r.evidence.orbit_error : unknown)
         .cell(zero_one(r))
         .cell(r.evidence.periods)
         .cell(r.evidence.note);
@@ -287,6 +289,9 @@ void write_point_columns(Hdf5File& h5, const PointSource& points) {
       "multiplier_error", [](const PointResult& r) { return proven(r) ? r.evidence.multiplier_error : unknown; }, "1");
   column(
       "orbit_residual", [](const PointResult& r) { return proven(r) ? r.evidence.residual : unknown; },
+      "b_c, b_c per tau");
+  column(
+      "orbit_error", [](const PointResult& r) { return proven(r) ? r.evidence.orbit_error : unknown; },
       "b_c, b_c per tau");
   column("zero_one", zero_one, "1");
   column(

@@ -37,6 +37,7 @@ ToldMotion tell_motion(const integrate::VectorField& field, std::vector<double>&
   const auto coarser = with(10.0, true);
   analysis::RegimeOptions options;
   options.budget = std::max(options.look, sweep.classification_periods);
+  options.lasting = options.budget / 4;
   options.longest_period = sweep.period_max;
   options.residual = map_error(integrator);
   options.observable = std::min(model::Slots::w_s, field.dimension - 1);

@@ -70,7 +70,9 @@ TEST(Regime, ASectionThatWasSeenIsNotLookedAtAgain) {
     std::vector<double> y = {1.0, 0.0};
     const Strobe seen = strobe(
         *flow, y, {.transient_periods = 100, .recorded_periods = 128, .phases = 1}, [](auto&&...) {}, always);
-    const Classification c = classify(*flow, y, {}, always, &seen.section);
+    RegimeOptions options;
+    options.lasting = 256;
+    const Classification c = classify(*flow, y, options, always, &seen.section);
     EXPECT_EQ(c.regime, periodic ? Regime::periodic : Regime::chaotic) << c.evidence.note;
     EXPECT_EQ(c.evidence.periods, periodic ? 0 : 128);
     EXPECT_EQ(c.period, periodic ? 2 : 0);
