@@ -448,6 +448,7 @@ class Classifier {
         *seen.zero_one > regular_vote)
       return;
     for (std::size_t i = 0; i < state_.size(); ++i) state_[i] += push * scale_ * direction_[i];
+    in_vain_.clear();
     left_ = true;
   }
 

@@ -136,6 +136,23 @@ TEST(Regime, LorenzSeenOnceInAWhileIsChaotic) {
   EXPECT_NEAR(c.evidence.exponent.value, 0.9053, 2.0 * c.evidence.exponent.half_width);
 }
 
+TEST(Regime, AMotionThatRepelsIsLeft) {
+  // A forced oscillator, and beside it d, which rests at 0 for ever if it begins there and is drawn to +-0.1 if not:
+  // vectors grow by e^0.06 a period, slowly enough for a look to see nothing but the orbit.
+  constexpr double repelled = 0.01;
+  const auto field =
+      integrate::make_field(3, 2.0 * std::numbers::pi, [](std::size_t, double s, const auto* y, auto* d) {
+        d[0] = y[1];
+        d[1] = -0.2 * y[1] - 2.0 * y[0] + std::cos(s);
+        d[2] = repelled * y[2] - y[2] * y[2] * y[2];
+      });
+  const Classification c = regime_of(field, {0.5, 0.0, 0.0});
+  ASSERT_EQ(c.regime, Regime::periodic) << c.evidence.note;
+  EXPECT_EQ(c.period, 1);
+  EXPECT_NEAR(std::abs(c.orbit->state[2]), std::sqrt(repelled), 1e-8);
+  EXPECT_LT(c.evidence.periods, 1024);
+}
+
 TEST(Regime, AnEscapeHasNone) {
   const auto field =
       integrate::make_field(1, 1.0, [](std::size_t, double, const auto* y, auto* d) { d[0] = y[0] * y[0]; });
