@@ -32,8 +32,6 @@ constexpr double alike = 10.0;
 /// kinks make an integrator's map rough.
 constexpr double least_gain = 0.1;
 constexpr double rough_map = 30.0;
-/// An orbit with an error above this part of the largest component is not known.
-constexpr double least_known = 0.01;
 /// With a multiplier's error above this part of its distance from 1, tangents of the orbit's own are worth their price.
 constexpr double own_tangents = 0.1;
 /// An orbit that was sought in vain is sought again when the motion has come nearer to it by this factor.
@@ -209,9 +207,7 @@ class Classifier {
     o.keep_tangents = false;
     o.iterations = 24;
     known.orbit = find_periodic_orbit(exact, known.orbit.state, n, o);
-    if (known.orbit.outcome == OrbitOutcome::not_reached || residual(known.orbit) > rough ||
-        known.orbit.error > least_known * scale_)
-      return std::nullopt;
+    if (known.orbit.outcome == OrbitOutcome::not_reached || residual(known.orbit) > rough) return std::nullopt;
     known.own_tangents = true;
     known.second = tangents_of_others(known.orbit);
     if (known.second.pieces.empty()) return std::nullopt;
