@@ -195,8 +195,12 @@ class Property {
     for (const json& input : inputs_) {
       std::vector<std::string> pointers;
       collect(input, "", pointers);
+      // An origin is one kind of text at all places: what it says, and that it is gone, is tried at each.
       for (const std::string& pointer : pointers)
-        for (const Change change : changes) cases_.push_back({&input, pointer, change});
+        for (const Change change : changes)
+          if (pointer.find("/origin/") == std::string::npos || change == Change::computed || change == Change::text ||
+              change == Change::erased)
+            cases_.push_back({&input, pointer, change});
     }
   }
 
@@ -228,6 +232,7 @@ class Property {
           << "{} is not what erased is";
     }
     const std::string bytes = input->resolved.dump(2);
+    if (!resolved_.insert(sha256_hex(bytes)).second) return;  // has been tried
     const std::optional<LoadedInput> again = loaded(input->resolved);
     ASSERT_TRUE(again) << message_;
     EXPECT_TRUE(again->resolved.dump(2) == bytes) << json::diff(input->resolved, again->resolved).dump(1);
@@ -262,6 +267,7 @@ class Property {
   test::TemporaryFolder folder_;
   std::deque<json> inputs_;
   std::vector<Case> cases_;
+  std::set<std::string> resolved_;  ///< digests
   std::map<std::string, Seen> by_identity_;
   std::map<std::string, std::string> by_values_;
   int tried_ = 0, refused_ = 0, same_ = 0;
