@@ -32,8 +32,8 @@ tolerance=(tolerance tolerance.json)
 # First without a gnuplot: all else is there, and the folder is complete.
 no_gnuplot=$work/none
 mkdir "$no_gnuplot"
-[ "$(PATH=$no_gnuplot code_of "$epicyclic" "${sweep[@]}" -o undrawn)" = 0 ] || fail "without gnuplot: $(<stderr)"
-[ "$(PATH=$no_gnuplot code_of "$epicyclic" "${sweep[@]}" -o undrawn)" = 0 ] || fail "without gnuplot, again: $(<stderr)"
+[ "$(PATH=$no_gnuplot code_of "$epicyclic" "${sweep[@]}" -o undrawn)" = 1 ] || fail "without gnuplot: $(<stderr)"
+[ "$(PATH=$no_gnuplot code_of "$epicyclic" "${sweep[@]}" -o undrawn)" = 1 ] || fail "without gnuplot, again: $(<stderr)"
 grep -q 'complete already' stderr || fail "without gnuplot not complete: $(<stderr)"
 without_drawing
 [ "$(code_of "$epicyclic" "${sweep[@]}" -o undrawn)" = 0 ] || fail "with gnuplot: $(<stderr)"
