@@ -125,6 +125,7 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
     }
   }
   double best = std::numeric_limits<double>::infinity();
+  const auto is_known = [&] { return orbit.error <= options.known * as_vector(orbit.state).lpNorm<Eigen::Infinity>(); };
   Shooting at;
   bool kept = false;
   for (int k = 0; k < options.iterations; ++k) {
@@ -158,7 +159,7 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
       return orbit;
     }
     // At the integrator's own noise nothing falls any more.
-    if (k > 1 && !falls && orbit.error <= std::sqrt(options.residual)) {
+    if (k > 1 && !falls && is_known()) {
       orbit.outcome = OrbitOutcome::stalled;
       orbit.message = "the residual stays at " + short_text(best);
       return orbit;
@@ -171,7 +172,7 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
     y += newton_step(at);
     kept = options.keep_tangents && options.pieces == 1;
   }
-  orbit.outcome = orbit.error <= std::sqrt(options.residual) ? OrbitOutcome::stalled : OrbitOutcome::not_converged;
+  orbit.outcome = is_known() ? OrbitOutcome::stalled : OrbitOutcome::not_converged;
   orbit.message = "the residual is " + short_text(best) + ", the error " + short_text(orbit.error) + " after " +
                   std::to_string(orbit.residuals.size()) + " iterations";
   return orbit;

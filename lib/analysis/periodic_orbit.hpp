@@ -36,6 +36,8 @@ namespace epicyclic::analysis {
 struct OrbitOptions {
   int iterations = 12;
   double residual = 1e-11;  ///< max |F| that ends the iteration, in the units of the state
+  double known = 1e-4;      ///< e [A-orbit-error] up to which a state is that of an orbit though the residual no longer
+                            ///< falls, in parts of its largest component [-]
   int pieces = 1;
 
   /// M is kept for as long as the residual falls to a tenth: near an orbit that saves most of the tangents, which cost
@@ -47,8 +49,8 @@ struct OrbitOptions {
 /// What the iteration came to.
 enum class OrbitOutcome {
   converged,  ///< state and monodromy are those of the orbit
-  stalled,    ///< the residual no longer falls, but the error is small (below the square root of the residual that was
-              ///< asked for): likewise, to that error
+  stalled,    ///< the residual no longer falls, which an integrator's own noise ends, but the error is small: likewise,
+              ///< to that error
   not_converged,  ///< state is the best one seen
   not_reached,    ///< an evolution failed: state is the best one seen
 };
