@@ -72,6 +72,28 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
   return failed;
 }
 
+/// Points at which teeth pull.
+struct Pulls {
+  std::size_t points = 0;
+  double force = 0;  ///< greatest, over the static mesh force
+  double time = 0;   ///< greatest part of the time
+
+  void see(const studies::PointResult& r) {
+    if (!r.pulls()) return;
+    ++points;
+    for (const auto* meshes : {&r.sun_planet, &r.ring_planet}) {
+      force = std::max(force, studies::PointResult::pull(*meshes));
+      time = std::max(time, studies::PointResult::pull_time(*meshes));
+    }
+  }
+  [[nodiscard]] std::string note(std::string_view noun) const {
+    return fmt::format(
+        "teeth pull at {} {}, with up to {:.3g} times the static mesh force and for up to {:.1f} % of the time "
+        "(pull_sp, pull_rp, pull_time_sp and pull_time_rp of points.csv): real teeth do not; see /model/gap_damping",
+        points, noun, force, 100.0 * time);
+  }
+};
+
 /// All parts, side by side: each of them reads the journals and writes files of its own.
 WrittenPoints write_results(const Arguments& arguments, const std::vector<ResultsPart>& parts,
                             const ComputedPoints& computed, SweepLeader* leader) {
@@ -146,15 +168,17 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   for (const std::string& note : written.notes) tell("{}\n", note);
 
   std::map<std::string, std::size_t> regimes;
+  Pulls pulls;
   for (std::size_t i = 0; i < points.count; ++i) {
     const studies::PointResult r = points.read_brief(i);
-    if (computed(r)) ++regimes[to_string(r.regime)];
+    if (!computed(r)) continue;
+    ++regimes[to_string(r.regime)];
+    pulls.see(r);
   }
-  nlohmann::json summary = {{"folder", folder.path().string()},
-                            {"points", plan.points.size()},
-                            {"failed", failed},
-                            {"regimes", regimes},
-                            {"figures", nlohmann::json::array()}};
+  if (pulls.points > 0) fmt::print(stderr, "{}\n", pulls.note(noun));
+  nlohmann::json summary = {
+      {"folder", folder.path().string()}, {"points", plan.points.size()},      {"failed", failed}, {"regimes", regimes},
+      {"pulling", pulls.points},          {"figures", nlohmann::json::array()}};
   summary.update(written.summary);
   for (const io::DrawnFigure& figure : written.figures)
     if (figure.outcome.drawn()) summary["figures"].push_back(figure.file.string());

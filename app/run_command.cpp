@@ -42,7 +42,8 @@ int run_command(const Arguments& arguments) {
 
   folder.require_there();
   const io::SweepOutput points{*study.sweep, studies::poincare_columns(model), resolved, io::figure_title(study)};
-  const io::RunOutput output{points, study.run, model.sun_planet_half_gap, model.ring_planet_half_gap};
+  const io::RunOutput output{points, study.run, model.sun_planet_half_gap, model.ring_planet_half_gap,
+                             study.model.gap_damping};
   const bool computed = result->point.outcome == integrate::Outcome::reached;
   const std::string summary = io::run_summary(output, *result);
   const io::PointSource point = io::points_in_memory({&result->point, 1});

@@ -12,6 +12,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "core/cubics.hpp"
@@ -31,9 +32,32 @@ template <std::size_t W>
 struct LanePack {
   using Values [[gnu::vector_size(8 * W), gnu::may_alias]] = double;
   using Bits [[gnu::vector_size(8 * W), gnu::may_alias]] = long long;
+  using Words [[gnu::vector_size(8 * W), gnu::may_alias]] = unsigned long long;
 };
 
 }  // namespace detail
+
+/// The bit patterns of W doubles, or W whole numbers. Aligned as those.
+template <std::size_t W>
+struct alignas(8 * W) LaneWords {
+  using Pack = typename detail::LanePack<W>::Words;
+
+  Pack pack;
+
+  [[nodiscard]] std::uint64_t operator[](std::size_t lane) const { return pack[lane]; }
+  void set(std::size_t lane, std::uint64_t x) { pack[lane] = x; }
+
+  friend LaneWords operator+(const LaneWords& a, const LaneWords& b) { return of(a.pack + b.pack); }
+  friend LaneWords operator-(const LaneWords& a, const LaneWords& b) { return of(a.pack - b.pack); }
+  friend LaneWords operator<<(const LaneWords& a, const LaneWords& by) { return of(a.pack << by.pack); }
+  friend LaneWords operator>>(const LaneWords& a, const LaneWords& by) { return of(a.pack >> by.pack); }
+
+  static LaneWords of(const Pack& p) {
+    LaneWords r;
+    r.pack = p;
+    return r;
+  }
+};
 
 /// W doubles, W = 2, 4, 8, ... Converts from double by repeating it.
 ///
@@ -105,11 +129,10 @@ struct alignas(8 * W) Lanes {
     constexpr double no_fraction = 0x1.8p52;
     return of((a.pack + no_fraction) - no_fraction);
   }
-  /// As counts: whole numbers from 0 on, below 2^51.
-  [[nodiscard]] Bits counts() const {
-    constexpr double no_fraction = 0x1p52;
-    return std::bit_cast<Bits>(pack + no_fraction) & 0xfffffffffffffLL;
+  [[nodiscard]] LaneWords<W> bits() const {
+    return LaneWords<W>::of(std::bit_cast<typename detail::LanePack<W>::Words>(pack));
   }
+  [[nodiscard]] static Lanes of_bits(const LaneWords<W>& words) { return of(std::bit_cast<Pack>(words.pack)); }
 
   friend Lanes power_3_2(const Lanes& a) { return a * sqrt(a); }
 

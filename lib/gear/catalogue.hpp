@@ -72,12 +72,14 @@ struct StiffnessOptions {
   StiffnessForm form = StiffnessForm::harmonics;
   int harmonics = 2;                                     ///< Eq. (4) has two
   double sun_planet_factor = 1, ring_planet_factor = 1;  ///< on the computed stiffness, for what its model leaves open
+  double table_tolerance = 1e-9;                         ///< of the curve between its rows, relative to the mean [-]
 };
 
 /// What lubricates the teeth; without it there is no tooth friction.
 struct Lubrication {
-  double viscosity_mPas = 5;  ///< nu_0 at the oil's inlet
-  double roughness_um = 0.6;  ///< RMS
+  double viscosity_mPas = 5;      ///< nu_0 at the oil's inlet
+  double roughness_um = 0.6;      ///< RMS
+  double table_tolerance = 1e-9;  ///< of load shares and of friction over normal force, between the rows [-]
 };
 
 struct Catalogue {

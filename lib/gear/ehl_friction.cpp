@@ -2,38 +2,56 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
+#include <string>
 
+#include "core/errors.hpp"
+#include "core/fitted_rows.hpp"
 #include "gear/kinematics.hpp"
 
 namespace epicyclic::gear {
 
 namespace {
 
-/// Share of the load at a position; `inside` is a position on the side that is meant.
-double load_share(const Friction::Ehl& e, double position, double inside) {
-  if (e.share_position.empty()) {
-    const double phase = inside - std::floor(inside);
-    return 1.0 / std::max(1.0, std::ceil(e.contact_ratio - phase));
-  }
-  // The piece between jumps that holds `inside`, then the interval in it that holds `position`.
-  const auto& p = e.share_position;
-  std::size_t first = 0;
-  std::size_t last = p.size() - 1;
-  for (std::size_t k = 1; k < p.size(); ++k)
-    if (p[k] == p[k - 1]) {
-      if (inside >= p[k])
-        first = k;
-      else
-        last = std::min(last, k - 1);
+/// Share of the load that a pair carries along its path.
+class LoadShare {
+ public:
+  explicit LoadShare(const Friction::Ehl& e) : e_(e) {
+    const auto& p = e.share_position;
+    for (std::size_t first = 0, k = 1; k < p.size(); ++k) {
+      if (k + 1 < p.size() && p[k + 1] != p[k]) continue;
+      const std::size_t rows = k + 1 - first;
+      pieces_.push_back({first, k, cubics_through(e.share_interpolation, {&p[first], rows}, {&e.share[first], rows})});
+      first = ++k;
     }
-  const auto at = [&](std::size_t k) { return p.begin() + static_cast<std::ptrdiff_t>(k); };
-  const auto above = std::upper_bound(at(first + 1), at(last), position);
-  const auto k = static_cast<std::size_t>(above - p.begin());
-  const double weight = (position - p[k - 1]) / (p[k] - p[k - 1]);
-  return e.share[k - 1] + weight * (e.share[k] - e.share[k - 1]);
-}
+  }
+
+  /// At a position; `inside` is one on the side that is meant.
+  [[nodiscard]] double at(double position, double inside) const {
+    if (pieces_.empty()) {
+      const double phase = inside - std::floor(inside);
+      return 1.0 / std::max(1.0, std::ceil(e_.contact_ratio - phase));
+    }
+    const auto& p = e_.share_position;
+    std::size_t k = 0;
+    while (k + 1 < pieces_.size() && inside >= p[pieces_[k + 1].first]) ++k;
+    const Piece& piece = pieces_[k];
+    const auto row = [&](std::size_t i) { return p.begin() + static_cast<std::ptrdiff_t>(i); };
+    const auto above = std::upper_bound(row(piece.first + 1), row(piece.last), position);
+    const auto i = static_cast<std::size_t>(above - p.begin()) - 1;
+    return epicyclic::at(piece.cubics[i - piece.first], position - p[i]);
+  }
+
+ private:
+  struct Piece {
+    std::size_t first, last;  ///< rows
+    std::vector<CubicCoefficients> cubics;
+  };
+  const Friction::Ehl& e_;
+  std::vector<Piece> pieces_;
+};
 
 }  // namespace
 
@@ -104,24 +122,58 @@ LubricationRange lubrication_range(const Friction::Ehl& e, const LineOfAction& l
   return range;
 }
 
-Friction::Table friction_table(const Friction::Ehl& e, const LineOfAction& line, const MeshLoad& load) {
-  constexpr int rows_per_piece = 16;
+Friction::Table friction_table(const Friction::Ehl& e, const LineOfAction& line, const MeshLoad& load,
+                               std::span<const IntervalGrid> grids) {
   const PathPieces pieces = path_pieces(e.contact_ratio, e.path_start_mm, line);
-  return tabulate(pieces, rows_per_piece, [&](double phase, double inside) {
-    FrictionRow row;
-    for (int j = 0; inside + j < e.contact_ratio; ++j) {
-      const double position = std::min(phase + j, e.contact_ratio);
-      const double share = load_share(e, position, inside + j);
-      const LubricatedContact contact = lubricated_contact(e, line, load, position, share);
-      const double arm = e.path_start_mm + line.base_pitch_mm * position;
-      const double f =
-          contact.slide_to_roll > 0.0 ? -xu_friction_coefficient(contact) : xu_friction_coefficient(contact);
-      row.force += share * f;
-      row.moment_1 += share * f * arm;
-      row.moment_2 += share * f * line.arm_2(arm);
+  if (!grids.empty() && grids.size() != pieces.size())
+    throw DomainError("a friction table of " + std::to_string(pieces.size()) + " pieces on grids of " +
+                      std::to_string(grids.size()));
+  const LoadShare shares(e);
+  const double pitch = (line.pitch_arm_mm - e.path_start_mm) / line.base_pitch_mm;
+  const auto is_pitch_point = [&](double phase) {
+    constexpr double resolution = 1e-9;
+    const double position = pitch - phase;
+    return std::abs(position - std::round(position)) <= resolution && pitch >= -resolution &&
+           pitch <= e.contact_ratio + resolution;
+  };
+  std::size_t piece = 0;
+  double greatest = 0.0;
+  Friction::Table table = tabulate(pieces, [&](double from, double to) {
+    const double inside = 0.5 * (from + to);
+    // The moments as ratios to the base radii, as large as those of the forces.
+    const auto ratios = [&](double way) {
+      const double phase = way == 1.0 ? to : from + (to - from) * way;
+      std::array<double, 3> row{};
+      for (int j = 0; inside + j < e.contact_ratio; ++j) {
+        const double position = std::min(phase + j, e.contact_ratio);
+        const double share = shares.at(position, inside + j);
+        const LubricatedContact contact = lubricated_contact(e, line, load, position, share);
+        const double arm = e.path_start_mm + line.base_pitch_mm * position;
+        const double mu = xu_friction_coefficient(contact);
+        greatest = std::max(greatest, mu);
+        const double f = contact.slide_to_roll > 0.0 ? -mu : mu;
+        row[0] += share * f;
+        row[1] += share * f * arm / line.base_radius_1_mm;
+        row[2] += share * f * line.arm_2(arm) / line.base_radius_2_mm;
+      }
+      return row;
+    };
+    const SingularEnd singular = is_pitch_point(from) ? SingularEnd::start
+                                 : is_pitch_point(to) ? SingularEnd::end
+                                                      : SingularEnd::none;
+    FittedRows<3> fitted =
+        grids.empty() ? fit_rows<3>(ratios, e.table_tolerance, singular) : rows_on<3>(grids[piece], ratios);
+    ++piece;
+    for (auto& row : fitted.rows) {
+      row[1] *= line.base_radius_1_mm;
+      row[2] *= line.base_radius_2_mm;
     }
-    return row;
+    return fitted;
   });
+  // L mu grows as L^(1 + b2 / 2) at most.
+  constexpr double exponent = 1.6;
+  table.error += exponent * greatest * e.share_error.value_or(0.0);
+  return table;
 }
 
 }  // namespace epicyclic::gear

@@ -14,6 +14,8 @@
 // a pair enters or leaves.
 #pragma once
 
+#include <span>
+
 #include "gear/friction_path.hpp"
 #include "gear/stage.hpp"
 
@@ -65,7 +67,10 @@ struct MeshLoad {
 [[nodiscard]] LubricationRange lubrication_range(const Friction::Ehl& ehl, const LineOfAction& line,
                                                  const MeshLoad& load);
 
-/// A(s), B_1(s), B_2(s) on the mesh's own phase; two rows at each breakpoint.
-[[nodiscard]] Friction::Table friction_table(const Friction::Ehl& ehl, const LineOfAction& line, const MeshLoad& load);
+/// A(s), B_1(s), B_2(s) on the mesh's own phase, two rows at each breakpoint: as many as table_tolerance asks for,
+/// closer towards the pitch point, beside which mu is as |SR|^1.036.
+/// @param grids  those of another such table, in place of the tolerance: the same pieces, or this is a DomainError
+[[nodiscard]] Friction::Table friction_table(const Friction::Ehl& ehl, const LineOfAction& line, const MeshLoad& load,
+                                             std::span<const IntervalGrid> grids = {});
 
 }  // namespace epicyclic::gear

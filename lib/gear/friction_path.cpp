@@ -57,22 +57,26 @@ PathPieces path_pieces(double contact_ratio, double path_start_mm, const LineOfA
 
 Friction::Table friction_table(const Friction::Coefficient& friction, const LineOfAction& line) {
   const double start = path_start_mm(friction, line);
-  // Between breakpoints A is constant and B straight.
-  constexpr int intervals = 1;
-  return tabulate(path_pieces(friction.contact_ratio, start, line), intervals, [&](double phase, double inside) {
-    FrictionRow row;
-    int pairs = 0;
-    for (int j = 0; inside + j < friction.contact_ratio; ++j) {
-      const double arm = start + line.base_pitch_mm * (phase + j);
-      const double sliding = line.sliding(start + line.base_pitch_mm * (inside + j));
-      const double f = sliding > 0.0 ? -friction.coefficient : friction.coefficient;
-      row.force += f;
-      row.moment_1 += f * arm;
-      row.moment_2 += f * line.arm_2(arm);
-      ++pairs;
-    }
-    const double share = 1.0 / std::max(pairs, 1);
-    return FrictionRow{share * row.force, share * row.moment_1, share * row.moment_2};
+  return tabulate(path_pieces(friction.contact_ratio, start, line), [&](double from, double to) {
+    const double inside = 0.5 * (from + to);
+    // Between breakpoints A is constant and B straight.
+    return rows_on<3>(IntervalGrid::even(1), [&](double way) {
+      const double phase = way == 1.0 ? to : from + (to - from) * way;
+      std::array<double, 3> row{};
+      int pairs = 0;
+      for (int j = 0; inside + j < friction.contact_ratio; ++j) {
+        const double arm = start + line.base_pitch_mm * (phase + j);
+        const double sliding = line.sliding(start + line.base_pitch_mm * (inside + j));
+        const double f = sliding > 0.0 ? -friction.coefficient : friction.coefficient;
+        row[0] += f;
+        row[1] += f * arm;
+        row[2] += f * line.arm_2(arm);
+        ++pairs;
+      }
+      const double share = 1.0 / std::max(pairs, 1);
+      for (double& x : row) x *= share;
+      return row;
+    });
   });
 }
 

@@ -13,6 +13,12 @@
 // constant and B linear in s.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "core/fitted_rows.hpp"
 #include "gear/stage.hpp"
 
 namespace epicyclic::gear {
@@ -43,34 +49,42 @@ struct LineOfAction {
 using PathPieces = std::vector<double>;
 [[nodiscard]] PathPieces path_pieces(double contact_ratio, double path_start_mm, const LineOfAction& line);
 
-/// One row of a friction table.
-struct FrictionRow {
-  double force = 0, moment_1 = 0, moment_2 = 0;
-};
-
-/// Table with `intervals` equal intervals on each piece, both sides of each breakpoint.
+/// Both sides of each breakpoint.
 ///
-/// @param row  FrictionRow (double phase, double inside): the row at a phase as the piece that holds `inside` has it
+/// @param rows  FittedRows<3> (double from, double to): force, moment_1 and moment_2 on the piece between
 template <class F>
-[[nodiscard]] Friction::Table tabulate(const PathPieces& pieces, int intervals, F row) {
+[[nodiscard]] Friction::Table tabulate(const PathPieces& pieces, F rows) {
   Friction::Table table;
   table.breakpoints = pieces;
-  const auto append = [&](double phase, const FrictionRow& r) {
+  table.interpolation = Interpolation::smooth;
+  const auto append = [&](double phase, const std::array<double, 3>& r) {
     table.phase.push_back(phase);
-    table.force_ratio.push_back(r.force);
-    table.moment_driving_mm.push_back(r.moment_1);
-    table.moment_driven_mm.push_back(r.moment_2);
+    table.force_ratio.push_back(r[0]);
+    table.moment_driving_mm.push_back(r[1]);
+    table.moment_driven_mm.push_back(r[2]);
   };
-  // The left side of the first breakpoint, phase 0, is the end of the period.
-  append(0.0, row(1.0, 0.5 * (pieces.back() + 1.0)));
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
-    const bool last = k + 1 == pieces.size();
-    const double from = pieces[k];
-    const double to = last ? 1.0 : pieces[k + 1];
-    for (int i = 0; i <= intervals - (last ? 1 : 0); ++i) {
-      const double phase = i == intervals ? to : from + (to - from) * i / intervals;
-      append(phase, row(phase, 0.5 * (from + to)));
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const bool last = p + 1 == pieces.size();
+    const double from = pieces[p];
+    const double to = last ? 1.0 : pieces[p + 1];
+    const FittedRows<3> piece = rows(from, to);
+    const IntervalGrid& grid = piece.grid;
+    for (std::size_t i = 0; i <= grid.count; ++i) {
+      const std::size_t k = grid.from_end ? grid.count - i : i;
+      if (i < grid.count) {
+        append(i == 0 ? from : from + (to - from) * grid.way(k), piece.rows[k]);
+      } else if (!last) {
+        append(to, piece.rows[k]);
+      } else {
+        // The left side of the first breakpoint, phase 0, is the end of the period.
+        table.phase.insert(table.phase.begin(), 0.0);
+        table.force_ratio.insert(table.force_ratio.begin(), piece.rows[k][0]);
+        table.moment_driving_mm.insert(table.moment_driving_mm.begin(), piece.rows[k][1]);
+        table.moment_driven_mm.insert(table.moment_driven_mm.begin(), piece.rows[k][2]);
+      }
     }
+    table.grids.push_back(grid);
+    table.error = std::max(table.error, piece.error);
   }
   return table;
 }

@@ -1,12 +1,14 @@
 #include "gear/gear_set.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numbers>
 
 #include "core/errors.hpp"
+#include "core/fitted_rows.hpp"
 #include "core/root_finding.hpp"
 #include "gear/bearing.hpp"
 #include "gear/messages.hpp"
@@ -293,48 +295,63 @@ double planet_gap_mm(const GearSet& set) {
   return least;
 }
 
-StiffnessCurve stiffness_curve(const MeshedPair& mesh) {
-  constexpr int intervals = 32;
+StiffnessCurve stiffness_curve(const MeshedPair& mesh, double tolerance) {
   StiffnessCurve curve;
   curve.breakpoints = mesh.breakpoints();
-  const auto append = [&](double phase, double value) {
-    curve.phase.push_back(phase);
-    curve.stiffness_N_per_m.push_back(value);
-  };
+  curve.interpolation = Interpolation::smooth;
+  curve.error = 0.0;
+  const double mean = fourier_series(mesh, 0).mean;
   const auto& breaks = curve.breakpoints;
-  append(0.0, mesh.stiffness(1.0, 0.5 * (breaks.back() + 1.0)));
   for (std::size_t k = 0; k < breaks.size(); ++k) {
     const bool last = k + 1 == breaks.size();
+    const double from = breaks[k];
     const double to = last ? 1.0 : breaks[k + 1];
-    for (int i = 0; i <= intervals - (last ? 1 : 0); ++i) {
-      const double phase = i == intervals ? to : breaks[k] + (to - breaks[k]) * i / intervals;
-      append(phase, mesh.stiffness(phase, 0.5 * (breaks[k] + to)));
+    const auto phase = [&](double way) { return way == 1.0 ? to : from + (to - from) * way; };
+    const auto piece = fit_rows<1>(
+        [&](double way) { return std::array{mesh.stiffness(phase(way), 0.5 * (from + to))}; }, tolerance * mean);
+    for (std::size_t i = 0; i < piece.grid.count + (last ? 0 : 1); ++i) {
+      curve.phase.push_back(phase(piece.grid.way(i)));
+      curve.stiffness_N_per_m.push_back(piece.rows[i][0]);
     }
+    curve.error = std::max(*curve.error, piece.error / mean);
+    if (!last) continue;
+    // The left side of the first breakpoint, phase 0, is the end of the period.
+    curve.phase.insert(curve.phase.begin(), 0.0);
+    curve.stiffness_N_per_m.insert(curve.stiffness_N_per_m.begin(), piece.rows.back()[0]);
   }
   return curve;
 }
 
 Friction::Ehl ehl_of(const MeshedPair& mesh, const Lubrication& lubrication) {
-  constexpr int intervals = 32;
   Friction::Ehl e;
   e.viscosity_mPas = lubrication.viscosity_mPas;
   e.roughness_um = lubrication.roughness_um;
+  e.table_tolerance = lubrication.table_tolerance;
   e.equivalent_modulus_GPa = equivalent_modulus(mesh.driving.material, mesh.driven.material);
   e.width_mm = std::min(mesh.driving.tooth.width_mm, mesh.driven.tooth.width_mm);
   e.contact_ratio = mesh.contact_ratio();
   e.path_start_mm = mesh.pair.start_mm;
+  e.share_interpolation = Interpolation::smooth;
+  e.share_error = 0.0;
   // Along the whole path of one pair, broken where the number of pairs changes.
   std::vector<double> breaks;
   for (int j = 0; j <= static_cast<int>(std::floor(e.contact_ratio)); ++j)
     for (const double b : mesh.breakpoints())
       if (b + j < e.contact_ratio - 1e-9) breaks.push_back(b + j);
   breaks.push_back(e.contact_ratio);
-  for (std::size_t k = 0; k + 1 < breaks.size(); ++k)
-    for (int i = 0; i <= intervals; ++i) {
-      const double position = i == intervals ? breaks[k + 1] : breaks[k] + (breaks[k + 1] - breaks[k]) * i / intervals;
-      e.share_position.push_back(position);
-      e.share.push_back(mesh.load_share(position, 0.5 * (breaks[k] + breaks[k + 1])));
+  for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
+    const double from = breaks[k];
+    const double to = breaks[k + 1];
+    const auto position = [&](double way) { return way == 1.0 ? to : from + (to - from) * way; };
+    const auto piece =
+        fit_rows<1>([&](double way) { return std::array{mesh.load_share(position(way), 0.5 * (from + to))}; },
+                    lubrication.table_tolerance);
+    for (std::size_t i = 0; i <= piece.grid.count; ++i) {
+      e.share_position.push_back(position(piece.grid.way(i)));
+      e.share.push_back(piece.rows[i][0]);
     }
+    e.share_error = std::max(*e.share_error, piece.error);
+  }
   return e;
 }
 

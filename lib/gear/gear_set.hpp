@@ -51,7 +51,9 @@ struct PlanetPhases {
 [[nodiscard]] double planet_gap_mm(const GearSet& set);
 
 /// The whole stiffness curve of a mesh, both sides of each breakpoint.
-[[nodiscard]] StiffnessCurve stiffness_curve(const MeshedPair& mesh);
+/// @param tolerance  of what is between its rows, relative to the mean [-]
+[[nodiscard]] StiffnessCurve stiffness_curve(const MeshedPair& mesh,
+                                             double tolerance = StiffnessOptions{}.table_tolerance);
 
 /// Friction by lubricated contact of a mesh, with its load sharing.
 [[nodiscard]] Friction::Ehl ehl_of(const MeshedPair& mesh, const Lubrication& lubrication);

@@ -19,6 +19,8 @@
 #include <string>
 #include <vector>
 
+#include "core/interpolation.hpp"
+#include "core/interval_grid.hpp"
 #include "gear/catalogue.hpp"
 
 namespace epicyclic::gear {
@@ -98,11 +100,14 @@ struct Friction {
   /// Table over phase = s / 2 pi on the common s of planet 1, in [0, 1), rising; smooth between breakpoints.
   /// A jump at a breakpoint is given by its two sides: the phase stands twice, left value first.
   struct Table {
-    std::vector<double> phase;              ///< [-]
-    std::vector<double> force_ratio;        ///< A [-]
-    std::vector<double> moment_driving_mm;  ///< B about the axis of the driving member [mm]
-    std::vector<double> moment_driven_mm;   ///< B about the axis of the driven member [mm]
-    std::vector<double> breakpoints;        ///< phases where the table jumps or kinks [-]
+    std::vector<double> phase;                              ///< [-]
+    std::vector<double> force_ratio;                        ///< A [-]
+    std::vector<double> moment_driving_mm;                  ///< B about the axis of the driving member [mm]
+    std::vector<double> moment_driven_mm;                   ///< B about the axis of the driven member [mm]
+    std::vector<double> breakpoints;                        ///< phases where the table jumps or kinks [-]
+    Interpolation interpolation = Interpolation::monotone;  ///< between the rows
+    std::vector<IntervalGrid> grids{};                      ///< of a computed one: what the rows of each piece stand on
+    double error = 0;                                       ///< of a computed one: greatest error between the rows [-]
   };
   std::optional<Table> table;
 
@@ -124,9 +129,13 @@ struct Friction {
     double contact_ratio = 1;           ///< epsilon
     double path_start_mm = 0;           ///< friction arm of the driving member where contact starts
     /// Share of the load that a pair carries, against its position in base pitches from the start of contact, 0 ..
-    /// epsilon, rising; straight between rows, a jump stands twice. Empty: equal sharing.
+    /// epsilon, rising; a jump stands twice. Empty: equal sharing.
     std::vector<double> share_position;
     std::vector<double> share;
+    Interpolation share_interpolation = Interpolation::straight;  ///< between the rows
+    std::optional<double> share_error{};  ///< known greatest error of the share between its rows [-]
+    /// Error that the rows of the friction table are made fine enough for, of the ratios to the normal force [-].
+    double table_tolerance = Lubrication{}.table_tolerance;
   };
   std::optional<Ehl> ehl{};
 
@@ -135,9 +144,11 @@ struct Friction {
 
 /// Mesh stiffness as a curve over the mesh's own phase, in [0, 1); rows and breakpoints as in Friction::Table.
 struct StiffnessCurve {
-  std::vector<double> phase;              ///< [-]
-  std::vector<double> stiffness_N_per_m;  ///< k [N/m]
-  std::vector<double> breakpoints;        ///< phases where the curve jumps or kinks [-]
+  std::vector<double> phase;                              ///< [-]
+  std::vector<double> stiffness_N_per_m;                  ///< k [N/m]
+  std::vector<double> breakpoints;                        ///< phases where the curve jumps or kinks [-]
+  Interpolation interpolation = Interpolation::monotone;  ///< between the rows
+  std::optional<double> error{};  ///< known greatest error between the rows, relative to the mean [-]
 };
 
 /// One kind of mesh: sun-planet or ring-planet, the same for all planets but for the errors.

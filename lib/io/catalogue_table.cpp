@@ -183,6 +183,8 @@ const Table<gear::StiffnessOptions>& stiffness_table() {
              "Factor on the computed stiffness of the sun-planet mesh [-].");
     t.number("ring_planet_factor", &StiffnessOptions::ring_planet_factor, factor,
              "Factor on the computed stiffness of the ring-planet mesh [-].");
+    t.number("table_tolerance", &StiffnessOptions::table_tolerance, table_tolerance,
+             "Error that the rows of the whole curve are made fine enough for, relative to the mean [-].");
     return t;
   }();
   return table;
@@ -195,6 +197,8 @@ const Table<gear::Lubrication>& lubrication_table() {
     t.number("viscosity_mPas", &Lubrication::viscosity_mPas, between(1, 2000),
              "Dynamic viscosity of the oil at its inlet [mPa s].");
     t.number("roughness_um", &Lubrication::roughness_um, between(0, 1.5), "RMS roughness of the flanks [um].");
+    t.number("table_tolerance", &Lubrication::table_tolerance, table_tolerance,
+             "Error that the rows of load shares and of friction over normal force are made fine enough for [-].");
     t.rule(KeyRule::Kind::not_empty, {"viscosity_mPas", "roughness_um"});
     return t;
   }();

@@ -10,6 +10,9 @@ namespace epicyclic::io {
 inline constexpr double length_min_mm = 1e-6;
 inline constexpr double length_max_mm = 1e6;
 
+/// Of computed tables; a finer one than rounding has no rows.
+inline const Bounds table_tolerance = between(1e-13, 1e-2);
+
 [[nodiscard]] const Table<gear::Catalogue>& catalogue_table();
 
 }  // namespace epicyclic::io

@@ -160,7 +160,7 @@ void pass(A& a, integrate::Work& w) {
 }
 template <class A>
 void pass(A& a, studies::MeshRecord& m) {
-  pass_all(a, m.delta_min, m.delta_max);
+  pass_all(a, m.delta_min, m.delta_max, m.pull, m.pull_time);
   auto seen = static_cast<std::uint8_t>((m.drive ? 1U : 0U) | (m.loss ? 2U : 0U) | (m.back ? 4U : 0U));
   a.bytes_of(seen);
   m.drive = (seen & 1U) != 0;
@@ -216,8 +216,8 @@ void pass(A& a, studies::StatisticsStep& s) {
 template <class A>
 void pass(A& a, studies::TolerancePoint& p) {
   pass_all(a, p.point, p.study, p.note, p.period, p.orbit, p.reference_residual, p.settled_distance,
-           p.largest_multiplier, p.reference, p.reference_error, p.ladder, p.study_work, p.smoothing, p.extrapolated,
-           p.exponent, p.statistics);
+           p.largest_multiplier, p.reference, p.reference_error, p.table_error, p.table_displacement, p.ladder,
+           p.study_work, p.smoothing, p.extrapolated, p.exponent, p.statistics);
 }
 
 template <class T>

@@ -273,6 +273,10 @@ void write_meshes(Hdf5File& h5, const std::vector<MeshSummary>& meshes) {
       "loss", meshes, [](const MeshSummary& m) { return m.loss; }, "-");
   g.column(
       "back", meshes, [](const MeshSummary& m) { return m.back; }, "-");
+  g.column(
+      "pull_max", meshes, [](const MeshSummary& m) { return m.pull_max; }, "N");
+  g.column(
+      "pull_time", meshes, [](const MeshSummary& m) { return m.pull_time; }, "-");
   g.integer_column(
       "contact_losses", meshes, [](const MeshSummary& m) { return m.contact_losses; }, "per record");
 }
@@ -327,6 +331,8 @@ void write_orbit(Hdf5File& h5, const RunOutput& output, const RunResult& r) {
   g.matrix("monodromy", o.monodromy, "b_c, b_c per tau of the row over those of the column");
   g.numbers("residuals", o.residuals, "b_c, b_c per tau");
   g.number("error", o.error, "b_c, b_c per tau");
+  if (r.table_displacement) g.number("table_displacement", *r.table_displacement, "b_c, b_c per tau");
+  g.number("friction_table_error", r.friction_table_error, "-");
 }
 
 void write_multipliers(Hdf5File& h5, const analysis::Multipliers& m) {
@@ -475,6 +481,15 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
                           *std::min_element(r.orbit->residuals.begin(), r.orbit->residuals.end()), r.orbit->error);
     text += bullet(line + ".");
   }
+  if (r.table_displacement) {
+    std::string line = fmt::format(
+        "With tables of friction and stiffness half as fine the orbit is {:.2g} away [b_c, b_c per tau]: "
+        "interpolation in them moves it by less than that, mostly by a sixteenth",
+        *r.table_displacement);
+    if (r.friction_table_error > 0.0)
+      line += fmt::format("; friction over normal force is off by {:.2g} at most", r.friction_table_error);
+    text += bullet(line + ".");
+  }
   if (has_multipliers(r)) {
     const analysis::Multipliers& m = *r.multipliers;
     text += bullet(fmt::format("Largest Floquet multiplier: {}. The orbit is {}.", multiplier_text(m, 0),
@@ -508,7 +523,25 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
   return text;
 }
 
-std::string meshes_text(const RunResult& r) {
+/// Which meshes pull, how hard, how often and why.
+std::string pulls_text(const RunOutput& output, const RunResult& r) {
+  std::vector<std::vector<std::string>> rows{{"mesh that pulls", "up to [N]", "over F_0", "of the time"}};
+  for (const MeshSummary& m : r.meshes)
+    if (m.pull_max > 0.0)
+      rows.push_back({m.name, fmt::format("{:.5g}", m.pull_max), fmt::format("{:.3g}", m.pull_max / r.static_force),
+                      fmt::format("{:.1f} %", 100.0 * m.pull_time)});
+  if (rows.size() == 1) return "\nNo mesh pulls.\n";
+  const bool always = output.gap_damping == model::GapDamping::always;
+  return "\n" + aligned(rows) + "\n" +
+         wrapped(fmt::format(
+             "Teeth that only lie on each other cannot pull. It is the damping, {}",
+             always
+                 ? "which acts through the open gap, too, as Eq. (27) of Tang et al. prints it (/model/gap_damping "
+                   "\"always\"). With \"contact_slope\" it acts in contact only."
+                 : "which exceeds the elastic force before contact is lost (/model/gap_damping \"contact_slope\")."));
+}
+
+std::string meshes_text(const RunOutput& output, const RunResult& r) {
   std::string text = "\n## Meshes\n\n";
   std::vector<std::vector<std::string>> rows{
       {"mesh", "mean F [N]", "min [N]", "max [N]", "max F/F_0", "sharing", "drive", "loss", "back", "losses"}};
@@ -527,6 +560,7 @@ std::string meshes_text(const RunResult& r) {
                                  "flank, between the flanks, on the back; losses: times that the driving flank "
                                  "was left, per mesh period. Over {:g} mesh periods.",
                                  r.static_force, record_periods(r.history)));
+  text += pulls_text(output, r);
   text += "\n" + wrapped(fmt::format("Planets' spread: {:.3g} b_c, the largest difference between their deflections.",
                                      r.point.planet_spread));
   return text;
@@ -714,7 +748,7 @@ std::string run_summary(const RunOutput& output, const RunResult& r) {
     return text + work + files_text(output, r);
   }
   text += "\n## Regime\n\n" + regime_text(output, r);
-  if (!r.meshes.empty()) text += meshes_text(r);
+  if (!r.meshes.empty()) text += meshes_text(output, r);
   if (!r.spectra.empty()) text += spectra_text(r);
   if (has_exponents(r)) text += exponents_text(r);
   if (!r.exponents.evolution.reached())

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "io/sweep_output.hpp"
+#include "model/options.hpp"
 #include "studies/run.hpp"
 
 namespace epicyclic::io {
@@ -30,6 +31,7 @@ struct RunOutput {
   studies::RunOptions options;
   double half_gap_sp = 0;  ///< b_sp [b_c]
   double half_gap_rp = 0;  ///< b_rp [b_c]
+  model::GapDamping gap_damping = model::GapDamping::always;
 };
 
 /// Highest frequency in spectrum.csv [mesh frequencies]; results.h5 has all.

@@ -1,6 +1,7 @@
 #include "io/stage_completion.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -18,17 +19,21 @@ namespace {
 
 using nlohmann::json;
 
-/// Is it a number, or a row of numbers? All that is computed is.
-bool is_numeric(const json& value) {
-  return value.is_number() || (value.is_array() && std::all_of(value.begin(), value.end(),
-                                                               [](const json& number) { return number.is_number(); }));
+/// Interpolation in computed rows.
+constexpr const char* smooth_word = "smooth";
+
+/// Is it a number, a row of numbers, or how to interpolate in rows that are computed? All that is computed is.
+bool is_of_computed_kind(const json& value) {
+  return value.is_number() || value == smooth_word ||
+         (value.is_array() &&
+          std::all_of(value.begin(), value.end(), [](const json& number) { return number.is_number(); }));
 }
 
 /// Is there a value that was given: neither computed nor a default, by what the object says itself? One of a wrong type
 /// is left as it is, to the tables.
 bool is_given(const json& object, const std::string& key) {
   if (!object.contains(key)) return false;
-  if (!is_numeric(object.at(key))) return true;
+  if (!is_of_computed_kind(object.at(key))) return true;
   const auto origin = object.find("origin");
   if (origin == object.end() || !origin->is_object()) return true;
   const auto text = origin->find(key);
@@ -97,6 +102,16 @@ std::string bearing_tag(const gear::SupportBearing& bearing) {
          number_text(bearing.approach_um) + " um";
 }
 
+/// An error in two digits, rounded up, so that another machine's last digits do not show.
+double in_two_digits(double error) {
+  if (!(error > 0.0)) return 0.0;
+  const auto exponent = static_cast<int>(std::floor(std::log10(error))) - 1;
+  const auto digits = static_cast<int>(std::ceil(error / std::pow(10.0, exponent)));
+  const std::string text = std::to_string(digits) + "e" + std::to_string(exponent);
+  std::from_chars(text.data(), text.data() + text.size(), error);
+  return error;
+}
+
 void fill_mesh(Filler mesh, const gear::MeshedPair& pair, const gear::FourierSeries& series,
                const gear::Catalogue& catalogue, const std::optional<gear::Tolerances>& first,
                const std::optional<gear::Tolerances>& second) {
@@ -105,12 +120,14 @@ void fill_mesh(Filler mesh, const gear::MeshedPair& pair, const gear::FourierSer
     mesh.fill("stiffness_cos_N_per_m", series.cosine, "[G-4] energy method, Fourier series");
     mesh.fill("stiffness_sin_N_per_m", series.sine, "[G-4] energy method, Fourier series");
   } else {
-    const gear::StiffnessCurve curve = gear::stiffness_curve(pair);
+    const gear::StiffnessCurve curve = gear::stiffness_curve(pair, catalogue.stiffness.table_tolerance);
     Filler rows = mesh.below("stiffness_curve");
     const std::string tag = "[G-k] energy method";
     rows.fill("phase", curve.phase, tag);
     rows.fill("stiffness_N_per_m", curve.stiffness_N_per_m, tag);
     rows.fill("breakpoints", curve.breakpoints, tag);
+    rows.fill("interpolation", smooth_word, "its rows are those of a smooth function");
+    rows.fill("error", in_two_digits(*curve.error), "of a curve half as fine, by the order of the interpolation");
   }
   mesh.fill("backlash_half_um", 500.0 * std::max(0.0, pair.pair.normal_backlash_mm()),
             "[G-j] half of the nominal normal backlash at the centre distance");
@@ -128,6 +145,10 @@ void fill_mesh(Filler mesh, const gear::MeshedPair& pair, const gear::FourierSer
     friction.fill("path_start_mm", e.path_start_mm, "[G-path]");
     friction.fill("load_share_position", e.share_position, "[G-L]");
     friction.fill("load_share", e.share, "[G-L]");
+    friction.fill("load_share_interpolation", smooth_word, "its rows are those of a smooth function");
+    friction.fill("load_share_error", in_two_digits(*e.share_error),
+                  "of rows half as many, by the order of the interpolation");
+    friction.fill("table_tolerance", e.table_tolerance, "as in catalogue");
   }
 }
 
@@ -192,7 +213,7 @@ bool differs(const json& a, const json& b) {
   return a != b;
 }
 
-/// Writes what is computed where nothing is given; a number in place of a row, or a row in place of a number, is.
+/// Writes what is computed where nothing is given; one kind of value in place of another is.
 void complete(json& object, const json& computed, const std::string& pointer, std::vector<std::string>& notes) {
   for (const auto& [key, value] : computed.items()) {
     if (key == "origin") continue;
@@ -206,7 +227,8 @@ void complete(json& object, const json& computed, const std::string& pointer, st
       continue;
     }
     if (there != object.end()) {
-      if (is_given(object, key) || there->is_array() != value.is_array()) continue;
+      const auto same_kind = [&](bool (json::*is)() const noexcept) { return (*there.*is)() == (value.*is)(); };
+      if (is_given(object, key) || !same_kind(&json::is_array) || !same_kind(&json::is_string)) continue;
       if (differs(*there, value))
         notes.push_back(place + ": the value in the file is ignored and computed anew, since its origin says " +
                         object["origin"][key].dump() + "; give it another origin to make it stand");

@@ -41,10 +41,16 @@ const Bounds damping_ratio = between(0, 10);
 const Bounds damping_coefficient = between(0, 1e12);
 const Bounds frequency_ratio = between(1e-6, 100);
 const Bounds integrator_tolerance = between(1e-15, 0.1);
+const Bounds table_error = between(0, 1);
 const Bounds smoothing_width = between(0, 10);
 const Bounds component_value = between(-1e6, 1e6);  // below it a motion has diverged
 
 constexpr auto itself = [](auto& t) -> auto& { return t; };
+
+const std::vector<std::pair<std::string, Interpolation>> interpolations = {
+    {"straight", Interpolation::straight}, {"monotone", Interpolation::monotone}, {"smooth", Interpolation::smooth}};
+const std::string interpolation_words =
+    "straight, monotone (never beyond the rows), or smooth, of fourth order, for rows of a smooth function.";
 
 /// `inner` of what `outer` reaches.
 template <class F, class G>
@@ -216,6 +222,12 @@ const Table<Friction::Ehl>& lubricated_table() {
               "Positions of a pair, in base pitches from the start of contact, 0 to the contact ratio, rising [-].");
     t.numbers("load_share", &Ehl::share, between(0, 1), 2, 100000,
               "Share of the load that the pair carries at each position; equal sharing if not given [-].");
+    t.choice("load_share_interpolation", &Ehl::share_interpolation, interpolations,
+             "Between the rows of the load share: " + interpolation_words);
+    t.number("load_share_error", &Ehl::share_error, table_error, "Greatest error of the share between its rows [-].");
+    t.number("table_tolerance", &Ehl::table_tolerance, table_tolerance,
+             "Error that the rows of the friction table are made fine enough for at each operating point, of friction "
+             "over normal force [-].");
     t.rule(KeyRule::Kind::together, {"load_share_position", "load_share"});
     return t;
   }();
@@ -257,12 +269,15 @@ const Table<Friction>& friction_table() {
     t.custom(std::move(moment));
     t.numbers("breakpoints", within(&Friction::table, &Friction::Table::breakpoints), from_below(0, 1), 0, 1000,
               "Phases where the table jumps or kinks [-].");
+    t.choice("interpolation", within(&Friction::table, &Friction::Table::interpolation), interpolations,
+             "Between the rows of the table: " + interpolation_words);
     t.rule(KeyRule::Kind::not_empty, {"coefficient", "phase", "lubricated"});
     t.rule(KeyRule::Kind::at_most_one, {"coefficient", "phase", "lubricated"});
     t.rule(KeyRule::Kind::together, {"phase", "force_ratio", "moment_ratio_mm"});
     t.rule(KeyRule::Kind::needs, {"contact_ratio", "coefficient"});
     t.rule(KeyRule::Kind::needs, {"path_start_mm", "coefficient"});
     t.rule(KeyRule::Kind::needs, {"breakpoints", "phase"});
+    t.rule(KeyRule::Kind::needs, {"interpolation", "phase"});
     return t;
   }();
   return table;
@@ -280,6 +295,10 @@ const Table<gear::StiffnessCurve>& curve_table() {
         .required();
     t.numbers("breakpoints", &StiffnessCurve::breakpoints, from_below(0, 1), 0, 1000,
               "Phases where the curve jumps or kinks [-].");
+    t.choice("interpolation", &StiffnessCurve::interpolation, interpolations,
+             "Between the rows of the curve: " + interpolation_words);
+    t.number("error", &StiffnessCurve::error, table_error,
+             "Greatest error between the rows, relative to the mean [-].");
     return t;
   }();
   return table;

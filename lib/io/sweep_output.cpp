@@ -184,6 +184,10 @@ void write_points_csv(const std::filesystem::path& file, const PointSource& poin
                                       "recurrence_error",
                                       "recurrence_error_late",
                                       "planet_spread",
+                                      "pull_sp",
+                                      "pull_rp",
+                                      "pull_time_sp",
+                                      "pull_time_rp",
                                       "lyapunov_max_error",
                                       "multiplier_max",
                                       "multiplier_error",
@@ -225,6 +229,10 @@ void write_points_csv(const std::filesystem::path& file, const PointSource& poin
         .cell(ok(r) ? seen(r.recurrence.error) : unknown)
         .cell(ok(r) ? r.recurrence.late_error : unknown)
         .cell(r.planet_spread)
+        .cell(PointResult::pull(r.sun_planet))
+        .cell(PointResult::pull(r.ring_planet))
+        .cell(PointResult::pull_time(r.sun_planet))
+        .cell(PointResult::pull_time(r.ring_planet))
         .cell(r.lyapunov_max().half_width)
         .cell(proven(r) ? r.evidence.largest_multiplier : unknown)
         .cell(proven(r) ? r.evidence.multiplier_error : unknown)
@@ -304,6 +312,14 @@ void write_point_columns(Hdf5File& h5, const PointSource& points) {
       "b_c, b_c per tau");
   column(
       "planet_spread", [](const PointResult& r) { return r.planet_spread; }, "b_c");
+  column(
+      "pull_sp", [](const PointResult& r) { return PointResult::pull(r.sun_planet); }, "static mesh force");
+  column(
+      "pull_rp", [](const PointResult& r) { return PointResult::pull(r.ring_planet); }, "static mesh force");
+  column(
+      "pull_time_sp", [](const PointResult& r) { return PointResult::pull_time(r.sun_planet); }, "part of the time");
+  column(
+      "pull_time_rp", [](const PointResult& r) { return PointResult::pull_time(r.ring_planet); }, "part of the time");
   column(
       "rhs_evaluations", [&](const PointResult& r) { return integer(r.rhs_evaluations); }, "1");
   column(

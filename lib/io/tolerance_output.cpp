@@ -47,6 +47,11 @@ studies::Quantities study_quantities(const TolerancePoint& p) {
   return {sp.delta_min, sp.delta_max, rp.delta_min, rp.delta_max};
 }
 
+/// Of quantity k: the study's difference, the reference's own, and what tables' interpolation may make.
+double error_bar(const TolerancePoint& p, std::size_t k) {
+  return std::abs(study_quantities(p)[k] - p.reference[k]) + p.reference_error[k] + p.table_error[k];
+}
+
 /// Geometric mean over the points of one method and tolerance.
 struct Mean {
   double log_error = 0, log_cost = 0, log_seconds = 0;
@@ -121,14 +126,14 @@ std::string write_tolerance_tables(const std::filesystem::path& folder, const To
   {
     CsvWriter csv(folder / "quantities.csv",
                   {"point", "direction", "value", "period", "quantity", "study", "reference", "reference_error",
-                   "error_bar", "smoothing_extrapolated", "smoothing_exponent"});
+                   "table_error", "error_bar", "smoothing_extrapolated", "smoothing_exponent"});
     for (const TolerancePoint& p : points) {
       if (p.period == 0) continue;
       const studies::Quantities study = study_quantities(p);
       for (std::size_t k = 0; k < quantity_names.size(); ++k) {
         start_row(csv, p);
         csv.cell(p.period).cell(quantity_names[k]).cell(study[k]).cell(p.reference[k]).cell(p.reference_error[k]);
-        csv.cell(std::abs(study[k] - p.reference[k]) + p.reference_error[k]);
+        csv.cell(p.table_error[k]).cell(error_bar(p, k));
         csv.cell(p.extrapolated[k]).cell(p.exponent[k]);
         csv.end_row();
       }
@@ -187,19 +192,20 @@ std::string write_tolerance_tables(const std::filesystem::path& folder, const To
     text += "| point | value | period |";
     for (const char* name : quantity_names) text += fmt::format(" {} |", name);
     text +=
-        " orbit error | last state from its orbit | largest multiplier | residual of the reference |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|\n";
+        " orbit error | last state from its orbit | largest multiplier | residual of the reference | tables half as "
+        "fine "
+        "|\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const TolerancePoint& p : points) {
       if (p.period == 0) continue;
       const studies::Quantities study = study_quantities(p);
       text += fmt::format("| {} | {} | {} |", p.point.index, short_text(p.point.value, 12), p.period);
       for (std::size_t k = 0; k < quantity_names.size(); ++k)
-        text +=
-            fmt::format(" {:.10g} ± {:.1g} |", study[k], std::abs(study[k] - p.reference[k]) + p.reference_error[k]);
+        text += fmt::format(" {:.10g} ± {:.1g} |", study[k], error_bar(p, k));
       const LadderStep* own = study_step(p, output.integrator);
-      text += fmt::format(" {} | {:.1g} | {:.4f} | {:.1g} |\n",
+      text += fmt::format(" {} | {:.1g} | {:.4f} | {:.1g} | {:.1g} |\n",
                           own == nullptr ? "" : fmt::format("{:.1g}", own->orbit_error), p.settled_distance,
-                          p.largest_multiplier, p.reference_residual);
+                          p.largest_multiplier, p.reference_residual, p.table_displacement);
     }
   }
   for (const TolerancePoint& p : points) {

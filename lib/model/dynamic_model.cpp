@@ -121,6 +121,50 @@ Instant<double, N> without_tables(const Parameters<double, N>& p, double s) {
   return {p, HarmonicBasis<double>(sine_cosine(s), harmonics_of(p))};
 }
 
+/// Tables with rows of something known: what is between them has an error.
+bool has_computed_tables(const gear::Stage& stage) {
+  const auto of = [](const gear::Mesh& mesh) {
+    return mesh.friction.ehl || (mesh.stiffness_curve && mesh.stiffness_curve->interpolation == Interpolation::smooth);
+  };
+  return of(stage.sun_planet_mesh) || of(stage.ring_planet_mesh);
+}
+
+/// No stiffness of a mesh is below this.
+template <std::size_t N>
+double stiffness_bound(const MeshParameters<double, N>& mesh) {
+  double least = mesh.stiffness;
+  if (mesh.stiffness_curve) {
+    constexpr int samples = 128;
+    constexpr double share = 0.5;  // between them it is not that much lower
+    for (int k = 0; k < samples; ++k) {
+      const double phase = static_cast<double>(k) / samples;
+      least = std::min(least, mesh.stiffness_curve->at(mesh.stiffness_curve->place(phase), phase)[0]);
+    }
+    return share * least;
+  }
+  for (std::size_t h = 0; h < mesh.harmonics; ++h)
+    least -= std::hypot(mesh.stiffness_cos[h][0], mesh.stiffness_sin[h][0]);
+  return least;
+}
+
+/// DynamicModel::pull() of the planets' meshes of one kind.
+/// @param stiffness  Row<double, N> (): k_i at this instant
+template <std::size_t N, class F>
+void mesh_pulls(const Parameters<double, N>& p, const MeshParameters<double, N>& mesh, double least_stiffness,
+                const std::vector<double>& delta, const std::vector<double>& rate, const F& stiffness,
+                std::vector<double>& pulls) {
+  pulls.assign(N, 0.0);
+  for (std::size_t i = 0; i < N; ++i) {
+    const Closure<double> closed = closure(delta[i], mesh.half_gap, p.smoothing, p.smooth);
+    const double damping = mesh.damping * (p.gap_damping == GapDamping::contact_slope ? closed.slope : 1.0) * rate[i];
+    const Contact side = DynamicModel::contact(delta[i], mesh.half_gap);
+    const auto pull = [&](double k) { return DynamicModel::pull(k * closed.value, damping, side); };
+    // The stiffer, the less it pulls.
+    pulls[i] = pull(least_stiffness);
+    if (pulls[i] > 0.0 && closed.value != 0.0) pulls[i] = pull(stiffness()[i]);
+  }
+}
+
 template <Layout L, std::size_t N>
 DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mesh_frequency_ratio,
                       const ModelOptions& options) {
@@ -156,6 +200,16 @@ DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mes
     set(out.sun_planet_rate, now.sun_planet.rate(all, d_rate.sun_planet));
     set(out.ring_planet_rate, now.ring_planet.rate(all, d_rate.ring_planet));
   };
+  m.pulls = [p, sun = stiffness_bound(p->sun_planet), ring = stiffness_bound(p->ring_planet)](
+                double s, const MeshDeflections& d, MeshPulls& out) {
+    const auto now = [&] { return Instant<double, N>(*p, segment_at(p->breakpoints, s), s); };
+    mesh_pulls(
+        *p, p->sun_planet, sun, d.sun_planet, d.sun_planet_rate, [&] { return now().sun_planet.stiffness; },
+        out.sun_planet);
+    mesh_pulls(
+        *p, p->ring_planet, ring, d.ring_planet, d.ring_planet_rate, [&] { return now().ring_planet.stiffness; },
+        out.ring_planet);
+  };
   m.contacts = contacts_of(*p);
   m.contact_distances = [p](double s, const double* y, double* distances, double* rates) {
     contact_distances<L>(*p, without_tables(*p, s), y, distances, rates);
@@ -172,6 +226,15 @@ DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mes
     out.sun_bearing = std::hypot(sun.x + p->damping_s * g.v.x_s, sun.y + p->damping_s * g.v.y_s);
   };
   m.constants = p;
+  if (has_computed_tables(stage)) {
+    m.with_halved_tables = [stage = std::make_shared<const gear::Stage>(stage), scales, mesh_frequency_ratio, options] {
+      ModelOptions halved = options;
+      halved.halved_tables = true;
+      return assemble<L, N>(*stage, scales, mesh_frequency_ratio, halved);
+    };
+    for (const auto* mesh : {&p->sun_planet, &p->ring_planet})
+      if (mesh->friction) m.friction_table_error = std::max(m.friction_table_error, mesh->friction->error());
+  }
   m.static_mesh_force = p->drive / static_cast<double>(N);
   if (planets_alike(*p)) {
     m.remove_synchronous = [p](std::span<double> deviation) { remove_synchronous<L>(*p, deviation); };
@@ -210,11 +273,13 @@ void set_parameter_derivative(DynamicModel& model, const std::function<ModelPoin
     if (layout_of(point.stage, choice) != model.layout || point.stage.planet_count != model.planets)
       throw InputError("the parameter changes the state itself; there is no derivative");
   model.parameter_derivative = dispatch(model.layout, model.planets, [&]<Layout L, std::size_t N>() {
-    const auto folded = [&](const ModelPoint& point) {
-      return make_parameters<N>(point.stage, scales, point.mesh_frequency_ratio, point.options);
+    const auto folded = [&](const ModelPoint& point, const Parameters<double, N>* like) {
+      return make_parameters<N>(point.stage, scales, point.mesh_frequency_ratio, point.options, like);
     };
+    const Parameters<double, N> here = folded(points[0], nullptr);
     return make_parameter_derivative<L, N>(
-        folded(points[0]), {folded(points[1]), folded(points[2]), folded(points[3]), folded(points[4])}, step);
+        here, {folded(points[1], &here), folded(points[2], &here), folded(points[3], &here), folded(points[4], &here)},
+        step);
   });
 }
 

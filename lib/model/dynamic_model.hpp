@@ -4,6 +4,7 @@
 // kernel itself is model/right_hand_side.hpp.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -35,6 +36,11 @@ struct StageForces {
   double sun_bearing = 0;                       ///< magnitude of bearing and support damping
 };
 
+/// How hard the flanks of all meshes pull at each other at one instant [m_0 omega_sn^2 b_c]; 0 where they press.
+struct MeshPulls {
+  std::vector<double> sun_planet, ring_planet;
+};
+
 struct DynamicModel {
   int planets = 0;
   Layout layout = Layout::relative_to_ring;
@@ -61,6 +67,10 @@ struct DynamicModel {
   /// Likewise.
   std::function<void(double s, const double* y, StageForces& out)> forces;
 
+  /// pull() of all meshes, given deflections() at s. A tenth of the cost of forces(): the stiffness is asked for only
+  /// where damping may exceed the elastic force.
+  std::function<void(double s, const MeshDeflections& d, MeshPulls& out)> pulls;
+
   std::size_t contacts = 0;  ///< 4 N + 4, or 4 N + 1 with a radial bearing law
 
   /// How far each contact is from being made or lost, and d/ds of it, `contacts` numbers each: contact_distances() of
@@ -69,6 +79,11 @@ struct DynamicModel {
 
   /// The folded constants, Parameters<double, planets>, for lanes (model/lane_model.hpp).
   std::shared_ptr<const void> constants;
+
+  /// The same with tables that are half as fine, where rows of something known make them: how far an orbit moves is
+  /// more than what their interpolation moves it, some 16 times. Empty without such tables.
+  std::function<DynamicModel()> with_halved_tables;
+  double friction_table_error = 0;  ///< greatest error of the friction's ratios between the rows [-]
 
   double static_mesh_force = 0;  ///< T_D / (N r_bs) [m_0 omega_sn^2 b_c]
 
@@ -87,6 +102,16 @@ struct DynamicModel {
   [[nodiscard]] static Contact contact(double delta, double half_gap) {
     if (delta > half_gap) return Contact::drive;
     return delta < -half_gap ? Contact::back : Contact::loss;
+  }
+
+  /// Tension of a mesh [S-pull]: what of its damping is beyond the elastic force of the flank that it pulls at, the
+  /// driving one but where the back is in contact. Teeth that lie on each other cannot pull; damping makes it, through
+  /// the open gap or just before contact is lost.
+  [[nodiscard]] static double pull(double elastic, double damping, Contact side) {
+    const double sign = side == Contact::back ? -1.0 : 1.0;
+    // A smoothed clearance has a little of the other flank's force in the gap: that is no tension.
+    const double tension = -(std::max(0.0, sign * elastic) + sign * damping);
+    return tension > 0.0 ? tension : 0.0;
   }
 };
 

@@ -18,13 +18,16 @@ std::vector<TrackRow<3>> rows_of(const gear::Friction::Table& table, double driv
 
 FrictionTrack::FrictionTrack(const gear::Friction::Table& table, double lead, double driving_radius_mm,
                              double driven_radius_mm)
-    : track_(rows_of(table, driving_radius_mm, driven_radius_mm), table.breakpoints, lead) {}
+    : track_(rows_of(table, driving_radius_mm, driven_radius_mm), table.breakpoints, lead, table.interpolation,
+             table.grids),
+      grids_(table.grids),
+      error_(table.error) {}
 
 PeriodicTrack<1> stiffness_track(const gear::StiffnessCurve& curve, double unit) {
   std::vector<TrackRow<1>> rows;
   for (std::size_t k = 0; k < curve.phase.size(); ++k)
     rows.push_back({curve.phase[k], {curve.stiffness_N_per_m[k] / unit}});
-  return {rows, curve.breakpoints, 0.0};
+  return {rows, curve.breakpoints, 0.0, curve.interpolation};
 }
 
 }  // namespace epicyclic::model

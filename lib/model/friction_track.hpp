@@ -38,6 +38,7 @@ class FrictionTrack {
   [[nodiscard]] FrictionTrack with_parameter_derivative(const std::array<const FrictionTrack*, 4>& near,
                                                         double h) const {
     FrictionTrack track;
+    track.error_ = error_;
     track.track_ =
         track_.with_parameter_derivative({&near[0]->track_, &near[1]->track_, &near[2]->track_, &near[3]->track_}, h);
     return track;
@@ -50,11 +51,18 @@ class FrictionTrack {
     return {values[0], values[1], values[2]};
   }
 
-  /// force, moment_driving and moment_driven, for callers that guess the interval: PeriodicTrack::at().
+  /// force, moment_driving and moment_driven, for callers that find the interval: PeriodicTrack::at().
   [[nodiscard]] const PeriodicTrack<3>& track() const { return track_; }
+
+  /// What the rows of each piece stand on, if they are computed ones.
+  [[nodiscard]] const std::vector<IntervalGrid>& grids() const { return grids_; }
+  /// Greatest error of a ratio between the rows, where they are those of something known [-].
+  [[nodiscard]] double error() const { return error_; }
 
  private:
   PeriodicTrack<3> track_;
+  std::vector<IntervalGrid> grids_;
+  double error_ = 0;
 };
 
 /// Mesh stiffness as a curve over the mesh's own phase, in units of `unit` [N/m].

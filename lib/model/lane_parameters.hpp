@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -19,9 +20,9 @@ namespace epicyclic::model {
 /// The interval of its table that each lane is in.
 template <std::size_t W>
 struct LaneInterval {
-  Lanes<W> x;       ///< phase without whole turns
-  Lanes<W> number;  ///< counted from the piece's first one; a guess where intervals are not even
-  Lanes<W> t;       ///< phase since its start, where they are
+  Lanes<W> x;           ///< phase without whole turns
+  LaneWords<W> number;  ///< counted from the piece's first one; a guess where intervals are on no grid
+  Lanes<W> t;           ///< what is beyond its start, where they are
 };
 
 /// Where each lane is in one of its tables.
@@ -32,8 +33,9 @@ struct LanePlace {
   std::array<const Track*, W> track{};
   std::array<TrackPiece, W> piece{};
   std::array<const Cubics<K>*, W> cubics{};
-  Lanes<W> centre, start, intervals_per_phase, interval, most;
-  bool even = false;  ///< in all lanes
+  Lanes<W> centre, origin, slope, offset, last;
+  LaneWords<W> first_bits, shift;
+  bool regular = false;  ///< in all lanes
 
   void set(std::size_t lane, const Track& of, const TrackPlace& place) {
     const TrackPiece& p = place.piece;
@@ -41,36 +43,37 @@ struct LanePlace {
     piece[lane] = p;
     cubics[lane] = of.cubics(p);
     centre.set(lane, place.centre);
-    start.set(lane, p.start);
-    intervals_per_phase.set(lane, p.intervals_per_phase);
-    interval.set(lane, p.hi > p.lo ? 1.0 / p.intervals_per_phase : 0.0);
-    most.set(lane, static_cast<double>(p.hi - p.lo));
-    even = true;
-    for (std::size_t k = 0; k < W; ++k) even = even && track[k] != nullptr && piece[k].even;
+    origin.set(lane, p.origin);
+    slope.set(lane, p.slope);
+    offset.set(lane, p.grid.offset);
+    last.set(lane, p.grid.last());
+    first_bits.set(lane, p.grid.first_bits());
+    shift.set(lane, static_cast<std::uint64_t>(p.grid.shift));
+    regular = true;
+    for (std::size_t k = 0; k < W; ++k) regular = regular && track[k] != nullptr && piece[k].regular;
   }
 
   /// @param phase  each lane's, within half a turn of its place, whole turns apart
   [[nodiscard]] LaneInterval<W> find(const Lanes<W>& phase) const {
     LaneInterval<W> found;
     found.x = phase - nearest_whole(phase - centre);
-    const Lanes<W> beyond = found.x - start;
-    // Half an interval less, which rounding to the nearest gives back.
-    found.number = nearest_whole(min(max(beyond * intervals_per_phase - 0.5, Lanes<W>(0.0)), most));
-    found.t = beyond - found.number * interval;
+    const Lanes<W> v = offset + (found.x - origin) * slope;
+    // IntervalGrid::number() and node(); no number is at the offset.
+    found.number = (min(max(v, offset), last).bits() - first_bits) >> shift;
+    found.t = v - Lanes<W>::of_bits((found.number << shift) + first_bits);
     return found;
   }
 
   /// The K functions there: those of PeriodicTrack::at() to rounding.
   [[nodiscard]] std::array<Lanes<W>, K> at(const LaneInterval<W>& found) const {
-    const auto k = found.number.counts();
-    if (even) {
+    if (regular) {
       std::array<const Cubics<K>*, W> own;
-      for (std::size_t lane = 0; lane < W; ++lane) own[lane] = cubics[lane] + k[lane];
+      for (std::size_t lane = 0; lane < W; ++lane) own[lane] = cubics[lane] + found.number[lane];
       return cubics_at<W, K>(own, found.t);
     }
     std::array<Row<double, K>, W> rows;
     for (std::size_t lane = 0; lane < W; ++lane)
-      rows[lane] = track[lane]->at(piece[lane], found.x[lane], static_cast<std::size_t>(k[lane]));
+      rows[lane] = track[lane]->at(piece[lane], found.x[lane], static_cast<std::size_t>(found.number[lane]));
     return transposed<W, K>(rows);
   }
 };

@@ -22,6 +22,7 @@ struct ModelOptions {
   GapDamping gap_damping = GapDamping::always;
   Gyroscopic gyroscopic = Gyroscopic::automatic;
   double clearance_smoothing = 0;  ///< width w of the smooth clearance [b_c]; 0: exact, piecewise linear
+  bool halved_tables = false;      ///< computed tables without every second row: for their error, not of the input
 };
 
 }  // namespace epicyclic::model

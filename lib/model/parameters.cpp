@@ -30,18 +30,41 @@ double per_planet(const std::vector<double>& values, std::size_t i) {
   return values.size() == 1 ? values[0] : values[i];
 }
 
+/// Values of rows that are kept.
+std::vector<double> kept(const std::vector<double>& values, const std::vector<std::size_t>& rows) {
+  std::vector<double> r;
+  for (const std::size_t k : rows) r.push_back(values[k]);
+  return r;
+}
+
+/// Rows of a smooth function can do with every second one, at an error that tells theirs; others are what they are.
+gear::StiffnessCurve halved(gear::StiffnessCurve curve) {
+  if (curve.interpolation != Interpolation::smooth) return curve;
+  const auto rows = every_second(curve.phase, curve.breakpoints);
+  curve.phase = kept(curve.phase, rows);
+  curve.stiffness_N_per_m = kept(curve.stiffness_N_per_m, rows);
+  return curve;
+}
+gear::Friction::Ehl halved(gear::Friction::Ehl e) {
+  if (e.share_interpolation != Interpolation::smooth) return e;
+  const auto rows = every_second(e.share_position, {});
+  e.share_position = kept(e.share_position, rows);
+  e.share = kept(e.share, rows);
+  return e;
+}
+
 /// Completes a mesh whose sines and cosines stand already.
 /// @param mesh_cycles  mesh phase of a planet per turn of its angle: -z_s or +z_r
 template <std::size_t N>
 void fill_mesh(MeshParameters<double, N>& m, const gear::Mesh& mesh, const std::vector<double>& angles_deg,
-               int mesh_cycles, double lead, double effective_mass, const Scales& scales) {
+               int mesh_cycles, double lead, double effective_mass, const Scales& scales, bool halve) {
   m.half_gap = scales.displacement(mesh.backlash_half_um * 1e-6);
   m.stiffness = scales.stiffness(mesh.stiffness_N_per_m);
   m.damping =
       scales.damping(2.0 * mesh.damping_ratio.value_or(0.0) * std::sqrt(mesh.stiffness_N_per_m * effective_mass));
   if (mesh.stiffness_curve)
-    m.stiffness_curve =
-        std::make_shared<PeriodicTrack<1>>(stiffness_track(*mesh.stiffness_curve, 1.0 / scales.stiffness(1.0)));
+    m.stiffness_curve = std::make_shared<PeriodicTrack<1>>(
+        stiffness_track(halve ? halved(*mesh.stiffness_curve) : *mesh.stiffness_curve, 1.0 / scales.stiffness(1.0)));
   m.harmonics = std::max(mesh.stiffness_cos_N_per_m.size(), mesh.stiffness_sin_N_per_m.size());
   m.stiffness_cos.resize(m.harmonics);
   m.stiffness_sin.resize(m.harmonics);
@@ -68,18 +91,30 @@ void fill_mesh(MeshParameters<double, N>& m, const gear::Mesh& mesh, const std::
   }
 }
 
+/// Of lubricated contact.
+/// @param like  with the grids to take; may be null
+gear::Friction::Table lubricated_table(const gear::Friction::Ehl& e, const gear::LineOfAction& line,
+                                       const gear::MeshLoad& load, const FrictionTrack* like, bool halve) {
+  std::vector<IntervalGrid> grids = like != nullptr ? like->grids() : std::vector<IntervalGrid>{};
+  if (!halve) return gear::friction_table(e, line, load, grids);
+  if (grids.empty()) grids = gear::friction_table(e, line, load).grids;
+  for (IntervalGrid& g : grids)
+    if (g.can_be_halved()) g = g.halved();
+  return gear::friction_table(halved(e), line, load, grids);
+}
+
 /// @param lead  what turns the common phase of a given table into the mesh's own phase; a path has its own phase
 ///              already
 std::shared_ptr<const FrictionTrack> make_track(const gear::Friction& friction, const gear::Stage& stage,
                                                 gear::LineOfAction (*line_of)(const gear::Stage&), double lead,
-                                                const gear::MeshLoad& load) {
+                                                const gear::MeshLoad& load, const FrictionTrack* like, bool halve) {
   if (!friction.any()) return nullptr;
   const gear::LineOfAction line = line_of(stage);
   const auto track = [&](const gear::Friction::Table& table, double by) {
     return std::make_shared<FrictionTrack>(table, by, line.base_radius_1_mm, line.base_radius_2_mm);
   };
   if (friction.table) return track(*friction.table, lead);
-  if (friction.ehl) return track(gear::friction_table(*friction.ehl, line, load), 0.0);
+  if (friction.ehl) return track(lubricated_table(*friction.ehl, line, load, like, halve), 0.0);
   return track(gear::friction_table(*friction.coefficient, line), 0.0);
 }
 
@@ -158,7 +193,7 @@ Parameters<double, N> make_geometry(const gear::Stage& stage) {
 
 template <std::size_t N>
 Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& scales, double mesh_frequency_ratio,
-                                      const ModelOptions& options) {
+                                      const ModelOptions& options, const Parameters<double, N>* like) {
   const double mesh_frequency = mesh_frequency_ratio * scales.omega_sn;
   const std::vector<double> angles = stage.planet_angles_deg();
   const auto reduced = [](double a, double b) { return 1.0 / (1.0 / a + 1.0 / b); };
@@ -220,13 +255,19 @@ Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& sc
   const double m_s = stage.sun.inertia_over_r2_kg;
   const double m_p = stage.planet.inertia_over_r2_kg;
   const double m_r = stage.ring.inertia_over_r2_kg;
-  fill_mesh(p.sun_planet, stage.sun_planet_mesh, angles, -*stage.sun.teeth, 0.0, reduced(m_s, m_p), scales);
+  fill_mesh(p.sun_planet, stage.sun_planet_mesh, angles, -*stage.sun.teeth, 0.0, reduced(m_s, m_p), scales,
+            options.halved_tables);
   fill_mesh(p.ring_planet, stage.ring_planet_mesh, angles, *stage.ring.teeth, stage.ring_mesh_lead_1, reduced(m_p, m_r),
-            scales);
+            scales, options.halved_tables);
   const gear::MeshLoad load = gear::mean_mesh_load(stage, mesh_frequency);
-  p.sun_planet.friction = make_track(stage.sun_planet_mesh.friction, stage, gear::sun_planet_line, 0.0, load);
-  p.ring_planet.friction =
-      make_track(stage.ring_planet_mesh.friction, stage, gear::ring_planet_line, stage.ring_mesh_lead_1, load);
+  const auto friction = [&](const gear::Friction& f, auto line_of, double lead,
+                            MeshParameters<double, N> Parameters<double, N>::*mesh) {
+    const FrictionTrack* other = like != nullptr ? (like->*mesh).friction.get() : nullptr;
+    (p.*mesh).friction = make_track(f, stage, line_of, lead, load, other, options.halved_tables);
+  };
+  friction(stage.sun_planet_mesh.friction, gear::sun_planet_line, 0.0, &Parameters<double, N>::sun_planet);
+  friction(stage.ring_planet_mesh.friction, gear::ring_planet_line, stage.ring_mesh_lead_1,
+           &Parameters<double, N>::ring_planet);
   make_segments(p);
 
   const GyroscopicForm form = gyroscopic_form(stage.boundary, options.gyroscopic);
@@ -239,9 +280,10 @@ Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& sc
   return p;
 }
 
-#define EPICYCLIC_INSTANTIATE(N)                                       \
-  template Parameters<double, N> make_geometry<N>(const gear::Stage&); \
-  template Parameters<double, N> make_parameters<N>(const gear::Stage&, const Scales&, double, const ModelOptions&);
+#define EPICYCLIC_INSTANTIATE(N)                                                                                    \
+  template Parameters<double, N> make_geometry<N>(const gear::Stage&);                                              \
+  template Parameters<double, N> make_parameters<N>(const gear::Stage&, const Scales&, double, const ModelOptions&, \
+                                                    const Parameters<double, N>*);
 EPICYCLIC_INSTANTIATE(2)
 EPICYCLIC_INSTANTIATE(3)
 EPICYCLIC_INSTANTIATE(4)

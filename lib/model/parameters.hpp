@@ -94,10 +94,12 @@ template <std::size_t N>
 /// @param stage   passes gear::problems_for_motion()
 /// @param scales  those of the stage as given, whatever a sweep has changed in `stage` since
 /// @param mesh_frequency_ratio Omega [-]
+/// @param like    whose computed tables' grids are taken, so that rows can be compared; null: as their errors ask
 /// @throws InputError for options that do not fit the boundary
 template <std::size_t N>
 [[nodiscard]] Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& scales,
-                                                    double mesh_frequency_ratio, const ModelOptions& options);
+                                                    double mesh_frequency_ratio, const ModelOptions& options,
+                                                    const Parameters<double, N>* like = nullptr);
 
 /// f(constant) for each constant of the scalar type, in a fixed order: sums, differences and conversions of whole sets.
 template <class P, class F>

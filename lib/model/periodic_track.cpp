@@ -1,9 +1,7 @@
 #include "model/periodic_track.hpp"
 
-#include <memory>
+#include <algorithm>
 #include <string>
-
-#include <gsl/gsl_interp.h>
 
 #include "core/difference.hpp"
 #include "core/errors.hpp"
@@ -12,28 +10,14 @@ namespace epicyclic::model {
 
 namespace {
 
-// Slopes of Steffen's interpolant at the rows, or of the straight line through two.
-std::vector<double> slopes(const std::vector<double>& x, const std::vector<double>& y) {
-  if (x.size() == 2) return std::vector<double>(2, (y[1] - y[0]) / (x[1] - x[0]));
-  // GSL aborts the program on rows that do not rise, so they are looked at first.
-  for (std::size_t k = 1; k < x.size(); ++k)
-    if (!(x[k] > x[k - 1])) throw InputError("table over the phase: phases of neighbouring rows cannot be told apart");
-  const std::unique_ptr<gsl_interp, decltype(&gsl_interp_free)> interpolant(
-      gsl_interp_alloc(gsl_interp_steffen, x.size()), &gsl_interp_free);
-  gsl_interp_init(interpolant.get(), x.data(), y.data(), x.size());
-  std::vector<double> result(x.size());
-  for (std::size_t k = 0; k < x.size(); ++k)
-    gsl_interp_eval_deriv_e(interpolant.get(), x.data(), y.data(), x[k], nullptr, &result[k]);
-  return result;
-}
-
 double wrapped(double phase) { return phase - std::floor(phase); }
 
 }  // namespace
 
 template <std::size_t K>
 PeriodicTrack<K>::PeriodicTrack(const std::vector<TrackRow<K>>& given_rows,
-                                const std::vector<double>& given_breakpoints, double lead) {
+                                const std::vector<double>& given_breakpoints, double lead, Interpolation interpolation,
+                                std::span<const IntervalGrid> grids) {
   using Row = TrackRow<K>;
   std::vector<Row> rows = given_rows;
   for (Row& r : rows) r.phase += lead;
@@ -52,12 +36,7 @@ PeriodicTrack<K>::PeriodicTrack(const std::vector<TrackRow<K>>& given_rows,
       const std::size_t at = k + n * (neighbours + 1) - neighbours;
       extended.push_back(shifted(rows[at % n], static_cast<double>(at / n) - static_cast<double>(neighbours + 1)));
     }
-    append_piece(extended);
-    starts_.erase(starts_.begin(), starts_.begin() + neighbours);
-    cubics_.erase(cubics_.begin(), cubics_.begin() + neighbours);
-    starts_.resize(n);
-    cubics_.resize(n);
-    pieces_ = {piece(0, n - 1)};
+    append_piece(extended, neighbours, interpolation, nullptr);
     return;
   }
 
@@ -76,60 +55,73 @@ PeriodicTrack<K>::PeriodicTrack(const std::vector<TrackRow<K>>& given_rows,
         const bool ends_here = r.phase == to && !twin_before;
         if (starts_here || ends_here || (r.phase > from && r.phase < to)) piece.push_back(r);
       }
-    append_piece(piece);
+    append_piece(piece, 0, interpolation, grids.empty() ? nullptr : &grids[b]);
     breakpoints_.push_back(wrapped(from));
   }
   std::sort(breakpoints_.begin(), breakpoints_.end());
 }
 
 template <std::size_t K>
-TrackPiece PeriodicTrack<K>::piece(std::size_t lo, std::size_t hi) const {
-  const double width = starts_[hi] - starts_[lo];
-  TrackPiece p{lo, hi, starts_[lo], hi > lo ? static_cast<double>(hi - lo) / width : 0.0, true};
-  constexpr double rounding = 1e-9;  // of an interval
-  for (std::size_t k = lo; k <= hi; ++k) {
-    const double off = (starts_[k] - p.start) * p.intervals_per_phase - static_cast<double>(k - lo);
-    p.even = p.even && std::abs(off) <= rounding;
-  }
-  return p;
-}
-
-template <std::size_t K>
-void PeriodicTrack<K>::append_piece(const std::vector<TrackRow<K>>& rows) {
-  if (rows.size() < 2)
+void PeriodicTrack<K>::append_piece(const std::vector<TrackRow<K>>& rows, std::size_t beyond,
+                                    Interpolation interpolation, const IntervalGrid* grid) {
+  if (rows.size() < 2 + 2 * beyond)
     throw InputError("table over the phase: a piece between two breakpoints needs a row at each of its ends");
-  const std::size_t first = starts_.size();
+  const std::size_t count = rows.size() - 1 - 2 * beyond;
+  const double from = rows[beyond].phase;
+  const double to = rows[beyond + count].phase;
+  TrackPiece piece;
+  piece.lo = starts_.size();
+  piece.grid = grid != nullptr ? *grid : IntervalGrid::even(count);
+  piece.start = from;
+  piece.origin = piece.grid.from_end ? to : from;
+  piece.slope = piece.grid.scale / (piece.grid.from_end ? from - to : to - from);
+  if (piece.grid.count != count) throw InputError("table over the phase: rows that are not those of their grid");
+
+  // In the order of the grid.
+  std::vector<TrackRow<K>> ordered = rows;
+  if (piece.grid.from_end) std::reverse(ordered.begin(), ordered.end());
+  constexpr double rounding = 1e-9;  // of an interval
+  constexpr double phase_rounding = 1e-12;
+  piece.regular = true;
+  for (std::size_t k = 0; k <= count; ++k) {
+    const double off = std::abs(piece.place(ordered[beyond + k].phase) - piece.grid.node(k));
+    if (grid != nullptr) {
+      if (!(off <= phase_rounding * std::abs(piece.slope)))
+        throw InputError("table over the phase: rows that are not those of their grid");
+    } else {
+      piece.regular = piece.regular && off <= rounding;  // intervals of an even grid are 1 long
+    }
+  }
+
   std::vector<double> x;
-  for (const auto& r : rows) x.push_back(r.phase);
-  for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
-    starts_.push_back(x[k]);
+  for (std::size_t k = 0; k < ordered.size(); ++k) {
+    const bool inside = k >= beyond && k <= beyond + count;
+    x.push_back(!piece.regular ? ordered[k].phase
+                : inside       ? piece.grid.node(k - beyond)
+                               : piece.place(ordered[k].phase));
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    starts_.push_back(ordered[beyond + k].phase);
     cubics_.emplace_back();
   }
   for (std::size_t j = 0; j < K; ++j) {
     std::vector<double> y;
-    for (const auto& r : rows) y.push_back(r.value[j]);
-    const std::vector<double> slope = slopes(x, y);
-    for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
-      const double h = x[k + 1] - x[k];
-      const double secant = (y[k + 1] - y[k]) / h;
-      Cubics<K>& c = cubics_[first + k];
-      c[0][j] = y[k];
-      c[1][j] = slope[k];
-      c[2][j] = (3.0 * secant - 2.0 * slope[k] - slope[k + 1]) / h;
-      c[3][j] = (slope[k] + slope[k + 1] - 2.0 * secant) / (h * h);
-    }
+    for (const auto& r : ordered) y.push_back(r.value[j]);
+    const std::vector<CubicCoefficients> c = cubics_through(interpolation, x, y, beyond, count);
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t power = 0; power < 4; ++power) cubics_[piece.lo + k][power][j] = c[k][power];
   }
-  pieces_.push_back(piece(first, starts_.size() - 1));
+  pieces_.push_back(piece);
 }
 
 template <std::size_t K>
 TrackPlace PeriodicTrack<K>::place(double phase) const {
-  const double origin = starts_.front();
+  const double origin = pieces_.front().start;
   // One smooth curve has no sides: its centre is that of its period.
   if (breakpoints_.empty()) return {pieces_.front(), origin + 0.5};
   const double x = phase - std::floor(phase - origin);
   std::size_t k = 0;
-  while (k + 1 < pieces_.size() && x >= starts_[pieces_[k + 1].lo]) ++k;
+  while (k + 1 < pieces_.size() && x >= pieces_[k + 1].start) ++k;
   return {pieces_[k], x};
 }
 

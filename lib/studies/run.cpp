@@ -8,8 +8,10 @@
 #include <numeric>
 #include <utility>
 
+#include "core/largest_difference.hpp"
 #include "integrate/make_flow.hpp"
 #include "studies/operating_point.hpp"
+#include "studies/pulls.hpp"
 
 namespace epicyclic::studies {
 
@@ -41,6 +43,9 @@ class Recorder {
     add("bearing_sun", "N");
   }
 
+  /// Tension of all meshes, sun meshes first, at each row of the history [N].
+  [[nodiscard]] const std::vector<double>& pulls() const { return pulls_; }
+
   /// Deflections and forces at an instant, valid until the next one.
   void look(double s, std::span<const double> y) {
     model_.deflections(s, y.data(), d_);
@@ -62,6 +67,9 @@ class Recorder {
       const double sum = std::accumulate(list->begin(), list->end(), 0.0);
       for (const double f : *list) put(static_cast<double>(list->size()) * f / sum);
     }
+    model_.pulls(s, d_, now_pulls_);
+    for (const auto* list : {&now_pulls_.sun_planet, &now_pulls_.ring_planet})
+      for (const double f : *list) pulls_.push_back(scales_.force_newton(f));
     put_newtons(f_.planet_bearing);
     put(scales_.force_newton(f_.sun_bearing));
   }
@@ -85,6 +93,8 @@ class Recorder {
   History& history_;
   model::MeshDeflections d_;
   model::StageForces f_;
+  model::MeshPulls now_pulls_;
+  std::vector<double> pulls_;
 };
 
 /// Samples of a portrait for each of the history: some for each oscillation of the fastest meshes, whose frequency is
@@ -125,8 +135,7 @@ class Run {
     if (r.point.outcome != integrate::Outcome::reached) return true;
     state_ = r.point.end_state;
     if (!model_.jumps_at_contact) find_orbit(r);
-    record(r);
-    summarise(r);
+    summarise(r, record(r));
     if (go_on_()) cross(r);
     if (options_.exponent_periods > 0 && !model_.jumps_at_contact) {
       if (go_on_()) find_exponents(r);
@@ -141,13 +150,17 @@ class Run {
   /// By the default method, whose tangents are controlled: for what has to be exact.
   [[nodiscard]] std::unique_ptr<Flow> exact_flow(double tolerance, bool controlled = true,
                                                  bool with_divergence = false) const {
+    const integrate::VectorField field = vector_field(model_);
+    return exact_flow(with_divergence ? analysis::with_divergence(field) : field, tolerance, controlled);
+  }
+  [[nodiscard]] std::unique_ptr<Flow> exact_flow(const integrate::VectorField& field, double tolerance,
+                                                 bool controlled) const {
     integrate::IntegratorOptions o;
     o.relative_tolerance = o.absolute_tolerance = tolerance;
     o.tangent_error_control = controlled;
     o.escape_bound = integrator_.escape_bound;
     o.max_steps_per_period = std::max(o.max_steps_per_period, integrator_.max_steps_per_period) * 20;
-    const integrate::VectorField field = vector_field(model_);
-    return integrate::make_flow(with_divergence ? analysis::with_divergence(field) : field, o);
+    return integrate::make_flow(field, o);
   }
 
   void find_orbit(RunResult& r) {
@@ -160,12 +173,19 @@ class Run {
     const analysis::PeriodicOrbit second =
         analysis::find_periodic_orbit(*coarse, orbit.state, r.point.period, {.pieces = 2});
     if (second.found()) r.multipliers = analysis::floquet_multipliers(orbit, second);
+    if (model_.with_halved_tables) {
+      r.friction_table_error = model_.friction_table_error;
+      const auto halved = exact_flow(vector_field(model_.with_halved_tables()), options_.check_tolerance, false);
+      const std::vector<double> moved = analysis::displaced_orbit(*halved, orbit, r.point.period, 2);
+      if (!moved.empty()) r.table_displacement = largest_difference(moved, orbit.state);
+    }
     state_ = orbit.state;
     r.orbit = std::move(orbit);
   }
 
   /// Histories, and the signals of the spectra, which are longer.
-  void record(RunResult& r) {
+  /// @returns Recorder::pulls()
+  [[nodiscard]] std::vector<double> record(RunResult& r) const {
     const auto carried = flow();
     const std::vector<double> samples = analysis::uniform_phases(carried->field().period, options_.dense_phases);
     r.history.phases = options_.dense_phases;
@@ -186,7 +206,7 @@ class Run {
     const std::vector<double> fine = finer(samples, static_cast<int>(detail));
     r.portrait.phases = options_.dense_phases * static_cast<int>(detail);
     for (int k = 0; k < periods; ++k) {
-      if (!go_on_()) return;
+      if (!go_on_()) return recorder.pulls();
       const bool drawn = k < options_.history_periods && k >= options_.history_periods - shown;
       const integrate::Evolution e =
           carried->evolve(y, 0.0, carried->field().period, drawn ? fine : samples,
@@ -204,7 +224,7 @@ class Run {
                             signals[2].values.push_back(scales_.force_newton(recorder.forces().sun_planet[0]));
                             signals[3].values.push_back(scales_.force_newton(recorder.forces().ring_planet[0]));
                           });
-      if (!e.reached()) return;
+      if (!e.reached()) return recorder.pulls();
     }
     for (Signal& signal : signals) {
       SignalSpectrum s;
@@ -229,9 +249,10 @@ class Run {
       }
       r.spectra.push_back(std::move(s));
     }
+    return recorder.pulls();
   }
 
-  void summarise(RunResult& r) const {
+  void summarise(RunResult& r, const std::vector<double>& pulls) const {
     const auto planets = static_cast<std::size_t>(model_.planets);
     if (r.history.rows() == 0) return;
     for (const char* kind : {"sp", "rp"}) {
@@ -243,6 +264,7 @@ class Run {
         m.name = std::string(kind) + "_" + std::to_string(i);
         const std::vector<double> force = r.history.column("force_" + m.name);
         const std::vector<double> delta = r.history.column("delta_" + m.name);
+        const std::size_t column = r.meshes.size();
         m.force_min = *std::min_element(force.begin(), force.end());
         m.force_max = *std::max_element(force.begin(), force.end());
         m.force_mean = std::accumulate(force.begin(), force.end(), 0.0) / static_cast<double>(force.size());
@@ -250,8 +272,11 @@ class Run {
         sum += m.force_mean;
         const double part = 1.0 / static_cast<double>(delta.size());
         bool drives = model::DynamicModel::contact(delta.front(), gap) == model::Contact::drive;
-        for (const double x : delta) {
-          const model::Contact side = model::DynamicModel::contact(x, gap);
+        for (std::size_t k = 0; k < delta.size(); ++k) {
+          const double pull = told_pull(pulls[k * 2 * planets + column], r.static_force);
+          m.pull_max = std::max(m.pull_max, pull);
+          if (pull > 0.0) m.pull_time += part;
+          const model::Contact side = model::DynamicModel::contact(delta[k], gap);
           (side == model::Contact::drive ? m.drive : side == model::Contact::loss ? m.loss : m.back) += part;
           if (drives && side != model::Contact::drive) ++m.contact_losses;
           drives = side == model::Contact::drive;

@@ -53,6 +53,8 @@ struct MeshSummary {
   double force_ratio_max = 0;                           ///< max F / F_0 [-]
   double load_sharing = 0;                              ///< of the means [S-share] [-]
   double drive = 0, loss = 0, back = 0;                 ///< parts of the time [-]
+  double pull_max = 0;                                  ///< greatest tension [model::DynamicModel::pull()] [N]
+  double pull_time = 0;                                 ///< part of the time that there is tension [-]
   int contact_losses = 0;                               ///< times that the drive flank was left, per record
 };
 
@@ -89,10 +91,14 @@ struct RunResult {
   std::vector<double> crossing_rate;     ///< delta_sp_1' of each [b_c per tau]
   analysis::LyapunovSpectrum exponents;  ///< per unit of s; empty if none were asked for
   std::optional<ExponentChecks> checks{};
-  double dimension = 0;                                ///< Kaplan and Yorke's
-  std::optional<analysis::Estimate> transverse{};      ///< exponent of the synchronous motion's transverse directions,
-                                                       ///< per tau; where the stage is symmetric
-  std::optional<analysis::PeriodicOrbit> orbit{};      ///< if periodic
+  double dimension = 0;                            ///< Kaplan and Yorke's
+  std::optional<analysis::Estimate> transverse{};  ///< exponent of the synchronous motion's transverse directions,
+                                                   ///< per tau; where the stage is symmetric
+  std::optional<analysis::PeriodicOrbit> orbit{};  ///< if periodic
+  /// How far the orbit is from that of tables half as fine, which is more than what interpolation in them moves it; of
+  /// a periodic motion with such tables [b_c, b_c per tau].
+  std::optional<double> table_displacement{};
+  double friction_table_error = 0;  ///< of friction over normal force between the rows of its tables [-]
   std::optional<analysis::Multipliers> multipliers{};  ///< if periodic
   double omega = 0;                                    ///< Omega: exponents per s times Omega are per tau
 };

@@ -15,6 +15,7 @@
 #include "studies/coarse_pass.hpp"
 #include "studies/motion.hpp"
 #include "studies/operating_point.hpp"
+#include "studies/pulls.hpp"
 #include "studies/units.hpp"
 
 namespace epicyclic::studies {
@@ -34,12 +35,21 @@ class Watch {
 
   void see(double s, std::span<const double> y) {
     model_.deflections(s, y.data(), now_);
-    see_meshes(now_.sun_planet, model_.sun_planet_half_gap, result_.sun_planet);
-    see_meshes(now_.ring_planet, model_.ring_planet_half_gap, result_.ring_planet);
+    model_.pulls(s, now_, pulls_);
+    ++seen_;
+    see_meshes(now_.sun_planet, pulls_.sun_planet, model_.sun_planet_half_gap, result_.sun_planet);
+    see_meshes(now_.ring_planet, pulls_.ring_planet, model_.ring_planet_half_gap, result_.ring_planet);
+  }
+
+  /// All has been seen: counts become parts.
+  void finish() {
+    for (auto* meshes : {&result_.sun_planet, &result_.ring_planet})
+      for (MeshRecord& r : *meshes) r.pull_time /= static_cast<double>(std::max(1L, seen_));
   }
 
  private:
-  void see_meshes(const std::vector<double>& delta, double half_gap, std::vector<MeshRecord>& records) {
+  void see_meshes(const std::vector<double>& delta, const std::vector<double>& pulls, double half_gap,
+                  std::vector<MeshRecord>& records) {
     double least = delta[0];
     double most = delta[0];
     for (std::size_t i = 0; i < delta.size(); ++i) {
@@ -48,6 +58,9 @@ class Watch {
       most = std::max(most, delta[i]);
       r.delta_min = std::min(r.delta_min, delta[i]);
       r.delta_max = std::max(r.delta_max, delta[i]);
+      const double pull = told_pull(pulls[i], model_.static_mesh_force);
+      r.pull = std::max(r.pull, pull / model_.static_mesh_force);
+      r.pull_time += pull > 0.0 ? 1.0 : 0.0;
       switch (model::DynamicModel::contact(delta[i], half_gap)) {
         case model::Contact::drive:
           r.drive = true;
@@ -66,6 +79,8 @@ class Watch {
   const model::DynamicModel& model_;
   PointResult& result_;
   model::MeshDeflections now_;
+  model::MeshPulls pulls_;
+  long seen_ = 0;
 };
 
 /// Are several points carried side by side?
@@ -115,6 +130,7 @@ class PointRun {
   /// @param right_hand_sides  that the strobe took
   [[nodiscard]] PointResult finish(long right_hand_sides) {
     const analysis::Strobe& strobe = strobe_.result();
+    watch_.finish();
     result_.outcome = strobe.evolution.outcome;
     result_.message = strobe.evolution.message;
     if (sweep_.keep == Keep::section) keep_section(strobe.section);
@@ -380,6 +396,18 @@ std::string MeshRecord::contact() const {
   add(loss, "loss");
   add(back, "back");
   return text;
+}
+
+double PointResult::pull(const std::vector<MeshRecord>& meshes) {
+  double most = 0.0;
+  for (const MeshRecord& r : meshes) most = std::max(most, r.pull);
+  return most;
+}
+
+double PointResult::pull_time(const std::vector<MeshRecord>& meshes) {
+  double most = 0.0;
+  for (const MeshRecord& r : meshes) most = std::max(most, r.pull_time);
+  return most;
 }
 
 bool still_settling(const PointResult& result, const SweepOptions& sweep) {

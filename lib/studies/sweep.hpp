@@ -7,6 +7,7 @@
 // the next one of its chain start cold.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <map>
@@ -34,6 +35,8 @@ inline constexpr int numerics_version = 10;
 struct MeshRecord {
   double delta_min = 0, delta_max = 0;  ///< extrema at the dense output phases [b_c]
   bool drive = false, loss = false, back = false;
+  double pull = 0;       ///< greatest tension [model::DynamicModel::pull()], over the static force of a sun mesh [-]
+  double pull_time = 0;  ///< part of the time that there is tension [-]
 
   /// "drive+loss" and so on.
   [[nodiscard]] std::string contact() const;
@@ -62,6 +65,12 @@ struct PointResult {
 
   /// Largest Lyapunov exponent per tau; not a number where there is none.
   [[nodiscard]] analysis::Estimate lyapunov_max() const;
+
+  /// Greatest tension of any of the meshes, and the greatest part of the time that one of them pulls.
+  [[nodiscard]] static double pull(const std::vector<MeshRecord>& meshes);
+  [[nodiscard]] static double pull_time(const std::vector<MeshRecord>& meshes);
+  /// Does any mesh pull?
+  [[nodiscard]] bool pulls() const { return std::max(pull(sun_planet), pull(ring_planet)) > 0.0; }
 
   [[nodiscard]] std::size_t poincare_rows() const {
     return poincare_columns == 0 ? 0 : poincare.size() / poincare_columns;

@@ -183,7 +183,18 @@ class PointStudy {
     const std::vector<double> other = analysis::displaced_orbit(*second, known_, n, 2);
     const Quantities again = other.empty() ? all_nan() : quantities_of(*second, model_, other, n, sweep_.output_phases);
     for (std::size_t k = 0; k < again.size(); ++k) out_.reference_error[k] = std::abs(again[k] - out_.reference[k]);
+    if (model_.with_halved_tables) measure_tables();
     return true;
+  }
+
+  void measure_tables() {
+    const model::DynamicModel halved = model_.with_halved_tables();
+    const auto reference = flow(reference_options(reference_method), halved);
+    const std::vector<double> moved = analysis::displaced_orbit(*reference, known_, out_.period, 2);
+    const Quantities there =
+        moved.empty() ? all_nan() : quantities_of(*reference, halved, moved, out_.period, sweep_.output_phases);
+    for (std::size_t k = 0; k < there.size(); ++k) out_.table_error[k] = std::abs(there[k] - out_.reference[k]);
+    out_.table_displacement = moved.empty() ? nan : largest_difference(moved, known_.state);
   }
 
   void climb() {

@@ -6,7 +6,9 @@
 //     error of the flow    e   = max | phi'_n(y*) - phi_n(y*) |
 //     error of the orbit   e_o = max | y' - y* | ,  y' the method's own orbit, y' = y' + (I - M)^-1 (phi'_n(y') - y')
 //     [A-tol]
-//   the reported quantities on the study's orbit and on y*: the difference is their error bar;
+//   the reported quantities on the study's orbit and on y*: the difference is their error bar, and with it how far they
+//     move with tables that are half as fine (friction and stiffness that are computed from the drawing or from an
+//     oil): the interpolation's own error is some 16 times less, has the same shape, and so the same resonances;
 //   each width w: the orbit of the smoothed stage by Newton's method, its distance from y*, its quantities, and those
 //     extrapolated to w -> 0 with the exponent that three widths in a row show.
 // Any other point has no orbit to compare: largest exponent, mean and deviation of the Poincare points, each with its
@@ -81,6 +83,8 @@ struct TolerancePoint {
   double largest_multiplier = 0;  ///< modulus
   Quantities reference{};         ///< on y*
   Quantities reference_error{};   ///< difference to the reference by another method at the same tolerance
+  Quantities table_error{};       ///< difference to those on the orbit of tables half as fine; 0 without such tables
+  double table_displacement = 0;  ///< of that orbit
   std::vector<LadderStep> ladder;
   integrate::Work study_work{};  ///< of one orbit with the study's integrator and clearance
   std::vector<SmoothingStep> smoothing;

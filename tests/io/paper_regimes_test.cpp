@@ -52,6 +52,23 @@ TEST(PaperRegimes, AreToldWithTheirEvidence) {
   EXPECT_GT(chaotic.evidence.zero_one.value(), 0.5);
 }
 
+TEST(PaperRegimes, DampingInContactOnlyPullsForAShortTime) {
+  const auto pull_time = [](const std::vector<std::string>& sets) {
+    const LoadedInput input = load_input("inputs/tang2020_speed.json", parse_assignments(sets));
+    studies::SweepOptions sweep = studies::by_recurrence_alone(*input.study.sweep);
+    sweep.transient_periods = 100;
+    sweep.recorded_periods = 8;
+    const studies::PointResult r = point_at(model_at(input)(2.8), sweep, input.study.integrator);
+    EXPECT_EQ(r.outcome, integrate::Outcome::reached);
+    EXPECT_TRUE(r.pulls());
+    return studies::PointResult::pull_time(r.ring_planet);
+  };
+  const double always = pull_time({});
+  const double in_contact = pull_time({"/model/gap_damping=contact_slope", "/integrator/clearance_smoothing=0.01"});
+  EXPECT_GT(always, 0.3);
+  EXPECT_LT(in_contact, 0.15);
+}
+
 TEST(PaperRegimes, ARunChecksItsExponents) {
   const LoadedInput input = load_input("inputs/tang2020_run.json");
   const model::DynamicModel m = model_at(input)(2.4);
@@ -76,7 +93,16 @@ TEST(PaperRegimes, ARunChecksItsExponents) {
   for (const studies::MeshSummary& mesh : r->meshes) {
     EXPECT_NEAR(mesh.load_sharing, 1.0, 1e-6) << mesh.name;
     EXPECT_NEAR(mesh.drive + mesh.loss + mesh.back, 1.0, 1e-9) << mesh.name;
+    // Damping through the open gap: tension while there is no contact on the back.
+    EXPECT_EQ(mesh.back, 0.0) << mesh.name;
+    EXPECT_GT(mesh.pull_max, r->static_force) << mesh.name;
+    EXPECT_NEAR(mesh.pull_max, -mesh.force_min, 1e-9 * mesh.pull_max) << mesh.name;
   }
+  // The record of the point, with half as many samples a period, tells the same.
+  constexpr double sampling = 0.02;
+  EXPECT_NEAR(studies::PointResult::pull(r->point.ring_planet) * r->static_force / r->meshes[3].pull_max, 1.0,
+              sampling);
+  EXPECT_NEAR(studies::PointResult::pull_time(r->point.ring_planet), r->meshes[3].pull_time, sampling);
   // Contact is made on the flank, with a rate.
   ASSERT_GT(r->crossing.size(), 0U);
   ASSERT_EQ(r->crossing_rate.size(), r->crossing.size());

@@ -23,6 +23,8 @@ studies::PointResult example() {
   mesh.delta_min = -std::numeric_limits<double>::infinity();
   mesh.delta_max = 5e-324;
   mesh.loss = mesh.back = true;
+  mesh.pull = 1.25;
+  mesh.pull_time = 0.0625;
   r.sun_planet = {mesh, mesh, {}};
   r.ring_planet = {mesh};
   r.planet_spread = 0.3;
@@ -51,6 +53,8 @@ studies::TolerancePoint measured_example() {
   p.orbit = {1.0, 2.0};
   p.largest_multiplier = 0.99;
   p.reference_error = {1e-12, 2e-12, 3e-12, 4e-12};
+  p.table_error = {5e-12, 6e-12, 7e-12, 8e-12};
+  p.table_displacement = 9e-12;
   studies::LadderStep step;
   step.method = "cvode-bdf";
   step.tolerance = 1e-7;
@@ -79,6 +83,8 @@ TEST(PointRecord, AMeasurementComesBackExactly) {
   EXPECT_EQ(b.note, a.note);
   EXPECT_EQ(b.orbit, a.orbit);
   EXPECT_EQ(b.reference_error, a.reference_error);
+  EXPECT_EQ(b.table_error, a.table_error);
+  EXPECT_EQ(b.table_displacement, a.table_displacement);
   EXPECT_TRUE(std::isnan(b.ladder[1].orbit_error));
   EXPECT_EQ(b.ladder[1].work.jacobians, 4);
   EXPECT_TRUE(b.smoothing[0].found);
@@ -100,6 +106,9 @@ TEST(PointRecord, ComesBackExactly) {
   EXPECT_EQ(b.message, a.message);
   EXPECT_EQ(b.rhs_evaluations, a.rhs_evaluations);
   EXPECT_EQ(b.sun_planet[0].contact(), "loss+back");
+  EXPECT_EQ(studies::PointResult::pull(b.ring_planet), 1.25);
+  EXPECT_EQ(studies::PointResult::pull_time(b.ring_planet), 0.0625);
+  EXPECT_TRUE(b.pulls());
   EXPECT_EQ(b.poincare, a.poincare);
   EXPECT_EQ(b.point.second_value, -0.25);
   EXPECT_EQ(b.attractor.regime, analysis::Regime::chaotic);

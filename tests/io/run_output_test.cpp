@@ -385,6 +385,31 @@ TEST(RunSummary, TellsAPeriodicMotionWithItsEvidence) {
     EXPECT_TRUE(contains(line, part)) << part << "\n" << text;
 }
 
+TEST(RunSummary, TellsWhichTeethPullHowHardHowOftenAndWhy) {
+  studies::RunResult r = result_of();
+  EXPECT_TRUE(contains(on_one_line(run_summary(output(), r)), "No mesh pulls"));
+  r.meshes[1].pull_max = 3302.0;
+  r.meshes[1].pull_time = 0.125;
+  r.static_force = 1000.0;
+  const std::string summary = on_one_line(run_summary(output(), r));
+  EXPECT_TRUE(contains(summary, "| " + r.meshes[1].name));
+  EXPECT_TRUE(contains(summary, " 3302 | 3.3 | 12.5 % |"));
+  EXPECT_TRUE(contains(summary, "through the open gap"));
+  EXPECT_FALSE(contains(summary, "No mesh pulls"));
+  RunOutput in_contact = output();
+  in_contact.gap_damping = model::GapDamping::contact_slope;
+  const std::string other = on_one_line(run_summary(in_contact, r));
+  EXPECT_TRUE(contains(other, "before contact is lost"));
+  EXPECT_FALSE(contains(other, "through the open gap"));
+}
+
+TEST(RunSummary, TellsWhatTablesHalfAsFineMoveTheOrbitBy) {
+  studies::RunResult r = result_of();
+  EXPECT_FALSE(contains(run_summary(output(), r), "half as fine"));
+  r.table_displacement = 3.2e-9;
+  EXPECT_TRUE(contains(on_one_line(run_summary(output(), r)), "half as fine the orbit is 3.2e-09 away"));
+}
+
 TEST(RunSummary, FitsIntoAHundredColumns) {
   std::istringstream lines(run_summary(output(), result_of()));
   for (std::string line; std::getline(lines, line);) {

@@ -194,6 +194,44 @@ TEST(StageCompletion, AFullCurveReplacesTheHarmonics) {
   EXPECT_EQ(mesh.stiffness_curve->breakpoints.size(), 2U);
 }
 
+TEST(StageCompletion, TablesAreAsFineAsTheirToleranceAsksAndSayWhatTheyReach) {
+  const std::string curve = "/catalogue/mesh_stiffness/form=curve";
+  std::size_t curve_rows = 0;
+  std::size_t share_rows = 0;
+  for (const char* tolerance : {"1e-5", "1e-9", "1e-12"}) {
+    const LoadedInput input = loaded({curve, std::string("/catalogue/mesh_stiffness/table_tolerance=") + tolerance,
+                                      std::string("/catalogue/lubrication/table_tolerance=") + tolerance});
+    for (const char* name : {"sun_planet_mesh", "ring_planet_mesh"}) {
+      const json& mesh = input.resolved["lumped"][name];
+      const json& rows = mesh["stiffness_curve"];
+      EXPECT_EQ(rows["interpolation"], "smooth");
+      EXPECT_LE(rows["error"].get<double>(), std::stod(tolerance));
+      const json& oil = mesh["friction"]["lubricated"];
+      EXPECT_EQ(oil["load_share_interpolation"], "smooth");
+      EXPECT_LE(oil["load_share_error"].get<double>(), std::stod(tolerance));
+      EXPECT_EQ(oil["table_tolerance"], std::stod(tolerance));
+    }
+    const json& sun = input.resolved["lumped"]["sun_planet_mesh"];
+    EXPECT_GT(sun["stiffness_curve"]["phase"].size(), curve_rows);
+    EXPECT_GT(sun["friction"]["lubricated"]["load_share"].size(), share_rows);
+    curve_rows = sun["stiffness_curve"]["phase"].size();
+    share_rows = sun["friction"]["lubricated"]["load_share"].size();
+    const TemporaryFolder folder;
+    std::ofstream(folder / "stage.json") << input.resolved.dump();
+    EXPECT_EQ(load_input(folder / "stage.json").resolved, input.resolved);
+    // Rows that are given are none that something known was sampled at, unless they say so.
+    json given = input.resolved;
+    given.erase("catalogue");
+    json& sun_curve = given["lumped"]["sun_planet_mesh"]["stiffness_curve"];
+    sun_curve.erase("interpolation");
+    sun_curve["origin"].erase("interpolation");
+    std::ofstream(folder / "given.json") << given.dump();
+    const gear::Stage stage = load_input(folder / "given.json").study.stage;
+    EXPECT_EQ(stage.sun_planet_mesh.stiffness_curve->interpolation, Interpolation::monotone);
+    EXPECT_EQ(stage.ring_planet_mesh.stiffness_curve->interpolation, Interpolation::smooth);
+  }
+}
+
 TEST(StageCompletion, WithoutLubricationThereIsNoFriction) {
   const LoadedInput input = loaded({"/catalogue/lubrication=null"});
   EXPECT_FALSE(input.study.stage.sun_planet_mesh.friction.any());

@@ -49,6 +49,18 @@ struct Bits {
   friend Bits operator!=(Bits a, long long b) { return {a.value != b ? -1 : 0}; }
 };
 
+/// Bit patterns, which are no arithmetic of the model.
+struct Words {
+  unsigned long long value;
+
+  [[nodiscard]] unsigned long long operator[](std::size_t /*lane*/) const { return value; }
+  [[nodiscard]] unsigned long long& operator[](std::size_t /*lane*/) { return value; }
+  friend Words operator+(Words a, Words b) { return {a.value + b.value}; }
+  friend Words operator-(Words a, Words b) { return {a.value - b.value}; }
+  friend Words operator<<(Words a, Words b) { return {a.value << b.value}; }
+  friend Words operator>>(Words a, Words b) { return {a.value >> b.value}; }
+};
+
 struct Pack {
   double value = 0;
 
@@ -86,6 +98,7 @@ template <>
 struct detail::LanePack<1> {
   using Values = model::counted::Pack;
   using Bits = model::counted::Bits;
+  using Words = model::counted::Words;
 };
 
 /// What a table gives. Its cubics are worked on as rows of doubles: each takes 3 additions and 3 multiplications.

@@ -46,6 +46,71 @@ TEST(StageForces, AtRestAreTheStaticOnes) {
   EXPECT_NEAR(f.sun_bearing / f_0, 0.0, 1e-9);
 }
 
+TEST(Pulls, AreTheTensionOfTheForces) {
+  // Teeth that lie on each other press; in the open gap and before they part, damping may pull.
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> component(-6.0, 6.0);  // on all three sides of the gaps
+  gear::Stage harmonics = problems::r1_nonlinear();
+  gear::Stage curve = harmonics;
+  for (gear::Mesh* mesh : {&curve.sun_planet_mesh, &curve.ring_planet_mesh}) {
+    mesh->stiffness_cos_N_per_m.clear();
+    mesh->stiffness_sin_N_per_m.clear();
+    const double k = mesh->stiffness_N_per_m;
+    mesh->stiffness_curve =
+        gear::StiffnessCurve{{0.0, 0.0, 0.3, 0.3, 0.6}, {k, 1.3 * k, 1.2 * k, 0.8 * k, 0.9 * k}, {0.0, 0.3}};
+  }
+  long pulling = 0;
+  long in_contact = 0;
+  long on_the_back = 0;
+  long meshes = 0;
+  for (const gear::Stage& stage : {harmonics, curve})
+    for (const GapDamping damping : {GapDamping::always, GapDamping::contact_slope})
+      for (const double width : {0.0, 0.3}) {
+        const DynamicModel m =
+            make_dynamic_model(stage, scales_of(stage), 0.9, {damping, Gyroscopic::automatic, width});
+        MeshDeflections d;
+        MeshPulls pulls;
+        StageForces f;
+        std::vector<double> y(m.dimension);
+        for (int trial = 0; trial < 400; ++trial) {
+          for (double& x : y) x = component(random);
+          const double s = 2.0 * std::numbers::pi * trial / 400.0;
+          m.deflections(s, y.data(), d);
+          m.forces(s, y.data(), f);
+          m.pulls(s, d, pulls);
+          const auto check = [&](const std::vector<double>& delta, const std::vector<double>& force, double gap,
+                                 const std::vector<double>& pull) {
+            ASSERT_EQ(pull.size(), 3U);
+            for (std::size_t i = 0; i < pull.size(); ++i) {
+              const bool back = delta[i] < -gap;
+              const double tension = std::max(0.0, back ? force[i] : -force[i]);
+              // A smoothed clearance has some of the other flank's force in the gap, which is none.
+              if (width == 0.0 || std::abs(delta[i]) > gap) {
+                EXPECT_NEAR(pull[i], tension, 1e-12 * (1.0 + std::abs(force[i])));
+              } else {
+                EXPECT_LE(pull[i], tension + 1e-12 * (1.0 + std::abs(force[i])));
+              }
+              ++meshes;
+              if (!(tension > 0.0)) continue;
+              ++pulling;
+              if (delta[i] > gap) ++in_contact;
+              if (back) ++on_the_back;
+              // With damping in contact only and the exact clearance an open gap is without force.
+              if (damping == GapDamping::contact_slope && width == 0.0) {
+                EXPECT_GE(std::abs(delta[i]), gap);
+              }
+            }
+          };
+          check(d.sun_planet, f.sun_planet, m.sun_planet_half_gap, pulls.sun_planet);
+          check(d.ring_planet, f.ring_planet, m.ring_planet_half_gap, pulls.ring_planet);
+        }
+      }
+  EXPECT_GT(pulling, meshes / 20);
+  EXPECT_LT(pulling, meshes / 2);
+  EXPECT_GT(in_contact, 0);
+  EXPECT_GT(on_the_back, 0);
+}
+
 TEST(RemoveSynchronous, IsThereForPlanetsThatAreAlike) {
   EXPECT_TRUE(model_of(problems::r1()).remove_synchronous);
   EXPECT_TRUE(model_of(problems::literal(problems::with_moving_stiffness(problems::r1()))).remove_synchronous);

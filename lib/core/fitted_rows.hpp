@@ -1,0 +1,96 @@
+// Rows of a known function, as many as an error asks for.
+//
+// The rows are doubled until smooth interpolation [core/interpolation.hpp] of half of them meets the other half: the
+// error of all of them is then a share of that, told by its order,
+//
+//   even pieces and all octaves but the first of graded ones   e(h) <= e(2h) / 8    (fourth order: 16)
+//   the first octave, beside a singular point                  e(h) <= e(2h)        (x^p, p > 1)
+//
+// Limits: analytic functions, but for a point beside which they are as x^p, p > 1, at one end of the piece. Where the
+// most rows are not enough, the error that they reach is told.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "core/interpolation.hpp"
+#include "core/interval_grid.hpp"
+
+namespace epicyclic {
+
+enum class SingularEnd { none, start, end };
+
+/// K functions on one piece.
+template <std::size_t K>
+struct FittedRows {
+  IntervalGrid grid;
+  std::vector<std::array<double, K>> rows;  ///< one for each node, in their order
+  double error = 0;                         ///< greatest, of any of the functions
+};
+
+/// @param f  std::array<double, K> (double way): the functions at a share of the way along the piece
+template <std::size_t K, class F>
+[[nodiscard]] FittedRows<K> rows_on(const IntervalGrid& grid, const F& f) {
+  FittedRows<K> r{grid, {}, 0.0};
+  for (std::size_t k = 0; k <= grid.count; ++k) r.rows.push_back(f(grid.way(k)));
+  return r;
+}
+
+namespace detail {
+
+struct RowErrors {
+  double first_octave = 0, rest = 0;
+};
+
+template <std::size_t K>
+[[nodiscard]] RowErrors estimated_errors(const FittedRows<K>& r) {
+  RowErrors errors;
+  std::vector<double> v;
+  for (std::size_t k = 0; k <= r.grid.count; k += 2) v.push_back(r.grid.node(k));
+  for (std::size_t j = 0; j < K; ++j) {
+    std::vector<double> y;
+    for (std::size_t k = 0; k <= r.grid.count; k += 2) y.push_back(r.rows[k][j]);
+    const std::vector<CubicCoefficients> coarse = cubics_through(Interpolation::smooth, v, y);
+    for (std::size_t k = 1; k < r.grid.count; k += 2) {
+      const double off = std::abs(at(coarse[k / 2], r.grid.node(k) - v[k / 2]) - r.rows[k][j]);
+      double& worst = k < r.grid.per_octave ? errors.first_octave : errors.rest;
+      worst = std::max(worst, off);
+    }
+  }
+  return {errors.first_octave, errors.rest / 8.0};
+}
+
+}  // namespace detail
+
+/// @param tolerance  of the greatest error
+template <std::size_t K, class F>
+[[nodiscard]] FittedRows<K> fit_rows(const F& f, double tolerance, SingularEnd singular = SingularEnd::none) {
+  const bool graded = singular != SingularEnd::none;
+  const std::size_t most = graded ? 128 : 2048;
+  constexpr int most_octaves = 32;  // the shortest intervals are then 1e-11 of the piece
+  std::size_t intervals = graded ? 8 : 16;
+  int octaves = 8;
+  for (;;) {
+    const IntervalGrid grid =
+        graded ? IntervalGrid::graded(intervals, octaves, singular == SingularEnd::end) : IntervalGrid::even(intervals);
+    FittedRows<K> r = rows_on<K>(grid, f);
+    const detail::RowErrors errors = detail::estimated_errors(r);
+    r.error = std::max(errors.first_octave, errors.rest);
+    bool refined = false;
+    if (errors.first_octave > tolerance && octaves < most_octaves) {
+      const auto more = static_cast<int>(std::ceil(std::log2(errors.first_octave / tolerance)));
+      octaves = std::min(most_octaves, octaves + more);
+      refined = true;
+    }
+    if (errors.rest > tolerance && intervals < most) {
+      intervals *= 2;
+      refined = true;
+    }
+    if (!refined) return r;
+  }
+}
+
+}  // namespace epicyclic

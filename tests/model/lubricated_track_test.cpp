@@ -1,0 +1,205 @@
+// Tables of lubricated contact as the model has them: against the law, in lanes, and half as fine.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/instruction_set.hpp"
+#include "gear/ehl_friction.hpp"
+#include "gear/gear_set.hpp"
+#include "model/dynamic_model.hpp"
+#include "model/friction_track.hpp"
+#include "model/lane_model.hpp"
+#include "problems/r1.hpp"
+#include "problems/table1.hpp"
+
+namespace epicyclic::model {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+const gear::GearSet& table1() {
+  static const gear::GearSet set = gear::make_gear_set(problems::table1());
+  return set;
+}
+
+gear::Friction lubricated(const gear::MeshedPair& mesh, double tolerance) {
+  gear::Friction f;
+  f.ehl = gear::ehl_of(mesh, {5, 0.6, tolerance});
+  return f;
+}
+
+/// The paper's train with an oil in place of coefficients.
+gear::Stage oiled(double tolerance = gear::Lubrication{}.table_tolerance) {
+  gear::Stage s = problems::tang2020();
+  s.sun_planet_mesh.friction = lubricated(table1().sun_planet, tolerance);
+  s.ring_planet_mesh.friction = lubricated(table1().ring_planet, tolerance);
+  return s;
+}
+
+struct LawAndTrack {
+  const gear::MeshedPair& mesh;
+  gear::LineOfAction line;
+  gear::Friction::Ehl ehl;
+  gear::MeshLoad load;
+  gear::Friction::Table table;
+  FrictionTrack track;
+
+  LawAndTrack(const gear::MeshedPair& of, double tolerance, double omega)
+      : mesh(of),
+        line(problems::line_of(of.pair)),
+        ehl(*lubricated(of, tolerance).ehl),
+        load(gear::mean_mesh_load(oiled(), omega * scales_of(oiled()).omega_sn)),
+        table(gear::friction_table(ehl, line, load)),
+        track(table, 0.0, line.base_radius_1_mm, line.base_radius_2_mm) {}
+
+  /// Greatest difference of the ratios, with the load sharing of the teeth, close to the breakpoints as well.
+  [[nodiscard]] double error() const {
+    double worst = 0.0;
+    for (std::size_t b = 0; b < table.breakpoints.size(); ++b) {
+      const double from = table.breakpoints[b];
+      const double to = b + 1 < table.breakpoints.size() ? table.breakpoints[b + 1] : 1.0;
+      const double inside = 0.5 * (from + to);
+      std::vector<double> ways;
+      for (double way = 0.5; way > 1e-9; way *= 0.87) ways.insert(ways.end(), {way, 1.0 - way});
+      for (const double way : ways) {
+        const double phase = from + (to - from) * way;
+        std::array<double, 3> law{};
+        for (int j = 0; inside + j < ehl.contact_ratio; ++j) {
+          const double share = mesh.load_share(phase + j, inside + j);
+          const auto contact = gear::lubricated_contact(ehl, line, load, phase + j, share);
+          const double f = -std::copysign(share * gear::xu_friction_coefficient(contact), contact.slide_to_roll);
+          const double arm = mesh.arm_mm(phase + j);
+          law[0] += f;
+          law[1] += f * arm / line.base_radius_1_mm;
+          law[2] += f * line.arm_2(arm) / line.base_radius_2_mm;
+        }
+        const FrictionRatios<double> r = track.at(track.place(inside), phase);
+        worst = std::max({worst, std::abs(r.force - law[0]), std::abs(r.moment_driving - law[1]),
+                          std::abs(r.moment_driven - law[2])});
+      }
+    }
+    return worst;
+  }
+};
+
+TEST(LubricatedTrack, IsTheLawToTheErrorThatItTells) {
+  for (const gear::MeshedPair* mesh : {&table1().sun_planet, &table1().ring_planet})
+    for (const double tolerance : {1e-6, 1e-9, 1e-11})
+      for (const double omega : {0.3, 2.8}) {
+        const LawAndTrack t(*mesh, tolerance, omega);
+        const double error = t.error();
+        // The tolerance is met by the table and by the load shares that it is made of, one on the other.
+        EXPECT_LE(t.track.error(), 1.1 * tolerance);
+        EXPECT_LE(error, t.track.error() + 1e-15);
+        std::size_t rows = 0;
+        for (const IntervalGrid& g : t.track.grids()) rows += g.count;
+        RecordProperty("rows", std::to_string(rows));
+        if (tolerance == 1e-9) {
+          EXPECT_LT(rows, 500U);
+        }
+      }
+}
+
+TEST(LubricatedTrack, IsGradedTowardsThePitchPointOfTheSunMesh) {
+  const LawAndTrack sun(table1().sun_planet, 1e-9, 1.0);
+  std::size_t towards_end = 0;
+  std::size_t towards_start = 0;
+  for (const IntervalGrid& g : sun.track.grids())
+    if (g.per_octave > 0) ++(g.from_end ? towards_end : towards_start);
+  EXPECT_EQ(towards_end, 1U);
+  EXPECT_EQ(towards_start, 1U);
+  // The ring mesh lies beyond its pitch point.
+  const LawAndTrack ring(table1().ring_planet, 1e-9, 1.0);
+  for (const IntervalGrid& g : ring.track.grids()) EXPECT_EQ(g.per_octave, 0U);
+}
+
+TEST(LubricatedTrack, LanesAreTheSingleRuns) {
+  const gear::Stage stage = oiled();
+  const auto model_at = [&](double omega) { return make_dynamic_model(stage, scales_of(stage), omega, {}); };
+  const DynamicModel like = model_at(1.0);
+  std::size_t compared = 0;
+  for (const char* set : {"baseline", "avx2", "avx512"}) {
+    const LaneModel lanes = make_lane_model(like, set);
+    if (lanes.width == 0) continue;
+    std::vector<DynamicModel> models;
+    for (std::size_t w = 0; w < lanes.width; ++w) {
+      models.push_back(model_at(0.4 + 0.3 * static_cast<double>(w)));
+      lanes.load(w, models.back());
+    }
+    const std::vector<double>& breaks = like.breakpoints;
+    for (std::size_t trial = 0; trial < 40 * breaks.size(); ++trial) {
+      // Each lane in a segment of its own, from its start over its end.
+      alignas(64) std::array<double, 8> s{};
+      std::vector<std::size_t> segment;
+      for (std::size_t w = 0; w < lanes.width; ++w) {
+        const std::size_t k = (trial + w) % breaks.size();
+        const double to = k + 1 < breaks.size() ? breaks[k + 1] : breaks[0] + two_pi;
+        const double way = std::pow(static_cast<double>(trial % 40) / 39.0, 3.0);
+        s[w] = breaks[k] + (to - breaks[k]) * (trial % 2 == 0 ? way : 1.0 - way);
+        segment.push_back(k);
+        lanes.set_segment(w, k);
+      }
+      const std::size_t n = like.dimension;
+      alignas(64) std::array<double, 64 * 8> y{};
+      alignas(64) std::array<double, 64 * 8> f{};
+      ASSERT_LE(n, 64U);
+      std::vector<double> own(n);
+      for (std::size_t i = 0; i < n; ++i) {
+        own[i] = 3.0 * std::sin(static_cast<double>(i + 1 + trial));
+        for (std::size_t w = 0; w < lanes.width; ++w) y[i * lanes.width + w] = own[i];
+      }
+      lanes.set_places(1, s.data());
+      lanes.right_hand_side(0, y.data(), f.data());
+      std::vector<double> expected(n);
+      for (std::size_t w = 0; w < lanes.width; ++w) {
+        models[w].right_hand_side(segment[w], s[w], own.data(), expected.data());
+        for (std::size_t i = 0; i < n; ++i)
+          ASSERT_NEAR(f[i * lanes.width + w], expected[i], 1e-11 * (1.0 + std::abs(expected[i])))
+              << set << " lane " << w << " segment " << segment[w] << " s " << s[w];
+        ++compared;
+      }
+    }
+  }
+  EXPECT_GT(compared, 0U);
+}
+
+TEST(LubricatedTrack, HalfAsFineIsAboutSixteenTimesAsFarOff) {
+  const gear::Stage stage = oiled(1e-7);
+  const gear::Stage fine = oiled(1e-12);
+  const DynamicModel m = make_dynamic_model(stage, scales_of(stage), 0.7, {});
+  const DynamicModel exact = make_dynamic_model(fine, scales_of(fine), 0.7, {});
+  ASSERT_TRUE(m.with_halved_tables);
+  const DynamicModel half = m.with_halved_tables();
+  ASSERT_EQ(half.breakpoints, m.breakpoints);
+  const auto off = [&](const DynamicModel& other) {
+    double sum = 0.0;
+    std::vector<double> a(m.dimension);
+    std::vector<double> b(m.dimension);
+    for (int k = 0; k < 2003; ++k) {
+      const double s = two_pi * k / 2003.0;
+      const std::size_t segment = segment_at(m.breakpoints, s);
+      exact.right_hand_side(segment, s, m.default_start.data(), a.data());
+      other.right_hand_side(segment, s, m.default_start.data(), b.data());
+      double most = 0.0;
+      for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+      sum += most;
+    }
+    return sum;
+  };
+  const double ratio = off(half) / off(m);
+  EXPECT_GT(ratio, 6.0);
+  EXPECT_LT(ratio, 40.0);
+  // Coefficients and given tables are what they are.
+  const gear::Stage plain = problems::tang2020();
+  EXPECT_FALSE(make_dynamic_model(plain, scales_of(plain), 0.7, {}).with_halved_tables);
+}
+
+}  // namespace
+}  // namespace epicyclic::model
