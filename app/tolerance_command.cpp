@@ -24,7 +24,7 @@ int tolerance_command(const Arguments& arguments) {
   stop_on_signals();
   const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
   require_points(input, arguments, "tolerance");
-  const studies::SweepOptions sweep = studies::by_recurrence_alone(*input.study.sweep);
+  const studies::SweepOptions& sweep = *input.study.sweep;
   const studies::SweepPlan plan = studies::plan_sweep(sweep);
   const auto model_at = io::smoothed_model_at(input);
   const double width = input.study.model.clearance_smoothing;

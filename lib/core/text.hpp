@@ -13,4 +13,9 @@ namespace epicyclic {
   return {buffer, end.ptr};
 }
 
+/// "0.01230 ± 0.00042": the error to two digits, the value down to the last of them (fifteen at the most), so that
+/// values which differ by more than their errors differ in print. A value without an error stands alone, what is not
+/// known is called so.
+[[nodiscard]] std::string with_error(double value, double error);
+
 }  // namespace epicyclic

@@ -32,9 +32,8 @@ void write_crosscheck_csv(const std::filesystem::path& file, const studies::Cros
     const studies::Variant& v = all.variants[c.variant];
     csv.row(c.point, direction_word(r.point.direction), r.point.value, v.label, v.integrator.method,
             v.integrator.relative_tolerance, v.clearance_smoothing, status_word(c.result.outcome),
-            regime_word(c.result), c.result.recurrence.period, status_word(r.outcome), regime_word(r),
-            r.recurrence.period, all.orbit_period[c.point], c.distance, to_string(c.verdict), c.detail,
-            c.result.rhs_evaluations);
+            regime_word(c.result), c.result.period, status_word(r.outcome), regime_word(r), r.period, r.period,
+            c.distance, to_string(c.verdict), c.detail, c.result.rhs_evaluations);
   }
   csv.commit();
 }
@@ -47,9 +46,12 @@ std::size_t differences(const studies::Crosscheck& all) {
 std::string crosscheck_summary(const studies::Crosscheck& all) {
   std::string text = fmt::format("reference: {}, relative tolerance {:g}, {} points\n\n", all.variants[0].label,
                                  all.variants[0].integrator.relative_tolerance, all.reference.size());
-  text += fmt::format("{} points are on a periodic orbit, or settle to one.\n\n",
-                      all.orbit_period.size() -
-                          static_cast<std::size_t>(std::count(all.orbit_period.begin(), all.orbit_period.end(), 0)));
+  std::map<std::string, int> motions;
+  for (const auto& r : all.reference)
+    ++motions[r.outcome == integrate::Outcome::reached ? motion_name(r) : status_word(r.outcome)];
+  std::string list;
+  for (const auto& [name, count] : motions) list += fmt::format("{}{} {}", list.empty() ? "" : ", ", count, name);
+  text += fmt::format("Motions of the reference: {}.\n\n", list);
   text += "| variant | agree | of these compared state by state | largest distance | ";
   for (const Verdict v : differing) text += to_string(v) + " | ";
   text += "right-hand sides over the reference's |\n|---|---|---|---|";

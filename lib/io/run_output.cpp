@@ -407,21 +407,10 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows) {
   return text;
 }
 
-/// "0.0123 ± 0.0004"; an interval that is not known is not shown.
-std::string with_interval(double value, double half_width) {
-  if (!std::isfinite(value)) return "unknown";
-  if (!std::isfinite(half_width)) return fmt::format("{:.4g} (no interval)", value);
-  if (half_width == 0.0) return fmt::format("{:.6g}", value);
-  // Digits down to the second of the interval, eight at the most.
-  const auto decade = [](double x) { return std::floor(std::log10(std::abs(x))); };
-  const double digits = value == 0.0 ? 2.0 : decade(value) - decade(half_width) + 2.0;
-  return fmt::format("{:#.{}g} ± {:#.2g}", value, static_cast<int>(std::clamp(digits, 1.0, 8.0)), half_width);
-}
-
 /// An exponent per unit of s, as its two readings.
 std::string exponent_text(const analysis::Estimate& per_s, double omega) {
-  return fmt::format("{} per tau ({} per mesh period)", with_interval(per_s.value * omega, per_s.half_width * omega),
-                     with_interval(per_s.value * mesh_period, per_s.half_width * mesh_period));
+  return fmt::format("{} per tau ({} per mesh period)", with_error(per_s.value * omega, per_s.half_width * omega),
+                     with_error(per_s.value * mesh_period, per_s.half_width * mesh_period));
 }
 
 std::string complex_text(const std::complex<double>& z) {
@@ -431,7 +420,7 @@ std::string complex_text(const std::complex<double>& z) {
 
 std::string multiplier_text(const analysis::Multipliers& m, std::size_t k) {
   std::string text =
-      fmt::format("{}, modulus {}", complex_text(m.values[k]), with_interval(std::abs(m.values[k]), m.errors[k]));
+      fmt::format("{}, modulus {}", complex_text(m.values[k]), with_error(std::abs(m.values[k]), m.errors[k]));
   if (m.multiplicity[k] > 1) text += fmt::format(", one of {} that its error cannot tell apart", m.multiplicity[k]);
   return text;
 }
@@ -496,8 +485,8 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
                                m.stable() ? "stable" : "not proven to be stable"));
     if (m.critical != 0) text += bullet(fmt::format("Nearest to the unit circle: {}.", multiplier_text(m, m.critical)));
   } else if (p.regime == Regime::periodic && p.classified) {
-    text += bullet(fmt::format("Largest Floquet multiplier: modulus {}.",
-                               with_interval(e.largest_multiplier, e.multiplier_error)));
+    text += bullet(
+        fmt::format("Largest Floquet multiplier: modulus {}.", with_error(e.largest_multiplier, e.multiplier_error)));
   }
   if (p.classified) {
     text += bullet(fmt::format("Largest Lyapunov exponent{}: {}.",
@@ -595,8 +584,8 @@ std::string exponents_text(const RunResult& r) {
   std::vector<std::vector<std::string>> rows{{"exponent", "per tau", "per mesh period"}};
   for (std::size_t i = 0; i < std::min(most, e.per_s.size()); ++i) {
     const analysis::Estimate& x = e.per_s[i];
-    rows.push_back({fmt::format("lambda_{}", i + 1), with_interval(x.value * r.omega, x.half_width * r.omega),
-                    with_interval(x.value * mesh_period, x.half_width * mesh_period)});
+    rows.push_back({fmt::format("lambda_{}", i + 1), with_error(x.value * r.omega, x.half_width * r.omega),
+                    with_error(x.value * mesh_period, x.half_width * mesh_period)});
   }
   text += aligned(rows) + "\n";
   text += bullet(fmt::format("Counted over {:g} mesh periods, {} exponents. Dimension of Kaplan and Yorke: {:.4g}.",
@@ -628,7 +617,7 @@ std::string transverse_text(const RunResult& r) {
       : t.low() > 0.0 ? "small differences between planets grow: synchronous planets do not stay synchronous"
                       : "its interval holds zero: whether synchronous planets stay so is not decided";
   return "\n## Synchronous planets\n\n" +
-         wrapped(fmt::format("Transverse exponent: {} per tau: {}.", with_interval(t.value, t.half_width), meaning));
+         wrapped(fmt::format("Transverse exponent: {} per tau: {}.", with_error(t.value, t.half_width), meaning));
 }
 
 std::string files_text(const RunOutput& output, const RunResult& r) {

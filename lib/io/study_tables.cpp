@@ -637,6 +637,7 @@ const Table<Study>& crosscheck_table() {
     add_kind(t, "crosscheck");
     add_grid(t);
     add_look(t);
+    add_classification(t);
     const auto of = [](auto member) { return chain(&Study::crosscheck, member); };
     t.choices("methods", of(&CrosscheckOptions::methods), method_choices(),
               "Methods; the first is the reference of the others.");
@@ -658,6 +659,7 @@ const Table<Study>& tolerance_table() {
     add_kind(t, "tolerance");
     add_grid(t);
     add_look(t);
+    add_classification(t);
     const auto of = [](auto member) { return chain(&Study::tolerance, member); };
     t.choices("methods", of(&ToleranceOptions::methods), method_choices(), "Methods of the ladder.");
     t.numbers("tolerances", of(&ToleranceOptions::tolerances), integrator_tolerance, 1, 100,

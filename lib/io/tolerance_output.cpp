@@ -201,9 +201,9 @@ std::string write_tolerance_tables(const std::filesystem::path& folder, const To
       const studies::Quantities study = study_quantities(p);
       text += fmt::format("| {} | {} | {} |", p.point.index, short_text(p.point.value, 12), p.period);
       for (std::size_t k = 0; k < quantity_names.size(); ++k)
-        text += fmt::format(" {:.10g} ± {:.1g} |", study[k], error_bar(p, k));
+        text += fmt::format(" {} |", with_error(study[k], error_bar(p, k)));
       const LadderStep* own = study_step(p, output.integrator);
-      text += fmt::format(" {} | {:.1g} | {:.4f} | {:.1g} | {:.1g} |\n",
+      text += fmt::format(" {} | {:.1g} | {:.6g} | {:.1g} | {:.1g} |\n",
                           own == nullptr ? "" : fmt::format("{:.1g}", own->orbit_error), p.settled_distance,
                           p.largest_multiplier, p.reference_residual, p.table_displacement);
     }
@@ -212,21 +212,29 @@ std::string write_tolerance_tables(const std::filesystem::path& folder, const To
     if (!p.note.empty())
       text += fmt::format("\nPoint {} ({}): {}\n", p.point.index, short_text(p.point.value, 12), p.note);
     if (p.statistics.empty()) continue;
-    text +=
-        "\n| method | tolerance | width | largest exponent per tau | mean delta_sp | deviation delta_sp | agrees |\n"
-        "|---|---|---|---|---|---|---|\n";
+    text += "\n| method | tolerance | width | agrees |";
+    for (const char* name : studies::statistics_names) text += fmt::format(" {} |", name);
+    text += "\n|---|---|---|---|";
+    for (std::size_t k = 0; k < studies::statistics_names.size(); ++k) text += "---|";
+    text += '\n';
     for (const StatisticsStep& s : p.statistics) {
-      const auto cell = [](const analysis::Estimate& e) {
-        return fmt::format("{:.5f} ± {:.5f}", e.value, e.half_width);
-      };
-      text += s.outcome == integrate::Outcome::reached
-                  ? fmt::format("| {} | {:g} | {:g} | {} | {} | {} | {} |\n", s.method, s.tolerance, s.width,
-                                cell(s.exponent), cell(s.mean[0]), cell(s.deviation[0]),
-                                studies::statistics_agree(p.statistics.front(), s) ? "yes" : "no")
-                  : fmt::format("| {} | {:g} | {:g} | {} | | | |\n", s.method, s.tolerance, s.width,
-                                status_word(s.outcome));
+      const bool ok = s.outcome == integrate::Outcome::reached;
+      std::string differ;
+      for (const std::size_t k : studies::differing_statistics(p.statistics.front(), s))
+        differ += fmt::format("{}{}", differ.empty() ? "no: " : ", ", studies::statistics_names[k]);
+      text += fmt::format("| {} | {:g} | {:g} | {} |", s.method, s.tolerance, s.width,
+                          !ok              ? status_word(s.outcome)
+                          : differ.empty() ? "yes"
+                                           : differ);
+      for (const analysis::Estimate& e : studies::statistics_of(s))
+        text += ok ? fmt::format(" {} |", with_error(e.value, e.half_width)) : " |";
+      text += '\n';
     }
   }
+  if (std::any_of(points.begin(), points.end(), [](const TolerancePoint& p) { return !p.statistics.empty(); }))
+    text +=
+        "\nExponents per tau; means and deviations over the Poincare points [b_c]; 95 % intervals. A step agrees where "
+        "all its intervals overlap those of the first line; of equal truths one in 200 does not.\n";
   write_file_atomically(folder / "tolerance.md", text);
   return text;
 }

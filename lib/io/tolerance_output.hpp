@@ -3,7 +3,7 @@
 //   tolerance.csv    point x method x tolerance: errors of flow and orbit, work of one orbit, quantities
 //   smoothing.csv    point x width: distance of the smoothed orbit, work, quantities
 //   quantities.csv   point x quantity: the study's value, the reference's, the error bar, the extrapolation of widths
-//   statistics.csv   where the motion does not recur: exponent and moments with their intervals
+//   statistics.csv   where the motion is not periodic: exponent and moments with their intervals
 //   tolerance.md     slopes, recommendation, error bars
 //
 // The same bytes for the same study, but for the figure over time (figures/work_precision_time.*): times are those of

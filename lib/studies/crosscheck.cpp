@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "analysis/lyapunov.hpp"
+#include "analysis/poincare.hpp"
 #include "core/largest_difference.hpp"
 #include "core/text.hpp"
 #include "integrate/make_flow.hpp"
@@ -24,34 +24,22 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// Tolerances are tightened by this much, but not below what doubles can hold.
 constexpr double tightening = 1e-2;
 constexpr double tightest = 1e-13;
-/// How long motions are followed, in `continued_periods`: to recognise chaos, and to find weak chaos, a torus or a slow
-/// transient where nothing else explains a difference.
-constexpr int briefly = 5;
+/// How long motions are followed where their regimes leave a difference open, in `continued_periods`.
 constexpr int at_length = 40;
-/// How much longer, in `continued_periods`, a motion may wander before it comes to its orbit.
 constexpr int patience = 360;
-/// Chaos and orbits are followed no more finely than this: the motion is what matters, not its phase.
+/// They are followed no more finely than this: the motion is what matters, not its phase.
 constexpr double fine_enough = 1e-8;
+/// Two tori are one if no state of either is farther from the other than this part of their extent.
+constexpr double same_set = 0.05;
+/// Orbits are two motions, and not one to within what the methods may differ by, if they are so many tolerances apart.
+constexpr double clearly = 1e3;
+
+using analysis::Regime;
 
 bool reached(const PointResult& r) { return r.outcome == integrate::Outcome::reached; }
-
-/// Where a motion goes.
-struct Course {
-  analysis::Estimate exponent{0.0, std::numeric_limits<double>::infinity()};  ///< largest, per tau
-  double late_growth = 0;             ///< log of a tangent vector's growth over the last half
-  analysis::PoincareSection section;  ///< of the last half
-  std::vector<double> state;          ///< the last one; empty if it was not reached
-
-  [[nodiscard]] bool chaotic() const { return exponent.low() > 0.0; }
-  /// Nearby motions neither part nor meet.
-  [[nodiscard]] bool neutral() const { return !state.empty() && std::abs(late_growth) <= analysis::neutral_growth; }
-};
-
-/// What is known of the reference's motion besides its record.
-struct Known {
-  SettledOrbit orbit;
-  Course course{};  ///< followed briefly, at length where that leaves it open; empty if there is an orbit
-};
+bool chaotic(const PointResult& r) { return r.regime == Regime::chaotic; }
+bool periodic(const PointResult& r) { return r.regime == Regime::periodic; }
+bool torus(const PointResult& r) { return r.regime == Regime::quasiperiodic; }
 
 /// Everything that explaining a point needs.
 class Examiner {
@@ -60,7 +48,7 @@ class Examiner {
            const SmoothedModelAt& model_at, const std::atomic<bool>* stop)
       : sweep_(sweep), options_(options), variants_(variants), model_at_(model_at), stop_(stop) {}
 
-  void judge(const GridPoint& point, const std::vector<double>& start, const PointResult& reference, const Known& known,
+  void judge(const GridPoint& point, const std::vector<double>& start, const PointResult& reference,
              Comparison& c) const {
     if (!reached(reference) || !reached(c.result)) {
       c.distance = nan;
@@ -69,52 +57,46 @@ class Examiner {
                  "; variant: " + (reached(c.result) ? "ok" : c.result.message);
       return;
     }
-    const std::size_t n = model_at_(point.value, variants_[0].clearance_smoothing).dimension;
-    c.distance = distance(reference, c.result, n);
-    if (same(reference, c.result, n)) return;
-    if (reference.recurrence.period == 0 && c.result.recurrence.period == 0) {
-      if (known.orbit.period > 0) {
-        const SettledOrbit theirs = orbit_of(point, variants_[c.variant], c.result);
-        if (known.orbit.period == theirs.period) {
-          c.distance = largest_difference(known.orbit.orbit.state, theirs.orbit.state);
-          if (c.distance <= options_.orbit_tolerance) {
-            c.detail = "both settle to one orbit of period " + std::to_string(theirs.period);
-            return;
-          }
-        }
-      } else if (known.course.chaotic()) {
-        const Course theirs = follow(point, variants_[c.variant], c.result.end_state, briefly);
-        if (theirs.chaotic()) {
-          c.distance = nan;
-          c.detail =
-              "both chaotic, largest exponents " + text_of(known.course.exponent) + " and " + text_of(theirs.exponent);
-          return;
-        }
-      }
+    const Pair both{point, variants_[0], reference, variants_[c.variant], c.result};
+    c.distance = distance(both);
+    if (same(both)) return;
+    if (chaotic(reference) && chaotic(c.result)) {
+      c.distance = nan;
+      c.detail = "both chaotic, largest exponents " + exponent_of(reference) + " and " + exponent_of(c.result);
+      return;
     }
-    explain(point, start, reference, known, n, c);
-  }
-
-  [[nodiscard]] Known look_at(const GridPoint& point, const PointResult& reference) const {
-    Known known{orbit_of(point, variants_[0], reference)};
-    if (known.orbit.period > 0 || !reached(reference)) return known;
-    known.course = follow(point, variants_[0], reference.end_state, briefly);
-    if (!known.course.chaotic()) known.course = follow(point, variants_[0], reference.end_state, at_length);
-    return known;
+    explain(both, start, c);
   }
 
  private:
-  [[nodiscard]] SettledOrbit orbit_of(const GridPoint& point, const Variant& v, const PointResult& motion) const {
-    return settled_orbit(*flow_of(point, v), motion);
-  }
+  /// Two answers at one point.
+  struct Pair {
+    const GridPoint& point;
+    const Variant& ours;
+    const PointResult& our_motion;
+    const Variant& other;
+    const PointResult& their_motion;
+  };
 
   [[nodiscard]] std::unique_ptr<integrate::Flow> flow_of(const GridPoint& point, const Variant& v) const {
     return integrate::make_flow(vector_field(model_at_(point.value, v.clearance_smoothing)), v.integrator);
   }
 
-  /// d of [A-cross].
-  [[nodiscard]] static double distance(const PointResult& a, const PointResult& b, std::size_t n) {
-    if (a.recurrence.period > 0 && a.recurrence.period == b.recurrence.period) return orbit_distance(a, b, n);
+  [[nodiscard]] SettledOrbit orbit_of(const GridPoint& point, const Variant& v, const PointResult& motion) const {
+    return settled_orbit(*flow_of(point, v), motion);
+  }
+
+  /// d of [A-cross]; of motions without an orbit, of one record from the other.
+  [[nodiscard]] double distance(const Pair& both) const {
+    const PointResult& a = both.our_motion;
+    const PointResult& b = both.their_motion;
+    const std::size_t n = a.end_state.size();
+    const double recorded = orbit_distance(a, b, n);
+    if (recorded <= options_.orbit_tolerance) return recorded;
+    // Records may be those of motions that still settle: by the orbits themselves.
+    if (periodic(a) && periodic(b))
+      if (const double d = orbits_apart(both); std::isfinite(d)) return d;
+    if (!std::isnan(recorded)) return recorded;
     double most = 0.0;
     for (std::size_t r = 0; r < std::min(a.poincare_rows(), b.poincare_rows()); ++r)
       most = std::max(most, largest_difference({a.poincare.data() + r * a.poincare_columns, n},
@@ -122,20 +104,30 @@ class Examiner {
     return most;
   }
 
-  [[nodiscard]] bool same(const PointResult& a, const PointResult& b, std::size_t n) const {
-    return a.recurrence.period == b.recurrence.period && distance(a, b, n) <= options_.orbit_tolerance;
+  /// One regime, and state by state one motion.
+  [[nodiscard]] bool same(const Pair& both) const {
+    return both.our_motion.regime == both.their_motion.regime && both.our_motion.period == both.their_motion.period &&
+           distance(both) <= options_.orbit_tolerance;
   }
 
-  static std::string text_of(const analysis::Estimate& e) {
-    return short_text(e.value) + " +- " + short_text(e.half_width) + " per tau";
+  static std::string exponent_of(const PointResult& r) {
+    const analysis::Estimate e = r.lyapunov_max();
+    return with_error(e.value, e.half_width) + " per tau";
   }
 
   [[nodiscard]] PointResult compute(const GridPoint& point, const Variant& v, const std::vector<double>& start,
-                                    int transient) const {
-    SweepOptions sweep = sweep_;
-    sweep.transient_periods = transient;
+                                    const SweepOptions& sweep) const {
     return compute_point(point, model_at_(point.value, v.clearance_smoothing), start, sweep, v.integrator,
                          [this] { return stop_ == nullptr || !stop_->load(); });
+  }
+
+  /// The motion that a state is on, some periods later.
+  [[nodiscard]] PointResult later(const GridPoint& point, const Variant& v, const std::vector<double>& start,
+                                  int periods) const {
+    SweepOptions sweep = sweep_;
+    sweep.transient = Transient::fixed;
+    sweep.transient_periods = periods;
+    return compute(point, v, start, sweep);
   }
 
   static Variant tightened(Variant v) {
@@ -151,137 +143,128 @@ class Examiner {
     return v;
   }
 
-  void explain(const GridPoint& point, const std::vector<double>& start, const PointResult& reference,
-               const Known& known, std::size_t n, Comparison& c) const {
-    const Variant& ours = variants_[0];
-    const Variant& other = variants_[c.variant];
+  void explain(const Pair& both, const std::vector<double>& start, Comparison& c) const {
+    const auto& [point, ours, reference, other, result] = both;
     const auto done = [&](Verdict verdict, std::string detail) {
       c.verdict = verdict;
       c.detail = std::move(detail);
     };
-
-    // One answer continued with the other method, both ways. Two answers that both methods hold are two motions, unless
-    // they are one to within what the methods may differ by.
-    const bool both_periodic = reference.recurrence.period > 0 && c.result.recurrence.period > 0;
-    constexpr double clearly = 1e3;
-    if (both_periodic && !(c.distance <= clearly * options_.orbit_tolerance)) {
-      const int continued = options_.continued_periods;
-      if (holds(point, other, reference, continued, n) && holds(point, ours, c.result, continued, n))
-        return done(Verdict::coexisting, "each method stays on the other's orbit for " + std::to_string(continued) +
-                                             " more periods; distance " + short_text(c.distance));
+    if (torus(reference) && torus(result))
+      if (const std::string one = one_torus(both); !one.empty()) return done(Verdict::torus, one);
+    const bool near = periodic(reference) && periodic(result) && c.distance <= clearly * options_.orbit_tolerance;
+    if (!near && told(reference) && told(result)) {
+      if (const std::string two = two_motions(both); !two.empty()) return done(Verdict::coexisting, two);
     }
 
-    const PointResult tight_ours = compute(point, tightened(ours), start, sweep_.transient_periods);
+    const Variant tight_ours = tightened(ours);
+    const PointResult our_tight = compute(point, tight_ours, start, sweep_);
     if (other.clearance_smoothing != ours.clearance_smoothing) {
       Variant same_width = other;
       same_width.clearance_smoothing = ours.clearance_smoothing;
-      const PointResult exact = compute(point, same_width, start, sweep_.transient_periods);
-      if (reached(exact) && same(reference, exact, n))
+      const PointResult exact = compute(point, same_width, start, sweep_);
+      if (reached(exact) && same({point, ours, reference, same_width, exact}))
         return done(Verdict::smoothing, "with the reference's width they agree");
     }
-    const PointResult tight_theirs = compute(point, tightened(other), start, sweep_.transient_periods);
-    if (reached(tight_ours) && reached(tight_theirs) && same(tight_ours, tight_theirs, n))
-      return done(Verdict::tolerance, "at tolerances 100 times tighter the distance is " +
-                                          short_text(distance(tight_ours, tight_theirs, n)));
+    const Variant tight_other = tightened(other);
+    const PointResult their_tight = compute(point, tight_other, start, sweep_);
+    const Pair tight{point, tight_ours, our_tight, tight_other, their_tight};
+    if (reached(our_tight) && reached(their_tight) && same(tight))
+      return done(Verdict::tolerance, "at tolerances 100 times tighter the distance is " + short_text(distance(tight)));
 
     // Followed for long, from either.
-    const bool followed = known.orbit.period == 0;
-    const Course course = followed ? known.course : follow(point, ours, reference.end_state, at_length);
-    if (course.chaotic()) return done(Verdict::chaos, "largest exponent " + text_of(course.exponent));
-    const Course theirs = follow(point, other, c.result.end_state, at_length);
-    if (theirs.chaotic())
-      return done(Verdict::chaos, "largest exponent of the variant's motion " + text_of(theirs.exponent) +
-                                      ", of the reference's " + text_of(course.exponent));
-    if (course.neutral() && theirs.neutral()) {
-      const double off =
-          std::max(farthest_from(course.section, theirs.section), farthest_from(theirs.section, course.section));
-      const double wide = extent(course.section);
-      constexpr double same_set = 0.05;
-      if (off <= same_set * wide)
-        return done(Verdict::torus, "states of one set that is " + short_text(wide) + " wide, none farther than " +
-                                        short_text(off) + " from the other method's; tangents grow by e^" +
-                                        short_text(course.late_growth) + " and e^" + short_text(theirs.late_growth) +
-                                        " in " + std::to_string(course.section.size()) + " periods");
-    }
-
-    // Both at last on one orbit, or each on an orbit that the other method has, too?
-    std::vector<double> our_state = course.state;
-    std::vector<double> their_state = theirs.state;
-    int followed_for = at_length * options_.continued_periods;
-    for (const int more : {sweep_.transient_periods, patience * options_.continued_periods}) {
-      if (our_state.empty() || their_state.empty()) break;
+    PointResult our_last = reference;
+    PointResult their_last = result;
+    int followed_for = 0;
+    for (const int times : {at_length, patience}) {
+      const int more = times * options_.continued_periods;
+      const Variant our_way = coarsened(ours);
+      const Variant their_way = coarsened(other);
+      our_last = later(point, our_way, our_last.end_state, more);
+      their_last = later(point, their_way, their_last.end_state, more);
+      if (!reached(our_last) || !reached(their_last)) break;
       followed_for += more;
-      const PointResult our_motion = compute(point, coarsened(ours), our_state, more);
-      const PointResult their_motion = compute(point, coarsened(other), their_state, more);
-      our_state = our_motion.end_state;
-      their_state = their_motion.end_state;
-      const SettledOrbit our_orbit = orbit_of(point, ours, our_motion);
-      const SettledOrbit their_orbit = orbit_of(point, other, their_motion);
-      if (our_orbit.period == 0 || their_orbit.period == 0) continue;
-      const double d = nearest_phase(point, ours, our_orbit, their_orbit);
       const std::string after = "after " + std::to_string(followed_for) + " more periods ";
-      if (d <= options_.orbit_tolerance)
-        return done(Verdict::settling, after + "both settle to an orbit of period " + std::to_string(our_orbit.period) +
-                                           ", distance " + short_text(d));
-      if (has_orbit(point, other, our_orbit) && has_orbit(point, ours, their_orbit))
-        return done(Verdict::coexisting, after + "they are on two orbits, of periods " +
-                                             std::to_string(our_orbit.period) + " and " +
-                                             std::to_string(their_orbit.period) + ", both attracting by both methods");
+      const Pair last{point, ours, our_last, other, their_last};
+      if (chaotic(our_last) && chaotic(their_last))
+        return done(Verdict::chaos, after + "both are chaotic, largest exponents " + exponent_of(our_last) + " and " +
+                                        exponent_of(their_last));
+      if (torus(our_last) && torus(their_last))
+        if (const std::string one = one_torus(last); !one.empty()) return done(Verdict::torus, after + one);
+      if (periodic(our_last) && periodic(their_last)) {
+        const double d = orbits_apart(last);
+        if (d <= options_.orbit_tolerance)
+          return done(Verdict::settling, after + "both settle to an orbit of period " +
+                                             std::to_string(our_last.period) + ", distance " + short_text(d));
+      }
+      if (told(our_last) && told(their_last))
+        if (const std::string two = two_motions(last); !two.empty()) return done(Verdict::coexisting, after + two);
     }
-    done(Verdict::unexplained, "distance " + short_text(c.distance) + ", periods " +
-                                   std::to_string(reference.recurrence.period) + " and " +
-                                   std::to_string(c.result.recurrence.period) + ", exponents " +
-                                   text_of(course.exponent) + " and " + text_of(theirs.exponent));
+    const std::string motions = "reference " + motion_text(reference) + "; variant " + motion_text(result);
+    if (chaotic(our_last) || chaotic(their_last))
+      return done(Verdict::chaos,
+                  "largest exponents " + exponent_of(our_last) + " and " + exponent_of(their_last) + "; " + motions);
+    done(Verdict::unexplained, "distance " + short_text(c.distance) + "; " + motions);
+  }
+
+  static bool told(const PointResult& r) { return r.regime != Regime::undecided; }
+
+  /// In words, or empty.
+  [[nodiscard]] std::string two_motions(const Pair& both) const {
+    const auto& [point, ours, a, other, b] = both;
+    if (chaotic(a) && chaotic(b)) return {};
+    if (!holds(point, other, ours, a) || !holds(point, ours, other, b)) return {};
+    return "each method stays on the other's motion for " + std::to_string(options_.continued_periods) +
+           " more periods: " + motion_name(a) + " and " + motion_name(b) +
+           (periodic(a) && periodic(b) && a.period == b.period ? ", distance " + short_text(orbits_apart(both)) : "");
   }
 
   /// Does a method stay on the motion that another has found?
-  [[nodiscard]] bool holds(const GridPoint& point, const Variant& v, const PointResult& found, int periods,
-                           std::size_t n) const {
-    const PointResult on = compute(point, v, found.end_state, periods);
-    return reached(on) && same(found, on, n);
+  [[nodiscard]] bool holds(const GridPoint& point, const Variant& v, const Variant& by,
+                           const PointResult& found) const {
+    const PointResult on =
+        later(point, v, found.orbit.empty() ? found.end_state : found.orbit, options_.continued_periods);
+    const Pair both{point, by, found, v, on};
+    return reached(on) && on.regime == found.regime && on.period == found.period &&
+           (!periodic(found) || orbits_apart(both) <= options_.orbit_tolerance) &&
+           (!torus(found) || !one_torus(both).empty());
   }
 
-  /// Has a method the same attracting orbit that another has found?
-  [[nodiscard]] bool has_orbit(const GridPoint& point, const Variant& v, const SettledOrbit& found) const {
-    const auto flow = flow_of(point, v);
-    const analysis::PeriodicOrbit own = analysis::find_periodic_orbit(*flow, found.orbit.state, found.period);
-    return own.found() && largest_difference(own.state, found.orbit.state) <= options_.orbit_tolerance &&
-           largest_multiplier(own) < 1.0;
+  /// Do two tori fill one set of states? In words, or empty.
+  [[nodiscard]] std::string one_torus(const Pair& both) const {
+    const analysis::PoincareSection a = long_section(both.point, both.ours, both.our_motion.end_state);
+    const analysis::PoincareSection b = long_section(both.point, both.other, both.their_motion.end_state);
+    if (a.size() == 0 || b.size() == 0) return {};
+    const double off = std::max(farthest_from(a, b), farthest_from(b, a));
+    const double wide = extent(a);
+    if (!(off <= same_set * wide)) return {};
+    return "both quasiperiodic, on one set of states that is " + short_text(wide) + " wide, none farther than " +
+           short_text(off) + " from the other method's in " + std::to_string(a.size()) + " periods";
   }
 
-  /// Distance of an orbit's first state from the nearest of the other orbit's; infinite for different periods.
-  [[nodiscard]] double nearest_phase(const GridPoint& point, const Variant& v, const SettledOrbit& a,
-                                     const SettledOrbit& b) const {
+  [[nodiscard]] analysis::PoincareSection long_section(const GridPoint& point, const Variant& v,
+                                                       std::vector<double> state) const {
+    const auto flow = flow_of(point, coarsened(v));
+    const int half = at_length * options_.continued_periods / 2;
+    return analysis::strobe(
+               *flow, state, {.transient_periods = half, .recorded_periods = half, .phases = 1}, [](auto&&...) {},
+               [this] { return stop_ == nullptr || !stop_->load(); })
+        .section;
+  }
+
+  /// Distance of two periodic motions' orbits, each found by its own method; infinite if they have none, or other
+  /// periods.
+  [[nodiscard]] double orbits_apart(const Pair& both) const {
     double nearest = std::numeric_limits<double>::infinity();
-    if (a.period != b.period) return nearest;
-    const auto flow = flow_of(point, v);
+    const SettledOrbit a = orbit_of(both.point, both.ours, both.our_motion);
+    const SettledOrbit b = orbit_of(both.point, both.other, both.their_motion);
+    if (a.period == 0 || a.period != b.period) return nearest;
+    const auto flow = flow_of(both.point, both.ours);
     std::vector<double> y = a.orbit.state;
     for (int k = 0; k < a.period; ++k) {
       nearest = std::min(nearest, largest_difference(y, b.orbit.state));
       if (!flow->evolve(y, 0.0, flow->field().period).reached()) break;
     }
     return nearest;
-  }
-
-  /// Follows the motion that a state is on by the variant's method, for a number of continuations.
-  [[nodiscard]] Course follow(const GridPoint& point, const Variant& v, std::vector<double> state, int times) const {
-    const model::DynamicModel model = model_at_(point.value, v.clearance_smoothing);
-    const auto flow = integrate::make_flow(vector_field(model), coarsened(v).integrator);
-    const int periods = times * options_.continued_periods;
-    const auto half = static_cast<std::size_t>(periods / 2);
-    Course course;
-    course.section.dimension = model.dimension;
-    const analysis::LargestExponent e = analysis::largest_exponent(
-        *flow, state, {50, periods},
-        [&](std::size_t k, double, std::span<const double> y) {
-          if (k >= half) course.section.states.insert(course.section.states.end(), y.begin(), y.end());
-        },
-        [this] { return stop_ == nullptr || !stop_->load(); });
-    if (!e.evolution.reached() || e.growth.size() < static_cast<std::size_t>(periods)) return course;
-    course.exponent = e.per_s * model.omega;
-    course.late_growth = analysis::late_growth(e.growth);
-    course.state = std::move(state);
-    return course;
   }
 
   const SweepOptions& sweep_;
@@ -336,8 +319,11 @@ std::vector<Variant> crosscheck_variants(const CrosscheckOptions& options,
 }
 
 double orbit_distance(const PointResult& a, const PointResult& b, std::size_t dimension) {
-  const int period = a.recurrence.period;
-  if (period == 0 || period != b.recurrence.period) return nan;
+  const auto period_of = [](const PointResult& r) {
+    return r.recurrence.period > 0 && periodic(r) ? r.period : r.recurrence.period;
+  };
+  const int period = period_of(a);
+  if (period == 0 || period != period_of(b)) return nan;
   const auto n = static_cast<std::size_t>(period);
   double least = std::numeric_limits<double>::infinity();
   const std::size_t rows = std::min(a.poincare_rows(), b.poincare_rows());
@@ -355,10 +341,9 @@ double orbit_distance(const PointResult& a, const PointResult& b, std::size_t di
   return least;
 }
 
-Crosscheck run_crosscheck(const SweepPlan& plan, const SweepOptions& as_given, const CrosscheckOptions& options,
+Crosscheck run_crosscheck(const SweepPlan& plan, const SweepOptions& sweep, const CrosscheckOptions& options,
                           const integrate::IntegratorOptions& integrator, double study_smoothing,
                           const SmoothedModelAt& model_at, CrosscheckRun run) {
-  const SweepOptions sweep = by_recurrence_alone(as_given);
   Crosscheck all;
   all.variants = crosscheck_variants(options, integrator, study_smoothing);
   std::mutex mutex;
@@ -382,13 +367,6 @@ Crosscheck run_crosscheck(const SweepPlan& plan, const SweepOptions& as_given, c
   if (all.reference.size() < plan.points.size()) return all;
 
   const Examiner examiner(sweep, options, all.variants, model_at, run.stop);
-  std::vector<Known> known(plan.points.size());
-  all.orbit_period.assign(plan.points.size(), 0);
-  for_units(plan.points.size(), run.threads, run.stop, [&](std::size_t k) {
-    known[k] = examiner.look_at(plan.points[k], all.reference[k]);
-    all.orbit_period[k] = known[k].orbit.period;
-  });
-
   // Where each point started: at the end of the one before in its chain, or cold.
   std::vector<std::vector<double>> starts(plan.points.size());
   for (const auto& chain : plan.chains)
@@ -412,7 +390,7 @@ Crosscheck run_crosscheck(const SweepPlan& plan, const SweepOptions& as_given, c
       if (stopped()) return;
       tell(c.variant, c.result);
     }
-    examiner.judge(point, starts[c.point], all.reference[c.point], known[c.point], c);
+    examiner.judge(point, starts[c.point], all.reference[c.point], c);
     if (!stopped()) comparisons[unit] = std::move(c);
   });
   for (auto& c : comparisons)

@@ -6,10 +6,10 @@
 //   same n, distance d = min_k max_{r,j} | y'_{r+k,j} - y_{r,j} |  over the Poincare points of an orbit,  d <= eps
 //   [A-cross]
 //
-// A difference is explained by continuing one answer with the other method, and by computing again with tightened
-// tolerances or with the reference's smoothing; where that leaves it open both are followed over thousands of periods,
-// for chaos, a torus, or the orbits that they come to at last; see Verdict. Each of these is a computation, so that an
-// explanation is a measurement and not a guess.
+// What each motion is, is told as by any other study [studies/motion.hpp], by the method that computed it. A difference
+// is explained by continuing one answer with the other method, and by computing again with tightened tolerances or with
+// the reference's smoothing; where that leaves it open both are followed over thousands of periods and told again; see
+// Verdict. Each of these is a computation, so that an explanation is a measurement and not a guess.
 #pragma once
 
 #include <atomic>
@@ -38,13 +38,12 @@ struct Variant {
 
 enum class Verdict {
   agree,        ///< the same regime, and where it is periodic the same period and orbit
-  coexisting,   ///< each method stays on the other's answer: both are motions of the stage
+  coexisting,   ///< each method stays on the other's motion: both are motions of the stage
   tolerance,    ///< with tolerances a hundred times tighter they agree
   smoothing,    ///< with the reference's smoothing they agree
   settling,     ///< continued, both come to the same motion: the transient was too short
-  torus,        ///< both drift for ever over one set of states, whose nearby motions neither part nor meet: no phase of
-                ///< theirs is right
-  chaos,        ///< the largest exponent is positive by its interval: states at one instant cannot agree
+  torus,        ///< both are quasiperiodic and fill one set of states: no phase of theirs is right
+  chaos,        ///< followed for long, one of them is chaotic at least: states at one instant cannot agree
   not_reached,  ///< one of them has no answer (its status says why)
   unexplained,
 };
@@ -62,14 +61,13 @@ struct Comparison {
 struct Crosscheck {
   std::vector<Variant> variants;
   std::vector<PointResult> reference;   ///< one per point
-  std::vector<int> orbit_period;        ///< of the orbit that the reference is on or settles to; 0 without one
   std::vector<Comparison> comparisons;  ///< by point, then variant (from 1)
   [[nodiscard]] bool complete(const SweepPlan& plan) const {
     return reference.size() == plan.points.size() && comparisons.size() == plan.points.size() * (variants.size() - 1);
   }
 };
 
-/// d of the first line of [A-cross]; not a number unless both recur with the same period.
+/// d of the first line of [A-cross]; not a number unless both records recur and the motions have one period.
 [[nodiscard]] double orbit_distance(const PointResult& a, const PointResult& b, std::size_t dimension);
 
 /// The model at a value of the sweep parameter with another width of the smooth clearance.

@@ -32,7 +32,7 @@ ToldMotion tell_motion(const integrate::VectorField& field, std::vector<double>&
   // Growth is a statistical matter, for which a looser tolerance is as good; orbits are sought at the study's own.
   constexpr double statistical = 1e-6;
   const auto looks =
-      with(std::clamp(statistical / integrator.relative_tolerance, 10.0, 100.0), integrator.tangent_error_control);
+      with(std::clamp(statistical / integrator.relative_tolerance, 1.0, 100.0), integrator.tangent_error_control);
   const auto exact = with(1.0, true);
   const auto coarser = with(10.0, true);
   analysis::RegimeOptions options;

@@ -2,28 +2,25 @@
 
 #include "core/largest_difference.hpp"
 #include "core/text.hpp"
+#include "studies/motion.hpp"
 
 namespace epicyclic::studies {
 
 namespace {
 
-/// A motion whose recurrence error is larger than this is not tried, and an orbit farther away than this is another one
-/// [b_c, b_c per tau].
-constexpr double near = 1.0;
-/// Longest period that a motion which does not recur is tried with.
-constexpr int longest_tried = 12;
-
-/// The least divisor d of n with phi_d(y) = y: an orbit of period 1 recurs after 10 periods, too, and noise may make
-/// that the better one.
-int least_period(integrate::Flow& flow, const std::vector<double>& orbit, int n) {
-  constexpr double closed = 1e-6;
-  std::vector<double> y = orbit;
+/// The state of the orbit through `from` that is nearest to a motion's last one: the motion was told on its way, and
+/// may have come to another phase since.
+std::vector<double> nearest_state(integrate::Flow& flow, const std::vector<double>& from, int n,
+                                  const std::vector<double>& last) {
+  std::vector<double> nearest = from;
+  std::vector<double> y = from;
   flow.forget();
-  for (int d = 1; d < n; ++d) {
+  for (int k = 1; k < n; ++k) {
     if (!flow.evolve(y, 0.0, flow.field().period).reached()) break;
-    if (n % d == 0 && largest_difference(y, orbit) < closed) return d;
+    if (largest_difference(y, last) < largest_difference(nearest, last)) nearest = y;
   }
-  return n;
+  flow.forget();
+  return nearest;
 }
 
 }  // namespace
@@ -34,37 +31,29 @@ SettledOrbit settled_orbit(integrate::Flow& flow, const PointResult& motion) {
     found.note = "there is no motion: " + motion.message;
     return found;
   }
-  const analysis::Recurrence& r = motion.recurrence;
-  const bool recurs = r.period > 0;
-  int n = recurs ? r.period : r.error < near && r.best_period <= longest_tried ? r.best_period : 0;
-  if (n == 0) {
-    found.note = "the motion does not recur";
+  if (motion.regime != analysis::Regime::periodic) {
+    found.note = motion_text(motion);
     return found;
   }
-  found.orbit = analysis::find_periodic_orbit(flow, motion.end_state, n);
-  if (!found.orbit.found()) {
-    found.note = "no orbit of period " + std::to_string(n) + " by Newton's method: " + found.orbit.message;
-    return found;
-  }
-  if (const int least = least_period(flow, found.orbit.state, n); least < n) {
-    const analysis::PeriodicOrbit shorter = analysis::find_periodic_orbit(flow, found.orbit.state, least);
-    if (shorter.found()) {
-      found.orbit = shorter;
-      n = least;
-    }
-  }
+  const int n = motion.period;
   const std::string name = "orbit of period " + std::to_string(n);
+  if (!has_classification(flow.field())) {
+    found.note = "an " + name + " by recurrence alone: forces jump at contact, and there are no tangents to find it by";
+    return found;
+  }
+  const std::vector<double> start =
+      motion.orbit.empty() ? motion.end_state : nearest_state(flow, motion.orbit, n, motion.end_state);
+  found.orbit = analysis::find_periodic_orbit(flow, start, n);
+  if (!found.orbit.found()) {
+    found.note = "no " + name + " by Newton's method: " + found.orbit.message;
+    return found;
+  }
+  found.period = n;
   found.distance = largest_difference(found.orbit.state, motion.end_state);
   found.largest_multiplier = largest_multiplier(found.orbit);
-  if (found.distance > near) {
-    found.note = "the nearest " + name + " is " + short_text(found.distance) + " away";
-  } else if (!recurs && found.largest_multiplier >= 1.0) {
-    found.note = "the motion does not recur, and the " + name + " near it is unstable (multiplier " +
-                 short_text(found.largest_multiplier) + ")";
-  } else {
-    found.period = n;
-    if (!recurs) found.note = "the motion was still settling; its " + name + " was found by Newton's method";
-  }
+  if (motion.recurrence.period == 0)
+    found.note =
+        "the motion was still settling, " + short_text(found.distance) + " away from its orbit at the record's end";
   return found;
 }
 

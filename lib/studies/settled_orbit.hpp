@@ -1,8 +1,7 @@
-// The periodic orbit that a motion is on, or is still settling to.
+// The periodic orbit that a motion is on, or is settling to, by another flow than the one that told it.
 //
-// A weakly damped mode may leave a motion unsettled after some hundred mesh periods. If Newton's method from its last
-// state finds an orbit close by, and that orbit attracts (all multipliers inside the unit circle), that is what the
-// motion is settling to; chaotic and quasiperiodic motions have no such orbit beside them.
+// A motion has an orbit where it is periodic, as all studies tell it [studies/motion.hpp]; where nothing but recurrence
+// was asked, where it recurs. Newton's method starts from that orbit's point that is nearest to the motion's last one.
 #pragma once
 
 #include <string>
@@ -17,7 +16,7 @@ struct SettledOrbit {
   analysis::PeriodicOrbit orbit{};
   double distance = 0;            ///< of the motion's last state from the orbit [b_c, b_c per tau]
   double largest_multiplier = 0;  ///< modulus
-  std::string note{};             ///< how it was found, or why not; empty for a motion that recurs
+  std::string note{};             ///< what the motion is, where there is no orbit or it was still settling to it
 };
 
 /// @param flow  of the motion's model, at the tolerance that the orbit is wanted to

@@ -144,6 +144,7 @@ class PointRun {
         orbit_ = tell(onwards, &strobe.section).orbit;
       }
       if (sweep_.keep == Keep::attractor) keep_attractor(strobe.section);
+      if (sweep_.keep == Keep::section && orbit_) result_.orbit = std::move(orbit_->state);
       result_.end_state = std::move(state_);
     }
     result_.rhs_evaluations = right_hand_sides + classification_work_;
@@ -414,6 +415,17 @@ bool still_settling(const PointResult& result, const SweepOptions& sweep) {
   return result.outcome == integrate::Outcome::reached && !result.classified &&
          result.regime == analysis::Regime::undecided &&
          analysis::still_settling(result.recurrence, sweep.recurrence_tolerance);
+}
+
+std::string motion_name(const PointResult& result) {
+  if (result.regime != analysis::Regime::periodic) return to_string(result.regime);
+  return "period " + std::to_string(result.period);
+}
+
+std::string motion_text(const PointResult& result) {
+  const std::string name = motion_name(result);
+  if (!result.classified) return name + " by recurrence alone";
+  return result.evidence.note.empty() ? name : name + ": " + result.evidence.note;
 }
 
 std::vector<std::string> poincare_columns(const model::DynamicModel& model) {

@@ -28,7 +28,7 @@ namespace epicyclic::studies {
 /// Raised when a change makes the same input give other numbers: results of two versions are never mixed in one folder.
 inline constexpr int numerics_version = 10;
 
-/// The same points without the classification of their regimes, for studies that look at their points otherwise.
+/// The same points without the classification of their regimes.
 [[nodiscard]] SweepOptions by_recurrence_alone(SweepOptions options);
 
 /// What was seen of one mesh over the record.
@@ -58,6 +58,7 @@ struct PointResult {
   double planet_spread = 0;             ///< largest difference between planets' deflections of one kind of mesh [b_c]
   long rhs_evaluations = 0;
   std::vector<double> end_state;  ///< what the next point of a chain starts from
+  std::vector<double> orbit;      ///< a state on the orbit of a motion that is periodic by evidence; if Keep::section
   std::vector<double> poincare;   ///< rows of poincare_columns(): state, delta_sp_i, delta_rp_i; if Keep::section
   std::size_t poincare_columns = 0;
   analysis::AttractorRecord attractor;  ///< if Keep::attractor
@@ -79,6 +80,12 @@ struct PointResult {
 
 /// Not periodic yet, but on its way: a longer look would tell the regime.
 [[nodiscard]] bool still_settling(const PointResult& result, const SweepOptions& sweep);
+
+/// What a point that was reached moves like: "period 2", "chaotic".
+[[nodiscard]] std::string motion_name(const PointResult& result);
+
+/// The same with what it rests on.
+[[nodiscard]] std::string motion_text(const PointResult& result);
 
 /// Names of the columns of PointResult::poincare.
 [[nodiscard]] std::vector<std::string> poincare_columns(const model::DynamicModel& model);

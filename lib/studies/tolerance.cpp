@@ -334,12 +334,22 @@ double cost(const integrate::Work& work, std::size_t dimension) {
          static_cast<double>(work.jacobians) * static_cast<double>(dimension);
 }
 
+std::array<analysis::Estimate, statistics_names.size()> statistics_of(const StatisticsStep& step) {
+  return {step.exponent, step.mean[0], step.mean[1], step.deviation[0], step.deviation[1]};
+}
+
+std::vector<std::size_t> differing_statistics(const StatisticsStep& a, const StatisticsStep& b) {
+  std::vector<std::size_t> differing;
+  const auto ours = statistics_of(a);
+  const auto theirs = statistics_of(b);
+  for (std::size_t k = 0; k < ours.size(); ++k)
+    if (!analysis::overlap(ours[k], theirs[k])) differing.push_back(k);
+  return differing;
+}
+
 bool statistics_agree(const StatisticsStep& a, const StatisticsStep& b) {
-  if (a.outcome != integrate::Outcome::reached || b.outcome != integrate::Outcome::reached) return false;
-  bool all = analysis::overlap(a.exponent, b.exponent);
-  for (std::size_t k = 0; k < a.mean.size(); ++k)
-    all = all && analysis::overlap(a.mean[k], b.mean[k]) && analysis::overlap(a.deviation[k], b.deviation[k]);
-  return all;
+  return a.outcome == integrate::Outcome::reached && b.outcome == integrate::Outcome::reached &&
+         differing_statistics(a, b).empty();
 }
 
 std::vector<Slopes> slopes(const std::vector<TolerancePoint>& points, std::size_t dimension, double floor) {

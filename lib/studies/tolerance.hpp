@@ -1,6 +1,7 @@
 // How far an answer can be trusted: a ladder of tolerances, methods and widths of the smooth clearance at each point.
 //
-// A periodic point (of period n, by the study's own integrator):
+// A point is periodic, of period n, where the study's own integrator tells it so, as in any other study
+// [studies/motion.hpp]:
 //   its orbit y* by Newton's method at the reference tolerance, with the monodromy M;
 //   each method and tolerance is started on y* and carried over one orbit:
 //     error of the flow    e   = max | phi'_n(y*) - phi_n(y*) |
@@ -97,7 +98,15 @@ struct TolerancePoint {
 /// Cost of a step in right-hand sides, a Jacobian counted as `dimension` of them.
 [[nodiscard]] double cost(const integrate::Work& work, std::size_t dimension);
 
-/// Do exponent, means and deviations of two steps overlap by their intervals?
+/// What is compared of two steps.
+inline constexpr std::array<const char*, 5> statistics_names = {"largest exponent", "mean delta_sp", "mean delta_rp",
+                                                                "deviation delta_sp", "deviation delta_rp"};
+[[nodiscard]] std::array<analysis::Estimate, statistics_names.size()> statistics_of(const StatisticsStep& step);
+
+/// Those, by their places, whose intervals have no point in common. Of steps that were reached.
+[[nodiscard]] std::vector<std::size_t> differing_statistics(const StatisticsStep& a, const StatisticsStep& b);
+
+/// Both were reached, and all intervals overlap.
 [[nodiscard]] bool statistics_agree(const StatisticsStep& a, const StatisticsStep& b);
 
 /// Slope of log error over log tolerance, and over log right-hand sides, of one method: least squares over the steps

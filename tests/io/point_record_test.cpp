@@ -30,6 +30,7 @@ studies::PointResult example() {
   r.planet_spread = 0.3;
   r.rhs_evaluations = 1234567890123L;
   r.end_state = {1.0, -0.0, 3.0};
+  r.orbit = {0.5, 5e-324};
   r.poincare_columns = 2;
   r.poincare = {1, 2, 3, 4};
   r.point.second_value = -0.25;

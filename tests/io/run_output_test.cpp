@@ -376,8 +376,8 @@ TEST(RunSummary, TellsAPeriodicMotionWithItsEvidence) {
   EXPECT_TRUE(text.starts_with("# by_hand, Ω = 1.25\n")) << text;
   for (const char* part :
        {"Periodic: the motion repeats after 2 mesh periods", "F_0 = 800.0 N", "closes to 6e-12",
-        "0.3 + 0.4i, modulus 0.50000000 ± 1.0e-08, one of 2", "The orbit is stable",
-        "-0.068948625 ± 2.0e-09 per tau (-0.34657359 ± 1.0e-08 per mesh period)", "Looked at: 192 mesh periods",
+        "0.3 + 0.4i, modulus 0.500000000 ± 1.0e-08, one of 2", "The orbit is stable",
+        "-0.0689486250 ± 2.0e-09 per tau (-0.346573590 ± 1.0e-08 per mesh period)", "Looked at: 192 mesh periods",
         "| sp_1 | 401.5 | 0 | 1187.2 | 1.484 | 1.0000 | 50.0 % | 50.0 % | 0.0 % | 0.5 |",
         "| delta_sp_1 | um | 1: 10 | 1/2: 2.5 |", "difference 3e-09", "2 of 2 within their intervals",
         "largest difference 5e-08 per tau", "0.0310 ± 0.0040 per tau", "do not stay synchronous",

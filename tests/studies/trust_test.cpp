@@ -10,9 +10,12 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/lyapunov.hpp"
+#include "integrate/make_flow.hpp"
 #include "problems/clearance_exact.hpp"
 #include "problems/known_systems.hpp"
 #include "studies/crosscheck.hpp"
+#include "studies/operating_point.hpp"
 #include "studies/tolerance.hpp"
 #include "studies/units.hpp"
 
@@ -37,6 +40,36 @@ model::DynamicModel oscillator(double w, double smoothing) {
     out.ring_planet_rate = {y[1]};
   };
   m.default_start = {1.1, 0.0};
+  return m;
+}
+
+/// A forced system of two states in the phase s = w t, in the place of a stage.
+model::DynamicModel played_by(const integrate::VectorField& field, double w, std::vector<double> start) {
+  model::DynamicModel m = oscillator(1.0, 0.0);
+  m.omega = w;
+  m.right_hand_side = [f = field.right_hand_side, w](std::size_t k, double s, const double* y, double* d) {
+    f(k, s / w, y, d);
+    for (std::size_t i = 0; i < 2; ++i) d[i] /= w;
+  };
+  m.tangents = [f = field.tangents, w](std::size_t k, double s, const double* y, const Columns<const double>& v,
+                                       double* d, const Columns<double>& dv) {
+    f(k, s / w, y, v, d, dv);
+    for (std::size_t i = 0; i < 2; ++i) {
+      d[i] /= w;
+      for (std::size_t j = 0; j < dv.count; ++j) dv.column(j)[i] /= w;
+    }
+  };
+  m.default_start = std::move(start);
+  return m;
+}
+
+/// Forced away from its own frequency: two phases that never lock, a torus.
+model::DynamicModel forced_van_der_pol(double strength, double) {
+  model::DynamicModel m = oscillator(1.0, 0.0);
+  const integrate::VectorField field = problems::van_der_pol(0.3, strength, 1.7);
+  m.right_hand_side = field.right_hand_side;
+  m.tangents = field.tangents;
+  m.default_start = {1.0, 0.0};
   return m;
 }
 
@@ -102,7 +135,8 @@ TEST(Crosscheck, FourMethodsAgreeOnPeriodicOrbits) {
   for (const Comparison& c : all.comparisons) {
     EXPECT_EQ(c.verdict, Verdict::agree) << c.detail;
     EXPECT_LT(c.distance, options.orbit_tolerance);
-    EXPECT_EQ(all.orbit_period[c.point], 1);
+    EXPECT_EQ(motion_name(all.reference[c.point]), "period 1");
+    EXPECT_EQ(motion_name(c.result), "period 1");
   }
 }
 
@@ -166,20 +200,11 @@ TEST(Crosscheck, ADifferenceOfSmoothingIsExplainedAsOne) {
 }
 
 TEST(Crosscheck, ATorusIsExplainedAsOne) {
-  // Van der Pol's oscillator, forced away from its own frequency: two phases that never lock, and no phase is kept.
-  const auto forced = [](double strength, double) {
-    model::DynamicModel m = oscillator(1.0, 0.0);
-    const integrate::VectorField field = problems::van_der_pol(0.3, strength, 1.7);
-    m.right_hand_side = field.right_hand_side;
-    m.tangents = field.tangents;
-    m.default_start = {1.0, 0.0};
-    return m;
-  };
   const SweepOptions sweep = points(0.4, 0.4, 1);
   CrosscheckOptions options;
   options.methods = {"arkode-dopri5", "cvode-adams"};
   const Crosscheck all =
-      run_crosscheck(plan_sweep(sweep), sweep, options, integrator(1e-4), 0.0, forced, CrosscheckRun{});
+      run_crosscheck(plan_sweep(sweep), sweep, options, integrator(1e-4), 0.0, forced_van_der_pol, CrosscheckRun{});
   ASSERT_EQ(all.comparisons.size(), 1U);
   EXPECT_EQ(all.comparisons[0].verdict, Verdict::torus) << all.comparisons[0].detail;
 }
@@ -188,25 +213,7 @@ TEST(Crosscheck, CoexistingMotionsAreToldFromErrors) {
   // Duffing's two wells: the reference starts in one of them; a variant so coarse that it falls into the other gives an
   // answer that both methods hold. The coarse method is played by a model that pushes it at the start.
   const auto two_wells = [](double g, double pushed) {
-    const integrate::VectorField field = problems::duffing(0.3, -1.0, g, 1.2);
-    model::DynamicModel m = oscillator(1.0, 0.0);
-    m.omega = 1.2;
-    // In the phase s = 1.2 t, of period 2 pi.
-    m.right_hand_side = [f = field.right_hand_side](std::size_t k, double s, const double* y, double* d) {
-      f(k, s / 1.2, y, d);
-      d[0] /= 1.2;
-      d[1] /= 1.2;
-    };
-    m.tangents = [f = field.tangents](std::size_t k, double s, const double* y, const Columns<const double>& v,
-                                      double* d, const Columns<double>& dv) {
-      f(k, s / 1.2, y, v, d, dv);
-      for (std::size_t i = 0; i < 2; ++i) {
-        d[i] /= 1.2;
-        for (std::size_t j = 0; j < dv.count; ++j) dv.column(j)[i] /= 1.2;
-      }
-    };
-    m.default_start = {pushed > 0.0 ? -1.0 : 1.0, 0.0};
-    return m;
+    return played_by(problems::duffing(0.3, -1.0, g, 1.2), 1.2, {pushed > 0.0 ? -1.0 : 1.0, 0.0});
   };
   SweepOptions sweep = points(0.2, 0.2, 1);
   CrosscheckOptions options;
@@ -229,6 +236,77 @@ TEST(OrbitDistance, IsThatOfTheBestShift) {
   EXPECT_DOUBLE_EQ(orbit_distance(a, b, 1), 0.0);
   b.recurrence.period = 1;
   EXPECT_TRUE(std::isnan(orbit_distance(a, b, 2)));
+}
+
+// ---- one classification ------------------------------------------------------------------------------------------
+
+TEST(OneClassification, WhatEachStudySaysOfAMotionIsTheSame) {
+  struct Case {
+    const char* motion;
+    SmoothedModelAt model;
+    double value;
+    int transient;
+  };
+  const SmoothedModelAt duffing = [](double g, double) {
+    return played_by(problems::duffing(0.3, -1.0, g, 1.2), 1.2, {1.0, 0.0});
+  };
+  // Damped so little that it is far from its orbit, and does not recur, when the record ends.
+  const SmoothedModelAt slow = [](double g, double) {
+    return played_by(problems::duffing(0.02, -1.0, g, 1.2), 1.2, {1.3, 0.0});
+  };
+  for (const Case& c : {Case{"period 1", oscillator, 0.85, 150}, Case{"period 2", duffing, 0.28, 150},
+                        Case{"chaotic", duffing, 0.5, 150}, Case{"quasiperiodic", forced_van_der_pol, 0.4, 150},
+                        Case{"period 1", slow, 0.01, 5}}) {
+    SweepOptions sweep = points(c.value, c.value, 1);
+    sweep.transient_periods = c.transient;
+    const SweepPlan plan = plan_sweep(sweep);
+    const integrate::IntegratorOptions how = integrator(1e-8);
+    const auto swept = run_sweep_in_memory(plan, sweep, how, [&](double value) { return c.model(value, 0.0); }, {});
+    ASSERT_EQ(motion_name(swept[0]), c.motion);
+
+    CrosscheckOptions methods;
+    methods.methods = {how.method, "cvode-adams"};
+    const Crosscheck checked = run_crosscheck(plan, sweep, methods, how, 0.0, c.model, {});
+    EXPECT_EQ(motion_text(checked.reference[0]), motion_text(swept[0]));
+    EXPECT_EQ(checked.reference[0].lyapunov_max().value, swept[0].lyapunov_max().value);
+    EXPECT_EQ(motion_name(checked.comparisons[0].result), c.motion);
+
+    ToleranceOptions ladder;
+    ladder.methods = {how.method};
+    ladder.tolerances = {1e-6};
+    ladder.clearance_smoothings = {0.01};
+    const TolerancePoint climbed = compute_tolerance_point(swept[0], sweep, ladder, how, 0.0, c.model, 1, nullptr);
+    EXPECT_EQ(climbed.period, swept[0].period) << climbed.note;
+    EXPECT_EQ(climbed.statistics.empty(), swept[0].period > 0);
+    if (climbed.period == 0) {
+      EXPECT_TRUE(climbed.note.starts_with(motion_text(swept[0]))) << climbed.note;
+    } else {
+      EXPECT_LT(climbed.largest_multiplier, 1.0);
+      EXPECT_NEAR(climbed.largest_multiplier, swept[0].evidence.largest_multiplier, 1e-6);
+    }
+  }
+}
+
+TEST(OneClassification, ATorusWhoseExponentSeemsPositiveIsNoChaos) {
+  // Over 4000 periods from here on the exponent is 7.2e-8 +- 7.1e-8, which a cross-check once called chaos.
+  const SmoothedModelAt slow_torus = [](double strength, double) {
+    return played_by(problems::van_der_pol(0.1, strength, 1.7), 1.0, {1.0, 0.0});
+  };
+  SweepOptions sweep = points(0.3, 0.3, 1);
+  sweep.transient_periods = 4;
+  sweep.recorded_periods = 16;
+  CrosscheckOptions options;
+  options.methods = {"arkode-dopri5", "cvode-adams"};
+  const Crosscheck all =
+      run_crosscheck(plan_sweep(sweep), sweep, options, integrator(1e-6), 0.0, slow_torus, CrosscheckRun{});
+  EXPECT_EQ(motion_name(all.reference[0]), "quasiperiodic");
+  EXPECT_EQ(motion_name(all.comparisons[0].result), "quasiperiodic");
+  EXPECT_EQ(all.comparisons[0].verdict, Verdict::torus) << all.comparisons[0].detail;
+
+  std::vector<double> y = all.reference[0].end_state;
+  const auto flow = integrate::make_flow(vector_field(slow_torus(0.3, 0.0)), integrator(1e-6));
+  const auto e = analysis::largest_exponent(*flow, y, {50, 4000}, {}, [] { return true; });
+  EXPECT_GT(e.per_s.low(), 0.0) << "no example any more";
 }
 
 // ---- tolerance ----------------------------------------------------------------------------------------------------
