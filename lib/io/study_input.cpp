@@ -500,10 +500,6 @@ std::pair<Study, bool> read_study(json& whole, bool bare, ReadContext& context, 
         study.sweep->from = study.sweep->to = study.mesh_frequency_ratio;
         study.sweep->points = 1;
       }
-      if (study.kind == "basins") {
-        study.sweep->start = studies::Start::cold;
-        study.sweep->keep = studies::Keep::attractor;
-      }
       if (study.kind == "map") {
         study.sweep->parameter = study.plane.first.name;
         study.sweep->from = study.plane.first.from;
@@ -716,7 +712,8 @@ void check_points(const Study& study, F is_bad, ReadContext& context) {
   const studies::SweepOptions& sweep = *study.sweep;
   if (sweep.transient == studies::Transient::adaptive && sweep.classification_periods == 0) {
     context.add(Finding::Kind::rule, "/study/classification_periods",
-                "is 0, must be >= 1 for an adaptive transient, which ends when the regime is told");
+                "is 0, must be >= 1 for an adaptive transient, which ends when the regime is told; without it give "
+                "\"transient\": \"fixed\"");
   }
   if (study.kind == "map") return check_map(study.plane, is_bad, context);
   if (study.kind == "basins") return check_basins(study.plane, study.stage, is_bad, context);

@@ -8,6 +8,7 @@
 #include "integrate/methods.hpp"
 #include "io/catalogue_table.hpp"
 #include "io/study_input.hpp"
+#include "studies/plane.hpp"
 
 namespace epicyclic::io {
 
@@ -692,13 +693,18 @@ const Table<Study>& table_of_kind(const std::string& kind) {
   return sweep_table();
 }
 
+/// What reading a study's points starts from: its defaults.
+studies::SweepOptions defaults_of(const std::string& kind) {
+  return kind == "basins" ? studies::basins_options() : studies::SweepOptions{};
+}
+
 /// The kind that has least to find fault with.
 std::string likely_kind(const json& plan, const std::string& pointer) {
   std::string likely;
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   for (const auto& [name, table] : kinds) {
     Study study;
-    study.sweep.emplace();
+    study.sweep = defaults_of(name);
     ReadContext context;
     table().read(plan, pointer, study, context);
     if (context.findings.size() >= fewest) continue;
@@ -732,7 +738,7 @@ void read_plan(const json& value, const std::string& pointer, Study& study, Read
                 "is " + described(*kind) + ", must be one of: " + listed(names));
   }
   if (study.kind.empty()) study.kind = likely_kind(value, pointer);
-  study.sweep.emplace();
+  study.sweep = defaults_of(study.kind);
   table_of_kind(study.kind).read(value, pointer, study, context);
 }
 
@@ -805,10 +811,12 @@ const Table<Study>& study_table() {
     plan.read = read_plan;
     plan.write = [](const Study& study) { return study.sweep ? table_of_kind(study.kind).write(study) : json(); };
     plan.schema = [] {
-      Study plain;
-      plain.sweep.emplace();  // as in read_plan
       ordered_json any = ordered_json::array();
-      for (const auto& [name, table_of] : kinds) any.push_back(table_of().schema(plain));
+      for (const auto& [name, table_of] : kinds) {
+        Study plain;
+        plain.sweep = defaults_of(name);
+        any.push_back(table_of().schema(plain));
+      }
       return ordered_json{{"anyOf", any}};
     };
     plan.collect = [](const std::string& pointer, std::vector<KeyPlace>& places) {

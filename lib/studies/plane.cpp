@@ -53,11 +53,15 @@ SweepPlan plan_map(const SweepOptions& sweep, const PlaneOptions& plane) {
       {plane.first, plane.second, sweep.directions, carried ? 1 : static_cast<std::size_t>(plane.first.points)});
 }
 
-SweepPlan plan_basins(const PlaneOptions& plane) {
+SweepOptions basins_options() {
   SweepOptions cells;
   cells.start = Start::cold;
-  return plan_map(cells, plane);
+  cells.keep = Keep::attractor;
+  cells.transient = Transient::adaptive;
+  return cells;
 }
+
+SweepPlan plan_basins(const PlaneOptions& plane) { return plan_map(basins_options(), plane); }
 
 std::vector<double> start_in_plane(const model::DynamicModel& model, const PlaneOptions& plane,
                                    const GridPoint& point) {

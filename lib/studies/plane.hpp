@@ -24,6 +24,10 @@ namespace epicyclic::studies {
 /// @param sweep  directions and start; the grid is the plane's
 [[nodiscard]] SweepPlan plan_map(const SweepOptions& sweep, const PlaneOptions& plane);
 
+/// What cells of basins are computed as: each cold, let settle until its regime is told, since a transient of a fixed
+/// length leaves motions on their way that are then counted as attractors.
+[[nodiscard]] SweepOptions basins_options();
+
 [[nodiscard]] SweepPlan plan_basins(const PlaneOptions& plane);
 
 /// Where the motion of a cell of basins starts: the model's default start, the base, then both axes.

@@ -706,6 +706,23 @@ TEST_F(SchemaAndReader, AgreeOnEveryKeyRequirementAndBound) {
   EXPECT_GT(bounds, 120);
 }
 
+TEST_F(SchemaAndReader, AgreeThatBasinsLetCellsSettle) {
+  int kinds = 0;
+  for (const auto& plan : schema["$defs"]["study"]["properties"]["study"]["anyOf"]) {
+    const std::string kind = plan["properties"]["kind"]["const"];
+    const char* const transient = kind == "basins" ? "adaptive" : "fixed";
+    EXPECT_EQ(plan["properties"]["transient"]["default"], transient) << kind;
+    json other = whole;
+    other["study"] = {{"kind", kind}};
+    ReadContext context;
+    Study study;
+    study_table().read(other, "", study, context);
+    EXPECT_EQ(study_table().write(study)["study"]["transient"], transient) << kind;
+    ++kinds;
+  }
+  EXPECT_EQ(kinds, 6);
+}
+
 TEST_F(SchemaAndReader, AgreeOnMethodsAndOrigins) {
   const auto& method = schema["$defs"]["study"]["properties"]["integrator"]["properties"]["method"];
   EXPECT_EQ(method["enum"], json(integrate::method_names()));

@@ -12,6 +12,7 @@
 #include "core/errors.hpp"
 #include "core/largest_difference.hpp"
 #include "model/scales.hpp"
+#include "problems/known_systems.hpp"
 #include "problems/r1.hpp"
 
 namespace epicyclic::studies {
@@ -168,6 +169,49 @@ TEST(Plane, BasinsTellTheWellsApartAtAnyNumberOfThreads) {
     if (expected.empty()) expected = told.number;
     EXPECT_EQ(told.number, expected) << threads;
   }
+}
+
+/// Beside a motion in (x, x'), a mode z that it drives and that decays by one in `memory` periods.
+model::DynamicModel with_slow_mode(const integrate::VectorField& motion, double memory) {
+  model::DynamicModel m = wells(0.0);
+  m.dimension = 3;
+  m.state_names = {"x", "x_rate", "z"};
+  const double rate = 1.0 / (2.0 * std::numbers::pi * memory);
+  m.right_hand_side = [f = motion.right_hand_side, rate](std::size_t k, double s, const double* y, double* d) {
+    f(k, s, y, d);
+    d[2] = rate * (y[0] - y[2]);
+  };
+  m.tangents = [f = motion.tangents, rate](std::size_t k, double s, const double* y, const Columns<const double>& v,
+                                           double* d, const Columns<double>& dv) {
+    f(k, s, y, v, d, dv);
+    d[2] = rate * (y[0] - y[2]);
+    for (std::size_t j = 0; j < dv.count; ++j) dv.column(j)[2] = rate * (v.column(j)[0] - v.column(j)[2]);
+  };
+  m.default_start = {1.0, 0.0, 0.0};
+  return m;
+}
+
+TEST(Plane, BasinsLetCellsSettleByThemselves) {
+  // Duffing's oscillator over both wells has one chaotic attractor, whatever z starts from.
+  PlaneOptions p;
+  p.first = {"x", -1.0, 1.0, 2};
+  p.second = {"z", -40.0, 40.0, 5};
+  const ModelAtPoint at = [&](const GridPoint& point) {
+    model::DynamicModel m = with_slow_mode(problems::duffing(0.3, -1.0, 0.5, 1.0), 30.0);
+    m.default_start = start_in_plane(m, p, point);
+    return m;
+  };
+  const auto attractors = [&](const SweepOptions& cells) {
+    auto results = run_sweep_in_memory(plan_basins(p), cells, {}, at, {});
+    for (const PointResult& r : results) EXPECT_EQ(motion_name(r), "chaotic");
+    return attractors_of(results, {}).all.size();
+  };
+  SweepOptions cells = basins_options();
+  cells.output_phases = 16;
+  cells.transient_periods = 60;
+  EXPECT_EQ(attractors(cells), 1U);
+  cells.transient = Transient::fixed;
+  EXPECT_GT(attractors(cells), 1U) << "no example any more";
 }
 
 TEST(Plane, AMapsCellIsThePointOfASweepAtItsSecondValue) {
