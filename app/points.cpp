@@ -175,7 +175,6 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
     ++regimes[to_string(r.regime)];
     pulls.see(r);
   }
-  if (pulls.points > 0) fmt::print(stderr, "{}\n", pulls.note(noun));
   nlohmann::json summary = {
       {"folder", folder.path().string()}, {"points", plan.points.size()},      {"failed", failed}, {"regimes", regimes},
       {"pulling", pulls.points},          {"figures", nlohmann::json::array()}};
@@ -187,6 +186,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   } else {
     print("{} {}, {} failed, in {}\n", plan.points.size(), noun, failed, folder.path().string());
     for (const auto& [regime, count] : regimes) print("{}: {}\n", regime, count);
+    if (pulls.points > 0) print("{}\n", pulls.note(noun));
     for (const std::string& line : written.lines) print("{}\n", line);
     for (const auto& figure : summary["figures"]) print("figure: {}\n", figure.get<std::string>());
   }

@@ -68,7 +68,7 @@ struct DynamicModel {
   std::function<void(double s, const double* y, StageForces& out)> forces;
 
   /// pull() of all meshes, given deflections() at s. A tenth of the cost of forces(): the stiffness is asked for only
-  /// where damping may exceed the elastic force.
+  /// where damping may exceed the elastic force. May be empty in a model of one's own: nothing is then told to pull.
   std::function<void(double s, const MeshDeflections& d, MeshPulls& out)> pulls;
 
   std::size_t contacts = 0;  ///< 4 N + 4, or 4 N + 1 with a radial bearing law

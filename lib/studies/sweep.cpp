@@ -31,11 +31,13 @@ class Watch {
     empty.delta_max = -empty.delta_min;
     result_.sun_planet.assign(static_cast<std::size_t>(model.planets), empty);
     result_.ring_planet = result_.sun_planet;
+    pulls_.sun_planet.assign(result_.sun_planet.size(), 0.0);
+    pulls_.ring_planet = pulls_.sun_planet;
   }
 
   void see(double s, std::span<const double> y) {
     model_.deflections(s, y.data(), now_);
-    model_.pulls(s, now_, pulls_);
+    if (model_.pulls) model_.pulls(s, now_, pulls_);
     ++seen_;
     see_meshes(now_.sun_planet, pulls_.sun_planet, model_.sun_planet_half_gap, result_.sun_planet);
     see_meshes(now_.ring_planet, pulls_.ring_planet, model_.ring_planet_half_gap, result_.ring_planet);

@@ -46,7 +46,11 @@ for victim in 0 1; do
     # The ranks are children of mpirun, in order.
     mapfile -t ranks < <(pgrep -P $pid -x epicyclic || true)
     [ ${#ranks[@]} -le "$victim" ] || kill -KILL "${ranks[$victim]}" 2>/dev/null || true
+    # Open MPI has been seen to lock up in its own end after that, for ever.
+    (sleep 100 && kill -KILL $pid) 2>/dev/null &
+    guard=$!
     wait $pid || true
+    pkill -P $guard 2>/dev/null || true
     again=("$epicyclic")
     [ "$resume" = threads ] || again=("${launch[@]}" -n "$resume" "$epicyclic")
     [ "$(code_of "${again[@]}" "${carried[@]}" -o cut)" = 0 ] || fail "resume after kill -9 with $resume: $(<stderr)"
