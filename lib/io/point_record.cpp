@@ -191,7 +191,8 @@ void pass(A& a, analysis::AttractorRecord& r) {
 template <class A>
 void pass_brief(A& a, studies::PointResult& r) {
   pass_all(a, r.point, r.outcome, r.message, r.recurrence, r.regime, r.period, r.classified, r.evidence, r.sun_planet,
-           r.ring_planet, r.planet_spread, r.rhs_evaluations, r.end_state, r.orbit, r.omega, r.poincare_columns, r.attractor);
+           r.ring_planet, r.planet_spread, r.rhs_evaluations, r.end_state, r.orbit, r.omega, r.poincare_columns,
+           r.attractor);
 }
 
 template <class A>

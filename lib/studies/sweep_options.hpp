@@ -44,8 +44,8 @@ struct SweepOptions {
   /// softest support mode, which at high speed decays by half a percent a mesh period, for a change of the motion.
   double recurrence_tolerance = 1e-3;
 
-  /// Mesh periods that the regime may be looked for beyond the record; 0: it is told from recurrence alone. Chaos has to
-  /// last for a quarter of them.
+  /// Mesh periods that the regime may be looked for beyond the record; 0: it is told from recurrence alone. Chaos has
+  /// to last for a quarter of them.
   int classification_periods = 2560;
 
   Keep keep = Keep::section;  ///< by the kind of study, not by the input
