@@ -73,7 +73,7 @@ std::vector<ResultsPart> parts_of_sweep() {
   for (const io::Pictures picture : {io::Pictures::png, io::Pictures::svg})
     for (const auto& [figure, part] : written_by)
       parts.push_back(
-          {[figure, picture](const ComputedPoints& all) { return draw_picture(all, figure, picture); }, part});
+          {[figure = figure, picture](const ComputedPoints& all) { return draw_picture(all, figure, picture); }, part});
   parts.push_back({write_points});
   return parts;
 }

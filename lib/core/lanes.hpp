@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
 #include "core/cubics.hpp"
@@ -186,6 +187,10 @@ inline constexpr bool is_lanes<Lanes<W>> = true;
 
 namespace detail {
 
+/// An index that is a constant: of all compilers, only GCC shuffles by one that is not.
+template <std::size_t I>
+inline constexpr std::integral_constant<std::size_t, I> place{};
+
 /// Four registers as the rows of a matrix, or side by side of several, one for each four of their places: the first K
 /// columns.
 template <std::size_t K, class Pack, std::size_t... I>
@@ -229,17 +234,17 @@ template <std::size_t W, std::size_t K>
   if constexpr (W == 8 && Row<double, K>::padded == 4) {
     // Lanes i and i + 4 share a register: half the operations, and the transposition is that of four rows.
     using Four = typename detail::LanePack<4>::Values;
-    using Bits = typename detail::LanePack<8>::Bits;
-    const auto both = [&](std::size_t i) {
+    const auto both = [&]<std::size_t i>(std::integral_constant<std::size_t, i>) {
       const auto power = [&](std::size_t k) {
         return __builtin_shufflevector(std::bit_cast<Four>((*c[i])[k]), std::bit_cast<Four>((*c[i + 4])[k]), 0, 1, 2, 3,
                                        4, 5, 6, 7);
       };
-      const auto i0 = static_cast<long long>(i);
-      const auto x = __builtin_shuffle(t.pack, Bits{i0, i0, i0, i0, i0 + 4, i0 + 4, i0 + 4, i0 + 4});
+      const auto x = __builtin_shufflevector(t.pack, t.pack, i, i, i, i, i + 4, i + 4, i + 4, i + 4);
       return power(0) + x * (power(1) + x * (power(2) + x * power(3)));
     };
-    return detail::columns_of<K>(both(0), both(1), both(2), both(3), std::make_index_sequence<8>());
+    using detail::place;
+    return detail::columns_of<K>(both(place<0>), both(place<1>), both(place<2>), both(place<3>),
+                                 std::make_index_sequence<8>());
   } else {
     std::array<Row<double, K>, W> rows;
     for (std::size_t lane = 0; lane < W; ++lane) rows[lane] = cubics_at(*c[lane], t[lane]);

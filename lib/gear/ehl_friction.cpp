@@ -18,7 +18,7 @@ namespace {
 /// Share of the load that a pair carries along its path.
 class LoadShare {
  public:
-  explicit LoadShare(const Friction::Ehl& e) : e_(e) {
+  explicit LoadShare(const EhlFriction& e) : e_(e) {
     const auto& p = e.share_position;
     for (std::size_t first = 0, k = 1; k < p.size(); ++k) {
       if (k + 1 < p.size() && p[k + 1] != p[k]) continue;
@@ -49,7 +49,7 @@ class LoadShare {
     std::size_t first, last;  ///< rows
     std::vector<CubicCoefficients> cubics;
   };
-  const Friction::Ehl& e_;
+  const EhlFriction& e_;
   std::vector<Piece> pieces_;
 };
 
@@ -91,7 +91,7 @@ MeshLoad mean_mesh_load(const Stage& stage, double mesh_frequency) {
           mesh_frequency / *stage.sun.teeth * base_radius_m};
 }
 
-LubricatedContact lubricated_contact(const Friction::Ehl& e, const LineOfAction& line, const MeshLoad& load,
+LubricatedContact lubricated_contact(const EhlFriction& e, const LineOfAction& line, const MeshLoad& load,
                                      double position, double share) {
   const double h_1 = e.path_start_mm + line.base_pitch_mm * position;
   const double h_2 = line.arm_2(h_1);
@@ -108,7 +108,7 @@ LubricatedContact lubricated_contact(const Friction::Ehl& e, const LineOfAction&
   return c;
 }
 
-LubricationRange lubrication_range(const Friction::Ehl& e, const LineOfAction& line, const MeshLoad& load) {
+LubricationRange lubrication_range(const EhlFriction& e, const LineOfAction& line, const MeshLoad& load) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   LubricationRange range{infinite, 0.0, infinite, 0.0, true};
   for (std::size_t k = 0; k < e.share_position.size(); ++k) {
@@ -122,8 +122,8 @@ LubricationRange lubrication_range(const Friction::Ehl& e, const LineOfAction& l
   return range;
 }
 
-Friction::Table friction_table(const Friction::Ehl& e, const LineOfAction& line, const MeshLoad& load,
-                               std::span<const IntervalGrid> grids) {
+FrictionTable friction_table(const EhlFriction& e, const LineOfAction& line, const MeshLoad& load,
+                             std::span<const IntervalGrid> grids) {
   const PathPieces pieces = path_pieces(e.contact_ratio, e.path_start_mm, line);
   if (!grids.empty() && grids.size() != pieces.size())
     throw DomainError("a friction table of " + std::to_string(pieces.size()) + " pieces on grids of " +
@@ -138,7 +138,7 @@ Friction::Table friction_table(const Friction::Ehl& e, const LineOfAction& line,
   };
   std::size_t piece = 0;
   double greatest = 0.0;
-  Friction::Table table = tabulate(pieces, [&](double from, double to) {
+  FrictionTable table = tabulate(pieces, [&](double from, double to) {
     const double inside = 0.5 * (from + to);
     // The moments as ratios to the base radii, as large as those of the forces.
     const auto ratios = [&](double way) {

@@ -60,17 +60,17 @@ struct MeshLoad {
 [[nodiscard]] MeshLoad mean_mesh_load(const Stage& stage, double mesh_frequency);
 
 /// The contact of the pair at a position [base pitches from the start of contact].
-[[nodiscard]] LubricatedContact lubricated_contact(const Friction::Ehl& ehl, const LineOfAction& line,
+[[nodiscard]] LubricatedContact lubricated_contact(const EhlFriction& ehl, const LineOfAction& line,
                                                    const MeshLoad& load, double position, double load_share);
 
 /// Along the rows of the load sharing.
-[[nodiscard]] LubricationRange lubrication_range(const Friction::Ehl& ehl, const LineOfAction& line,
+[[nodiscard]] LubricationRange lubrication_range(const EhlFriction& ehl, const LineOfAction& line,
                                                  const MeshLoad& load);
 
 /// A(s), B_1(s), B_2(s) on the mesh's own phase, two rows at each breakpoint: as many as table_tolerance asks for,
 /// closer towards the pitch point, beside which mu is as |SR|^1.036.
 /// @param grids  those of another such table, in place of the tolerance: the same pieces, or this is a DomainError
-[[nodiscard]] Friction::Table friction_table(const Friction::Ehl& ehl, const LineOfAction& line, const MeshLoad& load,
-                                             std::span<const IntervalGrid> grids = {});
+[[nodiscard]] FrictionTable friction_table(const EhlFriction& ehl, const LineOfAction& line, const MeshLoad& load,
+                                           std::span<const IntervalGrid> grids = {});
 
 }  // namespace epicyclic::gear

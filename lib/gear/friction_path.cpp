@@ -36,7 +36,7 @@ LineOfAction ring_planet_line(const Stage& s) {
                  true);
 }
 
-double path_start_mm(const Friction::Coefficient& friction, const LineOfAction& line) {
+double path_start_mm(const CoulombFriction& friction, const LineOfAction& line) {
   return friction.path_start_mm.value_or(line.pitch_arm_mm - 0.5 * friction.contact_ratio * line.base_pitch_mm);
 }
 
@@ -55,7 +55,7 @@ PathPieces path_pieces(double contact_ratio, double path_start_mm, const LineOfA
   return pieces;
 }
 
-Friction::Table friction_table(const Friction::Coefficient& friction, const LineOfAction& line) {
+FrictionTable friction_table(const CoulombFriction& friction, const LineOfAction& line) {
   const double start = path_start_mm(friction, line);
   return tabulate(path_pieces(friction.contact_ratio, start, line), [&](double from, double to) {
     const double inside = 0.5 * (from + to);

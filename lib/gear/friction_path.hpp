@@ -53,8 +53,8 @@ using PathPieces = std::vector<double>;
 ///
 /// @param rows  FittedRows<3> (double from, double to): force, moment_1 and moment_2 on the piece between
 template <class F>
-[[nodiscard]] Friction::Table tabulate(const PathPieces& pieces, F rows) {
-  Friction::Table table;
+[[nodiscard]] FrictionTable tabulate(const PathPieces& pieces, F rows) {
+  FrictionTable table;
   table.breakpoints = pieces;
   table.interpolation = Interpolation::smooth;
   const auto append = [&](double phase, const std::array<double, 3>& r) {
@@ -90,9 +90,9 @@ template <class F>
 }
 
 /// Friction arm h_1 where contact starts: as given, or so that the path is symmetric about the pitch point [mm].
-[[nodiscard]] double path_start_mm(const Friction::Coefficient& friction, const LineOfAction& line);
+[[nodiscard]] double path_start_mm(const CoulombFriction& friction, const LineOfAction& line);
 
 /// A(s), B_1(s), B_2(s) on the mesh's own phase, exact: two rows at each jump, straight between.
-[[nodiscard]] Friction::Table friction_table(const Friction::Coefficient& friction, const LineOfAction& line);
+[[nodiscard]] FrictionTable friction_table(const CoulombFriction& friction, const LineOfAction& line);
 
 }  // namespace epicyclic::gear

@@ -322,8 +322,8 @@ StiffnessCurve stiffness_curve(const MeshedPair& mesh, double tolerance) {
   return curve;
 }
 
-Friction::Ehl ehl_of(const MeshedPair& mesh, const Lubrication& lubrication) {
-  Friction::Ehl e;
+EhlFriction ehl_of(const MeshedPair& mesh, const Lubrication& lubrication) {
+  EhlFriction e;
   e.viscosity_mPas = lubrication.viscosity_mPas;
   e.roughness_um = lubrication.roughness_um;
   e.table_tolerance = lubrication.table_tolerance;

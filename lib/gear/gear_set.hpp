@@ -56,7 +56,7 @@ struct PlanetPhases {
                                              double tolerance = StiffnessOptions{}.table_tolerance);
 
 /// Friction by lubricated contact of a mesh, with its load sharing.
-[[nodiscard]] Friction::Ehl ehl_of(const MeshedPair& mesh, const Lubrication& lubrication);
+[[nodiscard]] EhlFriction ehl_of(const MeshedPair& mesh, const Lubrication& lubrication);
 
 /// Bodies of the members; the ring's and the carrier's only if their drawings are given.
 struct Bodies {

@@ -155,7 +155,7 @@ void check_stiffness(Problems& out, const std::string& pointer, const Mesh& mesh
             lowest, " N/m within a mesh period; stiffness must stay positive");
 }
 
-void check_friction_table(Problems& out, const std::string& pointer, const Friction::Table& t) {
+void check_friction_table(Problems& out, const std::string& pointer, const FrictionTable& t) {
   const std::size_t n = t.phase.size();
   const bool lengths =
       static_cast<int>(check_length(out, pointer + "/force_ratio", t.force_ratio.size(), n)) &
@@ -164,7 +164,7 @@ void check_friction_table(Problems& out, const std::string& pointer, const Frict
   if (lengths) check_rows(out, pointer, t.phase, t.breakpoints);
 }
 
-void check_ehl(Problems& out, const std::string& pointer, const Friction::Ehl& e) {
+void check_ehl(Problems& out, const std::string& pointer, const EhlFriction& e) {
   if (!(e.equivalent_modulus_GPa > 0.0)) out.add(pointer + "/equivalent_modulus_GPa", "is missing");
   if (!(e.width_mm > 0.0)) out.add(pointer + "/width_mm", "is missing");
   const auto& p = e.share_position;

@@ -94,55 +94,56 @@ struct Planet {
   std::optional<double> base_radius_mm;
 };
 
+/// Friction over phase = s / 2 pi on the common s of planet 1, in [0, 1), rising; smooth between breakpoints.
+/// A jump at a breakpoint is given by its two sides: the phase stands twice, left value first.
+struct FrictionTable {
+  std::vector<double> phase;                              ///< [-]
+  std::vector<double> force_ratio;                        ///< A [-]
+  std::vector<double> moment_driving_mm;                  ///< B about the axis of the driving member [mm]
+  std::vector<double> moment_driven_mm;                   ///< B about the axis of the driven member [mm]
+  std::vector<double> breakpoints;                        ///< phases where the table jumps or kinks [-]
+  Interpolation interpolation = Interpolation::monotone;  ///< between the rows
+  std::vector<IntervalGrid> grids{};                      ///< of a computed one: what the rows of each piece stand on
+  double error = 0;                                       ///< of a computed one: greatest error between the rows [-]
+};
+
+/// Coulomb coefficient mu on a path of contact with equal load sharing among the pairs in contact.
+struct CoulombFriction {
+  double coefficient = 0;               ///< mu [-]
+  double contact_ratio = 1;             ///< epsilon, pairs in contact: below 1 no motion is transmitted; up to 3
+  std::optional<double> path_start_mm;  ///< friction arm of the driving member where contact starts; default: the
+                                        ///< path is symmetric about the pitch point
+};
+
+/// Lubricated contact, gear/ehl_friction.hpp: a coefficient that depends on place, load and speed.
+struct EhlFriction {
+  double viscosity_mPas = 5;          ///< nu_0
+  double roughness_um = 0.6;          ///< S, RMS
+  double equivalent_modulus_GPa = 0;  ///< E' of Eq. (8)
+  double width_mm = 0;                ///< face width in contact
+  double contact_ratio = 1;           ///< epsilon
+  double path_start_mm = 0;           ///< friction arm of the driving member where contact starts
+  /// Share of the load that a pair carries, against its position in base pitches from the start of contact, 0 ..
+  /// epsilon, rising; a jump stands twice. Empty: equal sharing.
+  std::vector<double> share_position;
+  std::vector<double> share;
+  Interpolation share_interpolation = Interpolation::straight;  ///< between the rows
+  std::optional<double> share_error{};  ///< known greatest error of the share between its rows [-]
+  /// Error that the rows of the friction table are made fine enough for, of the ratios to the normal force [-].
+  double table_tolerance = Lubrication{}.table_tolerance;
+};
+
 /// Tooth friction of one mesh: F_f = A(s) F and, about the members' axes, B(s) F.
 /// A table over the mesh phase, a coefficient on an idealised contact path, or a law of lubricated contact.
 struct Friction {
-  /// Table over phase = s / 2 pi on the common s of planet 1, in [0, 1), rising; smooth between breakpoints.
-  /// A jump at a breakpoint is given by its two sides: the phase stands twice, left value first.
-  struct Table {
-    std::vector<double> phase;                              ///< [-]
-    std::vector<double> force_ratio;                        ///< A [-]
-    std::vector<double> moment_driving_mm;                  ///< B about the axis of the driving member [mm]
-    std::vector<double> moment_driven_mm;                   ///< B about the axis of the driven member [mm]
-    std::vector<double> breakpoints;                        ///< phases where the table jumps or kinks [-]
-    Interpolation interpolation = Interpolation::monotone;  ///< between the rows
-    std::vector<IntervalGrid> grids{};                      ///< of a computed one: what the rows of each piece stand on
-    double error = 0;                                       ///< of a computed one: greatest error between the rows [-]
-  };
-  std::optional<Table> table;
-
-  /// Coulomb coefficient mu on a path of contact with equal load sharing among the pairs in contact.
-  struct Coefficient {
-    double coefficient = 0;               ///< mu [-]
-    double contact_ratio = 1;             ///< epsilon, pairs in contact: below 1 no motion is transmitted; up to 3
-    std::optional<double> path_start_mm;  ///< friction arm of the driving member where contact starts; default: the
-                                          ///< path is symmetric about the pitch point
-  };
-  std::optional<Coefficient> coefficient;
-
-  /// Lubricated contact, gear/ehl_friction.hpp: a coefficient that depends on place, load and speed.
-  struct Ehl {
-    double viscosity_mPas = 5;          ///< nu_0
-    double roughness_um = 0.6;          ///< S, RMS
-    double equivalent_modulus_GPa = 0;  ///< E' of Eq. (8)
-    double width_mm = 0;                ///< face width in contact
-    double contact_ratio = 1;           ///< epsilon
-    double path_start_mm = 0;           ///< friction arm of the driving member where contact starts
-    /// Share of the load that a pair carries, against its position in base pitches from the start of contact, 0 ..
-    /// epsilon, rising; a jump stands twice. Empty: equal sharing.
-    std::vector<double> share_position;
-    std::vector<double> share;
-    Interpolation share_interpolation = Interpolation::straight;  ///< between the rows
-    std::optional<double> share_error{};  ///< known greatest error of the share between its rows [-]
-    /// Error that the rows of the friction table are made fine enough for, of the ratios to the normal force [-].
-    double table_tolerance = Lubrication{}.table_tolerance;
-  };
-  std::optional<Ehl> ehl{};
+  std::optional<FrictionTable> table;
+  std::optional<CoulombFriction> coefficient;
+  std::optional<EhlFriction> ehl{};
 
   [[nodiscard]] bool any() const { return table.has_value() || coefficient.has_value() || ehl.has_value(); }
 };
 
-/// Mesh stiffness as a curve over the mesh's own phase, in [0, 1); rows and breakpoints as in Friction::Table.
+/// Mesh stiffness as a curve over the mesh's own phase, in [0, 1); rows and breakpoints as in FrictionTable.
 struct StiffnessCurve {
   std::vector<double> phase;                              ///< [-]
   std::vector<double> stiffness_N_per_m;                  ///< k [N/m]

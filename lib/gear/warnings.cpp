@@ -221,7 +221,7 @@ void check_deflection(Warnings& out, const std::string& pointer, const std::stri
             " modules, under the static load");
 }
 
-void check_pressure(Warnings& out, const Friction::Ehl& contact, const LineOfAction& line, const MeshLoad& load,
+void check_pressure(Warnings& out, const EhlFriction& contact, const LineOfAction& line, const MeshLoad& load,
                     const std::string& mesh) {
   const double pressure = lubrication_range(contact, line, load).greatest_pressure_GPa;
   if (pressure > pressure_most_GPa)

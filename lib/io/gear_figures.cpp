@@ -108,7 +108,7 @@ GearFigure load_sharing_figure(const fs::path& folder, const gear::Stage& stage,
   double longest = 0.0;
   const auto add = [&](const gear::MeshedPair& mesh, std::string_view look, std::string_view title) {
     // The table of lubricated contact has both sides of each jump; what lubricates is of no account here.
-    const gear::Friction::Ehl table = gear::ehl_of(mesh, {});
+    const gear::EhlFriction table = gear::ehl_of(mesh, {});
     Curve curve;
     for (std::size_t i = 0; i < table.share.size(); ++i) curve.push_back({table.share_position[i], table.share[i]});
     sketch.add(curve, look, title);
@@ -124,7 +124,7 @@ GearFigure load_sharing_figure(const fs::path& folder, const gear::Stage& stage,
 
 /// One mesh as the friction figures see it.
 struct LubricatedMesh {
-  gear::Friction::Ehl ehl;
+  gear::EhlFriction ehl;
   gear::LineOfAction line;
 };
 
@@ -155,7 +155,7 @@ Curve friction_along_path(const LubricatedMesh& mesh, const gear::MeshLoad& load
 }
 
 Curve force_ratio(const LubricatedMesh& mesh, const gear::MeshLoad& load) {
-  const gear::Friction::Table table = gear::friction_table(mesh.ehl, mesh.line, load);
+  const gear::FrictionTable table = gear::friction_table(mesh.ehl, mesh.line, load);
   return repeated(table.phase, table.force_ratio, 1.0);
 }
 

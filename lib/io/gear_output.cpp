@@ -127,7 +127,7 @@ std::vector<NamedMesh> meshes(const gear::GearSet& set, const gear::Stage& stage
 std::string load_sharing_csv(const std::vector<NamedMesh>& both, const gear::Lubrication& any) {
   CsvWriter csv({"mesh", "position", "distance_from_pitch_point_mm", "share"});
   for (const NamedMesh& m : both) {
-    const gear::Friction::Ehl e = gear::ehl_of(m.pair, any);
+    const gear::EhlFriction e = gear::ehl_of(m.pair, any);
     for (std::size_t k = 0; k < e.share.size(); ++k)
       csv.row(m.name, e.share_position[k], m.pair.arm_mm(e.share_position[k]) - m.pair.pair.pitch_arm_mm, e.share[k]);
   }
@@ -139,7 +139,7 @@ std::string friction_csv(const std::vector<NamedMesh>& both, const gear::Lubrica
   CsvWriter csv({"mesh", "position", "distance_from_pitch_point_mm", "sliding_m_per_s", "rolling_m_per_s",
                  "slide_to_roll", "pressure_GPa", "radius_mm", "share", "mu", "signed_ratio", "within_range"});
   for (const NamedMesh& m : both) {
-    const gear::Friction::Ehl e = gear::ehl_of(m.pair, lubrication);
+    const gear::EhlFriction e = gear::ehl_of(m.pair, lubrication);
     for (std::size_t k = 0; k < e.share.size(); ++k) {
       const gear::LubricatedContact c = gear::lubricated_contact(e, m.line, load, e.share_position[k], e.share[k]);
       const double mu = gear::xu_friction_coefficient(c);
@@ -155,7 +155,7 @@ std::string friction_ratios_csv(const std::vector<NamedMesh>& both, const gear::
                                 const gear::MeshLoad& load) {
   CsvWriter csv({"mesh", "phase", "force_ratio", "moment_ratio_driving_mm", "moment_ratio_driven_mm"});
   for (const NamedMesh& m : both) {
-    const gear::Friction::Table t = gear::friction_table(gear::ehl_of(m.pair, lubrication), m.line, load);
+    const gear::FrictionTable t = gear::friction_table(gear::ehl_of(m.pair, lubrication), m.line, load);
     for (std::size_t k = 0; k < t.phase.size(); ++k)
       csv.row(m.name, t.phase[k], t.force_ratio[k], t.moment_driving_mm[k], t.moment_driven_mm[k]);
   }

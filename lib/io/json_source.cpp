@@ -78,6 +78,8 @@ struct Stumble {
   std::size_t consumed = 0;  ///< characters read, the offending one included
   std::string detail;        ///< the library's words
   std::string pointer;       ///< the element that was being read
+  std::string last;          ///< the last number read before
+  std::size_t last_end = 0;  ///< where the text of that number ends
   std::string container;     ///< the innermost open object or array
   int container_line = 0;    ///< 0: none is open
   bool after_end = false;    ///< the document was complete already
@@ -97,19 +99,19 @@ class Handler final : public nlohmann::json_sax<json> {
   bool binary(binary_t& /*value*/) override { return false; }
 
   bool number_integer(number_integer_t value) override {
-    const int line = number_line();
+    const int line = note_number();
     if (value < -exact_integer_max || value > exact_integer_max) report_inexact(line, std::to_string(value));
     return place(value, line);
   }
 
   bool number_unsigned(number_unsigned_t value) override {
-    const int line = number_line();
+    const int line = note_number();
     if (value > static_cast<std::uint64_t>(exact_integer_max)) report_inexact(line, std::to_string(value));
     return place(value, line);
   }
 
   bool number_float(number_float_t value, const string_t& raw) override {
-    const int line = number_line();
+    const int line = note_number();
     if (raw.find_first_of(".eE") == std::string::npos) {
       report_inexact(line, raw);
     } else if (value == 0.0 && raw.substr(0, raw.find_first_of("eE")).find_first_of("123456789") != std::string::npos) {
@@ -146,6 +148,8 @@ class Handler final : public nlohmann::json_sax<json> {
     stumble = Stumble{consumed_,
                       detail,
                       frames_.empty() ? std::string() : element(),
+                      last_,
+                      last_end_,
                       frames_.empty() ? std::string() : frames_.back().pointer,
                       frames_.empty() ? 0 : frames_.back().line,
                       rooted_ && frames_.empty()};
@@ -164,8 +168,11 @@ class Handler final : public nlohmann::json_sax<json> {
 
   [[nodiscard]] int here() const { return lines_.at(consumed_ == 0 ? 0 : consumed_ - 1); }
 
-  /// The lexer has read one character beyond a number, unless the text ended.
-  [[nodiscard]] int number_line() const {
+  /// Notes which number this is and where it ends; its line. The lexer has read one character beyond it, unless the
+  /// text ended.
+  [[nodiscard]] int note_number() {
+    last_ = element();
+    last_end_ = consumed_ - 1;
     std::size_t last = consumed_ - 1;
     while (last > 0 && !is_number_character(text_[last])) --last;
     return lines_.at(last);
@@ -237,6 +244,8 @@ class Handler final : public nlohmann::json_sax<json> {
   JsonSource& source_;
   std::vector<Frame> frames_;
   bool rooted_ = false;
+  std::string last_;
+  std::size_t last_end_ = 0;
 };
 
 /// Offset of the first byte that is not UTF-8 (RFC 3629), or npos.
@@ -271,6 +280,7 @@ struct Repair {
   std::string by;  ///< put at begin; the rest becomes spaces
   std::string message;
   bool is_value = false;  ///< a value was replaced, the element is unreadable
+  bool of_last = false;   ///< namely the number before the place
 };
 
 void apply(const Repair& repair, std::string& text) {
@@ -334,7 +344,7 @@ std::optional<Repair> unit_at(std::string_view text, std::size_t at) {
   const bool word = before < at && std::isalpha(static_cast<unsigned char>(text[at])) != 0;  // else word_at() tells
   if (!word && text[at] != '%' && static_cast<unsigned char>(text[at]) < 0x80) return std::nullopt;
   const std::size_t end = std::min(text.find_first_of(",]}\n\"", at), text.size());
-  return Repair{at, end, "", unit_message, true};
+  return Repair{at, end, "", unit_message, true, true};
 }
 
 /// A comma before the decimals of a number, where a key is expected behind it.
@@ -343,7 +353,7 @@ std::optional<Repair> decimals_at(std::string_view text, std::size_t at) {
   const std::size_t end = at + 1;
   while (at > 0 && is_number_character(text[at - 1])) --at;
   const bool comma = at > 1 && text[at - 1] == ',' && std::isdigit(static_cast<unsigned char>(text[at - 2])) != 0;
-  return comma ? std::optional(Repair{at - 1, end, "", decimal_message, true}) : std::nullopt;
+  return comma ? std::optional(Repair{at - 1, end, "", decimal_message, true, true}) : std::nullopt;
 }
 
 std::optional<Repair> repair_for(std::string_view text, const Stumble& stumble) {
@@ -465,9 +475,12 @@ JsonSource parse_json(std::string bytes, std::string name) {
       fatal(lines.at(at == 0 ? 0 : at - 1), stumble.after_end ? "" : stumble.pointer, stumble_message(text, stumble));
       break;
     }
-    repaired.push_back({source.name, lines.at(repair->begin), repair->is_value ? stumble.pointer : stumble.container,
-                        repair->message});
-    if (repair->is_value) unreadable.insert(stumble.pointer);
+    // A malformed number may have been read in part: 1e-1x is the number 0.1 first, then a literal.
+    const bool of_last = repair->of_last || repair->begin < stumble.last_end;
+    const std::string& pointer = of_last ? stumble.last : stumble.pointer;
+    repaired.push_back(
+        {source.name, lines.at(repair->begin), repair->is_value ? pointer : stumble.container, repair->message});
+    if (repair->is_value) unreadable.insert(pointer);
     apply(*repair, text);
   }
   source.problems.insert(source.problems.end(), repaired.begin(), repaired.end());

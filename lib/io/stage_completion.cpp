@@ -135,7 +135,7 @@ void fill_mesh(Filler mesh, const gear::MeshedPair& pair, const gear::FourierSer
     mesh.fill("error_amplitude_um", std::max(first ? first->single_pitch : 0.0, second ? second->single_pitch : 0.0),
               "[G-1328] single pitch deviation of the accuracy grade, the larger of the two members");
   if (catalogue.lubrication) {
-    const gear::Friction::Ehl e = gear::ehl_of(pair, *catalogue.lubrication);
+    const gear::EhlFriction e = gear::ehl_of(pair, *catalogue.lubrication);
     Filler friction = mesh.below("friction").below("lubricated");
     friction.fill("viscosity_mPas", e.viscosity_mPas, "as in catalogue");
     friction.fill("roughness_um", e.roughness_um, "as in catalogue");
@@ -227,7 +227,9 @@ void complete(json& object, const json& computed, const std::string& pointer, st
       continue;
     }
     if (there != object.end()) {
-      const auto same_kind = [&](bool (json::*is)() const noexcept) { return (*there.*is)() == (value.*is)(); };
+      const auto same_kind = [&there, &value = value](bool (json::*is)() const noexcept) {
+        return (*there.*is)() == (value.*is)();
+      };
       if (is_given(object, key) || !same_kind(&json::is_array) || !same_kind(&json::is_string)) continue;
       if (differs(*there, value))
         notes.push_back(place + ": the value in the file is ignored and computed anew, since its origin says " +

@@ -1011,7 +1011,7 @@ std::vector<Problem> LoadedInput::check_with(const json& base, std::span<const P
   for (const auto& [pointer, value] : values) {
     std::string place = pointer;
     if (sources_->bare && pointer_within(place, stage_root)) place.erase(0, stage_root.size());
-    const auto refuse = [&](std::string message) {
+    const auto refuse = [this, &pointer = pointer](std::string message) {
       return std::vector<Problem>{sources_->locate(pointer, std::move(message))};
     };
     const json* there = place.empty() || place[0] != '/' ? nullptr : find_at(resolved, place);
@@ -1019,7 +1019,7 @@ std::vector<Problem> LoadedInput::check_with(const json& base, std::span<const P
       return refuse("\"" + place + "\" is part of the plan, which a study cannot vary");
     if (there == nullptr) {
       const auto& places = all_places();
-      const auto at_place = [&](const KeyPlace& p) { return p.pointer == pointer; };
+      const auto at_place = [&pointer = pointer](const KeyPlace& p) { return p.pointer == pointer; };
       if (std::any_of(places.begin(), places.end(), at_place))
         return refuse("\"" + pointer + "\" is no value of the resolved input: the input does not give it");
       const auto meant = meant_pointers(place, places);

@@ -15,7 +15,10 @@ namespace epicyclic::io {
 namespace {
 
 using gear::CentralMember;
+using gear::CoulombFriction;
+using gear::EhlFriction;
 using gear::Friction;
+using gear::FrictionTable;
 using gear::Mesh;
 using gear::Planet;
 using gear::Stage;
@@ -188,15 +191,14 @@ const Table<Planet>& planet_table() {
 }
 
 /// "moment_ratio_mm": {"driving": [...], "driven": [...]} in the members of the friction table.
-const Table<Friction::Table>& moment_table() {
+const Table<FrictionTable>& moment_table() {
   static const auto table = [] {
-    Table<Friction::Table> t("moment_ratio_mm",
-                             "Moment of the friction over the normal force, about the members' axes.");
+    Table<FrictionTable> t("moment_ratio_mm", "Moment of the friction over the normal force, about the members' axes.");
     const auto arm = between(-length_max_mm, length_max_mm);
-    t.numbers("driving", &Friction::Table::moment_driving_mm, arm, 2, 100000,
+    t.numbers("driving", &FrictionTable::moment_driving_mm, arm, 2, 100000,
               "B about the axis of the driving member, at each phase [mm].")
         .required();
-    t.numbers("driven", &Friction::Table::moment_driven_mm, arm, 2, 100000,
+    t.numbers("driven", &FrictionTable::moment_driven_mm, arm, 2, 100000,
               "B about the axis of the driven member, at each phase [mm].")
         .required();
     return t;
@@ -204,29 +206,29 @@ const Table<Friction::Table>& moment_table() {
   return table;
 }
 
-const Table<Friction::Ehl>& lubricated_table() {
+const Table<EhlFriction>& lubricated_table() {
   static const auto table = [] {
-    using Ehl = Friction::Ehl;
-    Table<Ehl> t("lubricated", "Friction of lubricated contact, a function of place, load and speed.");
-    t.number("viscosity_mPas", &Ehl::viscosity_mPas, between(1, 2000),
+    Table<EhlFriction> t("lubricated", "Friction of lubricated contact, a function of place, load and speed.");
+    t.number("viscosity_mPas", &EhlFriction::viscosity_mPas, between(1, 2000),
              "Dynamic viscosity of the oil at its inlet [mPa s].");
-    t.number("roughness_um", &Ehl::roughness_um, between(0, 1.5), "RMS roughness of the flanks [um].");
-    t.number("equivalent_modulus_GPa", &Ehl::equivalent_modulus_GPa, between(1e-6, 5000),
+    t.number("roughness_um", &EhlFriction::roughness_um, between(0, 1.5), "RMS roughness of the flanks [um].");
+    t.number("equivalent_modulus_GPa", &EhlFriction::equivalent_modulus_GPa, between(1e-6, 5000),
              "E' = 2 / ((1 - nu1^2) / E1 + (1 - nu2^2) / E2) [GPa].")
         .required();
-    t.number("width_mm", &Ehl::width_mm, length, "Face width in contact [mm].").required();
-    t.number("contact_ratio", &Ehl::contact_ratio, between(1, 3), "Contact ratio [-].").required();
-    t.number("path_start_mm", &Ehl::path_start_mm, between(-length_max_mm, length_max_mm),
+    t.number("width_mm", &EhlFriction::width_mm, length, "Face width in contact [mm].").required();
+    t.number("contact_ratio", &EhlFriction::contact_ratio, between(1, 3), "Contact ratio [-].").required();
+    t.number("path_start_mm", &EhlFriction::path_start_mm, between(-length_max_mm, length_max_mm),
              "Friction arm of the driving member where contact starts [mm].")
         .required();
-    t.numbers("load_share_position", &Ehl::share_position, between(0, 3), 2, 100000,
+    t.numbers("load_share_position", &EhlFriction::share_position, between(0, 3), 2, 100000,
               "Positions of a pair, in base pitches from the start of contact, 0 to the contact ratio, rising [-].");
-    t.numbers("load_share", &Ehl::share, between(0, 1), 2, 100000,
+    t.numbers("load_share", &EhlFriction::share, between(0, 1), 2, 100000,
               "Share of the load that the pair carries at each position; equal sharing if not given [-].");
-    t.choice("load_share_interpolation", &Ehl::share_interpolation, interpolations,
+    t.choice("load_share_interpolation", &EhlFriction::share_interpolation, interpolations,
              "Between the rows of the load share: " + interpolation_words);
-    t.number("load_share_error", &Ehl::share_error, table_error, "Greatest error of the share between its rows [-].");
-    t.number("table_tolerance", &Ehl::table_tolerance, table_tolerance,
+    t.number("load_share_error", &EhlFriction::share_error, table_error,
+             "Greatest error of the share between its rows [-].");
+    t.number("table_tolerance", &EhlFriction::table_tolerance, table_tolerance,
              "Error that the rows of the friction table are made fine enough for at each operating point, of friction "
              "over normal force [-].");
     t.rule(KeyRule::Kind::together, {"load_share_position", "load_share"});
@@ -239,19 +241,19 @@ const Table<Friction>& friction_table() {
   static const auto table = [] {
     Table<Friction> t("friction",
                       "Tooth friction: a coefficient on an idealised path of contact, a table, or lubricated contact.");
-    t.number("coefficient", within(&Friction::coefficient, &Friction::Coefficient::coefficient), between(0, 1),
+    t.number("coefficient", within(&Friction::coefficient, &CoulombFriction::coefficient), between(0, 1),
              "Coulomb coefficient mu on the path of contact [-].");
     t.object("lubricated", present(&Friction::ehl), lubricated_table());
-    t.number("contact_ratio", within(&Friction::coefficient, &Friction::Coefficient::contact_ratio), between(1, 3),
+    t.number("contact_ratio", within(&Friction::coefficient, &CoulombFriction::contact_ratio), between(1, 3),
              "Contact ratio [-].");
     t.number(
-        "path_start_mm", within(&Friction::coefficient, &Friction::Coefficient::path_start_mm),
+        "path_start_mm", within(&Friction::coefficient, &CoulombFriction::path_start_mm),
         between(-length_max_mm, length_max_mm),
         "Friction arm of the driving member where contact starts [mm]; the path is symmetric about the pitch point "
         "if it is not given.");
-    t.numbers("phase", within(&Friction::table, &Friction::Table::phase), from_below(0, 1), 2, 100000,
+    t.numbers("phase", within(&Friction::table, &FrictionTable::phase), from_below(0, 1), 2, 100000,
               "Mesh phase s / 2 pi of the table's rows, rising [-].");
-    t.numbers("force_ratio", within(&Friction::table, &Friction::Table::force_ratio), between(-1, 1), 2, 100000,
+    t.numbers("force_ratio", within(&Friction::table, &FrictionTable::force_ratio), between(-1, 1), 2, 100000,
               "A, friction force over normal force, at each phase [-].");
     Field<Friction> moment;
     moment.key = "moment_ratio_mm";
@@ -268,9 +270,9 @@ const Table<Friction>& friction_table() {
       moment_table().collect(pointer, places);
     };
     t.custom(std::move(moment));
-    t.numbers("breakpoints", within(&Friction::table, &Friction::Table::breakpoints), from_below(0, 1), 0, 1000,
+    t.numbers("breakpoints", within(&Friction::table, &FrictionTable::breakpoints), from_below(0, 1), 0, 1000,
               "Phases where the table jumps or kinks [-].");
-    t.choice("interpolation", within(&Friction::table, &Friction::Table::interpolation), interpolations,
+    t.choice("interpolation", within(&Friction::table, &FrictionTable::interpolation), interpolations,
              "Between the rows of the table: " + interpolation_words);
     t.rule(KeyRule::Kind::not_empty, {"coefficient", "phase", "lubricated"});
     t.rule(KeyRule::Kind::at_most_one, {"coefficient", "phase", "lubricated"});

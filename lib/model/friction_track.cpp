@@ -4,8 +4,7 @@ namespace epicyclic::model {
 
 namespace {
 
-std::vector<TrackRow<3>> rows_of(const gear::Friction::Table& table, double driving_radius_mm,
-                                 double driven_radius_mm) {
+std::vector<TrackRow<3>> rows_of(const gear::FrictionTable& table, double driving_radius_mm, double driven_radius_mm) {
   std::vector<TrackRow<3>> rows;
   for (std::size_t k = 0; k < table.phase.size(); ++k)
     rows.push_back({table.phase[k],
@@ -16,7 +15,7 @@ std::vector<TrackRow<3>> rows_of(const gear::Friction::Table& table, double driv
 
 }  // namespace
 
-FrictionTrack::FrictionTrack(const gear::Friction::Table& table, double lead, double driving_radius_mm,
+FrictionTrack::FrictionTrack(const gear::FrictionTable& table, double lead, double driving_radius_mm,
                              double driven_radius_mm)
     : track_(rows_of(table, driving_radius_mm, driven_radius_mm), table.breakpoints, lead, table.interpolation,
              table.grids),

@@ -27,8 +27,8 @@ class FrictionTrack {
   FrictionTrack() = default;
 
   /// @param table  rows on the mesh's own phase after `lead` is added to its phases [-]
-  /// @throws InputError when the rows are not as documented at gear::Friction::Table
-  FrictionTrack(const gear::Friction::Table& table, double lead, double driving_radius_mm, double driven_radius_mm);
+  /// @throws InputError when the rows are not as documented at gear::FrictionTable
+  FrictionTrack(const gear::FrictionTable& table, double lead, double driving_radius_mm, double driven_radius_mm);
 
   /// Breakpoints on the mesh's own phase, rising, in [0, 1).
   [[nodiscard]] const std::vector<double>& breakpoints() const { return track_.breakpoints(); }

@@ -45,7 +45,7 @@ gear::StiffnessCurve halved(gear::StiffnessCurve curve) {
   curve.stiffness_N_per_m = kept(curve.stiffness_N_per_m, rows);
   return curve;
 }
-gear::Friction::Ehl halved(gear::Friction::Ehl e) {
+gear::EhlFriction halved(gear::EhlFriction e) {
   if (e.share_interpolation != Interpolation::smooth) return e;
   const auto rows = every_second(e.share_position, {});
   e.share_position = kept(e.share_position, rows);
@@ -93,8 +93,8 @@ void fill_mesh(MeshParameters<double, N>& m, const gear::Mesh& mesh, const std::
 
 /// Of lubricated contact.
 /// @param like  with the grids to take; may be null
-gear::Friction::Table lubricated_table(const gear::Friction::Ehl& e, const gear::LineOfAction& line,
-                                       const gear::MeshLoad& load, const FrictionTrack* like, bool halve) {
+gear::FrictionTable lubricated_table(const gear::EhlFriction& e, const gear::LineOfAction& line,
+                                     const gear::MeshLoad& load, const FrictionTrack* like, bool halve) {
   std::vector<IntervalGrid> grids = like != nullptr ? like->grids() : std::vector<IntervalGrid>{};
   if (!halve) return gear::friction_table(e, line, load, grids);
   if (grids.empty()) grids = gear::friction_table(e, line, load).grids;
@@ -110,7 +110,7 @@ std::shared_ptr<const FrictionTrack> make_track(const gear::Friction& friction, 
                                                 const gear::MeshLoad& load, const FrictionTrack* like, bool halve) {
   if (!friction.any()) return nullptr;
   const gear::LineOfAction line = line_of(stage);
-  const auto track = [&](const gear::Friction::Table& table, double by) {
+  const auto track = [&](const gear::FrictionTable& table, double by) {
     return std::make_shared<FrictionTrack>(table, by, line.base_radius_1_mm, line.base_radius_2_mm);
   };
   if (friction.table) return track(*friction.table, lead);

@@ -4,7 +4,7 @@
 //   within a piece a cubic on each interval [core/interpolation.hpp], extended by its outermost cubics beyond the
 //   piece, so that a step that ends on a breakpoint sees the left side [M-track]
 //
-// Limits: rows as documented at gear::Friction::Table. Smoothness: C1 within a piece (C0 if straight); jumps at
+// Limits: rows as documented at gear::FrictionTable. Smoothness: C1 within a piece (C0 if straight); jumps at
 // breakpoints, which the integrator steps onto.
 #pragma once
 

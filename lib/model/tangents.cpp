@@ -43,7 +43,8 @@ TangentFunction make_tangents(const Parameters<double, N>& p) {
   };
   const TangentKernel<N, 1> by_one = tangent_kernel<L, N, 1>();
   if (const TangentKernel<N, 4> by_four = tangent_kernel<L, N, 4>())
-    return with(std::integral_constant<std::size_t, 4>(), Either{by_one, by_four});
+    return with(std::integral_constant<std::size_t, 4>(),
+                Either<TangentKernel<N, 1>, TangentKernel<N, 4>>{by_one, by_four});
   return with(std::integral_constant<std::size_t, 1>(), by_one);
 }
 

@@ -66,11 +66,12 @@ Truth truth_of(const ClearancePoint& p, int starts) {
   for (int j = 0; j < starts; ++j) {
     std::vector<State> y = {{1.1 + 1e-3 * j, 0.0}};
     for (int k = 0; k < carried; ++k) y.push_back(exact.periods(y.back(), 1));
+    const auto at = [&y](int k) -> const State& { return y[static_cast<std::size_t>(k)]; };
     int period = 0;
     constexpr double closed = 2e-3;  // what multipliers of 0.9995 leave of a transient is far less
     for (int n = 1; n <= longest_period && period == 0; ++n) {
       double error = 0.0;
-      for (int k = carried - 64; k + n <= carried; ++k) error = std::max(error, largest_difference(y[k], y[k + n]));
+      for (int k = carried - 64; k + n <= carried; ++k) error = std::max(error, largest_difference(at(k), at(k + n)));
       if (error > closed) continue;
       // The shortest orbit that attracts beside the motion's end.
       for (int d = 1; d <= n && period == 0; ++d) {
@@ -85,7 +86,7 @@ Truth truth_of(const ClearancePoint& p, int starts) {
     if (period == 0) continue;
     constexpr double near = 0.05;
     int k = carried;
-    while (k > 0 && largest_difference(y[k - 1], y[carried - (carried - k + 1) % period]) < near) --k;
+    while (k > 0 && largest_difference(at(k - 1), at(carried - (carried - k + 1) % period)) < near) --k;
     truth.transient += static_cast<double>(k) / starts;
   }
   return truth;

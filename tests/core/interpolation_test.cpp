@@ -120,10 +120,10 @@ TEST(EverySecond, KeepsBothSidesOfJumpsAndBreakpoints) {
 
 std::vector<IntervalGrid> grids() {
   std::vector<IntervalGrid> all;
-  for (const std::size_t n : {1, 2, 3, 7, 16, 100, 1000}) all.push_back(IntervalGrid::even(n));
+  for (const std::size_t n : {1U, 2U, 3U, 7U, 16U, 100U, 1000U}) all.push_back(IntervalGrid::even(n));
   for (const bool at_end : {false, true})
     for (const int octaves : {1, 5, 30})
-      for (const std::size_t n : {1, 8, 64}) all.push_back(IntervalGrid::graded(n, octaves, at_end));
+      for (const std::size_t n : {1U, 8U, 64U}) all.push_back(IntervalGrid::graded(n, octaves, at_end));
   return all;
 }
 

@@ -29,8 +29,6 @@ namespace {
 using namespace epicyclic;
 using analysis::Regime;
 
-constexpr double two_pi = 2.0 * std::numbers::pi;
-
 struct Case {
   std::string system;
   double parameter = 0;

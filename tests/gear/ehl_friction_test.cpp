@@ -36,7 +36,7 @@ struct Case {
   std::string name;
   const MeshedPair& mesh;
   LineOfAction line;
-  Friction::Ehl ehl;
+  EhlFriction ehl;
 };
 
 std::vector<Case> cases() {
@@ -190,13 +190,13 @@ TEST(EhlFriction, SpeedsOfAContactAreThoseOfThePair) {
 TEST(EhlFriction, ForcesOpposeTheSlidingAllAlongThePath) {
   // One pair at a time: a table whose contact ratio is 1 has no second pair, so A is f_j.
   for (const Case& c : cases()) {
-    Friction::Ehl one = c.ehl;
+    EhlFriction one = c.ehl;
     one.contact_ratio = 1.0;
     one.share_position.clear();
     one.share.clear();
     for (const double start : {0.0, 0.1, 0.19}) {
       one.path_start_mm = c.ehl.path_start_mm + start * c.line.base_pitch_mm;
-      const Friction::Table t = friction_table(one, c.line, load_at_10000_rpm());
+      const FrictionTable t = friction_table(one, c.line, load_at_10000_rpm());
       for (std::size_t k = 1; k < t.phase.size(); ++k) {
         const double arm = one.path_start_mm + c.line.base_pitch_mm * t.phase[k];
         EXPECT_LE(t.force_ratio[k] * c.line.sliding(arm), rounding) << c.name << " " << t.phase[k];
@@ -207,13 +207,13 @@ TEST(EhlFriction, ForcesOpposeTheSlidingAllAlongThePath) {
 
 TEST(EhlFriction, RatioOfTheRingMeshHasOneSign) {
   const Case ring = cases()[1];
-  const Friction::Table t = friction_table(ring.ehl, ring.line, load_at_10000_rpm());
+  const FrictionTable t = friction_table(ring.ehl, ring.line, load_at_10000_rpm());
   for (const double a : t.force_ratio) EXPECT_LT(a, 0.0);
 }
 
 TEST(EhlFriction, RowsAreDirectSumsOverThePairsInContact) {
   for (const Case& c : cases()) {
-    const Friction::Table t = friction_table(c.ehl, c.line, load_at_10000_rpm());
+    const FrictionTable t = friction_table(c.ehl, c.line, load_at_10000_rpm());
     const std::size_t n = t.phase.size();
     ASSERT_GT(n, 10U);
     for (std::size_t k = 0; k < n; ++k) {
@@ -245,7 +245,7 @@ TEST(EhlFriction, RowsAreDirectSumsOverThePairsInContact) {
 
 TEST(EhlFriction, IsContinuousAtThePitchPoint) {
   const Case sun = cases()[0];
-  const Friction::Table t = friction_table(sun.ehl, sun.line, load_at_10000_rpm());
+  const FrictionTable t = friction_table(sun.ehl, sun.line, load_at_10000_rpm());
   const double pitch = (sun.line.pitch_arm_mm - sun.ehl.path_start_mm) / sun.line.base_pitch_mm;
   std::size_t found = 0;
   for (std::size_t k = 1; k < t.phase.size(); ++k)
@@ -273,7 +273,7 @@ TEST(EhlFriction, LoadSharesAreThoseOfTheStiffness) {
     }
   }
   // Three pairs: the path has five pieces.
-  const Friction::Ehl tall = ehl_of(problems::tall_pair(), {});
+  const EhlFriction tall = ehl_of(problems::tall_pair(), {});
   std::size_t jumps = 0;
   for (std::size_t k = 1; k < tall.share_position.size(); ++k)
     if (tall.share_position[k] == tall.share_position[k - 1]) ++jumps;
@@ -284,7 +284,7 @@ TEST(EhlFriction, WithoutShareTableThePairsShareEqually) {
   Case sun = cases()[0];
   sun.ehl.share_position.clear();
   sun.ehl.share.clear();
-  const Friction::Table t = friction_table(sun.ehl, sun.line, load_at_10000_rpm());
+  const FrictionTable t = friction_table(sun.ehl, sun.line, load_at_10000_rpm());
   const double phase = t.phase[3];
   ASSERT_LT(phase, sun.mesh.contact_ratio() - 1.0);
   double force = 0.0;
@@ -298,7 +298,7 @@ TEST(EhlFriction, WithoutShareTableThePairsShareEqually) {
 TEST(EhlFriction, TableFallsOffWithTheLoad) {
   // mu ~ P_h^(1.03 + ...): a mesh that carries nothing has no friction.
   const Case sun = cases()[0];
-  const Friction::Table t = friction_table(sun.ehl, sun.line, {0.0, 25.0});
+  const FrictionTable t = friction_table(sun.ehl, sun.line, {0.0, 25.0});
   for (const double a : t.force_ratio) EXPECT_EQ(a, 0.0);
 }
 

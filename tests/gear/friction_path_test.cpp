@@ -24,21 +24,21 @@ struct Piece {
   std::size_t left, right;
 };
 
-std::vector<Piece> pieces(const Friction::Table& t) {
+std::vector<Piece> pieces(const FrictionTable& t) {
   // Rows come as: 0 (left side), then (start, end) of each piece, the end of the last one being row 0.
   std::vector<Piece> r;
   for (std::size_t k = 1; k < t.phase.size(); k += 2) r.push_back({k, k + 1 < t.phase.size() ? k + 1 : 0});
   return r;
 }
 
-double phase_at_right(const Friction::Table& t, const Piece& p) { return p.right == 0 ? 1.0 : t.phase[p.right]; }
+double phase_at_right(const FrictionTable& t, const Piece& p) { return p.right == 0 ? 1.0 : t.phase[p.right]; }
 
 /// f_j and arm of each pair in contact at one row: from A and B_1 alone, the coefficient and signs not being used.
 struct Pair {
   double ratio, arm_1;
 };
 
-std::vector<Pair> pairs_at(const Friction::Table& t, std::size_t row, double phase, double middle, double start,
+std::vector<Pair> pairs_at(const FrictionTable& t, std::size_t row, double phase, double middle, double start,
                            double base_pitch, double contact_ratio) {
   const double h = start + base_pitch * phase;
   if (middle + 1.0 >= contact_ratio) return {{t.force_ratio[row], h}};
@@ -49,7 +49,7 @@ std::vector<Pair> pairs_at(const Friction::Table& t, std::size_t row, double pha
 
 struct Mesh2 {
   std::string name;
-  Friction::Coefficient friction;
+  CoulombFriction friction;
   LineOfAction line;
   double omega_1, omega_2;  ///< relative to the carrier [rad/s]
 };
@@ -85,7 +85,7 @@ TEST(FrictionPath, LinesOfActionAreThoseOfTable1) {
 
 TEST(FrictionPath, FrictionOpposesSlidingOfEveryPairAllAlongThePath) {
   for (const Mesh2& m : meshes()) {
-    const Friction::Table t = friction_table(m.friction, m.line);
+    const FrictionTable t = friction_table(m.friction, m.line);
     const double start = path_start_mm(m.friction, m.line);
     for (const Piece& p : pieces(t)) {
       const double right = phase_at_right(t, p);
@@ -106,13 +106,13 @@ TEST(FrictionPath, FrictionOpposesSlidingOfEveryPairAllAlongThePath) {
 TEST(FrictionPath, RingMeshIsWhollyBeyondItsPitchPointSoItsRatioIsMinusMu) {
   const Mesh2 ring = meshes()[1];
   EXPECT_GT(path_start_mm(ring.friction, ring.line), ring.line.pitch_arm_mm);
-  const Friction::Table t = friction_table(ring.friction, ring.line);
+  const FrictionTable t = friction_table(ring.friction, ring.line);
   for (const double a : t.force_ratio) EXPECT_NEAR(a, -ring.friction.coefficient, rounding);
 }
 
 TEST(FrictionPath, SunMeshChangesSignAtItsPitchPoint) {
   const Mesh2 sun = meshes()[0];
-  const Friction::Table t = friction_table(sun.friction, sun.line);
+  const FrictionTable t = friction_table(sun.friction, sun.line);
   const double pitch = (sun.line.pitch_arm_mm - path_start_mm(sun.friction, sun.line)) / sun.line.base_pitch_mm;
   std::size_t found = 0;
   for (std::size_t k = 1; k < t.phase.size(); ++k)
@@ -126,7 +126,7 @@ TEST(FrictionPath, SunMeshChangesSignAtItsPitchPoint) {
 
 TEST(FrictionPath, MomentsAreThoseOfOneForceOnTheLineOfAction) {
   for (const Mesh2& m : meshes()) {
-    const Friction::Table t = friction_table(m.friction, m.line);
+    const FrictionTable t = friction_table(m.friction, m.line);
     const double sign = m.line.internal ? -1.0 : 1.0;
     for (std::size_t k = 0; k < t.phase.size(); ++k)
       EXPECT_NEAR(t.moment_driven_mm[k] + sign * t.moment_driving_mm[k],
@@ -137,7 +137,7 @@ TEST(FrictionPath, MomentsAreThoseOfOneForceOnTheLineOfAction) {
 
 TEST(FrictionPath, BreakpointsAreWherePairsEnterLeaveOrPassThePitchPoint) {
   const Mesh2 sun = meshes()[0];
-  const Friction::Table t = friction_table(sun.friction, sun.line);
+  const FrictionTable t = friction_table(sun.friction, sun.line);
   const double pitch = (sun.line.pitch_arm_mm - path_start_mm(sun.friction, sun.line)) / sun.line.base_pitch_mm;
   ASSERT_EQ(t.breakpoints.size(), 3U);
   EXPECT_EQ(t.breakpoints[0], 0.0);
@@ -150,7 +150,7 @@ TEST(FrictionPath, BreakpointsAreWherePairsEnterLeaveOrPassThePitchPoint) {
 
 TEST(FrictionPath, PathIsSymmetricAboutThePitchPointUnlessGiven) {
   const Mesh2 sun = meshes()[0];
-  const Friction::Coefficient symmetric{0.05, 1.5, std::nullopt};
+  const CoulombFriction symmetric{0.05, 1.5, std::nullopt};
   const double half = 0.5 * 1.5 * sun.line.base_pitch_mm;
   EXPECT_NEAR(path_start_mm(symmetric, sun.line), sun.line.pitch_arm_mm - half, rounding_mm);
   EXPECT_EQ(path_start_mm({0.05, 1.5, 12.0}, sun.line), 12.0);
@@ -158,7 +158,7 @@ TEST(FrictionPath, PathIsSymmetricAboutThePitchPointUnlessGiven) {
 
 TEST(FrictionPath, ThreePairsShareTheForceEqually) {
   const Mesh2 sun = meshes()[0];
-  const Friction::Table t = friction_table({0.06, 2.5, std::nullopt}, sun.line);
+  const FrictionTable t = friction_table({0.06, 2.5, std::nullopt}, sun.line);
   // Two pairs or three: each ratio is mu times an odd share of the pairs, and both kinds occur.
   bool thirds = false;
   bool halves = false;

@@ -170,8 +170,8 @@ TEST(Stage, MotionNamesEachRuleThatIsBroken) {
 TEST(Stage, FrictionTablesNameEachRuleThatIsBroken) {
   Stage base = problems::r1();
   base.sun_planet_mesh.friction.table =
-      Friction::Table{{0.0, 0.0, 0.4, 0.4, 0.7}, {1, 2, 3, 4, 5}, {1, 2, 3, 4, 5}, {1, 2, 3, 4, 5}, {0.0, 0.4}};
-  const auto table = [](Stage& s) -> Friction::Table& { return *s.sun_planet_mesh.friction.table; };
+      FrictionTable{{0.0, 0.0, 0.4, 0.4, 0.7}, {1, 2, 3, 4, 5}, {1, 2, 3, 4, 5}, {1, 2, 3, 4, 5}, {0.0, 0.4}};
+  const auto table = [](Stage& s) -> FrictionTable& { return *s.sun_planet_mesh.friction.table; };
   const std::string at = "/lumped/sun_planet_mesh/friction";
   const std::string force = at + "/force_ratio";
   const std::string driving = at + "/moment_ratio_mm/driving";

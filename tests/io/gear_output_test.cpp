@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <set>
 #include <sstream>
@@ -59,7 +60,7 @@ class GearOutputOfTheStage : public ::testing::Test {
     for (std::size_t k = 0; k < all.at("name").size(); ++k)
       if (all.at("name")[k] == name) return std::stod(all.at("value")[k]);
     ADD_FAILURE() << "no " << name;
-    return NAN;
+    return std::numeric_limits<double>::quiet_NaN();
   }
   static TemporaryFolder* folder;
   static GearOutput* output;

@@ -174,7 +174,7 @@ TEST(Hdf5File, FullDiskKeepsTheOldFile) {
   const std::string before = contents(path);
   {
     testing::internal::CaptureStderr();
-    for (const rlim_t most : {1, 100, 1000, 4096, 20'000, 100'000}) {
+    for (const rlim_t most : {1U, 100U, 1000U, 4096U, 20'000U, 100'000U}) {
       const test::FileSizeLimit limit(most);
       const std::string message = message_of<OutputError>([&] { write_example(path); });
       EXPECT_NE(message.find(path.string()), std::string::npos) << message;

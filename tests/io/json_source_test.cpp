@@ -90,6 +90,23 @@ TEST(JsonSource, TellsEveryProblemOfAText) {
   EXPECT_EQ(source.unreadable, (std::set<std::string, std::less<>>{"/a", "/b", "/c", "/f", "/g"}));
 }
 
+TEST(JsonSource, TellsWhichElementIsNotANumber) {
+  const auto pointer = [](const std::string& text) {
+    const auto source = parse_json(text, "x");
+    EXPECT_TRUE(source.complete) << text;
+    EXPECT_EQ(source.problems.size(), 1U) << all_text(source);
+    EXPECT_EQ(source.unreadable.size(), 1U) << text;
+    return source.unreadable.empty() ? "none" : *source.unreadable.begin();
+  };
+  // Its beginning is a number, which is read before what makes it none.
+  EXPECT_EQ(pointer("[7, 1e-1jjjj3, 8]"), "/1");
+  EXPECT_EQ(pointer("[7, 3 mm, 8]"), "/1");
+  EXPECT_EQ(pointer("[7, 3mm, 8]"), "/1");
+  EXPECT_EQ(pointer("[7, nan, 8]"), "/1");
+  EXPECT_EQ(pointer("[7, 1e999, 8]"), "/1");
+  EXPECT_EQ(pointer("{\"a\": [7], \"b\": 3mm}"), "/b");
+}
+
 TEST(JsonSource, TakesIntegersThatADoubleHolds) {
   const auto source = parse_json("[9007199254740992, -9007199254740992, 1e300, 0.0, 0e5, 4.9e-324]", "x");
   EXPECT_EQ(all_text(source), "");

@@ -29,7 +29,7 @@ using Parameters = model::Parameters<double, 3>;
 /// One mesh by its laws, at its own phase, on the side of a jump where `inside` is.
 struct MeshLaws {
   const gear::MeshedPair& pair;
-  gear::Friction::Ehl ehl;
+  gear::EhlFriction ehl;
   gear::LineOfAction line;
   gear::MeshLoad load;
 

@@ -412,7 +412,7 @@ TEST(Forces, FrictionIsThatOfThePathInEverySegmentOfEveryPeriod) {
 TEST(Forces, SmoothFrictionTablesFollowEachPlanetsPhase) {
   // A smooth table has no breakpoints, so that one segment must serve every planet's phase and every period.
   gear::Stage s = problems::with_teeth(problems::r1(), 28, 26, 80, 3);
-  gear::Friction::Table table;
+  gear::FrictionTable table;
   constexpr std::size_t rows = 200;
   for (std::size_t k = 0; k < rows; ++k) {
     const double phase = static_cast<double>(k) / rows;

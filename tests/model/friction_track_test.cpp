@@ -18,9 +18,9 @@ namespace {
 // Roundings of numbers of order 1 after a shift of the phase by whole turns.
 constexpr double rounding = 1e-14;
 
-using gear::Friction;
+using gear::FrictionTable;
 
-Friction::Table jumping() {
+FrictionTable jumping() {
   return {{0.0, 0.0, 0.25, 0.4, 0.4, 0.7},
           {2.0, -1.0, 0.5, 1.0, -2.0, 0.0},
           {20.0, 10.0, 5.0, -10.0, 40.0, 30.0},
@@ -28,8 +28,8 @@ Friction::Table jumping() {
           {0.0, 0.4}};
 }
 
-Friction::Table smooth_table(std::size_t rows) {
-  Friction::Table t;
+FrictionTable smooth_table(std::size_t rows) {
+  FrictionTable t;
   for (std::size_t k = 0; k < rows; ++k) {
     const double phase = static_cast<double>(k) / static_cast<double>(rows);
     t.phase.push_back(phase);
@@ -44,7 +44,7 @@ constexpr double driving_mm = 2.0;
 constexpr double driven_mm = 3.0;
 
 /// Values just left or right of a row, by the place of a phase within that piece.
-void expect_row(const FrictionTrack& track, const Friction::Table& t, std::size_t row, double phase, double inside) {
+void expect_row(const FrictionTrack& track, const FrictionTable& t, std::size_t row, double phase, double inside) {
   const FrictionRatios<double> r = track.at(track.place(inside), phase);
   EXPECT_NEAR(r.force, t.force_ratio[row], rounding) << "row " << row;
   EXPECT_NEAR(r.moment_driving, t.moment_driving_mm[row] / driving_mm, 10 * rounding) << "row " << row;
@@ -52,7 +52,7 @@ void expect_row(const FrictionTrack& track, const Friction::Table& t, std::size_
 }
 
 TEST(FrictionTrack, ReproducesRowsOnBothSidesOfJumpsAndAcrossTheTurn) {
-  const Friction::Table t = jumping();
+  const FrictionTable t = jumping();
   const FrictionTrack track(t, 0.0, driving_mm, driven_mm);
   for (const double turn : {-2.0, 0.0, 1.0, 5.0}) {
     expect_row(track, t, 1, 0.0 + turn, 0.1 + turn);
@@ -66,8 +66,8 @@ TEST(FrictionTrack, ReproducesRowsOnBothSidesOfJumpsAndAcrossTheTurn) {
 }
 
 TEST(FrictionTrack, IsStraightBetweenTwoRows) {
-  const Friction::Table t = gear::friction_table(*problems::tang2020().sun_planet_mesh.friction.coefficient,
-                                                 gear::sun_planet_line(problems::tang2020()));
+  const FrictionTable t = gear::friction_table(*problems::tang2020().sun_planet_mesh.friction.coefficient,
+                                               gear::sun_planet_line(problems::tang2020()));
   const FrictionTrack track(t, 0.0, driving_mm, driven_mm);
   std::size_t checked = 0;
   for (std::size_t k = 1; k < t.phase.size(); k += 2) {
@@ -87,7 +87,7 @@ TEST(FrictionTrack, IsStraightBetweenTwoRows) {
 }
 
 TEST(FrictionTrack, LeadMovesTheTableAndItsBreakpoints) {
-  const Friction::Table t = jumping();
+  const FrictionTable t = jumping();
   const FrictionTrack plain(t, 0.0, driving_mm, driven_mm);
   for (const double lead : {0.3023, -0.15, 0.75}) {
     const FrictionTrack moved(t, lead, driving_mm, driven_mm);
@@ -121,7 +121,7 @@ TEST(FrictionTrack, APieceIsContinuedBeyondItsEnds) {
 }
 
 TEST(FrictionTrack, WithoutBreakpointsItIsOneSmoothPeriodicCurve) {
-  const Friction::Table t = smooth_table(64);
+  const FrictionTable t = smooth_table(64);
   const FrictionTrack track(t, 0.0, 1.0, 1.0);
   EXPECT_TRUE(track.breakpoints().empty());
   const auto value = [&](double phase) { return track.at(track.place(phase), phase); };
@@ -153,7 +153,7 @@ TEST(FrictionTrack, NeverOvershootsItsRows) {
 }
 
 TEST(FrictionTrack, APieceWithoutEndsIsAnInputError) {
-  Friction::Table t = jumping();
+  FrictionTable t = jumping();
   t.breakpoints = {0.0, 0.1};
   EXPECT_THROW(FrictionTrack(t, 0.0, driving_mm, driven_mm), InputError);
 }

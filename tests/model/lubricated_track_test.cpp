@@ -46,9 +46,9 @@ gear::Stage oiled(double tolerance = gear::Lubrication{}.table_tolerance) {
 struct LawAndTrack {
   const gear::MeshedPair& mesh;
   gear::LineOfAction line;
-  gear::Friction::Ehl ehl;
+  gear::EhlFriction ehl;
   gear::MeshLoad load;
-  gear::Friction::Table table;
+  gear::FrictionTable table;
   FrictionTrack track;
 
   LawAndTrack(const gear::MeshedPair& of, double tolerance, double omega)

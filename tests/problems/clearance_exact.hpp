@@ -26,7 +26,7 @@ class BasicClearanceExact {
   using Matrix = std::array<double, 4>;
 
   explicit BasicClearanceExact(double w, double z = 0.05, double mean = 0.1, double e = 0.05)
-      : w_(w), z_(z), mean_(mean), amplitude_(Real(e) * w_ * w_) {}
+      : w_(Real(w)), z_(Real(z)), mean_(Real(mean)), amplitude_(Real(e) * w_ * w_) {}
 
   /// The state x, dx/dt carried from phase `from` to phase `to` (s = W t).
   /// @param tangents  multiplied from the left; may be null
@@ -35,7 +35,7 @@ class BasicClearanceExact {
     const Real length = end - Real(from) / w_;
     const Real look = 2 * std::numbers::pi_v<Real> / std::max(w_, Real(1)) / 40;
     const int looks = static_cast<int>(std::ceil(length / look));
-    Piece piece(*this, side_of(state[0]), Real(from) / w_, {state[0], state[1]});
+    Piece piece(*this, side_of(state[0]), Real(from) / w_, {Real(state[0]), Real(state[1])});
     Real before = piece.start;  // inside the piece
     Exact there = piece.state;
     for (int k = 1; k <= looks;) {
@@ -113,7 +113,7 @@ class BasicClearanceExact {
       const Matrix v = tangents;
       for (std::size_t i = 0; i < 2; ++i)
         for (std::size_t j = 0; j < 2; ++j)
-          tangents[2 * i + j] = static_cast<double>(m[2 * i] * v[j] + m[2 * i + 1] * v[2 + j]);
+          tangents[2 * i + j] = static_cast<double>(m[2 * i] * Real(v[j]) + m[2 * i + 1] * Real(v[2 + j]));
     }
 
     [[nodiscard]] std::array<Real, 4> homogeneous(Real dt) const {

@@ -28,7 +28,6 @@ using problems::Which;
 constexpr std::size_t planets = 3;
 constexpr double omega = 0.9;
 constexpr Layout layout = Layout::full;
-constexpr std::size_t dof = degrees_of_freedom(layout, planets);
 
 /// Closed part of a gap: the potential over k.
 double gap_energy(double d, double b) {
