@@ -274,6 +274,8 @@ std::string hex_byte(unsigned char byte) {
   return {'0', 'x', digits[byte >> 4U], digits[byte & 0xFU]};
 }
 
+std::size_t first_not_text(std::string_view text) { return std::min(first_bad_utf8(text), text.find('\0')); }
+
 /// A place that can be blanked out so that reading goes on.
 struct Repair {
   std::size_t begin = 0, end = 0;
@@ -399,6 +401,13 @@ std::string stumble_message(std::string_view text, const Stumble& stumble) {
 
 }  // namespace
 
+std::string not_text(std::string_view text) {
+  const std::size_t bad = first_not_text(text);
+  if (bad == std::string_view::npos) return {};
+  return "byte " + hex_byte(static_cast<unsigned char>(text[bad])) + " at offset " + std::to_string(bad) +
+         " is not UTF-8 text";
+}
+
 std::string Problem::text() const {
   std::string result = file;
   if (line > 0) result += ":" + std::to_string(line);
@@ -443,10 +452,8 @@ JsonSource parse_json(std::string bytes, std::string name) {
     fatal(1, "", "the file is UTF-16: JSON is read as UTF-8");
     return source;
   }
-  if (const auto bad = std::min(first_bad_utf8(source.bytes), source.bytes.find('\0')); bad != std::string::npos) {
-    fatal(lines.at(bad), "",
-          "byte " + hex_byte(static_cast<unsigned char>(source.bytes[bad])) + " at offset " + std::to_string(bad) +
-              " is not UTF-8 text: is this a JSON file?");
+  if (const auto bad = first_not_text(source.bytes); bad != std::string::npos) {
+    fatal(lines.at(bad), "", not_text(source.bytes) + ": is this a JSON file?");
     return source;
   }
   if (std::all_of(source.bytes.begin(), source.bytes.end(), is_space)) {

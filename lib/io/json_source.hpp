@@ -69,6 +69,9 @@ struct JsonSource {
 /// Reads a file; a file that cannot be read is a problem too. `name` is what messages call it (default: the path).
 [[nodiscard]] JsonSource read_json_file(const std::filesystem::path& path, std::string name = {});
 
+/// Which byte keeps a text from being one in UTF-8 (RFC 3629), without NUL; empty if none does.
+[[nodiscard]] std::string not_text(std::string_view text);
+
 /// What is wrong with a text that was meant to be a number: a unit behind it, a decimal comma, ...; empty if it is
 /// none.
 [[nodiscard]] std::string misspelt_number(std::string_view text);

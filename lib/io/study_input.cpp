@@ -318,6 +318,10 @@ std::vector<Assignment> parse_assignments(std::span<const std::string> texts) {
     const auto equals = text.find('=');
     Assignment& set = sets.emplace_back(Assignment{text.substr(0, equals), {}, text});
     const auto refuse = [&](std::string message) { set.problems.push_back(std::move(message)); };
+    if (std::string message = not_text(text); !message.empty()) {
+      refuse(std::move(message));
+      continue;
+    }
     if (equals == std::string::npos) {
       const auto end = text.find_last_of(": \t");
       const auto meant =

@@ -167,8 +167,11 @@ std::string write_tolerance_tables(const std::filesystem::path& folder, const To
   if (std::any_of(points.begin(), points.end(), [](const TolerancePoint& p) { return p.period > 0; })) {
     text += "Error of the flow over one orbit: slopes (least squares of logarithms; error ~ tolerance^a ~ cost^-b)\n\n";
     text += "| method | a | b | steps |\n|---|---|---|---|\n";
+    const auto slope = [](double x) {
+      return std::isfinite(x) ? fmt::format("{:.2f}", x) : std::string("too few steps");
+    };
     for (const auto& s : slopes)
-      text += fmt::format("| {} | {:.2f} | {:.2f} | {} |\n", s.method, s.over_tolerance, -s.over_cost, s.steps);
+      text += fmt::format("| {} | {} | {} | {} |\n", s.method, slope(s.over_tolerance), slope(-s.over_cost), s.steps);
     const auto best = studies::recommend(points, output.dimension, output.options.target_error);
     if (best) {
       text += fmt::format(

@@ -46,7 +46,7 @@ struct SweepOptions {
 
   /// Mesh periods that the regime may be looked for beyond the record; 0: it is told from recurrence alone. Chaos has
   /// to last for a quarter of them.
-  int classification_periods = 2560;
+  int classification_periods = 3584;
 
   Keep keep = Keep::section;  ///< by the kind of study, not by the input
 };

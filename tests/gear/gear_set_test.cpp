@@ -11,12 +11,15 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
+#include "lines.hpp"
 #include "problems/table1.hpp"
 
 namespace epicyclic::gear {
 namespace {
 
 using problems::degree;
+using test::has_line;
+using test::joined;
 constexpr double pi = std::numbers::pi;
 
 /// Table 1 with a change, and without its Fourier series, which takes most of the time.
@@ -29,18 +32,6 @@ Stage changed(const std::function<void(Stage&, Catalogue&)>& change) {
 
 Stage as_it_is() {
   return changed([](Stage&, Catalogue&) {});
-}
-
-std::string joined(const std::vector<std::string>& lines) {
-  std::string all;
-  for (const std::string& line : lines) all += line + "\n";
-  return all;
-}
-
-bool has_line(const std::vector<std::string>& lines, const std::string& pointer, const std::string& words) {
-  return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
-    return line.starts_with(pointer + ": ") && line.find(words) != std::string::npos;
-  });
 }
 
 struct Rule {

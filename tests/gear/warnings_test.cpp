@@ -8,11 +8,15 @@
 
 #include <gtest/gtest.h>
 
+#include "lines.hpp"
 #include "problems/r1.hpp"
 #include "problems/table1.hpp"
 
 namespace epicyclic::gear {
 namespace {
+
+using test::has_line;
+using test::joined;
 
 Stage changed(const std::function<void(Stage&, Catalogue&)>& change) {
   Stage s = problems::table1();
@@ -33,18 +37,6 @@ std::vector<std::string> lines_of(std::vector<Warning> warnings) {
 }
 
 std::vector<std::string> drawn(const GearSet& set) { return lines_of(catalogue_warnings(set)); }
-
-std::string joined(const std::vector<std::string>& lines) {
-  std::string all;
-  for (const std::string& line : lines) all += line + "\n";
-  return all;
-}
-
-bool has_line(const std::vector<std::string>& lines, const std::string& pointer, const std::string& words) {
-  return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
-    return line.starts_with(pointer + ": ") && line.find(words) != std::string::npos;
-  });
-}
 
 struct Rule {
   const char* pointer;

@@ -287,6 +287,16 @@ TEST(Assignments, TakeJsonAndBareWords) {
   EXPECT_EQ(all[6].pointer, "/a/b");
 }
 
+// Such as from a terminal in Latin-1.
+TEST(Assignments, MustBeText) {
+  for (const std::string& text :
+       {std::string("/study/parameter=d\xe9mo"), std::string("/d\xe9mo=1"), std::string("/a=b\0c", 6)}) {
+    const auto all = sets({text});
+    ASSERT_EQ(all[0].problems.size(), 1U);
+    EXPECT_NE(all[0].problems[0].find("is not UTF-8 text"), std::string::npos) << all[0].problems[0];
+  }
+}
+
 TEST_F(StudyInput, TellsMalformedAssignmentsWithAllElse) {
   auto text = text_of(bad_inputs / "stage.json");
   text.replace(text.find("1.654"), 5, "-1.65");

@@ -7,17 +7,15 @@
 
 #include <gtest/gtest.h>
 
+#include "lines.hpp"
+
 namespace epicyclic::io {
 namespace {
 
+using test::joined;
+
 std::vector<std::string> told(const std::string& file, const std::vector<std::string>& sets = {}) {
   return warnings(load_input(file, parse_assignments(sets)));
-}
-
-std::string joined(const std::vector<std::string>& lines) {
-  std::string all;
-  for (const std::string& line : lines) all += line + "\n";
-  return all;
 }
 
 bool has(const std::vector<std::string>& lines, const std::string& part) {
