@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# docs.sh EPICYCLIC SOURCE_DIR
+#
+# What README.md and docs/ tell readers to type, works: each `app/run ...` of a table and of a block marked sh, with the
+# files of blocks that stand behind "<!-- file: NAME -->". Studies are cut to a few points and periods; that each key is
+# known, each file there and each command ends with 0 stays true. Links and pictures of the pages lead to files.
+set -euo pipefail
+
+source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
+source_dir=$2
+
+pages=("$source_dir/README.md" "$source_dir"/docs/*.md)
+[ ${#pages[@]} -gt 5 ] || fail "docs/ is missing"
+cp -r "$inputs" inputs
+
+# Files that the pages give, under the names that they give them.
+for page in "${pages[@]}"; do
+  awk '/^<!-- file: .* -->$/ { name = $3 } name != "" && /^```/ { inside = !inside; if (!inside) { close(name); name = "" }; next }
+       inside && name != "" { print > name }' "$page"
+done
+
+# Commands, one a line: of blocks marked sh, and of tables.
+for page in "${pages[@]}"; do
+  awk '/^```/ { inside = $0 == "```sh"; next } inside' "$page"
+  grep -oE '^\|.*' "$page" | grep -oE '`app/run [^`]*`' | tr -d '`' || true
+done | sort -u >commands
+[ "$(wc -l <commands)" -ge 20 ] || fail "only $(wc -l <commands) commands were found: $(cat commands)"
+
+few=(--set /study/transient_periods=2 --set /study/recorded_periods=4 --set /study/classification_periods=0)
+plane=(--set /study/first/points=2 --set /study/second/points=2)
+declare -A cut=(
+  [sweep]="--set /study/points=3 ${few[*]}"
+  [map]="${plane[*]} ${few[*]}"
+  [basins]="${plane[*]} ${few[*]} --set /study/transient=fixed"
+  [run]="--set /study/transient=fixed --set /study/transient_periods=2 --set /study/recorded_periods=16 --set /study/exponent_periods=12 --set /study/spectrum_periods=16 --set /study/history_periods=2"
+  [tolerance]="--set /study/points=1 --set /study/from=2.8 --set /study/transient_periods=20 --set /study/recorded_periods=16 --set /study/tolerances=[1e-5,1e-6] --set /study/methods=[\"arkode-dopri5\"] --set /study/chaotic_periods=64"
+  [crosscheck]="--set /study/points=1 --set /study/from=2.8 --set /study/to=2.8 --set /study/transient_periods=20 --set /study/recorded_periods=16 --set /study/methods=[\"arkode-dopri5\",\"cvode-adams\"]"
+)
+count=0
+while IFS= read -r line; do
+  eval "words=($line)"  # as a shell takes it: quotes are part of what is typed
+  [ "${words[0]}" = app/run ] || { fail "not a command of ours: $line"; continue; }
+  count=$((count + 1))
+  command=${words[1]:-}
+  read -r -a more <<<"${cut[$command]:-}"
+  arguments=("${words[@]:1}" "${more[@]}")
+  # Each in a folder of its own, whatever the page calls it.
+  for ((k = 0; k < ${#arguments[@]}; ++k)); do
+    [ "${arguments[k]}" != -o ] || arguments[k + 1]=out$count
+  done
+  code=$(code_of "$epicyclic" "${arguments[@]}")
+  [ "$code" = 0 ] || fail "$line: exit $code: $(tail -n 3 stderr)"
+done <commands
+echo "$count commands"
+
+# What the pages point at is there.
+for page in "${pages[@]}"; do
+  while IFS= read -r target; do
+    target=${target%%#*}
+    case $target in '' | http*) continue ;; esac
+    [ -e "$(dirname "$page")/$target" ] || fail "${page#"$source_dir"/} points at $target, which is not there"
+  done < <(grep -oE '\]\([^)]*\)' "$page" | sed 's/^](//; s/)$//')
+done
+finish
