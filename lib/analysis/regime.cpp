@@ -40,6 +40,10 @@ constexpr double nearer = 0.5;
 constexpr int periods_per_orbit = 256;
 /// Of the largest component, off something that repels: no attractor's basin is as narrow, and growth by e^7 shows it.
 constexpr double push = 1e-3;
+/// Growth is even if its interval is at most this part of it: in weak chaos vectors shrink and grow.
+constexpr double even_part = 0.1;
+/// Growth is slow if it is less than this in as many periods as the 0-1 test needs.
+constexpr double slow_growth = 4.0 * neutral_growth;
 /// Periods over which e^2 is told from a small exponent.
 constexpr int torus_look = 1024;
 
@@ -309,10 +313,25 @@ class Classifier {
     const double k = zero_one_test(series_, noise());
     seen.zero_one = k;
     if (!(seen.exponent.low() > 0.0 && seen.late_growth > neutral_growth)) return false;
+    if (!left_ && grows_evenly()) return false;
+    // On its way off, which e^7 and more lead out of a push of 1e-3, it spirals: to the 0-1 test that is chaos.
+    if (left_ && growth_since_left() < -std::log(push) + 4.0 * neutral_growth) return false;
     if (k > chaotic_vote) return true;
     const double late = late_growth(growth_);
     // Beside what only repels vectors grow, too, for as long as the motion stays there.
     return k > regular_vote ? late > 4.0 * neutral_growth : left_ && late > 8.0 * neutral_growth;
+  }
+
+  /// Whether vectors grow as they do beside something that repels: slowly, and by the same factor all the time. What
+  /// settles to it meanwhile the 0-1 test takes for chaos.
+  [[nodiscard]] bool grows_evenly() const {
+    const auto& e = result_.evidence.exponent;
+    return e.half_width < even_part * e.value && e.value * flow_.field().period * 2 * growth_look < slow_growth;
+  }
+
+  [[nodiscard]] double growth_since_left() const {
+    return std::accumulate(growth_.begin() + static_cast<std::ptrdiff_t>(std::min(left_at_, growth_.size())),
+                           growth_.end(), 0.0);
   }
 
   /// Whether what looks chaotic lasts: carries the motion on, without tangents if the 0-1 test is sure; for the whole
@@ -340,6 +359,7 @@ class Classifier {
       if (*seen.zero_one <= chaotic_vote) {
         // Another motion than the one whose growth is known.
         growth_.clear();
+        left_at_ = 0;
         return false;
       }
     }
@@ -436,16 +456,17 @@ class Classifier {
     return true;
   }
 
-  /// Where vectors grow and the section says regular, the motion is on something that repels, as is a motion with a
-  /// symmetry that is not stable; only rounding is small enough to keep it there. It is pushed off.
+  /// Where vectors grow and the section says regular, or they grow evenly, the motion is on something that repels, as
+  /// is a motion with a symmetry that is not stable; only rounding is small enough to keep it there. It is pushed off.
   void leave_what_repels() {
     const Evidence& seen = result_.evidence;
     if (left_ || direction_.empty() || !(seen.late_growth > neutral_growth) || !seen.zero_one ||
-        *seen.zero_one > regular_vote)
+        (*seen.zero_one > regular_vote && !grows_evenly()))
       return;
     for (std::size_t i = 0; i < state_.size(); ++i) state_[i] += push * scale_ * direction_[i];
     in_vain_.clear();
     left_ = true;
+    left_at_ = growth_.size();
   }
 
   bool is_torus() {
@@ -484,6 +505,7 @@ class Classifier {
   std::vector<double> direction_;  ///< of the tangent vector at the end of the last look
   bool attracted_ = false;       ///< the orbit that was sought last attracts, though the motion is not yet drawn to it
   bool left_ = false;            ///< the motion was pushed off something that repels
+  std::size_t left_at_ = 0;      ///< as many of g_k were known then
   std::size_t look_before_ = 0;  ///< how many of them are of the look before
 };
 

@@ -26,7 +26,7 @@
 namespace epicyclic::studies {
 
 /// Raised when a change makes the same input give other numbers: results of two versions are never mixed in one folder.
-inline constexpr int numerics_version = 10;
+inline constexpr int numerics_version = 11;
 
 /// The same points without the classification of their regimes.
 [[nodiscard]] SweepOptions by_recurrence_alone(SweepOptions options);

@@ -153,6 +153,28 @@ TEST(Regime, AMotionThatRepelsIsLeft) {
   EXPECT_LT(c.evidence.periods, 1024);
 }
 
+TEST(Regime, ASlowSpiralOffAnOrbitIsNotChaos) {
+  // At rest in its middle, from where a torus of radius 10 is reached in 1000 periods: meanwhile vectors grow, and to
+  // the 0-1 test the spiral is as good as chaos. `settling` is how far the third component is from its orbit.
+  for (const double turns : {0.1234, 0.3819, 0.51, 0.7071})
+    for (const double settling : {0.0, 0.1}) {
+      const auto field =
+          integrate::make_field(3, 2.0 * std::numbers::pi, [turns](std::size_t, double s, const auto* y, auto* d) {
+            const auto pull = 0.0014 * (1.0 - 0.01 * (y[0] * y[0] + y[1] * y[1]));
+            d[0] = pull * y[0] - turns * y[1];
+            d[1] = pull * y[1] + turns * y[0];
+            d[2] = -0.001 * y[2] + std::cos(s);
+          });
+      RegimeOptions o;
+      o.budget = 3584;
+      o.lasting = o.budget / 4;
+      o.observable = settling > 0.0 ? 2 : 0;
+      const Classification c = regime_of(field, {0.0, 0.0, settling}, o, 1e-8);
+      EXPECT_TRUE(c.regime == Regime::quasiperiodic || c.regime == Regime::undecided)
+          << turns << ": " << to_string(c.regime) << ", " << c.evidence.note;
+    }
+}
+
 TEST(Regime, AnEscapeHasNone) {
   const auto field =
       integrate::make_field(1, 1.0, [](std::size_t, double, const auto* y, auto* d) { d[0] = y[0] * y[0]; });
