@@ -61,4 +61,21 @@ for page in "${pages[@]}"; do
     [ -e "$(dirname "$page")/$target" ] || fail "${page#"$source_dir"/} points at $target, which is not there"
   done < <(grep -oE '\]\([^)]*\)' "$page" | sed 's/^](//; s/)$//')
 done
+# Each file, function and key that the table of equations names exists. `x*` is any that begins so.
+while IFS= read -r name; do
+  case $name in
+    /*) grep -rqF --include='*.[hc]pp' -- "\"${name##*/}\"" "$source_dir/lib" || fail "EQUATIONS.md names the key $name, which the input does not have" ;;
+    */*)
+      file=${name#tests/}
+      compgen -G "$source_dir/lib/$name" >/dev/null || compgen -G "$source_dir/tests/$file" >/dev/null ||
+        compgen -G "$source_dir/lib/*/$name" >/dev/null || fail "EQUATIONS.md names $name, which is no file"
+      ;;
+    *.cpp) compgen -G "$source_dir/tests/*/$name" >/dev/null || fail "EQUATIONS.md names the test $name, which is not there" ;;
+    *)
+      name=${name#...}
+      grep -rqF --include='*.[hc]pp' --include='*.inc' -- "${name%%[(*]*}" "$source_dir/lib" "$source_dir/app" ||
+        fail "EQUATIONS.md names $name, which is nowhere in the code"
+      ;;
+  esac
+done < <(grep -v '^    ' "$source_dir/lib/EQUATIONS.md" | grep -oE '`[A-Za-z_0-9./*()]+`' | tr -d '`' | sort -u)
 finish
