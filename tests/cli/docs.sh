@@ -64,7 +64,7 @@ done
 # Each file, function and key that the table of equations names exists. `x*` is any that begins so.
 while IFS= read -r name; do
   case $name in
-    /*) grep -rqF --include='*.[hc]pp' -- "\"${name##*/}\"" "$source_dir/lib" || fail "EQUATIONS.md names the key $name, which the input does not have" ;;
+    /*) grep -rqwF --include='*.[hc]pp' -- "\"${name##*/}\"" "$source_dir/lib" || fail "EQUATIONS.md names the key $name, which the input does not have" ;;
     */*)
       file=${name#tests/}
       compgen -G "$source_dir/lib/$name" >/dev/null || compgen -G "$source_dir/tests/$file" >/dev/null ||
@@ -72,8 +72,8 @@ while IFS= read -r name; do
       ;;
     *.cpp) compgen -G "$source_dir/tests/*/$name" >/dev/null || fail "EQUATIONS.md names the test $name, which is not there" ;;
     *)
-      name=${name#...}
-      grep -rqF --include='*.[hc]pp' --include='*.inc' -- "${name%%[(*]*}" "$source_dir/lib" "$source_dir/app" ||
+      case $name in _* | ...*) continue ;; esac  # ends of names
+      grep -rqwF --include='*.[hc]pp' --include='*.inc' -- "${name%%[(*]*}" "$source_dir/lib" "$source_dir/app" ||
         fail "EQUATIONS.md names $name, which is nowhere in the code"
       ;;
   esac
