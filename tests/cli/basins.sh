@@ -7,7 +7,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 
 # At this speed every start that is near leads to one orbit of period 1.
 small=(--set /operation/mesh_frequency_ratio=2.8 --set /study/first/points=3 --set /study/second/points=2
-  --set /study/transient_periods=100 --set /study/recorded_periods=32)
+  --set /study/transient=fixed --set /study/transient_periods=100 --set /study/recorded_periods=32)
 basins() { "$epicyclic" basins "$inputs/tang2020_basins.json" "${small[@]}" "$@"; }
 
 result_files=(points.csv attractors.csv results.h5 input.json input.resolved.json figures/basins.dat)
