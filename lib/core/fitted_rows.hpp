@@ -32,10 +32,13 @@ struct FittedRows {
 };
 
 /// @param f  std::array<double, K> (double way): the functions at a share of the way along the piece
+/// @param half  rows that are taken over where they stand on every second node
 template <std::size_t K, class F>
-[[nodiscard]] FittedRows<K> rows_on(const IntervalGrid& grid, const F& f) {
+[[nodiscard]] FittedRows<K> rows_on(const IntervalGrid& grid, const F& f, const FittedRows<K>* half = nullptr) {
+  const bool nested = half != nullptr && grid.can_be_halved() && grid.halved() == half->grid;
   FittedRows<K> r{grid, {}, 0.0};
-  for (std::size_t k = 0; k <= grid.count; ++k) r.rows.push_back(f(grid.way(k)));
+  for (std::size_t k = 0; k <= grid.count; ++k)
+    r.rows.push_back(nested && k % 2 == 0 ? half->rows[k / 2] : f(grid.way(k)));
   return r;
 }
 
@@ -73,10 +76,11 @@ template <std::size_t K, class F>
   constexpr int most_octaves = 32;  // the shortest intervals are then 1e-11 of the piece
   std::size_t intervals = graded ? 8 : 16;
   int octaves = 8;
+  FittedRows<K> r;
   for (;;) {
     const IntervalGrid grid =
         graded ? IntervalGrid::graded(intervals, octaves, singular == SingularEnd::end) : IntervalGrid::even(intervals);
-    FittedRows<K> r = rows_on<K>(grid, f);
+    r = rows_on<K>(grid, f, &r);
     const detail::RowErrors errors = detail::estimated_errors(r);
     r.error = std::max(errors.first_octave, errors.rest);
     bool refined = false;

@@ -58,7 +58,13 @@ double MeshedPair::stiffness(double phase, double inside) const {
 double MeshedPair::load_share(double position, double inside) const {
   const double phase_inside = inside - std::floor(inside);
   const double phase = position - std::floor(inside);
-  return pair_stiffness(position) / stiffness(phase, phase_inside);
+  const double own = pair_stiffness(position);
+  double sum = 0.0;
+  for (int j = 0; j < pairs_in_contact(phase_inside); ++j) {
+    const double other = std::min(phase + j, contact_ratio());
+    sum += other == position ? own : pair_stiffness(other);
+  }
+  return own / sum;
 }
 
 double FourierSeries::at(double phase) const {

@@ -23,20 +23,25 @@ using Energies = Eigen::Array3d;
 double square(double x) { return x * x; }
 double cube(double x) { return x * x * x; }
 
+/// Of the direction of the force, one for all sections of a tooth.
+struct Direction {
+  explicit Direction(double angle) : cosine(std::cos(angle)), sine(std::sin(angle)) {}
+  double cosine, sine;
+};
+
 /// [G-kb], [G-ks], [G-ka] at one angle of the involute of an external tooth.
-Energies external_involute(double a, double alpha_1, double alpha_2, double nu) {
+Energies external_involute(double a, const Direction& alpha_1, double alpha_2, double nu) {
   const double rest = (alpha_2 - a) * std::cos(a);
   const double d = std::sin(a) + rest;
-  const double lever = 1.0 + std::cos(alpha_1) * ((alpha_2 - a) * std::sin(a) - std::cos(a));
-  return {3.0 * square(lever) * rest / (2.0 * cube(d)), 1.2 * (1.0 + nu) * rest * square(std::cos(alpha_1)) / d,
-          rest * square(std::sin(alpha_1)) / (2.0 * d)};
+  const double lever = 1.0 + alpha_1.cosine * ((alpha_2 - a) * std::sin(a) - std::cos(a));
+  return {3.0 * square(lever) * rest / (2.0 * cube(d)), 1.2 * (1.0 + nu) * rest * square(alpha_1.cosine) / d,
+          rest * square(alpha_1.sine) / (2.0 * d)};
 }
 
 /// The same energies at a section of half thickness h and height y, per length of centre line; lengths over r_b.
-Energies section(double y, double h, double alpha_1, double nu) {
-  const double lever = 1.0 - y * std::cos(alpha_1);
-  return {1.5 * square(lever) / cube(h), 1.2 * (1.0 + nu) * square(std::cos(alpha_1)) / h,
-          0.5 * square(std::sin(alpha_1)) / h};
+Energies section(double y, double h, const Direction& alpha_1, double nu) {
+  const double lever = 1.0 - y * alpha_1.cosine;
+  return {1.5 * square(lever) / cube(h), 1.2 * (1.0 + nu) * square(alpha_1.cosine) / h, 0.5 * square(alpha_1.sine) / h};
 }
 
 /// Closed forms of the straight flank between base circle and root circle.
@@ -55,20 +60,20 @@ Energies straight_flank(const Tooth& t, double alpha_1, double nu) {
           1.2 * (1.0 + nu) * square(cosine) * length / half, square(std::sin(alpha_1)) * length / (2.0 * half)};
 }
 
-Energies internal_involute(double b, double b_c, double alpha_2, double nu) {
+Energies internal_involute(double b, const Direction& b_c, double alpha_2, double nu) {
   const double rest = (b - alpha_2) * std::cos(b);
   const double d = std::sin(b) - rest;
-  const double lever = std::cos(b_c) * (std::cos(b) + (b - alpha_2) * std::sin(b)) - 1.0;
-  return {3.0 * square(lever) * rest / (2.0 * cube(d)), 1.2 * (1.0 + nu) * rest * square(std::cos(b_c)) / d,
-          rest * square(std::sin(b_c)) / (2.0 * d)};
+  const double lever = b_c.cosine * (std::cos(b) + (b - alpha_2) * std::sin(b)) - 1.0;
+  return {3.0 * square(lever) * rest / (2.0 * cube(d)), 1.2 * (1.0 + nu) * rest * square(b_c.cosine) / d,
+          rest * square(b_c.sine) / (2.0 * d)};
 }
 
 Energies external_energies(const Tooth& t, double tan_contact, double alpha_1, double nu, const ComplianceOptions& o) {
   const GaussLegendre& rule = gauss_legendre_16();
   const double alpha_2 = t.base_half_angle;
+  const Direction force(alpha_1);
   const auto involute_to = [&](double end) {
-    return rule.integrate([&](double a) { return external_involute(a, alpha_1, alpha_2, nu); }, -alpha_1, end,
-                          o.panels);
+    return rule.integrate([&](double a) { return external_involute(a, force, alpha_2, nu); }, -alpha_1, end, o.panels);
   };
   const auto angle_at = [&](double radius) { return alpha_2 - std::sqrt(square(radius / t.base_radius_mm) - 1.0); };
   if (o.fillet == Fillet::none) {
@@ -84,7 +89,7 @@ Energies external_energies(const Tooth& t, double tan_contact, double alpha_1, d
       [&](double gamma) -> Energies {
         const ProfilePoint at = t.fillet(gamma);
         const double slope = std::abs(t.fillet_slope(gamma).y) / t.base_radius_mm;
-        return slope * section(at.y / t.base_radius_mm, at.x / t.base_radius_mm, alpha_1, nu);
+        return slope * section(at.y / t.base_radius_mm, at.x / t.base_radius_mm, force, nu);
       },
       t.pressure_angle, 0.5 * pi, o.panels);
   return involute_to(angle_at(form)) + fillet;
@@ -167,8 +172,9 @@ ToothCompliance tooth_compliance(const ToothBody& body, double contact_radius_mm
     const double alpha_2 = t.base_half_angle;
     const double b_c = tan_contact + alpha_2;
     const double b_f = std::sqrt(square(t.root_radius_mm / t.base_radius_mm) - 1.0) + alpha_2;
-    energies = gauss_legendre_16().integrate([&](double b) { return internal_involute(b, b_c, alpha_2, nu); }, b_c, b_f,
-                                             o.panels);
+    const Direction force(b_c);
+    energies = gauss_legendre_16().integrate([&](double b) { return internal_involute(b, force, alpha_2, nu); }, b_c,
+                                             b_f, o.panels);
     if (o.ring_foundation == RingFoundation::half_plane) foundation = ring_foundation(body, b_c);
   } else {
     const double alpha_1 = tan_contact - t.base_half_angle;
