@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <numbers>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,9 +16,12 @@
 #include "core/instruction_set.hpp"
 #include "gear/ehl_friction.hpp"
 #include "gear/gear_set.hpp"
+#include "gear/kinematics.hpp"
 #include "model/dynamic_model.hpp"
 #include "model/friction_track.hpp"
 #include "model/lane_model.hpp"
+#include "model/parameters.hpp"
+#include "model/right_hand_side.hpp"
 #include "problems/r1.hpp"
 #include "problems/table1.hpp"
 
@@ -120,6 +126,109 @@ TEST(LubricatedTrack, IsGradedTowardsThePitchPointOfTheSunMesh) {
   for (const IntervalGrid& g : ring.track.grids()) EXPECT_EQ(g.per_octave, 0U);
 }
 
+/// Forces of friction that the right-hand side applies, against the law and the teeth's own load sharing.
+class AppliedFriction {
+ public:
+  static constexpr std::size_t planets = 3;
+  using P = Parameters<double, planets>;
+
+  explicit AppliedFriction(double tolerance, double omega)
+      : stage_(oiled(tolerance)), scales_(scales_of(stage_)), omega_(omega), parameters(made({})) {}
+
+  [[nodiscard]] P made(const ModelOptions& options) const {
+    return make_parameters<planets>(stage_, scales_, omega_, options);
+  }
+
+  /// Greatest difference over the mesh force, at random states and at random phases: half of them all over the mesh
+  /// period, half beside the phases where a pair enters, leaves or passes the pitch point.
+  [[nodiscard]] double worst(const P& p, bool sun) const {
+    const gear::Mesh& given = sun ? stage_.sun_planet_mesh : stage_.ring_planet_mesh;
+    const gear::MeshedPair& teeth = sun ? table1().sun_planet : table1().ring_planet;
+    const gear::EhlFriction& ehl = *given.friction.ehl;
+    const gear::LineOfAction line = sun ? gear::sun_planet_line(stage_) : gear::ring_planet_line(stage_);
+    const gear::MeshLoad load = gear::mean_mesh_load(stage_, omega_ * scales_.omega_sn);
+    const double cycles = sun ? -*stage_.sun.teeth : *stage_.ring.teeth;
+    const double lead = sun ? 0.0 : stage_.ring_mesh_lead_1;
+    constexpr std::size_t dimension = 2 * degrees_of_freedom(Layout::full, planets);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    double most = 0.0;
+    for (int trial = 0; trial < 6000; ++trial) {
+      double s = two_pi * uniform(random);
+      if (trial % 2 == 1) {
+        const double beside = std::pow(10.0, -1.0 - 9.0 * uniform(random)) * (trial % 4 == 1 ? 1.0 : -1.0);
+        s = p.breakpoints[static_cast<std::size_t>(trial / 4) % p.breakpoints.size()] + beside;
+        s -= two_pi * std::floor(s / two_pi);
+      }
+      std::array<double, dimension> y{};
+      for (double& x : y) x = 4.0 * uniform(random) - 2.0;
+      const auto g = stage_state<Layout::full>(p, segment_at(p.breakpoints, s), s, y.data());
+      const auto& mesh = sun ? g.sun_planet : g.ring_planet;
+      for (std::size_t i = 0; i < planets; ++i) {
+        const double turns = cycles * (stage_.planet_angles_deg()[i] - stage_.planet_angles_deg()[0]) / 360.0 + lead;
+        double phase = s / two_pi + turns;
+        phase -= std::floor(phase);
+        std::array<double, 3> law{};
+        for (int j = 0; phase + j < ehl.contact_ratio; ++j) {
+          const double share = teeth.load_share(phase + j);
+          const auto contact = gear::lubricated_contact(ehl, line, load, phase + j, share);
+          const double f = -std::copysign(share * gear::xu_friction_coefficient(contact), contact.slide_to_roll);
+          const double arm = ehl.path_start_mm + line.base_pitch_mm * (phase + j);
+          law[0] += f;
+          law[1] += f * arm / line.base_radius_1_mm;
+          law[2] += f * line.arm_2(arm) / line.base_radius_2_mm;
+        }
+        const double force = mesh.force[i];
+        if (std::abs(force) < 1e-3) continue;
+        most = std::max({most, std::abs(mesh.friction[i] / force - law[0]),
+                         std::abs(mesh.moment_driving[i] / force - law[1]),
+                         std::abs(mesh.moment_driven[i] / force - law[2])});
+      }
+    }
+    return most;
+  }
+
+  /// The parameters with two neighbouring rows of the sun meshes' table exchanged.
+  [[nodiscard]] P with_rows_exchanged() const {
+    const gear::LineOfAction line = gear::sun_planet_line(stage_);
+    gear::FrictionTable table = gear::friction_table(*stage_.sun_planet_mesh.friction.ehl, line,
+                                                     gear::mean_mesh_load(stage_, omega_ * scales_.omega_sn));
+    const std::size_t k = table.phase.size() / 2;
+    std::swap(table.force_ratio[k], table.force_ratio[k + 1]);
+    P p = parameters;
+    p.sun_planet.friction = std::make_shared<FrictionTrack>(table, 0.0, line.base_radius_1_mm, line.base_radius_2_mm);
+    return p;
+  }
+
+ private:
+  gear::Stage stage_;
+  Scales scales_;
+  double omega_;
+
+ public:
+  P parameters;
+};
+
+TEST(LubricatedTrack, ForcesOfTheRightHandSideAreTheLawsToTheErrorThatTheTableTells) {
+  for (const auto& [tolerance, omega] : {std::pair(1e-9, 0.4), {1e-9, 2.8}, {1e-7, 1.3}}) {
+    const AppliedFriction applied(tolerance, omega);
+    const auto& p = applied.parameters;
+    constexpr double rounding = 1e-14;
+    for (const bool sun : {true, false}) {
+      const double told = (sun ? p.sun_planet : p.ring_planet).friction->error();
+      const double worst = applied.worst(p, sun);
+      EXPECT_LE(worst, told + rounding) << (sun ? "sun " : "ring ") << tolerance << " " << omega;
+      EXPECT_LE(told, 10.0 * worst) << (sun ? "sun " : "ring ") << tolerance << " " << omega;
+      RecordProperty((sun ? "sun" : "ring") + std::to_string(omega), std::to_string(told / worst));
+      // Another table is told from it.
+      ModelOptions half;
+      half.halved_tables = true;
+      EXPECT_GT(applied.worst(applied.made(half), sun), told);
+    }
+    EXPECT_GT(applied.worst(applied.with_rows_exchanged(), true), p.sun_planet.friction->error());
+  }
+}
+
 TEST(LubricatedTrack, LanesAreTheSingleRuns) {
   const gear::Stage stage = oiled();
   const auto model_at = [&](double omega) { return make_dynamic_model(stage, scales_of(stage), omega, {}); };
@@ -134,14 +243,16 @@ TEST(LubricatedTrack, LanesAreTheSingleRuns) {
       lanes.load(w, models.back());
     }
     const std::vector<double>& breaks = like.breakpoints;
-    for (std::size_t trial = 0; trial < 40 * breaks.size(); ++trial) {
+    for (std::size_t trial = 0; trial < 80 * breaks.size(); ++trial) {
       // Each lane in a segment of its own, from its start over its end.
       alignas(64) std::array<double, 8> s{};
       std::vector<std::size_t> segment;
       for (std::size_t w = 0; w < lanes.width; ++w) {
         const std::size_t k = (trial + w) % breaks.size();
         const double to = k + 1 < breaks.size() ? breaks[k + 1] : breaks[0] + two_pi;
-        const double way = std::pow(static_cast<double>(trial % 40) / 39.0, 3.0);
+        const double part = static_cast<double>(trial % 40) / 39.0;
+        // All over the segment, and down to the finest intervals beside a pitch point.
+        const double way = trial / 40 < breaks.size() ? std::pow(part, 3.0) : 0.5 * std::pow(10.0, -11.0 * part);
         s[w] = breaks[k] + (to - breaks[k]) * (trial % 2 == 0 ? way : 1.0 - way);
         segment.push_back(k);
         lanes.set_segment(w, k);
