@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -205,6 +206,30 @@ TEST(FittedRows, MeetTheirToleranceAndTellNoLessThanTheirError) {
     check(smooth, SingularEnd::none);
     check(from_start, SingularEnd::start);
     check(from_end, SingularEnd::end);
+  }
+}
+
+TEST(FittedRows, RefinedOnesAreThoseOfTheWholeGridAndAskNoPlaceTwice) {
+  for (const SingularEnd end : {SingularEnd::none, SingularEnd::start, SingularEnd::end}) {
+    std::map<double, int> asked;
+    const auto f = [&](double x) {
+      ++asked[x];
+      const double from = end == SingularEnd::end ? 1.0 - x : x;
+      return std::array{std::pow(from, 1.036) + std::sin(9.0 * x)};
+    };
+    const auto smooth = [&](double x) {
+      ++asked[x];
+      return std::array{std::sin(9.0 * x)};
+    };
+    const FittedRows<1> r = end == SingularEnd::none ? fit_rows<1>(smooth, 1e-9) : fit_rows<1>(f, 1e-9, end);
+    std::size_t calls = 0;
+    for (const auto& [x, times] : asked) calls += static_cast<std::size_t>(times);
+    // Other octaves are another grid.
+    if (end == SingularEnd::none) {
+      EXPECT_EQ(calls, r.rows.size());
+    }
+    EXPECT_LT(calls, 2 * r.rows.size());
+    EXPECT_EQ((end == SingularEnd::none ? rows_on<1>(r.grid, smooth) : rows_on<1>(r.grid, f)).rows, r.rows);
   }
 }
 
