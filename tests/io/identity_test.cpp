@@ -290,7 +290,7 @@ TEST(Identity, IsThatOfTheValuesWhateverIsDoneToAnInput) {
   EXPECT_GT(property.same(), 100);
 }
 
-TEST(Identity, LongIsThatOfTheValuesWhateverIsDoneToAnInput) {
+TEST(IdentityLong, IsThatOfTheValuesWhateverIsDoneToAnInput) {
   Property property;
   for (const Case& c : property.cases()) property.check(c);
   EXPECT_GE(property.tried(), 15000);

@@ -390,7 +390,7 @@ TEST(Journal, RecordsAreFlushedInGroups) {
 }
 
 /// What a busy machine adds it does not add to each of several tries.
-TEST(Journal, RecordReachesTheDiskWithinASecondLong) {
+TEST(JournalLong, RecordReachesTheDiskWithinASecond) {
   const TemporaryFolder folder;
   Journal journal(folder / "journal.bin", identity);
   double quickest = never;
