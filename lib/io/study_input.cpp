@@ -295,17 +295,24 @@ std::string assign(json& root, std::string_view pointer, const json& value) {
   // A text of origin holds for the whole object: one for each key, before one key gets its own.
   if (object != nullptr && object->contains("origin") && (*object)["origin"].is_string()) spread_origins(*object);
   *at = value;
+  // Of the object: none where what stands there is no origin, which is told of the file.
+  const auto origins = [&]() -> json* {
+    const auto there = object == nullptr ? json::iterator() : object->find("origin");
+    return object != nullptr && there != object->end() && there->is_object() ? &*there : nullptr;
+  };
   if (is_leaf(value)) {
-    if (object != nullptr && !is_bookkeeping(key) && !value.is_null()) (*object)["origin"][key] = "set: command line";
+    if (object != nullptr && !is_bookkeeping(key) && !value.is_null()) {
+      if (!object->contains("origin")) (*object)["origin"] = json::object();
+      if (json* map = origins()) (*map)[key] = "set: command line";
+    }
   } else {
-    if (object != nullptr && object->contains("origin") && (*object)["origin"].is_object())
-      (*object)["origin"].erase(key);
+    if (json* map = origins()) map->erase(key);
     if (!at->contains("origin")) (*at)["origin"] = "set: command line";
     spread_origins(*at);
   }
   if (value.is_null() && object != nullptr) {
     object->erase(key);
-    if (object->contains("origin")) (*object)["origin"].erase(key);
+    if (json* map = origins()) map->erase(key);
   }
   return {};
 }

@@ -297,6 +297,18 @@ TEST(Assignments, MustBeText) {
   }
 }
 
+TEST_F(StudyInput, AnAssignmentBesideWhatIsNoOriginIsStillRefused) {
+  for (const std::string origin : {"5", "null", "true", "[1]", "5e-324"})
+    for (const std::string set : {"/study/from=0.9", "/integrator=null", "/integrator={\"relative_tolerance\":1e-6}"}) {
+      auto text = text_of(bad_inputs / "study.json");
+      const std::string object = set.starts_with("/study") ? "\"study\": {" : "{";
+      text.insert(text.find(object) + object.size(), "\"origin\": " + origin + ",");
+      put_file(folder / "study.json", text);
+      const std::string message = test::message_of<InputError>([&] { (void)load({set}); });
+      EXPECT_NE(message.find("/origin"), std::string::npos) << origin << ", " << set << ": " << message;
+    }
+}
+
 TEST_F(StudyInput, TellsMalformedAssignmentsWithAllElse) {
   auto text = text_of(bad_inputs / "stage.json");
   text.replace(text.find("1.654"), 5, "-1.65");
