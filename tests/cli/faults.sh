@@ -111,6 +111,6 @@ for part in "${kinds[@]}"; do
   done
   echo "$kind: $made trials so far, exit codes: $(for c in "${!codes[@]}"; do echo -n "$c: ${codes[$c]}  "; done)"
 done
-# Some calls are made less often than they would be tried.
-[ "$trials" -lt 1000 ] || [ ${#kinds[@]} -lt 5 ] || [ "$made" -ge $((trials * 9 / 10)) ] || fail "only $made trials"
+# Some calls are made less often than they would be tried. 1500 is what was promised of the 1800 of the long test.
+[ "$trials" -lt 1000 ] || [ ${#kinds[@]} -lt 5 ] || [ "$made" -ge $((trials * 5 / 6)) ] || fail "only $made trials"
 finish
