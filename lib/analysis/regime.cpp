@@ -340,7 +340,8 @@ class Classifier {
   bool outlasts() {
     Evidence& seen = result_.evidence;
     const auto lasted = [&] { return first_ + seen.periods; };
-    const int lasting = std::min(options_.lasting, options_.budget);
+    // Against the 0-1 test's word growth has to last for all of it: a torus is often come to slowly.
+    const int lasting = *seen.zero_one > regular_vote ? std::min(options_.lasting, options_.budget) : options_.budget;
     const auto last_until = [&](int end) {
       while (lasted() < end)
         if (!carry_on(std::min(lasted(), end - lasted())) || is_periodic(settled)) return false;
