@@ -89,7 +89,8 @@ struct Pulls {
   [[nodiscard]] std::string note(std::string_view noun) const {
     return fmt::format(
         "teeth pull at {} {}, with up to {:.3g} times the static mesh force and for up to {:.1f} % of the time "
-        "(pull_sp, pull_rp, pull_time_sp and pull_time_rp of points.csv): real teeth do not; see /model/gap_damping",
+        "(pull_sp, pull_rp, pull_time_sp and pull_time_rp of points.csv): it is the damping that pulls; "
+        "docs/regimes.md says what /model/gap_damping has to do with it",
         points, noun, force, 100.0 * time);
   }
 };

@@ -313,13 +313,13 @@ class Classifier {
     const double k = zero_one_test(series_, noise());
     seen.zero_one = k;
     if (!(seen.exponent.low() > 0.0 && seen.late_growth > neutral_growth)) return false;
-    if (!left_ && grows_evenly()) return false;
+    if (!left_at_ && grows_evenly()) return false;
     // On its way off, which e^7 and more lead out of a push of 1e-3, it spirals: to the 0-1 test that is chaos.
-    if (left_ && growth_since_left() < -std::log(push) + 4.0 * neutral_growth) return false;
+    if (left_at_ && growth_since_left() < -std::log(push) + 4.0 * neutral_growth) return false;
     if (k > chaotic_vote) return true;
     const double late = late_growth(growth_);
     // Beside what only repels vectors grow, too, for as long as the motion stays there.
-    return k > regular_vote ? late > 4.0 * neutral_growth : left_ && late > 8.0 * neutral_growth;
+    return k > regular_vote ? late > 4.0 * neutral_growth : left_at_ && late > 8.0 * neutral_growth;
   }
 
   /// Whether vectors grow as they do beside something that repels: slowly, and by the same factor all the time. What
@@ -330,8 +330,7 @@ class Classifier {
   }
 
   [[nodiscard]] double growth_since_left() const {
-    return std::accumulate(growth_.begin() + static_cast<std::ptrdiff_t>(std::min(left_at_, growth_.size())),
-                           growth_.end(), 0.0);
+    return std::accumulate(growth_.begin() + static_cast<std::ptrdiff_t>(*left_at_), growth_.end(), 0.0);
   }
 
   /// Whether what looks chaotic lasts: carries the motion on, without tangents if the 0-1 test is sure; for the whole
@@ -360,7 +359,7 @@ class Classifier {
       if (*seen.zero_one <= chaotic_vote) {
         // Another motion than the one whose growth is known.
         growth_.clear();
-        left_at_ = 0;
+        if (left_at_) left_at_ = 0;
         return false;
       }
     }
@@ -461,12 +460,11 @@ class Classifier {
   /// is a motion with a symmetry that is not stable; only rounding is small enough to keep it there. It is pushed off.
   void leave_what_repels() {
     const Evidence& seen = result_.evidence;
-    if (left_ || direction_.empty() || !(seen.late_growth > neutral_growth) || !seen.zero_one ||
+    if (left_at_ || direction_.empty() || !(seen.late_growth > neutral_growth) || !seen.zero_one ||
         (*seen.zero_one > regular_vote && !grows_evenly()))
       return;
     for (std::size_t i = 0; i < state_.size(); ++i) state_[i] += push * scale_ * direction_[i];
     in_vain_.clear();
-    left_ = true;
     left_at_ = growth_.size();
   }
 
@@ -504,10 +502,9 @@ class Classifier {
   std::vector<double> growth_;     ///< g_k of all looks
   std::vector<double> series_;     ///< the observable over the look before and this one
   std::vector<double> direction_;  ///< of the tangent vector at the end of the last look
-  bool attracted_ = false;       ///< the orbit that was sought last attracts, though the motion is not yet drawn to it
-  bool left_ = false;            ///< the motion was pushed off something that repels
-  std::size_t left_at_ = 0;      ///< as many of g_k were known then
-  std::size_t look_before_ = 0;  ///< how many of them are of the look before
+  bool attracted_ = false;  ///< the orbit that was sought last attracts, though the motion is not yet drawn to it
+  std::optional<std::size_t> left_at_{};  ///< so many of g_k were known when the motion was pushed off what repels
+  std::size_t look_before_ = 0;           ///< how many of them are of the look before
 };
 
 }  // namespace

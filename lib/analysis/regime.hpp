@@ -14,10 +14,11 @@
 // - chaotic: the largest exponent, of the last three quarters of all looks, is positive by its interval [A-lyap], the
 //   0-1 test agrees, and it lasts for `lasting` periods, through which the motion is carried without tangents;
 //   for the whole budget if Newton's method finds an orbit that attracts from one of the close returns of a look
-//   without growth, which is how a motion comes to an orbit in the end. Where the test abstains vectors have to grow by
-//   e^8 in the last half of all looks, by e^16 where it says regular, as it does of chaos in narrow bands: no regular
-//   motion does that, unless it repels, as one with a symmetry may. Where the test says regular and vectors grow the
-//   motion is therefore pushed a little in their direction, once: an attractor does not mind.
+//   without growth, which is how a motion comes to an orbit in the end, or if the 0-1 test says regular. Where it
+//   abstains vectors have to grow by e^8 in the last half of all looks, by e^16 where it says regular, as it does of
+//   chaos in narrow bands: no regular motion does that, unless it repels, as one with a symmetry may. Where the test
+//   says regular and vectors grow the motion is therefore pushed a little in their direction, once: an attractor does
+//   not mind.
 // - quasiperiodic: over the last half of all looks, long ones, tangent vectors neither grow nor shrink by more than
 //   e^2, as beside a torus, the exponent is not negative by three half intervals, the 0-1 test says regular, and what
 //   the motion all but comes back to after n periods is no orbit.
@@ -50,14 +51,14 @@ enum class Regime { periodic, quasiperiodic, chaotic, undecided };
 [[nodiscard]] std::string to_string(Regime regime);
 
 struct RegimeOptions {
-  int look = 64;       ///< periods of the first look
-  int budget = 8192;   ///< periods of all looks together
-  int lasting = 4096;  ///< periods that chaos has to last, at most the budget: many a motion is chaotic only at first
-  int longest_period = 16;     ///< largest n that is tried
-  double near = 0.1;           ///< a recurrence error above this part of the section's extent makes no candidate [-]
-  double residual = 1e-9;      ///< of the orbit, that counts as found, in parts of the largest component seen [-];
-                               ///< a few tolerances of the flow, whose map kinks make rough
-  double neutral = 1e-6;       ///< a multiplier's modulus this near to 1 attracts nothing: errors could put it outside
+  int look = 64;            ///< periods of the first look
+  int budget = 8192;        ///< periods of all looks together
+  int lasting = 4096;       ///< periods that chaos has to last, at most the budget, if nothing speaks for another end
+  int longest_period = 16;  ///< largest n that is tried
+  double near = 0.1;        ///< a recurrence error above this part of the section's extent makes no candidate [-]
+  double residual = 1e-9;   ///< of the orbit, that counts as found, in parts of the largest component seen [-];
+                            ///< a few tolerances of the flow, whose map kinks make rough
+  double neutral = 1e-6;    ///< a multiplier's modulus this near to 1 attracts nothing: errors could put it outside
   std::size_t observable = 0;  ///< component of the state that the 0-1 test looks at
 
   /// The same system by a flow that controls the error of tangents, for orbits and their multipliers: behind a kink

@@ -45,7 +45,7 @@ struct SweepOptions {
   double recurrence_tolerance = 1e-3;
 
   /// Mesh periods that the regime may be looked for beyond the record; 0: it is told from recurrence alone. Chaos has
-  /// to last for a quarter of them.
+  /// to last for a quarter of them, for all where an orbit attracts near by or the 0-1 test says regular.
   int classification_periods = 3584;
 
   Keep keep = Keep::section;  ///< by the kind of study, not by the input

@@ -155,24 +155,46 @@ TEST(Regime, AMotionThatRepelsIsLeft) {
 
 TEST(Regime, ASlowSpiralOffAnOrbitIsNotChaos) {
   // At rest in its middle, from where a torus of radius 10 is reached in 1000 periods: meanwhile vectors grow, and to
-  // the 0-1 test the spiral is as good as chaos. `settling` is how far the third component is from its orbit.
+  // the 0-1 test the spiral is as good as chaos. So is one beside it that begins at the radius `settling`.
   for (const double turns : {0.1234, 0.3819, 0.51, 0.7071})
-    for (const double settling : {0.0, 0.1}) {
+    for (const double settling : {0.0, 0.0003}) {
       const auto field =
-          integrate::make_field(3, 2.0 * std::numbers::pi, [turns](std::size_t, double s, const auto* y, auto* d) {
+          integrate::make_field(5, 2.0 * std::numbers::pi, [turns](std::size_t, double s, const auto* y, auto* d) {
             const auto pull = 0.0014 * (1.0 - 0.01 * (y[0] * y[0] + y[1] * y[1]));
+            const auto beside = 0.0014 * (1.0 - 0.01 * (y[3] * y[3] + y[4] * y[4]));
             d[0] = pull * y[0] - turns * y[1];
             d[1] = pull * y[1] + turns * y[0];
             d[2] = -0.001 * y[2] + std::cos(s);
+            d[3] = beside * y[3] - turns * y[4];
+            d[4] = beside * y[4] + turns * y[3];
           });
       RegimeOptions o;
       o.budget = 3584;
       o.lasting = o.budget / 4;
-      o.observable = settling > 0.0 ? 2 : 0;
-      const Classification c = regime_of(field, {0.0, 0.0, settling}, o, 1e-8);
+      o.observable = settling > 0.0 ? 3 : 0;
+      const Classification c = regime_of(field, {0.0, 0.0, 0.0, settling, 0.0}, o, 1e-8);
       EXPECT_TRUE(c.regime == Regime::quasiperiodic || c.regime == Regime::undecided)
-          << turns << ": " << to_string(c.regime) << ", " << c.evidence.note;
+          << turns << ", " << settling << ": " << to_string(c.regime) << ", " << c.evidence.note;
     }
+}
+
+TEST(Regime, GrowthWithARegularSectionHasToLastForTheWholeBudget) {
+  // At rest y[2] repels; pushed off, it comes to a second orbit. From there y[3] grows for a thousand periods, by more
+  // than e^16 in half of all, while the oscillator that the 0-1 test looks at knows of neither.
+  const double rate = 0.0045;
+  const auto field =
+      integrate::make_field(4, 2.0 * std::numbers::pi, [rate](std::size_t, double s, const auto* y, auto* d) {
+        d[0] = y[1];
+        d[1] = -0.2 * y[1] - 2.0 * y[0] + std::cos(s);
+        d[2] = rate * y[2] * (1.0 - y[2] * y[2]);
+        d[3] = rate * y[3] * (2.0 * y[2] * y[2] - 1.0 - y[3] * y[3]);
+      });
+  RegimeOptions o;
+  o.budget = 3584;
+  o.lasting = o.budget / 4;
+  const Classification c = regime_of(field, {0.5, 0.0, 0.0, 1e-6}, o);
+  ASSERT_EQ(c.regime, Regime::periodic) << c.evidence.note;
+  EXPECT_NEAR(std::abs(c.orbit->state[3]), 1.0, 1e-8);
 }
 
 TEST(Regime, AnEscapeHasNone) {
