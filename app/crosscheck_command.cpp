@@ -89,7 +89,7 @@ int crosscheck_command(const Arguments& arguments) {
   io::write_poincare_csv(folder.file("poincare.csv"), output, reference);
   io::write_crosscheck_csv(folder.file("crosscheck.csv"), all);
   const std::string summary = io::crosscheck_summary(all);
-  io::write_file_atomically(folder.file("crosscheck.md"), summary);
+  write_file_atomically(folder.file("crosscheck.md"), summary);
   const io::DrawnFigure figure =
       io::draw_crosscheck_figure(folder.file("figures"), output, all, input.study.crosscheck.orbit_tolerance);
   undrawn = tell_undrawn({figure});

@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/atomic_file.hpp"
 #include "core/errors.hpp"
 #include "core/version.hpp"
-#include "io/atomic_file.hpp"
 #include "io/json_source.hpp"
 #include "io/point_record.hpp"
 #include "io/study_model.hpp"
@@ -145,10 +145,10 @@ std::string resolved_text(const io::LoadedInput& input) { return input.resolved.
 
 std::string write_inputs(const io::OutputFolder& folder, const io::LoadedInput& input) {
   std::string resolved = resolved_text(input);
-  io::write_file_atomically(folder.file("input.json"), input.study_file.bytes);
+  write_file_atomically(folder.file("input.json"), input.study_file.bytes);
   // Names of ours alone: by the user's, a copy could take the place of any other file here. run.json has those.
-  if (input.stage_file) io::write_file_atomically(folder.file("input.stage.json"), input.stage_file->bytes);
-  io::write_file_atomically(folder.file("input.resolved.json"), resolved);
+  if (input.stage_file) write_file_atomically(folder.file("input.stage.json"), input.stage_file->bytes);
+  write_file_atomically(folder.file("input.resolved.json"), resolved);
   return resolved;
 }
 

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "core/atomic_file.hpp"
 #include "folder.hpp"
-#include "io/atomic_file.hpp"
 #include "io/run_output.hpp"
 #include "io/study_model.hpp"
 #include "io/sweep_output.hpp"
@@ -51,7 +51,7 @@ int run_command(const Arguments& arguments) {
   io::write_poincare_csv(folder.file("poincare.csv"), points, point);
   io::write_run_tables(folder.path(), output, *result);
   io::write_run_h5(folder.file("results.h5"), output, *result);
-  io::write_file_atomically(folder.file("summary.md"), summary);
+  write_file_atomically(folder.file("summary.md"), summary);
   const auto figures = io::draw_run_figures(folder.file("figures"), output, *result);
   const std::int64_t undrawn = tell_undrawn(figures);
   facts.ended = io::utc_now();

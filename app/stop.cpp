@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "commands.hpp"
-#include "io/atomic_file.hpp"
+#include "core/atomic_file.hpp"
 
 namespace epicyclic::app {
 
@@ -38,7 +38,7 @@ itimerspec patience_left{};
 // Signal handlers: async-signal-safe calls only.
 
 void end_at_once(int /*signal*/) {
-  if (const char* words = words_at_the_end) io::write_without_waiting(STDERR_FILENO, words);
+  if (const char* words = words_at_the_end) write_without_waiting(STDERR_FILENO, words);
   // What _exit() is in the C library; with ThreadSanitizer's _exit() threads that nobody waited for would be an error,
   // and here it is meant that nobody waits.
   ::syscall(SYS_exit_group, code_at_the_end.load());

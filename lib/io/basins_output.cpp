@@ -12,8 +12,8 @@
 
 #include <fmt/format.h>
 
+#include "core/csv.hpp"
 #include "io/cell_figure.hpp"
-#include "io/csv.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/plane_output.hpp"
 

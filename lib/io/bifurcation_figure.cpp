@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "io/csv.hpp"
+#include "core/csv.hpp"
 
 namespace epicyclic::io {
 

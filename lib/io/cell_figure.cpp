@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "io/csv.hpp"
+#include "core/csv.hpp"
 
 namespace epicyclic::io {
 

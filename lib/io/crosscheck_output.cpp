@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "io/csv.hpp"
+#include "core/csv.hpp"
 #include "io/line_figure.hpp"
 
 namespace epicyclic::io {

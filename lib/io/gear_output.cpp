@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "core/atomic_file.hpp"
+#include "core/csv.hpp"
 #include "core/errors.hpp"
 #include "gear/bearing.hpp"
 #include "gear/ehl_friction.hpp"
 #include "gear/gear_set.hpp"
-#include "io/atomic_file.hpp"
-#include "io/csv.hpp"
 #include "io/gear_figures.hpp"
 #include "io/gear_report.hpp"
 #include "io/study_model.hpp"

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "core/csv.hpp"
 #include "core/errors.hpp"
 #include "gear/bearing.hpp"
 #include "gear/kinematics.hpp"
-#include "io/csv.hpp"
 
 namespace epicyclic::io {
 

@@ -20,10 +20,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/atomic_file.hpp"
+#include "core/csv.hpp"
 #include "core/errors.hpp"
-#include "io/atomic_file.hpp"
-#include "io/csv.hpp"
-#include "io/manifest.hpp"
+#include "core/placed_files.hpp"
 
 namespace epicyclic::io {
 
@@ -673,7 +673,7 @@ FigureOutcome draw_pictures(const fs::path& folder, std::string_view stem, Pictu
     if (!outcome.drawn()) {
       std::error_code ignored;
       fs::remove(path, ignored);  // a part of it
-      return note_undrawn(path);
+      return tell_placed(path, Placed::undrawn);
     }
     const FileDescriptor picture = open_descriptor(path, O_RDONLY);
     if (!ends_with(picture, path, end)) {
@@ -681,7 +681,7 @@ FigureOutcome draw_pictures(const fs::path& folder, std::string_view stem, Pictu
           fmt::format("{}: gnuplot did not finish it (disk full?); make room and repeat the command", path.string()));
     }
     sync_descriptor(picture.get(), path);
-    note_file(path);
+    tell_placed(path);
   };
   if (which != Pictures::svg) take(png, png_end);
   if (which != Pictures::png) take(svg, svg_end);

@@ -20,7 +20,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/atomic_file.hpp"
+#include "core/atomic_file.hpp"
 
 namespace epicyclic::io {
 

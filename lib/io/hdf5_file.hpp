@@ -2,8 +2,8 @@
 //
 // The same data give the same bytes: no time stamps, a fixed version of the file format (that of HDF5 1.8, which every
 // reader in use knows), fixed chunking and compression (shuffle + deflate for data above 64 KiB), texts of fixed
-// length. The file grows on the disk under a temporary name (io/atomic_file.hpp), and datasets may be given row by row:
-// it need not fit into memory.
+// length. The file grows on the disk under a temporary name (core/atomic_file.hpp), and datasets may be given row by
+// row: it need not fit into memory.
 //
 // HDF5 is not safe to use from several threads at once: one thread at a time, over all files. Its own error printing is
 // silenced during each call, and its error stack becomes the text of the OutputError.
@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/atomic_file.hpp"
+#include "core/atomic_file.hpp"
 
 namespace epicyclic::io {
 

@@ -28,7 +28,7 @@
 #include <thread>
 #include <vector>
 
-#include "io/atomic_file.hpp"
+#include "core/atomic_file.hpp"
 
 namespace epicyclic::io {
 

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "core/csv.hpp"
 #include "core/text.hpp"
-#include "io/csv.hpp"
 #include "io/sketch.hpp"
 
 namespace epicyclic::io {

@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "io/atomic_file.hpp"
+#include "core/atomic_file.hpp"
 #include "io/digest.hpp"
 
 namespace epicyclic::io {
@@ -18,17 +18,6 @@ namespace epicyclic::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// All recorders that live, in this process.
-struct Recorders {
-  std::mutex mutex;
-  std::vector<FileRecorder*> all;
-};
-
-Recorders& recorders() {
-  static Recorders instance;
-  return instance;
-}
 
 /// A file below the folder, by the name alone.
 bool is_below(const fs::path& relative) {
@@ -120,15 +109,8 @@ std::vector<ChangedFile> changed_files(const fs::path& folder, const Manifest& m
   return changed;
 }
 
-FileRecorder::FileRecorder(fs::path folder) : folder_(std::move(folder)) {
-  const std::scoped_lock lock(recorders().mutex);
-  recorders().all.push_back(this);
-}
-
-FileRecorder::~FileRecorder() {
-  const std::scoped_lock lock(recorders().mutex);
-  std::erase(recorders().all, this);
-}
+FileRecorder::FileRecorder(fs::path folder)
+    : folder_(std::move(folder)), placed_([this](const fs::path& path, Placed how) { note(path, how); }) {}
 
 Manifest FileRecorder::files() const {
   const std::scoped_lock lock(mutex_);
@@ -140,26 +122,15 @@ void FileRecorder::add(const Manifest& files) {
   for (const auto& [name, facts] : files) files_.insert_or_assign(name, facts);
 }
 
-void FileRecorder::note(const fs::path& path, const std::optional<FileFacts>& facts) {
+void FileRecorder::note(const fs::path& path, Placed how) {
   const fs::path name = path.lexically_relative(folder_);
-  if (is_below(name) && !is_bookkeeping(name.string())) add({{name.string(), facts}});
-}
-
-void note_file(const fs::path& path) {
-  {
-    const std::scoped_lock lock(recorders().mutex);
-    if (recorders().all.empty()) return;
+  if (!is_below(name) || is_bookkeeping(name.string())) return;
+  std::optional<FileFacts> facts;
+  if (how == Placed::there) {
+    facts = facts_of(path);
+    if (!facts) throw_output_error(path, "find what was just written", ENOENT);
   }
-  // Without the lock, which others want meanwhile.
-  const std::optional<FileFacts> facts = facts_of(path);
-  if (!facts) throw_output_error(path, "find what was just written", ENOENT);
-  const std::scoped_lock lock(recorders().mutex);
-  for (FileRecorder* recorder : recorders().all) recorder->note(path, facts);
-}
-
-void note_undrawn(const fs::path& picture) {
-  const std::scoped_lock lock(recorders().mutex);
-  for (FileRecorder* recorder : recorders().all) recorder->note(picture, std::nullopt);
+  add({{name.string(), facts}});
 }
 
 }  // namespace epicyclic::io

@@ -1,9 +1,9 @@
 // What a session has put into its folder, file by file, so that a later one can tell whether all of it is still there
 // and whole.
 //
-// A file is what it was if its size and its SHA-256 are; times and names of owners say nothing. AtomicFile and the
-// drawing of figures note each file that they put in place, wherever in the program that happens; a FileRecorder that
-// lives meanwhile keeps the notes of its folder. Journals and run.json are no results and are left out.
+// A file is what it was if its size and its SHA-256 are; times and names of owners say nothing. A FileRecorder hears of
+// each file that is put in place while it lives [core/placed_files.hpp] and keeps what it was of those in its folder.
+// Journals and run.json are no results and are left out.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,8 @@
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
+
+#include "core/placed_files.hpp"
 
 namespace epicyclic::io {
 
@@ -54,7 +56,7 @@ class FileRecorder {
   explicit FileRecorder(std::filesystem::path folder);
   FileRecorder(const FileRecorder&) = delete;
   FileRecorder& operator=(const FileRecorder&) = delete;
-  ~FileRecorder();
+  ~FileRecorder() = default;
 
   [[nodiscard]] Manifest files() const;
 
@@ -62,20 +64,12 @@ class FileRecorder {
   void add(const Manifest& files);
 
  private:
-  friend void note_file(const std::filesystem::path& path);
-  friend void note_undrawn(const std::filesystem::path& picture);
-  void note(const std::filesystem::path& path, const std::optional<FileFacts>& facts);
+  void note(const std::filesystem::path& path, Placed how);
 
   std::filesystem::path folder_;
   Manifest files_;
   mutable std::mutex mutex_;
+  PlacedFiles placed_;  ///< last, so that it hears of nothing before the rest is there
 };
-
-/// For those who put files in place: this one is there now.
-/// @throws OutputError when it cannot be read
-void note_file(const std::filesystem::path& path);
-
-/// This picture could not be drawn.
-void note_undrawn(const std::filesystem::path& picture);
 
 }  // namespace epicyclic::io

@@ -21,7 +21,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/atomic_file.hpp"
+#include "core/atomic_file.hpp"
 #include "io/manifest.hpp"
 
 namespace epicyclic::io {

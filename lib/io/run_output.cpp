@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "core/csv.hpp"
 #include "core/text.hpp"
-#include "io/csv.hpp"
 #include "io/hdf5_file.hpp"
 #include "model/scales.hpp"
 

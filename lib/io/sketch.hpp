@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/csv.hpp"
+#include "core/csv.hpp"
 #include "io/gnuplot.hpp"
 
 namespace epicyclic::io {

@@ -13,11 +13,11 @@
 
 #include <fmt/format.h>
 
+#include "core/csv.hpp"
 #include "core/errors.hpp"
 #include "gear/gear_set.hpp"
 #include "gear/warnings.hpp"
 #include "integrate/methods.hpp"
-#include "io/csv.hpp"
 #include "io/digest.hpp"
 #include "io/journal.hpp"
 #include "io/stage_completion.hpp"

@@ -11,8 +11,8 @@
 
 #include <fmt/format.h>
 
+#include "core/csv.hpp"
 #include "io/bifurcation_figure.hpp"
-#include "io/csv.hpp"
 #include "io/hdf5_file.hpp"
 
 namespace epicyclic::io {

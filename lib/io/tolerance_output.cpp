@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "core/atomic_file.hpp"
+#include "core/csv.hpp"
 #include "core/text.hpp"
-#include "io/atomic_file.hpp"
-#include "io/csv.hpp"
 #include "io/line_figure.hpp"
 
 namespace epicyclic::io {

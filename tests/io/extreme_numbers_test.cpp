@@ -12,9 +12,9 @@
 
 #include "core/errors.hpp"
 #include "io/gear_output.hpp"
-#include "io/gnuplot_guard.hpp"
+#include "gnuplot_guard.hpp"
 #include "io/study_model.hpp"
-#include "io/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 namespace epicyclic::io {
 namespace {

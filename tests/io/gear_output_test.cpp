@@ -12,9 +12,9 @@
 
 #include <gtest/gtest.h>
 
-#include "io/gnuplot_guard.hpp"
+#include "gnuplot_guard.hpp"
 #include "io/study_input.hpp"
-#include "io/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 namespace epicyclic::io {
 namespace {

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "io/atomic_file.hpp"
+#include "core/atomic_file.hpp"
 
 namespace epicyclic::io {
 namespace {

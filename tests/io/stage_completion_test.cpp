@@ -10,7 +10,7 @@
 #include "gear/gear_set.hpp"
 #include "io/study_input.hpp"
 #include "io/study_model.hpp"
-#include "io/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 namespace epicyclic::io {
 namespace {

@@ -13,9 +13,9 @@
 #include <string_view>
 #include <vector>
 
-#include "io/atomic_file.hpp"
+#include "core/atomic_file.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic {
 
 /// Appends the shortest decimal text that reads back as the same double; nan appends nothing.
 void append_number(std::string& text, double value);
@@ -78,4 +78,4 @@ class CsvWriter {
   std::optional<AtomicFile> file_;
 };
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic

@@ -1,4 +1,4 @@
-#include "io/atomic_file.hpp"
+#include "core/atomic_file.hpp"
 
 #include <cerrno>
 #include <chrono>
@@ -14,7 +14,7 @@
 #include "core/errors.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic {
 namespace {
 
 using test::contents;
@@ -164,4 +164,4 @@ TEST(AtomicFile, ReadAllReturnsWhatWasWritten) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic

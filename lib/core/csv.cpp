@@ -1,4 +1,4 @@
-#include "io/csv.hpp"
+#include "core/csv.hpp"
 
 #include <array>
 #include <charconv>
@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace epicyclic::io {
+namespace epicyclic {
 
 namespace {
 
@@ -106,4 +106,4 @@ void CsvWriter::commit() {
   file_->commit();
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic

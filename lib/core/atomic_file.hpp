@@ -3,7 +3,7 @@
 // A result is written under a temporary name in the folder of its final name, flushed to the disk, renamed over the
 // final name, and the folder is flushed too. A reader, a crash or a full disk at any moment sees the old file or the
 // new one, never a part. The temporary name is `.NAME.PID.N.tmp`; one that a killed process left behind may be removed
-// by whoever holds the folder's lock (see io/output_folder.hpp).
+// by whoever holds the folder's lock.
 //
 // Here also stand the few POSIX helpers on which the other writers build: each failed call becomes an OutputError that
 // names path, action and reason, and interrupted calls (EINTR) are repeated.
@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-namespace epicyclic::io {
+namespace epicyclic {
 
 /// Owns a POSIX file descriptor; -1 means none.
 class FileDescriptor {
@@ -122,4 +122,4 @@ class AtomicFile {
 /// @throws OutputError when a step fails; what stood under the name before is then unchanged
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic

@@ -9,12 +9,12 @@
 #include "io/gnuplot.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::io::test {
+namespace epicyclic::test {
 
 inline bool have_gnuplot() {
   const TemporaryFolder folder;
   put_file(folder / "empty.gp", "\n");
-  return run_gnuplot(folder / "empty.gp").drawn();
+  return io::run_gnuplot(folder / "empty.gp").drawn();
 }
 
 /// While it lives no gnuplot is found: figures are not drawn, what they would be drawn from is written all the same.
@@ -29,7 +29,7 @@ class WithoutGnuplot {
   std::string path_;
 };
 
-}  // namespace epicyclic::io::test
+}  // namespace epicyclic::test
 
 #define EPICYCLIC_NEEDS_GNUPLOT() \
-  if (!epicyclic::io::test::have_gnuplot()) GTEST_SKIP() << "gnuplot is not installed"
+  if (!epicyclic::test::have_gnuplot()) GTEST_SKIP() << "gnuplot is not installed"

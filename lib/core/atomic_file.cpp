@@ -1,4 +1,4 @@
-#include "io/atomic_file.hpp"
+#include "core/atomic_file.hpp"
 
 #include <atomic>
 #include <cerrno>
@@ -12,9 +12,9 @@
 #include <unistd.h>
 
 #include "core/errors.hpp"
-#include "io/manifest.hpp"
+#include "core/placed_files.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic {
 
 namespace {
 
@@ -212,7 +212,7 @@ void AtomicFile::commit() {
   }
   temporary_.clear();
   sync_folder(folder_of(path_));
-  note_file(path_);
+  tell_placed(path_);
 }
 
 void AtomicFile::discard() noexcept {
@@ -228,4 +228,4 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
   file.commit();
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic

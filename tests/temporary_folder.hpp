@@ -1,4 +1,4 @@
-// Helpers of the tests in this folder: a folder of a test's own, whole files, and a file system that is "full".
+// Helpers of the tests: a folder of a test's own, whole files, and a file system that is "full".
 #pragma once
 
 #include <csignal>
@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <sys/resource.h>
 
-namespace epicyclic::io::test {
+namespace epicyclic::test {
 
 /// A new empty folder, removed with all that is in it.
 class TemporaryFolder {
@@ -83,4 +83,4 @@ std::string message_of(Action&& action) {
   return {};
 }
 
-}  // namespace epicyclic::io::test
+}  // namespace epicyclic::test

@@ -1,4 +1,4 @@
-#include "io/csv.hpp"
+#include "core/csv.hpp"
 
 #include <bit>
 #include <charconv>
@@ -13,7 +13,7 @@
 #include "core/errors.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic {
 namespace {
 
 using test::contents;
@@ -129,4 +129,4 @@ TEST(Csv, RowOfTheWrongWidthIsALogicError) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic
