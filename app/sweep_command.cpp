@@ -38,11 +38,12 @@ WrittenPoints write_figure(const ComputedPoints& all, io::SweepFigure figure) {
   return written;
 }
 
-WrittenPoints draw_picture(const ComputedPoints& all, io::SweepFigure figure, io::Pictures picture) {
+WrittenPoints draw_picture(const ComputedPoints& all, io::SweepFigure figure, figures::Pictures picture) {
   WrittenPoints written;
   auto drawn = io::draw_sweep_picture(all.folder / "figures", output_of(all), figure, picture);
   // A figure is called by its PNG picture.
-  if (drawn && (picture == io::Pictures::png || !drawn->outcome.drawn())) written.figures.push_back(std::move(*drawn));
+  if (drawn && (picture == figures::Pictures::png || !drawn->outcome.drawn()))
+    written.figures.push_back(std::move(*drawn));
   return written;
 }
 
@@ -70,7 +71,7 @@ std::vector<ResultsPart> parts_of_sweep() {
     parts.push_back({[figure](const ComputedPoints& all) { return write_figure(all, figure); }});
   }
   parts.push_back({write_section});
-  for (const io::Pictures picture : {io::Pictures::png, io::Pictures::svg})
+  for (const figures::Pictures picture : {figures::Pictures::png, figures::Pictures::svg})
     for (const auto& [figure, part] : written_by)
       parts.push_back(
           {[figure = figure, picture](const ComputedPoints& all) { return draw_picture(all, figure, picture); }, part});

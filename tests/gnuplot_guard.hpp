@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "io/gnuplot.hpp"
+#include "figures/gnuplot.hpp"
 #include "temporary_folder.hpp"
 
 namespace epicyclic::test {
@@ -14,7 +14,7 @@ namespace epicyclic::test {
 inline bool have_gnuplot() {
   const TemporaryFolder folder;
   put_file(folder / "empty.gp", "\n");
-  return io::run_gnuplot(folder / "empty.gp").drawn();
+  return figures::run_gnuplot(folder / "empty.gp").drawn();
 }
 
 /// While it lives no gnuplot is found: figures are not drawn, what they would be drawn from is written all the same.

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/csv.hpp"
-#include "io/cell_figure.hpp"
+#include "figures/cell_figure.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/plane_output.hpp"
 
@@ -34,7 +34,7 @@ struct Row {
   double share = 0;  ///< of all cells
   analysis::Estimate exponent;
   const PointResult* first = nullptr;  ///< its first cell
-  FigureRange sp, rp;                  ///< of planet 1's deflections over all its cells
+  figures::FigureRange sp, rp;         ///< of planet 1's deflections over all its cells
   double spread = 0;
   double orbit_error = std::numeric_limits<double>::quiet_NaN();
   std::int64_t image_of = 0;
@@ -195,7 +195,7 @@ std::vector<DrawnFigure> draw_basins_figure(const std::filesystem::path& folder,
   std::sort(coloured.begin(), coloured.end());
 
   const auto total = static_cast<double>(results.size());
-  std::vector<CellClass> classes;
+  std::vector<figures::CellClass> classes;
   std::vector<std::size_t> class_of(attractors.all.size(), coloured.size());
   std::size_t rest = 0;
   for (const Attractor& a : attractors.all) rest += a.members.size();
@@ -221,11 +221,11 @@ std::vector<DrawnFigure> draw_basins_figure(const std::filesystem::path& folder,
   const std::size_t undecided = classes.size() - 2;
   classes[undecided].label +=
       ", " + share_text(static_cast<double>(std::count(cells.begin(), cells.end(), undecided)) / total);
-  const FigureText text{literal_text(output.title), component_label(output.plane.first.name),
-                        component_label(output.plane.second.name)};
+  const figures::FigureText text{figures::literal_text(output.title), component_label(output.plane.first.name),
+                                 component_label(output.plane.second.name)};
   return {{folder / "basins.png",
-           class_figure(folder, "basins", text, {axis_values(output.plane.first), axis_values(output.plane.second)},
-                        classes, cells)}};
+           figures::class_figure(folder, "basins", text,
+                                 {axis_values(output.plane.first), axis_values(output.plane.second)}, classes, cells)}};
 }
 
 }  // namespace epicyclic::io

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/csv.hpp"
-#include "io/line_figure.hpp"
+#include "figures/line_figure.hpp"
 
 namespace epicyclic::io {
 
@@ -94,9 +94,9 @@ std::string crosscheck_summary(const studies::Crosscheck& all) {
 
 DrawnFigure draw_crosscheck_figure(const std::filesystem::path& folder, const SweepOutput& output,
                                    const studies::Crosscheck& all, double orbit_tolerance) {
-  std::vector<FigureCurve> curves;
+  std::vector<figures::FigureCurve> curves;
   for (std::size_t v = 1; v < all.variants.size(); ++v) {
-    FigureCurve curve{literal_text(all.variants[v].label), {}, {}, true};
+    figures::FigureCurve curve{figures::literal_text(all.variants[v].label), {}, {}, true};
     for (const Comparison& c : all.comparisons) {
       if (c.variant != v || !std::isfinite(c.distance)) continue;
       curve.x.push_back(all.reference[c.point].point.value);
@@ -109,10 +109,11 @@ DrawnFigure draw_crosscheck_figure(const std::filesystem::path& folder, const Sw
   if (!all.reference.empty())
     curves.push_back(
         {"orbit tolerance", {output.sweep.from, output.sweep.to}, {orbit_tolerance, orbit_tolerance}, false});
-  const FigureText text{
-      literal_text(output.title), parameter_label(output.sweep.parameter),
-      fmt::format("Distance from the orbit of {}  [b_c, b_c/τ]", literal_text(all.variants[0].label))};
-  return {folder / "crosscheck.png", line_figure(folder, "crosscheck", text, curves, {.log_x = false, .log_y = true})};
+  const figures::FigureText text{
+      figures::literal_text(output.title), parameter_label(output.sweep.parameter),
+      fmt::format("Distance from the orbit of {}  [b_c, b_c/τ]", figures::literal_text(all.variants[0].label))};
+  return {folder / "crosscheck.png",
+          figures::line_figure(folder, "crosscheck", text, curves, {.log_x = false, .log_y = true})};
 }
 
 }  // namespace epicyclic::io

@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "figures/sketch.hpp"
 #include "gear/bearing.hpp"
-#include "io/sketch.hpp"
 #include "model/modes.hpp"
 
 namespace epicyclic::io {
@@ -23,14 +23,15 @@ namespace fs = std::filesystem;
 constexpr double pi = std::numbers::pi;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-using namespace ink;
+using namespace figures::ink;
 
 std::string titled(const gear::Stage& stage, std::string_view what) {
-  return stage.name.empty() ? std::string(what) : fmt::format("{}:  {}", literal_text(stage.name), what);
+  return stage.name.empty() ? std::string(what) : fmt::format("{}:  {}", figures::literal_text(stage.name), what);
 }
 
-GearFigure draw(const Sketch& sketch, const fs::path& folder, const FigureText& text, const FigureRange& x,
-                const FigureRange& y, const std::vector<FigureMarker>& markers = {}, const FigureCanvas& canvas = {}) {
+GearFigure draw(const figures::Sketch& sketch, const fs::path& folder, const figures::FigureText& text,
+                const figures::FigureRange& x, const figures::FigureRange& y,
+                const std::vector<figures::FigureMarker>& markers = {}, const figures::FigureCanvas& canvas = {}) {
   return {sketch.stem(), sketch.draw(folder, text, x, y, markers, canvas)};
 }
 
@@ -40,9 +41,10 @@ struct Frame {
 };
 
 /// For drawings that are true to scale: a frame of known shape.
-void fix_frame(Sketch& sketch, const Frame& frame) {
+void fix_frame(figures::Sketch& sketch, const Frame& frame) {
   sketch.command(fmt::format("set size ratio -1\nset lmargin screen {}\nset rmargin screen {}\nset bmargin screen {}",
-                             figure_number(frame.left), figure_number(frame.right), figure_number(frame.bottom)));
+                             figures::figure_number(frame.left), figures::figure_number(frame.right),
+                             figures::figure_number(frame.bottom)));
 }
 
 using Row2 = std::array<double, 2>;
@@ -51,11 +53,11 @@ using Curve = std::vector<Row2>;
 
 constexpr Row2 interruption{not_a_number, not_a_number};
 
-FigureRange range_of_y(std::initializer_list<const Curve*> curves) {
-  FigureRange range;
+figures::FigureRange range_of_y(std::initializer_list<const Curve*> curves) {
+  figures::FigureRange range;
   for (const Curve* curve : curves)
     for (const Row2& row : *curve) range.include(row[1]);
-  return range.widened(figure_margin);
+  return range.widened(figures::figure_margin);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -89,11 +91,11 @@ GearFigure stiffness_figure(const fs::path& folder, std::string_view stem, const
   }
   const Curve mean{{0.0, series.mean / unit}, {static_cast<double>(periods_shown), series.mean / unit}};
 
-  Sketch sketch(stem);
-  sketch.add(mean, dashed(dark_grey, 1.5, "(10,7)"));
-  sketch.add(energy, solid(blue), "energy method");
-  sketch.add(fourier, solid(red), fmt::format("Fourier, {} harmonics", series.cosine.size()));
-  sketch.entry(dashed(dark_grey, 1.5, "(10,7)"), "mean");
+  figures::Sketch sketch(stem);
+  sketch.add(mean, figures::dashed(dark_grey, 1.5, "(10,7)"));
+  sketch.add(energy, figures::solid(blue), "energy method");
+  sketch.add(fourier, figures::solid(red), fmt::format("Fourier, {} harmonics", series.cosine.size()));
+  sketch.entry(figures::dashed(dark_grey, 1.5, "(10,7)"), "mean");
   return draw(sketch, folder,
               {titled(stage, fmt::format("{} mesh stiffness", name)), std::string(phase_label),
                fmt::format("Mesh stiffness  k_{{{}}}  [10^9 N/m]", index)},
@@ -104,7 +106,7 @@ GearFigure stiffness_figure(const fs::path& folder, std::string_view stem, const
 // Load sharing and friction along the path of contact
 
 GearFigure load_sharing_figure(const fs::path& folder, const gear::Stage& stage, const gear::GearSet& set) {
-  Sketch sketch("load_sharing");
+  figures::Sketch sketch("load_sharing");
   double longest = 0.0;
   const auto add = [&](const gear::MeshedPair& mesh, std::string_view look, std::string_view title) {
     // The table of lubricated contact has both sides of each jump; what lubricates is of no account here.
@@ -114,8 +116,8 @@ GearFigure load_sharing_figure(const fs::path& folder, const gear::Stage& stage,
     sketch.add(curve, look, title);
     longest = std::max(longest, mesh.contact_ratio());
   };
-  add(set.sun_planet, solid(blue), "sun-planet");
-  add(set.ring_planet, dashed(red, 2, "(14,6)"), "ring-planet");
+  add(set.sun_planet, figures::solid(blue), "sun-planet");
+  add(set.ring_planet, figures::dashed(red, 2, "(14,6)"), "ring-planet");
   return draw(sketch, folder,
               {titled(stage, "load sharing of tooth pairs"), "Distance from the start of contact  [base pitches]",
                "Share of a tooth pair in the mesh force  L"},
@@ -163,26 +165,26 @@ std::string at_load(const gear::MeshLoad& load) {
   return fmt::format("F = {:.0f} N, base circles at {:.1f} m/s", load.force_N, load.base_speed_m_per_s);
 }
 
-void add_zero_line(Sketch& sketch, const FigureRange& x) {
-  sketch.add(Curve{{x.low, 0.0}, {x.high, 0.0}}, solid(light_grey, 1));
+void add_zero_line(figures::Sketch& sketch, const figures::FigureRange& x) {
+  sketch.add(Curve{{x.low, 0.0}, {x.high, 0.0}}, figures::solid(light_grey, 1));
 }
 
 GearFigure friction_figure(const fs::path& folder, const gear::Stage& stage, const LubricatedMesh& sun,
                            const LubricatedMesh& ring, const gear::MeshLoad& load) {
   const Curve sun_curve = friction_along_path(sun, load);
   const Curve ring_curve = friction_along_path(ring, load);
-  FigureRange x;
+  figures::FigureRange x;
   x.include(0.0);  // the pitch point is shown even where no path reaches it
   for (const Curve* curve : {&sun_curve, &ring_curve})
     for (const Row2& row : *curve) x.include(row[0]);
-  x = x.widened(figure_margin);
-  Sketch sketch("friction");
+  x = x.widened(figures::figure_margin);
+  figures::Sketch sketch("friction");
   add_zero_line(sketch, x);
-  sketch.add(sun_curve, solid(blue), "sun-planet");
-  sketch.add(ring_curve, dashed(red, 2, "(14,6)"), "ring-planet");
+  sketch.add(sun_curve, figures::solid(blue), "sun-planet");
+  sketch.add(ring_curve, figures::dashed(red, 2, "(14,6)"), "ring-planet");
   const Curve ends{sun_curve.front(), sun_curve.back(), ring_curve.front(), ring_curve.back()};
-  sketch.add(Curve(ends.begin(), ends.begin() + 2), dots(blue, 0.9));
-  sketch.add(Curve(ends.begin() + 2, ends.end()), dots(red, 0.9));
+  sketch.add(Curve(ends.begin(), ends.begin() + 2), figures::dots(blue, 0.9));
+  sketch.add(Curve(ends.begin() + 2, ends.end()), figures::dots(red, 0.9));
   return draw(
       sketch, folder,
       {titled(stage, "tooth friction at " + at_load(load)),
@@ -194,11 +196,11 @@ GearFigure friction_ratio_figure(const fs::path& folder, const gear::Stage& stag
                                  const LubricatedMesh& ring, const gear::MeshLoad& load) {
   const Curve sun_curve = force_ratio(sun, load);
   const Curve ring_curve = force_ratio(ring, load);
-  const FigureRange x{0.0, periods_shown};
-  Sketch sketch("friction_ratio");
+  const figures::FigureRange x{0.0, periods_shown};
+  figures::Sketch sketch("friction_ratio");
   add_zero_line(sketch, x);
-  sketch.add(sun_curve, solid(blue), "sun-planet");
-  sketch.add(ring_curve, dashed(red, 2, "(14,6)"), "ring-planet");
+  sketch.add(sun_curve, figures::solid(blue), "sun-planet");
+  sketch.add(ring_curve, figures::dashed(red, 2, "(14,6)"), "ring-planet");
   return draw(sketch, folder,
               {titled(stage, "friction force at " + at_load(load)), fmt::format("{} of each mesh", phase_label),
                "Friction force over mesh force  A = Σ L_j f_j"},
@@ -219,7 +221,8 @@ std::vector<NamedBearing> bearings_of(const gear::Catalogue& catalogue) {
   const auto add = [&](std::string_view member, const std::optional<gear::SupportBearing>& support) {
     if (!support) return;
     if (const auto data = gear::bearing_data(*support))
-      bearings.push_back({fmt::format("{}, {}", member, literal_text(data->name)), *support, data->coefficient()});
+      bearings.push_back(
+          {fmt::format("{}, {}", member, figures::literal_text(data->name)), *support, data->coefficient()});
   };
   add("sun", catalogue.sun_bearing);
   add("carrier", catalogue.carrier.bearing);
@@ -234,7 +237,7 @@ GearFigure bearing_figure(const fs::path& folder, std::string_view stem, const g
   constexpr int samples = 200;
   double reach_um = 0.0;
   for (const NamedBearing& bearing : bearings) reach_um = std::max(reach_um, 2.0 * bearing.support.approach_um);
-  Sketch sketch(stem);
+  figures::Sketch sketch(stem);
   double highest = 0.0;
   Curve chosen;
   for (std::size_t k = 0; k < bearings.size(); ++k) {
@@ -246,13 +249,13 @@ GearFigure bearing_figure(const fs::path& folder, std::string_view stem, const g
       curve.push_back({approach, value(approach)});
     }
     highest = std::max(highest, curve.back()[1]);
-    sketch.add(curve, k == 0 ? solid(blue) : dashed(red, 2, "(14,6)"), bearings[k].member);
+    sketch.add(curve, k == 0 ? figures::solid(blue) : figures::dashed(red, 2, "(14,6)"), bearings[k].member);
     chosen.push_back({bearings[k].support.approach_um, value(bearings[k].support.approach_um)});
   }
-  sketch.add(chosen, dots(dark_grey, 1.1), "approach of the stage");
+  sketch.add(chosen, figures::dots(dark_grey, 1.1), "approach of the stage");
   return draw(sketch, folder,
               {titled(stage, title), "Elastic approach beyond the clearance  δ  [μm]", std::string(label)},
-              {0.0, reach_um}, {0.0, (1.0 + figure_margin) * highest});
+              {0.0, reach_um}, {0.0, (1.0 + figures::figure_margin) * highest});
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -368,7 +371,7 @@ Curve arc_about(const DrawnPoint& centre, double radius, double towards, double 
 
 /// The window of a drawing of a pair: its path of contact with the pitch point, and the teeth around them.
 struct Window {
-  FigureRange x, y;
+  figures::FigureRange x, y;
 };
 
 Window window_of(const gear::Pair& pair) {
@@ -403,9 +406,10 @@ struct PairNames {
   std::string_view driving_colour, driven_colour, driving_tint, driven_tint;
 };
 
-void label_point(Sketch& sketch, const DrawnPoint& p, std::string_view text, std::string_view place) {
-  sketch.command(fmt::format("set label {} at first {}, first {} {} front boxed font ',20'", gnuplot_quoted(text),
-                             figure_number(p.x), figure_number(p.y), place));
+void label_point(figures::Sketch& sketch, const DrawnPoint& p, std::string_view text, std::string_view place) {
+  sketch.command(fmt::format("set label {} at first {}, first {} {} front boxed font ',20'",
+                             figures::gnuplot_quoted(text), figures::figure_number(p.x), figures::figure_number(p.y),
+                             place));
 }
 
 /// A member of a pair as it is drawn.
@@ -421,11 +425,11 @@ struct DrawnMember {
 constexpr double outline_width = 1.8;
 constexpr double path_width = 4.5;
 
-std::string pitch_look(std::string_view colour) { return dashed(colour, 1.2, "(12,8)"); }
-std::string base_look(std::string_view colour) { return solid(colour, 0.8); }
+std::string pitch_look(std::string_view colour) { return figures::dashed(colour, 1.2, "(12,8)"); }
+std::string base_look(std::string_view colour) { return figures::solid(colour, 0.8); }
 
 /// Filled section: the teeth, closed by the material behind them.
-void add_body(Sketch& sketch, const DrawnMember& m) {
+void add_body(figures::Sketch& sketch, const DrawnMember& m) {
   Curve body = rows(m.teeth);
   if (m.tooth.internal) {
     const Curve rim = arc_about(m.axis, m.tooth.root_radius_mm + 10.0 * m.tooth.module_mm, m.towards, 1.5 * m.spread);
@@ -436,20 +440,20 @@ void add_body(Sketch& sketch, const DrawnMember& m) {
   sketch.add(body, fmt::format("filledcurves closed fillstyle solid 1.0 noborder fillcolor '{}'", m.tint));
 }
 
-void add_lines(Sketch& sketch, const DrawnMember& m) {
+void add_lines(figures::Sketch& sketch, const DrawnMember& m) {
   sketch.add(arc_about(m.axis, m.pitch_radius, m.towards, m.spread), pitch_look(m.colour));
   sketch.add(arc_about(m.axis, m.tooth.base_radius_mm, m.towards, m.spread), base_look(m.colour));
-  sketch.add(rows(m.teeth), solid(m.colour, outline_width));
+  sketch.add(rows(m.teeth), figures::solid(m.colour, outline_width));
 }
 
 /// Line of action, path of contact, pitch point and contacts.
-void add_contact(Sketch& sketch, const MeshDrawing& drawing, double pressure_angle, double far) {
+void add_contact(figures::Sketch& sketch, const MeshDrawing& drawing, double pressure_angle, double far) {
   const DrawnPoint end{far * std::cos(pressure_angle), far * std::sin(pressure_angle)};
-  sketch.add(rows({{-end.x, -end.y}, end}), solid(dark_grey, 1));
-  sketch.add(rows({drawing.start, drawing.end}), solid(green, path_width));
-  sketch.add(Curve{{0.0, 0.0}}, dots(dark_grey, 1.3));
-  sketch.add(rows(drawing.contacts), dots("#ffffff", 1.5));
-  sketch.add(rows(drawing.contacts), dots(green, 1.1));
+  sketch.add(rows({{-end.x, -end.y}, end}), figures::solid(dark_grey, 1));
+  sketch.add(rows({drawing.start, drawing.end}), figures::solid(green, path_width));
+  sketch.add(Curve{{0.0, 0.0}}, figures::dots(dark_grey, 1.3));
+  sketch.add(rows(drawing.contacts), figures::dots("#ffffff", 1.5));
+  sketch.add(rows(drawing.contacts), figures::dots(green, 1.1));
   sketch.command("set style textbox opaque noborder fillcolor '#ffffff' margins 0.4,0.4");
   label_point(sketch, drawing.start, "start", "right offset character -1,0.9");
   label_point(sketch, drawing.end, "end", "left offset character 1,-0.7");
@@ -481,14 +485,14 @@ GearFigure teeth_figure(const fs::path& folder, const gear::Stage& stage, const 
                            names.driven,
                            names.driven_colour,
                            names.driven_tint};
-  Sketch sketch(names.stem);
+  figures::Sketch sketch(names.stem);
   for (const DrawnMember* m : {&driven, &driving}) add_body(sketch, *m);
   for (const DrawnMember* m : {&driven, &driving}) add_lines(sketch, *m);
   add_contact(sketch, drawing, pair.pressure_angle, 2.0 * (window.x.high - window.x.low));
-  for (const DrawnMember* m : {&driving, &driven}) sketch.entry(solid(m->colour, outline_width), m->name);
+  for (const DrawnMember* m : {&driving, &driven}) sketch.entry(figures::solid(m->colour, outline_width), m->name);
   sketch.entry(pitch_look(dark_grey), "pitch circles");
   sketch.entry(base_look(dark_grey), "base circles");
-  sketch.entry(solid(green, path_width), "path of contact");
+  sketch.entry(figures::solid(green, path_width), "path of contact");
 
   const std::string title =
       fmt::format("{}-{} mesh,  α_{{{}}} = {:.2f}°,  ε_{{{}}} = {:.3f}", names.driving, names.driven, names.index,
@@ -511,10 +515,11 @@ struct TypeLook {
 
 /// The rotational modes stand out: only they answer meshes that are in phase.
 const std::array<TypeLook, 4>& type_looks() {
-  static const std::array<TypeLook, 4> looks{{{model::ModeType::translational, blue, "(14,6)", 1.4, dots(blue, 1, 6)},
-                                              {model::ModeType::planet, green, "(3,5)", 1.8, dots(green, 1, 4)},
-                                              {model::ModeType::other, purple, "(14,5,3,5)", 1.6, dots(purple, 1, 8)},
-                                              {model::ModeType::rotational, red, "solid", 2, dots(red, 1.1)}}};
+  static const std::array<TypeLook, 4> looks{
+      {{model::ModeType::translational, blue, "(14,6)", 1.4, figures::dots(blue, 1, 6)},
+       {model::ModeType::planet, green, "(3,5)", 1.8, figures::dots(green, 1, 4)},
+       {model::ModeType::other, purple, "(14,5,3,5)", 1.6, figures::dots(purple, 1, 8)},
+       {model::ModeType::rotational, red, "solid", 2, figures::dots(red, 1.1)}}};
   return looks;
 }
 
@@ -557,7 +562,7 @@ double free_height(const std::vector<model::Mode>& modes, double frequency_max) 
   return middle;
 }
 
-void add_harmonics(Sketch& sketch, double frequency_max, double label_height) {
+void add_harmonics(figures::Sketch& sketch, double frequency_max, double label_height) {
   Curve lines;
   for (int h = 1; h <= mesh_harmonics_shown; ++h) {
     if (h > 1) lines.push_back(interruption);
@@ -565,16 +570,17 @@ void add_harmonics(Sketch& sketch, double frequency_max, double label_height) {
     lines.push_back({frequency_max / h, frequency_max});
     const std::string factor = h == 1 ? std::string() : fmt::format("{} ", h);
     sketch.command(fmt::format("set label '{}Ω' at first {}, first {} center front boxed font ',20' textcolor '{}'",
-                               factor, figure_number(label_height / h), figure_number(label_height), dark_grey));
+                               factor, figures::figure_number(label_height / h), figures::figure_number(label_height),
+                               dark_grey));
   }
-  sketch.add(lines, solid(dark_grey, 1.2));
+  sketch.add(lines, figures::solid(dark_grey, 1.2));
 }
 
 /// Frequencies in kHz on the right.
-void add_frequency_axis(Sketch& sketch, double frequency_max, double omega_sn) {
+void add_frequency_axis(figures::Sketch& sketch, double frequency_max, double omega_sn) {
   const double unit_kHz = omega_sn / (2.0 * pi) * 1e-3;
   sketch.command("set ytics nomirror");
-  sketch.command(fmt::format("set y2range [0:{}]", figure_number(frequency_max * unit_kHz)));
+  sketch.command(fmt::format("set y2range [0:{}]", figures::figure_number(frequency_max * unit_kHz)));
   sketch.command("set y2tics\nset my2tics 5\nset y2label 'Frequency  [kHz]'\nset rmargin screen 0.915");
 }
 
@@ -583,22 +589,22 @@ GearFigure campbell_figure(const fs::path& folder, const gear::Stage& stage, con
   const double highest = modes.back().frequency_ratio;
   const double frequency_max = 1.08 * std::max(1.0, highest);
   const double speed_max = frequency_max;  // where the first harmonic leaves the figure
-  Sketch sketch("campbell");
+  figures::Sketch sketch("campbell");
   sketch.command("set style textbox opaque noborder fillcolor '#ffffff' margins 0.4,0.4");
   add_frequency_axis(sketch, frequency_max, omega_sn);
-  sketch.add(Curve{{0.0, 1.0}, {speed_max, 1.0}}, solid(light_grey, 1));
+  sketch.add(Curve{{0.0, 1.0}, {speed_max, 1.0}}, figures::solid(light_grey, 1));
   sketch.command(
       "set label 'ω_{sn}' at graph 1, first 1 right offset character -0.8,0.55 font ',20' textcolor '#707070'");
   add_harmonics(sketch, frequency_max, free_height(modes, frequency_max));
   for (const TypeLook& look : type_looks())
-    sketch.add(frequency_lines(modes, look.type, speed_max), dashed(look.colour, look.width, look.dash));
+    sketch.add(frequency_lines(modes, look.type, speed_max), figures::dashed(look.colour, look.width, look.dash));
   for (const TypeLook& look : type_looks()) sketch.add(resonances(modes, look.type, speed_max), look.mark);
   // What is drawn last, on top, is named first.
   const std::vector<TypeLook> legend(type_looks().rbegin(), type_looks().rend());
   for (const TypeLook& look : legend)
     if (std::any_of(modes.begin(), modes.end(), [&](const model::Mode& mode) { return mode.type == look.type; }))
-      sketch.entry(dashed(look.colour, look.width, look.dash), model::to_string(look.type));
-  sketch.entry(solid(dark_grey, 1.2), "mesh harmonics");
+      sketch.entry(figures::dashed(look.colour, look.width, look.dash), model::to_string(look.type));
+  sketch.entry(figures::solid(dark_grey, 1.2), "mesh harmonics");
   return draw(
       sketch, folder,
       {titled(stage, "Campbell diagram"), "Mesh frequency ratio  Ω = ω_m / ω_{sn}", "Natural frequency  ω / ω_{sn}"},
@@ -672,18 +678,18 @@ class ShapeDrawing {
     place(x, y, radii_.sun, 0.5 * pi, motion(Slots::x_s, Slots::y_s, Slots::w_s, radii_.sun_base), sun_member);
   }
 
-  void show(Sketch& sketch) const {
+  void show(figures::Sketch& sketch) const {
     static constexpr std::array<std::string_view, 4> names{"sun", "planets", "ring", "carrier"};
     static constexpr std::array<std::string_view, 4> colours{blue, red, green, ochre};
     static_assert(names.size() == carrier_member + 1);
     sketch.add(rest_circles_, circles(light_grey, 1));
-    sketch.add(rest_marks_, solid(light_grey, 1));
+    sketch.add(rest_marks_, figures::solid(light_grey, 1));
     for (const std::size_t k : {carrier_member, ring_member, planet_member, sun_member}) {
       sketch.add(circles_[k], circles(colours[k], 1.6));
-      sketch.add(marks_[k], solid(colours[k], 1.8));
+      sketch.add(marks_[k], figures::solid(colours[k], 1.8));
     }
-    for (std::size_t k = 0; k < names.size(); ++k) sketch.entry(solid(colours[k], 2), names[k]);
-    sketch.entry(solid(light_grey, 1), "at rest");
+    for (std::size_t k = 0; k < names.size(); ++k) sketch.entry(figures::solid(colours[k], 2), names[k]);
+    sketch.entry(figures::solid(light_grey, 1), "at rest");
   }
 
   [[nodiscard]] double outer_radius() const { return radii_.ring; }
@@ -695,7 +701,7 @@ class ShapeDrawing {
   };
 
   static std::string circles(std::string_view colour, double width) {
-    return fmt::format("circles linecolor '{}' linewidth {} fillstyle empty", colour, figure_number(width));
+    return fmt::format("circles linecolor '{}' linewidth {} fillstyle empty", colour, figures::figure_number(width));
   }
 
   static void mark(Curve& marks, double x, double y, double from, double to, double angle) {
@@ -744,15 +750,15 @@ GearFigure mode_shapes_figure(const fs::path& folder, const gear::Stage& stage, 
   const double width = (columns > 4 ? 2.9 : 3.4) * drawing.outer_radius();
   const double text_line = 0.19 * drawing.outer_radius() * static_cast<double>(columns) / 4.0;
   const double height = 2.5 * drawing.outer_radius() + 2.0 * text_line;
-  Sketch sketch("mode_shapes");
+  figures::Sketch sketch("mode_shapes");
   for (std::size_t k = 0; k < modes.size(); ++k) {
     const double x = width * static_cast<double>(k % columns);
     const double y = -height * static_cast<double>(k / columns);
     drawing.add_panel(modes[k], x, y - text_line);
     double text_y = y + 0.5 * height - 0.5 * text_line;
     for (const std::string& text : panel_titles(modes[k], omega_sn)) {
-      sketch.command(fmt::format("set label {} at first {}, first {} center font ',17'", gnuplot_quoted(text),
-                                 figure_number(x), figure_number(text_y)));
+      sketch.command(fmt::format("set label {} at first {}, first {} center font ',17'", figures::gnuplot_quoted(text),
+                                 figures::figure_number(x), figures::figure_number(text_y)));
       text_y -= text_line;
     }
   }
@@ -761,7 +767,7 @@ GearFigure mode_shapes_figure(const fs::path& folder, const gear::Stage& stage, 
   constexpr Frame frame{0.01, 0.99, 0.01};
   fix_frame(sketch, frame);
   constexpr double above = 110;  // title and legend [pixels]
-  FigureCanvas canvas;
+  figures::FigureCanvas canvas;
   const double scale = (frame.right - frame.left) * canvas.width / (width * static_cast<double>(columns));
   canvas.height = static_cast<int>(above + scale * height * static_cast<double>(lines));
   return draw(sketch, folder, {titled(stage, "mode shapes"), "", ""},

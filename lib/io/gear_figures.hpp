@@ -18,16 +18,16 @@
 #include <string>
 #include <vector>
 
+#include "figures/gnuplot.hpp"
 #include "gear/ehl_friction.hpp"
 #include "gear/gear_set.hpp"
 #include "gear/stage.hpp"
-#include "io/gnuplot.hpp"
 
 namespace epicyclic::io {
 
 struct GearFigure {
   std::string stem;
-  FigureOutcome outcome;
+  figures::FigureOutcome outcome;
 };
 
 /// Draws what follows from catalogue data, each as `folder`/STEM.{dat,gp,png,svg}: stiffness_sp, stiffness_rp,

@@ -7,7 +7,7 @@
 #include <functional>
 #include <span>
 
-#include "io/cell_figure.hpp"
+#include "figures/cell_figure.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/plane_output.hpp"
 #include "studies/plane.hpp"
@@ -37,8 +37,8 @@ std::vector<T> matrix(const MapOutput& output, const PointSource& points, Direct
 }
 
 /// Periods in blues and purples, by rising brightness; after Okabe and Ito otherwise, as in the figures of sweeps.
-const std::vector<CellClass>& classes() {
-  static const std::vector<CellClass> all = {
+const std::vector<figures::CellClass>& classes() {
+  static const std::vector<figures::CellClass> all = {
       {"period 1", "#12285c"},      {"period 2", "#3f8fd0"},   {"period 3", "#9bd7f2"},      {"period 4", "#6b3f8f"},
       {"period 5 to 8", "#b08fd0"}, {"period > 8", "#e3d3f0"}, {"quasiperiodic", "#1b8a6b"}, {"chaotic", "#c8553d"},
       {"undecided", "#b8b8b8"},     {"failed", "#000000"}};
@@ -100,15 +100,16 @@ void write_map_h5(const std::filesystem::path& file, const MapOutput& output, co
 std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, const MapOutput& output,
                                           const PointSource& points) {
   std::vector<DrawnFigure> figures;
-  const CellGrid grid{axis_values(output.plane.first), axis_values(output.plane.second)};
+  const figures::CellGrid grid{axis_values(output.plane.first), axis_values(output.plane.second)};
   for (const Direction direction : output.sweep.directions) {
     const std::string word = direction_word(direction);
-    const FigureText text{literal_text(output.title) + (output.sweep.directions.size() > 1 ? ", " + word : ""),
-                          parameter_label(output.plane.first.name), parameter_label(output.plane.second.name)};
+    const figures::FigureText text{
+        figures::literal_text(output.title) + (output.sweep.directions.size() > 1 ? ", " + word : ""),
+        parameter_label(output.plane.first.name), parameter_label(output.plane.second.name)};
     const std::string regimes = "regimes_" + word;
     figures.push_back(
-        {folder / (regimes + ".png"), class_figure(folder, regimes, text, grid, classes(),
-                                                   matrix<std::size_t>(output, points, direction, class_of))});
+        {folder / (regimes + ".png"), figures::class_figure(folder, regimes, text, grid, classes(),
+                                                            matrix<std::size_t>(output, points, direction, class_of))});
     if (output.sweep.classification_periods == 0) continue;
     const auto exponents =
         matrix<double>(output, points, direction, [](const PointResult& r) { return r.lyapunov_max().value; });
@@ -116,7 +117,7 @@ std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, c
     const std::string stem = "lyapunov_max_" + word;
     figures.push_back(
         {folder / (stem + ".png"),
-         value_figure(folder, stem, text, grid, "Largest exponent  λ_1 / ω_{sn}", "not told", exponents)});
+         figures::value_figure(folder, stem, text, grid, "Largest exponent  λ_1 / ω_{sn}", "not told", exponents)});
   }
   return figures;
 }

@@ -14,7 +14,7 @@
 #include <sys/stat.h>
 
 #include "core/errors.hpp"
-#include "io/gnuplot.hpp"
+#include "figures/gnuplot.hpp"
 
 namespace epicyclic::io {
 
@@ -142,7 +142,7 @@ FolderOutcome OutputFolder::open() {
   if (!manifest) return FolderOutcome::damaged;
   changed_ = changed_files(path_, *manifest);
   // Pictures that could not be drawn: perhaps they can be now.
-  if (!gnuplot_is_installed()) std::erase_if(changed_, [](const ChangedFile& file) { return !file.expected; });
+  if (!figures::gnuplot_is_installed()) std::erase_if(changed_, [](const ChangedFile& file) { return !file.expected; });
   return changed_.empty() ? FolderOutcome::complete : FolderOutcome::damaged;
 }
 

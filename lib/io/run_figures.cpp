@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "figures/sketch.hpp"
 #include "io/run_output.hpp"
-#include "io/sketch.hpp"
 #include "model/dynamic_model.hpp"
 
 namespace epicyclic::io {
@@ -24,7 +24,7 @@ using analysis::Regime;
 using studies::History;
 using studies::RunResult;
 using studies::SignalSpectrum;
-using namespace ink;
+using namespace figures::ink;
 
 using Row2 = std::array<double, 2>;
 using Curve = std::vector<Row2>;
@@ -40,19 +40,19 @@ constexpr std::string_view time_label = "Mesh periods  s / 2π";
 
 bool has_column(const History& h, const std::string& name) { return h.index_of(name) < h.columns.size(); }
 
-void include(FigureRange& range, const std::vector<double>& values, std::size_t from = 0) {
+void include(figures::FigureRange& range, const std::vector<double>& values, std::size_t from = 0) {
   for (std::size_t k = from; k < values.size(); ++k) range.include(values[k]);
 }
 
 /// At least as wide as said, so that rounding is not blown up to fill the figure.
-FigureRange no_narrower(const FigureRange& range, double width) {
+figures::FigureRange no_narrower(const figures::FigureRange& range, double width) {
   const double lacking = std::max(0.0, 0.5 * (width - (range.high - range.low)));
   return {range.low - lacking, range.high + lacking};
 }
 
-FigureRange y_range(const FigureRange& data) {
+figures::FigureRange y_range(const figures::FigureRange& data) {
   constexpr double least = 1e-6;  // of the values themselves
-  return no_narrower(data, least * std::max(std::abs(data.low), std::abs(data.high))).widened(figure_margin);
+  return no_narrower(data, least * std::max(std::abs(data.low), std::abs(data.high))).widened(figures::figure_margin);
 }
 
 /// Rows of the record that a figure shows.
@@ -92,8 +92,8 @@ Curve pairs(const std::vector<double>& x, const std::vector<double>& y, std::siz
 }
 
 /// Range of one coordinate.
-FigureRange range_of(const Curve& curve, std::size_t coordinate) {
-  FigureRange range;
+figures::FigureRange range_of(const Curve& curve, std::size_t coordinate) {
+  figures::FigureRange range;
   for (const Row2& row : curve) range.include(row[coordinate]);
   return range;
 }
@@ -106,7 +106,7 @@ class RunFigures {
         output_(output),
         result_(result),
         h_(result.history),
-        title_(literal_text(output.points.title)) {}
+        title_(figures::literal_text(output.points.title)) {}
 
   std::vector<DrawnFigure> draw() {
     if (h_.rows() > 0 && h_.phases > 0) {
@@ -133,8 +133,8 @@ class RunFigures {
  private:
   static std::string unit_text(const std::string& unit) { return unit == "um" ? "µm" : unit; }
 
-  void finish(const Sketch& sketch, const std::string& x_label, const std::string& y_label, const FigureRange& x,
-              const FigureRange& y, const FigureCanvas& canvas = {}) {
+  void finish(const figures::Sketch& sketch, const std::string& x_label, const std::string& y_label,
+              const figures::FigureRange& x, const figures::FigureRange& y, const figures::FigureCanvas& canvas = {}) {
     figures_.push_back(
         {folder_ / (sketch.stem() + ".png"), sketch.draw(folder_, {title_, x_label, y_label}, x, y, {}, canvas)});
   }
@@ -177,26 +177,26 @@ class RunFigures {
     const Window w = last_periods(h_, output_.options.shown_periods);
     const Curve sp = over_time(h_, w, h_.column("delta_sp_1"));
     const Curve rp = over_time(h_, w, h_.column("delta_rp_1"));
-    FigureRange data = range_of(sp, 1);
+    figures::FigureRange data = range_of(sp, 1);
     for (const Row2& row : rp) data.include(row[1]);
-    const FigureRange y = y_range(data);
-    const FigureRange x{0.0, w.periods};
-    Sketch sketch("history");
+    const figures::FigureRange y = y_range(data);
+    const figures::FigureRange x{0.0, w.periods};
+    figures::Sketch sketch("history");
     // Flanks in the colour of their mesh, or grey where both meshes have the same.
     const bool same = output_.half_gap_sp == output_.half_gap_rp;
     const auto flanks = [&](double gap, std::string_view colour, const std::string& name) {
       bool seen = false;
       for (const double flank : {gap, -gap}) {
         if (flank < y.low || flank > y.high) continue;
-        sketch.add(Curve{{x.low, flank}, {x.high, flank}}, dashed(colour, 1.2, fine_dash));
+        sketch.add(Curve{{x.low, flank}, {x.high, flank}}, figures::dashed(colour, 1.2, fine_dash));
         seen = true;
       }
-      if (seen) sketch.entry(dashed(colour, 1.2, fine_dash), name);
+      if (seen) sketch.entry(figures::dashed(colour, 1.2, fine_dash), name);
     };
     flanks(output_.half_gap_sp, same ? dark_grey : blue, same ? "flanks  ±b" : "flanks  ±b_{sp}");
     if (!same) flanks(output_.half_gap_rp, red, "flanks  ±b_{rp}");
-    sketch.add(sp, solid(blue), "δ_{sp,1}");
-    sketch.add(rp, solid(red), "δ_{rp,1}");
+    sketch.add(sp, figures::solid(blue), "δ_{sp,1}");
+    sketch.add(rp, figures::solid(red), "δ_{rp,1}");
     finish(sketch, std::string(time_label), "Deflection  δ / b_c", x, y);
   }
 
@@ -205,49 +205,49 @@ class RunFigures {
     const Window w = portrait_window();
     const Curve curve = portrait(w);
     const Curve points = section(w.first);
-    const FigureRange x = y_range(range_of(curve, 0));
-    const FigureRange y = y_range(range_of(curve, 1));
-    Sketch sketch("phase_portrait");
+    const figures::FigureRange x = y_range(range_of(curve, 0));
+    const figures::FigureRange y = y_range(range_of(curve, 1));
+    figures::Sketch sketch("phase_portrait");
     add_flanks(sketch, x, y);
-    sketch.add(curve, periodic() ? solid(blue) : solid("#7f8db5", 0.7),
+    sketch.add(curve, periodic() ? figures::solid(blue) : figures::solid("#7f8db5", 0.7),
                mesh_periods(periodic() ? result_.point.period : static_cast<int>(w.periods)));
-    sketch.add(points, dots(red, periodic() ? 1.3 : 0.7), "at whole mesh periods");
+    sketch.add(points, figures::dots(red, periodic() ? 1.3 : 0.7), "at whole mesh periods");
     finish(sketch, delta_label, rate_label, x, y);
   }
 
   /// Where contact begins and ends, as vertical lines.
-  void add_flanks(Sketch& sketch, const FigureRange& x, const FigureRange& y) const {
+  void add_flanks(figures::Sketch& sketch, const figures::FigureRange& x, const figures::FigureRange& y) const {
     bool seen = false;
     for (const double flank : {output_.half_gap_sp, -output_.half_gap_sp}) {
       if (flank < x.low || flank > x.high) continue;
-      sketch.add(Curve{{flank, y.low}, {flank, y.high}}, dashed(dark_grey, 1.2, fine_dash));
+      sketch.add(Curve{{flank, y.low}, {flank, y.high}}, figures::dashed(dark_grey, 1.2, fine_dash));
       seen = true;
     }
-    if (seen) sketch.entry(dashed(dark_grey, 1.2, fine_dash), "flanks  ±b_{sp}");
+    if (seen) sketch.entry(figures::dashed(dark_grey, 1.2, fine_dash), "flanks  ±b_{sp}");
   }
 
   void poincare_section() {
     if (!has_column(h_, "delta_sp_1") || !has_column(h_, "delta_sp_1_rate")) return;
     const Curve points = section(0);
     if (points.empty()) return;
-    Sketch sketch("poincare_section");
-    FigureRange x = range_of(points, 0);
-    FigureRange y = range_of(points, 1);
+    figures::Sketch sketch("poincare_section");
+    figures::FigureRange x = range_of(points, 0);
+    figures::FigureRange y = range_of(points, 1);
     const Window w = portrait_window();
     const Curve motion = portrait(w);
-    const FigureRange wide_x = range_of(motion, 0);
-    const FigureRange wide_y = range_of(motion, 1);
+    const figures::FigureRange wide_x = range_of(motion, 0);
+    const figures::FigureRange wide_y = range_of(motion, 1);
     if (periodic()) {
       // A few points have no extent of their own: they stand where they are on the orbit.
       x = wide_x;
       y = wide_y;
-      sketch.add(motion, solid(light_grey, 1.5), "the orbit");
-      sketch.add(points, dots(blue, 2.0), "at whole mesh periods");
+      sketch.add(motion, figures::solid(light_grey, 1.5), "the orbit");
+      sketch.add(points, figures::dots(blue, 2.0), "at whole mesh periods");
     } else {
       constexpr double part = 0.05;  // of the portrait's extent
       x = no_narrower(x, part * (wide_x.high - wide_x.low));
       y = no_narrower(y, part * (wide_y.high - wide_y.low));
-      sketch.add(points, dots(blue, points.size() > 2000 ? 0.3 : 0.6));
+      sketch.add(points, figures::dots(blue, points.size() > 2000 ? 0.3 : 0.6));
     }
     finish(sketch, std::string(delta_label) + "  at whole mesh periods", rate_label, y_range(x), y_range(y));
   }
@@ -256,13 +256,13 @@ class RunFigures {
     Curve points;
     for (std::size_t k = 0; k < result_.crossing_phase.size(); ++k)
       points.push_back({result_.crossing_phase[k] / (2.0 * std::numbers::pi), result_.crossing_rate[k]});
-    Sketch sketch("poincare_crossing");
-    sketch.add(points, dots(blue, periodic() ? 2.0 : points.size() > 2000 ? 0.3 : 0.6));
+    figures::Sketch sketch("poincare_crossing");
+    sketch.add(points, figures::dots(blue, periodic() ? 2.0 : points.size() > 2000 ? 0.3 : 0.6));
     // From rest, which is what a touch without impact has.
-    FigureRange y{0.0, 0.0};
+    figures::FigureRange y{0.0, 0.0};
     for (const Row2& point : points) y.include(point[1]);
     finish(sketch, "Phase at which contact is made  s / 2π", "Rate on contact  dδ_{sp,1}/dτ / b_c", {0.0, 1.0},
-           {0.0, y.high * (1.0 + figure_margin)});
+           {0.0, y.high * (1.0 + figures::figure_margin)});
   }
 
   void spectrum(const SignalSpectrum& s, std::string_view stem, const std::string& label) {
@@ -296,9 +296,9 @@ class RunFigures {
     }
     for (const Curve* curve : {&mesh, &between})
       for (const Row2& row : *curve) smallest = std::min(smallest, std::max(row[1], deepest * largest));
-    const FigureRange y{std::pow(10.0, std::floor(std::log10(smallest) - 0.1)),
-                        std::pow(10.0, std::log10(largest) + 0.09 * std::log10(largest / smallest) + 0.2)};
-    Sketch sketch(stem);
+    const figures::FigureRange y{std::pow(10.0, std::floor(std::log10(smallest) - 0.1)),
+                                 std::pow(10.0, std::log10(largest) + 0.09 * std::log10(largest / smallest) + 0.2)};
+    figures::Sketch sketch(stem);
     sketch.command("set logscale y\nset mytics 10\nset format y '10^{%T}'\nset xtics 1");
     if (lines) {
       const auto impulses = [](std::string_view colour) {
@@ -309,13 +309,13 @@ class RunFigures {
       sketch.add(between, impulses(red), both ? "between them" : "");
       label_lines(sketch, s, highest);
     } else {
-      sketch.add(mesh, solid(blue, 1.2));
+      sketch.add(mesh, figures::solid(blue, 1.2));
     }
     finish(sketch, "Frequency  f / f_m", label, {0.0, highest}, y);
   }
 
   /// Ratios over the strongest lines, where there is room beside a stronger one's.
-  static void label_lines(Sketch& sketch, const SignalSpectrum& s, double highest) {
+  static void label_lines(figures::Sketch& sketch, const SignalSpectrum& s, double highest) {
     constexpr std::size_t most = 8;
     constexpr double room = 0.25;  // mesh frequencies
     std::vector<double> taken;
@@ -327,8 +327,8 @@ class RunFigures {
       sketch.command(
           fmt::format("set label {} at first {}, first {} center offset character 0,0.7 font ',20' "
                       "textcolor '{}'",
-                      gnuplot_quoted(line.label), figure_number(line.frequency), figure_number(line.amplitude),
-                      line.of_mesh ? blue : red));
+                      figures::gnuplot_quoted(line.label), figures::figure_number(line.frequency),
+                      figures::figure_number(line.amplitude), line.of_mesh ? blue : red));
     }
   }
 
@@ -336,9 +336,9 @@ class RunFigures {
     const analysis::LyapunovSpectrum& e = result_.exponents;
     constexpr std::size_t most = 4;
     const double interval = e.interval / (2.0 * std::numbers::pi);
-    Sketch sketch("exponents");
-    FigureRange x{0.0, static_cast<double>(e.growth.size() / e.exponents) * interval};
-    FigureRange y;
+    figures::Sketch sketch("exponents");
+    figures::FigureRange x{0.0, static_cast<double>(e.growth.size() / e.exponents) * interval};
+    figures::FigureRange y;
     const analysis::Estimate& first = e.per_s.front();
     const double low = first.low() * result_.omega;
     const double high = first.high() * result_.omega;
@@ -359,15 +359,15 @@ class RunFigures {
         // The first means swing widely; what the figure is about comes later.
         if (4 * k >= mean.size()) y.include(curve.back()[1]);
       }
-      sketch.add(curve, solid(planet_colours[i], i == 0 ? 2.5 : 1.8));
+      sketch.add(curve, figures::solid(planet_colours[i], i == 0 ? 2.5 : 1.8));
     }
     // Zero, which divides, is shown unless that would leave more of the figure empty than there is in it.
-    FigureRange with_zero = y;
+    figures::FigureRange with_zero = y;
     with_zero.include(0.0);
     if (with_zero.high - with_zero.low <= 2.0 * (y.high - y.low)) y = with_zero;
-    if (y.low <= 0.0 && y.high >= 0.0) sketch.add(Curve{{x.low, 0.0}, {x.high, 0.0}}, solid(light_grey, 1));
+    if (y.low <= 0.0 && y.high >= 0.0) sketch.add(Curve{{x.low, 0.0}, {x.high, 0.0}}, figures::solid(light_grey, 1));
     for (std::size_t i = 0; i < shown; ++i)
-      sketch.entry(solid(planet_colours[i], i == 0 ? 2.5 : 1.8), fmt::format("λ_{}", i + 1));
+      sketch.entry(figures::solid(planet_colours[i], i == 0 ? 2.5 : 1.8), fmt::format("λ_{}", i + 1));
     finish(sketch, "Mesh periods counted", "Running mean of the exponents  λ_i  [1/τ]", x, y_range(y));
   }
 
@@ -386,15 +386,15 @@ class RunFigures {
     Curve critical{inside[m.critical]};
     // Its conjugate is as near to the circle.
     if (critical[0][1] != 0.0) critical.push_back({critical[0][0], -critical[0][1]});
-    Sketch sketch("multipliers");
+    figures::Sketch sketch("multipliers");
     sketch.command("set size ratio -1");
-    sketch.add(Curve{{-reach, 0.0}, {reach, 0.0}}, solid(light_grey, 1));
-    sketch.add(Curve{{0.0, -reach}, {0.0, reach}}, solid(light_grey, 1));
-    sketch.add(circle, solid(dark_grey, 1.5));
-    sketch.add(inside, dots(blue, 1.2));
-    sketch.add(critical, dots(red, 1.7),
+    sketch.add(Curve{{-reach, 0.0}, {reach, 0.0}}, figures::solid(light_grey, 1));
+    sketch.add(Curve{{0.0, -reach}, {0.0, reach}}, figures::solid(light_grey, 1));
+    sketch.add(circle, figures::solid(dark_grey, 1.5));
+    sketch.add(inside, figures::dots(blue, 1.2));
+    sketch.add(critical, figures::dots(red, 1.7),
                fmt::format("nearest to the circle:  |μ| = {:.4f}", std::abs(m.values[m.critical])));
-    finish(sketch, "Re μ", "Im μ", {-reach, reach}, {-reach, reach}, square_canvas);
+    finish(sketch, "Re μ", "Im μ", {-reach, reach}, {-reach, reach}, figures::square_canvas);
   }
 
   void contact() {
@@ -412,7 +412,8 @@ class RunFigures {
       const std::vector<double> delta = h_.column(fmt::format("delta_{}_{}", sun ? "sp" : "rp", planet + 1));
       const double gap = sun ? output_.half_gap_sp : output_.half_gap_rp;
       const double y = static_cast<double>(2 * n - 1 - row);
-      tics += fmt::format("{}'{}_{}' {}", row > 0 ? ", " : "", sun ? "sp" : "rp", planet + 1, figure_number(y));
+      tics +=
+          fmt::format("{}'{}_{}' {}", row > 0 ? ", " : "", sun ? "sp" : "rp", planet + 1, figures::figure_number(y));
       const auto side = [&](std::size_t k) { return model::DynamicModel::contact(delta[k], gap); };
       for (std::size_t k = w.first; k < w.rows;) {
         std::size_t end = k;
@@ -426,7 +427,7 @@ class RunFigures {
     }
     constexpr std::array<std::string_view, 3> colours{drive_colour, loss_colour, back_colour};
     constexpr std::array<std::string_view, 3> names{"drive flank", "contact lost", "back flank"};
-    Sketch sketch("contact");
+    figures::Sketch sketch("contact");
     sketch.command(fmt::format("set ytics ({}) scale 0\nset mytics 1", tics));
     for (std::size_t k = 0; k < 3; ++k) {
       sketch.add(boxes[k], fmt::format("boxxyerror fillstyle solid 1.0 noborder linecolor '{}'", colours[k]));
@@ -455,14 +456,14 @@ class RunFigures {
     if (n == 0 || !(result_.static_force > 0.0) || !has_column(h_, "force_sp_1") || !has_column(h_, "force_rp_1"))
       return;
     const Window w = last_periods(h_, output_.options.shown_periods);
-    Sketch sketch("mesh_force");
+    figures::Sketch sketch("mesh_force");
     // Synchronous planets are one curve for each mesh; others have a frame for each mesh.
     const bool one = planets_coincide("force_sp", n, w) && planets_coincide("force_rp", n, w);
-    FigureRange both;
+    figures::FigureRange both;
     for (const char* mesh : {"sp", "rp"}) {
       const bool sun = mesh[0] == 's';
       std::vector<Curve> curves;
-      FigureRange y;
+      figures::FigureRange y;
       for (std::size_t i = 0; i < (one ? 1 : n); ++i) {
         std::vector<double> force = h_.column(fmt::format("force_{}_{}", mesh, i + 1));
         for (double& f : force) f /= result_.static_force;
@@ -473,7 +474,7 @@ class RunFigures {
       both.include(y.high);
       if (!one) sketch.panel(fmt::format("F_{{{}}} / F_0", mesh), y_range(y));
       for (std::size_t i = 0; i < curves.size(); ++i)
-        sketch.add(curves[i], solid(one && !sun ? red : planet_colours[i % planet_colours.size()]),
+        sketch.add(curves[i], figures::solid(one && !sun ? red : planet_colours[i % planet_colours.size()]),
                    one   ? fmt::format("F_{{{}}}, all planets", mesh)
                    : sun ? fmt::format("planet {}", i + 1)
                          : std::string());

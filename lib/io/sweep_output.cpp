@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/csv.hpp"
-#include "io/bifurcation_figure.hpp"
+#include "figures/bifurcation_figure.hpp"
 #include "io/hdf5_file.hpp"
 
 namespace epicyclic::io {
@@ -78,9 +78,10 @@ std::optional<std::string> stem_of(const SweepOutput& output, SweepFigure figure
 /// Of the Poincare section.
 const char* column_of(SweepFigure figure) { return figure == SweepFigure::delta_rp ? "delta_rp_1" : "delta_sp_1"; }
 
-FigureText text_of(const SweepOutput& output, SweepFigure figure) {
-  FigureText text{literal_text(output.title), parameter_label(output.sweep.parameter),
-                  fmt::format("Poincaré points of  δ_{{{}}} / b_c", figure == SweepFigure::delta_rp ? "rp" : "sp")};
+figures::FigureText text_of(const SweepOutput& output, SweepFigure figure) {
+  figures::FigureText text{
+      figures::literal_text(output.title), parameter_label(output.sweep.parameter),
+      fmt::format("Poincaré points of  δ_{{{}}} / b_c", figure == SweepFigure::delta_rp ? "rp" : "sp")};
   if (shows_regimes(figure)) text.title += ", " + direction_word(output.sweep.directions[direction_of(figure)]);
   return text;
 }
@@ -90,16 +91,42 @@ std::size_t points_each_way(const SweepOutput& output, const PointSource& points
   return points.count / output.sweep.directions.size();
 }
 
+/// Distinct in print, in grey and for colour-blind eyes (after Okabe and Ito). A multiplier's logarithm has intervals
+/// far wider than what is looked at where it is next to nothing.
+const std::vector<figures::PointClass>& classes() {
+  static const std::vector<figures::PointClass> all = {{"period 1", "#12285c", false},
+                                                       {"period 2 and more", "#3f8fd0", false},
+                                                       {"quasiperiodic", "#1b8a6b"},
+                                                       {"chaotic", "#c8553d"},
+                                                       {"undecided", "#8a8a8a"}};
+  return all;
+}
+
+std::size_t class_of(const PointResult& r) {
+  switch (r.regime) {
+    case analysis::Regime::periodic:
+      return r.period <= 1 ? 0 : 1;
+    case analysis::Regime::quasiperiodic:
+      return 2;
+    case analysis::Regime::chaotic:
+      return 3;
+    case analysis::Regime::undecided:
+      break;
+  }
+  return 4;
+}
+
 /// Points along one direction as a figure takes them; `points` must live longer.
 auto section(const SweepOutput& output, const PointSource& points, std::size_t direction, SweepFigure figure) {
   const auto& columns = output.poincare_columns;
   const auto column =
       static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column_of(figure)) - columns.begin());
   return [&points, column,
-          first = direction * points_each_way(output, points)](std::size_t i) -> std::optional<RegimePoint> {
+          first = direction * points_each_way(output, points)](std::size_t i) -> std::optional<figures::ClassPoint> {
     const PointResult r = points.read(first + i);
     if (!ok(r)) return std::nullopt;
-    RegimePoint p{{r.point.value, {}}, r.regime, r.period, r.lyapunov_max()};
+    const analysis::Estimate exponent = r.lyapunov_max();
+    figures::ClassPoint p{{r.point.value, {}}, class_of(r), exponent.value, exponent.half_width};
     for (std::size_t k = 0; k < r.poincare_rows(); ++k)
       p.section.push_back(r.poincare[k * r.poincare_columns + column]);
     return p;
@@ -131,12 +158,13 @@ std::string regime_word(const PointResult& r) { return ok(r) ? to_string(r.regim
 
 std::string parameter_label(const std::string& parameter) {
   const ParameterText* text = text_of(parameter);
-  return text == nullptr ? literal_text(parameter) : fmt::format("{}  {}{}", text->words, text->symbol, text->unit);
+  return text == nullptr ? figures::literal_text(parameter)
+                         : fmt::format("{}  {}{}", text->words, text->symbol, text->unit);
 }
 
 std::string parameter_symbol(const std::string& parameter) {
   const ParameterText* text = text_of(parameter);
-  return text == nullptr ? literal_text(parameter) : text->symbol;
+  return text == nullptr ? figures::literal_text(parameter) : text->symbol;
 }
 
 std::string status_word(integrate::Outcome outcome) {
@@ -373,28 +401,29 @@ std::optional<DrawnFigure> write_sweep_figure(const std::filesystem::path& folde
                                               const PointSource& points, SweepFigure figure) {
   const auto stem = stem_of(output, figure);
   if (!stem) return std::nullopt;
-  const FigureText text = text_of(output, figure);
-  FigureOutcome outcome;
+  const figures::FigureText text = text_of(output, figure);
+  figures::FigureOutcome outcome;
   if (shows_regimes(figure)) {
-    outcome = regime_figure(folder, *stem, text, points_each_way(output, points),
-                            section(output, points, direction_of(figure), figure), Pictures::none);
+    outcome = figures::class_bifurcation_figure(
+        folder, *stem, text, "Exponent  λ_1 / ω_{sn}", classes(), points_each_way(output, points),
+        section(output, points, direction_of(figure), figure), figures::Pictures::none);
   } else {
-    std::vector<BifurcationSeries> series;
+    std::vector<figures::BifurcationSeries> series;
     for (std::size_t d = 0; d < output.sweep.directions.size(); ++d)
       series.push_back({direction_word(output.sweep.directions[d]), points_each_way(output, points),
                         section(output, points, d, figure)});
-    outcome = bifurcation_figure(folder, *stem, text, series, {}, Pictures::none);
+    outcome = figures::bifurcation_figure(folder, *stem, text, series, {}, figures::Pictures::none);
   }
   if (outcome.drawn()) return std::nullopt;
   return DrawnFigure{folder / (*stem + ".png"), outcome};
 }
 
 std::optional<DrawnFigure> draw_sweep_picture(const std::filesystem::path& folder, const SweepOutput& output,
-                                              SweepFigure figure, Pictures picture) {
+                                              SweepFigure figure, figures::Pictures picture) {
   const auto stem = stem_of(output, figure);
   if (!stem || !std::filesystem::exists(folder / (*stem + ".gp"))) return std::nullopt;
-  return DrawnFigure{folder / (*stem + (picture == Pictures::svg ? ".svg" : ".png")),
-                     draw_pictures(folder, *stem, picture)};
+  return DrawnFigure{folder / (*stem + (picture == figures::Pictures::svg ? ".svg" : ".png")),
+                     figures::draw_pictures(folder, *stem, picture)};
 }
 
 }  // namespace epicyclic::io

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "io/gnuplot.hpp"
+#include "figures/gnuplot.hpp"
 #include "io/hdf5_file.hpp"
 #include "studies/sweep.hpp"
 
@@ -68,7 +68,7 @@ void write_point_columns(Hdf5File& h5, const PointSource& points);
 
 struct DrawnFigure {
   std::filesystem::path file;  ///< the PNG picture, as a rule
-  FigureOutcome outcome;
+  figures::FigureOutcome outcome;
 };
 
 /// The figures of a sweep: bifurcation diagrams of the meshes of planet 1, and of its sun mesh coloured by regime, one
@@ -88,6 +88,6 @@ enum class SweepFigure { delta_sp, delta_rp, regimes_first, regimes_second };
 /// @throws OutputError
 [[nodiscard]] std::optional<DrawnFigure> draw_sweep_picture(const std::filesystem::path& folder,
                                                             const SweepOutput& output, SweepFigure figure,
-                                                            Pictures picture);
+                                                            figures::Pictures picture);
 
 }  // namespace epicyclic::io

@@ -11,7 +11,7 @@
 #include "core/atomic_file.hpp"
 #include "core/csv.hpp"
 #include "core/text.hpp"
-#include "io/line_figure.hpp"
+#include "figures/line_figure.hpp"
 
 namespace epicyclic::io {
 
@@ -75,12 +75,12 @@ std::map<Key, Mean> means(const ToleranceOutput& output, const std::vector<Toler
 }
 
 template <class X>
-std::vector<FigureCurve> ladder_curves(const ToleranceOutput& output, const std::vector<TolerancePoint>& points,
-                                       const X& abscissa) {
+std::vector<figures::FigureCurve> ladder_curves(const ToleranceOutput& output,
+                                                const std::vector<TolerancePoint>& points, const X& abscissa) {
   const std::map<Key, Mean> all = means(output, points);
-  std::vector<FigureCurve> curves;
+  std::vector<figures::FigureCurve> curves;
   for (const std::string& method : output.options.methods) {
-    FigureCurve curve{literal_text(method), {}, {}, false, true};
+    figures::FigureCurve curve{figures::literal_text(method), {}, {}, false, true};
     for (const double tolerance : output.options.tolerances) {
       const auto m = all.find({method, tolerance});
       if (m == all.end()) continue;
@@ -245,13 +245,14 @@ std::string write_tolerance_tables(const std::filesystem::path& folder, const To
 std::vector<DrawnFigure> draw_tolerance_figures(const std::filesystem::path& folder, const ToleranceOutput& output,
                                                 const std::vector<TolerancePoint>& points) {
   std::vector<DrawnFigure> figures;
-  const std::string title = literal_text(output.sweep.title);
-  const FigureAxes logarithmic{.log_x = true, .log_y = true};
+  const std::string title = figures::literal_text(output.sweep.title);
+  const figures::FigureAxes logarithmic{.log_x = true, .log_y = true};
   const std::string error_label = "Error of the flow over one orbit  [b_c, b_c/τ]";
   const auto draw = [&](const std::string& stem, const std::string& x, const std::string& y,
-                        const std::vector<FigureCurve>& curves) {
+                        const std::vector<figures::FigureCurve>& curves) {
     if (curves.empty()) return;
-    figures.push_back({folder / (stem + ".png"), line_figure(folder, stem, {title, x, y}, curves, logarithmic)});
+    figures.push_back(
+        {folder / (stem + ".png"), figures::line_figure(folder, stem, {title, x, y}, curves, logarithmic)});
   };
   draw("work_precision", "Right-hand sides per mesh period", error_label,
        ladder_curves(output, points, [](const Mean& m, double) { return std::exp(m.log_cost / m.count); }));
@@ -260,14 +261,14 @@ std::vector<DrawnFigure> draw_tolerance_figures(const std::filesystem::path& fol
   draw("error_over_tolerance", "Relative tolerance", error_label,
        ladder_curves(output, points, [](const Mean&, double tolerance) { return tolerance; }));
 
-  std::vector<FigureCurve> bias;
+  std::vector<figures::FigureCurve> bias;
   for (const TolerancePoint& p : points) {
-    FigureCurve curve{fmt::format("{} = {}, period {}", parameter_symbol(output.sweep.sweep.parameter),
-                                  short_text(p.point.value, 6), p.period),
-                      {},
-                      {},
-                      false,
-                      true};
+    figures::FigureCurve curve{fmt::format("{} = {}, period {}", parameter_symbol(output.sweep.sweep.parameter),
+                                           short_text(p.point.value, 6), p.period),
+                               {},
+                               {},
+                               false,
+                               true};
     for (const SmoothingStep& s : p.smoothing) {
       if (!s.found || !(s.distance > 0.0)) continue;  // without contact loss a smooth clearance changes nothing
       curve.x.push_back(s.width);
@@ -279,8 +280,8 @@ std::vector<DrawnFigure> draw_tolerance_figures(const std::filesystem::path& fol
        bias);
 
   for (const TolerancePoint& p : points) {
-    FigureCurve value{"largest exponent", {}, {}, true};
-    FigureCurve interval{"95 % interval", {}, {}, false};
+    figures::FigureCurve value{"largest exponent", {}, {}, true};
+    figures::FigureCurve interval{"95 % interval", {}, {}, false};
     for (const StatisticsStep& s : p.statistics) {
       if (s.method != output.integrator.method || s.width != p.statistics.front().width ||
           s.outcome != integrate::Outcome::reached)
@@ -295,9 +296,10 @@ std::vector<DrawnFigure> draw_tolerance_figures(const std::filesystem::path& fol
     }
     if (value.x.size() < 2) continue;
     const std::string stem = fmt::format("exponent_{}", p.point.index);
-    figures.push_back({folder / (stem + ".png"),
-                       line_figure(folder, stem, {title, "Relative tolerance", "Largest Lyapunov exponent  λ [1/τ]"},
-                                   {interval, value}, {.log_x = true, .log_y = false})});
+    figures.push_back(
+        {folder / (stem + ".png"),
+         figures::line_figure(folder, stem, {title, "Relative tolerance", "Largest Lyapunov exponent  λ [1/τ]"},
+                              {interval, value}, {.log_x = true, .log_y = false})});
   }
   return figures;
 }

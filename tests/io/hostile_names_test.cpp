@@ -14,13 +14,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "figures/bifurcation_figure.hpp"
+#include "figures/cell_figure.hpp"
+#include "figures/gnuplot.hpp"
+#include "figures/line_figure.hpp"
+#include "figures/sketch.hpp"
 #include "gnuplot_guard.hpp"
-#include "io/bifurcation_figure.hpp"
-#include "io/cell_figure.hpp"
 #include "io/gear_figures.hpp"
-#include "io/gnuplot.hpp"
-#include "io/line_figure.hpp"
-#include "io/sketch.hpp"
 #include "problems/lin_parker.hpp"
 #include "temporary_folder.hpp"
 
@@ -104,54 +104,60 @@ std::string text_of_svg(const std::string& svg) {
 
 const std::vector<double> values{1.0, 2.0, 3.0};
 
-std::optional<RegimePoint> regime_point(std::size_t i) {
-  return RegimePoint{{values[i], {0.5, values[i]}}, analysis::Regime::periodic, 2, {-0.1, 0.01}};
+std::optional<figures::ClassPoint> class_point(std::size_t i) {
+  return figures::ClassPoint{{values[i], {0.5, values[i]}}, 0, -0.1, 0.01};
 }
 
-BifurcationSeries series(const std::string& label) {
-  return {label, values.size(), [](std::size_t i) { return std::optional<SectionPoint>(regime_point(i)); }};
+figures::BifurcationSeries series(const std::string& label) {
+  return {label, values.size(), [](std::size_t i) { return std::optional<figures::SectionPoint>(class_point(i)); }};
 }
 
 /// Each kind of drawing with a text that somebody has typed wherever one can stand.
 struct Drawing {
   const char* kind;
-  std::function<FigureOutcome(const std::filesystem::path& folder, const std::string& name)> draw;
+  std::function<figures::FigureOutcome(const std::filesystem::path& folder, const std::string& name)> draw;
 };
 
-FigureText text_of(const std::string& name) { return {literal_text(name), literal_text(name), literal_text(name)}; }
+figures::FigureText text_of(const std::string& name) {
+  return {figures::literal_text(name), figures::literal_text(name), figures::literal_text(name)};
+}
 
 const std::vector<Drawing>& drawings() {
   static const std::vector<Drawing> all = {
       {"line",
        [](const std::filesystem::path& folder, const std::string& name) {
-         return line_figure(folder, "a", text_of(name), {{literal_text(name), values, values, false}}, {},
-                            {{2.0, literal_text(name)}});
+         return figures::line_figure(folder, "a", text_of(name), {{figures::literal_text(name), values, values, false}},
+                                     {}, {{2.0, figures::literal_text(name)}});
        }},
       {"bifurcation",
        [](const std::filesystem::path& folder, const std::string& name) {
-         return bifurcation_figure(folder, "a", text_of(name), {series(literal_text(name)), series("down")});
+         return figures::bifurcation_figure(folder, "a", text_of(name),
+                                            {series(figures::literal_text(name)), series("down")});
        }},
       {"regimes",
        [](const std::filesystem::path& folder, const std::string& name) {
-         return regime_figure(folder, "a", text_of(name), values.size(), regime_point);
+         return figures::class_bifurcation_figure(folder, "a", text_of(name), figures::literal_text(name),
+                                                  {{figures::literal_text(name), "#12285c"}}, values.size(),
+                                                  class_point);
        }},
       {"classes",
        [](const std::filesystem::path& folder, const std::string& name) {
-         return class_figure(folder, "a", text_of(name), {values, values}, {{literal_text(name), "#12285c"}},
-                             std::vector<std::size_t>(9, 0));
+         return figures::class_figure(folder, "a", text_of(name), {values, values},
+                                      {{figures::literal_text(name), "#12285c"}}, std::vector<std::size_t>(9, 0));
        }},
       {"values",
        [](const std::filesystem::path& folder, const std::string& name) {
-         return value_figure(folder, "a", text_of(name), {values, values}, literal_text(name), literal_text(name),
-                             {1, 2, 3, 4, 5, 6, 7, 8, std::numeric_limits<double>::quiet_NaN()});
+         return figures::value_figure(folder, "a", text_of(name), {values, values}, figures::literal_text(name),
+                                      figures::literal_text(name),
+                                      {1, 2, 3, 4, 5, 6, 7, 8, std::numeric_limits<double>::quiet_NaN()});
        }},
       {"panels",
        [](const std::filesystem::path& folder, const std::string& name) {
-         Sketch sketch("a");
+         figures::Sketch sketch("a");
          for (int panel = 0; panel < 2; ++panel) {
-           sketch.panel(literal_text(name), {0.0, 4.0});
+           sketch.panel(figures::literal_text(name), {0.0, 4.0});
            sketch.add(std::vector<std::array<double, 2>>{{1.0, 1.0}, {3.0, 3.0}}, "lines",
-                      panel == 0 ? literal_text(name) : "");
+                      panel == 0 ? figures::literal_text(name) : "");
          }
          return sketch.draw(folder, text_of(name), {0.0, 4.0}, {});
        }},
@@ -164,7 +170,7 @@ const std::vector<Drawing>& drawings() {
          for (const char* suffix : {".svg", ".png"})
            std::filesystem::copy_file(folder / (std::string("campbell") + suffix),
                                       folder / (std::string("a") + suffix));
-         return FigureOutcome{};
+         return figures::FigureOutcome{};
        }},
   };
   return all;
@@ -172,7 +178,7 @@ const std::vector<Drawing>& drawings() {
 
 void expect_drawn(const Drawing& drawing, const Name& name) {
   const TemporaryFolder folder;
-  const FigureOutcome outcome = drawing.draw(folder / "figures", name.typed);
+  const figures::FigureOutcome outcome = drawing.draw(folder / "figures", name.typed);
   const std::string what = fmt::format("{} of [{}]", drawing.kind, name.typed.substr(0, 80));
   EXPECT_TRUE(outcome.drawn()) << what << ": " << outcome.message;
   if (!outcome.drawn()) return;
@@ -201,16 +207,16 @@ TEST(HostileNames, EachKindOfDrawingStandsTheWorst) {
 }
 
 TEST(HostileNames, ShowTheirEndsWhereTheyAreTooLong) {
-  EXPECT_EQ(literal_text(std::string(30, 'n')), std::string(30, 'n'));
-  const std::string shown = literal_text("begin" + std::string(5000, 'n') + "end");
+  EXPECT_EQ(figures::literal_text(std::string(30, 'n')), std::string(30, 'n'));
+  const std::string shown = figures::literal_text("begin" + std::string(5000, 'n') + "end");
   EXPECT_TRUE(shown.starts_with("beginnn")) << shown;
   EXPECT_TRUE(shown.ends_with("nnend")) << shown;
-  EXPECT_LT(text_width(shown), 50.0);
+  EXPECT_LT(figures::text_width(shown), 50.0);
 }
 
 TEST(HostileNames, AreUtf8OrAreMadeSo) {
-  EXPECT_EQ(literal_text("a\xff\xc3(b"), "a\xef\xbf\xbd\xef\xbf\xbd(b");
-  EXPECT_EQ(literal_text("\xe4\xb8"), "\xef\xbf\xbd\xef\xbf\xbd");
+  EXPECT_EQ(figures::literal_text("a\xff\xc3(b"), "a\xef\xbf\xbd\xef\xbf\xbd(b");
+  EXPECT_EQ(figures::literal_text("\xe4\xb8"), "\xef\xbf\xbd\xef\xbf\xbd");
 }
 
 TEST(HostileNames, WithoutAFontAreBoxesThatDoNotCoverTheFigure) {
@@ -218,7 +224,8 @@ TEST(HostileNames, WithoutAFontAreBoxesThatDoNotCoverTheFigure) {
   // No font has a noncharacter's neighbour, a place of a plane for private use: both files are then told apart.
   const TemporaryFolder folder;
   const auto draw = [&](const char* stem, const std::string& name) {
-    return line_figure(folder.path(), stem, {literal_text(name), "x", "y"}, {{"", values, values, false}});
+    return figures::line_figure(folder.path(), stem, {figures::literal_text(name), "x", "y"},
+                                {{"", values, values, false}});
   };
   ASSERT_TRUE(draw("rare", "a \U000ffffd b").drawn());
   ASSERT_TRUE(draw("plain", "a \ufffd b").drawn());

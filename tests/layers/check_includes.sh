@@ -9,7 +9,7 @@ set -euo pipefail
 source_dir=$1
 layer=$2
 
-layers=(core gear model integrate analysis studies io)
+layers=(core gear model integrate analysis studies figures io)
 case $layer in
   core) allowed=(core) ;;
   gear) allowed=(gear core) ;;
@@ -17,8 +17,9 @@ case $layer in
   integrate) allowed=(integrate core) ;;
   analysis) allowed=(analysis integrate core) ;;
   studies) allowed=(studies model gear analysis integrate core) ;;
-  io) allowed=(io studies model gear analysis integrate core) ;;
-  app) allowed=(io studies core) ;; # no numerics in the command
+  figures) allowed=(figures core) ;;
+  io) allowed=(io figures studies model gear analysis integrate core) ;;
+  app) allowed=(io figures studies core) ;; # no numerics in the command
   *)
     echo "no such layer: $layer" >&2
     exit 2

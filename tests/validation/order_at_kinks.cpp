@@ -19,9 +19,9 @@
 #include "analysis/periodic_orbit.hpp"
 #include "core/fit.hpp"
 #include "core/largest_difference.hpp"
+#include "figures/line_figure.hpp"
 #include "integrate/arkode_flow.hpp"
 #include "integrate/make_flow.hpp"
-#include "io/line_figure.hpp"
 #include "io/study_model.hpp"
 #include "problems/clearance_exact.hpp"
 #include "problems/known_systems.hpp"
@@ -54,10 +54,10 @@ double error_of(const Problem& p, const char* method, int n) {
 }
 
 void draw(const std::string& folder, const Problem& p) {
-  std::vector<io::FigureCurve> curves;
+  std::vector<figures::FigureCurve> curves;
   fmt::print("{}\n", p.title);
   for (const char* name : names) {
-    io::FigureCurve curve{name + 7, {}, {}, false};
+    figures::FigureCurve curve{name + 7, {}, {}, false};
     std::vector<double> x;
     std::vector<double> y;
     for (const int n : p.steps) {
@@ -76,8 +76,9 @@ void draw(const std::string& folder, const Problem& p) {
     if (x.size() > 2) fmt::print("  {:26} order {:.2f} over {} step lengths\n", name, fitted_slope(x, y), x.size());
     curves.push_back(std::move(curve));
   }
-  const auto outcome = io::line_figure(folder, p.stem, {p.title, "Steps per forcing period", "Error after one period"},
-                                       curves, {.log_x = true, .log_y = true});
+  const auto outcome =
+      figures::line_figure(folder, p.stem, {p.title, "Steps per forcing period", "Error after one period"}, curves,
+                           {.log_x = true, .log_y = true});
   if (!outcome.drawn()) fmt::print("  not drawn: {}\n", outcome.message);
 }
 

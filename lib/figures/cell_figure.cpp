@@ -1,4 +1,4 @@
-#include "io/cell_figure.hpp"
+#include "figures/cell_figure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "core/csv.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::figures {
 
 namespace {
 
@@ -200,4 +200,4 @@ FigureOutcome value_figure(const std::filesystem::path& folder, std::string_view
                      figure_script(stem, text, span_of(grid.x), span_of(grid.y), {}, {}, extra, plot));
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::figures

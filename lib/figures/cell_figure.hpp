@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "io/gnuplot.hpp"
+#include "figures/gnuplot.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::figures {
 
 /// Centres of the cells along both axes.
 struct CellGrid {
@@ -41,4 +41,4 @@ FigureOutcome value_figure(const std::filesystem::path& folder, std::string_view
                            const CellGrid& grid, const std::string& bar_label, const std::string& grey_label,
                            const std::vector<double>& cells);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::figures

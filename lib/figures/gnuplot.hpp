@@ -22,7 +22,7 @@
 
 #include "core/atomic_file.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::figures {
 
 /// What became of a figure. `message` is empty if it was drawn, else it says in one line why not.
 struct FigureOutcome {
@@ -135,4 +135,4 @@ FigureOutcome draw_figure(const std::filesystem::path& folder, std::string_view 
                           const std::function<void(AtomicFile&)>& write_data, std::string_view script,
                           Pictures which = Pictures::both);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::figures

@@ -1,4 +1,4 @@
-#include "io/line_figure.hpp"
+#include "figures/line_figure.hpp"
 
 #include <array>
 #include <cmath>
@@ -8,9 +8,9 @@
 
 #include "core/csv.hpp"
 #include "core/text.hpp"
-#include "io/sketch.hpp"
+#include "figures/sketch.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::figures {
 
 namespace {
 
@@ -117,4 +117,4 @@ FigureOutcome line_figure(const std::filesystem::path& folder, std::string_view 
   return draw_figure(folder, stem, data, figure_script(stem, text, x, y, legend, markers, extra, plot));
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::figures

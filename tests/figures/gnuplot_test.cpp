@@ -1,4 +1,4 @@
-#include "io/gnuplot.hpp"
+#include "figures/gnuplot.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -15,12 +15,12 @@
 #include <unistd.h>
 
 #include "core/errors.hpp"
+#include "figures/bifurcation_figure.hpp"
+#include "figures/line_figure.hpp"
 #include "gnuplot_guard.hpp"
-#include "io/bifurcation_figure.hpp"
-#include "io/line_figure.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::figures {
 namespace {
 
 using test::contents;
@@ -473,4 +473,4 @@ TEST(LineFigure, WrongCurvesAreRefused) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::figures

@@ -13,10 +13,9 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/regime.hpp"
-#include "io/gnuplot.hpp"
+#include "figures/gnuplot.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::figures {
 
 /// One value of the parameter with the section's values over it.
 struct SectionPoint {
@@ -43,19 +42,29 @@ FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::strin
                                  const std::vector<BifurcationSeries>& series,
                                  const std::vector<FigureMarker>& markers = {}, Pictures which = Pictures::both);
 
-/// One value of the parameter with what its motion is.
-struct RegimePoint : SectionPoint {
-  analysis::Regime regime = analysis::Regime::undecided;
-  int period = 0;               ///< n, if periodic
-  analysis::Estimate exponent;  ///< largest, per tau; drawn if finite
+/// What a point belongs to, with its place in the legend.
+struct PointClass {
+  std::string label;
+  std::string colour;           ///< as "#12285c"
+  bool interval_counts = true;  ///< whether intervals of its values widen the ordinate
 };
 
-/// The bifurcation diagram coloured by regime, and under it on the same axis the largest Lyapunov exponent with its
-/// interval. Files, ranges and outcome as above.
-/// @param at  as in BifurcationSeries
-/// @throws OutputError, std::invalid_argument for a stem that is not a plain file name
-FigureOutcome regime_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
-                            std::size_t count, const std::function<std::optional<RegimePoint>(std::size_t i)>& at,
-                            Pictures which = Pictures::both);
+/// One value of the parameter, its class, and a number that is known to within an interval.
+struct ClassPoint : SectionPoint {
+  std::size_t of_class = 0;  ///< index
+  double value = 0;          ///< drawn if finite
+  double half_width = 0;     ///< of its interval
+};
 
-}  // namespace epicyclic::io
+/// The bifurcation diagram coloured by class, and under it on the same axis the value with its interval. Files, ranges
+/// and outcome as above. Classes without a point are not in the legend, which counts the points of the others.
+/// @param value_label  of the lower ordinate
+/// @param at           as in BifurcationSeries
+/// @throws OutputError, std::invalid_argument for a stem that is not a plain file name
+FigureOutcome class_bifurcation_figure(const std::filesystem::path& folder, std::string_view stem,
+                                       const FigureText& text, const std::string& value_label,
+                                       const std::vector<PointClass>& classes, std::size_t count,
+                                       const std::function<std::optional<ClassPoint>(std::size_t i)>& at,
+                                       Pictures which = Pictures::both);
+
+}  // namespace epicyclic::figures

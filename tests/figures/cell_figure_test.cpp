@@ -1,6 +1,6 @@
 // Figures of cells: one rectangle for neighbours of one look, every cell covered, legend of what is there.
 
-#include "io/cell_figure.hpp"
+#include "figures/cell_figure.hpp"
 
 #include <limits>
 #include <stdexcept>
@@ -11,7 +11,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::figures {
 namespace {
 
 using test::contents;
@@ -55,4 +55,4 @@ TEST(CellFigure, WhiteIsZeroAndCellsWithoutAValueAreGrey) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::figures

@@ -1,5 +1,5 @@
 // A figure put together piece by piece: data sets, what each looks like, commands between; in the look of
-// io/gnuplot.hpp. For figures that io/line_figure.hpp and io/bifurcation_figure.hpp cannot draw.
+// figures/gnuplot.hpp. For figures that figures/line_figure.hpp and figures/bifurcation_figure.hpp cannot draw.
 #pragma once
 
 #include <array>
@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "core/csv.hpp"
-#include "io/gnuplot.hpp"
+#include "figures/gnuplot.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::figures {
 
 /// The colours of line_figure.cpp, distinct for colour-blind eyes.
 namespace ink {
@@ -97,4 +97,4 @@ class Sketch {
   std::vector<FigurePanel> panels_;
 };
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::figures

@@ -1,4 +1,4 @@
-#include "io/gnuplot.hpp"
+#include "figures/gnuplot.hpp"
 
 #include <algorithm>
 #include <array>
@@ -25,7 +25,7 @@
 #include "core/errors.hpp"
 #include "core/placed_files.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::figures {
 
 namespace {
 
@@ -716,4 +716,4 @@ FigureOutcome draw_figure(const fs::path& folder, std::string_view stem,
   return draw_pictures(folder, stem, which);
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::figures

@@ -1,4 +1,4 @@
-#include "io/bifurcation_figure.hpp"
+#include "figures/bifurcation_figure.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 
 #include "core/csv.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::figures {
 
 namespace {
 
@@ -115,32 +115,6 @@ std::string legend_entry(std::string_view colour, std::string_view label) {
                      gnuplot_quoted(portable_text(label)));
 }
 
-struct RegimeLook {
-  const char* label;
-  std::string_view colour;
-};
-
-/// Distinct in print, in grey and for colour-blind eyes (after Okabe and Ito).
-constexpr std::array<RegimeLook, 5> looks = {{{"period 1", "#12285c"},
-                                              {"period 2 and more", "#3f8fd0"},
-                                              {"quasiperiodic", "#1b8a6b"},
-                                              {"chaotic", "#c8553d"},
-                                              {"undecided", "#8a8a8a"}}};
-
-std::size_t look_of(const RegimePoint& p) {
-  switch (p.regime) {
-    case analysis::Regime::periodic:
-      return p.period <= 1 ? 0 : 1;
-    case analysis::Regime::quasiperiodic:
-      return 2;
-    case analysis::Regime::chaotic:
-      return 3;
-    case analysis::Regime::undecided:
-      break;
-  }
-  return 4;
-}
-
 }  // namespace
 
 FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
@@ -189,49 +163,48 @@ FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::strin
                      figure_script(stem, text, x_range, y_range, legend, markers, dot_settings(x_range), plot), which);
 }
 
-FigureOutcome regime_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
-                            std::size_t count, const std::function<std::optional<RegimePoint>(std::size_t)>& at,
-                            Pictures which) {
+FigureOutcome class_bifurcation_figure(const std::filesystem::path& folder, std::string_view stem,
+                                       const FigureText& text, const std::string& value_label,
+                                       const std::vector<PointClass>& classes, std::size_t count,
+                                       const std::function<std::optional<ClassPoint>(std::size_t)>& at,
+                                       Pictures which) {
   FigureRange x;
   FigureRange y;
-  FigureRange exponents;
-  std::array<std::size_t, looks.size()> counts{};
-  std::vector<std::pair<std::size_t, RegimePoint>> points;  // without their sections
+  FigureRange value_range;
+  std::vector<std::size_t> counts(classes.size());
+  std::vector<std::pair<std::size_t, ClassPoint>> points;  // without their sections
   for (std::size_t i = 0; i < count; ++i) {
     auto point = at(i);
     if (!point) continue;
-    RegimePoint& p = *point;
+    ClassPoint& p = *point;
     x.include(p.x);
     for (const double v : p.section) y.include(v);
-    if (p.regime == analysis::Regime::periodic) {
-      exponents.include(p.exponent.value);
-    } else {
-      exponents.include(p.exponent.low());
-      exponents.include(p.exponent.high());
-    }
-    ++counts[look_of(p)];
+    const double half = classes.at(p.of_class).interval_counts ? p.half_width : 0.0;
+    value_range.include(p.value - half);
+    value_range.include(p.value + half);
+    ++counts[p.of_class];
     p.section = {};
     points.emplace_back(i, std::move(p));
   }
   if (x.empty() || y.empty()) return {"there is no finite point to draw"};
   x = x.widened(grid_margin(count));
   y = y.widened(figure_margin);
-  exponents.include(0.0);
-  exponents = exponents.widened(2.0 * figure_margin);
+  value_range.include(0.0);
+  value_range = value_range.widened(2.0 * figure_margin);
 
-  // A data set of dots and one of exponents for each regime.
+  // A data set of dots and one of values for each class.
   const auto write_data = [&](AtomicFile& file) {
     DataWriter data(file);
     CellWriter cells(x, y);
-    for (std::size_t k = 0; k < looks.size(); ++k) {
-      data.comment(fmt::format("{}: section", looks[k].label));
+    for (std::size_t k = 0; k < classes.size(); ++k) {
+      data.comment(fmt::format("{}: section", classes[k].label));
       for (const auto& [i, p] : points)
-        if (look_of(p) == k) cells.append(data, p.x, at(i)->section);
+        if (p.of_class == k) cells.append(data, p.x, at(i)->section);
       data.end_data_set("NaN NaN\n");
-      data.comment(fmt::format("{}: exponent and half its interval", looks[k].label));
+      data.comment(fmt::format("{}: exponent and half its interval", classes[k].label));
       for (const auto& [i, p] : points) {
-        if (look_of(p) != k || !std::isfinite(p.exponent.value)) continue;
-        data.row({p.x, p.exponent.value, std::isfinite(p.exponent.half_width) ? p.exponent.half_width : 0.0});
+        if (p.of_class != k || !std::isfinite(p.value)) continue;
+        data.row({p.x, p.value, std::isfinite(p.half_width) ? p.half_width : 0.0});
       }
       data.end_data_set("NaN NaN NaN\n");
     }
@@ -243,21 +216,21 @@ FigureOutcome regime_figure(const std::filesystem::path& folder, std::string_vie
   std::string entries;
   std::vector<std::string> legend;
   std::string bars;
-  for (std::size_t k = 0; k < looks.size(); ++k) {
+  for (std::size_t k = 0; k < classes.size(); ++k) {
     if (counts[k] == 0) continue;
-    dots += (dots.empty() ? "" : ", \\\n  ") + plot_dots(stem, 2 * k, looks[k].colour, count);
-    legend.push_back(fmt::format("{} ({})", looks[k].label, counts[k]));
-    entries += legend_entry(looks[k].colour, legend.back());
+    dots += (dots.empty() ? "" : ", \\\n  ") + plot_dots(stem, 2 * k, classes[k].colour, count);
+    legend.push_back(fmt::format("{} ({})", classes[k].label, counts[k]));
+    entries += legend_entry(classes[k].colour, legend.back());
     bars += fmt::format(
         ", \\\n  '{0}.dat' index {1} using 1:2:3 with yerrorbars pointtype 7 pointsize {3:.2f}*mark linewidth {4} "
         "linecolor '{2}' notitle",
-        stem, 2 * k + 1, looks[k].colour, count > few ? 0.25 : 0.6, count > few ? 1 : 2);
+        stem, 2 * k + 1, classes[k].colour, count > few ? 0.25 : 0.6, count > few ? 1 : 2);
   }
   const std::vector<FigurePanel> panels = {
       {text.y_label, y, dots + entries, 2.0},
-      {"Exponent  λ_1 / ω_{sn}", exponents, "0 with lines linewidth 1.2 linecolor '#808080' notitle" + bars, 1.0}};
+      {value_label, value_range, "0 with lines linewidth 1.2 linecolor '#808080' notitle" + bars, 1.0}};
   return draw_figure(folder, stem, write_data,
                      panel_script(stem, text, x, panels, legend, "set errorbars 0\n" + dot_settings(x)), which);
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::figures

@@ -1,5 +1,5 @@
 // Line figures: several curves over one abscissa (histories, spectra, stiffness over a mesh period, phase portraits),
-// in the look of io/gnuplot.hpp.
+// in the look of figures/gnuplot.hpp.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "io/gnuplot.hpp"
+#include "figures/gnuplot.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::figures {
 
 /// One curve. A pair in which a number is not finite interrupts it.
 struct FigureCurve {
@@ -38,4 +38,4 @@ FigureOutcome line_figure(const std::filesystem::path& folder, std::string_view 
                           const std::vector<FigureCurve>& curves, const FigureAxes& axes = {},
                           const std::vector<FigureMarker>& markers = {});
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::figures

@@ -1,10 +1,10 @@
-#include "io/sketch.hpp"
+#include "figures/sketch.hpp"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-namespace epicyclic::io {
+namespace epicyclic::figures {
 
 std::string figure_number(double value) {
   std::string text;
@@ -48,4 +48,4 @@ void Sketch::clause(std::string_view source, std::string_view look, std::string_
   if (!title.empty()) legend_.emplace_back(title);
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::figures
