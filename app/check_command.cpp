@@ -5,6 +5,7 @@
 #include "commands.hpp"
 #include "io/study_model.hpp"
 #include "streams.hpp"
+#include "studies/probes.hpp"
 
 namespace epicyclic::app {
 
@@ -16,7 +17,8 @@ int check_command(const Arguments& arguments) {
     tell("{}: valid; a stage alone, for `epicyclic gear`\n", arguments.input.string());
     return done;
   }
-  const io::Cost cost = io::estimate_cost(input);
+  const studies::Cost cost = studies::estimate_cost(io::plan_of(input.study), *input.study.sweep,
+                                                    input.study.integrator, io::model_at_point(input));
   print("{}\n", input.resolved.dump(2));
   tell(
       "{}: valid\n"

@@ -7,8 +7,10 @@
 
 #include "commands.hpp"
 #include "core/errors.hpp"
+#include "figures/gnuplot.hpp"
 #include "folder.hpp"
 #include "io/crosscheck_output.hpp"
+#include "io/identity.hpp"
 #include "io/journal.hpp"
 #include "io/point_record.hpp"
 #include "io/progress.hpp"
@@ -32,8 +34,8 @@ int crosscheck_command(const Arguments& arguments) {
       studies::crosscheck_variants(input.study.crosscheck, input.study.integrator, width);
   for (const std::string& warning : io::warnings(input)) tell("{}\n", warning);
 
-  const std::string identity = io::identity(input, "crosscheck");
-  const io::OutputFolder folder(arguments.output, identity);
+  const std::string identity = io::identity({input.resolved, input.computed}, "crosscheck");
+  const io::OutputFolder folder(arguments.output, identity, figures::gnuplot_is_installed());
   if (const auto code = refuse_or_finish(folder, input)) return *code;
   io::Provenance facts = provenance(arguments.threads, input);
   const std::string resolved = write_inputs(folder, input);

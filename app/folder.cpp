@@ -10,9 +10,10 @@
 #include "core/atomic_file.hpp"
 #include "core/errors.hpp"
 #include "core/version.hpp"
+#include "io/identity.hpp"
 #include "io/json_source.hpp"
 #include "io/point_record.hpp"
-#include "io/study_model.hpp"
+#include "io/stage_completion.hpp"
 #include "io/versions.hpp"
 #include "streams.hpp"
 
@@ -31,10 +32,11 @@ std::int64_t counted(const io::OutputFolder& folder, const char* what) {
 
 void tell_differences(const io::OutputFolder& folder, const io::LoadedInput& input) {
   constexpr std::size_t most = 5;
-  const io::JsonSource other = io::read_json_file(folder.file("input.resolved.json"));
+  io::JsonSource other = io::read_json_file(folder.file("input.resolved.json"));
   // That the study is another one is known from run.json.
   if (!other.complete || !other.value.is_object()) return;
-  const std::vector<std::string> lines = io::differences(other.value, input);
+  const nlohmann::json computed = io::computed_values(other.value);
+  const std::vector<std::string> lines = io::differences({other.value, computed}, {input.resolved, input.computed});
   if (lines.empty()) tell("  the inputs are alike: another command, or another version of its numerics\n");
   for (std::size_t k = 0; k < std::min(lines.size(), most); ++k) tell("  {}\n", lines[k]);
   if (lines.size() > most) tell("  and {} more\n", lines.size() - most);

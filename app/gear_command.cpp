@@ -4,8 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "figures/gnuplot.hpp"
 #include "folder.hpp"
 #include "io/gear_output.hpp"
+#include "io/identity.hpp"
 #include "io/study_model.hpp"
 #include "streams.hpp"
 
@@ -14,7 +16,8 @@ namespace epicyclic::app {
 int gear_command(const Arguments& arguments) {
   const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
   io::require_finite_numbers(input);
-  const io::OutputFolder folder(arguments.output, io::identity(input, "gear"));
+  const io::OutputFolder folder(arguments.output, io::identity({input.resolved, input.computed}, "gear"),
+                                figures::gnuplot_is_installed());
   if (const auto code = refuse_or_finish(folder, input)) return *code;
   io::Provenance facts = provenance(1, input);
   write_inputs(folder, input);

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "failure.hpp"
+#include "figures/gnuplot.hpp"
 #include "folder.hpp"
+#include "io/identity.hpp"
 #include "io/output_folder.hpp"
 #include "io/point_store.hpp"
 #include "io/progress.hpp"
@@ -129,9 +131,9 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   if (command == "sweep" && input.study.sweep->parameter != "mesh_frequency_ratio")
     tell("operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
 
-  const std::string identity = io::identity(input, command);
+  const std::string identity = io::identity({input.resolved, input.computed}, command);
   if (leader != nullptr) leader->gather(arguments, identity);
-  io::OutputFolder folder(arguments.output, identity);
+  io::OutputFolder folder(arguments.output, identity, figures::gnuplot_is_installed());
   if (const auto code = refuse_or_finish(folder, input)) return *code;
   io::Provenance facts = provenance(arguments.threads, input);
   facts.ranks = arguments.ranks->size();

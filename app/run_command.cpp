@@ -4,7 +4,9 @@
 
 #include "commands.hpp"
 #include "core/atomic_file.hpp"
+#include "figures/gnuplot.hpp"
 #include "folder.hpp"
+#include "io/identity.hpp"
 #include "io/run_output.hpp"
 #include "io/study_model.hpp"
 #include "io/sweep_output.hpp"
@@ -23,7 +25,8 @@ int run_command(const Arguments& arguments) {
   const model::DynamicModel model = io::model_at(input)(study.mesh_frequency_ratio);
   for (const std::string& warning : io::warnings(input)) tell("{}\n", warning);
 
-  const io::OutputFolder folder(arguments.output, io::identity(input, "run"));
+  const io::OutputFolder folder(arguments.output, io::identity({input.resolved, input.computed}, "run"),
+                                figures::gnuplot_is_installed());
   if (const auto code = refuse_or_finish(folder, input)) return *code;
   io::Provenance facts = provenance(1, input);
   const std::string resolved = write_inputs(folder, input);

@@ -21,6 +21,7 @@
 
 #include "failure.hpp"
 #include "folder.hpp"
+#include "io/identity.hpp"
 #include "io/journal.hpp"
 #include "io/manifest.hpp"
 #include "io/point_record.hpp"
@@ -555,7 +556,7 @@ int follow(const Arguments& arguments, std::string_view command, const std::vect
   std::exception_ptr error;
   try {
     input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
-    identity = io::identity(*input, command);
+    identity = io::identity({input->resolved, input->computed}, command);
   } catch (...) {
     error = std::current_exception();
   }

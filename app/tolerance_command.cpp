@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "figures/gnuplot.hpp"
 #include "folder.hpp"
+#include "io/identity.hpp"
 #include "io/journal.hpp"
 #include "io/point_record.hpp"
 #include "io/progress.hpp"
@@ -31,8 +33,8 @@ int tolerance_command(const Arguments& arguments) {
   const model::DynamicModel first_model = model_at(plan.points.front().value, width);
   for (const std::string& warning : io::warnings(input)) tell("{}\n", warning);
 
-  const std::string identity = io::identity(input, "tolerance");
-  const io::OutputFolder folder(arguments.output, identity);
+  const std::string identity = io::identity({input.resolved, input.computed}, "tolerance");
+  const io::OutputFolder folder(arguments.output, identity, figures::gnuplot_is_installed());
   if (const auto code = refuse_or_finish(folder, input)) return *code;
   io::Provenance facts = provenance(arguments.threads, input);
   const std::string resolved = write_inputs(folder, input);

@@ -14,7 +14,6 @@
 #include <sys/stat.h>
 
 #include "core/errors.hpp"
-#include "figures/gnuplot.hpp"
 
 namespace epicyclic::io {
 
@@ -103,10 +102,10 @@ std::string_view to_string(RunState state) {
   return names.at(static_cast<std::size_t>(state));
 }
 
-OutputFolder::OutputFolder(fs::path path, std::string identity)
+OutputFolder::OutputFolder(fs::path path, std::string identity, bool can_draw)
     : path_(std::move(path)), identity_(std::move(identity)) {
   create_folder(path_, /*parents=*/true);
-  outcome_ = open();
+  outcome_ = open(can_draw);
   if (!lock_.is_open()) return;
   place_ = open_descriptor(path_, O_RDONLY | O_DIRECTORY);
   if (!is_there()) place_ = FileDescriptor();  // a file system that numbers its files anew
@@ -118,7 +117,7 @@ OutputFolder::OutputFolder(fs::path path, std::string identity)
   if (outcome_ == FolderOutcome::fresh) write_run(RunState::running, nlohmann::json::object());
 }
 
-FolderOutcome OutputFolder::open() {
+FolderOutcome OutputFolder::open(bool can_draw) {
   // The lock file is looked for last: another process may just be making the folder, and then the lock file is there
   // before any file that is seen here.
   std::error_code ignored;
@@ -141,8 +140,7 @@ FolderOutcome OutputFolder::open() {
   const auto manifest = manifest_from(previous_run_.value(files_key, nlohmann::json()));
   if (!manifest) return FolderOutcome::damaged;
   changed_ = changed_files(path_, *manifest);
-  // Pictures that could not be drawn: perhaps they can be now.
-  if (!figures::gnuplot_is_installed()) std::erase_if(changed_, [](const ChangedFile& file) { return !file.expected; });
+  if (!can_draw) std::erase_if(changed_, [](const ChangedFile& file) { return !file.expected; });
   return changed_.empty() ? FolderOutcome::complete : FolderOutcome::damaged;
 }
 

@@ -53,9 +53,10 @@ class OutputFolder {
   /// Opens the folder; creates it, parents included, if it is not there; locks it. Unfinished temporary files of a
   /// killed session are removed.
   /// Of a complete study all files are read; what is not as it was left is set aside, as NAME.changed.
-  /// @param identity SHA-256 of the study (64 hexadecimal digits)
+  /// @param identity   SHA-256 of the study (64 hexadecimal digits)
+  /// @param can_draw   a picture that could not be drawn before is one that is missing
   /// @throws OutputError when it cannot be created, read or written, or the file system knows no locks
-  OutputFolder(std::filesystem::path path, std::string identity);
+  OutputFolder(std::filesystem::path path, std::string identity, bool can_draw = false);
 
   [[nodiscard]] FolderOutcome outcome() const { return outcome_; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -85,7 +86,7 @@ class OutputFolder {
   void write_run(RunState state, const nlohmann::json& facts) const;
 
  private:
-  FolderOutcome open();
+  FolderOutcome open(bool can_draw);
   [[nodiscard]] nlohmann::json read_run() const;
   void set_changed_files_aside();
   [[nodiscard]] nlohmann::json manifest_of_session() const;

@@ -304,4 +304,11 @@ Completion complete_stage(json& stage, const std::string& root, ReadContext& con
   return completion;
 }
 
+nlohmann::json computed_values(nlohmann::json& resolved) {
+  const bool bare = !resolved.contains("stage");
+  ReadContext unused;
+  nlohmann::json computed = complete_stage(bare ? resolved : resolved["stage"], "", unused).computed;
+  return bare ? computed : nlohmann::json{{"stage", std::move(computed)}};
+}
+
 }  // namespace epicyclic::io

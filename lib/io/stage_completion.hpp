@@ -35,4 +35,8 @@ struct Completion {
 /// @param root   pointer of the stage, for findings
 Completion complete_stage(nlohmann::json& stage, const std::string& root, ReadContext& context);
 
+/// What the catalogue data of another resolved input give on this machine, at their places; null without such data.
+/// @param resolved  of a study or of a stage alone; values that were computed are replaced by those of this machine
+[[nodiscard]] nlohmann::json computed_values(nlohmann::json& resolved);
+
 }  // namespace epicyclic::io

@@ -4,9 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <optional>
-#include <random>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,11 +16,9 @@
 #include "gear/gear_set.hpp"
 #include "gear/warnings.hpp"
 #include "integrate/methods.hpp"
-#include "io/digest.hpp"
-#include "io/journal.hpp"
-#include "io/stage_completion.hpp"
 #include "studies/operating_point.hpp"
 #include "studies/plane.hpp"
+#include "studies/probes.hpp"
 
 namespace epicyclic::io {
 
@@ -126,28 +122,6 @@ std::vector<VariedParameter> varied_parameters(const Study& study) {
   return {varied({sweep.parameter, sweep.from, sweep.to, sweep.points}, "/study")};
 }
 
-/// Do two models answer alike, wherever the state is? Looked at states of all sizes, so that gaps of any width are
-/// crossed.
-bool same_motion(const model::DynamicModel& a, const model::DynamicModel& b) {
-  if (a.dimension != b.dimension || a.breakpoints != b.breakpoints || a.omega != b.omega) return false;
-  constexpr double size_max = 1e6;
-  constexpr int phases = 8;
-  std::minstd_rand random;
-  std::vector<double> y(a.dimension);
-  std::vector<double> rate_a(a.dimension);
-  std::vector<double> rate_b(a.dimension);
-  for (double size = 1e-3; size <= size_max; size *= 10.0)
-    for (int k = 0; k < phases; ++k) {
-      const double s = 2.0 * std::numbers::pi * (k + 0.5) / phases;
-      for (double& component : y) component = size * std::uniform_real_distribution(-1.0, 1.0)(random);
-      const std::size_t segment = model::segment_at(a.breakpoints, s);
-      a.right_hand_side(segment, s, y.data(), rate_a.data());
-      b.right_hand_side(segment, s, y.data(), rate_b.data());
-      if (rate_a != rate_b) return false;
-    }
-  return true;
-}
-
 /// Warnings at the operating points at the ends of what the study varies, and on parameters that change nothing.
 void warn_of_points(std::vector<gear::Warning>& out, const LoadedInput& input) {
   const model::Scales scales = model::scales_of(input.study.stage);
@@ -165,7 +139,7 @@ void warn_of_points(std::vector<gear::Warning>& out, const LoadedInput& input) {
     const auto model = [&](double value) {
       return model_of(point_at(input, std::array{PointerValue{parameter.name, value}}), scales);
     };
-    if (same_motion(model(parameter.from), model(parameter.to)))
+    if (studies::same_motion(model(parameter.from), model(parameter.to)))
       out.push_back({gear::Rank::doubtful, 1.0, parameter.place, parameter.place,
                      fmt::format("{} has no effect on the motion: the equations at {} and at {} are the same",
                                  parameter.name, parameter.from, parameter.to)});
@@ -225,98 +199,6 @@ std::vector<std::string> gear_warnings(const LoadedInput& input) {
       lines.push_back("no motion in time, no operating point: " + line);
   lines.insert(lines.end(), input.notes.begin(), input.notes.end());
   return lines;
-}
-
-namespace {
-
-/// What decides results: values without origins and notes. One that is what the catalogue data give, to the last digit,
-/// is written as such: it follows from the rest, and its last digits from the machine's mathematical library. So two
-/// inputs have the same identifying values exactly where they have the same values, on each machine.
-nlohmann::json identifying_values(nlohmann::json value, const nlohmann::json& computed) {
-  if (!value.is_object()) return !computed.is_null() && value == computed ? nlohmann::json(computed_word) : value;
-  value.erase("origin");
-  value.erase("note");
-  static const nlohmann::json nothing;
-  for (auto& [key, child] : value.items()) {
-    const bool known = computed.is_object() && computed.contains(key);
-    child = identifying_values(std::move(child), known ? computed.at(key) : nothing);
-  }
-  return value;
-}
-
-}  // namespace
-
-std::string identity(const LoadedInput& input, std::string_view command) {
-  const nlohmann::json what = {{"command", command},
-                               {"input", identifying_values(input.resolved, input.computed)},
-                               {"journal_format", journal_format_version},
-                               {"numerics", studies::numerics_version}};
-  return sha256_hex(canonical_json(what));
-}
-
-std::vector<std::string> differences(const nlohmann::json& other, const LoadedInput& input) {
-  // The other one as this machine computes it.
-  nlohmann::json whole = other;
-  const bool bare = !whole.contains("stage");
-  ReadContext unused;
-  nlohmann::json computed = complete_stage(bare ? whole : whole["stage"], "", unused).computed;
-  if (!bare) computed = {{"stage", computed}};
-  const nlohmann::json there = identifying_values(whole, computed);
-  const nlohmann::json here = identifying_values(input.resolved, input.computed);
-  const auto text = [](const nlohmann::json& values, const nlohmann::json::json_pointer& at) {
-    constexpr std::size_t longest = 60;
-    if (!values.contains(at)) return std::string("nothing");
-    std::string value = values.at(at).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    return value.size() <= longest ? value : std::string("another value");
-  };
-  std::vector<std::string> lines;
-  for (const nlohmann::json& change : nlohmann::json::diff(there, here)) {
-    const std::string pointer = change.at("path");
-    const nlohmann::json::json_pointer at(pointer);
-    lines.push_back(fmt::format("{}: {} there, {} here", pointer, text(whole, at), text(input.resolved, at)));
-  }
-  return lines;
-}
-
-std::string figure_title(const Study& study) {
-  const gear::Boundary b = study.stage.boundary;
-  const char* boundary = b == gear::Boundary::literal ? "literal" : b == gear::Boundary::star ? "star" : "fixed ring";
-  std::string title = (study.name.empty() ? study.stage.name : study.name) + ", boundary " + boundary;
-  const bool speed_is_given = study.kind == "run" || study.kind == "basins";
-  const bool speed_is_varied =
-      study.sweep && (study.sweep->parameter == "mesh_frequency_ratio" ||
-                      (study.kind == "map" && study.plane.second.name == "mesh_frequency_ratio"));
-  if (speed_is_given || (study.sweep && !speed_is_varied)) {
-    title += ", Ω = ";
-    append_number(title, study.mesh_frequency_ratio);
-  }
-  return title;
-}
-
-Cost estimate_cost(const LoadedInput& input) {
-  const studies::SweepOptions& sweep = *input.study.sweep;
-  const studies::SweepPlan plan = plan_of(input.study);
-  Cost cost;
-  cost.points = plan.points.size();
-  cost.chains = plan.chains.size();
-  cost.mesh_periods =
-      static_cast<std::int64_t>(plan.points.size()) * (sweep.transient_periods + sweep.recorded_periods);
-  const studies::ModelAtPoint at = model_at_point(input);
-  constexpr int probed_periods = 4;
-  studies::SweepOptions probe = studies::by_recurrence_alone(sweep);
-  probe.transient_periods = 0;
-  probe.recorded_periods = probed_periods;
-  double calls = 0.0;
-  const studies::GridPoint probed[] = {plan.points.front(), plan.points[plan.points.size() / 2], plan.points.back()};
-  for (const studies::GridPoint& point : probed) {
-    const model::DynamicModel model = at(point);
-    cost.dimension = model.dimension;
-    const studies::PointResult result =
-        studies::compute_point(point, model, {}, probe, input.study.integrator, [] { return true; });
-    calls += static_cast<double>(result.rhs_evaluations);
-  }
-  cost.rhs_per_period = calls / (probed_periods * std::size(probed));
-  return cost;
 }
 
 }  // namespace epicyclic::io

@@ -167,6 +167,21 @@ std::string parameter_symbol(const std::string& parameter) {
   return text == nullptr ? figures::literal_text(parameter) : text->symbol;
 }
 
+std::string figure_title(const Study& study) {
+  const gear::Boundary b = study.stage.boundary;
+  const char* boundary = b == gear::Boundary::literal ? "literal" : b == gear::Boundary::star ? "star" : "fixed ring";
+  std::string title = (study.name.empty() ? study.stage.name : study.name) + ", boundary " + boundary;
+  const bool speed_is_given = study.kind == "run" || study.kind == "basins";
+  const bool speed_is_varied =
+      study.sweep && (study.sweep->parameter == "mesh_frequency_ratio" ||
+                      (study.kind == "map" && study.plane.second.name == "mesh_frequency_ratio"));
+  if (speed_is_given || (study.sweep && !speed_is_varied)) {
+    title += ", Ω = ";
+    append_number(title, study.mesh_frequency_ratio);
+  }
+  return title;
+}
+
 std::string status_word(integrate::Outcome outcome) {
   switch (outcome) {
     case integrate::Outcome::reached:

@@ -13,6 +13,7 @@
 
 #include "figures/gnuplot.hpp"
 #include "io/hdf5_file.hpp"
+#include "io/study_input.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::io {
@@ -29,6 +30,9 @@ namespace epicyclic::io {
 /// Axis label of a sweep parameter, and the symbol in it.
 [[nodiscard]] std::string parameter_label(const std::string& parameter);
 [[nodiscard]] std::string parameter_symbol(const std::string& parameter);
+
+/// Name of study or stage with the boundary and, unless it is swept, the speed: for figures.
+[[nodiscard]] std::string figure_title(const Study& study);
 
 /// What a sweep is written with besides its points.
 struct SweepOutput {

@@ -2,6 +2,8 @@
 //
 // Each place of each input in inputs/, and of its resolved form, is changed in each way. The model is judged by its
 // right-hand side, which knows nothing of identities.
+#include "io/identity.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -17,6 +19,7 @@
 #include <gtest/gtest.h>
 
 #include "io/digest.hpp"
+#include "io/stage_completion.hpp"
 #include "io/study_input.hpp"
 #include "io/study_model.hpp"
 #include "temporary_folder.hpp"
@@ -25,6 +28,15 @@ namespace epicyclic::io {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::string identity_of(const LoadedInput& input, const std::string& command) {
+  return identity({input.resolved, input.computed}, command);
+}
+
+std::vector<std::string> differences_from(nlohmann::json other, const LoadedInput& input) {
+  const nlohmann::json computed = computed_values(other);
+  return differences({other, computed}, {input.resolved, input.computed});
+}
 using nlohmann::json;
 using test::put_file;
 
@@ -227,7 +239,7 @@ class Property {
     if (c.change == Change::empty_object) {
       const std::optional<json> without = changed({c.input, c.pointer, Change::erased});
       const std::optional<LoadedInput> erased = without ? loaded(*without) : std::nullopt;
-      EXPECT_TRUE(erased && identity(*erased, "x") == identity(*input, "x") &&
+      EXPECT_TRUE(erased && identity_of(*erased, "x") == identity_of(*input, "x") &&
                   without_bookkeeping(erased->resolved) == without_bookkeeping(input->resolved))
           << "{} is not what erased is";
     }
@@ -236,7 +248,7 @@ class Property {
     const std::optional<LoadedInput> again = loaded(input->resolved);
     ASSERT_TRUE(again) << message_;
     EXPECT_TRUE(again->resolved.dump(2) == bytes) << json::diff(input->resolved, again->resolved).dump(1);
-    EXPECT_EQ(identity(*again, "x"), identity(*input, "x"));
+    EXPECT_EQ(identity_of(*again, "x"), identity_of(*input, "x"));
   }
 
  private:
@@ -252,7 +264,7 @@ class Property {
   }
 
   void check_identity(const LoadedInput& input) {
-    const std::string id = identity(input, "x");
+    const std::string id = identity_of(input, "x");
     const Seen now{sha256_hex(without_bookkeeping(input.resolved).dump()), sha256_hex(fingerprint(input))};
     const auto [seen, fresh] = by_identity_.emplace(id, now);
     same_ += fresh ? 0 : 1;
@@ -311,7 +323,7 @@ class IdentityOf : public ::testing::Test {
 };
 
 TEST_F(IdentityOf, AStudyDependsOnValuesThatOnlySayThatTheyWereComputed) {
-  const std::string before = identity(load(resolved), "sweep");
+  const std::string before = identity_of(load(resolved), "sweep");
   for (const char* change :
        {R"({"integrator": {"relative_tolerance": 1e-3, "origin": {"relative_tolerance": "computed: x"}}})",
         R"({"operation": {"mesh_frequency_ratio": 2, "origin": {"mesh_frequency_ratio": "computed"}}})",
@@ -320,7 +332,7 @@ TEST_F(IdentityOf, AStudyDependsOnValuesThatOnlySayThatTheyWereComputed) {
                                             "origin": {"support_damping_ratio": "computed: x"}}}}})"}) {
     json changed = resolved;
     changed.merge_patch(json::parse(change));
-    EXPECT_NE(identity(load(changed), "sweep"), before) << change;
+    EXPECT_NE(identity_of(load(changed), "sweep"), before) << change;
   }
 }
 
@@ -333,33 +345,33 @@ TEST_F(IdentityOf, AStageWithoutItsCatalogueDependsOnItsMasses) {
   resolved["stage"]["lumped"]["sun"]["mass_kg"] = 1.7;
   const LoadedInput after = load(resolved);
   EXPECT_EQ(after.study.stage.sun.mass_kg, 1.7);
-  EXPECT_NE(identity(before, "sweep"), identity(after, "sweep"));
-  const std::vector<std::string> lines = differences(before.resolved, after);
+  EXPECT_NE(identity_of(before, "sweep"), identity_of(after, "sweep"));
+  const std::vector<std::string> lines = differences_from(before.resolved, after);
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_EQ(lines[0].rfind("/stage/lumped/sun/mass_kg: 1.65", 0), 0U) << lines[0];
 }
 
 TEST_F(IdentityOf, AStudyIsTheSameWhereLastDigitsOfWhatIsComputedAreOthers) {
   LoadedInput input = load(resolved);
-  const std::string before = identity(input, "sweep");
+  const std::string before = identity_of(input, "sweep");
   // Another machine computes another last digit ...
   const json::json_pointer mass("/stage/lumped/sun/mass_kg");
   const double there = std::nextafter(input.resolved.at(mass).get<double>(), 10.0);
   input.resolved.at(mass) = there;
   input.computed.at(mass) = there;
-  EXPECT_EQ(identity(input, "sweep"), before);
+  EXPECT_EQ(identity_of(input, "sweep"), before);
   // ... but one that is given counts to its last digit, and so does one in a sweep of another width.
   input.computed.at(mass) = std::nextafter(there, 10.0);
-  EXPECT_NE(identity(input, "sweep"), before);
-  EXPECT_NE(identity(load(resolved, {"/stage/catalogue/sun/width_mm=61"}), "sweep"), before);
+  EXPECT_NE(identity_of(input, "sweep"), before);
+  EXPECT_NE(identity_of(load(resolved, {"/stage/catalogue/sun/width_mm=61"}), "sweep"), before);
 }
 
 TEST_F(IdentityOf, AStudyToldAsAnotherSaysInWhatIsGiven) {
   const LoadedInput wider = load(resolved, {"/stage/catalogue/sun/width_mm=61"});
-  EXPECT_EQ(differences(resolved, wider),
+  EXPECT_EQ(differences_from(resolved, wider),
             std::vector<std::string>{"/stage/catalogue/sun/width_mm: 60.0 there, 61.0 here"});
   const LoadedInput heavier = load(resolved, {"/stage/lumped/sun/mass_kg=2"});
-  const auto lines = differences(resolved, heavier);
+  const auto lines = differences_from(resolved, heavier);
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_EQ(lines[0].rfind("/stage/lumped/sun/mass_kg: 1.65", 0), 0U) << lines[0];
 }
@@ -367,8 +379,8 @@ TEST_F(IdentityOf, AStudyToldAsAnotherSaysInWhatIsGiven) {
 TEST_F(IdentityOf, AnEmptyObjectSwitchesNothing) {
   json study = json::parse(test::contents("inputs/tang2020_speed.json"));
   study["stage"] = json::parse(test::contents("inputs/tang2020.json"));
-  const std::string before = identity(load(study), "sweep");
-  const auto with = [&](const std::string& set) { return identity(load(study, {set}), "sweep"); };
+  const std::string before = identity_of(load(study), "sweep");
+  const auto with = [&](const std::string& set) { return identity_of(load(study, {set}), "sweep"); };
   const std::string mesh = "/stage/lumped/sun_planet_mesh/";
   EXPECT_EQ(with(mesh + "stiffness_curve={}"), before);
   const auto message = [&](const std::string& set) {

@@ -1,0 +1,57 @@
+#include "io/identity.hpp"
+
+#include <cstddef>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "io/digest.hpp"
+#include "io/journal.hpp"
+#include "studies/sweep.hpp"
+
+namespace epicyclic::io {
+
+namespace {
+
+nlohmann::json identifying_values(nlohmann::json value, const nlohmann::json& computed) {
+  if (!value.is_object()) return !computed.is_null() && value == computed ? nlohmann::json("computed") : value;
+  value.erase("origin");
+  value.erase("note");
+  static const nlohmann::json nothing;
+  for (auto& [key, child] : value.items()) {
+    const bool known = computed.is_object() && computed.contains(key);
+    child = identifying_values(std::move(child), known ? computed.at(key) : nothing);
+  }
+  return value;
+}
+
+}  // namespace
+
+std::string identity(const ResolvedValues& input, std::string_view command) {
+  const nlohmann::json what = {{"command", command},
+                               {"input", identifying_values(input.resolved, input.computed)},
+                               {"journal_format", journal_format_version},
+                               {"numerics", studies::numerics_version}};
+  return sha256_hex(canonical_json(what));
+}
+
+std::vector<std::string> differences(const ResolvedValues& there, const ResolvedValues& here) {
+  const nlohmann::json from = identifying_values(there.resolved, there.computed);
+  const nlohmann::json to = identifying_values(here.resolved, here.computed);
+  const auto text = [](const nlohmann::json& values, const nlohmann::json::json_pointer& at) {
+    constexpr std::size_t longest = 60;
+    if (!values.contains(at)) return std::string("nothing");
+    std::string value = values.at(at).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return value.size() <= longest ? value : std::string("another value");
+  };
+  std::vector<std::string> lines;
+  for (const nlohmann::json& change : nlohmann::json::diff(from, to)) {
+    const std::string pointer = change.at("path");
+    const nlohmann::json::json_pointer at(pointer);
+    lines.push_back(fmt::format("{}: {} there, {} here", pointer, text(there.resolved, at), text(here.resolved, at)));
+  }
+  return lines;
+}
+
+}  // namespace epicyclic::io
