@@ -15,7 +15,7 @@ namespace epicyclic::app {
 namespace {
 
 WrittenPoints write_results(const ComputedPoints& plane) {
-  std::vector<studies::PointResult> results = io::all_brief(plane.points);
+  std::vector<studies::PointResult> results = studies::all_brief(plane.points);
   const io::Study& study = plane.input.study;
   const io::BasinsOutput output{study.plane, plane.first_model.state_names, studies::planet_turns(plane.first_model),
                                 plane.resolved, io::figure_title(study)};

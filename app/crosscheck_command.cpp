@@ -10,12 +10,12 @@
 #include "figures/gnuplot.hpp"
 #include "folder.hpp"
 #include "io/crosscheck_output.hpp"
-#include "io/identity.hpp"
-#include "io/journal.hpp"
-#include "io/point_record.hpp"
 #include "io/progress.hpp"
 #include "io/study_model.hpp"
 #include "stop.hpp"
+#include "store/identity.hpp"
+#include "store/journal.hpp"
+#include "store/point_record.hpp"
 #include "streams.hpp"
 #include "watch.hpp"
 
@@ -34,25 +34,25 @@ int crosscheck_command(const Arguments& arguments) {
       studies::crosscheck_variants(input.study.crosscheck, input.study.integrator, width);
   for (const std::string& warning : io::warnings(input)) tell("{}\n", warning);
 
-  const std::string identity = io::identity({input.resolved, input.computed}, "crosscheck");
-  const io::OutputFolder folder(arguments.output, identity, figures::gnuplot_is_installed());
+  const std::string identity = store::identity({input.resolved, input.computed}, "crosscheck");
+  const store::OutputFolder folder(arguments.output, identity, figures::gnuplot_is_installed());
   if (const auto code = refuse_or_finish(folder, input)) return *code;
-  io::Provenance facts = provenance(arguments.threads, input);
+  store::Provenance facts = provenance(arguments.threads, input);
   const std::string resolved = write_inputs(folder, input);
-  folder.write_run(io::RunState::running, io::run_facts(facts));
+  folder.write_run(store::RunState::running, store::run_facts(facts));
   const FolderWatch watch(folder);
 
   const std::size_t points = plan.points.size();
-  io::Journal journal(folder.file("journal.bin"), identity);
+  store::Journal journal(folder.file("journal.bin"), identity);
   tell_cut_tail(folder.file("journal.bin"), journal.cut_bytes());
   studies::CrosscheckRun run;
   run.threads = arguments.threads;
   run.stop = &stop_requested();
-  for (const io::JournalEntry& entry : journal.entries()) {
-    studies::PointResult result = io::decode_point(journal.read(entry));
+  for (const store::JournalEntry& entry : journal.entries()) {
+    studies::PointResult result = store::decode_point(journal.read(entry));
     const std::size_t variant = entry.point / points;
     if (variant >= variants.size() || result.point.index != entry.point % points)
-      throw io::DamagedData("the journal holds result " + std::to_string(entry.point) + ", which the study has not");
+      throw store::DamagedData("the journal holds result " + std::to_string(entry.point) + ", which the study has not");
     run.done.insert_or_assign({variant, result.point.index}, std::move(result));
   }
   std::size_t finished = run.done.size();
@@ -61,7 +61,7 @@ int crosscheck_command(const Arguments& arguments) {
   io::Progress progress("crosscheck", points * variants.size(), finished);
   progress.update(finished, failed);
   run.point_finished = [&](std::size_t variant, const studies::PointResult& result) {
-    journal.append(variant * points + result.point.index, io::encode_point(result));
+    journal.append(variant * points + result.point.index, store::encode_point(result));
     failed += result.outcome == integrate::Outcome::reached ? 0 : 1;
     progress.update(++finished, failed);
   };
@@ -70,23 +70,23 @@ int crosscheck_command(const Arguments& arguments) {
   progress.finish();
   journal.close();
   std::int64_t undrawn = 0;
-  const auto close_run = [&](io::RunState state) {
-    facts.ended = io::utc_now();
+  const auto close_run = [&](store::RunState state) {
+    facts.ended = store::utc_now();
     facts.counts = {{"points", static_cast<std::int64_t>(points)},
                     {"comparisons", static_cast<std::int64_t>(all.comparisons.size())},
                     {"failed", static_cast<std::int64_t>(failed)},
                     {"undrawn", undrawn}};
-    folder.write_run(state, io::run_facts(facts));
+    folder.write_run(state, store::run_facts(facts));
   };
   if (!all.complete(plan)) {
-    close_run(io::RunState::stopped);
+    close_run(store::RunState::stopped);
     tell("stopped after {} of {} results; the same command goes on\n", finished, points * variants.size());
     return stopped_early;
   }
 
   folder.require_there();
   const io::SweepOutput output{sweep, studies::poincare_columns(first_model), resolved, io::figure_title(input.study)};
-  const io::PointSource reference = io::points_in_memory(all.reference);
+  const studies::PointSource reference = studies::points_in_memory(all.reference);
   io::write_points_csv(folder.file("points.csv"), reference);
   io::write_poincare_csv(folder.file("poincare.csv"), output, reference);
   io::write_crosscheck_csv(folder.file("crosscheck.csv"), all);
@@ -95,7 +95,7 @@ int crosscheck_command(const Arguments& arguments) {
   const io::DrawnFigure figure =
       io::draw_crosscheck_figure(folder.file("figures"), output, all, input.study.crosscheck.orbit_tolerance);
   undrawn = tell_undrawn({figure});
-  close_run(io::RunState::complete);
+  close_run(store::RunState::complete);
 
   const std::size_t different = io::differences(all);
   if (arguments.json) {

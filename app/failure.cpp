@@ -4,7 +4,7 @@
 
 #include "commands.hpp"
 #include "core/errors.hpp"
-#include "io/journal.hpp"
+#include "store/journal.hpp"
 
 namespace epicyclic::app {
 
@@ -17,9 +17,9 @@ Failure failure_of(const std::exception_ptr& error) {
     return {bad_input, e.what()};
   } catch (const OutputError& e) {
     return {output_failed, e.what()};
-  } catch (const io::DamagedData& e) {
+  } catch (const store::DamagedData& e) {
     return {damaged_data, std::string("damaged data: ") + e.what()};
-  } catch (const io::JournalInUse& e) {
+  } catch (const store::JournalInUse& e) {
     return {folder_in_use, e.what()};
   } catch (const std::system_error& e) {
     return {output_failed, std::string("output: ") + e.what()};

@@ -10,11 +10,11 @@
 #include "core/atomic_file.hpp"
 #include "core/errors.hpp"
 #include "core/version.hpp"
-#include "io/identity.hpp"
 #include "io/json_source.hpp"
-#include "io/point_record.hpp"
 #include "io/stage_completion.hpp"
-#include "io/versions.hpp"
+#include "store/identity.hpp"
+#include "store/point_record.hpp"
+#include "store/versions.hpp"
 #include "streams.hpp"
 
 namespace epicyclic::app {
@@ -22,7 +22,7 @@ namespace epicyclic::app {
 namespace {
 
 /// Of a complete study, from its run.json: failed points, say.
-std::int64_t counted(const io::OutputFolder& folder, const char* what) {
+std::int64_t counted(const store::OutputFolder& folder, const char* what) {
   const nlohmann::json& run = folder.previous_run();
   const auto counts = run.find("counts");
   if (counts == run.end() || !counts->is_object() || !counts->contains(what)) return 0;
@@ -30,25 +30,25 @@ std::int64_t counted(const io::OutputFolder& folder, const char* what) {
   return number.is_number_integer() ? number.get<std::int64_t>() : 0;
 }
 
-void tell_differences(const io::OutputFolder& folder, const io::LoadedInput& input) {
+void tell_differences(const store::OutputFolder& folder, const io::LoadedInput& input) {
   constexpr std::size_t most = 5;
   io::JsonSource other = io::read_json_file(folder.file("input.resolved.json"));
   // That the study is another one is known from run.json.
   if (!other.complete || !other.value.is_object()) return;
   const nlohmann::json computed = io::computed_values(other.value);
-  const std::vector<std::string> lines = io::differences({other.value, computed}, {input.resolved, input.computed});
+  const std::vector<std::string> lines = store::differences({other.value, computed}, {input.resolved, input.computed});
   if (lines.empty()) tell("  the inputs are alike: another command, or another version of its numerics\n");
   for (std::size_t k = 0; k < std::min(lines.size(), most); ++k) tell("  {}\n", lines[k]);
   if (lines.size() > most) tell("  and {} more\n", lines.size() - most);
 }
 
-void tell_changes(const io::OutputFolder& folder) {
+void tell_changes(const store::OutputFolder& folder) {
   constexpr std::size_t most = 10;
-  const std::vector<io::ChangedFile>& changed = folder.changed();
+  const std::vector<store::ChangedFile>& changed = folder.changed();
   tell("{}: this study is complete, but {}; all are made again\n", folder.path().string(),
        changed.empty() ? "its run.json does not say which files it has" : "not all of its files are as it left them");
   for (std::size_t k = 0; k < std::min(changed.size(), most); ++k) {
-    const io::ChangedFile& file = changed[k];
+    const store::ChangedFile& file = changed[k];
     if (!file.bytes)
       tell("  {}: {}\n", file.name, file.expected ? "missing" : "was not drawn");
     else if (*file.bytes < file.expected->bytes)
@@ -68,14 +68,14 @@ void tell_cut_tail(const std::filesystem::path& journal, std::size_t bytes) {
          journal.string(), bytes);
 }
 
-std::map<std::size_t, studies::PointResult> known_points(const io::Journal& journal,
-                                                         std::span<const io::JournalEntry> entries,
+std::map<std::size_t, studies::PointResult> known_points(const store::Journal& journal,
+                                                         std::span<const store::JournalEntry> entries,
                                                          const studies::SweepPlan& plan) {
   std::map<std::size_t, studies::PointResult> known;
-  for (const io::JournalEntry& entry : entries) {
-    studies::PointResult result = io::decode_point(journal.read(entry));
+  for (const store::JournalEntry& entry : entries) {
+    studies::PointResult result = store::decode_point(journal.read(entry));
     if (result.point.index >= plan.points.size() || result.point.index != entry.point)
-      throw io::DamagedData("the journal holds point " + std::to_string(entry.point) + ", which the study has not");
+      throw store::DamagedData("the journal holds point " + std::to_string(entry.point) + ", which the study has not");
     known.insert_or_assign(result.point.index, std::move(result));
   }
   return known;
@@ -105,39 +105,39 @@ std::int64_t tell_undrawn(const std::vector<io::DrawnFigure>& figures) {
   return count;
 }
 
-io::Provenance provenance(int threads, const io::LoadedInput& input) {
-  io::Provenance p = io::begin_provenance();
+store::Provenance provenance(int threads, const io::LoadedInput& input) {
+  store::Provenance p = store::begin_provenance();
   p.library_version = EPICYCLIC_VERSION;
   p.commit = EPICYCLIC_COMMIT;
-  p.dependencies = io::dependency_versions();
-  p.simd_level = io::simd_level();
+  p.dependencies = store::dependency_versions();
+  p.simd_level = store::simd_level();
   p.threads = threads;
   p.input_files["input.json"] = input.study_file.name;
   if (input.stage_file) p.input_files["input.stage.json"] = input.stage_file->name;
   return p;
 }
 
-std::optional<int> refuse_or_finish(const io::OutputFolder& folder, const io::LoadedInput& input) {
+std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const io::LoadedInput& input) {
   const std::string where = folder.path().string();
   switch (folder.outcome()) {
-    case io::FolderOutcome::complete:
+    case store::FolderOutcome::complete:
       tell("{}: this study is complete already; nothing to compute\n", where);
       return counted(folder, "failed") > 0 || counted(folder, "undrawn") > 0 ? done_with_failures : done;
-    case io::FolderOutcome::damaged:
+    case store::FolderOutcome::damaged:
       tell_changes(folder);
       return std::nullopt;
-    case io::FolderOutcome::other_study:
+    case store::FolderOutcome::other_study:
       tell("{}: holds another study; choose another -o\n", where);
       tell_differences(folder, input);
       return other_study;
-    case io::FolderOutcome::foreign:
+    case store::FolderOutcome::foreign:
       tell("{}: holds files that are not a study's; choose an empty or new folder for -o\n", where);
       return other_study;
-    case io::FolderOutcome::in_use:
+    case store::FolderOutcome::in_use:
       tell("{}: is in use by another process\n", where);
       return folder_in_use;
-    case io::FolderOutcome::fresh:
-    case io::FolderOutcome::resumable:
+    case store::FolderOutcome::fresh:
+    case store::FolderOutcome::resumable:
       return std::nullopt;
   }
   return bug;
@@ -145,7 +145,7 @@ std::optional<int> refuse_or_finish(const io::OutputFolder& folder, const io::Lo
 
 std::string resolved_text(const io::LoadedInput& input) { return input.resolved.dump(2) + "\n"; }
 
-std::string write_inputs(const io::OutputFolder& folder, const io::LoadedInput& input) {
+std::string write_inputs(const store::OutputFolder& folder, const io::LoadedInput& input) {
   std::string resolved = resolved_text(input);
   write_file_atomically(folder.file("input.json"), input.study_file.bytes);
   // Names of ours alone: by the user's, a copy could take the place of any other file here. run.json has those.

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "io/journal.hpp"
-#include "io/output_folder.hpp"
-#include "io/provenance.hpp"
 #include "io/study_input.hpp"
 #include "io/sweep_output.hpp"
+#include "store/journal.hpp"
+#include "store/output_folder.hpp"
+#include "store/provenance.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::app {
@@ -29,21 +29,21 @@ void require_points(const io::LoadedInput& input, const Arguments& arguments, st
 void require_kind(const io::LoadedInput& input, const Arguments& arguments, std::string_view kind);
 
 /// Versions, machine and the names that the input files came by, for run.json.
-[[nodiscard]] io::Provenance provenance(int threads, const io::LoadedInput& input);
+[[nodiscard]] store::Provenance provenance(int threads, const io::LoadedInput& input);
 
 /// Says on stderr that half a record was cut from the end of a journal; nothing of 0 bytes.
 void tell_cut_tail(const std::filesystem::path& journal, std::size_t bytes);
 
 /// Points of earlier sessions, from records of the journal.
 /// @throws DamagedData when they are of points that the study has not
-[[nodiscard]] std::map<std::size_t, studies::PointResult> known_points(const io::Journal& journal,
-                                                                       std::span<const io::JournalEntry> entries,
+[[nodiscard]] std::map<std::size_t, studies::PointResult> known_points(const store::Journal& journal,
+                                                                       std::span<const store::JournalEntry> entries,
                                                                        const studies::SweepPlan& plan);
 
 /// Says on stderr why a folder cannot be used, of another study, in which values it differs; and which files of a
 /// complete study have to be made again.
 /// @returns the exit code, or nothing if the study may be computed in it
-[[nodiscard]] std::optional<int> refuse_or_finish(const io::OutputFolder& folder, const io::LoadedInput& input);
+[[nodiscard]] std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const io::LoadedInput& input);
 
 /// What input.resolved.json holds.
 [[nodiscard]] std::string resolved_text(const io::LoadedInput& input);
@@ -55,6 +55,6 @@ void tell_cut_tail(const std::filesystem::path& journal, std::size_t bytes);
 /// input.json, the stage file as input.stage.json, input.resolved.json.
 /// @returns text of the resolved input
 /// @throws OutputError
-std::string write_inputs(const io::OutputFolder& folder, const io::LoadedInput& input);
+std::string write_inputs(const store::OutputFolder& folder, const io::LoadedInput& input);
 
 }  // namespace epicyclic::app

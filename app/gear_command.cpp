@@ -7,8 +7,8 @@
 #include "figures/gnuplot.hpp"
 #include "folder.hpp"
 #include "io/gear_output.hpp"
-#include "io/identity.hpp"
 #include "io/study_model.hpp"
+#include "store/identity.hpp"
 #include "streams.hpp"
 
 namespace epicyclic::app {
@@ -16,15 +16,15 @@ namespace epicyclic::app {
 int gear_command(const Arguments& arguments) {
   const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
   io::require_finite_numbers(input);
-  const io::OutputFolder folder(arguments.output, io::identity({input.resolved, input.computed}, "gear"),
-                                figures::gnuplot_is_installed());
+  const store::OutputFolder folder(arguments.output, store::identity({input.resolved, input.computed}, "gear"),
+                                   figures::gnuplot_is_installed());
   if (const auto code = refuse_or_finish(folder, input)) return *code;
-  io::Provenance facts = provenance(1, input);
+  store::Provenance facts = provenance(1, input);
   write_inputs(folder, input);
   const io::GearOutput written = io::write_gear_output(folder.path(), input);
-  facts.ended = io::utc_now();
+  facts.ended = store::utc_now();
   facts.counts = {{"undrawn", static_cast<std::int64_t>(written.undrawn.size())}};
-  folder.write_run(io::RunState::complete, io::run_facts(facts));
+  folder.write_run(store::RunState::complete, store::run_facts(facts));
   for (const std::string& line : written.warnings) tell("warning: {}\n", line);
   for (const std::string& line : written.undrawn) tell("figure not drawn: {}\n", line);
   for (const std::string& line : written.verdicts) tell("{}\n", line);

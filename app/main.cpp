@@ -15,18 +15,18 @@
 #include "core/version.hpp"
 #include "failure.hpp"
 #include "io/study_input.hpp"
-#include "io/versions.hpp"
 #include "ranks.hpp"
 #include "stop.hpp"
+#include "store/versions.hpp"
 #include "streams.hpp"
 
 namespace epicyclic::app {
 
 std::string version_text() {
   std::string text =
-      fmt::format("epicyclic {}\ncommit {}\nSIMD {}\n", EPICYCLIC_VERSION, EPICYCLIC_COMMIT, io::simd_level());
+      fmt::format("epicyclic {}\ncommit {}\nSIMD {}\n", EPICYCLIC_VERSION, EPICYCLIC_COMMIT, store::simd_level());
   if (const std::string mpi = mpi_version(); !mpi.empty()) text += fmt::format("MPI {}\n", mpi);
-  for (const auto& [name, version] : io::dependency_versions()) text += fmt::format("{} {}\n", name, version);
+  for (const auto& [name, version] : store::dependency_versions()) text += fmt::format("{} {}\n", name, version);
   return text;
 }
 

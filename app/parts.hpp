@@ -12,9 +12,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/manifest.hpp"
 #include "io/study_input.hpp"
 #include "io/sweep_output.hpp"
+#include "store/manifest.hpp"
 
 namespace epicyclic::app {
 
@@ -24,7 +24,7 @@ struct ComputedPoints {
   const io::LoadedInput& input;
   const model::DynamicModel& first_model;
   const std::string& resolved;
-  const io::PointSource points;
+  const studies::PointSource points;
 };
 
 /// What was written.
@@ -33,7 +33,7 @@ struct WrittenPoints {
   nlohmann::json summary = nlohmann::json::object();  ///< joins that of --json
   std::vector<std::string> lines{};                   ///< for stdout
   std::vector<std::string> notes{};                   ///< for stderr
-  io::Manifest files{};                               ///< that another process put into the folder
+  store::Manifest files{};                            ///< that another process put into the folder
 };
 
 /// Writes files of its own, on any rank and beside the other parts.

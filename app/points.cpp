@@ -10,15 +10,15 @@
 #include "failure.hpp"
 #include "figures/gnuplot.hpp"
 #include "folder.hpp"
-#include "io/identity.hpp"
-#include "io/output_folder.hpp"
-#include "io/point_store.hpp"
 #include "io/progress.hpp"
 #include "io/study_input.hpp"
 #include "io/study_model.hpp"
 #include "ranks.hpp"
 #include "shared_sweep.hpp"
 #include "stop.hpp"
+#include "store/identity.hpp"
+#include "store/output_folder.hpp"
+#include "store/point_store.hpp"
 #include "streams.hpp"
 #include "studies/sweep.hpp"
 #include "watch.hpp"
@@ -34,7 +34,7 @@ bool computed(const studies::PointResult& r) { return r.outcome == integrate::Ou
 /// @returns how many points of all failed
 std::size_t compute_missing(const Arguments& arguments, std::string_view command, std::string_view noun,
                             const io::LoadedInput& input, const studies::SweepPlan& plan,
-                            const studies::ModelAtPoint& model_at, io::PointStore& store, SweepLeader* leader) {
+                            const studies::ModelAtPoint& model_at, store::PointStore& store, SweepLeader* leader) {
   const studies::SweepOptions& sweep = *input.study.sweep;
   std::size_t failed = 0;
   studies::SweepRun run;
@@ -131,43 +131,43 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   if (command == "sweep" && input.study.sweep->parameter != "mesh_frequency_ratio")
     tell("operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
 
-  const std::string identity = io::identity({input.resolved, input.computed}, command);
+  const std::string identity = store::identity({input.resolved, input.computed}, command);
   if (leader != nullptr) leader->gather(arguments, identity);
-  io::OutputFolder folder(arguments.output, identity, figures::gnuplot_is_installed());
+  store::OutputFolder folder(arguments.output, identity, figures::gnuplot_is_installed());
   if (const auto code = refuse_or_finish(folder, input)) return *code;
-  io::Provenance facts = provenance(arguments.threads, input);
+  store::Provenance facts = provenance(arguments.threads, input);
   facts.ranks = arguments.ranks->size();
   const std::string resolved = write_inputs(folder, input);
-  folder.write_run(io::RunState::running, io::run_facts(facts));
+  folder.write_run(store::RunState::running, store::run_facts(facts));
   const FolderWatch watch(folder);
 
-  io::PointStore store(folder.path(), identity, plan.points.size());
+  store::PointStore store(folder.path(), identity, plan.points.size());
   for (const auto& [journal, bytes] : store.cut_tails()) tell_cut_tail(journal, bytes);
   const std::size_t failed = compute_missing(arguments, command, noun, input, plan, model_at, store, leader);
   folder.require_there();
   if (leader != nullptr) store.read_others();
   std::int64_t undrawn = 0;
-  const auto close_run = [&](io::RunState state) {
-    facts.ended = io::utc_now();
+  const auto close_run = [&](store::RunState state) {
+    facts.ended = store::utc_now();
     facts.counts = {{"points", static_cast<std::int64_t>(plan.points.size())},
                     {"computed", static_cast<std::int64_t>(store.size())},
                     {"failed", static_cast<std::int64_t>(failed)},
                     {"undrawn", undrawn}};
-    folder.write_run(state, io::run_facts(facts));
+    folder.write_run(state, store::run_facts(facts));
   };
   if (store.size() < plan.points.size()) {
-    close_run(io::RunState::stopped);
+    close_run(store::RunState::stopped);
     tell("stopped after {} of {} {}; the same command goes on\n", store.size(), plan.points.size(), noun);
     return stopped_early;
   }
 
   folder.require_there();
   const ComputedPoints computed_points{folder.path(), input, first_model, resolved, store.source()};
-  const io::PointSource& points = computed_points.points;
+  const studies::PointSource& points = computed_points.points;
   const WrittenPoints written = write_results(arguments, parts, computed_points, leader);
   folder.add(written.files);
   undrawn = tell_undrawn(written.figures);
-  close_run(io::RunState::complete);
+  close_run(store::RunState::complete);
   for (const std::string& note : written.notes) tell("{}\n", note);
 
   std::map<std::string, std::size_t> regimes;

@@ -6,11 +6,11 @@
 #include "core/atomic_file.hpp"
 #include "figures/gnuplot.hpp"
 #include "folder.hpp"
-#include "io/identity.hpp"
 #include "io/run_output.hpp"
 #include "io/study_model.hpp"
 #include "io/sweep_output.hpp"
 #include "stop.hpp"
+#include "store/identity.hpp"
 #include "streams.hpp"
 #include "studies/run.hpp"
 #include "watch.hpp"
@@ -25,20 +25,20 @@ int run_command(const Arguments& arguments) {
   const model::DynamicModel model = io::model_at(input)(study.mesh_frequency_ratio);
   for (const std::string& warning : io::warnings(input)) tell("{}\n", warning);
 
-  const io::OutputFolder folder(arguments.output, io::identity({input.resolved, input.computed}, "run"),
-                                figures::gnuplot_is_installed());
+  const store::OutputFolder folder(arguments.output, store::identity({input.resolved, input.computed}, "run"),
+                                   figures::gnuplot_is_installed());
   if (const auto code = refuse_or_finish(folder, input)) return *code;
-  io::Provenance facts = provenance(1, input);
+  store::Provenance facts = provenance(1, input);
   const std::string resolved = write_inputs(folder, input);
-  folder.write_run(io::RunState::running, io::run_facts(facts));
+  folder.write_run(store::RunState::running, store::run_facts(facts));
   const FolderWatch watch(folder);
 
   // A minute at most: what is stopped begins anew.
   const auto result = studies::run_operating_point(model, model::scales_of(study.stage), *study.sweep, study.run,
                                                    study.integrator, [] { return !stop_requested().load(); });
   if (!result) {
-    facts.ended = io::utc_now();
-    folder.write_run(io::RunState::stopped, io::run_facts(facts));
+    facts.ended = store::utc_now();
+    folder.write_run(store::RunState::stopped, store::run_facts(facts));
     tell("stopped; the same command begins anew\n");
     return stopped_early;
   }
@@ -49,7 +49,7 @@ int run_command(const Arguments& arguments) {
                              study.model.gap_damping};
   const bool computed = result->point.outcome == integrate::Outcome::reached;
   const std::string summary = io::run_summary(output, *result);
-  const io::PointSource point = io::points_in_memory({&result->point, 1});
+  const studies::PointSource point = studies::points_in_memory({&result->point, 1});
   io::write_points_csv(folder.file("points.csv"), point);
   io::write_poincare_csv(folder.file("poincare.csv"), points, point);
   io::write_run_tables(folder.path(), output, *result);
@@ -57,9 +57,9 @@ int run_command(const Arguments& arguments) {
   write_file_atomically(folder.file("summary.md"), summary);
   const auto figures = io::draw_run_figures(folder.file("figures"), output, *result);
   const std::int64_t undrawn = tell_undrawn(figures);
-  facts.ended = io::utc_now();
+  facts.ended = store::utc_now();
   facts.counts = {{"points", 1}, {"failed", computed ? 0 : 1}, {"undrawn", undrawn}};
-  folder.write_run(io::RunState::complete, io::run_facts(facts));
+  folder.write_run(store::RunState::complete, store::run_facts(facts));
 
   nlohmann::json told = {{"folder", folder.path().string()},
                          {"status", io::status_word(result->point.outcome)},

@@ -21,14 +21,14 @@
 
 #include "failure.hpp"
 #include "folder.hpp"
-#include "io/identity.hpp"
-#include "io/journal.hpp"
-#include "io/manifest.hpp"
-#include "io/point_record.hpp"
-#include "io/point_store.hpp"
 #include "io/study_model.hpp"
 #include "ranks.hpp"
 #include "stop.hpp"
+#include "store/identity.hpp"
+#include "store/journal.hpp"
+#include "store/manifest.hpp"
+#include "store/point_record.hpp"
+#include "store/point_store.hpp"
 
 namespace epicyclic::app {
 
@@ -172,7 +172,7 @@ json written_to(const WrittenPoints& written) {
           {"summary", written.summary},
           {"lines", written.lines},
           {"notes", written.notes},
-          {"files", io::to_json(written.files)}};
+          {"files", store::to_json(written.files)}};
 }
 
 WrittenPoints written_from(const json& report) {
@@ -182,7 +182,7 @@ WrittenPoints written_from(const json& report) {
   written.summary = report.at("summary");
   written.lines = report.at("lines").get<std::vector<std::string>>();
   written.notes = report.at("notes").get<std::vector<std::string>>();
-  written.files = io::manifest_from(report.at("files")).value();
+  written.files = store::manifest_from(report.at("files")).value();
   return written;
 }
 
@@ -489,7 +489,7 @@ void compute_share(const Arguments& arguments, const io::LoadedInput& input, con
                    const json& begin) {
   const studies::SweepOptions& sweep = *input.study.sweep;
   const studies::SweepPlan plan = io::plan_of(input.study);
-  io::Journal journal(arguments.output / io::rank_journal_name(arguments.ranks->rank()), identity);
+  store::Journal journal(arguments.output / store::rank_journal_name(arguments.ranks->rank()), identity);
   Exchange exchange(*arguments.ranks);
   studies::SweepRun run;
   run.threads = arguments.threads;
@@ -500,7 +500,7 @@ void compute_share(const Arguments& arguments, const io::LoadedInput& input, con
   run.end_state = [&](std::size_t point) { return exchange.end_state(point); };
   run.next_chain = [&] { return exchange.next_chain(); };
   run.point_finished = [&](const studies::PointResult& result) {
-    journal.append(result.point.index, io::encode_point(result));
+    journal.append(result.point.index, store::encode_point(result));
     exchange.count(result.outcome != integrate::Outcome::reached);
   };
   std::exception_ptr error;
@@ -527,10 +527,10 @@ class PartWriter {
         plan_(io::plan_of(input.study)),
         first_model_(io::model_at_point(input)(plan_.points.front())),
         resolved_(resolved_text(input)),
-        store_(folder_, identity, plan_.points.size(), io::Journal::Use::read) {}
+        store_(folder_, identity, plan_.points.size(), store::Journal::Use::read) {}
 
   [[nodiscard]] json write(const ResultsPart& part) const {
-    const io::FileRecorder recorder(folder_);
+    const store::FileRecorder recorder(folder_);
     WrittenPoints written = part.write({folder_, input_, first_model_, resolved_, store_.source()});
     written.files = recorder.files();
     return written_to(written);
@@ -542,7 +542,7 @@ class PartWriter {
   const studies::SweepPlan plan_;
   const model::DynamicModel first_model_;
   const std::string resolved_;
-  const io::PointStore store_;
+  const store::PointStore store_;
 };
 
 }  // namespace
@@ -556,7 +556,7 @@ int follow(const Arguments& arguments, std::string_view command, const std::vect
   std::exception_ptr error;
   try {
     input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
-    identity = io::identity({input->resolved, input->computed}, command);
+    identity = store::identity({input->resolved, input->computed}, command);
   } catch (...) {
     error = std::current_exception();
   }

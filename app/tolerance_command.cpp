@@ -10,13 +10,13 @@
 #include "commands.hpp"
 #include "figures/gnuplot.hpp"
 #include "folder.hpp"
-#include "io/identity.hpp"
-#include "io/journal.hpp"
-#include "io/point_record.hpp"
 #include "io/progress.hpp"
 #include "io/study_model.hpp"
 #include "io/tolerance_output.hpp"
 #include "stop.hpp"
+#include "store/identity.hpp"
+#include "store/journal.hpp"
+#include "store/point_record.hpp"
 #include "streams.hpp"
 #include "watch.hpp"
 
@@ -33,27 +33,28 @@ int tolerance_command(const Arguments& arguments) {
   const model::DynamicModel first_model = model_at(plan.points.front().value, width);
   for (const std::string& warning : io::warnings(input)) tell("{}\n", warning);
 
-  const std::string identity = io::identity({input.resolved, input.computed}, "tolerance");
-  const io::OutputFolder folder(arguments.output, identity, figures::gnuplot_is_installed());
+  const std::string identity = store::identity({input.resolved, input.computed}, "tolerance");
+  const store::OutputFolder folder(arguments.output, identity, figures::gnuplot_is_installed());
   if (const auto code = refuse_or_finish(folder, input)) return *code;
-  io::Provenance facts = provenance(arguments.threads, input);
+  store::Provenance facts = provenance(arguments.threads, input);
   const std::string resolved = write_inputs(folder, input);
-  folder.write_run(io::RunState::running, io::run_facts(facts));
+  folder.write_run(store::RunState::running, store::run_facts(facts));
   const FolderWatch watch(folder);
 
   // Record k < n is the study's own point k, record n + k what was measured on it.
-  io::Journal journal(folder.file("journal.bin"), identity);
+  store::Journal journal(folder.file("journal.bin"), identity);
   tell_cut_tail(folder.file("journal.bin"), journal.cut_bytes());
-  std::vector<io::JournalEntry> entries = journal.entries();
-  const auto measurements = std::stable_partition(
-      entries.begin(), entries.end(), [&](const io::JournalEntry& entry) { return entry.point < plan.points.size(); });
+  std::vector<store::JournalEntry> entries = journal.entries();
+  const auto measurements =
+      std::stable_partition(entries.begin(), entries.end(),
+                            [&](const store::JournalEntry& entry) { return entry.point < plan.points.size(); });
   std::map<std::size_t, studies::TolerancePoint> measured;
   for (auto entry = measurements; entry != entries.end(); ++entry) {
-    studies::TolerancePoint point = io::decode_tolerance_point(journal.read(*entry));
+    studies::TolerancePoint point = store::decode_tolerance_point(journal.read(*entry));
     const std::size_t index = point.point.index;
     if (index >= plan.points.size() || entry->point != plan.points.size() + index)
-      throw io::DamagedData("the journal holds measurement " + std::to_string(entry->point) +
-                            ", which the study has not");
+      throw store::DamagedData("the journal holds measurement " + std::to_string(entry->point) +
+                               ", which the study has not");
     measured.insert_or_assign(index, std::move(point));
   }
   studies::SweepRun run;
@@ -70,7 +71,7 @@ int tolerance_command(const Arguments& arguments) {
   io::Progress progress("tolerance", total, finished);
   progress.update(finished, failed);
   run.point_finished = [&](const studies::PointResult& result) {
-    journal.append(result.point.index, io::encode_point(result));
+    journal.append(result.point.index, store::encode_point(result));
     count_failure(result);
     progress.update(++finished, failed);
   };
@@ -89,22 +90,22 @@ int tolerance_command(const Arguments& arguments) {
         studies::compute_tolerance_point(result, sweep, input.study.tolerance, input.study.integrator, width, model_at,
                                          arguments.threads, &stop_requested());
     if (stop_requested()) break;  // parts of it may be missing
-    journal.append(plan.points.size() + result.point.index, io::encode_tolerance_point(point));
+    journal.append(plan.points.size() + result.point.index, store::encode_tolerance_point(point));
     points.push_back(std::move(point));
     progress.update(++finished, failed);
   }
   journal.close();
   progress.finish();
   std::int64_t undrawn = 0;
-  const auto close_run = [&](io::RunState state) {
-    facts.ended = io::utc_now();
+  const auto close_run = [&](store::RunState state) {
+    facts.ended = store::utc_now();
     facts.counts = {{"points", static_cast<std::int64_t>(plan.points.size())},
                     {"failed", static_cast<std::int64_t>(failed)},
                     {"undrawn", undrawn}};
-    folder.write_run(state, io::run_facts(facts));
+    folder.write_run(state, store::run_facts(facts));
   };
   if (stop_requested()) {
-    close_run(io::RunState::stopped);
+    close_run(store::RunState::stopped);
     tell("stopped after {} of {} points; the same command goes on\n", points.size(), plan.points.size());
     return stopped_early;
   }
@@ -115,11 +116,11 @@ int tolerance_command(const Arguments& arguments) {
       input.study.tolerance,
       input.study.integrator,
       first_model.dimension};
-  io::write_points_csv(folder.file("points.csv"), io::points_in_memory(studied));
+  io::write_points_csv(folder.file("points.csv"), studies::points_in_memory(studied));
   const std::string summary = io::write_tolerance_tables(folder.path(), output, points);
   const auto figures = io::draw_tolerance_figures(folder.file("figures"), output, points);
   undrawn = tell_undrawn(figures);
-  close_run(io::RunState::complete);
+  close_run(store::RunState::complete);
 
   nlohmann::json result = {{"folder", folder.path().string()},
                            {"points", plan.points.size()},

@@ -8,7 +8,7 @@
 
 namespace epicyclic::app {
 
-FolderWatch::FolderWatch(const io::OutputFolder& folder) : folder_(folder) {
+FolderWatch::FolderWatch(const store::OutputFolder& folder) : folder_(folder) {
   try {
     watcher_ = std::thread([this] { look(); });
   } catch (const std::system_error&) {

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "io/output_folder.hpp"
+#include "store/output_folder.hpp"
 
 namespace epicyclic::app {
 
@@ -14,7 +14,7 @@ namespace epicyclic::app {
 class FolderWatch {
  public:
   /// @param folder  must live longer
-  explicit FolderWatch(const io::OutputFolder& folder);
+  explicit FolderWatch(const store::OutputFolder& folder);
   FolderWatch(const FolderWatch&) = delete;
   FolderWatch& operator=(const FolderWatch&) = delete;
   ~FolderWatch();
@@ -22,7 +22,7 @@ class FolderWatch {
  private:
   void look();
 
-  const io::OutputFolder& folder_;
+  const store::OutputFolder& folder_;
   bool over_ = false;
   std::mutex mutex_;
   std::condition_variable changed_;

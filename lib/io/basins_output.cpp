@@ -14,8 +14,8 @@
 
 #include "core/csv.hpp"
 #include "figures/cell_figure.hpp"
-#include "io/hdf5_file.hpp"
 #include "io/plane_output.hpp"
+#include "store/hdf5_file.hpp"
 
 namespace epicyclic::io {
 
@@ -103,7 +103,7 @@ std::string component_label(const std::string& component) {
 
 void write_basins_csv(const std::filesystem::path& file, const std::vector<PointResult>& results,
                       const Attractors& attractors) {
-  write_points_csv(file, points_in_memory(results),
+  write_points_csv(file, studies::points_in_memory(results),
                    {second_value_column(), {"attractor", [&](const PointResult& r) {
                                               return static_cast<double>(attractors.number[r.point.index]);
                                             }}});
@@ -131,9 +131,9 @@ void write_attractors_csv(const std::filesystem::path& file, const BasinsOutput&
 
 void write_basins_h5(const std::filesystem::path& file, const BasinsOutput& output,
                      const std::vector<PointResult>& results, const Attractors& attractors) {
-  Hdf5File h5(file);
+  store::Hdf5File h5(file);
   // The matrix: rows along the second component, columns along the first, both ascending.
-  write_plane(h5, "/basins", "component", output.plane, output.resolved_input, points_in_memory(results));
+  write_plane(h5, "/basins", "component", output.plane, output.resolved_input, studies::points_in_memory(results));
   const std::vector<std::int64_t> numbers(attractors.number.begin(), attractors.number.end());
   h5.write("/points/attractor", std::span<const std::int64_t>(numbers));
   h5.write("/basins/attractor", std::span<const std::int64_t>(numbers),

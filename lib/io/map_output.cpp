@@ -8,8 +8,8 @@
 #include <span>
 
 #include "figures/cell_figure.hpp"
-#include "io/hdf5_file.hpp"
 #include "io/plane_output.hpp"
+#include "store/hdf5_file.hpp"
 #include "studies/plane.hpp"
 
 namespace epicyclic::io {
@@ -21,7 +21,7 @@ using studies::PointResult;
 
 /// What a figure or a matrix shows of each cell, row by row with both axes ascending.
 template <class T>
-std::vector<T> matrix(const MapOutput& output, const PointSource& points, Direction direction,
+std::vector<T> matrix(const MapOutput& output, const studies::PointSource& points, Direction direction,
                       const std::function<T(const PointResult&)>& value) {
   const auto columns = static_cast<std::size_t>(output.plane.first.points);
   const auto& directions = output.sweep.directions;
@@ -62,12 +62,12 @@ std::size_t class_of(const PointResult& r) {
 
 }  // namespace
 
-void write_map_csv(const std::filesystem::path& file, const PointSource& points) {
+void write_map_csv(const std::filesystem::path& file, const studies::PointSource& points) {
   write_points_csv(file, points, {second_value_column()});
 }
 
-void write_map_h5(const std::filesystem::path& file, const MapOutput& output, const PointSource& points) {
-  Hdf5File h5(file);
+void write_map_h5(const std::filesystem::path& file, const MapOutput& output, const studies::PointSource& points) {
+  store::Hdf5File h5(file);
   // Matrices: rows along the second parameter, columns along the first, both ascending.
   write_plane(h5, "/map", "parameter", output.plane, output.resolved_input, points);
   const auto columns = static_cast<std::size_t>(output.plane.first.points);
@@ -98,7 +98,7 @@ void write_map_h5(const std::filesystem::path& file, const MapOutput& output, co
 }
 
 std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, const MapOutput& output,
-                                          const PointSource& points) {
+                                          const studies::PointSource& points) {
   std::vector<DrawnFigure> figures;
   const figures::CellGrid grid{axis_values(output.plane.first), axis_values(output.plane.second)};
   for (const Direction direction : output.sweep.directions) {

@@ -24,11 +24,11 @@ struct MapOutput {
 };
 
 /// @throws OutputError
-void write_map_csv(const std::filesystem::path& file, const PointSource& points);
-void write_map_h5(const std::filesystem::path& file, const MapOutput& output, const PointSource& points);
+void write_map_csv(const std::filesystem::path& file, const studies::PointSource& points);
+void write_map_h5(const std::filesystem::path& file, const MapOutput& output, const studies::PointSource& points);
 
 /// For each direction the regimes and, where they were told by more than recurrence, the largest exponent.
 [[nodiscard]] std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, const MapOutput& output,
-                                                        const PointSource& points);
+                                                        const studies::PointSource& points);
 
 }  // namespace epicyclic::io

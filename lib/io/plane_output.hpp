@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "io/hdf5_file.hpp"
 #include "io/sweep_output.hpp"
+#include "store/hdf5_file.hpp"
 #include "studies/plane_options.hpp"
 #include "studies/sweep.hpp"
 
@@ -16,7 +16,8 @@ namespace epicyclic::io {
 
 /// The input, what the axes are, the group /points, and `group` with the values along both axes, ascending.
 /// @param axis  "parameter" or "component": of the attributes
-void write_plane(Hdf5File& h5, const std::string& group, const std::string& axis, const studies::PlaneOptions& plane,
-                 const std::string& resolved_input, const PointSource& points);
+void write_plane(store::Hdf5File& h5, const std::string& group, const std::string& axis,
+                 const studies::PlaneOptions& plane, const std::string& resolved_input,
+                 const studies::PointSource& points);
 
 }  // namespace epicyclic::io

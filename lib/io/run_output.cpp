@@ -12,8 +12,8 @@
 
 #include "core/csv.hpp"
 #include "core/text.hpp"
-#include "io/hdf5_file.hpp"
 #include "model/scales.hpp"
+#include "store/hdf5_file.hpp"
 
 namespace epicyclic::io {
 
@@ -127,7 +127,7 @@ bool has_history(const RunResult& r) { return !r.history.columns.empty(); }
 /// Columns of numbers and texts of one group.
 class Group {
  public:
-  Group(Hdf5File& h5, std::string path) : h5_(h5), path_(std::move(path)) { h5_.create_group(path_); }
+  Group(store::Hdf5File& h5, std::string path) : h5_(h5), path_(std::move(path)) { h5_.create_group(path_); }
 
   void numbers(const std::string& name, std::span<const double> values, const std::string& units) {
     h5_.write(at(name), values);
@@ -182,11 +182,11 @@ class Group {
  private:
   [[nodiscard]] std::string at(const std::string& name) const { return path_ + "/" + name; }
 
-  Hdf5File& h5_;
+  store::Hdf5File& h5_;
   std::string path_;
 };
 
-void write_point(Hdf5File& h5, const RunOutput& output, const RunResult& r) {
+void write_point(store::Hdf5File& h5, const RunOutput& output, const RunResult& r) {
   Group g(h5, "/point");
   g.text("status", status_word(r.point.outcome));
   g.text("message", r.point.message);
@@ -220,7 +220,7 @@ void write_point(Hdf5File& h5, const RunOutput& output, const RunResult& r) {
   evidence.text("note", e.note);
 }
 
-void write_spectrum(Hdf5File& h5, const SignalSpectrum& s) {
+void write_spectrum(store::Hdf5File& h5, const SignalSpectrum& s) {
   const std::string path = "/spectra/" + s.signal;
   Group g(h5, path);
   h5.set_attribute(path, "exact", static_cast<std::int64_t>(s.exact ? 1 : 0));
@@ -254,7 +254,7 @@ void write_spectrum(Hdf5File& h5, const SignalSpectrum& s) {
   }
 }
 
-void write_meshes(Hdf5File& h5, const std::vector<MeshSummary>& meshes) {
+void write_meshes(store::Hdf5File& h5, const std::vector<MeshSummary>& meshes) {
   Group g(h5, "/meshes");
   g.text_column("name", meshes, [](const MeshSummary& m) { return m.name; });
   g.column(
@@ -281,7 +281,7 @@ void write_meshes(Hdf5File& h5, const std::vector<MeshSummary>& meshes) {
       "contact_losses", meshes, [](const MeshSummary& m) { return m.contact_losses; }, "per record");
 }
 
-void write_exponents(Hdf5File& h5, const RunResult& r) {
+void write_exponents(store::Hdf5File& h5, const RunResult& r) {
   const analysis::LyapunovSpectrum& e = r.exponents;
   using analysis::Estimate;
   Group g(h5, "/exponents");
@@ -321,7 +321,7 @@ std::string outcome_word(analysis::OrbitOutcome outcome) {
   return "not_reached";
 }
 
-void write_orbit(Hdf5File& h5, const RunOutput& output, const RunResult& r) {
+void write_orbit(store::Hdf5File& h5, const RunOutput& output, const RunResult& r) {
   const analysis::PeriodicOrbit& o = *r.orbit;
   Group g(h5, "/orbit");
   g.text("outcome", outcome_word(o.outcome));
@@ -335,7 +335,7 @@ void write_orbit(Hdf5File& h5, const RunOutput& output, const RunResult& r) {
   g.number("friction_table_error", r.friction_table_error, "-");
 }
 
-void write_multipliers(Hdf5File& h5, const analysis::Multipliers& m) {
+void write_multipliers(store::Hdf5File& h5, const analysis::Multipliers& m) {
   Group g(h5, "/multipliers");
   g.column(
       "re", m.values, [](const std::complex<double>& z) { return z.real(); }, "-");
@@ -684,7 +684,7 @@ void write_run_tables(const std::filesystem::path& folder, const RunOutput& outp
 }
 
 void write_run_h5(const std::filesystem::path& file, const RunOutput& output, const RunResult& result) {
-  Hdf5File h5(file);
+  store::Hdf5File h5(file);
   h5.set_attribute("/", "input_resolved", output.points.resolved_input);
   h5.set_attribute("/", "title", output.points.title);
   write_point(h5, output, result);

@@ -13,7 +13,7 @@
 
 #include "core/csv.hpp"
 #include "figures/bifurcation_figure.hpp"
-#include "io/hdf5_file.hpp"
+#include "store/hdf5_file.hpp"
 
 namespace epicyclic::io {
 
@@ -34,7 +34,7 @@ double zero_one(const PointResult& r) { return r.evidence.zero_one.value_or(std:
 /// The rows of all Poincare sections one after another.
 class SectionRows {
  public:
-  explicit SectionRows(const PointSource& points) {
+  explicit SectionRows(const studies::PointSource& points) {
     for (std::size_t i = 0; i < points.count; ++i) {
       rows_.push_back(static_cast<std::uint32_t>(points.read(i).poincare_rows()));
       count_ += rows_.back();
@@ -87,7 +87,7 @@ figures::FigureText text_of(const SweepOutput& output, SweepFigure figure) {
 }
 
 /// Points are numbered along the first direction, then the second.
-std::size_t points_each_way(const SweepOutput& output, const PointSource& points) {
+std::size_t points_each_way(const SweepOutput& output, const studies::PointSource& points) {
   return points.count / output.sweep.directions.size();
 }
 
@@ -117,7 +117,7 @@ std::size_t class_of(const PointResult& r) {
 }
 
 /// Points along one direction as a figure takes them; `points` must live longer.
-auto section(const SweepOutput& output, const PointSource& points, std::size_t direction, SweepFigure figure) {
+auto section(const SweepOutput& output, const studies::PointSource& points, std::size_t direction, SweepFigure figure) {
   const auto& columns = output.poincare_columns;
   const auto column =
       static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column_of(figure)) - columns.begin());
@@ -196,19 +196,7 @@ std::string status_word(integrate::Outcome outcome) {
   return "failed";
 }
 
-PointSource points_in_memory(std::span<const PointResult> results) {
-  const auto read = [results](std::size_t point) { return results[point]; };
-  return {results.size(), read, read};
-}
-
-std::vector<PointResult> all_brief(const PointSource& points) {
-  std::vector<PointResult> all;
-  all.reserve(points.count);
-  for (std::size_t i = 0; i < points.count; ++i) all.push_back(points.read_brief(i));
-  return all;
-}
-
-void write_points_csv(const std::filesystem::path& file, const PointSource& points,
+void write_points_csv(const std::filesystem::path& file, const studies::PointSource& points,
                       const std::vector<PointColumn>& more) {
   std::vector<std::string> columns = {"point",
                                       "direction",
@@ -292,7 +280,8 @@ void write_points_csv(const std::filesystem::path& file, const PointSource& poin
   csv.commit();
 }
 
-void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& output, const PointSource& points) {
+void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& output,
+                        const studies::PointSource& points) {
   std::vector<std::string> columns = {"point", "index"};
   columns.insert(columns.end(), output.poincare_columns.begin(), output.poincare_columns.end());
   CsvWriter csv(file, columns);
@@ -307,13 +296,13 @@ void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& ou
   csv.commit();
 }
 
-void write_point_columns(Hdf5File& h5, const PointSource& points) {
+void write_point_columns(store::Hdf5File& h5, const studies::PointSource& points) {
   h5.create_group("/points");
   const auto column = [&](const std::string& name, auto&& value, const char* units) {
     using Value = std::decay_t<decltype(value(std::declval<PointResult>()))>;
     // Column after column through the points: a row of all columns at once would need each column's chunk in memory.
     h5.write("/points/" + name, points.count,
-             Hdf5File::Column<Value>([&](std::size_t row) { return value(points.read_brief(row)); }));
+             store::Hdf5File::Column<Value>([&](std::size_t row) { return value(points.read_brief(row)); }));
     if (units != nullptr) h5.set_units("/points/" + name, units);
   };
   const auto integer = [](auto x) { return static_cast<std::int64_t>(x); };
@@ -385,8 +374,9 @@ void write_point_columns(Hdf5File& h5, const PointSource& points) {
   }
 }
 
-void write_results_h5(const std::filesystem::path& file, const SweepOutput& output, const PointSource& points) {
-  Hdf5File h5(file);
+void write_results_h5(const std::filesystem::path& file, const SweepOutput& output,
+                      const studies::PointSource& points) {
+  store::Hdf5File h5(file);
   h5.set_attribute("/", "input_resolved", output.resolved_input);
   h5.set_attribute("/", "sweep_parameter", output.sweep.parameter);
 
@@ -395,10 +385,10 @@ void write_results_h5(const std::filesystem::path& file, const SweepOutput& outp
   h5.create_group("/poincare");
   SectionRows section(points);
   h5.write("/poincare/columns", std::span<const std::string>(output.poincare_columns));
-  h5.write("/poincare/point", section.count(), Hdf5File::Column<std::int64_t>([&](std::size_t row) {
+  h5.write("/poincare/point", section.count(), store::Hdf5File::Column<std::int64_t>([&](std::size_t row) {
              return static_cast<std::int64_t>(section.at(row).first);
            }));
-  h5.write("/poincare/index", section.count(), Hdf5File::Column<std::int64_t>([&](std::size_t row) {
+  h5.write("/poincare/index", section.count(), store::Hdf5File::Column<std::int64_t>([&](std::size_t row) {
              return static_cast<std::int64_t>(section.at(row).second);
            }));
   const std::size_t columns = output.poincare_columns.size();
@@ -413,7 +403,7 @@ void write_results_h5(const std::filesystem::path& file, const SweepOutput& outp
 }
 
 std::optional<DrawnFigure> write_sweep_figure(const std::filesystem::path& folder, const SweepOutput& output,
-                                              const PointSource& points, SweepFigure figure) {
+                                              const studies::PointSource& points, SweepFigure figure) {
   const auto stem = stem_of(output, figure);
   if (!stem) return std::nullopt;
   const figures::FigureText text = text_of(output, figure);

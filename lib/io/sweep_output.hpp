@@ -12,8 +12,9 @@
 #include <vector>
 
 #include "figures/gnuplot.hpp"
-#include "io/hdf5_file.hpp"
 #include "io/study_input.hpp"
+#include "store/hdf5_file.hpp"
+#include "studies/point_source.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::io {
@@ -42,19 +43,6 @@ struct SweepOutput {
   std::string title;           ///< of the figures
 };
 
-/// Points that writers read one by one, as often as they need: a study may be larger than memory.
-struct PointSource {
-  std::size_t count = 0;
-  std::function<studies::PointResult(std::size_t point)> read;
-  std::function<studies::PointResult(std::size_t point)> read_brief;  ///< without the Poincare section
-};
-
-/// Those of a study of few points; `results` must live longer.
-[[nodiscard]] PointSource points_in_memory(std::span<const studies::PointResult> results);
-
-/// All of them without their Poincare sections, for studies whose points are small: some 1 KB each.
-[[nodiscard]] std::vector<studies::PointResult> all_brief(const PointSource& points);
-
 /// A column of numbers that a kind of study adds, behind `value`.
 struct PointColumn {
   std::string name;
@@ -62,13 +50,14 @@ struct PointColumn {
 };
 
 /// @throws OutputError, and what reading points throws
-void write_points_csv(const std::filesystem::path& file, const PointSource& points,
+void write_points_csv(const std::filesystem::path& file, const studies::PointSource& points,
                       const std::vector<PointColumn>& more = {});
-void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& output, const PointSource& points);
-void write_results_h5(const std::filesystem::path& file, const SweepOutput& output, const PointSource& points);
+void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& output,
+                        const studies::PointSource& points);
+void write_results_h5(const std::filesystem::path& file, const SweepOutput& output, const studies::PointSource& points);
 
 /// The group /points of results.h5, one dataset a column.
-void write_point_columns(Hdf5File& h5, const PointSource& points);
+void write_point_columns(store::Hdf5File& h5, const studies::PointSource& points);
 
 struct DrawnFigure {
   std::filesystem::path file;  ///< the PNG picture, as a rule
@@ -84,8 +73,8 @@ enum class SweepFigure { delta_sp, delta_rp, regimes_first, regimes_second };
 /// told) is no reason
 /// @throws OutputError, and what reading points throws
 [[nodiscard]] std::optional<DrawnFigure> write_sweep_figure(const std::filesystem::path& folder,
-                                                            const SweepOutput& output, const PointSource& points,
-                                                            SweepFigure figure);
+                                                            const SweepOutput& output,
+                                                            const studies::PointSource& points, SweepFigure figure);
 
 /// Draws one of its pictures from them.
 /// @returns nothing if there is nothing to draw

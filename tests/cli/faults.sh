@@ -5,7 +5,7 @@
 # the files of a study, writes to stdout and stderr; by error numbers, interrupted (EINTR), done by half, or with the death of
 # the program in place of the call (tests/faults/shim.cpp). Over a sweep, a map, gear, run, and a sweep on two ranks, TRIALS
 # of them (48) in all, spread evenly over the calls, shifted by SEED. A run ends with 0 and all outputs, or with 5 and a
-# word of why; interruptions and halves are no errors (but an ftruncate of HDF5's: lib/io/hdf5_file.cpp); and the same command
+# word of why; interruptions and halves are no errors (but an ftruncate of HDF5's: lib/store/hdf5_file.cpp); and the same command
 # without faults ends with the same bytes.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"

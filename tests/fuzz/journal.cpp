@@ -5,7 +5,7 @@
 // would: kinds are good records, bytes as they are, a record cut short, and one with a flipped bit. A first byte says
 // whether the header is good; else the input is the file.
 
-#include "io/journal.hpp"
+#include "store/journal.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "fuzz.hpp"
-#include "io/point_record.hpp"
+#include "store/point_record.hpp"
 
 namespace epicyclic::io {
 namespace {
@@ -29,7 +29,7 @@ const fuzz::Folder& folder() {
   return the_folder;
 }
 
-const std::string& identity() {
+const std::string& store::identity() {
   static const std::string digits(64, 'a');
   return digits;
 }
@@ -47,7 +47,7 @@ std::span<const std::byte> bytes_of(std::string_view text) {
 const std::string& header() {
   static const std::string bytes = [] {
     const fs::path file = folder() / "header";
-    Journal(file, identity()).close();
+    store::Journal(file, store::identity()).close();
     return contents(file);
   }();
   return bytes;
@@ -80,16 +80,16 @@ void look_at_record(std::span<const std::byte> payload, Decode decode, Encode en
   try {
     const auto once = encode(decode(payload));
     require(encode(decode(std::span<const std::byte>(once))) == once, "a record encodes to itself");
-  } catch (const DamagedData&) {
+  } catch (const store::DamagedData&) {
   }
 }
 
 void look_at_payload(std::span<const std::byte> payload) {
-  look_at_record(payload, decode_point, encode_point);
-  look_at_record(payload, decode_tolerance_point, encode_tolerance_point);
+  look_at_record(payload, store::decode_point, store::encode_point);
+  look_at_record(payload, store::decode_tolerance_point, store::encode_tolerance_point);
   for (const std::size_t most : {payload.size(), payload.size() / 2, payload.size() / 3}) try {
-      (void)decode_point_beginning(payload.first(most));
-    } catch (const DamagedData&) {
+      (void)store::decode_point_beginning(payload.first(most));
+    } catch (const store::DamagedData&) {
     }
 }
 
@@ -98,10 +98,10 @@ struct Good {
   std::string payload;
 };
 
-bool same(const Journal& journal, const std::vector<Good>& good) {
+bool same(const store::Journal& journal, const std::vector<Good>& good) {
   if (journal.entries().size() != good.size()) return false;
   for (std::size_t k = 0; k < good.size(); ++k) {
-    const JournalEntry& entry = journal.entries()[k];
+    const store::JournalEntry& entry = journal.entries()[k];
     const auto payload = journal.read(entry);
     const auto expected = bytes_of(good[k].payload);
     if (entry.point != good[k].point || !std::equal(payload.begin(), payload.end(), expected.begin(), expected.end()))
@@ -163,21 +163,21 @@ void look_at_pieces(std::string_view data) {
   fuzz::put_file(path, file);
   bool refused = false;
   try {
-    const Journal journal(path, identity(), Journal::Use::read);
+    const store::Journal journal(path, store::identity(), store::Journal::Use::read);
     require(same(journal, good), "good records are read as they were written");
-    for (const JournalEntry& entry : journal.entries()) look_at_payload(journal.read(entry));
-  } catch (const DamagedData&) {
+    for (const store::JournalEntry& entry : journal.entries()) look_at_payload(journal.read(entry));
+  } catch (const store::DamagedData&) {
     refused = true;
   }
   require(contents(path) == file, "reading changes nothing");
   require(refused == good_after, "damage before good records is refused, nothing else is");
   std::size_t size = file.size();
   try {
-    Journal journal(path, identity());
+    store::Journal journal(path, store::identity());
     require(!refused, "what cannot be read cannot be appended to");
     size -= journal.cut_bytes();
     require(same(journal, good), "a cut journal has its good records");
-  } catch (const DamagedData&) {
+  } catch (const store::DamagedData&) {
     require(refused, "what can be read can be appended to");
   }
   require(contents(path) == file.substr(0, size), "only the tail is cut");
@@ -186,14 +186,15 @@ void look_at_pieces(std::string_view data) {
   if (file.size() % 16 != 0) return;
   good.push_back({7, "appended"});
   {
-    Journal journal(path, identity());
+    store::Journal journal(path, store::identity());
     require(journal.cut_bytes() == 0, "what was cut is whole");
-    const JournalEntry entry = journal.append(good.back().point, bytes_of(good.back().payload));
+    const store::JournalEntry entry = journal.append(good.back().point, bytes_of(good.back().payload));
     const auto payload = journal.read(entry);
     require(std::equal(payload.begin(), payload.end(), bytes_of(good.back().payload).begin()), "it is there at once");
     journal.close();
   }
-  require(same(Journal(path, identity(), Journal::Use::read), good), "what is appended stands behind the good records");
+  require(same(store::Journal(path, store::identity(), store::Journal::Use::read), good),
+          "what is appended stands behind the good records");
 }
 
 /// Whatever the file holds, it is a journal or refused.
@@ -201,9 +202,9 @@ void look_at_file(std::string_view bytes) {
   const fs::path path = folder() / "file.bin";
   fuzz::put_file(path, bytes);
   try {
-    const Journal journal(path, identity(), Journal::Use::read);
-    for (const JournalEntry& entry : journal.entries()) look_at_payload(journal.read(entry));
-  } catch (const DamagedData&) {
+    const store::Journal journal(path, store::identity(), store::Journal::Use::read);
+    for (const store::JournalEntry& entry : journal.entries()) look_at_payload(journal.read(entry));
+  } catch (const store::DamagedData&) {
   }
   look_at_payload(bytes_of(bytes));
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fuzz.hpp"
-#include "io/point_record.hpp"
+#include "store/point_record.hpp"
 
 namespace {
 
@@ -64,8 +64,8 @@ int main(int argc, char** argv) {
   if (argc != 2) return 2;
   const std::filesystem::path folder = argv[1];
   std::filesystem::create_directories(folder);
-  const std::string record = text_of(io::encode_point(point()));
-  const std::string measured = text_of(io::encode_tolerance_point(tolerance_point()));
+  const std::string record = text_of(store::encode_point(point()));
+  const std::string measured = text_of(store::encode_tolerance_point(tolerance_point()));
   fuzz::put_file(folder / "point", "p" + piece(0, 3, record));
   fuzz::put_file(folder / "measured", "p" + piece(0, 4, measured));
   fuzz::put_file(folder / "two", "p" + piece(0, 3, record) + piece(0, 4, "short"));

@@ -22,9 +22,9 @@
 
 #include "core/errors.hpp"
 #include "fuzz.hpp"
-#include "io/identity.hpp"
 #include "io/study_input.hpp"
 #include "io/study_model.hpp"
+#include "store/identity.hpp"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 
@@ -112,7 +112,7 @@ void look_at(const std::string& bytes) {
     require(*error.what() != '\0', "a refusal has words");
     return;
   }
-  require(identity({loaded->resolved, loaded->computed}, "sweep").size() == 64, "it has an identity");
+  require(store::identity({loaded->resolved, loaded->computed}, "sweep").size() == 64, "it has an identity");
   // Twice the work for some of them.
   const std::size_t hash = std::hash<std::string>()(bytes);
   if (hash % 8 != 0) return;
@@ -121,9 +121,9 @@ void look_at(const std::string& bytes) {
   fuzz::put_file(resolved_file, resolved);
   const LoadedInput again = load_input(resolved_file);
   require(again.resolved.dump() == resolved, "what is resolved resolves to itself");
-  require(
-      identity({again.resolved, again.computed}, "sweep") == identity({loaded->resolved, loaded->computed}, "sweep"),
-      "what is resolved is the same study");
+  require(store::identity({again.resolved, again.computed}, "sweep") ==
+              store::identity({loaded->resolved, loaded->computed}, "sweep"),
+          "what is resolved is the same study");
   const auto pointers = loaded->number_pointers();
   if (pointers.empty()) return;
   const std::string& pointer = pointers[hash / 8 % pointers.size()];

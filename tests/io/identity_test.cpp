@@ -2,7 +2,7 @@
 //
 // Each place of each input in inputs/, and of its resolved form, is changed in each way. The model is judged by its
 // right-hand side, which knows nothing of identities.
-#include "io/identity.hpp"
+#include "store/identity.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,10 +18,10 @@
 
 #include <gtest/gtest.h>
 
-#include "io/digest.hpp"
 #include "io/stage_completion.hpp"
 #include "io/study_input.hpp"
 #include "io/study_model.hpp"
+#include "store/digest.hpp"
 #include "temporary_folder.hpp"
 
 namespace epicyclic::io {
@@ -30,12 +30,12 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string identity_of(const LoadedInput& input, const std::string& command) {
-  return identity({input.resolved, input.computed}, command);
+  return store::identity({input.resolved, input.computed}, command);
 }
 
 std::vector<std::string> differences_from(nlohmann::json other, const LoadedInput& input) {
   const nlohmann::json computed = computed_values(other);
-  return differences({other, computed}, {input.resolved, input.computed});
+  return store::differences({other, computed}, {input.resolved, input.computed});
 }
 using nlohmann::json;
 using test::put_file;
@@ -244,7 +244,7 @@ class Property {
           << "{} is not what erased is";
     }
     const std::string bytes = input->resolved.dump(2);
-    if (!resolved_.insert(sha256_hex(bytes)).second) return;  // has been tried
+    if (!resolved_.insert(store::sha256_hex(bytes)).second) return;  // has been tried
     const std::optional<LoadedInput> again = loaded(input->resolved);
     ASSERT_TRUE(again) << message_;
     EXPECT_TRUE(again->resolved.dump(2) == bytes) << json::diff(input->resolved, again->resolved).dump(1);
@@ -265,7 +265,7 @@ class Property {
 
   void check_identity(const LoadedInput& input) {
     const std::string id = identity_of(input, "x");
-    const Seen now{sha256_hex(without_bookkeeping(input.resolved).dump()), sha256_hex(fingerprint(input))};
+    const Seen now{store::sha256_hex(without_bookkeeping(input.resolved).dump()), store::sha256_hex(fingerprint(input))};
     const auto [seen, fresh] = by_identity_.emplace(id, now);
     same_ += fresh ? 0 : 1;
     EXPECT_EQ(seen->second.values, now.values) << "one identity, other values";

@@ -13,7 +13,7 @@
 
 #include "core/errors.hpp"
 #include "gnuplot_guard.hpp"
-#include "io/hdf5_file.hpp"
+#include "store/hdf5_file.hpp"
 #include "temporary_folder.hpp"
 
 namespace epicyclic::io {
@@ -303,19 +303,19 @@ TEST(RunH5, HoldsTheWholeRecordAndTheOrbit) {
   const auto file = folder / "results.h5";
   const studies::RunResult r = result_of();
   write_run_h5(file, output(), r);
-  EXPECT_EQ(read_hdf5_attribute(file, "/", "input_resolved"), "{\"stage\": {}}");
-  const Hdf5Dataset history = read_hdf5(file, "/history/values");
+  EXPECT_EQ(store::read_hdf5_attribute(file, "/", "input_resolved"), "{\"stage\": {}}");
+  const store::Hdf5Dataset history = store::read_hdf5(file, "/history/values");
   EXPECT_EQ(history.shape, (std::vector<std::size_t>{at(periods * phases), r.history.columns.size()}));
   EXPECT_EQ(history.values, r.history.values);
-  EXPECT_EQ(read_hdf5_texts(file, "/history/columns"), r.history.columns);
-  EXPECT_EQ(read_hdf5_texts(file, "/history/units"), r.history.units);
+  EXPECT_EQ(store::read_hdf5_texts(file, "/history/columns"), r.history.columns);
+  EXPECT_EQ(store::read_hdf5_texts(file, "/history/units"), r.history.units);
   // Row by row.
-  EXPECT_EQ(read_hdf5(file, "/orbit/monodromy").values, (std::vector<double>{0.6, -0.1, 0.2, 0.5}));
-  EXPECT_EQ(read_hdf5(file, "/orbit/state").values, (std::vector<double>{0.0, 1.25}));
-  EXPECT_EQ(read_hdf5_texts(file, "/orbit/state_names"), (std::vector<std::string>{"x_s", "x_s_rate"}));
-  EXPECT_EQ(read_hdf5(file, "/multipliers/im").values, (std::vector<double>{0.4, -0.4}));
-  EXPECT_EQ(read_hdf5(file, "/poincare/values").shape, (std::vector<std::size_t>{at(periods), 4}));
-  EXPECT_EQ(read_hdf5(file, "/crossing/phase").values, (std::vector<double>{0.125, 6.0}));
+  EXPECT_EQ(store::read_hdf5(file, "/orbit/monodromy").values, (std::vector<double>{0.6, -0.1, 0.2, 0.5}));
+  EXPECT_EQ(store::read_hdf5(file, "/orbit/state").values, (std::vector<double>{0.0, 1.25}));
+  EXPECT_EQ(store::read_hdf5_texts(file, "/orbit/state_names"), (std::vector<std::string>{"x_s", "x_s_rate"}));
+  EXPECT_EQ(store::read_hdf5(file, "/multipliers/im").values, (std::vector<double>{0.4, -0.4}));
+  EXPECT_EQ(store::read_hdf5(file, "/poincare/values").shape, (std::vector<std::size_t>{at(periods), 4}));
+  EXPECT_EQ(store::read_hdf5(file, "/crossing/phase").values, (std::vector<double>{0.125, 6.0}));
 }
 
 TEST(RunH5, HoldsRegimeMeshesSpectraAndExponentsWithUnits) {
@@ -323,21 +323,21 @@ TEST(RunH5, HoldsRegimeMeshesSpectraAndExponentsWithUnits) {
   const auto file = folder / "results.h5";
   const studies::RunResult r = result_of();
   write_run_h5(file, output(), r);
-  EXPECT_EQ(read_hdf5_texts(file, "/point/regime"), (std::vector<std::string>{"periodic"}));
-  EXPECT_EQ(read_hdf5(file, "/point/period").values, (std::vector<double>{2}));
-  EXPECT_EQ(read_hdf5(file, "/evidence/residual").values, (std::vector<double>{6e-12}));
-  EXPECT_NEAR(read_hdf5(file, "/evidence/exponent").values.at(0), std::log(0.5) * omega / (4.0 * pi), rounding);
-  EXPECT_EQ(read_hdf5_attribute(file, "/evidence/exponent", "units"), "per tau");
-  EXPECT_EQ(read_hdf5_texts(file, "/meshes/name").at(3), "rp_1");
-  EXPECT_EQ(read_hdf5(file, "/meshes/force_max").values, std::vector<double>(6, 1187.25));
-  EXPECT_EQ(read_hdf5_attribute(file, "/meshes/force_max", "units"), "N");
-  EXPECT_EQ(read_hdf5(file, "/spectra/delta_sp_1/amplitude").values, r.spectra[0].spectrum.amplitude);
-  EXPECT_EQ(read_hdf5_attribute(file, "/spectra/delta_sp_1/amplitude", "units"), "um");
-  EXPECT_EQ(read_hdf5_texts(file, "/spectra/delta_sp_1/lines/label").at(1), "1/2");
-  EXPECT_EQ(read_hdf5(file, "/exponents/growth").shape, (std::vector<std::size_t>{4, 2}));
-  EXPECT_NEAR(read_hdf5(file, "/exponents/value").values.at(1), -omega / (2.0 * pi), rounding);
-  EXPECT_EQ(read_hdf5(file, "/exponents/checks/sum").values, (std::vector<double>{-0.25}));
-  EXPECT_EQ(read_hdf5(file, "/transverse/exponent").values, (std::vector<double>{0.031}));
+  EXPECT_EQ(store::read_hdf5_texts(file, "/point/regime"), (std::vector<std::string>{"periodic"}));
+  EXPECT_EQ(store::read_hdf5(file, "/point/period").values, (std::vector<double>{2}));
+  EXPECT_EQ(store::read_hdf5(file, "/evidence/residual").values, (std::vector<double>{6e-12}));
+  EXPECT_NEAR(store::read_hdf5(file, "/evidence/exponent").values.at(0), std::log(0.5) * omega / (4.0 * pi), rounding);
+  EXPECT_EQ(store::read_hdf5_attribute(file, "/evidence/exponent", "units"), "per tau");
+  EXPECT_EQ(store::read_hdf5_texts(file, "/meshes/name").at(3), "rp_1");
+  EXPECT_EQ(store::read_hdf5(file, "/meshes/force_max").values, std::vector<double>(6, 1187.25));
+  EXPECT_EQ(store::read_hdf5_attribute(file, "/meshes/force_max", "units"), "N");
+  EXPECT_EQ(store::read_hdf5(file, "/spectra/delta_sp_1/amplitude").values, r.spectra[0].spectrum.amplitude);
+  EXPECT_EQ(store::read_hdf5_attribute(file, "/spectra/delta_sp_1/amplitude", "units"), "um");
+  EXPECT_EQ(store::read_hdf5_texts(file, "/spectra/delta_sp_1/lines/label").at(1), "1/2");
+  EXPECT_EQ(store::read_hdf5(file, "/exponents/growth").shape, (std::vector<std::size_t>{4, 2}));
+  EXPECT_NEAR(store::read_hdf5(file, "/exponents/value").values.at(1), -omega / (2.0 * pi), rounding);
+  EXPECT_EQ(store::read_hdf5(file, "/exponents/checks/sum").values, (std::vector<double>{-0.25}));
+  EXPECT_EQ(store::read_hdf5(file, "/transverse/exponent").values, (std::vector<double>{0.031}));
 }
 
 TEST(RunH5, IsTheSameTwiceAndHoldsAFailure) {
@@ -346,7 +346,7 @@ TEST(RunH5, IsTheSameTwiceAndHoldsAFailure) {
   write_run_h5(folder / "b.h5", output(), result_of());
   EXPECT_EQ(contents(folder / "a.h5"), contents(folder / "b.h5"));
   write_run_h5(folder / "c.h5", output(), failed());
-  EXPECT_EQ(read_hdf5_texts(folder / "c.h5", "/point/status"), (std::vector<std::string>{"diverged"}));
+  EXPECT_EQ(store::read_hdf5_texts(folder / "c.h5", "/point/status"), (std::vector<std::string>{"diverged"}));
 }
 
 TEST(StrongestLines, AreLabelledInLowestTermsWithoutMeanAndRounding) {

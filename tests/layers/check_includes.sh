@@ -9,7 +9,7 @@ set -euo pipefail
 source_dir=$1
 layer=$2
 
-layers=(core gear model integrate analysis studies figures io)
+layers=(core gear model integrate analysis studies figures store io)
 case $layer in
   core) allowed=(core) ;;
   gear) allowed=(gear core) ;;
@@ -18,8 +18,9 @@ case $layer in
   analysis) allowed=(analysis integrate core) ;;
   studies) allowed=(studies model gear analysis integrate core) ;;
   figures) allowed=(figures core) ;;
-  io) allowed=(io figures studies model gear analysis integrate core) ;;
-  app) allowed=(io figures studies core) ;; # no numerics in the command
+  store) allowed=(store studies model gear analysis integrate core) ;;
+  io) allowed=(io store figures studies model gear analysis integrate core) ;;
+  app) allowed=(io store figures studies core) ;; # no numerics in the command
   *)
     echo "no such layer: $layer" >&2
     exit 2

@@ -20,7 +20,7 @@
 
 #include "core/atomic_file.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
 /// Writes one HDF5 file. Objects are named by paths such as "/points/delta_sp"; groups on the way are made as needed.
 /// Each member throws OutputError, naming file, object and reason, when HDF5 refuses (a name twice, say).
@@ -108,4 +108,4 @@ std::vector<std::string> read_hdf5_texts(const std::filesystem::path& file, std:
 /// @throws InputError when it cannot be read
 std::string read_hdf5_attribute(const std::filesystem::path& file, std::string_view object, std::string_view name);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

@@ -1,4 +1,4 @@
-#include "io/provenance.hpp"
+#include "store/provenance.hpp"
 
 #include <array>
 #include <ctime>
@@ -8,7 +8,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
 namespace {
 
@@ -68,4 +68,4 @@ nlohmann::json run_facts(const Provenance& provenance) {
   return facts;
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

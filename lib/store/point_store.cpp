@@ -1,4 +1,4 @@
-#include "io/point_store.hpp"
+#include "store/point_store.hpp"
 
 #include <charconv>
 #include <set>
@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
-#include "io/point_record.hpp"
+#include "store/point_record.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
 namespace {
 
@@ -119,9 +119,9 @@ studies::PointResult PointStore::read_brief(std::size_t point) const {
   return *std::move(result);
 }
 
-PointSource PointStore::source() const {
+studies::PointSource PointStore::source() const {
   return {places_.size(), [this](std::size_t point) { return read(point); },
           [this](std::size_t point) { return read_brief(point); }};
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

@@ -1,4 +1,4 @@
-#include "io/output_folder.hpp"
+#include "store/output_folder.hpp"
 
 #include <csignal>
 #include <cstdlib>
@@ -11,11 +11,11 @@
 #include <unistd.h>
 
 #include "core/errors.hpp"
-#include "io/digest.hpp"
-#include "io/provenance.hpp"
+#include "store/digest.hpp"
+#include "store/provenance.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 namespace {
 
 using nlohmann::json;
@@ -315,4 +315,4 @@ TEST(Provenance, HoldsWhatTheCallerGaveAndWhatTheMachineIs) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

@@ -1,4 +1,4 @@
-#include "io/hdf5_file.hpp"
+#include "store/hdf5_file.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -17,7 +17,7 @@
 #include <sanitizer/lsan_interface.h>
 #endif
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 namespace {
 
 /// HDF5 1.10 does not free what it holds of a file whose last flush fails; while this lives, AddressSanitizer does not
@@ -217,4 +217,4 @@ TEST(Hdf5File, DamagedFileIsAnInputError) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

@@ -1,6 +1,6 @@
 // Journal records of points: exact, and damaged ones refused.
 
-#include "io/point_record.hpp"
+#include "store/point_record.hpp"
 
 #include <cmath>
 #include <limits>
@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "io/journal.hpp"
+#include "store/journal.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 namespace {
 
 studies::PointResult example() {
@@ -148,4 +148,4 @@ TEST(PointRecord, LengthsBeyondTheRecordAreRefusedBeforeMemoryIsTaken) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

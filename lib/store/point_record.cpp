@@ -1,4 +1,4 @@
-#include "io/point_record.hpp"
+#include "store/point_record.hpp"
 
 #include <array>
 #include <cmath>
@@ -10,9 +10,9 @@
 #include <type_traits>
 #include <utility>
 
-#include "io/journal.hpp"
+#include "store/journal.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
 namespace {
 
@@ -261,4 +261,4 @@ studies::TolerancePoint decode_tolerance_point(std::span<const std::byte> record
   return decode<studies::TolerancePoint>(record);
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

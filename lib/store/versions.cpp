@@ -1,4 +1,4 @@
-#include "io/versions.hpp"
+#include "store/versions.hpp"
 
 #include <Eigen/Core>
 #include <H5public.h>
@@ -9,7 +9,7 @@
 #include "integrate/arkode_flow.hpp"
 #include "integrate/lane_kernels.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
 std::map<std::string, std::string> dependency_versions() {
   return {
@@ -25,4 +25,4 @@ std::map<std::string, std::string> dependency_versions() {
 
 std::string simd_level() { return integrate::lane_kernels().name; }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

@@ -14,11 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "io/journal.hpp"
-#include "io/sweep_output.hpp"
-#include "studies/sweep.hpp"
+#include "store/journal.hpp"
+#include "studies/point_source.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
 /// Name of the journal of another process than the first.
 [[nodiscard]] std::string rank_journal_name(int rank);
@@ -58,7 +57,7 @@ class PointStore {
   [[nodiscard]] studies::PointResult read_brief(std::size_t point) const;
 
   /// For the writers, when all points are there.
-  [[nodiscard]] PointSource source() const;
+  [[nodiscard]] studies::PointSource source() const;
 
  private:
   /// Where a record stands. There are as many processes and bytes on one machine as fit.
@@ -83,4 +82,4 @@ class PointStore {
   mutable std::mutex mutex_;
 };
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

@@ -1,4 +1,4 @@
-#include "io/journal.hpp"
+#include "store/journal.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@
 
 #include "core/errors.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
 namespace {
 
@@ -341,4 +341,4 @@ void Journal::close() {
   descriptor_.close(path_);
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

@@ -30,9 +30,9 @@
 
 #include "core/atomic_file.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
-/// Version of the layout above and of the payloads [io/point_record.cpp]; part of a study's identity.
+/// Version of the layout above and of the payloads [store/point_record.cpp]; part of a study's identity.
 inline constexpr std::uint32_t journal_format_version = 3;
 
 /// Largest payload of a record [bytes]; a longer length in a file is damage.
@@ -136,4 +136,4 @@ class Journal {
   std::thread committer_;  ///< begins with the first record
 };
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

@@ -1,10 +1,10 @@
 // The folder that a study writes to (-o DIR): whose it is, who may write to it, and how far the study has come.
 //
-// run.json holds the identity and the state of the study, together with all volatile facts (see io/provenance.hpp).
+// run.json holds the identity and the state of the study, together with all volatile facts (see store/provenance.hpp).
 // DIR/.lock is locked by flock(2) while an OutputFolder lives; the kernel releases it even on kill -9. The lock file
 // stays behind on purpose: removing it would let a second and a third opener lock two different files of that name.
 //
-// run.json of a complete study holds the manifest of its files too (see io/manifest.hpp). A folder in which one is
+// run.json of a complete study holds the manifest of its files too (see store/manifest.hpp). A folder in which one is
 // missing, cut or changed is not complete any more: all are made again, from the journal or by the same computation,
 // which gives the same bytes. What stood there instead may be somebody's own work and is set aside, never overwritten.
 //
@@ -22,9 +22,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.hpp"
-#include "io/manifest.hpp"
+#include "store/manifest.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
 /// What opening found.
 enum class FolderOutcome {
@@ -103,4 +103,4 @@ class OutputFolder {
   FolderOutcome outcome_ = FolderOutcome::foreign;
 };
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

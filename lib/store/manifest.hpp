@@ -18,7 +18,7 @@
 
 #include "core/placed_files.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
 struct FileFacts {
   std::uintmax_t bytes = 0;
@@ -72,4 +72,4 @@ class FileRecorder {
   PlacedFiles placed_;  ///< last, so that it hears of nothing before the rest is there
 };
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

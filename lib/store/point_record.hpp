@@ -12,7 +12,7 @@
 #include "studies/sweep.hpp"
 #include "studies/tolerance.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
 [[nodiscard]] std::vector<std::byte> encode_point(const studies::PointResult& result);
 
@@ -29,4 +29,4 @@ namespace epicyclic::io {
 /// @throws DamagedData when the record is not one of encode_tolerance_point()
 [[nodiscard]] studies::TolerancePoint decode_tolerance_point(std::span<const std::byte> record);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

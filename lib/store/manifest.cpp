@@ -1,4 +1,4 @@
-#include "io/manifest.hpp"
+#include "store/manifest.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,9 +11,9 @@
 #include <unistd.h>
 
 #include "core/atomic_file.hpp"
-#include "io/digest.hpp"
+#include "store/digest.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
 namespace {
 
@@ -133,4 +133,4 @@ void FileRecorder::note(const fs::path& path, Placed how) {
   add({{name.string(), facts}});
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

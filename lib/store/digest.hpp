@@ -11,7 +11,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
 /// SHA-256 (FIPS 180-4) of bytes that come one after another.
 class Sha256 {
@@ -36,4 +36,4 @@ std::string sha256_hex(std::string_view bytes);
 /// @throws InputError when a number is not finite or a text is not UTF-8, for which JSON has no representation
 std::string canonical_json(const nlohmann::json& value);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

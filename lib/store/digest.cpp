@@ -1,4 +1,4 @@
-#include "io/digest.hpp"
+#include "store/digest.hpp"
 
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "core/csv.hpp"
 #include "core/errors.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
 namespace {
 
@@ -112,4 +112,4 @@ std::string canonical_json(const nlohmann::json& value) {
   return text;
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

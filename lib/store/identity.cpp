@@ -1,4 +1,4 @@
-#include "io/identity.hpp"
+#include "store/identity.hpp"
 
 #include <cstddef>
 #include <utility>
@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "io/digest.hpp"
-#include "io/journal.hpp"
+#include "store/digest.hpp"
+#include "store/journal.hpp"
 #include "studies/sweep.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
 namespace {
 
@@ -54,4 +54,4 @@ std::vector<std::string> differences(const ResolvedValues& there, const Resolved
   return lines;
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

@@ -12,7 +12,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
 /// A resolved input, and what its catalogue data give on this machine, at its places; or null.
 struct ResolvedValues {
@@ -26,4 +26,4 @@ struct ResolvedValues {
 /// Where two studies differ in what identifies them, a line each: pointer and both values.
 [[nodiscard]] std::vector<std::string> differences(const ResolvedValues& there, const ResolvedValues& here);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

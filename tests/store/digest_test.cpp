@@ -1,4 +1,4 @@
-#include "io/digest.hpp"
+#include "store/digest.hpp"
 
 #include <limits>
 #include <string>
@@ -8,7 +8,7 @@
 
 #include "core/errors.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 namespace {
 
 using nlohmann::json;
@@ -54,4 +54,4 @@ TEST(Digest, WhatJsonCannotSayIsRefused) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

@@ -1,4 +1,4 @@
-#include "io/output_folder.hpp"
+#include "store/output_folder.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 
 #include "core/errors.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
 namespace {
 
@@ -224,4 +224,4 @@ void OutputFolder::write_run(RunState state, const nlohmann::json& facts) const 
   if (state == RunState::complete) remove_mere_beginnings();
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

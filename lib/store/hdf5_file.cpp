@@ -1,4 +1,4 @@
-#include "io/hdf5_file.hpp"
+#include "store/hdf5_file.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@
 
 #include "core/errors.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
 namespace {
 
@@ -494,4 +494,4 @@ std::string read_hdf5_attribute(const std::filesystem::path& file, std::string_v
   return without_padding(text);
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

@@ -1,4 +1,4 @@
-#include "io/journal.hpp"
+#include "store/journal.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -39,7 +39,7 @@ extern "C" int fsync(int descriptor) {
   return result;
 }
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 namespace {
 
 using test::contents;
@@ -467,4 +467,4 @@ TEST(Journal, AppendAfterCloseIsALogicError) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

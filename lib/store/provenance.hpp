@@ -8,7 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
 /// The facts of one session, that is, of one call of the program on an output folder.
 struct Provenance {
@@ -36,4 +36,4 @@ Provenance begin_provenance();
 /// The facts as they stand in run.json; see OutputFolder::write_run.
 nlohmann::json run_facts(const Provenance& provenance);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-namespace epicyclic::io {
+namespace epicyclic::store {
 
 /// name -> version of each library that results depend on
 [[nodiscard]] std::map<std::string, std::string> dependency_versions();
@@ -12,4 +12,4 @@ namespace epicyclic::io {
 /// Instruction set of the kernels in use: "baseline" (x86-64 with SSE2), "avx2" or "avx512".
 [[nodiscard]] std::string simd_level();
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::store

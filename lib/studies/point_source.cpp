@@ -1,0 +1,17 @@
+#include "studies/point_source.hpp"
+
+namespace epicyclic::studies {
+
+PointSource points_in_memory(std::span<const PointResult> results) {
+  const auto read = [results](std::size_t point) { return results[point]; };
+  return {results.size(), read, read};
+}
+
+std::vector<PointResult> all_brief(const PointSource& points) {
+  std::vector<PointResult> all;
+  all.reserve(points.count);
+  for (std::size_t i = 0; i < points.count; ++i) all.push_back(points.read_brief(i));
+  return all;
+}
+
+}  // namespace epicyclic::studies
