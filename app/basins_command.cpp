@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "input/study_model.hpp"
 #include "io/basins_output.hpp"
-#include "io/study_model.hpp"
 #include "points.hpp"
 #include "studies/plane.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 WrittenPoints write_results(const ComputedPoints& plane) {
   std::vector<studies::PointResult> results = studies::all_brief(plane.points);
-  const io::Study& study = plane.input.study;
+  const input::Study& study = plane.input.study;
   const io::BasinsOutput output{study.plane, plane.first_model.state_names, studies::planet_turns(plane.first_model),
                                 plane.resolved, io::figure_title(study)};
   const analysis::Attractors attractors = studies::attractors_of(results, output.turns);

@@ -3,22 +3,22 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "io/study_model.hpp"
+#include "input/study_model.hpp"
 #include "streams.hpp"
 #include "studies/probes.hpp"
 
 namespace epicyclic::app {
 
 int check_command(const Arguments& arguments) {
-  const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
-  for (const std::string& warning : io::warnings(input)) tell("{}\n", warning);
+  const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
+  for (const std::string& warning : input::warnings(input)) tell("{}\n", warning);
   if (!input.study.sweep) {
     print("{}\n", input.resolved.dump(2));
     tell("{}: valid; a stage alone, for `epicyclic gear`\n", arguments.input.string());
     return done;
   }
-  const studies::Cost cost = studies::estimate_cost(io::plan_of(input.study), *input.study.sweep,
-                                                    input.study.integrator, io::model_at_point(input));
+  const studies::Cost cost = studies::estimate_cost(input::plan_of(input.study), *input.study.sweep,
+                                                    input.study.integrator, input::model_at_point(input));
   print("{}\n", input.resolved.dump(2));
   tell(
       "{}: valid\n"

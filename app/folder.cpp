@@ -10,8 +10,8 @@
 #include "core/atomic_file.hpp"
 #include "core/errors.hpp"
 #include "core/version.hpp"
-#include "io/json_source.hpp"
-#include "io/stage_completion.hpp"
+#include "input/json_source.hpp"
+#include "input/stage_completion.hpp"
 #include "store/identity.hpp"
 #include "store/point_record.hpp"
 #include "store/versions.hpp"
@@ -30,12 +30,12 @@ std::int64_t counted(const store::OutputFolder& folder, const char* what) {
   return number.is_number_integer() ? number.get<std::int64_t>() : 0;
 }
 
-void tell_differences(const store::OutputFolder& folder, const io::LoadedInput& input) {
+void tell_differences(const store::OutputFolder& folder, const input::LoadedInput& input) {
   constexpr std::size_t most = 5;
-  io::JsonSource other = io::read_json_file(folder.file("input.resolved.json"));
+  input::JsonSource other = input::read_json_file(folder.file("input.resolved.json"));
   // That the study is another one is known from run.json.
   if (!other.complete || !other.value.is_object()) return;
-  const nlohmann::json computed = io::computed_values(other.value);
+  const nlohmann::json computed = input::computed_values(other.value);
   const std::vector<std::string> lines = store::differences({other.value, computed}, {input.resolved, input.computed});
   if (lines.empty()) tell("  the inputs are alike: another command, or another version of its numerics\n");
   for (std::size_t k = 0; k < std::min(lines.size(), most); ++k) tell("  {}\n", lines[k]);
@@ -81,7 +81,7 @@ std::map<std::size_t, studies::PointResult> known_points(const store::Journal& j
   return known;
 }
 
-void require_kind(const io::LoadedInput& input, const Arguments& arguments, std::string_view kind) {
+void require_kind(const input::LoadedInput& input, const Arguments& arguments, std::string_view kind) {
   const std::string file = arguments.input.string();
   const std::string name(kind);
   if (!input.study.sweep)
@@ -90,7 +90,7 @@ void require_kind(const io::LoadedInput& input, const Arguments& arguments, std:
     throw InputError(file + ": is a study of kind " + input.study.kind + "; run `epicyclic " + input.study.kind + "`");
 }
 
-void require_points(const io::LoadedInput& input, const Arguments& arguments, std::string_view command) {
+void require_points(const input::LoadedInput& input, const Arguments& arguments, std::string_view command) {
   // Those of a sweep serve every command.
   if (!input.study.sweep || input.study.kind != "sweep") require_kind(input, arguments, command);
 }
@@ -105,7 +105,7 @@ std::int64_t tell_undrawn(const std::vector<io::DrawnFigure>& figures) {
   return count;
 }
 
-store::Provenance provenance(int threads, const io::LoadedInput& input) {
+store::Provenance provenance(int threads, const input::LoadedInput& input) {
   store::Provenance p = store::begin_provenance();
   p.library_version = EPICYCLIC_VERSION;
   p.commit = EPICYCLIC_COMMIT;
@@ -117,7 +117,7 @@ store::Provenance provenance(int threads, const io::LoadedInput& input) {
   return p;
 }
 
-std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const io::LoadedInput& input) {
+std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const input::LoadedInput& input) {
   const std::string where = folder.path().string();
   switch (folder.outcome()) {
     case store::FolderOutcome::complete:
@@ -143,9 +143,9 @@ std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const io:
   return bug;
 }
 
-std::string resolved_text(const io::LoadedInput& input) { return input.resolved.dump(2) + "\n"; }
+std::string resolved_text(const input::LoadedInput& input) { return input.resolved.dump(2) + "\n"; }
 
-std::string write_inputs(const store::OutputFolder& folder, const io::LoadedInput& input) {
+std::string write_inputs(const store::OutputFolder& folder, const input::LoadedInput& input) {
   std::string resolved = resolved_text(input);
   write_file_atomically(folder.file("input.json"), input.study_file.bytes);
   // Names of ours alone: by the user's, a copy could take the place of any other file here. run.json has those.

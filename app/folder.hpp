@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "io/study_input.hpp"
+#include "input/study_input.hpp"
 #include "io/sweep_output.hpp"
 #include "store/journal.hpp"
 #include "store/output_folder.hpp"
@@ -22,14 +22,14 @@ namespace epicyclic::app {
 
 /// The points of a study are there, and are meant for this command: those of a sweep serve every command.
 /// @throws InputError
-void require_points(const io::LoadedInput& input, const Arguments& arguments, std::string_view command);
+void require_points(const input::LoadedInput& input, const Arguments& arguments, std::string_view command);
 
 /// The input is a study of this very kind.
 /// @throws InputError
-void require_kind(const io::LoadedInput& input, const Arguments& arguments, std::string_view kind);
+void require_kind(const input::LoadedInput& input, const Arguments& arguments, std::string_view kind);
 
 /// Versions, machine and the names that the input files came by, for run.json.
-[[nodiscard]] store::Provenance provenance(int threads, const io::LoadedInput& input);
+[[nodiscard]] store::Provenance provenance(int threads, const input::LoadedInput& input);
 
 /// Says on stderr that half a record was cut from the end of a journal; nothing of 0 bytes.
 void tell_cut_tail(const std::filesystem::path& journal, std::size_t bytes);
@@ -43,10 +43,10 @@ void tell_cut_tail(const std::filesystem::path& journal, std::size_t bytes);
 /// Says on stderr why a folder cannot be used, of another study, in which values it differs; and which files of a
 /// complete study have to be made again.
 /// @returns the exit code, or nothing if the study may be computed in it
-[[nodiscard]] std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const io::LoadedInput& input);
+[[nodiscard]] std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const input::LoadedInput& input);
 
 /// What input.resolved.json holds.
-[[nodiscard]] std::string resolved_text(const io::LoadedInput& input);
+[[nodiscard]] std::string resolved_text(const input::LoadedInput& input);
 
 /// Says on stderr which figures were not drawn.
 /// @returns how many, for run.json: a study without one of its figures does not end with `done`
@@ -55,6 +55,6 @@ void tell_cut_tail(const std::filesystem::path& journal, std::size_t bytes);
 /// input.json, the stage file as input.stage.json, input.resolved.json.
 /// @returns text of the resolved input
 /// @throws OutputError
-std::string write_inputs(const store::OutputFolder& folder, const io::LoadedInput& input);
+std::string write_inputs(const store::OutputFolder& folder, const input::LoadedInput& input);
 
 }  // namespace epicyclic::app

@@ -6,15 +6,15 @@
 #include "commands.hpp"
 #include "figures/gnuplot.hpp"
 #include "folder.hpp"
+#include "input/study_model.hpp"
 #include "io/gear_output.hpp"
-#include "io/study_model.hpp"
 #include "store/identity.hpp"
 #include "streams.hpp"
 
 namespace epicyclic::app {
 
 int gear_command(const Arguments& arguments) {
-  const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
+  const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
   io::require_finite_numbers(input);
   const store::OutputFolder folder(arguments.output, store::identity({input.resolved, input.computed}, "gear"),
                                    figures::gnuplot_is_installed());

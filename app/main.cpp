@@ -14,7 +14,7 @@
 #include "core/instruction_set.hpp"
 #include "core/version.hpp"
 #include "failure.hpp"
-#include "io/study_input.hpp"
+#include "input/study_input.hpp"
 #include "ranks.hpp"
 #include "stop.hpp"
 #include "store/versions.hpp"
@@ -132,7 +132,7 @@ int run(int argc, char** argv) {
     if (tolerance->parsed()) return tolerance_command(arguments);
     if (crosscheck->parsed()) return crosscheck_command(arguments);
     if (check->parsed()) return check_command(arguments);
-    if (schema->parsed()) print("{}\n", io::schema_text());
+    if (schema->parsed()) print("{}\n", input::schema_text());
     return static_cast<int>(done);
   });
   if (ranks.size() > 1) leave_ranks(code);

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "input/study_model.hpp"
 #include "io/map_output.hpp"
-#include "io/study_model.hpp"
 #include "points.hpp"
 
 namespace epicyclic::app {
@@ -12,7 +12,7 @@ namespace epicyclic::app {
 namespace {
 
 WrittenPoints write_results(const ComputedPoints& plane) {
-  const io::Study& study = plane.input.study;
+  const input::Study& study = plane.input.study;
   const io::MapOutput output{*study.sweep, study.plane, plane.resolved, io::figure_title(study)};
   io::write_map_csv(plane.folder / "points.csv", plane.points);
   io::write_map_h5(plane.folder / "results.h5", output, plane.points);

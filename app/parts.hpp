@@ -12,7 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/study_input.hpp"
+#include "input/study_input.hpp"
 #include "io/sweep_output.hpp"
 #include "store/manifest.hpp"
 
@@ -21,7 +21,7 @@ namespace epicyclic::app {
 /// What the results are written with, once all points are there.
 struct ComputedPoints {
   const std::filesystem::path& folder;
-  const io::LoadedInput& input;
+  const input::LoadedInput& input;
   const model::DynamicModel& first_model;
   const std::string& resolved;
   const studies::PointSource points;

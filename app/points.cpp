@@ -10,9 +10,9 @@
 #include "failure.hpp"
 #include "figures/gnuplot.hpp"
 #include "folder.hpp"
+#include "input/study_input.hpp"
+#include "input/study_model.hpp"
 #include "io/progress.hpp"
-#include "io/study_input.hpp"
-#include "io/study_model.hpp"
 #include "ranks.hpp"
 #include "shared_sweep.hpp"
 #include "stop.hpp"
@@ -33,7 +33,7 @@ bool computed(const studies::PointResult& r) { return r.outcome == integrate::Ou
 /// @param leader  of the other ranks; null: there are none
 /// @returns how many points of all failed
 std::size_t compute_missing(const Arguments& arguments, std::string_view command, std::string_view noun,
-                            const io::LoadedInput& input, const studies::SweepPlan& plan,
+                            const input::LoadedInput& input, const studies::SweepPlan& plan,
                             const studies::ModelAtPoint& model_at, store::PointStore& store, SweepLeader* leader) {
   const studies::SweepOptions& sweep = *input.study.sweep;
   std::size_t failed = 0;
@@ -121,13 +121,13 @@ WrittenPoints write_results(const Arguments& arguments, const std::vector<Result
 int lead(const Arguments& arguments, std::string_view command, std::string_view noun,
          const std::vector<ResultsPart>& parts, SweepLeader* leader) {
   stop_on_signals(leader != nullptr ? patience_of_ranks : patience);
-  const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
+  const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
   require_kind(input, arguments, command);
-  const studies::SweepPlan plan = io::plan_of(input.study);
-  const studies::ModelAtPoint model_at = io::model_at_point(input);
+  const studies::SweepPlan plan = input::plan_of(input.study);
+  const studies::ModelAtPoint model_at = input::model_at_point(input);
   // Options that do not fit show here, before anything is written.
   const model::DynamicModel first_model = model_at(plan.points.front());
-  for (const std::string& warning : io::warnings(input)) tell("{}\n", warning);
+  for (const std::string& warning : input::warnings(input)) tell("{}\n", warning);
   if (command == "sweep" && input.study.sweep->parameter != "mesh_frequency_ratio")
     tell("operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
 

@@ -6,8 +6,8 @@
 #include "core/atomic_file.hpp"
 #include "figures/gnuplot.hpp"
 #include "folder.hpp"
+#include "input/study_model.hpp"
 #include "io/run_output.hpp"
-#include "io/study_model.hpp"
 #include "io/sweep_output.hpp"
 #include "stop.hpp"
 #include "store/identity.hpp"
@@ -19,11 +19,11 @@ namespace epicyclic::app {
 
 int run_command(const Arguments& arguments) {
   stop_on_signals();
-  const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
+  const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
   require_kind(input, arguments, "run");
-  const io::Study& study = input.study;
-  const model::DynamicModel model = io::model_at(input)(study.mesh_frequency_ratio);
-  for (const std::string& warning : io::warnings(input)) tell("{}\n", warning);
+  const input::Study& study = input.study;
+  const model::DynamicModel model = input::model_at(input)(study.mesh_frequency_ratio);
+  for (const std::string& warning : input::warnings(input)) tell("{}\n", warning);
 
   const store::OutputFolder folder(arguments.output, store::identity({input.resolved, input.computed}, "run"),
                                    figures::gnuplot_is_installed());

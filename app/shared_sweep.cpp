@@ -21,7 +21,7 @@
 
 #include "failure.hpp"
 #include "folder.hpp"
-#include "io/study_model.hpp"
+#include "input/study_model.hpp"
 #include "ranks.hpp"
 #include "stop.hpp"
 #include "store/identity.hpp"
@@ -485,10 +485,10 @@ class Exchange {
 };
 
 /// Computes what the leader gives.
-void compute_share(const Arguments& arguments, const io::LoadedInput& input, const std::string& identity,
+void compute_share(const Arguments& arguments, const input::LoadedInput& input, const std::string& identity,
                    const json& begin) {
   const studies::SweepOptions& sweep = *input.study.sweep;
-  const studies::SweepPlan plan = io::plan_of(input.study);
+  const studies::SweepPlan plan = input::plan_of(input.study);
   store::Journal journal(arguments.output / store::rank_journal_name(arguments.ranks->rank()), identity);
   Exchange exchange(*arguments.ranks);
   studies::SweepRun run;
@@ -506,7 +506,7 @@ void compute_share(const Arguments& arguments, const io::LoadedInput& input, con
   std::exception_ptr error;
   std::thread worker([&] {
     try {
-      (void)studies::run_sweep(plan, sweep, input.study.integrator, io::model_at_point(input), run);
+      (void)studies::run_sweep(plan, sweep, input.study.integrator, input::model_at_point(input), run);
       journal.close();
     } catch (...) {
       error = std::current_exception();
@@ -521,11 +521,11 @@ void compute_share(const Arguments& arguments, const io::LoadedInput& input, con
 /// What a rank writes its parts with: the journals of all ranks, opened when the first part is given.
 class PartWriter {
  public:
-  PartWriter(const Arguments& arguments, const io::LoadedInput& input, const std::string& identity)
+  PartWriter(const Arguments& arguments, const input::LoadedInput& input, const std::string& identity)
       : folder_(arguments.output),
         input_(input),
-        plan_(io::plan_of(input.study)),
-        first_model_(io::model_at_point(input)(plan_.points.front())),
+        plan_(input::plan_of(input.study)),
+        first_model_(input::model_at_point(input)(plan_.points.front())),
         resolved_(resolved_text(input)),
         store_(folder_, identity, plan_.points.size(), store::Journal::Use::read) {}
 
@@ -538,7 +538,7 @@ class PartWriter {
 
  private:
   const std::filesystem::path& folder_;
-  const io::LoadedInput& input_;
+  const input::LoadedInput& input_;
   const studies::SweepPlan plan_;
   const model::DynamicModel first_model_;
   const std::string resolved_;
@@ -550,12 +550,12 @@ class PartWriter {
 int follow(const Arguments& arguments, std::string_view command, const std::vector<ResultsPart>& parts) {
   Ranks& ranks = *arguments.ranks;
   stop_on_signals(patience_of_ranks);
-  std::optional<io::LoadedInput> input;
+  std::optional<input::LoadedInput> input;
   std::optional<PartWriter> writer;
   std::string identity;
   std::exception_ptr error;
   try {
-    input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
+    input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
     identity = store::identity({input->resolved, input->computed}, command);
   } catch (...) {
     error = std::current_exception();

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "io/study_input.hpp"
+#include "input/study_input.hpp"
 #include "parts.hpp"
 #include "studies/sweep.hpp"
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
-#include "io/study_model.hpp"
+#include "input/study_model.hpp"
 #include "io/sweep_output.hpp"
 #include "points.hpp"
 

@@ -10,8 +10,8 @@
 #include "commands.hpp"
 #include "figures/gnuplot.hpp"
 #include "folder.hpp"
+#include "input/study_model.hpp"
 #include "io/progress.hpp"
-#include "io/study_model.hpp"
 #include "io/tolerance_output.hpp"
 #include "stop.hpp"
 #include "store/identity.hpp"
@@ -24,14 +24,14 @@ namespace epicyclic::app {
 
 int tolerance_command(const Arguments& arguments) {
   stop_on_signals();
-  const io::LoadedInput input = io::load_input(arguments.input, io::parse_assignments(arguments.sets));
+  const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
   require_points(input, arguments, "tolerance");
   const studies::SweepOptions& sweep = *input.study.sweep;
   const studies::SweepPlan plan = studies::plan_sweep(sweep);
-  const auto model_at = io::smoothed_model_at(input);
+  const auto model_at = input::smoothed_model_at(input);
   const double width = input.study.model.clearance_smoothing;
   const model::DynamicModel first_model = model_at(plan.points.front().value, width);
-  for (const std::string& warning : io::warnings(input)) tell("{}\n", warning);
+  for (const std::string& warning : input::warnings(input)) tell("{}\n", warning);
 
   const std::string identity = store::identity({input.resolved, input.computed}, "tolerance");
   const store::OutputFolder folder(arguments.output, identity, figures::gnuplot_is_installed());

@@ -12,9 +12,9 @@
 #include "gear/bearing.hpp"
 #include "gear/ehl_friction.hpp"
 #include "gear/gear_set.hpp"
+#include "input/study_model.hpp"
 #include "io/gear_figures.hpp"
 #include "io/gear_report.hpp"
-#include "io/study_model.hpp"
 #include "model/modes.hpp"
 
 namespace epicyclic::io {
@@ -219,7 +219,7 @@ void note_figures(GearOutput& out, const std::vector<GearFigure>& figures) {
 
 }  // namespace
 
-void require_finite_numbers(const LoadedInput& input) {
+void require_finite_numbers(const input::LoadedInput& input) {
   const gear::Stage& stage = input.study.stage;
   const model::Scales scales = model::scales_of(stage);
   std::vector<Quantity> all = operating_quantities(stage, input.study.mesh_frequency_ratio);
@@ -240,10 +240,10 @@ void require_finite_numbers(const LoadedInput& input) {
   throw InputError(input.study_file.name +
                    ": its numbers are within their bounds, but not together: no finite number "
                    "comes out for " +
-                   listed(names));
+                   input::listed(names));
 }
 
-GearOutput write_gear_output(const std::filesystem::path& path, const LoadedInput& input) {
+GearOutput write_gear_output(const std::filesystem::path& path, const input::LoadedInput& input) {
   const gear::Stage& stage = input.study.stage;
   const model::Scales scales = model::scales_of(stage);
   const std::vector<model::Mode> modes = model::modes(stage, scales);
@@ -252,7 +252,7 @@ GearOutput write_gear_output(const std::filesystem::path& path, const LoadedInpu
   const std::filesystem::path figures = path / "figures";
   Folder folder(path);
   GearOutput out;
-  out.warnings = gear_warnings(input);
+  out.warnings = input::gear_warnings(input);
   GearPage page;
   page.title = stage.name.empty() ? "Planetary stage" : "Planetary stage " + stage.name;
 

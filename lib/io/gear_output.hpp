@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/study_input.hpp"
+#include "input/study_input.hpp"
 
 namespace epicyclic::io {
 
@@ -22,10 +22,10 @@ struct GearOutput {
 
 /// Numbers within their bounds can be out of all reason together: to be asked before anything is written.
 /// @throws InputError naming what of geometry, operating point and modes is not a finite number
-void require_finite_numbers(const LoadedInput& input);
+void require_finite_numbers(const input::LoadedInput& input);
 
 /// Writes everything to a folder; the operating point is the study's, Omega = 1 for a stage alone.
 /// @throws OutputError
-GearOutput write_gear_output(const std::filesystem::path& folder, const LoadedInput& input);
+GearOutput write_gear_output(const std::filesystem::path& folder, const input::LoadedInput& input);
 
 }  // namespace epicyclic::io

@@ -170,7 +170,7 @@ void append_values(std::string& page, const nlohmann::json& value, const std::st
   } else {
     text = value.is_string() ? value.get<std::string>() : value.dump();
   }
-  page += fmt::format("| `{}` | {} | {} | {} |\n", cell(pointer), cell(text), unit_of(key), cell(origin));
+  page += fmt::format("| `{}` | {} | {} | {} |\n", cell(pointer), cell(text), input::unit_of(key), cell(origin));
 }
 
 /// Which modes are rotational, and what of the mesh frequency excites them: harmonic h of equally spaced, equal planets
@@ -329,7 +329,7 @@ std::string operation_verdict(const gear::Stage& stage, double mesh_frequency_ra
       stage.ring_planet_mesh.stiffness_N_per_m / giga);
 }
 
-std::string gear_page(const GearPage& page, const LoadedInput& input, const std::vector<model::Mode>& modes,
+std::string gear_page(const GearPage& page, const input::LoadedInput& input, const std::vector<model::Mode>& modes,
                       const model::Scales& scales) {
   std::string text = fmt::format("# {}\n\n", cell(page.title));
   for (const std::string& line : page.verdicts) text += "* " + line + "\n";

@@ -6,7 +6,7 @@
 
 #include "gear/ehl_friction.hpp"
 #include "gear/gear_set.hpp"
-#include "io/study_input.hpp"
+#include "input/study_input.hpp"
 #include "model/modes.hpp"
 #include "model/scales.hpp"
 
@@ -43,7 +43,7 @@ struct GearPage {
 };
 
 /// The page: verdicts, warnings, quantities, modes, all values of the resolved input with their origins, figures.
-[[nodiscard]] std::string gear_page(const GearPage& page, const LoadedInput& input,
+[[nodiscard]] std::string gear_page(const GearPage& page, const input::LoadedInput& input,
                                     const std::vector<model::Mode>& modes, const model::Scales& scales);
 
 /// One sentence on teeth, speeds, torque and mesh stiffness at an operating point.

@@ -167,7 +167,7 @@ std::string parameter_symbol(const std::string& parameter) {
   return text == nullptr ? figures::literal_text(parameter) : text->symbol;
 }
 
-std::string figure_title(const Study& study) {
+std::string figure_title(const input::Study& study) {
   const gear::Boundary b = study.stage.boundary;
   const char* boundary = b == gear::Boundary::literal ? "literal" : b == gear::Boundary::star ? "star" : "fixed ring";
   std::string title = (study.name.empty() ? study.stage.name : study.name) + ", boundary " + boundary;

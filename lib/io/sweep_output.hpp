@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "figures/gnuplot.hpp"
-#include "io/study_input.hpp"
+#include "input/study_input.hpp"
 #include "store/hdf5_file.hpp"
 #include "studies/point_source.hpp"
 #include "studies/sweep.hpp"
@@ -33,7 +33,7 @@ namespace epicyclic::io {
 [[nodiscard]] std::string parameter_symbol(const std::string& parameter);
 
 /// Name of study or stage with the boundary and, unless it is swept, the speed: for figures.
-[[nodiscard]] std::string figure_title(const Study& study);
+[[nodiscard]] std::string figure_title(const input::Study& study);
 
 /// What a sweep is written with besides its points.
 struct SweepOutput {

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # bad_inputs.sh EPICYCLIC SOURCE_DIR
 #
-# Runs `epicyclic sweep` on each case of tests/io/bad_inputs/cases.txt: exit code 2, the expected words on stderr,
+# Runs `epicyclic sweep` on each case of tests/input/bad_inputs/cases.txt: exit code 2, the expected words on stderr,
 # nothing on stdout, nothing written. Then outputs that cannot be written: exit code 5. The good pair that the cases are
 # made from must be accepted.
 set -euo pipefail
 
 epicyclic=$1
-data=$2/tests/io/bad_inputs
+data=$2/tests/input/bad_inputs
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 

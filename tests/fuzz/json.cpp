@@ -6,7 +6,7 @@
 #include <string>
 
 #include "fuzz.hpp"
-#include "io/json_source.hpp"
+#include "input/json_source.hpp"
 
 namespace epicyclic::io {
 namespace {
@@ -15,10 +15,10 @@ using fuzz::require;
 using nlohmann::json;
 
 void look_at(const std::string& text) {
-  const JsonSource source = parse_json(text, "fuzz");
+  const input::JsonSource source = input::parse_json(text, "fuzz");
   require(source.bytes == text, "the bytes are kept");
   const int lines = 1 + static_cast<int>(std::ranges::count(text, '\n'));
-  for (const Problem& problem : source.problems) {
+  for (const input::Problem& problem : source.problems) {
     require(problem.line >= 0 && problem.line <= lines, "a problem stands on a line of the text");
     require(!problem.text().empty(), "a problem has words");
   }
@@ -28,7 +28,7 @@ void look_at(const std::string& text) {
     require(source.line_of(pointer + "/none") >= 1, "what is not there stands where its parent does");
   }
   const bool keys_once = std::ranges::none_of(
-      source.problems, [](const Problem& problem) { return problem.message.starts_with("duplicate key"); });
+      source.problems, [](const input::Problem& problem) { return problem.message.starts_with("duplicate key"); });
   if (source.complete && keys_once)
     for (const std::string& pointer : source.unreadable)
       require(source.value.contains(json::json_pointer(pointer)), "what was replaced is there");
@@ -39,7 +39,7 @@ void look_at(const std::string& text) {
   require(source.value == peer, "the value is that of another reader");
   for (const auto& [pointer, line] : source.line)
     require(source.value.contains(json::json_pointer(pointer)), "a key that has a line is there");
-  const JsonSource again = parse_json(source.value.dump(), "again");
+  const input::JsonSource again = input::parse_json(source.value.dump(), "again");
   require(again.complete && again.problems.empty() && again.value == source.value, "it reads what is written of it");
 }
 

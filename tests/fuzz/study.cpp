@@ -22,8 +22,8 @@
 
 #include "core/errors.hpp"
 #include "fuzz.hpp"
-#include "io/study_input.hpp"
-#include "io/study_model.hpp"
+#include "input/study_input.hpp"
+#include "input/study_model.hpp"
 #include "store/identity.hpp"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
@@ -37,7 +37,7 @@ using nlohmann::json;
 const fuzz::Folder& folder() {
   static const fuzz::Folder the_folder;
   static const bool filled = [] {
-    std::ifstream stage(EPICYCLIC_SOURCE_DIR "/tests/io/bad_inputs/stage.json", std::ios::binary);
+    std::ifstream stage(EPICYCLIC_SOURCE_DIR "/tests/input/bad_inputs/stage.json", std::ios::binary);
     const std::string text(std::istreambuf_iterator<char>(stage), {});
     require(!text.empty(), "the stage is there");
     for (const char* name : {"stage.json", "tang2020.json"}) fuzz::put_file(the_folder / name, text);
@@ -80,9 +80,9 @@ void shorten_ranges(const json& study, std::vector<std::string>& sets) {
 }
 
 template <class T>
-void look_at_table(const Table<T>& table, const json& value) {
+void look_at_table(const input::Table<T>& table, const json& value) {
   T read;
-  ReadContext context;
+  input::ReadContext context;
   table.read(value, "", read, context);
   if (!context.findings.empty()) return;
   const json written = table.write(read);
@@ -95,19 +95,19 @@ void look_at_table(const Table<T>& table, const json& value) {
 void look_at(const std::string& bytes) {
   Input input = input_in(bytes);
   if (input.study.find("catalogue") != std::string::npos) {
-    const JsonSource source = parse_json(input.study, "study.json");
-    look_at_table(stage_table(), source.value);
-    look_at_table(study_table(), source.value);
+    const input::JsonSource source = input::parse_json(input.study, "study.json");
+    look_at_table(input::stage_table(), source.value);
+    look_at_table(input::study_table(), source.value);
     return;
   }
   shorten_ranges(json::parse(input.study, nullptr, false), input.sets);
   const auto file = folder() / "study.json";
   fuzz::put_file(file, input.study);
-  std::vector<Assignment> sets;
-  std::optional<LoadedInput> loaded;
+  std::vector<input::Assignment> sets;
+  std::optional<input::LoadedInput> loaded;
   try {
-    sets = parse_assignments(input.sets);
-    loaded = load_input(file, sets);
+    sets = input::parse_assignments(input.sets);
+    loaded = input::load_input(file, sets);
   } catch (const InputError& error) {
     require(*error.what() != '\0', "a refusal has words");
     return;
@@ -119,7 +119,7 @@ void look_at(const std::string& bytes) {
   const std::string resolved = loaded->resolved.dump();
   const auto resolved_file = folder() / "resolved.json";
   fuzz::put_file(resolved_file, resolved);
-  const LoadedInput again = load_input(resolved_file);
+  const input::LoadedInput again = input::load_input(resolved_file);
   require(again.resolved.dump() == resolved, "what is resolved resolves to itself");
   require(store::identity({again.resolved, again.computed}, "sweep") ==
               store::identity({loaded->resolved, loaded->computed}, "sweep"),
@@ -128,7 +128,8 @@ void look_at(const std::string& bytes) {
   if (pointers.empty()) return;
   const std::string& pointer = pointers[hash / 8 % pointers.size()];
   const double value = loaded->resolved.at(json::json_pointer(pointer)).get<double>();
-  require(stage_table().write(loaded->with_value(pointer, value).stage) == stage_table().write(loaded->study.stage),
+  require(input::stage_table().write(loaded->with_value(pointer, value).stage) ==
+              input::stage_table().write(loaded->study.stage),
           "a number in its own place changes nothing");
 }
 
@@ -158,7 +159,7 @@ const Words& words() {
       if (value.is_array())
         for (const auto& child : value) walk(child);
     };
-    walk(json::parse(schema_text()));
+    walk(json::parse(input::schema_text()));
     return Words{{keys.begin(), keys.end()}, {texts.begin(), texts.end()}};
   }();
   return all;

@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
-#include "io/gear_output.hpp"
 #include "gnuplot_guard.hpp"
-#include "io/study_model.hpp"
+#include "input/study_model.hpp"
+#include "io/gear_output.hpp"
 #include "temporary_folder.hpp"
 
 namespace epicyclic::io {
@@ -47,7 +47,7 @@ struct Tally {
 Tally gear_on_extremes(const fs::path& file, const std::vector<std::string>& base, std::size_t stride) {
   const test::WithoutGnuplot guard;
   Tally tally;
-  const std::vector<std::string> pointers = load_input(file, parse_assignments(base)).number_pointers();
+  const std::vector<std::string> pointers = input::load_input(file, input::parse_assignments(base)).number_pointers();
   std::size_t count = 0;
   for (const std::string& pointer : pointers)
     for (const char* value : extremes) {
@@ -55,7 +55,7 @@ Tally gear_on_extremes(const fs::path& file, const std::vector<std::string>& bas
       std::vector<std::string> sets = base;
       sets.push_back(pointer + "=" + value);
       try {
-        const LoadedInput input = load_input(file, parse_assignments(sets));
+        const input::LoadedInput input = input::load_input(file, input::parse_assignments(sets));
         require_finite_numbers(input);
         const TemporaryFolder folder;
         const GearOutput out = write_gear_output(folder.path(), input);
@@ -77,16 +77,18 @@ Tally gear_on_extremes(const fs::path& file, const std::vector<std::string>& bas
 /// Likewise of a study: the model and its cost, which integrates four periods, as `check` does.
 Tally models_on_extremes(const fs::path& file, std::size_t stride) {
   Tally tally;
-  const std::vector<std::string> pointers = load_input(file).number_pointers();
+  const std::vector<std::string> pointers = input::load_input(file).number_pointers();
   std::size_t count = 0;
   for (const std::string& pointer : pointers)
     for (const char* value : extremes) {
       if (++count % stride != 0) continue;
       try {
-        const LoadedInput input = load_input(file, parse_assignments(std::vector{pointer + "=" + value}));
-        const model::DynamicModel model = model_at(input)(input.study.mesh_frequency_ratio);
+        const input::LoadedInput input =
+            input::load_input(file, input::parse_assignments(std::vector{pointer + "=" + value}));
+        const model::DynamicModel model = input::model_at(input)(input.study.mesh_frequency_ratio);
         ++tally.written;
-        for (const std::string& line : warnings(input)) EXPECT_FALSE(has_no_number(line)) << pointer << ": " << line;
+        for (const std::string& line : input::warnings(input))
+          EXPECT_FALSE(has_no_number(line)) << pointer << ": " << line;
         model::StageForces forces;
         model.forces(0.0, model.default_start.data(), forces);
         EXPECT_TRUE(std::isfinite(forces.sun_planet[0]) && std::isfinite(forces.ring_planet[0])) << pointer << value;

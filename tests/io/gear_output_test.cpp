@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "gnuplot_guard.hpp"
-#include "io/study_input.hpp"
+#include "input/study_input.hpp"
 #include "temporary_folder.hpp"
 
 namespace epicyclic::io {
@@ -48,8 +48,8 @@ class GearOutputOfTheStage : public ::testing::Test {
   static void SetUpTestSuite() {
     folder = new TemporaryFolder;
     const std::vector<std::string> sets = {"/boundary=fixed_ring", "/lumped/ring/torsional_support_N_per_m=1e9"};
-    output =
-        new GearOutput(write_gear_output(folder->path(), load_input("inputs/tang2020.json", parse_assignments(sets))));
+    output = new GearOutput(
+        write_gear_output(folder->path(), input::load_input("inputs/tang2020.json", input::parse_assignments(sets))));
   }
   static void TearDownTestSuite() {
     delete output;
@@ -165,7 +165,7 @@ TEST_F(GearOutputOfTheStage, ThePageHasEachQuantityAndOrigin) {
 
 TEST(GearOutput, OfALumpedStageIsItsModes) {
   const TemporaryFolder folder;
-  const GearOutput output = write_gear_output(folder.path(), load_input("inputs/lin_parker_1999_n4.json"));
+  const GearOutput output = write_gear_output(folder.path(), input::load_input("inputs/lin_parker_1999_n4.json"));
   EXPECT_TRUE(std::filesystem::exists(folder / "campbell.csv"));
   EXPECT_FALSE(std::filesystem::exists(folder / "stiffness.csv"));
   EXPECT_NE(output.modes.find("mode,frequency_Hz,frequency_ratio,type,multiplicity"), std::string::npos);
@@ -175,7 +175,7 @@ TEST(GearOutput, OfALumpedStageIsItsModes) {
 std::string page_of(const std::string& file, const std::vector<std::string>& sets) {
   const test::WithoutGnuplot guard;
   const TemporaryFolder folder;
-  (void)write_gear_output(folder.path(), load_input(file, parse_assignments(sets)));
+  (void)write_gear_output(folder.path(), input::load_input(file, input::parse_assignments(sets)));
   std::ifstream in(folder / "gear.md");
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -210,10 +210,10 @@ TEST(GearOutput, TellsTheBodyUnderTheTeethAndWhatIsoSays) {
 TEST(GearOutput, AMeshWithoutBacklashHasNone) {
   // At the centre distance without backlash rounding left 4e-12 um.
   for (const char* shift : {"0.623", "0.61", "0.6", "0.59"}) {
-    const LoadedInput input =
-        load_input("inputs/tang2020.json",
-                   parse_assignments(std::vector<std::string>{"/lumped/sun_planet_mesh/backlash_half_um=null",
-                                                              std::string("/catalogue/sun/profile_shift=") + shift}));
+    const input::LoadedInput input = input::load_input(
+        "inputs/tang2020.json",
+        input::parse_assignments(std::vector<std::string>{"/lumped/sun_planet_mesh/backlash_half_um=null",
+                                                          std::string("/catalogue/sun/profile_shift=") + shift}));
     EXPECT_EQ(input.study.stage.sun_planet_mesh.backlash_half_um, 0.0) << shift;
   }
 }

@@ -18,9 +18,9 @@
 
 #include <gtest/gtest.h>
 
-#include "io/stage_completion.hpp"
-#include "io/study_input.hpp"
-#include "io/study_model.hpp"
+#include "input/stage_completion.hpp"
+#include "input/study_input.hpp"
+#include "input/study_model.hpp"
 #include "store/digest.hpp"
 #include "temporary_folder.hpp"
 
@@ -29,12 +29,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string identity_of(const LoadedInput& input, const std::string& command) {
+std::string identity_of(const input::LoadedInput& input, const std::string& command) {
   return store::identity({input.resolved, input.computed}, command);
 }
 
-std::vector<std::string> differences_from(nlohmann::json other, const LoadedInput& input) {
-  const nlohmann::json computed = computed_values(other);
+std::vector<std::string> differences_from(nlohmann::json other, const input::LoadedInput& input) {
+  const nlohmann::json computed = input::computed_values(other);
   return store::differences({other, computed}, {input.resolved, input.computed});
 }
 using nlohmann::json;
@@ -56,7 +56,7 @@ struct Case {
 void collect(const json& value, const std::string& pointer, std::vector<std::string>& pointers) {
   if (!pointer.empty()) pointers.push_back(pointer);
   if (value.is_object())
-    for (const auto& [key, child] : value.items()) collect(child, pointer + pointer_step(key), pointers);
+    for (const auto& [key, child] : value.items()) collect(child, pointer + input::pointer_step(key), pointers);
   if (value.is_array() && !value.empty())
     for (const std::size_t k : std::set<std::size_t>{0, value.size() - 1})
       collect(value[k], pointer + "/" + std::to_string(k), pointers);
@@ -175,11 +175,11 @@ bool is_wrong_type(const Case& c) {
 }
 
 /// Numbers that depend on everything in the model: its right-hand side at a few states, on and off the teeth.
-std::string fingerprint(const LoadedInput& input) {
-  const Study& study = input.study;
+std::string fingerprint(const input::LoadedInput& input) {
+  const input::Study& study = input.study;
   if (!study.sweep) return {};
-  const studies::GridPoint first = plan_of(study).points.front();
-  const model::DynamicModel model = model_at_point(input)(first);
+  const studies::GridPoint first = input::plan_of(study).points.front();
+  const model::DynamicModel model = input::model_at_point(input)(first);
   std::string bytes;
   const auto append = [&](double number) { bytes.append(reinterpret_cast<const char*>(&number), sizeof number); };
   std::vector<double> state = model.default_start, rate(model.dimension);
@@ -202,7 +202,7 @@ class Property {
     for (const fs::path& file : files) {
       fs::copy_file(file, folder_ / file.filename().string());
       inputs_.push_back(json::parse(test::contents(file)));
-      inputs_.push_back(load_input(file).resolved);
+      inputs_.push_back(input::load_input(file).resolved);
     }
     for (const json& input : inputs_) {
       std::vector<std::string> pointers;
@@ -226,7 +226,7 @@ class Property {
     if (!text) return;
     ++tried_;
     SCOPED_TRACE(c.input->value("name", "") + " " + c.text());
-    const std::optional<LoadedInput> input = loaded(*text);
+    const std::optional<input::LoadedInput> input = loaded(*text);
     if (!input) {
       ++refused_;
       if (is_wrong_type(c) && !c.pointer.ends_with("/stage")) {
@@ -238,34 +238,35 @@ class Property {
     check_identity(*input);
     if (c.change == Change::empty_object) {
       const std::optional<json> without = changed({c.input, c.pointer, Change::erased});
-      const std::optional<LoadedInput> erased = without ? loaded(*without) : std::nullopt;
+      const std::optional<input::LoadedInput> erased = without ? loaded(*without) : std::nullopt;
       EXPECT_TRUE(erased && identity_of(*erased, "x") == identity_of(*input, "x") &&
                   without_bookkeeping(erased->resolved) == without_bookkeeping(input->resolved))
           << "{} is not what erased is";
     }
     const std::string bytes = input->resolved.dump(2);
     if (!resolved_.insert(store::sha256_hex(bytes)).second) return;  // has been tried
-    const std::optional<LoadedInput> again = loaded(input->resolved);
+    const std::optional<input::LoadedInput> again = loaded(input->resolved);
     ASSERT_TRUE(again) << message_;
     EXPECT_TRUE(again->resolved.dump(2) == bytes) << json::diff(input->resolved, again->resolved).dump(1);
     EXPECT_EQ(identity_of(*again, "x"), identity_of(*input, "x"));
   }
 
  private:
-  std::optional<LoadedInput> loaded(const json& text) {
+  std::optional<input::LoadedInput> loaded(const json& text) {
     put_file(folder_ / "case.json", text.dump());
     try {
-      return load_input(folder_ / "case.json");
-    } catch (const InputProblems& error) {
+      return input::load_input(folder_ / "case.json");
+    } catch (const input::InputProblems& error) {
       problems_ = error.problems().size();
       message_ = error.what();
       return std::nullopt;
     }
   }
 
-  void check_identity(const LoadedInput& input) {
+  void check_identity(const input::LoadedInput& input) {
     const std::string id = identity_of(input, "x");
-    const Seen now{store::sha256_hex(without_bookkeeping(input.resolved).dump()), store::sha256_hex(fingerprint(input))};
+    const Seen now{store::sha256_hex(without_bookkeeping(input.resolved).dump()),
+                   store::sha256_hex(fingerprint(input))};
     const auto [seen, fresh] = by_identity_.emplace(id, now);
     same_ += fresh ? 0 : 1;
     EXPECT_EQ(seen->second.values, now.values) << "one identity, other values";
@@ -314,11 +315,11 @@ TEST(IdentityLong, IsThatOfTheValuesWhateverIsDoneToAnInput) {
 
 class IdentityOf : public ::testing::Test {
  protected:
-  [[nodiscard]] LoadedInput load(const json& text, const std::vector<std::string>& sets = {}) const {
+  [[nodiscard]] input::LoadedInput load(const json& text, const std::vector<std::string>& sets = {}) const {
     put_file(folder / "study.json", text.dump());
-    return load_input(folder / "study.json", parse_assignments(sets));
+    return input::load_input(folder / "study.json", input::parse_assignments(sets));
   }
-  json resolved = load_input("inputs/tang2020_speed.json").resolved;
+  json resolved = input::load_input("inputs/tang2020_speed.json").resolved;
   test::TemporaryFolder folder;
 };
 
@@ -338,12 +339,12 @@ TEST_F(IdentityOf, AStudyDependsOnValuesThatOnlySayThatTheyWereComputed) {
 
 TEST_F(IdentityOf, AStageWithoutItsCatalogueDependsOnItsMasses) {
   resolved["stage"].erase("catalogue");
-  const LoadedInput before = load(resolved);
+  const input::LoadedInput before = load(resolved);
   ASSERT_EQ(before.notes.size(), 1U);
   EXPECT_NE(before.notes[0].find("nothing computes them here; they stand as given"), std::string::npos)
       << before.notes[0];
   resolved["stage"]["lumped"]["sun"]["mass_kg"] = 1.7;
-  const LoadedInput after = load(resolved);
+  const input::LoadedInput after = load(resolved);
   EXPECT_EQ(after.study.stage.sun.mass_kg, 1.7);
   EXPECT_NE(identity_of(before, "sweep"), identity_of(after, "sweep"));
   const std::vector<std::string> lines = differences_from(before.resolved, after);
@@ -352,7 +353,7 @@ TEST_F(IdentityOf, AStageWithoutItsCatalogueDependsOnItsMasses) {
 }
 
 TEST_F(IdentityOf, AStudyIsTheSameWhereLastDigitsOfWhatIsComputedAreOthers) {
-  LoadedInput input = load(resolved);
+  input::LoadedInput input = load(resolved);
   const std::string before = identity_of(input, "sweep");
   // Another machine computes another last digit ...
   const json::json_pointer mass("/stage/lumped/sun/mass_kg");
@@ -367,10 +368,10 @@ TEST_F(IdentityOf, AStudyIsTheSameWhereLastDigitsOfWhatIsComputedAreOthers) {
 }
 
 TEST_F(IdentityOf, AStudyToldAsAnotherSaysInWhatIsGiven) {
-  const LoadedInput wider = load(resolved, {"/stage/catalogue/sun/width_mm=61"});
+  const input::LoadedInput wider = load(resolved, {"/stage/catalogue/sun/width_mm=61"});
   EXPECT_EQ(differences_from(resolved, wider),
             std::vector<std::string>{"/stage/catalogue/sun/width_mm: 60.0 there, 61.0 here"});
-  const LoadedInput heavier = load(resolved, {"/stage/lumped/sun/mass_kg=2"});
+  const input::LoadedInput heavier = load(resolved, {"/stage/lumped/sun/mass_kg=2"});
   const auto lines = differences_from(resolved, heavier);
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_EQ(lines[0].rfind("/stage/lumped/sun/mass_kg: 1.65", 0), 0U) << lines[0];

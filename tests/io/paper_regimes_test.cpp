@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "analysis/lyapunov.hpp"
+#include "input/study_model.hpp"
 #include "integrate/make_flow.hpp"
-#include "io/study_model.hpp"
 #include "studies/operating_point.hpp"
 #include "studies/run.hpp"
 #include "studies/sweep.hpp"
@@ -25,8 +25,8 @@ studies::PointResult point_at(const model::DynamicModel& m, const studies::Sweep
 }
 
 TEST(PaperRegimes, AreToldWithTheirEvidence) {
-  const LoadedInput input = load_input("inputs/tang2020_speed.json");
-  const studies::ModelAt at = model_at(input);
+  const input::LoadedInput input = input::load_input("inputs/tang2020_speed.json");
+  const studies::ModelAt at = input::model_at(input);
   studies::SweepOptions sweep = *input.study.sweep;
   sweep.transient = studies::Transient::adaptive;
   sweep.recorded_periods = 32;
@@ -54,11 +54,11 @@ TEST(PaperRegimes, AreToldWithTheirEvidence) {
 
 TEST(PaperRegimes, DampingInContactOnlyPullsForAShortTime) {
   const auto pull_time = [](const std::vector<std::string>& sets) {
-    const LoadedInput input = load_input("inputs/tang2020_speed.json", parse_assignments(sets));
+    const input::LoadedInput input = input::load_input("inputs/tang2020_speed.json", input::parse_assignments(sets));
     studies::SweepOptions sweep = studies::by_recurrence_alone(*input.study.sweep);
     sweep.transient_periods = 100;
     sweep.recorded_periods = 8;
-    const studies::PointResult r = point_at(model_at(input)(2.8), sweep, input.study.integrator);
+    const studies::PointResult r = point_at(input::model_at(input)(2.8), sweep, input.study.integrator);
     EXPECT_EQ(r.outcome, integrate::Outcome::reached);
     EXPECT_TRUE(r.pulls());
     return studies::PointResult::pull_time(r.ring_planet);
@@ -70,8 +70,8 @@ TEST(PaperRegimes, DampingInContactOnlyPullsForAShortTime) {
 }
 
 TEST(PaperRegimes, ARunChecksItsExponents) {
-  const LoadedInput input = load_input("inputs/tang2020_run.json");
-  const model::DynamicModel m = model_at(input)(2.4);
+  const input::LoadedInput input = input::load_input("inputs/tang2020_run.json");
+  const model::DynamicModel m = input::model_at(input)(2.4);
   studies::RunOptions options = input.study.run;
   options.exponent_periods = 40;
   options.history_periods = 4;
@@ -119,8 +119,8 @@ TEST(PaperRegimes, ARunChecksItsExponents) {
 }
 
 TEST(PaperRegimesLong, ExponentsOfPeriodicPointsAreThoseOfTheirMultipliers) {
-  const LoadedInput input = load_input("inputs/tang2020_speed.json");
-  const studies::ModelAt at = model_at(input);
+  const input::LoadedInput input = input::load_input("inputs/tang2020_speed.json");
+  const studies::ModelAt at = input::model_at(input);
   studies::SweepOptions sweep = *input.study.sweep;
   sweep.transient = studies::Transient::adaptive;
   sweep.recorded_periods = 16;

@@ -15,8 +15,8 @@
 #include "core/largest_difference.hpp"
 #include "gear/ehl_friction.hpp"
 #include "gear/gear_set.hpp"
+#include "input/study_model.hpp"
 #include "integrate/make_flow.hpp"
-#include "io/study_model.hpp"
 #include "model/right_hand_side.hpp"
 #include "studies/operating_point.hpp"
 
@@ -98,11 +98,11 @@ struct Displacement {
 
 /// Of the orbit that the motion from rest settles to.
 Displacement displacement(const std::vector<std::string>& changes, double omega) {
-  const LoadedInput input = load_input("inputs/tang2020_run.json", parse_assignments(changes));
+  const input::LoadedInput input = input::load_input("inputs/tang2020_run.json", input::parse_assignments(changes));
   const gear::Stage& stage = input.study.stage;
   const gear::GearSet set = gear::make_gear_set(stage);
   const model::Scales scales = model::scales_of(stage);
-  const model::DynamicModel m = model_at(input)(omega);
+  const model::DynamicModel m = input::model_at(input)(omega);
   integrate::IntegratorOptions tight;
   constexpr double tolerance = 1e-13;
   tight.relative_tolerance = tight.absolute_tolerance = tolerance;

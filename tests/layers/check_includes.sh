@@ -9,7 +9,7 @@ set -euo pipefail
 source_dir=$1
 layer=$2
 
-layers=(core gear model integrate analysis studies figures store io)
+layers=(core gear model integrate analysis studies figures store input io)
 case $layer in
   core) allowed=(core) ;;
   gear) allowed=(gear core) ;;
@@ -19,8 +19,9 @@ case $layer in
   studies) allowed=(studies model gear analysis integrate core) ;;
   figures) allowed=(figures core) ;;
   store) allowed=(store studies model gear analysis integrate core) ;;
-  io) allowed=(io store figures studies model gear analysis integrate core) ;;
-  app) allowed=(io store figures studies core) ;; # no numerics in the command
+  input) allowed=(input studies model gear analysis integrate core) ;;
+  io) allowed=(io input store figures studies model gear analysis integrate core) ;;
+  app) allowed=(io input store figures studies core) ;; # no numerics in the command
   *)
     echo "no such layer: $layer" >&2
     exit 2

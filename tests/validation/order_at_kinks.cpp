@@ -20,9 +20,9 @@
 #include "core/fit.hpp"
 #include "core/largest_difference.hpp"
 #include "figures/line_figure.hpp"
+#include "input/study_model.hpp"
 #include "integrate/arkode_flow.hpp"
 #include "integrate/make_flow.hpp"
-#include "io/study_model.hpp"
 #include "problems/clearance_exact.hpp"
 #include "problems/known_systems.hpp"
 #include "studies/operating_point.hpp"
@@ -118,12 +118,12 @@ int main(int argc, char** argv) {
                 two_pi,
                 doublings(50, 8)});
 
-  const io::LoadedInput input = io::load_input(EPICYCLIC_SOURCE_DIR "/inputs/tang2020_speed.json");
+  const input::LoadedInput input = input::load_input(EPICYCLIC_SOURCE_DIR "/inputs/tang2020_speed.json");
   for (const auto& [width, stem, title] :
        {std::tuple(0.0, "order_gear_train", "Gear train of Tang et al. 2020, Ω = 2.8, exact clearance"),
         std::tuple(0.5, "order_gear_train_smooth",
                    "Gear train of Tang et al. 2020, Ω = 2.8, clearance smoothed by 0.5 b_c")}) {
-    const model::DynamicModel model = io::smoothed_model_at(input)(2.8, width);
+    const model::DynamicModel model = input::smoothed_model_at(input)(2.8, width);
     integrate::IntegratorOptions o;
     o.relative_tolerance = o.absolute_tolerance = 1e-13;
     o.method = "arkode-verner65";

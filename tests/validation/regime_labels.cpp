@@ -18,9 +18,9 @@
 
 #include "analysis/regime.hpp"
 #include "core/largest_difference.hpp"
+#include "input/study_model.hpp"
 #include "integrate/make_field.hpp"
 #include "integrate/make_flow.hpp"
-#include "io/study_model.hpp"
 #include "problems/known_systems.hpp"
 #include "studies/operating_point.hpp"
 
@@ -120,8 +120,8 @@ std::vector<Case> cases() {
     all.push_back({"lorenz_chaos", r, field, {1.0, 1.0, 20.0}, "chaotic"});
   }
   // The linear gear train: one harmonic.
-  static const auto input = io::load_input(EPICYCLIC_SOURCE_DIR "/validation/r1_linear_response/input.json");
-  static const auto model_at = io::smoothed_model_at(input);
+  static const auto input = input::load_input(EPICYCLIC_SOURCE_DIR "/validation/r1_linear_response/input.json");
+  static const auto model_at = input::smoothed_model_at(input);
   for (const double omega : grid(0.4, 3.0, 40)) {
     const model::DynamicModel m = model_at(omega, 0.0);
     all.push_back({"linear_gear_train", omega, studies::vector_field(m), m.default_start, "periodic"});

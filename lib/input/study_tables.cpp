@@ -5,12 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "input/catalogue_table.hpp"
+#include "input/study_input.hpp"
 #include "integrate/methods.hpp"
-#include "io/catalogue_table.hpp"
-#include "io/study_input.hpp"
 #include "studies/plane.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::input {
 
 namespace {
 
@@ -875,4 +875,4 @@ std::string schema_text() {
   return schema.dump(2) + "\n";
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::input

@@ -1,5 +1,5 @@
 // Lumped values from catalogue data: what is given stands, what is computed follows the catalogue.
-#include "io/stage_completion.hpp"
+#include "input/stage_completion.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -8,11 +8,11 @@
 #include <gtest/gtest.h>
 
 #include "gear/gear_set.hpp"
-#include "io/study_input.hpp"
-#include "io/study_model.hpp"
+#include "input/study_input.hpp"
+#include "input/study_model.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::input {
 namespace {
 
 using nlohmann::json;
@@ -259,4 +259,4 @@ TEST(StageCompletion, WhatNoDrawingGivesIsMissing) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::input

@@ -1,4 +1,4 @@
-#include "io/study_input.hpp"
+#include "input/study_input.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -12,7 +12,7 @@
 #include "integrate/methods.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::input {
 namespace {
 
 namespace fs = std::filesystem;
@@ -20,7 +20,7 @@ using nlohmann::json;
 using test::put_file;
 
 // Tests run in the source folder.
-const fs::path bad_inputs = "tests/io/bad_inputs";
+const fs::path bad_inputs = "tests/input/bad_inputs";
 const fs::path inputs = "inputs";
 
 std::string text_of(const fs::path& path) { return test::contents(path); }
@@ -803,4 +803,4 @@ TEST_F(SchemaAndReader, EveryKeyThatIsWrittenIsInTheSchema) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::input

@@ -22,9 +22,9 @@
 #include <nlohmann/json.hpp>
 
 #include "gear/stage.hpp"
+#include "input/field_table.hpp"
+#include "input/json_source.hpp"
 #include "integrate/options.hpp"
-#include "io/field_table.hpp"
-#include "io/json_source.hpp"
 #include "model/options.hpp"
 #include "studies/crosscheck_options.hpp"
 #include "studies/plane_options.hpp"
@@ -32,7 +32,7 @@
 #include "studies/sweep_options.hpp"
 #include "studies/tolerance_options.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::input {
 
 /// First words of an "origin", optionally followed by ": " and a text.
 inline constexpr std::array<std::string_view, 11> origin_words = {"source",   "table",       "standard", "catalogue",
@@ -123,4 +123,4 @@ class LoadedInput {
 /// The JSON Schema (draft 2020-12) of study and stage, from the tables.
 [[nodiscard]] std::string schema_text();
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::input

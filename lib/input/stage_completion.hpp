@@ -11,9 +11,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/field_table.hpp"
+#include "input/field_table.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::input {
 
 /// First word of the origin of values that the program computes.
 inline constexpr std::string_view computed_word = "computed";
@@ -39,4 +39,4 @@ Completion complete_stage(nlohmann::json& stage, const std::string& root, ReadCo
 /// @param resolved  of a study or of a stage alone; values that were computed are replaced by those of this machine
 [[nodiscard]] nlohmann::json computed_values(nlohmann::json& resolved);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::input

@@ -1,10 +1,10 @@
-#include "io/catalogue_table.hpp"
+#include "input/catalogue_table.hpp"
 
 #include <string>
 #include <utility>
 #include <vector>
 
-namespace epicyclic::io {
+namespace epicyclic::input {
 
 namespace {
 
@@ -228,4 +228,4 @@ const Table<Catalogue>& catalogue_table() {
   return table;
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::input

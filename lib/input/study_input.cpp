@@ -1,4 +1,4 @@
-#include "io/study_input.hpp"
+#include "input/study_input.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,12 +12,12 @@
 #include <tuple>
 #include <utility>
 
-#include "io/stage_completion.hpp"
+#include "input/stage_completion.hpp"
 #include "model/dynamic_model.hpp"
 #include "studies/plane.hpp"
 #include "studies/units.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::input {
 
 namespace {
 
@@ -1066,4 +1066,4 @@ Study LoadedInput::with_values(std::span<const PointerValue> values) const {
   return changed;
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::input

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "io/study_input.hpp"
+#include "input/study_input.hpp"
 #include "studies/sweep.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::input {
 
 /// The model at each value of the study's sweep parameter, named or a JSON pointer. Scales are those of the stage as
 /// given. `input` must outlive the result. A call throws InputError when the study is not valid at that value.
@@ -33,4 +33,4 @@ namespace epicyclic::io {
 /// time.
 [[nodiscard]] std::vector<std::string> gear_warnings(const LoadedInput& input);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::input

@@ -1,4 +1,4 @@
-#include "io/field_table.hpp"
+#include "input/field_table.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <charconv>
 #include <utility>
 
-namespace epicyclic::io {
+namespace epicyclic::input {
 
 namespace {
 
@@ -405,4 +405,4 @@ ordered_json object_schema(const std::string& title, const std::string& descript
 
 }  // namespace table_detail
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::input

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "gear/catalogue.hpp"
-#include "io/field_table.hpp"
+#include "input/field_table.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::input {
 
 /// Far beyond any gear, on both sides; they catch a wrong unit and keep sums, squares and quotients finite.
 inline constexpr double length_min_mm = 1e-6;
@@ -15,4 +15,4 @@ inline const Bounds table_tolerance = between(1e-13, 1e-2);
 
 [[nodiscard]] const Table<gear::Catalogue>& catalogue_table();
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::input

@@ -1,8 +1,8 @@
-#include "io/field_table.hpp"
+#include "input/field_table.hpp"
 
 #include <gtest/gtest.h>
 
-namespace epicyclic::io {
+namespace epicyclic::input {
 namespace {
 
 using nlohmann::json;
@@ -182,4 +182,4 @@ TEST(FieldTable, FindsTheNearestWord) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::input

@@ -1,4 +1,4 @@
-#include "io/stage_completion.hpp"
+#include "input/stage_completion.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -10,10 +10,10 @@
 #include "core/errors.hpp"
 #include "gear/bearing.hpp"
 #include "gear/gear_set.hpp"
-#include "io/catalogue_table.hpp"
-#include "io/study_input.hpp"
+#include "input/catalogue_table.hpp"
+#include "input/study_input.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::input {
 
 namespace {
 
@@ -311,4 +311,4 @@ nlohmann::json computed_values(nlohmann::json& resolved) {
   return bare ? computed : nlohmann::json{{"stage", std::move(computed)}};
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::input

@@ -1,4 +1,4 @@
-#include "io/json_source.hpp"
+#include "input/json_source.hpp"
 
 #include <random>
 
@@ -6,7 +6,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::input {
 namespace {
 
 using nlohmann::json;
@@ -208,4 +208,4 @@ TEST(JsonPointer, TakesStepsApart) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::input

@@ -1,4 +1,4 @@
-#include "io/study_model.hpp"
+#include "input/study_model.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@
 #include "studies/plane.hpp"
 #include "studies/probes.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::input {
 
 namespace {
 
@@ -201,4 +201,4 @@ std::vector<std::string> gear_warnings(const LoadedInput& input) {
   return lines;
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::input

@@ -1,4 +1,4 @@
-#include "io/json_source.hpp"
+#include "input/json_source.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-namespace epicyclic::io {
+namespace epicyclic::input {
 
 namespace {
 
@@ -603,4 +603,4 @@ bool pointer_within(std::string_view pointer, std::string_view ancestor) {
          (pointer.size() == ancestor.size() || pointer[ancestor.size()] == '/');
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::input

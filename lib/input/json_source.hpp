@@ -23,7 +23,7 @@
 
 #include "core/errors.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::input {
 
 inline constexpr std::size_t json_bytes_max = std::size_t{16} << 20;
 inline constexpr std::size_t json_depth_max = 32;
@@ -91,4 +91,4 @@ struct JsonSource {
 /// Is `pointer` the same as `ancestor` or below it?
 [[nodiscard]] bool pointer_within(std::string_view pointer, std::string_view ancestor);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::input

@@ -1,5 +1,5 @@
 // Warnings of studies: nothing on the project's own inputs, and where they belong.
-#include "io/study_model.hpp"
+#include "input/study_model.hpp"
 
 #include <filesystem>
 #include <string>
@@ -9,7 +9,7 @@
 
 #include "lines.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::input {
 namespace {
 
 using test::joined;
@@ -87,4 +87,4 @@ TEST(StudyWarnings, TheMostImportantComesFirst) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::input

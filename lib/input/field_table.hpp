@@ -28,9 +28,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/json_source.hpp"
+#include "input/json_source.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::input {
 
 /// Something wrong with a JSON value; where it stands in a file is for the caller to say.
 struct Finding {
@@ -545,4 +545,4 @@ class Table {
   std::vector<KeyRule> rules_;
 };
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::input
