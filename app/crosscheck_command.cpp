@@ -11,7 +11,7 @@
 #include "folder.hpp"
 #include "input/study_model.hpp"
 #include "io/crosscheck_output.hpp"
-#include "io/progress.hpp"
+#include "progress.hpp"
 #include "stop.hpp"
 #include "store/identity.hpp"
 #include "store/journal.hpp"
@@ -58,7 +58,7 @@ int crosscheck_command(const Arguments& arguments) {
   std::size_t finished = run.done.size();
   std::size_t failed = 0;
   for (const auto& [key, result] : run.done) failed += result.outcome == integrate::Outcome::reached ? 0 : 1;
-  io::Progress progress("crosscheck", points * variants.size(), finished);
+  Progress progress("crosscheck", points * variants.size(), finished);
   progress.update(finished, failed);
   run.point_finished = [&](std::size_t variant, const studies::PointResult& result) {
     journal.append(variant * points + result.point.index, store::encode_point(result));

@@ -15,7 +15,7 @@
 #include "core/version.hpp"
 #include "failure.hpp"
 #include "input/study_input.hpp"
-#include "ranks.hpp"
+#include "ranks/ranks.hpp"
 #include "stop.hpp"
 #include "store/versions.hpp"
 #include "streams.hpp"

@@ -12,9 +12,9 @@
 #include "folder.hpp"
 #include "input/study_input.hpp"
 #include "input/study_model.hpp"
-#include "io/progress.hpp"
-#include "ranks.hpp"
-#include "shared_sweep.hpp"
+#include "progress.hpp"
+#include "ranks/ranks.hpp"
+#include "ranks/shared_sweep.hpp"
 #include "stop.hpp"
 #include "store/identity.hpp"
 #include "store/output_folder.hpp"
@@ -48,7 +48,7 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
   if (store.size() > 0)
     tell("{}: {} of {} {} were there already\n", arguments.output.string(), store.size(), plan.points.size(), noun);
 
-  io::Progress progress(std::string(command), plan.points.size(), store.size());
+  Progress progress(std::string(command), plan.points.size(), store.size());
   progress.update(store.size(), failed);
   std::mutex counting;
   std::size_t elsewhere = 0;  // points of other ranks

@@ -11,8 +11,8 @@
 #include "figures/gnuplot.hpp"
 #include "folder.hpp"
 #include "input/study_model.hpp"
-#include "io/progress.hpp"
 #include "io/tolerance_output.hpp"
+#include "progress.hpp"
 #include "stop.hpp"
 #include "store/identity.hpp"
 #include "store/journal.hpp"
@@ -68,7 +68,7 @@ int tolerance_command(const Arguments& arguments) {
   };
   for (const auto& [index, result] : known) count_failure(result);
   const std::size_t total = 2 * plan.points.size();
-  io::Progress progress("tolerance", total, finished);
+  Progress progress("tolerance", total, finished);
   progress.update(finished, failed);
   run.point_finished = [&](const studies::PointResult& result) {
     journal.append(result.point.index, store::encode_point(result));

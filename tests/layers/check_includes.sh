@@ -69,7 +69,7 @@ while IFS= read -r hit; do
     [ "$layer" = integrate ] || offence "$place" "SUNDIALS belongs to integrate: $included"
   elif [[ /$included/ == */../* ]]; then
     offence "$place" "a path with ..: $included"
-  elif [[ $path != */* ]]; then
+  elif [[ $path != */* ]] || { [ "$style" = '"' ] && [ -e "$folder/$path" ]; }; then
     : # a standard header or one of the own folder
   elif contains "$first" "${layers[@]}"; then
     contains "$first" "${allowed[@]}" || offence "$place" "$layer must not include $first: $included"

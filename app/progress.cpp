@@ -1,4 +1,4 @@
-#include "io/progress.hpp"
+#include "progress.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 
 #include "core/atomic_file.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::app {
 
 namespace {
 
@@ -140,4 +140,4 @@ void Progress::draw(Clock::time_point now, bool last) {
   write_without_waiting(descriptor_, line);
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::app

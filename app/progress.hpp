@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-namespace epicyclic::io {
+namespace epicyclic::app {
 
 /// What a progress line tells.
 struct ProgressState {
@@ -65,4 +65,4 @@ class Progress {
   std::thread drawer_;
 };
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::app

@@ -1,4 +1,4 @@
-#include "io/progress.hpp"
+#include "progress.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 
 #include "core/atomic_file.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::app {
 namespace {
 
 using std::chrono::milliseconds;
@@ -90,4 +90,4 @@ TEST(Progress, PlainLinesAreAMinuteApart) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::app

@@ -1,9 +1,9 @@
 // The processes (ranks) of one run, as mpirun and srun start them, and messages between them.
 //
-// Two implementations, one of which is linked: ranks_mpi.cpp, and ranks_alone.cpp where MPI is not there. MPI is
-// started only if a launcher's environment says that this process is one of several. All calls come from the thread
-// that made the object (MPI_THREAD_FUNNELED: the weakest that MPI libraries offer to programs with threads), and none
-// of them waits: MPI libraries wait by spinning, which takes a core from the computation.
+// Two implementations, one of which is linked: mpi.cpp, and alone.cpp where MPI is not there. MPI is started only if a
+// launcher's environment says that this process is one of several. All calls come from the thread that made the object
+// (MPI_THREAD_FUNNELED: the weakest that MPI libraries offer to programs with threads), and none of them waits: MPI
+// libraries wait by spinning, which takes a core from the computation.
 #pragma once
 
 #include <memory>
