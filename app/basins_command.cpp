@@ -6,8 +6,8 @@
 
 #include "commands.hpp"
 #include "input/study_model.hpp"
-#include "io/basins_output.hpp"
 #include "points.hpp"
+#include "reports/basins_output.hpp"
 #include "studies/plane.hpp"
 
 namespace epicyclic::app {
@@ -17,14 +17,15 @@ namespace {
 WrittenPoints write_results(const ComputedPoints& plane) {
   std::vector<studies::PointResult> results = studies::all_brief(plane.points);
   const input::Study& study = plane.input.study;
-  const io::BasinsOutput output{study.plane, plane.first_model.state_names, studies::planet_turns(plane.first_model),
-                                plane.resolved, io::figure_title(study)};
+  const reports::BasinsOutput output{study.plane, plane.first_model.state_names,
+                                     studies::planet_turns(plane.first_model), plane.resolved,
+                                     reports::figure_title(study)};
   const analysis::Attractors attractors = studies::attractors_of(results, output.turns);
-  io::write_basins_csv(plane.folder / "points.csv", results, attractors);
-  io::write_attractors_csv(plane.folder / "attractors.csv", output, results, attractors);
-  io::write_basins_h5(plane.folder / "results.h5", output, results, attractors);
+  reports::write_basins_csv(plane.folder / "points.csv", results, attractors);
+  reports::write_attractors_csv(plane.folder / "attractors.csv", output, results, attractors);
+  reports::write_basins_h5(plane.folder / "results.h5", output, results, attractors);
   WrittenPoints written;
-  written.figures = io::draw_basins_figure(plane.folder / "figures", output, results, attractors);
+  written.figures = reports::draw_basins_figure(plane.folder / "figures", output, results, attractors);
   written.summary["attractors"] = nlohmann::json::array();
   std::size_t told = 0;
   for (std::size_t k = 0; k < attractors.all.size(); ++k) {
@@ -34,7 +35,8 @@ WrittenPoints write_results(const ComputedPoints& plane) {
                           {"regime", to_string(a.record.regime)},
                           {"period", a.record.period()},
                           {"cells", a.members.size()}};
-    std::string line = fmt::format("attractor {}: {}, {} cells", k + 1, io::attractor_word(a.record), a.members.size());
+    std::string line =
+        fmt::format("attractor {}: {}, {} cells", k + 1, reports::attractor_word(a.record), a.members.size());
     if (a.image_of > 0) {
       one["image_of"] = a.image_of;
       line +=

@@ -10,8 +10,8 @@
 #include "figures/gnuplot.hpp"
 #include "folder.hpp"
 #include "input/study_model.hpp"
-#include "io/crosscheck_output.hpp"
 #include "progress.hpp"
+#include "reports/crosscheck_output.hpp"
 #include "stop.hpp"
 #include "store/identity.hpp"
 #include "store/journal.hpp"
@@ -85,19 +85,20 @@ int crosscheck_command(const Arguments& arguments) {
   }
 
   folder.require_there();
-  const io::SweepOutput output{sweep, studies::poincare_columns(first_model), resolved, io::figure_title(input.study)};
+  const reports::SweepOutput output{sweep, studies::poincare_columns(first_model), resolved,
+                                    reports::figure_title(input.study)};
   const studies::PointSource reference = studies::points_in_memory(all.reference);
-  io::write_points_csv(folder.file("points.csv"), reference);
-  io::write_poincare_csv(folder.file("poincare.csv"), output, reference);
-  io::write_crosscheck_csv(folder.file("crosscheck.csv"), all);
-  const std::string summary = io::crosscheck_summary(all);
+  reports::write_points_csv(folder.file("points.csv"), reference);
+  reports::write_poincare_csv(folder.file("poincare.csv"), output, reference);
+  reports::write_crosscheck_csv(folder.file("crosscheck.csv"), all);
+  const std::string summary = reports::crosscheck_summary(all);
   write_file_atomically(folder.file("crosscheck.md"), summary);
-  const io::DrawnFigure figure =
-      io::draw_crosscheck_figure(folder.file("figures"), output, all, input.study.crosscheck.orbit_tolerance);
+  const reports::DrawnFigure figure =
+      reports::draw_crosscheck_figure(folder.file("figures"), output, all, input.study.crosscheck.orbit_tolerance);
   undrawn = tell_undrawn({figure});
   close_run(store::RunState::complete);
 
-  const std::size_t different = io::differences(all);
+  const std::size_t different = reports::differences(all);
   if (arguments.json) {
     print("{}\n", nlohmann::json{{"folder", folder.path().string()},
                                  {"points", points},

@@ -95,9 +95,9 @@ void require_points(const input::LoadedInput& input, const Arguments& arguments,
   if (!input.study.sweep || input.study.kind != "sweep") require_kind(input, arguments, command);
 }
 
-std::int64_t tell_undrawn(const std::vector<io::DrawnFigure>& figures) {
+std::int64_t tell_undrawn(const std::vector<reports::DrawnFigure>& figures) {
   std::int64_t count = 0;
-  for (const io::DrawnFigure& figure : figures) {
+  for (const reports::DrawnFigure& figure : figures) {
     if (figure.outcome.drawn()) continue;
     tell("{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
     ++count;

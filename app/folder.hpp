@@ -12,7 +12,7 @@
 
 #include "commands.hpp"
 #include "input/study_input.hpp"
-#include "io/sweep_output.hpp"
+#include "reports/sweep_output.hpp"
 #include "store/journal.hpp"
 #include "store/output_folder.hpp"
 #include "store/provenance.hpp"
@@ -50,7 +50,7 @@ void tell_cut_tail(const std::filesystem::path& journal, std::size_t bytes);
 
 /// Says on stderr which figures were not drawn.
 /// @returns how many, for run.json: a study without one of its figures does not end with `done`
-[[nodiscard]] std::int64_t tell_undrawn(const std::vector<io::DrawnFigure>& figures);
+[[nodiscard]] std::int64_t tell_undrawn(const std::vector<reports::DrawnFigure>& figures);
 
 /// input.json, the stage file as input.stage.json, input.resolved.json.
 /// @returns text of the resolved input

@@ -7,7 +7,7 @@
 #include "figures/gnuplot.hpp"
 #include "folder.hpp"
 #include "input/study_model.hpp"
-#include "io/gear_output.hpp"
+#include "reports/gear_output.hpp"
 #include "store/identity.hpp"
 #include "streams.hpp"
 
@@ -15,13 +15,13 @@ namespace epicyclic::app {
 
 int gear_command(const Arguments& arguments) {
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
-  io::require_finite_numbers(input);
+  reports::require_finite_numbers(input);
   const store::OutputFolder folder(arguments.output, store::identity({input.resolved, input.computed}, "gear"),
                                    figures::gnuplot_is_installed());
   if (const auto code = refuse_or_finish(folder, input)) return *code;
   store::Provenance facts = provenance(1, input);
   write_inputs(folder, input);
-  const io::GearOutput written = io::write_gear_output(folder.path(), input);
+  const reports::GearOutput written = reports::write_gear_output(folder.path(), input);
   facts.ended = store::utc_now();
   facts.counts = {{"undrawn", static_cast<std::int64_t>(written.undrawn.size())}};
   folder.write_run(store::RunState::complete, store::run_facts(facts));

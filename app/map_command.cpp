@@ -4,8 +4,8 @@
 
 #include "commands.hpp"
 #include "input/study_model.hpp"
-#include "io/map_output.hpp"
 #include "points.hpp"
+#include "reports/map_output.hpp"
 
 namespace epicyclic::app {
 
@@ -13,11 +13,11 @@ namespace {
 
 WrittenPoints write_results(const ComputedPoints& plane) {
   const input::Study& study = plane.input.study;
-  const io::MapOutput output{*study.sweep, study.plane, plane.resolved, io::figure_title(study)};
-  io::write_map_csv(plane.folder / "points.csv", plane.points);
-  io::write_map_h5(plane.folder / "results.h5", output, plane.points);
+  const reports::MapOutput output{*study.sweep, study.plane, plane.resolved, reports::figure_title(study)};
+  reports::write_map_csv(plane.folder / "points.csv", plane.points);
+  reports::write_map_h5(plane.folder / "results.h5", output, plane.points);
   WrittenPoints written;
-  written.figures = io::draw_map_figures(plane.folder / "figures", output, plane.points);
+  written.figures = reports::draw_map_figures(plane.folder / "figures", output, plane.points);
   return written;
 }
 

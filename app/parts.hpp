@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "input/study_input.hpp"
-#include "io/sweep_output.hpp"
+#include "reports/sweep_output.hpp"
 #include "store/manifest.hpp"
 
 namespace epicyclic::app {
@@ -29,7 +29,7 @@ struct ComputedPoints {
 
 /// What was written.
 struct WrittenPoints {
-  std::vector<io::DrawnFigure> figures{};
+  std::vector<reports::DrawnFigure> figures{};
   nlohmann::json summary = nlohmann::json::object();  ///< joins that of --json
   std::vector<std::string> lines{};                   ///< for stdout
   std::vector<std::string> notes{};                   ///< for stderr

@@ -182,7 +182,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
       {"folder", folder.path().string()}, {"points", plan.points.size()},      {"failed", failed}, {"regimes", regimes},
       {"pulling", pulls.points},          {"figures", nlohmann::json::array()}};
   summary.update(written.summary);
-  for (const io::DrawnFigure& figure : written.figures)
+  for (const reports::DrawnFigure& figure : written.figures)
     if (figure.outcome.drawn()) summary["figures"].push_back(figure.file.string());
   if (arguments.json) {
     print("{}\n", summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));

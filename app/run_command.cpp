@@ -7,8 +7,8 @@
 #include "figures/gnuplot.hpp"
 #include "folder.hpp"
 #include "input/study_model.hpp"
-#include "io/run_output.hpp"
-#include "io/sweep_output.hpp"
+#include "reports/run_output.hpp"
+#include "reports/sweep_output.hpp"
 #include "stop.hpp"
 #include "store/identity.hpp"
 #include "streams.hpp"
@@ -44,29 +44,30 @@ int run_command(const Arguments& arguments) {
   }
 
   folder.require_there();
-  const io::SweepOutput points{*study.sweep, studies::poincare_columns(model), resolved, io::figure_title(study)};
-  const io::RunOutput output{points, study.run, model.sun_planet_half_gap, model.ring_planet_half_gap,
-                             study.model.gap_damping};
+  const reports::SweepOutput points{*study.sweep, studies::poincare_columns(model), resolved,
+                                    reports::figure_title(study)};
+  const reports::RunOutput output{points, study.run, model.sun_planet_half_gap, model.ring_planet_half_gap,
+                                  study.model.gap_damping};
   const bool computed = result->point.outcome == integrate::Outcome::reached;
-  const std::string summary = io::run_summary(output, *result);
+  const std::string summary = reports::run_summary(output, *result);
   const studies::PointSource point = studies::points_in_memory({&result->point, 1});
-  io::write_points_csv(folder.file("points.csv"), point);
-  io::write_poincare_csv(folder.file("poincare.csv"), points, point);
-  io::write_run_tables(folder.path(), output, *result);
-  io::write_run_h5(folder.file("results.h5"), output, *result);
+  reports::write_points_csv(folder.file("points.csv"), point);
+  reports::write_poincare_csv(folder.file("poincare.csv"), points, point);
+  reports::write_run_tables(folder.path(), output, *result);
+  reports::write_run_h5(folder.file("results.h5"), output, *result);
   write_file_atomically(folder.file("summary.md"), summary);
-  const auto figures = io::draw_run_figures(folder.file("figures"), output, *result);
+  const auto figures = reports::draw_run_figures(folder.file("figures"), output, *result);
   const std::int64_t undrawn = tell_undrawn(figures);
   facts.ended = store::utc_now();
   facts.counts = {{"points", 1}, {"failed", computed ? 0 : 1}, {"undrawn", undrawn}};
   folder.write_run(store::RunState::complete, store::run_facts(facts));
 
   nlohmann::json told = {{"folder", folder.path().string()},
-                         {"status", io::status_word(result->point.outcome)},
-                         {"regime", io::regime_word(result->point)},
+                         {"status", reports::status_word(result->point.outcome)},
+                         {"regime", reports::regime_word(result->point)},
                          {"period", result->point.period},
                          {"figures", nlohmann::json::array()}};
-  for (const io::DrawnFigure& figure : figures)
+  for (const reports::DrawnFigure& figure : figures)
     if (figure.outcome.drawn()) told["figures"].push_back(figure.file.string());
   if (arguments.json) {
     print("{}\n", told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));

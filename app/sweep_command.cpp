@@ -9,38 +9,38 @@
 
 #include "commands.hpp"
 #include "input/study_model.hpp"
-#include "io/sweep_output.hpp"
 #include "points.hpp"
+#include "reports/sweep_output.hpp"
 
 namespace epicyclic::app {
 
 namespace {
 
-io::SweepOutput output_of(const ComputedPoints& all) {
+reports::SweepOutput output_of(const ComputedPoints& all) {
   return {*all.input.study.sweep, studies::poincare_columns(all.first_model), all.resolved,
-          io::figure_title(all.input.study)};
+          reports::figure_title(all.input.study)};
 }
 
 WrittenPoints write_section(const ComputedPoints& all) {
-  io::write_poincare_csv(all.folder / "poincare.csv", output_of(all), all.points);
+  reports::write_poincare_csv(all.folder / "poincare.csv", output_of(all), all.points);
   return {};
 }
 
 WrittenPoints write_h5(const ComputedPoints& all) {
-  io::write_results_h5(all.folder / "results.h5", output_of(all), all.points);
+  reports::write_results_h5(all.folder / "results.h5", output_of(all), all.points);
   return {};
 }
 
-WrittenPoints write_figure(const ComputedPoints& all, io::SweepFigure figure) {
+WrittenPoints write_figure(const ComputedPoints& all, reports::SweepFigure figure) {
   WrittenPoints written;
-  if (auto none = io::write_sweep_figure(all.folder / "figures", output_of(all), all.points, figure))
+  if (auto none = reports::write_sweep_figure(all.folder / "figures", output_of(all), all.points, figure))
     written.figures.push_back(std::move(*none));
   return written;
 }
 
-WrittenPoints draw_picture(const ComputedPoints& all, io::SweepFigure figure, figures::Pictures picture) {
+WrittenPoints draw_picture(const ComputedPoints& all, reports::SweepFigure figure, figures::Pictures picture) {
   WrittenPoints written;
-  auto drawn = io::draw_sweep_picture(all.folder / "figures", output_of(all), figure, picture);
+  auto drawn = reports::draw_sweep_picture(all.folder / "figures", output_of(all), figure, picture);
   // A figure is called by its PNG picture.
   if (drawn && (picture == figures::Pictures::png || !drawn->outcome.drawn()))
     written.figures.push_back(std::move(*drawn));
@@ -48,7 +48,7 @@ WrittenPoints draw_picture(const ComputedPoints& all, io::SweepFigure figure, fi
 }
 
 WrittenPoints write_points(const ComputedPoints& all) {
-  io::write_points_csv(all.folder / "points.csv", all.points);
+  reports::write_points_csv(all.folder / "points.csv", all.points);
   std::size_t settling = 0;
   for (std::size_t i = 0; i < all.points.count; ++i)
     settling += studies::still_settling(all.points.read_brief(i), *all.input.study.sweep) ? 1 : 0;
@@ -63,10 +63,10 @@ WrittenPoints write_points(const ComputedPoints& all) {
 
 /// In the order in which they are handed out: the longest first, but for figures' data, which their pictures wait for.
 std::vector<ResultsPart> parts_of_sweep() {
-  using enum io::SweepFigure;
+  using enum reports::SweepFigure;
   std::vector<ResultsPart> parts = {{write_h5}};
-  std::map<io::SweepFigure, std::size_t> written_by;
-  for (const io::SweepFigure figure : {delta_sp, delta_rp, regimes_first, regimes_second}) {
+  std::map<reports::SweepFigure, std::size_t> written_by;
+  for (const reports::SweepFigure figure : {delta_sp, delta_rp, regimes_first, regimes_second}) {
     written_by[figure] = parts.size();
     parts.push_back({[figure](const ComputedPoints& all) { return write_figure(all, figure); }});
   }

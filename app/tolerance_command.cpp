@@ -11,8 +11,8 @@
 #include "figures/gnuplot.hpp"
 #include "folder.hpp"
 #include "input/study_model.hpp"
-#include "io/tolerance_output.hpp"
 #include "progress.hpp"
+#include "reports/tolerance_output.hpp"
 #include "stop.hpp"
 #include "store/identity.hpp"
 #include "store/journal.hpp"
@@ -111,14 +111,14 @@ int tolerance_command(const Arguments& arguments) {
   }
 
   folder.require_there();
-  const io::ToleranceOutput output{
-      {sweep, studies::poincare_columns(first_model), resolved, io::figure_title(input.study)},
+  const reports::ToleranceOutput output{
+      {sweep, studies::poincare_columns(first_model), resolved, reports::figure_title(input.study)},
       input.study.tolerance,
       input.study.integrator,
       first_model.dimension};
-  io::write_points_csv(folder.file("points.csv"), studies::points_in_memory(studied));
-  const std::string summary = io::write_tolerance_tables(folder.path(), output, points);
-  const auto figures = io::draw_tolerance_figures(folder.file("figures"), output, points);
+  reports::write_points_csv(folder.file("points.csv"), studies::points_in_memory(studied));
+  const std::string summary = reports::write_tolerance_tables(folder.path(), output, points);
+  const auto figures = reports::draw_tolerance_figures(folder.file("figures"), output, points);
   undrawn = tell_undrawn(figures);
   close_run(store::RunState::complete);
 
@@ -126,7 +126,7 @@ int tolerance_command(const Arguments& arguments) {
                            {"points", plan.points.size()},
                            {"failed", failed},
                            {"figures", nlohmann::json::array()}};
-  for (const io::DrawnFigure& figure : figures)
+  for (const reports::DrawnFigure& figure : figures)
     if (figure.outcome.drawn()) result["figures"].push_back(figure.file.string());
   if (const auto best = studies::recommend(points, first_model.dimension, input.study.tolerance.target_error))
     result["recommendation"] = {{"method", best->method}, {"relative_tolerance", best->tolerance}};

@@ -166,7 +166,7 @@ std::optional<Failure> failure_in(const json& report) {
 
 json written_to(const WrittenPoints& written) {
   json figures = json::array();
-  for (const io::DrawnFigure& figure : written.figures)
+  for (const reports::DrawnFigure& figure : written.figures)
     figures.push_back({{"file", figure.file.string()}, {"message", figure.outcome.message}});
   return {{"figures", figures},
           {"summary", written.summary},

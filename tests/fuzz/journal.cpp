@@ -18,7 +18,7 @@
 #include "fuzz.hpp"
 #include "store/point_record.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::fuzz {
 namespace {
 
 using fuzz::require;
@@ -210,15 +210,15 @@ void look_at_file(std::string_view bytes) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string bytes(data, data + size);
   if (bytes.empty()) return 0;
   const std::string_view rest = std::string_view(bytes).substr(1);
   if (bytes[0] == 'f')
-    epicyclic::io::look_at_file(rest);
+    epicyclic::fuzz::look_at_file(rest);
   else
-    epicyclic::io::look_at_pieces(rest);
+    epicyclic::fuzz::look_at_pieces(rest);
   return 0;
 }

@@ -8,7 +8,7 @@
 #include "fuzz.hpp"
 #include "input/json_source.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::fuzz {
 namespace {
 
 using fuzz::require;
@@ -44,9 +44,9 @@ void look_at(const std::string& text) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  epicyclic::io::look_at(std::string(data, data + size));
+  epicyclic::fuzz::look_at(std::string(data, data + size));
   return 0;
 }

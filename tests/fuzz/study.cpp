@@ -28,7 +28,7 @@
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 
-namespace epicyclic::io {
+namespace epicyclic::fuzz {
 namespace {
 
 using fuzz::require;
@@ -268,17 +268,17 @@ class Mutator {
 };
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  epicyclic::io::look_at(std::string(data, data + size));
+  epicyclic::fuzz::look_at(std::string(data, data + size));
   return 0;
 }
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                                unsigned seed) {
   using nlohmann::json;
-  epicyclic::io::Mutator mutator(seed);
+  epicyclic::fuzz::Mutator mutator(seed);
   if (mutator.below(4) == 0) return LLVMFuzzerMutate(data, size, max_size);
   const std::string bytes(data, data + size);
   const auto end = std::min(bytes.find('\0'), bytes.size());

@@ -6,7 +6,7 @@ set -euo pipefail
 check=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/check_includes.sh
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
-mkdir -p "$tree"/lib/{core,gear,model,integrate,analysis,studies,io} "$tree/app"
+mkdir -p "$tree"/lib/{core,gear,model,integrate,analysis,studies,figures,store,input,reports} "$tree/app"
 
 failures=0
 # expect VERDICT LAYER LINE: the check of LAYER says VERDICT (0 clean, 1 offence) when one of its files has LINE.
@@ -22,7 +22,7 @@ expect() {
   rm "$folder/scratch.hpp"
 }
 
-columns=(core gear model integrate analysis studies io)
+columns=(core gear model integrate analysis studies figures store input reports)
 while read -r layer verdicts; do
   read -r -a verdicts <<<"$verdicts"
   for i in "${!columns[@]}"; do
@@ -30,33 +30,36 @@ while read -r layer verdicts; do
     expect "${verdicts[i]}" "$layer" "#include <epicyclic/${columns[i]}/x.hpp>"
   done
 done <<'TABLE'
-core      0 1 1 1 1 1 1
-gear      0 0 1 1 1 1 1
-model     0 0 0 1 1 1 1
-integrate 0 1 1 0 1 1 1
-analysis  0 1 1 0 0 1 1
-studies   0 0 0 0 0 0 1
-io        0 0 0 0 0 0 0
-app       0 1 1 1 1 0 0
+core      0 1 1 1 1 1 1 1 1 1
+gear      0 0 1 1 1 1 1 1 1 1
+model     0 0 0 1 1 1 1 1 1 1
+integrate 0 1 1 0 1 1 1 1 1 1
+analysis  0 1 1 0 0 1 1 1 1 1
+studies   0 0 0 0 0 0 1 1 1 1
+figures   0 1 1 1 1 1 0 1 1 1
+store     0 0 0 0 0 0 1 0 1 1
+input     0 0 0 0 0 0 1 1 0 1
+reports   0 0 0 0 0 0 0 0 0 0
+app       0 1 1 1 1 0 0 0 0 0
 TABLE
 
-for layer in core gear model analysis studies io app; do
+for layer in core gear model analysis studies figures store input reports app; do
   expect 1 "$layer" '#include <arkode/arkode_erkstep.h>'
   expect 1 "$layer" '#include <sunmatrix/sunmatrix_dense.h>'
 done
 expect 0 integrate '#include <arkode/arkode_erkstep.h>'
 expect 0 integrate '#include <nvector/nvector_serial.h>'
 
-expect 1 core '  #  include   "io/x.hpp"'
-expect 1 core '#include "../io/x.hpp"'
-expect 1 core '#include "core/../io/x.hpp"'
+expect 1 core '  #  include   "store/x.hpp"'
+expect 1 core '#include "../store/x.hpp"'
+expect 1 core '#include "core/../store/x.hpp"'
 expect 1 core '#include "elsewhere/x.hpp"'
 expect 1 gear '#include <model/x.hpp> // "core/x.hpp"'
 expect 0 core '#include "x.hpp"'
 expect 0 core '#include <vector>'
 expect 0 core '#include <Eigen/Dense>'
 expect 0 core '#include <sys/stat.h>'
-expect 0 core '// #include "io/x.hpp"'
+expect 0 core '// #include "store/x.hpp"'
 
 if [ $failures -gt 0 ]; then
   echo "$failures wrong verdicts"

@@ -9,7 +9,7 @@ set -euo pipefail
 source_dir=$1
 layer=$2
 
-layers=(core gear model integrate analysis studies figures store input io)
+layers=(core gear model integrate analysis studies figures store input reports)
 case $layer in
   core) allowed=(core) ;;
   gear) allowed=(gear core) ;;
@@ -20,8 +20,8 @@ case $layer in
   figures) allowed=(figures core) ;;
   store) allowed=(store studies model gear analysis integrate core) ;;
   input) allowed=(input studies model gear analysis integrate core) ;;
-  io) allowed=(io input store figures studies model gear analysis integrate core) ;;
-  app) allowed=(io input store figures studies core) ;; # no numerics in the command
+  reports) allowed=(reports input store figures studies model gear analysis integrate core) ;;
+  app) allowed=(reports input store figures studies core) ;; # no numerics in the command
   *)
     echo "no such layer: $layer" >&2
     exit 2

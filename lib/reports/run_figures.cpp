@@ -1,4 +1,4 @@
-// Figures of a run, declared in io/run_output.hpp.
+// Figures of a run, declared in reports/run_output.hpp.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,10 +11,10 @@
 #include <fmt/format.h>
 
 #include "figures/sketch.hpp"
-#include "io/run_output.hpp"
 #include "model/dynamic_model.hpp"
+#include "reports/run_output.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 namespace {
 
@@ -500,4 +500,4 @@ std::vector<DrawnFigure> draw_run_figures(const fs::path& figures_folder, const 
   return RunFigures(figures_folder, output, result).draw();
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

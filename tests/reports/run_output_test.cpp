@@ -1,4 +1,4 @@
-#include "io/run_output.hpp"
+#include "reports/run_output.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@
 #include "store/hdf5_file.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 namespace {
 
 using test::contents;
@@ -541,4 +541,4 @@ TEST(RunFigures, AreTheSameTwice) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

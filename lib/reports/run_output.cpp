@@ -1,4 +1,4 @@
-#include "io/run_output.hpp"
+#include "reports/run_output.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@
 #include "model/scales.hpp"
 #include "store/hdf5_file.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 namespace {
 
@@ -748,4 +748,4 @@ std::string run_summary(const RunOutput& output, const RunResult& r) {
   return text + work + files_text(output, r);
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "io/sweep_output.hpp"
+#include "reports/sweep_output.hpp"
 #include "studies/plane_options.hpp"
 #include "studies/sweep.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 struct MapOutput {
   studies::SweepOptions sweep;
@@ -31,4 +31,4 @@ void write_map_h5(const std::filesystem::path& file, const MapOutput& output, co
 [[nodiscard]] std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, const MapOutput& output,
                                                         const studies::PointSource& points);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

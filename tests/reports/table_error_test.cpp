@@ -20,7 +20,7 @@
 #include "model/right_hand_side.hpp"
 #include "studies/operating_point.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -152,4 +152,4 @@ TEST(TableError, OrbitsOnTheWholeStiffnessCurveToo) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

@@ -1,4 +1,4 @@
-#include "io/crosscheck_output.hpp"
+#include "reports/crosscheck_output.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include "core/csv.hpp"
 #include "figures/line_figure.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 namespace {
 
@@ -116,4 +116,4 @@ DrawnFigure draw_crosscheck_figure(const std::filesystem::path& folder, const Sw
           figures::line_figure(folder, "crosscheck", text, curves, {.log_x = false, .log_y = true})};
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

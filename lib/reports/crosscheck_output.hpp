@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "io/sweep_output.hpp"
+#include "reports/sweep_output.hpp"
 #include "studies/crosscheck.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 /// One row per point and compared variant.
 /// @throws OutputError
@@ -25,4 +25,4 @@ void write_crosscheck_csv(const std::filesystem::path& file, const studies::Cros
 /// Points that differ, explained or not.
 [[nodiscard]] std::size_t differences(const studies::Crosscheck& all);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

@@ -1,4 +1,4 @@
-#include "io/basins_output.hpp"
+#include "reports/basins_output.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,10 +14,10 @@
 
 #include "core/csv.hpp"
 #include "figures/cell_figure.hpp"
-#include "io/plane_output.hpp"
+#include "reports/plane_output.hpp"
 #include "store/hdf5_file.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 namespace {
 
@@ -228,4 +228,4 @@ std::vector<DrawnFigure> draw_basins_figure(const std::filesystem::path& folder,
                                  {axis_values(output.plane.first), axis_values(output.plane.second)}, classes, cells)}};
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "io/sweep_output.hpp"
+#include "reports/sweep_output.hpp"
 #include "studies/tolerance.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 /// What the tables need besides the points.
 struct ToleranceOutput {
@@ -37,4 +37,4 @@ std::string write_tolerance_tables(const std::filesystem::path& folder, const To
                                                               const ToleranceOutput& output,
                                                               const std::vector<studies::TolerancePoint>& points);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

@@ -1,4 +1,4 @@
-#include "io/map_output.hpp"
+#include "reports/map_output.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,11 @@
 #include <span>
 
 #include "figures/cell_figure.hpp"
-#include "io/plane_output.hpp"
+#include "reports/plane_output.hpp"
 #include "store/hdf5_file.hpp"
 #include "studies/plane.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 namespace {
 
@@ -122,4 +122,4 @@ std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, c
   return figures;
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

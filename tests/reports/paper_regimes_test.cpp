@@ -14,7 +14,7 @@
 #include "studies/run.hpp"
 #include "studies/sweep.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 namespace {
 
 bool always() { return true; }
@@ -147,4 +147,4 @@ TEST(PaperRegimesLong, ExponentsOfPeriodicPointsAreThoseOfTheirMultipliers) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

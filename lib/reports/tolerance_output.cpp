@@ -1,4 +1,4 @@
-#include "io/tolerance_output.hpp"
+#include "reports/tolerance_output.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include "core/text.hpp"
 #include "figures/line_figure.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 namespace {
 
@@ -304,4 +304,4 @@ std::vector<DrawnFigure> draw_tolerance_figures(const std::filesystem::path& fol
   return figures;
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

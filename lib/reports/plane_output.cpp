@@ -1,10 +1,10 @@
-#include "io/plane_output.hpp"
+#include "reports/plane_output.hpp"
 
 #include <span>
 
 #include "studies/plane.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 using studies::PointResult;
 
@@ -27,4 +27,4 @@ void write_plane(store::Hdf5File& h5, const std::string& group, const std::strin
   h5.write(group + "/" + column.name, std::span<const double>(axis_values(plane.second)));
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

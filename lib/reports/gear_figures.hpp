@@ -23,7 +23,7 @@
 #include "gear/gear_set.hpp"
 #include "gear/stage.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 struct GearFigure {
   std::string stem;
@@ -64,4 +64,4 @@ struct MeshDrawing {
 /// @param reach  the outlines cover at least this distance on both sides of the line of centres [mm]
 [[nodiscard]] MeshDrawing mesh_drawing(const gear::Pair& pair, double phase, double reach_mm);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

@@ -1,4 +1,5 @@
-// What a run of one operating point leaves in its folder, besides points.csv and poincare.csv (io/sweep_output.hpp).
+// What a run of one operating point leaves in its folder, besides points.csv and poincare.csv
+// (reports/sweep_output.hpp).
 //
 //   history.csv      the last mesh periods of the record: states, deflections, forces, load sharing of the planets
 //   spectrum.csv     amplitude and phase of each signal's lines: at p / n of the mesh frequency for a periodic motion
@@ -19,11 +20,11 @@
 #include <string>
 #include <vector>
 
-#include "io/sweep_output.hpp"
 #include "model/options.hpp"
+#include "reports/sweep_output.hpp"
 #include "studies/run.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 /// What a run is written with besides its result.
 struct RunOutput {
@@ -76,4 +77,4 @@ struct SpectralLine {
 /// The `most` largest lines by falling amplitude, the mean left out. Lines below 1e-9 of the largest are rounding.
 [[nodiscard]] std::vector<SpectralLine> strongest_lines(const studies::SignalSpectrum& signal, std::size_t most);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

@@ -10,7 +10,7 @@
 #include "model/modes.hpp"
 #include "model/scales.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 /// One number of the summary.
 struct Quantity {
@@ -53,4 +53,4 @@ struct GearPage {
 /// Sentences on where the paths of contact lie relative to their pitch points.
 [[nodiscard]] std::vector<std::string> contact_verdicts(const gear::GearSet& set, const gear::Stage& stage);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

@@ -13,10 +13,10 @@
 #include "core/errors.hpp"
 #include "gnuplot_guard.hpp"
 #include "input/study_model.hpp"
-#include "io/gear_output.hpp"
+#include "reports/gear_output.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 namespace {
 
 namespace fs = std::filesystem;
@@ -58,7 +58,7 @@ Tally gear_on_extremes(const fs::path& file, const std::vector<std::string>& bas
         const input::LoadedInput input = input::load_input(file, input::parse_assignments(sets));
         require_finite_numbers(input);
         const TemporaryFolder folder;
-        const GearOutput out = write_gear_output(folder.path(), input);
+        const GearOutput out = reports::write_gear_output(folder.path(), input);
         ++tally.written;
         for (const std::string& line : out.warnings) EXPECT_FALSE(has_no_number(line)) << sets.back() << ": " << line;
         for (const auto& entry : fs::recursive_directory_iterator(folder.path())) {
@@ -132,4 +132,4 @@ TEST(ExtremeNumbersLong, AModelIsRefusedOrFinite) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

@@ -1,5 +1,5 @@
 // What `epicyclic gear` writes: files, columns, and numbers that must agree with one another.
-#include "io/gear_output.hpp"
+#include "reports/gear_output.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -16,7 +16,7 @@
 #include "input/study_input.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 namespace {
 
 using test::TemporaryFolder;
@@ -219,4 +219,4 @@ TEST(GearOutput, AMeshWithoutBacklashHasNone) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

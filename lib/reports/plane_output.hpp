@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "io/sweep_output.hpp"
+#include "reports/sweep_output.hpp"
 #include "store/hdf5_file.hpp"
 #include "studies/plane_options.hpp"
 #include "studies/sweep.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 /// Of points.csv.
 [[nodiscard]] PointColumn second_value_column();
@@ -20,4 +20,4 @@ void write_plane(store::Hdf5File& h5, const std::string& group, const std::strin
                  const studies::PlaneOptions& plane, const std::string& resolved_input,
                  const studies::PointSource& points);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

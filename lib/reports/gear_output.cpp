@@ -1,4 +1,4 @@
-#include "io/gear_output.hpp"
+#include "reports/gear_output.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,11 +13,11 @@
 #include "gear/ehl_friction.hpp"
 #include "gear/gear_set.hpp"
 #include "input/study_model.hpp"
-#include "io/gear_figures.hpp"
-#include "io/gear_report.hpp"
 #include "model/modes.hpp"
+#include "reports/gear_figures.hpp"
+#include "reports/gear_report.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 namespace {
 
@@ -291,4 +291,4 @@ GearOutput write_gear_output(const std::filesystem::path& path, const input::Loa
   return out;
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

@@ -10,7 +10,7 @@
 
 #include "input/study_input.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 struct GearOutput {
   std::string modes;                  ///< text of modes.csv
@@ -28,4 +28,4 @@ void require_finite_numbers(const input::LoadedInput& input);
 /// @throws OutputError
 GearOutput write_gear_output(const std::filesystem::path& folder, const input::LoadedInput& input);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

@@ -17,7 +17,7 @@
 #include "studies/point_source.hpp"
 #include "studies/sweep.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 /// Status of a point in points.csv: ok, diverged, step_limit, failed.
 [[nodiscard]] std::string status_word(integrate::Outcome outcome);
@@ -83,4 +83,4 @@ enum class SweepFigure { delta_sp, delta_rp, regimes_first, regimes_second };
                                                             const SweepOutput& output, SweepFigure figure,
                                                             figures::Pictures picture);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

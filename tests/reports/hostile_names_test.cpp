@@ -20,11 +20,11 @@
 #include "figures/line_figure.hpp"
 #include "figures/sketch.hpp"
 #include "gnuplot_guard.hpp"
-#include "io/gear_figures.hpp"
 #include "problems/lin_parker.hpp"
+#include "reports/gear_figures.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 namespace {
 
 using test::contents;
@@ -165,7 +165,7 @@ const std::vector<Drawing>& drawings() {
        [](const std::filesystem::path& folder, const std::string& name) {
          gear::Stage stage = problems::lin_parker(3);
          stage.name = name;
-         for (const GearFigure& figure : draw_mode_figures(folder, stage))
+         for (const GearFigure& figure : reports::draw_mode_figures(folder, stage))
            if (!figure.outcome.drawn()) return figure.outcome;
          for (const char* suffix : {".svg", ".png"})
            std::filesystem::copy_file(folder / (std::string("campbell") + suffix),
@@ -234,4 +234,4 @@ TEST(HostileNames, WithoutAFontAreBoxesThatDoNotCoverTheFigure) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

@@ -1,4 +1,4 @@
-#include "io/gear_figures.hpp"
+#include "reports/gear_figures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@
 #include "problems/table1.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 namespace {
 
 using problems::lin_parker;
@@ -280,4 +280,4 @@ TEST(ModeFigures, AppearForLumpedStagesOfAllKinds) {
 }
 
 }  // namespace
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "analysis/attractors.hpp"
-#include "io/sweep_output.hpp"
+#include "reports/sweep_output.hpp"
 #include "studies/plane.hpp"
 #include "studies/sweep.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 struct BasinsOutput {
   studies::PlaneOptions plane;
@@ -43,4 +43,4 @@ void write_basins_h5(const std::filesystem::path& file, const BasinsOutput& outp
                                                           const std::vector<studies::PointResult>& results,
                                                           const analysis::Attractors& attractors);
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

@@ -1,4 +1,4 @@
-#include "io/sweep_output.hpp"
+#include "reports/sweep_output.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 #include "figures/bifurcation_figure.hpp"
 #include "store/hdf5_file.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 namespace {
 
@@ -431,4 +431,4 @@ std::optional<DrawnFigure> draw_sweep_picture(const std::filesystem::path& folde
                      figures::draw_pictures(folder, *stem, picture)};
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

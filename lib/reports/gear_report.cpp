@@ -1,4 +1,4 @@
-#include "io/gear_report.hpp"
+#include "reports/gear_report.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -11,7 +11,7 @@
 #include "gear/bearing.hpp"
 #include "gear/kinematics.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 namespace {
 
@@ -390,4 +390,4 @@ std::string gear_page(const GearPage& page, const input::LoadedInput& input, con
   return text;
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports

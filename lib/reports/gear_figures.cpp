@@ -1,4 +1,4 @@
-#include "io/gear_figures.hpp"
+#include "reports/gear_figures.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 #include "gear/bearing.hpp"
 #include "model/modes.hpp"
 
-namespace epicyclic::io {
+namespace epicyclic::reports {
 
 namespace {
 
@@ -846,4 +846,4 @@ std::vector<GearFigure> draw_mode_figures(const fs::path& folder, const gear::St
           mode_shapes_figure(folder, stage, modes, scales.omega_sn)};
 }
 
-}  // namespace epicyclic::io
+}  // namespace epicyclic::reports
