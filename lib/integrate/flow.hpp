@@ -49,7 +49,7 @@ struct VectorField {
   /// dg/dp at fixed y; empty if no parameter is varied.
   std::function<void(std::size_t segment, double s, const double* y, double* dgdp)> parameter_derivative;
 
-  /// What it was made of, for lanes that know the type (integrate/lane_ensemble.hpp); may be null.
+  /// What it was made of, for lanes that know the type (integrate/lanes/lane_ensemble.hpp); may be null.
   std::shared_ptr<const void> origin;
 
   SwitchingSurfaces surfaces;

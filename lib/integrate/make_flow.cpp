@@ -3,10 +3,10 @@
 #include <utility>
 
 #include "core/errors.hpp"
-#include "integrate/arkode_flow.hpp"
-#include "integrate/cvode_flow.hpp"
-#include "integrate/lane_flow.hpp"
+#include "integrate/lanes/lane_flow.hpp"
 #include "integrate/methods.hpp"
+#include "integrate/sundials/arkode_flow.hpp"
+#include "integrate/sundials/cvode_flow.hpp"
 
 namespace epicyclic::integrate {
 

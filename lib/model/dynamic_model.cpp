@@ -11,8 +11,8 @@
 
 #include "core/errors.hpp"
 #include "model/dispatch.hpp"
+#include "model/kernels/stage_kernel.hpp"
 #include "model/right_hand_side.hpp"
-#include "model/stage_kernel.hpp"
 
 namespace epicyclic::model {
 

@@ -66,7 +66,7 @@ struct MeshInstant {
     }
   }
 
-  /// What tables do; of lanes model/lane_instants.hpp.
+  /// What tables do; of lanes model/kernels/lane_instants.hpp.
   /// @param places  those of the current segment
   void look_up(const MeshParameters<P, N>& mesh, const MeshPlaces<N>& places, const P& s) {
     const auto own_phase = [&](std::size_t i) { return s * (0.5 * std::numbers::inv_pi) + mesh.turns[i]; };

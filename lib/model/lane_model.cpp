@@ -5,7 +5,7 @@
 
 #include "core/errors.hpp"
 #include "model/dispatch.hpp"
-#include "model/lane_kernel.hpp"
+#include "model/kernels/lane_kernel.hpp"
 
 namespace epicyclic::model {
 

@@ -7,8 +7,8 @@
 #include "core/difference.hpp"
 #include "core/dual.hpp"
 #include "core/errors.hpp"
+#include "model/kernels/stage_kernel.hpp"
 #include "model/right_hand_side.hpp"
-#include "model/stage_kernel.hpp"
 
 namespace epicyclic::model {
 

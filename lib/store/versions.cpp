@@ -6,8 +6,8 @@
 #include <gsl/gsl_version.h>
 #include <nlohmann/json.hpp>
 
-#include "integrate/arkode_flow.hpp"
-#include "integrate/lane_kernels.hpp"
+#include "integrate/lanes/step_loops.hpp"
+#include "integrate/sundials/arkode_flow.hpp"
 
 namespace epicyclic::store {
 
@@ -23,6 +23,6 @@ std::map<std::string, std::string> dependency_versions() {
   };
 }
 
-std::string simd_level() { return integrate::lane_kernels().name; }
+std::string simd_level() { return integrate::step_loops().name; }
 
 }  // namespace epicyclic::store

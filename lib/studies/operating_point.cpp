@@ -43,7 +43,7 @@ integrate::VectorField vector_field(const model::DynamicModel& model) {
   return field;
 }
 
-integrate::LaneField lane_field(const model::DynamicModel& like, const integrate::LaneKernels& kernels) {
+integrate::LaneField lane_field(const model::DynamicModel& like, const integrate::StepLoops& kernels) {
   const model::LaneModel lanes = model::make_lane_model(like, kernels.name, kernels.copy);
   if (lanes.width != kernels.width) return integrate::one_by_one(kernels.width, like.dimension, like.contacts);
   integrate::LaneField field;

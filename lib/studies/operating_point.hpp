@@ -6,7 +6,7 @@
 
 #include "gear/stage.hpp"
 #include "integrate/flow.hpp"
-#include "integrate/lane_ensemble.hpp"
+#include "integrate/lanes/lane_ensemble.hpp"
 #include "model/dynamic_model.hpp"
 #include "model/options.hpp"
 
@@ -31,6 +31,6 @@ struct OperatingPoint {
 /// has no lanes (full coordinates).
 ///
 /// Its load() takes fields that vector_field() made.
-[[nodiscard]] integrate::LaneField lane_field(const model::DynamicModel& like, const integrate::LaneKernels& kernels);
+[[nodiscard]] integrate::LaneField lane_field(const model::DynamicModel& like, const integrate::StepLoops& kernels);
 
 }  // namespace epicyclic::studies

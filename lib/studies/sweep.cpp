@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "core/errors.hpp"
-#include "integrate/lane_ensemble.hpp"
+#include "integrate/lanes/lane_ensemble.hpp"
 #include "integrate/make_flow.hpp"
 #include "integrate/methods.hpp"
 #include "studies/coarse_pass.hpp"
@@ -294,7 +294,7 @@ class ChainRunner {
   }
 
   void follow_in_lanes(std::size_t thread, std::size_t most) {
-    const integrate::LaneKernels& kernels = integrate::lane_kernels(thread);
+    const integrate::StepLoops& kernels = integrate::step_loops(thread);
     // The same for every thread: which points have lanes does not depend on who came first.
     const model::DynamicModel like = model_at_(plan_.points.front());
     integrate::LaneEnsemble lanes(lane_field(like, kernels), integrator_, kernels);

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "integrate/arkode_flow.hpp"
 #include "integrate/make_field.hpp"
+#include "integrate/sundials/arkode_flow.hpp"
 #include "problems/known_systems.hpp"
 
 namespace epicyclic::analysis {

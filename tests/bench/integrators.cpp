@@ -24,7 +24,7 @@
 #include "bench/odeint.hpp"
 #include "bench/orbit.hpp"
 #include "core/fit.hpp"
-#include "integrate/lane_ensemble.hpp"
+#include "integrate/lanes/lane_ensemble.hpp"
 #include "integrate/make_flow.hpp"
 #include "studies/operating_point.hpp"
 
@@ -174,7 +174,7 @@ class OneLane {
  public:
   OneLane(const epicyclic::model::DynamicModel& model, double tolerance, const State& start)
       : field_(epicyclic::studies::vector_field(model)),
-        lanes_(epicyclic::studies::lane_field(model, epicyclic::integrate::lane_kernels()), options(tolerance, method)),
+        lanes_(epicyclic::studies::lane_field(model, epicyclic::integrate::step_loops()), options(tolerance, method)),
         y_(start) {
     lanes_.load(0, field_);
   }
@@ -196,7 +196,7 @@ template <const auto& method>
 class AllLanes {
  public:
   AllLanes(const epicyclic::model::DynamicModel& model, double tolerance, const State& start,
-           const epicyclic::integrate::LaneKernels& kernels = epicyclic::integrate::lane_kernels())
+           const epicyclic::integrate::StepLoops& kernels = epicyclic::integrate::step_loops())
       : lanes_(epicyclic::studies::lane_field(model, kernels), options(tolerance, method), kernels), y_(start) {
     constexpr double apart = 0.002;
     for (std::size_t lane = 0; lane < lanes_.width(); ++lane) {
@@ -308,7 +308,7 @@ void mesh_period_at_equal_error(benchmark::State& state) {
 void mesh_period_lanes(benchmark::State& state) {
   const auto model = model_at(static_cast<double>(state.range(0)) / 100.0);
   LanesCashKarp lanes(model, std::pow(10.0, -static_cast<double>(state.range(1))), settled(model),
-                      epicyclic::integrate::lane_kernels(static_cast<std::size_t>(state.range(2))));
+                      epicyclic::integrate::step_loops(static_cast<std::size_t>(state.range(2))));
   for (auto _ : state) lanes.mesh_period();
   state.counters["rhs_per_period"] = benchmark::Counter(lanes.calls(), benchmark::Counter::kAvgIterations);
 }

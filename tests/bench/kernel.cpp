@@ -15,7 +15,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/orbit.hpp"
-#include "integrate/lane_kernels.hpp"
+#include "integrate/lanes/step_loops.hpp"
 #include "model/counted_lanes.hpp"
 #include "model/lane_model.hpp"
 
@@ -32,7 +32,7 @@ using Numbers = std::unique_ptr<double[], Release>;
 void lane_kernel(benchmark::State& state) {
   const auto model = model_at(2.8);
   const State y = settled(model);
-  const auto& kernels = epicyclic::integrate::lane_kernels();
+  const auto& kernels = epicyclic::integrate::step_loops();
   const auto lanes = epicyclic::model::make_lane_model(model, kernels.name);
   const auto numbers = [](std::size_t n) { return Numbers(new (std::align_val_t(alignment)) double[n]()); };
   constexpr std::size_t slopes = 6;  // of a step
@@ -91,7 +91,7 @@ double avx512() { return baseline(); }
 
 /// With the registers that the kernel has.
 void peak(benchmark::State& state) {
-  const std::string_view set = epicyclic::integrate::lane_kernels().name;
+  const std::string_view set = epicyclic::integrate::step_loops().name;
   double operations = 0.0;
   for (auto _ : state) operations = set == "avx512" ? avx512() : set == "avx2" ? avx2() : baseline();
   state.counters["operations"] = operations;

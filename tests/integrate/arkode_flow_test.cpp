@@ -1,4 +1,4 @@
-#include "integrate/arkode_flow.hpp"
+#include "integrate/sundials/arkode_flow.hpp"
 
 #include <algorithm>
 #include <array>

@@ -13,9 +13,9 @@
 
 #include "core/errors.hpp"
 #include "core/fit.hpp"
-#include "integrate/arkode_flow.hpp"
 #include "integrate/make_flow.hpp"
 #include "integrate/methods.hpp"
+#include "integrate/sundials/arkode_flow.hpp"
 #include "problems/clearance_exact.hpp"
 #include "problems/known_systems.hpp"
 

@@ -1,4 +1,4 @@
-#include "integrate/lane_ensemble.hpp"
+#include "integrate/lanes/lane_ensemble.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,8 +14,8 @@
 
 #include "core/errors.hpp"
 #include "core/fit.hpp"
-#include "integrate/arkode_flow.hpp"
 #include "integrate/methods.hpp"
+#include "integrate/sundials/arkode_flow.hpp"
 #include "problems/known_systems.hpp"
 #include "problems/lane_sets.hpp"
 
@@ -48,13 +48,13 @@ class LaneEnsembles : public testing::TestWithParam<const char*> {
     o.method = arkode_twin(o.method);
     return o;
   }
-  static LaneEnsemble ensemble_of(const LaneKernels& kernels, double t, std::size_t dimension = 2) {
+  static LaneEnsemble ensemble_of(const StepLoops& kernels, double t, std::size_t dimension = 2) {
     return {one_by_one(kernels.width, dimension), tolerance(t), kernels};
   }
 };
 
 TEST_P(LaneEnsembles, BitsOfALaneDependOnNoOtherLane) {
-  const LaneKernels& kernels = lane_kernels();
+  const StepLoops& kernels = step_loops();
   std::vector<VectorField> systems;
   for (int k = 0; k < 7; ++k) systems.push_back(problems::duffing(0.15, -1.0, 0.2 + 0.05 * k, 1.0));
   std::vector<std::vector<double>> alone;
@@ -96,11 +96,11 @@ TEST_P(LaneEnsembles, BitsOfALaneDependOnNoOtherLane) {
 
 TEST_P(LaneEnsembles, BitsAreTheSameOnEveryInstructionSetAndWidth) {
   const VectorField system = problems::duffing(0.15, -1.0, 0.3, 1.0);
-  const std::vector<const LaneKernels*> sets = problems::lane_sets();
+  const std::vector<const StepLoops*> sets = problems::lane_sets();
   if (sets.size() == 1) GTEST_SKIP() << "this machine has the baseline only";
   LaneEnsemble first = ensemble_of(*sets.front(), 1e-9);
   const std::vector<double> expected = carried(first, 1, system, {0.5, 0.1}, 10);
-  for (const LaneKernels* kernels : sets) {
+  for (const StepLoops* kernels : sets) {
     LaneEnsemble lanes = ensemble_of(*kernels, 1e-9);
     EXPECT_EQ(carried(lanes, kernels->width - 1, system, {0.5, 0.1}, 10), expected) << kernels->name << kernels->copy;
   }
@@ -113,7 +113,7 @@ TEST_P(LaneEnsembles, ErrorFallsWithTheToleranceAsThatOfArkode) {
   std::vector<double> errors;
   for (int digits = 6; digits <= 10; ++digits) {
     const double t = std::pow(10.0, -digits);
-    LaneEnsemble lanes = ensemble_of(lane_kernels(), t, 1);
+    LaneEnsemble lanes = ensemble_of(step_loops(), t, 1);
     lanes.load(0, system);
     lanes.begin(0, std::array{1.0}, 0.0, 20.0);
     lanes.run();
@@ -150,7 +150,7 @@ TEST_P(LaneEnsembles, LandingOnGapsSavesAttemptsAndLosesNothing) {
     double error, attempts;
   };
   const auto cost = [&](std::size_t surfaces, double t) {
-    LaneEnsemble lanes(one_by_one(lane_kernels().width, 2, surfaces), tolerance(t));
+    LaneEnsemble lanes(one_by_one(step_loops().width, 2, surfaces), tolerance(t));
     const std::vector<double> end = carried(lanes, 0, system, {1.1, 0.0}, 20);
     return Cost{std::hypot(end[0] - reference[0], end[1] - reference[1]), static_cast<double>(lanes.work(0).steps)};
   };
@@ -169,7 +169,7 @@ TEST_P(LaneEnsembles, LandingOnGapsSavesAttemptsAndLosesNothing) {
 TEST_P(LaneEnsembles, BreakpointsAreSteppedOnto) {
   // Two periods with three jumps each, against a flow that steps onto them too.
   const VectorField system = problems::jumping(true);
-  LaneEnsemble lanes = ensemble_of(lane_kernels(), 1e-11, 1);
+  LaneEnsemble lanes = ensemble_of(step_loops(), 1e-11, 1);
   const std::size_t last = lanes.width() - 1;
   lanes.load(last, system);
   lanes.begin(last, std::array{0.5}, 0.0, 2.0);
@@ -187,7 +187,7 @@ TEST_P(LaneEnsembles, BreakpointsAreSteppedOnto) {
 TEST_P(LaneEnsembles, SamplesAreSeenInOrderAndChangeNothing) {
   const VectorField system = problems::smooth_follower();
   const auto end_with = [&](int count, double* worst) {
-    LaneEnsemble lanes = ensemble_of(lane_kernels(), 1e-8, 1);
+    LaneEnsemble lanes = ensemble_of(step_loops(), 1e-8, 1);
     std::vector<double> samples;
     for (int k = 1; k <= count; ++k) samples.push_back(5.0 * k / count);
     std::size_t seen = 0;
@@ -223,7 +223,7 @@ TEST_P(LaneEnsembles, WhatCannotGoOnEndsWithItsOutcome) {
   IntegratorOptions o = tolerance(1e-8);
   o.escape_bound = 100.0;
   o.max_steps_per_period = 500;
-  LaneEnsemble lanes(one_by_one(lane_kernels().width, 1), o);
+  LaneEnsemble lanes(one_by_one(step_loops().width, 1), o);
   VectorField quick;
   quick.dimension = 1;
   quick.right_hand_side = [](std::size_t, double s, const double*, double* f) { f[0] = std::cos(1e5 * s); };
@@ -245,13 +245,13 @@ TEST_P(LaneEnsembles, WhatCannotGoOnEndsWithItsOutcome) {
 }
 
 TEST_P(LaneEnsembles, NothingUnderWayIsSaidSo) {
-  LaneEnsemble lanes = ensemble_of(lane_kernels(), 1e-8);
+  LaneEnsemble lanes = ensemble_of(step_loops(), 1e-8);
   EXPECT_EQ(lanes.run(), lanes.width());
   EXPECT_THROW(lanes.load(0, problems::smooth_follower()), InputError);
   IntegratorOptions o = tolerance(1e-8);
   o.locate_contacts = true;
-  EXPECT_THROW(LaneEnsemble(one_by_one(lane_kernels().width, 2), o), InputError);
-  EXPECT_THROW(LaneEnsemble(one_by_one(lane_kernels().width, 2), by_arkode(tolerance(1e-8))), InputError);
+  EXPECT_THROW(LaneEnsemble(one_by_one(step_loops().width, 2), o), InputError);
+  EXPECT_THROW(LaneEnsemble(one_by_one(step_loops().width, 2), by_arkode(tolerance(1e-8))), InputError);
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, LaneEnsembles, testing::Values("lanes-dopri5", "lanes-cash-karp"),

@@ -11,8 +11,8 @@
 
 #include "core/errors.hpp"
 #include "core/fit.hpp"
-#include "integrate/arkode_flow.hpp"
 #include "integrate/make_flow.hpp"
+#include "integrate/sundials/arkode_flow.hpp"
 #include "problems/known_systems.hpp"
 
 namespace epicyclic::integrate {

@@ -1,7 +1,7 @@
 // The project's N_Vector against the definitions of the SUNDIALS user guide, operation by operation: the checks that
 // SUNDIALS makes of its own vectors, written anew, for every instruction set that this machine runs and for lengths
 // around the padding.
-#include "integrate/state_vector.hpp"
+#include "integrate/sundials/state_vector.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 # check_includes.sh SOURCE_DIR LAYER
 #
 # Fails, with a line for each offence, when a file of the layer (lib/LAYER, or app) includes a layer that it must not
-# know, a header by a path with .., a header in a folder that is no layer, or SUNDIALS outside integrate. Headers of the
-# own folder may be written without it.
+# know, a header by a path with .., a header in a folder that is no layer, or SUNDIALS outside integrate/sundials. Headers
+# of the own folder may be written without it.
 set -euo pipefail
 
 source_dir=$1
@@ -66,7 +66,8 @@ while IFS= read -r hit; do
 
   if [[ $included =~ ^(arkode|cvode|cvodes|ida|idas|kinsol|nvector|sundials|sun[a-z]+)/ ]] &&
     ! contains "$first" "${layers[@]}"; then
-    [ "$layer" = integrate ] || offence "$place" "SUNDIALS belongs to integrate: $included"
+    [[ $place = "$source_dir"/lib/integrate/sundials/* ]] ||
+      offence "$place" "SUNDIALS belongs to integrate/sundials: $included"
   elif [[ /$included/ == */../* ]]; then
     offence "$place" "a path with ..: $included"
   elif [[ $path != */* ]] || { [ "$style" = '"' ] && [ -e "$folder/$path" ]; }; then

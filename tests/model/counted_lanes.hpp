@@ -11,7 +11,7 @@
 #include "core/lanes.hpp"
 #include "model/dispatch.hpp"
 #include "model/dynamic_model.hpp"
-#include "model/lane_instants.hpp"
+#include "model/kernels/lane_instants.hpp"
 #include "model/lane_parameters.hpp"
 #include "model/right_hand_side.hpp"
 

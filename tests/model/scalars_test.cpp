@@ -16,7 +16,7 @@
 #include "core/dual.hpp"
 #include "core/errors.hpp"
 #include "core/lanes.hpp"
-#include "model/lane_instants.hpp"
+#include "model/kernels/lane_instants.hpp"
 #include "model/lane_parameters.hpp"
 #include "model/parameters.hpp"
 #include "model/right_hand_side.hpp"

@@ -1,6 +1,6 @@
 // The right-hand side compiled once per instruction set: the same bits from each, and from the text itself.
 
-#include "model/stage_kernel.hpp"
+#include "model/kernels/stage_kernel.hpp"
 
 #include <array>
 #include <cmath>

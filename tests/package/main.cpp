@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <epicyclic/analysis/poincare.hpp>
-#include <epicyclic/integrate/arkode_flow.hpp>
+#include <epicyclic/integrate/sundials/arkode_flow.hpp>
 
 int main() {
   epicyclic::integrate::VectorField duffing{

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "integrate/arkode_flow.hpp"
+#include "integrate/sundials/arkode_flow.hpp"
 #include "model/dynamic_model.hpp"
 #include "studies/operating_point.hpp"
 

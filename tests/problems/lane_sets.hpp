@@ -4,16 +4,16 @@
 #include <vector>
 
 #include "core/instruction_set.hpp"
-#include "integrate/lane_kernels.hpp"
+#include "integrate/lanes/step_loops.hpp"
 
 namespace epicyclic::problems {
 
 /// Every copy for every instruction set, the baseline first.
-inline std::vector<const integrate::LaneKernels*> lane_sets() {
-  std::vector<const integrate::LaneKernels*> all{integrate::lane_kernels("baseline")};
+inline std::vector<const integrate::StepLoops*> lane_sets() {
+  std::vector<const integrate::StepLoops*> all{integrate::step_loops("baseline")};
   for (const char* name : {"avx2", "avx512"})
     for (std::size_t copy = 0; copy < kernel_copies; ++copy)
-      if (const integrate::LaneKernels* kernels = integrate::lane_kernels(name, copy)) all.push_back(kernels);
+      if (const integrate::StepLoops* kernels = integrate::step_loops(name, copy)) all.push_back(kernels);
   return all;
 }
 

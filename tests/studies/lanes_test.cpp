@@ -13,9 +13,9 @@
 
 #include "core/errors.hpp"
 #include "core/largest_difference.hpp"
-#include "integrate/arkode_flow.hpp"
-#include "integrate/lane_ensemble.hpp"
-#include "model/lane_kernel.hpp"
+#include "integrate/lanes/lane_ensemble.hpp"
+#include "integrate/sundials/arkode_flow.hpp"
+#include "model/kernels/lane_kernel.hpp"
 #include "model/lane_model.hpp"
 #include "problems/gear_flow.hpp"
 #include "problems/known_systems.hpp"
@@ -36,7 +36,7 @@ model::DynamicModel model_at(double omega, model::CoordinateChoice choice = mode
 }
 
 /// States after some periods at several speeds, all lanes at work.
-std::vector<std::vector<double>> states(const std::vector<double>& omegas, const integrate::LaneKernels& kernels,
+std::vector<std::vector<double>> states(const std::vector<double>& omegas, const integrate::StepLoops& kernels,
                                         bool own_kernel, double tolerance, int periods,
                                         const char* method = "lanes-cash-karp") {
   const model::DynamicModel like = model_at(1.0);
@@ -79,12 +79,12 @@ const std::vector<double> speeds = {0.6, 0.8, 1.0, 1.2, 1.4, 1.7, 2.0, 2.5, 3.0,
 
 TEST(Lanes, OfTheStageGoWhereArkodeGoes) {
   // Without optimisation the stage has lanes for the baseline only, and others are one by one.
-  const integrate::LaneKernels& baseline = *integrate::lane_kernels("baseline");
+  const integrate::StepLoops& baseline = *integrate::step_loops("baseline");
   ASSERT_EQ(model::make_lane_model(model_at(1.0), baseline.name).width, baseline.width);
   constexpr double tolerance = 1e-11;
-  const auto y = states(speeds, integrate::lane_kernels(), true, tolerance, 3);
-  const auto dopri5 = states(speeds, integrate::lane_kernels(), true, tolerance, 3, "lanes-dopri5");
-  const auto single = states(speeds, integrate::lane_kernels(), false, tolerance, 3);
+  const auto y = states(speeds, integrate::step_loops(), true, tolerance, 3);
+  const auto dopri5 = states(speeds, integrate::step_loops(), true, tolerance, 3, "lanes-dopri5");
+  const auto single = states(speeds, integrate::step_loops(), false, tolerance, 3);
   // Steps times the tolerance, stretched by a few periods of a motion that may be chaotic.
   constexpr double accuracy = 1e-7;
   for (std::size_t k = 0; k < speeds.size(); ++k) {
@@ -100,7 +100,7 @@ TEST(Lanes, OfTheStageGoWhereArkodeGoes) {
 TEST(Lanes, OfTheStageHaveTheSameBitsOnEveryInstructionSet) {
   std::vector<std::vector<double>> expected;
   int compared = -1;
-  for (const integrate::LaneKernels* kernels : problems::lane_sets()) {
+  for (const integrate::StepLoops* kernels : problems::lane_sets()) {
     if (model::make_lane_model(model_at(1.0), kernels->name).width == 0) continue;
     const auto y = states(speeds, *kernels, true, 1e-8, 5);
     if (expected.empty()) expected = y;
@@ -177,7 +177,7 @@ TEST(Lanes, SweepsHaveTheSameBytesAtAnyNumberOfThreads) {
 
 TEST(Lanes, TakeStagesOfTheirStructureOnly) {
   // The set that every build has kernels of; without kernels any systems of one dimension go side by side.
-  const integrate::LaneKernels& kernels = *integrate::lane_kernels("baseline");
+  const integrate::StepLoops& kernels = *integrate::step_loops("baseline");
   const integrate::LaneField field = lane_field(model_at(1.0), kernels);
   EXPECT_NO_THROW(field.load(0, vector_field(model_at(2.0))));
   EXPECT_THROW(field.load(0, problems::lorenz()), InputError);

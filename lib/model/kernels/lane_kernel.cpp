@@ -1,4 +1,4 @@
-#include "model/lane_kernel.hpp"
+#include "model/kernels/lane_kernel.hpp"
 
 #include <string_view>
 

@@ -42,7 +42,7 @@ struct LaneVerdict {
   std::size_t accepted = 0;  ///< lanes
 };
 
-struct LaneKernels {
+struct StepLoops {
   const char* name = nullptr;  ///< "baseline", "avx2", "avx512"
   std::size_t copy = 0;        ///< which one of kernel_copies
   std::size_t width = 0;       ///< W
@@ -76,10 +76,10 @@ struct LaneKernels {
 
 /// The widest that this machine runs.
 /// @param copy  any number: kernel_copies of them are taken in turn
-[[nodiscard]] const LaneKernels& lane_kernels(std::size_t copy = 0);
+[[nodiscard]] const StepLoops& step_loops(std::size_t copy = 0);
 
 /// Those of one instruction set, or nullptr if it was not compiled or this machine does not run it.
 /// @param name "baseline", "avx2" or "avx512"
-[[nodiscard]] const LaneKernels* lane_kernels(const char* name, std::size_t copy = 0);
+[[nodiscard]] const StepLoops* step_loops(const char* name, std::size_t copy = 0);
 
 }  // namespace epicyclic::integrate

@@ -1,6 +1,6 @@
 // The step control of lanes, one lane at a time, against its formula; on every instruction set that there is.
 
-#include "integrate/lane_kernels.hpp"
+#include "integrate/lanes/step_loops.hpp"
 
 #include <algorithm>
 #include <array>
@@ -53,7 +53,7 @@ LaneSteps plain() {
   return one;
 }
 
-TEST(LaneKernels, ProposeStepsByTheErrorsFifthRoot) {
+TEST(StepLoops, ProposeStepsByTheErrorsFifthRoot) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> exponent(-30.0, 3.0);
   for (int k = 0; k < 2000; ++k) {
@@ -62,7 +62,7 @@ TEST(LaneKernels, ProposeStepsByTheErrorsFifthRoot) {
     const double norm = std::max(std::sqrt(one.norm[0]), 1e-10);
     const double wanted = 0.96 * std::pow(1.5 * norm, -0.2);
     double first_bits = 0.0;
-    for (const LaneKernels* kernels : lane_sets()) {
+    for (const StepLoops* kernels : lane_sets()) {
       const std::size_t lane = static_cast<std::size_t>(k) % kernels->width;
       LaneSteps steps = alone(one, lane);
       const LaneVerdict verdict = kernels->judge(steps, bound);
@@ -88,7 +88,7 @@ TEST(LaneKernels, ProposeStepsByTheErrorsFifthRoot) {
 }
 
 /// `one` judged in the last lane, and what became of it in lane 0.
-LaneSteps judged(const LaneKernels& kernels, const LaneSteps& one) {
+LaneSteps judged(const StepLoops& kernels, const LaneSteps& one) {
   const std::size_t lane = kernels.width - 1;
   LaneSteps steps = alone(one, lane);
   const LaneVerdict verdict = kernels.judge(steps, bound);
@@ -100,8 +100,8 @@ LaneSteps judged(const LaneKernels& kernels, const LaneSteps& one) {
   return steps;
 }
 
-TEST(LaneKernels, TellWhatHasToBeLookedAt) {
-  for (const LaneKernels* kernels : lane_sets()) {
+TEST(StepLoops, TellWhatHasToBeLookedAt) {
+  for (const StepLoops* kernels : lane_sets()) {
     SCOPED_TRACE(kernels->name);
     LaneSteps cut = plain();
     cut.cut[0] = -1;
@@ -136,8 +136,8 @@ TEST(LaneKernels, TellWhatHasToBeLookedAt) {
   }
 }
 
-TEST(LaneKernels, ShortenRefusedSteps) {
-  for (const LaneKernels* kernels : lane_sets()) {
+TEST(StepLoops, ShortenRefusedSteps) {
+  for (const StepLoops* kernels : lane_sets()) {
     SCOPED_TRACE(kernels->name);
     for (const double norm : {none, infinite, 1e30}) {  // as far as one refusal may
       LaneSteps one = plain();
@@ -175,7 +175,7 @@ TEST(LaneKernels, ShortenRefusedSteps) {
 /// Of an odd number of components and of an even one: they are gone through in twos.
 /// A surface's values and slopes at both ends of a step in the last lane; elsewhere no number.
 struct Surfaces {
-  Surfaces(const LaneKernels& kernels, std::size_t count)
+  Surfaces(const StepLoops& kernels, std::size_t count)
       : width(kernels.width), at(4, std::vector<double>(count * width, none)) {}
   /// The cubic (t - root) (b + c t + d t^2) along a step of length h.
   void set(std::size_t k, double root, double b, double c, double d, double h) {
@@ -190,8 +190,7 @@ struct Surfaces {
 };
 
 /// What is proposed after a refused step of length 0.5.
-double landed(const LaneKernels& kernels, const Surfaces& s, std::size_t count, bool again = false,
-              bool refused = true) {
+double landed(const StepLoops& kernels, const Surfaces& s, std::size_t count, bool again = false, bool refused = true) {
   struct alignas(64) Aligned {
     std::array<double, 4 * most_lanes> x{};
   };
@@ -208,7 +207,7 @@ double landed(const LaneKernels& kernels, const Surfaces& s, std::size_t count, 
   return steps.proposed[lane];
 }
 
-TEST(LaneKernels, LandOnTheFirstCrossing) {
+TEST(StepLoops, LandOnTheFirstCrossing) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> place(0.01, 0.99);
   std::uniform_real_distribution<double> part(-0.7, 0.7);
@@ -219,7 +218,7 @@ TEST(LaneKernels, LandOnTheFirstCrossing) {
     const double c = part(random);
     const double d = (1.0 - std::abs(c)) * part(random);
     double first_bits = 0.0;
-    for (const LaneKernels* kernels : lane_sets()) {
+    for (const StepLoops* kernels : lane_sets()) {
       Surfaces s(*kernels, 2);
       s.set(0, root, b, c, d, 0.5);
       s.set(1, 0.995, b, c, d, 0.5);  // later
@@ -234,8 +233,8 @@ TEST(LaneKernels, LandOnTheFirstCrossing) {
   }
 }
 
-TEST(LaneKernels, LandNowhereElse) {
-  for (const LaneKernels* kernels : lane_sets()) {
+TEST(StepLoops, LandNowhereElse) {
+  for (const StepLoops* kernels : lane_sets()) {
     SCOPED_TRACE(kernels->name);
     constexpr double proposed = 0.05;
     Surfaces s(*kernels, 1);
@@ -258,11 +257,11 @@ TEST(LaneKernels, LandNowhereElse) {
   }
 }
 
-TEST(LaneKernels, MeasureTheWeightedRootMeanSquare) {
+TEST(StepLoops, MeasureTheWeightedRootMeanSquare) {
   constexpr std::size_t most = 7;
   std::mt19937 random(2);
   std::uniform_real_distribution<double> any(-3.0, 3.0);
-  for (const LaneKernels* kernels : lane_sets()) {
+  for (const StepLoops* kernels : lane_sets()) {
     const std::size_t width = kernels->width;
     for (std::size_t dimension = 1; dimension <= most; ++dimension) {
       alignas(64) std::array<std::array<double, most * most_lanes>, 5> numbers{};
@@ -292,9 +291,9 @@ TEST(LaneKernels, MeasureTheWeightedRootMeanSquare) {
   }
 }
 
-TEST(LaneKernels, EndStepsOnStopsToTheLastBit) {
+TEST(StepLoops, EndStepsOnStopsToTheLastBit) {
   const double nodes[] = {0.0, 0.3, 1.0};
-  for (const LaneKernels* kernels : lane_sets()) {
+  for (const StepLoops* kernels : lane_sets()) {
     SCOPED_TRACE(kernels->name);
     const std::size_t width = kernels->width;
     alignas(64) std::array<double, 3 * most_lanes> at{};
@@ -326,18 +325,18 @@ TEST(LaneKernels, EndStepsOnStopsToTheLastBit) {
   }
 }
 
-TEST(LaneKernels, CopiesLieInMemoryOfTheirOwn) {
+TEST(StepLoops, CopiesLieInMemoryOfTheirOwn) {
   // A linker that folds the same text into one would undo them.
   if (lane_sets().size() == 1) GTEST_SKIP() << "this machine has the baseline only";
   for (const char* name : {"avx2", "avx512"}) {
-    const LaneKernels* first = lane_kernels(name, 0);
+    const StepLoops* first = step_loops(name, 0);
     if (first == nullptr) continue;
-    const LaneKernels* second = lane_kernels(name, 1);
+    const StepLoops* second = step_loops(name, 1);
     EXPECT_NE(first->stage, second->stage) << name;
     EXPECT_NE(first->error, second->error) << name;
     EXPECT_EQ(first->copy, 0U) << name;
     EXPECT_EQ(second->copy, 1U) << name;
-    EXPECT_EQ(lane_kernels(name, kernel_copies), first) << name;
+    EXPECT_EQ(step_loops(name, kernel_copies), first) << name;
   }
 }
 

@@ -30,7 +30,7 @@
 #include <vector>
 
 #include "integrate/flow.hpp"
-#include "integrate/lane_kernels.hpp"
+#include "integrate/lanes/step_loops.hpp"
 #include "integrate/options.hpp"
 
 namespace epicyclic::integrate {
@@ -61,7 +61,7 @@ class LaneEnsemble {
  public:
   /// @param field  of kernels.width lanes
   /// @throws InputError for options that lanes do not have: another method, located contacts
-  LaneEnsemble(LaneField field, const IntegratorOptions& options, const LaneKernels& kernels = lane_kernels());
+  LaneEnsemble(LaneField field, const IntegratorOptions& options, const StepLoops& kernels = step_loops());
   ~LaneEnsemble();
   LaneEnsemble(const LaneEnsemble&) = delete;
   LaneEnsemble& operator=(const LaneEnsemble&) = delete;

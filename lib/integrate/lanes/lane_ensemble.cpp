@@ -1,4 +1,4 @@
-#include "integrate/lane_ensemble.hpp"
+#include "integrate/lanes/lane_ensemble.hpp"
 
 #include <algorithm>
 #include <array>
@@ -190,7 +190,7 @@ LaneField one_by_one(std::size_t width, std::size_t dimension, std::size_t surfa
 
 class LaneEnsemble::Impl {
  public:
-  Impl(LaneField field, const IntegratorOptions& options, const LaneKernels& kernels)
+  Impl(LaneField field, const IntegratorOptions& options, const StepLoops& kernels)
       : field_(std::move(field)),
         options_(options),
         pair_(pair_of(options.method)),
@@ -568,7 +568,7 @@ class LaneEnsemble::Impl {
   // Copies: two cores share no more of what each step reads than they have to, see kernel_copies.
   const Pair pair_;
   const Pair::Places places_;
-  const LaneKernels kernels_;
+  const StepLoops kernels_;
   std::size_t w_;
   std::size_t n_;
   std::size_t controlled_ = n_;  ///< components of the state, whose error counts
@@ -592,7 +592,7 @@ class LaneEnsemble::Impl {
   std::size_t under_way_ = 0;  ///< lanes, summed over evaluations
 };
 
-LaneEnsemble::LaneEnsemble(LaneField field, const IntegratorOptions& options, const LaneKernels& kernels)
+LaneEnsemble::LaneEnsemble(LaneField field, const IntegratorOptions& options, const StepLoops& kernels)
     : impl_(std::make_unique<Impl>(std::move(field), options, kernels)) {}
 LaneEnsemble::~LaneEnsemble() = default;
 

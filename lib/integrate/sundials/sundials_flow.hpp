@@ -30,8 +30,8 @@
 #include "integrate/flow.hpp"
 #include "integrate/methods.hpp"
 #include "integrate/options.hpp"
-#include "integrate/state_vector.hpp"
-#include "integrate/sundials_system.hpp"
+#include "integrate/sundials/state_vector.hpp"
+#include "integrate/sundials/sundials_system.hpp"
 
 namespace epicyclic::integrate {
 

@@ -1,4 +1,4 @@
-#include "integrate/state_vector.hpp"
+#include "integrate/sundials/state_vector.hpp"
 
 #include <algorithm>
 #include <array>

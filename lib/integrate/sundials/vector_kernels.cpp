@@ -1,4 +1,4 @@
-#include "integrate/vector_kernels.hpp"
+#include "integrate/sundials/vector_kernels.hpp"
 
 #include <string_view>
 

@@ -1,4 +1,4 @@
-#include "integrate/sundials_system.hpp"
+#include "integrate/sundials/sundials_system.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -6,8 +6,8 @@
 #include <sundials/sundials_version.h>
 
 #include "core/errors.hpp"
-#include "integrate/linear_solver.hpp"
-#include "integrate/state_vector.hpp"
+#include "integrate/sundials/linear_solver.hpp"
+#include "integrate/sundials/state_vector.hpp"
 
 namespace epicyclic::integrate {
 

@@ -1,4 +1,4 @@
-#include "integrate/linear_solver.hpp"
+#include "integrate/sundials/linear_solver.hpp"
 
 #include <algorithm>
 #include <new>
@@ -7,7 +7,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include "core/errors.hpp"
-#include "integrate/state_vector.hpp"
+#include "integrate/sundials/state_vector.hpp"
 
 namespace epicyclic::integrate {
 

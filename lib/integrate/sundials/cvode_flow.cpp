@@ -1,4 +1,4 @@
-#include "integrate/cvode_flow.hpp"
+#include "integrate/sundials/cvode_flow.hpp"
 
 #include <memory>
 #include <string>
@@ -11,9 +11,9 @@
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include "core/errors.hpp"
-#include "integrate/linear_solver.hpp"
 #include "integrate/methods.hpp"
-#include "integrate/sundials_flow.hpp"
+#include "integrate/sundials/linear_solver.hpp"
+#include "integrate/sundials/sundials_flow.hpp"
 
 namespace epicyclic::integrate {
 

@@ -33,7 +33,7 @@ using LinearSolver = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, Lin
 /// The numbers of a dense matrix, column by column.
 [[nodiscard]] double* data_of(SUNMatrix m);
 
-/// A solver for dense matrices and the state vectors of integrate/state_vector.hpp.
+/// A solver for dense matrices and the state vectors of integrate/sundials/state_vector.hpp.
 /// @throws SolverError when there is no memory
 [[nodiscard]] LinearSolver make_dense_solver(std::size_t dimension, SUNContext context);
 

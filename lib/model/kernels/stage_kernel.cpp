@@ -1,4 +1,4 @@
-#include "model/stage_kernel.hpp"
+#include "model/kernels/stage_kernel.hpp"
 
 #include <string_view>
 

@@ -3,7 +3,7 @@
 // SUNDIALS' stock serial vector spends most of a small system's Runge-Kutta step in loops that go through memory once
 // for each operand. Here a linear combination of many vectors is one pass, and the error weights one more. Every
 // operation that ARKODE and CVODE may ask for is there; each states what it computes in the SUNDIALS user guide.
-// Results do not depend on the instruction set (integrate/vector_kernels.hpp).
+// Results do not depend on the instruction set (integrate/sundials/vector_kernels.hpp).
 //
 // A vector may have several columns of the same length, the state and its tangent vectors; norms that measure errors
 // may be told to look at the first column alone, and are then those of a vector of one column to the last bit.
@@ -19,7 +19,7 @@
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_nvector.h>
 
-#include "integrate/vector_kernels.hpp"
+#include "integrate/sundials/vector_kernels.hpp"
 
 namespace epicyclic::integrate {
 

@@ -1,10 +1,10 @@
-#include "integrate/lane_flow.hpp"
+#include "integrate/lanes/lane_flow.hpp"
 
 #include <algorithm>
 #include <utility>
 #include <vector>
 
-#include "integrate/lane_ensemble.hpp"
+#include "integrate/lanes/lane_ensemble.hpp"
 
 namespace epicyclic::integrate {
 
@@ -16,7 +16,7 @@ struct Extended {
       : vectors(m),
         parameter(with_parameter),
         system(extended(field, m, with_parameter)),
-        lanes(one_by_one(lane_kernels().width, system.dimension, field.surfaces.count), options, lane_kernels()) {
+        lanes(one_by_one(step_loops().width, system.dimension, field.surfaces.count), options, step_loops()) {
     lanes.control(field.dimension, options.tangent_error_control ? m : 0, with_parameter);
     lanes.load(0, system);
   }
@@ -49,7 +49,7 @@ class LaneFlow final : public Flow {
   LaneFlow(VectorField field, const IntegratorOptions& options)
       : field_(std::move(field)),
         options_(options),
-        lanes_(one_by_one(lane_kernels().width, field_.dimension, field_.surfaces.count), options, lane_kernels()) {
+        lanes_(one_by_one(step_loops().width, field_.dimension, field_.surfaces.count), options, step_loops()) {
     lanes_.load(lane, field_);
   }
 

@@ -1,4 +1,4 @@
-#include "integrate/arkode_flow.hpp"
+#include "integrate/sundials/arkode_flow.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -12,9 +12,9 @@
 #include <sundials/sundials_version.h>
 
 #include "core/errors.hpp"
-#include "integrate/linear_solver.hpp"
 #include "integrate/methods.hpp"
-#include "integrate/sundials_flow.hpp"
+#include "integrate/sundials/linear_solver.hpp"
+#include "integrate/sundials/sundials_flow.hpp"
 
 namespace epicyclic::integrate {
 

@@ -2,16 +2,16 @@
 // kernel_copies times [core/instruction_set.hpp], and chosen at run time.
 //
 // The text is that of model/right_hand_side.hpp, with lanes for scalars. Each lane's bits depend neither on the others
-// nor on W nor on the instruction set; they differ from those of model/stage_kernel.hpp by the rounding of sine, cosine
-// and of places in tables. Limits: relative coordinates.
+// nor on W nor on the instruction set; they differ from those of model/kernels/stage_kernel.hpp by the rounding of
+// sine, cosine and of places in tables. Limits: relative coordinates.
 #pragma once
 
 #include <cstddef>
 
 #include "model/instant.hpp"
+#include "model/kernels/stage_kernel.hpp"
 #include "model/lane_parameters.hpp"
 #include "model/layout.hpp"
-#include "model/stage_kernel.hpp"
 
 namespace epicyclic::model {
 

@@ -1,3 +1,0 @@
-#define EPICYCLIC_KERNELS avx512_again
-#define EPICYCLIC_LANES 8
-#include "model/lane_kernel.inc"

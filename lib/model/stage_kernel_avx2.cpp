@@ -1,3 +1,0 @@
-#define EPICYCLIC_KERNELS avx2
-#define EPICYCLIC_FOUR_DIRECTIONS
-#include "model/stage_kernel.inc"

@@ -1,2 +1,0 @@
-#define EPICYCLIC_KERNELS baseline
-#include "model/stage_kernel.inc"
