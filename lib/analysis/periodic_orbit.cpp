@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 
 #include "core/errors.hpp"
+#include "core/largest_difference.hpp"
 #include "core/text.hpp"
 
 namespace epicyclic::analysis {
@@ -176,6 +177,19 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
   orbit.message = "the residual is " + short_text(best) + ", the error " + short_text(orbit.error) + " after " +
                   std::to_string(orbit.residuals.size()) + " iterations";
   return orbit;
+}
+
+std::vector<double> nearest_on_orbit(integrate::Flow& flow, std::span<const double> on, int n,
+                                     std::span<const double> state) {
+  std::vector<double> y(on.begin(), on.end());
+  std::vector<double> nearest = y;
+  flow.forget();
+  for (int k = 1; k < n; ++k) {
+    if (!flow.evolve(y, 0.0, flow.field().period).reached()) break;
+    if (largest_difference(y, state) < largest_difference(nearest, state)) nearest = y;
+  }
+  flow.forget();
+  return nearest;
 }
 
 double orbit_error(const Eigen::MatrixXd& monodromy, double residual) {

@@ -73,6 +73,10 @@ struct PeriodicOrbit {
 [[nodiscard]] PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double> start, int n,
                                                 const OrbitOptions& options = {});
 
+/// Of the n points, one a period, of the orbit through `on` the one that is nearest to a state.
+[[nodiscard]] std::vector<double> nearest_on_orbit(integrate::Flow& flow, std::span<const double> on, int n,
+                                                   std::span<const double> state);
+
 /// e of [A-orbit-error]. Singular values of M - I below 1e-8 are those of neutral directions: errors of tangents could
 /// not tell them from 0.
 /// @param monodromy  M at the state

@@ -140,6 +140,22 @@ double farthest_from(const PoincareSection& a, const PoincareSection& b) {
   return farthest;
 }
 
+double cycle_distance(std::span<const double> a, std::span<const double> b, std::size_t columns, std::size_t dimension,
+                      std::size_t n) {
+  if (n == 0 || std::min(a.size(), b.size()) < n * columns) return std::numeric_limits<double>::quiet_NaN();
+  const auto point = [columns, dimension, n](std::span<const double> rows, std::size_t k) {
+    return rows.last(n * columns).subspan(k * columns, dimension);
+  };
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t shift = 0; shift < n; ++shift) {
+    double most = 0.0;
+    for (std::size_t k = 0; k < n; ++k)
+      most = std::max(most, largest_difference(point(a, k), point(b, (k + shift) % n)));
+    least = std::min(least, most);
+  }
+  return least;
+}
+
 double extent(const PoincareSection& section) {
   double widest = 0.0;
   for (std::size_t j = 0; j < section.dimension; ++j) {

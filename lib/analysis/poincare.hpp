@@ -125,6 +125,15 @@ struct Recurrence {
 /// component (one half of Hausdorff's distance of the two sets). Neither is empty; the cost is the product of sizes.
 [[nodiscard]] double farthest_from(const PoincareSection& a, const PoincareSection& b);
 
+/// How far two cycles of n points are apart: the largest difference of a component, at the best shift of one against
+/// the other.
+/// @param a, b       the points as rows, one after another; the last n of each are compared
+/// @param columns    numbers in a row
+/// @param dimension  as many of them are compared
+/// @returns not a number if one has fewer than n rows
+[[nodiscard]] double cycle_distance(std::span<const double> a, std::span<const double> b, std::size_t columns,
+                                    std::size_t dimension, std::size_t n);
+
 /// The largest range of a component.
 [[nodiscard]] double extent(const PoincareSection& section);
 

@@ -20,4 +20,15 @@ double fitted_slope(std::span<const double> x, std::span<const double> y) {
   return slope;
 }
 
+void PooledSlope::add(std::span<const double> x, std::span<const double> y) {
+  if (x.size() != y.size()) throw std::invalid_argument("PooledSlope: x and y differ in length");
+  const auto append = [](std::vector<double>& all, std::span<const double> values) {
+    double mean = 0.0;
+    for (const double v : values) mean += v / static_cast<double>(values.size());
+    for (const double v : values) all.push_back(v - mean);
+  };
+  append(x_, x);
+  append(y_, y);
+}
+
 }  // namespace epicyclic

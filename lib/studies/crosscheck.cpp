@@ -324,21 +324,10 @@ double orbit_distance(const PointResult& a, const PointResult& b, std::size_t di
   };
   const int period = period_of(a);
   if (period == 0 || period != period_of(b)) return nan;
-  const auto n = static_cast<std::size_t>(period);
-  double least = std::numeric_limits<double>::infinity();
-  const std::size_t rows = std::min(a.poincare_rows(), b.poincare_rows());
-  if (rows < n) return nan;
-  const std::size_t last = rows - n;
-  for (std::size_t shift = 0; shift < n; ++shift) {
-    double most = 0.0;
-    for (std::size_t r = 0; r < n; ++r) {
-      const double* x = a.poincare.data() + (last + r) * a.poincare_columns;
-      const double* y = b.poincare.data() + (last + (r + shift) % n) * b.poincare_columns;
-      most = std::max(most, largest_difference({x, dimension}, {y, dimension}));
-    }
-    least = std::min(least, most);
-  }
-  return least;
+  const auto rows = [least = std::min(a.poincare_rows(), b.poincare_rows())](const PointResult& r) {
+    return std::span(r.poincare).first(least * r.poincare_columns);
+  };
+  return analysis::cycle_distance(rows(a), rows(b), a.poincare_columns, dimension, static_cast<std::size_t>(period));
 }
 
 Crosscheck run_crosscheck(const SweepPlan& plan, const SweepOptions& sweep, const CrosscheckOptions& options,

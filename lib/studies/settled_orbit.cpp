@@ -6,25 +6,6 @@
 
 namespace epicyclic::studies {
 
-namespace {
-
-/// The state of the orbit through `from` that is nearest to a motion's last one: the motion was told on its way, and
-/// may have come to another phase since.
-std::vector<double> nearest_state(integrate::Flow& flow, const std::vector<double>& from, int n,
-                                  const std::vector<double>& last) {
-  std::vector<double> nearest = from;
-  std::vector<double> y = from;
-  flow.forget();
-  for (int k = 1; k < n; ++k) {
-    if (!flow.evolve(y, 0.0, flow.field().period).reached()) break;
-    if (largest_difference(y, last) < largest_difference(nearest, last)) nearest = y;
-  }
-  flow.forget();
-  return nearest;
-}
-
-}  // namespace
-
 SettledOrbit settled_orbit(integrate::Flow& flow, const PointResult& motion) {
   SettledOrbit found;
   if (motion.outcome != integrate::Outcome::reached) {
@@ -41,8 +22,9 @@ SettledOrbit settled_orbit(integrate::Flow& flow, const PointResult& motion) {
     found.note = "an " + name + " by recurrence alone: forces jump at contact, and there are no tangents to find it by";
     return found;
   }
+  // The motion was told on its way, and may have come to another phase since.
   const std::vector<double> start =
-      motion.orbit.empty() ? motion.end_state : nearest_state(flow, motion.orbit, n, motion.end_state);
+      motion.orbit.empty() ? motion.end_state : analysis::nearest_on_orbit(flow, motion.orbit, n, motion.end_state);
   found.orbit = analysis::find_periodic_orbit(flow, start, n);
   if (!found.orbit.found()) {
     found.note = "no " + name + " by Newton's method: " + found.orbit.message;

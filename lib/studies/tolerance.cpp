@@ -354,39 +354,35 @@ bool statistics_agree(const StatisticsStep& a, const StatisticsStep& b) {
 
 std::vector<Slopes> slopes(const std::vector<TolerancePoint>& points, std::size_t dimension, double floor) {
   constexpr double ceiling = 1e-2;
-  std::vector<Slopes> all;
-  std::map<std::string, std::size_t> place;
-  struct Logarithms {
-    std::vector<double> tolerance, cost, error;
+  struct Lines {
+    PooledSlope over_tolerance, over_cost;
   };
-  std::vector<Logarithms> logarithms;
+  std::vector<Slopes> all;
+  std::map<std::string, Lines> lines;
   for (const TolerancePoint& p : points) {
-    // Points differ in level, not in slope: each is moved to its own mean.
-    std::map<std::string, std::vector<std::array<double, 3>>> own;
+    struct Logarithms {
+      std::vector<double> tolerance, cost, error;
+    };
+    std::map<std::string, Logarithms> own;
     for (const LadderStep& s : p.ladder) {
-      if (place.emplace(s.method, all.size()).second) {
-        all.push_back({s.method, nan, nan, 0});
-        logarithms.emplace_back();
-      }
+      if (lines.try_emplace(s.method).second) all.push_back({s.method, nan, nan, 0});
       if (!(s.error > floor && s.error < ceiling)) continue;
-      own[s.method].push_back({std::log(s.tolerance), std::log(cost(s.work, dimension)), std::log(s.error)});
+      Logarithms& l = own[s.method];
+      l.tolerance.push_back(std::log(s.tolerance));
+      l.cost.push_back(std::log(cost(s.work, dimension)));
+      l.error.push_back(std::log(s.error));
     }
-    for (auto& [method, rows] : own) {
-      std::array<double, 3> mean{};
-      for (const auto& r : rows)
-        for (std::size_t j = 0; j < 3; ++j) mean[j] += r[j] / static_cast<double>(rows.size());
-      for (const auto& r : rows) {
-        Logarithms& l = logarithms[place[method]];
-        l.tolerance.push_back(r[0] - mean[0]);
-        l.cost.push_back(r[1] - mean[1]);
-        l.error.push_back(r[2] - mean[2]);
-      }
+    // Points differ in level, not in slope.
+    for (const auto& [method, l] : own) {
+      lines[method].over_tolerance.add(l.tolerance, l.error);
+      lines[method].over_cost.add(l.cost, l.error);
     }
   }
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    all[k].over_tolerance = fitted_slope(logarithms[k].tolerance, logarithms[k].error);
-    all[k].over_cost = fitted_slope(logarithms[k].cost, logarithms[k].error);
-    all[k].steps = static_cast<int>(logarithms[k].error.size());
+  for (Slopes& one : all) {
+    const Lines& l = lines[one.method];
+    one.over_tolerance = l.over_tolerance.slope();
+    one.over_cost = l.over_cost.slope();
+    one.steps = static_cast<int>(l.over_cost.points());
   }
   return all;
 }

@@ -24,5 +24,18 @@ TEST(FittedSlope, NeedsThreePoints) {
   EXPECT_THROW((void)fitted_slope(two, std::vector<double>{1.0}), std::invalid_argument);
 }
 
+TEST(PooledSlope, IsTheSameWhateverTheLevelsAre) {
+  const std::vector<double> x = {0.0, 1.0, 2.0};
+  PooledSlope pooled;
+  for (const double level : {-3.0, 0.0, 100.0}) {
+    std::vector<double> y;
+    for (const double value : x) y.push_back(level - 2.0 * value + (value == 1.0 ? 0.3 : 0.0));
+    pooled.add(x, y);
+  }
+  EXPECT_EQ(pooled.points(), 9U);
+  EXPECT_NEAR(pooled.slope(), -2.0, 1e-12);
+  EXPECT_THROW(pooled.add(x, std::vector<double>(2)), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace epicyclic
