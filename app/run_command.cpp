@@ -63,8 +63,8 @@ int run_command(const Arguments& arguments) {
   folder.write_run(store::RunState::complete, store::run_facts(facts));
 
   nlohmann::json told = {{"folder", folder.path().string()},
-                         {"status", reports::status_word(result->point.outcome)},
-                         {"regime", reports::regime_word(result->point)},
+                         {"status", store::status_word(result->point.outcome)},
+                         {"regime", store::regime_word(result->point)},
                          {"period", result->point.period},
                          {"figures", nlohmann::json::array()}};
   for (const reports::DrawnFigure& figure : figures)

@@ -25,6 +25,13 @@ using analysis::Attractor;
 using analysis::Attractors;
 using studies::PointResult;
 
+store::PointColumn attractor_column(const Attractors& attractors) {
+  return {"attractor", "", "number of the attractor that the cell is on, from 1; 0: none is told",
+          store::PointColumn::Getter<std::int64_t>([&attractors](const PointResult& r) {
+            return static_cast<std::int64_t>(attractors.number[r.point.index]);
+          })};
+}
+
 /// An attractor with what its cells say of it.
 struct Row {
   std::int64_t number = 0;
@@ -103,10 +110,7 @@ std::string component_label(const std::string& component) {
 
 void write_basins_csv(const std::filesystem::path& file, const std::vector<PointResult>& results,
                       const Attractors& attractors) {
-  write_points_csv(file, studies::points_in_memory(results),
-                   {second_value_column(), {"attractor", [&](const PointResult& r) {
-                                              return static_cast<double>(attractors.number[r.point.index]);
-                                            }}});
+  write_points_csv(file, studies::points_in_memory(results), {second_value_column(), attractor_column(attractors)});
 }
 
 void write_attractors_csv(const std::filesystem::path& file, const BasinsOutput& output,
@@ -133,9 +137,9 @@ void write_basins_h5(const std::filesystem::path& file, const BasinsOutput& outp
                      const std::vector<PointResult>& results, const Attractors& attractors) {
   store::Hdf5File h5(file);
   // The matrix: rows along the second component, columns along the first, both ascending.
-  write_plane(h5, "/basins", "component", output.plane, output.resolved_input, studies::points_in_memory(results));
+  write_plane(h5, "/basins", "component", output.plane, output.resolved_input, studies::points_in_memory(results),
+              {attractor_column(attractors)});
   const std::vector<std::int64_t> numbers(attractors.number.begin(), attractors.number.end());
-  h5.write("/points/attractor", std::span<const std::int64_t>(numbers));
   h5.write("/basins/attractor", std::span<const std::int64_t>(numbers),
            static_cast<std::size_t>(output.plane.second.points), static_cast<std::size_t>(output.plane.first.points));
 

@@ -30,10 +30,10 @@ void write_crosscheck_csv(const std::filesystem::path& file, const studies::Cros
   for (const Comparison& c : all.comparisons) {
     const studies::PointResult& r = all.reference[c.point];
     const studies::Variant& v = all.variants[c.variant];
-    csv.row(c.point, direction_word(r.point.direction), r.point.value, v.label, v.integrator.method,
-            v.integrator.relative_tolerance, v.clearance_smoothing, status_word(c.result.outcome),
-            regime_word(c.result), c.result.period, status_word(r.outcome), regime_word(r), r.period, r.period,
-            c.distance, to_string(c.verdict), c.detail, c.result.rhs_evaluations);
+    csv.row(c.point, store::direction_word(r.point.direction), r.point.value, v.label, v.integrator.method,
+            v.integrator.relative_tolerance, v.clearance_smoothing, store::status_word(c.result.outcome),
+            store::regime_word(c.result), c.result.period, store::status_word(r.outcome), store::regime_word(r),
+            r.period, r.period, c.distance, to_string(c.verdict), c.detail, c.result.rhs_evaluations);
   }
   csv.commit();
 }
@@ -48,7 +48,7 @@ std::string crosscheck_summary(const studies::Crosscheck& all) {
                                  all.variants[0].integrator.relative_tolerance, all.reference.size());
   std::map<std::string, int> motions;
   for (const auto& r : all.reference)
-    ++motions[r.outcome == integrate::Outcome::reached ? motion_name(r) : status_word(r.outcome)];
+    ++motions[r.outcome == integrate::Outcome::reached ? motion_name(r) : store::status_word(r.outcome)];
   std::string list;
   for (const auto& [name, count] : motions) list += fmt::format("{}{} {}", list.empty() ? "" : ", ", count, name);
   text += fmt::format("Motions of the reference: {}.\n\n", list);
@@ -86,7 +86,7 @@ std::string crosscheck_summary(const studies::Crosscheck& all) {
     const studies::PointResult& r = all.reference[c.point];
     std::string value;
     append_number(value, r.point.value);
-    text += fmt::format("- point {} ({}, {}), {}: {}; {}\n", c.point, direction_word(r.point.direction), value,
+    text += fmt::format("- point {} ({}, {}), {}: {}; {}\n", c.point, store::direction_word(r.point.direction), value,
                         all.variants[c.variant].label, to_string(c.verdict), c.detail);
   }
   return text;

@@ -73,7 +73,7 @@ void write_map_h5(const std::filesystem::path& file, const MapOutput& output, co
   const auto columns = static_cast<std::size_t>(output.plane.first.points);
   const auto rows = static_cast<std::size_t>(output.plane.second.points);
   for (const Direction direction : output.sweep.directions) {
-    const std::string group = "/map/" + direction_word(direction);
+    const std::string group = "/map/" + store::direction_word(direction);
     h5.create_group(group);
     const auto integers = [&](const char* name, const std::function<std::int64_t(const PointResult&)>& value) {
       h5.write(group + "/" + name, std::span<const std::int64_t>(matrix(output, points, direction, value)), rows,
@@ -102,7 +102,7 @@ std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, c
   std::vector<DrawnFigure> figures;
   const figures::CellGrid grid{axis_values(output.plane.first), axis_values(output.plane.second)};
   for (const Direction direction : output.sweep.directions) {
-    const std::string word = direction_word(direction);
+    const std::string word = store::direction_word(direction);
     const figures::FigureText text{
         figures::literal_text(output.title) + (output.sweep.directions.size() > 1 ? ", " + word : ""),
         parameter_label(output.plane.first.name), parameter_label(output.plane.second.name)};

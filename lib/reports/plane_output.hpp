@@ -12,12 +12,13 @@
 namespace epicyclic::reports {
 
 /// Of points.csv.
-[[nodiscard]] PointColumn second_value_column();
+[[nodiscard]] store::PointColumn second_value_column();
 
 /// The input, what the axes are, the group /points, and `group` with the values along both axes, ascending.
 /// @param axis  "parameter" or "component": of the attributes
+/// @param more  columns of the points besides
 void write_plane(store::Hdf5File& h5, const std::string& group, const std::string& axis,
                  const studies::PlaneOptions& plane, const std::string& resolved_input,
-                 const studies::PointSource& points);
+                 const studies::PointSource& points, const std::vector<store::PointColumn>& more = {});
 
 }  // namespace epicyclic::reports

@@ -188,9 +188,9 @@ class Group {
 
 void write_point(store::Hdf5File& h5, const RunOutput& output, const RunResult& r) {
   Group g(h5, "/point");
-  g.text("status", status_word(r.point.outcome));
+  g.text("status", store::status_word(r.point.outcome));
   g.text("message", r.point.message);
-  g.text("regime", regime_word(r.point));
+  g.text("regime", store::regime_word(r.point));
   g.number("value", r.point.point.value, "-");
   g.number("omega", r.omega, "-");
   g.integer("period", r.point.period, "mesh periods");
@@ -732,7 +732,7 @@ std::string run_summary(const RunOutput& output, const RunResult& r) {
                           1e6 * model::length_scale_m, r.static_force));
   const std::string work = fmt::format("\nWork: {} right-hand sides.\n", r.point.rhs_evaluations);
   if (!ok(r)) {
-    text += "\n" + wrapped(fmt::format("**No motion to speak of: status {}**: {}.", status_word(r.point.outcome),
+    text += "\n" + wrapped(fmt::format("**No motion to speak of: status {}**: {}.", store::status_word(r.point.outcome),
                                        r.point.message.empty() ? "no reason was given" : unstopped(r.point.message)));
     return text + work + files_text(output, r);
   }
@@ -743,7 +743,8 @@ std::string run_summary(const RunOutput& output, const RunResult& r) {
   if (!r.exponents.evolution.reached())
     text += "\n## Lyapunov exponents\n\n" +
             wrapped(fmt::format("Not known: the motion with its tangents ended early, {}: {}.",
-                                status_word(r.exponents.evolution.outcome), unstopped(r.exponents.evolution.message)));
+                                store::status_word(r.exponents.evolution.outcome),
+                                unstopped(r.exponents.evolution.message)));
   if (r.transverse) text += transverse_text(r);
   return text + work + files_text(output, r);
 }

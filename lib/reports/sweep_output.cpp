@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -20,16 +20,9 @@ namespace epicyclic::reports {
 namespace {
 
 using studies::Direction;
-using studies::MeshRecord;
 using studies::PointResult;
 
 bool ok(const PointResult& r) { return r.outcome == integrate::Outcome::reached; }
-
-/// Periodic by an orbit and its multipliers.
-bool proven(const PointResult& r) { return ok(r) && r.classified && r.regime == analysis::Regime::periodic; }
-
-/// K of the 0-1 test; none where it was not asked.
-double zero_one(const PointResult& r) { return r.evidence.zero_one.value_or(std::numeric_limits<double>::quiet_NaN()); }
 
 /// The rows of all Poincare sections one after another.
 class SectionRows {
@@ -56,9 +49,6 @@ class SectionRows {
   std::size_t point_ = 0, first_ = 0;  ///< last asked for, and its first row
 };
 
-/// Extrema that were never seen are empty cells.
-double seen(double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::quiet_NaN(); }
-
 /// Which direction the regimes of a figure are of; 0 for the diagrams of both.
 std::size_t direction_of(SweepFigure figure) { return figure == SweepFigure::regimes_second ? 1 : 0; }
 
@@ -72,7 +62,7 @@ std::optional<std::string> stem_of(const SweepOutput& output, SweepFigure figure
   if (figure == SweepFigure::delta_rp) return "bifurcation_delta_rp";
   const std::size_t direction = direction_of(figure);
   if (output.sweep.classification_periods == 0 || direction >= output.sweep.directions.size()) return std::nullopt;
-  return "regimes_delta_sp_" + direction_word(output.sweep.directions[direction]);
+  return "regimes_delta_sp_" + store::direction_word(output.sweep.directions[direction]);
 }
 
 /// Of the Poincare section.
@@ -82,7 +72,7 @@ figures::FigureText text_of(const SweepOutput& output, SweepFigure figure) {
   figures::FigureText text{
       figures::literal_text(output.title), parameter_label(output.sweep.parameter),
       fmt::format("Poincaré points of  δ_{{{}}} / b_c", figure == SweepFigure::delta_rp ? "rp" : "sp")};
-  if (shows_regimes(figure)) text.title += ", " + direction_word(output.sweep.directions[direction_of(figure)]);
+  if (shows_regimes(figure)) text.title += ", " + store::direction_word(output.sweep.directions[direction_of(figure)]);
   return text;
 }
 
@@ -152,10 +142,6 @@ const ParameterText* text_of(const std::string& parameter) {
 
 }  // namespace
 
-std::string direction_word(Direction direction) { return direction == Direction::up ? "up" : "down"; }
-
-std::string regime_word(const PointResult& r) { return ok(r) ? to_string(r.regime) : ""; }
-
 std::string parameter_label(const std::string& parameter) {
   const ParameterText* text = text_of(parameter);
   return text == nullptr ? figures::literal_text(parameter)
@@ -182,99 +168,25 @@ std::string figure_title(const input::Study& study) {
   return title;
 }
 
-std::string status_word(integrate::Outcome outcome) {
-  switch (outcome) {
-    case integrate::Outcome::reached:
-      return "ok";
-    case integrate::Outcome::diverged:
-      return "diverged";
-    case integrate::Outcome::step_limit:
-      return "step_limit";
-    case integrate::Outcome::failed:
-      return "failed";
-  }
-  return "failed";
+namespace {
+
+std::vector<store::PointColumn> columns_of(const studies::PointSource& points,
+                                           const std::vector<store::PointColumn>& more) {
+  return store::point_columns(points.count == 0 ? 0 : points.read_brief(0).sun_planet.size(), more);
 }
 
+}  // namespace
+
 void write_points_csv(const std::filesystem::path& file, const studies::PointSource& points,
-                      const std::vector<PointColumn>& more) {
-  std::vector<std::string> columns = {"point",
-                                      "direction",
-                                      "value",
-                                      "status",
-                                      "regime",
-                                      "period",
-                                      "lyapunov_max",
-                                      "delta_sp_min",
-                                      "delta_sp_max",
-                                      "delta_rp_min",
-                                      "delta_rp_max",
-                                      "contact_sp",
-                                      "contact_rp",
-                                      "rhs_evaluations",
-                                      "recurrence_error",
-                                      "recurrence_error_late",
-                                      "planet_spread",
-                                      "pull_sp",
-                                      "pull_rp",
-                                      "pull_time_sp",
-                                      "pull_time_rp",
-                                      "lyapunov_max_error",
-                                      "multiplier_max",
-                                      "multiplier_error",
-                                      "orbit_residual",
-                                      "orbit_error",
-                                      "zero_one",
-                                      "classified_periods",
-                                      "evidence"};
-  for (std::size_t k = 0; k < more.size(); ++k)
-    columns.insert(columns.begin() + 3 + static_cast<std::ptrdiff_t>(k), more[k].name);
-  const std::size_t planets = points.count == 0 ? 0 : points.read_brief(0).sun_planet.size();
-  for (const char* mesh : {"sp", "rp"})
-    for (std::size_t i = 1; i <= planets; ++i) {
-      const std::string name = std::string(mesh) + "_" + std::to_string(i);
-      columns.push_back("delta_" + name + "_min");
-      columns.push_back("delta_" + name + "_max");
-      columns.push_back("contact_" + name);
-    }
-  columns.emplace_back("message");
-  CsvWriter csv(file, columns);
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+                      const std::vector<store::PointColumn>& more) {
+  const std::vector<store::PointColumn> columns = columns_of(points, more);
+  std::vector<std::string> names;
+  for (const store::PointColumn& column : columns) names.push_back(column.name);
+  CsvWriter csv(file, names);
   for (std::size_t i = 0; i < points.count; ++i) {
     const PointResult r = points.read_brief(i);
-    const MeshRecord& sp = r.sun_planet.front();
-    const MeshRecord& rp = r.ring_planet.front();
-    csv.cell(r.point.index).cell(direction_word(r.point.direction)).cell(r.point.value);
-    for (const PointColumn& column : more) csv.cell(column.value(r));
-    csv.cell(status_word(r.outcome))
-        .cell(regime_word(r))
-        .cell(ok(r) ? r.period : 0)
-        .cell(r.lyapunov_max().value)
-        .cell(seen(sp.delta_min))
-        .cell(seen(sp.delta_max))
-        .cell(seen(rp.delta_min))
-        .cell(seen(rp.delta_max))
-        .cell(sp.contact())
-        .cell(rp.contact())
-        .cell(r.rhs_evaluations)
-        .cell(ok(r) ? seen(r.recurrence.error) : unknown)
-        .cell(ok(r) ? r.recurrence.late_error : unknown)
-        .cell(r.planet_spread)
-        .cell(PointResult::pull(r.sun_planet))
-        .cell(PointResult::pull(r.ring_planet))
-        .cell(PointResult::pull_time(r.sun_planet))
-        .cell(PointResult::pull_time(r.ring_planet))
-        .cell(r.lyapunov_max().half_width)
-        .cell(proven(r) ? r.evidence.largest_multiplier : unknown)
-        .cell(proven(r) ? r.evidence.multiplier_error : unknown)
-        .cell(proven(r) ? r.evidence.residual : unknown)
-        .cell(proven(r) ? r.evidence.orbit_error : unknown)
-        .cell(zero_one(r))
-        .cell(r.evidence.periods)
-        .cell(r.evidence.note);
-    for (const auto* meshes : {&r.sun_planet, &r.ring_planet})
-      for (const MeshRecord& m : *meshes) csv.cell(seen(m.delta_min)).cell(seen(m.delta_max)).cell(m.contact());
-    csv.cell(r.message);
+    for (const store::PointColumn& column : columns)
+      std::visit([&](const auto& value) { csv.cell(value(r)); }, column.value);
     csv.end_row();
   }
   csv.commit();
@@ -296,81 +208,20 @@ void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& ou
   csv.commit();
 }
 
-void write_point_columns(store::Hdf5File& h5, const studies::PointSource& points) {
+void write_point_columns(store::Hdf5File& h5, const studies::PointSource& points,
+                         const std::vector<store::PointColumn>& more) {
   h5.create_group("/points");
-  const auto column = [&](const std::string& name, auto&& value, const char* units) {
-    using Value = std::decay_t<decltype(value(std::declval<PointResult>()))>;
+  for (const store::PointColumn& column : columns_of(points, more)) {
+    const std::string path = "/points/" + column.name;
     // Column after column through the points: a row of all columns at once would need each column's chunk in memory.
-    h5.write("/points/" + name, points.count,
-             store::Hdf5File::Column<Value>([&](std::size_t row) { return value(points.read_brief(row)); }));
-    if (units != nullptr) h5.set_units("/points/" + name, units);
-  };
-  const auto integer = [](auto x) { return static_cast<std::int64_t>(x); };
-  column(
-      "point", [&](const PointResult& r) { return integer(r.point.index); }, nullptr);
-  column(
-      "direction", [](const PointResult& r) { return std::string(direction_word(r.point.direction)); }, nullptr);
-  column(
-      "value", [](const PointResult& r) { return r.point.value; }, nullptr);
-  column(
-      "status", [](const PointResult& r) { return status_word(r.outcome); }, nullptr);
-  column(
-      "regime", [](const PointResult& r) { return std::string(regime_word(r)); }, nullptr);
-  column(
-      "period", [&](const PointResult& r) { return integer(ok(r) ? r.period : 0); }, "mesh periods");
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  column(
-      "lyapunov_max", [](const PointResult& r) { return r.lyapunov_max().value; }, "1 per tau");
-  column(
-      "lyapunov_max_error", [](const PointResult& r) { return r.lyapunov_max().half_width; }, "1 per tau");
-  column(
-      "multiplier_max", [](const PointResult& r) { return proven(r) ? r.evidence.largest_multiplier : unknown; }, "1");
-  column(
-      "multiplier_error", [](const PointResult& r) { return proven(r) ? r.evidence.multiplier_error : unknown; }, "1");
-  column(
-      "orbit_residual", [](const PointResult& r) { return proven(r) ? r.evidence.residual : unknown; },
-      "b_c, b_c per tau");
-  column(
-      "orbit_error", [](const PointResult& r) { return proven(r) ? r.evidence.orbit_error : unknown; },
-      "b_c, b_c per tau");
-  column("zero_one", zero_one, "1");
-  column(
-      "classified_periods", [&](const PointResult& r) { return integer(r.evidence.periods); }, "mesh periods");
-  column(
-      "evidence", [](const PointResult& r) { return r.evidence.note; }, nullptr);
-  column(
-      "recurrence_error",
-      [](const PointResult& r) { return ok(r) ? seen(r.recurrence.error) : std::numeric_limits<double>::quiet_NaN(); },
-      "b_c, b_c per tau");
-  column(
-      "planet_spread", [](const PointResult& r) { return r.planet_spread; }, "b_c");
-  column(
-      "pull_sp", [](const PointResult& r) { return PointResult::pull(r.sun_planet); }, "static mesh force");
-  column(
-      "pull_rp", [](const PointResult& r) { return PointResult::pull(r.ring_planet); }, "static mesh force");
-  column(
-      "pull_time_sp", [](const PointResult& r) { return PointResult::pull_time(r.sun_planet); }, "part of the time");
-  column(
-      "pull_time_rp", [](const PointResult& r) { return PointResult::pull_time(r.ring_planet); }, "part of the time");
-  column(
-      "rhs_evaluations", [&](const PointResult& r) { return integer(r.rhs_evaluations); }, "1");
-  column(
-      "message", [](const PointResult& r) { return r.message; }, nullptr);
-  const std::size_t planets = points.count == 0 ? 0 : points.read_brief(0).sun_planet.size();
-  for (std::size_t i = 0; i < planets; ++i) {
-    const std::string planet = "_" + std::to_string(i + 1);
-    column(
-        "delta_sp" + planet + "_min", [i](const PointResult& r) { return seen(r.sun_planet[i].delta_min); }, "b_c");
-    column(
-        "delta_sp" + planet + "_max", [i](const PointResult& r) { return seen(r.sun_planet[i].delta_max); }, "b_c");
-    column(
-        "contact_sp" + planet, [i](const PointResult& r) { return r.sun_planet[i].contact(); }, nullptr);
-    column(
-        "delta_rp" + planet + "_min", [i](const PointResult& r) { return seen(r.ring_planet[i].delta_min); }, "b_c");
-    column(
-        "delta_rp" + planet + "_max", [i](const PointResult& r) { return seen(r.ring_planet[i].delta_max); }, "b_c");
-    column(
-        "contact_rp" + planet, [i](const PointResult& r) { return r.ring_planet[i].contact(); }, nullptr);
+    std::visit(
+        [&]<class Value>(const std::function<Value(const PointResult&)>& value) {
+          h5.write(path, points.count,
+                   store::Hdf5File::Column<Value>([&](std::size_t row) { return value(points.read_brief(row)); }));
+        },
+        column.value);
+    if (!column.unit.empty()) h5.set_units(path, column.unit);
+    h5.set_attribute(path, "meaning", column.meaning);
   }
 }
 
@@ -415,7 +266,7 @@ std::optional<DrawnFigure> write_sweep_figure(const std::filesystem::path& folde
   } else {
     std::vector<figures::BifurcationSeries> series;
     for (std::size_t d = 0; d < output.sweep.directions.size(); ++d)
-      series.push_back({direction_word(output.sweep.directions[d]), points_each_way(output, points),
+      series.push_back({store::direction_word(output.sweep.directions[d]), points_each_way(output, points),
                         section(output, points, d, figure)});
     outcome = figures::bifurcation_figure(folder, *stem, text, series, {}, figures::Pictures::none);
   }

@@ -14,19 +14,11 @@
 #include "figures/gnuplot.hpp"
 #include "input/study_input.hpp"
 #include "store/hdf5_file.hpp"
+#include "store/point_columns.hpp"
 #include "studies/point_source.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::reports {
-
-/// Status of a point in points.csv: ok, diverged, step_limit, failed.
-[[nodiscard]] std::string status_word(integrate::Outcome outcome);
-
-/// "up" or "down".
-[[nodiscard]] std::string direction_word(studies::Direction direction);
-
-/// Regime of a point in points.csv: periodic, undecided; empty unless ok.
-[[nodiscard]] std::string regime_word(const studies::PointResult& result);
 
 /// Axis label of a sweep parameter, and the symbol in it.
 [[nodiscard]] std::string parameter_label(const std::string& parameter);
@@ -43,21 +35,16 @@ struct SweepOutput {
   std::string title;           ///< of the figures
 };
 
-/// A column of numbers that a kind of study adds, behind `value`.
-struct PointColumn {
-  std::string name;
-  std::function<double(const studies::PointResult&)> value;
-};
-
 /// @throws OutputError, and what reading points throws
 void write_points_csv(const std::filesystem::path& file, const studies::PointSource& points,
-                      const std::vector<PointColumn>& more = {});
+                      const std::vector<store::PointColumn>& more = {});
 void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& output,
                         const studies::PointSource& points);
 void write_results_h5(const std::filesystem::path& file, const SweepOutput& output, const studies::PointSource& points);
 
 /// The group /points of results.h5, one dataset a column.
-void write_point_columns(store::Hdf5File& h5, const studies::PointSource& points);
+void write_point_columns(store::Hdf5File& h5, const studies::PointSource& points,
+                         const std::vector<store::PointColumn>& more = {});
 
 struct DrawnFigure {
   std::filesystem::path file;  ///< the PNG picture, as a rule

@@ -31,7 +31,7 @@ std::vector<std::string> with_quantities(std::vector<std::string> columns) {
 }
 
 void start_row(CsvWriter& csv, const TolerancePoint& p) {
-  csv.cell(p.point.index).cell(direction_word(p.point.direction)).cell(p.point.value);
+  csv.cell(p.point.index).cell(store::direction_word(p.point.direction)).cell(p.point.value);
 }
 
 /// The step of the ladder that is the study's own method and tolerance, if there is one.
@@ -103,7 +103,7 @@ std::string write_tolerance_tables(const std::filesystem::path& folder, const To
     for (const TolerancePoint& p : points)
       for (const LadderStep& s : p.ladder) {
         start_row(csv, p);
-        csv.cell(p.period).cell(s.method).cell(s.tolerance).cell(status_word(s.outcome)).cell(s.error);
+        csv.cell(p.period).cell(s.method).cell(s.tolerance).cell(store::status_word(s.outcome)).cell(s.error);
         csv.cell(s.orbit_error).cell(s.work.right_hand_sides).cell(s.work.jacobians).cell(s.work.steps);
         for (const double q : s.quantities) csv.cell(q);
         csv.end_row();
@@ -151,7 +151,7 @@ std::string write_tolerance_tables(const std::filesystem::path& folder, const To
         const bool ok = s.outcome == integrate::Outcome::reached;
         const auto number = [&](double x) { return ok ? x : nan; };
         start_row(csv, p);
-        csv.cell(s.method).cell(s.tolerance).cell(s.width).cell(status_word(s.outcome));
+        csv.cell(s.method).cell(s.tolerance).cell(s.width).cell(store::status_word(s.outcome));
         csv.cell(number(s.exponent.value)).cell(number(s.exponent.half_width));
         for (const auto* moment : {&s.mean, &s.deviation})
           for (const auto& e : *moment) csv.cell(number(e.value)).cell(number(e.half_width));
@@ -226,7 +226,7 @@ std::string write_tolerance_tables(const std::filesystem::path& folder, const To
       for (const std::size_t k : studies::differing_statistics(p.statistics.front(), s))
         differ += fmt::format("{}{}", differ.empty() ? "no: " : ", ", studies::statistics_names[k]);
       text += fmt::format("| {} | {:g} | {:g} | {} |", s.method, s.tolerance, s.width,
-                          !ok              ? status_word(s.outcome)
+                          !ok              ? store::status_word(s.outcome)
                           : differ.empty() ? "yes"
                                            : differ);
       for (const analysis::Estimate& e : studies::statistics_of(s))

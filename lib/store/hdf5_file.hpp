@@ -67,7 +67,7 @@ class Hdf5File {
     set_attribute(object, name, std::string_view(value));
   }
 
-  /// The attribute "units", as in "N/m"; "-" if dimensionless.
+  /// The attribute "units", as in "N/m"; "1" if dimensionless.
   void set_units(std::string_view object, std::string_view units) { set_attribute(object, "units", units); }
 
   /// Writes the file to the disk.

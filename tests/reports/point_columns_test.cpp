@@ -1,0 +1,135 @@
+// One list of columns behind points.csv, results.h5 and the documentation: the three say the same.
+
+#include "store/point_columns.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "reports/sweep_output.hpp"
+#include "store/hdf5_file.hpp"
+#include "studies/point_source.hpp"
+#include "temporary_folder.hpp"
+
+namespace epicyclic::reports {
+namespace {
+
+using studies::PointResult;
+using test::contents;
+using test::TemporaryFolder;
+
+/// Points with a number of its own in each place: what is written of one column cannot pass for another.
+std::vector<PointResult> points(std::size_t planets) {
+  double next = 0.5;
+  const auto number = [&next] { return next += 1.0; };
+  const auto fill = [&](std::vector<studies::MeshRecord>& meshes) {
+    for (studies::MeshRecord& m : meshes) {
+      m.delta_min = -number();
+      m.delta_max = number();
+    }
+  };
+  std::vector<PointResult> all(3);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    PointResult& r = all[i];
+    r.point.index = i;
+    r.point.value = number();
+    r.sun_planet.resize(planets);
+    r.ring_planet.resize(planets);
+    fill(r.sun_planet);
+    fill(r.ring_planet);
+    r.period = static_cast<int>(number());
+    r.rhs_evaluations = static_cast<long>(number());
+    r.recurrence.error = number();
+    r.recurrence.late_error = number();
+    r.planet_spread = number();
+    r.omega = number();
+    r.classified = true;
+    r.regime = i == 0 ? analysis::Regime::periodic : analysis::Regime::chaotic;
+    analysis::Evidence& e = r.evidence;
+    e.periods = static_cast<int>(number());
+    e.residual = number();
+    e.orbit_error = number();
+    e.largest_multiplier = number();
+    e.multiplier_error = number();
+    e.exponent = {number(), number()};
+    e.note = "note " + std::to_string(i);
+    if (i > 0) e.zero_one = number();
+  }
+  all[2].outcome = integrate::Outcome::diverged;
+  all[2].message = "message";
+  return all;
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream in(line + ",");
+  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+TEST(PointColumns, AreTheSameInTablesAndInHdf5) {
+  constexpr std::size_t planets = 2;
+  const TemporaryFolder folder;
+  const std::vector<PointResult> all = points(planets);
+  const studies::PointSource source = studies::points_in_memory(all);
+  write_points_csv(folder / "points.csv", source);
+  {
+    store::Hdf5File h5(folder / "results.h5");
+    write_point_columns(h5, source);
+    h5.close();
+  }
+  std::ifstream table(folder / "points.csv");
+  std::string line;
+  ASSERT_TRUE(std::getline(table, line));
+  const std::vector<std::string> names = cells_of(line);
+  std::vector<std::vector<std::string>> rows;
+  while (std::getline(table, line)) rows.push_back(cells_of(line));
+  ASSERT_EQ(rows.size(), all.size());
+  const std::vector<store::PointColumn> columns = store::point_columns(planets);
+  ASSERT_EQ(names.size(), columns.size());
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const store::PointColumn& column = columns[k];
+    SCOPED_TRACE(column.name);
+    EXPECT_EQ(names[k], column.name);
+    EXPECT_FALSE(column.meaning.empty());
+    const std::string dataset = "/points/" + column.name;
+    EXPECT_EQ(store::read_hdf5_attribute(folder / "results.h5", dataset, "meaning"), column.meaning);
+    if (std::holds_alternative<store::PointColumn::Getter<std::string>>(column.value)) {
+      const std::vector<std::string> texts = store::read_hdf5_texts(folder / "results.h5", dataset);
+      ASSERT_EQ(texts.size(), rows.size());
+      for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(texts[i], rows[i].at(k));
+      continue;
+    }
+    EXPECT_EQ(store::read_hdf5_attribute(folder / "results.h5", dataset, "units"), column.unit);
+    const store::Hdf5Dataset numbers = store::read_hdf5(folder / "results.h5", dataset);
+    ASSERT_EQ(numbers.values.size(), rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const std::string& cell = rows[i].at(k);
+      if (cell.empty()) {
+        EXPECT_TRUE(std::isnan(numbers.values[i]));
+      } else {
+        EXPECT_EQ(numbers.values[i], std::stod(cell));
+      }
+    }
+  }
+}
+
+TEST(PointColumns, StandInTheDocumentation) {
+  const std::string page = contents("docs/output.md");
+  std::size_t from = 0;
+  for (const store::PointColumn& column : store::point_columns(0)) {
+    const std::string row = "| `" + column.name + "` | " + column.unit + " | " + column.meaning + " |";
+    const std::size_t at = page.find(row, from);
+    EXPECT_NE(at, std::string::npos) << "missing, or not in this place: " << row;
+    if (at != std::string::npos) from = at;
+  }
+}
+
+}  // namespace
+}  // namespace epicyclic::reports
