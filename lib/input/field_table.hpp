@@ -208,6 +208,8 @@ struct Field {
   std::function<nlohmann::json(const T&)> write;  ///< null: the key is left out
   std::function<nlohmann::ordered_json()> schema;
   std::function<void(const std::string& pointer, std::vector<KeyPlace>&)> collect;  ///< keys of an object; may be empty
+  /// Of an object: Table::change. Empty: the field is a leaf.
+  std::function<bool(std::string_view rest, double value, const std::string& pointer, T&, ReadContext&)> change;
 
   Field& required() {
     is_required = true;
@@ -433,6 +435,10 @@ class Table {
     field.collect = [&table](const std::string& pointer, std::vector<KeyPlace>& places) {
       table.collect(pointer, places);
     };
+    field.change = [at, &table](std::string_view rest, double number, const std::string& pointer, T& t,
+                                ReadContext& context) {
+      return table.change(rest, number, pointer, at.make(t), context);
+    };
     return field;
   }
 
@@ -453,6 +459,31 @@ class Table {
         context.add(Finding::Kind::missing_key, place, "is missing: " + field.description);
       }
     }
+  }
+
+  /// Replaces one number of what was read, checked as reading checks it; rules on keys that stand together are not
+  /// asked, since none comes or goes.
+  /// @param rest     its place below this object, "/lumped/sun/mass_kg", "/phase/2"
+  /// @param pointer  its whole place, for findings
+  /// @returns false where the table does not know such a number; `t` is then unchanged
+  bool change(std::string_view rest, double number, const std::string& pointer, T& t, ReadContext& context) const {
+    if (rest.empty() || rest.front() != '/') return false;
+    const std::string_view key = rest.substr(1, rest.find('/', 1) - 1);
+    const auto field = std::find_if(fields_.begin(), fields_.end(), [&](const auto& f) { return f.key == key; });
+    if (field == fields_.end()) return false;
+    const std::string_view below = rest.substr(1 + key.size());
+    if (field->change) return field->change(below, number, pointer, t, context);
+    json value = field->write(t);
+    if (below.empty()) {
+      if (!value.is_number()) return false;
+      field->read(number, pointer, t, context);
+      return true;
+    }
+    const json::json_pointer element{std::string(below)};
+    if (!value.is_array() || !value.contains(element) || !value[element].is_number()) return false;
+    value[element] = number;
+    field->read(value, pointer.substr(0, pointer.size() - below.size()), t, context);
+    return true;
   }
 
   [[nodiscard]] nlohmann::json write(const T& t) const {

@@ -479,6 +479,61 @@ bool feeds_completion(std::string_view pointer, bool bare) {
   return pointer_within(pointer, root + "/catalogue") || pointer_within(pointer, root + "/planets");
 }
 
+/// What follows from other values of a study that the tables have read.
+void derive_points(Study& study) {
+  if (!study.sweep) return;
+  // A run is a sweep of one point, at the speed that is given; basins are of one speed, too.
+  if (study.kind == "run" || study.kind == "basins") {
+    study.sweep->from = study.sweep->to = study.mesh_frequency_ratio;
+    study.sweep->points = 1;
+  }
+  if (study.kind == "map") {
+    study.sweep->parameter = study.plane.first.name;
+    study.sweep->from = study.plane.first.from;
+    study.sweep->to = study.plane.first.to;
+    study.sweep->points = study.plane.first.points;
+    study.sweep->keep = studies::Keep::row;
+  }
+}
+
+/// The rules of gear, which need values to judge, and say nothing new about what was found already.
+/// @param root          pointer of the stage
+/// @param not_computed  tells of a place of the stage that it has no value because none could be computed
+/// @returns false if values of the stage were not read
+template <class F>
+bool judge_stage(const Study& study, const std::string& root, F not_computed, ReadContext& context) {
+  std::set<std::string, std::less<>> known;
+  std::vector<std::string> unread;
+  for (const auto& finding : context.findings) {
+    known.insert(finding.pointer);
+    if (!finding.meant.empty()) known.insert(finding.meant);
+    const bool leaves_value = finding.kind == Finding::Kind::unknown_key || finding.kind == Finding::Kind::range;
+    const bool of_catalogue = pointer_within(finding.pointer, root + "/catalogue");
+    if (pointer_within(finding.pointer, root) && !leaves_value && !of_catalogue)
+      unread.push_back(finding.pointer.substr(root.size()));
+  }
+  const bool sound = unread.empty();
+  if (study.stage.planet_count < gear::planets_min || study.stage.planet_count > gear::planets_max) return sound;
+  auto rules = gear::problems_for_modes(study.stage);
+  if (study.sweep) {
+    const auto more = gear::problems_for_motion(study.stage);
+    rules.insert(rules.end(), more.begin(), more.end());
+  }
+  const Judge judge(std::move(unread));
+  std::set<std::string> told;
+  for (const auto& rule : rules) {
+    if (!told.insert(rule).second) continue;
+    const auto colon = rule.find(": ");
+    const std::string place = colon == std::string::npos ? "" : rule.substr(0, colon);
+    const std::string pointer = root + place;
+    // What was not computed can break no rule.
+    if (!judge.can_tell(place) || not_computed(pointer)) continue;
+    if (known.count(pointer) == 0)
+      context.add(Finding::Kind::rule, pointer, colon == std::string::npos ? rule : rule.substr(colon + 2));
+  }
+  return sound;
+}
+
 /// Reads the whole input from one JSON value, which is completed from catalogue data first: the tables, then the rules
 /// that span objects.
 /// @param computed  becomes what the catalogue data give, at its places; null: the input has been completed already,
@@ -505,20 +560,7 @@ std::pair<Study, bool> read_study(json& whole, bool bare, ReadContext& context, 
   } else {
     context.places = all_places();
     study_table().read(whole, "", study, context);
-    if (study.sweep) {
-      // A run is a sweep of one point, at the speed that is given; basins are of one speed, too.
-      if (study.kind == "run" || study.kind == "basins") {
-        study.sweep->from = study.sweep->to = study.mesh_frequency_ratio;
-        study.sweep->points = 1;
-      }
-      if (study.kind == "map") {
-        study.sweep->parameter = study.plane.first.name;
-        study.sweep->from = study.plane.first.from;
-        study.sweep->to = study.plane.first.to;
-        study.sweep->points = study.plane.first.points;
-        study.sweep->keep = studies::Keep::row;
-      }
-    }
+    derive_points(study);
   }
 
   // What could not be computed is not missing.
@@ -526,39 +568,24 @@ std::pair<Study, bool> read_study(json& whole, bool bare, ReadContext& context, 
     std::erase_if(context.findings, [&](const Finding& finding) {
       return finding.kind == Finding::Kind::missing_key && pointer_within(finding.pointer, root + "/lumped");
     });
+  const auto not_computed = [&](const std::string& pointer) { return !complete && find_at(whole, pointer) == nullptr; };
+  const bool sound = judge_stage(study, root, not_computed, context);
+  return {std::move(study), complete && sound};
+}
 
-  // The rules of gear need values to judge; they say nothing new about what was found already.
-  std::set<std::string, std::less<>> known;
-  std::vector<std::string> unread;
-  for (const auto& finding : context.findings) {
-    known.insert(finding.pointer);
-    if (!finding.meant.empty()) known.insert(finding.meant);
-    const bool leaves_value = finding.kind == Finding::Kind::unknown_key || finding.kind == Finding::Kind::range;
-    const bool of_catalogue = pointer_within(finding.pointer, root + "/catalogue");
-    if (pointer_within(finding.pointer, root) && !leaves_value && !of_catalogue)
-      unread.push_back(finding.pointer.substr(root.size()));
-  }
-  const bool sound = complete && unread.empty();
-  if (study.stage.planet_count < gear::planets_min || study.stage.planet_count > gear::planets_max)
-    return {std::move(study), sound};
-  auto rules = gear::problems_for_modes(study.stage);
-  if (study.sweep) {
-    const auto more = gear::problems_for_motion(study.stage);
-    rules.insert(rules.end(), more.begin(), more.end());
-  }
-  const Judge judge(std::move(unread));
-  std::set<std::string> told;
-  for (const auto& rule : rules) {
-    if (!told.insert(rule).second) continue;
-    const auto colon = rule.find(": ");
-    const std::string place = colon == std::string::npos ? "" : rule.substr(0, colon);
-    const std::string pointer = root + place;
-    // What was not computed can break no rule.
-    if (!judge.can_tell(place) || (!complete && find_at(whole, pointer) == nullptr)) continue;
-    if (known.count(pointer) == 0)
-      context.add(Finding::Kind::rule, pointer, colon == std::string::npos ? rule : rule.substr(colon + 2));
-  }
-  return {std::move(study), sound};
+/// The same of a study that was read without a finding, with other numbers in it that nothing is computed from.
+/// @returns nothing if one of them is not a number of the study's tables
+std::optional<Study> change_study(const Study& sound, bool bare, std::span<const PointerValue> values,
+                                  ReadContext& context) {
+  Study study = sound;
+  for (const auto& [pointer, value] : values)
+    if (!(bare ? stage_table().change(pointer, value, pointer, study.stage, context)
+               : study_table().change(pointer, value, pointer, study, context)))
+      return std::nullopt;
+  derive_points(study);
+  (void)judge_stage(
+      study, bare ? "" : std::string(stage_root), [](const std::string&) { return false; }, context);
+  return study;
 }
 
 /// Values that say that they were computed, where nothing computes them: in one line, or none.
@@ -923,22 +950,23 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
   };
   // What a value of a parameter does wrong, where the rest of the input does nothing wrong itself: anywhere, if all of
   // the rest was read, else at the parameter's own place.
-  const auto check_with = [&](const json& base, const studies::Axis& axis, const std::vector<PointerValue>& values,
-                              json* completed = nullptr) {
-    Study unused;
-    std::vector<Problem> wrong = input.check_with(base, values, unused, completed);
+  const LoadedInput::Base as_given{input.resolved, sound && context.findings.empty() ? &input.study : nullptr};
+  const auto check_with = [&](const LoadedInput::Base& base, const studies::Axis& axis,
+                              const std::vector<PointerValue>& values, Study& changed, json* completed = nullptr) {
+    std::vector<Problem> wrong = input.check_with(base, values, changed, completed);
     std::erase_if(wrong, [&](const Problem& problem) {
       return found.count(problem.pointer) > 0 || (!sound && problem.pointer != axis.name);
     });
     return wrong;
   };
   // At each of its values, so that nothing is begun that cannot be finished; the first bad one tells.
-  const auto check_values = [&](const studies::Axis& axis, const std::string& place, const json& base,
+  const auto check_values = [&](const studies::Axis& axis, const std::string& place, const LoadedInput::Base& base,
                                 const std::vector<PointerValue>& beside, const std::string& words) {
     const auto at = [&](std::size_t k) {
       std::vector<PointerValue> values = beside;
       values.push_back({axis.name, studies::axis_value(axis, k)});
-      return check_with(base, axis, values);
+      Study unused;
+      return check_with(base, axis, values, unused);
     };
     const auto bad = first_unsound(static_cast<std::size_t>(axis.points), at);
     for (const auto& problem : bad.problems)
@@ -958,11 +986,12 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
       const auto at_place = [&](const KeyPlace& p) { return p.pointer == axis.name; };
       if (there == nullptr && !sound && std::any_of(context.places.begin(), context.places.end(), at_place)) return;
       Study unused;
-      for (auto& problem : input.check_with(input.resolved, std::array{PointerValue{axis.name, axis.from}}, unused))
+      for (auto& problem : input.check_with(as_given, std::array{PointerValue{axis.name, axis.from}}, unused))
         refuse(place + "/parameter", std::move(problem.message));
     } else if (has_values) {
+      Study unused;
       for (const auto& [key, value] : {std::pair("/from", axis.from), std::pair("/to", axis.to)})
-        for (const auto& problem : check_with(input.resolved, axis, {PointerValue{axis.name, value}}))
+        for (const auto& problem : check_with(as_given, axis, {PointerValue{axis.name, value}}, unused))
           refuse(place + key, "is " + number_text(value) + ", with which " + problem.pointer + " " + problem.message);
     }
   };
@@ -984,8 +1013,7 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
     check_ends(axis, place, values);
     have_values = have_values && values;
   }
-  if (ends_are_sound && have_values && axes.size() == 1)
-    check_values(axes[0].first, axes[0].second, input.resolved, {}, "");
+  if (ends_are_sound && have_values && axes.size() == 1) check_values(axes[0].first, axes[0].second, as_given, {}, "");
   // Two values together, on the edges of the plane: within them a rule that both have to keep is kept.
   if (problems.empty() && axes.size() == 2)
     for (const std::size_t k : {0U, 1U}) {
@@ -996,12 +1024,13 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
         const PointerValue fixed{other.name, end};
         const std::string words = ", and " + other.name + " = " + number_text(end) + ",";
         // What is computed from catalogue data is computed once, where only the value that stays is one of those.
-        json base;
+        json completed;
+        Study with_fixed;
         if (!feeds_completion(along.name, sources->bare) && feeds_completion(other.name, sources->bare) &&
-            check_with(input.resolved, other, {fixed}, &base).empty())
-          check_values(along, place, base, {}, words);
+            check_with(as_given, other, {fixed}, with_fixed, &completed).empty())
+          check_values(along, place, {completed, as_given.study == nullptr ? nullptr : &with_fixed}, {}, words);
         else
-          check_values(along, place, input.resolved, {fixed}, words);
+          check_values(along, place, as_given, {fixed}, words);
       }
     }
   if (!problems.empty()) raise();
@@ -1015,10 +1044,10 @@ std::vector<std::string> LoadedInput::number_pointers() const {
   return pointers;
 }
 
-std::vector<Problem> LoadedInput::check_with(const json& base, std::span<const PointerValue> values, Study& changed,
+std::vector<Problem> LoadedInput::check_with(const Base& base, std::span<const PointerValue> values, Study& changed,
                                              json* completed) const {
-  json whole = base;
   bool is_completed = true;
+  std::vector<PointerValue> places;
   for (const auto& [pointer, value] : values) {
     std::string place = pointer;
     if (sources_->bare && pointer_within(place, stage_root)) place.erase(0, stage_root.size());
@@ -1029,11 +1058,11 @@ std::vector<Problem> LoadedInput::check_with(const json& base, std::span<const P
     if (pointer_within(place, "/study"))
       return refuse("\"" + place + "\" is part of the plan, which a study cannot vary");
     if (there == nullptr) {
-      const auto& places = all_places();
+      const auto& all = all_places();
       const auto at_place = [&pointer = pointer](const KeyPlace& p) { return p.pointer == pointer; };
-      if (std::any_of(places.begin(), places.end(), at_place))
+      if (std::any_of(all.begin(), all.end(), at_place))
         return refuse("\"" + pointer + "\" is no value of the resolved input: the input does not give it");
-      const auto meant = meant_pointers(place, places);
+      const auto meant = meant_pointers(place, all);
       return refuse("\"" + pointer + "\" is no value of the resolved input" +
                     (meant.empty() ? suggestion(place, number_pointers()) : suggested(meant)));
     }
@@ -1042,13 +1071,24 @@ std::vector<Problem> LoadedInput::check_with(const json& base, std::span<const P
                     (there->is_array() && !there->empty() ? "; did you mean '" + pointer + "/0'?" : ""));
     if (!std::isfinite(value)) return refuse("is " + number_text(value) + ", must be a finite number");
     is_completed = is_completed && !feeds_completion(place, sources_->bare);
-    *find_at(whole, place) = value;
-    keep_from_computing(whole, place);
+    places.push_back({std::move(place), value});
   }
   ReadContext context;
-  json unused;
-  changed = read_study(whole, sources_->bare, context, is_completed ? nullptr : &unused).first;
-  if (completed != nullptr) *completed = std::move(whole);
+  std::optional<Study> read;
+  if (is_completed && base.study != nullptr && completed == nullptr)
+    read = change_study(*base.study, sources_->bare, places, context);
+  if (!read) {
+    context = {};
+    json whole = base.resolved;
+    for (const auto& [place, value] : places) {
+      *find_at(whole, place) = value;
+      keep_from_computing(whole, place);
+    }
+    json unused;
+    read = read_study(whole, sources_->bare, context, is_completed ? nullptr : &unused).first;
+    if (completed != nullptr) *completed = std::move(whole);
+  }
+  changed = std::move(*read);
   std::vector<Problem> problems;
   for (auto& finding : context.findings)
     problems.push_back(sources_->locate(finding.pointer, std::move(finding.message)));
@@ -1061,7 +1101,7 @@ Study LoadedInput::with_value(std::string_view pointer, double value) const {
 
 Study LoadedInput::with_values(std::span<const PointerValue> values) const {
   Study changed;
-  if (auto problems = check_with(resolved, values, changed); !problems.empty())
+  if (auto problems = check_with({resolved, &study}, values, changed); !problems.empty())
     throw InputProblems(std::move(problems));
   return changed;
 }

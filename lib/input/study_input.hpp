@@ -106,9 +106,13 @@ class LoadedInput {
  private:
   friend LoadedInput load_input(const std::filesystem::path&, std::span<const Assignment>);
   struct Sources;
-  /// @param base  a resolved input: this one's, or as `completed` left it
-  [[nodiscard]] std::vector<Problem> check_with(const nlohmann::json& base, std::span<const PointerValue> values,
-                                                Study& changed, nlohmann::json* completed = nullptr) const;
+  /// A resolved input: this one's, or one with other values.
+  struct Base {
+    const nlohmann::json& resolved;
+    const Study* study = nullptr;  ///< as read from it without a finding; null if there were any
+  };
+  [[nodiscard]] std::vector<Problem> check_with(const Base& base, std::span<const PointerValue> values, Study& changed,
+                                                nlohmann::json* completed = nullptr) const;
   std::shared_ptr<const Sources> sources_;
 };
 

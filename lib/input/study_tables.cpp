@@ -269,6 +269,10 @@ const Table<Friction>& friction_table() {
     moment.collect = [](const std::string& pointer, std::vector<KeyPlace>& places) {
       moment_table().collect(pointer, places);
     };
+    moment.change = [](std::string_view rest, double value, const std::string& pointer, Friction& friction,
+                       ReadContext& context) {
+      return friction.table && moment_table().change(rest, value, pointer, *friction.table, context);
+    };
     t.custom(std::move(moment));
     t.numbers("breakpoints", within(&Friction::table, &FrictionTable::breakpoints), from_below(0, 1), 0, 1000,
               "Phases where the table jumps or kinks [-].");
