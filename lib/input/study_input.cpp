@@ -14,6 +14,7 @@
 
 #include "input/stage_completion.hpp"
 #include "model/dynamic_model.hpp"
+#include "studies/named_parameters.hpp"
 #include "studies/plane.hpp"
 #include "studies/units.hpp"
 
@@ -662,12 +663,10 @@ void check_range(const studies::Axis& axis, const std::string& place, F is_bad, 
 template <class F>
 void check_named_parameter(const studies::Axis& axis, const std::string& place, F is_bad, ReadContext& context) {
   if (axis.name.rfind('/', 0) == 0) return;
-  const auto& parameters = named_parameters();
-  const auto it =
-      std::find_if(parameters.begin(), parameters.end(), [&](const NamedParameter& p) { return p.name == axis.name; });
-  if (it == parameters.end()) {
+  const studies::NamedParameter* const parameter = studies::find_parameter(axis.name);
+  if (parameter == nullptr) {
     std::vector<std::string> names;
-    for (const auto& p : parameters) names.push_back(p.name);
+    for (const auto& p : studies::named_parameters()) names.push_back(p.name);
     context.add(Finding::Kind::range, place + "/parameter",
                 "is \"" + axis.name + "\", must be one of: " + listed(names) +
                     ", or a JSON pointer to a number, such as /stage/lumped/planet/bearing_N_per_m" +
@@ -675,20 +674,20 @@ void check_named_parameter(const studies::Axis& axis, const std::string& place, 
                                                        : suggestion(axis.name, names)));
     return;
   }
+  const Bounds bounds = between(parameter->least, parameter->most);
   for (const auto& [key, value] : {std::pair("/from", axis.from), std::pair("/to", axis.to)}) {
-    if (!it->bounds.contains(value) && !is_bad(place + key)) {
-      context.add(
-          Finding::Kind::range, place + key,
-          "is " + number_text(value) + ", must be " + it->bounds.text() + " for " + it->name + ", " + it->description);
+    if (!bounds.contains(value) && !is_bad(place + key)) {
+      context.add(Finding::Kind::range, place + key,
+                  "is " + number_text(value) + ", must be " + bounds.text() + " for " + parameter->name + ", " +
+                      parameter->description);
     }
   }
 }
 
 /// Pointers of the input that a parameter stands for.
 std::vector<std::string> values_set_by(const std::string& parameter) {
-  for (const auto& p : named_parameters())
-    if (p.name == parameter) return p.sets;
-  return {parameter};
+  const studies::NamedParameter* named = studies::find_parameter(parameter);
+  return named == nullptr ? std::vector{parameter} : named->pointers;
 }
 
 /// Rules of the two parameters of a map.

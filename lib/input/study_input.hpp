@@ -64,15 +64,6 @@ struct Assignment {
 /// The value is JSON, or a bare word that stands for a string.
 [[nodiscard]] std::vector<Assignment> parse_assignments(std::span<const std::string> texts);
 
-/// A sweep parameter with a name of its own; all others are JSON pointers.
-struct NamedParameter {
-  std::string name;
-  Bounds bounds;
-  std::string description;
-  std::vector<std::string> sets;  ///< pointers of the input that it stands for
-};
-[[nodiscard]] const std::vector<NamedParameter>& named_parameters();
-
 /// A file exactly as stored.
 struct RawFile {
   std::string name;  ///< without folders

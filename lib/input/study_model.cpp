@@ -16,7 +16,7 @@
 #include "gear/gear_set.hpp"
 #include "gear/warnings.hpp"
 #include "integrate/methods.hpp"
-#include "studies/operating_point.hpp"
+#include "studies/named_parameters.hpp"
 #include "studies/plane.hpp"
 #include "studies/probes.hpp"
 
@@ -25,20 +25,23 @@ namespace epicyclic::input {
 namespace {
 
 /// The operating point at values of parameters, by names or pointers.
-studies::OperatingPoint point_at(const LoadedInput& input, std::span<const PointerValue> values) {
+model::OperatingPoint point_at(const LoadedInput& input, std::span<const PointerValue> values) {
   std::vector<PointerValue> pointers;
   for (const PointerValue& v : values)
     if (v.pointer.rfind('/', 0) == 0) pointers.push_back(v);
   const Study study = pointers.empty() ? input.study : input.with_values(pointers);
-  studies::OperatingPoint point{study.stage, study.mesh_frequency_ratio, study.model};
+  model::OperatingPoint point{study.stage, study.mesh_frequency_ratio, study.model};
   for (const PointerValue& v : values)
-    if (v.pointer.rfind('/', 0) != 0 && !studies::set_parameter(point, v.pointer, v.value))
-      throw InputError("/study/parameter: no sweep parameter '" + v.pointer + "'");
+    if (v.pointer.rfind('/', 0) != 0) {
+      const studies::NamedParameter* parameter = studies::find_parameter(v.pointer);
+      if (parameter == nullptr) throw InputError("/study/parameter: no sweep parameter '" + v.pointer + "'");
+      parameter->set(point, v.value);
+    }
   return point;
 }
 
-model::DynamicModel model_of(const studies::OperatingPoint& point, const model::Scales& scales) {
-  model::DynamicModel model = model::make_dynamic_model(point.stage, scales, point.mesh_frequency_ratio, point.model);
+model::DynamicModel model_of(const model::OperatingPoint& point, const model::Scales& scales) {
+  model::DynamicModel model = model::make_dynamic_model(point.stage, scales, point.mesh_frequency_ratio, point.options);
   std::vector<double> rate(model.dimension);
   model.right_hand_side(model::segment_at(model.breakpoints, 0.0), 0.0, model.default_start.data(), rate.data());
   const auto finite = [](double x) { return std::isfinite(x); };
@@ -84,8 +87,8 @@ studies::ModelAtPoint model_at_point(const LoadedInput& input) {
 std::function<model::DynamicModel(double value, double clearance_smoothing)> smoothed_model_at(
     const LoadedInput& input) {
   return [&input, scales = model::scales_of(input.study.stage)](double value, double clearance_smoothing) {
-    studies::OperatingPoint point = point_at(input, std::array{PointerValue{input.study.sweep->parameter, value}});
-    point.model.clearance_smoothing = clearance_smoothing;
+    model::OperatingPoint point = point_at(input, std::array{PointerValue{input.study.sweep->parameter, value}});
+    point.options.clearance_smoothing = clearance_smoothing;
     return model_of(point, scales);
   };
 }
@@ -131,7 +134,7 @@ void warn_of_points(std::vector<gear::Warning>& out, const LoadedInput& input) {
     std::vector<PointerValue> values;
     for (std::size_t k = 0; k < varied.size(); ++k)
       values.push_back({varied[k].name, (corner >> k & 1U) != 0U ? varied[k].to : varied[k].from});
-    const studies::OperatingPoint point = point_at(input, values);
+    const model::OperatingPoint point = point_at(input, values);
     warn_of_stage(out, point.stage, point.mesh_frequency_ratio * scales.omega_sn);
   }
   for (const VariedParameter& parameter : varied) {

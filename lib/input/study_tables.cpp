@@ -8,6 +8,7 @@
 #include "input/catalogue_table.hpp"
 #include "input/study_input.hpp"
 #include "integrate/methods.hpp"
+#include "studies/named_parameters.hpp"
 #include "studies/plane.hpp"
 
 namespace epicyclic::input {
@@ -32,18 +33,23 @@ constexpr double mass_max = 1e7;
 constexpr double stiffness_min = 1e-3;
 constexpr double stiffness_max = 1e18;
 constexpr double gap_max_um = 1e5;
-constexpr double gap_max = 1e4;  // the same in b_c
 constexpr double turns_deg = 3600;
 constexpr double tolerance_min = 1e-30;
+
+/// Of a parameter with a name.
+Bounds bounds_of(const char* parameter) {
+  const studies::NamedParameter& named = *studies::find_parameter(parameter);
+  return between(named.least, named.most);
+}
 
 const Bounds mass = between(mass_min, mass_max);
 const Bounds support = between(0, stiffness_max);
 const Bounds stiffness = between(stiffness_min, stiffness_max);
 const Bounds length = between(length_min_mm, length_max_mm);
 const Bounds gap = between(0, gap_max_um);
-const Bounds damping_ratio = between(0, 10);
+const Bounds damping_ratio = bounds_of("damping_ratio");
 const Bounds damping_coefficient = between(0, 1e12);
-const Bounds frequency_ratio = between(1e-6, 100);
+const Bounds frequency_ratio = bounds_of("mesh_frequency_ratio");
 const Bounds integrator_tolerance = between(1e-15, 0.1);
 const Bounds table_error = between(0, 1);
 const Bounds smoothing_width = between(0, 10);
@@ -749,32 +755,6 @@ void read_plan(const json& value, const std::string& pointer, Study& study, Read
 }
 
 }  // namespace
-
-const std::vector<NamedParameter>& named_parameters() {
-  static const std::vector<NamedParameter> parameters = {
-      {"mesh_frequency_ratio",
-       frequency_ratio,
-       "mesh frequency over omega_sn [-]",
-       {"/operation/mesh_frequency_ratio"}},
-      {"damping_ratio",
-       damping_ratio,
-       "damping ratio of both meshes [-]",
-       {"/stage/lumped/sun_planet_mesh/damping_ratio", "/stage/lumped/ring_planet_mesh/damping_ratio"}},
-      {"sun_planet_backlash",
-       between(0, gap_max),
-       "half the backlash of the sun-planet mesh [b_c]",
-       {"/stage/lumped/sun_planet_mesh/backlash_half_um"}},
-      {"ring_planet_backlash",
-       between(0, gap_max),
-       "half the backlash of the ring-planet mesh [b_c]",
-       {"/stage/lumped/ring_planet_mesh/backlash_half_um"}},
-      {"sun_bearing_clearance",
-       between(0, gap_max),
-       "half the clearance of the sun's bearing [b_c]",
-       {"/stage/lumped/sun/bearing_clearance_half_um"}},
-  };
-  return parameters;
-}
 
 const Table<Stage>& stage_table() {
   static const auto table = [] {

@@ -264,16 +264,16 @@ DynamicModel make_dynamic_model(const gear::Stage& stage, const Scales& scales, 
   });
 }
 
-void set_parameter_derivative(DynamicModel& model, const std::function<ModelPoint(double value)>& at,
+void set_parameter_derivative(DynamicModel& model, const std::function<OperatingPoint(double value)>& at,
                               const Scales& scales, double value, double step, CoordinateChoice choice) {
   const std::array<double, 4> offsets = {-2.0 * step, -step, step, 2.0 * step};
-  std::vector<ModelPoint> points = {at(value)};
+  std::vector<OperatingPoint> points = {at(value)};
   for (const double offset : offsets) points.push_back(at(value + offset));
-  for (const ModelPoint& point : points)
+  for (const OperatingPoint& point : points)
     if (layout_of(point.stage, choice) != model.layout || point.stage.planet_count != model.planets)
       throw InputError("the parameter changes the state itself; there is no derivative");
   model.parameter_derivative = dispatch(model.layout, model.planets, [&]<Layout L, std::size_t N>() {
-    const auto folded = [&](const ModelPoint& point, const Parameters<double, N>* like) {
+    const auto folded = [&](const OperatingPoint& point, const Parameters<double, N>* like) {
       return make_parameters<N>(point.stage, scales, point.mesh_frequency_ratio, point.options, like);
     };
     const Parameters<double, N> here = folded(points[0], nullptr);

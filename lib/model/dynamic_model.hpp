@@ -132,10 +132,10 @@ enum class CoordinateChoice { relative, full };
                                               double mesh_frequency_ratio, const ModelOptions& options,
                                               CoordinateChoice choice = CoordinateChoice::relative);
 
-/// What a model is made of, as a function of one parameter.
-struct ModelPoint {
+/// What a model is made of, and a parameter may change.
+struct OperatingPoint {
   gear::Stage stage;
-  double mesh_frequency_ratio = 1;
+  double mesh_frequency_ratio = 1;  ///< Omega [-]
   ModelOptions options;
 };
 
@@ -146,7 +146,7 @@ struct ModelPoint {
 /// @param step   h of the difference of folded constants; value +- 2 h must be valid. 1e-3 of the range over which the
 ///               constants change is right: they are smooth, and rounding is divided by h
 /// @throws InputError when the parameter moves a breakpoint, or changes the planets or the layout
-void set_parameter_derivative(DynamicModel& model, const std::function<ModelPoint(double value)>& at,
+void set_parameter_derivative(DynamicModel& model, const std::function<OperatingPoint(double value)>& at,
                               const Scales& scales, double value, double step,
                               CoordinateChoice choice = CoordinateChoice::relative);
 

@@ -14,6 +14,7 @@
 #include "core/csv.hpp"
 #include "figures/bifurcation_figure.hpp"
 #include "store/hdf5_file.hpp"
+#include "studies/named_parameters.hpp"
 
 namespace epicyclic::reports {
 
@@ -123,34 +124,17 @@ auto section(const SweepOutput& output, const studies::PointSource& points, std:
   };
 }
 
-struct ParameterText {
-  const char *name, *words, *symbol, *unit;
-};
-
-/// @returns nullptr for a number of the input, which has no words of its own
-const ParameterText* text_of(const std::string& parameter) {
-  static constexpr std::array<ParameterText, 5> texts{
-      {{"mesh_frequency_ratio", "Mesh frequency ratio", "Ω", " = ω_m / ω_{sn}"},
-       {"damping_ratio", "Mesh damping ratio", "ζ", ""},
-       {"sun_planet_backlash", "Half backlash of the sun-planet mesh", "b_{sp}", " / b_c"},
-       {"ring_planet_backlash", "Half backlash of the ring-planet mesh", "b_{rp}", " / b_c"},
-       {"sun_bearing_clearance", "Half clearance of the sun bearing", "b_s", " / b_c"}}};
-  const auto* const found =
-      std::ranges::find_if(texts, [&](const ParameterText& text) { return text.name == parameter; });
-  return found == texts.end() ? nullptr : found;
-}
-
 }  // namespace
 
 std::string parameter_label(const std::string& parameter) {
-  const ParameterText* text = text_of(parameter);
-  return text == nullptr ? figures::literal_text(parameter)
-                         : fmt::format("{}  {}{}", text->words, text->symbol, text->unit);
+  const studies::NamedParameter* named = studies::find_parameter(parameter);
+  return named == nullptr ? figures::literal_text(parameter)
+                          : fmt::format("{}  {}{}", named->words, named->symbol, named->unit);
 }
 
 std::string parameter_symbol(const std::string& parameter) {
-  const ParameterText* text = text_of(parameter);
-  return text == nullptr ? figures::literal_text(parameter) : text->symbol;
+  const studies::NamedParameter* named = studies::find_parameter(parameter);
+  return named == nullptr ? figures::literal_text(parameter) : named->symbol;
 }
 
 std::string figure_title(const input::Study& study) {

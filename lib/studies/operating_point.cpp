@@ -9,26 +9,6 @@
 
 namespace epicyclic::studies {
 
-bool set_parameter(OperatingPoint& point, std::string_view name, double value) {
-  constexpr double um_per_length_scale = model::length_scale_m * 1e6;
-  gear::Stage& stage = point.stage;
-  if (name == "mesh_frequency_ratio") {
-    point.mesh_frequency_ratio = value;
-  } else if (name == "damping_ratio") {
-    stage.sun_planet_mesh.damping_ratio = value;
-    stage.ring_planet_mesh.damping_ratio = value;
-  } else if (name == "sun_planet_backlash") {
-    stage.sun_planet_mesh.backlash_half_um = value * um_per_length_scale;
-  } else if (name == "ring_planet_backlash") {
-    stage.ring_planet_mesh.backlash_half_um = value * um_per_length_scale;
-  } else if (name == "sun_bearing_clearance") {
-    stage.sun_bearing.clearance_half_um = value * um_per_length_scale;
-  } else {
-    return false;
-  }
-  return true;
-}
-
 integrate::VectorField vector_field(const model::DynamicModel& model) {
   integrate::VectorField field;
   field.dimension = model.dimension;

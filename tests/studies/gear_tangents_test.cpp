@@ -15,6 +15,7 @@
 #include "integrate/methods.hpp"
 #include "problems/gear_flow.hpp"
 #include "problems/r1.hpp"
+#include "studies/named_parameters.hpp"
 #include "studies/operating_point.hpp"
 
 namespace epicyclic::studies {
@@ -23,16 +24,16 @@ namespace {
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
 /// R1 with gaps, at a speed where teeth separate.
-OperatingPoint point(double w = 0.0) {
-  OperatingPoint p;
+model::OperatingPoint point(double w = 0.0) {
+  model::OperatingPoint p;
   p.stage = problems::r1_nonlinear();
   p.mesh_frequency_ratio = 1.1;
-  p.model.clearance_smoothing = w;
+  p.options.clearance_smoothing = w;
   return p;
 }
 
-model::DynamicModel model_of(const OperatingPoint& p) {
-  return model::make_dynamic_model(p.stage, model::scales_of(point().stage), p.mesh_frequency_ratio, p.model);
+model::DynamicModel model_of(const model::OperatingPoint& p) {
+  return model::make_dynamic_model(p.stage, model::scales_of(point().stage), p.mesh_frequency_ratio, p.options);
 }
 
 std::vector<double> some_tangents(std::size_t n, std::size_t m) {
@@ -99,19 +100,13 @@ TEST(GearTangents, TheParameterDerivativeIsThatOfEachNamedParameter) {
   for (const Row& row : {Row{"mesh_frequency_ratio", 1.1}, Row{"damping_ratio", 0.05}, Row{"sun_planet_backlash", 3.0},
                          Row{"ring_planet_backlash", 3.0}, Row{"sun_bearing_clearance", 0.5}}) {
     const auto at = [&](double value) {
-      OperatingPoint p = point();
-      EXPECT_TRUE(set_parameter(p, row.name, value));
+      model::OperatingPoint p = point();
+      find_parameter(row.name)->set(p, value);
       return p;
     };
     const model::Scales scales = model::scales_of(point().stage);
     model::DynamicModel model = model_of(at(row.value));
-    model::set_parameter_derivative(
-        model,
-        [&](double value) {
-          const OperatingPoint p = at(value);
-          return model::ModelPoint{p.stage, p.mesh_frequency_ratio, p.model};
-        },
-        scales, row.value, 1e-3 * row.value);
+    model::set_parameter_derivative(model, at, scales, row.value, 1e-3 * row.value);
     integrate::IntegratorOptions o = problems::tight(1e-12);
     o.tangent_error_control = true;
     const auto flow = integrate::make_flow(vector_field(model), o);
@@ -142,13 +137,13 @@ TEST(GearTangents, TheParameterDerivativeIsThatOfEachNamedParameter) {
 }
 
 TEST(GearTangents, AParameterThatMovesBreakpointsHasNoDerivative) {
-  OperatingPoint p = point();
+  model::OperatingPoint p = point();
   p.stage.sun_planet_mesh.friction.coefficient = {0.05, 1.4, {}};
   model::DynamicModel model = model_of(p);
   const auto at = [&](double contact_ratio) {
-    OperatingPoint q = p;
+    model::OperatingPoint q = p;
     q.stage.sun_planet_mesh.friction.coefficient->contact_ratio = contact_ratio;
-    return model::ModelPoint{q.stage, q.mesh_frequency_ratio, q.model};
+    return q;
   };
   EXPECT_THROW(model::set_parameter_derivative(model, at, model::scales_of(p.stage), 1.4, 1e-3), InputError);
 }
