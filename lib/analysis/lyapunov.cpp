@@ -5,8 +5,9 @@
 #include <string>
 #include <utility>
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 
+#include "core/dense.hpp"
 #include "core/errors.hpp"
 
 namespace epicyclic::analysis {
@@ -76,10 +77,9 @@ LyapunovSpectrum lyapunov_spectrum(integrate::Flow& flow, std::span<double> stat
     result.evolution = flow.evolve_tangents(state, {v.data(), n * m}, s, s + interval);
     if (!result.evolution.reached()) return result;
     s += interval;
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(v);
-    v = qr.householderQ() * Eigen::MatrixXd::Identity(rows, columns);
+    const Eigen::VectorXd stretched = orthonormalise(v);
     if (k < 0) continue;
-    for (Eigen::Index i = 0; i < columns; ++i) result.growth.push_back(std::log(std::abs(qr.matrixQR()(i, i))));
+    for (Eigen::Index i = 0; i < columns; ++i) result.growth.push_back(std::log(std::abs(stretched(i))));
   }
   std::vector<double> sums(result.growth.size() / m, 0.0);
   std::vector<double> series(sums.size());

@@ -6,8 +6,7 @@
 #include <string>
 #include <utility>
 
-#include <Eigen/Dense>
-
+#include "core/dense.hpp"
 #include "core/errors.hpp"
 #include "core/largest_difference.hpp"
 #include "core/text.hpp"
@@ -22,8 +21,7 @@ Eigen::VectorXd as_vector(std::span<const double> y) {
 
 /// (I - M)^-1 r, of least norm where I - M is singular.
 Eigen::VectorXd solve(const Eigen::MatrixXd& m, const Eigen::VectorXd& r) {
-  const Eigen::MatrixXd a = Eigen::MatrixXd::Identity(m.rows(), m.cols()) - m;
-  return a.completeOrthogonalDecomposition().solve(r);
+  return least_norm_solution(Eigen::MatrixXd::Identity(m.rows(), m.cols()) - m, r);
 }
 
 /// From one s to another within a period of the forcing.
@@ -96,9 +94,7 @@ Eigen::MatrixXd newton_step(const Shooting& at) {
     a.block(i * n, i * n, n, n) = at.pieces[static_cast<std::size_t>(i)];
     a.block(i * n, (i + 1) % count * n, n, n) -= Eigen::MatrixXd::Identity(n, n);
   }
-  const Eigen::VectorXd f = at.residual.reshaped();
-  const Eigen::VectorXd d = a.completeOrthogonalDecomposition().solve(-f);
-  return d.reshaped(n, count);
+  return least_norm_solution(a, -at.residual.reshaped()).reshaped(n, count);
 }
 
 }  // namespace
@@ -195,10 +191,10 @@ std::vector<double> nearest_on_orbit(integrate::Flow& flow, std::span<const doub
 double orbit_error(const Eigen::MatrixXd& monodromy, double residual) {
   constexpr double neutral = 1e-8;
   const Eigen::MatrixXd a = monodromy - Eigen::MatrixXd::Identity(monodromy.rows(), monodromy.cols());
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::VectorXd inverted = svd.singularValues();
+  const SingularValues svd = singular_values(a);
+  Eigen::VectorXd inverted = svd.s;
   for (double& s : inverted) s = s > neutral ? 1.0 / s : 0.0;
-  const Eigen::MatrixXd inverse = svd.matrixV() * inverted.asDiagonal() * svd.matrixU().transpose();
+  const Eigen::MatrixXd inverse = svd.v * inverted.asDiagonal() * svd.u.transpose();
   return inverse.cwiseAbs().rowwise().sum().maxCoeff() * residual;
 }
 
@@ -210,7 +206,7 @@ bool Multipliers::stable() const {
 
 Multipliers floquet_multipliers(const PeriodicOrbit& orbit, const PeriodicOrbit& second) {
   const auto sorted = [](const Eigen::MatrixXd& m) {
-    const Eigen::VectorXcd e = m.eigenvalues();
+    const Eigen::VectorXcd e = eigenvalues(m);
     std::vector<std::complex<double>> values(e.begin(), e.end());
     std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) {
       return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag();
@@ -245,7 +241,7 @@ Multipliers floquet_multipliers(const PeriodicOrbit& orbit, const PeriodicOrbit&
   return result;
 }
 
-double largest_multiplier(const PeriodicOrbit& orbit) { return orbit.monodromy.eigenvalues().cwiseAbs().maxCoeff(); }
+double largest_multiplier(const PeriodicOrbit& orbit) { return eigenvalues(orbit.monodromy).cwiseAbs().maxCoeff(); }
 
 std::vector<double> displaced_orbit(integrate::Flow& flow, const PeriodicOrbit& known, int n, int iterations) {
   std::vector<double> y = known.state;

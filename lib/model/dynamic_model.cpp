@@ -7,8 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <Eigen/Dense>
-
+#include "core/dense.hpp"
 #include "core/errors.hpp"
 #include "model/dispatch.hpp"
 #include "model/kernels/stage_kernel.hpp"
@@ -47,7 +46,8 @@ std::vector<double> static_equilibrium(Parameters<double, N> p) {
   p.carrier_speed = 0.0;
   std::array<double, 2 * n> state{};
   std::array<double, 2 * n> slope;
-  right_hand_side<L>(p, 0, 0.0, state.data(), slope.data());
+  const StageKernel<N> right_hand_side = stage_kernel<L, N>();
+  right_hand_side(p, 0, 0.0, state.data(), slope.data());
   Eigen::VectorXd load(n);
   for (std::size_t r = 0; r < n; ++r) load(static_cast<Eigen::Index>(r)) = -slope[n + r];
 
@@ -57,13 +57,13 @@ std::vector<double> static_equilibrium(Parameters<double, N> p) {
   Eigen::MatrixXd stiffness(n, n);
   for (std::size_t c = 0; c < n; ++c) {
     state[c] = 1.0;
-    right_hand_side<L>(p, 0, 0.0, state.data(), slope.data());
+    right_hand_side(p, 0, 0.0, state.data(), slope.data());
     state[c] = 0.0;
     for (std::size_t r = 0; r < n; ++r)
       stiffness(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) = slope[n + r];
   }
   // Least norm where the stage floats (a sun without support, the rigid rotation in full coordinates).
-  const Eigen::VectorXd q = stiffness.completeOrthogonalDecomposition().solve(load);
+  const Eigen::VectorXd q = least_norm_solution(stiffness, load);
   std::vector<double> start(2 * n, 0.0);
   std::copy(q.begin(), q.end(), start.begin());
   return start;
@@ -265,22 +265,24 @@ DynamicModel make_dynamic_model(const gear::Stage& stage, const Scales& scales, 
 }
 
 void set_parameter_derivative(DynamicModel& model, const std::function<OperatingPoint(double value)>& at,
-                              const Scales& scales, double value, double step, CoordinateChoice choice) {
+                              const Scales& scales, double value, double step) {
   const std::array<double, 4> offsets = {-2.0 * step, -step, step, 2.0 * step};
   std::vector<OperatingPoint> points = {at(value)};
   for (const double offset : offsets) points.push_back(at(value + offset));
   for (const OperatingPoint& point : points)
-    if (layout_of(point.stage, choice) != model.layout || point.stage.planet_count != model.planets)
+    if (layout_of(point.stage, CoordinateChoice::relative) != model.layout || point.stage.planet_count != model.planets)
       throw InputError("the parameter changes the state itself; there is no derivative");
-  model.parameter_derivative = dispatch(model.layout, model.planets, [&]<Layout L, std::size_t N>() {
-    const auto folded = [&](const OperatingPoint& point, const Parameters<double, N>* like) {
-      return make_parameters<N>(point.stage, scales, point.mesh_frequency_ratio, point.options, like);
-    };
-    const Parameters<double, N> here = folded(points[0], nullptr);
-    return make_parameter_derivative<L, N>(
-        here, {folded(points[1], &here), folded(points[2], &here), folded(points[3], &here), folded(points[4], &here)},
-        step);
-  });
+  model.parameter_derivative =
+      dispatch(model.layout, model.planets, [&]<Layout L, std::size_t N>() -> ParameterFunction {
+        const auto folded = [&](const OperatingPoint& point, const Parameters<double, N>* like) {
+          return make_parameters<N>(point.stage, scales, point.mesh_frequency_ratio, point.options, like);
+        };
+        const Parameters<double, N> here = folded(points[0], nullptr);
+        const std::array near = {folded(points[1], &here), folded(points[2], &here), folded(points[3], &here),
+                                 folded(points[4], &here)};
+        if constexpr (L != Layout::full) return make_parameter_derivative<L, N>(here, near, step);
+        return {};
+      });
 }
 
 }  // namespace epicyclic::model

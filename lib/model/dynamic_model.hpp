@@ -145,9 +145,8 @@ struct OperatingPoint {
 /// @param value  of the parameter
 /// @param step   h of the difference of folded constants; value +- 2 h must be valid. 1e-3 of the range over which the
 ///               constants change is right: they are smooth, and rounding is divided by h
-/// @throws InputError when the parameter moves a breakpoint, or changes the planets or the layout
+/// @throws InputError when the parameter moves a breakpoint, or changes the planets or the layout; in full coordinates
 void set_parameter_derivative(DynamicModel& model, const std::function<OperatingPoint(double value)>& at,
-                              const Scales& scales, double value, double step,
-                              CoordinateChoice choice = CoordinateChoice::relative);
+                              const Scales& scales, double value, double step);
 
 }  // namespace epicyclic::model

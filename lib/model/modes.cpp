@@ -4,8 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <Eigen/Eigenvalues>
-
+#include "core/dense.hpp"
 #include "model/right_hand_side.hpp"
 
 namespace epicyclic::model {
@@ -98,9 +97,7 @@ class Assembly {
 Eigen::MatrixXd free_motions(const LinearStage& linear) {
   const Eigen::Index n = linear.mass.size();
   if (linear.constraints.rows() == 0) return Eigen::MatrixXd::Identity(n, n);
-  const Eigen::FullPivHouseholderQR<Eigen::MatrixXd> qr(linear.constraints.transpose());
-  const Eigen::MatrixXd q = qr.matrixQ();
-  return q.rightCols(n - qr.rank());
+  return null_space(linear.constraints);
 }
 
 /// M-weighted shares of a shape's motion.
@@ -228,14 +225,14 @@ std::vector<Mode> modes(const gear::Stage& stage, const Scales& scales) {
   const Eigen::MatrixXd basis = free_motions(linear);
   const Eigen::MatrixXd mass = basis.transpose() * linear.mass.asDiagonal() * basis;
   const Eigen::MatrixXd stiffness = basis.transpose() * linear.stiffness * basis;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
-  const Eigen::MatrixXd shapes = basis * solver.eigenvectors();
+  const SymmetricModes solution = symmetric_modes(stiffness, mass);
+  const Eigen::MatrixXd shapes = basis * solution.vectors;
   const Eigen::VectorXd weights = central_weights(stage.planet_count);
 
-  const Eigen::Index count = solver.eigenvalues().size();
-  const double largest = solver.eigenvalues().maxCoeff();
+  const Eigen::Index count = solution.values.size();
+  const double largest = solution.values.maxCoeff();
   const auto frequency = [&](Eigen::Index k) {
-    const double square = solver.eigenvalues()(k);
+    const double square = solution.values(k);
     return square < rigid_body_square * largest ? 0.0 : std::sqrt(square);
   };
 
@@ -246,7 +243,7 @@ std::vector<Mode> modes(const gear::Stage& stage, const Scales& scales) {
     Eigen::MatrixXd cluster = shapes.middleCols(first, last - first);
     if (last - first > 1) {
       const Eigen::MatrixXd central = cluster.transpose() * linear.mass.cwiseProduct(weights).asDiagonal() * cluster;
-      cluster = (cluster * Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(central).eigenvectors()).eval();
+      cluster = (cluster * symmetric_modes(central).vectors).eval();
     }
     const double mean = [&] {
       double sum = 0.0;

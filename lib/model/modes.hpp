@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "gear/stage.hpp"
 #include "model/layout.hpp"

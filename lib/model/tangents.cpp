@@ -93,20 +93,13 @@ ParameterFunction make_parameter_derivative(const Parameters<double, N>& p,
   };
 }
 
-#define EPICYCLIC_TANGENTS(L, N)                                                      \
-  template TangentFunction make_tangents<Layout::L, N>(const Parameters<double, N>&); \
-  template ParameterFunction make_parameter_derivative<Layout::L, N>(                 \
-      const Parameters<double, N>&, const std::array<Parameters<double, N>, 4>&, double);
-#define EPICYCLIC_TANGENTS_OF(L) \
-  EPICYCLIC_TANGENTS(L, 2)       \
-  EPICYCLIC_TANGENTS(L, 3)       \
-  EPICYCLIC_TANGENTS(L, 4)       \
-  EPICYCLIC_TANGENTS(L, 5)       \
-  EPICYCLIC_TANGENTS(L, 6)
-
-EPICYCLIC_TANGENTS_OF(relative_to_ring)
-EPICYCLIC_TANGENTS_OF(relative_to_carrier)
-EPICYCLIC_TANGENTS_OF(relative_to_carrier_rigid_ring)
-EPICYCLIC_TANGENTS_OF(full)
+#define EPICYCLIC_INSTANTIATE(L, N) template TangentFunction make_tangents<L, N>(const Parameters<double, N>&);
+EPICYCLIC_FOR_ALL_LAYOUTS(EPICYCLIC_INSTANTIATE)
+#undef EPICYCLIC_INSTANTIATE
+#define EPICYCLIC_INSTANTIATE(L, N)                                                        \
+  template ParameterFunction make_parameter_derivative<L, N>(const Parameters<double, N>&, \
+                                                             const std::array<Parameters<double, N>, 4>&, double);
+EPICYCLIC_FOR_KERNELS(EPICYCLIC_INSTANTIATE)
+#undef EPICYCLIC_INSTANTIATE
 
 }  // namespace epicyclic::model

@@ -249,7 +249,7 @@ class RunFigures {
       y = no_narrower(y, part * (wide_y.high - wide_y.low));
       sketch.add(points, figures::dots(blue, points.size() > 2000 ? 0.3 : 0.6));
     }
-    finish(sketch, std::string(delta_label) + "  at whole mesh periods", rate_label, y_range(x), y_range(y));
+    finish(sketch, fmt::format("{}  at whole mesh periods", delta_label), rate_label, y_range(x), y_range(y));
   }
 
   void poincare_crossing() {

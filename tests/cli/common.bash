@@ -136,7 +136,7 @@ moment() {
 }
 
 # The good records of a journal from its first one on, a line each: end in bytes, point, CRC. A reader of its own, after the layout
-# in lib/io/journal.hpp.
+# in lib/store/journal.hpp.
 journal_records() {
   perl -e '
     my @table = map { my $c = $_; $c = $c & 1 ? $c >> 1 ^ 0xedb88320 : $c >> 1 for 1 .. 8; $c } 0 .. 255;

@@ -63,7 +63,7 @@ LaneKernel<N, W> lane_kernel(const char* name, [[maybe_unused]] std::size_t copy
   template LaneKernel<N, 2> lane_kernel<L, N, 2>(const char* name, std::size_t copy); \
   template LaneKernel<N, 4> lane_kernel<L, N, 4>(const char* name, std::size_t copy); \
   template LaneKernel<N, 8> lane_kernel<L, N, 8>(const char* name, std::size_t copy);
-EPICYCLIC_FOR_TANGENT_KERNELS(EPICYCLIC_DEFINE)
+EPICYCLIC_FOR_KERNELS(EPICYCLIC_DEFINE)
 #undef EPICYCLIC_DEFINE
 #undef EPICYCLIC_KERNELS_OF
 #undef EPICYCLIC_DECLARE_KERNELS

@@ -21,15 +21,22 @@ namespace epicyclic::model {
                                                   Dual<4>*);
 namespace baseline {
 EPICYCLIC_DECLARE_KERNELS
-EPICYCLIC_FOR_STAGE_KERNELS(EPICYCLIC_DECLARE)
+EPICYCLIC_FOR_KERNELS(EPICYCLIC_DECLARE)
 }  // namespace baseline
 #ifdef EPICYCLIC_X86_KERNELS
 namespace avx2 {
 EPICYCLIC_DECLARE_KERNELS
-EPICYCLIC_FOR_STAGE_KERNELS(EPICYCLIC_DECLARE)
-EPICYCLIC_FOR_TANGENT_KERNELS(EPICYCLIC_DECLARE_FOUR)
+EPICYCLIC_FOR_KERNELS(EPICYCLIC_DECLARE)
+EPICYCLIC_FOR_KERNELS(EPICYCLIC_DECLARE_FOUR)
 }  // namespace avx2
 #endif
+/// Of full coordinates [full_coordinates.cpp].
+namespace plain {
+template <std::size_t N>
+void evaluate(const Parameters<double, N>& p, std::size_t segment, double s, const double* y, double* dyds);
+template <std::size_t N>
+void evaluate_tangents(const Parameters<double, N>& p, std::size_t segment, double s, const Dual<1>* y, Dual<1>* dyds);
+}  // namespace plain
 #undef EPICYCLIC_DECLARE
 #undef EPICYCLIC_DECLARE_FOUR
 #undef EPICYCLIC_DECLARE_KERNELS
@@ -37,10 +44,14 @@ EPICYCLIC_FOR_TANGENT_KERNELS(EPICYCLIC_DECLARE_FOUR)
 template <Layout L, std::size_t N>
 StageKernel<N> stage_kernel(const char* name) {
   const std::string_view wanted(name);
-  if (wanted == "baseline") return &baseline::evaluate<L, N>;
+  if constexpr (L == Layout::full) {
+    if (wanted == "baseline") return &plain::evaluate<N>;
+  } else {
+    if (wanted == "baseline") return &baseline::evaluate<L, N>;
 #ifdef EPICYCLIC_X86_KERNELS
-  if (wanted == "avx2" && machine_runs(wanted)) return &avx2::evaluate<L, N>;
+    if (wanted == "avx2" && machine_runs(wanted)) return &avx2::evaluate<L, N>;
 #endif
+  }
   return nullptr;
 }
 
@@ -53,14 +64,18 @@ StageKernel<N> stage_kernel() {
 template <Layout L, std::size_t N, std::size_t M>
 TangentKernel<N, M> tangent_kernel(const char* name) {
   const std::string_view wanted(name);
-  if constexpr (M == 1) {
-    if (wanted == "baseline") return &baseline::evaluate_tangents<L, N, M>;
-  }
+  if constexpr (L == Layout::full) {
+    if constexpr (M == 1) {
+      if (wanted == "baseline") return &plain::evaluate_tangents<N>;
+    }
+  } else {
+    if constexpr (M == 1) {
+      if (wanted == "baseline") return &baseline::evaluate_tangents<L, N, M>;
+    }
 #ifdef EPICYCLIC_X86_KERNELS
-  if constexpr (M == 1 || L != Layout::full) {
     if (wanted == "avx2" && machine_runs(wanted)) return &avx2::evaluate_tangents<L, N, M>;
-  }
 #endif
+  }
   return nullptr;
 }
 
@@ -77,7 +92,7 @@ TangentKernel<N, M> tangent_kernel() {
   template TangentKernel<N, 1> tangent_kernel<L, N, 1>(const char*); \
   template TangentKernel<N, 4> tangent_kernel<L, N, 4>();            \
   template TangentKernel<N, 4> tangent_kernel<L, N, 4>(const char*);
-EPICYCLIC_FOR_STAGE_KERNELS(EPICYCLIC_INSTANTIATE)
+EPICYCLIC_FOR_ALL_LAYOUTS(EPICYCLIC_INSTANTIATE)
 #undef EPICYCLIC_INSTANTIATE
 
 }  // namespace epicyclic::model

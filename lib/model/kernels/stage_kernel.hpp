@@ -6,7 +6,8 @@
 // (-ffp-contract=off). Each planet is a lane; AVX-512 has no more to offer four of them than AVX2.
 //
 // Limits: every configuration but the optimised ones has the baseline only, because an inline function that is not
-// inlined must not exist in an instruction set of its own.
+// inlined must not exist in an instruction set of its own. Full coordinates, which nothing but comparisons integrate,
+// have no kernels but the plain template (full_coordinates.cpp).
 #pragma once
 
 #include <cstddef>
@@ -27,7 +28,7 @@ template <Layout L, std::size_t N>
 [[nodiscard]] StageKernel<N> stage_kernel();
 
 /// That of one instruction set, or nullptr if it was not compiled or this machine does not run it.
-/// @param name "baseline" or "avx2"
+/// @param name "baseline" or "avx2"; of full coordinates "baseline"
 template <Layout L, std::size_t N>
 [[nodiscard]] StageKernel<N> stage_kernel(const char* name);
 
@@ -44,24 +45,24 @@ template <Layout L, std::size_t N, std::size_t M>
 
 }  // namespace epicyclic::model
 
-/// X(layout, planets) for each kernel that there is.
-/// EPICYCLIC_FOR_TANGENT_KERNELS(X) for each that takes four directions.
+/// EPICYCLIC_FOR_KERNELS(X): X(layout, planets) for each kernel that there is.
+/// EPICYCLIC_FOR_ALL_LAYOUTS(X): and for full coordinates.
 /// EPICYCLIC_FOR_PLANETS(X) for each number of planets: X(planets).
 #define EPICYCLIC_FOR_PLANETS(X) X(2) X(3) X(4) X(5) X(6)
 #define EPICYCLIC_FOR_RELATIVE_LAYOUTS(X, N) \
   X(Layout::relative_to_ring, N)             \
   X(Layout::relative_to_carrier, N)          \
   X(Layout::relative_to_carrier_rigid_ring, N)
-#define EPICYCLIC_FOR_TANGENT_KERNELS(X) \
-  EPICYCLIC_FOR_RELATIVE_LAYOUTS(X, 2)   \
-  EPICYCLIC_FOR_RELATIVE_LAYOUTS(X, 3)   \
-  EPICYCLIC_FOR_RELATIVE_LAYOUTS(X, 4)   \
-  EPICYCLIC_FOR_RELATIVE_LAYOUTS(X, 5)   \
+#define EPICYCLIC_FOR_KERNELS(X)       \
+  EPICYCLIC_FOR_RELATIVE_LAYOUTS(X, 2) \
+  EPICYCLIC_FOR_RELATIVE_LAYOUTS(X, 3) \
+  EPICYCLIC_FOR_RELATIVE_LAYOUTS(X, 4) \
+  EPICYCLIC_FOR_RELATIVE_LAYOUTS(X, 5) \
   EPICYCLIC_FOR_RELATIVE_LAYOUTS(X, 6)
 #define EPICYCLIC_FOR_LAYOUTS(X, N) EPICYCLIC_FOR_RELATIVE_LAYOUTS(X, N) X(Layout::full, N)
-#define EPICYCLIC_FOR_STAGE_KERNELS(X) \
-  EPICYCLIC_FOR_LAYOUTS(X, 2)          \
-  EPICYCLIC_FOR_LAYOUTS(X, 3)          \
-  EPICYCLIC_FOR_LAYOUTS(X, 4)          \
-  EPICYCLIC_FOR_LAYOUTS(X, 5)          \
+#define EPICYCLIC_FOR_ALL_LAYOUTS(X) \
+  EPICYCLIC_FOR_LAYOUTS(X, 2)        \
+  EPICYCLIC_FOR_LAYOUTS(X, 3)        \
+  EPICYCLIC_FOR_LAYOUTS(X, 4)        \
+  EPICYCLIC_FOR_LAYOUTS(X, 5)        \
   EPICYCLIC_FOR_LAYOUTS(X, 6)
