@@ -61,13 +61,16 @@ quiet() {
   [ $busy = 0 ]
 }
 
-# Before what is judged by its time: waits for a quiet moment, a minute at most.
+# Before what is judged by its time: waits for a quiet moment, for ten minutes in all of a script's life.
+waits_left=120
 await_quiet() {
   was_quiet=no
   [ "${TIMED:-no}" = yes ] || return 0
-  for ((k = 0; k < 12; ++k)); do
-    if quiet; then was_quiet=yes && return 0; else sleep 5; fi
+  until quiet; do
+    [ $((waits_left--)) -gt 0 ] || { waits_left=0 && return 0; }
+    sleep 5
   done
+  was_quiet=yes
 }
 
 # After it: $1 took $2 ms and must not take more than $3.
