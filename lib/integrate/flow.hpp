@@ -30,6 +30,14 @@ struct SwitchingSurfaces {
   std::function<void(double s, const double* y, double* values, double* rates)> evaluate;
 };
 
+/// What a field was made of; lanes look for the kind that they know by dynamic_cast.
+struct Origin {
+  Origin() = default;
+  Origin(const Origin&) = default;
+  Origin& operator=(const Origin&) = default;
+  virtual ~Origin() = default;
+};
+
 /// The right-hand side of a system.
 struct VectorField {
   std::size_t dimension = 0;
@@ -49,8 +57,8 @@ struct VectorField {
   /// dg/dp at fixed y; empty if no parameter is varied.
   std::function<void(std::size_t segment, double s, const double* y, double* dgdp)> parameter_derivative;
 
-  /// What it was made of, for lanes that know the type (integrate/lanes/lane_ensemble.hpp); may be null.
-  std::shared_ptr<const void> origin;
+  /// For lanes that know the kind (integrate/lanes/lane_ensemble.hpp); may be null.
+  std::shared_ptr<const Origin> origin;
 
   SwitchingSurfaces surfaces;
 

@@ -10,6 +10,7 @@
 #include "core/dense.hpp"
 #include "core/errors.hpp"
 #include "model/dispatch.hpp"
+#include "model/folded_constants.hpp"
 #include "model/kernels/stage_kernel.hpp"
 #include "model/right_hand_side.hpp"
 
@@ -168,8 +169,9 @@ void mesh_pulls(const Parameters<double, N>& p, const MeshParameters<double, N>&
 template <Layout L, std::size_t N>
 DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mesh_frequency_ratio,
                       const ModelOptions& options) {
-  const auto p =
-      std::make_shared<const Parameters<double, N>>(make_parameters<N>(stage, scales, mesh_frequency_ratio, options));
+  const auto constants =
+      std::make_shared<const FoldedConstants<N>>(make_parameters<N>(stage, scales, mesh_frequency_ratio, options));
+  const std::shared_ptr<const Parameters<double, N>> p(constants, &constants->parameters);
   DynamicModel m;
   m.planets = static_cast<int>(N);
   m.layout = L;
@@ -225,7 +227,7 @@ DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mes
     const BearingForce<double> sun = sun_bearing_force(*p, g.q.x_s, g.q.y_s);
     out.sun_bearing = std::hypot(sun.x + p->damping_s * g.v.x_s, sun.y + p->damping_s * g.v.y_s);
   };
-  m.constants = p;
+  m.constants = constants;
   if (has_computed_tables(stage)) {
     m.with_halved_tables = [stage = std::make_shared<const gear::Stage>(stage), scales, mesh_frequency_ratio, options] {
       ModelOptions halved = options;

@@ -41,6 +41,14 @@ struct MeshPulls {
   std::vector<double> sun_planet, ring_planet;
 };
 
+/// The folded constants of a stage, whatever its number of planets: FoldedConstants<N> of model/folded_constants.hpp.
+struct StageConstants {
+  StageConstants() = default;
+  StageConstants(const StageConstants&) = delete;
+  StageConstants& operator=(const StageConstants&) = delete;
+  virtual ~StageConstants() = default;
+};
+
 struct DynamicModel {
   int planets = 0;
   Layout layout = Layout::relative_to_ring;
@@ -77,8 +85,7 @@ struct DynamicModel {
   /// model/right_hand_side.hpp.
   std::function<void(double s, const double* y, double* distances, double* rates)> contact_distances;
 
-  /// The folded constants, Parameters<double, planets>, for lanes (model/lane_model.hpp).
-  std::shared_ptr<const void> constants;
+  std::shared_ptr<const StageConstants> constants;  ///< for lanes (model/lane_model.hpp)
 
   /// The same with tables that are half as fine, where rows of something known make them: how far an orbit moves is
   /// more than what their interpolation moves it, some 16 times. Empty without such tables.

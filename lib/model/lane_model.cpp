@@ -5,6 +5,7 @@
 
 #include "core/errors.hpp"
 #include "model/dispatch.hpp"
+#include "model/folded_constants.hpp"
 #include "model/kernels/lane_kernel.hpp"
 
 namespace epicyclic::model {
@@ -14,9 +15,10 @@ namespace {
 template <std::size_t N, std::size_t W>
 LaneModel lanes_of(const DynamicModel& like, LaneKernel<N, W> kernel) {
   const auto point = [layout = like.layout](const DynamicModel& m) {
-    if (m.layout != layout || m.planets != static_cast<int>(N))
+    auto constants = constants_of<N>(m);
+    if (m.layout != layout || !constants)
       throw InputError("operating points of different structure cannot run side by side");
-    return std::static_pointer_cast<const Parameters<double, N>>(m.constants);
+    return constants;
   };
   struct State {
     LaneParameters<N, W> lanes;

@@ -9,11 +9,21 @@
 
 namespace epicyclic::studies {
 
+namespace {
+
+/// Of a stage's field.
+struct ModelOrigin : integrate::Origin {
+  explicit ModelOrigin(const model::DynamicModel& of) : model(of) {}
+  model::DynamicModel model;
+};
+
+}  // namespace
+
 integrate::VectorField vector_field(const model::DynamicModel& model) {
   integrate::VectorField field;
   field.dimension = model.dimension;
   field.period = 2.0 * std::numbers::pi;
-  field.origin = std::make_shared<const model::DynamicModel>(model);
+  field.origin = std::make_shared<const ModelOrigin>(model);
   field.breakpoints = model.breakpoints;
   field.right_hand_side = model.right_hand_side;
   field.tangents = model.tangents;
@@ -29,9 +39,9 @@ integrate::LaneField lane_field(const model::DynamicModel& like, const integrate
   integrate::LaneField field;
   field.dimension = lanes.dimension;
   field.load = [lanes](std::size_t lane, const integrate::VectorField& system) {
-    const auto* const made_of = static_cast<const model::DynamicModel*>(system.origin.get());
+    const auto* const made_of = dynamic_cast<const ModelOrigin*>(system.origin.get());
     if (made_of == nullptr) throw InputError("a system that is not a stage in a stage's lane");
-    lanes.load(lane, *made_of);
+    lanes.load(lane, made_of->model);
   };
   field.set_segment = lanes.set_segment;
   field.set_places = lanes.set_places;

@@ -11,6 +11,7 @@
 #include "core/lanes.hpp"
 #include "model/dispatch.hpp"
 #include "model/dynamic_model.hpp"
+#include "model/folded_constants.hpp"
 #include "model/kernels/lane_instants.hpp"
 #include "model/lane_parameters.hpp"
 #include "model/right_hand_side.hpp"
@@ -121,7 +122,7 @@ inline Operations operations_of_lane(const DynamicModel& model, std::size_t segm
   Operations counts;
   dispatch(model.layout, model.planets, [&]<Layout L, std::size_t N>() {
     if constexpr (L != Layout::full) {
-      LaneParameters<N, 1> p(std::static_pointer_cast<const Parameters<double, N>>(model.constants));
+      LaneParameters<N, 1> p(constants_of<N>(model));
       p.set_segment(0, segment);
       std::vector<Lanes<1>> in(y, y + model.dimension);
       std::vector<Lanes<1>> out(model.dimension);

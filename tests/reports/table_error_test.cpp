@@ -17,6 +17,7 @@
 #include "gear/gear_set.hpp"
 #include "input/study_model.hpp"
 #include "integrate/make_flow.hpp"
+#include "model/folded_constants.hpp"
 #include "model/right_hand_side.hpp"
 #include "studies/operating_point.hpp"
 
@@ -55,7 +56,7 @@ struct MeshLaws {
 integrate::VectorField continuous(const model::DynamicModel& m, const gear::Stage& stage, const gear::GearSet& set,
                                   const model::Scales& scales) {
   EXPECT_EQ(m.layout, model::Layout::relative_to_ring);
-  const auto p = std::static_pointer_cast<const Parameters>(m.constants);
+  const auto p = model::constants_of<3>(m);
   const gear::MeshLoad load = gear::mean_mesh_load(stage, m.omega * scales.omega_sn);
   const auto sun = std::make_shared<MeshLaws>(
       MeshLaws{set.sun_planet, *stage.sun_planet_mesh.friction.ehl, gear::sun_planet_line(stage), load});
