@@ -7,17 +7,15 @@
 
 #include "commands.hpp"
 #include "core/errors.hpp"
-#include "figures/gnuplot.hpp"
 #include "folder.hpp"
 #include "input/study_model.hpp"
 #include "progress.hpp"
 #include "reports/crosscheck_output.hpp"
+#include "session.hpp"
 #include "stop.hpp"
-#include "store/identity.hpp"
 #include "store/journal.hpp"
 #include "store/point_record.hpp"
 #include "streams.hpp"
-#include "watch.hpp"
 
 namespace epicyclic::app {
 
@@ -32,18 +30,14 @@ int crosscheck_command(const Arguments& arguments) {
   const model::DynamicModel first_model = model_at(plan.points.front().value, width);
   const std::vector<studies::Variant> variants =
       studies::crosscheck_variants(input.study.crosscheck, input.study.integrator, width);
-  for (const std::string& warning : input::warnings(input)) tell("{}\n", warning);
+  tell_warnings(input);
 
-  const std::string identity = store::identity({input.resolved, input.computed}, "crosscheck");
-  const store::OutputFolder folder(arguments.output, identity, figures::gnuplot_is_installed());
-  if (const auto code = refuse_or_finish(folder, input)) return *code;
-  store::Provenance facts = provenance(arguments.threads, input);
-  const std::string resolved = write_inputs(folder, input);
-  folder.write_run(store::RunState::running, store::run_facts(facts));
-  const FolderWatch watch(folder);
+  Session session(arguments, input, identity_of(input, "crosscheck"), arguments.threads);
+  if (const auto code = session.exit_code()) return *code;
+  const store::OutputFolder& folder = session.folder();
 
   const std::size_t points = plan.points.size();
-  store::Journal journal(folder.file("journal.bin"), identity);
+  store::Journal journal(folder.file("journal.bin"), session.identity());
   tell_cut_tail(folder.file("journal.bin"), journal.cut_bytes());
   studies::CrosscheckRun run;
   run.threads = arguments.threads;
@@ -71,12 +65,10 @@ int crosscheck_command(const Arguments& arguments) {
   journal.close();
   std::int64_t undrawn = 0;
   const auto close_run = [&](store::RunState state) {
-    facts.ended = store::utc_now();
-    facts.counts = {{"points", static_cast<std::int64_t>(points)},
-                    {"comparisons", static_cast<std::int64_t>(all.comparisons.size())},
-                    {"failed", static_cast<std::int64_t>(failed)},
-                    {"undrawn", undrawn}};
-    folder.write_run(state, store::run_facts(facts));
+    session.end(state, {{"points", static_cast<std::int64_t>(points)},
+                        {"comparisons", static_cast<std::int64_t>(all.comparisons.size())},
+                        {"failed", static_cast<std::int64_t>(failed)},
+                        {"undrawn", undrawn}});
   };
   if (!all.complete(plan)) {
     close_run(store::RunState::stopped);
@@ -85,7 +77,7 @@ int crosscheck_command(const Arguments& arguments) {
   }
 
   folder.require_there();
-  const reports::SweepOutput output{sweep, studies::poincare_columns(first_model), resolved,
+  const reports::SweepOutput output{sweep, studies::poincare_columns(first_model), session.resolved(),
                                     reports::figure_title(input.study)};
   const studies::PointSource reference = studies::points_in_memory(all.reference);
   reports::write_points_csv(folder.file("points.csv"), reference);

@@ -4,11 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "figures/gnuplot.hpp"
-#include "folder.hpp"
 #include "input/study_model.hpp"
 #include "reports/gear_output.hpp"
-#include "store/identity.hpp"
+#include "session.hpp"
 #include "streams.hpp"
 
 namespace epicyclic::app {
@@ -16,15 +14,11 @@ namespace epicyclic::app {
 int gear_command(const Arguments& arguments) {
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
   reports::require_finite_numbers(input);
-  const store::OutputFolder folder(arguments.output, store::identity({input.resolved, input.computed}, "gear"),
-                                   figures::gnuplot_is_installed());
-  if (const auto code = refuse_or_finish(folder, input)) return *code;
-  store::Provenance facts = provenance(1, input);
-  write_inputs(folder, input);
+  Session session(arguments, input, identity_of(input, "gear"), 1);
+  if (const auto code = session.exit_code()) return *code;
+  const store::OutputFolder& folder = session.folder();
   const reports::GearOutput written = reports::write_gear_output(folder.path(), input);
-  facts.ended = store::utc_now();
-  facts.counts = {{"undrawn", static_cast<std::int64_t>(written.undrawn.size())}};
-  folder.write_run(store::RunState::complete, store::run_facts(facts));
+  session.end(store::RunState::complete, {{"undrawn", static_cast<std::int64_t>(written.undrawn.size())}});
   for (const std::string& line : written.warnings) tell("warning: {}\n", line);
   for (const std::string& line : written.undrawn) tell("figure not drawn: {}\n", line);
   for (const std::string& line : written.verdicts) tell("{}\n", line);

@@ -8,20 +8,18 @@
 #include <utility>
 
 #include "failure.hpp"
-#include "figures/gnuplot.hpp"
 #include "folder.hpp"
 #include "input/study_input.hpp"
 #include "input/study_model.hpp"
 #include "progress.hpp"
 #include "ranks/ranks.hpp"
 #include "ranks/shared_sweep.hpp"
+#include "session.hpp"
 #include "stop.hpp"
-#include "store/identity.hpp"
 #include "store/output_folder.hpp"
 #include "store/point_store.hpp"
 #include "streams.hpp"
 #include "studies/sweep.hpp"
-#include "watch.hpp"
 
 namespace epicyclic::app {
 
@@ -127,19 +125,15 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   const studies::ModelAtPoint model_at = input::model_at_point(input);
   // Options that do not fit show here, before anything is written.
   const model::DynamicModel first_model = model_at(plan.points.front());
-  for (const std::string& warning : input::warnings(input)) tell("{}\n", warning);
+  tell_warnings(input);
   if (command == "sweep" && input.study.sweep->parameter != "mesh_frequency_ratio")
     tell("operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
 
-  const std::string identity = store::identity({input.resolved, input.computed}, command);
+  const std::string identity = identity_of(input, command);
   if (leader != nullptr) leader->gather(arguments, identity);
-  store::OutputFolder folder(arguments.output, identity, figures::gnuplot_is_installed());
-  if (const auto code = refuse_or_finish(folder, input)) return *code;
-  store::Provenance facts = provenance(arguments.threads, input);
-  facts.ranks = arguments.ranks->size();
-  const std::string resolved = write_inputs(folder, input);
-  folder.write_run(store::RunState::running, store::run_facts(facts));
-  const FolderWatch watch(folder);
+  Session session(arguments, input, identity, arguments.threads, arguments.ranks->size());
+  if (const auto code = session.exit_code()) return *code;
+  store::OutputFolder& folder = session.folder();
 
   store::PointStore store(folder.path(), identity, plan.points.size());
   for (const auto& [journal, bytes] : store.cut_tails()) tell_cut_tail(journal, bytes);
@@ -148,12 +142,10 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   if (leader != nullptr) store.read_others();
   std::int64_t undrawn = 0;
   const auto close_run = [&](store::RunState state) {
-    facts.ended = store::utc_now();
-    facts.counts = {{"points", static_cast<std::int64_t>(plan.points.size())},
-                    {"computed", static_cast<std::int64_t>(store.size())},
-                    {"failed", static_cast<std::int64_t>(failed)},
-                    {"undrawn", undrawn}};
-    folder.write_run(state, store::run_facts(facts));
+    session.end(state, {{"points", static_cast<std::int64_t>(plan.points.size())},
+                        {"computed", static_cast<std::int64_t>(store.size())},
+                        {"failed", static_cast<std::int64_t>(failed)},
+                        {"undrawn", undrawn}});
   };
   if (store.size() < plan.points.size()) {
     close_run(store::RunState::stopped);
@@ -162,7 +154,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   }
 
   folder.require_there();
-  const ComputedPoints computed_points{folder.path(), input, first_model, resolved, store.source()};
+  const ComputedPoints computed_points{folder.path(), input, first_model, session.resolved(), store.source()};
   const studies::PointSource& points = computed_points.points;
   const WrittenPoints written = write_results(arguments, parts, computed_points, leader);
   folder.add(written.files);

@@ -4,16 +4,14 @@
 
 #include "commands.hpp"
 #include "core/atomic_file.hpp"
-#include "figures/gnuplot.hpp"
 #include "folder.hpp"
 #include "input/study_model.hpp"
 #include "reports/run_output.hpp"
 #include "reports/sweep_output.hpp"
+#include "session.hpp"
 #include "stop.hpp"
-#include "store/identity.hpp"
 #include "streams.hpp"
 #include "studies/run.hpp"
-#include "watch.hpp"
 
 namespace epicyclic::app {
 
@@ -23,28 +21,23 @@ int run_command(const Arguments& arguments) {
   require_kind(input, arguments, "run");
   const input::Study& study = input.study;
   const model::DynamicModel model = input::model_at(input)(study.mesh_frequency_ratio);
-  for (const std::string& warning : input::warnings(input)) tell("{}\n", warning);
+  tell_warnings(input);
 
-  const store::OutputFolder folder(arguments.output, store::identity({input.resolved, input.computed}, "run"),
-                                   figures::gnuplot_is_installed());
-  if (const auto code = refuse_or_finish(folder, input)) return *code;
-  store::Provenance facts = provenance(1, input);
-  const std::string resolved = write_inputs(folder, input);
-  folder.write_run(store::RunState::running, store::run_facts(facts));
-  const FolderWatch watch(folder);
+  Session session(arguments, input, identity_of(input, "run"), 1);
+  if (const auto code = session.exit_code()) return *code;
+  const store::OutputFolder& folder = session.folder();
 
   // A minute at most: what is stopped begins anew.
   const auto result = studies::run_operating_point(model, model::scales_of(study.stage), *study.sweep, study.run,
                                                    study.integrator, [] { return !stop_requested().load(); });
   if (!result) {
-    facts.ended = store::utc_now();
-    folder.write_run(store::RunState::stopped, store::run_facts(facts));
+    session.end(store::RunState::stopped, {});
     tell("stopped; the same command begins anew\n");
     return stopped_early;
   }
 
   folder.require_there();
-  const reports::SweepOutput points{*study.sweep, studies::poincare_columns(model), resolved,
+  const reports::SweepOutput points{*study.sweep, studies::poincare_columns(model), session.resolved(),
                                     reports::figure_title(study)};
   const reports::RunOutput output{points, study.run, model.sun_planet_half_gap, model.ring_planet_half_gap,
                                   study.model.gap_damping};
@@ -58,9 +51,7 @@ int run_command(const Arguments& arguments) {
   write_file_atomically(folder.file("summary.md"), summary);
   const auto figures = reports::draw_run_figures(folder.file("figures"), output, *result);
   const std::int64_t undrawn = tell_undrawn(figures);
-  facts.ended = store::utc_now();
-  facts.counts = {{"points", 1}, {"failed", computed ? 0 : 1}, {"undrawn", undrawn}};
-  folder.write_run(store::RunState::complete, store::run_facts(facts));
+  session.end(store::RunState::complete, {{"points", 1}, {"failed", computed ? 0 : 1}, {"undrawn", undrawn}});
 
   nlohmann::json told = {{"folder", folder.path().string()},
                          {"status", store::status_word(result->point.outcome)},

@@ -8,17 +8,15 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "figures/gnuplot.hpp"
 #include "folder.hpp"
 #include "input/study_model.hpp"
 #include "progress.hpp"
 #include "reports/tolerance_output.hpp"
+#include "session.hpp"
 #include "stop.hpp"
-#include "store/identity.hpp"
 #include "store/journal.hpp"
 #include "store/point_record.hpp"
 #include "streams.hpp"
-#include "watch.hpp"
 
 namespace epicyclic::app {
 
@@ -31,18 +29,14 @@ int tolerance_command(const Arguments& arguments) {
   const auto model_at = input::smoothed_model_at(input);
   const double width = input.study.model.clearance_smoothing;
   const model::DynamicModel first_model = model_at(plan.points.front().value, width);
-  for (const std::string& warning : input::warnings(input)) tell("{}\n", warning);
+  tell_warnings(input);
 
-  const std::string identity = store::identity({input.resolved, input.computed}, "tolerance");
-  const store::OutputFolder folder(arguments.output, identity, figures::gnuplot_is_installed());
-  if (const auto code = refuse_or_finish(folder, input)) return *code;
-  store::Provenance facts = provenance(arguments.threads, input);
-  const std::string resolved = write_inputs(folder, input);
-  folder.write_run(store::RunState::running, store::run_facts(facts));
-  const FolderWatch watch(folder);
+  Session session(arguments, input, identity_of(input, "tolerance"), arguments.threads);
+  if (const auto code = session.exit_code()) return *code;
+  const store::OutputFolder& folder = session.folder();
 
   // Record k < n is the study's own point k, record n + k what was measured on it.
-  store::Journal journal(folder.file("journal.bin"), identity);
+  store::Journal journal(folder.file("journal.bin"), session.identity());
   tell_cut_tail(folder.file("journal.bin"), journal.cut_bytes());
   std::vector<store::JournalEntry> entries = journal.entries();
   const auto measurements =
@@ -98,11 +92,9 @@ int tolerance_command(const Arguments& arguments) {
   progress.finish();
   std::int64_t undrawn = 0;
   const auto close_run = [&](store::RunState state) {
-    facts.ended = store::utc_now();
-    facts.counts = {{"points", static_cast<std::int64_t>(plan.points.size())},
-                    {"failed", static_cast<std::int64_t>(failed)},
-                    {"undrawn", undrawn}};
-    folder.write_run(state, store::run_facts(facts));
+    session.end(state, {{"points", static_cast<std::int64_t>(plan.points.size())},
+                        {"failed", static_cast<std::int64_t>(failed)},
+                        {"undrawn", undrawn}});
   };
   if (stop_requested()) {
     close_run(store::RunState::stopped);
@@ -112,7 +104,7 @@ int tolerance_command(const Arguments& arguments) {
 
   folder.require_there();
   const reports::ToleranceOutput output{
-      {sweep, studies::poincare_columns(first_model), resolved, reports::figure_title(input.study)},
+      {sweep, studies::poincare_columns(first_model), session.resolved(), reports::figure_title(input.study)},
       input.study.tolerance,
       input.study.integrator,
       first_model.dimension};

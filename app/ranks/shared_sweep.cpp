@@ -23,8 +23,8 @@
 #include "folder.hpp"
 #include "input/study_model.hpp"
 #include "ranks.hpp"
+#include "session.hpp"
 #include "stop.hpp"
-#include "store/identity.hpp"
 #include "store/journal.hpp"
 #include "store/manifest.hpp"
 #include "store/point_record.hpp"
@@ -556,7 +556,7 @@ int follow(const Arguments& arguments, std::string_view command, const std::vect
   std::exception_ptr error;
   try {
     input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
-    identity = store::identity({input->resolved, input->computed}, command);
+    identity = identity_of(*input, command);
   } catch (...) {
     error = std::current_exception();
   }
