@@ -1,9 +1,7 @@
 // What a motion of a stage is: the one way in which all studies ask [analysis/regime.hpp].
 //
-// Three flows of one method: looks, whose growth is a matter of statistics, at a tolerance up to a hundred times
-// looser; orbits at the study's own, tangents under error control; and once more at ten times that, for what
-// multipliers are known to. Where lanes carry the strobe ARKODE's twin of their pair asks, since tangents are a matter
-// of one trajectory.
+// By the flows of analysis/regime_flows.hpp; where lanes carry the strobe ARKODE's twin of their pair asks, since
+// tangents are a matter of one trajectory.
 #pragma once
 
 #include <functional>

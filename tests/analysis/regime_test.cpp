@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/regime_flows.hpp"
 #include "core/errors.hpp"
 #include "integrate/make_field.hpp"
 #include "integrate/make_flow.hpp"
@@ -195,6 +196,22 @@ TEST(Regime, GrowthWithARegularSectionHasToLastForTheWholeBudget) {
   const Classification c = regime_of(field, {0.5, 0.0, 0.0, 1e-6}, o);
   ASSERT_EQ(c.regime, Regime::periodic) << c.evidence.note;
   EXPECT_NEAR(std::abs(c.orbit->state[3]), 1.0, 1e-8);
+}
+
+TEST(Regime, ThreeFlowsOfOneSystemTellItsOrbitAtItsTolerance) {
+  integrate::IntegratorOptions o;
+  o.relative_tolerance = o.absolute_tolerance = 1e-9;
+  const RegimeFlows flows = make_regime_flows(problems::duffing(0.3, -1.0, 0.2, 1.2), o);
+  std::vector<double> y = {1.0, 0.0};
+  const Classification c = classify(*flows.looks, y, flows.options(), always);
+  ASSERT_EQ(c.regime, Regime::periodic) << c.evidence.note;
+  // The looks are a hundred times looser, the orbit is not.
+  o.relative_tolerance = o.absolute_tolerance = 1e-12;
+  const auto tight = integrate::make_flow(problems::duffing(0.3, -1.0, 0.2, 1.2), o);
+  const PeriodicOrbit orbit = find_periodic_orbit(*tight, c.orbit->state, c.period);
+  EXPECT_NEAR(orbit.state[0], c.orbit->state[0], 1e-7);
+  EXPECT_GT(c.evidence.multiplier_error, 0.0);
+  EXPECT_GT(flows.right_hand_side_calls(), flows.looks->right_hand_side_calls());
 }
 
 TEST(Regime, AnEscapeHasNone) {

@@ -1,0 +1,35 @@
+#include "analysis/regime_flows.hpp"
+
+#include <algorithm>
+
+#include "integrate/make_flow.hpp"
+
+namespace epicyclic::analysis {
+
+RegimeOptions RegimeFlows::options(RegimeOptions o) const {
+  o.exact = exact.get();
+  o.coarser = coarser.get();
+  return o;
+}
+
+long RegimeFlows::right_hand_side_calls() const {
+  long calls = 0;
+  for (const auto* flow : {&looks, &exact, &coarser}) calls += (*flow)->right_hand_side_calls();
+  return calls;
+}
+
+RegimeFlows make_regime_flows(const integrate::VectorField& field, const integrate::IntegratorOptions& integrator) {
+  const auto with = [&](double factor, bool controlled) {
+    integrate::IntegratorOptions o = integrator;
+    o.relative_tolerance *= factor;
+    o.absolute_tolerance *= factor;
+    o.tangent_error_control = controlled;
+    return integrate::make_flow(field, o);
+  };
+  // Growth is a statistical matter, for which a looser tolerance is as good.
+  constexpr double statistical = 1e-6;
+  const double looser = std::clamp(statistical / integrator.relative_tolerance, 1.0, 100.0);
+  return {with(looser, integrator.tangent_error_control), with(1.0, true), with(10.0, true)};
+}
+
+}  // namespace epicyclic::analysis

@@ -1,0 +1,28 @@
+// The three flows that classify() wants of one system [analysis/regime.hpp].
+#pragma once
+
+#include <memory>
+
+#include "analysis/regime.hpp"
+#include "integrate/flow.hpp"
+#include "integrate/options.hpp"
+
+namespace epicyclic::analysis {
+
+/// Looks, whose growth is a matter of statistics, at a tolerance up to a hundred times looser; orbits at the one asked
+/// for, tangents under error control; and once more at ten times that, for what multipliers are known to.
+struct RegimeFlows {
+  std::unique_ptr<integrate::Flow> looks, exact, coarser;
+
+  /// The same options with `exact` and `coarser` set to these flows, which must live longer.
+  [[nodiscard]] RegimeOptions options(RegimeOptions o = {}) const;
+
+  [[nodiscard]] long right_hand_side_calls() const;
+};
+
+/// @param integrator  of one trajectory: tangents are not carried by lanes
+/// @throws InputError for options that no flow takes
+[[nodiscard]] RegimeFlows make_regime_flows(const integrate::VectorField& field,
+                                            const integrate::IntegratorOptions& integrator);
+
+}  // namespace epicyclic::analysis
