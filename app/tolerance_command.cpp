@@ -20,6 +20,55 @@
 
 namespace epicyclic::app {
 
+namespace {
+
+/// Of earlier sessions: the study's own points, and what was measured on them.
+struct Known {
+  std::map<std::size_t, studies::PointResult> points;
+  std::map<std::size_t, studies::TolerancePoint> measured;
+};
+
+/// Record k < n is the study's own point k, record n + k what was measured on it.
+Known known_results(const store::Journal& journal, const studies::SweepPlan& plan) {
+  const std::size_t n = plan.points.size();
+  std::vector<store::JournalEntry> entries = journal.entries();
+  const auto measurements = std::stable_partition(entries.begin(), entries.end(),
+                                                  [&](const store::JournalEntry& entry) { return entry.point < n; });
+  Known known;
+  for (auto entry = measurements; entry != entries.end(); ++entry) {
+    studies::TolerancePoint point = store::decode_tolerance_point(journal.read(*entry));
+    const std::size_t index = point.point.index;
+    if (index >= n || entry->point != n + index)
+      throw store::DamagedData("the journal holds measurement " + std::to_string(entry->point) +
+                               ", which the study has not");
+    known.measured.insert_or_assign(index, std::move(point));
+  }
+  known.points = known_points(journal, {entries.begin(), measurements}, plan);
+  return known;
+}
+
+/// On stdout.
+void tell_result(const Arguments& arguments, const store::OutputFolder& folder, const input::LoadedInput& input,
+                 std::size_t studied, std::size_t failed, const std::vector<studies::TolerancePoint>& points,
+                 std::size_t dimension, const std::string& summary, const std::vector<reports::DrawnFigure>& figures) {
+  nlohmann::json result = {{"folder", folder.path().string()},
+                           {"points", studied},
+                           {"failed", failed},
+                           {"figures", nlohmann::json::array()}};
+  for (const reports::DrawnFigure& figure : figures)
+    if (figure.outcome.drawn()) result["figures"].push_back(figure.file.string());
+  if (const auto best = studies::recommend(points, dimension, input.study.tolerance.target_error))
+    result["recommendation"] = {{"method", best->method}, {"relative_tolerance", best->tolerance}};
+  if (arguments.json) {
+    print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else {
+    print("{}\n", summary);
+    for (const auto& figure : result["figures"]) print("figure: {}\n", figure.get<std::string>());
+  }
+}
+
+}  // namespace
+
 int tolerance_command(const Arguments& arguments) {
   stop_on_signals();
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
@@ -35,32 +84,18 @@ int tolerance_command(const Arguments& arguments) {
   if (const auto code = session.exit_code()) return *code;
   const store::OutputFolder& folder = session.folder();
 
-  // Record k < n is the study's own point k, record n + k what was measured on it.
   store::Journal journal(folder.file("journal.bin"), session.identity());
   tell_cut_tail(folder.file("journal.bin"), journal.cut_bytes());
-  std::vector<store::JournalEntry> entries = journal.entries();
-  const auto measurements =
-      std::stable_partition(entries.begin(), entries.end(),
-                            [&](const store::JournalEntry& entry) { return entry.point < plan.points.size(); });
-  std::map<std::size_t, studies::TolerancePoint> measured;
-  for (auto entry = measurements; entry != entries.end(); ++entry) {
-    studies::TolerancePoint point = store::decode_tolerance_point(journal.read(*entry));
-    const std::size_t index = point.point.index;
-    if (index >= plan.points.size() || entry->point != plan.points.size() + index)
-      throw store::DamagedData("the journal holds measurement " + std::to_string(entry->point) +
-                               ", which the study has not");
-    measured.insert_or_assign(index, std::move(point));
-  }
+  Known earlier = known_results(journal, plan);
   studies::SweepRun run;
   run.threads = arguments.threads;
   run.stop = &stop_requested();
-  auto known = known_points(journal, {entries.begin(), measurements}, plan);
-  std::size_t finished = known.size() + measured.size();
+  std::size_t finished = earlier.points.size() + earlier.measured.size();
   std::size_t failed = 0;
   const auto count_failure = [&](const studies::PointResult& r) {
     failed += r.outcome == integrate::Outcome::reached ? 0 : 1;
   };
-  for (const auto& [index, result] : known) count_failure(result);
+  for (const auto& [index, result] : earlier.points) count_failure(result);
   const std::size_t total = 2 * plan.points.size();
   Progress progress("tolerance", total, finished);
   progress.update(finished, failed);
@@ -71,13 +106,12 @@ int tolerance_command(const Arguments& arguments) {
   };
   const auto studied = studies::run_sweep_in_memory(
       plan, sweep, input.study.integrator, [&](double value) { return model_at(value, width); }, std::move(run),
-      std::move(known));
+      std::move(earlier.points));
   std::vector<studies::TolerancePoint> points;
   for (const studies::PointResult& result : studied) {
     if (stop_requested()) break;
-    const auto earlier = measured.find(result.point.index);
-    if (earlier != measured.end()) {
-      points.push_back(std::move(earlier->second));
+    if (const auto known = earlier.measured.find(result.point.index); known != earlier.measured.end()) {
+      points.push_back(std::move(known->second));
       continue;
     }
     studies::TolerancePoint point =
@@ -114,20 +148,7 @@ int tolerance_command(const Arguments& arguments) {
   undrawn = tell_undrawn(figures);
   close_run(store::RunState::complete);
 
-  nlohmann::json result = {{"folder", folder.path().string()},
-                           {"points", plan.points.size()},
-                           {"failed", failed},
-                           {"figures", nlohmann::json::array()}};
-  for (const reports::DrawnFigure& figure : figures)
-    if (figure.outcome.drawn()) result["figures"].push_back(figure.file.string());
-  if (const auto best = studies::recommend(points, first_model.dimension, input.study.tolerance.target_error))
-    result["recommendation"] = {{"method", best->method}, {"relative_tolerance", best->tolerance}};
-  if (arguments.json) {
-    print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-  } else {
-    print("{}\n", summary);
-    for (const auto& figure : result["figures"]) print("figure: {}\n", figure.get<std::string>());
-  }
+  tell_result(arguments, folder, input, plan.points.size(), failed, points, first_model.dimension, summary, figures);
   return failed == 0 && undrawn == 0 ? done : done_with_failures;
 }
 
