@@ -29,7 +29,7 @@ const fuzz::Folder& folder() {
   return the_folder;
 }
 
-const std::string& store::identity() {
+const std::string& identity() {
   static const std::string digits(64, 'a');
   return digits;
 }
@@ -47,7 +47,7 @@ std::span<const std::byte> bytes_of(std::string_view text) {
 const std::string& header() {
   static const std::string bytes = [] {
     const fs::path file = folder() / "header";
-    store::Journal(file, store::identity()).close();
+    store::Journal(file, identity()).close();
     return contents(file);
   }();
   return bytes;
@@ -163,7 +163,7 @@ void look_at_pieces(std::string_view data) {
   fuzz::put_file(path, file);
   bool refused = false;
   try {
-    const store::Journal journal(path, store::identity(), store::Journal::Use::read);
+    const store::Journal journal(path, identity(), store::Journal::Use::read);
     require(same(journal, good), "good records are read as they were written");
     for (const store::JournalEntry& entry : journal.entries()) look_at_payload(journal.read(entry));
   } catch (const store::DamagedData&) {
@@ -173,7 +173,7 @@ void look_at_pieces(std::string_view data) {
   require(refused == good_after, "damage before good records is refused, nothing else is");
   std::size_t size = file.size();
   try {
-    store::Journal journal(path, store::identity());
+    store::Journal journal(path, identity());
     require(!refused, "what cannot be read cannot be appended to");
     size -= journal.cut_bytes();
     require(same(journal, good), "a cut journal has its good records");
@@ -186,14 +186,14 @@ void look_at_pieces(std::string_view data) {
   if (file.size() % 16 != 0) return;
   good.push_back({7, "appended"});
   {
-    store::Journal journal(path, store::identity());
+    store::Journal journal(path, identity());
     require(journal.cut_bytes() == 0, "what was cut is whole");
     const store::JournalEntry entry = journal.append(good.back().point, bytes_of(good.back().payload));
     const auto payload = journal.read(entry);
     require(std::equal(payload.begin(), payload.end(), bytes_of(good.back().payload).begin()), "it is there at once");
     journal.close();
   }
-  require(same(store::Journal(path, store::identity(), store::Journal::Use::read), good),
+  require(same(store::Journal(path, identity(), store::Journal::Use::read), good),
           "what is appended stands behind the good records");
 }
 
@@ -202,7 +202,7 @@ void look_at_file(std::string_view bytes) {
   const fs::path path = folder() / "file.bin";
   fuzz::put_file(path, bytes);
   try {
-    const store::Journal journal(path, store::identity(), store::Journal::Use::read);
+    const store::Journal journal(path, identity(), store::Journal::Use::read);
     for (const store::JournalEntry& entry : journal.entries()) look_at_payload(journal.read(entry));
   } catch (const store::DamagedData&) {
   }
