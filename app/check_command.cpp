@@ -4,6 +4,7 @@
 
 #include "commands.hpp"
 #include "input/study_model.hpp"
+#include "session.hpp"
 #include "streams.hpp"
 #include "studies/probes.hpp"
 
@@ -11,7 +12,7 @@ namespace epicyclic::app {
 
 int check_command(const Arguments& arguments) {
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
-  for (const std::string& warning : input::warnings(input)) tell("{}\n", warning);
+  tell_warnings(input);
   if (!input.study.sweep) {
     print("{}\n", input.resolved.dump(2));
     tell("{}: valid; a stage alone, for `epicyclic gear`\n", arguments.input.string());

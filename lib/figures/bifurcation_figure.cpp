@@ -164,7 +164,7 @@ FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::strin
 }
 
 FigureOutcome class_bifurcation_figure(const std::filesystem::path& folder, std::string_view stem,
-                                       const FigureText& text, const std::string& value_label,
+                                       const FigureText& text, std::string_view value, const std::string& value_label,
                                        const std::vector<PointClass>& classes, std::size_t count,
                                        const std::function<std::optional<ClassPoint>(std::size_t)>& at,
                                        Pictures which) {
@@ -201,7 +201,7 @@ FigureOutcome class_bifurcation_figure(const std::filesystem::path& folder, std:
       for (const auto& [i, p] : points)
         if (p.of_class == k) cells.append(data, p.x, at(i)->section);
       data.end_data_set("NaN NaN\n");
-      data.comment(fmt::format("{}: exponent and half its interval", classes[k].label));
+      data.comment(fmt::format("{}: {} and half its interval", classes[k].label, value));
       for (const auto& [i, p] : points) {
         if (p.of_class != k || !std::isfinite(p.value)) continue;
         data.row({p.x, p.value, std::isfinite(p.half_width) ? p.half_width : 0.0});

@@ -58,11 +58,12 @@ struct ClassPoint : SectionPoint {
 
 /// The bifurcation diagram coloured by class, and under it on the same axis the value with its interval. Files, ranges
 /// and outcome as above. Classes without a point are not in the legend, which counts the points of the others.
+/// @param value        name of the value, for readers of the data
 /// @param value_label  of the lower ordinate
 /// @param at           as in BifurcationSeries
 /// @throws OutputError, std::invalid_argument for a stem that is not a plain file name
 FigureOutcome class_bifurcation_figure(const std::filesystem::path& folder, std::string_view stem,
-                                       const FigureText& text, const std::string& value_label,
+                                       const FigureText& text, std::string_view value, const std::string& value_label,
                                        const std::vector<PointClass>& classes, std::size_t count,
                                        const std::function<std::optional<ClassPoint>(std::size_t i)>& at,
                                        Pictures which = Pictures::both);

@@ -145,7 +145,8 @@ void check_stiffness(Problems& out, const std::string& pointer, const Mesh& mesh
   double swing = 0.0;
   for (const auto* amplitudes : {&c, &s})
     for (const double amplitude : *amplitudes) swing += std::abs(amplitude);
-  constexpr double rounding = 1e-12;
+  constexpr double rounding = 1e-12;  // of the sums
+  // Harmonics that together are less than the mean leave it positive everywhere: no need to look.
   if (swing < (1.0 - rounding) * mesh.stiffness_N_per_m) return;
   double lowest = mesh.stiffness_N_per_m;
   for (int k = 0; k < samples; ++k) {

@@ -437,7 +437,7 @@ class Table {
     };
     field.change = [at, &table](std::string_view rest, double number, const std::string& pointer, T& t,
                                 ReadContext& context) {
-      return table.change(rest, number, pointer, at.make(t), context);
+      return at.find(t) != nullptr && table.change(rest, number, pointer, at.make(t), context);
     };
     return field;
   }

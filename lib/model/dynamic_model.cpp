@@ -268,6 +268,7 @@ DynamicModel make_dynamic_model(const gear::Stage& stage, const Scales& scales, 
 
 void set_parameter_derivative(DynamicModel& model, const std::function<OperatingPoint(double value)>& at,
                               const Scales& scales, double value, double step) {
+  if (model.layout == Layout::full) throw InputError("there is no parameter derivative in full coordinates");
   const std::array<double, 4> offsets = {-2.0 * step, -step, step, 2.0 * step};
   std::vector<OperatingPoint> points = {at(value)};
   for (const double offset : offsets) points.push_back(at(value + offset));

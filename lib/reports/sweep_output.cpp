@@ -245,7 +245,7 @@ std::optional<DrawnFigure> write_sweep_figure(const std::filesystem::path& folde
   figures::FigureOutcome outcome;
   if (shows_regimes(figure)) {
     outcome = figures::class_bifurcation_figure(
-        folder, *stem, text, "Exponent  λ_1 / ω_{sn}", classes(), points_each_way(output, points),
+        folder, *stem, text, "exponent", "Exponent  λ_1 / ω_{sn}", classes(), points_each_way(output, points),
         section(output, points, direction_of(figure), figure), figures::Pictures::none);
   } else {
     std::vector<figures::BifurcationSeries> series;

@@ -27,16 +27,15 @@ using Number = PointColumn::Getter<double>;
 using Words = PointColumn::Getter<std::string>;
 
 /// A number that a proven orbit has.
-template <class Value>
-Number of_orbit(Value analysis::Evidence::*member) {
+Number of_orbit(double analysis::Evidence::*member) {
   return [member](const PointResult& r) { return proven(r) ? r.evidence.*member : unknown; };
 }
 
 using Meshes = std::vector<MeshRecord> PointResult::*;
 
-/// The three columns of one mesh, "sp_1", or of planet 1's as "sp".
-void add_mesh(std::vector<PointColumn>& all, const std::string& suffix, Meshes meshes, std::size_t planet,
-              const std::string& mesh) {
+/// The extrema of one mesh, "sp_1", or of planet 1's as "sp".
+void add_extrema(std::vector<PointColumn>& all, const std::string& suffix, Meshes meshes, std::size_t planet,
+                 const std::string& mesh) {
   all.push_back({"delta_" + suffix + "_min", "b_c", "least deflection of " + mesh + " in the record",
                  Number([=](const PointResult& r) { return seen((r.*meshes)[planet].delta_min); })});
   all.push_back({"delta_" + suffix + "_max", "b_c", "largest deflection of " + mesh,
@@ -88,7 +87,7 @@ std::vector<PointColumn> point_columns(std::size_t planets, const std::vector<Po
   add("lyapunov_max", "1 per tau", "largest Lyapunov exponent",
       Number([](const PointResult& r) { return r.lyapunov_max().value; }));
   const std::pair<const char*, Meshes> kinds[] = {{"sp", &PointResult::sun_planet}, {"rp", &PointResult::ring_planet}};
-  for (const auto& [kind, meshes] : kinds) add_mesh(all, kind, meshes, 0, std::string(kind) + " of planet 1");
+  for (const auto& [kind, meshes] : kinds) add_extrema(all, kind, meshes, 0, std::string(kind) + " of planet 1");
   for (const auto& [kind, meshes] : kinds)
     all.push_back(contact_of(kind, meshes, 0, std::string(kind) + " of planet 1"));
   add("rhs_evaluations", "1", "right-hand sides that the point took",
@@ -126,7 +125,7 @@ std::vector<PointColumn> point_columns(std::size_t planets, const std::vector<Po
       const std::string number = std::to_string(i + 1);
       const std::string suffix = std::string(kind) + "_" + number;
       const std::string mesh = std::string(kind) + " of planet " + number;
-      add_mesh(all, suffix, meshes, i, mesh);
+      add_extrema(all, suffix, meshes, i, mesh);
       all.push_back(contact_of(suffix, meshes, i, mesh));
     }
   add("message", "", "what went wrong, of a point that was not reached",

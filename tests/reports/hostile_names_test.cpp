@@ -136,7 +136,7 @@ const std::vector<Drawing>& drawings() {
        }},
       {"regimes",
        [](const std::filesystem::path& folder, const std::string& name) {
-         return figures::class_bifurcation_figure(folder, "a", text_of(name), figures::literal_text(name),
+         return figures::class_bifurcation_figure(folder, "a", text_of(name), name, figures::literal_text(name),
                                                   {{figures::literal_text(name), "#12285c"}}, values.size(),
                                                   class_point);
        }},

@@ -136,6 +136,14 @@ TEST(GearTangents, TheParameterDerivativeIsThatOfEachNamedParameter) {
   }
 }
 
+TEST(GearTangents, FullCoordinatesHaveNoParameterDerivative) {
+  const model::OperatingPoint p = point();
+  model::DynamicModel full = model::make_dynamic_model(p.stage, model::scales_of(p.stage), p.mesh_frequency_ratio,
+                                                       p.options, model::CoordinateChoice::full);
+  const auto at = [&](double) { return p; };
+  EXPECT_THROW(model::set_parameter_derivative(full, at, model::scales_of(p.stage), 1.1, 1e-3), InputError);
+}
+
 TEST(GearTangents, AParameterThatMovesBreakpointsHasNoDerivative) {
   model::OperatingPoint p = point();
   p.stage.sun_planet_mesh.friction.coefficient = {0.05, 1.4, {}};
