@@ -17,7 +17,7 @@ namespace {
 WrittenPoints write_results(const ComputedPoints& plane) {
   std::vector<studies::PointResult> results = studies::all_brief(plane.points);
   const input::Study& study = plane.input.study;
-  const reports::BasinsOutput output{study.plane, plane.first_model.state_names,
+  const reports::BasinsOutput output{std::get<studies::BasinsOptions>(study.plan).plane, plane.first_model.state_names,
                                      studies::planet_turns(plane.first_model), plane.resolved,
                                      reports::figure_title(study)};
   const analysis::Attractors attractors = studies::attractors_of(results, output.turns);

@@ -22,14 +22,12 @@ namespace epicyclic::app {
 int crosscheck_command(const Arguments& arguments) {
   stop_on_signals();
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
-  require_points(input, arguments, "crosscheck");
-  const studies::SweepOptions& sweep = *input.study.sweep;
+  const auto [sweep, options] = plan_with_points<input::CrosscheckPlan>(input, arguments, "crosscheck");
   const studies::SweepPlan plan = studies::plan_sweep(sweep);
   const auto model_at = input::smoothed_model_at(input);
   const double width = input.study.model.clearance_smoothing;
   const model::DynamicModel first_model = model_at(plan.points.front().value, width);
-  const std::vector<studies::Variant> variants =
-      studies::crosscheck_variants(input.study.crosscheck, input.study.integrator, width);
+  const std::vector<studies::Variant> variants = studies::crosscheck_variants(options, input.study.integrator, width);
   tell_warnings(input);
 
   Session session(arguments, input, identity_of(input, "crosscheck"), arguments.threads);
@@ -59,8 +57,8 @@ int crosscheck_command(const Arguments& arguments) {
     failed += result.outcome == integrate::Outcome::reached ? 0 : 1;
     progress.update(++finished, failed);
   };
-  const studies::Crosscheck all = studies::run_crosscheck(plan, sweep, input.study.crosscheck, input.study.integrator,
-                                                          width, model_at, std::move(run));
+  const studies::Crosscheck all =
+      studies::run_crosscheck(plan, sweep.look, options, input.study.integrator, width, model_at, std::move(run));
   progress.finish();
   journal.close();
   std::int64_t undrawn = 0;
@@ -86,7 +84,7 @@ int crosscheck_command(const Arguments& arguments) {
   const std::string summary = reports::crosscheck_summary(all);
   write_file_atomically(folder.file("crosscheck.md"), summary);
   const reports::DrawnFigure figure =
-      reports::draw_crosscheck_figure(folder.file("figures"), output, all, input.study.crosscheck.orbit_tolerance);
+      reports::draw_crosscheck_figure(folder.file("figures"), output, all, options.orbit_tolerance);
   undrawn = tell_undrawn({figure});
   close_run(store::RunState::complete);
 

@@ -84,15 +84,10 @@ std::map<std::size_t, studies::PointResult> known_points(const store::Journal& j
 void require_kind(const input::LoadedInput& input, const Arguments& arguments, std::string_view kind) {
   const std::string file = arguments.input.string();
   const std::string name(kind);
-  if (!input.study.sweep)
+  if (!input.study.has_points())
     throw InputError(file + ": is a stage without a study; " + name + " needs a study of kind " + name);
-  if (input.study.kind != kind)
-    throw InputError(file + ": is a study of kind " + input.study.kind + "; run `epicyclic " + input.study.kind + "`");
-}
-
-void require_points(const input::LoadedInput& input, const Arguments& arguments, std::string_view command) {
-  // Those of a sweep serve every command.
-  if (!input.study.sweep || input.study.kind != "sweep") require_kind(input, arguments, command);
+  if (const std::string own(input.study.kind()); own != kind)
+    throw InputError(file + ": is a study of kind " + own + "; run `epicyclic " + own + "`");
 }
 
 std::int64_t tell_undrawn(const std::vector<reports::DrawnFigure>& figures) {

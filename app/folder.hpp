@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "commands.hpp"
@@ -20,13 +21,19 @@
 
 namespace epicyclic::app {
 
-/// The points of a study are there, and are meant for this command: those of a sweep serve every command.
-/// @throws InputError
-void require_points(const input::LoadedInput& input, const Arguments& arguments, std::string_view command);
-
 /// The input is a study of this very kind.
 /// @throws InputError
 void require_kind(const input::LoadedInput& input, const Arguments& arguments, std::string_view kind);
+
+/// The plan of a command that takes the points of a sweep too, then with defaults for the rest.
+/// @throws InputError for a study of another kind
+template <class Plan>
+[[nodiscard]] Plan plan_with_points(const input::LoadedInput& input, const Arguments& arguments,
+                                    std::string_view command) {
+  if (const auto* sweep = std::get_if<studies::SweepOptions>(&input.study.plan)) return {*sweep, {}};
+  require_kind(input, arguments, command);
+  return std::get<Plan>(input.study.plan);
+}
 
 /// Versions, machine and the names that the input files came by, for run.json.
 [[nodiscard]] store::Provenance provenance(int threads, const input::LoadedInput& input);

@@ -33,7 +33,7 @@ bool computed(const studies::PointResult& r) { return r.outcome == integrate::Ou
 std::size_t compute_missing(const Arguments& arguments, std::string_view command, std::string_view noun,
                             const input::LoadedInput& input, const studies::SweepPlan& plan,
                             const studies::ModelAtPoint& model_at, store::PointStore& store, SweepLeader* leader) {
-  const studies::SweepOptions& sweep = *input.study.sweep;
+  const studies::LookOptions& look = input.study.look();
   std::size_t failed = 0;
   studies::SweepRun run;
   run.threads = arguments.threads;
@@ -58,9 +58,9 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
     progress.update(store.size() + elsewhere, failed);
   };
   if (leader == nullptr) {
-    (void)studies::run_sweep(plan, sweep, input.study.integrator, model_at, run);
+    (void)studies::run_sweep(plan, look, input.study.integrator, model_at, run);
   } else {
-    leader->run(plan, sweep, input.study.integrator, model_at, run, [&](std::size_t finished, std::size_t without) {
+    leader->run(plan, look, input.study.integrator, model_at, run, [&](std::size_t finished, std::size_t without) {
       const std::scoped_lock lock(counting);
       elsewhere += finished;
       failed += without;
@@ -126,7 +126,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   // Options that do not fit show here, before anything is written.
   const model::DynamicModel first_model = model_at(plan.points.front());
   tell_warnings(input);
-  if (command == "sweep" && input.study.sweep->parameter != "mesh_frequency_ratio")
+  if (command == "sweep" && input.study.sweep().axis.name != studies::speed_parameter)
     tell("operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
 
   const std::string identity = identity_of(input, command);

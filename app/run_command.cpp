@@ -20,6 +20,7 @@ int run_command(const Arguments& arguments) {
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
   require_kind(input, arguments, "run");
   const input::Study& study = input.study;
+  const auto& [look, options] = std::get<input::RunPlan>(study.plan);
   const model::DynamicModel model = input::model_at(input)(study.mesh_frequency_ratio);
   tell_warnings(input);
 
@@ -28,7 +29,7 @@ int run_command(const Arguments& arguments) {
   const store::OutputFolder& folder = session.folder();
 
   // A minute at most: what is stopped begins anew.
-  const auto result = studies::run_operating_point(model, model::scales_of(study.stage), *study.sweep, study.run,
+  const auto result = studies::run_operating_point(model, model::scales_of(study.stage), look, options,
                                                    study.integrator, [] { return !stop_requested().load(); });
   if (!result) {
     session.end(store::RunState::stopped, {});
@@ -37,9 +38,9 @@ int run_command(const Arguments& arguments) {
   }
 
   folder.require_there();
-  const reports::SweepOutput points{*study.sweep, studies::poincare_columns(model), session.resolved(),
+  const reports::SweepOutput points{study.sweep(), studies::poincare_columns(model), session.resolved(),
                                     reports::figure_title(study)};
-  const reports::RunOutput output{points, study.run, model.sun_planet_half_gap, model.ring_planet_half_gap,
+  const reports::RunOutput output{points, options, model.sun_planet_half_gap, model.ring_planet_half_gap,
                                   study.model.gap_damping};
   const bool computed = result->point.outcome == integrate::Outcome::reached;
   const std::string summary = reports::run_summary(output, *result);

@@ -17,7 +17,7 @@ namespace epicyclic::app {
 namespace {
 
 reports::SweepOutput output_of(const ComputedPoints& all) {
-  return {*all.input.study.sweep, studies::poincare_columns(all.first_model), all.resolved,
+  return {all.input.study.sweep(), studies::poincare_columns(all.first_model), all.resolved,
           reports::figure_title(all.input.study)};
 }
 
@@ -51,7 +51,7 @@ WrittenPoints write_points(const ComputedPoints& all) {
   reports::write_points_csv(all.folder / "points.csv", all.points);
   std::size_t settling = 0;
   for (std::size_t i = 0; i < all.points.count; ++i)
-    settling += studies::still_settling(all.points.read_brief(i), *all.input.study.sweep) ? 1 : 0;
+    settling += studies::still_settling(all.points.read_brief(i), all.input.study.look()) ? 1 : 0;
   WrittenPoints written;
   if (settling > 0)
     written.notes.push_back(

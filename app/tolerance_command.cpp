@@ -48,7 +48,7 @@ Known known_results(const store::Journal& journal, const studies::SweepPlan& pla
 }
 
 /// On stdout.
-void tell_result(const Arguments& arguments, const store::OutputFolder& folder, const input::LoadedInput& input,
+void tell_result(const Arguments& arguments, const store::OutputFolder& folder, double target_error,
                  std::size_t studied, std::size_t failed, const std::vector<studies::TolerancePoint>& points,
                  std::size_t dimension, const std::string& summary, const std::vector<reports::DrawnFigure>& figures) {
   nlohmann::json result = {{"folder", folder.path().string()},
@@ -57,7 +57,7 @@ void tell_result(const Arguments& arguments, const store::OutputFolder& folder, 
                            {"figures", nlohmann::json::array()}};
   for (const reports::DrawnFigure& figure : figures)
     if (figure.outcome.drawn()) result["figures"].push_back(figure.file.string());
-  if (const auto best = studies::recommend(points, dimension, input.study.tolerance.target_error))
+  if (const auto best = studies::recommend(points, dimension, target_error))
     result["recommendation"] = {{"method", best->method}, {"relative_tolerance", best->tolerance}};
   if (arguments.json) {
     print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
@@ -72,8 +72,7 @@ void tell_result(const Arguments& arguments, const store::OutputFolder& folder, 
 int tolerance_command(const Arguments& arguments) {
   stop_on_signals();
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
-  require_points(input, arguments, "tolerance");
-  const studies::SweepOptions& sweep = *input.study.sweep;
+  const auto [sweep, options] = plan_with_points<input::TolerancePlan>(input, arguments, "tolerance");
   const studies::SweepPlan plan = studies::plan_sweep(sweep);
   const auto model_at = input::smoothed_model_at(input);
   const double width = input.study.model.clearance_smoothing;
@@ -105,7 +104,7 @@ int tolerance_command(const Arguments& arguments) {
     progress.update(++finished, failed);
   };
   const auto studied = studies::run_sweep_in_memory(
-      plan, sweep, input.study.integrator, [&](double value) { return model_at(value, width); }, std::move(run),
+      plan, sweep.look, input.study.integrator, [&](double value) { return model_at(value, width); }, std::move(run),
       std::move(earlier.points));
   std::vector<studies::TolerancePoint> points;
   for (const studies::PointResult& result : studied) {
@@ -114,9 +113,8 @@ int tolerance_command(const Arguments& arguments) {
       points.push_back(std::move(known->second));
       continue;
     }
-    studies::TolerancePoint point =
-        studies::compute_tolerance_point(result, sweep, input.study.tolerance, input.study.integrator, width, model_at,
-                                         arguments.threads, &stop_requested());
+    studies::TolerancePoint point = studies::compute_tolerance_point(
+        result, sweep.look, options, input.study.integrator, width, model_at, arguments.threads, &stop_requested());
     if (stop_requested()) break;  // parts of it may be missing
     journal.append(plan.points.size() + result.point.index, store::encode_tolerance_point(point));
     points.push_back(std::move(point));
@@ -139,7 +137,7 @@ int tolerance_command(const Arguments& arguments) {
   folder.require_there();
   const reports::ToleranceOutput output{
       {sweep, studies::poincare_columns(first_model), session.resolved(), reports::figure_title(input.study)},
-      input.study.tolerance,
+      options,
       input.study.integrator,
       first_model.dimension};
   reports::write_points_csv(folder.file("points.csv"), studies::points_in_memory(studied));
@@ -148,7 +146,8 @@ int tolerance_command(const Arguments& arguments) {
   undrawn = tell_undrawn(figures);
   close_run(store::RunState::complete);
 
-  tell_result(arguments, folder, input, plan.points.size(), failed, points, first_model.dimension, summary, figures);
+  tell_result(arguments, folder, options.target_error, plan.points.size(), failed, points, first_model.dimension,
+              summary, figures);
   return failed == 0 && undrawn == 0 ? done : done_with_failures;
 }
 

@@ -209,7 +209,7 @@ void SweepLeader::gather(const Arguments& arguments, const std::string& identity
   }
 }
 
-void SweepLeader::run(const studies::SweepPlan& plan, const studies::SweepOptions& sweep,
+void SweepLeader::run(const studies::SweepPlan& plan, const studies::LookOptions& look,
                       const integrate::IntegratorOptions& integrator, const studies::ModelAtPoint& model_at,
                       studies::SweepRun run, const std::function<void(std::size_t, std::size_t)>& points_elsewhere) {
   const std::atomic<bool>& signal = *run.stop;
@@ -233,7 +233,7 @@ void SweepLeader::run(const studies::SweepPlan& plan, const studies::SweepOption
   // The computation has a thread of its own, because messages belong to this one.
   std::thread worker([&] {
     try {
-      (void)studies::run_sweep(plan, sweep, integrator, model_at, run);
+      (void)studies::run_sweep(plan, look, integrator, model_at, run);
     } catch (...) {
       error = std::current_exception();
     }
@@ -487,7 +487,7 @@ class Exchange {
 /// Computes what the leader gives.
 void compute_share(const Arguments& arguments, const input::LoadedInput& input, const std::string& identity,
                    const json& begin) {
-  const studies::SweepOptions& sweep = *input.study.sweep;
+  const studies::LookOptions& look = input.study.look();
   const studies::SweepPlan plan = input::plan_of(input.study);
   store::Journal journal(arguments.output / store::rank_journal_name(arguments.ranks->rank()), identity);
   Exchange exchange(*arguments.ranks);
@@ -506,7 +506,7 @@ void compute_share(const Arguments& arguments, const input::LoadedInput& input, 
   std::exception_ptr error;
   std::thread worker([&] {
     try {
-      (void)studies::run_sweep(plan, sweep, input.study.integrator, input::model_at_point(input), run);
+      (void)studies::run_sweep(plan, look, input.study.integrator, input::model_at_point(input), run);
       journal.close();
     } catch (...) {
       error = std::current_exception();

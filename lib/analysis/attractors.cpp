@@ -9,6 +9,7 @@
 #include <gsl/gsl_cdf.h>
 
 #include "core/errors.hpp"
+#include "core/require.hpp"
 
 namespace epicyclic::analysis {
 
@@ -151,9 +152,9 @@ AttractorRecord image(const AttractorRecord& record, const Symmetry& symmetry) {
 }  // namespace
 
 void AttractorOptions::validate() const {
-  if (!(level > 0.0 && level < 1.0)) throw InputError("level = " + std::to_string(level) + ", must be in (0, 1)");
-  if (!(least >= 0.0)) throw InputError("least = " + std::to_string(least) + ", must be >= 0");
-  if (!(tolerance > 0.0)) throw InputError("tolerance = " + std::to_string(tolerance) + ", must be > 0");
+  require(level > 0.0 && level < 1.0, "level", level, "in (0, 1)");
+  require(least >= 0.0, "least", least, ">= 0");
+  require(tolerance > 0.0, "tolerance", tolerance, "> 0");
 }
 
 AttractorRecord record_of_orbit(integrate::Flow& flow, const PeriodicOrbit& orbit, int n, double map_error) {

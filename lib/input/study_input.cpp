@@ -15,10 +15,23 @@
 #include "input/stage_completion.hpp"
 #include "model/dynamic_model.hpp"
 #include "studies/named_parameters.hpp"
-#include "studies/plane.hpp"
 #include "studies/units.hpp"
 
 namespace epicyclic::input {
+
+studies::SweepOptions Study::sweep() const {
+  if (const auto* run = std::get_if<RunPlan>(&plan)) return studies::sweep_of_one(mesh_frequency_ratio, run->look);
+  return sweep_in(plan);
+}
+
+std::vector<VariedParameter> varied_parameters(const Study& study) {
+  if (const auto* map = std::get_if<studies::MapOptions>(&study.plan))
+    return {{map->plane.first, "/study/first"}, {map->plane.second, "/study/second"}};
+  const bool given = std::holds_alternative<RunPlan>(study.plan) ||
+                     std::holds_alternative<studies::BasinsOptions>(study.plan) || !study.has_points();
+  if (given) return {};
+  return {{study.sweep().axis, "/study"}};
+}
 
 namespace {
 
@@ -480,23 +493,6 @@ bool feeds_completion(std::string_view pointer, bool bare) {
   return pointer_within(pointer, root + "/catalogue") || pointer_within(pointer, root + "/planets");
 }
 
-/// What follows from other values of a study that the tables have read.
-void derive_points(Study& study) {
-  if (!study.sweep) return;
-  // A run is a sweep of one point, at the speed that is given; basins are of one speed, too.
-  if (study.kind == "run" || study.kind == "basins") {
-    study.sweep->from = study.sweep->to = study.mesh_frequency_ratio;
-    study.sweep->points = 1;
-  }
-  if (study.kind == "map") {
-    study.sweep->parameter = study.plane.first.name;
-    study.sweep->from = study.plane.first.from;
-    study.sweep->to = study.plane.first.to;
-    study.sweep->points = study.plane.first.points;
-    study.sweep->keep = studies::Keep::row;
-  }
-}
-
 /// The rules of gear, which need values to judge, and say nothing new about what was found already.
 /// @param root          pointer of the stage
 /// @param not_computed  tells of a place of the stage that it has no value because none could be computed
@@ -516,7 +512,7 @@ bool judge_stage(const Study& study, const std::string& root, F not_computed, Re
   const bool sound = unread.empty();
   if (study.stage.planet_count < gear::planets_min || study.stage.planet_count > gear::planets_max) return sound;
   auto rules = gear::problems_for_modes(study.stage);
-  if (study.sweep) {
+  if (study.has_points()) {
     const auto more = gear::problems_for_motion(study.stage);
     rules.insert(rules.end(), more.begin(), more.end());
   }
@@ -555,13 +551,11 @@ std::pair<Study, bool> read_study(json& whole, bool bare, ReadContext& context, 
     *computed = bare || completion.computed.is_null() ? std::move(completion.computed)
                                                       : json{{"stage", std::move(completion.computed)}};
   if (bare) {
-    study.kind = "stage";
     stage_table().collect("", context.places);
     stage_table().read(whole, "", study.stage, context);
   } else {
     context.places = all_places();
     study_table().read(whole, "", study, context);
-    derive_points(study);
   }
 
   // What could not be computed is not missing.
@@ -583,7 +577,6 @@ std::optional<Study> change_study(const Study& sound, bool bare, std::span<const
     if (!(bare ? stage_table().change(pointer, value, pointer, study.stage, context)
                : study_table().change(pointer, value, pointer, study, context)))
       return std::nullopt;
-  derive_points(study);
   (void)judge_stage(
       study, bare ? "" : std::string(stage_root), [](const std::string&) { return false; }, context);
   return study;
@@ -692,7 +685,7 @@ std::vector<std::string> values_set_by(const std::string& parameter) {
 
 /// Rules of the two parameters of a map.
 template <class F>
-void check_map(const studies::PlaneOptions& plane, F is_bad, ReadContext& context) {
+void check_map(const studies::Plane& plane, F is_bad, ReadContext& context) {
   const auto named = [&](const std::string& place) { return !is_bad(place) && !is_bad(place + "/parameter"); };
   for (const auto& [axis, place] : {std::pair(&plane.first, "/study/first"), {&plane.second, "/study/second"}}) {
     check_range(*axis, place, is_bad, "", context);
@@ -711,8 +704,9 @@ void check_map(const studies::PlaneOptions& plane, F is_bad, ReadContext& contex
 
 /// Rules of the components that basins start from.
 template <class F>
-void check_basins(const studies::PlaneOptions& plane, const gear::Stage& stage, F is_bad, ReadContext& context) {
+void check_basins(const studies::BasinsOptions& basins, const gear::Stage& stage, F is_bad, ReadContext& context) {
   if (stage.planet_count < gear::planets_min || stage.planet_count > gear::planets_max) return;
+  const studies::Plane& plane = basins.plane;
   std::vector<std::string> names =
       model::coordinate_names(model::layout_of(stage, model::CoordinateChoice::relative), stage.planet_count);
   for (std::size_t k = 0, n = names.size(); k < n; ++k) names.push_back(names[k] + "_rate");
@@ -731,7 +725,7 @@ void check_basins(const studies::PlaneOptions& plane, const gear::Stage& stage, 
   if (plane.first.name == plane.second.name && named("/study/first") && named("/study/second"))
     context.add(Finding::Kind::rule, "/study/second/component",
                 "is \"" + plane.second.name + "\", which the first axis varies already");
-  for (const auto& [name, value] : plane.base) {
+  for (const auto& [name, value] : basins.base) {
     const std::string place = "/study/base" + pointer_step(name);
     if (!known(name)) {
       const bool in_words = context.findings.size() < findings_told;
@@ -746,25 +740,27 @@ void check_basins(const studies::PlaneOptions& plane, const gear::Stage& stage, 
 /// Rules of a study of points that span its keys.
 template <class F>
 void check_points(const Study& study, F is_bad, ReadContext& context) {
-  const studies::SweepOptions& sweep = *study.sweep;
-  if (sweep.transient == studies::Transient::adaptive && sweep.classification_periods == 0) {
+  const studies::LookOptions& look = study.look();
+  if (look.transient == studies::Transient::adaptive && look.classification_periods == 0) {
     context.add(Finding::Kind::rule, "/study/classification_periods",
                 "is 0, must be >= 1 for an adaptive transient, which ends when the regime is told; without it give "
                 "\"transient\": \"fixed\"");
   }
-  if (study.kind == "map") return check_map(study.plane, is_bad, context);
-  if (study.kind == "basins") return check_basins(study.plane, study.stage, is_bad, context);
-  const studies::Axis axis{sweep.parameter, sweep.from, sweep.to, sweep.points};
-  check_range(axis, "/study", is_bad, "; to go downwards give \"directions\": [\"down\"]", context);
-  if (!is_bad("/study/points") && sweep.segments > sweep.points) {
+  if (const auto* map = std::get_if<studies::MapOptions>(&study.plan)) return check_map(map->plane, is_bad, context);
+  if (const auto* basins = std::get_if<studies::BasinsOptions>(&study.plan))
+    return check_basins(*basins, study.stage, is_bad, context);
+  if (std::holds_alternative<RunPlan>(study.plan)) return;
+  const studies::SweepOptions sweep = study.sweep();
+  check_range(sweep.axis, "/study", is_bad, "; to go downwards give \"directions\": [\"down\"]", context);
+  if (!is_bad("/study/points") && sweep.segments > sweep.axis.points) {
     context.add(Finding::Kind::rule, "/study/segments",
-                "is " + std::to_string(sweep.segments) + ", must be <= points = " + std::to_string(sweep.points));
+                "is " + std::to_string(sweep.segments) + ", must be <= points = " + std::to_string(sweep.axis.points));
   }
   if (sweep.segments > 1 && sweep.start == studies::Start::cold) {
     context.add(Finding::Kind::rule, "/study/segments",
                 "is " + std::to_string(sweep.segments) + ", but points that start cold are chains of their own");
   }
-  if (!is_bad("/study/parameter")) check_named_parameter(axis, "/study", is_bad, context);
+  if (!is_bad("/study/parameter")) check_named_parameter(sweep.axis, "/study", is_bad, context);
 }
 
 /// Collects problems in the order of the texts: study, stage, assignments.
@@ -913,7 +909,7 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
   const auto is_bad = [&](const std::string& pointer) {
     return found.count(pointer) > 0 || sources->is_unreadable(pointer);
   };
-  if (input.study.sweep) check_points(input.study, is_bad, context);
+  if (input.study.has_points()) check_points(input.study, is_bad, context);
   input.resolved = sources->bare ? stage_table().write(input.study.stage) : study_table().write(input.study);
   fill_origins(input.resolved, whole);
   note_uncomputed(input.resolved, input.computed, context.notes);
@@ -927,15 +923,16 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
     problems.add(sources->locate(finding.pointer, sources->meant_by_set(finding)));
   }
 
+  std::vector<VariedParameter> varied = varied_parameters(input.study);
   bool has_range = true;
-  if (input.study.sweep && input.study.sweep->parameter != studies::SweepOptions().parameter) {
+  if (varied.size() == 1 && varied.front().axis.name != studies::speed_parameter) {
     // The default range is one of speeds.
     const nlohmann::json origins = input.resolved["study"].value("origin", nlohmann::json::object());
     for (const char* key : {"from", "to"})
       if (origins.is_object() && origins.value(key, std::string()) == "default") {
         problems.add(
             sources->locate(std::string("/study/") + key,
-                            "is missing; a sweep of " + input.study.sweep->parameter + " needs a range of its own"));
+                            "is missing; a sweep of " + varied.front().axis.name + " needs a range of its own"));
         has_range = false;
       }
   }
@@ -994,30 +991,24 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
           refuse(place + key, "is " + number_text(value) + ", with which " + problem.pointer + " " + problem.message);
     }
   };
-  std::vector<std::pair<studies::Axis, std::string>> axes;
-  if (input.study.kind == "map") {
-    axes = {{input.study.plane.first, "/study/first"}, {input.study.plane.second, "/study/second"}};
-  } else if (input.study.sweep) {
-    const auto& sweep = *input.study.sweep;
-    axes = {{{sweep.parameter, sweep.from, sweep.to, sweep.points}, "/study"}};
-  }
-  std::erase_if(axes, [&](const auto& axis) {
-    const auto& [a, place] = axis;
+  std::erase_if(varied, [&](const VariedParameter& parameter) {
+    const auto& [a, place] = parameter;
     return !is_pointer(a.name) || is_bad(place) || is_bad(place + "/parameter") ||
            (stage_missing && pointer_within(a.name, stage_root));
   });
   bool have_values = has_range;
-  for (const auto& [axis, place] : axes) {
+  for (const auto& [axis, place] : varied) {
     const bool values = has_range && !is_bad(place + "/from") && !is_bad(place + "/to") && !is_bad(place + "/points");
     check_ends(axis, place, values);
     have_values = have_values && values;
   }
-  if (ends_are_sound && have_values && axes.size() == 1) check_values(axes[0].first, axes[0].second, as_given, {}, "");
+  if (ends_are_sound && have_values && varied.size() == 1)
+    check_values(varied[0].axis, varied[0].place, as_given, {}, "");
   // Two values together, on the edges of the plane: within them a rule that both have to keep is kept.
-  if (problems.empty() && axes.size() == 2)
+  if (problems.empty() && varied.size() == 2)
     for (const std::size_t k : {0U, 1U}) {
-      const auto& [along, place] = axes[k];
-      const studies::Axis& other = axes[1 - k].first;
+      const auto& [along, place] = varied[k];
+      const studies::Axis& other = varied[1 - k].axis;
       for (const double end : {other.from, other.to}) {
         if (!ends_are_sound) break;
         const PointerValue fixed{other.name, end};

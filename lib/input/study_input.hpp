@@ -11,12 +11,15 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -39,19 +42,89 @@ inline constexpr std::array<std::string_view, 11> origin_words = {"source",   "t
                                                                   "estimate", "calibrated",  "choice",   "default",
                                                                   "set",      "stage_patch", "computed"};
 
+/// Nothing is to be computed: a stage file alone.
+struct StageAlone {};
+
+struct RunPlan {
+  studies::LookOptions look;
+  studies::RunOptions run;
+};
+
+struct CrosscheckPlan {
+  studies::SweepOptions sweep;
+  studies::CrosscheckOptions crosscheck;
+};
+
+struct TolerancePlan {
+  studies::SweepOptions sweep;
+  studies::ToleranceOptions tolerance;
+};
+
+/// What is computed, by kind of study.
+using Plan = std::variant<StageAlone, studies::SweepOptions, studies::MapOptions, studies::BasinsOptions, RunPlan,
+                          CrosscheckPlan, TolerancePlan>;
+
+/// How the points of a plan are looked at; of any kind.
+/// @throws std::bad_variant_access of a stage alone
+template <class P>
+requires std::same_as<std::remove_const_t<P>, Plan>
+[[nodiscard]] auto& look_in(P& plan) {
+  using Look = std::conditional_t<std::is_const_v<P>, const studies::LookOptions, studies::LookOptions>;
+  return std::visit(
+      [](auto& of) -> Look& {
+        if constexpr (requires { of.look; })
+          return of.look;
+        else if constexpr (requires { of.sweep; })
+          return of.sweep.look;
+        else
+          throw std::bad_variant_access();
+      },
+      plan);
+}
+
+/// The sweep of a plan: of a sweep, of a cross-check and of a tolerance study.
+/// @throws std::bad_variant_access of other kinds
+template <class P>
+requires std::same_as<std::remove_const_t<P>, Plan>
+[[nodiscard]] auto& sweep_in(P& plan) {
+  if (auto* crosscheck = std::get_if<CrosscheckPlan>(&plan)) return crosscheck->sweep;
+  if (auto* tolerance = std::get_if<TolerancePlan>(&plan)) return tolerance->sweep;
+  return std::get<studies::SweepOptions>(plan);
+}
+
+/// Names of the kinds, in the order of Plan.
+inline constexpr std::array<std::string_view, std::variant_size_v<Plan>> plan_kinds = {
+    "stage", "sweep", "map", "basins", "run", "crosscheck", "tolerance"};
+
 struct Study {
   std::string name;
-  std::string kind;  ///< "sweep", "map", "basins", "run", "crosscheck", "tolerance"; "stage" for a stage file alone
   gear::Stage stage;
   double mesh_frequency_ratio = 1;  ///< Omega = omega_m / omega_sn where no sweep varies it [-]
   model::ModelOptions model;
   integrate::IntegratorOptions integrator;
-  std::optional<studies::SweepOptions> sweep;  ///< the points of every kind of study
-  studies::CrosscheckOptions crosscheck{};     ///< as given by that kind, else the defaults
-  studies::RunOptions run{};                   ///< likewise
-  studies::PlaneOptions plane{};               ///< axes of a map or of basins
-  studies::ToleranceOptions tolerance{};       ///< likewise
+  Plan plan;
+
+  [[nodiscard]] std::string_view kind() const { return plan_kinds[plan.index()]; }
+  /// Is anything to be computed?
+  [[nodiscard]] bool has_points() const { return !std::holds_alternative<StageAlone>(plan); }
+
+  /// How its points are looked at.
+  /// @throws std::bad_variant_access of a stage alone
+  [[nodiscard]] const studies::LookOptions& look() const { return look_in(plan); }
+
+  /// The sweep that its points are; a run is one of one point.
+  /// @throws std::bad_variant_access of a map, of basins and of a stage alone
+  [[nodiscard]] studies::SweepOptions sweep() const;
 };
+
+/// A parameter that a study varies, and where the study says so: "/study", of a map "/study/first" and "/study/second".
+struct VariedParameter {
+  studies::Axis axis;
+  std::string place;
+};
+
+/// In this order; none of a run, of basins and of a stage alone.
+[[nodiscard]] std::vector<VariedParameter> varied_parameters(const Study& study);
 
 /// "--set /json/pointer=value": pointers address the study as written, and /stage/... the resolved stage.
 struct Assignment {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -54,31 +55,40 @@ model::DynamicModel model_of(const model::OperatingPoint& point, const model::Sc
 
 }  // namespace
 
+namespace {
+
+/// What the value of a point is of: the parameter of a sweep, else the speed.
+std::string parameter_of(const Study& study) {
+  const std::vector<VariedParameter> varied = varied_parameters(study);
+  return varied.empty() ? studies::speed_parameter : varied.front().axis.name;
+}
+
+}  // namespace
+
 studies::ModelAt model_at(const LoadedInput& input) {
-  return [&input, scales = model::scales_of(input.study.stage)](double value) {
-    return model_of(point_at(input, std::array{PointerValue{input.study.sweep->parameter, value}}), scales);
+  return [&input, parameter = parameter_of(input.study), scales = model::scales_of(input.study.stage)](double value) {
+    return model_of(point_at(input, std::array{PointerValue{parameter, value}}), scales);
   };
 }
 
 studies::SweepPlan plan_of(const Study& study) {
-  if (study.kind == "map") return studies::plan_map(*study.sweep, study.plane);
-  if (study.kind == "basins") return studies::plan_basins(study.plane);
-  return studies::plan_sweep(*study.sweep);
+  if (const auto* map = std::get_if<studies::MapOptions>(&study.plan)) return studies::plan_map(*map);
+  if (const auto* basins = std::get_if<studies::BasinsOptions>(&study.plan)) return studies::plan_basins(*basins);
+  return studies::plan_sweep(study.sweep());
 }
 
 studies::ModelAtPoint model_at_point(const LoadedInput& input) {
   const Study& study = input.study;
-  if (study.kind == "map")
-    return [&input, scales = model::scales_of(study.stage)](const studies::GridPoint& p) {
-      const studies::PlaneOptions& plane = input.study.plane;
+  if (const auto* map = std::get_if<studies::MapOptions>(&study.plan))
+    return [&input, &plane = map->plane, scales = model::scales_of(study.stage)](const studies::GridPoint& p) {
       return model_of(point_at(input, std::array{PointerValue{plane.first.name, p.value},
                                                  PointerValue{plane.second.name, p.second_value}}),
                       scales);
     };
-  if (study.kind == "basins")
-    return [&input, model = model_at(input)(study.mesh_frequency_ratio)](const studies::GridPoint& p) {
+  if (const auto* basins = std::get_if<studies::BasinsOptions>(&study.plan))
+    return [basins, model = model_at(input)(study.mesh_frequency_ratio)](const studies::GridPoint& p) {
       model::DynamicModel started = model;
-      started.default_start = studies::start_in_plane(model, input.study.plane, p);
+      started.default_start = studies::start_in_plane(model, *basins, p);
       return started;
     };
   return [at = model_at(input)](const studies::GridPoint& p) { return at(p.value); };
@@ -86,8 +96,9 @@ studies::ModelAtPoint model_at_point(const LoadedInput& input) {
 
 std::function<model::DynamicModel(double value, double clearance_smoothing)> smoothed_model_at(
     const LoadedInput& input) {
-  return [&input, scales = model::scales_of(input.study.stage)](double value, double clearance_smoothing) {
-    model::OperatingPoint point = point_at(input, std::array{PointerValue{input.study.sweep->parameter, value}});
+  return [&input, parameter = parameter_of(input.study), scales = model::scales_of(input.study.stage)](
+             double value, double clearance_smoothing) {
+    model::OperatingPoint point = point_at(input, std::array{PointerValue{parameter, value}});
     point.options.clearance_smoothing = clearance_smoothing;
     return model_of(point, scales);
   };
@@ -108,21 +119,8 @@ void warn_of_stage(std::vector<gear::Warning>& out, const gear::Stage& stage, do
   append(gear::warnings_at(stage, mesh_frequency, set ? &*set : nullptr));
 }
 
-struct VariedParameter {
-  std::string name, place;
-  double from, to;
-};
-
-/// What the study varies.
-std::vector<VariedParameter> varied_parameters(const Study& study) {
-  if (!study.sweep || study.kind == "run" || study.kind == "basins") return {};
-  const auto varied = [](const studies::Axis& axis, const std::string& place) {
-    return VariedParameter{axis.name, place + "/parameter", axis.from, axis.points > 1 ? axis.to : axis.from};
-  };
-  if (study.kind == "map")
-    return {varied(study.plane.first, "/study/first"), varied(study.plane.second, "/study/second")};
-  const studies::SweepOptions& sweep = *study.sweep;
-  return {varied({sweep.parameter, sweep.from, sweep.to, sweep.points}, "/study")};
+double last_value(const studies::Axis& axis) {
+  return studies::axis_value(axis, static_cast<std::size_t>(axis.points) - 1);
 }
 
 /// Warnings at the operating points at the ends of what the study varies, and on parameters that change nothing.
@@ -133,19 +131,21 @@ void warn_of_points(std::vector<gear::Warning>& out, const LoadedInput& input) {
   for (std::size_t corner = 0; corner < corners; ++corner) {
     std::vector<PointerValue> values;
     for (std::size_t k = 0; k < varied.size(); ++k)
-      values.push_back({varied[k].name, (corner >> k & 1U) != 0U ? varied[k].to : varied[k].from});
+      values.push_back(
+          {varied[k].axis.name, (corner >> k & 1U) != 0U ? last_value(varied[k].axis) : varied[k].axis.from});
     const model::OperatingPoint point = point_at(input, values);
     warn_of_stage(out, point.stage, point.mesh_frequency_ratio * scales.omega_sn);
   }
-  for (const VariedParameter& parameter : varied) {
-    if (parameter.from == parameter.to) continue;
-    const auto model = [&](double value) {
-      return model_of(point_at(input, std::array{PointerValue{parameter.name, value}}), scales);
+  for (const auto& [axis, place] : varied) {
+    const double to = last_value(axis);
+    if (axis.from == to) continue;
+    const auto model = [&, &name = axis.name](double value) {
+      return model_of(point_at(input, std::array{PointerValue{name, value}}), scales);
     };
-    if (studies::same_motion(model(parameter.from), model(parameter.to)))
-      out.push_back({gear::Rank::doubtful, 1.0, parameter.place, parameter.place,
+    if (studies::same_motion(model(axis.from), model(to)))
+      out.push_back({gear::Rank::doubtful, 1.0, place + "/parameter", place + "/parameter",
                      fmt::format("{} has no effect on the motion: the equations at {} and at {} are the same",
-                                 parameter.name, parameter.from, parameter.to)});
+                                 axis.name, axis.from, to)});
   }
 }
 
@@ -161,7 +161,7 @@ std::vector<std::string> texts(std::vector<gear::Warning> warnings) {
 std::vector<std::string> warnings(const LoadedInput& input) {
   const Study& study = input.study;
   std::vector<std::string> lines;
-  if (!study.sweep) {
+  if (!study.has_points()) {
     lines = gear_warnings(input);
   } else {
     std::vector<gear::Warning> all;
@@ -176,7 +176,8 @@ std::vector<std::string> warnings(const LoadedInput& input) {
       all.push_back({gear::Rank::doubtful, 1.0, "/integrator/method", "kinks",
                      "the error estimate of \"" + std::string(method->name) +
                          "\" misses the kinks of the exact clearance; its errors are far above its tolerance"});
-    if (study.sweep->classification_periods > 0 && study.kind != "crosscheck" && study.kind != "tolerance" &&
+    if (study.look().classification_periods > 0 && !std::holds_alternative<CrosscheckPlan>(study.plan) &&
+        !std::holds_alternative<TolerancePlan>(study.plan) &&
         study.model.gap_damping == model::GapDamping::contact_slope && study.model.clearance_smoothing == 0.0)
       all.push_back({gear::Rank::note, 1.0, "/model/gap_damping", "tangents",
                      "with the exact clearance its damping jumps, and tangent vectors with it; regimes are told from "

@@ -9,7 +9,6 @@
 #include "input/study_input.hpp"
 #include "integrate/methods.hpp"
 #include "studies/named_parameters.hpp"
-#include "studies/plane.hpp"
 
 namespace epicyclic::input {
 
@@ -25,6 +24,9 @@ using gear::Planet;
 using gear::Stage;
 using nlohmann::json;
 using nlohmann::ordered_json;
+using studies::BasinsOptions;
+using studies::LookOptions;
+using studies::MapOptions;
 using studies::SweepOptions;
 
 // Far beyond any gear, on both sides; they catch a wrong unit and keep sums, squares and quotients finite.
@@ -444,10 +446,44 @@ const Table<model::ModelOptions>& model_table() {
   return table;
 }
 
-constexpr auto sweep_of = [](auto member) { return within(&Study::sweep, member); };
+/// Parts of the plan; its kind is decided before its table reads.
+template <class Options>
+struct Kind {
+  static auto& in(auto& plan) { return std::get<Options>(plan); }
+};
+struct Sweep {
+  static auto& in(auto& plan) { return sweep_in(plan); }
+};
+struct Look {
+  static auto& in(auto& plan) { return look_in(plan); }
+};
+struct Run {
+  static auto& in(auto& plan) { return std::get<RunPlan>(plan).run; }
+};
+struct Crosscheck {
+  static auto& in(auto& plan) { return std::get<CrosscheckPlan>(plan).crosscheck; }
+};
+struct Tolerance {
+  static auto& in(auto& plan) { return std::get<TolerancePlan>(plan).tolerance; }
+};
+
+/// The member of a part of the plan.
+template <class Part, class Options, class V>
+table_detail::Access<Study, V> in_plan(V Options::*member) {
+  return {[=](Study& s) -> V& { return Part::in(s.plan).*member; },
+          [=](const Study& s) -> const V* { return &(Part::in(s.plan).*member); }};
+}
+
+/// Of an axis or a plane of that part.
+template <class Part, class Options, class U, class V>
+table_detail::Access<Study, V> in_plan(U Options::*outer, V U::*member) {
+  return {[=](Study& s) -> V& { return Part::in(s.plan).*outer.*member; },
+          [=](const Study& s) -> const V* { return &(Part::in(s.plan).*outer.*member); }};
+}
 
 /// Which kind of study it is.
-void add_kind(Table<Study>& t, const std::string& name) {
+void add_kind(Table<Study>& t, const Plan& plan) {
+  const std::string name(plan_kinds[plan.index()]);
   Field<Study> kind;
   kind.key = "kind";
   kind.description = "What is computed.";
@@ -458,56 +494,55 @@ void add_kind(Table<Study>& t, const std::string& name) {
 }
 
 /// Directions and start, for sweeps and maps.
+template <class Part, class Options>
 void add_course(Table<Study>& t) {
   using studies::Direction;
   using studies::Start;
-  const auto of = sweep_of;
-  t.choices("directions", of(&SweepOptions::directions),
+  t.choices("directions", in_plan<Part>(&Options::directions),
             std::vector<std::pair<std::string, Direction>>{{"up", Direction::up}, {"down", Direction::down}},
             "Directions, numbered one after the other; each is a chain of its own from the default start.");
-  t.choice("start", of(&SweepOptions::start),
+  t.choice("start", in_plan<Part>(&Options::start),
            std::vector<std::pair<std::string, Start>>{{"carried", Start::carried}, {"cold", Start::cold}},
            "Where a point starts: from the end of the one before in its chain, or from the default start.");
 }
 
 /// Points along one parameter.
 void add_grid(Table<Study>& t) {
-  const auto of = sweep_of;
-  t.text("parameter", of(&SweepOptions::parameter),
-         "Name of the parameter, or a JSON pointer to a number of the input.");
-  t.number("from", of(&SweepOptions::from), between(-1e300, 1e300), "First value of the parameter, in its unit.");
-  t.number("to", of(&SweepOptions::to), between(-1e300, 1e300), "Last value of the parameter, in its unit.");
-  t.integer("points", of(&SweepOptions::points), between(1, 100000),
-            "Number of points, evenly spaced, ends included [-].");
-  add_course(t);
-  t.integer("segments", of(&SweepOptions::segments), between(1, 100000),
+  using studies::Axis;
+  const auto of = [](auto member) { return in_plan<Sweep>(&SweepOptions::axis, member); };
+  t.text("parameter", of(&Axis::name), "Name of the parameter, or a JSON pointer to a number of the input.");
+  t.number("from", of(&Axis::from), between(-1e300, 1e300), "First value of the parameter, in its unit.");
+  t.number("to", of(&Axis::to), between(-1e300, 1e300), "Last value of the parameter, in its unit.");
+  t.integer("points", of(&Axis::points), between(1, 100000), "Number of points, evenly spaced, ends included [-].");
+  add_course<Sweep, SweepOptions>(t);
+  t.integer("segments", in_plan<Sweep>(&SweepOptions::segments), between(1, 100000),
             "Chains per direction of a carried sweep [-].");
-  t.integer("coarse_periods", of(&SweepOptions::coarse_periods), between(1, 1e6),
+  t.integer("coarse_periods", in_plan<Sweep>(&SweepOptions::coarse_periods), between(1, 1e6),
             "Mesh periods of each point in the pass along the range that says where segments start [-].");
 }
 
 /// How long each point is looked at.
 void add_look(Table<Study>& t) {
-  const auto of = sweep_of;
-  t.integer("transient_periods", of(&SweepOptions::transient_periods), between(0, 1e7),
+  const auto of = [](auto member) { return in_plan<Look>(member); };
+  t.integer("transient_periods", of(&LookOptions::transient_periods), between(0, 1e7),
             "Mesh periods before the record, if the transient is fixed [-].");
-  t.integer("recorded_periods", of(&SweepOptions::recorded_periods), between(1, 1e5), "Mesh periods recorded [-].");
-  t.integer("output_phases", of(&SweepOptions::output_phases), between(1, 10000),
+  t.integer("recorded_periods", of(&LookOptions::recorded_periods), between(1, 1e5), "Mesh periods recorded [-].");
+  t.integer("output_phases", of(&LookOptions::output_phases), between(1, 10000),
             "Output points per recorded mesh period [-].");
-  t.integer("period_max", of(&SweepOptions::period_max), between(1, 10000),
+  t.integer("period_max", of(&LookOptions::period_max), between(1, 10000),
             "Longest period of the motion that is looked for, in mesh periods [-].");
-  t.number("recurrence_tolerance", of(&SweepOptions::recurrence_tolerance), between(tolerance_min, 1),
+  t.number("recurrence_tolerance", of(&LookOptions::recurrence_tolerance), between(tolerance_min, 1),
            "Two states recur if no component differs by more, in the units of the state.");
 }
 
 /// The keys of studies that tell their points' regimes.
 void add_classification(Table<Study>& t) {
-  const auto of = sweep_of;
-  t.choice("transient", of(&SweepOptions::transient),
+  const auto of = [](auto member) { return in_plan<Look>(member); };
+  t.choice("transient", of(&LookOptions::transient),
            std::vector<std::pair<std::string, studies::Transient>>{{"fixed", studies::Transient::fixed},
                                                                    {"adaptive", studies::Transient::adaptive}},
            "How long the motion is let settle: transient_periods, or until its regime is told.");
-  t.integer("classification_periods", of(&SweepOptions::classification_periods), between(0, 1e7),
+  t.integer("classification_periods", of(&LookOptions::classification_periods), between(0, 1e7),
             "Mesh periods beyond the record in which the regime may be looked for [-]; 0: it is told from recurrence "
             "alone.");
 }
@@ -515,7 +550,7 @@ void add_classification(Table<Study>& t) {
 const Table<Study>& sweep_table() {
   static const auto table = [] {
     Table<Study> t("sweep", "A sweep along one parameter.");
-    add_kind(t, "sweep");
+    add_kind(t, SweepOptions{});
     add_grid(t);
     add_look(t);
     add_classification(t);
@@ -556,12 +591,13 @@ const Table<studies::Axis>& component_axis_table() {
 
 const Table<Study>& map_table() {
   static const auto table = [] {
-    using studies::PlaneOptions;
+    using studies::Plane;
     Table<Study> t("map", "Regimes over two parameters.");
-    add_kind(t, "map");
-    t.object("first", chain(&Study::plane, &PlaneOptions::first), parameter_axis_table()).required();
-    t.object("second", chain(&Study::plane, &PlaneOptions::second), parameter_axis_table()).required();
-    add_course(t);
+    add_kind(t, MapOptions{});
+    t.object("first", in_plan<Kind<MapOptions>>(&MapOptions::plane, &Plane::first), parameter_axis_table()).required();
+    t.object("second", in_plan<Kind<MapOptions>>(&MapOptions::plane, &Plane::second), parameter_axis_table())
+        .required();
+    add_course<Kind<MapOptions>, MapOptions>(t);
     add_look(t);
     add_classification(t);
     return t;
@@ -582,12 +618,12 @@ Field<Study> base_field() {
       if (key == "origin" || key == "note") continue;
       const auto read = table_detail::read_number(number, pointer + pointer_step(key), "base", bounds, context);
       // Kept if it is none, for its name to be checked.
-      study.plane.base[key] = read.value_or(0.0);
+      std::get<BasinsOptions>(study.plan).base[key] = read.value_or(0.0);
     }
   };
   base.write = [](const Study& study) {
     json object;
-    for (const auto& [name, value] : study.plane.base) object[name] = value;
+    for (const auto& [name, value] : std::get<BasinsOptions>(study.plan).base) object[name] = value;
     return object;
   };
   base.schema = [bounds] {
@@ -598,11 +634,13 @@ Field<Study> base_field() {
 
 const Table<Study>& basins_table() {
   static const auto table = [] {
-    using studies::PlaneOptions;
+    using studies::Plane;
     Table<Study> t("basins", "The attractors that motions from a plane of starts end on, at one operating point.");
-    add_kind(t, "basins");
-    t.object("first", chain(&Study::plane, &PlaneOptions::first), component_axis_table()).required();
-    t.object("second", chain(&Study::plane, &PlaneOptions::second), component_axis_table()).required();
+    add_kind(t, BasinsOptions{});
+    t.object("first", in_plan<Kind<BasinsOptions>>(&BasinsOptions::plane, &Plane::first), component_axis_table())
+        .required();
+    t.object("second", in_plan<Kind<BasinsOptions>>(&BasinsOptions::plane, &Plane::second), component_axis_table())
+        .required();
     t.custom(base_field());
     add_look(t);
     add_classification(t);
@@ -615,10 +653,10 @@ const Table<Study>& run_table() {
   static const auto table = [] {
     using studies::RunOptions;
     Table<Study> t("run", "One operating point, at the speed that \"operation\" gives.");
-    add_kind(t, "run");
+    add_kind(t, RunPlan{});
     add_look(t);
     add_classification(t);
-    const auto of = [](auto member) { return chain(&Study::run, member); };
+    const auto of = [](auto member) { return in_plan<Run>(member); };
     t.integer("exponent_periods", of(&RunOptions::exponent_periods), between(0, 1e6),
               "Mesh periods that the Lyapunov exponents are counted over [-]; 0: none are computed.");
     t.integer("dense_phases", of(&RunOptions::dense_phases), between(8, 10000),
@@ -647,11 +685,11 @@ const Table<Study>& crosscheck_table() {
   static const auto table = [] {
     using studies::CrosscheckOptions;
     Table<Study> t("crosscheck", "The same points by several methods, compared.");
-    add_kind(t, "crosscheck");
+    add_kind(t, CrosscheckPlan{});
     add_grid(t);
     add_look(t);
     add_classification(t);
-    const auto of = [](auto member) { return chain(&Study::crosscheck, member); };
+    const auto of = [](auto member) { return in_plan<Crosscheck>(member); };
     t.choices("methods", of(&CrosscheckOptions::methods), method_choices(),
               "Methods; the first is the reference of the others.");
     t.numbers("clearance_smoothings", of(&CrosscheckOptions::clearance_smoothings), smoothing_width, 1, 100,
@@ -669,11 +707,11 @@ const Table<Study>& tolerance_table() {
   static const auto table = [] {
     using studies::ToleranceOptions;
     Table<Study> t("tolerance", "The points' answers against tolerance, method and clearance smoothing.");
-    add_kind(t, "tolerance");
+    add_kind(t, TolerancePlan{});
     add_grid(t);
     add_look(t);
     add_classification(t);
-    const auto of = [](auto member) { return chain(&Study::tolerance, member); };
+    const auto of = [](auto member) { return in_plan<Tolerance>(member); };
     t.choices("methods", of(&ToleranceOptions::methods), method_choices(), "Methods of the ladder.");
     t.numbers("tolerances", of(&ToleranceOptions::tolerances), integrator_tolerance, 1, 100,
               "Relative tolerances of the ladder [-]; the absolute ones keep the ratio of the study's integrator.");
@@ -690,56 +728,60 @@ const Table<Study>& tolerance_table() {
   return table;
 }
 
-/// Kinds of study and their tables.
-const std::vector<std::pair<std::string, const Table<Study>& (*)()>> kinds = {
-    {"sweep", &sweep_table},           {"map", &map_table},
-    {"basins", &basins_table},         {"run", &run_table},
-    {"crosscheck", &crosscheck_table}, {"tolerance", &tolerance_table}};
+/// The tables of kinds of study, in the order of Plan; a stage alone has none.
+struct PlanKind {
+  const Table<Study>& (*table)();
+  Plan plan;  ///< what reading starts from: the defaults
+  [[nodiscard]] std::string_view name() const { return plan_kinds[plan.index()]; }
+};
+const std::vector<PlanKind>& kinds() {
+  static const std::vector<PlanKind> all = {{&sweep_table, SweepOptions{}},        {&map_table, MapOptions{}},
+                                            {&basins_table, BasinsOptions{}},      {&run_table, RunPlan{}},
+                                            {&crosscheck_table, CrosscheckPlan{}}, {&tolerance_table, TolerancePlan{}}};
+  return all;
+}
 
 /// Kinds that the input format knows and this version does not compute.
 const std::vector<std::string> kinds_to_come = {"continue", "calibrate"};
 
-const Table<Study>& table_of_kind(const std::string& kind) {
-  for (const auto& [name, table] : kinds)
-    if (name == kind) return table();
-  return sweep_table();
-}
-
-/// What reading a study's points starts from: its defaults.
-studies::SweepOptions defaults_of(const std::string& kind) {
-  return kind == "basins" ? studies::basins_options() : studies::SweepOptions{};
+/// @returns nullptr if there is none of that name
+const PlanKind* find_kind(std::string_view name) {
+  for (const PlanKind& kind : kinds())
+    if (kind.name() == name) return &kind;
+  return nullptr;
 }
 
 /// The kind that has least to find fault with.
-std::string likely_kind(const json& plan, const std::string& pointer) {
-  std::string likely;
+const PlanKind& likely_kind(const json& plan, const std::string& pointer) {
+  const PlanKind* likely = nullptr;
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
-  for (const auto& [name, table] : kinds) {
+  for (const PlanKind& kind : kinds()) {
     Study study;
-    study.sweep = defaults_of(name);
+    study.plan = kind.plan;
     ReadContext context;
-    table().read(plan, pointer, study, context);
+    kind.table().read(plan, pointer, study, context);
     if (context.findings.size() >= fewest) continue;
     fewest = context.findings.size();
-    likely = name;
+    likely = &kind;
   }
-  return likely;
+  return *likely;
 }
 
 void read_plan(const json& value, const std::string& pointer, Study& study, ReadContext& context) {
   if (!table_detail::check_object(value, pointer, context)) return;
   std::vector<std::string> names;
-  for (const auto& [name, table] : kinds) names.push_back(name);
+  for (const PlanKind& k : kinds()) names.emplace_back(k.name());
+  const PlanKind* read_as = nullptr;
   const auto kind = value.find("kind");
   if (kind != value.end() && kind->is_string()) {
     const auto& name = kind->get_ref<const std::string&>();
-    if (std::find(names.begin(), names.end(), name) != names.end()) {
-      study.kind = name;
-    } else if (std::find(kinds_to_come.begin(), kinds_to_come.end(), name) != kinds_to_come.end()) {
+    read_as = find_kind(name);
+    if (std::find(kinds_to_come.begin(), kinds_to_come.end(), name) != kinds_to_come.end()) {
       context.add(Finding::Kind::range, pointer + "/kind",
                   "is \"" + name + "\", which this version does not compute yet; it computes: " + listed(names));
       return;
-    } else {
+    }
+    if (read_as == nullptr) {
       auto all = kinds_to_come;
       all.insert(all.begin(), names.begin(), names.end());
       context.add(Finding::Kind::range, pointer + "/kind",
@@ -749,9 +791,9 @@ void read_plan(const json& value, const std::string& pointer, Study& study, Read
     context.add(Finding::Kind::type, pointer + "/kind",
                 "is " + described(*kind) + ", must be one of: " + listed(names));
   }
-  if (study.kind.empty()) study.kind = likely_kind(value, pointer);
-  study.sweep = defaults_of(study.kind);
-  table_of_kind(study.kind).read(value, pointer, study, context);
+  if (read_as == nullptr) read_as = &likely_kind(value, pointer);
+  study.plan = read_as->plan;
+  read_as->table().read(value, pointer, study, context);
 }
 
 }  // namespace
@@ -795,18 +837,21 @@ const Table<Study>& study_table() {
     plan.key = "study";
     plan.description = "What is computed.";
     plan.read = read_plan;
-    plan.write = [](const Study& study) { return study.sweep ? table_of_kind(study.kind).write(study) : json(); };
+    plan.write = [](const Study& study) {
+      const PlanKind* kind = find_kind(study.kind());
+      return kind == nullptr ? json() : kind->table().write(study);
+    };
     plan.schema = [] {
       ordered_json any = ordered_json::array();
-      for (const auto& [name, table_of] : kinds) {
+      for (const PlanKind& kind : kinds()) {
         Study plain;
-        plain.sweep = defaults_of(name);
-        any.push_back(table_of().schema(plain));
+        plain.plan = kind.plan;
+        any.push_back(kind.table().schema(plain));
       }
       return ordered_json{{"anyOf", any}};
     };
     plan.collect = [](const std::string& pointer, std::vector<KeyPlace>& places) {
-      for (const auto& [name, table_of] : kinds) table_of().collect(pointer, places);
+      for (const PlanKind& kind : kinds()) kind.table().collect(pointer, places);
     };
     t.custom(std::move(plan)).required();
     return t;

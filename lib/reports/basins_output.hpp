@@ -16,7 +16,7 @@
 namespace epicyclic::reports {
 
 struct BasinsOutput {
-  studies::PlaneOptions plane;
+  studies::Plane plane;
   std::vector<std::string> state_names;
   std::vector<studies::PlanetTurn> turns;  ///< symmetries that images of attractors were looked for with
   std::string resolved_input;              ///< text of input.resolved.json, kept in results.h5 too

@@ -108,9 +108,9 @@ DrawnFigure draw_crosscheck_figure(const std::filesystem::path& folder, const Sw
   }
   if (!all.reference.empty())
     curves.push_back(
-        {"orbit tolerance", {output.sweep.from, output.sweep.to}, {orbit_tolerance, orbit_tolerance}, false});
+        {"orbit tolerance", {output.sweep.axis.from, output.sweep.axis.to}, {orbit_tolerance, orbit_tolerance}, false});
   const figures::FigureText text{
-      figures::literal_text(output.title), parameter_label(output.sweep.parameter),
+      figures::literal_text(output.title), parameter_label(output.sweep.axis.name),
       fmt::format("Distance from the orbit of {}  [b_c, b_c/τ]", figures::literal_text(all.variants[0].label))};
   return {folder / "crosscheck.png",
           figures::line_figure(folder, "crosscheck", text, curves, {.log_x = false, .log_y = true})};

@@ -23,8 +23,8 @@ using studies::PointResult;
 template <class T>
 std::vector<T> matrix(const MapOutput& output, const studies::PointSource& points, Direction direction,
                       const std::function<T(const PointResult&)>& value) {
-  const auto columns = static_cast<std::size_t>(output.plane.first.points);
-  const auto& directions = output.sweep.directions;
+  const auto columns = static_cast<std::size_t>(output.map.plane.first.points);
+  const auto& directions = output.map.directions;
   const std::size_t count = points.count / directions.size();
   const auto which = static_cast<std::size_t>(std::ranges::find(directions, direction) - directions.begin());
   std::vector<T> cells(count);
@@ -69,10 +69,10 @@ void write_map_csv(const std::filesystem::path& file, const studies::PointSource
 void write_map_h5(const std::filesystem::path& file, const MapOutput& output, const studies::PointSource& points) {
   store::Hdf5File h5(file);
   // Matrices: rows along the second parameter, columns along the first, both ascending.
-  write_plane(h5, "/map", "parameter", output.plane, output.resolved_input, points);
-  const auto columns = static_cast<std::size_t>(output.plane.first.points);
-  const auto rows = static_cast<std::size_t>(output.plane.second.points);
-  for (const Direction direction : output.sweep.directions) {
+  write_plane(h5, "/map", "parameter", output.map.plane, output.resolved_input, points);
+  const auto columns = static_cast<std::size_t>(output.map.plane.first.points);
+  const auto rows = static_cast<std::size_t>(output.map.plane.second.points);
+  for (const Direction direction : output.map.directions) {
     const std::string group = "/map/" + store::direction_word(direction);
     h5.create_group(group);
     const auto integers = [&](const char* name, const std::function<std::int64_t(const PointResult&)>& value) {
@@ -100,17 +100,17 @@ void write_map_h5(const std::filesystem::path& file, const MapOutput& output, co
 std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, const MapOutput& output,
                                           const studies::PointSource& points) {
   std::vector<DrawnFigure> figures;
-  const figures::CellGrid grid{axis_values(output.plane.first), axis_values(output.plane.second)};
-  for (const Direction direction : output.sweep.directions) {
+  const figures::CellGrid grid{axis_values(output.map.plane.first), axis_values(output.map.plane.second)};
+  for (const Direction direction : output.map.directions) {
     const std::string word = store::direction_word(direction);
     const figures::FigureText text{
-        figures::literal_text(output.title) + (output.sweep.directions.size() > 1 ? ", " + word : ""),
-        parameter_label(output.plane.first.name), parameter_label(output.plane.second.name)};
+        figures::literal_text(output.title) + (output.map.directions.size() > 1 ? ", " + word : ""),
+        parameter_label(output.map.plane.first.name), parameter_label(output.map.plane.second.name)};
     const std::string regimes = "regimes_" + word;
     figures.push_back(
         {folder / (regimes + ".png"), figures::class_figure(folder, regimes, text, grid, classes(),
                                                             matrix<std::size_t>(output, points, direction, class_of))});
-    if (output.sweep.classification_periods == 0) continue;
+    if (output.map.look.classification_periods == 0) continue;
     const auto exponents =
         matrix<double>(output, points, direction, [](const PointResult& r) { return r.lyapunov_max().value; });
     if (std::ranges::none_of(exponents, [](double x) { return std::isfinite(x); })) continue;

@@ -17,8 +17,7 @@
 namespace epicyclic::reports {
 
 struct MapOutput {
-  studies::SweepOptions sweep;
-  studies::PlaneOptions plane;
+  studies::MapOptions map;
   std::string resolved_input;  ///< text of input.resolved.json, kept in results.h5 too
   std::string title;           ///< of the figures
 };

@@ -13,9 +13,9 @@ store::PointColumn second_value_column() {
           store::PointColumn::Getter<double>([](const PointResult& r) { return r.point.second_value; })};
 }
 
-void write_plane(store::Hdf5File& h5, const std::string& group, const std::string& axis,
-                 const studies::PlaneOptions& plane, const std::string& resolved_input,
-                 const studies::PointSource& points, const std::vector<store::PointColumn>& more) {
+void write_plane(store::Hdf5File& h5, const std::string& group, const std::string& axis, const studies::Plane& plane,
+                 const std::string& resolved_input, const studies::PointSource& points,
+                 const std::vector<store::PointColumn>& more) {
   h5.set_attribute("/", "input_resolved", resolved_input);
   h5.set_attribute("/", axis, plane.first.name);
   h5.set_attribute("/", "second_" + axis, plane.second.name);

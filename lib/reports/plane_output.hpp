@@ -17,8 +17,8 @@ namespace epicyclic::reports {
 /// The input, what the axes are, the group /points, and `group` with the values along both axes, ascending.
 /// @param axis  "parameter" or "component": of the attributes
 /// @param more  columns of the points besides
-void write_plane(store::Hdf5File& h5, const std::string& group, const std::string& axis,
-                 const studies::PlaneOptions& plane, const std::string& resolved_input,
-                 const studies::PointSource& points, const std::vector<store::PointColumn>& more = {});
+void write_plane(store::Hdf5File& h5, const std::string& group, const std::string& axis, const studies::Plane& plane,
+                 const std::string& resolved_input, const studies::PointSource& points,
+                 const std::vector<store::PointColumn>& more = {});
 
 }  // namespace epicyclic::reports

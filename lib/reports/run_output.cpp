@@ -503,11 +503,11 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
   }
   text += bullet(p.recurrence.period > 0
                      ? fmt::format("The record of {:g} mesh periods repeats after {}, to {:.2g} [b_c, b_c per tau].",
-                                   static_cast<double>(output.points.sweep.recorded_periods),
+                                   static_cast<double>(output.points.sweep.look.recorded_periods),
                                    mesh_periods(p.recurrence.period), p.recurrence.error)
                      : fmt::format("The record of {:g} mesh periods does not repeat: nearest after {}, to {:.2g} "
                                    "[b_c, b_c per tau].",
-                                   static_cast<double>(output.points.sweep.recorded_periods),
+                                   static_cast<double>(output.points.sweep.look.recorded_periods),
                                    mesh_periods(p.recurrence.best_period), p.recurrence.error));
   return text;
 }

@@ -62,7 +62,7 @@ std::optional<std::string> stem_of(const SweepOutput& output, SweepFigure figure
   if (figure == SweepFigure::delta_sp) return "bifurcation_delta_sp";
   if (figure == SweepFigure::delta_rp) return "bifurcation_delta_rp";
   const std::size_t direction = direction_of(figure);
-  if (output.sweep.classification_periods == 0 || direction >= output.sweep.directions.size()) return std::nullopt;
+  if (output.sweep.look.classification_periods == 0 || direction >= output.sweep.directions.size()) return std::nullopt;
   return "regimes_delta_sp_" + store::direction_word(output.sweep.directions[direction]);
 }
 
@@ -71,7 +71,7 @@ const char* column_of(SweepFigure figure) { return figure == SweepFigure::delta_
 
 figures::FigureText text_of(const SweepOutput& output, SweepFigure figure) {
   figures::FigureText text{
-      figures::literal_text(output.title), parameter_label(output.sweep.parameter),
+      figures::literal_text(output.title), parameter_label(output.sweep.axis.name),
       fmt::format("Poincaré points of  δ_{{{}}} / b_c", figure == SweepFigure::delta_rp ? "rp" : "sp")};
   if (shows_regimes(figure)) text.title += ", " + store::direction_word(output.sweep.directions[direction_of(figure)]);
   return text;
@@ -141,11 +141,11 @@ std::string figure_title(const input::Study& study) {
   const gear::Boundary b = study.stage.boundary;
   const char* boundary = b == gear::Boundary::literal ? "literal" : b == gear::Boundary::star ? "star" : "fixed ring";
   std::string title = (study.name.empty() ? study.stage.name : study.name) + ", boundary " + boundary;
-  const bool speed_is_given = study.kind == "run" || study.kind == "basins";
-  const bool speed_is_varied =
-      study.sweep && (study.sweep->parameter == "mesh_frequency_ratio" ||
-                      (study.kind == "map" && study.plane.second.name == "mesh_frequency_ratio"));
-  if (speed_is_given || (study.sweep && !speed_is_varied)) {
+  const bool speed_is_given =
+      study.has_points() && std::ranges::none_of(input::varied_parameters(study), [](const auto& varied) {
+        return varied.axis.name == studies::speed_parameter;
+      });
+  if (speed_is_given) {
     title += ", Ω = ";
     append_number(title, study.mesh_frequency_ratio);
   }
@@ -213,7 +213,7 @@ void write_results_h5(const std::filesystem::path& file, const SweepOutput& outp
                       const studies::PointSource& points) {
   store::Hdf5File h5(file);
   h5.set_attribute("/", "input_resolved", output.resolved_input);
-  h5.set_attribute("/", "sweep_parameter", output.sweep.parameter);
+  h5.set_attribute("/", "sweep_parameter", output.sweep.axis.name);
 
   write_point_columns(h5, points);
 

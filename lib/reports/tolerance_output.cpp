@@ -263,7 +263,7 @@ std::vector<DrawnFigure> draw_tolerance_figures(const std::filesystem::path& fol
 
   std::vector<figures::FigureCurve> bias;
   for (const TolerancePoint& p : points) {
-    figures::FigureCurve curve{fmt::format("{} = {}, period {}", parameter_symbol(output.sweep.sweep.parameter),
+    figures::FigureCurve curve{fmt::format("{} = {}, period {}", parameter_symbol(output.sweep.sweep.axis.name),
                                            short_text(p.point.value, 6), p.period),
                                {},
                                {},

@@ -9,8 +9,8 @@
 namespace epicyclic::studies {
 
 std::vector<double> CoarsePass::start_of(std::size_t first, const std::function<bool()>& go_on) {
-  const auto count = static_cast<std::size_t>(sweep_.points);
-  if (sweep_.segments <= 1 || sweep_.start != Start::carried || first % count == 0) return {};
+  const std::size_t count = plan_.grid.columns();
+  if (plan_.grid.coarse_periods == 0 || first % count == 0) return {};
   const std::size_t direction = first / count;
   integrate::IntegratorOptions options = of_one_trajectory(integrator_);
   // Which branch it is on is all that is asked.
@@ -24,7 +24,7 @@ std::vector<double> CoarsePass::start_of(std::size_t first, const std::function<
     const model::DynamicModel model = model_at_(plan_.points[direction * count + way.next]);
     std::vector<double> state = way.state.empty() ? model.default_start : way.state;
     const auto flow = integrate::make_flow(vector_field(model), options);
-    for (int k = 0; k < sweep_.coarse_periods && !state.empty(); ++k) {
+    for (int k = 0; k < plan_.grid.coarse_periods && !state.empty(); ++k) {
       if (!go_on()) return {};
       if (!flow->evolve(state, 0.0, flow->field().period).reached()) state.clear();
     }
@@ -35,8 +35,8 @@ std::vector<double> CoarsePass::start_of(std::size_t first, const std::function<
 
 void CoarsePass::keep(Way& way, std::size_t first_of_direction) {
   ++way.next;
-  const auto count = static_cast<std::size_t>(sweep_.points);
-  const auto segments = static_cast<std::size_t>(sweep_.segments);
+  const std::size_t count = plan_.grid.columns();
+  const std::size_t segments = plan_.grid.chains_per_line;
   // Is it the first point of a segment? They start at c count / segments, rounded down.
   const std::size_t c = (way.next * segments + count - 1) / count;
   if (c * count / segments == way.next) way.starts[first_of_direction + way.next] = way.state;

@@ -22,9 +22,8 @@ namespace epicyclic::studies {
 class CoarsePass {
  public:
   /// All of them have to live longer.
-  CoarsePass(const SweepPlan& plan, const SweepOptions& sweep, const integrate::IntegratorOptions& integrator,
-             const ModelAtPoint& model_at)
-      : plan_(plan), sweep_(sweep), integrator_(integrator), model_at_(model_at) {}
+  CoarsePass(const SweepPlan& plan, const integrate::IntegratorOptions& integrator, const ModelAtPoint& model_at)
+      : plan_(plan), integrator_(integrator), model_at_(model_at) {}
 
   /// The state that a chain starts from whose first point is this one; empty, for the default start, at the first point
   /// of a direction, without segments and after a motion that did not reach its end. May be called from several
@@ -43,7 +42,6 @@ class CoarsePass {
   void keep(Way& way, std::size_t first_of_direction);
 
   const SweepPlan& plan_;
-  const SweepOptions& sweep_;
   const integrate::IntegratorOptions& integrator_;
   const ModelAtPoint& model_at_;
   std::mutex mutex_;

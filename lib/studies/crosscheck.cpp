@@ -44,9 +44,9 @@ bool torus(const PointResult& r) { return r.regime == Regime::quasiperiodic; }
 /// Everything that explaining a point needs.
 class Examiner {
  public:
-  Examiner(const SweepOptions& sweep, const CrosscheckOptions& options, const std::vector<Variant>& variants,
+  Examiner(const LookOptions& look, const CrosscheckOptions& options, const std::vector<Variant>& variants,
            const SmoothedModelAt& model_at, const std::atomic<bool>* stop)
-      : sweep_(sweep), options_(options), variants_(variants), model_at_(model_at), stop_(stop) {}
+      : look_(look), options_(options), variants_(variants), model_at_(model_at), stop_(stop) {}
 
   void judge(const GridPoint& point, const std::vector<double>& start, const PointResult& reference,
              Comparison& c) const {
@@ -116,18 +116,18 @@ class Examiner {
   }
 
   [[nodiscard]] PointResult compute(const GridPoint& point, const Variant& v, const std::vector<double>& start,
-                                    const SweepOptions& sweep) const {
-    return compute_point(point, model_at_(point.value, v.clearance_smoothing), start, sweep, v.integrator,
+                                    const LookOptions& look) const {
+    return compute_point(point, model_at_(point.value, v.clearance_smoothing), start, look, v.integrator,
                          [this] { return stop_ == nullptr || !stop_->load(); });
   }
 
   /// The motion that a state is on, some periods later.
   [[nodiscard]] PointResult later(const GridPoint& point, const Variant& v, const std::vector<double>& start,
                                   int periods) const {
-    SweepOptions sweep = sweep_;
-    sweep.transient = Transient::fixed;
-    sweep.transient_periods = periods;
-    return compute(point, v, start, sweep);
+    LookOptions look = look_;
+    look.transient = Transient::fixed;
+    look.transient_periods = periods;
+    return compute(point, v, start, look);
   }
 
   static Variant tightened(Variant v) {
@@ -157,16 +157,16 @@ class Examiner {
     }
 
     const Variant tight_ours = tightened(ours);
-    const PointResult our_tight = compute(point, tight_ours, start, sweep_);
+    const PointResult our_tight = compute(point, tight_ours, start, look_);
     if (other.clearance_smoothing != ours.clearance_smoothing) {
       Variant same_width = other;
       same_width.clearance_smoothing = ours.clearance_smoothing;
-      const PointResult exact = compute(point, same_width, start, sweep_);
+      const PointResult exact = compute(point, same_width, start, look_);
       if (reached(exact) && same({point, ours, reference, same_width, exact}))
         return done(Verdict::smoothing, "with the reference's width they agree");
     }
     const Variant tight_other = tightened(other);
-    const PointResult their_tight = compute(point, tight_other, start, sweep_);
+    const PointResult their_tight = compute(point, tight_other, start, look_);
     const Pair tight{point, tight_ours, our_tight, tight_other, their_tight};
     if (reached(our_tight) && reached(their_tight) && same(tight))
       return done(Verdict::tolerance, "at tolerances 100 times tighter the distance is " + short_text(distance(tight)));
@@ -267,7 +267,7 @@ class Examiner {
     return nearest;
   }
 
-  const SweepOptions& sweep_;
+  const LookOptions& look_;
   const CrosscheckOptions& options_;
   const std::vector<Variant>& variants_;
   const SmoothedModelAt& model_at_;
@@ -330,9 +330,10 @@ double orbit_distance(const PointResult& a, const PointResult& b, std::size_t di
   return analysis::cycle_distance(rows(a), rows(b), a.poincare_columns, dimension, static_cast<std::size_t>(period));
 }
 
-Crosscheck run_crosscheck(const SweepPlan& plan, const SweepOptions& sweep, const CrosscheckOptions& options,
+Crosscheck run_crosscheck(const SweepPlan& plan, const LookOptions& look, const CrosscheckOptions& options,
                           const integrate::IntegratorOptions& integrator, double study_smoothing,
                           const SmoothedModelAt& model_at, CrosscheckRun run) {
+  options.validate();
   Crosscheck all;
   all.variants = crosscheck_variants(options, integrator, study_smoothing);
   std::mutex mutex;
@@ -350,12 +351,12 @@ Crosscheck run_crosscheck(const SweepPlan& plan, const SweepOptions& sweep, cons
     if (key.first == 0) known_reference.emplace(key.second, result);
   reference.point_finished = [&](const PointResult& r) { tell(0, r); };
   all.reference = run_sweep_in_memory(
-      plan, sweep, all.variants[0].integrator,
+      plan, look, all.variants[0].integrator,
       [&](double value) { return model_at(value, all.variants[0].clearance_smoothing); }, std::move(reference),
       std::move(known_reference));
   if (all.reference.size() < plan.points.size()) return all;
 
-  const Examiner examiner(sweep, options, all.variants, model_at, run.stop);
+  const Examiner examiner(look, options, all.variants, model_at, run.stop);
   // Where each point started: at the end of the one before in its chain, or cold.
   std::vector<std::vector<double>> starts(plan.points.size());
   for (const auto& chain : plan.chains)
@@ -374,8 +375,8 @@ Crosscheck run_crosscheck(const SweepPlan& plan, const SweepOptions& sweep, cons
     if (earlier != run.done.end()) {
       c.result = earlier->second;
     } else {
-      c.result = compute_point(point, model_at(point.value, v.clearance_smoothing), starts[c.point], sweep,
-                               v.integrator, [&] { return !stopped(); });
+      c.result = compute_point(point, model_at(point.value, v.clearance_smoothing), starts[c.point], look, v.integrator,
+                               [&] { return !stopped(); });
       if (stopped()) return;
       tell(c.variant, c.result);
     }

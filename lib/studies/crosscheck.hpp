@@ -83,7 +83,7 @@ struct CrosscheckRun {
 };
 
 /// @returns incomplete if stopped
-[[nodiscard]] Crosscheck run_crosscheck(const SweepPlan& plan, const SweepOptions& sweep,
+[[nodiscard]] Crosscheck run_crosscheck(const SweepPlan& plan, const LookOptions& look,
                                         const CrosscheckOptions& options,
                                         const integrate::IntegratorOptions& integrator, double study_smoothing,
                                         const SmoothedModelAt& model_at, CrosscheckRun run);

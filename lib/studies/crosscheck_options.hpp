@@ -15,6 +15,9 @@ struct CrosscheckOptions {
 
   double orbit_tolerance = 1e-6;  ///< eps [b_c, b_c per tau]
   int continued_periods = 100;    ///< that one answer is continued with the other method before it is looked at again
+
+  /// @throws InputError for counts below what there has to be, numbers that are not positive, and lists without any
+  void validate() const;
 };
 
 }  // namespace epicyclic::studies

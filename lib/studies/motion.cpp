@@ -19,14 +19,14 @@ double map_error(const integrate::IntegratorOptions& integrator) {
   return std::max(analysis::RegimeOptions{}.residual, 3.0 * integrator.relative_tolerance);
 }
 
-ToldMotion tell_motion(const integrate::VectorField& field, std::vector<double>& state, const SweepOptions& sweep,
+ToldMotion tell_motion(const integrate::VectorField& field, std::vector<double>& state, const LookOptions& look,
                        const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on,
                        const analysis::PoincareSection* seen) {
   const analysis::RegimeFlows flows = analysis::make_regime_flows(field, of_one_trajectory(integrator));
   analysis::RegimeOptions options = flows.options();
-  options.budget = std::max(options.look, sweep.classification_periods);
+  options.budget = std::max(options.look, look.classification_periods);
   options.lasting = options.budget / 4;
-  options.longest_period = sweep.period_max;
+  options.longest_period = look.period_max;
   options.residual = map_error(integrator);
   options.observable = std::min(model::Slots::w_s, field.dimension - 1);
   ToldMotion motion;

@@ -11,7 +11,7 @@
 #include "analysis/regime.hpp"
 #include "integrate/flow.hpp"
 #include "integrate/options.hpp"
-#include "studies/sweep_options.hpp"
+#include "studies/look_options.hpp"
 
 namespace epicyclic::studies {
 
@@ -32,10 +32,10 @@ struct ToldMotion {
 
 /// @param field  with has_classification()
 /// @param state  replaced by the last state
-/// @param sweep  classification_periods and period_max are read
+/// @param look   classification_periods and period_max are read
 /// @param seen   a section of this very motion that ends in `state`; may be null
 [[nodiscard]] ToldMotion tell_motion(const integrate::VectorField& field, std::vector<double>& state,
-                                     const SweepOptions& sweep, const integrate::IntegratorOptions& integrator,
+                                     const LookOptions& look, const integrate::IntegratorOptions& integrator,
                                      const std::function<bool()>& go_on,
                                      const analysis::PoincareSection* seen = nullptr);
 

@@ -41,29 +41,7 @@ std::vector<double> turned(const model::DynamicModel& model, int steps, std::spa
 
 }  // namespace
 
-std::vector<double> axis_values(const Axis& axis) {
-  std::vector<double> values;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(axis.points); ++k) values.push_back(axis_value(axis, k));
-  return values;
-}
-
-SweepPlan plan_map(const SweepOptions& sweep, const PlaneOptions& plane) {
-  const bool carried = sweep.start == Start::carried;
-  return SweepPlan(
-      {plane.first, plane.second, sweep.directions, carried ? 1 : static_cast<std::size_t>(plane.first.points)});
-}
-
-SweepOptions basins_options() {
-  SweepOptions cells;
-  cells.start = Start::cold;
-  cells.keep = Keep::attractor;
-  cells.transient = Transient::adaptive;
-  return cells;
-}
-
-SweepPlan plan_basins(const PlaneOptions& plane) { return plan_map(basins_options(), plane); }
-
-std::vector<double> start_in_plane(const model::DynamicModel& model, const PlaneOptions& plane,
+std::vector<double> start_in_plane(const model::DynamicModel& model, const BasinsOptions& basins,
                                    const GridPoint& point) {
   std::vector<double> start = model.default_start;
   const auto set = [&](const std::string& name, double value) {
@@ -71,9 +49,9 @@ std::vector<double> start_in_plane(const model::DynamicModel& model, const Plane
     if (found == model.state_names.end()) throw InputError("the state has no component '" + name + "'");
     start[static_cast<std::size_t>(found - model.state_names.begin())] = value;
   };
-  for (const auto& [name, value] : plane.base) set(name, value);
-  set(plane.first.name, point.value);
-  set(plane.second.name, point.second_value);
+  for (const auto& [name, value] : basins.base) set(name, value);
+  set(basins.plane.first.name, point.value);
+  set(basins.plane.second.name, point.second_value);
   return start;
 }
 

@@ -1,10 +1,6 @@
 // Planes of points, computed as sweeps are [studies/sweep.hpp].
 //
-// A map varies two parameters. Cells are numbered along the first axis, then the second, for the first direction, then
-// the other. Along the first axis a map is carried as a sweep is: each row, one value of the second parameter, is a
-// chain of its own from the default start, so that chains are fixed by the input.
-//
-// Basins vary two components of the start; the system stays. Each cell is a chain of its own. What the motions end on
+// A map varies two parameters. Basins vary two components of the start; the system stays, and what the motions end on
 // is told by analysis/attractors.hpp.
 #pragma once
 
@@ -18,21 +14,9 @@
 
 namespace epicyclic::studies {
 
-/// All values of an axis.
-[[nodiscard]] std::vector<double> axis_values(const Axis& axis);
-
-/// @param sweep  directions and start; the grid is the plane's
-[[nodiscard]] SweepPlan plan_map(const SweepOptions& sweep, const PlaneOptions& plane);
-
-/// What cells of basins are computed as: each cold, let settle until its regime is told, since a transient of a fixed
-/// length leaves motions on their way that are then counted as attractors.
-[[nodiscard]] SweepOptions basins_options();
-
-[[nodiscard]] SweepPlan plan_basins(const PlaneOptions& plane);
-
 /// Where the motion of a cell of basins starts: the model's default start, the base, then both axes.
 /// @throws InputError for a component that the state has not
-[[nodiscard]] std::vector<double> start_in_plane(const model::DynamicModel& model, const PlaneOptions& plane,
+[[nodiscard]] std::vector<double> start_in_plane(const model::DynamicModel& model, const BasinsOptions& basins,
                                                  const GridPoint& point);
 
 /// A turn that takes each planet to the place of another.

@@ -1,22 +1,43 @@
-// A plane of points: two parameters, or two components of the state that a motion starts from.
+// A plane of points: two parameters of a map, or two components of the state that motions start from, of basins.
 #pragma once
 
 #include <map>
 #include <string>
+#include <vector>
+
+#include "studies/axis.hpp"
+#include "studies/look_options.hpp"
+#include "studies/sweep_options.hpp"
 
 namespace epicyclic::studies {
 
-struct Axis {
-  std::string name;  ///< a sweep parameter, or a component of the state
-  double from = 0;
-  double to = 1;
-  int points = 50;
-};
-
-struct PlaneOptions {
+struct Plane {
   Axis first;  ///< runs fastest
   Axis second;
-  std::map<std::string, double> base;  ///< of basins: components that both axes leave alone, where not at default
+
+  /// @throws InputError for what an axis refuses, and for two of one name
+  void validate() const;
+};
+
+struct MapOptions {
+  Plane plane;  ///< of parameters
+  std::vector<Direction> directions = {Direction::up};
+  Start start = Start::carried;  ///< along the first axis
+  LookOptions look = {.keep = Keep::row};
+
+  /// @throws InputError for what plane and look refuse, and for no directions
+  void validate() const;
+};
+
+/// Cells are cold, and settle until their regimes are told: a transient of a fixed length leaves motions on their way,
+/// which are then counted as attractors.
+struct BasinsOptions {
+  Plane plane;                         ///< of components
+  std::map<std::string, double> base;  ///< components that both axes leave alone, where not at default
+  LookOptions look = {.transient = Transient::adaptive, .keep = Keep::attractor};
+
+  /// @throws InputError for what plane and look refuse
+  void validate() const;
 };
 
 }  // namespace epicyclic::studies

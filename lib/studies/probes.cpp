@@ -7,15 +7,14 @@
 
 namespace epicyclic::studies {
 
-Cost estimate_cost(const SweepPlan& plan, const SweepOptions& sweep, const integrate::IntegratorOptions& integrator,
+Cost estimate_cost(const SweepPlan& plan, const LookOptions& look, const integrate::IntegratorOptions& integrator,
                    const ModelAtPoint& model_at) {
   Cost cost;
   cost.points = plan.points.size();
   cost.chains = plan.chains.size();
-  cost.mesh_periods =
-      static_cast<std::int64_t>(plan.points.size()) * (sweep.transient_periods + sweep.recorded_periods);
+  cost.mesh_periods = static_cast<std::int64_t>(plan.points.size()) * (look.transient_periods + look.recorded_periods);
   constexpr int probed_periods = 4;
-  SweepOptions probe = by_recurrence_alone(sweep);
+  LookOptions probe = by_recurrence_alone(look);
   probe.transient_periods = 0;
   probe.recorded_periods = probed_periods;
   double calls = 0.0;

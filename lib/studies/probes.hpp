@@ -19,7 +19,7 @@ struct Cost {
 };
 
 /// Counts, and probes the first point, the last and the one between from the default start.
-[[nodiscard]] Cost estimate_cost(const SweepPlan& plan, const SweepOptions& sweep,
+[[nodiscard]] Cost estimate_cost(const SweepPlan& plan, const LookOptions& look,
                                  const integrate::IntegratorOptions& integrator, const ModelAtPoint& model_at);
 
 /// Do two models answer alike, wherever the state is? Looked at states of all sizes, so that gaps of any width are

@@ -122,15 +122,15 @@ std::vector<double> finer(const std::vector<double>& samples, int detail) {
 /// One operating point, step by step into its result.
 class Run {
  public:
-  Run(const model::DynamicModel& model, const model::Scales& scales, const SweepOptions& sweep,
-      const RunOptions& options, const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on)
-      : model_(model), scales_(scales), sweep_(sweep), options_(options), integrator_(integrator), go_on_(go_on) {}
+  Run(const model::DynamicModel& model, const model::Scales& scales, const LookOptions& look, const RunOptions& options,
+      const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on)
+      : model_(model), scales_(scales), look_(look), options_(options), integrator_(integrator), go_on_(go_on) {}
 
   /// @returns false if ended
   bool all(RunResult& r) {
     r.omega = model_.omega;
     r.static_force = scales_.force_newton(model_.static_mesh_force);
-    r.point = compute_point({0, Direction::up, model_.omega}, model_, {}, sweep_, integrator_, go_on_);
+    r.point = compute_point({0, Direction::up, model_.omega}, model_, {}, look_, integrator_, go_on_);
     if (!go_on_()) return false;
     if (r.point.outcome != integrate::Outcome::reached) return true;
     state_ = r.point.end_state;
@@ -298,7 +298,7 @@ class Run {
     };
     analysis::SurfaceSection section =
         analysis::surface_section(*carried, y, surface, analysis::Crossing::rising,
-                                  r.orbit ? r.point.period : sweep_.recorded_periods, sweep_.output_phases, go_on_);
+                                  r.orbit ? r.point.period : look_.recorded_periods, look_.output_phases, go_on_);
     for (std::size_t k = 0; k < section.section.size(); ++k) {
       model_.deflections(section.phase[k], section.section.point(k).data(), d);
       r.crossing_rate.push_back(d.sun_planet_rate[0]);
@@ -398,7 +398,7 @@ class Run {
 
   const model::DynamicModel& model_;
   const model::Scales& scales_;
-  const SweepOptions& sweep_;
+  const LookOptions& look_;
   const RunOptions& options_;
   const integrate::IntegratorOptions& integrator_;
   const std::function<bool()>& go_on_;
@@ -420,11 +420,13 @@ std::vector<double> History::column(const std::string& name) const {
 }
 
 std::optional<RunResult> run_operating_point(const model::DynamicModel& model, const model::Scales& scales,
-                                             const SweepOptions& sweep, const RunOptions& options,
+                                             const LookOptions& look, const RunOptions& options,
                                              const integrate::IntegratorOptions& integrator,
                                              const std::function<bool()>& go_on) {
+  look.validate();
+  options.validate();
   RunResult result;
-  if (!Run(model, scales, sweep, options, integrator, go_on).all(result)) return std::nullopt;
+  if (!Run(model, scales, look, options, integrator, go_on).all(result)) return std::nullopt;
   return result;
 }
 

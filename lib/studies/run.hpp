@@ -107,7 +107,7 @@ struct RunResult {
 /// @param go_on   asked now and then; false ends the run
 /// @returns nothing if ended; of a point that is not reached, the point alone
 [[nodiscard]] std::optional<RunResult> run_operating_point(const model::DynamicModel& model,
-                                                           const model::Scales& scales, const SweepOptions& sweep,
+                                                           const model::Scales& scales, const LookOptions& look,
                                                            const RunOptions& options,
                                                            const integrate::IntegratorOptions& integrator,
                                                            const std::function<bool()>& go_on);

@@ -10,6 +10,9 @@ struct RunOptions {
   int spectrum_periods = 256;  ///< mesh periods that spectra are taken over; a whole number of the motion's own period
   int shown_periods = 8;       ///< mesh periods in history.csv and in the figures of histories
   double check_tolerance = 1e-10;  ///< relative and absolute, of the orbit's multipliers and of the exponents' checks
+
+  /// @throws InputError for counts below what there has to be and a tolerance that is not positive
+  void validate() const;
 };
 
 }  // namespace epicyclic::studies

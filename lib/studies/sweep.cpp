@@ -95,20 +95,20 @@ bool in_lanes(const integrate::IntegratorOptions& o) {
 /// and what is told from them.
 class PointRun {
  public:
-  PointRun(const GridPoint& point, model::DynamicModel model, const std::vector<double>& start,
-           const SweepOptions& sweep, const integrate::IntegratorOptions& integrator, std::function<bool()> go_on)
+  PointRun(const GridPoint& point, model::DynamicModel model, const std::vector<double>& start, const LookOptions& look,
+           const integrate::IntegratorOptions& integrator, std::function<bool()> go_on)
       : model_(std::move(model)),
         field_(vector_field(model_)),
-        sweep_(sweep),
+        look_(look),
         integrator_(of_one_trajectory(integrator)),
         go_on_(std::move(go_on)),
         state_(start.empty() ? model_.default_start : start),
         // Without tangents there is nothing but recurrence, and no end of a transient.
-        classifies_(sweep.classification_periods > 0 && has_classification(field_)),
-        adaptive_(classifies_ && sweep.transient == Transient::adaptive),
+        classifies_(look.classification_periods > 0 && has_classification(field_)),
+        adaptive_(classifies_ && look.transient == Transient::adaptive),
         watch_(model_, result_),
         strobe_(model_.dimension, field_.period,
-                {adaptive_ ? 0 : sweep.transient_periods, sweep.recorded_periods, sweep.output_phases},
+                {adaptive_ ? 0 : look.transient_periods, look.recorded_periods, look.output_phases},
                 [this](std::size_t, double s, std::span<const double> y) { watch_.see(s, y); }) {
     if (state_.size() != model_.dimension)
       throw InputError("a start of " + std::to_string(state_.size()) + " numbers for a state of " +
@@ -135,9 +135,9 @@ class PointRun {
     watch_.finish();
     result_.outcome = strobe.evolution.outcome;
     result_.message = strobe.evolution.message;
-    if (sweep_.keep == Keep::section) keep_section(strobe.section);
+    if (look_.keep == Keep::section) keep_section(strobe.section);
     if (strobe.evolution.reached()) {
-      result_.recurrence = analysis::recurrence(strobe.section, sweep_.period_max, sweep_.recurrence_tolerance);
+      result_.recurrence = analysis::recurrence(strobe.section, look_.period_max, look_.recurrence_tolerance);
       if (!classifies_) {
         result_.period = result_.recurrence.period;
         result_.regime = result_.period > 0 ? analysis::Regime::periodic : analysis::Regime::undecided;
@@ -145,8 +145,8 @@ class PointRun {
         std::vector<double> onwards = state_;  // the next point of a chain starts where the record ends
         orbit_ = tell(onwards, &strobe.section).orbit;
       }
-      if (sweep_.keep == Keep::attractor) keep_attractor(strobe.section);
-      if (sweep_.keep == Keep::section && orbit_) result_.orbit = std::move(orbit_->state);
+      if (look_.keep == Keep::attractor) keep_attractor(strobe.section);
+      if (look_.keep == Keep::section && orbit_) result_.orbit = std::move(orbit_->state);
       result_.end_state = std::move(state_);
     }
     result_.rhs_evaluations = right_hand_sides + classification_work_;
@@ -178,7 +178,7 @@ class PointRun {
   }
 
   analysis::Classification tell(std::vector<double>& from, const analysis::PoincareSection* seen) {
-    ToldMotion motion = tell_motion(field_, from, sweep_, integrator_, go_on_, seen);
+    ToldMotion motion = tell_motion(field_, from, look_, integrator_, go_on_, seen);
     classification_work_ += motion.right_hand_sides;
     result_.classified = motion.told.evolution.reached();
     result_.regime = motion.told.regime;
@@ -189,7 +189,7 @@ class PointRun {
 
   model::DynamicModel model_;
   integrate::VectorField field_;
-  const SweepOptions& sweep_;
+  const LookOptions& look_;
   integrate::IntegratorOptions integrator_;
   std::function<bool()> go_on_;
   std::vector<double> state_;
@@ -213,14 +213,14 @@ long carry_alone(PointRun& run, const integrate::IntegratorOptions& integrator, 
 /// Runs chains, each from its first point that is not done.
 class ChainRunner {
  public:
-  ChainRunner(const SweepPlan& plan, const SweepOptions& sweep, const integrate::IntegratorOptions& integrator,
+  ChainRunner(const SweepPlan& plan, const LookOptions& look, const integrate::IntegratorOptions& integrator,
               const ModelAtPoint& model_at, const SweepRun& run)
       : plan_(plan),
-        sweep_(sweep),
+        look_(look),
         integrator_(integrator),
         model_at_(model_at),
         run_(run),
-        coarse_(plan, sweep, integrator, model_at) {}
+        coarse_(plan, integrator, model_at) {}
 
   /// One chain after another.
   void run_chains() {
@@ -286,7 +286,7 @@ class ChainRunner {
       if (!index) return;
       const model::DynamicModel model = model_at_(plan_.points[*index]);
       PointResult result =
-          compute_point(plan_.points[*index], model, start, sweep_, integrator_, [this] { return !stopped(); });
+          compute_point(plan_.points[*index], model, start, look_, integrator_, [this] { return !stopped(); });
       if (stopped()) return;
       tell(result);
       start = std::move(result.end_state);
@@ -331,7 +331,7 @@ class ChainRunner {
         if (!next_chain(way)) return;
         continue;
       }
-      way.point = std::make_unique<PointRun>(plan_.points[*index], model_at_(plan_.points[*index]), way.start, sweep_,
+      way.point = std::make_unique<PointRun>(plan_.points[*index], model_at_(plan_.points[*index]), way.start, look_,
                                              integrator_, [this] { return !stopped(); });
       if (stopped()) return;
       if (way.point->strobe().over()) {
@@ -369,7 +369,7 @@ class ChainRunner {
   }
 
   const SweepPlan& plan_;
-  const SweepOptions& sweep_;
+  const LookOptions& look_;
   const integrate::IntegratorOptions& integrator_;
   const ModelAtPoint& model_at_;
   const SweepRun& run_;
@@ -382,10 +382,10 @@ class ChainRunner {
 
 }  // namespace
 
-SweepOptions by_recurrence_alone(SweepOptions options) {
-  options.classification_periods = 0;
-  options.transient = Transient::fixed;
-  return options;
+LookOptions by_recurrence_alone(LookOptions look) {
+  look.classification_periods = 0;
+  look.transient = Transient::fixed;
+  return look;
 }
 
 std::string MeshRecord::contact() const {
@@ -413,10 +413,10 @@ double PointResult::pull_time(const std::vector<MeshRecord>& meshes) {
   return most;
 }
 
-bool still_settling(const PointResult& result, const SweepOptions& sweep) {
+bool still_settling(const PointResult& result, const LookOptions& look) {
   return result.outcome == integrate::Outcome::reached && !result.classified &&
          result.regime == analysis::Regime::undecided &&
-         analysis::still_settling(result.recurrence, sweep.recurrence_tolerance);
+         analysis::still_settling(result.recurrence, look.recurrence_tolerance);
 }
 
 std::string motion_name(const PointResult& result) {
@@ -438,9 +438,10 @@ std::vector<std::string> poincare_columns(const model::DynamicModel& model) {
 }
 
 PointResult compute_point(const GridPoint& point, const model::DynamicModel& model, const std::vector<double>& start,
-                          const SweepOptions& sweep, const integrate::IntegratorOptions& integrator,
+                          const LookOptions& look, const integrate::IntegratorOptions& integrator,
                           const std::function<bool()>& go_on) {
-  PointRun run(point, model, start, sweep, integrator, go_on);
+  look.validate();
+  PointRun run(point, model, start, look, integrator, go_on);
   return run.finish(carry_alone(run, integrator, go_on));
 }
 
@@ -450,10 +451,11 @@ analysis::Estimate PointResult::lyapunov_max() const {
   return evidence.exponent * omega;
 }
 
-std::size_t run_sweep(const SweepPlan& plan, const SweepOptions& sweep, const integrate::IntegratorOptions& integrator,
+std::size_t run_sweep(const SweepPlan& plan, const LookOptions& look, const integrate::IntegratorOptions& integrator,
                       const ModelAtPoint& model_at, const SweepRun& run) {
+  look.validate();
   if (plan.points.empty()) return 0;
-  ChainRunner runner(plan, sweep, integrator, model_at, run);
+  ChainRunner runner(plan, look, integrator, model_at, run);
   const auto threads_of_all = static_cast<std::size_t>(std::max({1, run.threads, run.threads_of_all}));
   const std::size_t share = (plan.chains.size() + threads_of_all - 1) / threads_of_all;
   const bool lanes = in_lanes(integrator);
@@ -468,7 +470,7 @@ std::size_t run_sweep(const SweepPlan& plan, const SweepOptions& sweep, const in
   return runner.finished();
 }
 
-std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const SweepOptions& sweep,
+std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const LookOptions& look,
                                              const integrate::IntegratorOptions& integrator,
                                              const ModelAtPoint& model_at, SweepRun run,
                                              std::map<std::size_t, PointResult> done) {
@@ -483,17 +485,17 @@ std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const SweepO
     if (told) told(result);
     done.emplace(result.point.index, result);
   };
-  (void)run_sweep(plan, sweep, integrator, model_at, run);
+  (void)run_sweep(plan, look, integrator, model_at, run);
   std::vector<PointResult> ordered;
   for (auto& [index, result] : done) ordered.push_back(std::move(result));
   return ordered;
 }
 
-std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const SweepOptions& sweep,
+std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const LookOptions& look,
                                              const integrate::IntegratorOptions& integrator, const ModelAt& model_at,
                                              SweepRun run, std::map<std::size_t, PointResult> done) {
   const ModelAtPoint at = [&model_at](const GridPoint& point) { return model_at(point.value); };
-  return run_sweep_in_memory(plan, sweep, integrator, at, std::move(run), std::move(done));
+  return run_sweep_in_memory(plan, look, integrator, at, std::move(run), std::move(done));
 }
 
 }  // namespace epicyclic::studies

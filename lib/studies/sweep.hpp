@@ -29,7 +29,7 @@ namespace epicyclic::studies {
 inline constexpr int numerics_version = 11;
 
 /// The same points without the classification of their regimes.
-[[nodiscard]] SweepOptions by_recurrence_alone(SweepOptions options);
+[[nodiscard]] LookOptions by_recurrence_alone(LookOptions look);
 
 /// What was seen of one mesh over the record.
 struct MeshRecord {
@@ -79,7 +79,7 @@ struct PointResult {
 };
 
 /// Not periodic yet, but on its way: a longer look would tell the regime.
-[[nodiscard]] bool still_settling(const PointResult& result, const SweepOptions& sweep);
+[[nodiscard]] bool still_settling(const PointResult& result, const LookOptions& look);
 
 /// What a point that was reached moves like: "period 2", "chaotic".
 [[nodiscard]] std::string motion_name(const PointResult& result);
@@ -99,7 +99,7 @@ using ModelAtPoint = std::function<model::DynamicModel(const GridPoint& point)>;
 /// Computes one point.
 /// @param start  end state of the point before; empty: the model's default start
 [[nodiscard]] PointResult compute_point(const GridPoint& point, const model::DynamicModel& model,
-                                        const std::vector<double>& start, const SweepOptions& sweep,
+                                        const std::vector<double>& start, const LookOptions& look,
                                         const integrate::IntegratorOptions& integrator,
                                         const std::function<bool()>& go_on);
 
@@ -123,18 +123,18 @@ struct SweepRun {
 
 /// @returns how many points are new; fewer than were missing only if stopped, or if others took chains
 /// @throws the first exception of a point or of a function of `run`
-[[nodiscard]] std::size_t run_sweep(const SweepPlan& plan, const SweepOptions& sweep,
+[[nodiscard]] std::size_t run_sweep(const SweepPlan& plan, const LookOptions& look,
                                     const integrate::IntegratorOptions& integrator, const ModelAtPoint& model_at,
                                     const SweepRun& run);
 
 /// The same for studies of few points, which are kept in memory.
 /// @param done  points of an earlier run
 /// @returns points in order of their index; incomplete only if stopped
-[[nodiscard]] std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const SweepOptions& sweep,
+[[nodiscard]] std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const LookOptions& look,
                                                            const integrate::IntegratorOptions& integrator,
                                                            const ModelAtPoint& model_at, SweepRun run,
                                                            std::map<std::size_t, PointResult> done = {});
-[[nodiscard]] std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const SweepOptions& sweep,
+[[nodiscard]] std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const LookOptions& look,
                                                            const integrate::IntegratorOptions& integrator,
                                                            const ModelAt& model_at, SweepRun run,
                                                            std::map<std::size_t, PointResult> done = {});

@@ -1,8 +1,10 @@
-// What a sweep is: a parameter, its grid, directions, start, and how long to look.
+// What a sweep is: a parameter and its grid, directions, start, and how long to look.
 #pragma once
 
-#include <string>
 #include <vector>
+
+#include "studies/axis.hpp"
+#include "studies/look_options.hpp"
 
 namespace epicyclic::studies {
 
@@ -13,42 +15,22 @@ enum class Start {
   cold,     ///< each point starts from the default start
 };
 
-enum class Transient {
-  fixed,     ///< transient_periods
-  adaptive,  ///< until the regime is told; a periodic motion is then put onto its orbit
-};
-
-/// What is kept of a point besides its row of points.csv.
-enum class Keep {
-  section,    ///< its Poincare points
-  row,        ///< nothing
-  attractor,  ///< what its attractor is told from
-};
+/// Name of the parameter Omega [studies/named_parameters.hpp].
+inline constexpr const char* speed_parameter = "mesh_frequency_ratio";
 
 struct SweepOptions {
-  std::string parameter = "mesh_frequency_ratio";  ///< a name of architecture section 6, or a JSON pointer
-  double from = 0.2;
-  double to = 3.5;
-  int points = 661;
+  Axis axis = {speed_parameter, 0.2, 3.5, 661};  ///< the parameter
   std::vector<Direction> directions = {Direction::up};
   Start start = Start::carried;
   int segments = 1;         ///< chains per direction of a carried sweep
   int coarse_periods = 30;  ///< mesh periods of a point in the pass that says where segments start [coarse_pass.hpp]
-  Transient transient = Transient::fixed;
-  int transient_periods = 300;  ///< mesh periods before the record, if fixed
-  int recorded_periods = 128;   ///< mesh periods recorded, one Poincare point each
-  int output_phases = 64;       ///< dense output points per recorded period, for extrema and contact
-  int period_max = 32;          ///< longest period of the motion looked for [mesh periods]
+  LookOptions look;
 
-  /// Two states recur if no component differs by more [b_c, b_c per tau]. A finer one takes the last traces of the
-  /// softest support mode, which at high speed decays by half a percent a mesh period, for a change of the motion.
-  double recurrence_tolerance = 1e-3;
-
-  /// Mesh periods that the regime may be looked for beyond the record; 0: it is told from recurrence alone. Chaos has
-  /// to last for a quarter of them, for all where an orbit attracts near by or the 0-1 test says regular.
-  int classification_periods = 3584;
-
-  Keep keep = Keep::section;  ///< by the kind of study, not by the input
+  /// @throws InputError for what axis and look refuse, no directions, and segments that the points do not give
+  void validate() const;
 };
+
+/// Of one point.
+[[nodiscard]] SweepOptions sweep_of_one(double mesh_frequency_ratio, const LookOptions& look);
 
 }  // namespace epicyclic::studies

@@ -1,27 +1,6 @@
 #include "studies/sweep_plan.hpp"
 
-#include <array>
-#include <charconv>
-
 namespace epicyclic::studies {
-
-double grid_value(double from, double to, double share) {
-  if (share == 0.0) return from;
-  if (share == 1.0) return to;
-  constexpr int digits = 12;
-  std::array<char, 64> text;
-  const double value = (1.0 - share) * from + share * to;
-  const auto written =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific, digits - 1);
-  double rounded = value;
-  std::from_chars(text.data(), written.ptr, rounded);
-  return rounded;
-}
-
-double axis_value(const Axis& axis, std::size_t point) {
-  const double share = axis.points == 1 ? 0.0 : static_cast<double>(point) / static_cast<double>(axis.points - 1);
-  return grid_value(axis.from, axis.to, share);
-}
 
 GridPoint PlanPoints::operator[](std::size_t index) const {
   const std::size_t columns = grid_.columns();
@@ -42,11 +21,28 @@ Chain PlanChains::operator[](std::size_t chain) const {
 }
 
 SweepPlan plan_sweep(const SweepOptions& options) {
+  options.validate();
   PlanGrid grid;
-  grid.first = {options.parameter, options.from, options.to, options.points};
+  grid.first = options.axis;
   grid.directions = options.directions;
-  grid.chains_per_line = static_cast<std::size_t>(options.start == Start::cold ? options.points : options.segments);
+  const bool cold = options.start == Start::cold;
+  grid.chains_per_line = static_cast<std::size_t>(cold ? options.axis.points : options.segments);
+  if (!cold && options.segments > 1) grid.coarse_periods = options.coarse_periods;
   return SweepPlan(grid);
+}
+
+SweepPlan plan_map(const MapOptions& options) {
+  options.validate();
+  const Plane& plane = options.plane;
+  const bool carried = options.start == Start::carried;
+  return SweepPlan(
+      {plane.first, plane.second, options.directions, carried ? 1 : static_cast<std::size_t>(plane.first.points)});
+}
+
+SweepPlan plan_basins(const BasinsOptions& options) {
+  options.validate();
+  const Plane& plane = options.plane;
+  return SweepPlan({plane.first, plane.second, {Direction::up}, static_cast<std::size_t>(plane.first.points)});
 }
 
 }  // namespace epicyclic::studies

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "studies/axis.hpp"
 #include "studies/plane_options.hpp"
 #include "studies/sweep_options.hpp"
 
@@ -21,13 +22,6 @@ struct GridPoint {
   double value = 0;
   double second_value = 0;  ///< along the second axis of a plane [studies/plane.hpp]
 };
-
-/// The value at a share of the way; both ends exactly as given, between them rounded to 12 digits, so that 1.1 is 1.1
-/// and a value typed from a table is the value that was computed.
-[[nodiscard]] double grid_value(double from, double to, double share);
-
-/// The value of an axis at one of its points; as grid_value().
-[[nodiscard]] double axis_value(const Axis& axis, std::size_t point);
 
 /// What has a size and an element for each index, without holding them.
 template <class Derived>
@@ -64,6 +58,7 @@ struct PlanGrid {
   Axis second = {{}, 0, 0, 1};
   std::vector<Direction> directions;
   std::size_t chains_per_line = 1;  ///< at most as many as the first axis has points
+  int coarse_periods = 0;           ///< of the pass that says where chains start [coarse_pass.hpp]; 0: by default
 
   [[nodiscard]] std::size_t columns() const { return static_cast<std::size_t>(first.points); }
   [[nodiscard]] std::size_t rows() const { return static_cast<std::size_t>(second.points); }
@@ -103,12 +98,23 @@ class PlanChains : public Indexed<PlanChains> {
 };
 
 struct SweepPlan {
+  PlanGrid grid;
   PlanPoints points;
   PlanChains chains;
 
-  explicit SweepPlan(const PlanGrid& grid) : points(grid), chains(grid) {}
+  explicit SweepPlan(const PlanGrid& of) : grid(of), points(of), chains(of) {}
 };
 
+/// @throws InputError from validate()
 [[nodiscard]] SweepPlan plan_sweep(const SweepOptions& options);
+
+/// Along the first axis a map is carried as a sweep is: each row, one value of the second parameter, is a chain of its
+/// own from the default start, so that chains are fixed by the input.
+/// @throws InputError from validate()
+[[nodiscard]] SweepPlan plan_map(const MapOptions& options);
+
+/// Each cell is a chain of its own.
+/// @throws InputError from validate()
+[[nodiscard]] SweepPlan plan_basins(const BasinsOptions& options);
 
 }  // namespace epicyclic::studies

@@ -123,11 +123,11 @@ void extrapolate(TolerancePoint& point, std::size_t k) {
 
 class PointStudy {
  public:
-  PointStudy(TolerancePoint& out, const SweepOptions& sweep, const ToleranceOptions& options,
+  PointStudy(TolerancePoint& out, const LookOptions& look, const ToleranceOptions& options,
              const integrate::IntegratorOptions& integrator, double study_smoothing, const SmoothedModelAt& model_at,
              int threads, const std::atomic<bool>* stop)
       : out_(out),
-        sweep_(sweep),
+        look_(look),
         options_(options),
         integrator_(integrator),
         study_smoothing_(study_smoothing),
@@ -176,12 +176,12 @@ class PointStudy {
     out_.largest_multiplier = settled.largest_multiplier;
     out_.orbit = known_.state;
     out_.reference_residual = *std::min_element(known_.residuals.begin(), known_.residuals.end());
-    out_.reference = quantities_of(*reference, model_, known_.state, n, sweep_.output_phases);
+    out_.reference = quantities_of(*reference, model_, known_.state, n, look_.output_phases);
     end_ = known_.state;
     (void)carry(*reference, end_, n);
     const auto second = flow(reference_options(second_method), model_);
     const std::vector<double> other = analysis::displaced_orbit(*second, known_, n, 2);
-    const Quantities again = other.empty() ? all_nan() : quantities_of(*second, model_, other, n, sweep_.output_phases);
+    const Quantities again = other.empty() ? all_nan() : quantities_of(*second, model_, other, n, look_.output_phases);
     for (std::size_t k = 0; k < again.size(); ++k) out_.reference_error[k] = std::abs(again[k] - out_.reference[k]);
     if (model_.with_halved_tables) measure_tables();
     return true;
@@ -192,7 +192,7 @@ class PointStudy {
     const auto reference = flow(reference_options(reference_method), halved);
     const std::vector<double> moved = analysis::displaced_orbit(*reference, known_, out_.period, 2);
     const Quantities there =
-        moved.empty() ? all_nan() : quantities_of(*reference, halved, moved, out_.period, sweep_.output_phases);
+        moved.empty() ? all_nan() : quantities_of(*reference, halved, moved, out_.period, look_.output_phases);
     for (std::size_t k = 0; k < there.size(); ++k) out_.table_error[k] = std::abs(there[k] - out_.reference[k]);
     out_.table_displacement = moved.empty() ? nan : largest_difference(moved, known_.state);
   }
@@ -226,7 +226,7 @@ class PointStudy {
       constexpr double another_orbit = 1.0;
       if (!(distance < another_orbit)) return;
       step.orbit_error = distance;
-      step.quantities = quantities_of(*own, model_, orbit, out_.period, sweep_.output_phases);
+      step.quantities = quantities_of(*own, model_, orbit, out_.period, look_.output_phases);
     });
   }
 
@@ -259,7 +259,7 @@ class PointStudy {
       if (!orbit.found()) return;
       step.found = true;
       step.distance = largest_difference(orbit.state, exact);
-      step.quantities = quantities_of(*tight, model, orbit.state, out_.period, sweep_.output_phases);
+      step.quantities = quantities_of(*tight, model, orbit.state, out_.period, look_.output_phases);
       const auto own = flow(integrator_, model);
       std::vector<double> y = orbit.state;
       (void)carry(*own, y, out_.period);
@@ -315,7 +315,7 @@ class PointStudy {
   }
 
   TolerancePoint& out_;
-  const SweepOptions& sweep_;
+  const LookOptions& look_;
   const ToleranceOptions& options_;
   const integrate::IntegratorOptions& integrator_;
   double study_smoothing_;
@@ -433,15 +433,17 @@ std::optional<Recommendation> recommend(const std::vector<TolerancePoint>& point
   return best;
 }
 
-TolerancePoint compute_tolerance_point(const PointResult& study, const SweepOptions& sweep,
+TolerancePoint compute_tolerance_point(const PointResult& study, const LookOptions& look,
                                        const ToleranceOptions& options, const integrate::IntegratorOptions& integrator,
                                        double study_smoothing, const SmoothedModelAt& model_at, int threads,
                                        const std::atomic<bool>* stop) {
+  look.validate();
+  options.validate();
   TolerancePoint point;
   point.point = study.point;
   point.study = study;
   point.extrapolated = point.exponent = all_nan();
-  PointStudy(point, sweep, options, integrator, study_smoothing, model_at, threads, stop).run();
+  PointStudy(point, look, options, integrator, study_smoothing, model_at, threads, stop).run();
   return point;
 }
 

@@ -14,6 +14,9 @@ struct ToleranceOptions {
   double reference_tolerance = 1e-13;  ///< of the reference orbit, rtol and atol
   double target_error = 1e-6;          ///< of an orbit, that the recommendation has to meet [b_c, b_c per tau]
   int chaotic_periods = 1000;          ///< mesh periods of the statistics of a point that is not periodic
+
+  /// @throws InputError for counts below what there has to be, numbers that are not positive, and lists without any
+  void validate() const;
 };
 
 }  // namespace epicyclic::studies

@@ -35,7 +35,7 @@ void by_odeint(benchmark::State& state) {
         const auto model = model_at(point.value);
         if (y.empty()) y = model.default_start;
         Odeint odeint(model, tolerance, std::move(y));
-        for (int k = 0; k < sweep.transient_periods + sweep.recorded_periods; ++k) odeint.mesh_period();
+        for (int k = 0; k < sweep.look.transient_periods + sweep.look.recorded_periods; ++k) odeint.mesh_period();
         y = odeint.state();
         calls += odeint.calls();
       }
@@ -49,8 +49,8 @@ void by_us(benchmark::State& state, const char* method, int segments) {
   sweep.segments = segments;
   double calls = 0.0;
   for (auto _ : state) {
-    const auto points = epicyclic::studies::run_sweep_in_memory(plan_sweep(sweep), sweep, options(tolerance, method),
-                                                                [](double omega) { return model_at(omega); }, {});
+    const auto points = epicyclic::studies::run_sweep_in_memory(
+        plan_sweep(sweep), sweep.look, options(tolerance, method), [](double omega) { return model_at(omega); }, {});
     for (const auto& point : points) calls += static_cast<double>(point.rhs_evaluations);
   }
   state.counters["rhs"] = calls;

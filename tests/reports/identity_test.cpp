@@ -177,7 +177,7 @@ bool is_wrong_type(const Case& c) {
 /// Numbers that depend on everything in the model: its right-hand side at a few states, on and off the teeth.
 std::string fingerprint(const input::LoadedInput& input) {
   const input::Study& study = input.study;
-  if (!study.sweep) return {};
+  if (!study.has_points()) return {};
   const studies::GridPoint first = input::plan_of(study).points.front();
   const model::DynamicModel model = input::model_at_point(input)(first);
   std::string bytes;

@@ -19,19 +19,19 @@ namespace {
 
 bool always() { return true; }
 
-studies::PointResult point_at(const model::DynamicModel& m, const studies::SweepOptions& sweep,
+studies::PointResult point_at(const model::DynamicModel& m, const studies::LookOptions& look,
                               const integrate::IntegratorOptions& integrator) {
-  return studies::compute_point({0, studies::Direction::up, m.omega}, m, {}, sweep, integrator, always);
+  return studies::compute_point({0, studies::Direction::up, m.omega}, m, {}, look, integrator, always);
 }
 
 TEST(PaperRegimes, AreToldWithTheirEvidence) {
   const input::LoadedInput input = input::load_input("inputs/tang2020_speed.json");
   const studies::ModelAt at = input::model_at(input);
-  studies::SweepOptions sweep = *input.study.sweep;
-  sweep.transient = studies::Transient::adaptive;
-  sweep.recorded_periods = 32;
+  studies::LookOptions look = input.study.look();
+  look.transient = studies::Transient::adaptive;
+  look.recorded_periods = 32;
 
-  const studies::PointResult periodic = point_at(at(3.0), sweep, input.study.integrator);
+  const studies::PointResult periodic = point_at(at(3.0), look, input.study.integrator);
   EXPECT_EQ(periodic.regime, analysis::Regime::periodic);
   EXPECT_EQ(periodic.period, 1);
   // Three tolerances in parts of the largest component, which is below 10 b_c.
@@ -41,11 +41,11 @@ TEST(PaperRegimes, AreToldWithTheirEvidence) {
   // Put onto its orbit: what is left are the integrator's errors, held up by a multiplier of 0.996.
   EXPECT_LT(periodic.recurrence.error, 1e-5);
 
-  const studies::PointResult doubled = point_at(at(2.1), sweep, input.study.integrator);
+  const studies::PointResult doubled = point_at(at(2.1), look, input.study.integrator);
   EXPECT_EQ(doubled.regime, analysis::Regime::periodic);
   EXPECT_EQ(doubled.period, 2);
 
-  const studies::PointResult chaotic = point_at(at(1.3), sweep, input.study.integrator);
+  const studies::PointResult chaotic = point_at(at(1.3), look, input.study.integrator);
   EXPECT_EQ(chaotic.regime, analysis::Regime::chaotic);
   EXPECT_EQ(chaotic.period, 0);
   EXPECT_GT(chaotic.lyapunov_max().low(), 0.0);
@@ -55,10 +55,10 @@ TEST(PaperRegimes, AreToldWithTheirEvidence) {
 TEST(PaperRegimes, DampingInContactOnlyPullsForAShortTime) {
   const auto pull_time = [](const std::vector<std::string>& sets) {
     const input::LoadedInput input = input::load_input("inputs/tang2020_speed.json", input::parse_assignments(sets));
-    studies::SweepOptions sweep = studies::by_recurrence_alone(*input.study.sweep);
-    sweep.transient_periods = 100;
-    sweep.recorded_periods = 8;
-    const studies::PointResult r = point_at(input::model_at(input)(2.8), sweep, input.study.integrator);
+    studies::LookOptions look = studies::by_recurrence_alone(input.study.look());
+    look.transient_periods = 100;
+    look.recorded_periods = 8;
+    const studies::PointResult r = point_at(input::model_at(input)(2.8), look, input.study.integrator);
     EXPECT_EQ(r.outcome, integrate::Outcome::reached);
     EXPECT_TRUE(r.pulls());
     return studies::PointResult::pull_time(r.ring_planet);
@@ -72,10 +72,10 @@ TEST(PaperRegimes, DampingInContactOnlyPullsForAShortTime) {
 TEST(PaperRegimes, ARunChecksItsExponents) {
   const input::LoadedInput input = input::load_input("inputs/tang2020_run.json");
   const model::DynamicModel m = input::model_at(input)(2.4);
-  studies::RunOptions options = input.study.run;
+  studies::RunOptions options = std::get<input::RunPlan>(input.study.plan).run;
   options.exponent_periods = 40;
   options.history_periods = 4;
-  const auto r = studies::run_operating_point(m, model::scales_of(input.study.stage), *input.study.sweep, options,
+  const auto r = studies::run_operating_point(m, model::scales_of(input.study.stage), input.study.look(), options,
                                               input.study.integrator, always);
   ASSERT_TRUE(r.has_value());
   ASSERT_TRUE(r->checks.has_value());
@@ -121,14 +121,14 @@ TEST(PaperRegimes, ARunChecksItsExponents) {
 TEST(PaperRegimesLong, ExponentsOfPeriodicPointsAreThoseOfTheirMultipliers) {
   const input::LoadedInput input = input::load_input("inputs/tang2020_speed.json");
   const studies::ModelAt at = input::model_at(input);
-  studies::SweepOptions sweep = *input.study.sweep;
-  sweep.transient = studies::Transient::adaptive;
-  sweep.recorded_periods = 16;
+  studies::LookOptions look = input.study.look();
+  look.transient = studies::Transient::adaptive;
+  look.recorded_periods = 16;
   int points = 0;
   for (int k = 0; k < 30; ++k) {
     const double omega = k < 12 ? 0.205 + 0.024 * k : 2.2 + 0.07 * (k - 12);
     const model::DynamicModel m = at(omega);
-    const studies::PointResult r = point_at(m, sweep, input.study.integrator);
+    const studies::PointResult r = point_at(m, look, input.study.integrator);
     ASSERT_EQ(r.regime, analysis::Regime::periodic) << omega << ": " << r.evidence.note;
     const analysis::Estimate of_multiplier = r.lyapunov_max();
     const auto flow = integrate::make_flow(studies::vector_field(m), input.study.integrator);

@@ -149,7 +149,7 @@ studies::RunResult result_of(double lag = 0.0) {
 RunOutput output() {
   RunOutput o;
   o.options.shown_periods = 3;
-  o.points.sweep.recorded_periods = periods;
+  o.points.sweep.look.recorded_periods = periods;
   o.points.poincare_columns = {"x_s", "x_s_rate", "delta_sp_1", "delta_rp_1"};
   o.points.resolved_input = "{\"stage\": {}}";
   o.points.title = "by_hand, Ω = 1.25";

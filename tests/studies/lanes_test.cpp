@@ -132,21 +132,21 @@ std::vector<PointResult> swept(const SweepOptions& sweep, const char* method, in
   o.method = method;
   SweepRun run;
   run.threads = threads;
-  return run_sweep_in_memory(plan_sweep(sweep), sweep, o, at, std::move(run), std::move(done));
+  return run_sweep_in_memory(plan_sweep(sweep), sweep.look, o, at, std::move(run), std::move(done));
 }
 
 TEST(Lanes, SweepsHaveTheSameBytesAtAnyNumberOfThreads) {
   const ModelAt at = [](double omega) { return mixed(omega); };
   for (const Start start : {Start::cold, Start::carried}) {
     SweepOptions sweep;
-    sweep.from = 0.6;
-    sweep.to = 3.4;
-    sweep.points = 9;
+    sweep.axis.from = 0.6;
+    sweep.axis.to = 3.4;
+    sweep.axis.points = 9;
     sweep.directions = {Direction::up, Direction::down};
     sweep.start = start;
-    sweep.transient_periods = 6;
-    sweep.recorded_periods = 4;
-    sweep.classification_periods = 0;
+    sweep.look.transient_periods = 6;
+    sweep.look.recorded_periods = 4;
+    sweep.look.classification_periods = 0;
     const auto expected = swept(sweep, "lanes-cash-karp", 1, at);
     ASSERT_EQ(expected.size(), 18U);
     for (const int threads : {2, 3, 8}) {

@@ -18,17 +18,18 @@
 namespace epicyclic::studies {
 namespace {
 
-PlaneOptions plane() {
-  PlaneOptions p;
+MapOptions map() {
+  MapOptions m;
+  Plane& p = m.plane;
   p.first = {"mesh_frequency_ratio", 0.5, 0.9, 5};
   p.second = {"damping_ratio", 0.02, 0.06, 3};
-  return p;
+  return m;
 }
 
 TEST(Plane, AMapIsNumberedAlongTheFirstAxisAndEachRowIsAChain) {
-  SweepOptions sweep;
-  sweep.directions = {Direction::up, Direction::down};
-  const SweepPlan plan = plan_map(sweep, plane());
+  MapOptions options = map();
+  options.directions = {Direction::up, Direction::down};
+  const SweepPlan plan = plan_map(options);
   ASSERT_EQ(plan.points.size(), 30U);
   ASSERT_EQ(plan.chains.size(), 6U);
   EXPECT_EQ(plan.points[1].value, 0.6);
@@ -45,18 +46,17 @@ TEST(Plane, AMapIsNumberedAlongTheFirstAxisAndEachRowIsAChain) {
       seen.insert(k);
     }
   EXPECT_EQ(seen.size(), 30U);
-  sweep.start = Start::cold;
-  EXPECT_EQ(plan_map(sweep, plane()).chains.size(), 30U);
+  options.start = Start::cold;
+  EXPECT_EQ(plan_map(options).chains.size(), 30U);
 }
 
 TEST(Plane, APlanOfAnySizeIsTheSameRule) {
-  SweepOptions sweep;
-  sweep.directions = {Direction::up, Direction::down};
-  sweep.start = Start::cold;
-  PlaneOptions large = plane();
-  large.first.points = 10000;
-  large.second.points = 10000;
-  const SweepPlan plan = plan_map(sweep, large);  // its points would take 6 GB
+  MapOptions large = map();
+  large.directions = {Direction::up, Direction::down};
+  large.start = Start::cold;
+  large.plane.first.points = 10000;
+  large.plane.second.points = 10000;
+  const SweepPlan plan = plan_map(large);  // its points would take 6 GB
   ASSERT_EQ(plan.points.size(), 200000000U);
   ASSERT_EQ(plan.chains.size(), 200000000U);
   EXPECT_EQ(plan.points.front().value, 0.5);
@@ -67,8 +67,8 @@ TEST(Plane, APlanOfAnySizeIsTheSameRule) {
   EXPECT_EQ(plan.points[100000000].second_value, 0.02);
   EXPECT_EQ(plan.chains[123456789].front(), 123456789U);
   EXPECT_EQ(plan.chains[123456789].size(), 1U);
-  sweep.start = Start::carried;
-  const SweepPlan carried = plan_map(sweep, large);
+  large.start = Start::carried;
+  const SweepPlan carried = plan_map(large);
   ASSERT_EQ(carried.chains.size(), 20000U);
   EXPECT_EQ(carried.chains[15000].front(), 150000000U);
   EXPECT_EQ(carried.chains[15000].back(), 150009999U);
@@ -78,9 +78,9 @@ TEST(Plane, BasinsStartWhereBaseAndAxesSay) {
   model::DynamicModel m;
   m.state_names = {"x_s", "y_s", "x_s_rate", "y_s_rate"};
   m.default_start = {1, 2, 3, 4};
-  PlaneOptions p;
-  p.first = {"y_s", -1, 1, 3};
-  p.second = {"x_s_rate", 10, 20, 2};
+  BasinsOptions p;
+  p.plane.first = {"y_s", -1, 1, 3};
+  p.plane.second = {"x_s_rate", 10, 20, 2};
   p.base = {{"x_s", 7}};
   const SweepPlan plan = plan_basins(p);
   ASSERT_EQ(plan.points.size(), 6U);
@@ -137,14 +137,13 @@ model::DynamicModel wells(double drive) {
 }
 
 TEST(Plane, BasinsTellTheWellsApartAtAnyNumberOfThreads) {
-  PlaneOptions p;
-  p.first = {"x", -1.6, 1.6, 6};
-  p.second = {"x_rate", -0.8, 0.8, 5};
-  SweepOptions sweep;
-  sweep.keep = Keep::attractor;
-  sweep.transient_periods = 60;
-  sweep.recorded_periods = 16;
-  sweep.output_phases = 16;
+  BasinsOptions p;
+  p.plane.first = {"x", -1.6, 1.6, 6};
+  p.plane.second = {"x_rate", -0.8, 0.8, 5};
+  p.look.transient = Transient::fixed;
+  p.look.transient_periods = 60;
+  p.look.recorded_periods = 16;
+  p.look.output_phases = 16;
   const ModelAtPoint at = [&](const GridPoint& point) {
     model::DynamicModel m = wells(0.1);
     m.default_start = start_in_plane(m, p, point);
@@ -154,7 +153,7 @@ TEST(Plane, BasinsTellTheWellsApartAtAnyNumberOfThreads) {
   for (const int threads : {1, 2, 5}) {
     SweepRun run;
     run.threads = threads;
-    auto results = run_sweep_in_memory(plan_basins(p), sweep, {}, at, std::move(run));
+    auto results = run_sweep_in_memory(plan_basins(p), p.look, {}, at, std::move(run));
     ASSERT_EQ(results.size(), 30U);
     std::vector<double> x_ends;
     for (const PointResult& r : results) {
@@ -193,20 +192,20 @@ model::DynamicModel with_slow_mode(const integrate::VectorField& motion, double 
 
 TEST(Plane, BasinsLetCellsSettleByThemselves) {
   // Duffing's oscillator over both wells has one chaotic attractor, whatever z starts from.
-  PlaneOptions p;
-  p.first = {"x", -1.0, 1.0, 2};
-  p.second = {"z", -40.0, 40.0, 5};
+  BasinsOptions p;
+  p.plane.first = {"x", -1.0, 1.0, 2};
+  p.plane.second = {"z", -40.0, 40.0, 5};
   const ModelAtPoint at = [&](const GridPoint& point) {
     model::DynamicModel m = with_slow_mode(problems::duffing(0.3, -1.0, 0.5, 1.0), 30.0);
     m.default_start = start_in_plane(m, p, point);
     return m;
   };
-  const auto attractors = [&](const SweepOptions& cells) {
+  const auto attractors = [&](const LookOptions& cells) {
     auto results = run_sweep_in_memory(plan_basins(p), cells, {}, at, {});
     for (const PointResult& r : results) EXPECT_EQ(motion_name(r), "chaotic");
     return attractors_of(results, {}).all.size();
   };
-  SweepOptions cells = basins_options();
+  LookOptions cells = p.look;
   cells.output_phases = 16;
   cells.transient_periods = 60;
   EXPECT_EQ(attractors(cells), 1U);
@@ -216,21 +215,18 @@ TEST(Plane, BasinsLetCellsSettleByThemselves) {
 
 TEST(Plane, AMapsCellIsThePointOfASweepAtItsSecondValue) {
   SweepOptions sweep;
-  sweep.keep = Keep::row;
-  sweep.transient_periods = 5;
-  sweep.recorded_periods = 8;
-  sweep.parameter = "drive";
-  sweep.from = 0.05;
-  sweep.to = 0.15;
-  sweep.points = 4;
-  PlaneOptions p;
-  p.first = {"drive", 0.05, 0.15, 4};
-  p.second = {"offset", 0.0, 0.02, 2};
+  sweep.look.transient_periods = 5;
+  sweep.look.recorded_periods = 8;
+  sweep.axis = {"drive", 0.05, 0.15, 4};
+  MapOptions map;
+  map.plane = {{"drive", 0.05, 0.15, 4}, {"offset", 0.0, 0.02, 2}};
+  map.look = sweep.look;
+  map.look.keep = Keep::row;
   const auto cells = run_sweep_in_memory(
-      plan_map(sweep, p), sweep, {},
+      plan_map(map), map.look, {},
       ModelAtPoint([](const GridPoint& point) { return wells(point.value + point.second_value); }), {});
   const auto row =
-      run_sweep_in_memory(plan_sweep(sweep), sweep, {}, [](double value) { return wells(value + 0.02); }, {});
+      run_sweep_in_memory(plan_sweep(sweep), sweep.look, {}, [](double value) { return wells(value + 0.02); }, {});
   ASSERT_EQ(cells.size(), 8U);
   for (std::size_t k = 0; k < 4; ++k) {
     EXPECT_EQ(cells[4 + k].end_state, row[k].end_state) << k;

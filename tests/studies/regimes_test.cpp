@@ -1,4 +1,4 @@
-// Regimes of the paper's stage as a sweep tells them, and what their evidence is worth.
+// Regimes of the paper's stage as a look tells them, and what their evidence is worth.
 
 #include <cmath>
 #include <functional>
@@ -23,36 +23,36 @@ model::DynamicModel nonlinear(double ratio, const model::ModelOptions& options =
   return model::make_dynamic_model(stage, model::scales_of(stage), ratio, options);
 }
 
-PointResult point_at(const model::DynamicModel& m, const SweepOptions& sweep) {
-  return compute_point({0, Direction::up, m.omega}, m, {}, sweep, {}, always);
+PointResult point_at(const model::DynamicModel& m, const LookOptions& look) {
+  return compute_point({0, Direction::up, m.omega}, m, {}, look, {}, always);
 }
 
 TEST(Regimes, WithoutTangentsThereIsRecurrenceAlone) {
   // Damping that ends at the gap's edge jumps there; a smooth edge has tangents again.
-  SweepOptions sweep;
-  sweep.transient_periods = 20;
-  sweep.recorded_periods = 16;
-  sweep.classification_periods = 64;
+  LookOptions look;
+  look.transient_periods = 20;
+  look.recorded_periods = 16;
+  look.classification_periods = 64;
   model::ModelOptions options;
   options.gap_damping = model::GapDamping::contact_slope;
   const model::DynamicModel jumping = nonlinear(2.0, options);
   EXPECT_TRUE(jumping.jumps_at_contact);
-  EXPECT_FALSE(point_at(jumping, sweep).classified);
+  EXPECT_FALSE(point_at(jumping, look).classified);
   const auto flow = integrate::make_flow(vector_field(jumping), {});
   std::vector<double> y = jumping.default_start;
   std::vector<double> v(y.size(), 1.0);
   EXPECT_THROW((void)flow->evolve_tangents(y, v, 0.0, 1.0), InputError);
   options.clearance_smoothing = 0.1;
-  EXPECT_TRUE(point_at(nonlinear(2.0, options), sweep).classified);
+  EXPECT_TRUE(point_at(nonlinear(2.0, options), look).classified);
 }
 
 TEST(Regimes, ASwitchedOffClassificationChangesNoOtherNumber) {
-  SweepOptions sweep;
-  sweep.transient_periods = 60;
-  sweep.recorded_periods = 16;
+  LookOptions look;
+  look.transient_periods = 60;
+  look.recorded_periods = 16;
   const model::DynamicModel m = nonlinear(2.0);
-  const PointResult with = point_at(m, sweep);
-  const PointResult without = point_at(m, by_recurrence_alone(sweep));
+  const PointResult with = point_at(m, look);
+  const PointResult without = point_at(m, by_recurrence_alone(look));
   EXPECT_EQ(with.poincare, without.poincare);
   EXPECT_EQ(with.end_state, without.end_state);
   EXPECT_GT(with.rhs_evaluations, without.rhs_evaluations);
@@ -61,10 +61,10 @@ TEST(Regimes, ASwitchedOffClassificationChangesNoOtherNumber) {
 }
 
 TEST(Regimes, AnAdaptiveTransientEndsOnTheOrbitOfALongOne) {
-  SweepOptions fixed;
+  LookOptions fixed;
   fixed.transient_periods = 1000;
   fixed.recorded_periods = 16;
-  SweepOptions adaptive = fixed;
+  LookOptions adaptive = fixed;
   adaptive.transient = Transient::adaptive;
   for (const double ratio : {0.4, 2.0, 3.0}) {
     const model::DynamicModel m = nonlinear(ratio);

@@ -13,9 +13,9 @@ namespace {
 
 TEST(SweepPlan, GridHasBothEndsAndReadableValues) {
   SweepOptions o;
-  o.from = 0.2;
-  o.to = 3.5;
-  o.points = 661;
+  o.axis.from = 0.2;
+  o.axis.to = 3.5;
+  o.axis.points = 661;
   const SweepPlan plan = plan_sweep(o);
   EXPECT_EQ(plan.points.front().value, 0.2);
   EXPECT_EQ(plan.points.back().value, 3.5);
@@ -25,7 +25,7 @@ TEST(SweepPlan, GridHasBothEndsAndReadableValues) {
 
 TEST(SweepPlan, DownIsUpReversedAndNumberedAfterIt) {
   SweepOptions o;
-  o.points = 11;
+  o.axis.points = 11;
   o.directions = {Direction::up, Direction::down};
   const SweepPlan plan = plan_sweep(o);
   ASSERT_EQ(plan.points.size(), 22U);
@@ -40,7 +40,7 @@ TEST(SweepPlan, ChainsHoldEachPointOnce) {
   for (const Start start : {Start::carried, Start::cold})
     for (const int segments : {1, 3, 7}) {
       SweepOptions o;
-      o.points = 20;
+      o.axis.points = 20;
       o.directions = {Direction::down, Direction::up};
       o.start = start;
       o.segments = segments;
@@ -76,12 +76,12 @@ model::DynamicModel oscillator(double value) {
 
 SweepOptions few_points() {
   SweepOptions o;
-  o.from = 0.1;
-  o.to = 0.4;
-  o.points = 4;
-  o.transient_periods = 40;
-  o.recorded_periods = 8;
-  o.period_max = 4;
+  o.axis.from = 0.1;
+  o.axis.to = 0.4;
+  o.axis.points = 4;
+  o.look.transient_periods = 40;
+  o.look.recorded_periods = 8;
+  o.look.period_max = 4;
   return o;
 }
 
@@ -90,7 +90,7 @@ TEST(Sweep, RecordsExtremaContactAndPeriodOfAKnownResponse) {
   // s.
   constexpr double settled = 1e-6;  // exp(-0.2 * 2 pi * 40) of the transient and the tolerance of the integrator
   const SweepOptions o = few_points();
-  const auto results = run_sweep_in_memory(plan_sweep(o), o, {}, oscillator, {});
+  const auto results = run_sweep_in_memory(plan_sweep(o), o.look, {}, oscillator, {});
   ASSERT_EQ(results.size(), 4U);
   for (const PointResult& r : results) {
     const double amplitude = r.point.value / 0.4;
@@ -117,14 +117,14 @@ model::DynamicModel wells(double value) {
 
 TEST(Sweep, SegmentsKeepHysteresis) {
   SweepOptions o = few_points();
-  o.from = -0.6;
-  o.to = 0.6;
-  o.points = 61;
+  o.axis.from = -0.6;
+  o.axis.to = 0.6;
+  o.axis.points = 61;
   o.directions = {Direction::up, Direction::down};
   const auto position = [](const PointResult& r) { return r.end_state.at(0); };
-  const auto whole = run_sweep_in_memory(plan_sweep(o), o, {}, wells, {});
+  const auto whole = run_sweep_in_memory(plan_sweep(o), o.look, {}, wells, {});
   o.segments = 6;
-  const auto parts = run_sweep_in_memory(plan_sweep(o), o, {}, wells, {});
+  const auto parts = run_sweep_in_memory(plan_sweep(o), o.look, {}, wells, {});
   ASSERT_EQ(parts.size(), 122U);
   // Until both jumps both branches are there, and each direction keeps to its own. The transient settles to 1e-4.
   int two_branches = 0;
@@ -134,7 +134,7 @@ TEST(Sweep, SegmentsKeepHysteresis) {
   EXPECT_LT(two_branches, 61);
   // Cold segments would not: their first point is on the branch of the default start.
   o.start = Start::cold;
-  const auto cold = run_sweep_in_memory(plan_sweep(o), o, {}, wells, {});
+  const auto cold = run_sweep_in_memory(plan_sweep(o), o.look, {}, wells, {});
   EXPECT_GT(position(parts[91]) - position(cold[91]), 1.0);
   // Threads, and points that are known, change nothing.
   o.start = Start::carried;
@@ -142,7 +142,7 @@ TEST(Sweep, SegmentsKeepHysteresis) {
   threads.threads = 3;
   std::map<std::size_t, PointResult> done;
   for (const std::size_t k : {0U, 1U, 12U, 30U, 31U, 61U, 90U}) done.emplace(k, parts[k]);
-  const auto again = run_sweep_in_memory(plan_sweep(o), o, {}, wells, std::move(threads), std::move(done));
+  const auto again = run_sweep_in_memory(plan_sweep(o), o.look, {}, wells, std::move(threads), std::move(done));
   for (std::size_t k = 0; k < 122; ++k) EXPECT_EQ(again[k].poincare, parts[k].poincare) << k;
 }
 
@@ -150,13 +150,13 @@ TEST(Sweep, ThreadsAndResumptionLeaveEachNumberUnchanged) {
   SweepOptions o = few_points();
   o.directions = {Direction::up, Direction::down};
   const SweepPlan plan = plan_sweep(o);
-  const auto one = run_sweep_in_memory(plan, o, {}, oscillator, {});
+  const auto one = run_sweep_in_memory(plan, o.look, {}, oscillator, {});
   SweepRun resumed;
   resumed.threads = 8;
   std::set<std::size_t> computed;
   resumed.point_finished = [&](const PointResult& r) { computed.insert(r.point.index); };
   const auto two =
-      run_sweep_in_memory(plan, o, {}, oscillator, std::move(resumed), {{0, one[0]}, {1, one[1]}, {4, one[4]}});
+      run_sweep_in_memory(plan, o.look, {}, oscillator, std::move(resumed), {{0, one[0]}, {1, one[1]}, {4, one[4]}});
   EXPECT_EQ(computed, (std::set<std::size_t>{2, 3, 5, 6, 7}));
   ASSERT_EQ(two.size(), one.size());
   for (std::size_t k = 0; k < one.size(); ++k) {
@@ -167,15 +167,15 @@ TEST(Sweep, ThreadsAndResumptionLeaveEachNumberUnchanged) {
 
 TEST(Sweep, CarriedStartIsTheEndOfThePointBefore) {
   SweepOptions o = few_points();
-  o.transient_periods = 0;
-  o.recorded_periods = 1;
-  const auto carried = run_sweep_in_memory(plan_sweep(o), o, {}, oscillator, {});
+  o.look.transient_periods = 0;
+  o.look.recorded_periods = 1;
+  const auto carried = run_sweep_in_memory(plan_sweep(o), o.look, {}, oscillator, {});
   o.start = Start::cold;
-  const auto cold = run_sweep_in_memory(plan_sweep(o), o, {}, oscillator, {});
+  const auto cold = run_sweep_in_memory(plan_sweep(o), o.look, {}, oscillator, {});
   EXPECT_EQ(carried[0].end_state, cold[0].end_state);
   EXPECT_NE(carried[1].end_state, cold[1].end_state);
-  const auto again = compute_point(plan_sweep(o).points[1], oscillator(carried[1].point.value), carried[0].end_state, o,
-                                   {}, [] { return true; });
+  const auto again = compute_point(plan_sweep(o).points[1], oscillator(carried[1].point.value), carried[0].end_state,
+                                   o.look, {}, [] { return true; });
   EXPECT_EQ(again.end_state, carried[1].end_state);
 }
 
@@ -190,7 +190,7 @@ TEST(Sweep, GoesOnAfterAPointThatDiverges) {
       };
     return m;
   };
-  const auto results = run_sweep_in_memory(plan_sweep(o), o, {}, unstable, {});
+  const auto results = run_sweep_in_memory(plan_sweep(o), o.look, {}, unstable, {});
   EXPECT_EQ(results[1].outcome, integrate::Outcome::diverged);
   EXPECT_FALSE(results[1].message.empty());
   EXPECT_TRUE(results[1].end_state.empty());
@@ -203,7 +203,7 @@ TEST(Sweep, StopsSoonAndKeepsWhatWasFinished) {
   SweepRun run;
   run.stop = &stop;
   run.point_finished = [&](const PointResult& r) { stop = r.point.index == 1; };
-  EXPECT_EQ(run_sweep_in_memory(plan_sweep(o), o, {}, oscillator, std::move(run)).size(), 2U);
+  EXPECT_EQ(run_sweep_in_memory(plan_sweep(o), o.look, {}, oscillator, std::move(run)).size(), 2U);
 }
 
 TEST(Sweep, ExceptionOfAPointArrivesUnchanged) {
@@ -212,7 +212,7 @@ TEST(Sweep, ExceptionOfAPointArrivesUnchanged) {
     if (value > 0.25) throw std::domain_error("no such point");
     return oscillator(value);
   };
-  EXPECT_THROW((void)run_sweep_in_memory(plan_sweep(o), o, {}, throwing, {}), std::domain_error);
+  EXPECT_THROW((void)run_sweep_in_memory(plan_sweep(o), o.look, {}, throwing, {}), std::domain_error);
 }
 
 }  // namespace

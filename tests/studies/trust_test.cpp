@@ -75,12 +75,12 @@ model::DynamicModel forced_van_der_pol(double strength, double) {
 
 SweepOptions points(double from, double to, int count) {
   SweepOptions o;
-  o.from = from;
-  o.to = to;
-  o.points = count;
-  o.transient_periods = 150;
-  o.recorded_periods = 32;
-  o.recurrence_tolerance = 1e-5;
+  o.axis.from = from;
+  o.axis.to = to;
+  o.axis.points = count;
+  o.look.transient_periods = 150;
+  o.look.recorded_periods = 32;
+  o.look.recurrence_tolerance = 1e-5;
   return o;
 }
 
@@ -123,7 +123,7 @@ TEST(Units, AnExceptionArrivesAndAStopIsTold) {
 Crosscheck check(const SweepOptions& sweep, const CrosscheckOptions& options, double tolerance, int threads = 1) {
   CrosscheckRun run;
   run.threads = threads;
-  return run_crosscheck(plan_sweep(sweep), sweep, options, integrator(tolerance), 0.0, oscillator, std::move(run));
+  return run_crosscheck(plan_sweep(sweep), sweep.look, options, integrator(tolerance), 0.0, oscillator, std::move(run));
 }
 
 TEST(Crosscheck, FourMethodsAgreeOnPeriodicOrbits) {
@@ -157,13 +157,14 @@ TEST(Crosscheck, TheSameBytesOnAnyNumberOfThreadsAndAfterAStop) {
   };
   const SweepPlan plan = plan_sweep(sweep);
   EXPECT_FALSE(
-      run_crosscheck(plan, sweep, options, integrator(1e-8), 0.0, oscillator, std::move(first)).complete(plan));
+      run_crosscheck(plan, sweep.look, options, integrator(1e-8), 0.0, oscillator, std::move(first)).complete(plan));
   EXPECT_EQ(done.size(), 5U);
   CrosscheckRun second;
   second.done = done;
   int computed = 0;
   second.point_finished = [&](std::size_t, const PointResult&) { ++computed; };
-  const Crosscheck resumed = run_crosscheck(plan, sweep, options, integrator(1e-8), 0.0, oscillator, std::move(second));
+  const Crosscheck resumed =
+      run_crosscheck(plan, sweep.look, options, integrator(1e-8), 0.0, oscillator, std::move(second));
   EXPECT_EQ(computed, 3);
   for (const Crosscheck* other : {&three, &resumed}) {
     ASSERT_EQ(other->comparisons.size(), one.comparisons.size());
@@ -180,7 +181,7 @@ TEST(Crosscheck, ADifferenceOfToleranceIsExplainedAsOne) {
   CrosscheckOptions options;
   options.methods = {"arkode-dopri5", "cvode-bdf"};
   options.orbit_tolerance = 1e-5;
-  sweep.recurrence_tolerance = 1e-2;  // above the noise of a coarse integrator
+  sweep.look.recurrence_tolerance = 1e-2;  // above the noise of a coarse integrator
   const Crosscheck all = check(sweep, options, 1e-5);
   ASSERT_EQ(all.comparisons.size(), 1U);
   EXPECT_EQ(all.comparisons[0].verdict, Verdict::tolerance) << all.comparisons[0].detail;
@@ -203,8 +204,8 @@ TEST(Crosscheck, ATorusIsExplainedAsOne) {
   const SweepOptions sweep = points(0.4, 0.4, 1);
   CrosscheckOptions options;
   options.methods = {"arkode-dopri5", "cvode-adams"};
-  const Crosscheck all =
-      run_crosscheck(plan_sweep(sweep), sweep, options, integrator(1e-4), 0.0, forced_van_der_pol, CrosscheckRun{});
+  const Crosscheck all = run_crosscheck(plan_sweep(sweep), sweep.look, options, integrator(1e-4), 0.0,
+                                        forced_van_der_pol, CrosscheckRun{});
   ASSERT_EQ(all.comparisons.size(), 1U);
   EXPECT_EQ(all.comparisons[0].verdict, Verdict::torus) << all.comparisons[0].detail;
 }
@@ -220,7 +221,7 @@ TEST(Crosscheck, CoexistingMotionsAreToldFromErrors) {
   options.methods = {"arkode-dopri5"};
   options.clearance_smoothings = {0.1};
   const Crosscheck all =
-      run_crosscheck(plan_sweep(sweep), sweep, options, integrator(1e-9), 0.0, two_wells, CrosscheckRun{});
+      run_crosscheck(plan_sweep(sweep), sweep.look, options, integrator(1e-9), 0.0, two_wells, CrosscheckRun{});
   ASSERT_EQ(all.comparisons.size(), 1U);
   EXPECT_EQ(all.comparisons[0].verdict, Verdict::coexisting) << all.comparisons[0].detail;
 }
@@ -258,15 +259,16 @@ TEST(OneClassification, WhatEachStudySaysOfAMotionIsTheSame) {
                         Case{"chaotic", duffing, 0.5, 150}, Case{"quasiperiodic", forced_van_der_pol, 0.4, 150},
                         Case{"period 1", slow, 0.01, 5}}) {
     SweepOptions sweep = points(c.value, c.value, 1);
-    sweep.transient_periods = c.transient;
+    sweep.look.transient_periods = c.transient;
     const SweepPlan plan = plan_sweep(sweep);
     const integrate::IntegratorOptions how = integrator(1e-8);
-    const auto swept = run_sweep_in_memory(plan, sweep, how, [&](double value) { return c.model(value, 0.0); }, {});
+    const auto swept =
+        run_sweep_in_memory(plan, sweep.look, how, [&](double value) { return c.model(value, 0.0); }, {});
     ASSERT_EQ(motion_name(swept[0]), c.motion);
 
     CrosscheckOptions methods;
     methods.methods = {how.method, "cvode-adams"};
-    const Crosscheck checked = run_crosscheck(plan, sweep, methods, how, 0.0, c.model, {});
+    const Crosscheck checked = run_crosscheck(plan, sweep.look, methods, how, 0.0, c.model, {});
     EXPECT_EQ(motion_text(checked.reference[0]), motion_text(swept[0]));
     EXPECT_EQ(checked.reference[0].lyapunov_max().value, swept[0].lyapunov_max().value);
     EXPECT_EQ(motion_name(checked.comparisons[0].result), c.motion);
@@ -275,7 +277,7 @@ TEST(OneClassification, WhatEachStudySaysOfAMotionIsTheSame) {
     ladder.methods = {how.method};
     ladder.tolerances = {1e-6};
     ladder.clearance_smoothings = {0.01};
-    const TolerancePoint climbed = compute_tolerance_point(swept[0], sweep, ladder, how, 0.0, c.model, 1, nullptr);
+    const TolerancePoint climbed = compute_tolerance_point(swept[0], sweep.look, ladder, how, 0.0, c.model, 1, nullptr);
     EXPECT_EQ(climbed.period, swept[0].period) << climbed.note;
     EXPECT_EQ(climbed.statistics.empty(), swept[0].period > 0);
     if (climbed.period == 0) {
@@ -293,12 +295,12 @@ TEST(OneClassification, ATorusWhoseExponentSeemsPositiveIsNoChaos) {
     return played_by(problems::van_der_pol(0.1, strength, 1.7), 1.0, {1.0, 0.0});
   };
   SweepOptions sweep = points(0.3, 0.3, 1);
-  sweep.transient_periods = 4;
-  sweep.recorded_periods = 16;
+  sweep.look.transient_periods = 4;
+  sweep.look.recorded_periods = 16;
   CrosscheckOptions options;
   options.methods = {"arkode-dopri5", "cvode-adams"};
   const Crosscheck all =
-      run_crosscheck(plan_sweep(sweep), sweep, options, integrator(1e-6), 0.0, slow_torus, CrosscheckRun{});
+      run_crosscheck(plan_sweep(sweep), sweep.look, options, integrator(1e-6), 0.0, slow_torus, CrosscheckRun{});
   EXPECT_EQ(motion_name(all.reference[0]), "quasiperiodic");
   EXPECT_EQ(motion_name(all.comparisons[0].result), "quasiperiodic");
   EXPECT_EQ(all.comparisons[0].verdict, Verdict::torus) << all.comparisons[0].detail;
@@ -313,9 +315,9 @@ TEST(OneClassification, ATorusWhoseExponentSeemsPositiveIsNoChaos) {
 
 TolerancePoint study(double w, const ToleranceOptions& options, double tolerance, int threads = 1) {
   const SweepOptions sweep = points(w, w, 1);
-  const auto motion = run_sweep_in_memory(plan_sweep(sweep), sweep, integrator(tolerance),
+  const auto motion = run_sweep_in_memory(plan_sweep(sweep), sweep.look, integrator(tolerance),
                                           [](double value) { return oscillator(value, 0.0); }, {});
-  return compute_tolerance_point(motion.front(), sweep, options, integrator(tolerance), 0.0, oscillator, threads,
+  return compute_tolerance_point(motion.front(), sweep.look, options, integrator(tolerance), 0.0, oscillator, threads,
                                  nullptr);
 }
 

@@ -1,0 +1,30 @@
+// A parameter, or a component of the state, and its values on an even grid.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace epicyclic::studies {
+
+struct Axis {
+  std::string name;  ///< of a sweep parameter, a JSON pointer to a number of the input, or a component of the state
+  double from = 0;
+  double to = 1;
+  int points = 50;
+
+  /// @throws InputError for ends that are not finite or fall, for no points, and for one that is to be two ends
+  void validate() const;
+};
+
+/// The value at a share of the way; both ends exactly as given, between them rounded to 12 digits, so that 1.1 is 1.1
+/// and a value typed from a table is the value that was computed.
+[[nodiscard]] double grid_value(double from, double to, double share);
+
+/// The value of an axis at one of its points; as grid_value().
+[[nodiscard]] double axis_value(const Axis& axis, std::size_t point);
+
+/// All values of an axis.
+[[nodiscard]] std::vector<double> axis_values(const Axis& axis);
+
+}  // namespace epicyclic::studies
