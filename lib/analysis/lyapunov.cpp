@@ -104,10 +104,11 @@ double kaplan_yorke_dimension(std::span<const double> exponents) {
   return static_cast<double>(exponents.size());
 }
 
-integrate::VectorField with_divergence(const integrate::VectorField& field) {
+VectorField with_divergence(const VectorField& field) {
   if (!field.tangents) throw InputError("the divergence of a field without tangents is asked for");
   const std::size_t n = field.dimension;
-  integrate::VectorField extended = field;
+  VectorField extended = field;
+  extended.origin = nullptr;  // of no kind any more
   extended.dimension = n + 1;
   extended.tangents = {};
   extended.parameter_derivative = {};

@@ -88,6 +88,6 @@ struct LyapunovSpectrum {
 
 /// The field with one more component z, dz/ds = tr dg/dy: (z(s_1) - z(s_0)) / (s_1 - s_0) is the mean divergence along
 /// the motion, which the exponents have to add up to. Without tangents.
-[[nodiscard]] integrate::VectorField with_divergence(const integrate::VectorField& field);
+[[nodiscard]] VectorField with_divergence(const VectorField& field);
 
 }  // namespace epicyclic::analysis

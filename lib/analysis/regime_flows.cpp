@@ -18,7 +18,7 @@ long RegimeFlows::right_hand_side_calls() const {
   return calls;
 }
 
-RegimeFlows make_regime_flows(const integrate::VectorField& field, const integrate::IntegratorOptions& integrator) {
+RegimeFlows make_regime_flows(const VectorField& field, const integrate::IntegratorOptions& integrator) {
   const auto with = [&](double factor, bool controlled) {
     integrate::IntegratorOptions o = integrator;
     o.relative_tolerance *= factor;

@@ -22,7 +22,6 @@ struct RegimeFlows {
 
 /// @param integrator  of one trajectory: tangents are not carried by lanes
 /// @throws InputError for options that no flow takes
-[[nodiscard]] RegimeFlows make_regime_flows(const integrate::VectorField& field,
-                                            const integrate::IntegratorOptions& integrator);
+[[nodiscard]] RegimeFlows make_regime_flows(const VectorField& field, const integrate::IntegratorOptions& integrator);
 
 }  // namespace epicyclic::analysis

@@ -6,65 +6,17 @@
 //
 // For a gear train s is the mesh phase and g has the period 2 pi. Any system with a VectorField can be made a Flow, so
 // analysis is tested on systems with known answers through the same code.
-//
-// Smoothness: g may jump in s at the breakpoints (which every Flow steps onto exactly) and have kinks across the
-// switching surfaces (which a Flow may ignore). Tangents pass a kink of a continuous g without a jump; where g itself
-// jumps across a surface (contact-slope damping with an exact gap) they would need a jump that no Flow makes.
 #pragma once
 
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "core/push_forward.hpp"
+#include "core/vector_field.hpp"
 
 namespace epicyclic::integrate {
-
-/// Surfaces in state space where the vector field is not smooth: each is crossed when its value changes sign.
-struct SwitchingSurfaces {
-  std::size_t count = 0;
-  /// Values at a state, and d/ds of them along the motion through it, `count` numbers each.
-  std::function<void(double s, const double* y, double* values, double* rates)> evaluate;
-};
-
-/// What a field was made of; lanes look for the kind that they know by dynamic_cast.
-struct Origin {
-  Origin() = default;
-  Origin(const Origin&) = default;
-  Origin& operator=(const Origin&) = default;
-  virtual ~Origin() = default;
-};
-
-/// The right-hand side of a system.
-struct VectorField {
-  std::size_t dimension = 0;
-  double period = 0;                ///< of g in s; 0 if g does not depend on s
-  std::vector<double> breakpoints;  ///< where g may jump in s, in [0, period), rising
-
-  /// dy/ds at s, one-sided: segment k is that after breakpoint k (the last one wraps); 0 if there are no breakpoints.
-  std::function<void(std::size_t segment, double s, const double* y, double* dyds)> right_hand_side;
-
-  /// dy/ds, and (dg/dy) v_j for each of the given tangent vectors; integrate/make_field.hpp makes it. Needed by
-  /// implicit methods (their Jacobian is this at the unit vectors) and by evolve_tangents(); empty where neither is
-  /// used.
-  std::function<void(std::size_t segment, double s, const double* y, const Columns<const double>& v, double* dyds,
-                     const Columns<double>& dvds)>
-      tangents;
-
-  /// dg/dp at fixed y; empty if no parameter is varied.
-  std::function<void(std::size_t segment, double s, const double* y, double* dgdp)> parameter_derivative;
-
-  /// For lanes that know the kind (integrate/lanes/lane_ensemble.hpp); may be null.
-  std::shared_ptr<const Origin> origin;
-
-  SwitchingSurfaces surfaces;
-
-  /// g itself jumps across a surface: tangent vectors would have to jump there, which no Flow does.
-  bool jumps_at_surfaces = false;
-};
 
 /// How an evolution ended. None of these is an exception.
 enum class Outcome {

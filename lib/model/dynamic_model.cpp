@@ -13,6 +13,7 @@
 #include "model/folded_constants.hpp"
 #include "model/kernels/stage_kernel.hpp"
 #include "model/right_hand_side.hpp"
+#include "model/tangents.hpp"
 
 namespace epicyclic::model {
 
@@ -170,7 +171,7 @@ template <Layout L, std::size_t N>
 DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mesh_frequency_ratio,
                       const ModelOptions& options) {
   const auto constants =
-      std::make_shared<const FoldedConstants<N>>(make_parameters<N>(stage, scales, mesh_frequency_ratio, options));
+      std::make_shared<const FoldedConstants<N>>(L, make_parameters<N>(stage, scales, mesh_frequency_ratio, options));
   const std::shared_ptr<const Parameters<double, N>> p(constants, &constants->parameters);
   DynamicModel m;
   m.planets = static_cast<int>(N);
@@ -182,8 +183,8 @@ DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mes
   m.sun_planet_half_gap = p->sun_planet.half_gap;
   m.ring_planet_half_gap = p->ring_planet.half_gap;
   m.omega = mesh_frequency_ratio;
-  m.jumps_at_contact = p->gap_damping == GapDamping::contact_slope && !p->smooth &&
-                       std::max(p->sun_planet.half_gap, p->ring_planet.half_gap) > 0.0;
+  m.jumps_at_surfaces = p->gap_damping == GapDamping::contact_slope && !p->smooth &&
+                        std::max(p->sun_planet.half_gap, p->ring_planet.half_gap) > 0.0;
   m.right_hand_side = [p, kernel = stage_kernel<L, N>()](std::size_t segment, double s, const double* y, double* dyds) {
     kernel(*p, segment, s, y, dyds);
   };
@@ -212,8 +213,8 @@ DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mes
         *p, p->ring_planet, ring, d.ring_planet, d.ring_planet_rate, [&] { return now().ring_planet.stiffness; },
         out.ring_planet);
   };
-  m.contacts = contacts_of(*p);
-  m.contact_distances = [p](double s, const double* y, double* distances, double* rates) {
+  m.surfaces.count = contacts_of(*p);
+  m.surfaces.evaluate = [p](double s, const double* y, double* distances, double* rates) {
     contact_distances<L>(*p, without_tables(*p, s), y, distances, rates);
   };
   m.forces = [p](double s, const double* y, StageForces& out) {
@@ -227,7 +228,7 @@ DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mes
     const BearingForce<double> sun = sun_bearing_force(*p, g.q.x_s, g.q.y_s);
     out.sun_bearing = std::hypot(sun.x + p->damping_s * g.v.x_s, sun.y + p->damping_s * g.v.y_s);
   };
-  m.constants = constants;
+  m.origin = constants;
   if (has_computed_tables(stage)) {
     m.with_halved_tables = [stage = std::make_shared<const gear::Stage>(stage), scales, mesh_frequency_ratio, options] {
       ModelOptions halved = options;

@@ -7,16 +7,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
-#include <memory>
+#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/vector_field.hpp"
 #include "gear/stage.hpp"
 #include "model/layout.hpp"
 #include "model/options.hpp"
 #include "model/scales.hpp"
-#include "model/tangents.hpp"
 
 namespace epicyclic::model {
 
@@ -41,33 +41,19 @@ struct MeshPulls {
   std::vector<double> sun_planet, ring_planet;
 };
 
-/// The folded constants of a stage, whatever its number of planets: FoldedConstants<N> of model/folded_constants.hpp.
-struct StageConstants {
-  StageConstants() = default;
-  StageConstants(const StageConstants&) = delete;
-  StageConstants& operator=(const StageConstants&) = delete;
-  virtual ~StageConstants() = default;
-};
+/// The equations of motion, s the mesh phase, and what else can be said of a state. Switching surfaces are the
+/// contacts, how far each is from being made or lost: contact_distances() of model/right_hand_side.hpp, 4 N + 4 of
+/// them, or 4 N + 1 with a radial bearing law. The field jumps there with damping that ends where contact does. A field
+/// is made of its folded constants (model/folded_constants.hpp).
+struct DynamicModel : VectorField {
+  DynamicModel() { period = 2.0 * std::numbers::pi; }
 
-struct DynamicModel {
   int planets = 0;
   Layout layout = Layout::relative_to_ring;
-  std::size_t dimension = 0;             ///< 2 degrees_of_freedom()
   std::vector<std::string> state_names;  ///< x_s, ..., then x_s_rate, ...
-  std::vector<double> breakpoints;       ///< mesh phases in [0, 2 pi) where the right-hand side may jump
   double sun_planet_half_gap = 0;        ///< b_sp [b_c]
   double ring_planet_half_gap = 0;       ///< b_rp [b_c]
   double omega = 0;                      ///< Omega
-  bool jumps_at_contact = false;         ///< damping that ends where contact does: the right-hand side jumps there
-
-  /// dy/ds at phase s in the given segment (segment k follows breakpoint k; 0 if there are none).
-  std::function<void(std::size_t segment, double s, const double* y, double* dyds)> right_hand_side;
-
-  /// dy/ds and (dg/dy) v_j, from the same kernel on dual numbers.
-  TangentFunction tangents;
-
-  /// dg/dp for the parameter that set_parameter_derivative() was given; empty without.
-  ParameterFunction parameter_derivative;
 
   /// Allocation-free when `out` has been used before. Rates included.
   std::function<void(double s, const double* y, MeshDeflections& out)> deflections;
@@ -78,14 +64,6 @@ struct DynamicModel {
   /// pull() of all meshes, given deflections() at s. A tenth of the cost of forces(): the stiffness is asked for only
   /// where damping may exceed the elastic force. May be empty in a model of one's own: nothing is then told to pull.
   std::function<void(double s, const MeshDeflections& d, MeshPulls& out)> pulls;
-
-  std::size_t contacts = 0;  ///< 4 N + 4, or 4 N + 1 with a radial bearing law
-
-  /// How far each contact is from being made or lost, and d/ds of it, `contacts` numbers each: contact_distances() of
-  /// model/right_hand_side.hpp.
-  std::function<void(double s, const double* y, double* distances, double* rates)> contact_distances;
-
-  std::shared_ptr<const StageConstants> constants;  ///< for lanes (model/lane_model.hpp)
 
   /// The same with tables that are half as fine, where rows of something known make them: how far an orbit moves is
   /// more than what their interpolation moves it, some 16 times. Empty without such tables.

@@ -1,26 +1,29 @@
-// The constants that a model's right-hand side was made with, for those who know the number of planets.
+// What a stage's vector field is made of, for lanes, which know the number of planets.
 #pragma once
 
 #include <cstddef>
 #include <memory>
 #include <utility>
 
-#include "model/dynamic_model.hpp"
+#include "core/vector_field.hpp"
+#include "model/layout.hpp"
 #include "model/parameters.hpp"
 
 namespace epicyclic::model {
 
 template <std::size_t N>
-struct FoldedConstants : StageConstants {
-  explicit FoldedConstants(Parameters<double, N> p) : parameters(std::move(p)) {}
+struct FoldedConstants : Origin {
+  FoldedConstants(Layout l, Parameters<double, N> p) : layout(l), parameters(std::move(p)) {}
+  Layout layout;
   Parameters<double, N> parameters;
 };
 
-/// Those of a model of N planets; null of one that has others, or none.
+/// Those of a field of a stage in that layout with N planets; null of any other.
 template <std::size_t N>
-[[nodiscard]] std::shared_ptr<const Parameters<double, N>> constants_of(const DynamicModel& model) {
-  const auto constants = std::dynamic_pointer_cast<const FoldedConstants<N>>(model.constants);
-  return constants ? std::shared_ptr<const Parameters<double, N>>(constants, &constants->parameters) : nullptr;
+[[nodiscard]] std::shared_ptr<const Parameters<double, N>> constants_of(const VectorField& field, Layout layout) {
+  const auto constants = std::dynamic_pointer_cast<const FoldedConstants<N>>(field.origin);
+  if (!constants || constants->layout != layout) return nullptr;
+  return {constants, &constants->parameters};
 }
 
 }  // namespace epicyclic::model

@@ -10,21 +10,12 @@
 
 #include <array>
 #include <cstddef>
-#include <functional>
-#include <memory>
 
-#include "core/push_forward.hpp"
+#include "core/vector_field.hpp"
 #include "model/layout.hpp"
 #include "model/parameters.hpp"
 
 namespace epicyclic::model {
-
-/// dy/ds and (dg/dy) v_j; as integrate::VectorField::tangents.
-using TangentFunction = std::function<void(std::size_t segment, double s, const double* y,
-                                           const Columns<const double>& v, double* dyds, const Columns<double>& dvds)>;
-
-/// dg/dp at fixed y; as integrate::VectorField::parameter_derivative.
-using ParameterFunction = std::function<void(std::size_t segment, double s, const double* y, double* dgdp)>;
 
 template <Layout L, std::size_t N>
 [[nodiscard]] TangentFunction make_tangents(const Parameters<double, N>& p);

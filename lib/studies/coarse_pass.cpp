@@ -4,7 +4,6 @@
 
 #include "integrate/make_flow.hpp"
 #include "studies/motion.hpp"
-#include "studies/operating_point.hpp"
 
 namespace epicyclic::studies {
 
@@ -23,7 +22,7 @@ std::vector<double> CoarsePass::start_of(std::size_t first, const std::function<
   for (; way.next < first - direction * count; keep(way, direction * count)) {
     const model::DynamicModel model = model_at_(plan_.points[direction * count + way.next]);
     std::vector<double> state = way.state.empty() ? model.default_start : way.state;
-    const auto flow = integrate::make_flow(vector_field(model), options);
+    const auto flow = integrate::make_flow(model, options);
     for (int k = 0; k < plan_.grid.coarse_periods && !state.empty(); ++k) {
       if (!go_on()) return {};
       if (!flow->evolve(state, 0.0, flow->field().period).reached()) state.clear();

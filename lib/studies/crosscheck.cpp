@@ -12,7 +12,6 @@
 #include "core/largest_difference.hpp"
 #include "core/text.hpp"
 #include "integrate/make_flow.hpp"
-#include "studies/operating_point.hpp"
 #include "studies/settled_orbit.hpp"
 #include "studies/units.hpp"
 
@@ -79,7 +78,7 @@ class Examiner {
   };
 
   [[nodiscard]] std::unique_ptr<integrate::Flow> flow_of(const GridPoint& point, const Variant& v) const {
-    return integrate::make_flow(vector_field(model_at_(point.value, v.clearance_smoothing)), v.integrator);
+    return integrate::make_flow(model_at_(point.value, v.clearance_smoothing), v.integrator);
   }
 
   [[nodiscard]] SettledOrbit orbit_of(const GridPoint& point, const Variant& v, const PointResult& motion) const {

@@ -8,7 +8,7 @@
 
 namespace epicyclic::studies {
 
-bool has_classification(const integrate::VectorField& field) { return field.tangents && !field.jumps_at_surfaces; }
+bool has_classification(const VectorField& field) { return field.tangents && !field.jumps_at_surfaces; }
 
 integrate::IntegratorOptions of_one_trajectory(integrate::IntegratorOptions integrator) {
   integrator.method = integrate::arkode_twin(integrator.method);
@@ -19,7 +19,7 @@ double map_error(const integrate::IntegratorOptions& integrator) {
   return std::max(analysis::RegimeOptions{}.residual, 3.0 * integrator.relative_tolerance);
 }
 
-ToldMotion tell_motion(const integrate::VectorField& field, std::vector<double>& state, const LookOptions& look,
+ToldMotion tell_motion(const VectorField& field, std::vector<double>& state, const LookOptions& look,
                        const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on,
                        const analysis::PoincareSection* seen) {
   const analysis::RegimeFlows flows = analysis::make_regime_flows(field, of_one_trajectory(integrator));

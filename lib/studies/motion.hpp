@@ -16,7 +16,7 @@
 namespace epicyclic::studies {
 
 /// Has the field tangents wherever it goes? Without them there is nothing but recurrence.
-[[nodiscard]] bool has_classification(const integrate::VectorField& field);
+[[nodiscard]] bool has_classification(const VectorField& field);
 
 /// Tangents and orbits are a matter of one trajectory: where lanes carry the strobe, ARKODE has the same pair.
 [[nodiscard]] integrate::IntegratorOptions of_one_trajectory(integrate::IntegratorOptions integrator);
@@ -34,9 +34,8 @@ struct ToldMotion {
 /// @param state  replaced by the last state
 /// @param look   classification_periods and period_max are read
 /// @param seen   a section of this very motion that ends in `state`; may be null
-[[nodiscard]] ToldMotion tell_motion(const integrate::VectorField& field, std::vector<double>& state,
-                                     const LookOptions& look, const integrate::IntegratorOptions& integrator,
-                                     const std::function<bool()>& go_on,
+[[nodiscard]] ToldMotion tell_motion(const VectorField& field, std::vector<double>& state, const LookOptions& look,
+                                     const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on,
                                      const analysis::PoincareSection* seen = nullptr);
 
 }  // namespace epicyclic::studies

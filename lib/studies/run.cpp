@@ -10,7 +10,6 @@
 
 #include "core/largest_difference.hpp"
 #include "integrate/make_flow.hpp"
-#include "studies/operating_point.hpp"
 #include "studies/pulls.hpp"
 
 namespace epicyclic::studies {
@@ -134,10 +133,10 @@ class Run {
     if (!go_on_()) return false;
     if (r.point.outcome != integrate::Outcome::reached) return true;
     state_ = r.point.end_state;
-    if (!model_.jumps_at_contact) find_orbit(r);
+    if (!model_.jumps_at_surfaces) find_orbit(r);
     summarise(r, record(r));
     if (go_on_()) cross(r);
-    if (options_.exponent_periods > 0 && !model_.jumps_at_contact) {
+    if (options_.exponent_periods > 0 && !model_.jumps_at_surfaces) {
       if (go_on_()) find_exponents(r);
       if (go_on_() && model_.remove_synchronous && r.point.planet_spread <= synchronous) find_transverse(r);
     }
@@ -145,16 +144,14 @@ class Run {
   }
 
  private:
-  [[nodiscard]] std::unique_ptr<Flow> flow() const { return integrate::make_flow(vector_field(model_), integrator_); }
+  [[nodiscard]] std::unique_ptr<Flow> flow() const { return integrate::make_flow(model_, integrator_); }
 
   /// By the default method, whose tangents are controlled: for what has to be exact.
   [[nodiscard]] std::unique_ptr<Flow> exact_flow(double tolerance, bool controlled = true,
                                                  bool with_divergence = false) const {
-    const integrate::VectorField field = vector_field(model_);
-    return exact_flow(with_divergence ? analysis::with_divergence(field) : field, tolerance, controlled);
+    return exact_flow(with_divergence ? analysis::with_divergence(model_) : VectorField(model_), tolerance, controlled);
   }
-  [[nodiscard]] std::unique_ptr<Flow> exact_flow(const integrate::VectorField& field, double tolerance,
-                                                 bool controlled) const {
+  [[nodiscard]] std::unique_ptr<Flow> exact_flow(const VectorField& field, double tolerance, bool controlled) const {
     integrate::IntegratorOptions o;
     o.relative_tolerance = o.absolute_tolerance = tolerance;
     o.tangent_error_control = controlled;
@@ -175,7 +172,7 @@ class Run {
     if (second.found()) r.multipliers = analysis::floquet_multipliers(orbit, second);
     if (model_.with_halved_tables) {
       r.friction_table_error = model_.friction_table_error;
-      const auto halved = exact_flow(vector_field(model_.with_halved_tables()), options_.check_tolerance, false);
+      const auto halved = exact_flow(model_.with_halved_tables(), options_.check_tolerance, false);
       const std::vector<double> moved = analysis::displaced_orbit(*halved, orbit, r.point.period, 2);
       if (!moved.empty()) r.table_displacement = largest_difference(moved, orbit.state);
     }

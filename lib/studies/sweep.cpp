@@ -14,8 +14,8 @@
 #include "integrate/methods.hpp"
 #include "studies/coarse_pass.hpp"
 #include "studies/motion.hpp"
-#include "studies/operating_point.hpp"
 #include "studies/pulls.hpp"
+#include "studies/stage_lanes.hpp"
 #include "studies/units.hpp"
 
 namespace epicyclic::studies {
@@ -98,16 +98,15 @@ class PointRun {
   PointRun(const GridPoint& point, model::DynamicModel model, const std::vector<double>& start, const LookOptions& look,
            const integrate::IntegratorOptions& integrator, std::function<bool()> go_on)
       : model_(std::move(model)),
-        field_(vector_field(model_)),
         look_(look),
         integrator_(of_one_trajectory(integrator)),
         go_on_(std::move(go_on)),
         state_(start.empty() ? model_.default_start : start),
         // Without tangents there is nothing but recurrence, and no end of a transient.
-        classifies_(look.classification_periods > 0 && has_classification(field_)),
+        classifies_(look.classification_periods > 0 && has_classification(model_)),
         adaptive_(classifies_ && look.transient == Transient::adaptive),
         watch_(model_, result_),
-        strobe_(model_.dimension, field_.period,
+        strobe_(model_.dimension, model_.period,
                 {adaptive_ ? 0 : look.transient_periods, look.recorded_periods, look.output_phases},
                 [this](std::size_t, double s, std::span<const double> y) { watch_.see(s, y); }) {
     if (state_.size() != model_.dimension)
@@ -125,7 +124,7 @@ class PointRun {
     orbit_ = std::move(told.orbit);
   }
 
-  [[nodiscard]] const integrate::VectorField& field() const { return field_; }
+  [[nodiscard]] const VectorField& field() const { return model_; }
   [[nodiscard]] std::vector<double>& state() { return state_; }
   [[nodiscard]] analysis::StrobeProgress& strobe() { return strobe_; }
 
@@ -168,7 +167,7 @@ class PointRun {
 
   void keep_attractor(const analysis::PoincareSection& section) {
     if (orbit_) {
-      const auto flow = integrate::make_flow(field_, integrator_);
+      const auto flow = integrate::make_flow(model_, integrator_);
       result_.attractor = analysis::record_of_orbit(*flow, *orbit_, result_.period, map_error(integrator_));
       classification_work_ += flow->right_hand_side_calls();
     } else {
@@ -178,7 +177,7 @@ class PointRun {
   }
 
   analysis::Classification tell(std::vector<double>& from, const analysis::PoincareSection* seen) {
-    ToldMotion motion = tell_motion(field_, from, look_, integrator_, go_on_, seen);
+    ToldMotion motion = tell_motion(model_, from, look_, integrator_, go_on_, seen);
     classification_work_ += motion.right_hand_sides;
     result_.classified = motion.told.evolution.reached();
     result_.regime = motion.told.regime;
@@ -188,7 +187,6 @@ class PointRun {
   }
 
   model::DynamicModel model_;
-  integrate::VectorField field_;
   const LookOptions& look_;
   integrate::IntegratorOptions integrator_;
   std::function<bool()> go_on_;
@@ -297,7 +295,7 @@ class ChainRunner {
     const integrate::StepLoops& kernels = integrate::step_loops(thread);
     // The same for every thread: which points have lanes does not depend on who came first.
     const model::DynamicModel like = model_at_(plan_.points.front());
-    integrate::LaneEnsemble lanes(lane_field(like, kernels), integrator_, kernels);
+    integrate::LaneEnsemble lanes(stage_lanes(like, kernels), integrator_, kernels);
     std::vector<Way> ways(std::min(most, lanes.width()));
     for (std::size_t lane = 0; lane < ways.size(); ++lane)
       if (next_chain(ways[lane])) next_point(lanes, lane, ways[lane]);

@@ -12,7 +12,6 @@
 #include "core/fit.hpp"
 #include "core/largest_difference.hpp"
 #include "integrate/make_flow.hpp"
-#include "studies/operating_point.hpp"
 #include "studies/settled_orbit.hpp"
 #include "studies/units.hpp"
 
@@ -154,7 +153,7 @@ class PointStudy {
  private:
   [[nodiscard]] std::unique_ptr<integrate::Flow> flow(const integrate::IntegratorOptions& o,
                                                       const model::DynamicModel& model) const {
-    return integrate::make_flow(vector_field(model), o);
+    return integrate::make_flow(model, o);
   }
   [[nodiscard]] integrate::IntegratorOptions reference_options(const char* method) const {
     return with(integrator_, method, options_.reference_tolerance, options_.reference_tolerance);

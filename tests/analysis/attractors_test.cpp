@@ -22,7 +22,7 @@ constexpr double map_error = 3e-9;  // what kinks and steps leave of an orbit: a
 
 bool always() { return true; }
 
-AttractorRecord record_of(const integrate::VectorField& field, std::vector<double> y, bool by_orbit = true) {
+AttractorRecord record_of(const VectorField& field, std::vector<double> y, bool by_orbit = true) {
   integrate::IntegratorOptions o;
   o.relative_tolerance = o.absolute_tolerance = tolerance;
   const auto flow = integrate::make_flow(field, o);
@@ -38,7 +38,7 @@ AttractorRecord record_of(const integrate::VectorField& field, std::vector<doubl
 }
 
 /// x'' + 0.25 x' - x + x^3 = 0.1 cos t: small orbits of period 1 in both wells, and nothing else.
-const integrate::VectorField wells = problems::duffing(0.25, -1.0, 0.1, 1.0);
+const VectorField wells = problems::duffing(0.25, -1.0, 0.1, 1.0);
 
 TEST(Attractors, TheDoubleWellHasTwoWhichItsSymmetryExchanges) {
   integrate::IntegratorOptions o;

@@ -52,7 +52,7 @@ struct Range {
 /// A chaotic motion seen once per period of its field. The reference is the mean of 100 runs of 10000 periods at a
 /// tolerance of 1e-8, from seeds 1001 to 1100 and otherwise as below; its error is their standard deviation over 10.
 struct System {
-  integrate::VectorField field;
+  VectorField field;
   std::vector<Range> start;
   double exponent = 0;        ///< per unit of time
   double standard_error = 0;  ///< of that

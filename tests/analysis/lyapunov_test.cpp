@@ -31,7 +31,7 @@ integrate::IntegratorOptions tight(double tolerance) {
 
 bool always() { return true; }
 
-LyapunovSpectrum spectrum(const integrate::VectorField& field, std::vector<double> y, const SpectrumOptions& options,
+LyapunovSpectrum spectrum(const VectorField& field, std::vector<double> y, const SpectrumOptions& options,
                           double tolerance) {
   const auto flow = integrate::make_flow(field, tight(tolerance));
   return lyapunov_spectrum(*flow, y, options, always);
@@ -83,7 +83,7 @@ TEST(LyapunovSpectrum, AddsUpToTheDivergence) {
 
 TEST(LyapunovSpectrum, OfAPeriodicMotionAreTheLogarithmsOfItsMultipliers) {
   // Duffing with g = 0.2: period 1, Floquet multipliers by the orbit's monodromy.
-  const integrate::VectorField field = problems::duffing(0.3, -1.0, 0.2, 1.2);
+  const VectorField field = problems::duffing(0.3, -1.0, 0.2, 1.2);
   const auto flow = integrate::make_flow(field, tight(1e-12));
   std::vector<double> y = {1.0, 0.0};
   for (int k = 0; k < 200; ++k) ASSERT_TRUE(flow->evolve(y, 0.0, field.period).reached());
@@ -98,7 +98,7 @@ TEST(LyapunovSpectrum, OfAPeriodicMotionAreTheLogarithmsOfItsMultipliers) {
 }
 
 TEST(LyapunovSpectrum, DoesNotDependOnTheIntervalOrOnStepControlOfTangents) {
-  const integrate::VectorField field = problems::duffing(0.25, -1.0, 0.4, 1.0);
+  const VectorField field = problems::duffing(0.25, -1.0, 0.4, 1.0);
   integrate::IntegratorOptions o = tight(1e-12);
   const auto controlled = integrate::make_flow(field, o);
   o.tangent_error_control = false;
@@ -126,7 +126,7 @@ TEST(LyapunovSpectrum, HistoryEndsAtTheMean) {
 }
 
 TEST(LyapunovSpectrum, RefusesWhatItCannotDo) {
-  const integrate::VectorField field = problems::lorenz();
+  const VectorField field = problems::lorenz();
   const auto flow = integrate::make_flow(field, {});
   std::vector<double> y = {1.0, 1.0, 20.0};
   EXPECT_THROW((void)lyapunov_spectrum(*flow, y, {.exponents = 4, .interval = 1.0}, always), DomainError);

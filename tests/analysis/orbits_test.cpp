@@ -159,7 +159,7 @@ TEST(MultipleShooting, HoldsAnUnstableOrbitTakenManyTimes) {
 }
 
 TEST(Multipliers, OfDuffingsFlipWithTheirErrors) {
-  const integrate::VectorField field = problems::duffing(0.3, -1.0, 0.2655817861, 1.2);
+  const VectorField field = problems::duffing(0.3, -1.0, 0.2655817861, 1.2);
   const std::array<double, 2> near = {0.42, 0.31};
   const auto fine = integrate::make_flow(field, tight(1e-13));
   const auto coarse = integrate::make_flow(field, tight(1e-11));

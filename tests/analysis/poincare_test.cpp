@@ -16,7 +16,7 @@ namespace epicyclic::analysis {
 namespace {
 
 /// Duffing x'' + 0.3 x' - x + x^3 = g cos 1.2 t (validation.md section 4).
-integrate::VectorField duffing(double g) { return problems::duffing(0.3, -1.0, g, 1.2); }
+VectorField duffing(double g) { return problems::duffing(0.3, -1.0, g, 1.2); }
 
 bool always() { return true; }
 

@@ -21,7 +21,7 @@ namespace {
 
 bool always() { return true; }
 
-Classification regime_of(const integrate::VectorField& field, std::vector<double> y, const RegimeOptions& options = {},
+Classification regime_of(const VectorField& field, std::vector<double> y, const RegimeOptions& options = {},
                          double tolerance = 1e-10) {
   integrate::IntegratorOptions o;
   o.relative_tolerance = o.absolute_tolerance = tolerance;
@@ -130,7 +130,7 @@ TEST(Regime, TheClearanceOscillatorIsPeriodic) {
 }
 
 TEST(Regime, LorenzSeenOnceInAWhileIsChaotic) {
-  integrate::VectorField field = problems::lorenz();
+  VectorField field = problems::lorenz();
   field.period = 1.0;
   const Classification c = regime_of(field, {1.0, 1.0, 20.0});
   EXPECT_EQ(c.regime, Regime::chaotic) << c.evidence.note;

@@ -46,7 +46,7 @@ TEST(ZeroOneTest, DoesNotDependOnUnitsOrOffset) {
 
 TEST(ZeroOneTest, TellsDuffingsRegimes) {
   for (const auto& [g, chaotic] : {std::pair{0.20, false}, {0.28, false}, {0.50, true}}) {
-    const integrate::VectorField field = problems::duffing(0.3, -1.0, g, 1.2);
+    const VectorField field = problems::duffing(0.3, -1.0, g, 1.2);
     const auto flow = integrate::make_flow(field, {});
     std::vector<double> y = {1.0, 0.0};
     std::vector<double> series;

@@ -26,7 +26,7 @@
 #include "core/fit.hpp"
 #include "integrate/lanes/lane_ensemble.hpp"
 #include "integrate/make_flow.hpp"
-#include "studies/operating_point.hpp"
+#include "studies/stage_lanes.hpp"
 
 namespace {
 
@@ -48,8 +48,8 @@ BENCHMARK(right_hand_side)->ArgName("friction")->Arg(1)->Arg(0);
 void mesh_period_arkode(benchmark::State& state) {
   const auto model = model_at(static_cast<double>(state.range(0)) / 100.0);
   const State start = settled(model);
-  const auto flow = epicyclic::integrate::make_flow(epicyclic::studies::vector_field(model),
-                                                    options(std::pow(10.0, -static_cast<double>(state.range(1)))));
+  const auto flow =
+      epicyclic::integrate::make_flow(model, options(std::pow(10.0, -static_cast<double>(state.range(1)))));
   State y = start;
   for (auto _ : state) flow->evolve(y, 0.0, period);
   state.counters["rhs_per_period"] =
@@ -61,7 +61,7 @@ void mesh_period_arkode(benchmark::State& state) {
 class StockArkode {
  public:
   StockArkode(const epicyclic::model::DynamicModel& model, double tolerance, const State& start)
-      : model_(model), field_(epicyclic::studies::vector_field(model)) {
+      : model_(model), field_(model) {
     SUNContext_Create(nullptr, &context_);
     y_ = N_VNew_Serial(static_cast<sunindextype>(start.size()), context_);
     std::copy(start.begin(), start.end(), N_VGetArrayPointer(y_));
@@ -113,7 +113,7 @@ class StockArkode {
   }
 
   const epicyclic::model::DynamicModel& model_;
-  epicyclic::integrate::VectorField field_;
+  epicyclic::VectorField field_;
   SUNContext context_ = nullptr;
   N_Vector y_ = nullptr;
   void* memory_ = nullptr;
@@ -140,8 +140,7 @@ void mesh_period_odeint(benchmark::State& state) {
 class Ours {
  public:
   Ours(const epicyclic::model::DynamicModel& model, double tolerance, State start, const char* method)
-      : flow_(epicyclic::integrate::make_flow(epicyclic::studies::vector_field(model), options(tolerance, method))),
-        y_(std::move(start)) {}
+      : flow_(epicyclic::integrate::make_flow(model, options(tolerance, method))), y_(std::move(start)) {}
 
   void mesh_period() { flow_->evolve(y_, 0.0, period); }
   [[nodiscard]] double calls() const { return static_cast<double>(flow_->right_hand_side_calls()); }
@@ -173,8 +172,8 @@ template <const auto& method>
 class OneLane {
  public:
   OneLane(const epicyclic::model::DynamicModel& model, double tolerance, const State& start)
-      : field_(epicyclic::studies::vector_field(model)),
-        lanes_(epicyclic::studies::lane_field(model, epicyclic::integrate::step_loops()), options(tolerance, method)),
+      : field_(model),
+        lanes_(epicyclic::studies::stage_lanes(model, epicyclic::integrate::step_loops()), options(tolerance, method)),
         y_(start) {
     lanes_.load(0, field_);
   }
@@ -186,7 +185,7 @@ class OneLane {
   [[nodiscard]] State state() const { return y_; }
 
  private:
-  epicyclic::integrate::VectorField field_;
+  epicyclic::VectorField field_;
   epicyclic::integrate::LaneEnsemble lanes_;
   State y_;
 };
@@ -197,13 +196,12 @@ class AllLanes {
  public:
   AllLanes(const epicyclic::model::DynamicModel& model, double tolerance, const State& start,
            const epicyclic::integrate::StepLoops& kernels = epicyclic::integrate::step_loops())
-      : lanes_(epicyclic::studies::lane_field(model, kernels), options(tolerance, method), kernels), y_(start) {
+      : lanes_(epicyclic::studies::stage_lanes(model, kernels), options(tolerance, method), kernels), y_(start) {
     constexpr double apart = 0.002;
     for (std::size_t lane = 0; lane < lanes_.width(); ++lane) {
       models_.push_back(
           std::make_unique<epicyclic::model::DynamicModel>(model_at(model.omega + apart * static_cast<double>(lane))));
-      fields_.push_back(
-          std::make_unique<epicyclic::integrate::VectorField>(epicyclic::studies::vector_field(*models_.back())));
+      fields_.push_back(std::make_unique<epicyclic::VectorField>(*models_.back()));
       lanes_.load(lane, *fields_.back());
       lanes_.begin(lane, start, 0.0, period);
     }
@@ -226,7 +224,7 @@ class AllLanes {
   }
 
   std::vector<std::unique_ptr<epicyclic::model::DynamicModel>> models_;
-  std::vector<std::unique_ptr<epicyclic::integrate::VectorField>> fields_;
+  std::vector<std::unique_ptr<epicyclic::VectorField>> fields_;
   epicyclic::integrate::LaneEnsemble lanes_;
   State y_;
   long before_ = 0;
@@ -316,7 +314,7 @@ void mesh_period_lanes(benchmark::State& state) {
 /// A mesh period with tangent vectors in the steps of the state alone; first argument: how many, 0 for the bare period.
 void mesh_period_with_tangents(benchmark::State& state) {
   const auto model = model_at(1.2);
-  const auto flow = epicyclic::integrate::make_flow(epicyclic::studies::vector_field(model), options(1e-7));
+  const auto flow = epicyclic::integrate::make_flow(model, options(1e-7));
   State y = settled(model);
   const auto vectors = static_cast<std::size_t>(state.range(0));
   State v(vectors * y.size());

@@ -17,7 +17,7 @@
 #include "bench/orbit.hpp"
 #include "integrate/lanes/step_loops.hpp"
 #include "model/counted_lanes.hpp"
-#include "model/lane_model.hpp"
+#include "model/lane_field.hpp"
 
 namespace {
 
@@ -33,7 +33,7 @@ void lane_kernel(benchmark::State& state) {
   const auto model = model_at(2.8);
   const State y = settled(model);
   const auto& kernels = epicyclic::integrate::step_loops();
-  const auto lanes = epicyclic::model::make_lane_model(model, kernels.name);
+  const auto lanes = epicyclic::model::make_lane_field(model, kernels.name);
   const auto numbers = [](std::size_t n) { return Numbers(new (std::align_val_t(alignment)) double[n]()); };
   constexpr std::size_t slopes = 6;  // of a step
   const auto s = numbers(slopes * lanes.width);

@@ -13,7 +13,7 @@
 #include "bench/orbit.hpp"
 #include "gear/gear_set.hpp"
 #include "integrate/lanes/step_loops.hpp"
-#include "model/lane_model.hpp"
+#include "model/lane_field.hpp"
 #include "problems/table1.hpp"
 
 namespace {
@@ -70,7 +70,7 @@ void lane_kernel_over_period(benchmark::State& state) {
     void operator()(double* p) const { ::operator delete[](p, std::align_val_t(alignment)); }
   };
   const auto model = model_of(state.range(0) != 0);
-  const auto lanes = epicyclic::model::make_lane_model(model, epicyclic::integrate::step_loops().name);
+  const auto lanes = epicyclic::model::make_lane_field(model, epicyclic::integrate::step_loops().name);
   // Each lane at an operating point of its own, as in a sweep: with tables of its own.
   std::vector<epicyclic::model::DynamicModel> models;
   for (std::size_t w = 0; w < lanes.width; ++w) {

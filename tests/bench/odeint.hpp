@@ -11,7 +11,6 @@
 #include "bench/orbit.hpp"
 #include "integrate/flow.hpp"
 #include "model/dynamic_model.hpp"
-#include "studies/operating_point.hpp"
 
 namespace epicyclic::bench {
 
@@ -19,7 +18,7 @@ namespace epicyclic::bench {
 class Odeint {
  public:
   Odeint(const model::DynamicModel& model, double tolerance, State start)
-      : model_(model), field_(studies::vector_field(model)), tolerance_(tolerance), y_(std::move(start)) {}
+      : model_(model), field_(model), tolerance_(tolerance), y_(std::move(start)) {}
 
   void mesh_period() {
     namespace odeint = boost::numeric::odeint;
@@ -52,7 +51,7 @@ class Odeint {
 
  private:
   const model::DynamicModel& model_;
-  integrate::VectorField field_;
+  VectorField field_;
   double tolerance_;
   State y_;
   double step_ = 1e-2;

@@ -12,8 +12,8 @@
 #include "analysis/periodic_orbit.hpp"
 #include "analysis/poincare.hpp"
 #include "integrate/make_flow.hpp"
+#include "model/dynamic_model.hpp"
 #include "problems/r1.hpp"
-#include "studies/operating_point.hpp"
 
 namespace epicyclic::bench {
 
@@ -40,7 +40,7 @@ inline integrate::IntegratorOptions options(double tolerance, std::string method
 }
 
 inline State settled(const model::DynamicModel& model) {
-  const auto flow = integrate::make_flow(studies::vector_field(model), options(1e-8));
+  const auto flow = integrate::make_flow(model, options(1e-8));
   State y = model.default_start;
   for (int k = 0; k < 100; ++k) flow->evolve(y, 0.0, period);
   return y;
@@ -48,7 +48,7 @@ inline State settled(const model::DynamicModel& model) {
 
 /// A state on the attracting periodic orbit beside the motion that settles, by Newton's method; empty without one.
 inline State on_orbit(const model::DynamicModel& model) {
-  const auto flow = integrate::make_flow(studies::vector_field(model), options(1e-11));
+  const auto flow = integrate::make_flow(model, options(1e-11));
   State y = settled(model);
   analysis::StrobeOptions strobe;
   strobe.transient_periods = 300;
@@ -64,7 +64,7 @@ inline State on_orbit(const model::DynamicModel& model) {
 
 /// Where `orbit_periods` lead from a state, by ARKODE at 1e-13.
 inline State reference_from(const model::DynamicModel& model, State y) {
-  const auto flow = integrate::make_flow(studies::vector_field(model), options(1e-13));
+  const auto flow = integrate::make_flow(model, options(1e-13));
   for (int k = 0; k < orbit_periods; ++k) flow->evolve(y, 0.0, period);
   return y;
 }

@@ -22,7 +22,7 @@ using namespace epicyclic::bench;
 
 struct Opened {
   explicit Opened(double omega) : model(model_at(omega)), start(on_orbit(model)) {
-    const auto field = epicyclic::studies::vector_field(model);
+    const auto field = model;
     stops = epicyclic::integrate::breakpoints_between(field, 0.0, period);
     double from = 0.0;
     segments.push_back(epicyclic::integrate::segment_after(field, from));

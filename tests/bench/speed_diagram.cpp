@@ -21,7 +21,8 @@ constexpr double tolerance = 1e-7;
 epicyclic::studies::SweepOptions diagram() {
   epicyclic::studies::SweepOptions sweep;
   sweep.directions = {Direction::up, Direction::down};
-  return epicyclic::studies::by_recurrence_alone(sweep);
+  sweep.look = epicyclic::studies::by_recurrence_alone(sweep.look);
+  return sweep;
 }
 
 void by_odeint(benchmark::State& state) {

@@ -122,7 +122,7 @@ inline Operations operations_of_lane(const DynamicModel& model, std::size_t segm
   Operations counts;
   dispatch(model.layout, model.planets, [&]<Layout L, std::size_t N>() {
     if constexpr (L != Layout::full) {
-      LaneParameters<N, 1> p(constants_of<N>(model));
+      LaneParameters<N, 1> p(constants_of<N>(model, model.layout));
       p.set_segment(0, segment);
       std::vector<Lanes<1>> in(y, y + model.dimension);
       std::vector<Lanes<1>> out(model.dimension);

@@ -276,13 +276,13 @@ TEST(Contacts, DistancesAreDeflectionsFromTheGapsAndTheirRates) {
         stage.sun_bearing.clearance_half_um = 8.0;
         const DynamicModel m = model_of(stage, 0.7, choice);
         const std::size_t n = static_cast<std::size_t>(m.planets);
-        ASSERT_EQ(m.contacts, 4 * n + (law == gear::BearingLaw::linear_xy ? 4 : 1));
+        ASSERT_EQ(m.surfaces.count, 4 * n + (law == gear::BearingLaw::linear_xy ? 4 : 1));
         std::vector<double> y(m.dimension);
         for (double& x : y) x = any(random);
         const double s = 1.0 + any(random) / 4.0;
-        std::vector<double> distances(m.contacts);
-        std::vector<double> rates(m.contacts);
-        m.contact_distances(s, y.data(), distances.data(), rates.data());
+        std::vector<double> distances(m.surfaces.count);
+        std::vector<double> rates(m.surfaces.count);
+        m.surfaces.evaluate(s, y.data(), distances.data(), rates.data());
         MeshDeflections d;
         m.deflections(s, y.data(), d);
         constexpr double rounding = 1e-13;
@@ -304,14 +304,14 @@ TEST(Contacts, DistancesAreDeflectionsFromTheGapsAndTheirRates) {
         const auto beside = [&](double way) {
           std::vector<double> there(m.dimension);
           for (std::size_t k = 0; k < there.size(); ++k) there[k] = y[k] + way * f[k];
-          std::vector<double> values(m.contacts);
-          std::vector<double> unused(m.contacts);
-          m.contact_distances(s + way, there.data(), values.data(), unused.data());
+          std::vector<double> values(m.surfaces.count);
+          std::vector<double> unused(m.surfaces.count);
+          m.surfaces.evaluate(s + way, there.data(), values.data(), unused.data());
           return values;
         };
         const std::vector<double> after = beside(e);
         const std::vector<double> before = beside(-e);
-        for (std::size_t k = 0; k < m.contacts; ++k)
+        for (std::size_t k = 0; k < m.surfaces.count; ++k)
           EXPECT_NEAR((after[k] - before[k]) / (2.0 * e), rates[k], 1e-7 * (1.0 + std::abs(rates[k]))) << k;
         // The sun's bearing opens where its distances say so.
         const std::vector<double> bearing(distances.begin() + static_cast<std::ptrdiff_t>(4 * n), distances.end());

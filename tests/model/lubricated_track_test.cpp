@@ -19,7 +19,7 @@
 #include "gear/kinematics.hpp"
 #include "model/dynamic_model.hpp"
 #include "model/friction_track.hpp"
-#include "model/lane_model.hpp"
+#include "model/lane_field.hpp"
 #include "model/parameters.hpp"
 #include "model/right_hand_side.hpp"
 #include "problems/r1.hpp"
@@ -236,7 +236,7 @@ TEST(LubricatedTrack, LanesAreTheSingleRuns) {
   std::size_t compared = 0;
   std::array<std::size_t, 2> told_apart{};  // from tables half as fine: all over the segments, beside their ends
   for (const char* set : {"baseline", "avx2", "avx512"}) {
-    const LaneModel lanes = make_lane_model(like, set);
+    const LaneField lanes = make_lane_field(like, set);
     if (lanes.width == 0) continue;
     std::vector<DynamicModel> models;
     std::vector<DynamicModel> halved;

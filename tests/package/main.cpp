@@ -8,7 +8,7 @@
 #include <epicyclic/integrate/sundials/arkode_flow.hpp>
 
 int main() {
-  epicyclic::integrate::VectorField duffing{
+  epicyclic::VectorField duffing{
       .dimension = 2, .period = 2 * std::numbers::pi, .breakpoints = {}, .right_hand_side = {}, .surfaces = {}};
   duffing.right_hand_side = [](std::size_t, double t, const double* y, double* f) {
     f[0] = y[1];

@@ -10,7 +10,6 @@
 
 #include "integrate/sundials/arkode_flow.hpp"
 #include "model/dynamic_model.hpp"
-#include "studies/operating_point.hpp"
 
 namespace epicyclic::problems {
 
@@ -33,7 +32,7 @@ inline std::vector<double> phases(int periods, int per_period) {
 /// Sun meshes first, then ring meshes [b_c].
 inline std::vector<std::vector<double>> deflections_along(const model::DynamicModel& m, std::vector<double> state,
                                                           const std::vector<double>& at, double tolerance = 1e-13) {
-  const auto flow = integrate::make_arkode_flow(studies::vector_field(m), tight(tolerance));
+  const auto flow = integrate::make_arkode_flow(m, tight(tolerance));
   std::vector<std::vector<double>> r;
   double from = 0.0;
   for (const double to : at) {

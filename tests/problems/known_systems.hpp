@@ -17,7 +17,7 @@ namespace epicyclic::problems {
 
 /// Four nonlinear equations with explicit time and a known solution: Hairer, Norsett and Wanner, Solving Ordinary
 /// Differential Equations I, exercise on y_1' = 2 s y_2^(1/5) y_4 ...
-inline integrate::VectorField smooth_nonlinear() {
+inline VectorField smooth_nonlinear() {
   return integrate::make_field(4, 0.0, [](std::size_t, double s, const auto* y, auto* d) {
     using std::exp;
     using std::log;
@@ -35,7 +35,7 @@ inline std::array<double, 4> smooth_nonlinear_solution(double s) {
 }
 
 /// y' = -2 s y^(3/2), y = 4 / (2 + s^2)^2: slow enough for pairs of high order to show it above rounding.
-inline integrate::VectorField smooth_bell() {
+inline VectorField smooth_bell() {
   return integrate::make_field(
       1, 0.0, [](std::size_t, double s, const auto* y, auto* d) { d[0] = -2.0 * s * power_3_2(y[0]); });
 }
@@ -43,7 +43,7 @@ inline integrate::VectorField smooth_bell() {
 inline double smooth_bell_solution(double s) { return 4.0 / ((2.0 + s * s) * (2.0 + s * s)); }
 
 /// y' = cos^3 s - y^3 - sin s, y = cos s: smooth, nonlinear and damped, for as long as one likes.
-inline integrate::VectorField smooth_follower() {
+inline VectorField smooth_follower() {
   return integrate::make_field(1, 0.0, [](std::size_t, double s, const auto* y, auto* d) {
     const double c = std::cos(s);
     d[0] = c * c * c - y[0] * y[0] * y[0] - std::sin(s);
@@ -51,13 +51,13 @@ inline integrate::VectorField smooth_follower() {
 }
 
 /// y' = -y^2 / 5 + c_k (1 + s), c = +1, -2, 0.5 on three segments of the period 1: jumps at 0, 0.3 and 0.7124.
-inline integrate::VectorField jumping(bool declared) {
+inline VectorField jumping(bool declared) {
   constexpr std::array<double, 3> at = {0.0, 0.3, 0.7124};
   const auto slope = [c = std::array<double, 3>{1.0, -2.0, 0.5}](std::size_t k, double s, const auto* y, auto* d) {
     d[0] = -0.2 * y[0] * y[0] + c[k] * (1.0 + std::sin(2.0 * std::numbers::pi * s));
   };
   if (declared) {
-    integrate::VectorField f = integrate::make_field(1, 1.0, slope);
+    VectorField f = integrate::make_field(1, 1.0, slope);
     f.breakpoints.assign(at.begin(), at.end());
     return f;
   }
@@ -68,7 +68,7 @@ inline integrate::VectorField jumping(bool declared) {
 }
 
 /// Lorenz's equations at 10, r, 8/3; without a period. Divergence -41/3 everywhere.
-inline integrate::VectorField lorenz(double r = 28.0) {
+inline VectorField lorenz(double r = 28.0) {
   return integrate::make_field(3, 0.0, [r](std::size_t, double, const auto* y, auto* d) {
     d[0] = 10.0 * (y[1] - y[0]);
     d[1] = y[0] * (r - y[2]) - y[1];
@@ -77,7 +77,7 @@ inline integrate::VectorField lorenz(double r = 28.0) {
 }
 
 /// Roessler's equations at 0.2, 0.2, 5.7; without a period. Divergence x - 5.5.
-inline integrate::VectorField roessler() {
+inline VectorField roessler() {
   return integrate::make_field(3, 0.0, [](std::size_t, double, const auto* y, auto* d) {
     d[0] = -1.0 * y[1] - y[2];
     d[1] = y[0] + 0.2 * y[1];
@@ -87,7 +87,7 @@ inline integrate::VectorField roessler() {
 
 /// Van der Pol's oscillator forced at W, x'' - mu (1 - x^2) x' + x = F cos W t, in s = W t; state x, dx/dt. Far from
 /// W = 1 and its multiples, and F small, its motion is a torus.
-inline integrate::VectorField van_der_pol(double mu, double f, double w) {
+inline VectorField van_der_pol(double mu, double f, double w) {
   return integrate::make_field(2, 2.0 * std::numbers::pi, [mu, f, w](std::size_t, double s, const auto* y, auto* d) {
     d[0] = y[1] / w;
     d[1] = (mu * (1.0 - y[0] * y[0]) * y[1] - y[0] + f * std::cos(s)) / w;
@@ -103,8 +103,7 @@ struct ClearanceConstants {
 /// The gear clearance oscillator of validation.md section 4,
 ///   x'' + 2 z x' + f(x) = F_m + E W^2 sin W t , half gap 1, f exact or of width `smoothing`,
 /// in s = W t. State x, dx/dt. Its parameter is W.
-inline integrate::VectorField clearance_oscillator(double w, double smoothing = 0.0,
-                                                   const ClearanceConstants& constants = {}) {
+inline VectorField clearance_oscillator(double w, double smoothing = 0.0, const ClearanceConstants& constants = {}) {
   const auto equation = [smoothing, constants](const auto& omega, double s, const auto& x, const auto& v) {
     using T = std::remove_cvref_t<decltype(x)>;
     using std::sqrt;
@@ -116,7 +115,7 @@ inline integrate::VectorField clearance_oscillator(double w, double smoothing = 
     const auto& [z, mean, e] = constants;
     return (mean + e * omega * omega * std::sin(s) - 2.0 * z * v - f) / omega;
   };
-  integrate::VectorField field =
+  VectorField field =
       integrate::make_field(2, 2.0 * std::numbers::pi, [w, equation](std::size_t, double s, const auto* y, auto* d) {
         d[0] = y[1] / w;
         d[1] = equation(w, s, y[0], y[1]);
@@ -137,8 +136,8 @@ inline integrate::VectorField clearance_oscillator(double w, double smoothing = 
 
 /// Duffing x'' + damping x' + alpha x + x^3 = g cos W t (validation.md sections 3 and 4) in t, period 2 pi / W. State
 /// x, dx/dt. Its parameter is g.
-inline integrate::VectorField duffing(double damping, double alpha, double g, double w) {
-  integrate::VectorField field = integrate::make_field(
+inline VectorField duffing(double damping, double alpha, double g, double w) {
+  VectorField field = integrate::make_field(
       2, 2.0 * std::numbers::pi / w, [damping, alpha, g, w](std::size_t, double t, const auto* y, auto* d) {
         d[0] = y[1];
         d[1] = g * std::cos(w * t) - damping * y[1] - alpha * y[0] - y[0] * y[0] * y[0];

@@ -10,7 +10,6 @@
 #include "analysis/lyapunov.hpp"
 #include "input/study_model.hpp"
 #include "integrate/make_flow.hpp"
-#include "studies/operating_point.hpp"
 #include "studies/run.hpp"
 #include "studies/sweep.hpp"
 
@@ -131,7 +130,7 @@ TEST(PaperRegimesLong, ExponentsOfPeriodicPointsAreThoseOfTheirMultipliers) {
     const studies::PointResult r = point_at(m, look, input.study.integrator);
     ASSERT_EQ(r.regime, analysis::Regime::periodic) << omega << ": " << r.evidence.note;
     const analysis::Estimate of_multiplier = r.lyapunov_max();
-    const auto flow = integrate::make_flow(studies::vector_field(m), input.study.integrator);
+    const auto flow = integrate::make_flow(m, input.study.integrator);
     std::vector<double> y = r.end_state;
     // Several multipliers are nearly as large: the vector takes long to turn to the largest, and pairs of one modulus
     // beat with periods of up to 6000 (at 3.18), which an interval has to have seen.

@@ -19,7 +19,6 @@
 #include "integrate/make_flow.hpp"
 #include "model/folded_constants.hpp"
 #include "model/right_hand_side.hpp"
-#include "studies/operating_point.hpp"
 
 namespace epicyclic::reports {
 namespace {
@@ -53,17 +52,17 @@ struct MeshLaws {
 };
 
 /// The model's field with the tables' values replaced by those of the laws. Planets mesh in phase.
-integrate::VectorField continuous(const model::DynamicModel& m, const gear::Stage& stage, const gear::GearSet& set,
-                                  const model::Scales& scales) {
+VectorField continuous(const model::DynamicModel& m, const gear::Stage& stage, const gear::GearSet& set,
+                       const model::Scales& scales) {
   EXPECT_EQ(m.layout, model::Layout::relative_to_ring);
-  const auto p = model::constants_of<3>(m);
+  const auto p = model::constants_of<3>(m, m.layout);
   const gear::MeshLoad load = gear::mean_mesh_load(stage, m.omega * scales.omega_sn);
   const auto sun = std::make_shared<MeshLaws>(
       MeshLaws{set.sun_planet, *stage.sun_planet_mesh.friction.ehl, gear::sun_planet_line(stage), load});
   const auto ring = std::make_shared<MeshLaws>(
       MeshLaws{set.ring_planet, *stage.ring_planet_mesh.friction.ehl, gear::ring_planet_line(stage), load});
   const bool curve = stage.sun_planet_mesh.stiffness_curve.has_value();
-  integrate::VectorField field = studies::vector_field(m);
+  VectorField field = m;
   field.tangents = nullptr;
   field.parameter_derivative = nullptr;
   field.right_hand_side = [=, breakpoints = m.breakpoints](std::size_t segment, double s, const double* y,
@@ -111,9 +110,9 @@ Displacement displacement(const std::vector<std::string>& changes, double omega)
   std::vector<double> y = m.default_start;
   integrate::IntegratorOptions coarse;
   coarse.relative_tolerance = coarse.absolute_tolerance = 1e-8;
-  const auto settling = integrate::make_flow(studies::vector_field(m), coarse);
+  const auto settling = integrate::make_flow(m, coarse);
   for (int k = 0; k < 150; ++k) EXPECT_TRUE(settling->evolve(y, 0.0, two_pi).reached());
-  const auto flow = integrate::make_flow(studies::vector_field(m), tight);
+  const auto flow = integrate::make_flow(m, tight);
   Displacement d;
   analysis::PeriodicOrbit orbit;
   for (const int n : {1, 2}) {
@@ -126,13 +125,13 @@ Displacement displacement(const std::vector<std::string>& changes, double omega)
   if (d.period == 0) return d;
   d.friction_error = m.friction_table_error;
   constexpr int iterations = 3;
-  const auto moved = [&](const integrate::VectorField& field) {
+  const auto moved = [&](const VectorField& field) {
     const auto other = integrate::make_flow(field, tight);
     const std::vector<double> state = analysis::displaced_orbit(*other, orbit, d.period, iterations);
     return state.empty() ? std::nan("") : largest_difference(state, orbit.state);
   };
   d.by_the_tables = moved(continuous(m, stage, set, scales));
-  d.by_halved_tables = moved(studies::vector_field(m.with_halved_tables()));
+  d.by_halved_tables = moved(m.with_halved_tables());
   return d;
 }
 

@@ -16,7 +16,6 @@
 #include "problems/gear_flow.hpp"
 #include "problems/r1.hpp"
 #include "studies/named_parameters.hpp"
-#include "studies/operating_point.hpp"
 
 namespace epicyclic::studies {
 namespace {
@@ -50,8 +49,8 @@ TEST(GearTangents, UncontrolledTheyLeaveTheStateToTheLastBit) {
     o.method = method.name;
     o.relative_tolerance = 1e-6;
     o.max_steps_per_period = 1000000;
-    const auto plain = integrate::make_flow(vector_field(model), o);
-    const auto tangent = integrate::make_flow(vector_field(model), o);
+    const auto plain = integrate::make_flow(model, o);
+    const auto tangent = integrate::make_flow(model, o);
     std::vector<double> y = model.default_start;
     std::vector<double> z = y;
     std::vector<double> v = some_tangents(model.dimension, 3);
@@ -66,7 +65,7 @@ TEST(GearTangents, AreDifferencesOfNeighbouringMotions) {
     const model::DynamicModel model = model_of(point(w));
     integrate::IntegratorOptions o = problems::tight(1e-12);
     o.tangent_error_control = true;
-    const auto flow = integrate::make_flow(vector_field(model), o);
+    const auto flow = integrate::make_flow(model, o);
     std::vector<double> y = model.default_start;
     for (int k = 0; k < 3; ++k) ASSERT_TRUE(flow->evolve(y, 0.0, two_pi).reached());
     const std::size_t n = model.dimension;
@@ -109,7 +108,7 @@ TEST(GearTangents, TheParameterDerivativeIsThatOfEachNamedParameter) {
     model::set_parameter_derivative(model, at, scales, row.value, 1e-3 * row.value);
     integrate::IntegratorOptions o = problems::tight(1e-12);
     o.tangent_error_control = true;
-    const auto flow = integrate::make_flow(vector_field(model), o);
+    const auto flow = integrate::make_flow(model, o);
     const std::vector<double> start = model.default_start;
     std::vector<double> y = start;
     std::vector<double> v(model.dimension, 0.0);
@@ -120,7 +119,7 @@ TEST(GearTangents, TheParameterDerivativeIsThatOfEachNamedParameter) {
     const double h = 1e-4 * row.value;
     const auto end = [&](double value) {
       const model::DynamicModel m = model_of(at(value));
-      const auto f = integrate::make_flow(vector_field(m), problems::tight(1e-13));
+      const auto f = integrate::make_flow(m, problems::tight(1e-13));
       std::vector<double> z = start;
       for (int k = 0; k < 2; ++k) EXPECT_TRUE(f->evolve(z, 0.0, two_pi).reached());
       return z;

@@ -369,7 +369,7 @@ TEST(Coordinates, ThePapersOwnVariablesGiveTheSameDeflections) {
     const std::vector<double> start = relative(stage, m, full_start(full));
     const PaperSystem paper(stage, omega * scales.omega_sn, m.breakpoints);
 
-    integrate::VectorField field;
+    VectorField field;
     field.dimension = 2 * paper.dof();
     field.period = 2.0 * std::numbers::pi;
     field.breakpoints = m.breakpoints;

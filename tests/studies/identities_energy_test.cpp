@@ -137,7 +137,7 @@ Balance balance(const gear::Stage& stage, const model::ModelOptions& options, in
       make_dynamic_model(stage, model::scales_of(stage), omega, options, model::CoordinateChoice::full);
   const Ledger ledger(stage, options);
   constexpr std::size_t works = 6;
-  integrate::VectorField field;
+  VectorField field;
   field.dimension = m.dimension + works;
   field.period = 2.0 * std::numbers::pi;
   field.breakpoints = m.breakpoints;

@@ -42,7 +42,7 @@ TEST(Motion, OfTheLinearStageIsThatOfTheTable) {
   for (const Row& row : rows) {
     const DynamicModel m =
         make_dynamic_model(stage, scales, row.omega, {model::GapDamping::always, model::Gyroscopic::off, 0.0});
-    const auto flow = make_arkode_flow(studies::vector_field(m), problems::tight());
+    const auto flow = make_arkode_flow(m, problems::tight());
     // The map of one period is affine, P(y) = M y + c: its fixed point needs no transient.
     const auto n = static_cast<Eigen::Index>(m.dimension);
     const auto map = [&](std::vector<double> y) {
@@ -119,7 +119,7 @@ struct Symmetry {
 Symmetry symmetry(const gear::Stage& stage, double omega, int periods) {
   const model::Scales scales = model::scales_of(stage);
   const DynamicModel m = make_dynamic_model(stage, scales, omega, {});
-  const auto flow = make_arkode_flow(studies::vector_field(m), problems::tight(1e-10));
+  const auto flow = make_arkode_flow(m, problems::tight(1e-10));
   std::vector<double> y = m.default_start;
   std::vector<double> last;
   Symmetry r;

@@ -16,12 +16,12 @@
 #include "integrate/lanes/lane_ensemble.hpp"
 #include "integrate/sundials/arkode_flow.hpp"
 #include "model/kernels/lane_kernel.hpp"
-#include "model/lane_model.hpp"
+#include "model/lane_field.hpp"
 #include "problems/gear_flow.hpp"
 #include "problems/known_systems.hpp"
 #include "problems/lane_sets.hpp"
 #include "problems/r1.hpp"
-#include "studies/operating_point.hpp"
+#include "studies/stage_lanes.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::studies {
@@ -42,14 +42,14 @@ std::vector<std::vector<double>> states(const std::vector<double>& omegas, const
   const model::DynamicModel like = model_at(1.0);
   integrate::IntegratorOptions o = problems::tight(tolerance);
   o.method = method;
-  integrate::LaneEnsemble lanes(
-      own_kernel ? lane_field(like, kernels) : integrate::one_by_one(kernels.width, like.dimension, like.contacts), o,
-      kernels);
-  std::vector<integrate::VectorField> fields;
+  integrate::LaneEnsemble lanes(own_kernel ? stage_lanes(like, kernels)
+                                           : integrate::one_by_one(kernels.width, like.dimension, like.surfaces.count),
+                                o, kernels);
+  std::vector<VectorField> fields;
   std::vector<std::vector<double>> y;
   for (const double omega : omegas) {
     const model::DynamicModel m = model_at(omega);
-    fields.push_back(vector_field(m));
+    fields.push_back(m);
     y.push_back(m.default_start);
   }
   std::vector<std::size_t> system(lanes.width());
@@ -80,7 +80,7 @@ const std::vector<double> speeds = {0.6, 0.8, 1.0, 1.2, 1.4, 1.7, 2.0, 2.5, 3.0,
 TEST(Lanes, OfTheStageGoWhereArkodeGoes) {
   // Without optimisation the stage has lanes for the baseline only, and others are one by one.
   const integrate::StepLoops& baseline = *integrate::step_loops("baseline");
-  ASSERT_EQ(model::make_lane_model(model_at(1.0), baseline.name).width, baseline.width);
+  ASSERT_EQ(model::make_lane_field(model_at(1.0), baseline.name).width, baseline.width);
   constexpr double tolerance = 1e-11;
   const auto y = states(speeds, integrate::step_loops(), true, tolerance, 3);
   const auto dopri5 = states(speeds, integrate::step_loops(), true, tolerance, 3, "lanes-dopri5");
@@ -89,7 +89,7 @@ TEST(Lanes, OfTheStageGoWhereArkodeGoes) {
   constexpr double accuracy = 1e-7;
   for (std::size_t k = 0; k < speeds.size(); ++k) {
     std::vector<double> reference = model_at(speeds[k]).default_start;
-    const auto flow = integrate::make_arkode_flow(vector_field(model_at(speeds[k])), problems::tight(tolerance));
+    const auto flow = integrate::make_arkode_flow(model_at(speeds[k]), problems::tight(tolerance));
     for (int n = 0; n < 3; ++n) ASSERT_TRUE(flow->evolve(reference, 0.0, period).reached());
     EXPECT_LT(largest_difference(y[k], reference), accuracy) << speeds[k];
     EXPECT_LT(largest_difference(dopri5[k], reference), accuracy) << speeds[k];
@@ -101,7 +101,7 @@ TEST(Lanes, OfTheStageHaveTheSameBitsOnEveryInstructionSet) {
   std::vector<std::vector<double>> expected;
   int compared = -1;
   for (const integrate::StepLoops* kernels : problems::lane_sets()) {
-    if (model::make_lane_model(model_at(1.0), kernels->name).width == 0) continue;
+    if (model::make_lane_field(model_at(1.0), kernels->name).width == 0) continue;
     const auto y = states(speeds, *kernels, true, 1e-8, 5);
     if (expected.empty()) expected = y;
     EXPECT_EQ(y, expected) << kernels->name << kernels->copy;
@@ -178,19 +178,19 @@ TEST(Lanes, SweepsHaveTheSameBytesAtAnyNumberOfThreads) {
 TEST(Lanes, TakeStagesOfTheirStructureOnly) {
   // The set that every build has kernels of; without kernels any systems of one dimension go side by side.
   const integrate::StepLoops& kernels = *integrate::step_loops("baseline");
-  const integrate::LaneField field = lane_field(model_at(1.0), kernels);
-  EXPECT_NO_THROW(field.load(0, vector_field(model_at(2.0))));
+  const LaneField field = stage_lanes(model_at(1.0), kernels);
+  EXPECT_NO_THROW(field.load(0, model_at(2.0)));
   EXPECT_THROW(field.load(0, problems::lorenz()), InputError);
   const gear::Stage other = problems::r1_nonlinear();
   const model::DynamicModel in_phase = model::make_dynamic_model(other, model::scales_of(other), 1.0, {});
-  EXPECT_THROW(field.load(0, vector_field(in_phase)), InputError);
+  EXPECT_THROW(field.load(0, in_phase), InputError);
   // Full coordinates have no kernel: one by one.
   const model::DynamicModel full = model_at(1.0, model::CoordinateChoice::full);
-  const integrate::LaneField each = lane_field(full, kernels);
+  const LaneField each = stage_lanes(full, kernels);
   EXPECT_EQ(each.dimension, full.dimension);
-  EXPECT_EQ(each.surfaces, full.contacts);
-  EXPECT_NO_THROW(each.load(0, vector_field(full)));
-  integrate::VectorField without = vector_field(full);
+  EXPECT_EQ(each.surfaces, full.surfaces.count);
+  EXPECT_NO_THROW(each.load(0, full));
+  VectorField without = full;
   without.surfaces = {};
   EXPECT_THROW(each.load(0, without), InputError);
 }

@@ -171,7 +171,7 @@ TEST(Plane, BasinsTellTheWellsApartAtAnyNumberOfThreads) {
 }
 
 /// Beside a motion in (x, x'), a mode z that it drives and that decays by one in `memory` periods.
-model::DynamicModel with_slow_mode(const integrate::VectorField& motion, double memory) {
+model::DynamicModel with_slow_mode(const VectorField& motion, double memory) {
   model::DynamicModel m = wells(0.0);
   m.dimension = 3;
   m.state_names = {"x", "x_rate", "z"};

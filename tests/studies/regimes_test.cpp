@@ -10,7 +10,6 @@
 #include "core/errors.hpp"
 #include "integrate/make_flow.hpp"
 #include "problems/r1.hpp"
-#include "studies/operating_point.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::studies {
@@ -36,9 +35,9 @@ TEST(Regimes, WithoutTangentsThereIsRecurrenceAlone) {
   model::ModelOptions options;
   options.gap_damping = model::GapDamping::contact_slope;
   const model::DynamicModel jumping = nonlinear(2.0, options);
-  EXPECT_TRUE(jumping.jumps_at_contact);
+  EXPECT_TRUE(jumping.jumps_at_surfaces);
   EXPECT_FALSE(point_at(jumping, look).classified);
-  const auto flow = integrate::make_flow(vector_field(jumping), {});
+  const auto flow = integrate::make_flow(jumping, {});
   std::vector<double> y = jumping.default_start;
   std::vector<double> v(y.size(), 1.0);
   EXPECT_THROW((void)flow->evolve_tangents(y, v, 0.0, 1.0), InputError);

@@ -15,7 +15,6 @@
 #include "problems/clearance_exact.hpp"
 #include "problems/known_systems.hpp"
 #include "studies/crosscheck.hpp"
-#include "studies/operating_point.hpp"
 #include "studies/tolerance.hpp"
 #include "studies/units.hpp"
 
@@ -24,7 +23,7 @@ namespace {
 
 /// One "planet" whose deflection is x; the parameter is W.
 model::DynamicModel oscillator(double w, double smoothing) {
-  const integrate::VectorField field = problems::clearance_oscillator(w, smoothing);
+  const VectorField field = problems::clearance_oscillator(w, smoothing);
   model::DynamicModel m;
   m.planets = 1;
   m.dimension = field.dimension;
@@ -44,7 +43,7 @@ model::DynamicModel oscillator(double w, double smoothing) {
 }
 
 /// A forced system of two states in the phase s = w t, in the place of a stage.
-model::DynamicModel played_by(const integrate::VectorField& field, double w, std::vector<double> start) {
+model::DynamicModel played_by(const VectorField& field, double w, std::vector<double> start) {
   model::DynamicModel m = oscillator(1.0, 0.0);
   m.omega = w;
   m.right_hand_side = [f = field.right_hand_side, w](std::size_t k, double s, const double* y, double* d) {
@@ -66,7 +65,7 @@ model::DynamicModel played_by(const integrate::VectorField& field, double w, std
 /// Forced away from its own frequency: two phases that never lock, a torus.
 model::DynamicModel forced_van_der_pol(double strength, double) {
   model::DynamicModel m = oscillator(1.0, 0.0);
-  const integrate::VectorField field = problems::van_der_pol(0.3, strength, 1.7);
+  const VectorField field = problems::van_der_pol(0.3, strength, 1.7);
   m.right_hand_side = field.right_hand_side;
   m.tangents = field.tangents;
   m.default_start = {1.0, 0.0};
@@ -306,7 +305,7 @@ TEST(OneClassification, ATorusWhoseExponentSeemsPositiveIsNoChaos) {
   EXPECT_EQ(all.comparisons[0].verdict, Verdict::torus) << all.comparisons[0].detail;
 
   std::vector<double> y = all.reference[0].end_state;
-  const auto flow = integrate::make_flow(vector_field(slow_torus(0.3, 0.0)), integrator(1e-6));
+  const auto flow = integrate::make_flow(slow_torus(0.3, 0.0), integrator(1e-6));
   const auto e = analysis::largest_exponent(*flow, y, {50, 4000}, {}, [] { return true; });
   EXPECT_GT(e.per_s.low(), 0.0) << "no example any more";
 }

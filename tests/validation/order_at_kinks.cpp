@@ -25,7 +25,6 @@
 #include "integrate/sundials/arkode_flow.hpp"
 #include "problems/clearance_exact.hpp"
 #include "problems/known_systems.hpp"
-#include "studies/operating_point.hpp"
 
 namespace {
 
@@ -37,7 +36,7 @@ constexpr std::array<const char*, 5> names = {"arkode-heun-euler", "arkode-bogac
 
 struct Problem {
   std::string stem, title;
-  integrate::VectorField field;
+  VectorField field;
   std::vector<double> start, end;
   double length = two_pi;
   std::vector<int> steps;
@@ -128,7 +127,7 @@ int main(int argc, char** argv) {
     o.relative_tolerance = o.absolute_tolerance = 1e-13;
     o.method = "arkode-verner65";
     o.max_steps_per_period = 1000000;
-    const auto field = studies::vector_field(model);
+    const auto field = model;
     const auto flow = integrate::make_flow(field, o);
     std::vector<double> y = model.default_start;
     for (int k = 0; k < 300; ++k) (void)flow->evolve(y, 0.0, two_pi);

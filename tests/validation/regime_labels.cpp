@@ -22,7 +22,6 @@
 #include "integrate/make_field.hpp"
 #include "integrate/make_flow.hpp"
 #include "problems/known_systems.hpp"
-#include "studies/operating_point.hpp"
 
 namespace {
 
@@ -32,7 +31,7 @@ using analysis::Regime;
 struct Case {
   std::string system;
   double parameter = 0;
-  integrate::VectorField field;
+  VectorField field;
   std::vector<double> start;
   std::string label;  ///< a regime, or "escape"
 };
@@ -47,7 +46,7 @@ integrate::IntegratorOptions with(const char* method, double tolerance) {
 
 /// The label of a dissipative forced system by brute force: what recurs is periodic; what does not is chaotic if two
 /// motions a hair apart part exponentially, ten times in a row.
-std::string by_brute_force(const integrate::VectorField& field, std::vector<double> y) {
+std::string by_brute_force(const VectorField& field, std::vector<double> y) {
   const auto flow = integrate::make_flow(field, with("cvode-adams", 1e-11));
   const auto carry = [&](std::vector<double>& state, int periods) {
     for (int k = 0; k < periods; ++k) {
@@ -110,12 +109,12 @@ std::vector<Case> cases() {
     all.push_back({"van_der_pol_hard", w, problems::van_der_pol(0.3, 3.0, w), {1.0, 0.0}, "periodic"});
   // Lorenz in r, seen once per unit of time: fixed points below the homoclinic orbit at 13.926, chaos above 24.74.
   for (const double r : grid(2.0, 13.0, 20)) {
-    integrate::VectorField field = problems::lorenz(r);
+    VectorField field = problems::lorenz(r);
     field.period = 1.0;
     all.push_back({"lorenz_rest", r, field, {1.0, 1.0, 5.0}, "periodic"});
   }
   for (const double r : grid(26.0, 45.0, 20)) {
-    integrate::VectorField field = problems::lorenz(r);
+    VectorField field = problems::lorenz(r);
     field.period = 1.0;
     all.push_back({"lorenz_chaos", r, field, {1.0, 1.0, 20.0}, "chaotic"});
   }
@@ -124,7 +123,7 @@ std::vector<Case> cases() {
   static const auto model_at = input::smoothed_model_at(input);
   for (const double omega : grid(0.4, 3.0, 40)) {
     const model::DynamicModel m = model_at(omega, 0.0);
-    all.push_back({"linear_gear_train", omega, studies::vector_field(m), m.default_start, "periodic"});
+    all.push_back({"linear_gear_train", omega, m, m.default_start, "periodic"});
   }
   return all;
 }

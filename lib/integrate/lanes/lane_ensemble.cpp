@@ -148,6 +148,7 @@ LaneField one_by_one(std::size_t width, std::size_t dimension, std::size_t surfa
   all->values.resize(surfaces);
   all->rates.resize(surfaces);
   LaneField field;
+  field.width = width;
   field.dimension = dimension;
   field.load = [all, dimension, surfaces](std::size_t lane, const VectorField& system) {
     if (system.dimension != dimension)
@@ -207,6 +208,8 @@ class LaneEnsemble::Impl {
         at_(most_stages * w_),
         lanes_(w_),
         sample_(n_) {
+    if (field_.width != w_)
+      throw InputError("a field of " + std::to_string(field_.width) + " lanes in loops of " + std::to_string(w_));
     if (options_.locate_contacts) throw InputError("lanes do not locate contact changes");
     find_slopes();
   }

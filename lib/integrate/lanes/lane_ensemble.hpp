@@ -29,29 +29,12 @@
 #include <string>
 #include <vector>
 
+#include "core/vector_field.hpp"
 #include "integrate/flow.hpp"
 #include "integrate/lanes/step_loops.hpp"
 #include "integrate/options.hpp"
 
 namespace epicyclic::integrate {
-
-/// Right-hand sides of W systems side by side. Component i of lane w lies at [i W + w].
-struct LaneField {
-  std::size_t dimension = 0;
-  /// Puts a system into a lane.
-  /// @throws InputError when the systems cannot run side by side
-  std::function<void(std::size_t lane, const VectorField& field)> load;
-  /// Which side of its breakpoints the lane's system is on.
-  std::function<void(std::size_t lane, std::size_t segment)> set_segment;
-  /// The places of a step's slopes, W numbers each, in the lanes' present segments: what a field has of s alone it may
-  /// make for all of them at once.
-  std::function<void(std::size_t count, const double* s)> set_places;
-  /// dy/ds of all lanes at one of those places.
-  std::function<void(std::size_t place, const double* y, double* dyds)> right_hand_side;
-  std::size_t surfaces = 0;  ///< that steps land on
-  /// SwitchingSurfaces::evaluate of all lanes at one of those places.
-  std::function<void(std::size_t place, const double* y, double* values, double* rates)> surface_values;
-};
 
 /// Any systems of one dimension, each lane by its own right-hand side: nothing is gained but the lanes' bookkeeping.
 /// @param surfaces  that each system has and steps land on, or 0: those of the systems are ignored

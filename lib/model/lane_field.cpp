@@ -1,0 +1,63 @@
+#include "model/lane_field.hpp"
+
+#include <memory>
+#include <vector>
+
+#include "core/errors.hpp"
+#include "model/dispatch.hpp"
+#include "model/folded_constants.hpp"
+#include "model/kernels/lane_kernel.hpp"
+
+namespace epicyclic::model {
+
+namespace {
+
+template <std::size_t N, std::size_t W>
+LaneField lanes_of(const DynamicModel& like, LaneKernel<N, W> kernel) {
+  const auto point = [layout = like.layout, dimension = like.dimension](const VectorField& field) {
+    auto constants = constants_of<N>(field, layout);
+    if (!constants || field.dimension != dimension)
+      throw InputError("a system that is no stage of the lanes' structure cannot run beside them");
+    return constants;
+  };
+  struct State {
+    LaneParameters<N, W> lanes;
+    std::vector<Instant<Lanes<W>, N>> instants;
+  };
+  const auto state = std::make_shared<State>(State{LaneParameters<N, W>(point(like)), {}});
+  LaneField f;
+  f.width = W;
+  f.dimension = like.dimension;
+  f.load = [state, point](std::size_t lane, const VectorField& field) { state->lanes.load(lane, point(field)); };
+  f.set_segment = [state](std::size_t lane, std::size_t segment) { state->lanes.set_segment(lane, segment); };
+  f.set_places = [state, kernel](std::size_t count, const double* s) {
+    if (state->instants.size() < count) state->instants.resize(count);
+    kernel.prepare(state->lanes, count, s, state->instants.data());
+  };
+  f.right_hand_side = [state, kernel](std::size_t place, const double* y, double* dyds) {
+    kernel.evaluate(state->lanes, state->instants[place], y, dyds);
+  };
+  f.surfaces = like.surfaces.count;
+  f.surface_values = [state, kernel](std::size_t place, const double* y, double* values, double* rates) {
+    kernel.measure_contacts(state->lanes, state->instants[place], y, values, rates);
+  };
+  return f;
+}
+
+}  // namespace
+
+LaneField make_lane_field(const DynamicModel& like, const char* instruction_set, std::size_t copy) {
+  return dispatch(like.layout, like.planets, [&]<Layout L, std::size_t N>() -> LaneField {
+    if constexpr (L != Layout::full) {
+      if (const auto kernel = lane_kernel<L, N, 2>(instruction_set, copy); kernel.evaluate != nullptr)
+        return lanes_of<N, 2>(like, kernel);
+      if (const auto kernel = lane_kernel<L, N, 4>(instruction_set, copy); kernel.evaluate != nullptr)
+        return lanes_of<N, 4>(like, kernel);
+      if (const auto kernel = lane_kernel<L, N, 8>(instruction_set, copy); kernel.evaluate != nullptr)
+        return lanes_of<N, 8>(like, kernel);
+    }
+    return {};
+  });
+}
+
+}  // namespace epicyclic::model

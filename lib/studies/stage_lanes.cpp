@@ -1,0 +1,14 @@
+#include "studies/stage_lanes.hpp"
+
+#include "integrate/lanes/lane_ensemble.hpp"
+#include "model/lane_field.hpp"
+
+namespace epicyclic::studies {
+
+LaneField stage_lanes(const model::DynamicModel& like, const integrate::StepLoops& loops) {
+  LaneField lanes = model::make_lane_field(like, loops.name, loops.copy);
+  if (lanes.width == loops.width) return lanes;
+  return integrate::one_by_one(loops.width, like.dimension, like.surfaces.count);
+}
+
+}  // namespace epicyclic::studies

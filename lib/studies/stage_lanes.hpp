@@ -1,0 +1,14 @@
+// Models of gear trains side by side in the lanes of an integrator.
+#pragma once
+
+#include "core/vector_field.hpp"
+#include "integrate/lanes/step_loops.hpp"
+#include "model/dynamic_model.hpp"
+
+namespace epicyclic::studies {
+
+/// Lanes for models of one structure, as the kernels have them; each by its own right-hand side where the model layer
+/// has no lanes (full coordinates).
+[[nodiscard]] LaneField stage_lanes(const model::DynamicModel& like, const integrate::StepLoops& loops);
+
+}  // namespace epicyclic::studies
