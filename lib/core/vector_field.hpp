@@ -2,8 +2,8 @@
 //
 //   dy/ds = g(s, y; p)
 //
-// Smoothness: g may jump in s at the breakpoints and have kinks across the switching surfaces. Tangents pass a kink of a
-// continuous g without a jump; where g itself jumps across a surface (contact-slope damping with an exact gap) they
+// Smoothness: g may jump in s at the breakpoints and have kinks across the switching surfaces. Tangents pass a kink of
+// a continuous g without a jump; where g itself jumps across a surface (contact-slope damping with an exact gap) they
 // would need a jump that no Flow makes.
 #pragma once
 
@@ -60,6 +60,9 @@ struct VectorField {
   /// g itself jumps across a surface: tangent vectors would have to jump there, which no Flow does.
   bool jumps_at_surfaces = false;
 };
+
+/// Systems that differ by a parameter: the one at its value.
+using FieldFamily = std::function<VectorField(double value)>;
 
 /// Right-hand sides of W systems side by side, one SIMD lane each. Component i of lane w lies at [i W + w], memory is
 /// aligned to 64 bytes.

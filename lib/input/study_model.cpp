@@ -71,6 +71,15 @@ studies::ModelAt model_at(const LoadedInput& input) {
   };
 }
 
+studies::ModelAt model_family(const LoadedInput& input, const std::string& parameter, double step) {
+  return [&input, parameter, step, scales = model::scales_of(input.study.stage)](double value) {
+    const auto at = [&](double v) { return point_at(input, std::array{PointerValue{parameter, v}}); };
+    model::DynamicModel model = model_of(at(value), scales);
+    model::set_parameter_derivative(model, at, scales, value, step);
+    return model;
+  };
+}
+
 studies::SweepPlan plan_of(const Study& study) {
   if (const auto* map = std::get_if<studies::MapOptions>(&study.plan)) return studies::plan_map(*map);
   if (const auto* basins = std::get_if<studies::BasinsOptions>(&study.plan)) return studies::plan_basins(*basins);

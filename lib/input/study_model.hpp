@@ -14,6 +14,12 @@ namespace epicyclic::input {
 /// given. `input` must outlive the result. A call throws InputError when the study is not valid at that value.
 [[nodiscard]] studies::ModelAt model_at(const LoadedInput& input);
 
+/// The same for a parameter of one's own, each with the derivative of its right-hand side by it: what
+/// integrate::make_flow_family() takes.
+/// @param step  h of the difference of constants, as of model::set_parameter_derivative(): about 1e-3 of the range
+/// over which they change; the study has to be valid at value +- 2 h
+[[nodiscard]] studies::ModelAt model_family(const LoadedInput& input, const std::string& parameter, double step);
+
 /// Points and chains of the study, a sweep's, a map's or those of basins.
 [[nodiscard]] studies::SweepPlan plan_of(const Study& study);
 

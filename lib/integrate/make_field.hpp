@@ -1,11 +1,12 @@
-// A VectorField with its tangents from one text of the right-hand side.
+// A VectorField with its tangents, and with the derivative by a parameter, from one text of the right-hand side.
 #pragma once
 
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "core/push_forward.hpp"
-#include "integrate/flow.hpp"
+#include "core/vector_field.hpp"
 
 namespace epicyclic::integrate {
 
@@ -25,6 +26,24 @@ template <class F>
         dimension, [&](const auto* state, auto* slope) { f(segment, s, state, slope); }, y, v, dyds, dvds);
   };
   return field;
+}
+
+/// The same for each value of a parameter, with dg/dp.
+/// @param f  f(const P& p, segment, s, const T* y, T* dyds) for P = double with T as above, and for P = T = Dual<1>
+template <class F>
+[[nodiscard]] FieldFamily make_field_family(std::size_t dimension, double period, F f) {
+  return [dimension, period, f = std::move(f)](double value) {
+    VectorField field = make_field(
+        dimension, period,
+        [f, value](std::size_t segment, double s, const auto* y, auto* dyds) { f(value, segment, s, y, dyds); });
+    field.parameter_derivative = [dimension, f, value](std::size_t segment, double s, const double* y, double* dgdp) {
+      const std::vector<Dual<1>> state(y, y + dimension);
+      std::vector<Dual<1>> slope(dimension);
+      f(Dual<1>::variable(value, 0), segment, s, state.data(), slope.data());
+      for (std::size_t i = 0; i < dimension; ++i) dgdp[i] = slope[i].derivative[0];
+    };
+    return field;
+  };
 }
 
 }  // namespace epicyclic::integrate

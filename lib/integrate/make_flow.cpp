@@ -17,4 +17,8 @@ std::unique_ptr<Flow> make_flow(VectorField field, const IntegratorOptions& opti
   return method->multistep() ? make_cvode_flow(std::move(field), options) : make_arkode_flow(std::move(field), options);
 }
 
+FlowFamily make_flow_family(FieldFamily fields, const IntegratorOptions& options) {
+  return [fields = std::move(fields), options](double value) { return make_flow(fields(value), options); };
+}
+
 }  // namespace epicyclic::integrate

@@ -1,6 +1,7 @@
 // A Flow by the name of its method.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "integrate/flow.hpp"
@@ -11,5 +12,12 @@ namespace epicyclic::integrate {
 /// @throws InputError for an unknown method, or one that the field or the other options do not fit; SolverError if the
 /// solver cannot be set up
 [[nodiscard]] std::unique_ptr<Flow> make_flow(VectorField field, const IntegratorOptions& options);
+
+/// Flows of systems that differ by a parameter. Where fields have their parameter derivative, so do the flows
+/// (LastTangent::parameter).
+using FlowFamily = std::function<std::unique_ptr<Flow>(double value)>;
+
+/// A call throws what `fields` and make_flow() throw.
+[[nodiscard]] FlowFamily make_flow_family(FieldFamily fields, const IntegratorOptions& options);
 
 }  // namespace epicyclic::integrate

@@ -1,6 +1,8 @@
 // Warnings of studies: nothing on the project's own inputs, and where they belong.
 #include "input/study_model.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -84,6 +86,41 @@ TEST(StudyWarnings, TheMostImportantComesFirst) {
   EXPECT_TRUE(has({lines[0]}, "its teeth run at")) << joined(lines);
   EXPECT_TRUE(has({lines[1]}, "/stage/lumped/ring/mass_kg")) << joined(lines);
   EXPECT_TRUE(has({lines[2]}, "without damping")) << joined(lines);
+}
+
+TEST(ModelFamily, HasTheDerivativeByAnyNumberOfTheInput) {
+  const LoadedInput input = load_input("inputs/tang2020_speed.json");
+  struct Row {
+    const char* parameter;
+    double value;
+  };
+  for (const auto& [parameter, value] :
+       {Row{"mesh_frequency_ratio", 0.9}, Row{"/stage/lumped/planet/bearing_N_per_m", 4.1e8},
+        Row{"/stage/load/power_kW", 300.0}, Row{"/stage/lumped/sun_planet_mesh/damping_ratio", 0.06}}) {
+    const double step = 1e-3 * value;
+    const studies::ModelAt family = model_family(input, parameter, step);
+    const model::DynamicModel m = family(value);
+    // Displacements of some b_c, off all kinks.
+    std::vector<double> y(m.dimension);
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] = 1.3 + 0.37 * std::sin(1.0 + 2.3 * static_cast<double>(i));
+    constexpr double s = 0.7;
+    const auto slope = [&](const model::DynamicModel& of) {
+      std::vector<double> d(of.dimension);
+      of.right_hand_side(model::segment_at(of.breakpoints, s), s, y.data(), d.data());
+      return d;
+    };
+    const std::vector<double> up = slope(family(value + step));
+    const std::vector<double> down = slope(family(value - step));
+    std::vector<double> derivative(m.dimension);
+    m.parameter_derivative(model::segment_at(m.breakpoints, s), s, y.data(), derivative.data());
+    double largest = 0.0;
+    for (const double d : derivative) largest = std::max(largest, std::abs(d));
+    EXPECT_GT(largest, 0.0) << parameter;
+    constexpr double of_second_order = 1e-5;  // of a central difference over 1e-3 of the value, in parts of the largest
+    for (std::size_t i = 0; i < y.size(); ++i)
+      EXPECT_NEAR(derivative[i], (up[i] - down[i]) / (2.0 * step), of_second_order * largest) << parameter << ' ' << i;
+  }
+  EXPECT_THROW((void)model_family(input, "/stage/lumped/planets", 1e-3)(1.0), InputError);
 }
 
 }  // namespace

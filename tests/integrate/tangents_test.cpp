@@ -141,6 +141,28 @@ TEST_P(TangentsOfEachMethod, TheParameterDerivativeIsThatOfTheExactSolution) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, TangentsOfEachMethod, ::testing::ValuesIn(methods()), name_of);
 
+TEST(Tangents, AFamilyHasTheDerivativeByItsParameter) {
+  // y' = p sin(y): tan(y / 2) = tan(y_0 / 2) exp(p s), of which the derivative by p is that by s times s / p.
+  const FlowFamily flows =
+      make_flow_family(make_field_family(1, 0.0,
+                                         [](const auto& p, std::size_t, double, const auto* y, auto* d) {
+                                           using std::sin;
+                                           d[0] = p * sin(y[0]);
+                                         }),
+                       options("arkode-dopri5", 1e-12, true));
+  constexpr double start = 0.4;
+  constexpr double s = 1.5;
+  constexpr double accuracy = 1e-10;  // of the tolerance, over some ten steps
+  for (const double p : {-0.7, 0.3, 1.1}) {
+    std::array<double, 1> y = {start};
+    std::array<double, 1> dydp = {0.0};
+    ASSERT_TRUE(flows(p)->evolve_tangents(y, dydp, 0.0, s, LastTangent::parameter).reached());
+    const double exact = 2.0 * std::atan(std::tan(0.5 * start) * std::exp(p * s));
+    EXPECT_NEAR(y[0], exact, accuracy) << p;
+    EXPECT_NEAR(dydp[0], s * std::sin(exact), accuracy) << p;
+  }
+}
+
 TEST(Tangents, ControlMakesThemAsAccurateAsTheState) {
   // The state rests at 0, where a step of any length is right; its neighbourhood turns fast.
   const auto turning = make_field(2, 0.0, [](std::size_t, double, const auto* y, auto* d) {

@@ -115,17 +115,12 @@ inline VectorField clearance_oscillator(double w, double smoothing = 0.0, const 
     const auto& [z, mean, e] = constants;
     return (mean + e * omega * omega * std::sin(s) - 2.0 * z * v - f) / omega;
   };
-  VectorField field =
-      integrate::make_field(2, 2.0 * std::numbers::pi, [w, equation](std::size_t, double s, const auto* y, auto* d) {
-        d[0] = y[1] / w;
-        d[1] = equation(w, s, y[0], y[1]);
+  const FieldFamily family = integrate::make_field_family(
+      2, 2.0 * std::numbers::pi, [equation](const auto& omega, std::size_t, double s, const auto* y, auto* d) {
+        d[0] = y[1] / omega;
+        d[1] = equation(omega, s, y[0], y[1]);
       });
-  field.parameter_derivative = [w, equation](std::size_t, double s, const double* y, double* dgdp) {
-    using D = Dual<1>;
-    const D omega = D::variable(w, 0);
-    dgdp[0] = (D(y[1]) / omega).derivative[0];
-    dgdp[1] = equation(omega, s, D(y[0]), D(y[1])).derivative[0];
-  };
+  VectorField field = family(w);
   field.surfaces = {2, [w](double, const double* y, double* values, double* rates) {
                       values[0] = y[0] - 1.0;
                       values[1] = y[0] + 1.0;
@@ -136,17 +131,13 @@ inline VectorField clearance_oscillator(double w, double smoothing = 0.0, const 
 
 /// Duffing x'' + damping x' + alpha x + x^3 = g cos W t (validation.md sections 3 and 4) in t, period 2 pi / W. State
 /// x, dx/dt. Its parameter is g.
-inline VectorField duffing(double damping, double alpha, double g, double w) {
-  VectorField field = integrate::make_field(
-      2, 2.0 * std::numbers::pi / w, [damping, alpha, g, w](std::size_t, double t, const auto* y, auto* d) {
+inline FieldFamily duffing(double damping, double alpha, double w) {
+  return integrate::make_field_family(
+      2, 2.0 * std::numbers::pi / w, [damping, alpha, w](const auto& g, std::size_t, double t, const auto* y, auto* d) {
         d[0] = y[1];
         d[1] = g * std::cos(w * t) - damping * y[1] - alpha * y[0] - y[0] * y[0] * y[0];
       });
-  field.parameter_derivative = [w](std::size_t, double t, const double*, double* dgdp) {
-    dgdp[0] = 0.0;
-    dgdp[1] = std::cos(w * t);
-  };
-  return field;
 }
+inline VectorField duffing(double damping, double alpha, double g, double w) { return duffing(damping, alpha, w)(g); }
 
 }  // namespace epicyclic::problems
