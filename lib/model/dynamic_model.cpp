@@ -28,9 +28,9 @@ namespace {
 
 /// Equilibrium of the linearised stage at s = 0: mean stiffness, gaps closed on the drive flank, no friction, no
 /// frame terms, errors frozen. From the kernel itself: with b = 0 its accelerations are linear in the displacements.
-template <Layout L, std::size_t N>
-std::vector<double> static_equilibrium(Parameters<double, N> p) {
-  constexpr std::size_t n = degrees_of_freedom(L, N);
+template <std::size_t N>
+std::vector<double> static_equilibrium(Layout layout, Parameters<double, N> p) {
+  const std::size_t n = degrees_of_freedom(layout, N);
   // delta = b + F/k on the drive flank is the stage without gaps whose errors are larger by b.
   const auto linear = [](MeshParameters<double, N>& mesh) {
     mesh.harmonics = 0;
@@ -46,10 +46,10 @@ std::vector<double> static_equilibrium(Parameters<double, N> p) {
   p.sun_law = gear::BearingLaw::linear_xy;
   p.sun_half_gap = 0.0;
   p.carrier_speed = 0.0;
-  std::array<double, 2 * n> state{};
-  std::array<double, 2 * n> slope;
-  const StageKernel<N> right_hand_side = stage_kernel<L, N>();
-  right_hand_side(p, 0, 0.0, state.data(), slope.data());
+  std::vector<double> state(2 * n);
+  std::vector<double> slope(2 * n);
+  const StageKernel<N> right_hand_side = stage_kernel<N>(layout);
+  right_hand_side(layout, p, 0, 0.0, state.data(), slope.data());
   Eigen::VectorXd load(n);
   for (std::size_t r = 0; r < n; ++r) load(static_cast<Eigen::Index>(r)) = -slope[n + r];
 
@@ -59,7 +59,7 @@ std::vector<double> static_equilibrium(Parameters<double, N> p) {
   Eigen::MatrixXd stiffness(n, n);
   for (std::size_t c = 0; c < n; ++c) {
     state[c] = 1.0;
-    right_hand_side(p, 0, 0.0, state.data(), slope.data());
+    right_hand_side(layout, p, 0, 0.0, state.data(), slope.data());
     state[c] = 0.0;
     for (std::size_t r = 0; r < n; ++r)
       stiffness(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) = slope[n + r];
@@ -98,11 +98,11 @@ bool planets_alike(const Parameters<double, N>& p) {
 }
 
 /// Equal parts of all planets, and rotations of the central members, taken out of displacements and of velocities.
-template <Layout L, std::size_t N>
-void remove_synchronous(const Parameters<double, N>& p, std::span<double> deviation) {
-  constexpr std::size_t n = degrees_of_freedom(L, N);
+template <std::size_t N>
+void remove_synchronous(Layout layout, const Parameters<double, N>& p, std::span<double> deviation) {
+  const std::size_t n = degrees_of_freedom(layout, N);
   for (std::size_t half = 0; half < 2; ++half) {
-    Coordinates<double, N> q = unpack<N>(Arranged<L>{}, deviation.data() + half * n);
+    Coordinates<double, N> q = unpack<N>(layout, deviation.data() + half * n);
     q.w_s = q.u_r = q.u_c = 0.0;
     // Along the radius through the planet and across.
     const Row<double, N> radial = q.x_p * p.cos_phi + q.y_p * p.sin_phi;
@@ -113,7 +113,7 @@ void remove_synchronous(const Parameters<double, N>& p, std::span<double> deviat
     q.x_p = r * p.cos_phi - t * p.sin_phi;
     q.y_p = r * p.sin_phi + t * p.cos_phi;
     q.w_p -= sum(q.w_p) / count;
-    pack<L, N>(q, deviation.data() + half * n);
+    pack<N>(layout, q, deviation.data() + half * n);
   }
 }
 
@@ -167,17 +167,17 @@ void mesh_pulls(const Parameters<double, N>& p, const MeshParameters<double, N>&
   }
 }
 
-template <Layout L, std::size_t N>
-DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mesh_frequency_ratio,
+template <std::size_t N>
+DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& scales, double mesh_frequency_ratio,
                       const ModelOptions& options) {
-  const auto constants =
-      std::make_shared<const FoldedConstants<N>>(L, make_parameters<N>(stage, scales, mesh_frequency_ratio, options));
+  const auto constants = std::make_shared<const FoldedConstants<N>>(
+      layout, make_parameters<N>(stage, scales, mesh_frequency_ratio, options));
   const std::shared_ptr<const Parameters<double, N>> p(constants, &constants->parameters);
   DynamicModel m;
   m.planets = static_cast<int>(N);
-  m.layout = L;
-  m.dimension = 2 * degrees_of_freedom(L, N);
-  m.state_names = coordinate_names(L, static_cast<int>(N));
+  m.layout = layout;
+  m.dimension = 2 * degrees_of_freedom(layout, N);
+  m.state_names = coordinate_names(layout, static_cast<int>(N));
   for (std::size_t k = 0, n = m.state_names.size(); k < n; ++k) m.state_names.push_back(m.state_names[k] + "_rate");
   m.breakpoints = p->breakpoints;
   m.sun_planet_half_gap = p->sun_planet.half_gap;
@@ -185,15 +185,15 @@ DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mes
   m.omega = mesh_frequency_ratio;
   m.jumps_at_surfaces = p->gap_damping == GapDamping::contact_slope && !p->smooth &&
                         std::max(p->sun_planet.half_gap, p->ring_planet.half_gap) > 0.0;
-  m.right_hand_side = [p, kernel = stage_kernel<L, N>()](std::size_t segment, double s, const double* y, double* dyds) {
-    kernel(*p, segment, s, y, dyds);
+  m.right_hand_side = [layout, p, kernel = stage_kernel<N>(layout)](std::size_t segment, double s, const double* y,
+                                                                    double* dyds) {
+    kernel(layout, *p, segment, s, y, dyds);
   };
-  m.tangents = make_tangents<L>(*p);
-  m.deflections = [p](double s, const double* y, MeshDeflections& out) {
+  m.tangents = make_tangents(layout, *p);
+  m.deflections = [layout, p](double s, const double* y, MeshDeflections& out) {
     constexpr Planets<N> all;
-    const Deflections<double, N> d = deflections(*p, all, unpack(Arranged<L>{}, all, y));
-    const Deflections<double, N> d_rate =
-        deflections(*p, all, unpack(Arranged<L>{}, all, y + degrees_of_freedom(L, N)));
+    const Deflections<double, N> d = deflections(*p, all, unpack(layout, all, y));
+    const Deflections<double, N> d_rate = deflections(*p, all, unpack(layout, all, y + degrees_of_freedom(layout, N)));
     const Instant<double, N> now = without_tables(*p, s);
     const auto set = [](std::vector<double>& row, const Row<double, N>& values) {
       row.assign(values.begin(), values.end());
@@ -214,11 +214,11 @@ DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mes
         out.ring_planet);
   };
   m.surfaces.count = contacts_of(*p);
-  m.surfaces.evaluate = [p](double s, const double* y, double* distances, double* rates) {
-    contact_distances<L>(*p, without_tables(*p, s), y, distances, rates);
+  m.surfaces.evaluate = [layout, p](double s, const double* y, double* distances, double* rates) {
+    contact_distances(layout, *p, without_tables(*p, s), y, distances, rates);
   };
-  m.forces = [p](double s, const double* y, StageForces& out) {
-    const StageState<double, N> g = stage_state<L>(*p, segment_at(p->breakpoints, s), s, y);
+  m.forces = [layout, p](double s, const double* y, StageForces& out) {
+    const StageState<double, N> g = stage_state(layout, *p, segment_at(p->breakpoints, s), s, y);
     out.sun_planet.assign(g.sun_planet.force.begin(), g.sun_planet.force.end());
     out.ring_planet.assign(g.ring_planet.force.begin(), g.ring_planet.force.end());
     const Row<double, N> x = p->bearing_p * g.d.carrier_x + p->bearing_damping_p * g.d_rate.carrier_x;
@@ -230,19 +230,20 @@ DynamicModel assemble(const gear::Stage& stage, const Scales& scales, double mes
   };
   m.origin = constants;
   if (has_computed_tables(stage)) {
-    m.with_halved_tables = [stage = std::make_shared<const gear::Stage>(stage), scales, mesh_frequency_ratio, options] {
+    m.with_halved_tables = [layout, stage = std::make_shared<const gear::Stage>(stage), scales, mesh_frequency_ratio,
+                            options] {
       ModelOptions halved = options;
       halved.halved_tables = true;
-      return assemble<L, N>(*stage, scales, mesh_frequency_ratio, halved);
+      return assemble<N>(layout, *stage, scales, mesh_frequency_ratio, halved);
     };
     for (const auto* mesh : {&p->sun_planet, &p->ring_planet})
       if (mesh->friction) m.friction_table_error = std::max(m.friction_table_error, mesh->friction->error());
   }
   m.static_mesh_force = p->drive / static_cast<double>(N);
   if (planets_alike(*p)) {
-    m.remove_synchronous = [p](std::span<double> deviation) { remove_synchronous<L>(*p, deviation); };
+    m.remove_synchronous = [layout, p](std::span<double> deviation) { remove_synchronous(layout, *p, deviation); };
   }
-  m.default_start = static_equilibrium<L>(*p);
+  m.default_start = static_equilibrium(layout, *p);
   return m;
 }
 
@@ -262,31 +263,29 @@ DynamicModel make_dynamic_model(const gear::Stage& stage, const Scales& scales, 
     throw InputError(
         "/model/gyroscopic: the printed terms do not close in relative coordinates when the carrier is free "
         "(boundary fixed_ring); use automatic, invariant or off");
-  return dispatch(layout_of(stage, choice), stage.planet_count, [&]<Layout L, std::size_t N>() {
-    return assemble<L, N>(stage, scales, mesh_frequency_ratio, options);
+  return with_planets(stage.planet_count, [&]<std::size_t N>() {
+    return assemble<N>(layout_of(stage, choice), stage, scales, mesh_frequency_ratio, options);
   });
 }
 
 void set_parameter_derivative(DynamicModel& model, const std::function<OperatingPoint(double value)>& at,
                               const Scales& scales, double value, double step) {
-  if (model.layout == Layout::full) throw InputError("there is no parameter derivative in full coordinates");
   const std::array<double, 4> offsets = {-2.0 * step, -step, step, 2.0 * step};
   std::vector<OperatingPoint> points = {at(value)};
   for (const double offset : offsets) points.push_back(at(value + offset));
+  const CoordinateChoice choice = model.layout == Layout::full ? CoordinateChoice::full : CoordinateChoice::relative;
   for (const OperatingPoint& point : points)
-    if (layout_of(point.stage, CoordinateChoice::relative) != model.layout || point.stage.planet_count != model.planets)
+    if (layout_of(point.stage, choice) != model.layout || point.stage.planet_count != model.planets)
       throw InputError("the parameter changes the state itself; there is no derivative");
-  model.parameter_derivative =
-      dispatch(model.layout, model.planets, [&]<Layout L, std::size_t N>() -> ParameterFunction {
-        const auto folded = [&](const OperatingPoint& point, const Parameters<double, N>* like) {
-          return make_parameters<N>(point.stage, scales, point.mesh_frequency_ratio, point.options, like);
-        };
-        const Parameters<double, N> here = folded(points[0], nullptr);
-        const std::array near = {folded(points[1], &here), folded(points[2], &here), folded(points[3], &here),
-                                 folded(points[4], &here)};
-        if constexpr (L != Layout::full) return make_parameter_derivative<L, N>(here, near, step);
-        return {};
-      });
+  model.parameter_derivative = with_planets(model.planets, [&]<std::size_t N>() -> ParameterFunction {
+    const auto folded = [&](const OperatingPoint& point, const Parameters<double, N>* like) {
+      return make_parameters<N>(point.stage, scales, point.mesh_frequency_ratio, point.options, like);
+    };
+    const Parameters<double, N> here = folded(points[0], nullptr);
+    const std::array near = {folded(points[1], &here), folded(points[2], &here), folded(points[3], &here),
+                             folded(points[4], &here)};
+    return make_parameter_derivative(model.layout, here, near, step);
+  });
 }
 
 }  // namespace epicyclic::model

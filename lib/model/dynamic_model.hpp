@@ -110,9 +110,8 @@ enum class CoordinateChoice { relative, full };
 [[nodiscard]] Layout layout_of(const gear::Stage& stage, CoordinateChoice choice);
 
 /// @param stage  passes gear::problems_for_motion()
-/// @throws InputError for options that do not fit the boundary (printed gyroscopic terms with a free carrier do not
-/// close
-///         in relative coordinates)
+/// @throws InputError for options that do not fit the boundary: printed gyroscopic terms with a free carrier do not
+///         close in relative coordinates
 [[nodiscard]] DynamicModel make_dynamic_model(const gear::Stage& stage, const Scales& scales,
                                               double mesh_frequency_ratio, const ModelOptions& options,
                                               CoordinateChoice choice = CoordinateChoice::relative);
@@ -130,7 +129,7 @@ struct OperatingPoint {
 /// @param value  of the parameter
 /// @param step   h of the difference of folded constants; value +- 2 h must be valid. 1e-3 of the range over which the
 ///               constants change is right: they are smooth, and rounding is divided by h
-/// @throws InputError when the parameter moves a breakpoint, or changes the planets or the layout; in full coordinates
+/// @throws InputError when the parameter moves a breakpoint, or changes the planets or the layout
 void set_parameter_derivative(DynamicModel& model, const std::function<OperatingPoint(double value)>& at,
                               const Scales& scales, double value, double step);
 

@@ -47,15 +47,13 @@ LaneField lanes_of(const DynamicModel& like, LaneKernel<N, W> kernel) {
 }  // namespace
 
 LaneField make_lane_field(const DynamicModel& like, const char* instruction_set, std::size_t copy) {
-  return dispatch(like.layout, like.planets, [&]<Layout L, std::size_t N>() -> LaneField {
-    if constexpr (L != Layout::full) {
-      if (const auto kernel = lane_kernel<L, N, 2>(instruction_set, copy); kernel.evaluate != nullptr)
-        return lanes_of<N, 2>(like, kernel);
-      if (const auto kernel = lane_kernel<L, N, 4>(instruction_set, copy); kernel.evaluate != nullptr)
-        return lanes_of<N, 4>(like, kernel);
-      if (const auto kernel = lane_kernel<L, N, 8>(instruction_set, copy); kernel.evaluate != nullptr)
-        return lanes_of<N, 8>(like, kernel);
-    }
+  return with_planets(like.planets, [&]<std::size_t N>() -> LaneField {
+    if (const auto kernel = lane_kernel<N, 2>(like.layout, instruction_set, copy); kernel.evaluate != nullptr)
+      return lanes_of<N, 2>(like, kernel);
+    if (const auto kernel = lane_kernel<N, 4>(like.layout, instruction_set, copy); kernel.evaluate != nullptr)
+      return lanes_of<N, 4>(like, kernel);
+    if (const auto kernel = lane_kernel<N, 8>(like.layout, instruction_set, copy); kernel.evaluate != nullptr)
+      return lanes_of<N, 8>(like, kernel);
     return {};
   });
 }

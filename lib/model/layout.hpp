@@ -10,7 +10,8 @@
 //
 // Source: model.md section 4; Eqs. (21)-(22) eliminate the same rotation by differentiating e twice, which this avoids.
 // Written once: every layout is read into the same Coordinates, in which the rotation of the reference member is 0, so
-// that deflections have one formula. Linear maps: smooth everywhere.
+// that deflections have one formula. Linear maps: smooth everywhere. The layout is a value: it decides no
+// more than whether the last slots are there.
 #pragma once
 
 #include <cstddef>
@@ -50,8 +51,10 @@ struct Slots {
   static constexpr std::size_t y_r(std::size_t n) { return 4 + 3 * n; }
   static constexpr std::size_t x_c(std::size_t n) { return 5 + 3 * n; }
   static constexpr std::size_t y_c(std::size_t n) { return 6 + 3 * n; }
-  static constexpr std::size_t u_r(std::size_t n) { return 7 + 3 * n; }
-  static constexpr std::size_t u_c(Layout l, std::size_t n) { return 7 + 3 * n + (has_ring_rotation(l) ? 1U : 0U); }
+  /// One past those that every layout has.
+  static constexpr std::size_t common(std::size_t n) { return 7 + 3 * n; }
+  static constexpr std::size_t u_r(std::size_t n) { return common(n); }
+  static constexpr std::size_t u_c(Layout l, std::size_t n) { return common(n) + (has_ring_rotation(l) ? 1U : 0U); }
 };
 
 /// Displacements (or velocities, or accelerations) of all members; u_r or u_c is 0 where it is the reference.
@@ -62,10 +65,6 @@ struct Coordinates {
   T x_r, y_r, u_r;
   T x_c, y_c, u_c;
 };
-
-/// A layout as the type of an argument.
-template <Layout L>
-struct Arranged {};
 
 /// Planets first, ..., first + G - 1 of N.
 template <std::size_t N, std::size_t G = N>
@@ -84,8 +83,8 @@ struct Planets {
 };
 
 /// All members with some of the planets.
-template <Layout L, class T, std::size_t N, std::size_t G>
-[[nodiscard]] Coordinates<T, G> unpack(Arranged<L> /*layout*/, Planets<N, G> planets, const T* q) {
+template <class T, std::size_t N, std::size_t G>
+[[nodiscard]] Coordinates<T, G> unpack(Layout layout, Planets<N, G> planets, const T* q) {
   const std::size_t first = planets.first;
   Coordinates<T, G> c;
   c.x_s = q[Slots::x_s];
@@ -98,26 +97,19 @@ template <Layout L, class T, std::size_t N, std::size_t G>
   c.y_r = q[Slots::y_r(N)];
   c.x_c = q[Slots::x_c(N)];
   c.y_c = q[Slots::y_c(N)];
-  if constexpr (has_ring_rotation(L)) {
-    c.u_r = q[Slots::u_r(N)];
-  } else {
-    c.u_r = T(0.0);
-  }
-  if constexpr (has_carrier_rotation(L)) {
-    c.u_c = q[Slots::u_c(L, N)];
-  } else {
-    c.u_c = T(0.0);
-  }
+  const T reference(0.0);
+  c.u_r = *(has_ring_rotation(layout) ? q + Slots::u_r(N) : &reference);
+  c.u_c = *(has_carrier_rotation(layout) ? q + Slots::u_c(layout, N) : &reference);
   return c;
 }
 
-template <std::size_t N, Layout L, class T>
-[[nodiscard]] Coordinates<T, N> unpack(Arranged<L> layout, const T* q) {
+template <std::size_t N, class T>
+[[nodiscard]] Coordinates<T, N> unpack(Layout layout, const T* q) {
   return unpack(layout, Planets<N>{}, q);
 }
 
-template <Layout L, std::size_t N, class T>
-void pack(const Coordinates<T, N>& c, T* q) {
+template <std::size_t N, class T>
+void pack(Layout layout, const Coordinates<T, N>& c, T* q) {
   q[Slots::x_s] = c.x_s;
   q[Slots::y_s] = c.y_s;
   q[Slots::w_s] = c.w_s;
@@ -128,8 +120,8 @@ void pack(const Coordinates<T, N>& c, T* q) {
   q[Slots::y_r(N)] = c.y_r;
   q[Slots::x_c(N)] = c.x_c;
   q[Slots::y_c(N)] = c.y_c;
-  if constexpr (has_ring_rotation(L)) q[Slots::u_r(N)] = c.u_r;
-  if constexpr (has_carrier_rotation(L)) q[Slots::u_c(L, N)] = c.u_c;
+  if (has_ring_rotation(layout)) q[Slots::u_r(N)] = c.u_r;
+  if (has_carrier_rotation(layout)) q[Slots::u_c(layout, N)] = c.u_c;
 }
 
 /// Names of the displacements in order of their slots: x_s, y_s, w_s, x_p1, ... (u_s, u_p1 in full coordinates).

@@ -35,7 +35,7 @@ class Assembly {
     for (std::size_t k = 0; k < size; ++k) {
       std::array<double, size> q{};
       q[k] = 1.0;
-      unit[k] = deflections(geometry_, unpack<N>(Arranged<Layout::full>{}, q.data()));
+      unit[k] = deflections(geometry_, unpack<N>(Layout::full, q.data()));
     }
     const auto row = [&](auto&& pick) {
       Eigen::VectorXd l(n);

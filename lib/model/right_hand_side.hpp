@@ -140,11 +140,11 @@ struct StageState {
   Deflections<T, G> d, d_rate;
   MeshState<T, G, P> sun_planet, ring_planet;
 
-  template <Layout L, std::size_t N>
-  StageState(Arranged<L> arranged, const Parameters<P, N>& p, const Planets<N, G>& planets, const Instant<P, N>& now,
+  template <std::size_t N>
+  StageState(Layout layout, const Parameters<P, N>& p, const Planets<N, G>& planets, const Instant<P, N>& now,
              const T* y)
-      : q(unpack(arranged, planets, y)),
-        v(unpack(arranged, planets, y + degrees_of_freedom(L, N))),
+      : q(unpack(layout, planets, y)),
+        v(unpack(layout, planets, y + degrees_of_freedom(layout, N))),
         d(deflections(p, planets, q)),
         d_rate(deflections(p, planets, v)),
         sun_planet(mesh_state(p, planets, p.sun_planet, now.sun_planet, d.sun_planet, d_rate.sun_planet)),
@@ -152,10 +152,10 @@ struct StageState {
 };
 
 /// With all planets.
-template <Layout L, class T, class P, std::size_t N>
-[[nodiscard]] StageState<T, N, P> stage_state(const Parameters<P, N>& p, std::size_t segment,
+template <class T, class P, std::size_t N>
+[[nodiscard]] StageState<T, N, P> stage_state(Layout layout, const Parameters<P, N>& p, std::size_t segment,
                                               const std::type_identity_t<P>& s, const T* y) {
-  return {Arranged<L>{}, p, Planets<N>{}, Instant<P, N>(p, segment, s), y};
+  return {layout, p, Planets<N>{}, Instant<P, N>(p, segment, s), y};
 }
 
 /// Sums over planets of what they do to the other members.
@@ -283,9 +283,9 @@ template <class T, class P, std::size_t N>
 }
 
 /// The same with the planets one by one; sums are in the same order.
-template <Layout L, class T, class P, std::size_t N>
-[[nodiscard]] Coordinates<T, N> accelerations_by_planet(const Parameters<P, N>& p, const Instant<P, N>& now,
-                                                        const T* y) {
+template <class T, class P, std::size_t N>
+[[nodiscard]] Coordinates<T, N> accelerations_by_planet(Layout layout, const Parameters<P, N>& p,
+                                                        const Instant<P, N>& now, const T* y) {
   using Group = Planets<N, 1>;
   Coordinates<T, N> a;
   Reactions<T> total;
@@ -293,8 +293,7 @@ template <Layout L, class T, class P, std::size_t N>
 #pragma GCC unroll 8
   for (std::size_t i = 0; i < N; ++i) {
     Coordinates<T, 1> own;
-    const Reactions<T> r =
-        accelerate_planets(p, Group{i}, StageState<T, 1, P>(Arranged<L>{}, p, Group{i}, now, y), own);
+    const Reactions<T> r = accelerate_planets(p, Group{i}, StageState<T, 1, P>(layout, p, Group{i}, now, y), own);
     a.x_p[i] = own.x_p[0];
     a.y_p[i] = own.y_p[0];
     a.w_p[i] = own.w_p[0];
@@ -304,46 +303,54 @@ template <Layout L, class T, class P, std::size_t N>
       total += r;
     }
   }
-  accelerate_members(p, unpack(Arranged<L>{}, Group{0}, y),
-                     unpack(Arranged<L>{}, Group{0}, y + degrees_of_freedom(L, N)), total, a);
+  accelerate_members(p, unpack(layout, Group{0}, y), unpack(layout, Group{0}, y + degrees_of_freedom(layout, N)), total,
+                     a);
   return a;
 }
 
 /// From full accelerations to the combinations of them that the layout's relative coordinates are [M-rel].
-template <Layout L, class T, class P, std::size_t N>
-void make_relative(const Parameters<P, N>& p, Coordinates<T, N>& a) {
-  if constexpr (L == Layout::relative_to_ring) {
-    a.w_s += a.u_r;
-    a.w_p -= a.u_r;
-  } else if constexpr (L == Layout::relative_to_carrier || L == Layout::relative_to_carrier_rigid_ring) {
-    a.w_s -= a.u_c * (p.cos_alpha_sp + p.cos_alpha_rp);
-    a.w_p += a.u_c * p.cos_alpha_rp;
-    a.x_p += a.u_c * p.sin_phi;
-    a.y_p -= a.u_c * p.cos_phi;
+template <class T, class P, std::size_t N>
+void make_relative(Layout layout, const Parameters<P, N>& p, Coordinates<T, N>& a) {
+  switch (layout) {
+    case Layout::relative_to_ring:
+      a.w_s += a.u_r;
+      a.w_p -= a.u_r;
+      return;
+    case Layout::relative_to_carrier:
+    case Layout::relative_to_carrier_rigid_ring:
+      a.w_s -= a.u_c * (p.cos_alpha_sp + p.cos_alpha_rp);
+      a.w_p += a.u_c * p.cos_alpha_rp;
+      a.x_p += a.u_c * p.sin_phi;
+      a.y_p -= a.u_c * p.cos_phi;
+      return;
+    case Layout::full:
+      return;
   }
 }
 
 /// dy/ds at an instant.
 ///
-/// @param y     2 n numbers, n = degrees_of_freedom(L, N): displacements [b_c], then velocities [b_c per tau]
+/// @param y     2 n numbers, n = degrees_of_freedom(layout, N): displacements [b_c], then velocities [b_c per tau]
 /// @param dyds  2 n numbers
-template <Layout L, class T, class P, std::size_t N>
-void right_hand_side(const Parameters<P, N>& p, const Instant<P, N>& now, const T* y, T* dyds) {
-  constexpr std::size_t n = degrees_of_freedom(L, N);
+template <class T, class P, std::size_t N>
+void right_hand_side(Layout layout, const Parameters<P, N>& p, const Instant<P, N>& now, const T* y, T* dyds) {
+  const std::size_t n = degrees_of_freedom(layout, N);
   Coordinates<T, N> a;
   if constexpr (is_lanes<T>) {
-    a = accelerations_by_planet<L>(p, now, y);
+    a = accelerations_by_planet(layout, p, now, y);
   } else {
-    const StageState<T, N, P> g(Arranged<L>{}, p, Planets<N>{}, now, y);
+    const StageState<T, N, P> g(layout, p, Planets<N>{}, now, y);
     a = accelerations(p, g);
   }
-  make_relative<L>(p, a);
+  make_relative(layout, p, a);
   const P per_phase = 1.0 / p.omega;
-  pack<L, N>(a, dyds + n);
-  for (std::size_t k = 0; k < n; ++k) {
+  pack<N>(layout, a, dyds + n);
+  const auto in_phase = [&](std::size_t k) {
     dyds[k] = y[n + k] * per_phase;
     dyds[n + k] = dyds[n + k] * per_phase;
-  }
+  };
+  for (std::size_t k = 0; k < Slots::common(N); ++k) in_phase(k);
+  for (std::size_t k = Slots::common(N); k < n; ++k) in_phase(k);
 }
 
 /// Numbers of contact_distances().
@@ -358,8 +365,9 @@ template <class P, std::size_t N>
 /// @param y          as of right_hand_side()
 /// @param distances  contacts_of(p) numbers [b_c]
 /// @param rates      d/ds of them
-template <Layout L, class T, class P, std::size_t N>
-void contact_distances(const Parameters<P, N>& p, const Instant<P, N>& now, const T* y, T* distances, T* rates) {
+template <class T, class P, std::size_t N>
+void contact_distances(Layout layout, const Parameters<P, N>& p, const Instant<P, N>& now, const T* y, T* distances,
+                       T* rates) {
   const P per_phase = 1.0 / p.omega;
   const auto flanks = [&](const T& x, const T& rate, const P& half_gap) {
     *distances++ = x - half_gap;
@@ -368,11 +376,11 @@ void contact_distances(const Parameters<P, N>& p, const Instant<P, N>& now, cons
     *rates++ = along;
     *rates++ = along;
   };
-  const T* const velocities = y + degrees_of_freedom(L, N);
+  const T* const velocities = y + degrees_of_freedom(layout, N);
   for (std::size_t i = 0; i < N; ++i) {
     const Planets<N, 1> own{i};
-    const Deflections<T, 1> d = deflections(p, own, unpack(Arranged<L>{}, own, y));
-    const Deflections<T, 1> d_rate = deflections(p, own, unpack(Arranged<L>{}, own, velocities));
+    const Deflections<T, 1> d = deflections(p, own, unpack(layout, own, y));
+    const Deflections<T, 1> d_rate = deflections(p, own, unpack(layout, own, velocities));
     const auto mesh = [&](const MeshParameters<P, N>& m, const MeshInstant<P, N>& instant, const Row<T, 1>& x,
                           const Row<T, 1>& rate) {
       flanks(instant.delta(own, x)[0], instant.rate(own, rate)[0], m.half_gap);
@@ -397,10 +405,10 @@ void contact_distances(const Parameters<P, N>& p, const Instant<P, N>& now, cons
 /// dy/ds at mesh phase s.
 ///
 /// @param segment  of p, that of s
-template <Layout L, class T, class P, std::size_t N>
-void right_hand_side(const Parameters<P, N>& p, std::size_t segment, const std::type_identity_t<P>& s, const T* y,
-                     T* dyds) {
-  right_hand_side<L>(p, Instant<P, N>(p, segment, s), y, dyds);
+template <class T, class P, std::size_t N>
+void right_hand_side(Layout layout, const Parameters<P, N>& p, std::size_t segment, const std::type_identity_t<P>& s,
+                     const T* y, T* dyds) {
+  right_hand_side(layout, p, Instant<P, N>(p, segment, s), y, dyds);
 }
 
 }  // namespace epicyclic::model

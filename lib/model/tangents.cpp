@@ -15,41 +15,42 @@ namespace epicyclic::model {
 namespace {
 
 /// The kernel that fits the scalar.
-template <class One, class Four>
+template <std::size_t N>
 struct Either {
-  One one;
-  Four four;
+  TangentKernel<N, 1> one;
+  TangentKernel<N, 4> four;
   template <class P, class T>
-  void operator()(const P& p, std::size_t segment, double s, const T* y, T* dyds) const {
+  void operator()(Layout layout, const P& p, std::size_t segment, double s, const T* y, T* dyds) const {
     if constexpr (std::is_same_v<T, Dual<1>>) {
-      one(p, segment, s, y, dyds);
+      one(layout, p, segment, s, y, dyds);
     } else {
-      four(p, segment, s, y, dyds);
+      four(layout, p, segment, s, y, dyds);
     }
   }
 };
 
 }  // namespace
 
-template <Layout L, std::size_t N>
-TangentFunction make_tangents(const Parameters<double, N>& p) {
+template <std::size_t N>
+TangentFunction make_tangents(Layout layout, const Parameters<double, N>& p) {
   const auto constants = std::make_shared<const Parameters<double, N>>(p);
   const auto with = [&](auto chunk, const auto& kernel) -> TangentFunction {
-    return [constants, kernel](std::size_t segment, double s, const double* y, const Columns<const double>& v,
-                               double* dyds, const Columns<double>& dvds) {
-      const auto evaluate = [&](const auto* state, auto* slope) { kernel(*constants, segment, s, state, slope); };
-      push_forward<decltype(chunk)::value>(2 * degrees_of_freedom(L, N), evaluate, y, v, dyds, dvds);
+    return [layout, constants, kernel](std::size_t segment, double s, const double* y, const Columns<const double>& v,
+                                       double* dyds, const Columns<double>& dvds) {
+      const auto evaluate = [&](const auto* state, auto* slope) {
+        kernel(layout, *constants, segment, s, state, slope);
+      };
+      push_forward<decltype(chunk)::value>(2 * degrees_of_freedom(layout, N), evaluate, y, v, dyds, dvds);
     };
   };
-  const TangentKernel<N, 1> by_one = tangent_kernel<L, N, 1>();
-  if (const TangentKernel<N, 4> by_four = tangent_kernel<L, N, 4>())
-    return with(std::integral_constant<std::size_t, 4>(),
-                Either<TangentKernel<N, 1>, TangentKernel<N, 4>>{by_one, by_four});
+  const TangentKernel<N, 1> by_one = tangent_kernel<N, 1>();
+  if (const TangentKernel<N, 4> by_four = tangent_kernel<N, 4>())
+    return with(std::integral_constant<std::size_t, 4>(), Either<N>{by_one, by_four});
   return with(std::integral_constant<std::size_t, 1>(), by_one);
 }
 
-template <Layout L, std::size_t N>
-ParameterFunction make_parameter_derivative(const Parameters<double, N>& p,
+template <std::size_t N>
+ParameterFunction make_parameter_derivative(Layout layout, const Parameters<double, N>& p,
                                             const std::array<Parameters<double, N>, 4>& near, double h) {
   using D = Dual<1>;
   std::array<std::vector<double>, 4> constants;
@@ -83,23 +84,22 @@ ParameterFunction make_parameter_derivative(const Parameters<double, N>& p,
   tables(
       p.ring_planet, dual->ring_planet, [](const auto& q) -> const auto& { return q.ring_planet; });
 
-  return [dual](std::size_t segment, double s, const double* y, double* dgdp) {
-    constexpr std::size_t n = 2 * degrees_of_freedom(L, N);
-    std::array<D, n> state;
-    std::array<D, n> slope;
+  return [layout, dual](std::size_t segment, double s, const double* y, double* dgdp) {
+    constexpr std::size_t most = 2 * degrees_of_freedom(Layout::full, N);
+    const std::size_t n = 2 * degrees_of_freedom(layout, N);
+    std::array<D, most> state;
+    std::array<D, most> slope;
     for (std::size_t i = 0; i < n; ++i) state[i] = y[i];
-    right_hand_side<L>(*dual, segment, D(s), state.data(), slope.data());
+    right_hand_side(layout, *dual, segment, D(s), state.data(), slope.data());
     for (std::size_t i = 0; i < n; ++i) dgdp[i] = slope[i].derivative[0];
   };
 }
 
-#define EPICYCLIC_INSTANTIATE(L, N) template TangentFunction make_tangents<L, N>(const Parameters<double, N>&);
-EPICYCLIC_FOR_ALL_LAYOUTS(EPICYCLIC_INSTANTIATE)
-#undef EPICYCLIC_INSTANTIATE
-#define EPICYCLIC_INSTANTIATE(L, N)                                                        \
-  template ParameterFunction make_parameter_derivative<L, N>(const Parameters<double, N>&, \
-                                                             const std::array<Parameters<double, N>, 4>&, double);
-EPICYCLIC_FOR_KERNELS(EPICYCLIC_INSTANTIATE)
+#define EPICYCLIC_INSTANTIATE(N)                                                             \
+  template TangentFunction make_tangents(Layout, const Parameters<double, N>&);              \
+  template ParameterFunction make_parameter_derivative(Layout, const Parameters<double, N>&, \
+                                                       const std::array<Parameters<double, N>, 4>&, double);
+EPICYCLIC_FOR_PLANETS(EPICYCLIC_INSTANTIATE)
 #undef EPICYCLIC_INSTANTIATE
 
 }  // namespace epicyclic::model

@@ -17,15 +17,15 @@
 
 namespace epicyclic::model {
 
-template <Layout L, std::size_t N>
-[[nodiscard]] TangentFunction make_tangents(const Parameters<double, N>& p);
+template <std::size_t N>
+[[nodiscard]] TangentFunction make_tangents(Layout layout, const Parameters<double, N>& p);
 
 /// @param p     at the value
 /// @param near  at value - 2 h, - h, + h, + 2 h
 /// @param h     the step
 /// @throws InputError when the parameter moves a breakpoint in the mesh phase: dg/dp would be infinite there
-template <Layout L, std::size_t N>
-[[nodiscard]] ParameterFunction make_parameter_derivative(const Parameters<double, N>& p,
+template <std::size_t N>
+[[nodiscard]] ParameterFunction make_parameter_derivative(Layout layout, const Parameters<double, N>& p,
                                                           const std::array<Parameters<double, N>, 4>& near, double h);
 
 }  // namespace epicyclic::model

@@ -120,20 +120,18 @@ namespace epicyclic::model {
 inline Operations operations_of_lane(const DynamicModel& model, std::size_t segment, double s, const double* y,
                                      double* dyds) {
   Operations counts;
-  dispatch(model.layout, model.planets, [&]<Layout L, std::size_t N>() {
-    if constexpr (L != Layout::full) {
-      LaneParameters<N, 1> p(constants_of<N>(model, model.layout));
-      p.set_segment(0, segment);
-      std::vector<Lanes<1>> in(y, y + model.dimension);
-      std::vector<Lanes<1>> out(model.dimension);
-      const Lanes<1> at(s);
-      counted::operations = {};
-      Instant<Lanes<1>, N> now;
-      make_instants(p, 1, &at, &now);
-      right_hand_side<L>(p.constants(), now, in.data(), out.data());
-      counts = counted::operations;
-      for (std::size_t i = 0; i < model.dimension; ++i) dyds[i] = out[i][0];
-    }
+  with_planets(model.planets, [&]<std::size_t N>() {
+    LaneParameters<N, 1> p(constants_of<N>(model, model.layout));
+    p.set_segment(0, segment);
+    std::vector<Lanes<1>> in(y, y + model.dimension);
+    std::vector<Lanes<1>> out(model.dimension);
+    const Lanes<1> at(s);
+    counted::operations = {};
+    Instant<Lanes<1>, N> now;
+    make_instants(p, 1, &at, &now);
+    right_hand_side(model.layout, p.constants(), now, in.data(), out.data());
+    counts = counted::operations;
+    for (std::size_t i = 0; i < model.dimension; ++i) dyds[i] = out[i][0];
   });
   return counts;
 }

@@ -110,7 +110,7 @@ Real potential(const gear::Stage& stage, const Scales& scales, Real w, Real s, c
 template <class T>
 std::array<T, dof> forces(const Parameters<T, planets>& p, std::size_t segment, const T& s,
                           const std::array<T, 2 * dof>& y) {
-  const StageState<T, planets> g = stage_state<Layout::full>(p, segment, s, y.data());
+  const StageState<T, planets> g = stage_state(Layout::full, p, segment, s, y.data());
   Coordinates<T, planets> a = accelerations(p, g);
   a.x_s *= p.mass_s;
   a.y_s *= p.mass_s;
@@ -127,7 +127,7 @@ std::array<T, dof> forces(const Parameters<T, planets>& p, std::size_t segment, 
   a.y_c *= p.mass_c;
   a.u_c *= p.inertia_c;
   std::array<T, dof> f;
-  pack<Layout::full>(a, f.data());
+  pack(Layout::full, a, f.data());
   return f;
 }
 
@@ -216,7 +216,7 @@ TEST(Forces, ElasticPartIsMinusTheGradientOfThePotential) {
 /// Deflections of a displacement of the full coordinates, without errors.
 Deflections<double, planets> deflections_of(const gear::Stage& stage, const std::array<double, dof>& q) {
   const auto p = make_parameters<planets>(stage, scales_of(stage), 1.0, {});
-  return deflections(p, unpack<planets>(Arranged<Layout::full>{}, q.data()));
+  return deflections(p, unpack<planets>(Layout::full, q.data()));
 }
 
 double largest_deflection(const Deflections<double, planets>& d, bool carrier = true) {
@@ -304,7 +304,7 @@ TEST(Deflections, Equation21IsAnIdentity) {
     std::array<double, 2 * dof> y;
     for (double& x : y) x = displacement(random);
     const double phase = 0.06 * trial;
-    const StageState<double, planets> g = stage_state<Layout::full>(p, 0, phase, y.data());
+    const StageState<double, planets> g = stage_state(Layout::full, p, 0, phase, y.data());
     const auto& d_sp = g.sun_planet.delta;
     const auto& d_rp = g.ring_planet.delta;
     const auto phi_sp = [&](std::size_t i) { return alpha.sun_planet - angles[i] * std::numbers::pi / 180.0; };
@@ -353,7 +353,7 @@ TEST(Forces, MeshForcesAndFrictionNeitherPushNorTurnTheWholeTrain) {
     for (std::size_t i = 0; i < planets; ++i) {
       x += f[Slots::x_p(i)];
       y_sum += f[Slots::y_p(i)];
-      const auto g = stage_state<Layout::full>(p, segment, 0.5 * (p.breakpoints[segment] + next), y.data());
+      const auto g = stage_state(Layout::full, p, segment, 0.5 * (p.breakpoints[segment] + next), y.data());
       friction = std::max(friction, std::abs(g.sun_planet.friction[i]));
     }
     for (std::size_t k = 0; k < dof; ++k) moment += f[k] * rotation[k];
@@ -389,7 +389,7 @@ TEST(Forces, FrictionIsThatOfThePathInEverySegmentOfEveryPeriod) {
       for (const double turns : {0.0, -1.0, 1.0, 100.0})
         for (const double phase : {from, middle, next}) {
           const double there = phase + 2.0 * std::numbers::pi * turns;
-          const auto g = stage_state<Layout::full>(p, segment, there, y.data());
+          const auto g = stage_state(Layout::full, p, segment, there, y.data());
           for (std::size_t i = 0; i < planets; ++i) {
             const auto sun = sp.friction(i, phase, middle);
             const auto ring = rp.friction(i, phase, middle);
@@ -428,7 +428,7 @@ TEST(Forces, SmoothFrictionTablesFollowEachPlanetsPhase) {
   // Steffen's cubic through 200 rows of a sine: second order at the extrema.
   constexpr double table_error = 1e-3 * 0.05 * 10.0;
   for (double phase = 0.0; phase < 12.5; phase += 0.1) {
-    const auto g = stage_state<Layout::full>(p, 0, phase, y.data());
+    const auto g = stage_state(Layout::full, p, 0, phase, y.data());
     for (std::size_t i = 0; i < planets; ++i) {
       const double own = phase + 2.0 * std::numbers::pi * 2.0 / 3.0 * static_cast<double>(i);
       EXPECT_NEAR(g.sun_planet.friction[i] / g.sun_planet.force[i], 0.05 * std::sin(own), table_error) << i;
@@ -444,7 +444,7 @@ TEST(Forces, GapDampingActsThroughTheGapOrByTheSlopeOfTheClearance) {
   y[dof + Slots::w_s] = 0.5;  // all sun meshes approach, in the middle of their gaps
   const auto force = [&](GapDamping damping, double w) {
     const auto p = make_parameters<planets>(s, scales, 0.9, {damping, Gyroscopic::off, w});
-    return stage_state<Layout::full>(p, 0, 0.0, y.data()).sun_planet;
+    return stage_state(Layout::full, p, 0, 0.0, y.data()).sun_planet;
   };
   constexpr double rounding = 1e-14;
   const auto always = force(GapDamping::always, 0.0);

@@ -108,7 +108,7 @@ std::array<double, 2> balanced_means(const gear::Stage& s, const Scales& scales,
   mass.u_c = p.inertia_c;
   const auto n = static_cast<Eigen::Index>(m.dimension / 2);
   Eigen::VectorXd masses(n);
-  pack<Layout::full>(mass, masses.data());
+  pack(Layout::full, mass, masses.data());
   const Eigen::MatrixXd stiffness = masses.asDiagonal() * matrix_of(m).bottomLeftCorner(n, n);
   const Eigen::VectorXd load = masses.asDiagonal() * (0.5 * (forcing(m, 0.0) + forcing(m, pi))).tail(n);
   Eigen::VectorXd y = Eigen::VectorXd::Zero(2 * n);

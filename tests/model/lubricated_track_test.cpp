@@ -162,7 +162,7 @@ class AppliedFriction {
       }
       std::array<double, dimension> y{};
       for (double& x : y) x = 4.0 * uniform(random) - 2.0;
-      const auto g = stage_state<Layout::full>(p, segment_at(p.breakpoints, s), s, y.data());
+      const auto g = stage_state(Layout::full, p, segment_at(p.breakpoints, s), s, y.data());
       const auto& mesh = sun ? g.sun_planet : g.ring_planet;
       for (std::size_t i = 0; i < planets; ++i) {
         const double turns = cycles * (stage_.planet_angles_deg()[i] - stage_.planet_angles_deg()[0]) / 360.0 + lead;

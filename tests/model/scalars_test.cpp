@@ -47,7 +47,7 @@ State random_state(std::mt19937_64& random) {
 
 State evaluate(const P& p, std::size_t segment, double s, const State& y) {
   State f;
-  right_hand_side<layout>(p, segment, s, y.data(), f.data());
+  right_hand_side(layout, p, segment, s, y.data(), f.data());
   return f;
 }
 
@@ -91,7 +91,7 @@ TEST(Scalars, LanesWithParametersOfTheirOwnAreTheSingleRuns) {
       }
       Instant<L, planets> now;
       make_instants(packed, 1, &s, &now);
-      right_hand_side<layout>(packed.constants(), now, y.data(), f.data());
+      right_hand_side(layout, packed.constants(), now, y.data(), f.data());
       for (std::size_t lane = 0; lane < width; ++lane) {
         const State expected = evaluate(*single[lane], segments[lane], s[lane], states[lane]);
         double largest = 0.0;
@@ -143,7 +143,7 @@ TEST(Scalars, DualJacobianIsThatOfDifferences) {
         std::array<D, dimension> f;
         for (std::size_t k = 0; k < dimension; ++k) y_dual[k] = D(y[k]);
         for (std::size_t j = 0; j < width; ++j) y_dual[first + j] = D::variable(y[first + j], j);
-        right_hand_side<layout>(p_dual, segment, D(phase), y_dual.data(), f.data());
+        right_hand_side(layout, p_dual, segment, D(phase), y_dual.data(), f.data());
         // A dual division multiplies by the inverse: one rounding more.
         constexpr double rounding = 1e-14;
         for (std::size_t k = 0; k < dimension; ++k) EXPECT_NEAR(f[k].value, value[k], rounding);

@@ -84,7 +84,7 @@ VectorField continuous(const model::DynamicModel& m, const gear::Stage& stage, c
     };
     set_mesh(*sun, p->sun_planet.turns[0], now.sun_planet);
     set_mesh(*ring, p->ring_planet.turns[0], now.ring_planet);
-    model::right_hand_side<model::Layout::relative_to_ring>(*p, now, y, dyds);
+    model::right_hand_side(model::Layout::relative_to_ring, *p, now, y, dyds);
   };
   return field;
 }

@@ -135,12 +135,49 @@ TEST(GearTangents, TheParameterDerivativeIsThatOfEachNamedParameter) {
   }
 }
 
-TEST(GearTangents, FullCoordinatesHaveNoParameterDerivative) {
-  const model::OperatingPoint p = point();
-  model::DynamicModel full = model::make_dynamic_model(p.stage, model::scales_of(p.stage), p.mesh_frequency_ratio,
-                                                       p.options, model::CoordinateChoice::full);
-  const auto at = [&](double) { return p; };
-  EXPECT_THROW(model::set_parameter_derivative(full, at, model::scales_of(p.stage), 1.1, 1e-3), InputError);
+TEST(GearTangents, FullCoordinatesHaveTheParameterDerivativeToo) {
+  const model::Scales scales = model::scales_of(point().stage);
+  const auto at = [&](double omega) {
+    model::OperatingPoint p = point();
+    p.mesh_frequency_ratio = omega;
+    return p;
+  };
+  const auto full_at = [&](double omega) {
+    const model::OperatingPoint p = at(omega);
+    return model::make_dynamic_model(p.stage, scales, p.mesh_frequency_ratio, p.options, model::CoordinateChoice::full);
+  };
+  constexpr double omega = 1.1;
+  constexpr double step = 1e-3;
+  model::DynamicModel full = full_at(omega);
+  model::set_parameter_derivative(full, at, scales, omega, step);
+  std::vector<double> y = full.default_start;
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] += 0.3 * std::sin(1.0 + static_cast<double>(i));
+  const auto slope = [&](double value) {
+    std::vector<double> d(full.dimension);
+    full_at(value).right_hand_side(0, 0.7, y.data(), d.data());
+    return d;
+  };
+  const std::vector<double> up = slope(omega + step);
+  const std::vector<double> down = slope(omega - step);
+  std::vector<double> derivative(full.dimension);
+  full.parameter_derivative(0, 0.7, y.data(), derivative.data());
+  double size = 0.0;
+  for (const double d : derivative) size = std::max(size, std::abs(d));
+  EXPECT_GT(size, 0.0);
+  constexpr double of_second_order = 1e-5;  // of a central difference over 1e-3
+  for (std::size_t i = 0; i < full.dimension; ++i)
+    EXPECT_NEAR(derivative[i], (up[i] - down[i]) / (2.0 * step), of_second_order * size) << full.state_names[i];
+}
+
+TEST(GearTangents, AParameterThatChangesTheStateHasNoDerivative) {
+  model::DynamicModel model = model_of(point());
+  const auto at = [&](double planets) {
+    model::OperatingPoint p = point();
+    p.stage.planet_count = static_cast<int>(planets);
+    return p;
+  };
+  EXPECT_THROW(model::set_parameter_derivative(model, at, model::scales_of(point().stage), model.planets, 1.0),
+               InputError);
 }
 
 TEST(GearTangents, AParameterThatMovesBreakpointsHasNoDerivative) {

@@ -45,7 +45,7 @@ class Ledger {
 
   /// Kinetic and elastic energy, with the centrifugal potential of the turning frame.
   [[nodiscard]] double energy(double s, const double* y) const {
-    const auto g = model::stage_state<layout>(p_, 0, s, y);
+    const auto g = model::stage_state(layout, p_, 0, s, y);
     const auto& q = g.q;
     const auto& v = g.v;
     const auto square = [](double a, double b) { return a * a + b * b; };
@@ -82,7 +82,7 @@ class Ledger {
   };
 
   [[nodiscard]] Power power(std::size_t segment, double s, const double* y) const {
-    const auto g = model::stage_state<layout>(p_, segment, s, y);
+    const auto g = model::stage_state(layout, p_, segment, s, y);
     const auto& v = g.v;
     const auto square = [](double a, double b) { return a * a + b * b; };
     Power w;

@@ -111,8 +111,8 @@ TEST(Lanes, OfTheStageHaveTheSameBitsOnEveryInstructionSet) {
 }
 
 TEST(Lanes, OfTheStageHaveCopiesOfTheirKernelsInMemoryOfTheirOwn) {
-  const auto first = model::lane_kernel<model::Layout::relative_to_ring, 4, 4>("avx2", 0);
-  const auto second = model::lane_kernel<model::Layout::relative_to_ring, 4, 4>("avx2", 1);
+  const auto first = model::lane_kernel<4, 4>(model::Layout::relative_to_ring, "avx2", 0);
+  const auto second = model::lane_kernel<4, 4>(model::Layout::relative_to_ring, "avx2", 1);
   if (first.evaluate == nullptr) GTEST_SKIP() << "this machine or build has the baseline only";
   EXPECT_NE(first.evaluate, second.evaluate);
   EXPECT_NE(first.prepare, second.prepare);

@@ -31,39 +31,51 @@ EPICYCLIC_DECLARE_KERNELS
 }  // namespace avx512_again
 #endif
 
-#define EPICYCLIC_KERNELS_OF(set) \
-  { &set::prepare_lanes<N, W>, &set::evaluate_lanes<L, N, W>, &set::measure_contacts<L, N, W> }
+#define EPICYCLIC_KERNELS_OF(set)                                                                            \
+  switch (layout) {                                                                                          \
+    case Layout::relative_to_ring:                                                                           \
+      return {&set::prepare_lanes<N, W>, &set::evaluate_lanes<Layout::relative_to_ring, N, W>,               \
+              &set::measure_contacts<Layout::relative_to_ring, N, W>};                                       \
+    case Layout::relative_to_carrier:                                                                        \
+      return {&set::prepare_lanes<N, W>, &set::evaluate_lanes<Layout::relative_to_carrier, N, W>,            \
+              &set::measure_contacts<Layout::relative_to_carrier, N, W>};                                    \
+    case Layout::relative_to_carrier_rigid_ring:                                                             \
+      return {&set::prepare_lanes<N, W>, &set::evaluate_lanes<Layout::relative_to_carrier_rigid_ring, N, W>, \
+              &set::measure_contacts<Layout::relative_to_carrier_rigid_ring, N, W>};                         \
+    case Layout::full:                                                                                       \
+      break;                                                                                                 \
+  }
 
-template <Layout L, std::size_t N, std::size_t W>
-LaneKernel<N, W> lane_kernel(const char* name, [[maybe_unused]] std::size_t copy) {
+template <std::size_t N, std::size_t W>
+LaneKernel<N, W> lane_kernel(Layout layout, const char* name, [[maybe_unused]] std::size_t copy) {
   const std::string_view wanted(name);
   if constexpr (W == 2) {
-    if (wanted == "baseline") return EPICYCLIC_KERNELS_OF(baseline);
+    if (wanted == "baseline") EPICYCLIC_KERNELS_OF(baseline)
   }
 #ifdef EPICYCLIC_X86_KERNELS
   static_assert(kernel_copies == 2);
   const bool again = copy % kernel_copies == 1;
   if constexpr (W == 4) {
     if (wanted == "avx2" && machine_runs(wanted)) {
-      if (again) return EPICYCLIC_KERNELS_OF(avx2_again);
-      return EPICYCLIC_KERNELS_OF(avx2);
+      if (again) EPICYCLIC_KERNELS_OF(avx2_again)
+      EPICYCLIC_KERNELS_OF(avx2)
     }
   }
   if constexpr (W == 8) {
     if (wanted == "avx512" && machine_runs(wanted)) {
-      if (again) return EPICYCLIC_KERNELS_OF(avx512_again);
-      return EPICYCLIC_KERNELS_OF(avx512);
+      if (again) EPICYCLIC_KERNELS_OF(avx512_again)
+      EPICYCLIC_KERNELS_OF(avx512)
     }
   }
 #endif
   return {};
 }
 
-#define EPICYCLIC_DEFINE(L, N)                                                        \
-  template LaneKernel<N, 2> lane_kernel<L, N, 2>(const char* name, std::size_t copy); \
-  template LaneKernel<N, 4> lane_kernel<L, N, 4>(const char* name, std::size_t copy); \
-  template LaneKernel<N, 8> lane_kernel<L, N, 8>(const char* name, std::size_t copy);
-EPICYCLIC_FOR_KERNELS(EPICYCLIC_DEFINE)
+#define EPICYCLIC_DEFINE(N)                                                                  \
+  template LaneKernel<N, 2> lane_kernel<N, 2>(Layout layout, const char* name, std::size_t); \
+  template LaneKernel<N, 4> lane_kernel<N, 4>(Layout layout, const char* name, std::size_t); \
+  template LaneKernel<N, 8> lane_kernel<N, 8>(Layout layout, const char* name, std::size_t);
+EPICYCLIC_FOR_PLANETS(EPICYCLIC_DEFINE)
 #undef EPICYCLIC_DEFINE
 #undef EPICYCLIC_KERNELS_OF
 #undef EPICYCLIC_DECLARE_KERNELS

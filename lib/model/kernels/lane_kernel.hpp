@@ -33,7 +33,7 @@ struct LaneKernel {
 /// That of one instruction set, empty if it was not compiled or this machine does not run it.
 /// @param name "baseline" (W = 2), "avx2" (4) or "avx512" (8)
 /// @param copy  any number: kernel_copies of them are taken in turn
-template <Layout L, std::size_t N, std::size_t W>
-[[nodiscard]] LaneKernel<N, W> lane_kernel(const char* name, std::size_t copy);
+template <std::size_t N, std::size_t W>
+[[nodiscard]] LaneKernel<N, W> lane_kernel(Layout layout, const char* name, std::size_t copy);
 
 }  // namespace epicyclic::model

@@ -6,93 +6,79 @@
 
 namespace epicyclic::model {
 
-#define EPICYCLIC_DECLARE_KERNELS                                                                              \
-  template <Layout L, std::size_t N>                                                                           \
-  void evaluate(const Parameters<double, N>& p, std::size_t segment, double s, const double* y, double* dyds); \
-  template <Layout L, std::size_t N, std::size_t M>                                                            \
-  void evaluate_tangents(const Parameters<double, N>& p, std::size_t segment, double s, const Dual<M>* y,      \
-                         Dual<M>* dyds);
-#define EPICYCLIC_DECLARE(L, N)                                                                                      \
-  extern template void evaluate<L, N>(const Parameters<double, N>&, std::size_t, double, const double*, double*);    \
-  extern template void evaluate_tangents<L, N, 1>(const Parameters<double, N>&, std::size_t, double, const Dual<1>*, \
-                                                  Dual<1>*);
-#define EPICYCLIC_DECLARE_FOUR(L, N)                                                                                 \
-  extern template void evaluate_tangents<L, N, 4>(const Parameters<double, N>&, std::size_t, double, const Dual<4>*, \
-                                                  Dual<4>*);
+#define EPICYCLIC_DECLARE_TANGENTS                                                                     \
+  template <std::size_t N, std::size_t M>                                                              \
+  void evaluate_tangents(Layout layout, const Parameters<double, N>& p, std::size_t segment, double s, \
+                         const Dual<M>* y, Dual<M>* dyds);
 namespace baseline {
-EPICYCLIC_DECLARE_KERNELS
-EPICYCLIC_FOR_KERNELS(EPICYCLIC_DECLARE)
+template <std::size_t N>
+void evaluate(Layout layout, const Parameters<double, N>& p, std::size_t segment, double s, const double* y,
+              double* dyds);
+EPICYCLIC_DECLARE_TANGENTS
 }  // namespace baseline
 #ifdef EPICYCLIC_X86_KERNELS
 namespace avx2 {
-EPICYCLIC_DECLARE_KERNELS
-EPICYCLIC_FOR_KERNELS(EPICYCLIC_DECLARE)
-EPICYCLIC_FOR_KERNELS(EPICYCLIC_DECLARE_FOUR)
+template <Layout L, std::size_t N>
+void evaluate(Layout layout, const Parameters<double, N>& p, std::size_t segment, double s, const double* y,
+              double* dyds);
+EPICYCLIC_DECLARE_TANGENTS
 }  // namespace avx2
 #endif
-/// Of full coordinates [full_coordinates.cpp].
-namespace plain {
-template <std::size_t N>
-void evaluate(const Parameters<double, N>& p, std::size_t segment, double s, const double* y, double* dyds);
-template <std::size_t N>
-void evaluate_tangents(const Parameters<double, N>& p, std::size_t segment, double s, const Dual<1>* y, Dual<1>* dyds);
-}  // namespace plain
-#undef EPICYCLIC_DECLARE
-#undef EPICYCLIC_DECLARE_FOUR
-#undef EPICYCLIC_DECLARE_KERNELS
+#undef EPICYCLIC_DECLARE_TANGENTS
 
-template <Layout L, std::size_t N>
-StageKernel<N> stage_kernel(const char* name) {
+template <std::size_t N>
+StageKernel<N> stage_kernel([[maybe_unused]] Layout layout, const char* name) {
   const std::string_view wanted(name);
-  if constexpr (L == Layout::full) {
-    if (wanted == "baseline") return &plain::evaluate<N>;
-  } else {
-    if (wanted == "baseline") return &baseline::evaluate<L, N>;
+  if (wanted == "baseline") return &baseline::evaluate<N>;
 #ifdef EPICYCLIC_X86_KERNELS
-    if (wanted == "avx2" && machine_runs(wanted)) return &avx2::evaluate<L, N>;
-#endif
+  if (wanted == "avx2" && machine_runs(wanted)) {
+    switch (layout) {
+      case Layout::relative_to_ring:
+        return &avx2::evaluate<Layout::relative_to_ring, N>;
+      case Layout::relative_to_carrier:
+        return &avx2::evaluate<Layout::relative_to_carrier, N>;
+      case Layout::relative_to_carrier_rigid_ring:
+        return &avx2::evaluate<Layout::relative_to_carrier_rigid_ring, N>;
+      case Layout::full:
+        return nullptr;
+    }
   }
+#endif
   return nullptr;
 }
 
-template <Layout L, std::size_t N>
-StageKernel<N> stage_kernel() {
-  if (const StageKernel<N> kernel = stage_kernel<L, N>("avx2")) return kernel;
-  return stage_kernel<L, N>("baseline");
+template <std::size_t N>
+StageKernel<N> stage_kernel(Layout layout) {
+  if (const StageKernel<N> kernel = stage_kernel<N>(layout, "avx2")) return kernel;
+  return stage_kernel<N>(layout, "baseline");
 }
 
-template <Layout L, std::size_t N, std::size_t M>
+template <std::size_t N, std::size_t M>
 TangentKernel<N, M> tangent_kernel(const char* name) {
   const std::string_view wanted(name);
-  if constexpr (L == Layout::full) {
-    if constexpr (M == 1) {
-      if (wanted == "baseline") return &plain::evaluate_tangents<N>;
-    }
-  } else {
-    if constexpr (M == 1) {
-      if (wanted == "baseline") return &baseline::evaluate_tangents<L, N, M>;
-    }
-#ifdef EPICYCLIC_X86_KERNELS
-    if (wanted == "avx2" && machine_runs(wanted)) return &avx2::evaluate_tangents<L, N, M>;
-#endif
+  if constexpr (M == 1) {
+    if (wanted == "baseline") return &baseline::evaluate_tangents<N, M>;
   }
+#ifdef EPICYCLIC_X86_KERNELS
+  if (wanted == "avx2" && machine_runs(wanted)) return &avx2::evaluate_tangents<N, M>;
+#endif
   return nullptr;
 }
 
-template <Layout L, std::size_t N, std::size_t M>
+template <std::size_t N, std::size_t M>
 TangentKernel<N, M> tangent_kernel() {
-  if (const TangentKernel<N, M> kernel = tangent_kernel<L, N, M>("avx2")) return kernel;
-  return tangent_kernel<L, N, M>("baseline");
+  if (const TangentKernel<N, M> kernel = tangent_kernel<N, M>("avx2")) return kernel;
+  return tangent_kernel<N, M>("baseline");
 }
 
-#define EPICYCLIC_INSTANTIATE(L, N)                                  \
-  template StageKernel<N> stage_kernel<L, N>();                      \
-  template StageKernel<N> stage_kernel<L, N>(const char*);           \
-  template TangentKernel<N, 1> tangent_kernel<L, N, 1>();            \
-  template TangentKernel<N, 1> tangent_kernel<L, N, 1>(const char*); \
-  template TangentKernel<N, 4> tangent_kernel<L, N, 4>();            \
-  template TangentKernel<N, 4> tangent_kernel<L, N, 4>(const char*);
-EPICYCLIC_FOR_ALL_LAYOUTS(EPICYCLIC_INSTANTIATE)
+#define EPICYCLIC_INSTANTIATE(N)                                  \
+  template StageKernel<N> stage_kernel<N>(Layout);                \
+  template StageKernel<N> stage_kernel<N>(Layout, const char*);   \
+  template TangentKernel<N, 1> tangent_kernel<N, 1>();            \
+  template TangentKernel<N, 1> tangent_kernel<N, 1>(const char*); \
+  template TangentKernel<N, 4> tangent_kernel<N, 4>();            \
+  template TangentKernel<N, 4> tangent_kernel<N, 4>(const char*);
+EPICYCLIC_FOR_PLANETS(EPICYCLIC_INSTANTIATE)
 #undef EPICYCLIC_INSTANTIATE
 
 }  // namespace epicyclic::model
