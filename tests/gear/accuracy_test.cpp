@@ -75,7 +75,7 @@ TEST(Accuracy, RoundingIsWholeHalfAndTenthMicrometres) {
         for (const double x : {t.single_pitch, t.cumulative_pitch, t.profile, t.profile_form, t.profile_slope, t.helix,
                                t.single_flank}) {
           const double step = x > 10.0 ? 1.0 : x > 5.0 ? 0.5 : 0.1;
-          EXPECT_NEAR(x / step, std::round(x / step), 1e-9) << x;
+          EXPECT_NEAR(x / step, std::round(x / step), rounding) << x;
           EXPECT_GT(x, 0.0);
         }
       }

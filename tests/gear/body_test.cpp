@@ -15,6 +15,10 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double rounding = 1e-14;
+// Half a unit of the last digit that parameters.md prints.
+constexpr double second_digit = 0.5e-2;
+constexpr double third_digit = 0.5e-3;
+constexpr double fourth_digit = 0.5e-4;
 constexpr double steel = 7850.0;
 
 GearSet table1() {
@@ -46,21 +50,21 @@ TEST(Body, MassesOfTable1AreAsPrinted) {
   // parameters.md section 2, each to half a unit of its last digit.
   const GearSet g = table1();
   const Bodies b = bodies(g);
-  EXPECT_NEAR(body_radius_mm(g.sun), 36.65, 0.005);
-  EXPECT_NEAR(body_radius_mm(g.planet), 34.42, 0.005);
-  EXPECT_NEAR(body_radius_mm(g.ring), 107.24, 0.005);
-  EXPECT_NEAR(b.sun.mass_kg, 1.654, 0.0005);
-  EXPECT_NEAR(b.sun.inertia_kg_m2, 1.297e-3, 0.0005e-3);
-  EXPECT_NEAR(over_r2(b.sun, g.sun.base_radius_mm), 1.253, 0.0005);
-  EXPECT_NEAR(b.planet.mass_kg, 1.037, 0.0005);
-  EXPECT_NEAR(b.planet.inertia_kg_m2, 8.647e-4, 0.0005e-4);
-  EXPECT_NEAR(over_r2(b.planet, g.planet.base_radius_mm), 0.974, 0.0005);
+  EXPECT_NEAR(body_radius_mm(g.sun), 36.65, second_digit);
+  EXPECT_NEAR(body_radius_mm(g.planet), 34.42, second_digit);
+  EXPECT_NEAR(body_radius_mm(g.ring), 107.24, second_digit);
+  EXPECT_NEAR(b.sun.mass_kg, 1.654, third_digit);
+  EXPECT_NEAR(b.sun.inertia_kg_m2, 1.297e-3, third_digit * 1e-3);
+  EXPECT_NEAR(over_r2(b.sun, g.sun.base_radius_mm), 1.253, third_digit);
+  EXPECT_NEAR(b.planet.mass_kg, 1.037, third_digit);
+  EXPECT_NEAR(b.planet.inertia_kg_m2, 8.647e-4, third_digit * 1e-4);
+  EXPECT_NEAR(over_r2(b.planet, g.planet.base_radius_mm), 0.974, third_digit);
   ASSERT_TRUE(b.ring.has_value());
-  EXPECT_NEAR(b.ring->mass_kg, 4.291, 0.0005);
-  EXPECT_NEAR(b.ring->inertia_kg_m2, 5.557e-2, 0.0005e-2);
-  EXPECT_NEAR(over_r2(*b.ring, g.ring.base_radius_mm), 5.963, 0.0005);
+  EXPECT_NEAR(b.ring->mass_kg, 4.291, third_digit);
+  EXPECT_NEAR(b.ring->inertia_kg_m2, 5.557e-2, third_digit * 1e-2);
+  EXPECT_NEAR(over_r2(*b.ring, g.ring.base_radius_mm), 5.963, third_digit);
   ASSERT_TRUE(b.carrier.has_value());
-  EXPECT_NEAR(b.carrier->mass_kg, 7.553, 0.0005);
+  EXPECT_NEAR(b.carrier->mass_kg, 7.553, third_digit);
 }
 
 TEST(Body, CarriersInertiaIsThePrintedOneAndItsPinsAboutTheirOwnAxes) {
@@ -69,9 +73,9 @@ TEST(Body, CarriersInertiaIsThePrintedOneAndItsPinsAboutTheirOwnAxes) {
   const MassAndInertia c = bodies(g).carrier.value();
   const double pin_mass = steel * 0.09 * pi * 0.015 * 0.015;
   const double pins = 3.0 * 0.5 * pin_mass * 0.015 * 0.015;
-  EXPECT_NEAR(c.inertia_kg_m2 - pins, 3.990e-2, 0.0005e-2);
-  EXPECT_NEAR(over_r2({c.mass_kg, c.inertia_kg_m2 - pins}, g.centre_distance_mm), 7.757, 0.0005);
-  EXPECT_NEAR(pins, 1.6855e-4, 0.0005e-4);
+  EXPECT_NEAR(c.inertia_kg_m2 - pins, 3.990e-2, third_digit * 1e-2);
+  EXPECT_NEAR(over_r2({c.mass_kg, c.inertia_kg_m2 - pins}, g.centre_distance_mm), 7.757, third_digit);
+  EXPECT_NEAR(pins, 1.6855e-4, fourth_digit * 1e-4);
 }
 
 TEST(Body, CarrierIsCheeksAndPins) {
@@ -90,8 +94,9 @@ TEST(Body, OutputShaftOfTable1) {
   // parameters.md section 3: 60 mm by 150 mm of steel give 6.7e5 N m/rad, 1.3e8 N/m on r_c.
   const Material material;
   const double k = shaft_torsion(60, 0, 150, material.shear_modulus());
-  EXPECT_NEAR(k, 6.7e5, 0.05e5);
-  EXPECT_NEAR(problems::over_r2(k, table1().centre_distance_mm), 1.3e8, 0.05e8);
+  constexpr double first_digit = 0.5e-1;  // half a unit of it
+  EXPECT_NEAR(k, 6.7e5, first_digit * 1e5);
+  EXPECT_NEAR(problems::over_r2(k, table1().centre_distance_mm), 1.3e8, first_digit * 1e8);
   // G J / L, the polar moment by shells.
   const double polar = gauss_legendre_16().integrate([](double r) { return 2.0 * pi * r * r * r; }, 0.01, 0.03);
   const double expected = material.shear_modulus() * polar / 0.15;

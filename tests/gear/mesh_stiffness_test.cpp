@@ -132,7 +132,8 @@ TEST(MeshStiffness, FourierCoefficientsAreThoseOfABruteForceTrapezoid) {
       const double extrapolated = (4.0 * fine - coarse) / 3.0;
       constexpr double fourth_order = 2e-7;
       EXPECT_NEAR(value, scale * extrapolated, fourth_order * series.mean);
-      EXPECT_LE(std::abs(extrapolated - fine), 1e-3 * series.mean);
+      constexpr double second_order = 1e-3;  // what the trapezoid has before it
+      EXPECT_LE(std::abs(extrapolated - fine), second_order * series.mean);
     };
     check(
         series.mean, [](double) { return 1.0; }, 1.0);
@@ -287,7 +288,7 @@ TEST(MeshStiffness, EqualGearsAreSymmetricAlongThePath) {
   const MeshedPair mesh = problems::yi_pair();
   for (const double position : {0.0, 0.2, 0.7})
     EXPECT_NEAR(mesh.pair_stiffness(position), mesh.pair_stiffness(mesh.contact_ratio() - position),
-                1e-12 * mesh.pair_stiffness(position));
+                10.0 * rounding * mesh.pair_stiffness(position));
 }
 
 TEST(MeshStiffness, FactorScalesTheStiffnessAndLeavesTheShares) {
@@ -342,12 +343,14 @@ TEST(IsoStiffness, SingleStiffnessOfTable1IsAsPrinted) {
   // 1.215e9 there would need a contact ratio of 1.29; with 1.196 it is c' b (0.75 eps + 0.25) = 1.1445e9.
   const IsoStiffness sp = iso_stiffness(table1().sun_planet);
   const IsoStiffness rp = iso_stiffness(table1().ring_planet);
-  EXPECT_NEAR(sp.single, 0.945e9, 0.5001e6);
-  EXPECT_NEAR(rp.single, 0.998e9, 0.5001e6);
-  EXPECT_NEAR(sp.single / 60e6, 15.74, 0.005001);
-  EXPECT_NEAR(rp.single / 60e6, 16.63, 0.005001);
-  EXPECT_NEAR(sp.mesh, 1.086e9, 0.5001e6);
-  EXPECT_NEAR(rp.mesh, 0.998e9 * (0.75 * 1.196 + 0.25), 1e6);
+  constexpr double second_digit = 0.5001e-2;
+  constexpr double third_digit = 0.5001e-3;
+  EXPECT_NEAR(sp.single, 0.945e9, third_digit * 1e9);
+  EXPECT_NEAR(rp.single, 0.998e9, third_digit * 1e9);
+  EXPECT_NEAR(sp.single / 60e6, 15.74, second_digit);
+  EXPECT_NEAR(rp.single / 60e6, 16.63, second_digit);
+  EXPECT_NEAR(sp.mesh, 1.086e9, third_digit * 1e9);
+  EXPECT_NEAR(rp.mesh, 0.998e9 * (0.75 * 1.196 + 0.25), 2.0 * third_digit * 1e9);
 }
 
 TEST(IsoStiffness, EnergyMethodIsAFewPercentAboveIt) {
@@ -363,8 +366,9 @@ TEST(IsoStiffness, EnergyMethodIsAFewPercentAboveIt) {
 TEST(IsoStiffness, StandardSteelGearsHaveTheUsual14) {
   // ISO 6336-1: c' = 14 N/(mm um) is the value for gears without calculation, c_gamma 20; within some 10 %.
   const IsoStiffness iso = iso_stiffness(problems::tian_pair());
-  EXPECT_NEAR(iso.single / 16e6, 14.0, 1.5);
-  EXPECT_NEAR(iso.mesh / 16e6, 20.0, 2.0);
+  constexpr double usual = 0.1;  // what the source says of it
+  EXPECT_NEAR(iso.single / 16e6, 14.0, usual * 14.0);
+  EXPECT_NEAR(iso.mesh / 16e6, 20.0, usual * 20.0);
 }
 
 }  // namespace

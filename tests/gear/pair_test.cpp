@@ -248,8 +248,9 @@ TEST(Pair, ReducedCurvatureIsThatOfTwoCylinders) {
   const GearSet g = geometry();
   const Pair& sp = g.sun_planet.pair;
   const Pair& rp = g.ring_planet.pair;
-  EXPECT_NEAR(1.0 / sp.curvature_radius_mm(15.0), 1.0 / 15.0 + 1.0 / sp.arm_2_mm(15.0), 1e-14);
-  EXPECT_NEAR(1.0 / rp.curvature_radius_mm(15.0), 1.0 / 15.0 - 1.0 / rp.arm_2_mm(15.0), 1e-14);
+  constexpr double rounding_per_mm = 1e-15;  // of three divisions
+  EXPECT_NEAR(1.0 / sp.curvature_radius_mm(15.0), 1.0 / 15.0 + 1.0 / sp.arm_2_mm(15.0), rounding_per_mm);
+  EXPECT_NEAR(1.0 / rp.curvature_radius_mm(15.0), 1.0 / 15.0 - 1.0 / rp.arm_2_mm(15.0), rounding_per_mm);
 }
 
 TEST(Pair, BacklashIsZeroAtTheTightCentreDistance) {
@@ -326,7 +327,8 @@ TEST(Pair, TipPassingAngleIsThatOfTurningBothGears) {
   const double turn = 0.5 * (low + high);
   const double place_1 = std::atan2(r_1 * std::sin(turn - tip_1), p.centre_distance_mm + r_1 * std::cos(turn - tip_1));
   const double place_2 = turn * p.driving.teeth / p.driven.teeth - tip_2;
-  EXPECT_NEAR(std::abs(place_2 - place_1), std::abs(p.tip_passing_angle()), 1e-10);
+  constexpr double rounding = 1e-13;  // of angles of order 1
+  EXPECT_NEAR(std::abs(place_2 - place_1), std::abs(p.tip_passing_angle()), rounding);
 }
 
 TEST(Pair, WhatCannotMeshIsADomainError) {

@@ -205,7 +205,8 @@ TEST(ToothCompliance, TeethOfTable1AreAsPrinted) {
   };
   const GearSet g = table1();
   ToothBody planet = g.sun_planet.driven;
-  EXPECT_NEAR(planet.radius_ratio, 1.44, 0.005);
+  constexpr double second_digit = 0.5e-2;  // half a unit of it
+  EXPECT_NEAR(planet.radius_ratio, 1.44, second_digit);
   planet.radius_ratio = 1.44;
   const Row rows[] = {
       {g.sun_planet.driving, 37.24, 1.8637e-8, 1.2879e-7, 1.0802e-8, 2.7478e-7, 1e-12, 1e-11, 1e-12, 1e-11},
@@ -221,7 +222,8 @@ TEST(ToothCompliance, TeethOfTable1AreAsPrinted) {
     EXPECT_NEAR(c.axial * mm_per_m, r.axial, half * r.axial_digit) << r.radius;
     EXPECT_NEAR(c.foundation * mm_per_m, r.foundation, half * r.foundation_digit) << r.radius;
   }
-  EXPECT_NEAR(g.ring.base_half_angle, -0.011656, 0.5e-6);
+  constexpr double sixth_digit = 0.5e-6;  // half a unit of it
+  EXPECT_NEAR(g.ring.base_half_angle, -0.011656, sixth_digit);
 }
 
 TEST(ToothCompliance, DefaultPanelsAreConvergedToRounding) {
@@ -375,7 +377,8 @@ TEST(Foundation, RootAngleOfARackCutToothIsThatOfTheRoundingsCentre) {
     const double alpha = 20.0 * degree;
     const double rho = 0.25 / (1.0 - std::sin(alpha));
     const double theta = (0.5 * pi + 2.0 * std::tan(alpha) * (1.0 + 0.25 - rho) + 2.0 * rho / std::cos(alpha)) / 62.0;
-    EXPECT_NEAR(root_half_angle(t, Fillet::trochoid), theta, 1e-15);
+    constexpr double rounding = 1e-16;  // of some ten operations on numbers of order 1, over 62
+    EXPECT_NEAR(root_half_angle(t, Fillet::trochoid), theta, rounding);
   }
 }
 
@@ -442,8 +445,9 @@ TEST(Foundation, GivenRootAngleDecides) {
 TEST(Foundation, RootHalfAngleIsThatOfTheProfileAtTheRootCircle) {
   const Tooth few = external_tooth({19, 3.175, 20, 0, 1, 0.25, 16, {}, {}});
   // Straight flank: as thick at the root circle as at the base circle.
+  constexpr double rounding_mm = 1e-14;  // of a few operations on some 2 mm
   EXPECT_NEAR(few.root_radius_mm * std::sin(root_half_angle(few, Fillet::none)),
-              few.base_radius_mm * std::sin(few.base_half_angle), 1e-13);
+              few.base_radius_mm * std::sin(few.base_half_angle), rounding_mm);
   const GearSet g = table1();
   EXPECT_EQ(root_half_angle(g.sun, Fillet::none), g.sun.half_angle_at(g.sun.root_radius_mm));
   EXPECT_EQ(root_half_angle(g.ring, Fillet::none), g.ring.half_angle_at(g.ring.root_radius_mm));
@@ -477,7 +481,8 @@ TEST(ToothCompliance, ReproducesThePublishedNumberOfRoss) {
   const double begin = t.pressure_angle_at(t.form_radius_mm() * above_rounding);
   const double end = t.pressure_angle_at(t.tip_radius_mm);
   const double ratio = make_pair(t, t, 124.0).contact_ratio();
-  EXPECT_NEAR(ratio, 1.789779, 1e-5);
+  constexpr double ratio_digits = 0.5e-6;  // half a unit of the sixth decimal
+  EXPECT_NEAR(ratio, 1.789779, ratio_digits);
   const double hertz = hertz_compliance(ross_steel, 20.0);
   const auto pair_stiffness = [&](double periods) {
     const double share = periods / ratio;
