@@ -357,7 +357,7 @@ TEST(Forces, MeshForcesAndFrictionNeitherPushNorTurnTheWholeTrain) {
       friction = std::max(friction, std::abs(g.sun_planet.friction[i]));
     }
     for (std::size_t k = 0; k < dof; ++k) moment += f[k] * rotation[k];
-    EXPECT_GT(friction, 1e-3);  // else nothing is tested
+    EXPECT_GT(friction, 1e9 * rounding_100);  // else nothing is tested
     EXPECT_NEAR(x, 0.0, rounding_100);
     EXPECT_NEAR(y_sum, 0.0, rounding_100);
     EXPECT_NEAR(moment, 0.0, rounding_100);
@@ -425,8 +425,8 @@ TEST(Forces, SmoothFrictionTablesFollowEachPlanetsPhase) {
   const auto p = make_parameters<planets>(s, scales_of(s), 0.9, {});
   std::array<double, 2 * dof> y{};
   y[Slots::w_s] = 5.0;
-  // Steffen's cubic through 200 rows of a sine: second order at the extrema.
-  constexpr double table_error = 1e-3 * 0.05 * 10.0;
+  // Steffen's cubic through 200 rows of a sine of 0.05, second order at the extrema: measured 2.5e-8.
+  constexpr double table_error = 1e-6;
   for (double phase = 0.0; phase < 12.5; phase += 0.1) {
     const auto g = stage_state(Layout::full, p, 0, phase, y.data());
     for (std::size_t i = 0; i < planets; ++i) {

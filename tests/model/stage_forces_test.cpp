@@ -15,6 +15,9 @@
 namespace epicyclic::model {
 namespace {
 
+constexpr double rounding = 1e-14;      // of some ten operations
+constexpr double of_the_start = 5e-12;  // rounding of the equilibrium, which is solved for
+
 DynamicModel model_of(const gear::Stage& stage, double ratio = 0.9) {
   return make_dynamic_model(stage, scales_of(stage), ratio, {});
 }
@@ -32,7 +35,7 @@ TEST(StageForces, AtRestAreTheStaticOnes) {
   const double f_0 = m.static_mesh_force;
   // omega_s = omega_m / z_s (1 + z_s / z_r) with the ring fixed; 400 kW.
   const double omega_s = scales.omega_sn / 27.0 * (1.0 + 27.0 / 81.0);
-  EXPECT_NEAR(scales.force_newton(f_0), 400e3 / omega_s / (3.0 * 32.17853e-3), 1e-6 * scales.force_newton(f_0));
+  EXPECT_NEAR(scales.force_newton(f_0), 400e3 / omega_s / (3.0 * 32.17853e-3), rounding * scales.force_newton(f_0));
   const double alpha_sp = std::acos((32.17853 + 29.79493) / 71.72084);
   const double alpha_rp = std::acos((96.53557 - 29.79493) / 71.72084);
   const double across = f_0 * (std::cos(alpha_sp) + std::cos(alpha_rp));
@@ -43,7 +46,7 @@ TEST(StageForces, AtRestAreTheStaticOnes) {
     EXPECT_NEAR(f.ring_planet[i] / f_0, 1.0, digits);
     EXPECT_NEAR(f.planet_bearing[i] / std::hypot(across, along), 1.0, digits);
   }
-  EXPECT_NEAR(f.sun_bearing / f_0, 0.0, 1e-9);
+  EXPECT_NEAR(f.sun_bearing / f_0, 0.0, of_the_start);
 }
 
 TEST(Pulls, AreTheTensionOfTheForces) {
@@ -86,9 +89,9 @@ TEST(Pulls, AreTheTensionOfTheForces) {
               const double tension = std::max(0.0, back ? force[i] : -force[i]);
               // A smoothed clearance has some of the other flank's force in the gap, which is none.
               if (width == 0.0 || std::abs(delta[i]) > gap) {
-                EXPECT_NEAR(pull[i], tension, 1e-12 * (1.0 + std::abs(force[i])));
+                EXPECT_NEAR(pull[i], tension, rounding * (1.0 + std::abs(force[i])));
               } else {
-                EXPECT_LE(pull[i], tension + 1e-12 * (1.0 + std::abs(force[i])));
+                EXPECT_LE(pull[i], tension + rounding * (1.0 + std::abs(force[i])));
               }
               ++meshes;
               if (!(tension > 0.0)) continue;
@@ -144,9 +147,9 @@ TEST(RemoveSynchronous, SplitsWhatTheLinearisedFlowKeepsApart) {
     }
     // The default start is synchronous, and so is what is taken away from w.
     const std::vector<double> off = transverse_part(y);
-    EXPECT_LT(largest_difference(off, std::vector<double>(n, 0.0)), 1e-9);
+    EXPECT_LT(largest_difference(off, std::vector<double>(n, 0.0)), of_the_start);
     v = transverse_part(v);
-    EXPECT_LT(largest_difference(transverse_part(v), v), 1e-14);
+    EXPECT_LT(largest_difference(transverse_part(v), v), rounding);
     const std::vector<double> rest = transverse_part(w);
     for (std::size_t i = 0; i < n; ++i) w[i] -= rest[i];
     std::vector<double> f(n);
@@ -157,11 +160,12 @@ TEST(RemoveSynchronous, SplitsWhatTheLinearisedFlowKeepsApart) {
     m.tangents(segment, 0.01, y.data(), {w.data(), 1, n}, f.data(), {jw.data(), 1, n});
     double size = 0.0;
     for (const double x : jv) size = std::max(size, std::abs(x));
-    EXPECT_LT(largest_difference(transverse_part(jv), jv), 1e-12 * size);
+    constexpr double of_the_jacobian = 1e-13;  // rounding of some 100 operations a row
+    EXPECT_LT(largest_difference(transverse_part(jv), jv), of_the_jacobian * size);
     const std::vector<double> leaked = transverse_part(jw);
     const std::vector<double> nothing(n, 0.0);
-    EXPECT_LT(largest_difference(leaked, nothing), 1e-12 * size);
-    EXPECT_GT(largest_difference(jw, nothing), 1e-3);
+    EXPECT_LT(largest_difference(leaked, nothing), of_the_jacobian * size);
+    EXPECT_GT(largest_difference(jw, nothing), 1e10 * of_the_jacobian);
   }
 }
 
