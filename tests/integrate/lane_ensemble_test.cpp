@@ -126,10 +126,12 @@ TEST_P(LaneEnsembles, ErrorFallsWithTheToleranceAsThatOfArkode) {
     std::vector<double> peer = {1.0};
     ASSERT_TRUE(flow->evolve(peer, 0.0, 20.0).reached());
     // The same controller: steps differ by what the first one costs.
+    constexpr double first_step = 0.15;
     const auto ours = static_cast<double>(lanes.work(0).steps);
-    EXPECT_NEAR(ours / static_cast<double>(flow->work().steps), 1.0, 0.15) << t;
+    EXPECT_NEAR(ours / static_cast<double>(flow->work().steps), 1.0, first_step) << t;
   }
-  EXPECT_NEAR(fitted_slope(logs, errors), 1.0, 0.2);
+  constexpr double slope_tolerance = 0.2;  // measured: 0.13 off, over four decades
+  EXPECT_NEAR(fitted_slope(logs, errors), 1.0, slope_tolerance);
 }
 
 TEST_P(LaneEnsembles, LandingOnGapsSavesAttemptsAndLosesNothing) {
@@ -207,8 +209,8 @@ TEST_P(LaneEnsembles, SamplesAreSeenInOrderAndChangeNothing) {
   double worst = 0.0;
   const double without = end_with(0, &worst);
   EXPECT_EQ(end_with(97, &worst), without);
-  // The cubic's error, h^4 / 384 of the fourth derivative, with steps of about a tenth.
-  EXPECT_LT(worst, 1e-5);
+  constexpr double of_fourth_order = 1e-5;  // the cubic's h^4 / 384 of the fourth derivative, h of about a tenth
+  EXPECT_LT(worst, of_fourth_order);
   EXPECT_GT(worst, 0.0);
 }
 
@@ -235,13 +237,15 @@ TEST_P(LaneEnsembles, WhatCannotGoOnEndsWithItsOutcome) {
   };
   EXPECT_EQ(end_of(quick).outcome, Outcome::step_limit);
   EXPECT_EQ(end_of(broken).outcome, Outcome::failed);
-  EXPECT_NEAR(lanes.evolution(0).s, 0.5, 1e-6);
+  constexpr double least_step = 1e-12;  // 1e-14, and roundings of the steps before
+  EXPECT_NEAR(lanes.evolution(0).s, 0.5, least_step);
   EXPECT_EQ(end_of(growing).outcome, Outcome::diverged);
   // The state is the last accepted one.
   std::array<double, 1> y{};
   lanes.copy_state(0, y);
   EXPECT_LE(y[0], 100.0);
-  EXPECT_NEAR(y[0], std::exp(5.0 * lanes.evolution(0).s), 1e-5);
+  constexpr double times_the_condition = 1e-5;  // tolerance 1e-8 of values of up to 100, some ten steps
+  EXPECT_NEAR(y[0], std::exp(5.0 * lanes.evolution(0).s), times_the_condition);
 }
 
 TEST_P(LaneEnsembles, NothingUnderWayIsSaidSo) {
