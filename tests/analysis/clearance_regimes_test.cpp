@@ -44,6 +44,7 @@ constexpr int longest_period = 16;
 /// none within `near`.
 double multiplier_of_orbit(const Exact& exact, const State& start, int n, double near) {
   constexpr double none = std::numeric_limits<double>::infinity();
+  constexpr double rounding = 1e-12;  // of up to 16 periods in closed form
   State x = start;
   for (int k = 0; k < 12; ++k) {
     Exact::Matrix t = {1.0, 0.0, 0.0, 1.0};
@@ -51,7 +52,7 @@ double multiplier_of_orbit(const Exact& exact, const State& start, int n, double
     Eigen::Matrix2d m;
     m << t[0], t[1], t[2], t[3];
     const Eigen::Vector2d f(end[0] - x[0], end[1] - x[1]);
-    if (f.lpNorm<Eigen::Infinity>() < 1e-12) return m.eigenvalues().cwiseAbs().maxCoeff();
+    if (f.lpNorm<Eigen::Infinity>() < rounding) return m.eigenvalues().cwiseAbs().maxCoeff();
     const Eigen::Vector2d d = (Eigen::Matrix2d::Identity() - m).partialPivLu().solve(f);
     x = {x[0] + d(0), x[1] + d(1)};
     if (!(largest_difference(x, start) < near)) return none;
@@ -211,7 +212,8 @@ TEST(ClearanceRegimes, AnOrbitSaysHowFarItMayBeOff) {
     const double left = 2.0 * std::pow(c.evidence.largest_multiplier, carried / c.period);
     EXPECT_LT(off, c.evidence.orbit_error + left) << text(p) << ": " << text(c);
     EXPECT_GT(c.evidence.orbit_error, 0.0);
-    EXPECT_LT(c.evidence.orbit_error, 1e-3) << text(p);
+    constexpr double held_up = 1e-5;  // the tolerance of 1e-9 over what multipliers leave of 1, 4e-4, some steps
+    EXPECT_LT(c.evidence.orbit_error, held_up) << text(p);
   }
 }
 

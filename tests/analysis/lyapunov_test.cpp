@@ -51,7 +51,8 @@ TEST(LyapunovSpectrum, OfLorenz) {
   expect_published(s, {0.9053, 0.0, -14.5719});
   EXPECT_GT(s.per_s[0].low(), 0.0);
   EXPECT_LT(s.per_s[0].half_width, 0.02);
-  EXPECT_NEAR(kaplan_yorke_dimension(std::array{0.9053, 0.0, -14.5719}), 2.0621, 1e-4);
+  constexpr double source_digits = 0.5e-4;  // half a unit of the fourth decimal
+  EXPECT_NEAR(kaplan_yorke_dimension(std::array{0.9053, 0.0, -14.5719}), 2.0621, source_digits);
 }
 
 TEST(LyapunovSpectrum, OfRoessler) {
@@ -67,18 +68,21 @@ TEST(LyapunovSpectrum, OfDuffing) {
 
 TEST(LyapunovSpectrum, AddsUpToTheDivergence) {
   // Where the divergence is a number, and where it has to be taken along the motion.
+  constexpr double tolerance = 1e-13;
+  constexpr double times_the_condition = 1e-10;  // a hundred steps, and rates of some 10
   const SpectrumOptions lorenz{.aligning_intervals = 10, .intervals = 40, .interval = 0.25};
-  const LyapunovSpectrum a = spectrum(problems::lorenz(), {1.0, 1.0, 20.0}, lorenz, 1e-13);
-  EXPECT_NEAR(a.sum.value, -41.0 / 3.0, 1e-9);
+  const LyapunovSpectrum a = spectrum(problems::lorenz(), {1.0, 1.0, 20.0}, lorenz, tolerance);
+  EXPECT_NEAR(a.sum.value, -41.0 / 3.0, times_the_condition);
   const SpectrumOptions duffing{.aligning_intervals = 10, .intervals = 40};
-  EXPECT_NEAR(spectrum(problems::duffing(0.25, -1.0, 0.4, 1.0), {1.0, 0.0}, duffing, 1e-13).sum.value, -0.25, 1e-9);
+  const LyapunovSpectrum c = spectrum(problems::duffing(0.25, -1.0, 0.4, 1.0), {1.0, 0.0}, duffing, tolerance);
+  EXPECT_NEAR(c.sum.value, -0.25, times_the_condition);
 
   const SpectrumOptions roessler{.aligning_intervals = 0, .intervals = 32, .interval = 0.25};
-  const LyapunovSpectrum b = spectrum(problems::roessler(), {1.0, 1.0, 0.0}, roessler, 1e-13);
-  const auto flow = integrate::make_flow(with_divergence(problems::roessler()), tight(1e-13));
+  const LyapunovSpectrum b = spectrum(problems::roessler(), {1.0, 1.0, 0.0}, roessler, tolerance);
+  const auto flow = integrate::make_flow(with_divergence(problems::roessler()), tight(tolerance));
   std::vector<double> y = {1.0, 1.0, 0.0, 0.0};
   ASSERT_TRUE(flow->evolve(y, 0.0, 8.0).reached());
-  EXPECT_NEAR(b.sum.value, y[3] / 8.0, 1e-9);
+  EXPECT_NEAR(b.sum.value, y[3] / 8.0, times_the_condition);
 }
 
 TEST(LyapunovSpectrum, OfAPeriodicMotionAreTheLogarithmsOfItsMultipliers) {
@@ -94,7 +98,7 @@ TEST(LyapunovSpectrum, OfAPeriodicMotionAreTheLogarithmsOfItsMultipliers) {
   std::sort(moduli.rbegin(), moduli.rend());
   const LyapunovSpectrum s = lyapunov_spectrum(*flow, y, {.aligning_intervals = 100, .intervals = 2000}, always);
   for (std::size_t i = 0; i < moduli.size(); ++i)
-    EXPECT_NEAR(s.per_s[i].value, std::log(moduli[i]) / field.period, std::max(1e-6, s.per_s[i].half_width)) << i;
+    EXPECT_NEAR(s.per_s[i].value, std::log(moduli[i]) / field.period, s.per_s[i].half_width) << i;
 }
 
 TEST(LyapunovSpectrum, DoesNotDependOnTheIntervalOrOnStepControlOfTangents) {
@@ -111,9 +115,11 @@ TEST(LyapunovSpectrum, DoesNotDependOnTheIntervalOrOnStepControlOfTangents) {
   const auto second = lyapunov_spectrum(*other, b, {.aligning_intervals = 0, .intervals = 4}, always);
   const auto halves = lyapunov_spectrum(
       *controlled, c, {.aligning_intervals = 0, .intervals = 8, .interval = 0.5 * field.period}, always);
+  constexpr double times_the_condition = 1e-11;  // tolerance 1e-12, rates of order 1
+  constexpr double uncontrolled = 1e-9;          // measured: steps for the state alone leave 1e-11 in the tangents
   for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_NEAR(first.per_s[i].value, second.per_s[i].value, 1e-7);
-    EXPECT_NEAR(first.per_s[i].value, halves.per_s[i].value, 1e-7);
+    EXPECT_NEAR(first.per_s[i].value, second.per_s[i].value, uncontrolled);
+    EXPECT_NEAR(first.per_s[i].value, halves.per_s[i].value, times_the_condition);
   }
 }
 
@@ -121,8 +127,9 @@ TEST(LyapunovSpectrum, HistoryEndsAtTheMean) {
   const LyapunovSpectrum s =
       spectrum(problems::duffing(0.25, -1.0, 0.4, 1.0), {1.0, 0.0}, {.aligning_intervals = 5, .intervals = 64}, 1e-6);
   ASSERT_EQ(s.history(1).size(), 64U);
-  EXPECT_NEAR(s.history(0).back(), s.per_s[0].value, 1e-14);
-  EXPECT_NEAR(s.history(1).back(), s.per_s[1].value, 1e-14);
+  constexpr double rounding = 1e-14;  // of a mean of 64 numbers of order 0.1
+  EXPECT_NEAR(s.history(0).back(), s.per_s[0].value, rounding);
+  EXPECT_NEAR(s.history(1).back(), s.per_s[1].value, rounding);
 }
 
 TEST(LyapunovSpectrum, RefusesWhatItCannotDo) {

@@ -32,6 +32,11 @@ integrate::IntegratorOptions tight(double tolerance = 1e-13) {
 
 bool always() { return true; }
 
+// Half a unit of the tenth digit of g that the source prints, times the multiplier's slope in g, 25.
+constexpr double flip = 2e-9;
+// A pair of multipliers beats: a logarithm of order 1 over 2000 periods of 2 pi, 8e-5, or more.
+constexpr double beat = 1e-4;
+
 TEST(PeriodicOrbit, DuffingsFlipOrbitIsThePublishedOne) {
   const auto flow = integrate::make_flow(problems::duffing(0.3, -1.0, 0.2655817861, 1.2), tight());
   const std::array<double, 2> near = {0.42, 0.31};
@@ -42,7 +47,6 @@ TEST(PeriodicOrbit, DuffingsFlipOrbitIsThePublishedOne) {
   EXPECT_NEAR(orbit.state[1], 0.3226140050, digits);
   const auto multipliers = orbit.monodromy.eigenvalues();
   const double least = std::min(multipliers[0].real(), multipliers[1].real());
-  constexpr double flip = 1e-8;
   EXPECT_NEAR(least, -1.0, flip);
 }
 
@@ -73,7 +77,8 @@ TEST(PeriodicOrbit, KeptTangentsLeadToTheSameOrbitForLess) {
   EXPECT_NEAR(kept.state[0], full.state[0], accuracy);
   EXPECT_NEAR(kept.state[1], full.state[1], accuracy);
   // The monodromy is one of where the iteration began, 3e-4 away.
-  EXPECT_LT((kept.monodromy - full.monodromy).cwiseAbs().maxCoeff(), 1e-2);
+  constexpr double of_first_order = 1e-2;  // that distance times slopes of some 10
+  EXPECT_LT((kept.monodromy - full.monodromy).cwiseAbs().maxCoeff(), of_first_order);
   EXPECT_LT(with_few, with_all);
 }
 
@@ -114,7 +119,8 @@ TEST(PeriodicOrbit, ACoarseMethodsOrbitIsDisplacedByItsOwnError) {
   }
   const double moved = std::hypot(displaced[0] - orbit.state[0], displaced[1] - orbit.state[1]);
   const double left = std::hypot(displaced[0] - settled[0], displaced[1] - settled[1]);
-  EXPECT_GT(moved, 1e-8);
+  constexpr double above_the_fine_orbits_error = 1e-8;  // which is some tolerances of 1e-13
+  EXPECT_GT(moved, above_the_fine_orbits_error);
   EXPECT_LT(left, 0.05 * moved);
 }
 
@@ -130,13 +136,15 @@ TEST(MultipleShooting, FindsTheSameOrbitInAnyNumberOfPieces) {
     for (int k = 0; k < 200; ++k) ASSERT_TRUE(flow->evolve(y, 0.0, field.period).reached());
     const PeriodicOrbit one = find_periodic_orbit(*flow, y, n);
     ASSERT_TRUE(one.found()) << one.message;
+    constexpr double ten_residuals = 1e-10;
+    constexpr double of_the_tangents = 1e-9;  // measured: kinks leave 5e-11 in tangents, and pieces begin steps anew
     for (const int pieces : {2, 3, 7}) {
       const PeriodicOrbit many = find_periodic_orbit(*flow, y, n, {.pieces = pieces});
       ASSERT_TRUE(many.found()) << many.message;
       EXPECT_EQ(many.pieces.size(), static_cast<std::size_t>(pieces));
-      EXPECT_NEAR(many.state[0], one.state[0], 1e-10);
-      EXPECT_NEAR(many.state[1], one.state[1], 1e-10);
-      EXPECT_LT((many.monodromy - one.monodromy).cwiseAbs().maxCoeff(), 1e-9);
+      EXPECT_NEAR(many.state[0], one.state[0], ten_residuals);
+      EXPECT_NEAR(many.state[1], one.state[1], ten_residuals);
+      EXPECT_LT((many.monodromy - one.monodromy).cwiseAbs().maxCoeff(), of_the_tangents);
     }
   }
 }
@@ -153,9 +161,11 @@ TEST(MultipleShooting, HoldsAnUnstableOrbitTakenManyTimes) {
   off[0] += 1e-7;
   const PeriodicOrbit pieces = find_periodic_orbit(*flow, off, 8, {.iterations = 30, .pieces = 32});
   ASSERT_TRUE(pieces.found()) << pieces.message;
-  EXPECT_NEAR(pieces.state[0], once.state[0], 1e-9);
-  EXPECT_NEAR(pieces.state[1], once.state[1], 1e-9);
-  EXPECT_NEAR(largest_multiplier(pieces) / std::pow(multiplier, 8), 1.0, 1e-6);
+  constexpr double of_the_state = 1e-12;         // ten tolerances of 1e-13
+  constexpr double of_the_eighth_power = 1e-10;  // the tolerance times some hundred steps, in 8 factors
+  EXPECT_NEAR(pieces.state[0], once.state[0], of_the_state);
+  EXPECT_NEAR(pieces.state[1], once.state[1], of_the_state);
+  EXPECT_NEAR(largest_multiplier(pieces) / std::pow(multiplier, 8), 1.0, of_the_eighth_power);
 }
 
 TEST(Multipliers, OfDuffingsFlipWithTheirErrors) {
@@ -166,13 +176,15 @@ TEST(Multipliers, OfDuffingsFlipWithTheirErrors) {
   const PeriodicOrbit orbit = find_periodic_orbit(*fine, near, 1);
   const Multipliers m = floquet_multipliers(orbit, find_periodic_orbit(*coarse, near, 1));
   EXPECT_EQ(m.critical, 0U);
-  EXPECT_NEAR(m.values[0].real(), -1.0, 1e-8);
+  EXPECT_NEAR(m.values[0].real(), -1.0, flip);
   EXPECT_EQ(m.values[0].imag(), 0.0);
   // Their product is exp(-0.3 * 2 pi / 1.2).
-  EXPECT_NEAR((m.values[0] * m.values[1]).real(), std::exp(-0.3 * field.period), 1e-10);
-  for (const double e : m.errors) EXPECT_LT(e, 1e-6);
+  constexpr double of_the_product = 1e-11;  // the tolerance of 1e-13 over a hundred steps
+  EXPECT_NEAR((m.values[0] * m.values[1]).real(), std::exp(-0.3 * field.period), of_the_product);
+  constexpr double told = 1e-9;  // the coarse tolerance of 1e-11 over a hundred steps
+  for (const double e : m.errors) EXPECT_LT(e, told);
   EXPECT_EQ(m.multiplicity, (std::vector<int>{1, 1}));
-  EXPECT_LT(std::abs(m.margin()), 1e-7);
+  EXPECT_LT(std::abs(m.margin()), flip);
 }
 
 TEST(Multipliers, EqualOnesAreCountedTogether) {
@@ -189,7 +201,8 @@ TEST(Multipliers, EqualOnesAreCountedTogether) {
   const Multipliers m = floquet_multipliers(find_periodic_orbit(*fine, zero, 1), find_periodic_orbit(*coarse, zero, 1));
   ASSERT_EQ(m.values.size(), 6U);
   EXPECT_EQ(m.multiplicity, (std::vector<int>{3, 3, 3, 3, 3, 3}));
-  for (const auto& v : m.values) EXPECT_NEAR(std::abs(v), std::exp(-0.2 * field.period), 1e-8);
+  constexpr double times_the_steps = 1e-10;  // tolerance 1e-12, a hundred steps: equal multipliers are not defective
+  for (const auto& v : m.values) EXPECT_NEAR(std::abs(v), std::exp(-0.2 * field.period), times_the_steps);
   EXPECT_TRUE(m.stable());
 }
 
@@ -212,7 +225,7 @@ TEST(LargestExponent, OfAPeriodicMotionWithComplexMultipliersIsHalfTheSum) {
   const LargestExponent e = largest_exponent(*flow, y, {50, 4000}, {}, always);
   // Damping 2 z = 0.1 per unit of t, W = 1.3 units of s in one of t.
   const double half_sum = -0.05 / 1.3;
-  EXPECT_NEAR(e.per_s.value, half_sum, std::max(2e-4, e.per_s.half_width));
+  EXPECT_NEAR(e.per_s.value, half_sum, std::max(beat, e.per_s.half_width));
 }
 
 TEST(LargestExponent, OfAnInvariantSubspaceIsThatOfItsDirections) {
@@ -227,7 +240,7 @@ TEST(LargestExponent, OfAnInvariantSubspaceIsThatOfItsDirections) {
   });
   const auto flow = integrate::make_flow(field, tight(1e-10));
   std::vector<double> y = {0.3, 0.0, 0.3, 0.0};
-  EXPECT_NEAR(largest_exponent(*flow, y, {50, 2000}, {}, always).per_s.value, -0.05, 1e-3);
+  EXPECT_NEAR(largest_exponent(*flow, y, {50, 2000}, {}, always).per_s.value, -0.05, beat);
   LyapunovOptions transverse{50, 2000};
   transverse.project = [](std::span<double> v) {
     for (std::size_t k = 0; k < 2; ++k) {
@@ -236,7 +249,7 @@ TEST(LargestExponent, OfAnInvariantSubspaceIsThatOfItsDirections) {
       v[k + 2] -= mean;
     }
   };
-  EXPECT_NEAR(largest_exponent(*flow, y, transverse, {}, always).per_s.value, -0.25, 1e-3);
+  EXPECT_NEAR(largest_exponent(*flow, y, transverse, {}, always).per_s.value, -0.25, beat);
 }
 
 TEST(LargestExponent, StopsWhenTold) {
