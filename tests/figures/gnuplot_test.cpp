@@ -444,7 +444,8 @@ TEST(LineFigure, FramesHideNoPoints) {
   for (const bool points : {true, false}) {
     const std::vector<FigureCurve> marks{{"", {1e-8, 1e-4}, {1e-9, 1e-3}, points, true}};
     ASSERT_TRUE(line_figure(folder.path(), "marks", {"", "x", "y"}, marks, {true, true}).drawn());
-    EXPECT_LT(number_behind(contents(folder / "marks.gp"), "set xrange ["), 0.8e-8);
+    constexpr double clear_of_the_frame = 0.8;  // measured: 0.69
+    EXPECT_LT(number_behind(contents(folder / "marks.gp"), "set xrange ["), clear_of_the_frame * 1e-8);
   }
 }
 
