@@ -72,7 +72,8 @@ TEST(Regimes, AnAdaptiveTransientEndsOnTheOrbitOfALongOne) {
     EXPECT_EQ(to_string(a.regime), to_string(b.regime)) << ratio;
     EXPECT_EQ(a.period, b.period) << ratio;
     if (a.regime == analysis::Regime::periodic) {
-      EXPECT_LT(b.recurrence.error, 1e-5) << ratio;
+      constexpr double settled = 1e-5;  // the relative tolerance of 1e-8 times what multipliers near 1 hold up
+      EXPECT_LT(b.recurrence.error, settled) << ratio;
     }
   }
 }

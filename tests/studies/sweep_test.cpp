@@ -126,9 +126,11 @@ TEST(Sweep, SegmentsKeepHysteresis) {
   o.segments = 6;
   const auto parts = run_sweep_in_memory(plan_sweep(o), o.look, {}, wells, {});
   ASSERT_EQ(parts.size(), 122U);
-  // Until both jumps both branches are there, and each direction keeps to its own. The transient settles to 1e-4.
+  // Until both jumps both branches are there, and each direction keeps to its own. Measured: what the transient of 40
+  // periods leaves near the jumps, where it is slow.
+  constexpr double transient = 1e-7;
   int two_branches = 0;
-  for (std::size_t k = 0; k < 122; ++k) EXPECT_NEAR(position(parts[k]), position(whole[k]), 1e-3) << k;
+  for (std::size_t k = 0; k < 122; ++k) EXPECT_NEAR(position(parts[k]), position(whole[k]), transient) << k;
   for (std::size_t k = 0; k < 61; ++k) two_branches += position(parts[121 - k]) - position(parts[k]) > 1.0 ? 1 : 0;
   EXPECT_GT(two_branches, 30);
   EXPECT_LT(two_branches, 61);
