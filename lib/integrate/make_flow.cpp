@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "core/errors.hpp"
 #include "integrate/lanes/lane_flow.hpp"
 #include "integrate/methods.hpp"
 #include "integrate/sundials/arkode_flow.hpp"
@@ -11,10 +10,9 @@
 namespace epicyclic::integrate {
 
 std::unique_ptr<Flow> make_flow(VectorField field, const IntegratorOptions& options) {
-  const Method* method = find_method(options.method);
-  if (method == nullptr) throw InputError("integrator method '" + options.method + "' is not known");
-  if (method->family == Family::lanes) return make_lane_flow(std::move(field), options);
-  return method->multistep() ? make_cvode_flow(std::move(field), options) : make_arkode_flow(std::move(field), options);
+  const Method& method = method_named(options.method);
+  if (method.family == Family::lanes) return make_lane_flow(std::move(field), options);
+  return method.multistep() ? make_cvode_flow(std::move(field), options) : make_arkode_flow(std::move(field), options);
 }
 
 FlowFamily make_flow_family(FieldFamily fields, const IntegratorOptions& options) {

@@ -9,8 +9,8 @@
 
 namespace epicyclic::integrate {
 
-/// @throws InputError for an unknown method, or one that the field or the other options do not fit; SolverError if the
-/// solver cannot be set up
+/// @throws InputError for options out of range, or a method that the field does not fit; SolverError if the solver
+/// cannot be set up
 [[nodiscard]] std::unique_ptr<Flow> make_flow(VectorField field, const IntegratorOptions& options);
 
 /// Flows of systems that differ by a parameter. Where fields have their parameter derivative, so do the flows

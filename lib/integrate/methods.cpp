@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/errors.hpp"
+
 namespace epicyclic::integrate {
 
 const std::vector<Method>& methods() {
@@ -44,6 +46,13 @@ const Method* find_method(std::string_view name) {
   const auto& all = methods();
   const auto it = std::find_if(all.begin(), all.end(), [&](const Method& m) { return m.name == name; });
   return it == all.end() ? nullptr : &*it;
+}
+
+const Method& method_named(std::string_view name) {
+  if (const Method* method = find_method(name)) return *method;
+  std::string message = "method = '" + std::string(name) + "', must be one of";
+  for (const Method& m : methods()) message += " " + std::string(m.name);
+  throw InputError(message);
 }
 
 std::string arkode_twin(std::string_view method) {

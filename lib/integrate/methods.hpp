@@ -38,7 +38,10 @@ struct Method {
 /// @returns the method of that name, or nullptr
 [[nodiscard]] const Method* find_method(std::string_view name);
 
-/// The same pair by ARKODE of a method of lanes; any other method itself.
+/// @throws InputError, naming all methods, if there is none of that name
+[[nodiscard]] const Method& method_named(std::string_view name);
+
+/// The name of ARKODE's method with the pair of a method of lanes; the name of any other method as it is.
 [[nodiscard]] std::string arkode_twin(std::string_view method);
 
 /// Names of all methods, for messages and the schema.

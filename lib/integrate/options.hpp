@@ -23,6 +23,10 @@ struct IntegratorOptions {
 
   /// Tangent vectors count in the error of a step. If not, the steps are those of the state alone, to the last bit.
   bool tangent_error_control = false;
+
+  /// @throws InputError for a method without that name, a tolerance or cap out of range, or located contacts with a
+  /// method that cannot
+  void validate() const;
 };
 
 }  // namespace epicyclic::integrate

@@ -1,8 +1,6 @@
 // Options refuse what no study can be computed with, each member by its name.
 
-#include <functional>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -14,6 +12,7 @@
 #include "studies/sweep.hpp"
 #include "studies/sweep_plan.hpp"
 #include "studies/tolerance_options.hpp"
+#include "wrong_options.hpp"
 
 namespace epicyclic::studies {
 namespace {
@@ -21,27 +20,8 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Options with one member wrong.
-template <class Options>
-struct Wrong {
-  std::string member;
-  std::function<void(Options&)> set;
-};
-
-template <class Options>
-void expect_refused(const Options& sound, const std::vector<Wrong<Options>>& all) {
-  EXPECT_NO_THROW(sound.validate());
-  for (const auto& [member, set] : all) {
-    Options options = sound;
-    set(options);
-    try {
-      options.validate();
-      ADD_FAILURE() << member << " was not refused";
-    } catch (const InputError& e) {
-      EXPECT_EQ(std::string(e.what()).rfind(member, 0), 0U) << e.what();
-    }
-  }
-}
+using test::expect_refused;
+using test::Wrong;
 
 Plane sound_plane() { return {{"x", 0, 1, 2}, {"y", 0, 1, 2}}; }
 

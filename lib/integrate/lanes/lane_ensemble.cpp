@@ -99,7 +99,7 @@ constexpr std::array<Pair, 2> pairs = {{
 /// @throws InputError for a method that is not one of lanes
 const Pair& pair_of(const std::string& method) {
   const auto it = std::find_if(pairs.begin(), pairs.end(), [&](const Pair& p) { return p.name == method; });
-  if (it == pairs.end()) throw InputError("lanes have no method " + method);
+  if (it == pairs.end()) throw InputError("method = '" + method + "', must be one of lanes");
   return *it;
 }
 
@@ -208,9 +208,9 @@ class LaneEnsemble::Impl {
         at_(most_stages * w_),
         lanes_(w_),
         sample_(n_) {
+    options_.validate();
     if (field_.width != w_)
       throw InputError("a field of " + std::to_string(field_.width) + " lanes in loops of " + std::to_string(w_));
-    if (options_.locate_contacts) throw InputError("lanes do not locate contact changes");
     find_slopes();
   }
 

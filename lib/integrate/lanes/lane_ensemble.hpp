@@ -43,7 +43,8 @@ namespace epicyclic::integrate {
 class LaneEnsemble {
  public:
   /// @param field  of kernels.width lanes
-  /// @throws InputError for options that lanes do not have: another method, located contacts
+  /// @throws InputError for options out of range or that lanes do not have (another method, located contacts), or a
+  /// field of another width
   LaneEnsemble(LaneField field, const IntegratorOptions& options, const StepLoops& kernels = step_loops());
   ~LaneEnsemble();
   LaneEnsemble(const LaneEnsemble&) = delete;

@@ -216,11 +216,12 @@ class DirkStepper {
 };
 
 std::unique_ptr<Flow> make(VectorField field, const IntegratorOptions& options, double fixed_step) {
-  const Method* method = find_method(options.method);
-  if (method == nullptr || method->multistep()) throw InputError("'" + options.method + "' is not a method of ARKODE");
-  if (method->family == Family::dirk)
-    return std::make_unique<SundialsFlow<DirkStepper>>(std::move(field), options, *method, fixed_step);
-  return std::make_unique<SundialsFlow<ErkStepper>>(std::move(field), options, *method, fixed_step);
+  const Method& method = method_named(options.method);
+  if (method.family == Family::dirk)
+    return std::make_unique<SundialsFlow<DirkStepper>>(std::move(field), options, method, fixed_step);
+  if (method.family == Family::erk)
+    return std::make_unique<SundialsFlow<ErkStepper>>(std::move(field), options, method, fixed_step);
+  throw InputError("method = '" + options.method + "', must be one of ARKODE's");
 }
 
 }  // namespace

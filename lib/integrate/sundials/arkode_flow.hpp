@@ -18,8 +18,8 @@
 
 namespace epicyclic::integrate {
 
-/// @throws InputError for a method that is not ARKODE's, or an implicit one for a field without tangents; SolverError
-/// if ARKODE cannot be set up
+/// @throws InputError for options out of range, a method that is not ARKODE's, or an implicit one for a field without
+/// tangents; SolverError if ARKODE cannot be set up
 [[nodiscard]] std::unique_ptr<Flow> make_arkode_flow(VectorField field, const IntegratorOptions& options);
 
 /// A fixed-step flow of the same pair, for tests of the order of convergence.

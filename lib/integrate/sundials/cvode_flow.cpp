@@ -109,9 +109,9 @@ class CvodeStepper {
 }  // namespace
 
 std::unique_ptr<Flow> make_cvode_flow(VectorField field, const IntegratorOptions& options) {
-  const Method* method = find_method(options.method);
-  if (method == nullptr || !method->multistep()) throw InputError("'" + options.method + "' is not a method of CVODE");
-  return std::make_unique<SundialsFlow<CvodeStepper>>(std::move(field), options, *method, 0.0);
+  const Method& method = method_named(options.method);
+  if (!method.multistep()) throw InputError("method = '" + options.method + "', must be one of CVODE's");
+  return std::make_unique<SundialsFlow<CvodeStepper>>(std::move(field), options, method, 0.0);
 }
 
 }  // namespace epicyclic::integrate

@@ -15,8 +15,8 @@
 
 namespace epicyclic::integrate {
 
-/// @throws InputError for a method that is not CVODE's, or BDF for a field without tangents; SolverError if CVODE
-/// cannot be set up
+/// @throws InputError for options out of range, a method that is not CVODE's, or BDF for a field without tangents;
+/// SolverError if CVODE cannot be set up
 [[nodiscard]] std::unique_ptr<Flow> make_cvode_flow(VectorField field, const IntegratorOptions& options);
 
 }  // namespace epicyclic::integrate

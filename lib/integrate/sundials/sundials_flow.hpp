@@ -288,9 +288,7 @@ class SundialsFlow final : public Flow {
  public:
   SundialsFlow(VectorField field, const IntegratorOptions& options, const Method& method, double fixed_step)
       : field_(std::move(field)), options_(options), method_(method), fixed_step_(fixed_step) {
-    if (options.locate_contacts && method.family != Family::erk)
-      throw InputError("contact changes are located by explicit Runge-Kutta methods only, not by '" +
-                       std::string(method.name) + "'");
+    options.validate();
     if (method.implicit() && !field_.tangents)
       throw InputError("the implicit method '" + std::string(method.name) + "' needs a field with tangents");
     state_ = make({field_.dimension, 1, 1}, false);

@@ -1,0 +1,21 @@
+#include "integrate/options.hpp"
+
+#include "core/errors.hpp"
+#include "core/require.hpp"
+#include "integrate/methods.hpp"
+
+namespace epicyclic::integrate {
+
+void IntegratorOptions::validate() const {
+  const Method& m = method_named(method);
+  require(relative_tolerance > 0.0, "relative_tolerance", relative_tolerance, "> 0");
+  require(absolute_tolerance > 0.0, "absolute_tolerance", absolute_tolerance, "> 0");
+  require(max_steps_per_period >= 1, "max_steps_per_period", static_cast<double>(max_steps_per_period), ">= 1");
+  require(escape_bound > 0.0, "escape_bound", escape_bound, "> 0");
+  require(max_order >= 0, "max_order", max_order, ">= 0");
+  if (locate_contacts && m.family != Family::erk)
+    throw InputError("locate_contacts = true, must be false with method = '" + method +
+                     "': explicit Runge-Kutta methods of ARKODE alone locate contact changes");
+}
+
+}  // namespace epicyclic::integrate
