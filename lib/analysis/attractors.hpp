@@ -67,8 +67,9 @@ struct AttractorRecord {
 struct AttractorOptions {
   double level = 1e-6;      ///< chance that two records of one attractor are told apart [-]
   double least = 0.1;       ///< of a standard deviation or an exponent: a smaller difference is none [-]
-  double tolerance = 1e-3;  ///< likewise, in the units of the state
+  double tolerance = 1e-3;  ///< a smaller difference of means or deviations is none, in the units of the state
 
+  /// @throws InputError for a level outside (0, 1), or a difference or tolerance out of range
   void validate() const;
 };
 
@@ -88,6 +89,7 @@ struct Attractors {
 using Symmetry = std::function<std::vector<double>(std::span<const double> state)>;
 
 /// @param symmetries  images are told of periodic attractors only
+/// @throws InputError for options out of range
 [[nodiscard]] Attractors tell_attractors(std::span<const AttractorRecord> records, const AttractorOptions& options = {},
                                          std::span<const Symmetry> symmetries = {});
 

@@ -9,11 +9,24 @@
 
 #include "core/dense.hpp"
 #include "core/errors.hpp"
+#include "core/require.hpp"
 
 namespace epicyclic::analysis {
 
+void LyapunovOptions::validate() const {
+  require(aligning_periods >= 0, "aligning_periods", aligning_periods, ">= 0");
+  require(periods >= 1, "periods", periods, ">= 1");
+}
+
+void SpectrumOptions::validate() const {
+  require(aligning_intervals >= 0, "aligning_intervals", aligning_intervals, ">= 0");
+  require(intervals >= 1, "intervals", intervals, ">= 1");
+  require(interval >= 0.0, "interval", interval, ">= 0");
+}
+
 LargestExponent largest_exponent(integrate::Flow& flow, std::span<double> state, const LyapunovOptions& options,
                                  const integrate::Observer& observer, const std::function<bool()>& go_on) {
+  options.validate();
   LargestExponent result;
   const double period = flow.field().period;
   // A direction that no symmetry of a system singles out.
@@ -59,12 +72,13 @@ std::vector<double> LyapunovSpectrum::history(std::size_t i) const {
 
 LyapunovSpectrum lyapunov_spectrum(integrate::Flow& flow, std::span<double> state, const SpectrumOptions& options,
                                    const std::function<bool()>& go_on) {
+  options.validate();
   const std::size_t n = state.size();
   LyapunovSpectrum result;
   const std::size_t m = result.exponents = options.exponents == 0 ? n : options.exponents;
   const double interval = result.interval = options.interval == 0.0 ? flow.field().period : options.interval;
   if (m > n) throw DomainError(std::to_string(m) + " exponents of " + std::to_string(n) + " dimensions are asked for");
-  if (!(interval > 0.0)) throw DomainError("the interval " + std::to_string(interval) + " must be > 0");
+  if (!(interval > 0.0)) throw DomainError("a field without a period is asked for exponents without an interval");
   const auto rows = static_cast<Eigen::Index>(n);
   const auto columns = static_cast<Eigen::Index>(m);
   Eigen::MatrixXd v = Eigen::MatrixXd::Identity(rows, columns);

@@ -23,6 +23,9 @@ struct LyapunovOptions {
   /// Projects a vector onto a subspace that the linearised flow leaves invariant, as do the directions that break a
   /// symmetry of the motion: the exponent is then the largest of that subspace. Keeps rounding from leading out of it.
   std::function<void(std::span<double> v)> project{};
+
+  /// @throws InputError for negative aligning periods, or no period counted
+  void validate() const;
 };
 
 struct LargestExponent {
@@ -35,6 +38,7 @@ struct LargestExponent {
 /// @param state     carried on, replaced by the last state
 /// @param observer  sees the state after each counted period; may be empty
 /// @param go_on     asked before each period; false ends it
+/// @throws InputError for options out of range
 [[nodiscard]] LargestExponent largest_exponent(integrate::Flow& flow, std::span<double> state,
                                                const LyapunovOptions& options, const integrate::Observer& observer,
                                                const std::function<bool()>& go_on);
@@ -62,6 +66,9 @@ struct SpectrumOptions {
 
   /// Sees the state at the beginning of each counted interval, and its s; may be empty.
   std::function<void(double s, std::span<const double> y)> begins{};
+
+  /// @throws InputError for negative aligning intervals or length, or no interval counted
+  void validate() const;
 };
 
 struct LyapunovSpectrum {
@@ -77,7 +84,8 @@ struct LyapunovSpectrum {
 };
 
 /// @param state  carried on, replaced by the last state
-/// @throws DomainError when more exponents than dimensions are asked for, or an interval <= 0
+/// @throws DomainError when more exponents than dimensions are asked for, or neither options nor field have an
+/// interval; InputError for options out of range
 [[nodiscard]] LyapunovSpectrum lyapunov_spectrum(integrate::Flow& flow, std::span<double> state,
                                                  const SpectrumOptions& options, const std::function<bool()>& go_on);
 

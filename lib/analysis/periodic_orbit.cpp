@@ -9,6 +9,7 @@
 #include "core/dense.hpp"
 #include "core/errors.hpp"
 #include "core/largest_difference.hpp"
+#include "core/require.hpp"
 #include "core/text.hpp"
 
 namespace epicyclic::analysis {
@@ -97,30 +98,56 @@ Eigen::MatrixXd newton_step(const Shooting& at) {
   return least_norm_solution(a, -at.residual.reshaped()).reshaped(n, count);
 }
 
+/// The states where pieces begin, carried from the first one.
+/// @returns how it ended; the states are of no meaning unless reached
+integrate::Evolution carry_to_pieces(integrate::Flow& flow, Eigen::Index n_periods, Eigen::MatrixXd& y) {
+  std::vector<double> carried(y.col(0).begin(), y.col(0).end());
+  integrate::Evolution e;
+  flow.forget();
+  for (Eigen::Index i = 1; i < y.cols(); ++i) {
+    for (const Span& span : spans(flow.field().period, n_periods, y.cols(), i - 1)) {
+      e = flow.evolve(carried, span.from, span.to);
+      if (!e.reached()) return e;
+    }
+    y.col(i) = as_vector(carried);
+  }
+  return e;
+}
+
+/// State, monodromy and error of the orbit from an iteration.
+/// @param residual  that the error is told from
+void take_state(const Eigen::MatrixXd& y, const Shooting& at, double residual, PeriodicOrbit& orbit) {
+  std::copy_n(y.data(), orbit.state.size(), orbit.state.begin());
+  orbit.monodromy = at.pieces[0];
+  for (std::size_t i = 1; i < at.pieces.size(); ++i) orbit.monodromy = at.pieces[i] * orbit.monodromy;
+  orbit.pieces = at.pieces;
+  orbit.error = orbit_error(orbit.monodromy, residual);
+}
+
 }  // namespace
+
+void OrbitOptions::validate() const {
+  require(iterations >= 1, "iterations", iterations, ">= 1");
+  require(residual >= 0.0, "residual", residual, ">= 0");
+  require(known >= 0.0, "known", known, ">= 0");
+  require(pieces >= 1, "pieces", pieces, ">= 1");
+}
 
 PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double> start, int n,
                                   const OrbitOptions& options) {
   if (n < 1) throw DomainError("an orbit of period " + std::to_string(n) + " is asked for, must be >= 1");
-  if (options.pieces < 1) throw DomainError("shooting with " + std::to_string(options.pieces) + " pieces");
+  options.validate();
   PeriodicOrbit orbit;
   orbit.state.assign(start.begin(), start.end());
   Eigen::MatrixXd y(static_cast<Eigen::Index>(start.size()), options.pieces);
   y.col(0) = as_vector(start);
-  if (options.pieces > 1) {
-    std::vector<double> carried = orbit.state;
-    flow.forget();
-    for (Eigen::Index i = 1; i < y.cols(); ++i) {
-      for (const Span& span : spans(flow.field().period, n, y.cols(), i - 1)) {
-        const integrate::Evolution e = flow.evolve(carried, span.from, span.to);
-        if (e.reached()) continue;
-        orbit.outcome = OrbitOutcome::not_reached;
-        orbit.message = e.message;
-        return orbit;
-      }
-      y.col(i) = as_vector(carried);
-    }
-  }
+  const auto not_reached = [&](const integrate::Evolution& e) {
+    orbit.outcome = OrbitOutcome::not_reached;
+    orbit.message = e.message;
+    return orbit;
+  };
+  if (options.pieces > 1)
+    if (const integrate::Evolution e = carry_to_pieces(flow, n, y); !e.reached()) return not_reached(e);
   double best = std::numeric_limits<double>::infinity();
   const auto is_known = [&] { return orbit.error <= options.known * as_vector(orbit.state).lpNorm<Eigen::Infinity>(); };
   Shooting at;
@@ -135,21 +162,13 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
       if (!at.evolution.reached() || (now > options.residual && now > gain * before)) kept = false;
     }
     if (!kept) at = shoot(flow, y, n);
-    if (!at.evolution.reached()) {
-      orbit.outcome = OrbitOutcome::not_reached;
-      orbit.message = at.evolution.message;
-      return orbit;
-    }
+    if (!at.evolution.reached()) return not_reached(at.evolution);
     const double residual = at.residual.lpNorm<Eigen::Infinity>();
     orbit.residuals.push_back(residual);
     const bool falls = residual < 0.5 * best;
     if (residual < best) {
       best = residual;
-      std::copy_n(y.data(), orbit.state.size(), orbit.state.begin());
-      orbit.monodromy = at.pieces[0];
-      for (std::size_t i = 1; i < at.pieces.size(); ++i) orbit.monodromy = at.pieces[i] * orbit.monodromy;
-      orbit.pieces = at.pieces;
-      orbit.error = orbit_error(orbit.monodromy, std::max(best, options.residual));
+      take_state(y, at, std::max(best, options.residual), orbit);
     }
     if (residual <= options.residual) {
       orbit.outcome = OrbitOutcome::converged;

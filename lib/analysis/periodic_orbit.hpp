@@ -44,6 +44,9 @@ struct OrbitOptions {
   /// far more than states. The monodromy is then that of a state as far from the orbit as the last full step was long.
   /// Of one piece only.
   bool keep_tangents = false;
+
+  /// @throws InputError for less than one iteration or piece, or a negative residual or error
+  void validate() const;
 };
 
 /// What the iteration came to.
@@ -69,7 +72,7 @@ struct PeriodicOrbit {
 
 /// @param start  near the orbit
 /// @param n      its period in periods of the forcing
-/// @throws DomainError for n < 1 or fewer than one piece
+/// @throws DomainError for n < 1; InputError for options out of range
 [[nodiscard]] PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double> start, int n,
                                                 const OrbitOptions& options = {});
 

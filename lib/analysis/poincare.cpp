@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/largest_difference.hpp"
+#include "core/require.hpp"
 #include "core/root_finding.hpp"
 
 namespace epicyclic::analysis {
@@ -16,17 +17,24 @@ std::vector<double> uniform_phases(double period, int count) {
   return s;
 }
 
+void StrobeOptions::validate() const {
+  require(transient_periods >= 0, "transient_periods", transient_periods, ">= 0");
+  require(recorded_periods >= 0, "recorded_periods", recorded_periods, ">= 0");
+  require(phases >= 1, "phases", phases, ">= 1");
+}
+
 StrobeProgress::StrobeProgress(std::size_t dimension, double period, const StrobeOptions& options,
                                const integrate::Observer& observer)
     : options_(options),
-      last_(std::max(0, options.transient_periods) + std::max(0, options.recorded_periods)),
+      last_(options.transient_periods + options.recorded_periods),
       samples_(uniform_phases(period, options.phases)) {
+  options.validate();
   see_ = [this, observer](std::size_t j, double s, std::span<const double> y) {
     const auto recorded = static_cast<std::size_t>(carried_ - options_.transient_periods);
     observer(recorded * samples_.size() + j, s, y);
   };
   strobe_.section.dimension = dimension;
-  strobe_.section.states.reserve(static_cast<std::size_t>(std::max(0, options.recorded_periods)) * dimension);
+  strobe_.section.states.reserve(static_cast<std::size_t>(options.recorded_periods) * dimension);
 }
 
 std::span<const double> StrobeProgress::samples() const {

@@ -45,6 +45,9 @@ struct StrobeOptions {
   int transient_periods = 300;
   int recorded_periods = 128;
   int phases = 64;  ///< dense output points per recorded period; their number does not change the section
+
+  /// @throws InputError for a negative number of periods, or no phase
+  void validate() const;
 };
 
 struct Strobe {
@@ -56,7 +59,11 @@ struct Strobe {
 /// samples() and observer(), take() what came of it, until it is over.
 class StrobeProgress {
  public:
-  /// @param observer  as for strobe()
+  /// @param dimension  of the state
+  /// @param period     of the forcing [units of s]
+  /// @param observer   sees each recorded period at phases j T / phases, j = 1 .. phases (index counts on over the
+  /// periods)
+  /// @throws InputError for options out of range
   StrobeProgress(std::size_t dimension, double period, const StrobeOptions& options,
                  const integrate::Observer& observer);
   StrobeProgress(const StrobeProgress&) = delete;  // its observer knows where it is
@@ -90,6 +97,7 @@ void carry(integrate::Flow& flow, std::span<double> state, StrobeProgress& strob
 /// @param observer  sees each recorded period at phases j T / phases, j = 1 .. phases (index counts on over the
 /// periods)
 /// @param go_on     asked before each period; false ends the strobe at once with what is there (outcome reached)
+/// @throws InputError for options out of range
 [[nodiscard]] Strobe strobe(integrate::Flow& flow, std::span<double> state, const StrobeOptions& options,
                             const integrate::Observer& observer, const std::function<bool()>& go_on);
 

@@ -5,13 +5,14 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <tuple>
+#include <string>
 #include <utility>
 
 #include "analysis/lyapunov.hpp"
 #include "analysis/zero_one_test.hpp"
 #include "core/errors.hpp"
 #include "core/largest_difference.hpp"
+#include "core/require.hpp"
 #include "core/text.hpp"
 
 namespace epicyclic::analysis {
@@ -49,10 +50,9 @@ constexpr int torus_look = 1024;
 
 void check(const integrate::Flow& flow, const RegimeOptions& o) {
   if (!(flow.field().period > 0.0)) throw DomainError("regimes are told of fields with a period");
-  if (o.look < least_look) throw DomainError("look = " + std::to_string(o.look) + ", must be >= 16");
-  if (o.budget < o.look) throw DomainError("budget = " + std::to_string(o.budget) + ", must be >= look");
-  if (o.longest_period < 1) throw DomainError("longest_period must be >= 1");
-  if (o.observable >= flow.field().dimension) throw DomainError("observable is not a component of the state");
+  o.validate();
+  require(o.observable < flow.field().dimension, "observable", static_cast<double>(o.observable),
+          "a component of the state");
 }
 
 class Classifier {
@@ -238,17 +238,7 @@ class Classifier {
       if (std::isfinite(in_vain_[least])) vain->second = distance_now;
       return false;
     }
-    const auto multipliers = [&] {
-      const Multipliers m = floquet_multipliers(orbit, known->second);
-      return std::pair{std::abs(m.values.front()), *std::max_element(m.errors.begin(), m.errors.end())};
-    };
-    auto [multiplier, error] = multipliers();
-    if (error > own_tangents * std::abs(1.0 - multiplier) && !known->own_tangents) {
-      // The tangents that Newton's method kept are too far from the orbit.
-      PeriodicOrbit own = find_periodic_orbit(exact, orbit.state, n, {.iterations = 1, .residual = map_residual()});
-      if (!own.pieces.empty()) orbit = std::move(own);
-      std::tie(multiplier, error) = multipliers();
-    }
+    const auto [multiplier, error] = largest_multiplier_of(*known, exact, n);
     const std::string name = "orbit of period " + std::to_string(n);
     if (!(multiplier + error < 1.0 - options_.neutral)) {
       seen.note = "the " + name + " near by does not attract (multiplier " + short_text(multiplier) + " +- " +
@@ -256,24 +246,58 @@ class Classifier {
       if (multiplier - error > 1.0) vain->second = distance_now;
       return false;
     }
-    // [A-settled], by the flow that the orbit belongs to: looks may be rougher.
+    const std::optional<Approach> approach = approach_to(orbit, exact, last, n);
+    if (!approach) return false;
+    const std::string distance = short_text(approach->distance);
+    if (approach->off > 0.1 * approach->distance && approach->off > noise()) {
+      attracted_ = true;
+      seen.note = "not yet drawn to the " + name + " that is " + distance + " away";
+      return false;
+    }
+    tell_periodic(std::move(orbit), n, multiplier, error);
+    seen.note = "drawn to the " + name + " from " + distance + " away";
+    return true;
+  }
+
+  /// Modulus of an orbit's largest multiplier and its error; the orbit is told with tangents of its own if need be.
+  std::pair<double, double> largest_multiplier_of(KnownOrbit& known, integrate::Flow& exact, int n) const {
+    const auto multipliers = [&] {
+      const Multipliers m = floquet_multipliers(known.orbit, known.second);
+      return std::pair{std::abs(m.values.front()), *std::max_element(m.errors.begin(), m.errors.end())};
+    };
+    const auto [multiplier, error] = multipliers();
+    if (error <= own_tangents * std::abs(1.0 - multiplier) || known.own_tangents) return {multiplier, error};
+    // The tangents that Newton's method kept are too far from the orbit.
+    PeriodicOrbit own = find_periodic_orbit(exact, known.orbit.state, n, {.iterations = 1, .residual = map_residual()});
+    if (!own.pieces.empty()) known.orbit = std::move(own);
+    return multipliers();
+  }
+
+  /// The two sides of [A-settled].
+  struct Approach {
+    double distance = 0;  ///< of the motion from the orbit
+    double off = 0;       ///< n periods later, from where the orbit's monodromy takes it
+  };
+
+  /// By the flow that the orbit belongs to: looks may be rougher.
+  /// @returns nothing if it did not carry the motion over n periods
+  static std::optional<Approach> approach_to(const PeriodicOrbit& orbit, integrate::Flow& exact,
+                                             std::span<const double> last, int n) {
     std::vector<double> onwards(last.begin(), last.end());
     exact.forget();
     for (int k = 0; k < n; ++k)
-      if (!exact.evolve(onwards, 0.0, exact.field().period).reached()) return false;
+      if (!exact.evolve(onwards, 0.0, exact.field().period).reached()) return std::nullopt;
     Eigen::VectorXd from(static_cast<Eigen::Index>(last.size()));
     Eigen::VectorXd to(from.size());
     for (std::size_t i = 0; i < last.size(); ++i) {
       from(static_cast<Eigen::Index>(i)) = last[i] - orbit.state[i];
       to(static_cast<Eigen::Index>(i)) = onwards[i] - orbit.state[i];
     }
-    const double distance = from.lpNorm<Eigen::Infinity>();
-    const double off = (to - orbit.monodromy * from).lpNorm<Eigen::Infinity>();
-    if (off > 0.1 * distance && off > noise()) {
-      attracted_ = true;
-      seen.note = "not yet drawn to the " + name + " that is " + short_text(distance) + " away";
-      return false;
-    }
+    return Approach{from.lpNorm<Eigen::Infinity>(), (to - orbit.monodromy * from).lpNorm<Eigen::Infinity>()};
+  }
+
+  void tell_periodic(PeriodicOrbit orbit, int n, double multiplier, double error) {
+    Evidence& seen = result_.evidence;
     result_.regime = Regime::periodic;
     result_.period = n;
     seen.residual = *std::min_element(orbit.residuals.begin(), orbit.residuals.end());
@@ -284,9 +308,7 @@ class Classifier {
     const double time = n * flow_.field().period;
     seen.exponent = {std::log(multiplier) / time, std::log1p(error / multiplier) / time};
     seen.zero_one.reset();
-    seen.note = "drawn to the " + name + " from " + short_text(distance) + " away";
     result_.orbit = std::move(orbit);
-    return true;
   }
 
   /// The least divisor d of n after which an orbit closes, to within its error: one of period 1 is one of period 12,
@@ -521,6 +543,16 @@ std::string to_string(Regime regime) {
       break;
   }
   return "undecided";
+}
+
+void RegimeOptions::validate() const {
+  require(look >= least_look, "look", look, ">= " + std::to_string(least_look));
+  require(budget >= look, "budget", budget, ">= look");
+  require(lasting >= 0, "lasting", lasting, ">= 0");
+  require(longest_period >= 1, "longest_period", longest_period, ">= 1");
+  require(near >= 0.0, "near", near, ">= 0");
+  require(residual > 0.0, "residual", residual, "> 0");
+  require(neutral >= 0.0, "neutral", neutral, ">= 0");
 }
 
 Classification classify(integrate::Flow& flow, std::span<double> state, const RegimeOptions& options,

@@ -67,6 +67,10 @@ struct RegimeOptions {
   /// Likewise at ten times its tolerance, for the errors of multipliers: what another sequence of steps changes is less
   /// than what the tolerance does. Null: from another subdivision, which knows of the steps alone.
   integrate::Flow* coarser = nullptr;
+
+  /// @throws InputError for looks shorter than anything is told from, a budget shorter than the first of them, or a
+  /// number of periods or a bound out of range
+  void validate() const;
 };
 
 /// What the decision rests on.
@@ -94,7 +98,8 @@ struct Classification {
 /// @param state  replaced by the last state
 /// @param seen   a section of this very motion that ends in `state`: asked first whether it is periodic, not counted in
 ///               the budget; may be null
-/// @throws DomainError when the flow's field has no period, or options are out of range
+/// @throws DomainError when the flow's field has no period; InputError for options out of range, or an observable that
+/// is no component of the state
 [[nodiscard]] Classification classify(integrate::Flow& flow, std::span<double> state, const RegimeOptions& options,
                                       const std::function<bool()>& go_on, const PoincareSection* seen = nullptr);
 

@@ -70,9 +70,12 @@ enum class StiffnessForm {
 struct StiffnessOptions {
   ComplianceOptions compliance;
   StiffnessForm form = StiffnessForm::harmonics;
-  int harmonics = 2;                                     ///< Eq. (4) has two
+  int harmonics = 2;                                     ///< Eq. (4) has two; 0: the mean alone
   double sun_planet_factor = 1, ring_planet_factor = 1;  ///< on the computed stiffness, for what its model leaves open
   double table_tolerance = 1e-9;                         ///< of the curve between its rows, relative to the mean [-]
+
+  /// @throws InputError for less than 0 harmonics, or a factor or tolerance that is not positive
+  void validate() const;
 };
 
 /// What lubricates the teeth; without it there is no tooth friction.

@@ -9,6 +9,7 @@
 
 #include "core/errors.hpp"
 #include "core/fitted_rows.hpp"
+#include "core/require.hpp"
 #include "core/root_finding.hpp"
 #include "gear/bearing.hpp"
 #include "gear/messages.hpp"
@@ -66,6 +67,7 @@ double lead_of_ring_mesh(const Pair& sp, const Pair& rp) {
 GearSet geometry_of(const Stage& stage) {
   if (!stage.catalogue) throw DomainError("the stage has no catalogue data");
   const Catalogue& c = *stage.catalogue;
+  c.stiffness.validate();
   GearSet set;
   set.catalogue = c;
   set.angles_deg = stage.planet_angles_deg();
@@ -184,23 +186,15 @@ void check_accuracy(Problems& out, const GearSet& set) {
   member(ring_pointer, c.ring.accuracy_grade, set.ring, set.ring_planet.contact_ratio());
 }
 
-}  // namespace
-
-GearSet make_gear_set(const Stage& stage) {
-  GearSet set = geometry_of(stage);
-  const int harmonics = set.catalogue.stiffness.harmonics;
-  set.sun_planet_stiffness = fourier_series(set.sun_planet, harmonics);
-  set.ring_planet_stiffness = fourier_series(set.ring_planet, harmonics);
-  return set;
+/// Tells each member whose data make no tooth.
+bool each_tooth_exists(Problems& out, const Catalogue& c) {
+  const bool sun = tried(out, sun_pointer, [&] { (void)external_tooth(c.sun.data); });
+  const bool planet = tried(out, planet_pointer, [&] { (void)external_tooth(c.planet.data); });
+  const bool ring = tried(out, ring_pointer, [&] { (void)internal_tooth(c.ring.data); });
+  return sun && planet && ring;
 }
 
-std::vector<std::string> catalogue_problems(const Stage& stage) {
-  Problems out(message_digits);
-  const Catalogue& c = *stage.catalogue;
-  const bool teeth = static_cast<int>(tried(out, sun_pointer, [&] { (void)external_tooth(c.sun.data); })) &
-                     static_cast<int>(tried(out, planet_pointer, [&] { (void)external_tooth(c.planet.data); })) &
-                     static_cast<int>(tried(out, ring_pointer, [&] { (void)internal_tooth(c.ring.data); }));
-  if (!teeth) return out.take();
+void check_base_pitches(Problems& out, const Catalogue& c) {
   const double sun_pitch = base_pitch(c.sun.data);
   const double planet_pitch = base_pitch(c.planet.data);
   const double ring_pitch = base_pitch(c.ring.data);
@@ -217,6 +211,9 @@ std::vector<std::string> catalogue_problems(const Stage& stage) {
             1e3 * std::abs(planet_pitch - ring_pitch), " um (", planet_pitch, " and ", ring_pitch,
             " mm); if the module is rounded, \"base_pitch\": \"of_planet\" takes ",
             of_planet_base_pitch(c.ring.data, c.planet.data).module_mm, " mm in its place");
+}
+
+void check_bearing_types(Problems& out, const Catalogue& c) {
   for (const auto& [pointer, bearing] : {std::pair("/catalogue/sun_bearing", &c.sun_bearing),
                                          std::pair("/catalogue/carrier/bearing", &c.carrier.bearing)})
     if (*bearing && !bearing_data(**bearing)) {
@@ -226,23 +223,22 @@ std::vector<std::string> catalogue_problems(const Stage& stage) {
       out.add(std::string(pointer) + "/type", "\"", (*bearing)->type, "\" is not among the bearings known here (",
               known, "); give balls and ball_diameter_mm instead");
     }
-  auto lines = out.take();
-  if (!lines.empty()) return lines;
-  if (!tried(out, stage.centre_distance_mm ? "/planets/centre_distance_mm" : planet_pointer, [&] {
-        const Tooth sun = external_tooth(c.sun.data);
-        const Tooth planet = external_tooth(c.planet.data);
-        (void)make_pair(sun, planet,
-                        stage.centre_distance_mm.value_or(0.0) > 0.0 ? *stage.centre_distance_mm
-                                                                     : tight_centre_distance_mm(sun, planet));
-      }))
-    return out.take();
-  GearSet set;
-  if (!tried(out, ring_pointer, [&] { set = geometry_of(stage); })) return out.take();
-  check_pair(out, set.sun_planet.pair, sun_pointer, planet_pointer, "sun-planet");
-  check_pair(out, set.ring_planet.pair, planet_pointer, ring_pointer, "ring-planet");
-  check_tip(out, set.sun, sun_pointer);
-  check_tip(out, set.planet, planet_pointer);
-  check_tip(out, set.ring, ring_pointer);
+}
+
+/// Whether sun and planet mesh at the centre distance, that of the data or without backlash.
+bool meshes_at_its_distance(Problems& out, const Stage& stage) {
+  return tried(out, stage.centre_distance_mm ? "/planets/centre_distance_mm" : planet_pointer, [&] {
+    const Tooth sun = external_tooth(stage.catalogue->sun.data);
+    const Tooth planet = external_tooth(stage.catalogue->planet.data);
+    (void)make_pair(sun, planet,
+                    stage.centre_distance_mm.value_or(0.0) > 0.0 ? *stage.centre_distance_mm
+                                                                 : tight_centre_distance_mm(sun, planet));
+  });
+}
+
+/// Planets beside each other, bores and the rim.
+void check_room(Problems& out, const GearSet& set) {
+  const Catalogue& c = set.catalogue;
   if (planet_gap_mm(set) <= 0.0)
     out.add("/planets/count", "neighbouring planets overlap by ", -planet_gap_mm(set), " mm (tip radius ",
             set.planet.tip_radius_mm, " mm, centre distance ", set.centre_distance_mm, " mm)");
@@ -256,6 +252,43 @@ std::vector<std::string> catalogue_problems(const Stage& stage) {
   if (c.ring.outer_diameter_mm && 0.5 * *c.ring.outer_diameter_mm <= set.ring.root_radius_mm)
     out.add(ring_pointer + "/outer_diameter_mm", "the rim, ", *c.ring.outer_diameter_mm,
             " mm, must be larger than the root circle, ", 2.0 * set.ring.root_radius_mm, " mm");
+}
+
+}  // namespace
+
+void StiffnessOptions::validate() const {
+  compliance.validate();
+  require(harmonics >= 0, "harmonics", harmonics, ">= 0");
+  require(sun_planet_factor > 0.0, "sun_planet_factor", sun_planet_factor, "> 0");
+  require(ring_planet_factor > 0.0, "ring_planet_factor", ring_planet_factor, "> 0");
+  require(table_tolerance > 0.0, "table_tolerance", table_tolerance, "> 0");
+}
+
+GearSet make_gear_set(const Stage& stage) {
+  GearSet set = geometry_of(stage);
+  const int harmonics = set.catalogue.stiffness.harmonics;
+  set.sun_planet_stiffness = fourier_series(set.sun_planet, harmonics);
+  set.ring_planet_stiffness = fourier_series(set.ring_planet, harmonics);
+  return set;
+}
+
+std::vector<std::string> catalogue_problems(const Stage& stage) {
+  Problems out(message_digits);
+  const Catalogue& c = *stage.catalogue;
+  if (!each_tooth_exists(out, c)) return out.take();
+  check_base_pitches(out, c);
+  check_bearing_types(out, c);
+  auto lines = out.take();
+  if (!lines.empty()) return lines;
+  if (!meshes_at_its_distance(out, stage)) return out.take();
+  GearSet set;
+  if (!tried(out, ring_pointer, [&] { set = geometry_of(stage); })) return out.take();
+  check_pair(out, set.sun_planet.pair, sun_pointer, planet_pointer, "sun-planet");
+  check_pair(out, set.ring_planet.pair, planet_pointer, ring_pointer, "ring-planet");
+  check_tip(out, set.sun, sun_pointer);
+  check_tip(out, set.planet, planet_pointer);
+  check_tip(out, set.ring, ring_pointer);
+  check_room(out, set);
   lines = out.take();
   if (!lines.empty()) return lines;
   check_fillet(out, set);

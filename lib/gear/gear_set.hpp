@@ -35,7 +35,8 @@ struct GearSet {
 };
 
 /// @param stage  planets and, if given, the centre distance; `stage.catalogue` is set
-/// @throws DomainError when the data make no gear set; ask catalogue_problems() first
+/// @throws DomainError when the data make no gear set, ask catalogue_problems() first; InputError when options of the
+/// stiffness are out of range
 [[nodiscard]] GearSet make_gear_set(const Stage& stage);
 
 /// What is wrong with the catalogue data, "pointer: message" with pointers relative to the stage; empty if all is well.

@@ -7,6 +7,7 @@
 
 #include "core/errors.hpp"
 #include "core/quadrature.hpp"
+#include "core/require.hpp"
 
 namespace epicyclic::gear {
 
@@ -155,8 +156,10 @@ double hertz_compliance(const Material& material, double width_mm) {
   return 4.0 * (1.0 - nu * nu) / (pi * material.youngs_modulus() * width_mm * m_per_mm);
 }
 
+void ComplianceOptions::validate() const { require(panels >= 1, "panels", panels, ">= 1"); }
+
 ToothCompliance tooth_compliance(const ToothBody& body, double contact_radius_mm, const ComplianceOptions& o) {
-  if (o.panels < 1) throw DomainError("the quadrature of a compliance needs at least 1 panel");
+  o.validate();
   const Tooth& t = body.tooth;
   const double nu = body.material.poisson_ratio;
   const double outer = t.internal ? t.root_radius_mm : t.tip_radius_mm;

@@ -64,6 +64,9 @@ struct ComplianceOptions {
   RingFoundation ring_foundation = RingFoundation::half_plane;
   FoundationLever lever = FoundationLever::centreline;
   int panels = 4;  ///< of 16 Gauss points, on each smooth piece of the profile
+
+  /// @throws InputError for less than one panel
+  void validate() const;
 };
 
 /// h_f of a gear that does not wind up about its bore: solid, on a shaft of its own, or idling on a bearing [-].
@@ -83,7 +86,8 @@ struct ToothCompliance {
   [[nodiscard]] double sum() const { return bending + shear + axial + foundation; }
 };
 
-/// @throws DomainError when the contact is not on the flank, or the tooth is undercut and its fillet asked for
+/// @throws DomainError when the contact is not on the flank, or the tooth is undercut and its fillet asked for;
+/// InputError for options out of range
 [[nodiscard]] ToothCompliance tooth_compliance(const ToothBody& body, double contact_radius_mm,
                                                const ComplianceOptions& options);
 

@@ -23,6 +23,9 @@ struct ModelOptions {
   Gyroscopic gyroscopic = Gyroscopic::automatic;
   double clearance_smoothing = 0;  ///< width w of the smooth clearance [b_c]; 0: exact, piecewise linear
   bool halved_tables = false;      ///< computed tables without every second row: for their error, not of the input
+
+  /// @throws InputError for a negative width
+  void validate() const;
 };
 
 }  // namespace epicyclic::model

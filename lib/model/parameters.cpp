@@ -170,6 +170,96 @@ GyroscopicForm gyroscopic_form(gear::Boundary boundary, Gyroscopic wanted) {
   return {wanted != Gyroscopic::off, wanted == Gyroscopic::invariant, wanted == Gyroscopic::carrier_row};
 }
 
+/// Masses and inertias over m_p, and their inverses.
+template <std::size_t N>
+void fill_bodies(Parameters<double, N>& p, const gear::Stage& stage, const Scales& scales) {
+  const auto ratio = [&](double kg) { return scales.mass_ratio(kg); };
+  p.mass_s = ratio(stage.sun.mass_kg);
+  p.mass_p = ratio(stage.planet.mass_kg);
+  p.mass_r = ratio(stage.ring.mass_kg);
+  p.mass_c = ratio(stage.carrier.mass_kg);
+  p.inertia_s = ratio(stage.sun.inertia_over_r2_kg);
+  p.inertia_p = ratio(stage.planet.inertia_over_r2_kg);
+  p.inertia_r = ratio(stage.ring.inertia_over_r2_kg);
+  p.inertia_c = ratio(stage.carrier.inertia_over_r2_kg);
+  p.inverse_mass_s = 1.0 / p.mass_s;
+  p.inverse_mass_p = 1.0 / p.mass_p;
+  p.inverse_mass_r = 1.0 / p.mass_r;
+  p.inverse_mass_c = 1.0 / p.mass_c;
+  p.inverse_inertia_s = 1.0 / p.inertia_s;
+  p.inverse_inertia_p = 1.0 / p.inertia_p;
+  p.inverse_inertia_r = 1.0 / p.inertia_r;
+  p.inverse_inertia_c = 1.0 / p.inertia_c;
+}
+
+/// Stiffness and damping of what holds the members, and the law of the sun's bearing.
+template <std::size_t N>
+void fill_supports(Parameters<double, N>& p, const gear::Stage& stage, const Scales& scales) {
+  const auto support = [&](const gear::CentralMember& m) { return scales.stiffness(m.support_N_per_m); };
+  const auto support_damping = [&](const gear::CentralMember& m) {
+    return scales.damping(m.damping.of(m.support_N_per_m, m.mass_kg));
+  };
+  const auto torsion = [&](const gear::CentralMember& m) {
+    return std::isfinite(m.torsional_support_N_per_m) ? scales.stiffness(m.torsional_support_N_per_m) : 0.0;
+  };
+  // No support, no dashpot: a member that is free in rotation has nothing to be damped against.
+  const auto torsion_damping = [&](const gear::CentralMember& m) {
+    if (m.torsional_support_N_per_m == 0.0) return 0.0;
+    return scales.damping(m.damping.of(m.torsional_support_N_per_m, m.inertia_over_r2_kg));
+  };
+  p.support_s = support(stage.sun);
+  p.support_r = support(stage.ring);
+  p.support_c = support(stage.carrier);
+  p.damping_s = support_damping(stage.sun);
+  p.damping_r = support_damping(stage.ring);
+  p.damping_c = support_damping(stage.carrier);
+  p.torsion_r = torsion(stage.ring);
+  p.torsion_c = torsion(stage.carrier);
+  p.torsion_damping_r = torsion_damping(stage.ring);
+  p.torsion_damping_c = torsion_damping(stage.carrier);
+  p.bearing_p = scales.stiffness(stage.planet.bearing_N_per_m);
+  p.bearing_damping_p = scales.damping(stage.planet.damping.of(stage.planet.bearing_N_per_m, stage.planet.mass_kg));
+  p.sun_half_gap = scales.displacement(stage.sun_bearing.clearance_half_um * 1e-6);
+  p.sun_law = stage.sun_bearing.law;
+  const bool hertzian = p.sun_law == gear::BearingLaw::palmgren_xy || p.sun_law == gear::BearingLaw::palmgren_radial;
+  p.sun_hertz = hertzian ? scales.hertz(gear::palmgren_coefficient(stage.sun_bearing)) : 0.0;
+}
+
+/// Torques as forces at the base radii and at the planets' centres.
+template <std::size_t N>
+void fill_loads(Parameters<double, N>& p, const gear::Stage& stage, const Scales& scales, double mesh_frequency) {
+  const gear::Torques torque = gear::torques(stage, mesh_frequency);
+  constexpr double m_per_mm = 1e-3;
+  p.drive = scales.force(torque.sun / (*stage.sun.base_radius_mm * m_per_mm));
+  p.ring_drive = scales.force(torque.ring / (*stage.ring.base_radius_mm * m_per_mm));
+  p.carrier_load = scales.force(torque.carrier / (*stage.centre_distance_mm * m_per_mm));
+}
+
+/// Both meshes with their friction.
+/// @param like  as for make_parameters()
+template <std::size_t N>
+void fill_meshes(Parameters<double, N>& p, const gear::Stage& stage, const Scales& scales, double mesh_frequency,
+                 bool halved_tables, const Parameters<double, N>* like) {
+  const std::vector<double> angles = stage.planet_angles_deg();
+  const auto reduced = [](double a, double b) { return 1.0 / (1.0 / a + 1.0 / b); };
+  const double m_s = stage.sun.inertia_over_r2_kg;
+  const double m_p = stage.planet.inertia_over_r2_kg;
+  const double m_r = stage.ring.inertia_over_r2_kg;
+  fill_mesh(p.sun_planet, stage.sun_planet_mesh, angles, -*stage.sun.teeth, 0.0, reduced(m_s, m_p), scales,
+            halved_tables);
+  fill_mesh(p.ring_planet, stage.ring_planet_mesh, angles, *stage.ring.teeth, stage.ring_mesh_lead_1, reduced(m_p, m_r),
+            scales, halved_tables);
+  const gear::MeshLoad load = gear::mean_mesh_load(stage, mesh_frequency);
+  const auto friction = [&](const gear::Friction& f, auto line_of, double lead,
+                            MeshParameters<double, N> Parameters<double, N>::*mesh) {
+    const FrictionTrack* other = like != nullptr ? (like->*mesh).friction.get() : nullptr;
+    (p.*mesh).friction = make_track(f, stage, line_of, lead, load, other, halved_tables);
+  };
+  friction(stage.sun_planet_mesh.friction, gear::sun_planet_line, 0.0, &Parameters<double, N>::sun_planet);
+  friction(stage.ring_planet_mesh.friction, gear::ring_planet_line, stage.ring_mesh_lead_1,
+           &Parameters<double, N>::ring_planet);
+}
+
 }  // namespace
 
 template <std::size_t N>
@@ -194,80 +284,14 @@ Parameters<double, N> make_geometry(const gear::Stage& stage) {
 template <std::size_t N>
 Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& scales, double mesh_frequency_ratio,
                                       const ModelOptions& options, const Parameters<double, N>* like) {
+  options.validate();
   const double mesh_frequency = mesh_frequency_ratio * scales.omega_sn;
-  const std::vector<double> angles = stage.planet_angles_deg();
-  const auto reduced = [](double a, double b) { return 1.0 / (1.0 / a + 1.0 / b); };
-  const auto ratio = [&](double kg) { return scales.mass_ratio(kg); };
-  const auto support = [&](const gear::CentralMember& m) { return scales.stiffness(m.support_N_per_m); };
-  const auto support_damping = [&](const gear::CentralMember& m) {
-    return scales.damping(m.damping.of(m.support_N_per_m, m.mass_kg));
-  };
-  const auto torsion = [&](const gear::CentralMember& m) {
-    return std::isfinite(m.torsional_support_N_per_m) ? scales.stiffness(m.torsional_support_N_per_m) : 0.0;
-  };
-  // No support, no dashpot: a member that is free in rotation has nothing to be damped against.
-  const auto torsion_damping = [&](const gear::CentralMember& m) {
-    if (m.torsional_support_N_per_m == 0.0) return 0.0;
-    return scales.damping(m.damping.of(m.torsional_support_N_per_m, m.inertia_over_r2_kg));
-  };
-
   Parameters<double, N> p = make_geometry<N>(stage);
   p.omega = mesh_frequency_ratio;
-  p.mass_s = ratio(stage.sun.mass_kg);
-  p.mass_p = ratio(stage.planet.mass_kg);
-  p.mass_r = ratio(stage.ring.mass_kg);
-  p.mass_c = ratio(stage.carrier.mass_kg);
-  p.inertia_s = ratio(stage.sun.inertia_over_r2_kg);
-  p.inertia_p = ratio(stage.planet.inertia_over_r2_kg);
-  p.inertia_r = ratio(stage.ring.inertia_over_r2_kg);
-  p.inertia_c = ratio(stage.carrier.inertia_over_r2_kg);
-  p.inverse_mass_s = 1.0 / p.mass_s;
-  p.inverse_mass_p = 1.0 / p.mass_p;
-  p.inverse_mass_r = 1.0 / p.mass_r;
-  p.inverse_mass_c = 1.0 / p.mass_c;
-  p.inverse_inertia_s = 1.0 / p.inertia_s;
-  p.inverse_inertia_p = 1.0 / p.inertia_p;
-  p.inverse_inertia_r = 1.0 / p.inertia_r;
-  p.inverse_inertia_c = 1.0 / p.inertia_c;
-  p.support_s = support(stage.sun);
-  p.support_r = support(stage.ring);
-  p.support_c = support(stage.carrier);
-  p.damping_s = support_damping(stage.sun);
-  p.damping_r = support_damping(stage.ring);
-  p.damping_c = support_damping(stage.carrier);
-  p.torsion_r = torsion(stage.ring);
-  p.torsion_c = torsion(stage.carrier);
-  p.torsion_damping_r = torsion_damping(stage.ring);
-  p.torsion_damping_c = torsion_damping(stage.carrier);
-  p.bearing_p = scales.stiffness(stage.planet.bearing_N_per_m);
-  p.bearing_damping_p = scales.damping(stage.planet.damping.of(stage.planet.bearing_N_per_m, stage.planet.mass_kg));
-  p.sun_half_gap = scales.displacement(stage.sun_bearing.clearance_half_um * 1e-6);
-  p.sun_law = stage.sun_bearing.law;
-  const bool hertzian = p.sun_law == gear::BearingLaw::palmgren_xy || p.sun_law == gear::BearingLaw::palmgren_radial;
-  p.sun_hertz = hertzian ? scales.hertz(gear::palmgren_coefficient(stage.sun_bearing)) : 0.0;
-
-  const gear::Torques torque = gear::torques(stage, mesh_frequency);
-  constexpr double m_per_mm = 1e-3;
-  p.drive = scales.force(torque.sun / (*stage.sun.base_radius_mm * m_per_mm));
-  p.ring_drive = scales.force(torque.ring / (*stage.ring.base_radius_mm * m_per_mm));
-  p.carrier_load = scales.force(torque.carrier / (*stage.centre_distance_mm * m_per_mm));
-
-  const double m_s = stage.sun.inertia_over_r2_kg;
-  const double m_p = stage.planet.inertia_over_r2_kg;
-  const double m_r = stage.ring.inertia_over_r2_kg;
-  fill_mesh(p.sun_planet, stage.sun_planet_mesh, angles, -*stage.sun.teeth, 0.0, reduced(m_s, m_p), scales,
-            options.halved_tables);
-  fill_mesh(p.ring_planet, stage.ring_planet_mesh, angles, *stage.ring.teeth, stage.ring_mesh_lead_1, reduced(m_p, m_r),
-            scales, options.halved_tables);
-  const gear::MeshLoad load = gear::mean_mesh_load(stage, mesh_frequency);
-  const auto friction = [&](const gear::Friction& f, auto line_of, double lead,
-                            MeshParameters<double, N> Parameters<double, N>::*mesh) {
-    const FrictionTrack* other = like != nullptr ? (like->*mesh).friction.get() : nullptr;
-    (p.*mesh).friction = make_track(f, stage, line_of, lead, load, other, options.halved_tables);
-  };
-  friction(stage.sun_planet_mesh.friction, gear::sun_planet_line, 0.0, &Parameters<double, N>::sun_planet);
-  friction(stage.ring_planet_mesh.friction, gear::ring_planet_line, stage.ring_mesh_lead_1,
-           &Parameters<double, N>::ring_planet);
+  fill_bodies(p, stage, scales);
+  fill_supports(p, stage, scales);
+  fill_loads(p, stage, scales, mesh_frequency);
+  fill_meshes(p, stage, scales, mesh_frequency, options.halved_tables, like);
   make_segments(p);
 
   const GyroscopicForm form = gyroscopic_form(stage.boundary, options.gyroscopic);
