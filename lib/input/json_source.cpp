@@ -435,6 +435,18 @@ int JsonSource::line_of(std::string_view pointer) const {
   }
 }
 
+namespace {
+/// Why bytes are no text that could be JSON, and in which line (0: in none); empty if they may be.
+std::pair<int, std::string> no_json_text(const std::string& bytes, const LineIndex& lines) {
+  if (bytes.rfind("\xFF\xFE", 0) == 0 || bytes.rfind("\xFE\xFF", 0) == 0)
+    return {1, "the file is UTF-16: JSON is read as UTF-8"};
+  if (const auto bad = first_not_text(bytes); bad != std::string::npos)
+    return {lines.at(bad), not_text(bytes) + ": is this a JSON file?"};
+  if (std::all_of(bytes.begin(), bytes.end(), is_space)) return {0, "the file is empty"};
+  return {};
+}
+}  // namespace
+
 JsonSource parse_json(std::string bytes, std::string name) {
   JsonSource source;
   source.name = std::move(name);
@@ -448,16 +460,8 @@ JsonSource parse_json(std::string bytes, std::string name) {
     return source;
   }
   const LineIndex lines(source.bytes);
-  if (source.bytes.rfind("\xFF\xFE", 0) == 0 || source.bytes.rfind("\xFE\xFF", 0) == 0) {
-    fatal(1, "", "the file is UTF-16: JSON is read as UTF-8");
-    return source;
-  }
-  if (const auto bad = first_not_text(source.bytes); bad != std::string::npos) {
-    fatal(lines.at(bad), "", not_text(source.bytes) + ": is this a JSON file?");
-    return source;
-  }
-  if (std::all_of(source.bytes.begin(), source.bytes.end(), is_space)) {
-    fatal(0, "", "the file is empty");
+  if (auto [line, message] = no_json_text(source.bytes, lines); !message.empty()) {
+    fatal(line, "", std::move(message));
     return source;
   }
 

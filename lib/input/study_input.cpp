@@ -568,7 +568,7 @@ std::pair<Study, bool> read_study(json& whole, bool bare, ReadContext& context, 
   return {std::move(study), complete && sound};
 }
 
-/// The same of a study that was read without a finding, with other numbers in it that nothing is computed from.
+/// A study that was read without a finding, with other numbers in it that nothing is computed from.
 /// @returns nothing if one of them is not a number of the study's tables
 std::optional<Study> change_study(const Study& sound, bool bare, std::span<const PointerValue> values,
                                   ReadContext& context) {
@@ -801,163 +801,213 @@ class Problems {
 
 }  // namespace
 
-LoadedInput load_input(const std::filesystem::path& path, std::span<const Assignment> sets) {
-  auto sources = std::make_shared<LoadedInput::Sources>();
-  Problems problems;
-  JsonSource& file = sources->study;
-  file = read_json_file(path);
-  problems.add(file);
-  for (const Assignment& set : sets) {
-    if (set.problems.empty()) sources->sets.push_back(set);
-    for (const std::string& message : set.problems) problems.add({shown(set), 0, "", message});
-  }
-  const auto raise = [&] { problems.raise(file.name, sources->stage); };
-  if (file.complete && !file.value.is_object())
-    problems.add({file.name, file.line_of(""), "", "is " + described(file.value) + ", must be an object"});
-  if (!file.complete || !file.value.is_object()) raise();
+/// Reads an input step by step: its texts into one, that into values, and the values that a study varies.
+class LoadedInput::Loader {
+ public:
+  explicit Loader(const std::filesystem::path& path) : path_(path) {}
 
-  const auto note_origins = [&](const json& value, const JsonSource& source, const std::string& prefix) {
+  /// @throws InputProblems with all that is wrong
+  LoadedInput load(std::span<const Assignment> sets) {
+    read_study_file(sets);
+    // Assignments that change which stage is read, or the patch, come first.
+    for (const auto& set : sources_->sets)
+      if (is_early(set)) make(set);
+    if (!sources_->bare && whole_.contains("stage") && whole_["stage"].is_string()) read_stage_file();
+    if (whole_.contains("stage_patch") && !sources_->bare) patch_stage();
+    spread_all_origins();
+    for (const auto& set : sources_->sets)
+      if (!is_early(set) && !(stage_missing_ && pointer_within(set.pointer, stage_root))) make(set);
+    for (auto& set : sources_->sets)
+      if (sources_->bare && pointer_within(set.pointer, stage_root)) set.pointer.erase(0, stage_root.size());
+    read_values();
+    check_varied();
+    if (!problems_.empty()) raise();
+    return std::move(input_);
+  }
+
+ private:
+  [[noreturn]] void raise() { problems_.raise(sources_->study.name, sources_->stage); }
+
+  void refuse(const std::string& pointer, std::string message) {
+    problems_.add(sources_->locate(pointer, std::move(message)));
+  }
+
+  void note_origins(const json& value, const JsonSource& source, const std::string& prefix) {
     ReadContext context;
     check_origins(value, "", context);
     for (auto& finding : context.findings)
-      problems.add(
+      problems_.add(
           {source.name, source.line_of(finding.pointer), prefix + finding.pointer, std::move(finding.message)});
-  };
-  note_origins(file.value, file, "");
+  }
 
-  json whole = file.value;
-  sources->bare = (whole.contains("lumped") || whole.contains("catalogue")) && !whole.contains("stage");
-  bool stage_missing = false;
+  void read_study_file(std::span<const Assignment> sets) {
+    JsonSource& file = sources_->study;
+    file = read_json_file(path_);
+    problems_.add(file);
+    for (const Assignment& set : sets) {
+      if (set.problems.empty()) sources_->sets.push_back(set);
+      for (const std::string& message : set.problems) problems_.add({shown(set), 0, "", message});
+    }
+    if (file.complete && !file.value.is_object())
+      problems_.add({file.name, file.line_of(""), "", "is " + described(file.value) + ", must be an object"});
+    if (!file.complete || !file.value.is_object()) raise();
+    note_origins(file.value, file, "");
+    whole_ = file.value;
+    sources_->bare = (whole_.contains("lumped") || whole_.contains("catalogue")) && !whole_.contains("stage");
+  }
 
-  // Assignments that change which stage is read, or the patch, come first.
-  const auto is_early = [&](const Assignment& set) {
-    return !sources->bare &&
+  [[nodiscard]] bool is_early(const Assignment& set) const {
+    return !sources_->bare &&
            (pointer_within(set.pointer, patch_root) || (set.pointer == stage_root && set.value.is_string()));
-  };
-  const auto make = [&](const Assignment& set) {
-    std::string pointer = set.pointer;
-    if (sources->bare && pointer_within(pointer, stage_root)) pointer.erase(0, stage_root.size());
-    if (auto message = assign(whole, pointer, set.value); !message.empty())
-      problems.add({shown(set), 0, set.pointer, std::move(message)});
-  };
-  for (const auto& set : sources->sets)
-    if (is_early(set)) make(set);
+  }
 
-  std::optional<RawFile> stage_file;
-  if (!sources->bare && whole.contains("stage") && whole["stage"].is_string()) {
-    const auto named = whole["stage"].get<std::string>();
-    const std::filesystem::path stage_path = path.parent_path() / named;
+  void make(const Assignment& set) {
+    std::string pointer = set.pointer;
+    if (sources_->bare && pointer_within(pointer, stage_root)) pointer.erase(0, stage_root.size());
+    if (auto message = assign(whole_, pointer, set.value); !message.empty())
+      problems_.add({shown(set), 0, set.pointer, std::move(message)});
+  }
+
+  /// Puts the stage that the study names in the place of its name.
+  void read_stage_file() {
+    const auto named = whole_["stage"].get<std::string>();
+    const std::filesystem::path stage_path = path_.parent_path() / named;
     JsonSource stage = read_json_file(stage_path);
-    whole.erase("stage");
-    if (whole.contains("origin") && whole["origin"].is_object()) whole["origin"].erase("stage");
+    whole_.erase("stage");
+    if (whole_.contains("origin") && whole_["origin"].is_object()) whole_["origin"].erase("stage");
     if (stage.bytes.empty() && !stage.problems.empty()) {  // not readable at all: say who named it
       for (const auto& problem : stage.problems)
-        problems.add(
-            sources->locate(std::string(stage_root), "the stage file " + problem.file + ": " + problem.message));
+        refuse(std::string(stage_root), "the stage file " + problem.file + ": " + problem.message);
     } else {
-      problems.add(stage, stage_root);
+      problems_.add(stage, stage_root);
       if (stage.complete && !stage.value.is_object())
-        problems.add({stage.name, stage.line_of(""), std::string(stage_root),
-                      "is " + described(stage.value) + ", must be an object"});
+        problems_.add({stage.name, stage.line_of(""), std::string(stage_root),
+                       "is " + described(stage.value) + ", must be an object"});
     }
-    stage_missing = !stage.complete || !stage.value.is_object();
-    if (!stage_missing) {
+    stage_missing_ = !stage.complete || !stage.value.is_object();
+    if (!stage_missing_) {
       note_origins(stage.value, stage, std::string(stage_root));
-      whole["stage"] = stage.value;
+      whole_["stage"] = stage.value;
     }
-    stage_file = RawFile{stage_path.filename().string(), stage.bytes};
-    sources->stage = std::move(stage);
+    input_.stage_file = RawFile{stage_path.filename().string(), stage.bytes};
+    sources_->stage = std::move(stage);
   }
 
-  if (const auto patch = whole.find("stage_patch"); patch != whole.end() && !sources->bare) {
-    sources->patch = *patch;
-    whole.erase(patch);
-    if (!sources->patch.is_object()) {
-      problems.add(sources->locate(std::string(patch_root),
-                                   "is " + described(sources->patch) + ", must be an object: a JSON merge patch"));
-      sources->patch = json::object();
-    } else if (!stage_missing && whole.contains("stage") && whole["stage"].is_object() && problems.empty()) {
-      json patch_spread = sources->patch;
+  void patch_stage() {
+    const auto patch = whole_.find("stage_patch");
+    sources_->patch = *patch;
+    whole_.erase(patch);
+    const bool has_stage = !stage_missing_ && whole_.contains("stage") && whole_["stage"].is_object();
+    if (!sources_->patch.is_object()) {
+      refuse(std::string(patch_root), "is " + described(sources_->patch) + ", must be an object: a JSON merge patch");
+      sources_->patch = json::object();
+    } else if (has_stage && problems_.empty()) {
+      json patch_spread = sources_->patch;
       spread_origins(patch_spread);
-      spread_origins(whole["stage"]);
-      apply_patch(whole["stage"], std::move(patch_spread));
-    } else if (!stage_missing && whole.contains("stage") && whole["stage"].is_object()) {
-      whole["stage"].merge_patch(sources->patch);  // the origins are not needed any more
+      spread_origins(whole_["stage"]);
+      apply_patch(whole_["stage"], std::move(patch_spread));
+    } else if (has_stage) {
+      whole_["stage"].merge_patch(sources_->patch);  // the origins are not needed any more
     }
   }
 
-  if (sources->stage && whole.contains("stage")) {  // an origin of the study does not speak for another file
-    json stage = std::move(whole["stage"]);
-    whole.erase("stage");
+  /// An origin of the study does not speak for another file.
+  void spread_all_origins() {
+    if (!sources_->stage || !whole_.contains("stage")) {
+      spread_origins(whole_);
+      return;
+    }
+    json stage = std::move(whole_["stage"]);
+    whole_.erase("stage");
     spread_origins(stage);
-    spread_origins(whole);
-    whole["stage"] = std::move(stage);
-  } else {
-    spread_origins(whole);
-  }
-  for (const auto& set : sources->sets)
-    if (!is_early(set) && !(stage_missing && pointer_within(set.pointer, stage_root))) make(set);
-  for (auto& set : sources->sets)
-    if (sources->bare && pointer_within(set.pointer, stage_root)) set.pointer.erase(0, stage_root.size());
-
-  ReadContext context;
-  LoadedInput input;
-  bool sound = false;
-  std::tie(input.study, sound) = read_study(whole, sources->bare, context, &input.computed);
-  std::set<std::string, std::less<>> found;
-  for (const auto& finding : context.findings) found.insert(finding.pointer);
-  const auto is_bad = [&](const std::string& pointer) {
-    return found.count(pointer) > 0 || sources->is_unreadable(pointer);
-  };
-  if (input.study.has_points()) check_points(input.study, is_bad, context);
-  input.resolved = sources->bare ? stage_table().write(input.study.stage) : study_table().write(input.study);
-  fill_origins(input.resolved, whole);
-  note_uncomputed(input.resolved, input.computed, context.notes);
-  input.study_file = {path.filename().string(), file.bytes};
-  input.stage_file = std::move(stage_file);
-  input.sources_ = sources;
-  input.notes = std::move(context.notes);
-  for (const auto& finding : context.findings) {
-    if (stage_missing && pointer_within(finding.pointer, stage_root)) continue;
-    if (sources->is_unreadable(finding.pointer)) continue;
-    problems.add(sources->locate(finding.pointer, sources->meant_by_set(finding)));
+    spread_origins(whole_);
+    whole_["stage"] = std::move(stage);
   }
 
-  std::vector<VariedParameter> varied = varied_parameters(input.study);
-  bool has_range = true;
-  if (varied.size() == 1 && varied.front().axis.name != studies::speed_parameter) {
-    // The default range is one of speeds.
-    const nlohmann::json origins = input.resolved["study"].value("origin", nlohmann::json::object());
+  /// Whether the value at a pointer is not the one in the text.
+  [[nodiscard]] bool is_bad(const std::string& pointer) const {
+    return found_.count(pointer) > 0 || sources_->is_unreadable(pointer);
+  }
+
+  /// The study of the whole text, and all that is wrong with its values.
+  void read_values() {
+    std::tie(input_.study, sound_) = read_study(whole_, sources_->bare, context_, &input_.computed);
+    for (const auto& finding : context_.findings) found_.insert(finding.pointer);
+    if (input_.study.has_points())
+      check_points(
+          input_.study, [this](const std::string& pointer) { return is_bad(pointer); }, context_);
+    input_.resolved = sources_->bare ? stage_table().write(input_.study.stage) : study_table().write(input_.study);
+    fill_origins(input_.resolved, whole_);
+    note_uncomputed(input_.resolved, input_.computed, context_.notes);
+    input_.study_file = {path_.filename().string(), sources_->study.bytes};
+    input_.sources_ = sources_;
+    input_.notes = std::move(context_.notes);
+    for (const auto& finding : context_.findings) {
+      if (stage_missing_ && pointer_within(finding.pointer, stage_root)) continue;
+      if (sources_->is_unreadable(finding.pointer)) continue;
+      refuse(finding.pointer, sources_->meant_by_set(finding));
+    }
+  }
+
+  /// The values that the study's parameters take, each with the rest of the input.
+  void check_varied() {
+    std::vector<VariedParameter> varied = varied_parameters(input_.study);
+    const bool has_range = !lacks_range(varied);
+    for (const auto& finding : context_.findings) found_.insert(finding.pointer);
+    std::erase_if(varied, [&](const VariedParameter& parameter) {
+      const auto& [axis, place] = parameter;
+      const bool is_pointer = axis.name.rfind('/', 0) == 0;
+      return !is_pointer || is_bad(place) || is_bad(place + "/parameter") ||
+             (stage_missing_ && pointer_within(axis.name, stage_root));
+    });
+    bool have_values = has_range;
+    for (const auto& [axis, place] : varied) {
+      const bool values = has_range && !is_bad(place + "/from") && !is_bad(place + "/to") && !is_bad(place + "/points");
+      check_ends(axis, place, values);
+      have_values = have_values && values;
+    }
+    if (ends_are_sound_ && have_values && varied.size() == 1)
+      check_values(varied[0].axis, varied[0].place, as_given(), {}, "");
+    if (problems_.empty() && varied.size() == 2) check_edges(varied);
+  }
+
+  /// Whether the one parameter of a sweep has the default range, which is one of speeds, and is none.
+  bool lacks_range(const std::vector<VariedParameter>& varied) {
+    if (varied.size() != 1 || varied.front().axis.name == studies::speed_parameter) return false;
+    bool lacks = false;
+    const json origins = input_.resolved["study"].value("origin", json::object());
     for (const char* key : {"from", "to"})
       if (origins.is_object() && origins.value(key, std::string()) == "default") {
-        problems.add(
-            sources->locate(std::string("/study/") + key,
-                            "is missing; a sweep of " + varied.front().axis.name + " needs a range of its own"));
-        has_range = false;
+        refuse(std::string("/study/") + key,
+               "is missing; a sweep of " + varied.front().axis.name + " needs a range of its own");
+        lacks = true;
       }
+    return lacks;
   }
 
-  for (const auto& finding : context.findings) found.insert(finding.pointer);
-  const auto is_pointer = [](const std::string& parameter) { return parameter.rfind('/', 0) == 0; };
-  bool ends_are_sound = true;
-  const auto refuse = [&](const std::string& pointer, std::string message) {
-    problems.add(sources->locate(pointer, std::move(message)));
-    ends_are_sound = false;
-  };
-  // What a value of a parameter does wrong, where the rest of the input does nothing wrong itself: anywhere, if all of
-  // the rest was read, else at the parameter's own place.
-  const LoadedInput::Base as_given{input.resolved, sound && context.findings.empty() ? &input.study : nullptr};
-  const auto check_with = [&](const LoadedInput::Base& base, const studies::Axis& axis,
-                              const std::vector<PointerValue>& values, Study& changed, json* completed = nullptr) {
-    std::vector<Problem> wrong = input.check_with(base, values, changed, completed);
+  void refuse_end(const std::string& pointer, std::string message) {
+    refuse(pointer, std::move(message));
+    ends_are_sound_ = false;
+  }
+
+  [[nodiscard]] Base as_given() const {
+    return {input_.resolved, sound_ && context_.findings.empty() ? &input_.study : nullptr};
+  }
+
+  /// What a value of a parameter does wrong, where the rest of the input does nothing wrong itself: anywhere, if all of
+  /// the rest was read, else at the parameter's own place.
+  std::vector<Problem> check_with(const Base& base, const studies::Axis& axis, const std::vector<PointerValue>& values,
+                                  Study& changed, json* completed = nullptr) const {
+    std::vector<Problem> wrong = input_.check_with(base, values, changed, completed);
     std::erase_if(wrong, [&](const Problem& problem) {
-      return found.count(problem.pointer) > 0 || (!sound && problem.pointer != axis.name);
+      return found_.count(problem.pointer) > 0 || (!sound_ && problem.pointer != axis.name);
     });
     return wrong;
-  };
-  // At each of its values, so that nothing is begun that cannot be finished; the first bad one tells.
-  const auto check_values = [&](const studies::Axis& axis, const std::string& place, const LoadedInput::Base& base,
-                                const std::vector<PointerValue>& beside, const std::string& words) {
+  }
+
+  /// At each of its values, so that nothing is begun that cannot be finished; the first bad one tells.
+  void check_values(const studies::Axis& axis, const std::string& place, const Base& base,
+                    const std::vector<PointerValue>& beside, const std::string& words) {
     const auto at = [&](std::size_t k) {
       std::vector<PointerValue> values = beside;
       values.push_back({axis.name, studies::axis_value(axis, k)});
@@ -966,65 +1016,69 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
     };
     const auto bad = first_unsound(static_cast<std::size_t>(axis.points), at);
     for (const auto& problem : bad.problems)
-      refuse(place + "/parameter", "takes the value " + number_text(studies::axis_value(axis, bad.value)) +
-                                       ", with which" + words + " " + problem.pointer + " " + problem.message);
-  };
-  // A parameter that is a pointer: its place, and the ends of its range, if there is one.
-  const auto check_ends = [&](const studies::Axis& axis, const std::string& place, bool has_values) {
+      refuse_end(place + "/parameter", "takes the value " + number_text(studies::axis_value(axis, bad.value)) +
+                                           ", with which" + words + " " + problem.pointer + " " + problem.message);
+  }
+
+  /// A parameter that is a pointer: its place, and the ends of its range, if there is one.
+  void check_ends(const studies::Axis& axis, const std::string& place, bool has_values) {
     const bool integrator = pointer_within(axis.name, "/integrator");
-    const json* there = find_at(input.resolved, axis.name);
+    const json* there = find_at(input_.resolved, axis.name);
     if ((integrator && axis.name != "/integrator/clearance_smoothing") || axis.name == "/stage/planets/count") {
-      refuse(place + "/parameter",
-             integrator ? "an option of the integrator is not a parameter of the motion and cannot be swept"
-                        : "the number of planets changes the state itself and cannot be swept");
+      refuse_end(place + "/parameter",
+                 integrator ? "an option of the integrator is not a parameter of the motion and cannot be swept"
+                            : "the number of planets changes the state itself and cannot be swept");
     } else if (there == nullptr || !there->is_number() || pointer_within(axis.name, "/study")) {
       // Whether there is a value that was not read, or not computed, cannot be told.
       const auto at_place = [&](const KeyPlace& p) { return p.pointer == axis.name; };
-      if (there == nullptr && !sound && std::any_of(context.places.begin(), context.places.end(), at_place)) return;
+      if (there == nullptr && !sound_ && std::any_of(context_.places.begin(), context_.places.end(), at_place)) return;
       Study unused;
-      for (auto& problem : input.check_with(as_given, std::array{PointerValue{axis.name, axis.from}}, unused))
-        refuse(place + "/parameter", std::move(problem.message));
+      for (auto& problem : input_.check_with(as_given(), std::array{PointerValue{axis.name, axis.from}}, unused))
+        refuse_end(place + "/parameter", std::move(problem.message));
     } else if (has_values) {
       Study unused;
       for (const auto& [key, value] : {std::pair("/from", axis.from), std::pair("/to", axis.to)})
-        for (const auto& problem : check_with(as_given, axis, {PointerValue{axis.name, value}}, unused))
-          refuse(place + key, "is " + number_text(value) + ", with which " + problem.pointer + " " + problem.message);
+        for (const auto& problem : check_with(as_given(), axis, {PointerValue{axis.name, value}}, unused))
+          refuse_end(place + key,
+                     "is " + number_text(value) + ", with which " + problem.pointer + " " + problem.message);
     }
-  };
-  std::erase_if(varied, [&](const VariedParameter& parameter) {
-    const auto& [a, place] = parameter;
-    return !is_pointer(a.name) || is_bad(place) || is_bad(place + "/parameter") ||
-           (stage_missing && pointer_within(a.name, stage_root));
-  });
-  bool have_values = has_range;
-  for (const auto& [axis, place] : varied) {
-    const bool values = has_range && !is_bad(place + "/from") && !is_bad(place + "/to") && !is_bad(place + "/points");
-    check_ends(axis, place, values);
-    have_values = have_values && values;
   }
-  if (ends_are_sound && have_values && varied.size() == 1)
-    check_values(varied[0].axis, varied[0].place, as_given, {}, "");
-  // Two values together, on the edges of the plane: within them a rule that both have to keep is kept.
-  if (problems.empty() && varied.size() == 2)
+
+  /// Two values together, on the edges of the plane: within them a rule that both have to keep is kept.
+  void check_edges(const std::vector<VariedParameter>& varied) {
     for (const std::size_t k : {0U, 1U}) {
       const auto& [along, place] = varied[k];
       const studies::Axis& other = varied[1 - k].axis;
       for (const double end : {other.from, other.to}) {
-        if (!ends_are_sound) break;
+        if (!ends_are_sound_) break;
         const PointerValue fixed{other.name, end};
         const std::string words = ", and " + other.name + " = " + number_text(end) + ",";
         // What is computed from catalogue data is computed once, where only the value that stays is one of those.
         json completed;
         Study with_fixed;
-        if (!feeds_completion(along.name, sources->bare) && feeds_completion(other.name, sources->bare) &&
-            check_with(as_given, other, {fixed}, with_fixed, &completed).empty())
-          check_values(along, place, {completed, as_given.study == nullptr ? nullptr : &with_fixed}, {}, words);
+        if (!feeds_completion(along.name, sources_->bare) && feeds_completion(other.name, sources_->bare) &&
+            check_with(as_given(), other, {fixed}, with_fixed, &completed).empty())
+          check_values(along, place, {completed, as_given().study == nullptr ? nullptr : &with_fixed}, {}, words);
         else
-          check_values(along, place, as_given, {fixed}, words);
+          check_values(along, place, as_given(), {fixed}, words);
       }
     }
-  if (!problems.empty()) raise();
-  return input;
+  }
+
+  std::filesystem::path path_;
+  std::shared_ptr<Sources> sources_ = std::make_shared<Sources>();
+  Problems problems_;
+  json whole_;                  ///< all texts in one
+  bool stage_missing_ = false;  ///< the stage that the study names could not be read
+  LoadedInput input_;
+  ReadContext context_;
+  bool sound_ = false;                        ///< all values were read
+  std::set<std::string, std::less<>> found_;  ///< pointers that something was found at
+  bool ends_are_sound_ = true;                ///< no value of a parameter was refused
+};
+
+LoadedInput load_input(const std::filesystem::path& path, std::span<const Assignment> sets) {
+  return LoadedInput::Loader(path).load(sets);
 }
 
 std::vector<std::string> LoadedInput::number_pointers() const {

@@ -161,7 +161,9 @@ class LoadedInput {
   /// The study with the number at this pointer of the resolved input replaced, checked as strictly as a file.
   /// @throws InputProblems when the pointer is not one of a number, or the study is not valid with that value
   [[nodiscard]] Study with_value(std::string_view pointer, double value) const;
-  /// The same with several.
+  /// The study with the numbers at several pointers of the resolved input replaced, checked together as strictly as a
+  /// file.
+  /// @throws InputProblems when a pointer is not one of a number, or the study is not valid with these values
   [[nodiscard]] Study with_values(std::span<const PointerValue> values) const;
 
   /// Pointers of all numbers that with_value() takes.
@@ -170,6 +172,7 @@ class LoadedInput {
  private:
   friend LoadedInput load_input(const std::filesystem::path&, std::span<const Assignment>);
   struct Sources;
+  class Loader;
   /// A resolved input: this one's, or one with other values.
   struct Base {
     const nlohmann::json& resolved;
