@@ -115,6 +115,35 @@ std::string legend_entry(std::string_view colour, std::string_view label) {
                      gnuplot_quoted(portable_text(label)));
 }
 
+/// gnuplot's plots of a diagram of classes.
+struct ClassPlots {
+  std::string dots;  ///< of the sections, with the legend's entries
+  std::string bars;  ///< of the values and their intervals
+  std::vector<std::string> legend;
+};
+
+/// Of the classes that have points.
+/// @param counts  points of each class
+/// @param count   points of the grid
+ClassPlots plots_of(std::string_view stem, const std::vector<PointClass>& classes,
+                    const std::vector<std::size_t>& counts, std::size_t count) {
+  constexpr std::size_t few = 100;  // values of the parameter
+  ClassPlots plots;
+  std::string entries;
+  for (std::size_t k = 0; k < classes.size(); ++k) {
+    if (counts[k] == 0) continue;
+    plots.dots += (plots.dots.empty() ? "" : ", \\\n  ") + plot_dots(stem, 2 * k, classes[k].colour, count);
+    plots.legend.push_back(fmt::format("{} ({})", classes[k].label, counts[k]));
+    entries += legend_entry(classes[k].colour, plots.legend.back());
+    plots.bars += fmt::format(
+        ", \\\n  '{0}.dat' index {1} using 1:2:3 with yerrorbars pointtype 7 pointsize {3:.2f}*mark linewidth {4} "
+        "linecolor '{2}' notitle",
+        stem, 2 * k + 1, classes[k].colour, count > few ? 0.25 : 0.6, count > few ? 1 : 2);
+  }
+  plots.dots += entries;
+  return plots;
+}
+
 }  // namespace
 
 FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
@@ -211,26 +240,12 @@ FigureOutcome class_bifurcation_figure(const std::filesystem::path& folder, std:
     data.flush();
   };
 
-  constexpr std::size_t few = 100;  // values of the parameter
-  std::string dots;
-  std::string entries;
-  std::vector<std::string> legend;
-  std::string bars;
-  for (std::size_t k = 0; k < classes.size(); ++k) {
-    if (counts[k] == 0) continue;
-    dots += (dots.empty() ? "" : ", \\\n  ") + plot_dots(stem, 2 * k, classes[k].colour, count);
-    legend.push_back(fmt::format("{} ({})", classes[k].label, counts[k]));
-    entries += legend_entry(classes[k].colour, legend.back());
-    bars += fmt::format(
-        ", \\\n  '{0}.dat' index {1} using 1:2:3 with yerrorbars pointtype 7 pointsize {3:.2f}*mark linewidth {4} "
-        "linecolor '{2}' notitle",
-        stem, 2 * k + 1, classes[k].colour, count > few ? 0.25 : 0.6, count > few ? 1 : 2);
-  }
+  const ClassPlots plots = plots_of(stem, classes, counts, count);
   const std::vector<FigurePanel> panels = {
-      {text.y_label, y, dots + entries, 2.0},
-      {value_label, value_range, "0 with lines linewidth 1.2 linecolor '#808080' notitle" + bars, 1.0}};
+      {text.y_label, y, plots.dots, 2.0},
+      {value_label, value_range, "0 with lines linewidth 1.2 linecolor '#808080' notitle" + plots.bars, 1.0}};
   return draw_figure(folder, stem, write_data,
-                     panel_script(stem, text, x, panels, legend, "set errorbars 0\n" + dot_settings(x)), which);
+                     panel_script(stem, text, x, panels, plots.legend, "set errorbars 0\n" + dot_settings(x)), which);
 }
 
 }  // namespace epicyclic::figures

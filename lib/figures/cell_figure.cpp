@@ -96,6 +96,45 @@ std::string legend_entry(const CellClass& c) {
                      gnuplot_quoted(portable_text(c.label)));
 }
 
+std::string number(double v) {
+  std::string t;
+  append_number(t, v);
+  return t;
+}
+
+/// Of the finite values and zero; empty if there are none.
+FigureRange value_range(const std::vector<double>& cells) {
+  FigureRange range;
+  for (const double v : cells) range.include(v);
+  if (range.empty()) return range;
+  range.include(0.0);
+  // A side that hardly leaves zero is not to look as strong as the other.
+  constexpr double least_side = 0.1;
+  range.include(-least_side * range.high);
+  range.include(-least_side * range.low);
+  return range.widened(0);
+}
+
+/// After Brewer's RdBu, which colour-blind eyes tell apart; white is zero.
+std::string palette_over(const FigureRange& range) {
+  std::string palette;
+  const auto colour = [&](double at, std::string_view name) {
+    palette += fmt::format("{}{} '{}'", palette.empty() ? "" : ", ", number(at), name);
+  };
+  if (range.low < 0.0) {
+    colour(range.low, "#053061");
+    colour(0.6 * range.low, "#4393c3");
+    colour(0.2 * range.low, "#d1e5f0");
+  }
+  colour(0.0, "#ffffff");
+  if (range.high > 0.0) {
+    colour(0.2 * range.high, "#fddbc7");
+    colour(0.6 * range.high, "#d6604d");
+    colour(range.high, "#67001f");
+  }
+  return palette;
+}
+
 }  // namespace
 
 FigureOutcome class_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
@@ -128,24 +167,9 @@ FigureOutcome value_figure(const std::filesystem::path& folder, std::string_view
                            const CellGrid& grid, const std::string& bar_label, const std::string& grey_label,
                            const std::vector<double>& cells) {
   check(grid, cells.size());
-  FigureRange range;
-  bool grey = false;
-  for (const double v : cells) {
-    range.include(v);
-    grey = grey || !std::isfinite(v);
-  }
+  const FigureRange range = value_range(cells);
   if (range.empty()) return {"there is no finite value to draw"};
-  range.include(0.0);
-  // A side that hardly leaves zero is not to look as strong as the other.
-  constexpr double least_side = 0.1;
-  range.include(-least_side * range.high);
-  range.include(-least_side * range.low);
-  range = range.widened(0);
-  const auto number = [](double v) {
-    std::string t;
-    append_number(t, v);
-    return t;
-  };
+  const bool grey = std::any_of(cells.begin(), cells.end(), [](double v) { return !std::isfinite(v); });
   const auto alike = [&](std::size_t a, std::size_t b) {
     return cells[a] == cells[b] || (!std::isfinite(cells[a]) && !std::isfinite(cells[b]));
   };
@@ -159,33 +183,17 @@ FigureOutcome value_figure(const std::filesystem::path& folder, std::string_view
     write_rectangles(file, grid, alike,
                      [&](std::size_t cell) { return std::isfinite(cells[cell]) ? std::string() : std::string("NaN"); });
   };
-  // After Brewer's RdBu, which colour-blind eyes tell apart.
-  std::string palette;
-  const auto colour = [&](double at, std::string_view name) {
-    palette += fmt::format("{}{} '{}'", palette.empty() ? "" : ", ", number(at), name);
-  };
-  if (range.low < 0.0) {
-    colour(range.low, "#053061");
-    colour(0.6 * range.low, "#4393c3");
-    colour(0.2 * range.low, "#d1e5f0");
-  }
-  colour(0.0, "#ffffff");
-  if (range.high > 0.0) {
-    colour(0.2 * range.high, "#fddbc7");
-    colour(0.6 * range.high, "#d6604d");
-    colour(range.high, "#67001f");
-  }
-  const std::string extra =
-      overlap(grid) + std::string(legend_place) +
-      fmt::format(
-          "set palette defined ({})\n"
-          "set palette maxcolors 0\n"
-          "set cbrange [{}:{}]\n"
-          "set cblabel {} offset 1.5,0\n"
-          "set colorbox user origin screen 0.745, graph 0 size screen 0.03, graph {}\n"
-          "set cbtics font ',20'\n"
-          "set format cb '%h'\n",
-          palette, number(range.low), number(range.high), gnuplot_quoted(portable_text(bar_label)), grey ? 0.9 : 1.0);
+  const std::string extra = overlap(grid) + std::string(legend_place) +
+                            fmt::format(
+                                "set palette defined ({})\n"
+                                "set palette maxcolors 0\n"
+                                "set cbrange [{}:{}]\n"
+                                "set cblabel {} offset 1.5,0\n"
+                                "set colorbox user origin screen 0.745, graph 0 size screen 0.03, graph {}\n"
+                                "set cbtics font ',20'\n"
+                                "set format cb '%h'\n",
+                                palette_over(range), number(range.low), number(range.high),
+                                gnuplot_quoted(portable_text(bar_label)), grey ? 0.9 : 1.0);
   // Grey lies under the coloured cells' blurred edges, and over what they overlap.
   const auto greys = [&](std::string_view outline) {
     return fmt::format(

@@ -442,6 +442,53 @@ Head head_of(const std::string& plain_title, const std::vector<std::string>& leg
   return head;
 }
 
+/// @param folder  that it runs in
+/// @param output  descriptor that takes what it says
+/// @param child   replaced by its process
+/// @returns the error number, 0 if it was started
+int start_gnuplot(const fs::path& folder, const fs::path& script, Pictures which, int output, pid_t& child) {
+  std::vector<std::string> variables = c_locale_environment();
+  std::vector<char*> environment;
+  environment.reserve(variables.size() + 1);
+  for (std::string& variable : variables) environment.push_back(variable.data());
+  environment.push_back(nullptr);
+  // "./" keeps a script whose name begins with a dash from being taken for an option.
+  std::string program = "gnuplot";
+  std::string without_user_settings = "-d";
+  std::string called_with_argument = "-c";
+  std::string script_name = "./" + script.filename().string();
+  std::string argument(which == Pictures::svg ? svg : png);
+  std::array<char*, 6> arguments{
+      program.data(), without_user_settings.data(), called_with_argument.data(), script_name.data(), argument.data(),
+      nullptr};
+  if (which == Pictures::both) arguments = {program.data(), without_user_settings.data(), script_name.data(), nullptr};
+
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  // Our stdout belongs to the data.
+  ::posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+  ::posix_spawn_file_actions_adddup2(&actions, output, STDERR_FILENO);
+  // Signals that this process blocks or ignores (SIGXFSZ, SIGPIPE) are none of gnuplot's business.
+  sigset_t none;
+  sigset_t all;
+  ::sigemptyset(&none);
+  ::sigfillset(&all);
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setsigmask(&attributes, &none);
+  ::posix_spawnattr_setsigdefault(&attributes, &all);
+  // Nor is Ctrl-C on a terminal, which goes to the whole process group: this process decides what is drawn to the end.
+  ::posix_spawnattr_setpgroup(&attributes, 0);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+  const int error =
+      ::posix_spawnp(&child, program.c_str(), &actions, &attributes, arguments.data(), environment.data());
+  ::posix_spawnattr_destroy(&attributes);
+  ::posix_spawn_file_actions_destroy(&actions);
+  return error;
+}
+
 }  // namespace
 
 void FigureRange::include(double value) {
@@ -473,47 +520,8 @@ FigureOutcome run_gnuplot(const fs::path& script, Pictures which, std::optional<
   if (::pipe2(pipe_ends.data(), O_CLOEXEC) != 0) return {"cannot run gnuplot: " + reason(errno)};
   const FileDescriptor read_end(pipe_ends[0]);
   FileDescriptor write_end(pipe_ends[1]);
-
-  std::vector<std::string> variables = c_locale_environment();
-  std::vector<char*> environment;
-  environment.reserve(variables.size() + 1);
-  for (std::string& variable : variables) environment.push_back(variable.data());
-  environment.push_back(nullptr);
-  // "./" keeps a script whose name begins with a dash from being taken for an option.
-  std::string program = "gnuplot";
-  std::string without_user_settings = "-d";
-  std::string called_with_argument = "-c";
-  std::string script_name = "./" + script.filename().string();
-  std::string argument(which == Pictures::svg ? svg : png);
-  std::array<char*, 6> arguments{
-      program.data(), without_user_settings.data(), called_with_argument.data(), script_name.data(), argument.data(),
-      nullptr};
-  if (which == Pictures::both) arguments = {program.data(), without_user_settings.data(), script_name.data(), nullptr};
-
-  posix_spawn_file_actions_t actions;
-  posix_spawnattr_t attributes;
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  // Our stdout belongs to the data.
-  ::posix_spawn_file_actions_adddup2(&actions, write_end.get(), STDOUT_FILENO);
-  ::posix_spawn_file_actions_adddup2(&actions, write_end.get(), STDERR_FILENO);
-  // Signals that this process blocks or ignores (SIGXFSZ, SIGPIPE) are none of gnuplot's business.
-  sigset_t none;
-  sigset_t all;
-  ::sigemptyset(&none);
-  ::sigfillset(&all);
-  ::posix_spawnattr_init(&attributes);
-  ::posix_spawnattr_setsigmask(&attributes, &none);
-  ::posix_spawnattr_setsigdefault(&attributes, &all);
-  // Nor is Ctrl-C on a terminal, which goes to the whole process group: this process decides what is drawn to the end.
-  ::posix_spawnattr_setpgroup(&attributes, 0);
-  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   pid_t child = 0;
-  const int error =
-      ::posix_spawnp(&child, program.c_str(), &actions, &attributes, arguments.data(), environment.data());
-  ::posix_spawnattr_destroy(&attributes);
-  ::posix_spawn_file_actions_destroy(&actions);
+  const int error = start_gnuplot(folder, script, which, write_end.get(), child);
   write_end = FileDescriptor();
   if (error == ENOENT && fs::exists(folder)) {
     return {"gnuplot is not installed (Debian: apt install gnuplot-nox); the figure's data and script are written"};

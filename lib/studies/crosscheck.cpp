@@ -142,12 +142,14 @@ class Examiner {
     return v;
   }
 
+  static void conclude(Comparison& c, Verdict verdict, std::string detail) {
+    c.verdict = verdict;
+    c.detail = std::move(detail);
+  }
+
   void explain(const Pair& both, const std::vector<double>& start, Comparison& c) const {
     const auto& [point, ours, reference, other, result] = both;
-    const auto done = [&](Verdict verdict, std::string detail) {
-      c.verdict = verdict;
-      c.detail = std::move(detail);
-    };
+    const auto done = [&](Verdict verdict, std::string detail) { conclude(c, verdict, std::move(detail)); };
     if (torus(reference) && torus(result))
       if (const std::string one = one_torus(both); !one.empty()) return done(Verdict::torus, one);
     const bool near = periodic(reference) && periodic(result) && c.distance <= clearly * options_.orbit_tolerance;
@@ -169,8 +171,13 @@ class Examiner {
     const Pair tight{point, tight_ours, our_tight, tight_other, their_tight};
     if (reached(our_tight) && reached(their_tight) && same(tight))
       return done(Verdict::tolerance, "at tolerances 100 times tighter the distance is " + short_text(distance(tight)));
+    follow(both, c);
+  }
 
-    // Followed for long, from either.
+  /// What either motion comes to in the long run, each followed by its own method.
+  void follow(const Pair& both, Comparison& c) const {
+    const auto& [point, ours, reference, other, result] = both;
+    const auto done = [&](Verdict verdict, std::string detail) { conclude(c, verdict, std::move(detail)); };
     PointResult our_last = reference;
     PointResult their_last = result;
     int followed_for = 0;

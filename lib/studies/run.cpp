@@ -180,6 +180,37 @@ class Run {
     r.orbit = std::move(orbit);
   }
 
+  struct Signal {
+    const char* name;
+    const char* unit;
+    std::vector<double> values;  ///< dense_phases in each mesh period
+  };
+
+  /// @param exact  the signal is that of an orbit of period n: its harmonics are exact
+  [[nodiscard]] SignalSpectrum spectrum_of(Signal signal, bool exact, int n) const {
+    SignalSpectrum s;
+    s.signal = signal.name;
+    s.unit = signal.unit;
+    s.exact = exact;
+    const double dt = 1.0 / options_.dense_phases;  // in mesh periods
+    std::vector<double>& values = signal.values;
+    if (!exact) {
+      // A window spreads the mean over its neighbours.
+      const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+      for (double& x : values) x -= mean;
+    }
+    s.spectrum =
+        analysis::amplitude_spectrum(values, dt, exact ? analysis::Window::rectangular : analysis::Window::flat_top);
+    if (exact) {
+      s.lines = analysis::harmonics(values, n);
+    } else {
+      constexpr std::size_t most = 20;
+      constexpr double floor = 1e-3;
+      s.peaks = analysis::peaks(s.spectrum, 1.0, most, floor);
+    }
+    return s;
+  }
+
   /// Histories, and the signals of the spectra, which are longer.
   /// @returns Recorder::pulls()
   [[nodiscard]] std::vector<double> record(RunResult& r) const {
@@ -189,11 +220,6 @@ class Run {
     Recorder recorder(model_, scales_, r.history);
     const bool exact = r.orbit.has_value();
     const int n = exact ? r.point.period : options_.spectrum_periods;
-    struct Signal {
-      const char* name;
-      const char* unit;
-      std::vector<double> values;
-    };
     std::vector<Signal> signals = {
         {"delta_sp_1", "um", {}}, {"delta_rp_1", "um", {}}, {"force_sp_1", "N", {}}, {"force_rp_1", "N", {}}};
     std::vector<double> y = state_;
@@ -223,29 +249,7 @@ class Run {
                           });
       if (!e.reached()) return recorder.pulls();
     }
-    for (Signal& signal : signals) {
-      SignalSpectrum s;
-      s.signal = signal.name;
-      s.unit = signal.unit;
-      s.exact = exact;
-      const double dt = 1.0 / options_.dense_phases;  // in mesh periods
-      std::vector<double>& values = signal.values;
-      if (!exact) {
-        // A window spreads the mean over its neighbours.
-        const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-        for (double& x : values) x -= mean;
-      }
-      s.spectrum =
-          analysis::amplitude_spectrum(values, dt, exact ? analysis::Window::rectangular : analysis::Window::flat_top);
-      if (exact) {
-        s.lines = analysis::harmonics(values, n);
-      } else {
-        constexpr std::size_t most = 20;
-        constexpr double floor = 1e-3;
-        s.peaks = analysis::peaks(s.spectrum, 1.0, most, floor);
-      }
-      r.spectra.push_back(std::move(s));
-    }
+    for (Signal& signal : signals) r.spectra.push_back(spectrum_of(std::move(signal), exact, n));
     return recorder.pulls();
   }
 

@@ -114,17 +114,12 @@ class Integration {
       const bool inside = kernels.within(data_of(y), bound, column_stride(y));
       if (!(inside && only_column) && !finite(y)) return fail(s, "the state is not finite after a step");
       const double arrived = at_stop ? target : reached;
-      if (options.locate_contacts && !crossing_ahead) {
-        if (find_crossing(s_before, arrived, before, crossing)) {
-          // Back to the step's beginning, to end on the crossing.
-          std::copy_n(data_of(before_.get()), padded_size(y), data_of(y));
-          crossing_ahead = true;
-          target = crossing.s;
-          spent_ += stepper_.attempts();
-          restart(s_before, std::min(before, target - s_before), target);
-          proposed = before;
-          continue;
-        }
+      if (options.locate_contacts && !crossing_ahead && find_crossing(s_before, arrived, before, crossing)) {
+        crossing_ahead = true;
+        target = crossing.s;
+        step_again(s_before, std::min(before, target - s_before), target);
+        proposed = before;
+        continue;
       }
       s = arrived;
       system_.phase = s;
@@ -133,16 +128,11 @@ class Integration {
       // A step cut short by the stop says nothing against the longer one that was proposed before it.
       if (at_stop) proposed = std::max(proposed, before);
       if (!fixed_) next_step = proposed;
-      if (!inside)
-        return end(Outcome::diverged, s,
-                   "a component of the state left the bound " + std::to_string(options.escape_bound));
-      if (spent_ + stepper_.attempts() >= steps_left_ && s < to)
-        return end(Outcome::step_limit, s,
-                   "more than " + std::to_string(options.max_steps_per_period) + " steps in a period");
       // Steps at the rounding of s lead nowhere; one such step may be what a stop has left over.
       const bool tiny = s - s_before <= 4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(s), 1.0);
       stalled = tiny && !at_stop ? stalled + 1 : 0;
-      if (stalled > 3) return end(Outcome::failed, s, "the step has shrunk to the rounding of s");
+      const bool spent = spent_ + stepper_.attempts() >= steps_left_ && s < to;
+      if (!inside || spent || stalled > 3) return give_up(s, inside, spent);
       if (at_stop && crossing_ahead && s < to) {
         side_[crossing.surface] = !side_[crossing.surface];
         crossing_ahead = false;
@@ -151,11 +141,27 @@ class Integration {
         restart(s, proposed, target);
       }
     }
-    const long attempts = spent_ + stepper_.attempts();
-    system_.work.steps += attempts;
-    steps_left_ -= attempts;
-    spent_ = 0;
-    return {Outcome::reached, to, {}};
+    steps_left_ -= spent_ + stepper_.attempts();
+    return end(Outcome::reached, to, {});
+  }
+
+  /// After a step that left the bound, was the last one allowed, or came to nothing once too often.
+  Evolution give_up(double s, bool inside, bool spent) {
+    const IntegratorOptions& options = *system_.options;
+    if (!inside)
+      return end(Outcome::diverged, s,
+                 "a component of the state left the bound " + std::to_string(options.escape_bound));
+    if (spent)
+      return end(Outcome::step_limit, s,
+                 "more than " + std::to_string(options.max_steps_per_period) + " steps in a period");
+    return end(Outcome::failed, s, "the step has shrunk to the rounding of s");
+  }
+
+  /// Back to the last step's beginning, s, to end it on `target`.
+  void step_again(double s, double first_step, double target) {
+    std::copy_n(data_of(before_.get()), padded_size(y_.get()), data_of(y_.get()));
+    spent_ += stepper_.attempts();
+    restart(s, first_step, target);
   }
 
   void restart(double s, double first_step, double target) {
