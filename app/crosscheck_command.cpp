@@ -19,6 +19,58 @@
 
 namespace epicyclic::app {
 
+namespace {
+
+/// Of earlier sessions: results by variant and point. Record v n + k is point k < n by variant v.
+std::map<std::pair<std::size_t, std::size_t>, studies::PointResult> known_results(const store::Journal& journal,
+                                                                                  std::size_t points,
+                                                                                  std::size_t variants) {
+  std::map<std::pair<std::size_t, std::size_t>, studies::PointResult> known;
+  for (const store::JournalEntry& entry : journal.entries()) {
+    studies::PointResult result = store::decode_point(journal.read(entry));
+    const std::size_t variant = entry.point / points;
+    if (variant >= variants || result.point.index != entry.point % points)
+      throw store::DamagedData("the journal holds result " + std::to_string(entry.point) + ", which the study has not");
+    known.insert_or_assign({variant, result.point.index}, std::move(result));
+  }
+  return known;
+}
+
+/// What is for readers of the folder.
+struct Written {
+  std::string summary;
+  reports::DrawnFigure figure;
+};
+
+Written write_results(const store::OutputFolder& folder, const reports::SweepOutput& output,
+                      const studies::Crosscheck& all, double orbit_tolerance) {
+  const studies::PointSource reference = studies::points_in_memory(all.reference);
+  reports::write_points_csv(folder.file("points.csv"), reference);
+  reports::write_poincare_csv(folder.file("poincare.csv"), output, reference);
+  reports::write_crosscheck_csv(folder.file("crosscheck.csv"), all);
+  std::string summary = reports::crosscheck_summary(all);
+  write_file_atomically(folder.file("crosscheck.md"), summary);
+  return {std::move(summary), reports::draw_crosscheck_figure(folder.file("figures"), output, all, orbit_tolerance)};
+}
+
+/// On stdout.
+void tell_result(const Arguments& arguments, const store::OutputFolder& folder, std::size_t points, std::size_t failed,
+                 const studies::Crosscheck& all, const Written& written) {
+  if (arguments.json) {
+    print("{}\n", nlohmann::json{{"folder", folder.path().string()},
+                                 {"points", points},
+                                 {"comparisons", all.comparisons.size()},
+                                 {"differences", reports::differences(all)},
+                                 {"failed", failed}}
+                      .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else {
+    print("{}", written.summary);
+    if (written.figure.outcome.drawn()) print("\nfigure: {}\n", written.figure.file.string());
+  }
+}
+
+}  // namespace
+
 int crosscheck_command(const Arguments& arguments) {
   stop_on_signals();
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
@@ -40,13 +92,7 @@ int crosscheck_command(const Arguments& arguments) {
   studies::CrosscheckRun run;
   run.threads = arguments.threads;
   run.stop = &stop_requested();
-  for (const store::JournalEntry& entry : journal.entries()) {
-    studies::PointResult result = store::decode_point(journal.read(entry));
-    const std::size_t variant = entry.point / points;
-    if (variant >= variants.size() || result.point.index != entry.point % points)
-      throw store::DamagedData("the journal holds result " + std::to_string(entry.point) + ", which the study has not");
-    run.done.insert_or_assign({variant, result.point.index}, std::move(result));
-  }
+  run.done = known_results(journal, points, variants.size());
   std::size_t finished = run.done.size();
   std::size_t failed = 0;
   for (const auto& [key, result] : run.done) failed += result.outcome == integrate::Outcome::reached ? 0 : 1;
@@ -77,30 +123,12 @@ int crosscheck_command(const Arguments& arguments) {
   folder.require_there();
   const reports::SweepOutput output{sweep, studies::poincare_columns(first_model), session.resolved(),
                                     reports::figure_title(input.study)};
-  const studies::PointSource reference = studies::points_in_memory(all.reference);
-  reports::write_points_csv(folder.file("points.csv"), reference);
-  reports::write_poincare_csv(folder.file("poincare.csv"), output, reference);
-  reports::write_crosscheck_csv(folder.file("crosscheck.csv"), all);
-  const std::string summary = reports::crosscheck_summary(all);
-  write_file_atomically(folder.file("crosscheck.md"), summary);
-  const reports::DrawnFigure figure =
-      reports::draw_crosscheck_figure(folder.file("figures"), output, all, options.orbit_tolerance);
-  undrawn = tell_undrawn({figure});
+  const Written written = write_results(folder, output, all, options.orbit_tolerance);
+  undrawn = tell_undrawn({written.figure});
   close_run(store::RunState::complete);
 
-  const std::size_t different = reports::differences(all);
-  if (arguments.json) {
-    print("{}\n", nlohmann::json{{"folder", folder.path().string()},
-                                 {"points", points},
-                                 {"comparisons", all.comparisons.size()},
-                                 {"differences", different},
-                                 {"failed", failed}}
-                      .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-  } else {
-    print("{}", summary);
-    if (figure.outcome.drawn()) print("\nfigure: {}\n", figure.file.string());
-  }
-  return different == 0 && failed == 0 && undrawn == 0 ? done : done_with_failures;
+  tell_result(arguments, folder, points, failed, all, written);
+  return reports::differences(all) == 0 && failed == 0 && undrawn == 0 ? done : done_with_failures;
 }
 
 }  // namespace epicyclic::app

@@ -61,6 +61,76 @@ int answer(const CLI::App& cli, const CLI::ParseError& asked, const Ranks& ranks
   return code;
 }
 
+/// The subcommands on the command line.
+class Subcommands {
+ public:
+  /// @param arguments  takes what is parsed; must live longer
+  Subcommands(CLI::App& cli, Arguments& arguments) {
+    const auto with_input = [&](CLI::App* command) {
+      command->add_option("INPUT", arguments.input, "study or stage file (JSON)")->required();
+      command->add_option("--set", arguments.sets, "/json/pointer=value, overrides one value; may be repeated")
+          ->take_all()
+          ->expected(1)
+          ->allow_extra_args(false);
+    };
+    const auto with_output = [&](CLI::App* command) {
+      command->add_option("-o,--output", arguments.output, "folder for the results")->required();
+      command->add_flag("--json", arguments.json, "print the summary as JSON");
+    };
+
+    gear_ = cli.add_subcommand("gear", "teeth, contact, stiffness, friction, bearings and modes of the stage");
+    with_input(gear_);
+    with_output(gear_);
+    run_point_ = cli.add_subcommand("run", "one operating point: regime, forces, spectra, exponents, orbit, figures");
+    with_input(run_point_);
+    with_output(run_point_);
+    sweep_ = cli.add_subcommand("sweep", "bifurcation diagram along one parameter, up, down or both");
+    with_input(sweep_);
+    with_output(sweep_);
+    map_ = cli.add_subcommand("map", "regimes over two parameters");
+    with_input(map_);
+    with_output(map_);
+    basins_ = cli.add_subcommand("basins", "coexisting attractors over a plane of initial conditions");
+    with_input(basins_);
+    with_output(basins_);
+    tolerance_ =
+        cli.add_subcommand("tolerance", "answers against tolerance, clearance smoothing and method, with error bars");
+    with_input(tolerance_);
+    with_output(tolerance_);
+    crosscheck_ = cli.add_subcommand("crosscheck", "the same points by several methods, compared");
+    with_input(crosscheck_);
+    with_output(crosscheck_);
+    for (CLI::App* command : {sweep_, map_, basins_, tolerance_, crosscheck_})
+      command->add_option("--threads", arguments.threads, "threads; the results do not depend on it")
+          ->check(CLI::Range(1, 4096))
+          ->capture_default_str();
+    check_ = cli.add_subcommand("check", "validates, prints the resolved input and its cost; writes nothing");
+    with_input(check_);
+    schema_ = cli.add_subcommand("schema", "the JSON Schema of the input");
+  }
+
+  /// Whether the one that was parsed runs on several processes.
+  [[nodiscard]] bool share_work() const { return sweep_->parsed() || map_->parsed() || basins_->parsed(); }
+
+  /// Runs the one that was parsed.
+  /// @returns its exit code
+  [[nodiscard]] int run(const Arguments& arguments) const {
+    if (gear_->parsed()) return gear_command(arguments);
+    if (run_point_->parsed()) return run_command(arguments);
+    if (sweep_->parsed()) return sweep_command(arguments);
+    if (map_->parsed()) return map_command(arguments);
+    if (basins_->parsed()) return basins_command(arguments);
+    if (tolerance_->parsed()) return tolerance_command(arguments);
+    if (crosscheck_->parsed()) return crosscheck_command(arguments);
+    if (check_->parsed()) return check_command(arguments);
+    if (schema_->parsed()) print("{}\n", input::schema_text());
+    return static_cast<int>(done);
+  }
+
+ private:
+  CLI::App *gear_, *run_point_, *sweep_, *map_, *basins_, *tolerance_, *crosscheck_, *check_, *schema_;
+};
+
 int run(int argc, char** argv) {
   Ranks ranks;
   CLI::App cli("Nonlinear dynamics of planetary gear trains, with proof.", "epicyclic");
@@ -70,49 +140,7 @@ int run(int argc, char** argv) {
   arguments.threads = own_cores();
   arguments.ranks = &ranks;
 
-  const auto with_input = [&](CLI::App* command) {
-    command->add_option("INPUT", arguments.input, "study or stage file (JSON)")->required();
-    command->add_option("--set", arguments.sets, "/json/pointer=value, overrides one value; may be repeated")
-        ->take_all()
-        ->expected(1)
-        ->allow_extra_args(false);
-  };
-  const auto with_output = [&](CLI::App* command) {
-    command->add_option("-o,--output", arguments.output, "folder for the results")->required();
-    command->add_flag("--json", arguments.json, "print the summary as JSON");
-  };
-
-  CLI::App* gear = cli.add_subcommand("gear", "teeth, contact, stiffness, friction, bearings and modes of the stage");
-  with_input(gear);
-  with_output(gear);
-  CLI::App* run_point =
-      cli.add_subcommand("run", "one operating point: regime, forces, spectra, exponents, orbit, figures");
-  with_input(run_point);
-  with_output(run_point);
-  CLI::App* sweep = cli.add_subcommand("sweep", "bifurcation diagram along one parameter, up, down or both");
-  with_input(sweep);
-  with_output(sweep);
-  CLI::App* map = cli.add_subcommand("map", "regimes over two parameters");
-  with_input(map);
-  with_output(map);
-  CLI::App* basins = cli.add_subcommand("basins", "coexisting attractors over a plane of initial conditions");
-  with_input(basins);
-  with_output(basins);
-  CLI::App* tolerance =
-      cli.add_subcommand("tolerance", "answers against tolerance, clearance smoothing and method, with error bars");
-  with_input(tolerance);
-  with_output(tolerance);
-  CLI::App* crosscheck = cli.add_subcommand("crosscheck", "the same points by several methods, compared");
-  with_input(crosscheck);
-  with_output(crosscheck);
-  for (CLI::App* command : {sweep, map, basins, tolerance, crosscheck})
-    command->add_option("--threads", arguments.threads, "threads; the results do not depend on it")
-        ->check(CLI::Range(1, 4096))
-        ->capture_default_str();
-  CLI::App* check = cli.add_subcommand("check", "validates, prints the resolved input and its cost; writes nothing");
-  with_input(check);
-  const CLI::App* schema = cli.add_subcommand("schema", "the JSON Schema of the input");
-
+  const Subcommands commands(cli, arguments);
   const int code = guarded(ranks, [&] {
     try {
       cli.parse(argc, argv);
@@ -122,18 +150,9 @@ int run(int argc, char** argv) {
     check_instruction_set_limit();
     if (ranks.size() > 1 && !ranks.connected())
       throw InputError("several processes cannot share the work: this program was built without MPI");
-    if (ranks.size() > 1 && !sweep->parsed() && !map->parsed() && !basins->parsed())
+    if (ranks.size() > 1 && !commands.share_work())
       throw InputError("only sweep, map and basins run on several processes");
-    if (gear->parsed()) return gear_command(arguments);
-    if (run_point->parsed()) return run_command(arguments);
-    if (sweep->parsed()) return sweep_command(arguments);
-    if (map->parsed()) return map_command(arguments);
-    if (basins->parsed()) return basins_command(arguments);
-    if (tolerance->parsed()) return tolerance_command(arguments);
-    if (crosscheck->parsed()) return crosscheck_command(arguments);
-    if (check->parsed()) return check_command(arguments);
-    if (schema->parsed()) print("{}\n", input::schema_text());
-    return static_cast<int>(done);
+    return commands.run(arguments);
   });
   if (ranks.size() > 1) leave_ranks(code);
   return code;

@@ -116,6 +116,38 @@ WrittenPoints write_results(const Arguments& arguments, const std::vector<Result
   return all;
 }
 
+/// Regimes and pulls of all points and what was drawn, on stdout.
+void tell_result(const Arguments& arguments, std::string_view noun, const ComputedPoints& computed_points,
+                 const WrittenPoints& written, std::size_t failed) {
+  const studies::PointSource& points = computed_points.points;
+  std::map<std::string, std::size_t> regimes;
+  Pulls pulls;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const studies::PointResult r = points.read_brief(i);
+    if (!computed(r)) continue;
+    ++regimes[to_string(r.regime)];
+    pulls.see(r);
+  }
+  nlohmann::json summary = {{"folder", computed_points.folder.string()},
+                            {"points", points.count},
+                            {"failed", failed},
+                            {"regimes", regimes},
+                            {"pulling", pulls.points},
+                            {"figures", nlohmann::json::array()}};
+  summary.update(written.summary);
+  for (const reports::DrawnFigure& figure : written.figures)
+    if (figure.outcome.drawn()) summary["figures"].push_back(figure.file.string());
+  if (arguments.json) {
+    print("{}\n", summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else {
+    print("{} {}, {} failed, in {}\n", points.count, noun, failed, computed_points.folder.string());
+    for (const auto& [regime, count] : regimes) print("{}: {}\n", regime, count);
+    if (pulls.points > 0) print("{}\n", pulls.note(noun));
+    for (const std::string& line : written.lines) print("{}\n", line);
+    for (const auto& figure : summary["figures"]) print("figure: {}\n", figure.get<std::string>());
+  }
+}
+
 int lead(const Arguments& arguments, std::string_view command, std::string_view noun,
          const std::vector<ResultsPart>& parts, SweepLeader* leader) {
   stop_on_signals(leader != nullptr ? patience_of_ranks : patience);
@@ -155,36 +187,13 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
 
   folder.require_there();
   const ComputedPoints computed_points{folder.path(), input, first_model, session.resolved(), store.source()};
-  const studies::PointSource& points = computed_points.points;
   const WrittenPoints written = write_results(arguments, parts, computed_points, leader);
   folder.add(written.files);
   undrawn = tell_undrawn(written.figures);
   close_run(store::RunState::complete);
   for (const std::string& note : written.notes) tell("{}\n", note);
 
-  std::map<std::string, std::size_t> regimes;
-  Pulls pulls;
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const studies::PointResult r = points.read_brief(i);
-    if (!computed(r)) continue;
-    ++regimes[to_string(r.regime)];
-    pulls.see(r);
-  }
-  nlohmann::json summary = {
-      {"folder", folder.path().string()}, {"points", plan.points.size()},      {"failed", failed}, {"regimes", regimes},
-      {"pulling", pulls.points},          {"figures", nlohmann::json::array()}};
-  summary.update(written.summary);
-  for (const reports::DrawnFigure& figure : written.figures)
-    if (figure.outcome.drawn()) summary["figures"].push_back(figure.file.string());
-  if (arguments.json) {
-    print("{}\n", summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-  } else {
-    print("{} {}, {} failed, in {}\n", plan.points.size(), noun, failed, folder.path().string());
-    for (const auto& [regime, count] : regimes) print("{}: {}\n", regime, count);
-    if (pulls.points > 0) print("{}\n", pulls.note(noun));
-    for (const std::string& line : written.lines) print("{}\n", line);
-    for (const auto& figure : summary["figures"]) print("figure: {}\n", figure.get<std::string>());
-  }
+  tell_result(arguments, noun, computed_points, written, failed);
   return failed == 0 && undrawn == 0 ? done : done_with_failures;
 }
 

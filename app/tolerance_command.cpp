@@ -1,6 +1,7 @@
 // epicyclic tolerance: the points of a study, then each one's answer against tolerance, method and smoothing.
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <utility>
 #include <vector>
@@ -47,6 +48,77 @@ Known known_results(const store::Journal& journal, const studies::SweepPlan& pla
   return known;
 }
 
+/// What is measured on the study's points, until a stop is asked for: that of earlier sessions as it is, the rest anew.
+/// @param measure   one point
+/// @param finished  told of each one that is measured anew
+std::vector<studies::TolerancePoint> measured_points(
+    const std::vector<studies::PointResult>& studied, std::map<std::size_t, studies::TolerancePoint> earlier,
+    const std::function<studies::TolerancePoint(const studies::PointResult&)>& measure,
+    const std::function<void(const studies::TolerancePoint&)>& finished) {
+  std::vector<studies::TolerancePoint> points;
+  for (const studies::PointResult& result : studied) {
+    if (stop_requested()) break;
+    if (const auto known = earlier.find(result.point.index); known != earlier.end()) {
+      points.push_back(std::move(known->second));
+      continue;
+    }
+    studies::TolerancePoint point = measure(result);
+    if (stop_requested()) break;  // parts of it may be missing
+    finished(point);
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+/// What a session and those before it came to.
+struct Measured {
+  std::vector<studies::PointResult> studied;    ///< the study's own points
+  std::vector<studies::TolerancePoint> points;  ///< what was measured on them; less if a stop was asked for
+  std::size_t failed = 0;
+};
+
+/// Computes what the journal does not hold yet, and keeps it there.
+Measured measure_missing(const Arguments& arguments, Session& session, const input::LoadedInput& input,
+                         const input::TolerancePlan& tolerance, const studies::SweepPlan& plan,
+                         const studies::SmoothedModelAt& model_at) {
+  const double width = input.study.model.clearance_smoothing;
+  store::Journal journal(session.folder().file("journal.bin"), session.identity());
+  tell_cut_tail(session.folder().file("journal.bin"), journal.cut_bytes());
+  Known earlier = known_results(journal, plan);
+  studies::SweepRun run;
+  run.threads = arguments.threads;
+  run.stop = &stop_requested();
+  std::size_t finished = earlier.points.size() + earlier.measured.size();
+  Measured all;
+  const auto count_failure = [&](const studies::PointResult& r) {
+    all.failed += r.outcome == integrate::Outcome::reached ? 0 : 1;
+  };
+  for (const auto& [index, result] : earlier.points) count_failure(result);
+  const std::size_t total = 2 * plan.points.size();
+  Progress progress("tolerance", total, finished);
+  progress.update(finished, all.failed);
+  run.point_finished = [&](const studies::PointResult& result) {
+    journal.append(result.point.index, store::encode_point(result));
+    count_failure(result);
+    progress.update(++finished, all.failed);
+  };
+  all.studied = studies::run_sweep_in_memory(
+      plan, tolerance.sweep.look, input.study.integrator, [&](double value) { return model_at(value, width); },
+      std::move(run), std::move(earlier.points));
+  const auto measure = [&](const studies::PointResult& result) {
+    return studies::compute_tolerance_point(result, tolerance.sweep.look, tolerance.tolerance, input.study.integrator,
+                                            width, model_at, arguments.threads, &stop_requested());
+  };
+  all.points =
+      measured_points(all.studied, std::move(earlier.measured), measure, [&](const studies::TolerancePoint& point) {
+        journal.append(plan.points.size() + point.point.index, store::encode_tolerance_point(point));
+        progress.update(++finished, all.failed);
+      });
+  journal.close();
+  progress.finish();
+  return all;
+}
+
 /// On stdout.
 void tell_result(const Arguments& arguments, const store::OutputFolder& folder, double target_error,
                  std::size_t studied, std::size_t failed, const std::vector<studies::TolerancePoint>& points,
@@ -72,7 +144,8 @@ void tell_result(const Arguments& arguments, const store::OutputFolder& folder, 
 int tolerance_command(const Arguments& arguments) {
   stop_on_signals();
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
-  const auto [sweep, options] = plan_with_points<input::TolerancePlan>(input, arguments, "tolerance");
+  const auto tolerance = plan_with_points<input::TolerancePlan>(input, arguments, "tolerance");
+  const auto& [sweep, options] = tolerance;
   const studies::SweepPlan plan = studies::plan_sweep(sweep);
   const auto model_at = input::smoothed_model_at(input);
   const double width = input.study.model.clearance_smoothing;
@@ -83,49 +156,12 @@ int tolerance_command(const Arguments& arguments) {
   if (const auto code = session.exit_code()) return *code;
   const store::OutputFolder& folder = session.folder();
 
-  store::Journal journal(folder.file("journal.bin"), session.identity());
-  tell_cut_tail(folder.file("journal.bin"), journal.cut_bytes());
-  Known earlier = known_results(journal, plan);
-  studies::SweepRun run;
-  run.threads = arguments.threads;
-  run.stop = &stop_requested();
-  std::size_t finished = earlier.points.size() + earlier.measured.size();
-  std::size_t failed = 0;
-  const auto count_failure = [&](const studies::PointResult& r) {
-    failed += r.outcome == integrate::Outcome::reached ? 0 : 1;
-  };
-  for (const auto& [index, result] : earlier.points) count_failure(result);
-  const std::size_t total = 2 * plan.points.size();
-  Progress progress("tolerance", total, finished);
-  progress.update(finished, failed);
-  run.point_finished = [&](const studies::PointResult& result) {
-    journal.append(result.point.index, store::encode_point(result));
-    count_failure(result);
-    progress.update(++finished, failed);
-  };
-  const auto studied = studies::run_sweep_in_memory(
-      plan, sweep.look, input.study.integrator, [&](double value) { return model_at(value, width); }, std::move(run),
-      std::move(earlier.points));
-  std::vector<studies::TolerancePoint> points;
-  for (const studies::PointResult& result : studied) {
-    if (stop_requested()) break;
-    if (const auto known = earlier.measured.find(result.point.index); known != earlier.measured.end()) {
-      points.push_back(std::move(known->second));
-      continue;
-    }
-    studies::TolerancePoint point = studies::compute_tolerance_point(
-        result, sweep.look, options, input.study.integrator, width, model_at, arguments.threads, &stop_requested());
-    if (stop_requested()) break;  // parts of it may be missing
-    journal.append(plan.points.size() + result.point.index, store::encode_tolerance_point(point));
-    points.push_back(std::move(point));
-    progress.update(++finished, failed);
-  }
-  journal.close();
-  progress.finish();
+  const Measured measured = measure_missing(arguments, session, input, tolerance, plan, model_at);
+  const auto& [studied, points, failed] = measured;
   std::int64_t undrawn = 0;
   const auto close_run = [&](store::RunState state) {
     session.end(state, {{"points", static_cast<std::int64_t>(plan.points.size())},
-                        {"failed", static_cast<std::int64_t>(failed)},
+                        {"failed", static_cast<std::int64_t>(measured.failed)},
                         {"undrawn", undrawn}});
   };
   if (stop_requested()) {

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <cstring>
 #include <deque>
+#include <exception>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -186,6 +188,112 @@ WrittenPoints written_from(const json& report) {
   return written;
 }
 
+/// A computation in a thread of its own, because messages belong to the thread that made it.
+class Computation {
+ public:
+  explicit Computation(std::function<void()> compute)
+      : worker_([this, compute = std::move(compute)] {
+          try {
+            compute();
+          } catch (...) {
+            error_ = std::current_exception();
+          }
+          const std::scoped_lock lock(mutex_);
+          ended_ = true;
+          wake_.notify_all();
+        }) {}
+
+  [[nodiscard]] bool ends_within(std::chrono::milliseconds pause) {
+    std::unique_lock lock(mutex_);
+    return wake_.wait_for(lock, pause, [&] { return ended_; });
+  }
+
+  /// Whether it threw, once it has ended.
+  [[nodiscard]] bool failed() const { return error_ != nullptr; }
+
+  /// Waits for its end.
+  /// @throws what it threw
+  void join() {
+    worker_.join();
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  std::exception_ptr error_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool ended_ = false;
+  std::thread worker_;  // last: begins when the others stand
+};
+
+/// What the ranks of a sweep ask for and tell, and what became of it. All arguments must live longer.
+class RankAnswers {
+ public:
+  RankAnswers(Ranks& ranks, OpenChains& chains, const std::function<std::vector<double>(std::size_t point)>& end_state,
+              int threads_of_all, const std::function<void(std::size_t, std::size_t)>& points_elsewhere)
+      : ranks_(ranks),
+        chains_(chains),
+        end_state_(end_state),
+        threads_of_all_(threads_of_all),
+        points_elsewhere_(points_elsewhere),
+        through_(static_cast<std::size_t>(ranks.size()), false) {
+    through_[0] = true;
+  }
+
+  [[nodiscard]] bool all_through() const {
+    return std::ranges::all_of(through_, [](bool b) { return b; });
+  }
+  [[nodiscard]] bool stop_wanted() const { return stop_wanted_; }
+  /// The first one, of a rank or of an answer.
+  [[nodiscard]] const std::optional<Failure>& failure() const { return failure_; }
+
+  void give(const Message& message) {
+    try {
+      answer(message);
+    } catch (...) {
+      if (!failure_) failure_ = failure_of(std::current_exception());
+    }
+  }
+
+ private:
+  void answer(const Message& message) {
+    switch (message.topic) {
+      case Topic::ask_chains:
+        ranks_.send(message.from, Topic::chains, bytes_of(chains_.take_some(threads_of_all_)));
+        break;
+      case Topic::ask_end_state: {
+        const Index point = values_of<Index>(message.bytes).at(0);
+        const std::string head = bytes_of(std::vector<Index>{point});
+        ranks_.send(message.from, Topic::end_state, head + bytes_of(end_state_(static_cast<std::size_t>(point))));
+        break;
+      }
+      case Topic::progress: {
+        const auto counts = values_of<Index>(message.bytes);
+        points_elsewhere_(static_cast<std::size_t>(counts.at(0)), static_cast<std::size_t>(counts.at(1)));
+        break;
+      }
+      case Topic::stop:
+        stop_wanted_ = true;
+        break;
+      case Topic::finished:
+        through_[static_cast<std::size_t>(message.from)] = true;
+        if (!failure_) failure_ = failure_in(json::parse(message.bytes));
+        break;
+      default:
+        break;
+    }
+  }
+
+  Ranks& ranks_;
+  OpenChains& chains_;
+  const std::function<std::vector<double>(std::size_t point)>& end_state_;
+  int threads_of_all_;
+  const std::function<void(std::size_t, std::size_t)>& points_elsewhere_;
+  std::vector<bool> through_;  ///< of each rank
+  bool stop_wanted_ = false;
+  std::optional<Failure> failure_;
+};
+
 }  // namespace
 
 void SweepLeader::gather(const Arguments& arguments, const std::string& identity) {
@@ -222,71 +330,18 @@ void SweepLeader::run(const studies::SweepPlan& plan, const studies::LookOptions
   const std::string begin = text_of({{"threads_of_all", threads_of_all_}, {"done", text_of_flags(run.done)}});
   for (int rank = 1; rank < ranks_.size(); ++rank) ranks_.send(rank, Topic::begin, begin);
 
-  std::exception_ptr error;
-  std::mutex mutex;
-  std::condition_variable wake;
-  bool ended = false;
-  const auto computed_within = [&](std::chrono::milliseconds pause) {
-    std::unique_lock lock(mutex);
-    return wake.wait_for(lock, pause, [&] { return ended; });
-  };
-  // The computation has a thread of its own, because messages belong to this one.
-  std::thread worker([&] {
-    try {
-      (void)studies::run_sweep(plan, look, integrator, model_at, run);
-    } catch (...) {
-      error = std::current_exception();
-    }
-    const std::scoped_lock lock(mutex);
-    ended = true;
-    wake.notify_all();
-  });
-
-  std::optional<Failure> failure;
-  bool computed = false, stop_wanted = false;
+  Computation computation([&] { (void)studies::run_sweep(plan, look, integrator, model_at, run); });
+  bool computed = false;
   Attention attention;
-  std::vector<bool> through(static_cast<std::size_t>(ranks_.size()), false);
-  through[0] = true;
-  const auto all_through = [&] { return std::ranges::all_of(through, [](bool b) { return b; }); };
-  const auto answer = [&](const Message& message) {
-    switch (message.topic) {
-      case Topic::ask_chains:
-        ranks_.send(message.from, Topic::chains, bytes_of(chains.take_some(threads_of_all_)));
-        break;
-      case Topic::ask_end_state: {
-        const Index point = values_of<Index>(message.bytes).at(0);
-        const std::string head = bytes_of(std::vector<Index>{point});
-        ranks_.send(message.from, Topic::end_state, head + bytes_of(run.end_state(static_cast<std::size_t>(point))));
-        break;
-      }
-      case Topic::progress: {
-        const auto counts = values_of<Index>(message.bytes);
-        points_elsewhere(static_cast<std::size_t>(counts.at(0)), static_cast<std::size_t>(counts.at(1)));
-        break;
-      }
-      case Topic::stop:
-        stop_wanted = true;
-        break;
-      case Topic::finished:
-        through[static_cast<std::size_t>(message.from)] = true;
-        if (!failure) failure = failure_in(json::parse(message.bytes));
-        break;
-      default:
-        break;
-    }
-  };
+  RankAnswers answers(ranks_, chains, run.end_state, threads_of_all_, points_elsewhere);
   std::optional<Clock::time_point> stopped;
-  while (!computed || !all_through()) {
+  while (!computed || !answers.all_through()) {
     const auto message = ranks_.receive();
     if (message) {
       if (message->topic != Topic::progress) attention.rouse();
-      try {
-        answer(*message);
-      } catch (...) {
-        if (!failure) failure = failure_of(std::current_exception());
-      }
+      answers.give(*message);
     }
-    if (!stopped && (signal || stop_wanted || failure || (computed && error))) {
+    if (!stopped && (signal || answers.stop_wanted() || answers.failure() || (computed && computation.failed()))) {
       stop = true;
       stopped = Clock::now();
       attention.rouse();
@@ -300,11 +355,10 @@ void SweepLeader::run(const studies::SweepPlan& plan, const studies::LookOptions
     if (computed)
       std::this_thread::sleep_for(look_interval);  // on a core that has nothing else to do
     else
-      computed = computed_within(attention.pause());
+      computed = computation.ends_within(attention.pause());
   }
-  worker.join();
-  if (error) std::rethrow_exception(error);
-  if (failure) throw *failure;
+  computation.join();
+  if (answers.failure()) throw *answers.failure();
   if (silent_) throw Failure(stopped_early, "a rank does not answer; the same command goes on");
 }
 
