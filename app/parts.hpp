@@ -52,7 +52,7 @@ class PartQueue {
   /// Waits while all that is left has to wait. Nothing: all are begun, or no more is wanted.
   [[nodiscard]] std::optional<std::size_t> take();
 
-  /// The same without waiting.
+  /// The next part that may begin now. Nothing: all that is left has to wait, all are begun, or no more is wanted.
   [[nodiscard]] std::optional<std::size_t> take_now();
 
   void ended(std::size_t part);

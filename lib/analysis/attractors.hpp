@@ -43,7 +43,7 @@ struct AttractorRecord {
   double orbit_error = 0;                   ///< e of [A-same]
   int waves = 0;                            ///< of the estimates below; 0 if there are none
   std::vector<Estimate> means, deviations;  ///< else: one per component
-  Estimate exponent;                        ///< likewise; not a number where there is none
+  Estimate exponent;                        ///< largest, if not periodic; not a number where there is none
 
   /// n, if periodic.
   [[nodiscard]] std::size_t period() const { return dimension == 0 ? 0 : orbit.size() / dimension; }
@@ -59,7 +59,7 @@ struct AttractorRecord {
 /// Of a section whose regime was told.
 /// @param recurrence  of the section; read if periodic
 /// @param exponent    largest; read if not periodic
-/// @param map_error   as above
+/// @param map_error   what the flow leaves of an orbit, in parts of its largest component [-]; read if periodic
 [[nodiscard]] AttractorRecord record_of_section(const PoincareSection& section, Regime regime,
                                                 const Recurrence& recurrence, const Estimate& exponent,
                                                 double map_error);

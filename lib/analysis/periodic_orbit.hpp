@@ -52,8 +52,8 @@ struct OrbitOptions {
 /// What the iteration came to.
 enum class OrbitOutcome {
   converged,  ///< state and monodromy are those of the orbit
-  stalled,    ///< the residual no longer falls, which an integrator's own noise ends, but the error is small: likewise,
-              ///< to that error
+  stalled,    ///< the residual no longer falls, which an integrator's own noise ends, but the error is small: state and
+              ///< monodromy are those of the orbit to that error
   not_converged,  ///< state is the best one seen
   not_reached,    ///< an evolution failed: state is the best one seen
 };

@@ -61,11 +61,12 @@ struct RegimeOptions {
   double neutral = 1e-6;    ///< a multiplier's modulus this near to 1 attracts nothing: errors could put it outside
   std::size_t observable = 0;  ///< component of the state that the 0-1 test looks at
 
-  /// The same system by a flow that controls the error of tangents, for orbits and their multipliers: behind a kink
+  /// The system by a flow that controls the error of tangents, for orbits and their multipliers: behind a kink
   /// they are off by far more than the tolerance without. Null: the flow itself.
   integrate::Flow* exact = nullptr;
-  /// Likewise at ten times its tolerance, for the errors of multipliers: what another sequence of steps changes is less
-  /// than what the tolerance does. Null: from another subdivision, which knows of the steps alone.
+  /// The same system by a flow at ten times the tolerance of `exact`, for the errors of multipliers: what another
+  /// sequence of steps changes is less than what the tolerance does. Null: from another subdivision, which knows of the
+  /// steps alone.
   integrate::Flow* coarser = nullptr;
 
   /// @throws InputError for looks shorter than anything is told from, a budget shorter than the first of them, or a

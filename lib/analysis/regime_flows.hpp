@@ -14,7 +14,7 @@ namespace epicyclic::analysis {
 struct RegimeFlows {
   std::unique_ptr<integrate::Flow> looks, exact, coarser;
 
-  /// The same options with `exact` and `coarser` set to these flows, which must live longer.
+  /// Options `o` with `exact` and `coarser` set to these flows, which must live longer.
   [[nodiscard]] RegimeOptions options(RegimeOptions o = {}) const;
 
   [[nodiscard]] long right_hand_side_calls() const;

@@ -55,7 +55,8 @@ void write_all(int descriptor, std::string_view bytes, const std::filesystem::pa
 /// Words that nothing depends on: as much of them as the descriptor takes at once. Async-signal-safe.
 void write_without_waiting(int descriptor, std::string_view bytes) noexcept;
 
-/// The same at an offset, wherever the descriptor stands.
+/// write_all() at an offset [bytes from the beginning], wherever the descriptor stands.
+/// @throws OutputError when not all bytes can be written (disk full included)
 void write_at(int descriptor, std::string_view bytes, std::size_t offset, const std::filesystem::path& path);
 
 /// @returns bytes read: less than asked for only at the file's end

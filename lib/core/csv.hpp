@@ -19,7 +19,7 @@ namespace epicyclic {
 
 /// Appends the shortest decimal text that reads back as the same double; nan appends nothing.
 void append_number(std::string& text, double value);
-/// The same for single precision: 0.1f is `0.1`.
+/// Appends the shortest decimal text that reads back as the same float: 0.1f is `0.1`; nan appends nothing.
 void append_number(std::string& text, float value);
 
 /// Writes a table row by row, either to memory or, in blocks, to a file that appears when it is complete.

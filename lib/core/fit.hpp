@@ -12,8 +12,8 @@ namespace epicyclic {
 /// @throws std::invalid_argument when x and y differ in length
 [[nodiscard]] double fitted_slope(std::span<const double> x, std::span<const double> y);
 
-/// The same of several sets of points whose lines have one slope and levels of their own: each set is moved to its
-/// mean.
+/// Slope of straight lines through several sets of points that have one slope and levels of their own (least squares):
+/// each set is moved to its mean.
 class PooledSlope {
  public:
   /// @throws std::invalid_argument when x and y differ in length

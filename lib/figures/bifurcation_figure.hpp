@@ -57,7 +57,8 @@ struct ClassPoint : SectionPoint {
 };
 
 /// The bifurcation diagram coloured by class, and under it on the same axis the value with its interval. Files, ranges
-/// and outcome as above. Classes without a point are not in the legend, which counts the points of the others.
+/// and outcome as of bifurcation_figure(). Classes without a point are not in the legend, which counts the points of
+/// the others.
 /// @param value        name of the value, for readers of the data
 /// @param value_label  of the lower ordinate
 /// @param at           as in BifurcationSeries

@@ -100,7 +100,7 @@ std::string literal_text(std::string_view typed);
 /// Estimated width of a text in "enhanced" notation, rather too large than too small, in heights of its font.
 double text_width(std::string_view text);
 
-/// Symbol font and overprinted bars replaced by Greek letters and combining macrons; see above.
+/// {/Symbol W} and ~{x}{.6-}, which SVG files show wrongly, replaced by Greek letters and combining macrons.
 std::string portable_text(std::string_view text);
 
 /// The script of a figure: encoding, white ground, thin frame, tics, ranges, labels, title, legend under it (or beside
@@ -113,7 +113,11 @@ std::string figure_script(std::string_view stem, const FigureText& text, const F
                           const std::vector<std::string>& legend, const std::vector<FigureMarker>& markers,
                           std::string_view extra, std::string_view plot, const FigureCanvas& canvas = {});
 
-/// The same for panels over each other, from above; text.y_label is not used. The legend is that of the first panel.
+/// The script of a figure of panels over each other that have one abscissa, otherwise as figure_script().
+/// @param text    y_label is not used: each panel has its own
+/// @param panels  from above; each has its plot command
+/// @param legend  the titles in the plot of the first panel
+/// @param extra   commands before the first plot
 std::string panel_script(std::string_view stem, const FigureText& text, const FigureRange& x,
                          const std::vector<FigurePanel>& panels, const std::vector<std::string>& legend,
                          std::string_view extra, const FigureCanvas& canvas = {});
@@ -129,8 +133,12 @@ FigureOutcome draw_pictures(const std::filesystem::path& folder, std::string_vie
 FigureOutcome draw_figure(const std::filesystem::path& folder, std::string_view stem, std::string_view data,
                           std::string_view script, Pictures which = Pictures::both);
 
-/// The same for data that need not fit into memory.
+/// Writes STEM.dat and STEM.gp to `folder`, which is created in its parent if need be, and draws. The data need not fit
+/// into memory.
 /// @param write_data  writes them to STEM.dat
+/// @param which       none: draw_pictures follows
+/// @throws OutputError           when data or script cannot be written, or gnuplot leaves a picture unfinished
+/// @throws std::invalid_argument when the stem is not a plain file name (letters, digits, '_', '-', '.')
 FigureOutcome draw_figure(const std::filesystem::path& folder, std::string_view stem,
                           const std::function<void(AtomicFile&)>& write_data, std::string_view script,
                           Pictures which = Pictures::both);

@@ -23,9 +23,9 @@ namespace epicyclic::gear {
 /// @throws DomainError when balls or their diameter are missing
 [[nodiscard]] double palmgren_coefficient(const SunBearing& bearing);
 
-/// k at an approach d >= 0 [m], K as above [N/m].
+/// k = K sqrt(d) at an approach d >= 0 [m], K by palmgren_coefficient() [N/m].
 [[nodiscard]] double palmgren_stiffness(double coefficient, double approach_m);
-/// F at an approach d >= 0 [m] [N].
+/// F = k d at an approach d >= 0 [m] [N].
 [[nodiscard]] double palmgren_force(double coefficient, double approach_m);
 
 /// A deep groove ball bearing with what [G-11] needs.

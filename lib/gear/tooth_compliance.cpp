@@ -39,7 +39,7 @@ Energies external_involute(double a, const Direction& alpha_1, double alpha_2, d
           rest * square(alpha_1.sine) / (2.0 * d)};
 }
 
-/// The same energies at a section of half thickness h and height y, per length of centre line; lengths over r_b.
+/// [G-kb], [G-ks], [G-ka] at a section of half thickness h and height y, per length of centre line; lengths over r_b.
 Energies section(double y, double h, const Direction& alpha_1, double nu) {
   const double lever = 1.0 - y * alpha_1.cosine;
   return {1.5 * square(lever) / cube(h), 1.2 * (1.0 + nu) * square(alpha_1.cosine) / h, 0.5 * square(alpha_1.sine) / h};

@@ -14,8 +14,9 @@ namespace epicyclic::input {
 /// given. `input` must outlive the result. A call throws InputError when the study is not valid at that value.
 [[nodiscard]] studies::ModelAt model_at(const LoadedInput& input);
 
-/// The same for a parameter of one's own, each with the derivative of its right-hand side by it: what
-/// integrate::make_flow_family() takes.
+/// The model at each value of any parameter, named or a JSON pointer, with the derivative of its right-hand side by it:
+/// what integrate::make_flow_family() takes. Scales are those of the stage as given. `input` must outlive the result. A
+/// call throws InputError when the study is not valid at that value, or there is no derivative.
 /// @param step  h of the difference of constants, as of model::set_parameter_derivative(): about 1e-3 of the range
 /// over which they change; the study has to be valid at value +- 2 h
 [[nodiscard]] studies::ModelAt model_family(const LoadedInput& input, const std::string& parameter, double step);
@@ -23,7 +24,8 @@ namespace epicyclic::input {
 /// Points and chains of the study, a sweep's, a map's or those of basins.
 [[nodiscard]] studies::SweepPlan plan_of(const Study& study);
 
-/// The model at each of them; of basins with the point's own start for the default one. Otherwise as above.
+/// The model at each point of plan_of(); of basins with the point's own start for the default one. Scales are those of
+/// the stage as given. `input` must outlive the result. A call throws InputError when the study is not valid there.
 [[nodiscard]] studies::ModelAtPoint model_at_point(const LoadedInput& input);
 
 /// The model at a value of the sweep parameter with another width of the smooth clearance.
@@ -35,8 +37,8 @@ namespace epicyclic::input {
 /// drawings, which `epicyclic gear` has.
 [[nodiscard]] std::vector<std::string> warnings(const LoadedInput& input);
 
-/// The same for `epicyclic gear`: of the stage and its operating point alone, with notes, and why it cannot be moved in
-/// time.
+/// What is allowed but rarely meant of the stage and its operating point alone, for `epicyclic gear`: most important
+/// first, with the notes on its drawings, and why it cannot be moved in time.
 [[nodiscard]] std::vector<std::string> gear_warnings(const LoadedInput& input);
 
 }  // namespace epicyclic::input

@@ -23,7 +23,7 @@ enum class Outcome {
   reached,     ///< the state is that at the end
   diverged,    ///< a component left the escape bound: the state is the last accepted one
   step_limit,  ///< more steps than allowed: the state is the last accepted one
-  failed,      ///< no step is accepted (a right-hand side that is not finite, a tolerance below rounding): likewise
+  failed,      ///< no step is accepted (right-hand side not finite, tolerance below rounding): the last accepted state
 };
 
 struct Evolution {

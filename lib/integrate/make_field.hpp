@@ -28,8 +28,8 @@ template <class F>
   return field;
 }
 
-/// The same for each value of a parameter, with dg/dp.
-/// @param f  f(const P& p, segment, s, const T* y, T* dyds) for P = double with T as above, and for P = T = Dual<1>
+/// A field with its tangents for each value of a parameter p, and dg/dp in parameter_derivative.
+/// @param f  f(const P& p, segment, s, const T* y, T* dyds): P = double with all T of make_field(), and P = T = Dual<1>
 template <class F>
 [[nodiscard]] FieldFamily make_field_family(std::size_t dimension, double period, F f) {
   return [dimension, period, f = std::move(f)](double value) {

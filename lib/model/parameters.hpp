@@ -166,7 +166,7 @@ void for_each_constant(P& p, const F& f) {
   f(p.smoothing);
 }
 
-/// The same constants in another scalar type.
+/// Constants of doubles in another scalar type; tables as they are.
 template <class T, std::size_t N>
 [[nodiscard]] Parameters<T, N> convert(const Parameters<double, N>& p) {
   Parameters<T, N> r;

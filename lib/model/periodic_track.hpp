@@ -68,7 +68,7 @@ class PeriodicTrack {
   PeriodicTrack(const std::vector<TrackRow<K>>& given_rows, const std::vector<double>& given_breakpoints, double lead,
                 Interpolation interpolation = Interpolation::monotone, std::span<const IntervalGrid> grids = {});
 
-  /// The same functions, which at a dual number also carry their derivative with respect to a parameter, in its first
+  /// These functions with their derivative with respect to a parameter, which they carry at a dual number, in its first
   /// direction.
   /// @param near  the functions at the parameter's values - 2 h, - h, + h, + 2 h
   /// @throws InputError when the rows of those have other phases

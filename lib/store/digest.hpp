@@ -28,7 +28,7 @@ class Sha256 {
   std::unique_ptr<Context> context_;
 };
 
-/// The same of all bytes at once.
+/// SHA-256 of bytes, 64 lower-case hexadecimal digits.
 /// @throws std::runtime_error when OpenSSL refuses the algorithm
 std::string sha256_hex(std::string_view bytes);
 

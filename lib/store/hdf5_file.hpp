@@ -55,7 +55,8 @@ class Hdf5File {
   void write(std::string_view path, std::size_t rows, const Column<std::int64_t>& value);
   void write(std::string_view path, std::size_t rows, const Column<std::string>& value);
 
-  /// The same with two axes.
+  /// A dataset with two axes that is not kept in memory.
+  /// @param row_values  fills a row of `columns` values; rows are asked for in order, each once
   void write(std::string_view path, std::size_t rows, std::size_t columns,
              const std::function<void(std::size_t row, std::span<double> values)>& row_values);
 

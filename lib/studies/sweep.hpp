@@ -28,7 +28,7 @@ namespace epicyclic::studies {
 /// Raised when a change makes the same input give other numbers: results of two versions are never mixed in one folder.
 inline constexpr int numerics_version = 11;
 
-/// The same points without the classification of their regimes.
+/// How points are looked at without the classification of their regimes: after a fixed transient, by recurrence.
 [[nodiscard]] LookOptions by_recurrence_alone(LookOptions look);
 
 /// What was seen of one mesh over the record.
@@ -84,7 +84,7 @@ struct PointResult {
 /// What a point that was reached moves like: "period 2", "chaotic".
 [[nodiscard]] std::string motion_name(const PointResult& result);
 
-/// The same with what it rests on.
+/// What a point that was reached moves like, with what the regime rests on.
 [[nodiscard]] std::string motion_text(const PointResult& result);
 
 /// Names of the columns of PointResult::poincare.
@@ -93,7 +93,8 @@ struct PointResult {
 /// The model at a value of the sweep parameter; called from several threads at once.
 using ModelAt = std::function<model::DynamicModel(double value)>;
 
-/// The same where a value does not say all: of two values, or with a default start of the point's own.
+/// The model at a point where a value does not say all: of two values, or with a default start of the point's own;
+/// called from several threads at once.
 using ModelAtPoint = std::function<model::DynamicModel(const GridPoint& point)>;
 
 /// Computes one point.
@@ -127,7 +128,8 @@ struct SweepRun {
                                     const integrate::IntegratorOptions& integrator, const ModelAtPoint& model_at,
                                     const SweepRun& run);
 
-/// The same for studies of few points, which are kept in memory.
+/// Runs a sweep of few points, which are kept in memory.
+/// @throws the first exception of a point or of a function of `run`
 /// @param done  points of an earlier run
 /// @returns points in order of their index; incomplete only if stopped
 [[nodiscard]] std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const LookOptions& look,
