@@ -329,7 +329,8 @@ std::optional<std::size_t> read_name(const json& value, const std::string& point
   return std::nullopt;
 }
 
-std::string boolean_hint(const json& value) {
+/// What a value that is no boolean was probably meant to be: "; did you mean ...?".
+static std::string boolean_hint(const json& value) {
   std::string word = value.is_string() ? lower_case(value.get_ref<const std::string&>()) : value.dump();
   for (const auto& [meant, words] :
        {std::pair("true", std::array{"true", "yes", "on", "1"}), {"false", std::array{"false", "no", "off", "0"}}})
@@ -338,7 +339,8 @@ std::string boolean_hint(const json& value) {
   return {};
 }
 
-std::string array_hint(const json& value, const std::vector<std::string>& names) {
+/// The same of one that is no array of these names.
+static std::string array_hint(const json& value, const std::vector<std::string>& names) {
   if (!value.is_string()) return {};
   json meant = json::array();
   std::string word;
@@ -361,6 +363,125 @@ ordered_json number_schema(const Bounds& bounds, bool integer) {
 
 ordered_json numbers_schema(const Bounds& bounds, std::size_t size_min, std::size_t size_max) {
   return {{"type", "array"}, {"items", number_schema(bounds)}, {"minItems", size_min}, {"maxItems", size_max}};
+}
+
+Format<double> number_format(const std::string& key, const Bounds& bounds) {
+  Format<double> format;
+  format.read = [=](const json& value, const std::string& pointer, ReadContext& context) {
+    return read_number(value, pointer, key, bounds, context);
+  };
+  format.schema = [=] { return number_schema(bounds); };
+  return format;
+}
+
+Format<double> number_or_rigid_format(const std::string& key, const Bounds& bounds) {
+  Format<double> format;
+  format.read = [=](const json& value, const std::string& pointer, ReadContext& context) -> std::optional<double> {
+    if (value == "rigid") return std::numeric_limits<double>::infinity();
+    return read_number(value, pointer, key, bounds, context, " or the string \"rigid\"");
+  };
+  format.write = [](double value) { return std::isfinite(value) ? json(value) : json("rigid"); };
+  format.schema = [=] { return ordered_json{{"anyOf", {number_schema(bounds), {{"const", "rigid"}}}}}; };
+  return format;
+}
+
+Format<bool> boolean_format() {
+  Format<bool> format;
+  format.read = [](const json& value, const std::string& pointer, ReadContext& context) -> std::optional<bool> {
+    if (value.is_boolean()) return value.get<bool>();
+    context.add(Finding::Kind::type, pointer,
+                "is " + described(value) + ", must be true or false" + boolean_hint(value));
+    return std::nullopt;
+  };
+  format.schema = [] { return ordered_json{{"type", "boolean"}}; };
+  return format;
+}
+
+Format<std::string> text_format() {
+  Format<std::string> format;
+  format.read = [](const json& value, const std::string& pointer, ReadContext& context) -> std::optional<std::string> {
+    if (value.is_string()) return value.get<std::string>();
+    context.add(Finding::Kind::type, pointer, "is " + described(value) + ", must be a string");
+    return std::nullopt;
+  };
+  format.write = [](const std::string& text) { return text.empty() ? json() : json(text); };
+  format.schema = [] { return ordered_json{{"type", "string"}}; };
+  return format;
+}
+
+Format<std::vector<double>> numbers_format(const std::string& key, const Bounds& bounds, std::size_t size_min,
+                                           std::size_t size_max) {
+  Format<std::vector<double>> format;
+  format.read = [=](const json& value, const std::string& pointer, ReadContext& context) {
+    return read_numbers(value, pointer, key, bounds, size_min, size_max, context);
+  };
+  format.write = [=](const std::vector<double>& numbers) {
+    return numbers.size() >= size_min ? json(numbers) : json();
+  };
+  format.schema = [=] { return numbers_schema(bounds, size_min, size_max); };
+  return format;
+}
+
+Format<std::vector<double>> number_or_numbers_format(const std::string& key, const Bounds& bounds,
+                                                     std::size_t size_max) {
+  using Numbers = std::optional<std::vector<double>>;
+  Format<std::vector<double>> format;
+  format.read = [=](const json& value, const std::string& pointer, ReadContext& context) -> Numbers {
+    if (value.is_array()) return read_numbers(value, pointer, key, bounds, 1, size_max, context);
+    const auto number = read_number(value, pointer, key, bounds, context, " or an array of numbers");
+    if (!number) return std::nullopt;
+    return std::vector<double>{*number};
+  };
+  format.write = [](const std::vector<double>& numbers) {
+    return numbers.size() == 1 ? json(numbers.front()) : json(numbers);
+  };
+  format.schema = [=] { return ordered_json{{"anyOf", {number_schema(bounds), numbers_schema(bounds, 1, size_max)}}}; };
+  return format;
+}
+
+Format<std::size_t> name_format(const std::vector<std::string>& names) {
+  Format<std::size_t> format;
+  format.read = [=](const json& value, const std::string& pointer, ReadContext& context) {
+    return read_name(value, pointer, names, context);
+  };
+  format.write = [=](std::size_t place) { return place < names.size() ? json(names[place]) : json(); };
+  format.schema = [=] { return ordered_json{{"enum", names}}; };
+  return format;
+}
+
+Format<std::vector<std::size_t>> names_format(const std::vector<std::string>& names) {
+  using Places = std::vector<std::size_t>;
+  Format<Places> format;
+  format.read = [=](const json& value, const std::string& pointer, ReadContext& context) -> std::optional<Places> {
+    if (!value.is_array() || value.empty()) {
+      context.add(Finding::Kind::type, pointer,
+                  "is " + described(value) + ", must be an array of one or more of: " + listed(names) +
+                      array_hint(value, names));
+      return std::nullopt;
+    }
+    Places chosen;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      const std::string element = pointer + "/" + std::to_string(i);
+      const auto place = read_name(value[i], element, names, context);
+      if (!place) continue;
+      if (std::find(chosen.begin(), chosen.end(), *place) != chosen.end()) {
+        context.add(Finding::Kind::rule, element, "\"" + names[*place] + "\" stands twice");
+      } else {
+        chosen.push_back(*place);
+      }
+    }
+    if (chosen.empty()) return std::nullopt;
+    return chosen;
+  };
+  format.write = [=](const Places& places) {
+    json array = json::array();
+    for (const std::size_t place : places) array.push_back(place < names.size() ? json(names[place]) : json());
+    return array;
+  };
+  format.schema = [=] {
+    return ordered_json{{"type", "array"}, {"items", {{"enum", names}}}, {"minItems", 1}, {"uniqueItems", true}};
+  };
+  return format;
 }
 
 ordered_json object_schema(const std::string& title, const std::string& description, const ordered_json& properties,

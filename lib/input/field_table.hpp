@@ -8,6 +8,7 @@
 //   table.write(planet);                               // every key, defaults included
 //   table.schema();                                    // draft 2020-12
 //
+// A Field joins what reaches the member (Access) to what reads and writes its type (Format), which are compiled apart.
 // A member is named by a pointer to it or by a generic lambda [](auto& t) -> auto& {...}; within(a, b) names a member
 // of an optional one. Members that are std::optional are keys without a default: left out when written, if not set.
 // Every object also takes "origin" (where its values come from) and "note"; see study_input.hpp.
@@ -161,13 +162,91 @@ std::optional<std::vector<double>> read_numbers(const json& value, const std::st
                                                 ReadContext& context);
 std::optional<std::size_t> read_name(const json& value, const std::string& pointer,
                                      const std::vector<std::string>& names, ReadContext& context);
-/// What a value that is no boolean, or no array of these names, was probably meant to be: "; did you mean ...?".
-std::string boolean_hint(const json& value);
-std::string array_hint(const json& value, const std::vector<std::string>& names);
 ordered_json number_schema(const Bounds& bounds, bool integer = false);
 ordered_json numbers_schema(const Bounds& bounds, std::size_t size_min, std::size_t size_max);
 ordered_json object_schema(const std::string& title, const std::string& description, const ordered_json& properties,
                            const std::vector<std::string>& required, const std::vector<KeyRule>& rules);
+
+/// How a value is read, written and described, whatever object it is a member of.
+template <class V>
+struct Format {
+  std::function<std::optional<V>(const json&, const std::string& pointer, ReadContext&)> read;
+  std::function<json(const V&)> write = [](const V& value) { return json(value); };  ///< null: the key is left out
+  std::function<ordered_json()> schema;
+};
+
+Format<double> number_format(const std::string& key, const Bounds& bounds);
+Format<double> number_or_rigid_format(const std::string& key, const Bounds& bounds);
+Format<bool> boolean_format();
+Format<std::string> text_format();
+Format<std::vector<double>> numbers_format(const std::string& key, const Bounds& bounds, std::size_t size_min,
+                                           std::size_t size_max);
+Format<std::vector<double>> number_or_numbers_format(const std::string& key, const Bounds& bounds,
+                                                     std::size_t size_max);
+/// Of places in a list of names.
+Format<std::size_t> name_format(const std::vector<std::string>& names);
+Format<std::vector<std::size_t>> names_format(const std::vector<std::string>& names);
+
+template <class I>
+Format<I> integer_format(const Bounds& bounds) {
+  Format<I> format;
+  format.read = [bounds](const json& value, const std::string& pointer, ReadContext& context) -> std::optional<I> {
+    const auto number = read_integer(value, pointer, bounds, context);
+    if (!number || !bounds.contains(*number)) return std::nullopt;
+    return static_cast<I>(*number);
+  };
+  format.schema = [bounds] { return number_schema(bounds, true); };
+  return format;
+}
+
+/// The place of a value in a list of pairs with names.
+template <class E>
+std::size_t place_in(const std::vector<std::pair<std::string, E>>& choices, const E& chosen) {
+  const auto found = std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.second == chosen; });
+  return static_cast<std::size_t>(found - choices.begin());
+}
+
+template <class E>
+std::vector<std::string> names_of(const std::vector<std::pair<std::string, E>>& choices) {
+  std::vector<std::string> names;
+  for (const auto& choice : choices) names.push_back(choice.first);
+  return names;
+}
+
+template <class E>
+Format<E> choice_format(const std::vector<std::pair<std::string, E>>& choices) {
+  const Format<std::size_t> name = name_format(names_of(choices));
+  Format<E> format;
+  format.read = [=](const json& value, const std::string& pointer, ReadContext& context) -> std::optional<E> {
+    const auto place = name.read(value, pointer, context);
+    if (!place) return std::nullopt;
+    return choices[*place].second;
+  };
+  format.write = [=](const E& chosen) { return name.write(place_in(choices, chosen)); };
+  format.schema = name.schema;
+  return format;
+}
+
+template <class E>
+Format<std::vector<E>> choices_format(const std::vector<std::pair<std::string, E>>& choices) {
+  const Format<std::vector<std::size_t>> names = names_format(names_of(choices));
+  Format<std::vector<E>> format;
+  format.read = [=](const json& value, const std::string& pointer,
+                    ReadContext& context) -> std::optional<std::vector<E>> {
+    const auto places = names.read(value, pointer, context);
+    if (!places) return std::nullopt;
+    std::vector<E> chosen;
+    for (const std::size_t place : *places) chosen.push_back(choices[place].second);
+    return chosen;
+  };
+  format.write = [=](const std::vector<E>& chosen) {
+    std::vector<std::size_t> places;
+    for (const E& one : chosen) places.push_back(place_in(choices, one));
+    return names.write(places);
+  };
+  format.schema = names.schema;
+  return format;
+}
 
 }  // namespace table_detail
 
@@ -225,195 +304,69 @@ class Table {
   /// double or std::optional<double>.
   template <class F>
   Field<T>& number(std::string key, F member, Bounds bounds, std::string description) {
-    auto at = table_detail::access<T>(member);
-    Field<T>& field = add(key, std::move(description), at);
-    field.read = [key, at, bounds](const json& value, const std::string& pointer, T& t, ReadContext& context) {
-      if (const auto number = table_detail::read_number(value, pointer, key, bounds, context)) at.make(t) = *number;
-    };
-    field.schema = [bounds] { return table_detail::number_schema(bounds); };
-    return field;
+    return add(key, table_detail::access<T>(member), table_detail::number_format(key, bounds), std::move(description));
   }
 
   /// An integer type or an optional of one; a number without fractional part.
   template <class F>
   Field<T>& integer(std::string key, F member, Bounds bounds, std::string description) {
-    auto at = table_detail::access<T>(member);
+    const auto at = table_detail::access<T>(member);
     using I = typename table_detail::Plain<std::remove_reference_t<decltype(at.make(std::declval<T&>()))>>::type;
-    Field<T>& field = add(key, std::move(description), at);
-    field.read = [at, bounds](const json& value, const std::string& pointer, T& t, ReadContext& context) {
-      const auto number = table_detail::read_integer(value, pointer, bounds, context);
-      if (number && bounds.contains(*number)) at.make(t) = static_cast<I>(*number);
-    };
-    field.schema = [bounds] { return table_detail::number_schema(bounds, true); };
-    return field;
+    return add(key, at, table_detail::integer_format<I>(bounds), std::move(description));
   }
 
   /// true or false.
   template <class F>
   Field<T>& boolean(std::string key, F member, std::string description) {
-    auto at = table_detail::access<T>(member);
-    Field<T>& field = add(key, std::move(description), at);
-    field.read = [at](const json& value, const std::string& pointer, T& t, ReadContext& context) {
-      if (value.is_boolean()) {
-        at.make(t) = value.template get<bool>();
-      } else {
-        context.add(Finding::Kind::type, pointer,
-                    "is " + described(value) + ", must be true or false" + table_detail::boolean_hint(value));
-      }
-    };
-    field.schema = [] { return ordered_json{{"type", "boolean"}}; };
-    return field;
+    return add(key, table_detail::access<T>(member), table_detail::boolean_format(), std::move(description));
   }
 
   /// std::string; an empty one is left out when written.
   template <class F>
   Field<T>& text(std::string key, F member, std::string description) {
-    auto at = table_detail::access<T>(member);
-    Field<T>& field = add(key, std::move(description), at);
-    field.read = [at](const json& value, const std::string& pointer, T& t, ReadContext& context) {
-      if (value.is_string()) {
-        at.make(t) = value.template get<std::string>();
-      } else {
-        context.add(Finding::Kind::type, pointer, "is " + described(value) + ", must be a string");
-      }
-    };
-    field.write = [at](const T& t) {
-      const auto* found = at.find(t);
-      return found != nullptr && !found->empty() ? json(*found) : json();
-    };
-    field.schema = [] { return ordered_json{{"type", "string"}}; };
-    return field;
+    return add(key, table_detail::access<T>(member), table_detail::text_format(), std::move(description));
   }
 
   /// One name of a list, read into an enum (by the pairs) or into a string (by names).
   template <class F, class E>
-  Field<T>& choice(std::string key, F member, std::vector<std::pair<std::string, E>> choices, std::string description) {
-    auto at = table_detail::access<T>(member);
-    Field<T>& field = add(key, std::move(description), at);
-    const auto names = names_of(choices);
-    field.read = [at, choices, names](const json& value, const std::string& pointer, T& t, ReadContext& context) {
-      if (const auto index = table_detail::read_name(value, pointer, names, context))
-        at.make(t) = choices[*index].second;
-    };
-    field.write = [at, choices](const T& t) {
-      const auto* found = at.find(t);
-      return found == nullptr ? json() : name_in(choices, *found);
-    };
-    field.schema = [names] { return ordered_json{{"enum", names}}; };
-    return field;
+  Field<T>& choice(std::string key, F member, const std::vector<std::pair<std::string, E>>& choices,
+                   std::string description) {
+    return add(key, table_detail::access<T>(member), table_detail::choice_format(choices), std::move(description));
   }
   template <class F>
   Field<T>& choice(std::string key, F member, const std::vector<std::string>& names, std::string description) {
     std::vector<std::pair<std::string, std::string>> same;
     for (const auto& name : names) same.emplace_back(name, name);
-    return choice(std::move(key), member, std::move(same), std::move(description));
+    return choice(std::move(key), member, same, std::move(description));
   }
 
   /// Different names of a list, in an order that counts; at least one.
   template <class F, class E>
-  Field<T>& choices(std::string key, F member, std::vector<std::pair<std::string, E>> choices,
+  Field<T>& choices(std::string key, F member, const std::vector<std::pair<std::string, E>>& choices,
                     std::string description) {
-    auto at = table_detail::access<T>(member);
-    Field<T>& field = add(key, std::move(description), at);
-    const auto names = names_of(choices);
-    field.read = [at, choices, names](const json& value, const std::string& pointer, T& t, ReadContext& context) {
-      if (!value.is_array() || value.empty()) {
-        context.add(Finding::Kind::type, pointer,
-                    "is " + described(value) + ", must be an array of one or more of: " + listed(names) +
-                        table_detail::array_hint(value, names));
-        return;
-      }
-      std::vector<E> read;
-      for (std::size_t i = 0; i < value.size(); ++i) {
-        const std::string place = pointer + "/" + std::to_string(i);
-        const auto index = table_detail::read_name(value[i], place, names, context);
-        if (!index) continue;
-        const E chosen = choices[*index].second;
-        if (std::find(read.begin(), read.end(), chosen) != read.end()) {
-          context.add(Finding::Kind::rule, place, "\"" + names[*index] + "\" stands twice");
-        } else {
-          read.push_back(chosen);
-        }
-      }
-      if (!read.empty()) at.make(t) = std::move(read);
-    };
-    field.write = [at, choices](const T& t) {
-      const auto* found = at.find(t);
-      if (found == nullptr) return json();
-      json array = json::array();
-      for (const E& chosen : *found) array.push_back(name_in(choices, chosen));
-      return array;
-    };
-    field.schema = [names] {
-      return ordered_json{{"type", "array"}, {"items", {{"enum", names}}}, {"minItems", 1}, {"uniqueItems", true}};
-    };
-    return field;
+    return add(key, table_detail::access<T>(member), table_detail::choices_format(choices), std::move(description));
   }
 
   /// A stiffness: a number, or "rigid", which is stored as infinity.
   template <class F>
   Field<T>& number_or_rigid(std::string key, F member, Bounds bounds, std::string description) {
-    auto at = table_detail::access<T>(member);
-    Field<T>& field = add(key, std::move(description), at);
-    field.read = [key, at, bounds](const json& value, const std::string& pointer, T& t, ReadContext& context) {
-      if (value == "rigid") {
-        at.make(t) = std::numeric_limits<double>::infinity();
-      } else if (const auto number =
-                     table_detail::read_number(value, pointer, key, bounds, context, " or the string \"rigid\"")) {
-        at.make(t) = *number;
-      }
-    };
-    field.write = [at](const T& t) {
-      const double value = *at.find(t);
-      return std::isfinite(value) ? json(value) : json("rigid");
-    };
-    field.schema = [bounds] {
-      return ordered_json{{"anyOf", {table_detail::number_schema(bounds), {{"const", "rigid"}}}}};
-    };
-    return field;
+    return add(key, table_detail::access<T>(member), table_detail::number_or_rigid_format(key, bounds),
+               std::move(description));
   }
 
   /// An array of numbers; one that is shorter than `size_min` is left out when written.
   template <class F>
   Field<T>& numbers(std::string key, F member, Bounds bounds, std::size_t size_min, std::size_t size_max,
                     std::string description) {
-    auto at = table_detail::access<T>(member);
-    Field<T>& field = add(key, std::move(description), at);
-    field.read = [=](const json& value, const std::string& pointer, T& t, ReadContext& context) {
-      if (auto read = table_detail::read_numbers(value, pointer, key, bounds, size_min, size_max, context))
-        at.make(t) = std::move(*read);
-    };
-    field.write = [at, size_min](const T& t) {
-      const auto* found = at.find(t);
-      return found != nullptr && found->size() >= size_min ? json(*found) : json();
-    };
-    field.schema = [=] { return table_detail::numbers_schema(bounds, size_min, size_max); };
-    return field;
+    return add(key, table_detail::access<T>(member), table_detail::numbers_format(key, bounds, size_min, size_max),
+               std::move(description));
   }
 
   /// One number for all, or an array with a number for each; stored as an array, one number as one of length 1.
   template <class F>
   Field<T>& number_or_numbers(std::string key, F member, Bounds bounds, std::size_t size_max, std::string description) {
-    auto at = table_detail::access<T>(member);
-    Field<T>& field = add(key, std::move(description), at);
-    field.read = [=](const json& value, const std::string& pointer, T& t, ReadContext& context) {
-      if (value.is_array()) {
-        if (auto read = table_detail::read_numbers(value, pointer, key, bounds, 1, size_max, context))
-          at.make(t) = std::move(*read);
-      } else if (const auto number =
-                     table_detail::read_number(value, pointer, key, bounds, context, " or an array of numbers")) {
-        at.make(t) = {*number};
-      }
-    };
-    field.write = [at](const T& t) {
-      const auto& values = *at.find(t);
-      return values.size() == 1 ? json(values.front()) : json(values);
-    };
-    field.schema = [=] {
-      return ordered_json{
-          {"anyOf", {table_detail::number_schema(bounds), table_detail::numbers_schema(bounds, 1, size_max)}}};
-    };
-    return field;
+    return add(key, table_detail::access<T>(member), table_detail::number_or_numbers_format(key, bounds, size_max),
+               std::move(description));
   }
 
   /// An object of its own; left out when written, if nothing in it is set.
@@ -535,39 +488,27 @@ class Table {
   using json = nlohmann::json;
   using ordered_json = nlohmann::ordered_json;
 
-  /// A field that writes its member as it is, or nothing if it is not there.
-  template <class A>
-  Field<T>& add(const std::string& key, std::string description, const A& at) {
+  /// A member M, which is a V or an optional one.
+  template <class M, class V>
+  Field<T>& add(const std::string& key, const table_detail::Access<T, M>& at, const table_detail::Format<V>& format,
+                std::string description) {
     Field<T>& field = fields_.emplace_back();
     field.key = key;
     field.description = std::move(description);
-    field.write = [at](const T& t) {
-      const auto* found = at.find(t);
+    field.read = [at, read = format.read](const json& value, const std::string& pointer, T& t, ReadContext& context) {
+      if (auto good = read(value, pointer, context)) at.make(t) = std::move(*good);
+    };
+    field.write = [at, write = format.write](const T& t) {
+      const M* found = at.find(t);
       if (found == nullptr) return json();
-      using V = std::remove_cvref_t<decltype(*found)>;
-      if constexpr (table_detail::Plain<V>::is_optional) {
-        return found->has_value() ? json(**found) : json();
-      } else if constexpr (std::convertible_to<V, json>) {
-        return json(*found);
+      if constexpr (table_detail::Plain<M>::is_optional) {
+        return found->has_value() ? write(**found) : json();
       } else {
-        return json();
+        return write(*found);
       }
     };
+    field.schema = format.schema;
     return field;
-  }
-
-  template <class E>
-  static std::vector<std::string> names_of(const std::vector<std::pair<std::string, E>>& choices) {
-    std::vector<std::string> names;
-    for (const auto& choice : choices) names.push_back(choice.first);
-    return names;
-  }
-
-  template <class E>
-  static json name_in(const std::vector<std::pair<std::string, E>>& choices, const E& chosen) {
-    for (const auto& [name, value] : choices)
-      if (value == chosen) return name;
-    return {};
   }
 
   std::string name_;
