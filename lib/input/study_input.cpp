@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "input/stage_completion.hpp"
+#include "integrate/methods.hpp"
 #include "model/dynamic_model.hpp"
 #include "studies/named_parameters.hpp"
 #include "studies/units.hpp"
@@ -929,10 +930,24 @@ class LoadedInput::Loader {
     return found_.count(pointer) > 0 || sources_->is_unreadable(pointer);
   }
 
+  void check_integrator() {
+    const integrate::IntegratorOptions& integrator = input_.study.integrator;
+    const auto* method = integrate::find_method(integrator.method);
+    if (!integrator.locate_contacts || method == nullptr || method->locates_contacts() || is_bad("/integrator/method"))
+      return;
+    std::vector<std::string> able;
+    for (const auto& other : integrate::methods())
+      if (other.locates_contacts()) able.emplace_back(other.name);
+    context_.add(Finding::Kind::rule, "/integrator/locate_contacts",
+                 "is true, must be false with \"method\": \"" + integrator.method +
+                     "\"; those that locate contacts are " + listed(able));
+  }
+
   /// The study of the whole text, and all that is wrong with its values.
   void read_values() {
     std::tie(input_.study, sound_) = read_study(whole_, sources_->bare, context_, &input_.computed);
     for (const auto& finding : context_.findings) found_.insert(finding.pointer);
+    check_integrator();
     if (input_.study.has_points())
       check_points(
           input_.study, [this](const std::string& pointer) { return is_bad(pointer); }, context_);

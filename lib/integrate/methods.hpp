@@ -29,6 +29,8 @@ struct Method {
   bool misses_kinks = false;
 
   [[nodiscard]] bool multistep() const { return family == Family::adams || family == Family::bdf; }
+  /// Whether it can end a step where a contact opens or closes.
+  [[nodiscard]] bool locates_contacts() const { return family == Family::erk; }
   [[nodiscard]] bool implicit() const { return family == Family::dirk || family == Family::bdf; }
 };
 

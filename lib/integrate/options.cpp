@@ -13,7 +13,7 @@ void IntegratorOptions::validate() const {
   require(max_steps_per_period >= 1, "max_steps_per_period", static_cast<double>(max_steps_per_period), ">= 1");
   require(escape_bound > 0.0, "escape_bound", escape_bound, "> 0");
   require(max_order >= 0, "max_order", max_order, ">= 0");
-  if (locate_contacts && m.family != Family::erk)
+  if (locate_contacts && !m.locates_contacts())
     throw InputError("locate_contacts = true, must be false with method = '" + method +
                      "': explicit Runge-Kutta methods of ARKODE alone locate contact changes");
 }

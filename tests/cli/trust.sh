@@ -67,5 +67,6 @@ grep -q "arkode-dopri5" stderr || fail "the message must name the methods: $(<st
 [ "$(code_of "$epicyclic" check crosscheck.json --set /study/target_error=1e-6)" = 2 ] || fail "a key of another kind"
 [ "$(code_of "$epicyclic" sweep "$inputs/tang2020_speed.json" -o x --set /integrator/locate_contacts=true --set /integrator/method=cvode-bdf --set /study/points=2 --set /study/transient_periods=1 --set /study/recorded_periods=1)" = 2 ] ||
   fail "BDF cannot locate contacts: $(<stderr)"
+[ ! -e x ] || fail "a study that cannot run has left a folder"
 
 finish

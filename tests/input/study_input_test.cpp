@@ -254,6 +254,20 @@ TEST(Inputs, SoIsEachNumberSoundOrNot) {
   EXPECT_GT(refused, 50U);
 }
 
+TEST(Inputs, AMethodThatCannotLocateContactsIsToldBeforeAnythingRuns) {
+  for (const auto& method : integrate::methods()) {
+    const auto read = [&] {
+      (void)load_input(inputs / "tang2020_speed.json",
+                       sets({"/integrator/locate_contacts=true", "/integrator/method=" + std::string(method.name)}));
+    };
+    if (method.locates_contacts()) {
+      EXPECT_NO_THROW(read()) << method.name;
+    } else {
+      EXPECT_NE(test::message_of<InputError>(read).find("/integrator/locate_contacts"), std::string::npos);
+    }
+  }
+}
+
 TEST(Inputs, TheFirstValueThatIsNotSoundIsTold) {
   const auto refusal = [](const std::vector<std::string>& texts, const char* study) {
     return test::message_of<InputError>([&] { (void)load_input(inputs / study, sets(texts)); });
