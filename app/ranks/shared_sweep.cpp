@@ -191,8 +191,9 @@ WrittenPoints written_from(const json& report) {
 /// A computation in a thread of its own, because messages belong to the thread that made it.
 class Computation {
  public:
-  explicit Computation(std::function<void()> compute)
-      : worker_([this, compute = std::move(compute)] {
+  /// @param stop  ends it, given that `compute` looks at it
+  Computation(std::function<void()> compute, std::atomic<bool>& stop)
+      : stop_(stop), worker_([this, compute = std::move(compute)] {
           try {
             compute();
           } catch (...) {
@@ -202,6 +203,15 @@ class Computation {
           ended_ = true;
           wake_.notify_all();
         }) {}
+  Computation(const Computation&) = delete;
+  Computation& operator=(const Computation&) = delete;
+
+  /// Left early, as by an exception of the messages, it is stopped and waited for.
+  ~Computation() {
+    if (!worker_.joinable()) return;
+    stop_ = true;
+    worker_.join();
+  }
 
   [[nodiscard]] bool ends_within(std::chrono::milliseconds pause) {
     std::unique_lock lock(mutex_);
@@ -219,6 +229,7 @@ class Computation {
   }
 
  private:
+  std::atomic<bool>& stop_;
   std::exception_ptr error_;
   std::mutex mutex_;
   std::condition_variable wake_;
@@ -330,7 +341,7 @@ void SweepLeader::run(const studies::SweepPlan& plan, const studies::LookOptions
   const std::string begin = text_of({{"threads_of_all", threads_of_all_}, {"done", text_of_flags(run.done)}});
   for (int rank = 1; rank < ranks_.size(); ++rank) ranks_.send(rank, Topic::begin, begin);
 
-  Computation computation([&] { (void)studies::run_sweep(plan, look, integrator, model_at, run); });
+  Computation computation([&] { (void)studies::run_sweep(plan, look, integrator, model_at, run); }, stop);
   bool computed = false;
   Attention attention;
   RankAnswers answers(ranks_, chains, run.end_state, threads_of_all_, points_elsewhere);

@@ -16,6 +16,7 @@ std::unique_ptr<Flow> make_flow(VectorField field, const IntegratorOptions& opti
 }
 
 FlowFamily make_flow_family(FieldFamily fields, const IntegratorOptions& options) {
+  options.validate();
   return [fields = std::move(fields), options](double value) { return make_flow(fields(value), options); };
 }
 

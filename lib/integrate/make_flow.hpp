@@ -17,7 +17,7 @@ namespace epicyclic::integrate {
 /// (LastTangent::parameter).
 using FlowFamily = std::function<std::unique_ptr<Flow>(double value)>;
 
-/// A call throws what `fields` and make_flow() throw.
+/// @throws InputError for options out of range; a call of the result throws what `fields` and make_flow() throw
 [[nodiscard]] FlowFamily make_flow_family(FieldFamily fields, const IntegratorOptions& options);
 
 }  // namespace epicyclic::integrate

@@ -58,14 +58,14 @@ struct DynamicModel : VectorField {
   /// Allocation-free when `out` has been used before. Rates included.
   std::function<void(double s, const double* y, MeshDeflections& out)> deflections;
 
-  /// Likewise.
+  /// Forces of meshes and bearings at a state; allocation-free when `out` has been used before.
   std::function<void(double s, const double* y, StageForces& out)> forces;
 
   /// pull() of all meshes, given deflections() at s. A tenth of the cost of forces(): the stiffness is asked for only
   /// where damping may exceed the elastic force. May be empty in a model of one's own: nothing is then told to pull.
   std::function<void(double s, const MeshDeflections& d, MeshPulls& out)> pulls;
 
-  /// The same with tables that are half as fine, where rows of something known make them: how far an orbit moves is
+  /// This model with tables that are half as fine, where rows of something known make them: how far an orbit moves is
   /// more than what their interpolation moves it, some 16 times. Empty without such tables.
   std::function<DynamicModel()> with_halved_tables;
   double friction_table_error = 0;  ///< greatest error of the friction's ratios between the rows [-]

@@ -282,7 +282,7 @@ template <class T, class P, std::size_t N>
   return a;
 }
 
-/// The same with the planets one by one; sums are in the same order.
+/// accelerations() with the planets one by one, for lanes; sums are in the same order.
 template <class T, class P, std::size_t N>
 [[nodiscard]] Coordinates<T, N> accelerations_by_planet(Layout layout, const Parameters<P, N>& p,
                                                         const Instant<P, N>& now, const T* y) {

@@ -12,6 +12,7 @@
 #include <sundials/sundials_version.h>
 
 #include "core/errors.hpp"
+#include "core/require.hpp"
 #include "integrate/methods.hpp"
 #include "integrate/sundials/linear_solver.hpp"
 #include "integrate/sundials/sundials_flow.hpp"
@@ -231,6 +232,7 @@ std::unique_ptr<Flow> make_arkode_flow(VectorField field, const IntegratorOption
 }
 
 std::unique_ptr<Flow> make_arkode_fixed_step_flow(VectorField field, const IntegratorOptions& options, double step) {
+  require(step > 0.0, "step", step, "> 0");
   return make(std::move(field), options, step);
 }
 

@@ -23,7 +23,8 @@ namespace epicyclic::integrate {
 [[nodiscard]] std::unique_ptr<Flow> make_arkode_flow(VectorField field, const IntegratorOptions& options);
 
 /// A fixed-step flow of the same pair, for tests of the order of convergence.
-/// @param step  length of the step in s
+/// @param step  length of the step in s, > 0
+/// @throws as make_arkode_flow()
 [[nodiscard]] std::unique_ptr<Flow> make_arkode_fixed_step_flow(VectorField field, const IntegratorOptions& options,
                                                                 double step);
 
