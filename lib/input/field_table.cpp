@@ -365,18 +365,19 @@ ordered_json numbers_schema(const Bounds& bounds, std::size_t size_min, std::siz
   return {{"type", "array"}, {"items", number_schema(bounds)}, {"minItems", size_min}, {"maxItems", size_max}};
 }
 
-Format<double> number_format(const std::string& key, const Bounds& bounds) {
+Format<double> number_format(std::string_view key, const Bounds& bounds) {
   Format<double> format;
-  format.read = [=](const json& value, const std::string& pointer, ReadContext& context) {
+  format.read = [=, key = std::string(key)](const json& value, const std::string& pointer, ReadContext& context) {
     return read_number(value, pointer, key, bounds, context);
   };
   format.schema = [=] { return number_schema(bounds); };
   return format;
 }
 
-Format<double> number_or_rigid_format(const std::string& key, const Bounds& bounds) {
+Format<double> number_or_rigid_format(std::string_view key, const Bounds& bounds) {
   Format<double> format;
-  format.read = [=](const json& value, const std::string& pointer, ReadContext& context) -> std::optional<double> {
+  format.read = [=, key = std::string(key)](const json& value, const std::string& pointer,
+                                            ReadContext& context) -> std::optional<double> {
     if (value == "rigid") return std::numeric_limits<double>::infinity();
     return read_number(value, pointer, key, bounds, context, " or the string \"rigid\"");
   };
@@ -409,10 +410,10 @@ Format<std::string> text_format() {
   return format;
 }
 
-Format<std::vector<double>> numbers_format(const std::string& key, const Bounds& bounds, std::size_t size_min,
+Format<std::vector<double>> numbers_format(std::string_view key, const Bounds& bounds, std::size_t size_min,
                                            std::size_t size_max) {
   Format<std::vector<double>> format;
-  format.read = [=](const json& value, const std::string& pointer, ReadContext& context) {
+  format.read = [=, key = std::string(key)](const json& value, const std::string& pointer, ReadContext& context) {
     return read_numbers(value, pointer, key, bounds, size_min, size_max, context);
   };
   format.write = [=](const std::vector<double>& numbers) {
@@ -422,11 +423,11 @@ Format<std::vector<double>> numbers_format(const std::string& key, const Bounds&
   return format;
 }
 
-Format<std::vector<double>> number_or_numbers_format(const std::string& key, const Bounds& bounds,
-                                                     std::size_t size_max) {
+Format<std::vector<double>> number_or_numbers_format(std::string_view key, const Bounds& bounds, std::size_t size_max) {
   using Numbers = std::optional<std::vector<double>>;
   Format<std::vector<double>> format;
-  format.read = [=](const json& value, const std::string& pointer, ReadContext& context) -> Numbers {
+  format.read = [=, key = std::string(key)](const json& value, const std::string& pointer,
+                                            ReadContext& context) -> Numbers {
     if (value.is_array()) return read_numbers(value, pointer, key, bounds, 1, size_max, context);
     const auto number = read_number(value, pointer, key, bounds, context, " or an array of numbers");
     if (!number) return std::nullopt;

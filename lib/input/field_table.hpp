@@ -175,14 +175,13 @@ struct Format {
   std::function<ordered_json()> schema;
 };
 
-Format<double> number_format(const std::string& key, const Bounds& bounds);
-Format<double> number_or_rigid_format(const std::string& key, const Bounds& bounds);
+Format<double> number_format(std::string_view key, const Bounds& bounds);
+Format<double> number_or_rigid_format(std::string_view key, const Bounds& bounds);
 Format<bool> boolean_format();
 Format<std::string> text_format();
-Format<std::vector<double>> numbers_format(const std::string& key, const Bounds& bounds, std::size_t size_min,
+Format<std::vector<double>> numbers_format(std::string_view key, const Bounds& bounds, std::size_t size_min,
                                            std::size_t size_max);
-Format<std::vector<double>> number_or_numbers_format(const std::string& key, const Bounds& bounds,
-                                                     std::size_t size_max);
+Format<std::vector<double>> number_or_numbers_format(std::string_view key, const Bounds& bounds, std::size_t size_max);
 /// Of places in a list of names.
 Format<std::size_t> name_format(const std::vector<std::string>& names);
 Format<std::vector<std::size_t>> names_format(const std::vector<std::string>& names);
@@ -299,82 +298,83 @@ struct Field {
 template <class T>
 class Table {
  public:
-  Table(std::string name, std::string description) : name_(std::move(name)), description_(std::move(description)) {}
+  Table(std::string_view name, std::string_view description) : name_(name), description_(description) {}
 
   /// double or std::optional<double>.
   template <class F>
-  Field<T>& number(std::string key, F member, Bounds bounds, std::string description) {
-    return add(key, table_detail::access<T>(member), table_detail::number_format(key, bounds), std::move(description));
+  Field<T>& number(std::string_view key, F member, Bounds bounds, std::string_view description) {
+    return add(key, table_detail::access<T>(member), table_detail::number_format(key, bounds), description);
   }
 
   /// An integer type or an optional of one; a number without fractional part.
   template <class F>
-  Field<T>& integer(std::string key, F member, Bounds bounds, std::string description) {
+  Field<T>& integer(std::string_view key, F member, Bounds bounds, std::string_view description) {
     const auto at = table_detail::access<T>(member);
     using I = typename table_detail::Plain<std::remove_reference_t<decltype(at.make(std::declval<T&>()))>>::type;
-    return add(key, at, table_detail::integer_format<I>(bounds), std::move(description));
+    return add(key, at, table_detail::integer_format<I>(bounds), description);
   }
 
   /// true or false.
   template <class F>
-  Field<T>& boolean(std::string key, F member, std::string description) {
-    return add(key, table_detail::access<T>(member), table_detail::boolean_format(), std::move(description));
+  Field<T>& boolean(std::string_view key, F member, std::string_view description) {
+    return add(key, table_detail::access<T>(member), table_detail::boolean_format(), description);
   }
 
   /// std::string; an empty one is left out when written.
   template <class F>
-  Field<T>& text(std::string key, F member, std::string description) {
-    return add(key, table_detail::access<T>(member), table_detail::text_format(), std::move(description));
+  Field<T>& text(std::string_view key, F member, std::string_view description) {
+    return add(key, table_detail::access<T>(member), table_detail::text_format(), description);
   }
 
   /// One name of a list, read into an enum (by the pairs) or into a string (by names).
   template <class F, class E>
-  Field<T>& choice(std::string key, F member, const std::vector<std::pair<std::string, E>>& choices,
-                   std::string description) {
-    return add(key, table_detail::access<T>(member), table_detail::choice_format(choices), std::move(description));
+  Field<T>& choice(std::string_view key, F member, const std::vector<std::pair<std::string, E>>& choices,
+                   std::string_view description) {
+    return add(key, table_detail::access<T>(member), table_detail::choice_format(choices), description);
   }
   template <class F>
-  Field<T>& choice(std::string key, F member, const std::vector<std::string>& names, std::string description) {
+  Field<T>& choice(std::string_view key, F member, const std::vector<std::string>& names,
+                   std::string_view description) {
     std::vector<std::pair<std::string, std::string>> same;
     for (const auto& name : names) same.emplace_back(name, name);
-    return choice(std::move(key), member, same, std::move(description));
+    return choice(key, member, same, description);
   }
 
   /// Different names of a list, in an order that counts; at least one.
   template <class F, class E>
-  Field<T>& choices(std::string key, F member, const std::vector<std::pair<std::string, E>>& choices,
-                    std::string description) {
-    return add(key, table_detail::access<T>(member), table_detail::choices_format(choices), std::move(description));
+  Field<T>& choices(std::string_view key, F member, const std::vector<std::pair<std::string, E>>& choices,
+                    std::string_view description) {
+    return add(key, table_detail::access<T>(member), table_detail::choices_format(choices), description);
   }
 
   /// A stiffness: a number, or "rigid", which is stored as infinity.
   template <class F>
-  Field<T>& number_or_rigid(std::string key, F member, Bounds bounds, std::string description) {
-    return add(key, table_detail::access<T>(member), table_detail::number_or_rigid_format(key, bounds),
-               std::move(description));
+  Field<T>& number_or_rigid(std::string_view key, F member, Bounds bounds, std::string_view description) {
+    return add(key, table_detail::access<T>(member), table_detail::number_or_rigid_format(key, bounds), description);
   }
 
   /// An array of numbers; one that is shorter than `size_min` is left out when written.
   template <class F>
-  Field<T>& numbers(std::string key, F member, Bounds bounds, std::size_t size_min, std::size_t size_max,
-                    std::string description) {
+  Field<T>& numbers(std::string_view key, F member, Bounds bounds, std::size_t size_min, std::size_t size_max,
+                    std::string_view description) {
     return add(key, table_detail::access<T>(member), table_detail::numbers_format(key, bounds, size_min, size_max),
-               std::move(description));
+               description);
   }
 
   /// One number for all, or an array with a number for each; stored as an array, one number as one of length 1.
   template <class F>
-  Field<T>& number_or_numbers(std::string key, F member, Bounds bounds, std::size_t size_max, std::string description) {
+  Field<T>& number_or_numbers(std::string_view key, F member, Bounds bounds, std::size_t size_max,
+                              std::string_view description) {
     return add(key, table_detail::access<T>(member), table_detail::number_or_numbers_format(key, bounds, size_max),
-               std::move(description));
+               description);
   }
 
   /// An object of its own; left out when written, if nothing in it is set.
   template <class F, class U>
-  Field<T>& object(std::string key, F member, const Table<U>& table) {
+  Field<T>& object(std::string_view key, F member, const Table<U>& table) {
     auto at = table_detail::access<T>(member);
     Field<T>& field = fields_.emplace_back();
-    field.key = std::move(key);
+    field.key = key;
     field.description = table.description();
     field.read = [at, &table](const json& value, const std::string& pointer, T& t, ReadContext& context) {
       table.read(value, pointer, at.make(t), context);
@@ -490,11 +490,11 @@ class Table {
 
   /// A member M, which is a V or an optional one.
   template <class M, class V>
-  Field<T>& add(const std::string& key, const table_detail::Access<T, M>& at, const table_detail::Format<V>& format,
-                std::string description) {
+  Field<T>& add(std::string_view key, const table_detail::Access<T, M>& at, const table_detail::Format<V>& format,
+                std::string_view description) {
     Field<T>& field = fields_.emplace_back();
     field.key = key;
-    field.description = std::move(description);
+    field.description = description;
     field.read = [at, read = format.read](const json& value, const std::string& pointer, T& t, ReadContext& context) {
       if (auto good = read(value, pointer, context)) at.make(t) = std::move(*good);
     };
