@@ -13,10 +13,11 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "analysis/regime.hpp"
+#include "core/dense.hpp"
 #include "core/largest_difference.hpp"
 #include "integrate/make_flow.hpp"
 #include "problems/clearance_exact.hpp"
@@ -52,7 +53,7 @@ double multiplier_of_orbit(const Exact& exact, const State& start, int n, double
     Eigen::Matrix2d m;
     m << t[0], t[1], t[2], t[3];
     const Eigen::Vector2d f(end[0] - x[0], end[1] - x[1]);
-    if (f.lpNorm<Eigen::Infinity>() < rounding) return m.eigenvalues().cwiseAbs().maxCoeff();
+    if (f.lpNorm<Eigen::Infinity>() < rounding) return epicyclic::eigenvalues(m).cwiseAbs().maxCoeff();
     const Eigen::Vector2d d = (Eigen::Matrix2d::Identity() - m).partialPivLu().solve(f);
     x = {x[0] + d(0), x[1] + d(1)};
     if (!(largest_difference(x, start) < near)) return none;

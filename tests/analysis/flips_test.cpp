@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include "analysis/periodic_orbit.hpp"
+#include "core/dense.hpp"
 #include "core/root_finding.hpp"
 #include "integrate/make_flow.hpp"
 #include "problems/known_systems.hpp"
@@ -40,7 +40,7 @@ class Branch {
     EXPECT_TRUE(orbit.found()) << "g = " << g << ": " << orbit.message;
     if (!orbit.found()) return std::nan("");
     state_ = orbit.state;
-    const auto multipliers = orbit.monodromy.eigenvalues();
+    const auto multipliers = epicyclic::eigenvalues(orbit.monodromy);
     least_ = std::min(multipliers[0].real(), multipliers[1].real());
     other_ = std::max(multipliers[0].real(), multipliers[1].real());
     return least_ + 1.0;

@@ -9,10 +9,10 @@
 #include <numbers>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include "analysis/periodic_orbit.hpp"
+#include "core/dense.hpp"
 #include "core/errors.hpp"
 #include "integrate/make_flow.hpp"
 #include "problems/known_systems.hpp"
@@ -94,7 +94,7 @@ TEST(LyapunovSpectrum, OfAPeriodicMotionAreTheLogarithmsOfItsMultipliers) {
   const PeriodicOrbit orbit = find_periodic_orbit(*flow, y, 1);
   ASSERT_TRUE(orbit.found());
   std::vector<double> moduli;
-  for (const auto& multiplier : orbit.monodromy.eigenvalues()) moduli.push_back(std::abs(multiplier));
+  for (const auto& multiplier : epicyclic::eigenvalues(orbit.monodromy)) moduli.push_back(std::abs(multiplier));
   std::sort(moduli.rbegin(), moduli.rend());
   const LyapunovSpectrum s = lyapunov_spectrum(*flow, y, {.aligning_intervals = 100, .intervals = 2000}, always);
   for (std::size_t i = 0; i < moduli.size(); ++i)

@@ -9,9 +9,10 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "core/dense.hpp"
 #include "core/errors.hpp"
 #include "integrate/each_method.hpp"
 #include "integrate/make_flow.hpp"
@@ -51,7 +52,7 @@ TEST(Tangents, DuffingFlipsWithThePublishedMultipliers) {
   constexpr double digits = 2e-8;
   EXPECT_NEAR(y[0], 0.4075754662, digits);
   EXPECT_NEAR(y[1], 0.3226140050, digits);
-  Eigen::Vector2cd multipliers = m.eigenvalues();
+  Eigen::Vector2cd multipliers = epicyclic::eigenvalues(m);
   std::sort(multipliers.begin(), multipliers.end(), [](auto a, auto b) { return a.real() < b.real(); });
   EXPECT_NEAR(multipliers[0].real(), -1.0, digits);
   EXPECT_NEAR(multipliers[1].real(), -0.20787958, digits);
