@@ -34,6 +34,6 @@ function(epicyclic_kernels target source)
     target_sources(${target} PRIVATE ${file})
     set_source_files_properties(
       ${file} PROPERTIES COMPILE_OPTIONS "${arg_OPTIONS};${kernel_options_${SET}};${arg_OPTIONS_${SET}}"
-                         COMPILE_DEFINITIONS "${arg_DEFINITIONS}")
+                         COMPILE_DEFINITIONS "${arg_DEFINITIONS}" SKIP_PRECOMPILE_HEADERS ON)
   endforeach()
 endfunction()

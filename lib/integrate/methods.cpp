@@ -51,7 +51,7 @@ const Method* find_method(std::string_view name) {
 const Method& method_named(std::string_view name) {
   if (const Method* method = find_method(name)) return *method;
   std::string message = "method = '" + std::string(name) + "', must be one of";
-  for (const Method& m : methods()) message += " " + std::string(m.name);
+  for (const Method& m : methods()) message.append(" ").append(m.name);
   throw InputError(message);
 }
 

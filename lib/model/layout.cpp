@@ -6,7 +6,7 @@ std::vector<std::string> coordinate_names(Layout layout, int planets) {
   const std::string rotation = layout == Layout::full ? "u_" : "w_";
   std::vector<std::string> names = {"x_s", "y_s", rotation + "s"};
   for (int i = 1; i <= planets; ++i) {
-    const std::string planet = "p" + std::to_string(i);
+    const std::string planet = std::string("p").append(std::to_string(i));
     names.push_back("x_" + planet);
     names.push_back("y_" + planet);
     names.push_back(rotation + planet);
