@@ -1,6 +1,7 @@
 // The command line: arguments, exit codes, nothing else.
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <functional>
 #include <sstream>
@@ -61,75 +62,57 @@ int answer(const CLI::App& cli, const CLI::ParseError& asked, const Ranks& ranks
   return code;
 }
 
-/// The subcommands on the command line.
-class Subcommands {
- public:
-  /// @param arguments  takes what is parsed; must live longer
-  Subcommands(CLI::App& cli, Arguments& arguments) {
-    const auto with_input = [&](CLI::App* command) {
-      command->add_option("INPUT", arguments.input, "study or stage file (JSON)")->required();
-      command->add_option("--set", arguments.sets, "/json/pointer=value, overrides one value; may be repeated")
-          ->take_all()
-          ->expected(1)
-          ->allow_extra_args(false);
-    };
-    const auto with_output = [&](CLI::App* command) {
-      command->add_option("-o,--output", arguments.output, "folder for the results")->required();
-      command->add_flag("--json", arguments.json, "print the summary as JSON");
-    };
+int print_schema(const Arguments& /*arguments*/) {
+  print("{}\n", input::schema_text());
+  return done;
+}
 
-    gear_ = cli.add_subcommand("gear", "teeth, contact, stiffness, friction, bearings and modes of the stage");
-    with_input(gear_);
-    with_output(gear_);
-    run_point_ = cli.add_subcommand("run", "one operating point: regime, forces, spectra, exponents, orbit, figures");
-    with_input(run_point_);
-    with_output(run_point_);
-    sweep_ = cli.add_subcommand("sweep", "bifurcation diagram along one parameter, up, down or both");
-    with_input(sweep_);
-    with_output(sweep_);
-    map_ = cli.add_subcommand("map", "regimes over two parameters");
-    with_input(map_);
-    with_output(map_);
-    basins_ = cli.add_subcommand("basins", "coexisting attractors over a plane of initial conditions");
-    with_input(basins_);
-    with_output(basins_);
-    tolerance_ =
-        cli.add_subcommand("tolerance", "answers against tolerance, clearance smoothing and method, with error bars");
-    with_input(tolerance_);
-    with_output(tolerance_);
-    crosscheck_ = cli.add_subcommand("crosscheck", "the same points by several methods, compared");
-    with_input(crosscheck_);
-    with_output(crosscheck_);
-    for (CLI::App* command : {sweep_, map_, basins_, tolerance_, crosscheck_})
-      command->add_option("--threads", arguments.threads, "threads; the results do not depend on it")
-          ->check(CLI::Range(1, 4096))
-          ->capture_default_str();
-    check_ = cli.add_subcommand("check", "validates, prints the resolved input and its cost; writes nothing");
-    with_input(check_);
-    schema_ = cli.add_subcommand("schema", "the JSON Schema of the input");
-  }
+/// What a subcommand takes, from a stage or study file on.
+enum class Takes { nothing, input, output, threads };
 
-  /// Whether the one that was parsed runs on several processes.
-  [[nodiscard]] bool share_work() const { return sweep_->parsed() || map_->parsed() || basins_->parsed(); }
-
-  /// Runs the one that was parsed.
-  /// @returns its exit code
-  [[nodiscard]] int run(const Arguments& arguments) const {
-    if (gear_->parsed()) return gear_command(arguments);
-    if (run_point_->parsed()) return run_command(arguments);
-    if (sweep_->parsed()) return sweep_command(arguments);
-    if (map_->parsed()) return map_command(arguments);
-    if (basins_->parsed()) return basins_command(arguments);
-    if (tolerance_->parsed()) return tolerance_command(arguments);
-    if (crosscheck_->parsed()) return crosscheck_command(arguments);
-    if (check_->parsed()) return check_command(arguments);
-    if (schema_->parsed()) print("{}\n", input::schema_text());
-    return static_cast<int>(done);
-  }
-
- private:
-  CLI::App *gear_, *run_point_, *sweep_, *map_, *basins_, *tolerance_, *crosscheck_, *check_, *schema_;
+struct Subcommand {
+  const char* name;
+  const char* meaning;
+  int (*run)(const Arguments&);
+  Takes takes;                  ///< and all that stands before it
+  bool shares_work = false;     ///< runs on several processes
+  CLI::App* command = nullptr;  ///< on the command line
 };
+
+std::array<Subcommand, 9> subcommands() {
+  return {{
+      {"gear", "teeth, contact, stiffness, friction, bearings and modes of the stage", gear_command, Takes::output},
+      {"run", "one operating point: regime, forces, spectra, exponents, orbit, figures", run_command, Takes::output},
+      {"sweep", "bifurcation diagram along one parameter, up, down or both", sweep_command, Takes::threads, true},
+      {"map", "regimes over two parameters", map_command, Takes::threads, true},
+      {"basins", "coexisting attractors over a plane of initial conditions", basins_command, Takes::threads, true},
+      {"tolerance", "answers against tolerance, clearance smoothing and method, with error bars", tolerance_command,
+       Takes::threads},
+      {"crosscheck", "the same points by several methods, compared", crosscheck_command, Takes::threads},
+      {"check", "validates, prints the resolved input and its cost; writes nothing", check_command, Takes::input},
+      {"schema", "the JSON Schema of the input", print_schema, Takes::nothing},
+  }};
+}
+
+/// @param arguments  takes what is parsed; must live longer
+void add_to(CLI::App& cli, Subcommand& sub, Arguments& arguments) {
+  sub.command = cli.add_subcommand(sub.name, sub.meaning);
+  if (sub.takes >= Takes::input) {
+    sub.command->add_option("INPUT", arguments.input, "study or stage file (JSON)")->required();
+    sub.command->add_option("--set", arguments.sets, "/json/pointer=value, overrides one value; may be repeated")
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);
+  }
+  if (sub.takes >= Takes::output) {
+    sub.command->add_option("-o,--output", arguments.output, "folder for the results")->required();
+    sub.command->add_flag("--json", arguments.json, "print the summary as JSON");
+  }
+  if (sub.takes >= Takes::threads)
+    sub.command->add_option("--threads", arguments.threads, "threads; the results do not depend on it")
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str();
+}
 
 int run(int argc, char** argv) {
   Ranks ranks;
@@ -140,7 +123,8 @@ int run(int argc, char** argv) {
   arguments.threads = own_cores();
   arguments.ranks = &ranks;
 
-  const Subcommands commands(cli, arguments);
+  auto commands = subcommands();
+  for (Subcommand& sub : commands) add_to(cli, sub, arguments);
   const int code = guarded(ranks, [&] {
     try {
       cli.parse(argc, argv);
@@ -150,9 +134,11 @@ int run(int argc, char** argv) {
     check_instruction_set_limit();
     if (ranks.size() > 1 && !ranks.connected())
       throw InputError("several processes cannot share the work: this program was built without MPI");
-    if (ranks.size() > 1 && !commands.share_work())
+    const auto asked =
+        std::find_if(commands.begin(), commands.end(), [](const Subcommand& sub) { return sub.command->parsed(); });
+    if (ranks.size() > 1 && (asked == commands.end() || !asked->shares_work))
       throw InputError("only sweep, map and basins run on several processes");
-    return commands.run(arguments);
+    return asked == commands.end() ? static_cast<int>(done) : asked->run(arguments);
   });
   if (ranks.size() > 1) leave_ranks(code);
   return code;
