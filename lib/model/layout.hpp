@@ -10,8 +10,8 @@
 //
 // Source: model.md section 4; Eqs. (21)-(22) eliminate the same rotation by differentiating e twice, which this avoids.
 // Written once: every layout is read into the same Coordinates, in which the rotation of the reference member is 0, so
-// that deflections have one formula. Linear maps: smooth everywhere. The layout is a value: it decides no
-// more than whether the last slots are there.
+// that deflections have one formula. Linear maps: smooth everywhere. The layout is a value: it decides
+// which of the last slots are there and what accelerations of rotations are combined to [make_relative()].
 #pragma once
 
 #include <cstddef>

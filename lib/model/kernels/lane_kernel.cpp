@@ -31,43 +31,50 @@ EPICYCLIC_DECLARE_KERNELS
 }  // namespace avx512_again
 #endif
 
-#define EPICYCLIC_KERNELS_OF(set)                                                                            \
-  switch (layout) {                                                                                          \
-    case Layout::relative_to_ring:                                                                           \
-      return {&set::prepare_lanes<N, W>, &set::evaluate_lanes<Layout::relative_to_ring, N, W>,               \
-              &set::measure_contacts<Layout::relative_to_ring, N, W>};                                       \
-    case Layout::relative_to_carrier:                                                                        \
-      return {&set::prepare_lanes<N, W>, &set::evaluate_lanes<Layout::relative_to_carrier, N, W>,            \
-              &set::measure_contacts<Layout::relative_to_carrier, N, W>};                                    \
-    case Layout::relative_to_carrier_rigid_ring:                                                             \
-      return {&set::prepare_lanes<N, W>, &set::evaluate_lanes<Layout::relative_to_carrier_rigid_ring, N, W>, \
-              &set::measure_contacts<Layout::relative_to_carrier_rigid_ring, N, W>};                         \
-    case Layout::full:                                                                                       \
-      break;                                                                                                 \
-  }
+namespace {
 
-template <std::size_t N, std::size_t W>
-LaneKernel<N, W> lane_kernel(Layout layout, const char* name, [[maybe_unused]] std::size_t copy) {
+#define EPICYCLIC_KERNELS_OF(set) \
+  { &set::prepare_lanes<N, W>, &set::evaluate_lanes<L, N, W>, &set::measure_contacts<L, N, W> }
+
+template <Layout L, std::size_t N, std::size_t W>
+LaneKernel<N, W> kernel_of_layout(const char* name, [[maybe_unused]] std::size_t copy) {
   const std::string_view wanted(name);
   if constexpr (W == 2) {
-    if (wanted == "baseline") EPICYCLIC_KERNELS_OF(baseline)
+    if (wanted == "baseline") return EPICYCLIC_KERNELS_OF(baseline);
   }
 #ifdef EPICYCLIC_X86_KERNELS
   static_assert(kernel_copies == 2);
   const bool again = copy % kernel_copies == 1;
   if constexpr (W == 4) {
     if (wanted == "avx2" && machine_runs(wanted)) {
-      if (again) EPICYCLIC_KERNELS_OF(avx2_again)
-      EPICYCLIC_KERNELS_OF(avx2)
+      if (again) return EPICYCLIC_KERNELS_OF(avx2_again);
+      return EPICYCLIC_KERNELS_OF(avx2);
     }
   }
   if constexpr (W == 8) {
     if (wanted == "avx512" && machine_runs(wanted)) {
-      if (again) EPICYCLIC_KERNELS_OF(avx512_again)
-      EPICYCLIC_KERNELS_OF(avx512)
+      if (again) return EPICYCLIC_KERNELS_OF(avx512_again);
+      return EPICYCLIC_KERNELS_OF(avx512);
     }
   }
 #endif
+  return {};
+}
+
+}  // namespace
+
+template <std::size_t N, std::size_t W>
+LaneKernel<N, W> lane_kernel(Layout layout, const char* name, std::size_t copy) {
+  switch (layout) {
+    case Layout::relative_to_ring:
+      return kernel_of_layout<Layout::relative_to_ring, N, W>(name, copy);
+    case Layout::relative_to_carrier:
+      return kernel_of_layout<Layout::relative_to_carrier, N, W>(name, copy);
+    case Layout::relative_to_carrier_rigid_ring:
+      return kernel_of_layout<Layout::relative_to_carrier_rigid_ring, N, W>(name, copy);
+    case Layout::full:
+      break;
+  }
   return {};
 }
 

@@ -30,7 +30,7 @@ struct LaneKernel {
                            double* rates) = nullptr;
 };
 
-/// That of one instruction set, empty if it was not compiled or this machine does not run it.
+/// That of one instruction set, empty if it was not compiled or this machine does not run it, and in full coordinates.
 /// @param name "baseline" (W = 2), "avx2" (4) or "avx512" (8)
 /// @param copy  any number: kernel_copies of them are taken in turn
 template <std::size_t N, std::size_t W>
