@@ -14,6 +14,7 @@
 #include "core/dual.hpp"
 #include "gear/bearing.hpp"
 #include "gear/kinematics.hpp"
+#include "model/dynamic_model.hpp"
 #include "model/parameters.hpp"
 #include "model/right_hand_side.hpp"
 #include "problems/mesh_laws.hpp"
@@ -254,6 +255,15 @@ std::array<double, dof> fixed_carrier_rotation(double u) {
   return q;
 }
 
+/// The rotation that the boundary leaves free, in any amount.
+std::array<double, dof> free_rotation(const gear::Stage& s) {
+  if (s.boundary != gear::Boundary::fixed_ring) return fixed_carrier_rotation(30.0);
+  std::array<double, dof> q = whole_rotation(s, 1.0);
+  const std::array<double, dof> back = fixed_carrier_rotation(q[Slots::u_r(planets)]);
+  for (std::size_t k = 0; k < dof; ++k) q[k] += back[k];
+  return q;
+}
+
 // Roundings of coordinates of order 100.
 constexpr double rounding_100 = 1e-12;
 
@@ -274,9 +284,7 @@ TEST(Deflections, TheMechanismOfEachBoundaryGivesNone) {
     // literal, star: the carrier held
     EXPECT_LT(largest_deflection(deflections_of(s, fixed_carrier_rotation(30.0))), rounding_100);
     // fixed_ring: the whole train forward, and back with the carrier held until the ring is where it was
-    std::array<double, dof> q = whole_rotation(s, 1.0);
-    const std::array<double, dof> back = fixed_carrier_rotation(q[Slots::u_r(planets)]);
-    for (std::size_t k = 0; k < dof; ++k) q[k] += back[k];
+    const std::array<double, dof> q = free_rotation(s);
     EXPECT_EQ(q[Slots::u_r(planets)], 0.0);
     EXPECT_GT(q[Slots::w_s], 0.0);
     EXPECT_LT(largest_deflection(deflections_of(s, q)), rounding_100);
@@ -361,6 +369,47 @@ TEST(Forces, MeshForcesAndFrictionNeitherPushNorTurnTheWholeTrain) {
     EXPECT_NEAR(x, 0.0, rounding_100);
     EXPECT_NEAR(y_sum, 0.0, rounding_100);
     EXPECT_NEAR(moment, 0.0, rounding_100);
+  }
+}
+
+// ---- the free rotation ------------------------------------------------------------------------------------------
+
+// The relative state leaves the reference member's rotation out, so no force may depend on it: a drag on an absolute
+// rotation would, and would still be a number.
+TEST(Forces, RelativeRatesAreThoseOfTheFullCoordinatesAtAnyPlaceAndSpeedOfTheFreeRotation) {
+  const gear::Stage base = problems::with_unequal_angles(problems::r1_nonlinear());
+  for (const gear::Stage& s : {base, problems::literal(base), problems::star(base), problems::rigid_ring(base)}) {
+    const Layout layout = make_dynamic_model(s, scales_of(s), 0.9, {}, CoordinateChoice::relative).layout;
+    const std::size_t n = degrees_of_freedom(layout, planets);
+    const auto p = make_parameters<planets>(s, scales_of(s), 0.9, {});
+    const std::array<double, dof> free = free_rotation(s);
+    std::mt19937_64 random(23);
+    std::uniform_real_distribution<double> displacement(-4.0, 4.0);
+    for (std::size_t segment = 0; segment < p.segments.size(); ++segment) {
+      std::vector<double> relative(2 * n);
+      for (double& x : relative) x = displacement(random);
+      std::vector<double> rates(2 * n);
+      right_hand_side(layout, p, Instant<double, planets>(p, segment, p.breakpoints[segment]), relative.data(),
+                      rates.data());
+
+      std::array<double, 2 * dof> y;
+      pack(Layout::full, unpack<planets>(layout, relative.data()), y.data());
+      pack(Layout::full, unpack<planets>(layout, relative.data() + n), y.data() + dof);
+      for (std::size_t k = 0; k < dof; ++k) {
+        y[k] += 0.1 * free[k];
+        y[dof + k] += 0.3 * free[k];
+      }
+      Coordinates<double, planets> a =
+          accelerations(p, stage_state(Layout::full, p, segment, p.breakpoints[segment], y.data()));
+      make_relative(layout, p, a);
+      std::vector<double> expected(n);
+      pack(layout, a, expected.data());
+      double largest = 0.0;
+      for (const double x : expected) largest = std::max(largest, std::abs(x));
+      for (std::size_t k = 0; k < n; ++k)
+        EXPECT_NEAR(rates[n + k] * p.omega, expected[k], rounding_100 * largest)
+            << "acceleration " << k << ", boundary " << static_cast<int>(s.boundary);
+    }
   }
 }
 
