@@ -15,7 +15,7 @@ namespace epicyclic::app {
 namespace {
 
 WrittenPoints write_results(const ComputedPoints& plane) {
-  std::vector<studies::PointResult> results = studies::all_brief(plane.points);
+  std::vector<studies::PointSummary> results = studies::all_brief(plane.points);
   const input::Study& study = plane.input.study;
   const reports::BasinsOutput output{std::get<studies::BasinsOptions>(study.plan).plane, plane.first_model.state_names,
                                      studies::planet_turns(plane.first_model), plane.resolved,

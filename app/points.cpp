@@ -25,7 +25,7 @@ namespace epicyclic::app {
 
 namespace {
 
-bool computed(const studies::PointResult& r) { return r.outcome == integrate::Outcome::reached; }
+bool computed(const studies::PointSummary& r) { return r.outcome == integrate::Outcome::reached; }
 
 /// Computes what the store does not hold.
 /// @param leader  of the other ranks; null: there are none
@@ -78,12 +78,12 @@ struct Pulls {
   double force = 0;  ///< greatest, over the static mesh force
   double time = 0;   ///< greatest part of the time
 
-  void see(const studies::PointResult& r) {
+  void see(const studies::PointSummary& r) {
     if (!r.pulls()) return;
     ++points;
     for (const auto* meshes : {&r.sun_planet, &r.ring_planet}) {
-      force = std::max(force, studies::PointResult::pull(*meshes));
-      time = std::max(time, studies::PointResult::pull_time(*meshes));
+      force = std::max(force, studies::PointSummary::pull(*meshes));
+      time = std::max(time, studies::PointSummary::pull_time(*meshes));
     }
   }
   [[nodiscard]] std::string note(std::string_view noun) const {
@@ -123,7 +123,7 @@ void tell_result(const Arguments& arguments, std::string_view noun, const Comput
   std::map<std::string, std::size_t> regimes;
   Pulls pulls;
   for (std::size_t i = 0; i < points.count; ++i) {
-    const studies::PointResult r = points.read_brief(i);
+    const studies::PointSummary r = points.read_brief(i);
     if (!computed(r)) continue;
     ++regimes[to_string(r.regime)];
     pulls.see(r);

@@ -23,11 +23,11 @@ namespace {
 
 using analysis::Attractor;
 using analysis::Attractors;
-using studies::PointResult;
+using studies::PointSummary;
 
 store::PointColumn attractor_column(const Attractors& attractors) {
   return {"attractor", "", "number of the attractor that the cell is on, from 1; 0: none is told",
-          store::PointColumn::Getter<std::int64_t>([&attractors](const PointResult& r) {
+          store::PointColumn::Getter<std::int64_t>([&attractors](const PointSummary& r) {
             return static_cast<std::int64_t>(attractors.number[r.point.index]);
           })};
 }
@@ -40,8 +40,8 @@ struct Row {
   std::int64_t cells = 0;
   double share = 0;  ///< of all cells
   analysis::Estimate exponent;
-  const PointResult* first = nullptr;  ///< its first cell
-  figures::FigureRange sp, rp;         ///< of planet 1's deflections over all its cells
+  const PointSummary* first = nullptr;  ///< its first cell
+  figures::FigureRange sp, rp;          ///< of planet 1's deflections over all its cells
   double spread = 0;
   double orbit_error = std::numeric_limits<double>::quiet_NaN();
   std::int64_t image_of = 0;
@@ -49,7 +49,7 @@ struct Row {
   std::vector<double> state;  ///< a Poincare point
 };
 
-std::vector<Row> rows_of(const BasinsOutput& output, const std::vector<PointResult>& results,
+std::vector<Row> rows_of(const BasinsOutput& output, const std::vector<PointSummary>& results,
                          const Attractors& attractors) {
   std::vector<Row> rows;
   for (const Attractor& a : attractors.all) {
@@ -64,7 +64,7 @@ std::vector<Row> rows_of(const BasinsOutput& output, const std::vector<PointResu
     row.exponent = periodic ? row.first->lyapunov_max() : a.record.exponent;
     if (periodic) row.orbit_error = a.record.orbit_error;
     for (const std::size_t k : a.members) {
-      const PointResult& r = results[k];
+      const PointSummary& r = results[k];
       row.sp.include(r.sun_planet.front().delta_min);
       row.sp.include(r.sun_planet.front().delta_max);
       row.rp.include(r.ring_planet.front().delta_min);
@@ -108,13 +108,13 @@ std::string component_label(const std::string& component) {
   return is_rate ? "Start  (d" + symbol + "/dτ) / b_c" : "Start  " + symbol + " / b_c";
 }
 
-void write_basins_csv(const std::filesystem::path& file, const std::vector<PointResult>& results,
+void write_basins_csv(const std::filesystem::path& file, const std::vector<PointSummary>& results,
                       const Attractors& attractors) {
   write_points_csv(file, studies::points_in_memory(results), {second_value_column(), attractor_column(attractors)});
 }
 
 void write_attractors_csv(const std::filesystem::path& file, const BasinsOutput& output,
-                          const std::vector<PointResult>& results, const Attractors& attractors) {
+                          const std::vector<PointSummary>& results, const Attractors& attractors) {
   std::vector<std::string> columns = {
       "attractor",          "regime",       "period",        "cells",        "share",        "lyapunov_max",
       "lyapunov_max_error", "point",        "value",         "second_value", "delta_sp_min", "delta_sp_max",
@@ -134,7 +134,7 @@ void write_attractors_csv(const std::filesystem::path& file, const BasinsOutput&
 }
 
 void write_basins_h5(const std::filesystem::path& file, const BasinsOutput& output,
-                     const std::vector<PointResult>& results, const Attractors& attractors) {
+                     const std::vector<PointSummary>& results, const Attractors& attractors) {
   store::Hdf5File h5(file);
   // The matrix: rows along the second component, columns along the first, both ascending.
   write_plane(h5, "/basins", "component", output.plane, output.resolved_input, studies::points_in_memory(results),
@@ -188,7 +188,7 @@ void write_basins_h5(const std::filesystem::path& file, const BasinsOutput& outp
 }
 
 std::vector<DrawnFigure> draw_basins_figure(const std::filesystem::path& folder, const BasinsOutput& output,
-                                            const std::vector<PointResult>& results, const Attractors& attractors) {
+                                            const std::vector<PointSummary>& results, const Attractors& attractors) {
   // The largest ones have colours, in the order of their numbers.
   std::vector<std::size_t> coloured(attractors.all.size());
   std::iota(coloured.begin(), coloured.end(), 0U);
@@ -217,7 +217,7 @@ std::vector<DrawnFigure> draw_basins_figure(const std::filesystem::path& folder,
   classes.push_back({"undecided", "#9a9a9a"});
   classes.push_back({"failed", "#000000"});
   std::vector<std::size_t> cells;
-  for (const PointResult& r : results) {
+  for (const PointSummary& r : results) {
     const std::size_t number = attractors.number[r.point.index];
     const bool failed = r.outcome != integrate::Outcome::reached;
     cells.push_back(number > 0 ? class_of[number - 1] : classes.size() - (failed ? 1 : 2));

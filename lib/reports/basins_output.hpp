@@ -30,17 +30,17 @@ struct BasinsOutput {
 [[nodiscard]] std::string component_label(const std::string& component);
 
 /// @throws OutputError
-void write_basins_csv(const std::filesystem::path& file, const std::vector<studies::PointResult>& results,
+void write_basins_csv(const std::filesystem::path& file, const std::vector<studies::PointSummary>& results,
                       const analysis::Attractors& attractors);
 void write_attractors_csv(const std::filesystem::path& file, const BasinsOutput& output,
-                          const std::vector<studies::PointResult>& results, const analysis::Attractors& attractors);
+                          const std::vector<studies::PointSummary>& results, const analysis::Attractors& attractors);
 void write_basins_h5(const std::filesystem::path& file, const BasinsOutput& output,
-                     const std::vector<studies::PointResult>& results, const analysis::Attractors& attractors);
+                     const std::vector<studies::PointSummary>& results, const analysis::Attractors& attractors);
 
 /// A colour for each of the twelve largest attractors.
 [[nodiscard]] std::vector<DrawnFigure> draw_basins_figure(const std::filesystem::path& folder,
                                                           const BasinsOutput& output,
-                                                          const std::vector<studies::PointResult>& results,
+                                                          const std::vector<studies::PointSummary>& results,
                                                           const analysis::Attractors& attractors);
 
 }  // namespace epicyclic::reports

@@ -17,12 +17,12 @@ namespace epicyclic::reports {
 namespace {
 
 using studies::Direction;
-using studies::PointResult;
+using studies::PointSummary;
 
 /// What a figure or a matrix shows of each cell, row by row with both axes ascending.
 template <class T>
 std::vector<T> matrix(const MapOutput& output, const studies::PointSource& points, Direction direction,
-                      const std::function<T(const PointResult&)>& value) {
+                      const std::function<T(const PointSummary&)>& value) {
   const auto columns = static_cast<std::size_t>(output.map.plane.first.points);
   const auto& directions = output.map.directions;
   const std::size_t count = points.count / directions.size();
@@ -45,7 +45,7 @@ const std::vector<figures::CellClass>& classes() {
   return all;
 }
 
-std::size_t class_of(const PointResult& r) {
+std::size_t class_of(const PointSummary& r) {
   if (r.outcome != integrate::Outcome::reached) return 9;
   switch (r.regime) {
     case analysis::Regime::periodic:
@@ -75,24 +75,24 @@ void write_map_h5(const std::filesystem::path& file, const MapOutput& output, co
   for (const Direction direction : output.map.directions) {
     const std::string group = "/map/" + store::direction_word(direction);
     h5.create_group(group);
-    const auto integers = [&](const char* name, const std::function<std::int64_t(const PointResult&)>& value) {
+    const auto integers = [&](const char* name, const std::function<std::int64_t(const PointSummary&)>& value) {
       h5.write(group + "/" + name, std::span<const std::int64_t>(matrix(output, points, direction, value)), rows,
                columns);
     };
-    const auto numbers = [&](const char* name, const std::function<double(const PointResult&)>& value) {
+    const auto numbers = [&](const char* name, const std::function<double(const PointSummary&)>& value) {
       h5.write(group + "/" + name, std::span<const double>(matrix(output, points, direction, value)), rows, columns);
       h5.set_units(group + "/" + name, "1 per tau");
     };
-    integers("regime", [](const PointResult& r) {
+    integers("regime", [](const PointSummary& r) {
       return r.outcome == integrate::Outcome::reached ? static_cast<std::int64_t>(r.regime) : -1;
     });
     h5.set_attribute(group + "/regime", "codes", "-1 failed, 0 periodic, 1 quasiperiodic, 2 chaotic, 3 undecided");
-    integers("period", [](const PointResult& r) {
+    integers("period", [](const PointSummary& r) {
       return r.outcome == integrate::Outcome::reached ? static_cast<std::int64_t>(r.period) : 0;
     });
     h5.set_units(group + "/period", "mesh periods");
-    numbers("lyapunov_max", [](const PointResult& r) { return r.lyapunov_max().value; });
-    numbers("lyapunov_max_error", [](const PointResult& r) { return r.lyapunov_max().half_width; });
+    numbers("lyapunov_max", [](const PointSummary& r) { return r.lyapunov_max().value; });
+    numbers("lyapunov_max_error", [](const PointSummary& r) { return r.lyapunov_max().half_width; });
   }
   h5.close();
 }
@@ -112,7 +112,7 @@ std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, c
                                                             matrix<std::size_t>(output, points, direction, class_of))});
     if (output.map.look.classification_periods == 0) continue;
     const auto exponents =
-        matrix<double>(output, points, direction, [](const PointResult& r) { return r.lyapunov_max().value; });
+        matrix<double>(output, points, direction, [](const PointSummary& r) { return r.lyapunov_max().value; });
     if (std::ranges::none_of(exponents, [](double x) { return std::isfinite(x); })) continue;
     const std::string stem = "lyapunov_max_" + word;
     figures.push_back(

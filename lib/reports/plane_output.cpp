@@ -6,11 +6,11 @@
 
 namespace epicyclic::reports {
 
-using studies::PointResult;
+using studies::PointSummary;
 
 store::PointColumn second_value_column() {
   return {"second_value", "of the parameter", "of the second one",
-          store::PointColumn::Getter<double>([](const PointResult& r) { return r.point.second_value; })};
+          store::PointColumn::Getter<double>([](const PointSummary& r) { return r.point.second_value; })};
 }
 
 void write_plane(store::Hdf5File& h5, const std::string& group, const std::string& axis, const studies::Plane& plane,

@@ -22,8 +22,9 @@ namespace {
 
 using studies::Direction;
 using studies::PointResult;
+using studies::PointSummary;
 
-bool ok(const PointResult& r) { return r.outcome == integrate::Outcome::reached; }
+bool ok(const PointSummary& r) { return r.outcome == integrate::Outcome::reached; }
 
 /// The rows of all Poincare sections one after another.
 class SectionRows {
@@ -93,7 +94,7 @@ const std::vector<figures::PointClass>& classes() {
   return all;
 }
 
-std::size_t class_of(const PointResult& r) {
+std::size_t class_of(const PointSummary& r) {
   switch (r.regime) {
     case analysis::Regime::periodic:
       return r.period <= 1 ? 0 : 1;
@@ -168,7 +169,7 @@ void write_points_csv(const std::filesystem::path& file, const studies::PointSou
   for (const store::PointColumn& column : columns) names.push_back(column.name);
   CsvWriter csv(file, names);
   for (std::size_t i = 0; i < points.count; ++i) {
-    const PointResult r = points.read_brief(i);
+    const PointSummary r = points.read_brief(i);
     for (const store::PointColumn& column : columns)
       std::visit([&](const auto& value) { csv.cell(value(r)); }, column.value);
     csv.end_row();
@@ -199,7 +200,7 @@ void write_point_columns(store::Hdf5File& h5, const studies::PointSource& points
     const std::string path = "/points/" + column.name;
     // Column after column through the points: a row of all columns at once would need each column's chunk in memory.
     std::visit(
-        [&]<class Value>(const std::function<Value(const PointResult&)>& value) {
+        [&]<class Value>(const std::function<Value(const PointSummary&)>& value) {
           h5.write(path, points.count,
                    store::Hdf5File::Column<Value>([&](std::size_t row) { return value(points.read_brief(row)); }));
         },

@@ -10,14 +10,14 @@ namespace epicyclic::store {
 namespace {
 
 using studies::MeshRecord;
-using studies::PointResult;
+using studies::PointSummary;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-bool ok(const PointResult& r) { return r.outcome == integrate::Outcome::reached; }
+bool ok(const PointSummary& r) { return r.outcome == integrate::Outcome::reached; }
 
 /// Periodic by an orbit and its multipliers.
-bool proven(const PointResult& r) { return ok(r) && r.classified && r.regime == analysis::Regime::periodic; }
+bool proven(const PointSummary& r) { return ok(r) && r.classified && r.regime == analysis::Regime::periodic; }
 
 /// Extrema that were never seen are none.
 double seen(double x) { return std::isfinite(x) ? x : unknown; }
@@ -28,23 +28,23 @@ using Words = PointColumn::Getter<std::string>;
 
 /// A number that a proven orbit has.
 Number of_orbit(double analysis::Evidence::*member) {
-  return [member](const PointResult& r) { return proven(r) ? r.evidence.*member : unknown; };
+  return [member](const PointSummary& r) { return proven(r) ? r.evidence.*member : unknown; };
 }
 
-using Meshes = std::vector<MeshRecord> PointResult::*;
+using Meshes = std::vector<MeshRecord> PointSummary::*;
 
 /// The extrema of one mesh, "sp_1", or of planet 1's as "sp".
 void add_extrema(std::vector<PointColumn>& all, const std::string& suffix, Meshes meshes, std::size_t planet,
                  const std::string& mesh) {
   all.push_back({"delta_" + suffix + "_min", "b_c", "least deflection of " + mesh + " in the record",
-                 Number([=](const PointResult& r) { return seen((r.*meshes)[planet].delta_min); })});
+                 Number([=](const PointSummary& r) { return seen((r.*meshes)[planet].delta_min); })});
   all.push_back({"delta_" + suffix + "_max", "b_c", "largest deflection of " + mesh,
-                 Number([=](const PointResult& r) { return seen((r.*meshes)[planet].delta_max); })});
+                 Number([=](const PointSummary& r) { return seen((r.*meshes)[planet].delta_max); })});
 }
 
 PointColumn contact_of(const std::string& suffix, Meshes meshes, std::size_t planet, const std::string& mesh) {
   return {"contact_" + suffix, "", "contact of " + mesh + " seen in the record: drive, loss, back",
-          Words([=](const PointResult& r) { return (r.*meshes)[planet].contact(); })};
+          Words([=](const PointSummary& r) { return (r.*meshes)[planet].contact(); })};
 }
 
 }  // namespace
@@ -65,49 +65,50 @@ std::string status_word(integrate::Outcome outcome) {
 
 std::string direction_word(studies::Direction direction) { return direction == studies::Direction::up ? "up" : "down"; }
 
-std::string regime_word(const PointResult& r) { return ok(r) ? to_string(r.regime) : ""; }
+std::string regime_word(const PointSummary& r) { return ok(r) ? to_string(r.regime) : ""; }
 
 std::vector<PointColumn> point_columns(std::size_t planets, const std::vector<PointColumn>& more) {
   const auto integer = [](auto x) { return static_cast<std::int64_t>(x); };
   std::vector<PointColumn> all = {{"point", "1", "number of the point in the study, from 0",
-                                   Integer([=](const PointResult& r) { return integer(r.point.index); })},
+                                   Integer([=](const PointSummary& r) { return integer(r.point.index); })},
                                   {"direction", "", "up or down: which way the parameter goes along the chain",
-                                   Words([](const PointResult& r) { return direction_word(r.point.direction); })},
+                                   Words([](const PointSummary& r) { return direction_word(r.point.direction); })},
                                   {"value", "of the parameter", "of the parameter that is varied",
-                                   Number([](const PointResult& r) { return r.point.value; })}};
+                                   Number([](const PointSummary& r) { return r.point.value; })}};
   all.insert(all.end(), more.begin(), more.end());
   const auto add = [&all](const char* name, const char* unit, const char* meaning, auto&& value) {
     all.push_back({name, unit, meaning, std::forward<decltype(value)>(value)});
   };
   add("status", "", "ok, diverged, step_limit or failed",
-      Words([](const PointResult& r) { return status_word(r.outcome); }));
+      Words([](const PointSummary& r) { return status_word(r.outcome); }));
   add("regime", "", "periodic, quasiperiodic, chaotic or undecided; empty unless ok", Words(regime_word));
   add("period", "mesh periods", "n of a periodic motion; 0 of others",
-      Integer([=](const PointResult& r) { return integer(ok(r) ? r.period : 0); }));
+      Integer([=](const PointSummary& r) { return integer(ok(r) ? r.period : 0); }));
   add("lyapunov_max", "1 per tau", "largest Lyapunov exponent",
-      Number([](const PointResult& r) { return r.lyapunov_max().value; }));
-  const std::pair<const char*, Meshes> kinds[] = {{"sp", &PointResult::sun_planet}, {"rp", &PointResult::ring_planet}};
+      Number([](const PointSummary& r) { return r.lyapunov_max().value; }));
+  const std::pair<const char*, Meshes> kinds[] = {{"sp", &PointSummary::sun_planet},
+                                                  {"rp", &PointSummary::ring_planet}};
   for (const auto& [kind, meshes] : kinds) add_extrema(all, kind, meshes, 0, std::string(kind) + " of planet 1");
   for (const auto& [kind, meshes] : kinds)
     all.push_back(contact_of(kind, meshes, 0, std::string(kind) + " of planet 1"));
   add("rhs_evaluations", "1", "right-hand sides that the point took",
-      Integer([=](const PointResult& r) { return integer(r.rhs_evaluations); }));
+      Integer([=](const PointSummary& r) { return integer(r.rhs_evaluations); }));
   add("recurrence_error", "b_c, b_c per tau", "largest difference of two states n periods apart, at the n of the least",
-      Number([](const PointResult& r) { return ok(r) ? seen(r.recurrence.error) : unknown; }));
+      Number([](const PointSummary& r) { return ok(r) ? seen(r.recurrence.error) : unknown; }));
   add("recurrence_error_late", "b_c, b_c per tau", "the same over the second half of the record",
-      Number([](const PointResult& r) { return ok(r) ? r.recurrence.late_error : unknown; }));
+      Number([](const PointSummary& r) { return ok(r) ? r.recurrence.late_error : unknown; }));
   add("planet_spread", "b_c", "largest difference between planets' deflections",
-      Number([](const PointResult& r) { return r.planet_spread; }));
+      Number([](const PointSummary& r) { return r.planet_spread; }));
   add("pull_sp", "static mesh force", "greatest tension of a sun mesh, by its damping",
-      Number([](const PointResult& r) { return PointResult::pull(r.sun_planet); }));
+      Number([](const PointSummary& r) { return PointSummary::pull(r.sun_planet); }));
   add("pull_rp", "static mesh force", "greatest tension of a ring mesh",
-      Number([](const PointResult& r) { return PointResult::pull(r.ring_planet); }));
+      Number([](const PointSummary& r) { return PointSummary::pull(r.ring_planet); }));
   add("pull_time_sp", "part of the time", "how long a sun mesh pulls",
-      Number([](const PointResult& r) { return PointResult::pull_time(r.sun_planet); }));
+      Number([](const PointSummary& r) { return PointSummary::pull_time(r.sun_planet); }));
   add("pull_time_rp", "part of the time", "how long a ring mesh pulls",
-      Number([](const PointResult& r) { return PointResult::pull_time(r.ring_planet); }));
+      Number([](const PointSummary& r) { return PointSummary::pull_time(r.ring_planet); }));
   add("lyapunov_max_error", "1 per tau", "half of the exponent's 95 % interval",
-      Number([](const PointResult& r) { return r.lyapunov_max().half_width; }));
+      Number([](const PointSummary& r) { return r.lyapunov_max().half_width; }));
   add("multiplier_max", "1", "largest modulus of the orbit's Floquet multipliers",
       of_orbit(&analysis::Evidence::largest_multiplier));
   add("multiplier_error", "1", "its error", of_orbit(&analysis::Evidence::multiplier_error));
@@ -116,10 +117,10 @@ std::vector<PointColumn> point_columns(std::size_t planets, const std::vector<Po
   add("orbit_error", "b_c, b_c per tau", "how far it may be from the true one",
       of_orbit(&analysis::Evidence::orbit_error));
   add("zero_one", "1", "K of the 0-1 test, if it was asked",
-      Number([](const PointResult& r) { return r.evidence.zero_one.value_or(unknown); }));
+      Number([](const PointSummary& r) { return r.evidence.zero_one.value_or(unknown); }));
   add("classified_periods", "mesh periods", "that it took to tell the regime",
-      Integer([=](const PointResult& r) { return integer(r.evidence.periods); }));
-  add("evidence", "", "for the regime, in words", Words([](const PointResult& r) { return r.evidence.note; }));
+      Integer([=](const PointSummary& r) { return integer(r.evidence.periods); }));
+  add("evidence", "", "for the regime, in words", Words([](const PointSummary& r) { return r.evidence.note; }));
   for (const auto& [kind, meshes] : kinds)
     for (std::size_t i = 0; i < planets; ++i) {
       const std::string number = std::to_string(i + 1);
@@ -129,7 +130,7 @@ std::vector<PointColumn> point_columns(std::size_t planets, const std::vector<Po
       all.push_back(contact_of(suffix, meshes, i, mesh));
     }
   add("message", "", "what went wrong, of a point that was not reached",
-      Words([](const PointResult& r) { return r.message; }));
+      Words([](const PointSummary& r) { return r.message; }));
   return all;
 }
 

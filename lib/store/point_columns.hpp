@@ -19,12 +19,12 @@ namespace epicyclic::store {
 [[nodiscard]] std::string direction_word(studies::Direction direction);
 
 /// Regime of a point: periodic, quasiperiodic, chaotic, undecided; empty unless ok.
-[[nodiscard]] std::string regime_word(const studies::PointResult& result);
+[[nodiscard]] std::string regime_word(const studies::PointSummary& result);
 
 /// A number that is not known is none: an empty cell, NaN in a dataset.
 struct PointColumn {
   template <class Value>
-  using Getter = std::function<Value(const studies::PointResult&)>;
+  using Getter = std::function<Value(const studies::PointSummary&)>;
 
   std::string name;
   std::string unit;     ///< "1" of pure numbers; empty of words

@@ -243,7 +243,7 @@ std::vector<std::byte> encode_point(const studies::PointResult& result) { return
 
 studies::PointResult decode_point(std::span<const std::byte> record) { return decode<studies::PointResult>(record); }
 
-std::optional<studies::PointResult> decode_point_beginning(std::span<const std::byte> beginning) {
+std::optional<studies::PointSummary> decode_point_beginning(std::span<const std::byte> beginning) {
   Decoder d(beginning);
   studies::PointResult result;
   try {

@@ -19,9 +19,9 @@ namespace epicyclic::store {
 /// @throws DamagedData when the record is not one of encode_point()
 [[nodiscard]] studies::PointResult decode_point(std::span<const std::byte> record);
 
-/// From the first bytes of a record: all but the Poincare section, which comes last.
+/// From the first bytes of a record: the Poincare section comes last.
 /// @returns nothing when they do not reach that far
-[[nodiscard]] std::optional<studies::PointResult> decode_point_beginning(std::span<const std::byte> beginning);
+[[nodiscard]] std::optional<studies::PointSummary> decode_point_beginning(std::span<const std::byte> beginning);
 
 /// All of a point of a tolerance study.
 [[nodiscard]] std::vector<std::byte> encode_tolerance_point(const studies::TolerancePoint& point);

@@ -108,13 +108,10 @@ studies::PointResult PointStore::read(std::size_t point) const {
   return result;
 }
 
-studies::PointResult PointStore::read_brief(std::size_t point) const {
+studies::PointSummary PointStore::read_brief(std::size_t point) const {
   const Place at = place(point);
   auto result = decode_point_beginning(journals_[at.journal]->read_beginning({point, at.offset}, brief_bytes));
-  if (!result) {
-    result = read(point);
-    result->poincare.clear();
-  }
+  if (!result) return read(point);
   if (result->point.index != point) throw DamagedData(fmt::format("the record of point {} is of another", point));
   return *std::move(result);
 }

@@ -53,8 +53,8 @@ class PointStore {
   /// @throws DamagedData when the record is damaged; OutputError when reading fails
   [[nodiscard]] studies::PointResult read(std::size_t point) const;
 
-  /// Without the Poincare section, which is most of a record.
-  [[nodiscard]] studies::PointResult read_brief(std::size_t point) const;
+  /// @throws as read()
+  [[nodiscard]] studies::PointSummary read_brief(std::size_t point) const;
 
   /// For the writers, when all points are there.
   [[nodiscard]] studies::PointSource source() const;

@@ -62,10 +62,10 @@ std::vector<PlanetTurn> planet_turns(const model::DynamicModel& model) {
   return turns;
 }
 
-analysis::Attractors attractors_of(std::vector<PointResult>& results, const std::vector<PlanetTurn>& turns) {
+analysis::Attractors attractors_of(std::vector<PointSummary>& results, const std::vector<PlanetTurn>& turns) {
   std::vector<analysis::AttractorRecord> records;
   records.reserve(results.size());
-  for (PointResult& r : results) records.push_back(std::move(r.attractor));
+  for (PointSummary& r : results) records.push_back(std::move(r.attractor));
   std::vector<analysis::Symmetry> symmetries;
   for (const PlanetTurn& turn : turns) symmetries.push_back(turn.map);
   return analysis::tell_attractors(records, {}, symmetries);

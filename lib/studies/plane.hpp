@@ -32,7 +32,7 @@ struct PlanetTurn {
 
 /// The attractors that the cells ended on, images by turns of the planets among them.
 /// @param results  of all cells, in order; their records are taken out
-[[nodiscard]] analysis::Attractors attractors_of(std::vector<PointResult>& results,
+[[nodiscard]] analysis::Attractors attractors_of(std::vector<PointSummary>& results,
                                                  const std::vector<PlanetTurn>& turns);
 
 }  // namespace epicyclic::studies

@@ -7,8 +7,12 @@ PointSource points_in_memory(std::span<const PointResult> results) {
   return {results.size(), read, read};
 }
 
-std::vector<PointResult> all_brief(const PointSource& points) {
-  std::vector<PointResult> all;
+PointSource points_in_memory(std::span<const PointSummary> results) {
+  return {results.size(), nullptr, [results](std::size_t point) { return results[point]; }};
+}
+
+std::vector<PointSummary> all_brief(const PointSource& points) {
+  std::vector<PointSummary> all;
   all.reserve(points.count);
   for (std::size_t i = 0; i < points.count; ++i) all.push_back(points.read_brief(i));
   return all;

@@ -14,13 +14,16 @@ namespace epicyclic::studies {
 struct PointSource {
   std::size_t count = 0;
   std::function<PointResult(std::size_t point)> read;
-  std::function<PointResult(std::size_t point)> read_brief;  ///< without the Poincare section
+  std::function<PointSummary(std::size_t point)> read_brief;
 };
 
 /// Those of a study of few points; `results` must live longer.
 [[nodiscard]] PointSource points_in_memory(std::span<const PointResult> results);
 
-/// All of them without their Poincare sections, for studies whose points are small: some 1 KB each.
-[[nodiscard]] std::vector<PointResult> all_brief(const PointSource& points);
+/// Summaries alone: read() is empty, so calling it throws.
+[[nodiscard]] PointSource points_in_memory(std::span<const PointSummary> results);
+
+/// All summaries, for studies whose points are small: some 1 KB each.
+[[nodiscard]] std::vector<PointSummary> all_brief(const PointSource& points);
 
 }  // namespace epicyclic::studies

@@ -6,7 +6,7 @@
 
 namespace epicyclic::studies {
 
-SettledOrbit settled_orbit(integrate::Flow& flow, const PointResult& motion) {
+SettledOrbit settled_orbit(integrate::Flow& flow, const PointSummary& motion) {
   SettledOrbit found;
   if (motion.outcome != integrate::Outcome::reached) {
     found.note = "there is no motion: " + motion.message;

@@ -20,6 +20,6 @@ struct SettledOrbit {
 };
 
 /// @param flow  of the motion's model, at the tolerance that the orbit is wanted to
-[[nodiscard]] SettledOrbit settled_orbit(integrate::Flow& flow, const PointResult& motion);
+[[nodiscard]] SettledOrbit settled_orbit(integrate::Flow& flow, const PointSummary& motion);
 
 }  // namespace epicyclic::studies

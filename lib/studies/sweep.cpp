@@ -399,30 +399,30 @@ std::string MeshRecord::contact() const {
   return text;
 }
 
-double PointResult::pull(const std::vector<MeshRecord>& meshes) {
+double PointSummary::pull(const std::vector<MeshRecord>& meshes) {
   double most = 0.0;
   for (const MeshRecord& r : meshes) most = std::max(most, r.pull);
   return most;
 }
 
-double PointResult::pull_time(const std::vector<MeshRecord>& meshes) {
+double PointSummary::pull_time(const std::vector<MeshRecord>& meshes) {
   double most = 0.0;
   for (const MeshRecord& r : meshes) most = std::max(most, r.pull_time);
   return most;
 }
 
-bool still_settling(const PointResult& result, const LookOptions& look) {
+bool still_settling(const PointSummary& result, const LookOptions& look) {
   return result.outcome == integrate::Outcome::reached && !result.classified &&
          result.regime == analysis::Regime::undecided &&
          analysis::still_settling(result.recurrence, look.recurrence_tolerance);
 }
 
-std::string motion_name(const PointResult& result) {
+std::string motion_name(const PointSummary& result) {
   if (result.regime != analysis::Regime::periodic) return to_string(result.regime);
   return "period " + std::to_string(result.period);
 }
 
-std::string motion_text(const PointResult& result) {
+std::string motion_text(const PointSummary& result) {
   const std::string name = motion_name(result);
   if (!result.classified) return name + " by recurrence alone";
   return result.evidence.note.empty() ? name : name + ": " + result.evidence.note;
@@ -443,7 +443,7 @@ PointResult compute_point(const GridPoint& point, const model::DynamicModel& mod
   return run.finish(carry_alone(run, integrator, go_on));
 }
 
-analysis::Estimate PointResult::lyapunov_max() const {
+analysis::Estimate PointSummary::lyapunov_max() const {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (!classified || outcome != integrate::Outcome::reached) return {none, none};
   return evidence.exponent * omega;

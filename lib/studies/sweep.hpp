@@ -42,7 +42,8 @@ struct MeshRecord {
   [[nodiscard]] std::string contact() const;
 };
 
-struct PointResult {
+/// What is recorded of a point but its Poincare section, which is most of a record.
+struct PointSummary {
   GridPoint point;
   integrate::Outcome outcome = integrate::Outcome::reached;
   std::string message;              ///< of an outcome other than reached
@@ -59,8 +60,6 @@ struct PointResult {
   long rhs_evaluations = 0;
   std::vector<double> end_state;  ///< what the next point of a chain starts from
   std::vector<double> orbit;      ///< a state on the orbit of a motion that is periodic by evidence; if Keep::section
-  std::vector<double> poincare;   ///< rows of poincare_columns(): state, delta_sp_i, delta_rp_i; if Keep::section
-  std::size_t poincare_columns = 0;
   analysis::AttractorRecord attractor;  ///< if Keep::attractor
   double omega = 0;                     ///< Omega: what is per unit of the mesh phase, times Omega, is per tau
 
@@ -72,6 +71,12 @@ struct PointResult {
   [[nodiscard]] static double pull_time(const std::vector<MeshRecord>& meshes);
   /// Does any mesh pull?
   [[nodiscard]] bool pulls() const { return std::max(pull(sun_planet), pull(ring_planet)) > 0.0; }
+};
+
+/// A point with its Poincare section.
+struct PointResult : PointSummary {
+  std::vector<double> poincare;  ///< rows of poincare_columns(): state, delta_sp_i, delta_rp_i; if Keep::section
+  std::size_t poincare_columns = 0;
 
   [[nodiscard]] std::size_t poincare_rows() const {
     return poincare_columns == 0 ? 0 : poincare.size() / poincare_columns;
@@ -79,13 +84,13 @@ struct PointResult {
 };
 
 /// Not periodic yet, but on its way: a longer look would tell the regime.
-[[nodiscard]] bool still_settling(const PointResult& result, const LookOptions& look);
+[[nodiscard]] bool still_settling(const PointSummary& result, const LookOptions& look);
 
 /// What a point that was reached moves like: "period 2", "chaotic".
-[[nodiscard]] std::string motion_name(const PointResult& result);
+[[nodiscard]] std::string motion_name(const PointSummary& result);
 
 /// What a point that was reached moves like, with what the regime rests on.
-[[nodiscard]] std::string motion_text(const PointResult& result);
+[[nodiscard]] std::string motion_text(const PointSummary& result);
 
 /// Names of the columns of PointResult::poincare.
 [[nodiscard]] std::vector<std::string> poincare_columns(const model::DynamicModel& model);

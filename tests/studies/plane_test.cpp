@@ -14,6 +14,7 @@
 #include "model/scales.hpp"
 #include "problems/known_systems.hpp"
 #include "problems/r1.hpp"
+#include "studies/point_source.hpp"
 
 namespace epicyclic::studies {
 namespace {
@@ -161,7 +162,8 @@ TEST(Plane, BasinsTellTheWellsApartAtAnyNumberOfThreads) {
       ASSERT_EQ(r.attractor.period(), 1U);
       x_ends.push_back(r.end_state[0]);
     }
-    const analysis::Attractors told = attractors_of(results, {});
+    auto summaries = all_brief(points_in_memory(results));
+    const analysis::Attractors told = attractors_of(summaries, {});
     EXPECT_EQ(told.all.size(), 2U);
     for (std::size_t k = 0; k < x_ends.size(); ++k)
       EXPECT_EQ(told.number[k] == told.number[0], x_ends[k] * x_ends[0] > 0.0) << k;
@@ -203,7 +205,8 @@ TEST(Plane, BasinsLetCellsSettleByThemselves) {
   const auto attractors = [&](const LookOptions& cells) {
     auto results = run_sweep_in_memory(plan_basins(p), cells, {}, at, {});
     for (const PointResult& r : results) EXPECT_EQ(motion_name(r), "chaotic");
-    return attractors_of(results, {}).all.size();
+    auto summaries = all_brief(points_in_memory(results));
+    return attractors_of(summaries, {}).all.size();
   };
   LookOptions cells = p.look;
   cells.output_phases = 16;
