@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "analysis/shooting.hpp"
 #include "core/dense.hpp"
 #include "core/errors.hpp"
 #include "core/largest_difference.hpp"
@@ -25,68 +26,8 @@ Eigen::VectorXd solve(const Eigen::MatrixXd& m, const Eigen::VectorXd& r) {
   return least_norm_solution(Eigen::MatrixXd::Identity(m.rows(), m.cols()) - m, r);
 }
 
-/// From one s to another within a period of the forcing.
-struct Span {
-  double from = 0;
-  double to = 0;
-};
-
-/// Piece `i` of `pieces` of n periods, cut where periods end, so that each begins at the phase 0 to the last bit.
-std::vector<Span> spans(double period, Eigen::Index n, Eigen::Index pieces, Eigen::Index i) {
-  std::vector<Span> all;
-  // In parts of 1 / pieces of a period.
-  const auto phase = [&](Eigen::Index parts) {
-    return period * static_cast<double>(parts) / static_cast<double>(pieces);
-  };
-  for (Eigen::Index at = i * n; at < (i + 1) * n;) {
-    const Eigen::Index begun = at / pieces * pieces;
-    const Eigen::Index to = std::min((i + 1) * n, begun + pieces);
-    all.push_back({phase(at - begun), phase(to - begun)});
-    at = to;
-  }
-  return all;
-}
-
-/// The states at the beginnings of the pieces, one column each, and how they are carried.
-struct Shooting {
-  Eigen::MatrixXd residual;             ///< F_i in column i
-  std::vector<Eigen::MatrixXd> pieces;  ///< M_i
-  integrate::Evolution evolution;
-};
-
-Shooting shoot(integrate::Flow& flow, const Eigen::MatrixXd& y, Eigen::Index n_periods) {
-  const Eigen::Index n = y.rows();
-  const Eigen::Index count = y.cols();
-  Shooting result;
-  result.residual.resize(n, count);
-  flow.forget();
-  for (Eigen::Index i = 0; i < count; ++i) {
-    Eigen::VectorXd end = y.col(i);
-    Eigen::MatrixXd m = Eigen::MatrixXd::Identity(n, n);
-    for (const Span& span : spans(flow.field().period, n_periods, count, i)) {
-      result.evolution = flow.evolve_tangents({end.data(), static_cast<std::size_t>(n)},
-                                              {m.data(), static_cast<std::size_t>(n * n)}, span.from, span.to);
-      if (!result.evolution.reached()) return result;
-    }
-    result.residual.col(i) = end - y.col((i + 1) % count);
-    result.pieces.push_back(std::move(m));
-  }
-  return result;
-}
-
-/// The residual of one piece at another state, with the tangents as they are.
-void residual_only(integrate::Flow& flow, const Eigen::MatrixXd& y, Eigen::Index n_periods, Shooting& at) {
-  Eigen::VectorXd end = y.col(0);
-  flow.forget();
-  for (Eigen::Index k = 0; k < n_periods; ++k) {
-    at.evolution = flow.evolve({end.data(), static_cast<std::size_t>(end.size())}, 0.0, flow.field().period);
-    if (!at.evolution.reached()) return;
-  }
-  at.residual.col(0) = end - y.col(0);
-}
-
 /// d_i of [A-shoot], one column each.
-Eigen::MatrixXd newton_step(const Shooting& at) {
+Eigen::MatrixXd newton_step(const Shot& at) {
   const Eigen::Index n = at.residual.rows();
   const Eigen::Index count = at.residual.cols();
   if (count == 1) return solve(at.pieces[0], at.residual.col(0));
@@ -98,28 +39,11 @@ Eigen::MatrixXd newton_step(const Shooting& at) {
   return least_norm_solution(a, -at.residual.reshaped()).reshaped(n, count);
 }
 
-/// The states where pieces begin, carried from the first one.
-/// @returns how it ended; the states are of no meaning unless reached
-integrate::Evolution carry_to_pieces(integrate::Flow& flow, Eigen::Index n_periods, Eigen::MatrixXd& y) {
-  std::vector<double> carried(y.col(0).begin(), y.col(0).end());
-  integrate::Evolution e;
-  flow.forget();
-  for (Eigen::Index i = 1; i < y.cols(); ++i) {
-    for (const Span& span : spans(flow.field().period, n_periods, y.cols(), i - 1)) {
-      e = flow.evolve(carried, span.from, span.to);
-      if (!e.reached()) return e;
-    }
-    y.col(i) = as_vector(carried);
-  }
-  return e;
-}
-
 /// State, monodromy and error of the orbit from an iteration.
 /// @param residual  that the error is told from
-void take_state(const Eigen::MatrixXd& y, const Shooting& at, double residual, PeriodicOrbit& orbit) {
+void take_state(const Eigen::MatrixXd& y, const Shot& at, double residual, PeriodicOrbit& orbit) {
   std::copy_n(y.data(), orbit.state.size(), orbit.state.begin());
-  orbit.monodromy = at.pieces[0];
-  for (std::size_t i = 1; i < at.pieces.size(); ++i) orbit.monodromy = at.pieces[i] * orbit.monodromy;
+  orbit.monodromy = at.monodromy();
   orbit.pieces = at.pieces;
   orbit.error = orbit_error(orbit.monodromy, residual);
 }
@@ -150,12 +74,15 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
     if (const integrate::Evolution e = carry_to_pieces(flow, n, y); !e.reached()) return not_reached(e);
   double best = std::numeric_limits<double>::infinity();
   const auto is_known = [&] { return orbit.error <= options.known * as_vector(orbit.state).lpNorm<Eigen::Infinity>(); };
-  Shooting at;
+  Shot at;
   bool kept = false;
   for (int k = 0; k < options.iterations; ++k) {
     const double before = kept ? at.residual.lpNorm<Eigen::Infinity>() : 0.0;
     if (kept) {
-      residual_only(flow, y, n, at);
+      // At another state, with the tangents as they are.
+      Shot states = shoot_states(flow, y, n);
+      at.residual = std::move(states.residual);
+      at.evolution = std::move(states.evolution);
       constexpr double gain = 0.1;
       const double now = at.residual.lpNorm<Eigen::Infinity>();
       // No longer worth it: with the tangents of this very state from here on.

@@ -5,9 +5,9 @@
 // phi_n carries a state over n periods of the forcing. M comes from tangent vectors through the integrator itself, so
 // convergence is quadratic down to the integrator's tolerance. Its eigenvalues are the Floquet multipliers.
 //
-// With p pieces (multiple shooting) the orbit is cut at s_i = i n T / p and the states y_i are sought together,
+// With p pieces (multiple shooting [A-shoot], analysis/shooting.hpp) the states where they begin are sought together,
 //
-//   F_i = phi(s_i -> s_i+1)(y_i) - y_i+1 ,   M_i d_i - d_i+1 = -F_i ,   M = M_p-1 ... M_0                     [A-shoot]
+//   M_i d_i - d_i+1 = -F_i ,   M = M_p-1 ... M_0
 //
 // How far the state may be from the orbit follows from the residual rho, to first order,
 //
@@ -18,7 +18,7 @@
 //
 // Limits: tangents may not grow beyond 1e8 over a piece. A neutral direction of the system (a free rigid rotation)
 // makes M - I singular: the step of least norm is taken, and e leaves it out, since along it neighbours of an orbit are
-// orbits, too. Source of both: R. Seydel, Practical Bifurcation and Stability Analysis, 3rd ed., ch. 7.
+// orbits, too. Source: R. Seydel, Practical Bifurcation and Stability Analysis, 3rd ed., ch. 7.
 #pragma once
 
 #include <complex>

@@ -1,0 +1,45 @@
+// The equations of a periodic orbit by shooting, with their derivatives.
+//
+// An orbit of n periods of the forcing is cut into p pieces at s_i = i n T / p. The states y_i there are sought
+// together,
+//
+//   F_i = phi(s_i -> s_i+1)(y_i; p) - y_i+1 = 0 ,    M_i = d phi / d y_i ,    b_i = d phi / d p              [A-shoot]
+//
+// with y_p = y_0. Source: R. Seydel, Practical Bifurcation and Stability Analysis, 3rd ed., ch. 7. F is as smooth as
+// the flow: across kinks of a continuous vector field once differentiable.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "integrate/flow.hpp"
+
+namespace epicyclic::analysis {
+
+/// One evaluation at states y_i, the columns of a dimension x p matrix.
+struct Shot {
+  Eigen::MatrixXd residual;             ///< F_i in column i
+  std::vector<Eigen::MatrixXd> pieces;  ///< M_i; empty where only residuals were asked for
+  Eigen::MatrixXd parameter;            ///< b_i in column i; empty unless asked for
+  integrate::Evolution evolution;       ///< of the piece that was not reached, and then all else is of no meaning
+
+  /// M_p-1 ... M_0: how a small change of y_0 comes back.
+  [[nodiscard]] Eigen::MatrixXd monodromy() const;
+};
+
+/// Residuals and their derivatives.
+/// @param y        states at the beginnings of the pieces, one a column
+/// @param periods  n
+/// @throws as Flow::evolve_tangents()
+[[nodiscard]] Shot shoot(integrate::Flow& flow, const Eigen::MatrixXd& y, Eigen::Index periods,
+                         integrate::LastTangent last = integrate::LastTangent::homogeneous);
+
+/// Residuals alone.
+[[nodiscard]] Shot shoot_states(integrate::Flow& flow, const Eigen::MatrixXd& y, Eigen::Index periods);
+
+/// The states where pieces begin, carried from the first one, y.col(0).
+/// @returns how it ended; the states are of no meaning unless reached
+integrate::Evolution carry_to_pieces(integrate::Flow& flow, Eigen::Index periods, Eigen::MatrixXd& y);
+
+}  // namespace epicyclic::analysis
