@@ -1,6 +1,7 @@
 #include "core/dense.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
@@ -10,11 +11,26 @@ Eigen::VectorXd least_norm_solution(const Eigen::MatrixXd& a, const Eigen::Vecto
   return a.completeOrthogonalDecomposition().solve(b);
 }
 
+Eigen::VectorXd solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) { return a.partialPivLu().solve(b); }
+
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& a) { return a.eigenvalues(); }
+
+Eigen::VectorXcd complex_eigenvalues(const Eigen::MatrixXcd& a) {
+  return Eigen::ComplexEigenSolver<Eigen::MatrixXcd>(a, false).eigenvalues();
+}
 
 SingularValues singular_values(const Eigen::MatrixXd& a) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
+}
+
+Eigen::MatrixXcd left_singular_vectors(const Eigen::MatrixXcd& a) {
+  return Eigen::JacobiSVD<Eigen::MatrixXcd>(a, Eigen::ComputeFullU).matrixU();
+}
+
+Eigen::VectorXcd right_null_vector(const Eigen::MatrixXcd& a) {
+  const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(a, Eigen::ComputeFullV);
+  return svd.matrixV().rightCols(1);
 }
 
 SymmetricModes symmetric_modes(const Eigen::MatrixXd& a) {

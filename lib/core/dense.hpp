@@ -8,8 +8,13 @@ namespace epicyclic {
 /// x with A x = b in the sense of least squares, of least norm where A is singular (complete orthogonal decomposition).
 [[nodiscard]] Eigen::VectorXd least_norm_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
+/// x with A x = b, A regular (LU with partial pivoting). Of a singular A it is not finite or has no meaning.
+[[nodiscard]] Eigen::VectorXd solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+
 /// Eigenvalues of a general matrix, in no particular order.
 [[nodiscard]] Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& a);
+/// Those of a complex one.
+[[nodiscard]] Eigen::VectorXcd complex_eigenvalues(const Eigen::MatrixXcd& a);
 
 /// A = U diag(s) V^T, singular values falling.
 struct SingularValues {
@@ -18,6 +23,12 @@ struct SingularValues {
   Eigen::MatrixXd v;
 };
 [[nodiscard]] SingularValues singular_values(const Eigen::MatrixXd& a);
+
+/// v of length 1 with |A v| least.
+[[nodiscard]] Eigen::VectorXcd right_null_vector(const Eigen::MatrixXcd& a);
+
+/// U alone, of a complex matrix.
+[[nodiscard]] Eigen::MatrixXcd left_singular_vectors(const Eigen::MatrixXcd& a);
 
 /// Eigenvalues, rising, and eigenvectors as columns.
 struct SymmetricModes {

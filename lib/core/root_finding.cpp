@@ -1,5 +1,6 @@
 #include "core/root_finding.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -35,7 +36,7 @@ struct Call {
 
 }  // namespace
 
-double find_root(const std::function<double(double)>& f, double low, double high) {
+double find_root(const std::function<double(double)>& f, double low, double high, double width) {
   if (!(low < high)) throw DomainError("find_root: the ends must rise");
   const double at_low = f(low);
   const double at_high = f(high);
@@ -53,7 +54,8 @@ double find_root(const std::function<double(double)>& f, double low, double high
   for (int k = 0; k < iterations_max; ++k) {
     const double x_low = gsl_root_fsolver_x_lower(solver.get());
     const double x_high = gsl_root_fsolver_x_upper(solver.get());
-    if (!(std::abs(x_high - x_low) > 4.0 * std::numeric_limits<double>::epsilon() * std::abs(x_high))) break;
+    const double resolution = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(x_high);
+    if (!(std::abs(x_high - x_low) > std::max(width, resolution))) break;
     gsl_root_fsolver_iterate(solver.get());
     if (call.thrown) std::rethrow_exception(call.thrown);
     if (!call.finite) throw DomainError("find_root: the function is not finite between the ends");

@@ -140,4 +140,46 @@ inline FieldFamily duffing(double damping, double alpha, double w) {
 }
 inline VectorField duffing(double damping, double alpha, double g, double w) { return duffing(damping, alpha, w)(g); }
 
+/// Duffing x'' + damping x' + alpha x + x^3 = g cos s in s = W t. State x, dx/dt. Its parameter is W.
+inline FieldFamily duffing_in_frequency(double damping, double alpha, double g) {
+  return integrate::make_field_family(
+      2, 2.0 * std::numbers::pi, [damping, alpha, g](const auto& w, std::size_t, double s, const auto* y, auto* d) {
+        d[0] = y[1] / w;
+        d[1] = (g * std::cos(s) - damping * y[1] - alpha * y[0] - y[0] * y[0] * y[0]) / w;
+      });
+}
+
+/// The normal form of a Hopf bifurcation, z' = (p + i w) z - |z|^2 z, about a forced motion: z = y - (cos s, sin s).
+/// The orbit (cos s, sin s) of period 2 pi has the multipliers exp(2 pi (p +- i w)): Neimark-Sacker at p = 0 exactly.
+/// Its parameter is p.
+inline FieldFamily forced_hopf(double w) {
+  return integrate::make_field_family(2, 2.0 * std::numbers::pi,
+                                      [w](const auto& p, std::size_t, double s, const auto* y, auto* d) {
+                                        using T = std::remove_cvref_t<decltype(d[0])>;
+                                        const T a = y[0] - std::cos(s);
+                                        const T b = y[1] - std::sin(s);
+                                        const T r2 = a * a + b * b;
+                                        d[0] = p * a - w * b - r2 * a - std::sin(s);
+                                        d[1] = w * a + p * b - r2 * b + std::cos(s);
+                                      });
+}
+
+/// N alike parts, y_i' = p w_i - (p + 1) mean(w) - w_i^3 - sin s about the motion w_i = y_i - cos s = 0. That orbit has
+/// the multiplier exp(-2 pi) of all parts alike and N - 1 times exp(2 pi p): a pitchfork of all others at p = 0
+/// exactly, that breaks the symmetry. Its parameter is p.
+template <std::size_t N>
+FieldFamily alike_parts() {
+  return integrate::make_field_family(N, 2.0 * std::numbers::pi,
+                                      [](const auto& p, std::size_t, double s, const auto* y, auto* d) {
+                                        using T = std::remove_cvref_t<decltype(d[0])>;
+                                        T sum(0.0);
+                                        for (std::size_t i = 0; i < N; ++i) sum = sum + (y[i] - std::cos(s));
+                                        const T mean = sum * (1.0 / static_cast<double>(N));
+                                        for (std::size_t i = 0; i < N; ++i) {
+                                          const T w = y[i] - std::cos(s);
+                                          d[i] = p * w - (p + 1.0) * mean - w * w * w - std::sin(s);
+                                        }
+                                      });
+}
+
 }  // namespace epicyclic::problems

@@ -1,0 +1,133 @@
+#include "analysis/branch_switching.hpp"
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "analysis/shooting.hpp"
+#include "core/dense.hpp"
+#include "core/require.hpp"
+
+namespace epicyclic::analysis {
+
+namespace {
+
+/// Real directions of y_0 in which orbits may leave.
+std::vector<Eigen::VectorXd> directions(const OrbitFamily& family, const SpecialPoint& point, int angles) {
+  const Eigen::MatrixXd& m = point.orbit.monodromy;
+  const auto blocks = invariant_blocks(static_cast<std::size_t>(m.rows()), family.symmetry);
+  const InvariantBlock* block = nullptr;
+  for (const InvariantBlock& b : blocks)
+    if (b.wave == point.wave) block = &b;
+  if (block == nullptr) return {};
+  const double at = point.kind == SpecialKind::flip ? -1.0 : 1.0;
+  const Eigen::MatrixXcd b = block->basis.adjoint() * m * block->basis;
+  const Eigen::VectorXcd v = block->basis * right_null_vector(b - at * Eigen::MatrixXcd::Identity(b.rows(), b.cols()));
+  // Of a real block v is real but for a factor of modulus 1.
+  Eigen::Index largest = 0;
+  v.cwiseAbs().maxCoeff(&largest);
+  const std::complex<double> turn = std::conj(v(largest)) / std::abs(v(largest));
+  if (block->real) return {(turn * v).real()};
+  std::vector<Eigen::VectorXd> all;
+  for (int k = 0; k < angles; ++k) all.emplace_back((std::polar(1.0, std::numbers::pi * k / angles) * turn * v).real());
+  return all;
+}
+
+/// The states at the beginnings of the family's pieces of the motion from y.
+std::optional<CurvePoint> cut(const OrbitFamily& family, const Eigen::VectorXd& y, double value) {
+  CurvePoint z{Eigen::MatrixXd(y.size(), family.pieces), value};
+  z.states.col(0) = y;
+  if (!carry_to_pieces(*family.flows(value), family.period, z.states).reached()) return std::nullopt;
+  return z;
+}
+
+/// The way from z to what its states become with y_0 + v, v small.
+std::optional<CurvePoint> carried_direction(const OrbitFamily& family, const CurvePoint& z, const Eigen::VectorXd& v) {
+  constexpr double little = 1e-5;
+  const auto ahead = cut(family, z.states.col(0) + little * v, z.value);
+  const auto behind = cut(family, z.states.col(0) - little * v, z.value);
+  if (!ahead || !behind) return std::nullopt;
+  return (0.5 / little) * (*ahead - *behind);
+}
+
+}  // namespace
+
+void SwitchOptions::validate() const {
+  require(distance > 0.0, "distance", distance, "> 0");
+  require(angles >= 1, "angles", angles, ">= 1");
+  require(same > 0.0, "same", same, "> 0");
+}
+
+Eigen::MatrixXd period_states(const OrbitFamily& family, const CurvePoint& at) {
+  Eigen::MatrixXd y(at.states.rows(), family.period);
+  // As many pieces as periods begin where these do.
+  y.col(0) = at.states.col(0);
+  if (!carry_to_pieces(*family.flows(at.value), family.period, y).reached())
+    return Eigen::MatrixXd(at.states.rows(), 0);
+  return y;
+}
+
+bool are_images(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const CyclicSymmetry& symmetry, double difference) {
+  if (a.cols() != b.cols() || a.cols() == 0) return false;
+  const Eigen::Index n = a.cols();
+  Eigen::MatrixXd turned = b;
+  for (int turn = 0; turn < symmetry.order; ++turn) {
+    for (Eigen::Index shift = 0; shift < n; ++shift) {
+      bool same = true;
+      for (Eigen::Index k = 0; k < n && same; ++k)
+        same = (a.col(k) - turned.col((k + shift) % n)).lpNorm<Eigen::Infinity>() <= difference;
+      if (same) return true;
+    }
+    if (symmetry.map.size() != 0) turned = symmetry.map * turned;
+  }
+  return false;
+}
+
+std::vector<Departure> departures(const OrbitFamily& family, const SpecialPoint& point, const SwitchOptions& options) {
+  options.validate();
+  const bool flip = point.kind == SpecialKind::flip;
+  if (!flip && point.kind != SpecialKind::branch_point) return {};
+  OrbitFamily other = family;
+  if (flip) other.period *= 2;
+  if (flip) other.pieces *= 2;
+  if (point.wave != 0) other.symmetry = {};
+  std::vector<Departure> found;
+  std::vector<Eigen::MatrixXd> seen;
+  for (const Eigen::VectorXd& v : directions(family, point, options.angles)) {
+    const std::optional<CurvePoint> base = cut(other, point.orbit.at.states.col(0), point.value);
+    if (!base) return found;
+    std::optional<CurvePoint> away = carried_direction(other, *base, v);
+    if (!away) continue;
+    if (!flip) {
+      std::optional<CurvePoint> along =
+          cut(other, point.orbit.at.states.col(0) + 1e-5 * point.orbit.direction.states.col(0),
+              point.value + 1e-5 * point.orbit.direction.value);
+      if (!along) continue;
+      const CurvePoint t = 1e5 * (*along - *base);
+      *away = *away - (inner_product(other, *away, t) / inner_product(other, t, t)) * t;
+    }
+    const CurvePoint unit = (1.0 / length(other, *away)) * *away;
+    for (const double sign : {1.0, -1.0}) {
+      const CurvePoint normal = sign * unit;
+      Correction c = correct(other, *base + options.distance * normal, normal);
+      if (!c.found) continue;
+      const Eigen::MatrixXd states = period_states(other, c.orbit.at);
+      const double difference = options.same * options.distance * family.state_scale;
+      bool known = states.cols() == 0;
+      for (const Eigen::MatrixXd& s : seen) known = known || are_images(s, states, family.symmetry, difference);
+      // Newton's method may lead back to the branch that it came from.
+      if (flip) {
+        const Eigen::Index n = family.period;
+        known = known || (states.leftCols(n) - states.rightCols(n)).lpNorm<Eigen::Infinity>() <= difference;
+      }
+      if (known) continue;
+      seen.push_back(states);
+      found.push_back({other, std::move(c.orbit)});
+    }
+  }
+  return found;
+}
+
+}  // namespace epicyclic::analysis

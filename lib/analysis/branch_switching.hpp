@@ -1,0 +1,53 @@
+// Onto the other branch: at flips to orbits of twice the period, at branch points to those that cross.
+//
+// With v the eigenvector of the monodromy at the multiplier that is critical, the other branch leaves the point z_0 as
+//
+//   z_0 + e (v, 0) + O(e^2)                                                                            [A-switch]
+//
+// at a flip v after n periods is -v, so that e and -e are one orbit of 2 n periods begun at another of them; at a
+// branch point the part of (v, 0) along the known branch is taken out, and e and -e may be two. Of a block that stands
+// for two [A-blocks] v turns in a plane: which of its directions lead to orbits the symmetry decides, so several are
+// tried. Source: Seydel, 3rd ed., ch. 5.
+//
+// Limits: orbits that leave in more than these directions are not looked for, tori and their resonances neither.
+#pragma once
+
+#include <vector>
+
+#include "analysis/special_points.hpp"
+
+namespace epicyclic::analysis {
+
+struct SwitchOptions {
+  double distance = 1e-2;  ///< e, as a length [A-length]
+  int angles = 12;         ///< directions tried in a plane of them
+  double same = 1e-3;      ///< distance up to which two orbits are one, in parts of e
+
+  /// @throws InputError for a distance or angles out of range
+  void validate() const;
+};
+
+/// One orbit on a branch that leaves a special point, going away from it.
+struct Departure {
+  OrbitFamily family;  ///< of that branch: of twice the period, or without the symmetry that is broken
+  BranchOrbit orbit;
+};
+
+/// All that are found, each once; of those that are images of one another by the symmetry or by whole periods one.
+/// Empty at folds and Neimark-Sacker points.
+/// @param family  of the branch that the point is on
+[[nodiscard]] std::vector<Departure> departures(const OrbitFamily& family, const SpecialPoint& point,
+                                                const SwitchOptions& options = {});
+
+/// States of an orbit at the beginnings of its n periods, one a column.
+/// @returns no columns if it could not be carried
+[[nodiscard]] Eigen::MatrixXd period_states(const OrbitFamily& family, const CurvePoint& at);
+
+/// Is one orbit the other, begun at another of its periods or turned by the symmetry?
+/// @param a, b        of period_states(), of one number of columns
+/// @param symmetry    none: as they are
+/// @param difference  most of any component
+[[nodiscard]] bool are_images(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const CyclicSymmetry& symmetry,
+                              double difference);
+
+}  // namespace epicyclic::analysis

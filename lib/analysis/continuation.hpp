@@ -1,0 +1,89 @@
+// A branch of periodic orbits, followed by its arc length.
+//
+// From an orbit z with direction t the next one lies in the plane <t, z* - z> = h that stands on t [A-plane], near the
+// guess of second order z + h t + h^2 / 2 dt/dh, dt/dh from the directions of the last two orbits. The step h grows and
+// shrinks so that the directions of neighbours differ by the angle asked for, that no multiplier near the unit circle
+// moves further than it may, and that the guess stays close to what is found. A step is taken back and halved when one
+// of these is exceeded or nothing is found: so branches that come close are not exchanged, and the special points
+// between two orbits can be told from their multipliers [special_points.hpp].
+//
+// Limits: an isolated branch is followed from its start only. Where an orbit grazes a kink, directions turn like the
+// root of the distance beyond it: steps shorten there by themselves, to no less than the least step; multipliers jump
+// in their slope, not in value.
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/orbit_family.hpp"
+
+namespace epicyclic::analysis {
+
+struct ContinuationOptions {
+  double from = 0, to = 0;   ///< range of the parameter, from < to
+  double first_step = 0.01;  ///< [A-length]
+  double least_step = 1e-7;
+  double largest_step = 0.1;
+  double turn = 0.1;               ///< angle between the directions of neighbours that steps aim at [rad]
+  double multiplier_change = 0.2;  ///< most of a multiplier whose modulus is within 1/2 ... 2
+  double guess_distance = 0.1;     ///< most distance of what is found from the guess, in steps
+  std::size_t orbits = 10000;      ///< most on the branch
+
+  /// @throws InputError for an empty range, or steps and bounds out of range
+  void validate() const;
+};
+
+enum class BranchEnd {
+  none,        ///< it goes on
+  range,       ///< an end of the range, which the last orbit is at
+  closed,      ///< the branch has come back to its first orbit, which stands last again
+  many,        ///< as many orbits as asked for
+  least_step,  ///< no orbit within the least step
+};
+
+/// The branch from one orbit one way.
+class Continuation {
+ public:
+  /// @param start  an orbit of the family, its direction the way to go
+  /// @throws InputError for options out of range, or a start outside the range
+  Continuation(OrbitFamily family, const ContinuationOptions& options, BranchOrbit start);
+
+  /// Follows the branch to the next orbit.
+  /// @returns whether there is one
+  bool advance();
+
+  [[nodiscard]] const BranchOrbit& now() const { return now_; }
+  [[nodiscard]] const BranchOrbit& before() const { return before_; }  ///< the one advance() came from
+  [[nodiscard]] BranchEnd end() const { return end_; }
+  [[nodiscard]] const std::string& message() const { return message_; }  ///< why no orbit was found, at least_step
+  [[nodiscard]] const OrbitFamily& family() const { return family_; }
+  [[nodiscard]] int evaluations() const { return evaluations_; }
+
+ private:
+  [[nodiscard]] CurvePoint guess(double step) const;
+  [[nodiscard]] bool accept(const Correction& c, double step);
+  bool to_the_end_of_the_range(double step);
+  [[nodiscard]] bool back_at_the_start(const BranchOrbit& next, double step) const;
+
+  OrbitFamily family_;
+  ContinuationOptions options_;
+  std::vector<InvariantBlock> blocks_;
+  BranchOrbit start_, before_, now_;
+  CurvePoint bend_;  ///< dt/dh
+  double step_;
+  std::size_t orbits_ = 1;
+  int evaluations_ = 0;
+  bool left_start_ = false;  ///< far enough to come back
+  double grow_ = 1;
+  BranchEnd end_ = BranchEnd::none;
+  std::string message_;
+};
+
+/// The most that a multiplier of modulus 1/2 ... 2 moves from one to the other, each matched with its nearest.
+[[nodiscard]] double multiplier_change(const std::vector<std::complex<double>>& a,
+                                       const std::vector<std::complex<double>>& b);
+
+}  // namespace epicyclic::analysis

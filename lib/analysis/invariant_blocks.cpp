@@ -1,0 +1,96 @@
+#include "analysis/invariant_blocks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/dense.hpp"
+#include "core/errors.hpp"
+
+namespace epicyclic::analysis {
+
+namespace {
+
+// Of maps that are made of sines, cosines and sums of a state's components.
+constexpr double rounding = 1e-12;
+
+/// Orthonormal basis of the range of a projector, whose trace is its rank.
+Eigen::MatrixXcd range_of(const Eigen::MatrixXcd& projector) {
+  const auto rank = static_cast<Eigen::Index>(std::lround(projector.trace().real()));
+  return left_singular_vectors(projector).leftCols(rank);
+}
+
+}  // namespace
+
+CyclicSymmetry cyclic_symmetry(std::size_t dimension, int order,
+                               const std::function<std::vector<double>(std::span<const double>)>& map) {
+  const auto n = static_cast<Eigen::Index>(dimension);
+  CyclicSymmetry s{Eigen::MatrixXd(n, n), order};
+  std::vector<double> unit(dimension, 0.0);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    unit[static_cast<std::size_t>(k)] = 1.0;
+    const std::vector<double> image = map(unit);
+    s.map.col(k) = Eigen::Map<const Eigen::VectorXd>(image.data(), n);
+    unit[static_cast<std::size_t>(k)] = 0.0;
+  }
+  Eigen::MatrixXd power = Eigen::MatrixXd::Identity(n, n);
+  for (int k = 0; k < order; ++k) power = s.map * power;
+  if (!((power - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff() <= rounding))
+    throw InputError("a symmetry of order " + std::to_string(order) + " is not the identity after as many times");
+  std::vector<double> probe(dimension);
+  for (std::size_t k = 0; k < dimension; ++k) probe[k] = 1.0 + 1.0 / static_cast<double>(k + 1);
+  const std::vector<double> image = map(probe);
+  const Eigen::VectorXd linear = s.map * Eigen::Map<const Eigen::VectorXd>(probe.data(), n);
+  if (!((linear - Eigen::Map<const Eigen::VectorXd>(image.data(), n)).cwiseAbs().maxCoeff() <=
+        rounding * static_cast<double>(dimension)))
+    throw InputError("a symmetry is not a linear map of the state");
+  return s;
+}
+
+std::vector<InvariantBlock> invariant_blocks(std::size_t dimension, const CyclicSymmetry& symmetry) {
+  const auto n = static_cast<Eigen::Index>(dimension);
+  const int order = symmetry.map.size() == 0 ? 1 : symmetry.order;
+  std::vector<InvariantBlock> blocks;
+  for (int j = 0; 2 * j <= order; ++j) {
+    Eigen::MatrixXcd projector = Eigen::MatrixXcd::Zero(n, n);
+    Eigen::MatrixXd power = Eigen::MatrixXd::Identity(n, n);
+    for (int k = 0; k < order; ++k) {
+      projector +=
+          std::polar(1.0 / order, -2.0 * std::numbers::pi * j * k / order) * power.cast<std::complex<double>>();
+      if (k + 1 < order) power = symmetry.map * power;
+    }
+    InvariantBlock block{j, j == 0 || 2 * j == order, {}};
+    if (order == 1) {
+      block.basis = projector;
+    } else if (block.real) {
+      // A real projector has a real basis.
+      block.basis = range_of(projector.real().cast<std::complex<double>>());
+    } else {
+      block.basis = range_of(projector);
+    }
+    if (block.basis.cols() > 0) blocks.push_back(std::move(block));
+  }
+  return blocks;
+}
+
+std::vector<std::complex<double>> multipliers_of(const InvariantBlock& block, const Eigen::MatrixXd& monodromy) {
+  Eigen::VectorXcd e;
+  if (block.real) {
+    const Eigen::MatrixXd v = block.basis.real();
+    e = eigenvalues(Eigen::MatrixXd(v.transpose() * monodromy * v));
+  } else {
+    e = complex_eigenvalues(Eigen::MatrixXcd(block.basis.adjoint() * monodromy * block.basis));
+  }
+  std::vector<std::complex<double>> values(e.begin(), e.end());
+  std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) {
+    return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag();
+  });
+  return values;
+}
+
+std::string block_name(const InvariantBlock& block, int order) {
+  if (block.wave == 0) return "synchronous";
+  return "wave " + std::to_string(block.wave) + " of " + std::to_string(order);
+}
+
+}  // namespace epicyclic::analysis

@@ -1,0 +1,52 @@
+// Invariant subspaces of a period map that commutes with a symmetry: its multipliers, told apart by how they break it.
+//
+// A linear map S of the state with S^N = 1 (planets moved on by one, say) that commutes with the flow at each phase
+// commutes with the monodromy M of an orbit that it leaves as it is. The states split into waves,
+//
+//   P_j = 1/N sum_k e^(-2 pi i j k / N) S^k ,    B_j = V_j^H M V_j ,    V_j an orthonormal basis of the range of P_j ,
+//                                                                                                        [A-blocks]
+// and the multipliers are the eigenvalues of the B_j. B_0 holds those of the motions in which all parts move alike, B_j
+// and B_(N-j) have conjugate ones: of real multipliers these are pairs that cross the unit circle together, which no
+// change of a sign tells. In its own block each is simple. Source: M. Golubitsky, I. Stewart, D. Schaeffer,
+// Singularities and Groups in Bifurcation Theory II, ch. XII.
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace epicyclic::analysis {
+
+/// S and its order.
+struct CyclicSymmetry {
+  Eigen::MatrixXd map;  ///< empty: none
+  int order = 1;        ///< N
+};
+
+/// S from a linear map of states.
+/// @throws InputError unless the map is linear to rounding, and its power `order` the identity
+[[nodiscard]] CyclicSymmetry cyclic_symmetry(std::size_t dimension, int order,
+                                             const std::function<std::vector<double>(std::span<const double>)>& map);
+
+struct InvariantBlock {
+  int wave = 0;            ///< j of 0 ... N/2
+  bool real = true;        ///< j = 0 or N/2: multipliers are real or pairs; else each stands for a pair of two blocks
+  Eigen::MatrixXcd basis;  ///< V_j, dimension x size
+};
+
+/// Those of j = 0 ... N/2 that are not empty; without a symmetry the whole space is one.
+[[nodiscard]] std::vector<InvariantBlock> invariant_blocks(std::size_t dimension, const CyclicSymmetry& symmetry);
+
+/// Eigenvalues of B_j, by falling modulus.
+[[nodiscard]] std::vector<std::complex<double>> multipliers_of(const InvariantBlock& block,
+                                                               const Eigen::MatrixXd& monodromy);
+
+/// "synchronous", "wave 1 of 3".
+[[nodiscard]] std::string block_name(const InvariantBlock& block, int order);
+
+}  // namespace epicyclic::analysis

@@ -1,0 +1,95 @@
+// Periodic orbits of a family of flows as a curve: the solutions z = (y_0 ... y_p-1, lambda) of the shooting equations.
+//
+// One more unknown than equations. A point of the curve near a guess z* is taken in a plane through it,
+//
+//   F(z) = 0 ,   <t, z - z*> = 0                                                                        [A-plane]
+//
+// by Newton's method. Its matrix is regular wherever the orbit is (I - M is) and at folds, since t, the direction of
+// the curve nearby, is not in the plane. The direction is the solution of F_z t' = 0, <t, t'> = 1, normed. Lengths are
+//
+//   <a, b> = sum_i a_i . b_i / (p n Y^2) + a_lambda b_lambda / L^2                                      [A-length]
+//
+// n the dimension, Y and L the scales of state and parameter: a length of 1 is a change of each component by Y or of
+// the parameter by L. Source: H. B. Keller, Numerical solution of bifurcation and nonlinear eigenvalue problems (1977);
+// R. Seydel, Practical Bifurcation and Stability Analysis, 3rd ed., ch. 4.
+//
+// Smoothness: the curve is as smooth as the flow. Where an orbit grazes a kink of a continuous vector field it is once
+// differentiable, and Newton's method still converges, faster than linearly.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "analysis/invariant_blocks.hpp"
+#include "integrate/make_flow.hpp"
+
+namespace epicyclic::analysis {
+
+struct OrbitFamily {
+  integrate::FlowFamily flows;
+  int period = 1;          ///< n, in periods of the forcing
+  int pieces = 1;          ///< p of multiple shooting
+  double value_scale = 1;  ///< L
+  double state_scale = 1;  ///< Y
+
+  /// Orbits that a symmetry leaves as they are: Newton's method stays among them [A-blocks, j = 0]. None: all orbits.
+  CyclicSymmetry symmetry{};
+
+  double residual = 1e-10;  ///< max |F| that Newton's method ends below; the orbit is nearer by its last step
+  int iterations = 10;
+  double difference = 1e-6;  ///< step, in L, of the difference for fields that have no parameter derivative
+
+  /// @throws InputError for a period, pieces or iterations below 1, or scales that are not positive
+  void validate() const;
+};
+
+/// A place, or a direction, in the space of the states and the parameter.
+struct CurvePoint {
+  Eigen::MatrixXd states;  ///< y_i in column i
+  double value = 0;        ///< lambda
+};
+
+[[nodiscard]] CurvePoint operator+(const CurvePoint& a, const CurvePoint& b);
+[[nodiscard]] CurvePoint operator-(const CurvePoint& a, const CurvePoint& b);
+[[nodiscard]] CurvePoint operator*(double factor, const CurvePoint& a);
+
+/// [A-length]
+[[nodiscard]] double inner_product(const OrbitFamily& family, const CurvePoint& a, const CurvePoint& b);
+[[nodiscard]] double length(const OrbitFamily& family, const CurvePoint& a);
+
+/// An orbit of the family.
+struct BranchOrbit {
+  CurvePoint at;
+  CurvePoint direction;       ///< of length 1
+  Eigen::MatrixXd monodromy;  ///< M
+  double residual = 0;        ///< max |F| before the last step
+};
+
+/// What Newton's method came to.
+struct Correction {
+  bool found = false;
+  BranchOrbit orbit;      ///< if found
+  int evaluations = 0;    ///< of F with its derivatives
+  double distance = 0;    ///< from the guess, as a length
+  std::string message{};  ///< why not found
+};
+
+/// The orbit in the plane through `guess` that `normal` stands on [A-plane]; its direction goes along with `normal`.
+/// @throws as make_flow()
+[[nodiscard]] Correction correct(const OrbitFamily& family, const CurvePoint& guess, const CurvePoint& normal);
+
+/// The orbit at a value of the parameter, near `guess`; its direction is that of a rising parameter, unless `along` is
+/// given, with which it goes.
+[[nodiscard]] Correction correct_at(const OrbitFamily& family, double value, const Eigen::MatrixXd& guess,
+                                    const CurvePoint* along = nullptr);
+
+/// The orbit a part of the way from a to its neighbour b, in the plane there that stands on a's direction.
+/// @param part  in [0, 1]
+[[nodiscard]] Correction between(const OrbitFamily& family, const BranchOrbit& a, const BranchOrbit& b, double part);
+
+/// The orbit at a value from one state, cut into the family's pieces.
+[[nodiscard]] Correction first_orbit(const OrbitFamily& family, double value, std::span<const double> state);
+
+}  // namespace epicyclic::analysis

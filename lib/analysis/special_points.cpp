@@ -1,0 +1,348 @@
+#include "analysis/special_points.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "analysis/shooting.hpp"
+#include "core/errors.hpp"
+#include "core/require.hpp"
+#include "core/root_finding.hpp"
+#include "core/text.hpp"
+
+namespace epicyclic::analysis {
+
+namespace {
+
+using Values = std::vector<std::complex<double>>;
+
+/// What of a block changes at special points.
+struct Signs {
+  std::size_t outside = 0;  ///< multipliers beyond the unit circle
+  bool plus = false;        ///< odd number of real ones beyond +1
+  bool minus = false;       ///< odd number of real ones beyond -1
+  bool falling = false;     ///< the parameter falls along the branch; of the synchronous block only
+};
+
+Signs signs_of(const InvariantBlock& block, const BranchOrbit& orbit) {
+  Signs s;
+  for (const auto& x : multipliers_of(block, orbit.monodromy)) {
+    s.outside += std::abs(x) > 1.0 ? 1 : 0;
+    if (!block.real || x.imag() != 0.0) continue;
+    if (x.real() > 1.0) s.plus = !s.plus;
+    if (x.real() < -1.0) s.minus = !s.minus;
+  }
+  s.falling = block.wave == 0 && orbit.direction.value < 0.0;
+  return s;
+}
+
+/// The one event between two orbits by what has changed.
+/// @returns nothing if none; unresolved if it cannot be one alone
+std::optional<SpecialKind> event_between(const InvariantBlock& block, const Signs& a, const Signs& b) {
+  const std::size_t crossed = std::max(a.outside, b.outside) - std::min(a.outside, b.outside);
+  const bool plus = a.plus != b.plus;
+  const bool minus = a.minus != b.minus;
+  const bool turns = a.falling != b.falling;
+  if (crossed == 0 && !plus && !minus && !turns) return std::nullopt;
+  if (plus && !minus && crossed == 1) return turns ? SpecialKind::fold : SpecialKind::branch_point;
+  if (turns) return SpecialKind::unresolved;
+  if (minus && !plus && crossed == 1) return SpecialKind::flip;
+  if (!plus && !minus && crossed == (block.real ? 2U : 1U)) return SpecialKind::neimark_sacker;
+  return SpecialKind::unresolved;
+}
+
+/// The multiplier nearest to a place.
+std::complex<double> nearest(const Values& values, std::complex<double> to) {
+  return *std::min_element(values.begin(), values.end(),
+                           [&](const auto& p, const auto& q) { return std::abs(p - to) < std::abs(q - to); });
+}
+
+/// The multiplier that an event is about.
+std::complex<double> critical(SpecialKind kind, const Values& values, std::complex<double> expected) {
+  switch (kind) {
+    case SpecialKind::fold:
+    case SpecialKind::branch_point:
+      return nearest(values, 1.0);
+    case SpecialKind::flip:
+      return nearest(values, -1.0);
+    default:
+      return nearest(values, expected);
+  }
+}
+
+/// One event in one block between two orbits.
+class Event {
+ public:
+  Event(const OrbitFamily& family, const InvariantBlock& block, SpecialKind kind, const BranchOrbit& a,
+        const BranchOrbit& b, const SpecialOptions& options)
+      : family_(family), block_(block), kind_(kind), a_(a), b_(b), options_(options) {
+    const Signs at_a = signs_of(block, a);
+    const Signs at_b = signs_of(block, b);
+    inside_ = std::min(at_a.outside, at_b.outside);
+    outwards_ = at_b.outside > at_a.outside;
+  }
+
+  SpecialPoint locate() {
+    SpecialPoint point;
+    point.kind = kind_;
+    point.wave = block_.wave;
+    point.outwards = outwards_;
+    try {
+      bracket();
+    } catch (const std::exception& e) {
+      return unresolved(std::move(point), e.what());
+    }
+    values_.clear();
+    std::optional<Place> place = polish(family_);
+    if (!place) return unresolved(std::move(point), "no orbit beside it");
+    values_.push_back(place->value);
+    for (const OrbitFamily& other : options_.others) {
+      if (std::optional<Place> finer = polish(other)) {
+        place = std::move(finer);
+        values_.push_back(place->value);
+      } else {
+        point.note = "one of the finer families found no orbit";
+      }
+    }
+    point.value = place->value;
+    point.orbit = std::move(place->orbit);
+    point.multiplier = place->multiplier;
+    point.error_bound = bound();
+    // A real multiplier of a block that stands for two comes as two real ones in the whole.
+    constexpr double real = 1e-6;
+    if (kind_ == SpecialKind::neimark_sacker && !block_.real) {
+      if (std::abs(std::arg(point.multiplier)) < real) point.kind = SpecialKind::branch_point;
+      if (std::numbers::pi - std::abs(std::arg(point.multiplier)) < real) point.kind = SpecialKind::flip;
+    }
+    return point;
+  }
+
+ private:
+  /// Where a family has it.
+  struct Place {
+    double value = 0;
+    BranchOrbit orbit;
+    std::complex<double> multiplier;
+  };
+
+  static SpecialPoint unresolved(SpecialPoint point, std::string note) {
+    point.kind = SpecialKind::unresolved;
+    point.note = std::move(note);
+    point.error_bound = std::numeric_limits<double>::infinity();
+    return point;
+  }
+
+  /// Of another sign on each side of the event, whatever else happens to the multipliers.
+  [[nodiscard]] double sign_function(const BranchOrbit& orbit) const {
+    if (kind_ == SpecialKind::fold) return orbit.direction.value;
+    const Values values = multipliers_of(block_, orbit.monodromy);
+    const Signs signs = signs_of(block_, orbit);
+    if (kind_ == SpecialKind::branch_point) return (signs.plus ? -1.0 : 1.0) * std::abs(nearest(values, 1.0) - 1.0);
+    if (kind_ == SpecialKind::flip) return (signs.minus ? -1.0 : 1.0) * std::abs(nearest(values, -1.0) + 1.0);
+    return std::log(std::abs(values.at(inside_)));
+  }
+
+  /// Smooth at the event, by the multiplier that it is about.
+  [[nodiscard]] double smooth_function(const BranchOrbit& orbit) const {
+    if (kind_ == SpecialKind::fold) return orbit.direction.value / family_.value_scale;
+    const std::complex<double> x = critical(kind_, multipliers_of(block_, orbit.monodromy), expected_);
+    if (kind_ == SpecialKind::branch_point) return x.real() - 1.0;
+    if (kind_ == SpecialKind::flip) return x.real() + 1.0;
+    return std::log(std::abs(x));
+  }
+
+  /// To a thousandth of the way from a to b.
+  void bracket() {
+    constexpr double width = 1e-3;
+    const auto function = [&](double part) {
+      if (part == 0.0) return sign_function(a_);
+      if (part == 1.0) return sign_function(b_);
+      const Correction c = between(family_, a_, b_, part);
+      if (!c.found) throw DomainError(c.message);
+      near_ = c.orbit;
+      return sign_function(c.orbit);
+    };
+    const double part = find_root(function, 0.0, 1.0, width);
+    if (const Correction c = between(family_, a_, b_, part); c.found) near_ = c.orbit;
+    const Values values = multipliers_of(block_, near_.monodromy);
+    expected_ = kind_ == SpecialKind::neimark_sacker ? values.at(inside_) : critical(kind_, values, 0.0);
+  }
+
+  /// The states where this family's pieces begin.
+  [[nodiscard]] static std::optional<CurvePoint> cut(const OrbitFamily& family, const CurvePoint& at) {
+    CurvePoint cut{Eigen::MatrixXd(at.states.rows(), family.pieces), at.value};
+    cut.states.col(0) = at.states.col(0);
+    if (!carry_to_pieces(*family.flows(at.value), family.period, cut.states).reached()) return std::nullopt;
+    return cut;
+  }
+
+  /// The root of the smooth function along the branch, near near_.
+  [[nodiscard]] std::optional<Place> polish(const OrbitFamily& family) const {
+    Correction base = recut(family);
+    if (!base.found) return std::nullopt;
+    const CurvePoint normal = base.orbit.direction;
+    const CurvePoint origin = base.orbit.at;
+    const auto at = [&](double s) { return correct(family, origin + s * normal, normal); };
+    const double span = length(family_, b_.at - a_.at);
+    // Where branches cross, the orbits of both are solutions: it is looked at from beside.
+    if (kind_ == SpecialKind::branch_point && block_.wave == 0) return from_beside(at, 1e-3 * span);
+    double s_before = 1e-3 * span;
+    Correction c = at(s_before);
+    if (!c.found) return std::nullopt;
+    double f_before = smooth_function(c.orbit);
+    double s = 0.0;
+    Correction last = std::move(base);
+    double f = smooth_function(last.orbit);
+    constexpr int iterations = 8;
+    for (int k = 0; k < iterations; ++k) {
+      if (f == f_before) break;
+      const double next = s - f * (s - s_before) / (f - f_before);
+      if (!(std::abs(next) < span)) return std::nullopt;
+      c = at(next);
+      if (!c.found) return std::nullopt;
+      s_before = s;
+      f_before = f;
+      s = next;
+      last = std::move(c);
+      f = smooth_function(last.orbit);
+      constexpr double resolved = 1e-11;
+      if (std::abs(f) < resolved || std::abs(s - s_before) < resolved * span) break;
+    }
+    return Place{last.orbit.at.value, last.orbit, critical_of(last.orbit)};
+  }
+
+  /// The orbit at near_ by another subdivision, whose direction at the new cuts is that between two orbits.
+  [[nodiscard]] Correction recut(const OrbitFamily& family) const {
+    if (near_.at.states.cols() == family.pieces) return correct(family, near_.at, near_.direction);
+    constexpr double little = 1e-4;
+    const std::optional<CurvePoint> at = cut(family, near_.at);
+    const std::optional<CurvePoint> ahead = cut(family, near_.at + little * near_.direction);
+    if (!at || !ahead) return {};
+    return correct(family, *at, (1.0 / little) * (*ahead - *at));
+  }
+
+  /// By the cubic through two orbits on each side.
+  template <class At>
+  [[nodiscard]] std::optional<Place> from_beside(const At& at, double distance) const {
+    std::array<double, 4> f, value;
+    std::array<BranchOrbit, 4> orbits;
+    const std::array<double, 4> s = {-2.0 * distance, -distance, distance, 2.0 * distance};
+    for (std::size_t k = 0; k < s.size(); ++k) {
+      Correction c = at(s[k]);
+      if (!c.found) return std::nullopt;
+      f[k] = smooth_function(c.orbit);
+      value[k] = c.orbit.at.value;
+      orbits[k] = std::move(c.orbit);
+    }
+    // Lagrange's polynomial of the value over f, at f = 0.
+    double root = 0.0;
+    for (std::size_t k = 0; k < s.size(); ++k) {
+      double weight = 1.0;
+      for (std::size_t j = 0; j < s.size(); ++j)
+        if (j != k) weight *= f[j] / (f[j] - f[k]);
+      root += weight * value[k];
+    }
+    const std::size_t best = std::abs(f[1]) < std::abs(f[2]) ? 1 : 2;
+    return Place{root, orbits[best], critical_of(orbits[best])};
+  }
+
+  [[nodiscard]] std::complex<double> critical_of(const BranchOrbit& orbit) const {
+    return critical(kind_, multipliers_of(block_, orbit.monodromy), expected_);
+  }
+
+  [[nodiscard]] double bound() const {
+    if (values_.size() < 2) return std::numeric_limits<double>::infinity();
+    double most = 0.0;
+    for (const double v : values_) most = std::max(most, std::abs(v - values_.back()));
+    constexpr double rounding = 1e-14;
+    return options_.safety * most + rounding * std::abs(values_.back());
+  }
+
+  const OrbitFamily& family_;
+  const InvariantBlock& block_;
+  SpecialKind kind_;
+  const BranchOrbit& a_;
+  const BranchOrbit& b_;
+  const SpecialOptions& options_;
+  std::size_t inside_ = 0;
+  bool outwards_ = false;
+  BranchOrbit near_;
+  std::complex<double> expected_;
+  std::vector<double> values_;
+};
+
+/// All events in one block, the part halved until each is alone.
+void find_events(const OrbitFamily& family, const InvariantBlock& block, const BranchOrbit& a, const BranchOrbit& b,
+                 const SpecialOptions& options, int halvings, std::vector<SpecialPoint>& found) {
+  const std::optional<SpecialKind> kind = event_between(block, signs_of(block, a), signs_of(block, b));
+  if (!kind) return;
+  if (*kind != SpecialKind::unresolved) {
+    found.push_back(Event(family, block, *kind, a, b, options).locate());
+    return;
+  }
+  const Correction middle = halvings > 0 ? between(family, a, b, 0.5) : Correction{};
+  if (middle.found) {
+    find_events(family, block, a, middle.orbit, options, halvings - 1, found);
+    find_events(family, block, middle.orbit, b, options, halvings - 1, found);
+    return;
+  }
+  SpecialPoint point;
+  point.value = 0.5 * (a.at.value + b.at.value);
+  point.error_bound = std::abs(b.at.value - a.at.value);
+  point.orbit = a;
+  point.wave = block.wave;
+  point.note = "several events that could not be parted";
+  found.push_back(std::move(point));
+}
+
+}  // namespace
+
+std::string to_string(SpecialKind kind) {
+  switch (kind) {
+    case SpecialKind::fold:
+      return "fold";
+    case SpecialKind::branch_point:
+      return "branch_point";
+    case SpecialKind::flip:
+      return "flip";
+    case SpecialKind::neimark_sacker:
+      return "neimark_sacker";
+    case SpecialKind::unresolved:
+      break;
+  }
+  return "unresolved";
+}
+
+void SpecialOptions::validate() const { require(safety >= 1.0, "safety", safety, ">= 1"); }
+
+std::vector<SpecialPoint> special_points_between(const OrbitFamily& family, const BranchOrbit& a, const BranchOrbit& b,
+                                                 const SpecialOptions& options) {
+  options.validate();
+  // Of what is left after as many, neighbours differ by 1e-6 of their distance.
+  constexpr int halvings = 20;
+  std::vector<SpecialPoint> found;
+  for (const InvariantBlock& block : invariant_blocks(static_cast<std::size_t>(a.at.states.rows()), family.symmetry))
+    find_events(family, block, a, b, options, halvings, found);
+  // The first piece's states are there with any subdivision.
+  const auto along = [&](const SpecialPoint& p) {
+    return (p.orbit.at.states.col(0) - a.at.states.col(0)).dot(a.direction.states.col(0)) /
+               (static_cast<double>(a.at.states.rows()) * family.state_scale * family.state_scale) +
+           (p.value - a.at.value) * a.direction.value / (family.value_scale * family.value_scale);
+  };
+  std::stable_sort(found.begin(), found.end(),
+                   [&](const SpecialPoint& p, const SpecialPoint& q) { return along(p) < along(q); });
+  return found;
+}
+
+OrbitFamily refined(OrbitFamily family, integrate::FlowFamily flows, int pieces) {
+  family.flows = std::move(flows);
+  family.pieces = pieces;
+  return family;
+}
+
+}  // namespace epicyclic::analysis

@@ -1,0 +1,62 @@
+// Where a branch of periodic orbits changes: folds, flips, Neimark-Sacker and branch points, with error bounds.
+//
+// Between two orbits of a branch each invariant block [A-blocks] of the monodromy is looked at by itself:
+//
+//   a fold          the parameter's part of the direction changes sign: two orbits meet and vanish
+//   a branch point  det(B - I) does and the direction does not: another branch crosses
+//   a flip          det(B + I) changes sign: orbits of twice the period leave
+//   Neimark-Sacker  a pair crosses the unit circle: a torus leaves; in a block that stands for two, one multiplier does
+//                                                                                                         [A-special]
+// Signs of determinants are parities of the multipliers beyond +1 and -1, so none is missed or taken for another in the
+// company of many. Where the counts do not tell one event alone, the part is halved. The place is the root of a
+// function of the arc length that is smooth there: the direction's part, lambda - 1, lambda + 1, log |lambda|.
+//
+// The place is found again by other tolerances and subdivisions. With v the finest of the values v_k,
+//
+//   bound = safety max |v_k - v| + rounding                                                               [A-bound]
+//
+// Limits: two crossings of one kind in one block between neighbours, there and back, are not seen; the continuation
+// keeps multipliers from moving that far. Events that no halving parts are told as unresolved.
+#pragma once
+
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "analysis/orbit_family.hpp"
+
+namespace epicyclic::analysis {
+
+enum class SpecialKind { fold, branch_point, flip, neimark_sacker, unresolved };
+
+/// "fold", "branch_point", "flip", "neimark_sacker", "unresolved".
+[[nodiscard]] std::string to_string(SpecialKind kind);
+
+struct SpecialPoint {
+  SpecialKind kind = SpecialKind::unresolved;
+  double value = 0;                 ///< of the parameter
+  double error_bound = 0;           ///< of the value [A-bound]; not finite where there was nothing to compare with
+  BranchOrbit orbit;                ///< by the finest family
+  int wave = 0;                     ///< j of the block: 0 keeps the symmetry, others break it
+  std::complex<double> multiplier;  ///< that reaches the unit circle
+  bool outwards = false;  ///< it leaves the unit circle along the branch; of a fold with the branch's sense, too
+  std::string note{};     ///< what was not as usual
+};
+
+struct SpecialOptions {
+  /// The same orbits by other tolerances or subdivisions, the finest last; none: no bounds.
+  std::vector<OrbitFamily> others{};
+  double safety = 3;
+
+  /// @throws InputError for a safety factor below 1
+  void validate() const;
+};
+
+/// Those between two neighbours on a branch, in its order.
+[[nodiscard]] std::vector<SpecialPoint> special_points_between(const OrbitFamily& family, const BranchOrbit& a,
+                                                               const BranchOrbit& b, const SpecialOptions& options);
+
+/// The family of other flows and another number of pieces, for the bounds.
+[[nodiscard]] OrbitFamily refined(OrbitFamily family, integrate::FlowFamily flows, int pieces);
+
+}  // namespace epicyclic::analysis

@@ -1,0 +1,329 @@
+// Branches of periodic orbits and their special points, on systems with known answers.
+
+#include "analysis/continuation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "analysis/branch_switching.hpp"
+#include "analysis/special_points.hpp"
+#include "core/dense.hpp"
+#include "integrate/make_flow.hpp"
+#include "problems/known_systems.hpp"
+
+namespace epicyclic::analysis {
+namespace {
+
+integrate::FlowFamily flows(const FieldFamily& fields, double tolerance) {
+  integrate::IntegratorOptions o;
+  o.relative_tolerance = o.absolute_tolerance = tolerance;
+  o.max_steps_per_period = 1000000;
+  o.tangent_error_control = true;
+  return integrate::make_flow_family(fields, o);
+}
+
+struct Traced {
+  std::vector<BranchOrbit> orbits;
+  std::vector<SpecialPoint> special;
+  BranchEnd end = BranchEnd::none;
+  int evaluations = 0;
+};
+
+/// One way along the branch with all its special points.
+Traced trace(const OrbitFamily& family, const ContinuationOptions& options, const SpecialOptions& special,
+             BranchOrbit start) {
+  Traced t;
+  Continuation branch(family, options, std::move(start));
+  t.orbits.push_back(branch.now());
+  while (branch.advance()) {
+    t.orbits.push_back(branch.now());
+    for (SpecialPoint& p : special_points_between(family, branch.before(), branch.now(), special))
+      t.special.push_back(std::move(p));
+  }
+  t.end = branch.end();
+  t.evaluations = branch.evaluations();
+  return t;
+}
+
+/// The orbit that a motion from `start` settles to.
+std::vector<double> settled(const integrate::FlowFamily& family, double value, std::vector<double> start, int periods) {
+  const auto flow = family(value);
+  for (int k = 0; k < periods; ++k) EXPECT_TRUE(flow->evolve(start, 0.0, flow->field().period).reached());
+  return start;
+}
+
+constexpr double tolerance = 1e-11;
+
+/// By a tenth of the tolerance and twice the pieces.
+SpecialOptions with_bounds(const OrbitFamily& family, const FieldFamily& fields) {
+  return {{refined(family, flows(fields, 0.1 * tolerance), family.pieces),
+           refined(family, flows(fields, 0.1 * tolerance), 2 * family.pieces)}};
+}
+
+/// The branch from the orbit that a motion settles to, the way of a rising parameter.
+Traced trace(const OrbitFamily& family, const FieldFamily& fields, const ContinuationOptions& options, double value,
+             const std::vector<double>& start, int periods) {
+  const Correction first = first_orbit(family, value, settled(family.flows, value, start, periods));
+  EXPECT_TRUE(first.found) << first.message;
+  return first.found ? trace(family, options, with_bounds(family, fields), first.orbit) : Traced{};
+}
+
+// What is located holds to what is asked of it, eight digits, and to its own bound.
+constexpr double eight_digits = 1e-8;
+
+void expect_at(const SpecialPoint& p, SpecialKind kind, double value, double known_to) {
+  EXPECT_EQ(to_string(p.kind), to_string(kind));
+  EXPECT_LT(p.error_bound, eight_digits);
+  EXPECT_NEAR(p.value, value, p.error_bound + known_to);
+  EXPECT_TRUE(p.note.empty()) << p.note;
+}
+
+/// One unit of the tenth decimal.
+constexpr double tenth_decimal = 1e-10;
+
+TEST(Continuation, FindsDuffingsPublishedFlip) {
+  const FieldFamily fields = problems::duffing(0.3, -1.0, 1.2);
+  const Traced t = trace({flows(fields, tolerance)}, fields, {.from = 0.2, .to = 0.3}, 0.2, {1.0, 0.0}, 100);
+  ASSERT_EQ(t.special.size(), 1U);
+  expect_at(t.special[0], SpecialKind::flip, 0.2655817861, 0.5 * tenth_decimal);
+  EXPECT_TRUE(t.special[0].outwards);
+  EXPECT_EQ(t.end, BranchEnd::range);
+  EXPECT_EQ(t.orbits.back().at.value, 0.3);
+}
+
+/// Duffing's periodic motion x'' + d x' + x + x^3 = g cos Wt by harmonic balance: no integration, so nothing shared
+/// with what it is beside. Odd harmonics 1, 3, ... alone: x(t + T/2) = -x(t).
+class HarmonicBalance {
+ public:
+  HarmonicBalance(double d, double g) : d_(d), g_(g) {}
+
+  /// The frequency at which the branch folds, from values near it.
+  /// @param z  sines and cosines, then W: the branch's own; and the null vector behind it, of length 1
+  double fold(Eigen::VectorXd z) const {
+    const Eigen::Index n = 2 * harmonics;
+    for (int k = 0; k < 30; ++k) {
+      const Eigen::VectorXd r = extended(z);
+      Eigen::MatrixXd j(2 * n + 1, 2 * n + 1);
+      for (Eigen::Index i = 0; i < z.size(); ++i) {
+        constexpr double h = 1e-6;
+        Eigen::VectorXd above = z, below = z;
+        above(i) += h;
+        below(i) -= h;
+        j.col(i) = (extended(above) - extended(below)) / (2.0 * h);
+      }
+      const Eigen::VectorXd step = epicyclic::solution(j, -r);
+      z += step;
+      if (step.lpNorm<Eigen::Infinity>() < 1e-13) break;
+    }
+    return z(n);
+  }
+
+  /// Sines and cosines of a motion given over one period, with W and the direction of the branch there.
+  static Eigen::VectorXd start(const std::vector<double>& x, double w, const std::vector<double>& along) {
+    const Eigen::Index n = 2 * harmonics;
+    Eigen::VectorXd z(2 * n + 1);
+    z.head(n) = transform(x);
+    z(n) = w;
+    z.tail(n) = transform(along).normalized();
+    return z;
+  }
+  static constexpr int samples = 256;
+
+ private:
+  static constexpr int harmonics = 16;  // up to 31: what is left out is below 1e-12
+
+  static Eigen::VectorXd transform(const std::vector<double>& x) {
+    Eigen::VectorXd c = Eigen::VectorXd::Zero(2 * harmonics);
+    for (int j = 0; j < samples; ++j) {
+      const double s = 2.0 * std::numbers::pi * j / samples;
+      for (int k = 0; k < harmonics; ++k) {
+        c(2 * k) += 2.0 / samples * x[static_cast<std::size_t>(j)] * std::cos((2 * k + 1) * s);
+        c(2 * k + 1) += 2.0 / samples * x[static_cast<std::size_t>(j)] * std::sin((2 * k + 1) * s);
+      }
+    }
+    return c;
+  }
+
+  /// Balance of the harmonics, and its derivative along v.
+  std::pair<Eigen::VectorXd, Eigen::VectorXd> balance(const Eigen::VectorXd& c, double w,
+                                                      const Eigen::VectorXd& v) const {
+    std::vector<double> cube(samples), slope(samples);
+    for (int j = 0; j < samples; ++j) {
+      const double s = 2.0 * std::numbers::pi * j / samples;
+      double x = 0.0, dx = 0.0;
+      for (int k = 0; k < harmonics; ++k) {
+        const double cosine = std::cos((2 * k + 1) * s), sine = std::sin((2 * k + 1) * s);
+        x += c(2 * k) * cosine + c(2 * k + 1) * sine;
+        dx += v(2 * k) * cosine + v(2 * k + 1) * sine;
+      }
+      cube[static_cast<std::size_t>(j)] = x * x * x;
+      slope[static_cast<std::size_t>(j)] = 3.0 * x * x * dx;
+    }
+    Eigen::VectorXd r = transform(cube), dr = transform(slope);
+    const auto linear = [&](const Eigen::VectorXd& a, Eigen::VectorXd& out) {
+      for (int k = 0; k < harmonics; ++k) {
+        const double f = (2 * k + 1) * w;
+        out(2 * k) += (1.0 - f * f) * a(2 * k) + d_ * f * a(2 * k + 1);
+        out(2 * k + 1) += (1.0 - f * f) * a(2 * k + 1) - d_ * f * a(2 * k);
+      }
+    };
+    linear(c, r);
+    linear(v, dr);
+    r(0) -= g_;
+    return {r, dr};
+  }
+
+  /// The balance, its singularity, and the length of the null vector.
+  Eigen::VectorXd extended(const Eigen::VectorXd& z) const {
+    const Eigen::Index n = 2 * harmonics;
+    const auto [r, dr] = balance(z.head(n), z(n), z.tail(n));
+    Eigen::VectorXd all(2 * n + 1);
+    all << r, dr, z.tail(n).squaredNorm() - 1.0;
+    return all;
+  }
+
+  double d_, g_;
+};
+
+/// x over one period from a state.
+std::vector<double> over_a_period(integrate::Flow& flow, Eigen::VectorXd y) {
+  std::vector<double> x;
+  for (int j = 0; j < HarmonicBalance::samples; ++j) {
+    x.push_back(y(0));
+    const double step = flow.field().period / HarmonicBalance::samples;
+    EXPECT_TRUE(flow.evolve({y.data(), 2}, j * step, (j + 1) * step).reached());
+  }
+  return x;
+}
+
+TEST(Continuation, FindsDuffingsFoldsWhereHarmonicBalanceHasThem) {
+  const FieldFamily fields = problems::duffing_in_frequency(0.1, 1.0, 0.3);
+  const OrbitFamily family{flows(fields, tolerance)};
+  const Traced t = trace(family, fields, {.from = 0.5, .to = 2.5}, 0.6, {1.0, 0.0}, 100);
+  ASSERT_EQ(t.special.size(), 2U);
+  constexpr double printed[] = {1.77972, 1.32424};  // validation.md section 4
+  constexpr double fifth_decimal = 0.5e-5;
+  const HarmonicBalance balance(0.1, 0.3);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const SpecialPoint& p = t.special[k];
+    EXPECT_NEAR(p.value, printed[k], fifth_decimal);
+    const auto flow = family.flows(p.value);
+    const Eigen::VectorXd y = p.orbit.at.states.col(0);
+    const std::vector<double> x = over_a_period(*flow, y);
+    constexpr double aside = 1e-4;
+    std::vector<double> along = over_a_period(*flow, y + aside * p.orbit.direction.states.col(0));
+    for (std::size_t i = 0; i < along.size(); ++i) along[i] -= x[i];
+    const double fold = balance.fold(HarmonicBalance::start(x, p.value, along));
+    constexpr double balanced = 1e-12;  // differences between 16 and 20 harmonics
+    expect_at(p, SpecialKind::fold, fold, balanced);
+  }
+  EXPECT_EQ(t.end, BranchEnd::range);
+}
+
+TEST(Continuation, FindsTheNeimarkSackerPointOfTheNormalForm) {
+  const FieldFamily fields = problems::forced_hopf(0.3);
+  const Traced t = trace({flows(fields, tolerance)}, fields, {.from = -0.1, .to = 0.1}, -0.1, {1.0, 0.0}, 1);
+  ASSERT_EQ(t.special.size(), 1U);
+  expect_at(t.special[0], SpecialKind::neimark_sacker, 0.0, 0.0);
+  EXPECT_NEAR(std::abs(std::arg(t.special[0].multiplier)), 2.0 * std::numbers::pi * 0.3, eight_digits);
+}
+
+/// Parts moved on by one.
+template <std::size_t N>
+CyclicSymmetry moved_on() {
+  return cyclic_symmetry(N, N, [](std::span<const double> y) {
+    std::vector<double> next(N);
+    for (std::size_t i = 0; i < N; ++i) next[(i + 1) % N] = y[i];
+    return next;
+  });
+}
+
+TEST(Continuation, NamesTheSymmetryThatAPitchforkBreaks) {
+  const FieldFamily fields = problems::alike_parts<3>();
+  OrbitFamily family{flows(fields, tolerance)};
+  family.symmetry = moved_on<3>();
+  const Traced t = trace(family, fields, {.from = -0.1, .to = 0.1}, -0.1, {1.0, 1.0, 1.0}, 1);
+  ASSERT_EQ(t.special.size(), 1U);
+  expect_at(t.special[0], SpecialKind::branch_point, 0.0, 0.0);
+  EXPECT_EQ(t.special[0].wave, 1);
+  const auto blocks = invariant_blocks(3, family.symmetry);
+  ASSERT_EQ(blocks.size(), 2U);
+  EXPECT_EQ(block_name(blocks[1], 3), "wave 1 of 3");
+}
+
+TEST(Continuation, TwoPairsOfFourPartsCrossAtOnce) {
+  // Waves 1 and 2 of 4: two multipliers and one, at one place.
+  const FieldFamily fields = problems::alike_parts<4>();
+  OrbitFamily family{flows(fields, tolerance)};
+  family.symmetry = moved_on<4>();
+  const Traced t = trace(family, fields, {.from = -0.1, .to = 0.1}, -0.1, {1.0, 1.0, 1.0, 1.0}, 1);
+  ASSERT_EQ(t.special.size(), 2U);
+  for (const SpecialPoint& p : t.special) expect_at(p, SpecialKind::branch_point, 0.0, 0.0);
+  EXPECT_NE(t.special[0].wave, t.special[1].wave);
+}
+
+TEST(Switching, FollowsDuffingsCascadeToPeriod16) {
+  const FieldFamily fields = problems::duffing(0.3, -1.0, 1.2);
+  OrbitFamily family{flows(fields, tolerance)};
+  const Correction start = first_orbit(family, 0.2, settled(family.flows, 0.2, {1.0, 0.0}, 100));
+  ASSERT_TRUE(start.found) << start.message;
+  BranchOrbit from = start.orbit;
+  std::vector<double> flips;
+  for (int n = 1; n <= 16; n *= 2) {
+    ASSERT_EQ(family.period, n);
+    const Traced t = trace(family, {.from = 0.2, .to = 0.3}, with_bounds(family, fields), from);
+    ASSERT_EQ(t.special.size(), 1U);
+    EXPECT_EQ(to_string(t.special[0].kind), "flip");
+    EXPECT_LT(t.special[0].error_bound, eight_digits);
+    flips.push_back(t.special[0].value);
+    const auto ways = departures(family, t.special[0], {.distance = 1e-2 / n});
+    ASSERT_EQ(ways.size(), 1U);  // one orbit begun at either of its halves
+    family = ways[0].family;
+    from = ways[0].orbit;
+  }
+  EXPECT_NEAR(flips[0], 0.2655817861, tenth_decimal);
+  EXPECT_NEAR(flips[1], 0.2866931578, tenth_decimal);
+  // Feigenbaum's constant is where the ratios go to.
+  constexpr double feigenbaum = 4.669201609;
+  constexpr double still_to_go = 0.02;
+  EXPECT_NEAR((flips[3] - flips[2]) / (flips[4] - flips[3]), feigenbaum, still_to_go);
+}
+
+TEST(Switching, FindsEachKindOfOrbitThatLeavesAPitchforkOfAlikeParts) {
+  const FieldFamily fields = problems::alike_parts<3>();
+  OrbitFamily family{flows(fields, tolerance)};
+  family.symmetry = moved_on<3>();
+  const Traced t = trace(family, fields, {.from = -0.1, .to = 0.1}, -0.1, {1.0, 1.0, 1.0}, 1);
+  ASSERT_EQ(t.special.size(), 1U);
+  // Parts at (a, -a, 0), a^2 = p exactly, and as (2, -1, -1) to first order, each with its sign, of all turns one.
+  int opposite = 0, two_to_one = 0;
+  for (const Departure& d : departures(family, t.special[0])) {
+    std::vector<double> w(d.orbit.at.states.data(), d.orbit.at.states.data() + 3);
+    for (double& x : w) x -= 1.0;
+    std::sort(w.begin(), w.end());
+    const double a = std::sqrt(d.orbit.at.value);
+    constexpr double solved = 1e-7;  // the residual over the distance from the pitchfork
+    constexpr double first_order = 1e-3;
+    if (std::abs(w[1]) < solved) {
+      ++opposite;
+      EXPECT_NEAR(w[2], a, solved);
+      EXPECT_NEAR(w[0], -a, solved);
+    } else if (std::abs(w[0] - w[1]) < solved || std::abs(w[1] - w[2]) < solved) {
+      ++two_to_one;
+      EXPECT_NEAR(w[0] + w[1] + w[2], 0.0, first_order * a);
+    }
+  }
+  EXPECT_EQ(opposite, 2);
+  EXPECT_EQ(two_to_one, 2);
+}
+
+}  // namespace
+}  // namespace epicyclic::analysis
