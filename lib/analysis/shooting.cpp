@@ -82,6 +82,19 @@ Shot shoot_states(integrate::Flow& flow, const Eigen::MatrixXd& y, Eigen::Index 
   return shot;
 }
 
+std::vector<Stretch> stretches(integrate::Flow& flow, const Eigen::MatrixXd& y, Eigen::Index periods) {
+  std::vector<Stretch> all;
+  flow.forget();
+  for (Eigen::Index i = 0; i < y.cols(); ++i) {
+    Eigen::VectorXd state = y.col(i);
+    for (const Span& span : spans(flow.field().period, periods, y.cols(), i)) {
+      all.push_back({span.from, span.to, state});
+      if (!flow.evolve(span_of(state), span.from, span.to).reached()) return {};
+    }
+  }
+  return all;
+}
+
 integrate::Evolution carry_to_pieces(integrate::Flow& flow, Eigen::Index periods, Eigen::MatrixXd& y) {
   Eigen::VectorXd carried = y.col(0);
   integrate::Evolution e;

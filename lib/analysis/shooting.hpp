@@ -38,6 +38,16 @@ struct Shot {
 /// Residuals alone.
 [[nodiscard]] Shot shoot_states(integrate::Flow& flow, const Eigen::MatrixXd& y, Eigen::Index periods);
 
+/// A stretch of an orbit within one period of the forcing, with the state that it begins with.
+struct Stretch {
+  double from = 0, to = 0;  ///< s
+  Eigen::VectorXd state;
+};
+
+/// The orbit as stretches, each carried from the one before or from the beginning of its piece.
+/// @returns none if one was not reached
+[[nodiscard]] std::vector<Stretch> stretches(integrate::Flow& flow, const Eigen::MatrixXd& y, Eigen::Index periods);
+
 /// The states where pieces begin, carried from the first one, y.col(0).
 /// @returns how it ended; the states are of no meaning unless reached
 integrate::Evolution carry_to_pieces(integrate::Flow& flow, Eigen::Index periods, Eigen::MatrixXd& y);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "analysis/contact_extrema.hpp"
 #include "analysis/shooting.hpp"
 #include "core/errors.hpp"
 #include "core/require.hpp"
@@ -75,12 +76,23 @@ std::complex<double> critical(SpecialKind kind, const Values& values, std::compl
   }
 }
 
-/// One event in one block between two orbits.
+/// A surface that is grazed between two orbits.
+struct Grazing {
+  std::size_t surface = 0;
+  bool least = false;
+  bool rising = false;
+};
+
+/// One event in one block, or at one surface, between two orbits.
 class Event {
  public:
+  Event(const OrbitFamily& family, const Grazing& grazing, const BranchOrbit& a, const BranchOrbit& b,
+        const SpecialOptions& options)
+      : family_(family), kind_(SpecialKind::grazing), grazing_(grazing), a_(a), b_(b), options_(options) {}
+
   Event(const OrbitFamily& family, const InvariantBlock& block, SpecialKind kind, const BranchOrbit& a,
         const BranchOrbit& b, const SpecialOptions& options)
-      : family_(family), block_(block), kind_(kind), a_(a), b_(b), options_(options) {
+      : family_(family), block_(&block), kind_(kind), a_(a), b_(b), options_(options) {
     const Signs at_a = signs_of(block, a);
     const Signs at_b = signs_of(block, b);
     inside_ = std::min(at_a.outside, at_b.outside);
@@ -90,24 +102,27 @@ class Event {
   SpecialPoint locate() {
     SpecialPoint point;
     point.kind = kind_;
-    point.wave = block_.wave;
+    point.wave = block_ != nullptr ? block_->wave : 0;
     point.outwards = outwards_;
+    point.surface = grazing_.surface;
+    point.least = grazing_.least;
+    point.rising = grazing_.rising;
+    std::optional<Place> place;
     try {
       bracket();
-    } catch (const std::exception& e) {
-      return unresolved(std::move(point), e.what());
-    }
-    values_.clear();
-    std::optional<Place> place = polish(family_);
-    if (!place) return unresolved(std::move(point), "no orbit beside it");
-    values_.push_back(place->value);
-    for (const OrbitFamily& other : options_.others) {
-      if (std::optional<Place> finer = polish(other)) {
-        place = std::move(finer);
-        values_.push_back(place->value);
-      } else {
-        point.note = "one of the finer families found no orbit";
+      place = polish(family_);
+      if (!place) return unresolved(std::move(point), "no orbit beside it");
+      values_ = {place->value};
+      for (const OrbitFamily& other : options_.others) {
+        if (std::optional<Place> finer = polish(other)) {
+          place = std::move(finer);
+          values_.push_back(place->value);
+        } else {
+          point.note = "one of the finer families found no orbit";
+        }
       }
+    } catch (const DomainError& e) {
+      return unresolved(std::move(point), e.what());
     }
     point.value = place->value;
     point.orbit = std::move(place->orbit);
@@ -115,7 +130,7 @@ class Event {
     point.error_bound = bound();
     // A real multiplier of a block that stands for two comes as two real ones in the whole.
     constexpr double real = 1e-6;
-    if (kind_ == SpecialKind::neimark_sacker && !block_.real) {
+    if (kind_ == SpecialKind::neimark_sacker && !block_->real) {
       if (std::abs(std::arg(point.multiplier)) < real) point.kind = SpecialKind::branch_point;
       if (std::numbers::pi - std::abs(std::arg(point.multiplier)) < real) point.kind = SpecialKind::flip;
     }
@@ -130,30 +145,41 @@ class Event {
     std::complex<double> multiplier;
   };
 
-  static SpecialPoint unresolved(SpecialPoint point, std::string note) {
+  /// All that is known is that it is between the two.
+  [[nodiscard]] SpecialPoint unresolved(SpecialPoint point, std::string note) const {
     point.kind = SpecialKind::unresolved;
-    point.note = std::move(note);
-    point.error_bound = std::numeric_limits<double>::infinity();
+    point.value = 0.5 * (a_.at.value + b_.at.value);
+    point.error_bound = std::abs(b_.at.value - a_.at.value);
+    point.orbit = a_;
+    point.note = to_string(kind_) + ": " + note;
     return point;
   }
 
   /// Of another sign on each side of the event, whatever else happens to the multipliers.
   [[nodiscard]] double sign_function(const BranchOrbit& orbit) const {
+    if (kind_ == SpecialKind::grazing) return nearest_to_the_surface(family_, orbit);
     if (kind_ == SpecialKind::fold) return orbit.direction.value;
-    const Values values = multipliers_of(block_, orbit.monodromy);
-    const Signs signs = signs_of(block_, orbit);
+    const Values values = multipliers_of(*block_, orbit.monodromy);
+    const Signs signs = signs_of(*block_, orbit);
     if (kind_ == SpecialKind::branch_point) return (signs.plus ? -1.0 : 1.0) * std::abs(nearest(values, 1.0) - 1.0);
     if (kind_ == SpecialKind::flip) return (signs.minus ? -1.0 : 1.0) * std::abs(nearest(values, -1.0) + 1.0);
     return std::log(std::abs(values.at(inside_)));
   }
 
   /// Smooth at the event, by the multiplier that it is about.
-  [[nodiscard]] double smooth_function(const BranchOrbit& orbit) const {
+  [[nodiscard]] double smooth_function(const OrbitFamily& family, const BranchOrbit& orbit) const {
+    if (kind_ == SpecialKind::grazing) return nearest_to_the_surface(family, orbit);
     if (kind_ == SpecialKind::fold) return orbit.direction.value / family_.value_scale;
-    const std::complex<double> x = critical(kind_, multipliers_of(block_, orbit.monodromy), expected_);
+    const std::complex<double> x = critical(kind_, multipliers_of(*block_, orbit.monodromy), expected_);
     if (kind_ == SpecialKind::branch_point) return x.real() - 1.0;
     if (kind_ == SpecialKind::flip) return x.real() + 1.0;
     return std::log(std::abs(x));
+  }
+
+  [[nodiscard]] double nearest_to_the_surface(const OrbitFamily& family, const BranchOrbit& orbit) const {
+    const std::optional<double> value = contact_extremum(family, orbit.at, grazing_.surface, grazing_.least);
+    if (!value) throw DomainError("the orbit could not be carried to its contacts");
+    return *value;
   }
 
   /// To a thousandth of the way from a to b.
@@ -169,7 +195,8 @@ class Event {
     };
     const double part = find_root(function, 0.0, 1.0, width);
     if (const Correction c = between(family_, a_, b_, part); c.found) near_ = c.orbit;
-    const Values values = multipliers_of(block_, near_.monodromy);
+    if (block_ == nullptr) return;
+    const Values values = multipliers_of(*block_, near_.monodromy);
     expected_ = kind_ == SpecialKind::neimark_sacker ? values.at(inside_) : critical(kind_, values, 0.0);
   }
 
@@ -190,14 +217,14 @@ class Event {
     const auto at = [&](double s) { return correct(family, origin + s * normal, normal); };
     const double span = length(family_, b_.at - a_.at);
     // Where branches cross, the orbits of both are solutions: it is looked at from beside.
-    if (kind_ == SpecialKind::branch_point && block_.wave == 0) return from_beside(at, 1e-3 * span);
+    if (kind_ == SpecialKind::branch_point && block_->wave == 0) return from_beside(family, at, 1e-3 * span);
     double s_before = 1e-3 * span;
     Correction c = at(s_before);
     if (!c.found) return std::nullopt;
-    double f_before = smooth_function(c.orbit);
+    double f_before = smooth_function(family, c.orbit);
     double s = 0.0;
     Correction last = std::move(base);
-    double f = smooth_function(last.orbit);
+    double f = smooth_function(family, last.orbit);
     constexpr int iterations = 8;
     for (int k = 0; k < iterations; ++k) {
       if (f == f_before) break;
@@ -209,7 +236,7 @@ class Event {
       f_before = f;
       s = next;
       last = std::move(c);
-      f = smooth_function(last.orbit);
+      f = smooth_function(family, last.orbit);
       constexpr double resolved = 1e-11;
       if (std::abs(f) < resolved || std::abs(s - s_before) < resolved * span) break;
     }
@@ -228,14 +255,14 @@ class Event {
 
   /// By the cubic through two orbits on each side.
   template <class At>
-  [[nodiscard]] std::optional<Place> from_beside(const At& at, double distance) const {
+  [[nodiscard]] std::optional<Place> from_beside(const OrbitFamily& family, const At& at, double distance) const {
     std::array<double, 4> f, value;
     std::array<BranchOrbit, 4> orbits;
     const std::array<double, 4> s = {-2.0 * distance, -distance, distance, 2.0 * distance};
     for (std::size_t k = 0; k < s.size(); ++k) {
       Correction c = at(s[k]);
       if (!c.found) return std::nullopt;
-      f[k] = smooth_function(c.orbit);
+      f[k] = smooth_function(family, c.orbit);
       value[k] = c.orbit.at.value;
       orbits[k] = std::move(c.orbit);
     }
@@ -252,7 +279,8 @@ class Event {
   }
 
   [[nodiscard]] std::complex<double> critical_of(const BranchOrbit& orbit) const {
-    return critical(kind_, multipliers_of(block_, orbit.monodromy), expected_);
+    if (block_ == nullptr) return 0.0;
+    return critical(kind_, multipliers_of(*block_, orbit.monodromy), expected_);
   }
 
   [[nodiscard]] double bound() const {
@@ -264,8 +292,9 @@ class Event {
   }
 
   const OrbitFamily& family_;
-  const InvariantBlock& block_;
+  const InvariantBlock* block_ = nullptr;  ///< none of a grazing
   SpecialKind kind_;
+  Grazing grazing_{};
   const BranchOrbit& a_;
   const BranchOrbit& b_;
   const SpecialOptions& options_;
@@ -300,6 +329,21 @@ void find_events(const OrbitFamily& family, const InvariantBlock& block, const B
   found.push_back(std::move(point));
 }
 
+/// Surfaces that are grazed between two orbits.
+void find_grazings(const OrbitFamily& family, const BranchOrbit& a, const BranchOrbit& b, const SpecialOptions& options,
+                   std::vector<SpecialPoint>& found) {
+  const auto at_a = contact_extrema(family, a.at);
+  const auto at_b = contact_extrema(family, b.at);
+  if (!at_a || !at_b) return;
+  for (const bool least : {true, false}) {
+    const std::vector<double>& before = least ? at_a->least : at_a->greatest;
+    const std::vector<double>& behind = least ? at_b->least : at_b->greatest;
+    for (std::size_t k = 0; k < before.size(); ++k)
+      if ((before[k] > 0.0) != (behind[k] > 0.0))
+        found.push_back(Event(family, Grazing{k, least, behind[k] > before[k]}, a, b, options).locate());
+  }
+}
+
 }  // namespace
 
 std::string to_string(SpecialKind kind) {
@@ -312,6 +356,8 @@ std::string to_string(SpecialKind kind) {
       return "flip";
     case SpecialKind::neimark_sacker:
       return "neimark_sacker";
+    case SpecialKind::grazing:
+      return "grazing";
     case SpecialKind::unresolved:
       break;
   }
@@ -328,6 +374,7 @@ std::vector<SpecialPoint> special_points_between(const OrbitFamily& family, cons
   std::vector<SpecialPoint> found;
   for (const InvariantBlock& block : invariant_blocks(static_cast<std::size_t>(a.at.states.rows()), family.symmetry))
     find_events(family, block, a, b, options, halvings, found);
+  find_grazings(family, a, b, options, found);
   // The first piece's states are there with any subdivision.
   const auto along = [&](const SpecialPoint& p) {
     return (p.orbit.at.states.col(0) - a.at.states.col(0)).dot(a.direction.states.col(0)) /

@@ -6,6 +6,7 @@
 //   a branch point  det(B - I) does and the direction does not: another branch crosses
 //   a flip          det(B + I) changes sign: orbits of twice the period leave
 //   Neimark-Sacker  a pair crosses the unit circle: a torus leaves; in a block that stands for two, one multiplier does
+//   grazing         the least or greatest value of a switching surface along the orbit changes sign
 //                                                                                                         [A-special]
 // Signs of determinants are parities of the multipliers beyond +1 and -1, so none is missed or taken for another in the
 // company of many. Where the counts do not tell one event alone, the part is halved. The place is the root of a
@@ -20,6 +21,7 @@
 #pragma once
 
 #include <complex>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -27,9 +29,9 @@
 
 namespace epicyclic::analysis {
 
-enum class SpecialKind { fold, branch_point, flip, neimark_sacker, unresolved };
+enum class SpecialKind { fold, branch_point, flip, neimark_sacker, grazing, unresolved };
 
-/// "fold", "branch_point", "flip", "neimark_sacker", "unresolved".
+/// "fold", "branch_point", "flip", "neimark_sacker", "grazing", "unresolved".
 [[nodiscard]] std::string to_string(SpecialKind kind);
 
 struct SpecialPoint {
@@ -39,8 +41,11 @@ struct SpecialPoint {
   BranchOrbit orbit;                ///< by the finest family
   int wave = 0;                     ///< j of the block: 0 keeps the symmetry, others break it
   std::complex<double> multiplier;  ///< that reaches the unit circle
-  bool outwards = false;  ///< it leaves the unit circle along the branch; of a fold with the branch's sense, too
-  std::string note{};     ///< what was not as usual
+  bool outwards = false;            ///< it leaves the unit circle along the branch
+  std::size_t surface = 0;          ///< that is grazed
+  bool least = false;               ///< where its value is least, else where it is greatest
+  bool rising = false;              ///< that value rises along the branch
+  std::string note{};               ///< what was not as usual
 };
 
 struct SpecialOptions {

@@ -17,17 +17,22 @@
 #include "analysis/special_points.hpp"
 #include "core/dense.hpp"
 #include "integrate/make_flow.hpp"
+#include "problems/clearance_exact.hpp"
 #include "problems/known_systems.hpp"
 
 namespace epicyclic::analysis {
 namespace {
 
-integrate::FlowFamily flows(const FieldFamily& fields, double tolerance) {
+integrate::IntegratorOptions exactly(double tolerance) {
   integrate::IntegratorOptions o;
   o.relative_tolerance = o.absolute_tolerance = tolerance;
   o.max_steps_per_period = 1000000;
   o.tangent_error_control = true;
-  return integrate::make_flow_family(fields, o);
+  return o;
+}
+
+integrate::FlowFamily flows(const FieldFamily& fields, double tolerance) {
+  return integrate::make_flow_family(fields, exactly(tolerance));
 }
 
 struct Traced {
@@ -269,6 +274,101 @@ TEST(Continuation, TwoPairsOfFourPartsCrossAtOnce) {
   for (const SpecialPoint& p : t.special) expect_at(p, SpecialKind::branch_point, 0.0, 0.0);
   EXPECT_NE(t.special[0].wave, t.special[1].wave);
 }
+
+// ---- the clearance oscillator, exact -----------------------------------------------------------------------------
+
+problems::ClearanceConstants of_excitation(double e) {
+  problems::ClearanceConstants constants;
+  constants.e = e;
+  return constants;
+}
+
+integrate::FlowFamily clearance_flows(double e, double to_tolerance) {
+  integrate::IntegratorOptions o = exactly(to_tolerance);
+  o.locate_contacts = true;
+  return integrate::make_flow_family([e](double w) { return problems::clearance_oscillator(w, 0.0, of_excitation(e)); },
+                                     o);
+}
+
+/// The period-1 branch over its resonance.
+Traced clearance_branch(double e) {
+  const OrbitFamily family{clearance_flows(e, tolerance)};
+  const Correction first = first_orbit(family, 0.3, settled(family.flows, 0.3, {1.1, 0.0}, 100));
+  EXPECT_TRUE(first.found) << first.message;
+  if (!first.found) return {};
+  const SpecialOptions special{{refined(family, clearance_flows(e, 0.1 * tolerance), 1),
+                                refined(family, clearance_flows(e, 0.1 * tolerance), 2)}};
+  return trace(family, {.from = 0.2, .to = 2.2}, special, first.orbit);
+}
+
+/// Where the closed form has a fold or flip: P(y, W) = y and det(M -+ I) = 0, by Newton's method from a place nearby.
+double closed_form(const SpecialPoint& near, double e) {
+  const double sign = near.kind == SpecialKind::flip ? 1.0 : -1.0;
+  const auto equations = [&](const Eigen::Vector3d& z) {
+    const problems::BasicClearanceExact<long double> exact(z(2), 0.05, 0.1, e);
+    std::array<double, 4> m = {1.0, 0.0, 0.0, 1.0};
+    const auto end = exact.evolve({z(0), z(1)}, 0.0, 2.0 * std::numbers::pi, &m);
+    return Eigen::Vector3d(end[0] - z(0), end[1] - z(1), (m[0] + sign) * (m[3] + sign) - m[1] * m[2]);
+  };
+  Eigen::Vector3d z(near.orbit.at.states(0, 0), near.orbit.at.states(1, 0), near.value);
+  for (int k = 0; k < 10; ++k) {
+    Eigen::MatrixXd j(3, 3);
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      constexpr double h = 1e-6;
+      j.col(i) =
+          (equations(z + h * Eigen::Vector3d::Unit(i)) - equations(z - h * Eigen::Vector3d::Unit(i))) / (2.0 * h);
+    }
+    z += epicyclic::solution(j, -equations(z));
+  }
+  return z(2);
+}
+
+/// Where the motion on one side of the gap comes to its edge: E W^2 = F_m |1 - W^2 + 2 i z W|.
+double closed_form_grazing(double e, double sign) {
+  const auto [z, mean, unused] = problems::ClearanceConstants{};
+  const double a = 1.0 - (e / mean) * (e / mean);
+  const double b = 2.0 - 4.0 * z * z;
+  // a u^2 - b u + 1 = 0, u = W^2.
+  return std::sqrt((b + sign * std::sqrt(b * b - 4.0 * a)) / (2.0 * a));
+}
+
+// Rounding of Newton's method on differences of the closed form.
+constexpr double closed_form_known = 1e-12;
+
+TEST(ClearanceBranch, GrazesAndFoldsWhereTheClosedFormDoes) {
+  constexpr double e = 0.05;
+  const Traced t = clearance_branch(e);
+  ASSERT_EQ(t.special.size(), 4U);
+  expect_at(t.special[0], SpecialKind::grazing, closed_form_grazing(e, -1.0), closed_form_known);
+  EXPECT_TRUE(t.special[0].least && !t.special[0].rising);  // contact is lost first
+  expect_at(t.special[1], SpecialKind::fold, closed_form(t.special[1], e), closed_form_known);
+  expect_at(t.special[2], SpecialKind::fold, closed_form(t.special[2], e), closed_form_known);
+  expect_at(t.special[3], SpecialKind::grazing, closed_form_grazing(e, 1.0), closed_form_known);
+  EXPECT_TRUE(t.special[3].least && t.special[3].rising);
+  EXPECT_EQ(t.end, BranchEnd::range);
+  // Each orbit closes by the closed form: 2 pi of it, and multipliers up to 10 about the folds.
+  constexpr double closes = 1e-9;
+  for (const BranchOrbit& o : t.orbits) {
+    const problems::BasicClearanceExact<long double> exact(o.at.value, 0.05, 0.1, e);
+    const auto end = exact.periods({o.at.states(0, 0), o.at.states(1, 0)}, 1);
+    EXPECT_NEAR(end[0], o.at.states(0, 0), closes) << o.at.value;
+    EXPECT_NEAR(end[1], o.at.states(1, 0), closes) << o.at.value;
+  }
+}
+
+TEST(ClearanceBranch, OfTwoFoldsAndFourFlipsHasEachWhereTheClosedFormDoes) {
+  constexpr double e = 0.2;
+  const Traced t = clearance_branch(e);
+  std::vector<std::string> kinds;
+  for (const SpecialPoint& p : t.special) {
+    kinds.push_back(to_string(p.kind));
+    expect_at(p, p.kind, p.kind == SpecialKind::grazing ? closed_form_grazing(e, -1.0) : closed_form(p, e),
+              closed_form_known);
+  }
+  EXPECT_EQ(kinds, (std::vector<std::string>{"grazing", "flip", "flip", "fold", "fold", "flip", "flip"}));
+}
+
+// ---- onto other branches ------------------------------------------------------------------------------------------
 
 TEST(Switching, FollowsDuffingsCascadeToPeriod16) {
   const FieldFamily fields = problems::duffing(0.3, -1.0, 1.2);

@@ -1,0 +1,152 @@
+#include "analysis/contact_extrema.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <span>
+
+#include "analysis/shooting.hpp"
+#include "core/root_finding.hpp"
+
+namespace epicyclic::analysis {
+
+namespace {
+
+constexpr int looks_per_period = 128;
+
+std::span<double> span_of(Eigen::VectorXd& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
+
+/// One surface between two looks.
+struct Look {
+  double s = 0, value = 0, rate = 0;
+};
+
+/// Extremum of the cubic through two looks whose rates differ in sign.
+double cubic_extremum(const Look& a, const Look& b, bool least) {
+  const double h = b.s - a.s;
+  // v(x) = a + h a' x + c2 x^2 + c3 x^3, x in [0, 1].
+  const double c1 = h * a.rate;
+  const double c2 = 3.0 * (b.value - a.value) - 2.0 * c1 - h * b.rate;
+  const double c3 = 2.0 * (a.value - b.value) + c1 + h * b.rate;
+  const auto value = [&](double x) { return a.value + x * (c1 + x * (c2 + x * c3)); };
+  double best = least ? std::min(a.value, b.value) : std::max(a.value, b.value);
+  const double root = std::sqrt(std::max(0.0, c2 * c2 - 3.0 * c1 * c3));
+  for (const double x : {(-c2 + root) / (3.0 * c3), (-c2 - root) / (3.0 * c3), -c1 / (2.0 * c2)})
+    if (x > 0.0 && x < 1.0) best = least ? std::min(best, value(x)) : std::max(best, value(x));
+  return best;
+}
+
+/// Sees every pair of neighbouring looks on a stretch.
+class Watch {
+ public:
+  explicit Watch(integrate::Flow& flow)
+      : flow_(flow), count_(flow.field().surfaces.count), values_(count_), rates_(count_) {}
+
+  /// @param see  see(surface, before, after)
+  template <class See>
+  bool stretch(const Stretch& of, const See& see) {
+    const int looks =
+        std::max(1, static_cast<int>(std::ceil(looks_per_period * (of.to - of.from) / flow_.field().period - 1e-9)));
+    std::vector<double> at;
+    for (int k = 1; k <= looks; ++k) at.push_back(k == looks ? of.to : of.from + (of.to - of.from) * k / looks);
+    std::vector<Look> before(count_);
+    take(of.from, of.state.data(), before);
+    std::vector<Look> now(count_);
+    Eigen::VectorXd y = of.state;
+    const auto observe = [&](std::size_t, double s, std::span<const double> state) {
+      take(s, state.data(), now);
+      for (std::size_t i = 0; i < count_; ++i) see(i, before[i], now[i]);
+      std::swap(before, now);
+    };
+    return flow_.evolve(span_of(y), of.from, of.to, at, observe).reached();
+  }
+
+  Look look(std::size_t surface, double s, const double* y) {
+    flow_.field().surfaces.evaluate(s, y, values_.data(), rates_.data());
+    return {s, values_[surface], rates_[surface]};
+  }
+
+ private:
+  void take(double s, const double* y, std::vector<Look>& to) {
+    flow_.field().surfaces.evaluate(s, y, values_.data(), rates_.data());
+    for (std::size_t i = 0; i < count_; ++i) to[i] = {s, values_[i], rates_[i]};
+  }
+
+  integrate::Flow& flow_;
+  std::size_t count_;
+  std::vector<double> values_, rates_;
+};
+
+/// Is there a place between where the value is least, or greatest?
+bool turns(const Look& a, const Look& b, bool least) {
+  return least ? a.rate <= 0.0 && b.rate >= 0.0 : a.rate >= 0.0 && b.rate <= 0.0;
+}
+
+}  // namespace
+
+std::optional<ContactExtrema> contact_extrema(const OrbitFamily& family, const CurvePoint& orbit) {
+  const auto flow = family.flows(orbit.value);
+  const std::size_t count = flow->field().surfaces.count;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  ContactExtrema e{std::vector<double>(count, infinite), std::vector<double>(count, -infinite)};
+  if (count == 0) return e;
+  const std::vector<Stretch> all = stretches(*flow, orbit.states, family.period);
+  if (all.empty()) return std::nullopt;
+  Watch watch(*flow);
+  for (const Stretch& stretch : all) {
+    const bool reached = watch.stretch(stretch, [&](std::size_t i, const Look& a, const Look& b) {
+      e.least[i] = std::min({e.least[i], a.value, b.value});
+      e.greatest[i] = std::max({e.greatest[i], a.value, b.value});
+      if (turns(a, b, true)) e.least[i] = std::min(e.least[i], cubic_extremum(a, b, true));
+      if (turns(a, b, false)) e.greatest[i] = std::max(e.greatest[i], cubic_extremum(a, b, false));
+    });
+    if (!reached) return std::nullopt;
+  }
+  return e;
+}
+
+std::optional<double> contact_extremum(const OrbitFamily& family, const CurvePoint& orbit, std::size_t surface,
+                                       bool least) {
+  const auto flow = family.flows(orbit.value);
+  const std::vector<Stretch> all = stretches(*flow, orbit.states, family.period);
+  if (all.empty()) return std::nullopt;
+  Watch watch(*flow);
+  // The looks about the extremum, and the stretch that they are on.
+  double best = least ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
+  const Stretch* on = nullptr;
+  double low = 0.0;
+  double high = 0.0;
+  for (const Stretch& stretch : all) {
+    const bool reached = watch.stretch(stretch, [&](std::size_t i, const Look& a, const Look& b) {
+      if (i != surface || !turns(a, b, least)) return;
+      const double value = cubic_extremum(a, b, least);
+      if (least ? value >= best : value <= best) return;
+      best = value;
+      on = &stretch;
+      low = a.s;
+      high = b.s;
+    });
+    if (!reached) return std::nullopt;
+  }
+  if (on == nullptr) return std::nullopt;
+  Eigen::VectorXd at_low = on->state;
+  flow->forget();
+  if (low > on->from && !flow->evolve(span_of(at_low), on->from, low).reached()) return std::nullopt;
+  const auto look_at = [&](double s) {
+    Eigen::VectorXd y = at_low;
+    flow->forget();
+    if (s > low && !flow->evolve(span_of(y), low, s).reached()) return Look{s, std::nan(""), std::nan("")};
+    return watch.look(surface, s, y.data());
+  };
+  const Look first = look_at(low);
+  const Look last = look_at(high);
+  // Flat at the resolution of the looks' own interpolation: one end is the extremum.
+  if (!(first.rate * last.rate < 0.0))
+    return least ? std::min(first.value, last.value) : std::max(first.value, last.value);
+  // The value is off by the square of what the place is.
+  constexpr double width = 1e-7;
+  return look_at(find_root([&](double s) { return look_at(s).rate; }, low, high, width * (high - low))).value;
+}
+
+}  // namespace epicyclic::analysis
