@@ -102,6 +102,7 @@ Correction iterate(const OrbitFamily& family, CurvePoint z, const CurvePoint* ro
   z.states = system.keep(z.states);
   const CurvePoint guess = z;
   double before = std::numeric_limits<double>::infinity();
+  double stepped = std::numeric_limits<double>::infinity();
   for (int k = 0; k < family.iterations; ++k) {
     const Shot shot = evaluate(family, z);
     ++result.evaluations;
@@ -113,7 +114,10 @@ Correction iterate(const OrbitFamily& family, CurvePoint z, const CurvePoint* ro
     if (!std::isfinite(residual)) break;
     result.orbit.residual = residual;
     result.distance = length(family, z - guess);
-    if (residual <= family.residual) {
+    // At the integrator's own noise nothing falls any more, and what is left to go is small.
+    constexpr double gain = 0.5;
+    const bool falls = residual <= gain * before;
+    if (residual <= family.residual || (!falls && stepped <= family.known)) {
       // The derivatives are there: the last step costs no evaluation, and leaves the square of what it takes away.
       system.set(shot, row);
       const CurvePoint last = system.solve(-shot.residual, 0.0);
@@ -132,12 +136,12 @@ Correction iterate(const OrbitFamily& family, CurvePoint z, const CurvePoint* ro
       return result;
     }
     // Two iterations that gain nothing: the guess is too far.
-    constexpr double gain = 0.5;
-    if (k > 1 && residual > gain * before) break;
+    if (k > 1 && !falls) break;
     if (k > 0) before = residual;
     system.set(shot, row);
     const CurvePoint step = system.solve(-shot.residual, 0.0);
     if (!finite(step)) break;
+    stepped = length(family, step);
     z = z + step;
   }
   result.message = "the residual is " + short_text(result.orbit.residual) + " after " +

@@ -38,6 +38,8 @@ struct OrbitFamily {
   CyclicSymmetry symmetry{};
 
   double residual = 1e-10;  ///< max |F| that Newton's method ends below; the orbit is nearer by its last step
+  double known = 1e-6;      ///< last step, as a length, with which a state is on an orbit though the residual no longer
+                            ///< falls
   int iterations = 10;
   double difference = 1e-6;  ///< step, in L, of the difference for fields that have no parameter derivative
 

@@ -97,6 +97,8 @@ class Event {
     const Signs at_b = signs_of(block, b);
     inside_ = std::min(at_a.outside, at_b.outside);
     outwards_ = at_b.outside > at_a.outside;
+    crosses_here_ = kind == SpecialKind::branch_point && block.wave == 0;
+    turns_ = kind == SpecialKind::fold || (crosses_here_ && at_a.plus == at_b.plus);
   }
 
   SpecialPoint locate() {
@@ -109,14 +111,16 @@ class Event {
     point.rising = grazing_.rising;
     std::optional<Place> place;
     try {
-      bracket();
-      place = polish(family_);
+      if (!crosses_here_) bracket();
+      place = find(family_);
       if (!place) return unresolved(std::move(point), "no orbit beside it");
       values_ = {place->value};
+      spread_ = place->spread;
       for (const OrbitFamily& other : options_.others) {
-        if (std::optional<Place> finer = polish(other)) {
+        if (std::optional<Place> finer = find(other)) {
           place = std::move(finer);
           values_.push_back(place->value);
+          spread_ = std::max(spread_, place->spread);
         } else {
           point.note = "one of the finer families found no orbit";
         }
@@ -143,6 +147,7 @@ class Event {
     double value = 0;
     BranchOrbit orbit;
     std::complex<double> multiplier;
+    double spread = 0;  ///< of the value by fewer orbits, where it is interpolated
   };
 
   /// All that is known is that it is between the two.
@@ -158,7 +163,7 @@ class Event {
   /// Of another sign on each side of the event, whatever else happens to the multipliers.
   [[nodiscard]] double sign_function(const BranchOrbit& orbit) const {
     if (kind_ == SpecialKind::grazing) return nearest_to_the_surface(family_, orbit);
-    if (kind_ == SpecialKind::fold) return orbit.direction.value;
+    if (turns_) return orbit.direction.value;
     const Values values = multipliers_of(*block_, orbit.monodromy);
     const Signs signs = signs_of(*block_, orbit);
     if (kind_ == SpecialKind::branch_point) return (signs.plus ? -1.0 : 1.0) * std::abs(nearest(values, 1.0) - 1.0);
@@ -169,7 +174,7 @@ class Event {
   /// Smooth at the event, by the multiplier that it is about.
   [[nodiscard]] double smooth_function(const OrbitFamily& family, const BranchOrbit& orbit) const {
     if (kind_ == SpecialKind::grazing) return nearest_to_the_surface(family, orbit);
-    if (kind_ == SpecialKind::fold) return orbit.direction.value / family_.value_scale;
+    if (turns_) return orbit.direction.value / family_.value_scale;
     const std::complex<double> x = critical(kind_, multipliers_of(*block_, orbit.monodromy), expected_);
     if (kind_ == SpecialKind::branch_point) return x.real() - 1.0;
     if (kind_ == SpecialKind::flip) return x.real() + 1.0;
@@ -208,16 +213,18 @@ class Event {
     return cut;
   }
 
+  [[nodiscard]] std::optional<Place> find(const OrbitFamily& family) const {
+    return crosses_here_ ? from_beside(family) : polish(family);
+  }
+
   /// The root of the smooth function along the branch, near near_.
   [[nodiscard]] std::optional<Place> polish(const OrbitFamily& family) const {
-    Correction base = recut(family);
+    Correction base = recut(family, near_);
     if (!base.found) return std::nullopt;
     const CurvePoint normal = base.orbit.direction;
     const CurvePoint origin = base.orbit.at;
     const auto at = [&](double s) { return correct(family, origin + s * normal, normal); };
     const double span = length(family_, b_.at - a_.at);
-    // Where branches cross, the orbits of both are solutions: it is looked at from beside.
-    if (kind_ == SpecialKind::branch_point && block_->wave == 0) return from_beside(family, at, 1e-3 * span);
     double s_before = 1e-3 * span;
     Correction c = at(s_before);
     if (!c.found) return std::nullopt;
@@ -243,39 +250,88 @@ class Event {
     return Place{last.orbit.at.value, last.orbit, critical_of(last.orbit)};
   }
 
-  /// The orbit at near_ by another subdivision, whose direction at the new cuts is that between two orbits.
-  [[nodiscard]] Correction recut(const OrbitFamily& family) const {
-    if (near_.at.states.cols() == family.pieces) return correct(family, near_.at, near_.direction);
+  /// An orbit by another subdivision, whose direction at the new cuts is that between two orbits.
+  [[nodiscard]] static Correction recut(const OrbitFamily& family, const BranchOrbit& orbit) {
+    if (orbit.at.states.cols() == family.pieces) return correct(family, orbit.at, orbit.direction);
     constexpr double little = 1e-4;
-    const std::optional<CurvePoint> at = cut(family, near_.at);
-    const std::optional<CurvePoint> ahead = cut(family, near_.at + little * near_.direction);
+    const std::optional<CurvePoint> at = cut(family, orbit.at);
+    const std::optional<CurvePoint> ahead = cut(family, orbit.at + little * orbit.direction);
     if (!at || !ahead) return {};
     return correct(family, *at, (1.0 / little) * (*ahead - *at));
   }
 
-  /// By the cubic through two orbits on each side.
-  template <class At>
-  [[nodiscard]] std::optional<Place> from_beside(const OrbitFamily& family, const At& at, double distance) const {
-    std::array<double, 4> f, value;
-    std::array<BranchOrbit, 4> orbits;
-    const std::array<double, 4> s = {-2.0 * distance, -distance, distance, 2.0 * distance};
-    for (std::size_t k = 0; k < s.size(); ++k) {
-      Correction c = at(s[k]);
-      if (!c.found) return std::nullopt;
-      f[k] = smooth_function(family, c.orbit);
-      value[k] = c.orbit.at.value;
-      orbits[k] = std::move(c.orbit);
+  /// Where branches cross, the orbits of both are solutions and the equations singular: from three orbits on each side.
+  [[nodiscard]] std::optional<Place> from_beside(const OrbitFamily& family) const {
+    const Correction a = recut(family, a_);
+    const Correction b = recut(family, b_);
+    if (!a.found || !b.found) return std::nullopt;
+    constexpr double apart = 0.05;  // in parts of the way from a to b
+    constexpr std::array<double, 6> beside = {-3.0 * apart, -2.0 * apart, -apart, apart, 2.0 * apart, 3.0 * apart};
+    const double at_a = sign_function(a_);
+    double root = at_a / (at_a - sign_function(b_));
+    constexpr int iterations = 6;
+    for (int k = 0; k < iterations; ++k) {
+      std::array<BranchOrbit, 6> orbits;
+      std::array<double, 6> f;
+      for (std::size_t i = 0; i < beside.size(); ++i) {
+        Correction c = between(family, a.orbit, b.orbit, root + beside[i]);
+        if (!c.found) return std::nullopt;
+        f[i] = smooth_function(family, c.orbit);
+        orbits[i] = std::move(c.orbit);
+      }
+      const std::array<double, 6> to_zero = lagrange(f, 0.0);
+      double step = 0.0;
+      for (std::size_t i = 0; i < beside.size(); ++i) step += to_zero[i] * beside[i];
+      if (!(std::abs(step) < 1.0)) return std::nullopt;
+      if (std::abs(step) < 0.1 * apart) {
+        Place place = interpolated(orbits, lagrange(beside, step));
+        for (const bool inner : {true, false})
+          place.spread = std::max(place.spread, std::abs(by_four(orbits, f, inner) - place.value));
+        return place;
+      }
+      root += step;
     }
-    // Lagrange's polynomial of the value over f, at f = 0.
-    double root = 0.0;
-    for (std::size_t k = 0; k < s.size(); ++k) {
+    return std::nullopt;
+  }
+
+  /// The value where f is 0 by four of the orbits alone: the inner ones, nearest to the singularity, or the outer ones.
+  static double by_four(const std::array<BranchOrbit, 6>& orbits, const std::array<double, 6>& f, bool inner) {
+    const std::array<std::size_t, 4> of =
+        inner ? std::array<std::size_t, 4>{1, 2, 3, 4} : std::array<std::size_t, 4>{0, 1, 4, 5};
+    double value = 0.0;
+    for (const std::size_t i : of) {
       double weight = 1.0;
-      for (std::size_t j = 0; j < s.size(); ++j)
-        if (j != k) weight *= f[j] / (f[j] - f[k]);
-      root += weight * value[k];
+      for (const std::size_t j : of)
+        if (j != i) weight *= f[j] / (f[j] - f[i]);
+      value += weight * orbits[i].at.value;
     }
-    const std::size_t best = std::abs(f[1]) < std::abs(f[2]) ? 1 : 2;
-    return Place{root, orbits[best], critical_of(orbits[best])};
+    return value;
+  }
+
+  /// Weights of Lagrange's polynomial through places, at x.
+  static std::array<double, 6> lagrange(const std::array<double, 6>& places, double x) {
+    std::array<double, 6> weights;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      weights[i] = 1.0;
+      for (std::size_t j = 0; j < places.size(); ++j)
+        if (j != i) weights[i] *= (x - places[j]) / (places[i] - places[j]);
+    }
+    return weights;
+  }
+
+  [[nodiscard]] Place interpolated(const std::array<BranchOrbit, 6>& orbits,
+                                   const std::array<double, 6>& weights) const {
+    BranchOrbit o = orbits[0];
+    o.at = 0.0 * o.at;
+    o.direction = 0.0 * o.direction;
+    o.monodromy.setZero();
+    for (std::size_t i = 0; i < orbits.size(); ++i) {
+      o.at = o.at + weights[i] * orbits[i].at;
+      o.direction = o.direction + weights[i] * orbits[i].direction;
+      o.monodromy += weights[i] * orbits[i].monodromy;
+      o.residual = std::max(o.residual, orbits[i].residual);
+    }
+    return {o.at.value, o, critical_of(o)};
   }
 
   [[nodiscard]] std::complex<double> critical_of(const BranchOrbit& orbit) const {
@@ -288,7 +344,7 @@ class Event {
     double most = 0.0;
     for (const double v : values_) most = std::max(most, std::abs(v - values_.back()));
     constexpr double rounding = 1e-14;
-    return options_.safety * most + rounding * std::abs(values_.back());
+    return options_.safety * (most + spread_) + rounding * std::abs(values_.back());
   }
 
   const OrbitFamily& family_;
@@ -300,16 +356,41 @@ class Event {
   const SpecialOptions& options_;
   std::size_t inside_ = 0;
   bool outwards_ = false;
+  bool crosses_here_ = false;  ///< another branch, among the orbits that Newton's method finds
+  bool turns_ = false;         ///< the parameter does
   BranchOrbit near_;
   std::complex<double> expected_;
   std::vector<double> values_;
+  double spread_ = 0;
 };
+
+/// Is a turn of the parameter without a crossing a pitchfork, seen from the branch that is born there? The multiplier
+/// touches 1 then and is on one side before and behind; where it is not, a fold stands beside a branch point.
+bool turns_at_a_pitchfork(const OrbitFamily& family, const InvariantBlock& block, const BranchOrbit& a,
+                          const BranchOrbit& b) {
+  const Signs at_a = signs_of(block, a);
+  const Signs at_b = signs_of(block, b);
+  if (at_a.falling == at_b.falling || at_a.plus != at_b.plus || at_a.minus != at_b.minus ||
+      at_a.outside != at_b.outside)
+    return false;
+  const double root = a.direction.value / (a.direction.value - b.direction.value);
+  // So far from the turn that the multiplier is clear of 1.
+  constexpr double aside = 0.15;
+  const Correction before = between(family, a, b, root - aside);
+  const Correction behind = between(family, a, b, root + aside);
+  if (!before.found || !behind.found) return false;
+  const Signs left = signs_of(block, before.orbit);
+  const Signs right = signs_of(block, behind.orbit);
+  return left.falling == at_a.falling && right.falling == at_b.falling && left.plus == at_a.plus &&
+         right.plus == at_a.plus;
+}
 
 /// All events in one block, the part halved until each is alone.
 void find_events(const OrbitFamily& family, const InvariantBlock& block, const BranchOrbit& a, const BranchOrbit& b,
                  const SpecialOptions& options, int halvings, std::vector<SpecialPoint>& found) {
-  const std::optional<SpecialKind> kind = event_between(block, signs_of(block, a), signs_of(block, b));
+  std::optional<SpecialKind> kind = event_between(block, signs_of(block, a), signs_of(block, b));
   if (!kind) return;
+  if (turns_at_a_pitchfork(family, block, a, b)) kind = SpecialKind::branch_point;
   if (*kind != SpecialKind::unresolved) {
     found.push_back(Event(family, block, *kind, a, b, options).locate());
     return;

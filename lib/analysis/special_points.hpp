@@ -3,7 +3,8 @@
 // Between two orbits of a branch each invariant block [A-blocks] of the monodromy is looked at by itself:
 //
 //   a fold          the parameter's part of the direction changes sign: two orbits meet and vanish
-//   a branch point  det(B - I) does and the direction does not: another branch crosses
+//   a branch point  det(B - I) does and the direction does not: another branch crosses; or the other way about, seen
+//                   from a branch that is born at a pitchfork
 //   a flip          det(B + I) changes sign: orbits of twice the period leave
 //   Neimark-Sacker  a pair crosses the unit circle: a torus leaves; in a block that stands for two, one multiplier does
 //   grazing         the least or greatest value of a switching surface along the orbit changes sign

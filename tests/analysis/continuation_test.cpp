@@ -1,7 +1,5 @@
 // Branches of periodic orbits and their special points, on systems with known answers.
 
-#include "analysis/continuation.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,63 +12,25 @@
 #include <gtest/gtest.h>
 
 #include "analysis/branch_switching.hpp"
-#include "analysis/special_points.hpp"
 #include "core/dense.hpp"
-#include "integrate/make_flow.hpp"
+#include "problems/branches.hpp"
 #include "problems/clearance_exact.hpp"
 #include "problems/known_systems.hpp"
 
 namespace epicyclic::analysis {
 namespace {
 
-integrate::IntegratorOptions exactly(double tolerance) {
-  integrate::IntegratorOptions o;
-  o.relative_tolerance = o.absolute_tolerance = tolerance;
-  o.max_steps_per_period = 1000000;
-  o.tangent_error_control = true;
-  return o;
-}
-
-integrate::FlowFamily flows(const FieldFamily& fields, double tolerance) {
-  return integrate::make_flow_family(fields, exactly(tolerance));
-}
-
-struct Traced {
-  std::vector<BranchOrbit> orbits;
-  std::vector<SpecialPoint> special;
-  BranchEnd end = BranchEnd::none;
-  int evaluations = 0;
-};
-
-/// One way along the branch with all its special points.
-Traced trace(const OrbitFamily& family, const ContinuationOptions& options, const SpecialOptions& special,
-             BranchOrbit start) {
-  Traced t;
-  Continuation branch(family, options, std::move(start));
-  t.orbits.push_back(branch.now());
-  while (branch.advance()) {
-    t.orbits.push_back(branch.now());
-    for (SpecialPoint& p : special_points_between(family, branch.before(), branch.now(), special))
-      t.special.push_back(std::move(p));
-  }
-  t.end = branch.end();
-  t.evaluations = branch.evaluations();
-  return t;
-}
-
-/// The orbit that a motion from `start` settles to.
-std::vector<double> settled(const integrate::FlowFamily& family, double value, std::vector<double> start, int periods) {
-  const auto flow = family(value);
-  for (int k = 0; k < periods; ++k) EXPECT_TRUE(flow->evolve(start, 0.0, flow->field().period).reached());
-  return start;
-}
+using problems::BranchProblem;
+using problems::flows;
+using problems::settled;
+using problems::trace;
+using problems::Traced;
 
 constexpr double tolerance = 1e-11;
 
-/// By a tenth of the tolerance and twice the pieces.
 SpecialOptions with_bounds(const OrbitFamily& family, const FieldFamily& fields) {
-  return {{refined(family, flows(fields, 0.1 * tolerance), family.pieces),
-           refined(family, flows(fields, 0.1 * tolerance), 2 * family.pieces)}};
+  return problems::with_bounds(
+      family, [&](double to_tolerance) { return flows(fields, to_tolerance); }, tolerance);
 }
 
 /// The branch from the orbit that a motion settles to, the way of a rising parameter.
@@ -241,20 +201,10 @@ TEST(Continuation, FindsTheNeimarkSackerPointOfTheNormalForm) {
   EXPECT_NEAR(std::abs(std::arg(t.special[0].multiplier)), 2.0 * std::numbers::pi * 0.3, eight_digits);
 }
 
-/// Parts moved on by one.
-template <std::size_t N>
-CyclicSymmetry moved_on() {
-  return cyclic_symmetry(N, N, [](std::span<const double> y) {
-    std::vector<double> next(N);
-    for (std::size_t i = 0; i < N; ++i) next[(i + 1) % N] = y[i];
-    return next;
-  });
-}
-
 TEST(Continuation, NamesTheSymmetryThatAPitchforkBreaks) {
   const FieldFamily fields = problems::alike_parts<3>();
   OrbitFamily family{flows(fields, tolerance)};
-  family.symmetry = moved_on<3>();
+  family.symmetry = problems::moved_on(3);
   const Traced t = trace(family, fields, {.from = -0.1, .to = 0.1}, -0.1, {1.0, 1.0, 1.0}, 1);
   ASSERT_EQ(t.special.size(), 1U);
   expect_at(t.special[0], SpecialKind::branch_point, 0.0, 0.0);
@@ -268,7 +218,7 @@ TEST(Continuation, TwoPairsOfFourPartsCrossAtOnce) {
   // Waves 1 and 2 of 4: two multipliers and one, at one place.
   const FieldFamily fields = problems::alike_parts<4>();
   OrbitFamily family{flows(fields, tolerance)};
-  family.symmetry = moved_on<4>();
+  family.symmetry = problems::moved_on(4);
   const Traced t = trace(family, fields, {.from = -0.1, .to = 0.1}, -0.1, {1.0, 1.0, 1.0, 1.0}, 1);
   ASSERT_EQ(t.special.size(), 2U);
   for (const SpecialPoint& p : t.special) expect_at(p, SpecialKind::branch_point, 0.0, 0.0);
@@ -277,28 +227,15 @@ TEST(Continuation, TwoPairsOfFourPartsCrossAtOnce) {
 
 // ---- the clearance oscillator, exact -----------------------------------------------------------------------------
 
-problems::ClearanceConstants of_excitation(double e) {
-  problems::ClearanceConstants constants;
-  constants.e = e;
-  return constants;
-}
-
-integrate::FlowFamily clearance_flows(double e, double to_tolerance) {
-  integrate::IntegratorOptions o = exactly(to_tolerance);
-  o.locate_contacts = true;
-  return integrate::make_flow_family([e](double w) { return problems::clearance_oscillator(w, 0.0, of_excitation(e)); },
-                                     o);
-}
-
 /// The period-1 branch over its resonance.
 Traced clearance_branch(double e) {
-  const OrbitFamily family{clearance_flows(e, tolerance)};
-  const Correction first = first_orbit(family, 0.3, settled(family.flows, 0.3, {1.1, 0.0}, 100));
-  EXPECT_TRUE(first.found) << first.message;
-  if (!first.found) return {};
-  const SpecialOptions special{{refined(family, clearance_flows(e, 0.1 * tolerance), 1),
-                                refined(family, clearance_flows(e, 0.1 * tolerance), 2)}};
-  return trace(family, {.from = 0.2, .to = 2.2}, special, first.orbit);
+  BranchProblem problem;
+  problem.flows = [e](double to_tolerance) { return problems::clearance_flows(e, to_tolerance); };
+  problem.start = 0.3;
+  problem.state = {1.1, 0.0};
+  problem.settle = 100;
+  problem.options = {.from = 0.2, .to = 2.2};
+  return problem.trace(tolerance, 1);
 }
 
 /// Where the closed form has a fold or flip: P(y, W) = y and det(M -+ I) = 0, by Newton's method from a place nearby.
@@ -400,7 +337,7 @@ TEST(Switching, FollowsDuffingsCascadeToPeriod16) {
 TEST(Switching, FindsEachKindOfOrbitThatLeavesAPitchforkOfAlikeParts) {
   const FieldFamily fields = problems::alike_parts<3>();
   OrbitFamily family{flows(fields, tolerance)};
-  family.symmetry = moved_on<3>();
+  family.symmetry = problems::moved_on(3);
   const Traced t = trace(family, fields, {.from = -0.1, .to = 0.1}, -0.1, {1.0, 1.0, 1.0}, 1);
   ASSERT_EQ(t.special.size(), 1U);
   // Parts at (a, -a, 0), a^2 = p exactly, and as (2, -1, -1) to first order, each with its sign, of all turns one.
