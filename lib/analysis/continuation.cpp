@@ -94,16 +94,37 @@ bool Continuation::back_at_the_start(const BranchOrbit& next, double step) const
   return c.found && length(family_, c.orbit.at - start_.at) < same * step;
 }
 
-bool Continuation::to_the_end_of_the_range(double step) {
-  const CurvePoint ahead = guess(step);
-  const double end = ahead.value > options_.to ? options_.to : options_.from;
-  const double part = (end - now_.at.value) / (ahead.value - now_.at.value);
-  const Correction c = correct_at(family_, end, guess(part * step).states, &now_.direction);
+/// The first of the values that orbits are wanted at, the ends of the range among them, on the way to another.
+std::optional<double> Continuation::wanted_before(double value) const {
+  std::optional<double> first;
+  const auto ask = [&](double wanted) {
+    const bool on_the_way =
+        value > now_.at.value ? wanted > now_.at.value && wanted <= value : wanted < now_.at.value && wanted >= value;
+    if (on_the_way && (!first || std::abs(wanted - now_.at.value) < std::abs(*first - now_.at.value))) first = wanted;
+  };
+  ask(options_.from);
+  ask(options_.to);
+  for (const double v : options_.values) ask(v);
+  return first;
+}
+
+bool Continuation::step_onto(double value, double step) {
+  const double ahead = guess(step).value;
+  const double part = std::clamp((value - now_.at.value) / (ahead - now_.at.value), 0.0, 1.0);
+  const Correction c = correct_at(family_, value, guess(part * step).states, &now_.direction);
   evaluations_ += c.evaluations;
   if (!accept(c, step)) return false;
-  before_ = std::exchange(now_, c.orbit);
-  end_ = BranchEnd::range;
+  take(c.orbit);
+  if (value == options_.from || value == options_.to) end_ = BranchEnd::range;
   return true;
+}
+
+void Continuation::take(const BranchOrbit& next) {
+  const double taken = inner_product(family_, next.at - now_.at, now_.direction);
+  bend_ = (1.0 / taken) * (next.direction - now_.direction);
+  before_ = std::exchange(now_, next);
+  ++orbits_;
+  if (length(family_, now_.at - start_.at) > 2.0 * step_) left_start_ = true;
 }
 
 bool Continuation::advance() {
@@ -112,34 +133,27 @@ bool Continuation::advance() {
     end_ = BranchEnd::many;
     return false;
   }
+  // From an end of the range outwards there is nothing.
+  const double outwards = now_.direction.value;
+  if ((now_.at.value == options_.to && outwards > 0.0) || (now_.at.value == options_.from && outwards < 0.0)) {
+    end_ = BranchEnd::range;
+    return false;
+  }
   for (;;) {
     const CurvePoint ahead = guess(step_);
-    const bool leaves = ahead.value > options_.to || ahead.value < options_.from;
-    if (leaves) {
-      // At the very end there is nothing ahead.
-      const double end = ahead.value > options_.to ? options_.to : options_.from;
-      if (now_.at.value == end) {
-        end_ = BranchEnd::range;
-        return false;
-      }
-      if (to_the_end_of_the_range(step_)) {
-        ++orbits_;
-        return true;
-      }
+    if (const auto wanted = wanted_before(ahead.value)) {
+      if (step_onto(*wanted, step_)) return true;
     } else {
       const Correction c = correct(family_, ahead, now_.direction);
       evaluations_ += c.evaluations;
-      if (accept(c, step_) && c.orbit.at.value <= options_.to && c.orbit.at.value >= options_.from) {
+      // What the guess did not reach may have been passed all the same: a shorter step will tell.
+      if (accept(c, step_) && !wanted_before(c.orbit.at.value)) {
         if (back_at_the_start(c.orbit, step_)) {
           before_ = std::exchange(now_, start_);
           end_ = BranchEnd::closed;
           return true;
         }
-        const double taken = inner_product(family_, c.orbit.at - now_.at, now_.direction);
-        bend_ = (1.0 / taken) * (c.orbit.direction - now_.direction);
-        before_ = std::exchange(now_, c.orbit);
-        ++orbits_;
-        if (length(family_, now_.at - start_.at) > 2.0 * step_) left_start_ = true;
+        take(c.orbit);
         step_ = std::clamp(step_ * std::clamp(grow_, 0.3, 2.0), options_.least_step, options_.largest_step);
         return true;
       }

@@ -23,8 +23,9 @@
 namespace epicyclic::analysis {
 
 struct ContinuationOptions {
-  double from = 0, to = 0;   ///< range of the parameter, from < to
-  double first_step = 0.01;  ///< [A-length]
+  double from = 0, to = 0;       ///< range of the parameter, from < to
+  std::vector<double> values{};  ///< at which orbits are wanted, exactly
+  double first_step = 0.01;      ///< [A-length]
   double least_step = 1e-7;
   double largest_step = 0.1;
   double turn = 0.1;               ///< angle between the directions of neighbours that steps aim at [rad]
@@ -65,7 +66,9 @@ class Continuation {
  private:
   [[nodiscard]] CurvePoint guess(double step) const;
   [[nodiscard]] bool accept(const Correction& c, double step);
-  bool to_the_end_of_the_range(double step);
+  [[nodiscard]] std::optional<double> wanted_before(double value) const;
+  bool step_onto(double value, double step);
+  void take(const BranchOrbit& next);
   [[nodiscard]] bool back_at_the_start(const BranchOrbit& next, double step) const;
 
   OrbitFamily family_;

@@ -201,6 +201,46 @@ TEST(Continuation, FindsTheNeimarkSackerPointOfTheNormalForm) {
   EXPECT_NEAR(std::abs(std::arg(t.special[0].multiplier)), 2.0 * std::numbers::pi * 0.3, eight_digits);
 }
 
+TEST(Continuation, KnowsAClosedBranchWhenItIsBack) {
+  const FieldFamily fields = problems::closed_branch();
+  const Traced t = trace({flows(fields, tolerance)}, fields, {.from = -2.0, .to = 2.0}, 0.3, {2.0}, 10);
+  EXPECT_EQ(t.end, BranchEnd::closed);
+  ASSERT_EQ(t.special.size(), 2U);
+  expect_at(t.special[0], SpecialKind::fold, 1.0, 0.0);
+  expect_at(t.special[1], SpecialKind::fold, -1.0, 0.0);
+  double once_around = 0.0;
+  for (std::size_t i = 1; i < t.orbits.size(); ++i) {
+    const auto angle = [](const BranchOrbit& o) { return std::atan2(o.at.states(0, 0) - 1.0, o.at.value); };
+    once_around += std::remainder(angle(t.orbits[i]) - angle(t.orbits[i - 1]), 2.0 * std::numbers::pi);
+  }
+  EXPECT_NEAR(std::abs(once_around), 2.0 * std::numbers::pi, eight_digits);
+}
+
+TEST(Continuation, StopsAtValuesThatAreAskedForOnBothSidesOfAFold) {
+  const FieldFamily fields = problems::closed_branch();
+  const ContinuationOptions options{.from = -0.5, .to = 2.0, .values = {0.4, 0.95}};
+  const Traced t = trace({flows(fields, tolerance)}, fields, options, 0.3, {2.0}, 10);
+  EXPECT_EQ(t.end, BranchEnd::range);
+  EXPECT_EQ(t.orbits.back().at.value, -0.5);
+  std::vector<double> at;
+  for (const BranchOrbit& o : t.orbits)
+    if (o.at.value == 0.4 || o.at.value == 0.95) {
+      at.push_back(o.at.value);
+      EXPECT_NEAR(std::abs(o.at.states(0, 0) - 1.0), std::sqrt(1.0 - o.at.value * o.at.value), eight_digits);
+    }
+  EXPECT_EQ(at, (std::vector<double>{0.4, 0.95, 0.95, 0.4}));
+}
+
+TEST(Continuation, FromAnEndOfTheRangeOutwardsThereIsNothing) {
+  const FieldFamily fields = problems::closed_branch();
+  const OrbitFamily family{flows(fields, tolerance)};
+  const Correction first = first_orbit(family, 0.5, std::array{1.866});
+  ASSERT_TRUE(first.found);
+  Continuation branch(family, {.from = 0.0, .to = 0.5}, first.orbit);
+  EXPECT_FALSE(branch.advance());
+  EXPECT_EQ(branch.end(), BranchEnd::range);
+}
+
 TEST(Continuation, NamesTheSymmetryThatAPitchforkBreaks) {
   const FieldFamily fields = problems::alike_parts<3>();
   OrbitFamily family{flows(fields, tolerance)};

@@ -182,4 +182,15 @@ FieldFamily alike_parts() {
                                       });
 }
 
+/// w' = (1 - w^2 - p^2) / 10 about the motion y = cos s + w: orbits w^2 + p^2 = 1, a closed branch with folds at p = -1
+/// and 1 and the multiplier exp(-0.4 pi w). Its parameter is p.
+inline FieldFamily closed_branch() {
+  return integrate::make_field_family(1, 2.0 * std::numbers::pi,
+                                      [](const auto& p, std::size_t, double s, const auto* y, auto* d) {
+                                        using T = std::remove_cvref_t<decltype(d[0])>;
+                                        const T w = y[0] - std::cos(s);
+                                        d[0] = 0.1 * (1.0 - w * w - p * p) - std::sin(s);
+                                      });
+}
+
 }  // namespace epicyclic::problems
