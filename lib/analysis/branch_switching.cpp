@@ -17,7 +17,7 @@ namespace {
 /// Real directions of y_0 in which orbits may leave.
 std::vector<Eigen::VectorXd> directions(const OrbitFamily& family, const SpecialPoint& point, int angles) {
   const Eigen::MatrixXd& m = point.orbit.monodromy;
-  const auto blocks = invariant_blocks(static_cast<std::size_t>(m.rows()), family.symmetry);
+  const auto blocks = invariant_blocks(static_cast<std::size_t>(m.rows()), family.kept());
   const InvariantBlock* block = nullptr;
   for (const InvariantBlock& b : blocks)
     if (b.wave == point.wave) block = &b;
@@ -92,7 +92,7 @@ std::vector<Departure> departures(const OrbitFamily& family, const SpecialPoint&
   OrbitFamily other = family;
   if (flip) other.period *= 2;
   if (flip) other.pieces *= 2;
-  if (point.wave != 0) other.symmetry = {};
+  if (point.wave != 0) other.keeps_symmetry = false;
   std::vector<Departure> found;
   std::vector<Eigen::MatrixXd> seen;
   for (const Eigen::VectorXd& v : directions(family, point, options.angles)) {
@@ -124,7 +124,8 @@ std::vector<Departure> departures(const OrbitFamily& family, const SpecialPoint&
       }
       if (known) continue;
       seen.push_back(states);
-      found.push_back({other, std::move(c.orbit)});
+      const Eigen::MatrixXd& once = point.orbit.monodromy;
+      found.push_back({other, {*base, normal, flip ? Eigen::MatrixXd(once * once) : once, 0.0}, std::move(c.orbit)});
     }
   }
   return found;

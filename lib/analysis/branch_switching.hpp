@@ -30,6 +30,7 @@ struct SwitchOptions {
 /// One orbit on a branch that leaves a special point, going away from it.
 struct Departure {
   OrbitFamily family;  ///< of that branch: of twice the period, or without the symmetry that is broken
+  BranchOrbit origin;  ///< the point itself as an orbit of that family, its direction the way that is left
   BranchOrbit orbit;
 };
 

@@ -51,7 +51,7 @@ Continuation::Continuation(OrbitFamily family, const ContinuationOptions& option
   options_.validate();
   if (!(start_.at.value >= options_.from && start_.at.value <= options_.to))
     throw InputError("the branch starts at " + short_text(start_.at.value) + ", outside its range");
-  blocks_ = invariant_blocks(static_cast<std::size_t>(start_.at.states.rows()), family_.symmetry);
+  blocks_ = invariant_blocks(static_cast<std::size_t>(start_.at.states.rows()), family_.kept());
   before_ = now_ = start_;
   bend_ = 0.0 * start_.at;
 }

@@ -7,6 +7,7 @@
 
 #include "analysis/shooting.hpp"
 #include "core/dense.hpp"
+#include "core/errors.hpp"
 #include "core/require.hpp"
 #include "core/text.hpp"
 
@@ -16,8 +17,8 @@ namespace {
 
 /// States among which Newton's method stays, y = V c.
 Eigen::MatrixXd kept_states(const OrbitFamily& family, Eigen::Index dimension) {
-  if (family.symmetry.map.size() == 0) return Eigen::MatrixXd::Identity(dimension, dimension);
-  return invariant_blocks(static_cast<std::size_t>(dimension), family.symmetry).front().basis.real();
+  if (family.kept().map.size() == 0) return Eigen::MatrixXd::Identity(dimension, dimension);
+  return invariant_blocks(static_cast<std::size_t>(dimension), family.kept()).front().basis.real();
 }
 
 /// F with its derivatives at a point, by the family's own parameter derivative or by differences.
@@ -166,6 +167,8 @@ CurvePoint operator-(const CurvePoint& a, const CurvePoint& b) { return {a.state
 CurvePoint operator*(double factor, const CurvePoint& a) { return {factor * a.states, factor * a.value}; }
 
 double inner_product(const OrbitFamily& family, const CurvePoint& a, const CurvePoint& b) {
+  if (a.states.rows() != b.states.rows() || a.states.cols() != b.states.cols())
+    throw DomainError("orbits of different subdivisions have no inner product");
   const double states = a.states.cwiseProduct(b.states).sum();
   return states / (static_cast<double>(a.states.size()) * family.state_scale * family.state_scale) +
          a.value * b.value / (family.value_scale * family.value_scale);

@@ -34,14 +34,17 @@ struct OrbitFamily {
   double value_scale = 1;  ///< L
   double state_scale = 1;  ///< Y
 
-  /// Orbits that a symmetry leaves as they are: Newton's method stays among them [A-blocks, j = 0]. None: all orbits.
-  CyclicSymmetry symmetry{};
+  CyclicSymmetry symmetry{};   ///< of the flows, if they have one
+  bool keeps_symmetry = true;  ///< the orbits are those that it leaves as they are: Newton's method stays among them
 
   double residual = 1e-10;  ///< max |F| that Newton's method ends below; the orbit is nearer by its last step
   double known = 1e-6;      ///< last step, as a length, with which a state is on an orbit though the residual no longer
                             ///< falls
   int iterations = 10;
   double difference = 1e-6;  ///< step, in L, of the difference for fields that have no parameter derivative
+
+  /// The symmetry that the orbits keep.
+  [[nodiscard]] CyclicSymmetry kept() const { return keeps_symmetry ? symmetry : CyclicSymmetry{}; }
 
   /// @throws InputError for a period, pieces or iterations below 1, or scales that are not positive
   void validate() const;
@@ -58,6 +61,7 @@ struct CurvePoint {
 [[nodiscard]] CurvePoint operator*(double factor, const CurvePoint& a);
 
 /// [A-length]
+/// @throws DomainError for different subdivisions
 [[nodiscard]] double inner_product(const OrbitFamily& family, const CurvePoint& a, const CurvePoint& b);
 [[nodiscard]] double length(const OrbitFamily& family, const CurvePoint& a);
 

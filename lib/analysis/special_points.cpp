@@ -116,11 +116,13 @@ class Event {
       if (!place) return unresolved(std::move(point), "no orbit beside it");
       values_ = {place->value};
       spread_ = place->spread;
-      for (const OrbitFamily& other : options_.others) {
-        if (std::optional<Place> finer = find(other)) {
-          place = std::move(finer);
-          values_.push_back(place->value);
-          spread_ = std::max(spread_, place->spread);
+      for (const Refinement& other : options_.others) {
+        OrbitFamily finer_family = family_;
+        finer_family.flows = other.flows;
+        finer_family.pieces *= other.pieces;
+        if (const std::optional<Place> finer = find(finer_family)) {
+          values_.push_back(finer->value);
+          spread_ = std::max(spread_, finer->spread);
         } else {
           point.note = "one of the finer families found no orbit";
         }
@@ -128,7 +130,7 @@ class Event {
     } catch (const DomainError& e) {
       return unresolved(std::move(point), e.what());
     }
-    point.value = place->value;
+    point.value = values_.back();
     point.orbit = std::move(place->orbit);
     point.multiplier = place->multiplier;
     point.error_bound = bound();
@@ -453,24 +455,13 @@ std::vector<SpecialPoint> special_points_between(const OrbitFamily& family, cons
   // Of what is left after as many, neighbours differ by 1e-6 of their distance.
   constexpr int halvings = 20;
   std::vector<SpecialPoint> found;
-  for (const InvariantBlock& block : invariant_blocks(static_cast<std::size_t>(a.at.states.rows()), family.symmetry))
+  for (const InvariantBlock& block : invariant_blocks(static_cast<std::size_t>(a.at.states.rows()), family.kept()))
     find_events(family, block, a, b, options, halvings, found);
   find_grazings(family, a, b, options, found);
-  // The first piece's states are there with any subdivision.
-  const auto along = [&](const SpecialPoint& p) {
-    return (p.orbit.at.states.col(0) - a.at.states.col(0)).dot(a.direction.states.col(0)) /
-               (static_cast<double>(a.at.states.rows()) * family.state_scale * family.state_scale) +
-           (p.value - a.at.value) * a.direction.value / (family.value_scale * family.value_scale);
-  };
+  const auto along = [&](const SpecialPoint& p) { return inner_product(family, p.orbit.at - a.at, a.direction); };
   std::stable_sort(found.begin(), found.end(),
                    [&](const SpecialPoint& p, const SpecialPoint& q) { return along(p) < along(q); });
   return found;
-}
-
-OrbitFamily refined(OrbitFamily family, integrate::FlowFamily flows, int pieces) {
-  family.flows = std::move(flows);
-  family.pieces = pieces;
-  return family;
 }
 
 }  // namespace epicyclic::analysis

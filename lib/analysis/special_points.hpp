@@ -39,7 +39,7 @@ struct SpecialPoint {
   SpecialKind kind = SpecialKind::unresolved;
   double value = 0;                 ///< of the parameter
   double error_bound = 0;           ///< of the value [A-bound]; not finite where there was nothing to compare with
-  BranchOrbit orbit;                ///< by the finest family
+  BranchOrbit orbit;                ///< of the branch's own family, there
   int wave = 0;                     ///< j of the block: 0 keeps the symmetry, others break it
   std::complex<double> multiplier;  ///< that reaches the unit circle
   bool outwards = false;            ///< it leaves the unit circle along the branch
@@ -49,9 +49,14 @@ struct SpecialPoint {
   std::string note{};               ///< what was not as usual
 };
 
+/// The same orbits by another tolerance or subdivision.
+struct Refinement {
+  integrate::FlowFamily flows;
+  int pieces = 1;  ///< for each of the family's
+};
+
 struct SpecialOptions {
-  /// The same orbits by other tolerances or subdivisions, the finest last; none: no bounds.
-  std::vector<OrbitFamily> others{};
+  std::vector<Refinement> others{};  ///< the finest last; none: no bounds
   double safety = 3;
 
   /// @throws InputError for a safety factor below 1
@@ -61,8 +66,5 @@ struct SpecialOptions {
 /// Those between two neighbours on a branch, in its order.
 [[nodiscard]] std::vector<SpecialPoint> special_points_between(const OrbitFamily& family, const BranchOrbit& a,
                                                                const BranchOrbit& b, const SpecialOptions& options);
-
-/// The family of other flows and another number of pieces, for the bounds.
-[[nodiscard]] OrbitFamily refined(OrbitFamily family, integrate::FlowFamily flows, int pieces);
 
 }  // namespace epicyclic::analysis

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/branch_switching.hpp"
+#include "analysis/branch_tree.hpp"
 #include "core/dense.hpp"
 #include "problems/branches.hpp"
 #include "problems/clearance_exact.hpp"
@@ -28,9 +29,8 @@ using problems::Traced;
 
 constexpr double tolerance = 1e-11;
 
-SpecialOptions with_bounds(const OrbitFamily& family, const FieldFamily& fields) {
-  return problems::with_bounds(
-      family, [&](double to_tolerance) { return flows(fields, to_tolerance); }, tolerance);
+SpecialOptions with_bounds(const FieldFamily& fields) {
+  return problems::with_bounds([&](double to_tolerance) { return flows(fields, to_tolerance); }, tolerance);
 }
 
 /// The branch from the orbit that a motion settles to, the way of a rising parameter.
@@ -38,7 +38,7 @@ Traced trace(const OrbitFamily& family, const FieldFamily& fields, const Continu
              const std::vector<double>& start, int periods) {
   const Correction first = first_orbit(family, value, settled(family.flows, value, start, periods));
   EXPECT_TRUE(first.found) << first.message;
-  return first.found ? trace(family, options, with_bounds(family, fields), first.orbit) : Traced{};
+  return first.found ? trace(family, options, with_bounds(fields), first.orbit) : Traced{};
 }
 
 // What is located holds to what is asked of it, eight digits, and to its own bound.
@@ -356,7 +356,7 @@ TEST(Switching, FollowsDuffingsCascadeToPeriod16) {
   std::vector<double> flips;
   for (int n = 1; n <= 16; n *= 2) {
     ASSERT_EQ(family.period, n);
-    const Traced t = trace(family, {.from = 0.2, .to = 0.3}, with_bounds(family, fields), from);
+    const Traced t = trace(family, {.from = 0.2, .to = 0.3}, with_bounds(fields), from);
     ASSERT_EQ(t.special.size(), 1U);
     EXPECT_EQ(to_string(t.special[0].kind), "flip");
     EXPECT_LT(t.special[0].error_bound, eight_digits);
@@ -400,6 +400,140 @@ TEST(Switching, FindsEachKindOfOrbitThatLeavesAPitchforkOfAlikeParts) {
   }
   EXPECT_EQ(opposite, 2);
   EXPECT_EQ(two_to_one, 2);
+}
+
+// ---- the tree ------------------------------------------------------------------------------------------------------
+
+/// All branches from one orbit.
+std::vector<Branch> tree_from(const OrbitFamily& family, double value, const std::vector<double>& near,
+                              const TreeOptions& options) {
+  const Correction first = first_orbit(family, value, near);
+  EXPECT_TRUE(first.found) << first.message;
+  BranchTree tree(options);
+  if (first.found) tree.start(family, first.orbit);
+  while (tree.advance()) {
+  }
+  EXPECT_FALSE(tree.full());
+  return tree.branches();
+}
+
+std::vector<std::pair<std::string, double>> points_of(const Branch& branch) {
+  std::vector<std::pair<std::string, double>> points;
+  for (const SpecialPoint& p : branch.special) points.emplace_back(to_string(p.kind), p.value);
+  return points;
+}
+
+/// Each special point lies between the orbits that it is said to.
+void expect_in_order(const Branch& branch) {
+  ASSERT_EQ(branch.after.size(), branch.special.size());
+  for (std::size_t k = 0; k < branch.special.size(); ++k) {
+    ASSERT_LT(branch.after[k] + 1, branch.orbits.size());
+    const BranchOrbit& a = branch.orbits[branch.after[k]];
+    const BranchOrbit& b = branch.orbits[branch.after[k] + 1];
+    const double along = inner_product(branch.family, branch.special[k].orbit.at - a.at, a.direction);
+    EXPECT_GE(along, -eight_digits);
+    EXPECT_LE(along, inner_product(branch.family, b.at - a.at, a.direction) + eight_digits);
+  }
+  for (std::size_t k = 0; k + 1 < branch.orbits.size(); ++k)
+    EXPECT_GT(inner_product(branch.family, branch.orbits[k + 1].at - branch.orbits[k].at, branch.orbits[k].direction),
+              0.0);
+}
+
+TEST(Tree, DuffingsBranchOfPeriod4JoinsTwoFlipsOfPeriod2) {
+  const FieldFamily fields = problems::duffing(0.3, -1.0, 1.2);
+  const OrbitFamily family{flows(fields, tolerance)};
+  // From the middle of the range: the start is followed both ways.
+  const std::vector<Branch> all =
+      tree_from(family, 0.2, settled(family.flows, 0.2, {1.0, 0.0}, 100),
+                {.continuation = {.from = 0.1, .to = 0.6}, .special = with_bounds(fields), .largest_period = 4});
+  ASSERT_EQ(all.size(), 4U);
+  std::vector<int> periods;
+  for (const Branch& b : all) {
+    periods.push_back(b.family.period);
+    expect_in_order(b);
+    for (const SpecialPoint& p : b.special) EXPECT_LT(p.error_bound, eight_digits);
+  }
+  EXPECT_EQ(periods, (std::vector<int>{1, 2, 4, 4}));
+  EXPECT_EQ(all[0].orbits.front().at.value, 0.1);
+  EXPECT_EQ(all[0].orbits.back().at.value, 0.6);
+  // Born at the first flip, not followed back from it.
+  EXPECT_TRUE(all[1].first.born);
+  ASSERT_TRUE(all[1].first.place.has_value());
+  EXPECT_EQ(all[1].first.place->branch, 0U);
+  EXPECT_EQ(all[1].last.end, BranchEnd::range);
+  // From one flip of period 2 to the other, and not a second time from there.
+  const Branch& loop = all[2];
+  EXPECT_TRUE(loop.first.born && loop.last.born);
+  ASSERT_TRUE(loop.first.place && loop.last.place);
+  EXPECT_NEAR(all[1].special[loop.first.place->point].value, 0.2866931578, tenth_decimal);
+  EXPECT_EQ(to_string(all[1].special[loop.last.place->point].kind), "flip");
+  EXPECT_NEAR(loop.orbits.back().at.value, all[1].special[loop.last.place->point].value, eight_digits);
+}
+
+TEST(Tree, BackwardPartsAreAsIfFoundForward) {
+  const FieldFamily fields = problems::duffing_in_frequency(0.1, 1.0, 0.3);
+  const OrbitFamily family{flows(fields, tolerance)};
+  // Between the folds, on the unstable part: one is found each way.
+  const Traced whole = trace(family, fields, {.from = 0.5, .to = 2.5}, 0.6, {1.0, 0.0}, 100);
+  ASSERT_EQ(whole.special.size(), 2U);
+  const auto inside = std::find_if(whole.orbits.begin(), whole.orbits.end(),
+                                   [](const BranchOrbit& o) { return o.direction.value < 0.0 && o.at.value < 1.6; });
+  ASSERT_NE(inside, whole.orbits.end());
+  BranchTree tree({.continuation = {.from = 0.5, .to = 2.5}});
+  tree.start(family, *inside);
+  while (tree.advance()) {
+  }
+  ASSERT_EQ(tree.branches().size(), 1U);
+  const Branch& branch = tree.branches()[0];
+  expect_in_order(branch);
+  ASSERT_EQ(branch.special.size(), 2U);
+  for (const SpecialPoint& p : whole.special) {
+    const auto same = std::find_if(branch.special.begin(), branch.special.end(),
+                                   [&](const SpecialPoint& q) { return std::abs(q.value - p.value) < eight_digits; });
+    ASSERT_NE(same, branch.special.end());
+    EXPECT_EQ(same->outwards, p.outwards);
+  }
+}
+
+TEST(Tree, ClearancesBranchesOfPeriod2JoinPairsOfFlips) {
+  const OrbitFamily family{problems::clearance_flows(0.2, tolerance)};
+  const std::vector<Branch> all =
+      tree_from(family, 0.3, settled(family.flows, 0.3, {1.1, 0.0}, 100), {.continuation = {.from = 0.2, .to = 2.2}});
+  ASSERT_EQ(all.size(), 3U);
+  for (const Branch& b : all) expect_in_order(b);
+  for (std::size_t k = 1; k < 3; ++k) {
+    EXPECT_EQ(all[k].family.period, 2);
+    ASSERT_TRUE(all[k].first.place && all[k].last.place);
+    EXPECT_EQ(all[k].first.place->point + 1, all[k].last.place->point);
+  }
+}
+
+TEST(Tree, OrbitsThatBreakTheSymmetryAreBranchesOfTheirOwn) {
+  const FieldFamily fields = problems::alike_parts<3>();
+  OrbitFamily family{flows(fields, tolerance)};
+  family.symmetry = problems::moved_on(3);
+  const std::vector<Branch> all = tree_from(family, -0.1, {1.0, 1.0, 1.0}, {.continuation = {.from = -0.1, .to = 0.1}});
+  ASSERT_EQ(all.size(), 5U);  // two kinds, two signs each
+  EXPECT_EQ(points_of(all[0]).size(), 1U);
+  for (std::size_t k = 1; k < all.size(); ++k) {
+    EXPECT_FALSE(all[k].family.keeps_symmetry);
+    EXPECT_TRUE(all[k].first.born);
+    EXPECT_EQ(all[k].orbits.back().at.value, 0.1);
+  }
+}
+
+TEST(Tree, AStartOnAKnownBranchIsNotFollowedAgain) {
+  const FieldFamily fields = problems::duffing(0.3, -1.0, 1.2);
+  const OrbitFamily family{flows(fields, tolerance)};
+  BranchTree tree({.continuation = {.from = 0.1, .to = 0.25}});
+  for (const double g : {0.2, 0.15}) {
+    const Correction first = first_orbit(family, g, settled(family.flows, g, {1.0, 0.0}, 100));
+    ASSERT_TRUE(first.found);
+    tree.start(family, first.orbit);
+  }
+  while (tree.advance()) {
+  }
+  EXPECT_EQ(tree.branches().size(), 1U);
 }
 
 }  // namespace

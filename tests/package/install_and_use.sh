@@ -19,3 +19,4 @@ cmake -G "$generator" -S "$package_dir" -B "$temporary/build" -D CMAKE_PREFIX_PA
   -D CMAKE_CXX_COMPILER="$cxx" -D CMAKE_CXX_FLAGS="$cxx_flags" -D CMAKE_FIND_USE_PACKAGE_REGISTRY=OFF
 cmake --build "$temporary/build"
 "$temporary/build/outside_program"
+"$temporary/build/branches"

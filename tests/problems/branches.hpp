@@ -61,11 +61,9 @@ inline std::vector<double> settled(const integrate::FlowFamily& family, double v
 }
 
 /// By a tenth of the tolerance and twice the pieces.
-inline analysis::SpecialOptions with_bounds(const analysis::OrbitFamily& family,
-                                            const std::function<integrate::FlowFamily(double)>& flows_at,
+inline analysis::SpecialOptions with_bounds(const std::function<integrate::FlowFamily(double)>& flows_at,
                                             double tolerance) {
-  return {{refined(family, flows_at(0.1 * tolerance), family.pieces),
-           refined(family, flows_at(0.1 * tolerance), 2 * family.pieces)}};
+  return {{{flows_at(0.1 * tolerance), 1}, {flows_at(0.1 * tolerance), 2}}};
 }
 
 /// N parts moved on by one.
@@ -108,7 +106,7 @@ struct BranchProblem {
     if (!first.found) return {};
     analysis::BranchOrbit from = first.orbit;
     if (!rising) from.direction = -1.0 * from.direction;
-    return problems::trace(family, options, with_bounds(family, flows, tolerance), from);
+    return problems::trace(family, options, with_bounds(flows, tolerance), from);
   }
 };
 

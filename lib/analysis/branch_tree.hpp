@@ -1,0 +1,112 @@
+// All branches that can be reached from some orbits: traced both ways, and on where they change.
+//
+// A branch is followed from its start to both of its ends. At flips the orbits of twice the period leave, at branch
+// points those that cross: each is a branch of its own, until the period is that asked for. A branch of twice the
+// period ends where its orbit has the shorter one again, at a flip of the branch that it was born on; one without the
+// symmetry where the orbit has it again. What is met twice is followed once: such an end is looked for among the
+// special points that are known, and a branch point on two branches is one.
+//
+// Limits: a branch that no special point of the others leads to is found from a start of its own only.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/branch_switching.hpp"
+#include "analysis/continuation.hpp"
+#include "analysis/special_points.hpp"
+
+namespace epicyclic::analysis {
+
+/// A special point of a branch.
+struct SpecialPlace {
+  std::size_t branch = 0;
+  std::size_t point = 0;
+};
+
+/// How a branch ends.
+struct BranchLimit {
+  BranchEnd end = BranchEnd::none;
+  bool born = false;                    ///< at the flip or branch point that it was born at
+  std::optional<SpecialPlace> place{};  ///< that point, if it is known
+  std::string message{};
+};
+
+struct Branch {
+  OrbitFamily family;
+  std::vector<BranchOrbit> orbits;                   ///< from its first end to its last; directions go that way
+  std::vector<SpecialPoint> special;                 ///< as they were found
+  std::vector<std::size_t> after;                    ///< of each special point: the orbit before it
+  std::vector<std::optional<SpecialPlace>> same_as;  ///< of each: the point of an earlier branch that it is
+  BranchLimit first, last;
+};
+
+struct TreeOptions {
+  ContinuationOptions continuation;
+  SpecialOptions special{};
+  SwitchOptions switching{};
+  int largest_period = 2;      ///< that flips are followed to
+  bool branch_points = true;   ///< are other branches at branch points followed?
+  std::size_t branches = 100;  ///< most
+  double same = 1e-3;          ///< most difference of states of one orbit found twice, in state scales
+  double same_value = 1e-5;    ///< and of the parameter, in its scale
+
+  /// @throws InputError for bounds out of range
+  void validate() const;
+};
+
+class BranchTree {
+ public:
+  explicit BranchTree(TreeOptions options);
+
+  /// An orbit to start from, unless a branch goes through it already when its turn comes.
+  void start(OrbitFamily family, BranchOrbit orbit);
+
+  /// Follows the branch under way to its next orbit, or begins the next branch.
+  /// @returns whether there was anything to do
+  bool advance();
+
+  /// Those that are traced to both ends.
+  [[nodiscard]] const std::vector<Branch>& branches() const { return branches_; }
+  [[nodiscard]] std::size_t waiting() const { return starts_.size(); }  ///< starts of branches to come
+  [[nodiscard]] bool full() const { return full_; }                     ///< more branches were there than asked for
+
+ private:
+  struct Start {
+    OrbitFamily family;
+    BranchOrbit orbit;
+    std::optional<SpecialPlace> from{};   ///< that it leaves: the branch begins there
+    std::optional<BranchOrbit> origin{};  ///< that point
+  };
+
+  /// One way along the branch under way.
+  struct Way {
+    std::vector<BranchOrbit> orbits;  ///< from the start on
+    std::vector<SpecialPoint> special;
+    std::vector<std::size_t> after;  ///< of each: the orbit before it on this way
+    BranchLimit limit;
+  };
+
+  void begin(Start start);
+  void step();
+  void see(SpecialPoint point);
+  void leave(const SpecialPoint& point, std::size_t at);
+  void finish_branch();
+  [[nodiscard]] bool loses_itself(const SpecialPoint& point) const;
+  [[nodiscard]] std::optional<SpecialPlace> known_place(const Eigen::MatrixXd& states, double value) const;
+  [[nodiscard]] bool passes(const Branch& branch, const Start& start) const;
+
+  TreeOptions options_;
+  std::vector<Branch> branches_;
+  std::deque<Start> starts_;
+  std::optional<Start> current_;       ///< start of the branch under way
+  std::optional<Continuation> trace_;  ///< of the way under way
+  std::vector<Way> ways_;              ///< forward, then backward
+  std::vector<std::optional<SpecialPlace>> same_as_;
+  bool full_ = false;
+};
+
+}  // namespace epicyclic::analysis
