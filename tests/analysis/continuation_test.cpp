@@ -13,7 +13,9 @@
 
 #include "analysis/branch_switching.hpp"
 #include "analysis/branch_tree.hpp"
+#include "analysis/smoothing_bias.hpp"
 #include "core/dense.hpp"
+#include "core/errors.hpp"
 #include "problems/branches.hpp"
 #include "problems/clearance_exact.hpp"
 #include "problems/known_systems.hpp"
@@ -268,9 +270,9 @@ TEST(Continuation, TwoPairsOfFourPartsCrossAtOnce) {
 // ---- the clearance oscillator, exact -----------------------------------------------------------------------------
 
 /// The period-1 branch over its resonance.
-Traced clearance_branch(double e) {
+Traced clearance_branch(double e, double width = 0.0) {
   BranchProblem problem;
-  problem.flows = [e](double to_tolerance) { return problems::clearance_flows(e, to_tolerance); };
+  problem.flows = [=](double to_tolerance) { return problems::clearance_flows(e, to_tolerance, width); };
   problem.start = 0.3;
   problem.state = {1.1, 0.0};
   problem.settle = 100;
@@ -343,6 +345,44 @@ TEST(ClearanceBranch, OfTwoFoldsAndFourFlipsHasEachWhereTheClosedFormDoes) {
               closed_form_known);
   }
   EXPECT_EQ(kinds, (std::vector<std::string>{"grazing", "flip", "flip", "fold", "fold", "flip", "flip"}));
+}
+
+TEST(ClearanceBranch, PlacesOfFourWidthsLeadToTheExactOneWithinTheirBound) {
+  std::vector<double> ratios;
+  for (const double e : {0.1, 0.2}) {
+    const Traced exact = clearance_branch(e);
+    std::vector<Traced> smooth;
+    constexpr std::array<double, 4> widths = {0.02, 0.01, 0.005, 0.0025};
+    for (const double w : widths) smooth.push_back(clearance_branch(e, w));
+    for (const SpecialPoint& p : exact.special) {
+      if (p.kind == SpecialKind::grazing) continue;  // there the law is another
+      std::vector<SmoothedValue> values;
+      for (std::size_t k = 0; k < widths.size(); ++k) {
+        const SpecialPoint* nearest = nullptr;
+        for (const SpecialPoint& q : smooth[k].special)
+          if (q.kind == p.kind &&
+              (nearest == nullptr || std::abs(q.value - p.value) < std::abs(nearest->value - p.value)))
+            nearest = &q;
+        ASSERT_NE(nearest, nullptr);
+        values.push_back({widths[k], nearest->value});
+      }
+      const ExactValue found = extrapolated_to_exact(values);
+      const double error = std::abs(found.value - p.value);
+      EXPECT_LE(error, found.bound + p.error_bound) << to_string(p.kind) << " at " << p.value;
+      ratios.push_back(found.bound / error);
+    }
+  }
+  ASSERT_EQ(ratios.size(), 10U);
+  std::sort(ratios.begin(), ratios.end());
+  constexpr double idle = 100.0;
+  EXPECT_LT(ratios[5], idle);
+}
+
+TEST(SmoothingBias, RefusesWhatItCannotExtrapolate) {
+  const std::vector<SmoothedValue> three = {{0.04, 1.0}, {0.02, 1.1}, {0.01, 1.2}};
+  EXPECT_THROW((void)extrapolated_to_exact(three), DomainError);
+  const std::vector<SmoothedValue> rising = {{0.01, 1.0}, {0.02, 1.1}, {0.03, 1.2}, {0.04, 1.3}};
+  EXPECT_THROW((void)extrapolated_to_exact(rising), DomainError);
 }
 
 // ---- onto other branches ------------------------------------------------------------------------------------------

@@ -75,13 +75,14 @@ inline analysis::CyclicSymmetry moved_on(std::size_t n) {
   });
 }
 
-/// The clearance oscillator over its speed, its contacts stepped onto.
-inline integrate::FlowFamily clearance_flows(double e, double tolerance) {
+/// The clearance oscillator over its speed; exact, its contacts stepped onto, or of a width.
+inline integrate::FlowFamily clearance_flows(double e, double tolerance, double width = 0.0) {
   integrate::IntegratorOptions o = exactly(tolerance);
-  o.locate_contacts = true;
+  o.locate_contacts = width == 0.0;
   ClearanceConstants constants;
   constants.e = e;
-  return integrate::make_flow_family([constants](double w) { return clearance_oscillator(w, 0.0, constants); }, o);
+  return integrate::make_flow_family([constants, width](double w) { return clearance_oscillator(w, width, constants); },
+                                     o);
 }
 
 /// A branch from an orbit that a motion settles to, the way of a rising parameter or the other.
