@@ -39,96 +39,130 @@ void TreeOptions::validate() const {
   require(same_value > 0.0, "same_value", same_value, "> 0");
 }
 
-BranchTree::BranchTree(TreeOptions options) : options_(std::move(options)) { options_.validate(); }
-
-void BranchTree::start(OrbitFamily family, BranchOrbit orbit) {
-  starts_.push_back({std::move(family), std::move(orbit)});
+BranchTree::BranchTree(OrbitFamily system, TreeOptions options)
+    : system_(std::move(system)), options_(std::move(options)) {
+  system_.validate();
+  options_.validate();
 }
 
-bool BranchTree::advance() {
-  if (trace_) {
-    step();
-    return true;
-  }
-  if (starts_.empty()) return false;
-  Start next = std::move(starts_.front());
-  starts_.pop_front();
+OrbitFamily BranchTree::family_of(const BranchStart& start) const {
+  OrbitFamily family = system_;
+  family.period = start.period;
+  family.pieces = start.pieces;
+  family.keeps_symmetry = start.keeps_symmetry;
+  return family;
+}
+
+void BranchTree::start(BranchOrbit orbit) {
+  starts_.push_back({system_.period, system_.pieces, system_.keeps_symmetry, std::move(orbit)});
+}
+
+std::optional<TreeStep> BranchTree::advance() {
+  if (!trace_ && starts_.empty()) return std::nullopt;
+  TreeStep step = trace_ ? next_orbit() : next_start();
+  apply(step);
+  return step;
+}
+
+TreeStep BranchTree::next_start() const {
+  TreeStep step;
+  step.kind = TreeStep::Kind::begun;
   for (const Branch& branch : branches_)
-    if (passes(branch, next)) return true;
-  if (branches_.size() >= options_.branches) {
-    full_ = true;
-    return true;
+    if (passes(branch, starts_.front())) step.kind = TreeStep::Kind::skipped;
+  if (step.kind == TreeStep::Kind::begun && branches_.size() >= options_.branches) {
+    step.kind = TreeStep::Kind::skipped;
+    step.full = true;
   }
-  begin(std::move(next));
-  return true;
+  return step;
 }
 
-void BranchTree::begin(Start start) {
-  current_ = std::move(start);
-  ways_ = {Way{{current_->orbit}, {}, {}, {}}};
-  same_as_.clear();
-  trace_.emplace(current_->family, options_.continuation, current_->orbit);
-}
-
-void BranchTree::step() {
-  Way& way = ways_.back();
-  if (!trace_->advance()) {
-    way.limit = {trace_->end(), false, std::nullopt, trace_->message()};
-  } else {
-    const auto found = special_points_between(current_->family, trace_->before(), trace_->now(), options_.special);
-    for (const SpecialPoint& point : found) {
+TreeStep BranchTree::next_orbit() {
+  TreeStep step;
+  if (trace_->advance()) {
+    for (SpecialPoint& point : special_points_between(family_, trace_->before(), trace_->now(), options_.special)) {
       if (!loses_itself(point)) {
-        see(point);
+        see(std::move(point), step);
         continue;
       }
       // Behind it the same orbits come again, begun at another period or turned.
-      const Eigen::MatrixXd states = period_states(current_->family, point.orbit.at);
-      way.limit = {BranchEnd::none, true, known_place(states, point.value), {}};
-      way.orbits.push_back(point.orbit);
+      step.limit = {BranchEnd::none, true, known_place(point), {}};
+      step.orbit = std::move(point.orbit);
       break;
     }
-    if (!way.limit.born) {
-      way.orbits.push_back(trace_->now());
-      if (trace_->end() == BranchEnd::none) return;
-      way.limit = {trace_->end(), false, std::nullopt, {}};
-    }
+    if (!step.orbit) step.orbit = trace_->now();
   }
-  trace_.reset();
-  // A closed branch has been seen whole, one that left a special point begins there.
-  if (ways_.size() == 1 && way.limit.end != BranchEnd::closed && !current_->from) {
-    const BranchOrbit back = reversed(current_->orbit);
-    ways_.push_back(Way{{back}, {}, {}, {}});
-    trace_.emplace(current_->family, options_.continuation, back);
+  step.trace = trace_->state();
+  if (!step.limit && trace_->end() != BranchEnd::none)
+    step.limit = {trace_->end(), false, std::nullopt, trace_->end() == BranchEnd::least_step ? step.trace.message : ""};
+  return step;
+}
+
+void BranchTree::see(SpecialPoint point, TreeStep& step) const {
+  std::optional<SpecialPlace> same;
+  if (point.kind == SpecialKind::branch_point) same = known_place(point);
+  if (!same) {
+    std::vector<BranchStart> more = leaving(point, same_as_.size() + step.same_as.size());
+    std::move(more.begin(), more.end(), std::back_inserter(step.departures));
+  }
+  step.same_as.push_back(same);
+  step.special.push_back(std::move(point));
+}
+
+std::vector<BranchStart> BranchTree::leaving(const SpecialPoint& point, std::size_t number) const {
+  std::vector<BranchStart> starts;
+  const bool flip = point.kind == SpecialKind::flip && 2 * family_.period <= options_.largest_period;
+  const bool branch_point = point.kind == SpecialKind::branch_point && options_.branch_points;
+  if (!flip && !branch_point) return starts;
+  const ContinuationOptions& range = options_.continuation;
+  for (Departure& d : departures(family_, point, options_.switching)) {
+    if (d.orbit.at.value < range.from || d.orbit.at.value > range.to) continue;
+    starts.push_back({d.family.period, d.family.pieces, d.family.keeps_symmetry, std::move(d.orbit),
+                      SpecialPlace{branches_.size(), number}, std::move(d.origin)});
+  }
+  return starts;
+}
+
+void BranchTree::apply(TreeStep step) {
+  full_ = full_ || step.full;
+  if (step.kind != TreeStep::Kind::followed) {
+    BranchStart next = std::move(starts_.front());
+    starts_.pop_front();
+    if (step.kind == TreeStep::Kind::skipped) return;
+    current_ = std::move(next);
+    family_ = family_of(current_);
+    ways_.clear();
+    same_as_.clear();
+    begin_way(current_.orbit);
     return;
   }
-  finish_branch();
-}
-
-void BranchTree::see(SpecialPoint point) {
   Way& way = ways_.back();
-  way.after.push_back(way.orbits.size() - 1);
-  std::optional<SpecialPlace> same;
-  if (point.kind == SpecialKind::branch_point)
-    same = known_place(period_states(current_->family, point.orbit.at), point.value);
-  same_as_.push_back(same);
-  if (!same) leave(point, same_as_.size() - 1);
-  way.special.push_back(std::move(point));
+  way.after.insert(way.after.end(), step.special.size(), way.orbits.size() - 1);
+  std::move(step.special.begin(), step.special.end(), std::back_inserter(way.special));
+  std::move(step.same_as.begin(), step.same_as.end(), std::back_inserter(same_as_));
+  std::move(step.departures.begin(), step.departures.end(), std::back_inserter(starts_));
+  if (step.orbit) way.orbits.push_back(*std::move(step.orbit));
+  trace_->restore(std::move(step.trace));
+  if (step.limit) end_way(*step.limit);
 }
 
-void BranchTree::leave(const SpecialPoint& point, std::size_t at) {
-  const bool flip = point.kind == SpecialKind::flip && 2 * current_->family.period <= options_.largest_period;
-  const bool branch_point = point.kind == SpecialKind::branch_point && options_.branch_points;
-  if (!flip && !branch_point) return;
-  const ContinuationOptions& range = options_.continuation;
-  for (Departure& d : departures(current_->family, point, options_.switching)) {
-    if (d.orbit.at.value < range.from || d.orbit.at.value > range.to) continue;
-    starts_.push_back(
-        {std::move(d.family), std::move(d.orbit), SpecialPlace{branches_.size(), at}, std::move(d.origin)});
+void BranchTree::begin_way(const BranchOrbit& from) {
+  ways_.push_back(Way{{from}, {}, {}, {}});
+  trace_.emplace(family_, options_.continuation, from);
+}
+
+void BranchTree::end_way(const BranchLimit& limit) {
+  ways_.back().limit = limit;
+  trace_.reset();
+  // A closed branch has been seen whole, one that left a special point begins there.
+  if (ways_.size() == 1 && limit.end != BranchEnd::closed && !current_.from) {
+    begin_way(reversed(current_.orbit));
+  } else {
+    finish_branch();
   }
 }
 
 void BranchTree::finish_branch() {
-  Branch branch{current_->family, {}, {}, {}, std::move(same_as_), {}, {}};
+  Branch branch{family_, {}, {}, {}, std::move(same_as_), {}, {}};
   Way& forward = ways_.front();
   branch.last = forward.limit;
   branch.first = forward.limit.end == BranchEnd::closed ? forward.limit : BranchLimit{};
@@ -138,9 +172,9 @@ void BranchTree::finish_branch() {
     branch.first = backward.limit;
     before = backward.orbits.size() - 1;
     for (std::size_t k = before; k > 0; --k) branch.orbits.push_back(reversed(backward.orbits[k]));
-  } else if (current_->from) {
-    branch.first = {BranchEnd::none, true, current_->from, {}};
-    branch.orbits.push_back(*current_->origin);
+  } else if (current_.from) {
+    branch.first = {BranchEnd::none, true, current_.from, {}};
+    branch.orbits.push_back(*current_.origin);
     before = 1;
   }
   std::move(forward.orbits.begin(), forward.orbits.end(), std::back_inserter(branch.orbits));
@@ -160,29 +194,27 @@ void BranchTree::finish_branch() {
     }
   }
   branches_.push_back(std::move(branch));
-  current_.reset();
 }
 
 bool BranchTree::loses_itself(const SpecialPoint& point) const {
   if (point.kind != SpecialKind::branch_point || point.wave != 0) return false;
-  const OrbitFamily& family = current_->family;
-  const Eigen::MatrixXd states = period_states(family, point.orbit.at);
-  const double difference = options_.same * family.state_scale;
-  const bool symmetric = !family.keeps_symmetry && family.symmetry.map.size() != 0 &&
-                         is_left_as_it_is(states, family.symmetry, difference);
+  const Eigen::MatrixXd states = period_states(family_, point.orbit.at);
+  const double difference = options_.same * family_.state_scale;
+  const bool symmetric = !family_.keeps_symmetry && family_.symmetry.map.size() != 0 &&
+                         is_left_as_it_is(states, family_.symmetry, difference);
   return symmetric || has_half_the_period(states, difference);
 }
 
-std::optional<SpecialPlace> BranchTree::known_place(const Eigen::MatrixXd& states, double value) const {
-  const OrbitFamily& family = current_->family;
-  const double difference = options_.same * family.state_scale;
+std::optional<SpecialPlace> BranchTree::known_place(const SpecialPoint& point) const {
+  const Eigen::MatrixXd states = period_states(family_, point.orbit.at);
+  const double difference = options_.same * family_.state_scale;
   const auto is_it = [&](const OrbitFamily& other, const SpecialPoint& p) {
     if (p.kind != SpecialKind::flip && p.kind != SpecialKind::branch_point) return false;
-    if (std::abs(p.value - value) > options_.same_value * family.value_scale) return false;
+    if (std::abs(p.value - point.value) > options_.same_value * family_.value_scale) return false;
     const Eigen::MatrixXd at = period_states(other, p.orbit.at);
     // Of the period of the other branch, which may be half of ours.
     const Eigen::Index n = at.cols();
-    return n > 0 && n <= states.cols() && are_images(at, states.leftCols(n), family.symmetry, difference);
+    return n > 0 && n <= states.cols() && are_images(at, states.leftCols(n), family_.symmetry, difference);
   };
   for (std::size_t b = 0; b < branches_.size(); ++b)
     for (std::size_t k = 0; k < branches_[b].special.size(); ++k)
@@ -190,10 +222,10 @@ std::optional<SpecialPlace> BranchTree::known_place(const Eigen::MatrixXd& state
   return std::nullopt;
 }
 
-bool BranchTree::passes(const Branch& branch, const Start& start) const {
-  if (branch.family.period != start.family.period) return false;
+bool BranchTree::passes(const Branch& branch, const BranchStart& start) const {
+  if (branch.family.period != start.period) return false;
   const double value = start.orbit.at.value;
-  const double difference = options_.same * start.family.state_scale;
+  const double difference = options_.same * system_.state_scale;
   Eigen::MatrixXd states;
   for (std::size_t k = 0; k + 1 < branch.orbits.size(); ++k) {
     const BranchOrbit& a = branch.orbits[k];
@@ -202,7 +234,7 @@ bool BranchTree::passes(const Branch& branch, const Start& start) const {
     const double part = (value - a.at.value) / (b.at.value - a.at.value);
     const Correction c = correct_at(branch.family, value, (1.0 - part) * a.at.states + part * b.at.states);
     if (!c.found) continue;
-    if (states.size() == 0) states = period_states(start.family, start.orbit.at);
+    if (states.size() == 0) states = period_states(family_of(start), start.orbit.at);
     if (are_images(states, period_states(branch.family, c.orbit.at), branch.family.symmetry, difference)) return true;
   }
   return false;

@@ -58,16 +58,50 @@ struct TreeOptions {
   void validate() const;
 };
 
+/// An orbit that a branch is to be followed from, or was.
+struct BranchStart {
+  int period = 1;
+  int pieces = 1;
+  bool keeps_symmetry = true;
+  BranchOrbit orbit;
+  std::optional<SpecialPlace> from{};   ///< that it leaves: the branch begins there
+  std::optional<BranchOrbit> origin{};  ///< that point
+};
+
+/// What one step of a tree has found.
+struct TreeStep {
+  enum class Kind {
+    skipped,   ///< a start on a branch that is known, or one more than asked for
+    begun,     ///< the next branch
+    followed,  ///< to the next orbit, or to the end of its way
+  };
+  Kind kind = Kind::followed;
+  bool full = false;                   ///< more branches are there than asked for
+  ContinuationState trace{};           ///< behind the step
+  std::optional<BranchOrbit> orbit{};  ///< next on the way
+  std::vector<SpecialPoint> special{};
+  std::vector<std::optional<SpecialPlace>> same_as{};
+  std::vector<BranchStart> departures{};
+  std::optional<BranchLimit> limit{};  ///< where the way has ended
+};
+
+/// A tree is what its steps make of it: one that is given the steps of another, apply() after apply(), goes on with the
+/// same bits.
 class BranchTree {
  public:
-  explicit BranchTree(TreeOptions options);
+  /// @param system  flows, scales, symmetry and accuracy of all branches
+  /// @throws InputError for options out of range
+  BranchTree(OrbitFamily system, TreeOptions options);
 
-  /// An orbit to start from, unless a branch goes through it already when its turn comes.
-  void start(OrbitFamily family, BranchOrbit orbit);
+  /// An orbit of the system's period and pieces to start from, unless a branch goes through it when its turn comes.
+  void start(BranchOrbit orbit);
 
   /// Follows the branch under way to its next orbit, or begins the next branch.
-  /// @returns whether there was anything to do
-  bool advance();
+  /// @returns what was done; nothing if there was nothing to do
+  std::optional<TreeStep> advance();
+
+  /// Does what advance() has done, computing nothing.
+  void apply(TreeStep step);
 
   /// Those that are traced to both ends.
   [[nodiscard]] const std::vector<Branch>& branches() const { return branches_; }
@@ -75,13 +109,6 @@ class BranchTree {
   [[nodiscard]] bool full() const { return full_; }                     ///< more branches were there than asked for
 
  private:
-  struct Start {
-    OrbitFamily family;
-    BranchOrbit orbit;
-    std::optional<SpecialPlace> from{};   ///< that it leaves: the branch begins there
-    std::optional<BranchOrbit> origin{};  ///< that point
-  };
-
   /// One way along the branch under way.
   struct Way {
     std::vector<BranchOrbit> orbits;  ///< from the start on
@@ -90,19 +117,24 @@ class BranchTree {
     BranchLimit limit;
   };
 
-  void begin(Start start);
-  void step();
-  void see(SpecialPoint point);
-  void leave(const SpecialPoint& point, std::size_t at);
+  [[nodiscard]] OrbitFamily family_of(const BranchStart& start) const;
+  [[nodiscard]] TreeStep next_start() const;
+  [[nodiscard]] TreeStep next_orbit();
+  void see(SpecialPoint point, TreeStep& step) const;
+  [[nodiscard]] std::vector<BranchStart> leaving(const SpecialPoint& point, std::size_t number) const;
+  void begin_way(const BranchOrbit& from);
+  void end_way(const BranchLimit& limit);
   void finish_branch();
   [[nodiscard]] bool loses_itself(const SpecialPoint& point) const;
-  [[nodiscard]] std::optional<SpecialPlace> known_place(const Eigen::MatrixXd& states, double value) const;
-  [[nodiscard]] bool passes(const Branch& branch, const Start& start) const;
+  [[nodiscard]] std::optional<SpecialPlace> known_place(const SpecialPoint& point) const;
+  [[nodiscard]] bool passes(const Branch& branch, const BranchStart& start) const;
 
+  OrbitFamily system_;
   TreeOptions options_;
   std::vector<Branch> branches_;
-  std::deque<Start> starts_;
-  std::optional<Start> current_;       ///< start of the branch under way
+  std::deque<BranchStart> starts_;
+  BranchStart current_;                ///< of the branch under way
+  OrbitFamily family_;                 ///< of it
   std::optional<Continuation> trace_;  ///< of the way under way
   std::vector<Way> ways_;              ///< forward, then backward
   std::vector<std::optional<SpecialPlace>> same_as_;

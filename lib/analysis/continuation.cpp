@@ -46,35 +46,36 @@ double multiplier_change(const std::vector<std::complex<double>>& a, const std::
 }
 
 Continuation::Continuation(OrbitFamily family, const ContinuationOptions& options, BranchOrbit start)
-    : family_(std::move(family)), options_(options), start_(std::move(start)), step_(options.first_step) {
+    : family_(std::move(family)), options_(options), start_(std::move(start)) {
   family_.validate();
   options_.validate();
   if (!(start_.at.value >= options_.from && start_.at.value <= options_.to))
     throw InputError("the branch starts at " + short_text(start_.at.value) + ", outside its range");
   blocks_ = invariant_blocks(static_cast<std::size_t>(start_.at.states.rows()), family_.kept());
-  before_ = now_ = start_;
-  bend_ = 0.0 * start_.at;
+  before_ = state_.now = start_;
+  state_.bend = 0.0 * start_.at;
+  state_.step = options_.first_step;
 }
 
 CurvePoint Continuation::guess(double step) const {
-  return now_.at + step * now_.direction + (0.5 * step * step) * bend_;
+  return state_.now.at + step * state_.now.direction + (0.5 * step * step) * state_.bend;
 }
 
 bool Continuation::accept(const Correction& c, double step) {
   if (!c.found) {
-    message_ = c.message;
+    state_.message = c.message;
     return false;
   }
   // What steps aim at may be exceeded by as much again.
-  const double turned = angle(family_, now_, c.orbit) / (2.0 * options_.turn);
+  const double turned = angle(family_, state_.now, c.orbit) / (2.0 * options_.turn);
   const double missed = c.distance / (options_.guess_distance * step);
   double moved = 0.0;
   for (const InvariantBlock& block : blocks_)
-    moved = std::max(
-        moved, multiplier_change(multipliers_of(block, now_.monodromy), multipliers_of(block, c.orbit.monodromy)));
+    moved = std::max(moved, multiplier_change(multipliers_of(block, state_.now.monodromy),
+                                              multipliers_of(block, c.orbit.monodromy)));
   moved /= options_.multiplier_change;
   const double worst = std::max({turned, missed, moved});
-  message_ = turned > 1.0 ? "the branch turns" : missed > 1.0 ? "the guess is far off" : "a multiplier jumps";
+  state_.message = turned > 1.0 ? "the branch turns" : missed > 1.0 ? "the guess is far off" : "a multiplier jumps";
   // Half of each is where the next step goes to; a guess of second order misses by the third power.
   grow_ =
       std::min({0.5 / std::max(turned, 1e-3), std::cbrt(0.3 / std::max(missed, 1e-3)), 0.7 / std::max(moved, 1e-3)});
@@ -82,13 +83,13 @@ bool Continuation::accept(const Correction& c, double step) {
 }
 
 bool Continuation::back_at_the_start(const BranchOrbit& next, double step) const {
-  if (!left_start_) return false;
+  if (!state_.left_start) return false;
   // Between now and next, going the same way.
-  const CurvePoint to_start = start_.at - now_.at;
-  const double ahead = inner_product(family_, to_start, now_.direction);
+  const CurvePoint to_start = start_.at - state_.now.at;
+  const double ahead = inner_product(family_, to_start, state_.now.direction);
   if (ahead < 0.0 || ahead > step || inner_product(family_, next.direction, start_.direction) < 0.0) return false;
   if (length(family_, to_start) > 2.0 * step) return false;
-  const Correction c = correct(family_, guess(ahead), now_.direction);
+  const Correction c = correct(family_, guess(ahead), state_.now.direction);
   // Of one branch to the corrector's own accuracy, in parts of a step.
   constexpr double same = 1e-3;
   return c.found && length(family_, c.orbit.at - start_.at) < same * step;
@@ -98,9 +99,10 @@ bool Continuation::back_at_the_start(const BranchOrbit& next, double step) const
 std::optional<double> Continuation::wanted_before(double value) const {
   std::optional<double> first;
   const auto ask = [&](double wanted) {
-    const bool on_the_way =
-        value > now_.at.value ? wanted > now_.at.value && wanted <= value : wanted < now_.at.value && wanted >= value;
-    if (on_the_way && (!first || std::abs(wanted - now_.at.value) < std::abs(*first - now_.at.value))) first = wanted;
+    const bool on_the_way = value > state_.now.at.value ? wanted > state_.now.at.value && wanted <= value
+                                                        : wanted < state_.now.at.value && wanted >= value;
+    if (on_the_way && (!first || std::abs(wanted - state_.now.at.value) < std::abs(*first - state_.now.at.value)))
+      first = wanted;
   };
   ask(options_.from);
   ask(options_.to);
@@ -110,59 +112,60 @@ std::optional<double> Continuation::wanted_before(double value) const {
 
 bool Continuation::step_onto(double value, double step) {
   const double ahead = guess(step).value;
-  const double part = std::clamp((value - now_.at.value) / (ahead - now_.at.value), 0.0, 1.0);
-  const Correction c = correct_at(family_, value, guess(part * step).states, &now_.direction);
-  evaluations_ += c.evaluations;
+  const double part = std::clamp((value - state_.now.at.value) / (ahead - state_.now.at.value), 0.0, 1.0);
+  const Correction c = correct_at(family_, value, guess(part * step).states, &state_.now.direction);
+  state_.evaluations += c.evaluations;
   if (!accept(c, step)) return false;
   take(c.orbit);
-  if (value == options_.from || value == options_.to) end_ = BranchEnd::range;
+  if (value == options_.from || value == options_.to) state_.end = BranchEnd::range;
   return true;
 }
 
 void Continuation::take(const BranchOrbit& next) {
-  const double taken = inner_product(family_, next.at - now_.at, now_.direction);
-  bend_ = (1.0 / taken) * (next.direction - now_.direction);
-  before_ = std::exchange(now_, next);
-  ++orbits_;
-  if (length(family_, now_.at - start_.at) > 2.0 * step_) left_start_ = true;
+  const double taken = inner_product(family_, next.at - state_.now.at, state_.now.direction);
+  state_.bend = (1.0 / taken) * (next.direction - state_.now.direction);
+  before_ = std::exchange(state_.now, next);
+  ++state_.orbits;
+  if (length(family_, state_.now.at - start_.at) > 2.0 * state_.step) state_.left_start = true;
 }
 
 bool Continuation::advance() {
-  if (end_ != BranchEnd::none) return false;
-  if (orbits_ >= options_.orbits) {
-    end_ = BranchEnd::many;
+  if (state_.end != BranchEnd::none) return false;
+  if (state_.orbits >= options_.orbits) {
+    state_.end = BranchEnd::many;
     return false;
   }
   // From an end of the range outwards there is nothing.
-  const double outwards = now_.direction.value;
-  if ((now_.at.value == options_.to && outwards > 0.0) || (now_.at.value == options_.from && outwards < 0.0)) {
-    end_ = BranchEnd::range;
+  const double outwards = state_.now.direction.value;
+  if ((state_.now.at.value == options_.to && outwards > 0.0) ||
+      (state_.now.at.value == options_.from && outwards < 0.0)) {
+    state_.end = BranchEnd::range;
     return false;
   }
   for (;;) {
-    const CurvePoint ahead = guess(step_);
+    const CurvePoint ahead = guess(state_.step);
     if (const auto wanted = wanted_before(ahead.value)) {
-      if (step_onto(*wanted, step_)) return true;
+      if (step_onto(*wanted, state_.step)) return true;
     } else {
-      const Correction c = correct(family_, ahead, now_.direction);
-      evaluations_ += c.evaluations;
+      const Correction c = correct(family_, ahead, state_.now.direction);
+      state_.evaluations += c.evaluations;
       // What the guess did not reach may have been passed all the same: a shorter step will tell.
-      if (accept(c, step_) && !wanted_before(c.orbit.at.value)) {
-        if (back_at_the_start(c.orbit, step_)) {
-          before_ = std::exchange(now_, start_);
-          end_ = BranchEnd::closed;
+      if (accept(c, state_.step) && !wanted_before(c.orbit.at.value)) {
+        if (back_at_the_start(c.orbit, state_.step)) {
+          before_ = std::exchange(state_.now, start_);
+          state_.end = BranchEnd::closed;
           return true;
         }
         take(c.orbit);
-        step_ = std::clamp(step_ * std::clamp(grow_, 0.3, 2.0), options_.least_step, options_.largest_step);
+        state_.step = std::clamp(state_.step * std::clamp(grow_, 0.3, 2.0), options_.least_step, options_.largest_step);
         return true;
       }
     }
-    if (step_ <= options_.least_step) {
-      end_ = BranchEnd::least_step;
+    if (state_.step <= options_.least_step) {
+      state_.end = BranchEnd::least_step;
       return false;
     }
-    step_ = std::max(0.5 * step_, options_.least_step);
+    state_.step = std::max(0.5 * state_.step, options_.least_step);
   }
 }
 

@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/orbit_family.hpp"
@@ -45,6 +46,18 @@ enum class BranchEnd {
   least_step,  ///< no orbit within the least step
 };
 
+/// All that a continuation goes on from.
+struct ContinuationState {
+  BranchOrbit now;
+  CurvePoint bend;  ///< dt/dh
+  double step = 0;
+  std::size_t orbits = 1;
+  bool left_start = false;  ///< far enough to come back
+  BranchEnd end = BranchEnd::none;
+  std::string message{};  ///< why no orbit was found, at least_step
+  int evaluations = 0;    ///< of the shooting equations with their derivatives
+};
+
 /// The branch from one orbit one way.
 class Continuation {
  public:
@@ -56,12 +69,14 @@ class Continuation {
   /// @returns whether there is one
   bool advance();
 
-  [[nodiscard]] const BranchOrbit& now() const { return now_; }
+  [[nodiscard]] const BranchOrbit& now() const { return state_.now; }
   [[nodiscard]] const BranchOrbit& before() const { return before_; }  ///< the one advance() came from
-  [[nodiscard]] BranchEnd end() const { return end_; }
-  [[nodiscard]] const std::string& message() const { return message_; }  ///< why no orbit was found, at least_step
+  [[nodiscard]] BranchEnd end() const { return state_.end; }
   [[nodiscard]] const OrbitFamily& family() const { return family_; }
-  [[nodiscard]] int evaluations() const { return evaluations_; }
+
+  /// One that is given the state of another with the same family, options and start goes on with the same bits.
+  [[nodiscard]] const ContinuationState& state() const { return state_; }
+  void restore(ContinuationState state) { state_ = std::move(state); }
 
  private:
   [[nodiscard]] CurvePoint guess(double step) const;
@@ -74,15 +89,9 @@ class Continuation {
   OrbitFamily family_;
   ContinuationOptions options_;
   std::vector<InvariantBlock> blocks_;
-  BranchOrbit start_, before_, now_;
-  CurvePoint bend_;  ///< dt/dh
-  double step_;
-  std::size_t orbits_ = 1;
-  int evaluations_ = 0;
-  bool left_start_ = false;  ///< far enough to come back
-  double grow_ = 1;
-  BranchEnd end_ = BranchEnd::none;
-  std::string message_;
+  BranchOrbit start_, before_;
+  ContinuationState state_;
+  double grow_ = 1;  ///< what the last orbit allows of the next step
 };
 
 /// The most that a multiplier of modulus 1/2 ... 2 moves from one to the other, each matched with its nearest.

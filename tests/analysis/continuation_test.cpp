@@ -449,8 +449,8 @@ std::vector<Branch> tree_from(const OrbitFamily& family, double value, const std
                               const TreeOptions& options) {
   const Correction first = first_orbit(family, value, near);
   EXPECT_TRUE(first.found) << first.message;
-  BranchTree tree(options);
-  if (first.found) tree.start(family, first.orbit);
+  BranchTree tree(family, options);
+  if (first.found) tree.start(first.orbit);
   while (tree.advance()) {
   }
   EXPECT_FALSE(tree.full());
@@ -519,8 +519,8 @@ TEST(Tree, BackwardPartsAreAsIfFoundForward) {
   const auto inside = std::find_if(whole.orbits.begin(), whole.orbits.end(),
                                    [](const BranchOrbit& o) { return o.direction.value < 0.0 && o.at.value < 1.6; });
   ASSERT_NE(inside, whole.orbits.end());
-  BranchTree tree({.continuation = {.from = 0.5, .to = 2.5}});
-  tree.start(family, *inside);
+  BranchTree tree(family, {.continuation = {.from = 0.5, .to = 2.5}});
+  tree.start(*inside);
   while (tree.advance()) {
   }
   ASSERT_EQ(tree.branches().size(), 1U);
@@ -565,15 +565,48 @@ TEST(Tree, OrbitsThatBreakTheSymmetryAreBranchesOfTheirOwn) {
 TEST(Tree, AStartOnAKnownBranchIsNotFollowedAgain) {
   const FieldFamily fields = problems::duffing(0.3, -1.0, 1.2);
   const OrbitFamily family{flows(fields, tolerance)};
-  BranchTree tree({.continuation = {.from = 0.1, .to = 0.25}});
+  BranchTree tree(family, {.continuation = {.from = 0.1, .to = 0.25}});
   for (const double g : {0.2, 0.15}) {
     const Correction first = first_orbit(family, g, settled(family.flows, g, {1.0, 0.0}, 100));
     ASSERT_TRUE(first.found);
-    tree.start(family, first.orbit);
+    tree.start(first.orbit);
   }
   while (tree.advance()) {
   }
   EXPECT_EQ(tree.branches().size(), 1U);
+}
+
+TEST(Tree, GoesOnFromItsStepsWithTheSameBits) {
+  const FieldFamily fields = problems::duffing(0.3, -1.0, 1.2);
+  const OrbitFamily family{flows(fields, 1e-8)};
+  const TreeOptions options{.continuation = {.from = 0.1, .to = 0.6}};
+  const Correction first = first_orbit(family, 0.2, settled(family.flows, 0.2, {1.0, 0.0}, 100));
+  ASSERT_TRUE(first.found);
+  BranchTree whole(family, options);
+  whole.start(first.orbit);
+  std::vector<TreeStep> steps;
+  while (auto step = whole.advance()) steps.push_back(*std::move(step));
+  ASSERT_EQ(whole.branches().size(), 2U);
+  for (std::size_t cut = 0; cut <= steps.size(); cut += 7) {
+    BranchTree again(family, options);
+    again.start(first.orbit);
+    for (std::size_t k = 0; k < cut; ++k) again.apply(steps[k]);
+    std::size_t more = cut;
+    while (again.advance()) ++more;
+    EXPECT_EQ(more, steps.size());
+    ASSERT_EQ(again.branches().size(), whole.branches().size());
+    for (std::size_t b = 0; b < whole.branches().size(); ++b) {
+      const Branch& expected = whole.branches()[b];
+      const Branch& branch = again.branches()[b];
+      ASSERT_EQ(branch.orbits.size(), expected.orbits.size());
+      for (std::size_t k = 0; k < branch.orbits.size(); ++k) {
+        EXPECT_EQ(branch.orbits[k].at.value, expected.orbits[k].at.value);
+        EXPECT_EQ(branch.orbits[k].at.states, expected.orbits[k].at.states);
+      }
+      EXPECT_EQ(points_of(branch), points_of(expected));
+      EXPECT_EQ(branch.after, expected.after);
+    }
+  }
 }
 
 }  // namespace

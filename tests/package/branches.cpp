@@ -29,7 +29,7 @@ int main() {
   // The bounds are from a tenth of the tolerance and twice the pieces.
   analysis::BranchTree tree(
       {.continuation = {.from = 0.5, .to = 2.5}, .special = {.others = {{flows(1e-12), 1}, {flows(1e-12), 2}}}});
-  tree.start(family, first.orbit);
+  tree.start(first.orbit);
   while (tree.advance()) {
   }
   for (const auto& branch : tree.branches())
