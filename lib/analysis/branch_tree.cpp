@@ -53,8 +53,8 @@ OrbitFamily BranchTree::family_of(const BranchStart& start) const {
   return family;
 }
 
-void BranchTree::start(BranchOrbit orbit) {
-  starts_.push_back({system_.period, system_.pieces, system_.keeps_symmetry, std::move(orbit)});
+void BranchTree::start(BranchOrbit orbit, bool keeps_symmetry) {
+  starts_.push_back({system_.period, system_.pieces, keeps_symmetry, std::move(orbit)});
 }
 
 std::optional<TreeStep> BranchTree::advance() {

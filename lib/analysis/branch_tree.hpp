@@ -13,6 +13,7 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/branch_switching.hpp"
@@ -94,7 +95,9 @@ class BranchTree {
   BranchTree(OrbitFamily system, TreeOptions options);
 
   /// An orbit of the system's period and pieces to start from, unless a branch goes through it when its turn comes.
-  void start(BranchOrbit orbit);
+  /// @param keeps_symmetry  among the orbits that the symmetry leaves as they are
+  void start(BranchOrbit orbit, bool keeps_symmetry);
+  void start(BranchOrbit orbit) { start(std::move(orbit), system_.keeps_symmetry); }
 
   /// Follows the branch under way to its next orbit, or begins the next branch.
   /// @returns what was done; nothing if there was nothing to do

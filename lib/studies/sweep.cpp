@@ -14,76 +14,12 @@
 #include "integrate/methods.hpp"
 #include "studies/coarse_pass.hpp"
 #include "studies/motion.hpp"
-#include "studies/pulls.hpp"
 #include "studies/stage_lanes.hpp"
 #include "studies/units.hpp"
 
 namespace epicyclic::studies {
 
 namespace {
-
-/// Extrema, contact and differences between planets, gathered over the dense output.
-class Watch {
- public:
-  Watch(const model::DynamicModel& model, PointResult& result) : model_(model), result_(result) {
-    MeshRecord empty;
-    empty.delta_min = std::numeric_limits<double>::infinity();
-    empty.delta_max = -empty.delta_min;
-    result_.sun_planet.assign(static_cast<std::size_t>(model.planets), empty);
-    result_.ring_planet = result_.sun_planet;
-    pulls_.sun_planet.assign(result_.sun_planet.size(), 0.0);
-    pulls_.ring_planet = pulls_.sun_planet;
-  }
-
-  void see(double s, std::span<const double> y) {
-    model_.deflections(s, y.data(), now_);
-    if (model_.pulls) model_.pulls(s, now_, pulls_);
-    ++seen_;
-    see_meshes(now_.sun_planet, pulls_.sun_planet, model_.sun_planet_half_gap, result_.sun_planet);
-    see_meshes(now_.ring_planet, pulls_.ring_planet, model_.ring_planet_half_gap, result_.ring_planet);
-  }
-
-  /// All has been seen: counts become parts.
-  void finish() {
-    for (auto* meshes : {&result_.sun_planet, &result_.ring_planet})
-      for (MeshRecord& r : *meshes) r.pull_time /= static_cast<double>(std::max(1L, seen_));
-  }
-
- private:
-  void see_meshes(const std::vector<double>& delta, const std::vector<double>& pulls, double half_gap,
-                  std::vector<MeshRecord>& records) {
-    double least = delta[0];
-    double most = delta[0];
-    for (std::size_t i = 0; i < delta.size(); ++i) {
-      MeshRecord& r = records[i];
-      least = std::min(least, delta[i]);
-      most = std::max(most, delta[i]);
-      r.delta_min = std::min(r.delta_min, delta[i]);
-      r.delta_max = std::max(r.delta_max, delta[i]);
-      const double pull = told_pull(pulls[i], model_.static_mesh_force);
-      r.pull = std::max(r.pull, pull / model_.static_mesh_force);
-      r.pull_time += pull > 0.0 ? 1.0 : 0.0;
-      switch (model::DynamicModel::contact(delta[i], half_gap)) {
-        case model::Contact::drive:
-          r.drive = true;
-          break;
-        case model::Contact::loss:
-          r.loss = true;
-          break;
-        case model::Contact::back:
-          r.back = true;
-          break;
-      }
-    }
-    result_.planet_spread = std::max(result_.planet_spread, most - least);
-  }
-
-  const model::DynamicModel& model_;
-  PointResult& result_;
-  model::MeshDeflections now_;
-  model::MeshPulls pulls_;
-  long seen_ = 0;
-};
 
 /// Are several points carried side by side?
 bool in_lanes(const integrate::IntegratorOptions& o) {
@@ -105,7 +41,7 @@ class PointRun {
         // Without tangents there is nothing but recurrence, and no end of a transient.
         classifies_(look.classification_periods > 0 && has_classification(model_)),
         adaptive_(classifies_ && look.transient == Transient::adaptive),
-        watch_(model_, result_),
+        watch_(model_),
         strobe_(model_.dimension, model_.period,
                 {adaptive_ ? 0 : look.transient_periods, look.recorded_periods, look.output_phases},
                 [this](std::size_t, double s, std::span<const double> y) { watch_.see(s, y); }) {
@@ -131,7 +67,10 @@ class PointRun {
   /// @param right_hand_sides  that the strobe took
   [[nodiscard]] PointResult finish(long right_hand_sides) {
     const analysis::Strobe& strobe = strobe_.result();
-    watch_.finish();
+    MeshRecords seen = watch_.finished();
+    result_.sun_planet = std::move(seen.sun_planet);
+    result_.ring_planet = std::move(seen.ring_planet);
+    result_.planet_spread = seen.planet_spread;
     result_.outcome = strobe.evolution.outcome;
     result_.message = strobe.evolution.message;
     if (look_.keep == Keep::section) keep_section(strobe.section);
@@ -194,7 +133,7 @@ class PointRun {
   bool classifies_;
   bool adaptive_;
   PointResult result_;
-  Watch watch_;
+  MeshWatch watch_;
   analysis::StrobeProgress strobe_;
   std::optional<analysis::PeriodicOrbit> orbit_;  ///< of a motion that is periodic by evidence
   long classification_work_ = 0;
@@ -384,19 +323,6 @@ LookOptions by_recurrence_alone(LookOptions look) {
   look.classification_periods = 0;
   look.transient = Transient::fixed;
   return look;
-}
-
-std::string MeshRecord::contact() const {
-  std::string text;
-  const auto add = [&](bool seen, const char* word) {
-    if (!seen) return;
-    if (!text.empty()) text += '+';
-    text += word;
-  };
-  add(drive, "drive");
-  add(loss, "loss");
-  add(back, "back");
-  return text;
 }
 
 double PointSummary::pull(const std::vector<MeshRecord>& meshes) {

@@ -20,6 +20,7 @@
 #include "analysis/regime.hpp"
 #include "integrate/options.hpp"
 #include "model/dynamic_model.hpp"
+#include "studies/mesh_watch.hpp"
 #include "studies/sweep_options.hpp"
 #include "studies/sweep_plan.hpp"
 
@@ -30,17 +31,6 @@ inline constexpr int numerics_version = 11;
 
 /// How points are looked at without the classification of their regimes: after a fixed transient, by recurrence.
 [[nodiscard]] LookOptions by_recurrence_alone(LookOptions look);
-
-/// What was seen of one mesh over the record.
-struct MeshRecord {
-  double delta_min = 0, delta_max = 0;  ///< extrema at the dense output phases [b_c]
-  bool drive = false, loss = false, back = false;
-  double pull = 0;       ///< greatest tension [model::DynamicModel::pull()], over the static force of a sun mesh [-]
-  double pull_time = 0;  ///< part of the time that there is tension [-]
-
-  /// "drive+loss" and so on.
-  [[nodiscard]] std::string contact() const;
-};
 
 /// What is recorded of a point but its Poincare section, which is most of a record.
 struct PointSummary {
