@@ -1,7 +1,4 @@
-// What a study has computed of one point, as a record of the journal, and back; exact.
-//
-// Numbers one after another in native byte order: a journal is read where it was written. A list is its length (u64)
-// and its elements.
+// What a study has computed of one point, as a record of the journal, and back; exact [record_archive.hpp].
 #pragma once
 
 #include <cstddef>

@@ -1,0 +1,103 @@
+#include "store/branch_record.hpp"
+
+#include <complex>
+
+#include "store/record_archive.hpp"
+
+namespace epicyclic::store {
+
+namespace archive {
+
+template <class A>
+void pass(A& a, Eigen::MatrixXd& m) {
+  auto rows = static_cast<std::size_t>(m.rows());
+  std::vector<double> numbers(m.data(), m.data() + m.size());
+  pass_all(a, rows, numbers);
+  a.require(rows == 0 ? numbers.empty() : numbers.size() % rows == 0, "has a matrix that is not whole columns");
+  const auto height = static_cast<Eigen::Index>(rows);
+  m = Eigen::Map<const Eigen::MatrixXd>(numbers.data(), height,
+                                        rows == 0 ? 0 : static_cast<Eigen::Index>(numbers.size()) / height);
+}
+template <class A>
+void pass(A& a, std::complex<double>& x) {
+  double parts[] = {x.real(), x.imag()};
+  pass_all(a, parts[0], parts[1]);
+  x = {parts[0], parts[1]};
+}
+template <class A>
+void pass(A& a, analysis::CurvePoint& p) {
+  pass_all(a, p.states, p.value);
+}
+template <class A>
+void pass(A& a, analysis::BranchOrbit& o) {
+  pass_all(a, o.at, o.direction, o.monodromy, o.residual);
+}
+template <class A>
+void pass(A& a, analysis::BranchEnd& e) {
+  pass_enum(a, e, analysis::BranchEnd::least_step);
+}
+template <class A>
+void pass(A& a, analysis::SpecialKind& k) {
+  pass_enum(a, k, analysis::SpecialKind::unresolved);
+}
+template <class A>
+void pass(A& a, analysis::TreeStep::Kind& k) {
+  pass_enum(a, k, analysis::TreeStep::Kind::followed);
+}
+template <class A>
+void pass(A& a, analysis::SpecialPlace& p) {
+  pass_all(a, p.branch, p.point);
+}
+template <class A>
+void pass(A& a, analysis::SpecialPoint& p) {
+  pass_all(a, p.kind, p.value, p.error_bound, p.orbit, p.wave, p.multiplier, p.outwards, p.surface, p.least, p.rising,
+           p.note);
+}
+/// Whether it is there, and it.
+template <class A, class T>
+void pass_if_there(A& a, std::optional<T>& x) {
+  std::size_t there = x.has_value() ? 1 : 0;  // eight bytes, as elements of lists have at least
+  pass(a, there);
+  a.require(there <= 1, "says neither that something is there nor that it is not");
+  if (there == 1 && !x) x.emplace();
+  if (there == 0) x.reset();
+  if (x) pass(a, *x);
+}
+template <class A>
+void pass(A& a, std::optional<analysis::SpecialPlace>& x) {
+  pass_if_there(a, x);
+}
+template <class A>
+void pass(A& a, analysis::BranchLimit& l) {
+  pass_all(a, l.end, l.born, l.place, l.message);
+}
+template <class A>
+void pass(A& a, std::optional<analysis::BranchLimit>& x) {
+  pass_if_there(a, x);
+}
+template <class A>
+void pass(A& a, std::optional<analysis::BranchOrbit>& x) {
+  pass_if_there(a, x);
+}
+template <class A>
+void pass(A& a, analysis::BranchStart& s) {
+  pass_all(a, s.period, s.pieces, s.keeps_symmetry, s.orbit, s.from, s.origin);
+}
+template <class A>
+void pass(A& a, analysis::ContinuationState& s) {
+  pass_all(a, s.now, s.bend, s.step, s.orbits, s.left_start, s.end, s.message, s.evaluations);
+}
+template <class A>
+void pass(A& a, analysis::TreeStep& s) {
+  pass_all(a, s.kind, s.full, s.trace, s.orbit, s.special, s.same_as, s.departures, s.limit);
+}
+
+}  // namespace archive
+
+std::vector<std::byte> encode_step(const analysis::TreeStep& step) { return archive::encode(step); }
+
+analysis::TreeStep decode_step(std::span<const std::byte> record) {
+  return archive::decode<analysis::TreeStep>(record);
+}
+
+}  // namespace epicyclic::store

@@ -1,0 +1,83 @@
+// Journal records of branches: exact, and damaged ones refused.
+
+#include "store/branch_record.hpp"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "problems/branches.hpp"
+#include "store/journal.hpp"
+
+namespace epicyclic::store {
+namespace {
+
+/// A tree of two branches, with folds, flips and an end at a flip of the other.
+analysis::BranchTree planted() {
+  const FieldFamily fields = problems::duffing(0.3, -1.0, 1.2);
+  const analysis::OrbitFamily family{problems::flows(fields, 1e-8)};
+  analysis::BranchTree tree(family, {.continuation = {.from = 0.1, .to = 0.5}});
+  const analysis::Correction first = first_orbit(family, 0.2, problems::settled(family.flows, 0.2, {1.0, 0.0}, 100));
+  EXPECT_TRUE(first.found);
+  if (first.found) tree.start(first.orbit);
+  return tree;
+}
+
+void expect_equal(const analysis::SpecialPoint& a, const analysis::SpecialPoint& b) {
+  EXPECT_EQ(a.kind, b.kind);
+  EXPECT_EQ(a.value, b.value);
+  EXPECT_EQ(a.multiplier, b.multiplier);
+  EXPECT_EQ(a.outwards, b.outwards);
+  EXPECT_EQ(a.orbit.at.states, b.orbit.at.states);
+  EXPECT_EQ(a.orbit.monodromy, b.orbit.monodromy);
+}
+
+TEST(BranchRecord, ATreeOfReadStepsIsTheSame) {
+  analysis::BranchTree tree = planted();
+  analysis::BranchTree again = planted();
+  std::size_t departures = 0;
+  while (const auto step = tree.advance()) {
+    departures += step->departures.size();
+    again.apply(decode_step(encode_step(*step)));
+  }
+  EXPECT_GE(departures, 1U);
+  EXPECT_FALSE(again.advance().has_value());
+  ASSERT_EQ(again.branches().size(), tree.branches().size());
+  for (std::size_t b = 0; b < tree.branches().size(); ++b) {
+    const analysis::Branch& expected = tree.branches()[b];
+    const analysis::Branch& branch = again.branches()[b];
+    ASSERT_EQ(branch.orbits.size(), expected.orbits.size());
+    for (std::size_t k = 0; k < branch.orbits.size(); ++k) {
+      EXPECT_EQ(branch.orbits[k].at.value, expected.orbits[k].at.value);
+      EXPECT_EQ(branch.orbits[k].direction.states, expected.orbits[k].direction.states);
+      EXPECT_EQ(branch.orbits[k].monodromy, expected.orbits[k].monodromy);
+    }
+    ASSERT_EQ(branch.special.size(), expected.special.size());
+    for (std::size_t k = 0; k < branch.special.size(); ++k) expect_equal(branch.special[k], expected.special[k]);
+    EXPECT_EQ(branch.first.born, expected.first.born);
+    EXPECT_EQ(branch.last.end, expected.last.end);
+    EXPECT_EQ(branch.first.place.has_value(), expected.first.place.has_value());
+  }
+}
+
+TEST(BranchRecord, DamageIsRefused) {
+  analysis::BranchTree tree = planted();
+  std::vector<std::byte> longest;
+  while (const auto step = tree.advance()) {
+    const std::vector<std::byte> record = encode_step(*step);
+    if (record.size() > longest.size()) longest = record;
+  }
+  for (std::size_t size = 0; size < longest.size(); ++size)
+    EXPECT_THROW((void)decode_step(std::span(longest).first(size)), DamagedData) << size;
+  std::vector<std::byte> longer = longest;
+  longer.push_back(std::byte{});
+  EXPECT_THROW((void)decode_step(longer), DamagedData);
+  std::vector<std::byte> kind = longest;
+  kind[0] = std::byte{9};
+  EXPECT_THROW((void)decode_step(kind), DamagedData);
+}
+
+}  // namespace
+}  // namespace epicyclic::store
