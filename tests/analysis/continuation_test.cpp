@@ -378,6 +378,15 @@ TEST(ClearanceBranch, PlacesOfFourWidthsLeadToTheExactOneWithinTheirBound) {
   EXPECT_LT(ratios[5], idle);
 }
 
+TEST(SmoothingBias, FindsTheExactValueOfItsOwnLaw) {
+  std::vector<SmoothedValue> values;
+  for (const double w : {0.08, 0.04, 0.02, 0.01}) values.push_back({w, 0.7 + 3.0 * w * w * std::log(w) - 5.0 * w * w});
+  const ExactValue found = extrapolated_to_exact(values);
+  constexpr double rounding = 1e-14;  // of a few operations on numbers of order 1
+  EXPECT_NEAR(found.value, 0.7, rounding);
+  EXPECT_LT(found.bound, 10.0 * rounding);
+}
+
 TEST(SmoothingBias, RefusesWhatItCannotExtrapolate) {
   const std::vector<SmoothedValue> three = {{0.04, 1.0}, {0.02, 1.1}, {0.01, 1.2}};
   EXPECT_THROW((void)extrapolated_to_exact(three), DomainError);
