@@ -387,6 +387,17 @@ bool turns_at_a_pitchfork(const OrbitFamily& family, const InvariantBlock& block
          right.plus == at_a.plus;
 }
 
+/// Something that is only known to be between two neighbours.
+SpecialPoint between_neighbours(const BranchOrbit& a, const BranchOrbit& b, int wave, const char* note) {
+  SpecialPoint point;
+  point.value = 0.5 * (a.at.value + b.at.value);
+  point.error_bound = std::abs(b.at.value - a.at.value);
+  point.orbit = a;
+  point.wave = wave;
+  point.note = note;
+  return point;
+}
+
 /// All events in one block, the part halved until each is alone.
 void find_events(const OrbitFamily& family, const InvariantBlock& block, const BranchOrbit& a, const BranchOrbit& b,
                  const SpecialOptions& options, int halvings, std::vector<SpecialPoint>& found) {
@@ -403,13 +414,7 @@ void find_events(const OrbitFamily& family, const InvariantBlock& block, const B
     find_events(family, block, middle.orbit, b, options, halvings - 1, found);
     return;
   }
-  SpecialPoint point;
-  point.value = 0.5 * (a.at.value + b.at.value);
-  point.error_bound = std::abs(b.at.value - a.at.value);
-  point.orbit = a;
-  point.wave = block.wave;
-  point.note = "several events that could not be parted";
-  found.push_back(std::move(point));
+  found.push_back(between_neighbours(a, b, block.wave, "several events that could not be parted"));
 }
 
 /// Surfaces that are grazed between two orbits.
@@ -417,7 +422,10 @@ void find_grazings(const OrbitFamily& family, const BranchOrbit& a, const Branch
                    std::vector<SpecialPoint>& found) {
   const auto at_a = contact_extrema(family, a.at);
   const auto at_b = contact_extrema(family, b.at);
-  if (!at_a || !at_b) return;
+  if (!at_a || !at_b) {
+    found.push_back(between_neighbours(a, b, 0, "the contacts could not be looked at"));
+    return;
+  }
   for (const bool least : {true, false}) {
     const std::vector<double>& before = least ? at_a->least : at_a->greatest;
     const std::vector<double>& behind = least ? at_b->least : at_b->greatest;

@@ -126,7 +126,8 @@ inline gear::Stage with_teeth(gear::Stage s, int z_s, int z_p, int z_r, int plan
   return s;
 }
 
-/// The train of Tang et al. 2020, Tables 1, 3, 4, completed as in inputs/tang2020.json.
+/// The train of Tang et al. 2020, Tables 1, 3, 4, completed as in inputs/tang2020.json but for its friction:
+/// coefficients in place of the law of the lubricated contact.
 inline gear::Stage tang2020() {
   const gear::SupportDamping damping{0.05, std::nullopt};
   gear::Stage s;
