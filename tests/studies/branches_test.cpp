@@ -98,6 +98,24 @@ TEST(Branches, FlipOfThePapersStageIsWhereMotionsDouble) {
   }
 }
 
+// Over the whole range the planets' contacts are made and lost together, to rounding: steps onto them are as short.
+TEST(BranchesLong, OfPeriod1GoesThroughTheWholeRange) {
+  BranchesOptions options;
+  options.starts = {3.3};
+  options.largest_period = 1;
+  options.branch_points = false;
+  const BranchSystem system = branch_system(model_at, options, model_at(3.3));
+  const std::vector<analysis::Branch> all = grown(system, 3.3, 400);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].orbits.front().at.value, 0.2);
+  EXPECT_EQ(all[0].orbits.back().at.value, 3.5);
+  EXPECT_GE(all[0].special.size(), 20U);
+  for (const analysis::SpecialPoint& p : all[0].special) {
+    EXPECT_NE(p.kind, analysis::SpecialKind::unresolved) << p.value << ": " << p.note;
+    EXPECT_TRUE(p.note.empty()) << p.value << ": " << p.note;
+  }
+}
+
 TEST(Branches, RowsAreWhatASweepRecords) {
   BranchesOptions options;
   options.from = 2.9;

@@ -214,13 +214,22 @@ class Integration {
     for (const double value : surfaces(s, y_.get())) side_.push_back(value > 0.0);
   }
 
+  /// Of the step: a crossing nearer to its ends is on the end.
+  static constexpr double nearest_to_ends = 1e-6;
+
   /// The first surface that the accepted step from a to b has crossed, and where: the root of its value along steps of
   /// the method itself, so that the crossing is as accurate as the method and not as its dense output.
   bool find_crossing(double a, double b, double first_step, Crossing& crossing) {
     bool found = false;
     const std::vector<double> at_end = surfaces(b, y_.get());
+    // Of a step so short there are no places between its ends, and a kink in it is worth its square.
+    const bool resolved = nearest_to_ends * (b - a) > 4.0 * std::numeric_limits<double>::epsilon() * std::max(1.0, b);
     for (std::size_t k = 0; k < side_.size(); ++k) {
       if ((at_end[k] > 0.0) == side_[k]) continue;
+      if (!resolved) {
+        side_[k] = !side_[k];
+        continue;
+      }
       const double sign = side_[k] ? 1.0 : -1.0;
       // Where the state is just after a crossing of this very surface, its value is rounding, of either sign.
       const double at_start = sign * surface(k, a, before_.get());
@@ -230,12 +239,13 @@ class Integration {
         return sign * surface(k, s, sample_.get());
       };
       constexpr double nothing = 1e-9;
-      if (at_start <= 0.0 && !(along(a + nothing * length) > 0.0)) {
+      const double low = at_start > 0.0 ? a : a + nothing * length;
+      if (at_start <= 0.0 && !(low > a && along(low) > 0.0)) {
         side_[k] = !side_[k];
         continue;
       }
-      const double low = at_start > 0.0 ? a : a + nothing * length;
-      const double s = find_root([&](double x) { return x <= a ? at_start : along(x); }, low, b);
+      // The dense output ends beside the state by rounding: a crossing within that is at the end.
+      const double s = along(b) > 0.0 ? b : find_root([&](double x) { return x <= a ? at_start : along(x); }, low, b);
       if (!found || s < crossing.s) crossing = {k, s};
       found = true;
     }
@@ -247,9 +257,8 @@ class Integration {
   /// The dense output's root corrected by steps of the method itself from the step's beginning (secant).
   double refine(const Crossing& guess, double a, double b, double first_step) {
     const double length = b - a;
-    constexpr double smallest = 1e-6;  // of the step: a crossing nearer to its ends is on the end
     constexpr int most = 20;
-    if (guess.s - a < smallest * length) return guess.s > a ? guess.s : a + smallest * length;
+    if (guess.s - a < nearest_to_ends * length) return guess.s > a ? guess.s : a + nearest_to_ends * length;
     const auto value = [&](double s) {
       std::copy_n(data_of(before_.get()), padded_size(y_.get()), data_of(sample_.get()));
       spent_ += stepper_.attempts();
@@ -269,7 +278,7 @@ class Integration {
       const double x2 = x1 - f1 * (x1 - x0) / (f1 - f0);
       x0 = x1;
       f0 = f1;
-      x1 = std::clamp(x2, a + smallest * length, b);
+      x1 = std::clamp(x2, a + nearest_to_ends * length, b);
       if (std::abs(x1 - x0) <= 4.0 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(x1))) break;
     }
     return x1;
