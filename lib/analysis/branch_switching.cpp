@@ -35,19 +35,11 @@ std::vector<Eigen::VectorXd> directions(const OrbitFamily& family, const Special
   return all;
 }
 
-/// The states at the beginnings of the family's pieces of the motion from y.
-std::optional<CurvePoint> cut(const OrbitFamily& family, const Eigen::VectorXd& y, double value) {
-  CurvePoint z{Eigen::MatrixXd(y.size(), family.pieces), value};
-  z.states.col(0) = y;
-  if (!carry_to_pieces(*family.flows(value), family.period, z.states).reached()) return std::nullopt;
-  return z;
-}
-
 /// The way from z to what its states become with y_0 + v, v small.
 std::optional<CurvePoint> carried_direction(const OrbitFamily& family, const CurvePoint& z, const Eigen::VectorXd& v) {
   constexpr double little = 1e-5;
-  const auto ahead = cut(family, z.states.col(0) + little * v, z.value);
-  const auto behind = cut(family, z.states.col(0) - little * v, z.value);
+  const auto ahead = cut_into_pieces(family, z.states.col(0) + little * v, z.value);
+  const auto behind = cut_into_pieces(family, z.states.col(0) - little * v, z.value);
   if (!ahead || !behind) return std::nullopt;
   return (0.5 / little) * (*ahead - *behind);
 }
@@ -96,14 +88,14 @@ std::vector<Departure> departures(const OrbitFamily& family, const SpecialPoint&
   std::vector<Departure> found;
   std::vector<Eigen::MatrixXd> seen;
   for (const Eigen::VectorXd& v : directions(family, point, options.angles)) {
-    const std::optional<CurvePoint> base = cut(other, point.orbit.at.states.col(0), point.value);
+    const std::optional<CurvePoint> base = cut_into_pieces(other, point.orbit.at.states.col(0), point.value);
     if (!base) return found;
     std::optional<CurvePoint> away = carried_direction(other, *base, v);
     if (!away) continue;
     if (!flip) {
       std::optional<CurvePoint> along =
-          cut(other, point.orbit.at.states.col(0) + 1e-5 * point.orbit.direction.states.col(0),
-              point.value + 1e-5 * point.orbit.direction.value);
+          cut_into_pieces(other, point.orbit.at.states.col(0) + 1e-5 * point.orbit.direction.states.col(0),
+                          point.value + 1e-5 * point.orbit.direction.value);
       if (!along) continue;
       const CurvePoint t = 1e5 * (*along - *base);
       *away = *away - (inner_product(other, *away, t) / inner_product(other, t, t)) * t;

@@ -44,10 +44,12 @@ CyclicSymmetry cyclic_symmetry(std::size_t dimension, int order,
   if (!((linear - Eigen::Map<const Eigen::VectorXd>(image.data(), n)).cwiseAbs().maxCoeff() <=
         rounding * static_cast<double>(dimension)))
     throw InputError("a symmetry is not a linear map of the state");
+  s.blocks = invariant_blocks(dimension, s);
   return s;
 }
 
 std::vector<InvariantBlock> invariant_blocks(std::size_t dimension, const CyclicSymmetry& symmetry) {
+  if (!symmetry.blocks.empty()) return symmetry.blocks;
   const auto n = static_cast<Eigen::Index>(dimension);
   const int order = symmetry.map.size() == 0 ? 1 : symmetry.order;
   std::vector<InvariantBlock> blocks;

@@ -22,22 +22,23 @@
 
 namespace epicyclic::analysis {
 
+struct InvariantBlock {
+  int wave = 0;            ///< j of 0 ... N/2
+  bool real = true;        ///< j = 0 or N/2: multipliers are real or pairs; else each stands for a pair of two blocks
+  Eigen::MatrixXcd basis;  ///< V_j, dimension x size
+};
+
 /// S and its order.
 struct CyclicSymmetry {
-  Eigen::MatrixXd map;  ///< empty: none
-  int order = 1;        ///< N
+  Eigen::MatrixXd map;                   ///< empty: none
+  int order = 1;                         ///< N
+  std::vector<InvariantBlock> blocks{};  ///< of invariant_blocks(), made once
 };
 
 /// S from a linear map of states.
 /// @throws InputError unless the map is linear to rounding, and its power `order` the identity
 [[nodiscard]] CyclicSymmetry cyclic_symmetry(std::size_t dimension, int order,
                                              const std::function<std::vector<double>(std::span<const double>)>& map);
-
-struct InvariantBlock {
-  int wave = 0;            ///< j of 0 ... N/2
-  bool real = true;        ///< j = 0 or N/2: multipliers are real or pairs; else each stands for a pair of two blocks
-  Eigen::MatrixXcd basis;  ///< V_j, dimension x size
-};
 
 /// Those of j = 0 ... N/2 that are not empty; without a symmetry the whole space is one.
 [[nodiscard]] std::vector<InvariantBlock> invariant_blocks(std::size_t dimension, const CyclicSymmetry& symmetry);

@@ -198,6 +198,13 @@ Correction between(const OrbitFamily& family, const BranchOrbit& a, const Branch
   return correct(family, guess, a.direction);
 }
 
+std::optional<CurvePoint> cut_into_pieces(const OrbitFamily& family, const Eigen::VectorXd& y, double value) {
+  CurvePoint z{Eigen::MatrixXd(y.size(), family.pieces), value};
+  z.states.col(0) = y;
+  if (!carry_to_pieces(*family.flows(value), family.period, z.states).reached()) return std::nullopt;
+  return z;
+}
+
 Correction first_orbit(const OrbitFamily& family, double value, std::span<const double> state) {
   family.validate();
   Eigen::MatrixXd y(static_cast<Eigen::Index>(state.size()), family.pieces);

@@ -17,6 +17,7 @@
 // differentiable, and Newton's method still converges, faster than linearly.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -94,6 +95,11 @@ struct Correction {
 /// The orbit a part of the way from a to its neighbour b, in the plane there that stands on a's direction.
 /// @param part  in [0, 1]
 [[nodiscard]] Correction between(const OrbitFamily& family, const BranchOrbit& a, const BranchOrbit& b, double part);
+
+/// The states at the beginnings of the family's pieces of the motion from y.
+/// @returns nothing if it could not be carried
+[[nodiscard]] std::optional<CurvePoint> cut_into_pieces(const OrbitFamily& family, const Eigen::VectorXd& y,
+                                                        double value);
 
 /// The orbit at a value from one state, cut into the family's pieces.
 [[nodiscard]] Correction first_orbit(const OrbitFamily& family, double value, std::span<const double> state);

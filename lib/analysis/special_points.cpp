@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include "analysis/contact_extrema.hpp"
-#include "analysis/shooting.hpp"
 #include "core/errors.hpp"
 #include "core/require.hpp"
 #include "core/root_finding.hpp"
-#include "core/text.hpp"
 
 namespace epicyclic::analysis {
 
@@ -76,6 +73,17 @@ std::complex<double> critical(SpecialKind kind, const Values& values, std::compl
   }
 }
 
+/// Something that is only known to be between two neighbours.
+SpecialPoint between_neighbours(const BranchOrbit& a, const BranchOrbit& b, int wave, std::string note) {
+  SpecialPoint point;
+  point.value = 0.5 * (a.at.value + b.at.value);
+  point.error_bound = std::abs(b.at.value - a.at.value);
+  point.orbit = a;
+  point.wave = wave;
+  point.note = std::move(note);
+  return point;
+}
+
 /// A surface that is grazed between two orbits.
 struct Grazing {
   std::size_t surface = 0;
@@ -113,7 +121,7 @@ class Event {
     try {
       if (!crosses_here_) bracket();
       place = find(family_);
-      if (!place) return unresolved(std::move(point), "no orbit beside it");
+      if (!place) return unresolved("no orbit beside it");
       values_ = {place->value};
       spread_ = place->spread;
       for (const Refinement& other : options_.others) {
@@ -128,7 +136,7 @@ class Event {
         }
       }
     } catch (const DomainError& e) {
-      return unresolved(std::move(point), e.what());
+      return unresolved(e.what());
     }
     point.value = values_.back();
     point.orbit = std::move(place->orbit);
@@ -152,14 +160,8 @@ class Event {
     double spread = 0;  ///< of the value by fewer orbits, where it is interpolated
   };
 
-  /// All that is known is that it is between the two.
-  [[nodiscard]] SpecialPoint unresolved(SpecialPoint point, std::string note) const {
-    point.kind = SpecialKind::unresolved;
-    point.value = 0.5 * (a_.at.value + b_.at.value);
-    point.error_bound = std::abs(b_.at.value - a_.at.value);
-    point.orbit = a_;
-    point.note = to_string(kind_) + ": " + note;
-    return point;
+  [[nodiscard]] SpecialPoint unresolved(const std::string& note) const {
+    return between_neighbours(a_, b_, block_ != nullptr ? block_->wave : 0, to_string(kind_) + ": " + note);
   }
 
   /// Of another sign on each side of the event, whatever else happens to the multipliers.
@@ -207,14 +209,6 @@ class Event {
     expected_ = kind_ == SpecialKind::neimark_sacker ? values.at(inside_) : critical(kind_, values, 0.0);
   }
 
-  /// The states where this family's pieces begin.
-  [[nodiscard]] static std::optional<CurvePoint> cut(const OrbitFamily& family, const CurvePoint& at) {
-    CurvePoint cut{Eigen::MatrixXd(at.states.rows(), family.pieces), at.value};
-    cut.states.col(0) = at.states.col(0);
-    if (!carry_to_pieces(*family.flows(at.value), family.period, cut.states).reached()) return std::nullopt;
-    return cut;
-  }
-
   [[nodiscard]] std::optional<Place> find(const OrbitFamily& family) const {
     return crosses_here_ ? from_beside(family) : polish(family);
   }
@@ -256,8 +250,9 @@ class Event {
   [[nodiscard]] static Correction recut(const OrbitFamily& family, const BranchOrbit& orbit) {
     if (orbit.at.states.cols() == family.pieces) return correct(family, orbit.at, orbit.direction);
     constexpr double little = 1e-4;
-    const std::optional<CurvePoint> at = cut(family, orbit.at);
-    const std::optional<CurvePoint> ahead = cut(family, orbit.at + little * orbit.direction);
+    const std::optional<CurvePoint> at = cut_into_pieces(family, orbit.at.states.col(0), orbit.at.value);
+    const CurvePoint beyond = orbit.at + little * orbit.direction;
+    const std::optional<CurvePoint> ahead = cut_into_pieces(family, beyond.states.col(0), beyond.value);
     if (!at || !ahead) return {};
     return correct(family, *at, (1.0 / little) * (*ahead - *at));
   }
@@ -385,17 +380,6 @@ bool turns_at_a_pitchfork(const OrbitFamily& family, const InvariantBlock& block
   const Signs right = signs_of(block, behind.orbit);
   return left.falling == at_a.falling && right.falling == at_b.falling && left.plus == at_a.plus &&
          right.plus == at_a.plus;
-}
-
-/// Something that is only known to be between two neighbours.
-SpecialPoint between_neighbours(const BranchOrbit& a, const BranchOrbit& b, int wave, const char* note) {
-  SpecialPoint point;
-  point.value = 0.5 * (a.at.value + b.at.value);
-  point.error_bound = std::abs(b.at.value - a.at.value);
-  point.orbit = a;
-  point.wave = wave;
-  point.note = note;
-  return point;
 }
 
 /// All events in one block, the part halved until each is alone.

@@ -5,11 +5,9 @@
 #include <cstddef>
 #include <utility>
 
-#include "analysis/shooting.hpp"
 #include "core/dense.hpp"
 #include "core/errors.hpp"
 #include "core/require.hpp"
-#include "core/text.hpp"
 #include "integrate/make_flow.hpp"
 #include "studies/motion.hpp"
 #include "studies/plane.hpp"
