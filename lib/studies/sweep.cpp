@@ -95,13 +95,7 @@ class PointRun {
   void keep_section(const analysis::PoincareSection& section) {
     result_.poincare_columns = model_.dimension + 2 * static_cast<std::size_t>(model_.planets);
     model::MeshDeflections d;
-    for (std::size_t k = 0; k < section.size(); ++k) {
-      const auto y = section.point(k);
-      model_.deflections(0.0, y.data(), d);
-      result_.poincare.insert(result_.poincare.end(), y.begin(), y.end());
-      result_.poincare.insert(result_.poincare.end(), d.sun_planet.begin(), d.sun_planet.end());
-      result_.poincare.insert(result_.poincare.end(), d.ring_planet.begin(), d.ring_planet.end());
-    }
+    for (std::size_t k = 0; k < section.size(); ++k) append_poincare_row(model_, section.point(k), d, result_.poincare);
   }
 
   void keep_attractor(const analysis::PoincareSection& section) {
@@ -359,6 +353,14 @@ std::vector<std::string> poincare_columns(const model::DynamicModel& model) {
   for (const char* mesh : {"delta_sp_", "delta_rp_"})
     for (int i = 1; i <= model.planets; ++i) names.push_back(mesh + std::to_string(i));
   return names;
+}
+
+void append_poincare_row(const model::DynamicModel& model, std::span<const double> y, model::MeshDeflections& d,
+                         std::vector<double>& rows) {
+  model.deflections(0.0, y.data(), d);
+  rows.insert(rows.end(), y.begin(), y.end());
+  rows.insert(rows.end(), d.sun_planet.begin(), d.sun_planet.end());
+  rows.insert(rows.end(), d.ring_planet.begin(), d.ring_planet.end());
 }
 
 PointResult compute_point(const GridPoint& point, const model::DynamicModel& model, const std::vector<double>& start,

@@ -12,6 +12,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,7 @@
 namespace epicyclic::studies {
 
 /// Raised when a change makes the same input give other numbers: results of two versions are never mixed in one folder.
-inline constexpr int numerics_version = 11;
+inline constexpr int numerics_version = 12;
 
 /// How points are looked at without the classification of their regimes: after a fixed transient, by recurrence.
 [[nodiscard]] LookOptions by_recurrence_alone(LookOptions look);
@@ -84,6 +85,12 @@ struct PointResult : PointSummary {
 
 /// Names of the columns of PointResult::poincare.
 [[nodiscard]] std::vector<std::string> poincare_columns(const model::DynamicModel& model);
+
+/// Appends a row of these columns.
+/// @param y  the state at s = 0
+/// @param d  used over and over
+void append_poincare_row(const model::DynamicModel& model, std::span<const double> y, model::MeshDeflections& d,
+                         std::vector<double>& rows);
 
 /// The model at a value of the sweep parameter; called from several threads at once.
 using ModelAt = std::function<model::DynamicModel(double value)>;

@@ -94,6 +94,44 @@ TEST(Contacts, LocatingThemSavesThePairsThatMissKinks) {
   }
 }
 
+/// x'' = -x - k max(0, x - 1) from rest at -(1 + depth), after 2 pi. It is beyond 1 for 2 sqrt(2 depth) or less.
+std::array<double, 2> after_a_visit(double depth, double k) {
+  const double amplitude = 1.0 + depth;
+  const double w1 = std::sqrt(1.0 + k);
+  const double entry = std::acos(-1.0 / amplitude);
+  const double speed = std::sqrt(amplitude * amplitude - 1.0);
+  // Beyond 1: x - k / w1^2 turns with w1; it leaves with the speed that it came with.
+  const double inside = 2.0 * std::atan2(speed / w1, 1.0 / (w1 * w1)) / w1;
+  const double left = two_pi - entry - inside;
+  return {std::cos(left) - speed * std::sin(left), -std::sin(left) - speed * std::cos(left)};
+}
+
+TEST(Contacts, AVisitBetweenTheEndsOfAStepIsNotMissed) {
+  constexpr double k = 100.0;
+  VectorField field;
+  field.dimension = 2;
+  field.period = two_pi;
+  field.right_hand_side = [](std::size_t, double, const double* y, double* f) {
+    f[0] = y[1];
+    f[1] = -y[0] - k * std::max(0.0, y[0] - 1.0);
+  };
+  field.surfaces = {1, [](double, const double* y, double* values, double* rates) {
+                      values[0] = y[0] - 1.0;
+                      rates[0] = y[1];
+                    }};
+  for (const char* method : {"arkode-dopri5", "arkode-verner65", "arkode-fehlberg78"})
+    for (double depth = 1e-7; depth < 0.1; depth *= 1.7) {
+      const auto flow = make_flow(field, options(method, 1e-11, true));
+      std::array<double, 2> y = {-1.0 - depth, 0.0};
+      ASSERT_TRUE(flow->evolve(y, 0.0, two_pi).reached());
+      const auto exact = after_a_visit(depth, k);
+      // A visit of that depth that is missed is an error of k depth^1.5.
+      constexpr double tolerance_times_condition = 2e-9;
+      EXPECT_NEAR(y[0], exact[0], tolerance_times_condition) << method << " " << depth;
+      EXPECT_NEAR(y[1], exact[1], tolerance_times_condition) << method << " " << depth;
+    }
+}
+
 /// Error of one period in n equal steps: the order of convergence where kinks fall anywhere in a step.
 double fixed_step_error(std::string_view method, int n) {
   IntegratorOptions o = options(method, 1e-13, false);

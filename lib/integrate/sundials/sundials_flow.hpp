@@ -20,6 +20,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -79,10 +80,11 @@ class Integration {
   }
 
  private:
-  /// A crossing that the present step is to end on.
+  /// Where the present step is to end.
   struct Crossing {
     std::size_t surface = 0;
     double s = 0;
+    bool extremum = false;  ///< not of the surface: where its value is so near to it that the step has to tell the side
   };
 
   Evolution evolve_segment(double from, double to, double& next_step) {
@@ -98,6 +100,7 @@ class Integration {
     double s = from;
     double target = to;
     bool crossing_ahead = false;
+    bool extremum_ahead = false;
     Crossing crossing;
     double proposed = next_step;
     int stalled = 0;
@@ -115,7 +118,8 @@ class Integration {
       if (!(inside && only_column) && !finite(y)) return fail(s, "the state is not finite after a step");
       const double arrived = at_stop ? target : reached;
       if (options.locate_contacts && !crossing_ahead && find_crossing(s_before, arrived, before, crossing)) {
-        crossing_ahead = true;
+        crossing_ahead = !crossing.extremum;
+        extremum_ahead = crossing.extremum;
         target = crossing.s;
         step_again(s_before, std::min(before, target - s_before), target);
         proposed = before;
@@ -133,9 +137,10 @@ class Integration {
       stalled = tiny && !at_stop ? stalled + 1 : 0;
       const bool spent = spent_ + stepper_.attempts() >= steps_left_ && s < to;
       if (!inside || spent || stalled > 3) return give_up(s, inside, spent);
-      if (at_stop && crossing_ahead && s < to) {
-        side_[crossing.surface] = !side_[crossing.surface];
-        crossing_ahead = false;
+      if (options.locate_contacts) remember_surfaces(s);
+      if (at_stop && (crossing_ahead || extremum_ahead) && s < to) {
+        if (crossing_ahead) side_[crossing.surface] = !side_[crossing.surface];
+        crossing_ahead = extremum_ahead = false;
         target = to;
         spent_ += stepper_.attempts();
         restart(s, proposed, target);
@@ -212,7 +217,54 @@ class Integration {
   void find_sides(double s) {
     side_.clear();
     for (const double value : surfaces(s, y_.get())) side_.push_back(value > 0.0);
+    remember_surfaces(s);
   }
+
+  /// Values and rates where the next step begins.
+  void remember_surfaces(double s) {
+    start_values_ = surfaces(s, y_.get());
+    start_rates_ = rates_;
+  }
+
+  /// How a step may have been on the other side of a surface that it begins and ends on one side of.
+  struct Visit {
+    double s = 0;        ///< of the extremum
+    bool clear = false;  ///< it is beyond the surface, else too near to tell
+  };
+
+  /// An orbit that just makes or loses contact does so between the ends of a step.
+  /// @param along  the surface's value within the step, positive on the side of the ends
+  template <class Along>
+  [[nodiscard]] std::optional<Visit> visit(std::size_t k, double a, double b, double value, double rate, Along along) {
+    const double sign = side_[k] ? 1.0 : -1.0;
+    const double h = b - a;
+    const double v0 = sign * start_values_[k], v1 = sign * value;
+    const double d0 = sign * start_rates_[k] * h, d1 = sign * rate * h;
+    if (!(d0 < 0.0 && d1 > 0.0)) return std::nullopt;
+    // The extremum of the cubic through both ends.
+    const double c2 = 3.0 * (v1 - v0) - 2.0 * d0 - d1, c3 = d0 + d1 - 2.0 * (v1 - v0);
+    const double t = std::clamp(-d0 / (c2 + std::sqrt(std::max(0.0, c2 * c2 - 3.0 * c3 * d0))), 0.0, 1.0);
+    const double least = v0 + t * (d0 + t * (c2 + t * c3));
+    // The cubic is off by the fourth power of the step: far from the surface nothing is asked.
+    constexpr double far = 0.3;
+    const double scale = std::max(v0, v1);
+    if (!(least < far * scale)) return std::nullopt;
+    const auto slope = [&](double s) {
+      (void)along(s);
+      return sign * rates_[k];
+    };
+    const double low = a + nearest_extremum * h, high = b - nearest_extremum * h;
+    if (!(slope(low) < 0.0 && slope(high) > 0.0)) return std::nullopt;
+    const double s = find_root(slope, low, high);
+    // The dense output is off by less.
+    constexpr double near = 0.03;
+    const double there = along(s);
+    if (there > near * scale) return std::nullopt;
+    return Visit{s, there < -near * scale};
+  }
+
+  /// Of the step: an extremum nearer to its ends is as good as on the end, to the square of that.
+  static constexpr double nearest_extremum = 1e-3;
 
   /// Of the step: a crossing nearer to its ends is on the end.
   static constexpr double nearest_to_ends = 1e-6;
@@ -222,22 +274,32 @@ class Integration {
   bool find_crossing(double a, double b, double first_step, Crossing& crossing) {
     bool found = false;
     const std::vector<double> at_end = surfaces(b, y_.get());
+    const std::vector<double> rates_at_end = rates_;
     // Of a step so short there are no places between its ends, and a kink in it is worth its square.
     const bool resolved = nearest_to_ends * (b - a) > 4.0 * std::numeric_limits<double>::epsilon() * std::max(1.0, b);
     for (std::size_t k = 0; k < side_.size(); ++k) {
-      if ((at_end[k] > 0.0) == side_[k]) continue;
-      if (!resolved) {
-        side_[k] = !side_[k];
-        continue;
-      }
       const double sign = side_[k] ? 1.0 : -1.0;
-      // Where the state is just after a crossing of this very surface, its value is rounding, of either sign.
-      const double at_start = sign * surface(k, a, before_.get());
-      const double length = b - a;
       const auto along = [&](double s) {
         stepper_.dense(s, sample_.get());
         return sign * surface(k, s, sample_.get());
       };
+      double end = b;
+      if ((at_end[k] > 0.0) == side_[k]) {
+        const auto there = resolved ? visit(k, a, b, at_end[k], rates_at_end[k], along) : std::nullopt;
+        if (!there) continue;
+        if (!there->clear) {
+          if (!found || there->s < crossing.s) crossing = {k, there->s, true};
+          found = true;
+          continue;
+        }
+        end = there->s;
+      } else if (!resolved) {
+        side_[k] = !side_[k];
+        continue;
+      }
+      // Where the state is just after a crossing of this very surface, its value is rounding, of either sign.
+      const double at_start = sign * start_values_[k];
+      const double length = b - a;
       constexpr double nothing = 1e-9;
       const double low = at_start > 0.0 ? a : a + nothing * length;
       if (at_start <= 0.0 && !(low > a && along(low) > 0.0)) {
@@ -245,11 +307,12 @@ class Integration {
         continue;
       }
       // The dense output ends beside the state by rounding: a crossing within that is at the end.
-      const double s = along(b) > 0.0 ? b : find_root([&](double x) { return x <= a ? at_start : along(x); }, low, b);
+      const double s =
+          along(end) > 0.0 ? end : find_root([&](double x) { return x <= a ? at_start : along(x); }, low, end);
       if (!found || s < crossing.s) crossing = {k, s};
       found = true;
     }
-    if (!found) return false;
+    if (!found || crossing.extremum) return found;
     crossing.s = refine(crossing, a, b, first_step);
     return true;
   }
@@ -295,7 +358,8 @@ class Integration {
   long steps_left_ = 0;
   long spent_ = 0;  ///< attempts before the last restart within a segment
   std::vector<bool> side_;
-  std::vector<double> values_, rates_;  ///< of surfaces
+  std::vector<double> values_, rates_;              ///< of surfaces
+  std::vector<double> start_values_, start_rates_;  ///< where the present step begins
 };
 
 template <class Stepper>
