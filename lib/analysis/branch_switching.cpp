@@ -1,7 +1,9 @@
 #include "analysis/branch_switching.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -61,20 +63,34 @@ Eigen::MatrixXd period_states(const OrbitFamily& family, const CurvePoint& at) {
   return y;
 }
 
-bool are_images(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const CyclicSymmetry& symmetry, double difference) {
-  if (a.cols() != b.cols() || a.cols() == 0) return false;
+double image_distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const CyclicSymmetry& symmetry) {
+  double least = std::numeric_limits<double>::infinity();
+  if (a.cols() != b.cols() || a.cols() == 0) return least;
   const Eigen::Index n = a.cols();
   Eigen::MatrixXd turned = b;
   for (int turn = 0; turn < symmetry.order; ++turn) {
     for (Eigen::Index shift = 0; shift < n; ++shift) {
-      bool same = true;
-      for (Eigen::Index k = 0; k < n && same; ++k)
-        same = (a.col(k) - turned.col((k + shift) % n)).lpNorm<Eigen::Infinity>() <= difference;
-      if (same) return true;
+      double most = 0.0;
+      for (Eigen::Index k = 0; k < n; ++k)
+        most = std::max(most, (a.col(k) - turned.col((k + shift) % n)).lpNorm<Eigen::Infinity>());
+      least = std::min(least, most);
     }
     if (symmetry.map.size() != 0) turned = symmetry.map * turned;
   }
-  return false;
+  return least;
+}
+
+bool are_images(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const CyclicSymmetry& symmetry, double difference) {
+  return image_distance(a, b, symmetry) <= difference;
+}
+
+int least_period(const Eigen::MatrixXd& states, double difference) {
+  const Eigen::Index n = states.cols();
+  for (Eigen::Index least = 1; least < n; ++least)
+    if (n % least == 0 &&
+        (states.leftCols(n - least) - states.rightCols(n - least)).lpNorm<Eigen::Infinity>() <= difference)
+      return static_cast<int>(least);
+  return static_cast<int>(n);
 }
 
 std::vector<Departure> departures(const OrbitFamily& family, const SpecialPoint& point, const SwitchOptions& options) {

@@ -44,10 +44,19 @@ struct Departure {
 /// @returns no columns if it could not be carried
 [[nodiscard]] Eigen::MatrixXd period_states(const OrbitFamily& family, const CurvePoint& at);
 
-/// Is one orbit the other, begun at another of its periods or turned by the symmetry?
-/// @param a, b        of period_states(), of one number of columns
-/// @param symmetry    none: as they are
+/// The fewest periods after which states repeat.
+/// @param states      of period_states()
 /// @param difference  most of any component
+[[nodiscard]] int least_period(const Eigen::MatrixXd& states, double difference);
+
+/// How far one orbit is from the other, begun at another of its periods or turned by the symmetry: the least over these
+/// of the largest difference of a component.
+/// @param a, b      of period_states()
+/// @param symmetry  none: as they are
+/// @returns infinity for different numbers of columns
+[[nodiscard]] double image_distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const CyclicSymmetry& symmetry);
+
+/// Is it no more than `difference`?
 [[nodiscard]] bool are_images(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const CyclicSymmetry& symmetry,
                               double difference);
 

@@ -16,13 +16,6 @@ BranchOrbit reversed(BranchOrbit orbit) {
   return orbit;
 }
 
-/// Does the orbit's second half repeat its first?
-bool has_half_the_period(const Eigen::MatrixXd& states, double difference) {
-  const Eigen::Index half = states.cols() / 2;
-  return states.cols() % 2 == 0 && states.cols() > 0 &&
-         (states.leftCols(half) - states.rightCols(half)).lpNorm<Eigen::Infinity>() <= difference;
-}
-
 bool is_left_as_it_is(const Eigen::MatrixXd& states, const CyclicSymmetry& symmetry, double difference) {
   return states.cols() > 0 && (symmetry.map * states - states).lpNorm<Eigen::Infinity>() <= difference;
 }
@@ -54,7 +47,11 @@ OrbitFamily BranchTree::family_of(const BranchStart& start) const {
 }
 
 void BranchTree::start(BranchOrbit orbit, bool keeps_symmetry) {
-  starts_.push_back({system_.period, system_.pieces, keeps_symmetry, std::move(orbit)});
+  start(std::move(orbit), keeps_symmetry, system_.period, system_.pieces);
+}
+
+void BranchTree::start(BranchOrbit orbit, bool keeps_symmetry, int period, int pieces) {
+  starts_.push_back({period, pieces, keeps_symmetry, std::move(orbit)});
 }
 
 std::optional<TreeStep> BranchTree::advance() {
@@ -202,7 +199,7 @@ bool BranchTree::loses_itself(const SpecialPoint& point) const {
   const double difference = options_.same * family_.state_scale;
   const bool symmetric = !family_.keeps_symmetry && family_.symmetry.map.size() != 0 &&
                          is_left_as_it_is(states, family_.symmetry, difference);
-  return symmetric || has_half_the_period(states, difference);
+  return symmetric || (states.cols() > 0 && least_period(states, difference) < family_.period);
 }
 
 std::optional<SpecialPlace> BranchTree::known_place(const SpecialPoint& point) const {

@@ -97,6 +97,8 @@ class BranchTree {
   /// An orbit of the system's period and pieces to start from, unless a branch goes through it when its turn comes.
   /// @param keeps_symmetry  among the orbits that the symmetry leaves as they are
   void start(BranchOrbit orbit, bool keeps_symmetry);
+  /// One of another period, its least, and other pieces.
+  void start(BranchOrbit orbit, bool keeps_symmetry, int period, int pieces);
   void start(BranchOrbit orbit) { start(std::move(orbit), system_.keeps_symmetry); }
 
   /// Follows the branch under way to its next orbit, or begins the next branch.

@@ -1,5 +1,6 @@
 #include "core/csv.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -104,6 +105,44 @@ void CsvWriter::commit() {
   file_->write(buffer_);
   buffer_.clear();
   file_->commit();
+}
+
+std::size_t CsvTable::index_of(std::string_view column) const {
+  return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin());
+}
+
+std::optional<CsvTable> parse_csv(std::string_view text) {
+  CsvTable table;
+  std::vector<std::string> row(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted) {
+      if (c != '"') {
+        row.back() += c;
+      } else if (i + 1 < text.size() && text[i + 1] == '"') {
+        row.back() += text[++i];
+      } else {
+        quoted = false;
+      }
+    } else if (c == '"' && row.back().empty()) {
+      quoted = true;
+    } else if (c == ',') {
+      row.emplace_back();
+    } else if (c == '\n') {
+      if (table.columns.empty()) {
+        table.columns = std::move(row);
+      } else {
+        if (row.size() != table.columns.size()) return std::nullopt;
+        table.rows.push_back(std::move(row));
+      }
+      row.assign(1, {});
+    } else {
+      row.back() += c;
+    }
+  }
+  if (quoted || row.size() != 1 || !row.front().empty() || table.columns.empty()) return std::nullopt;
+  return table;
 }
 
 }  // namespace epicyclic

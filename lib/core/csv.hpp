@@ -78,4 +78,17 @@ class CsvWriter {
   std::optional<AtomicFile> file_;
 };
 
+/// A table as texts.
+struct CsvTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;  ///< of as many cells as there are columns
+
+  /// Index of a column, or columns.size().
+  [[nodiscard]] std::size_t index_of(std::string_view column) const;
+};
+
+/// Reads what CsvWriter writes.
+/// @returns nothing where the text is no such table: a row of another length, a quote that does not end
+[[nodiscard]] std::optional<CsvTable> parse_csv(std::string_view text);
+
 }  // namespace epicyclic

@@ -630,6 +630,17 @@ std::string figure_script(std::string_view stem, const FigureText& text, const F
   return script + drawn_to_files(stem, fmt::format("{}plot {}\n", head.title, plot), canvas);
 }
 
+namespace {
+
+std::string named_tics(const std::vector<std::pair<double, std::string>>& names) {
+  std::string list;
+  for (const auto& [at, name] : names)
+    list += fmt::format("{}{} {}", list.empty() ? "(" : ", ", gnuplot_quoted(portable_text(name)), text_of(at));
+  return list + ")";
+}
+
+}  // namespace
+
 std::string panel_script(std::string_view stem, const FigureText& text, const FigureRange& x,
                          const std::vector<FigurePanel>& panels, const std::vector<std::string>& legend,
                          std::string_view extra, const FigureCanvas& canvas) {
@@ -640,7 +651,9 @@ std::string panel_script(std::string_view stem, const FigureText& text, const Fi
   double left = 0.0;  // one edge for all
   double parts = 0.0;
   for (const FigurePanel& panel : panels) {
-    left = std::max(left, label_place + 45.0 + tic_width(panel.y));
+    double width = tic_width(panel.y);
+    for (const auto& [at, name] : panel.names) width = std::max(width, text_width(name) * font_height + 20.0);
+    left = std::max(left, label_place + 45.0 + width);
     parts += panel.height;
   }
   const auto vertical = [&](double pixels) { return text_of(1.0 - pixels / canvas.height); };
@@ -660,11 +673,15 @@ std::string panel_script(std::string_view stem, const FigureText& text, const Fi
     commands += fmt::format("set label {} {} at screen {}, graph 0.5 center rotate by 90\n", label_tag,
                             gnuplot_quoted(portable_text(panel.y_label)), text_of(label_place / canvas.width));
     commands += more_digits('y', panel.y);
+    if (panel.logarithmic) commands += "set logscale y\n";
+    if (!panel.names.empty()) commands += "set ytics " + named_tics(panel.names) + "\n";
     if (k == 0) commands += head.title;
     if (k + 1 == panels.size())
       commands += fmt::format("set format x '%h'\n{}set xlabel {}\n", more_digits('x', x),
                               gnuplot_quoted(portable_text(text.x_label)));
     commands += fmt::format("plot {}\n", panel.plot);
+    if (panel.logarithmic) commands += "unset logscale y\n";
+    if (!panel.names.empty()) commands += "set ytics autofreq\n";
     if (k == 0) commands += fmt::format("unset label {}\nunset key\n", title_tag);
     top += height + apart;
   }

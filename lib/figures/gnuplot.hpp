@@ -18,6 +18,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/atomic_file.hpp"
@@ -71,8 +72,10 @@ inline constexpr FigureCanvas square_canvas{1200, 1240};
 struct FigurePanel {
   std::string y_label;
   FigureRange y;
-  std::string plot;   ///< one plot command without the word
-  double height = 1;  ///< in parts of the sum of all
+  std::string plot;                                     ///< one plot command without the word
+  double height = 1;                                    ///< in parts of the sum of all
+  std::vector<std::pair<double, std::string>> names{};  ///< that stand for numbers on the ordinate
+  bool logarithmic = false;                             ///< ordinate
 };
 
 /// Which of its two files a script draws. Drawn apart, they can be drawn side by side.

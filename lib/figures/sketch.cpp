@@ -40,6 +40,12 @@ void Sketch::end_set(bool gap, std::size_t columns, std::string_view look, std::
   clause(fmt::format("'{}.dat' index {} using {}", stem_, sets_++, using_columns), look, title);
 }
 
+void Sketch::end_letters(std::string_view text, std::string_view look) {
+  data_ += "\n\n";
+  clause(fmt::format("'{}.dat' index {} using 1:2:({})", stem_, sets_++, gnuplot_quoted(text)),
+         fmt::format("labels {}", look), {});
+}
+
 void Sketch::clause(std::string_view source, std::string_view look, std::string_view title) {
   std::string& plot = panels_.empty() ? plot_ : panels_.back().plot;
   if (!plot.empty()) plot += ", \\\n  ";

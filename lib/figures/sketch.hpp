@@ -2,10 +2,12 @@
 // figures/gnuplot.hpp. For figures that figures/line_figure.hpp and figures/bifurcation_figure.hpp cannot draw.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -46,21 +48,34 @@ class Sketch {
   /// @param look  what follows "with"
   template <class Rows>
   void add(const Rows& rows, std::string_view look, std::string_view title = {}) {
-    if (rows.empty()) return;
     std::size_t columns = 0;
     bool gap = true;
     for (const auto& row : rows) {
-      columns = write(row);
-      gap = columns == 0;
+      // Two blank lines would end the set.
+      if (gap && has_gap(row)) continue;
+      const std::size_t written = write(row);
+      gap = written == 0;
+      columns = std::max(columns, written);
     }
-    end_set(gap, columns, look, title);
+    if (columns > 0) end_set(gap, columns, look, title);
+  }
+
+  /// A text at each of the places.
+  /// @param rows  x and y
+  /// @param look  what follows "with labels"
+  template <class Rows>
+  void letters(const Rows& rows, std::string_view text, std::string_view look = {}) {
+    if (rows.empty()) return;
+    for (const auto& row : rows) write(row);
+    end_letters(text, look);
   }
 
   /// An entry of the legend without data.
   void entry(std::string_view look, std::string_view title) { clause("keyentry", look, title); }
 
   /// What is added from here on stands in a frame of its own, under those before. Only the first has a legend.
-  void panel(std::string y_label, const FigureRange& y) { panels_.push_back({std::move(y_label), y, {}}); }
+  void panel(std::string y_label, const FigureRange& y) { panel(FigurePanel{std::move(y_label), y, {}}); }
+  void panel(FigurePanel panel) { panels_.push_back(std::move(panel)); }
 
   /// Commands that stand before the plot command.
   void command(std::string_view line) { (commands_ += line) += '\n'; }
@@ -72,15 +87,20 @@ class Sketch {
                                    const FigureCanvas& canvas = {}) const;
 
  private:
+  template <class Row>
+  static bool has_gap(const Row& row) {
+    return std::any_of(std::begin(row), std::end(row), [](double value) { return !std::isfinite(value); });
+  }
+
   /// @returns the number of columns, 0 for a gap
   template <class Row>
   std::size_t write(const Row& row) {
+    if (has_gap(row)) {
+      data_ += '\n';
+      return 0;
+    }
     std::size_t columns = 0;
     for (const double value : row) {
-      if (!std::isfinite(value)) {
-        data_ += '\n';
-        return 0;
-      }
       if (columns++ > 0) data_ += ' ';
       append_number(data_, value);
     }
@@ -88,6 +108,7 @@ class Sketch {
     return columns;
   }
 
+  void end_letters(std::string_view text, std::string_view look);
   void end_set(bool gap, std::size_t columns, std::string_view look, std::string_view title);
   void clause(std::string_view source, std::string_view look, std::string_view title);
 

@@ -13,6 +13,7 @@
 
 #include "core/csv.hpp"
 #include "figures/bifurcation_figure.hpp"
+#include "reports/table_output.hpp"
 #include "store/hdf5_file.hpp"
 #include "studies/named_parameters.hpp"
 
@@ -143,7 +144,7 @@ std::string figure_title(const input::Study& study) {
   const char* boundary = b == gear::Boundary::literal ? "literal" : b == gear::Boundary::star ? "star" : "fixed ring";
   std::string title = (study.name.empty() ? study.stage.name : study.name) + ", boundary " + boundary;
   const bool speed_is_given =
-      study.has_points() && std::ranges::none_of(input::varied_parameters(study), [](const auto& varied) {
+      study.has_motion() && std::ranges::none_of(input::varied_parameters(study), [](const auto& varied) {
         return varied.axis.name == studies::speed_parameter;
       });
   if (speed_is_given) {
@@ -164,17 +165,7 @@ std::vector<store::PointColumn> columns_of(const studies::PointSource& points,
 
 void write_points_csv(const std::filesystem::path& file, const studies::PointSource& points,
                       const std::vector<store::PointColumn>& more) {
-  const std::vector<store::PointColumn> columns = columns_of(points, more);
-  std::vector<std::string> names;
-  for (const store::PointColumn& column : columns) names.push_back(column.name);
-  CsvWriter csv(file, names);
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const PointSummary r = points.read_brief(i);
-    for (const store::PointColumn& column : columns)
-      std::visit([&](const auto& value) { csv.cell(value(r)); }, column.value);
-    csv.end_row();
-  }
-  csv.commit();
+  write_table_csv(file, columns_of(points, more), points.count, [&](std::size_t i) { return points.read_brief(i); });
 }
 
 void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& output,
@@ -195,19 +186,8 @@ void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& ou
 
 void write_point_columns(store::Hdf5File& h5, const studies::PointSource& points,
                          const std::vector<store::PointColumn>& more) {
-  h5.create_group("/points");
-  for (const store::PointColumn& column : columns_of(points, more)) {
-    const std::string path = "/points/" + column.name;
-    // Column after column through the points: a row of all columns at once would need each column's chunk in memory.
-    std::visit(
-        [&]<class Value>(const std::function<Value(const PointSummary&)>& value) {
-          h5.write(path, points.count,
-                   store::Hdf5File::Column<Value>([&](std::size_t row) { return value(points.read_brief(row)); }));
-        },
-        column.value);
-    if (!column.unit.empty()) h5.set_units(path, column.unit);
-    h5.set_attribute(path, "meaning", column.meaning);
-  }
+  write_table_h5(h5, "/points", columns_of(points, more), points.count,
+                 [&](std::size_t i) { return points.read_brief(i); });
 }
 
 void write_results_h5(const std::filesystem::path& file, const SweepOutput& output,

@@ -21,16 +21,19 @@ namespace epicyclic::store {
 /// Regime of a point: periodic, quasiperiodic, chaotic, undecided; empty unless ok.
 [[nodiscard]] std::string regime_word(const studies::PointSummary& result);
 
-/// A number that is not known is none: an empty cell, NaN in a dataset.
-struct PointColumn {
+/// A column of a table of rows. A number that is not known is none: an empty cell, NaN in a dataset.
+template <class Row>
+struct Column {
   template <class Value>
-  using Getter = std::function<Value(const studies::PointSummary&)>;
+  using Getter = std::function<Value(const Row&)>;
 
   std::string name;
   std::string unit;     ///< "1" of pure numbers; empty of words
   std::string meaning;  ///< a line, for the documentation and results.h5
   std::variant<Getter<std::int64_t>, Getter<double>, Getter<std::string>> value;
 };
+
+using PointColumn = Column<studies::PointSummary>;
 
 /// All of them, in the order of points.csv.
 /// @param planets  number N: three columns for each mesh of each
