@@ -13,9 +13,15 @@ namespace epicyclic::app {
 int check_command(const Arguments& arguments) {
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
   tell_warnings(input);
-  if (!input.study.has_points()) {
+  if (!input.study.has_motion()) {
     print("{}\n", input.resolved.dump(2));
     tell("{}: valid; a stage alone, for `epicyclic gear`\n", arguments.input.string());
+    return done;
+  }
+  if (!input.study.has_points()) {
+    print("{}\n", input.resolved.dump(2));
+    tell("{}: valid\ncost: that of branches is not known before they are followed; `orbits` and `branches` bound it\n",
+         arguments.input.string());
     return done;
   }
   const studies::Cost cost = studies::estimate_cost(input::plan_of(input.study), input.study.look(),

@@ -28,6 +28,9 @@ struct Arguments {
   std::vector<std::string> sets;
   int threads = 1;
   bool json = false;
+  std::vector<std::string> from;  ///< of continue: FOLDER or FOLDER:INDEX, donors of seeds
+  std::filesystem::path against;  ///< of continue: a sweep's folder; empty: none
+  int unexplained = 0;            ///< of continue: changes that may stay so
   Ranks* ranks = nullptr;
 };
 
@@ -37,6 +40,7 @@ int map_command(const Arguments& arguments);
 int basins_command(const Arguments& arguments);
 int crosscheck_command(const Arguments& arguments);
 int tolerance_command(const Arguments& arguments);
+int continue_command(const Arguments& arguments);
 int gear_command(const Arguments& arguments);
 int check_command(const Arguments& arguments);
 

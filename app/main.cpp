@@ -79,11 +79,13 @@ struct Subcommand {
   CLI::App* command = nullptr;  ///< on the command line
 };
 
-std::array<Subcommand, 9> subcommands() {
+std::array<Subcommand, 10> subcommands() {
   return {{
       {"gear", "teeth, contact, stiffness, friction, bearings and modes of the stage", gear_command, Takes::output},
       {"run", "one operating point: regime, forces, spectra, exponents, orbit, figures", run_command, Takes::output},
       {"sweep", "bifurcation diagram along one parameter, up, down or both", sweep_command, Takes::threads, true},
+      {"continue", "branches of periodic motions with their bifurcations, and a sweep proved by them", continue_command,
+       Takes::output},
       {"map", "regimes over two parameters", map_command, Takes::threads, true},
       {"basins", "coexisting attractors over a plane of initial conditions", basins_command, Takes::threads, true},
       {"tolerance", "answers against tolerance, clearance smoothing and method, with error bars", tolerance_command,
@@ -114,6 +116,21 @@ void add_to(CLI::App& cli, Subcommand& sub, Arguments& arguments) {
         ->capture_default_str();
 }
 
+void add_continue_options(CLI::App& command, Arguments& arguments) {
+  command
+      .add_option("--from", arguments.from,
+                  "FOLDER or FOLDER:INDEX, a finished study and one of its points: branches are started from there; "
+                  "without INDEX from each periodic stretch of it; may be repeated")
+      ->take_all()
+      ->expected(1)
+      ->allow_extra_args(false);
+  command.add_option("--against", arguments.against,
+                     "folder of a complete sweep: each of its changes is explained by the branches");
+  command.add_option("--unexplained", arguments.unexplained, "changes of that sweep that may stay unexplained")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+}
+
 int run(int argc, char** argv) {
   Ranks ranks;
   CLI::App cli("Nonlinear dynamics of planetary gear trains, with proof.", "epicyclic");
@@ -124,7 +141,10 @@ int run(int argc, char** argv) {
   arguments.ranks = &ranks;
 
   auto commands = subcommands();
-  for (Subcommand& sub : commands) add_to(cli, sub, arguments);
+  for (Subcommand& sub : commands) {
+    add_to(cli, sub, arguments);
+    if (sub.run == continue_command) add_continue_options(*sub.command, arguments);
+  }
   const int code = guarded(ranks, [&] {
     try {
       cli.parse(argc, argv);

@@ -53,6 +53,11 @@ std::string progress_line(const std::string& label, const ProgressState& state, 
   const double share =
       state.total > 0 ? std::min(1.0, static_cast<double>(state.done) / static_cast<double>(state.total)) : 1.0;
   std::string line = label;
+  if (state.total == unknown_total) {
+    line += fmt::format(" {}", state.done);
+    if (state.rate > 0) line += "  " + rate_text(state.rate);
+    return state.words.empty() ? line : line + "  " + state.words;
+  }
   if (bar_width > 0) {
     const auto filled = static_cast<std::size_t>(share * bar_width);
     line += fmt::format(" [{}{}]", std::string(filled, '#'),
@@ -65,6 +70,7 @@ std::string progress_line(const std::string& label, const ProgressState& state, 
     line += fmt::format("  {} left", duration_text(static_cast<double>(state.total - state.done) / state.rate));
   }
   if (state.failed > 0) line += fmt::format("  {} failed", state.failed);
+  if (!state.words.empty()) line += "  " + state.words;
   return line;
 }
 
@@ -117,6 +123,15 @@ void Progress::finish() {
   }
   over_.notify_all();
   if (drawer_.joinable()) drawer_.join();
+}
+
+void Progress::update(std::size_t done, std::string words) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (finished_ || done < state_.done) return;
+    state_.words = std::move(words);
+  }
+  update(done, state_.failed);
 }
 
 void Progress::draw(Clock::time_point now, bool last) {

@@ -14,12 +14,16 @@
 
 namespace epicyclic::app {
 
+/// Of a computation that does not know how much it has to do.
+inline constexpr std::size_t unknown_total = static_cast<std::size_t>(-1);
+
 /// What a progress line tells.
 struct ProgressState {
   std::size_t done = 0;    ///< units done, those of earlier sessions included
-  std::size_t total = 0;   ///< units in all
+  std::size_t total = 0;   ///< units in all, or unknown_total
   std::size_t failed = 0;  ///< units done, but without a result
   double rate = 0;         ///< units of this session per second; 0 while unknown
+  std::string words{};     ///< where things are, last on the line
 };
 
 /// The line as text, without line end. `bar_width` is the width of the bar in characters, 0 for none.
@@ -42,6 +46,9 @@ class Progress {
 
   /// States how far things are. A call with a smaller `done` than before (threads overtake each other) is ignored.
   void update(std::size_t done, std::size_t failed);
+
+  /// As update(), with words on where things are.
+  void update(std::size_t done, std::string words);
 
   /// The last line, and back to the start of a new one. The destructor does the same.
   void finish();

@@ -27,9 +27,10 @@ class Session {
  public:
   /// Opens the folder; if the study may be computed in it, writes the inputs and run.json, else says why not.
   /// @param threads, ranks  for run.json
+  /// @param again           a complete study is no reason to end: its files are made again, and others beside them
   /// @throws OutputError
-  Session(const Arguments& arguments, const input::LoadedInput& input, std::string identity, int threads,
-          int ranks = 1);
+  Session(const Arguments& arguments, const input::LoadedInput& input, std::string identity, int threads, int ranks = 1,
+          bool again = false);
 
   /// Set where nothing is to be computed: the study is complete, or the folder is not for it.
   [[nodiscard]] std::optional<int> exit_code() const { return exit_code_; }

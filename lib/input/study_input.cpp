@@ -28,6 +28,11 @@ studies::SweepOptions Study::sweep() const {
 std::vector<VariedParameter> varied_parameters(const Study& study) {
   if (const auto* map = std::get_if<studies::MapOptions>(&study.plan))
     return {{map->plane.first, "/study/first"}, {map->plane.second, "/study/second"}};
+  if (const auto* branches = std::get_if<studies::BranchesOptions>(&study.plan)) {
+    // So many values of the range are tried before anything is begun.
+    constexpr int tried = 33;
+    return {{{branches->parameter, branches->from, branches->to, tried}, "/study"}};
+  }
   const bool given = std::holds_alternative<RunPlan>(study.plan) ||
                      std::holds_alternative<studies::BasinsOptions>(study.plan) || !study.has_points();
   if (given) return {};
@@ -513,7 +518,7 @@ bool judge_stage(const Study& study, const std::string& root, F not_computed, Re
   const bool sound = unread.empty();
   if (study.stage.planet_count < gear::planets_min || study.stage.planet_count > gear::planets_max) return sound;
   auto rules = gear::problems_for_modes(study.stage);
-  if (study.has_points()) {
+  if (study.has_motion()) {
     const auto more = gear::problems_for_motion(study.stage);
     rules.insert(rules.end(), more.begin(), more.end());
   }
@@ -703,14 +708,20 @@ void check_map(const studies::Plane& plane, F is_bad, ReadContext& context) {
     }
 }
 
+/// Names of the state's components.
+std::vector<std::string> state_names(const gear::Stage& stage) {
+  std::vector<std::string> names =
+      model::coordinate_names(model::layout_of(stage, model::CoordinateChoice::relative), stage.planet_count);
+  for (std::size_t k = 0, n = names.size(); k < n; ++k) names.push_back(names[k] + "_rate");
+  return names;
+}
+
 /// Rules of the components that basins start from.
 template <class F>
 void check_basins(const studies::BasinsOptions& basins, const gear::Stage& stage, F is_bad, ReadContext& context) {
   if (stage.planet_count < gear::planets_min || stage.planet_count > gear::planets_max) return;
   const studies::Plane& plane = basins.plane;
-  std::vector<std::string> names =
-      model::coordinate_names(model::layout_of(stage, model::CoordinateChoice::relative), stage.planet_count);
-  for (std::size_t k = 0, n = names.size(); k < n; ++k) names.push_back(names[k] + "_rate");
+  const std::vector<std::string> names = state_names(stage);
   const auto known = [&](const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
@@ -736,6 +747,41 @@ void check_basins(const studies::BasinsOptions& basins, const gear::Stage& stage
       context.add(Finding::Kind::rule, place, "is given, but an axis varies this component");
     }
   }
+}
+
+/// Rules of branches that span their keys.
+template <class F>
+void check_branches(const studies::BranchesOptions& b, const gear::Stage& stage, F is_bad, ReadContext& context) {
+  if (is_bad("/study")) return;
+  const auto refuse = [&](const std::string& place, const std::string& message) {
+    if (!is_bad(place)) context.add(Finding::Kind::rule, place, message);
+  };
+  const bool has_range = !is_bad("/study/from") && !is_bad("/study/to");
+  if (has_range && !(b.from < b.to))
+    refuse("/study/from", "is " + number_text(b.from) + ", must be < to = " + number_text(b.to));
+  const auto outside = [&](double value) { return has_range && b.from < b.to && !(value >= b.from && value <= b.to); };
+  const std::string range = ", must be within from = " + number_text(b.from) + " and to = " + number_text(b.to);
+  const auto check_each = [&](const std::string& place, const std::vector<double>& values) {
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (outside(values[k])) refuse(place + "/" + std::to_string(k), "is " + number_text(values[k]) + range);
+  };
+  check_each("/study/starts", b.starts);
+  check_each("/study/values", b.values);
+  if (b.largest_period < b.period)
+    refuse("/study/largest_period",
+           "is " + std::to_string(b.largest_period) + ", must be >= period = " + std::to_string(b.period));
+  const bool has_stage = stage.planet_count >= gear::planets_min && stage.planet_count <= gear::planets_max;
+  const std::size_t components = has_stage ? state_names(stage).size() : 0;
+  for (std::size_t k = 0; k < b.seeds.size(); ++k) {
+    const studies::BranchSeed& seed = b.seeds[k];
+    const std::string place = "/study/seeds/" + std::to_string(k);
+    if (outside(seed.value)) refuse(place + "/value", "is " + number_text(seed.value) + range);
+    if (has_stage && !seed.state.empty() && seed.state.size() != components)
+      refuse(place + "/state", "has " + std::to_string(seed.state.size()) + " numbers, must have " +
+                                   std::to_string(components) + ", the state of this stage");
+  }
+  if (!is_bad("/study/parameter"))
+    check_named_parameter(studies::Axis{b.parameter, b.from, b.to, 2}, "/study", is_bad, context);
 }
 
 /// Rules of a study of points that span its keys.
@@ -948,9 +994,10 @@ class LoadedInput::Loader {
     std::tie(input_.study, sound_) = read_study(whole_, sources_->bare, context_, &input_.computed);
     for (const auto& finding : context_.findings) found_.insert(finding.pointer);
     check_integrator();
-    if (input_.study.has_points())
-      check_points(
-          input_.study, [this](const std::string& pointer) { return is_bad(pointer); }, context_);
+    const auto bad = [this](const std::string& pointer) { return is_bad(pointer); };
+    if (input_.study.has_points()) check_points(input_.study, bad, context_);
+    if (const auto* branches = std::get_if<studies::BranchesOptions>(&input_.study.plan))
+      check_branches(*branches, input_.study.stage, bad, context_);
     input_.resolved = sources_->bare ? stage_table().write(input_.study.stage) : study_table().write(input_.study);
     fill_origins(input_.resolved, whole_);
     note_uncomputed(input_.resolved, input_.computed, context_.notes);
@@ -993,8 +1040,9 @@ class LoadedInput::Loader {
     const json origins = input_.resolved["study"].value("origin", json::object());
     for (const char* key : {"from", "to"})
       if (origins.is_object() && origins.value(key, std::string()) == "default") {
-        refuse(std::string("/study/") + key,
-               "is missing; a sweep of " + varied.front().axis.name + " needs a range of its own");
+        refuse(std::string("/study/") + key, "is missing; " +
+                                                 std::string(input_.study.has_points() ? "a sweep" : "a branch") +
+                                                 " of " + varied.front().axis.name + " needs a range of its own");
         lacks = true;
       }
     return lacks;

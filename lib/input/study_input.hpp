@@ -29,6 +29,7 @@
 #include "input/json_source.hpp"
 #include "integrate/options.hpp"
 #include "model/options.hpp"
+#include "studies/branches_options.hpp"
 #include "studies/crosscheck_options.hpp"
 #include "studies/plane_options.hpp"
 #include "studies/run_options.hpp"
@@ -62,10 +63,10 @@ struct TolerancePlan {
 
 /// What is computed, by kind of study.
 using Plan = std::variant<StageAlone, studies::SweepOptions, studies::MapOptions, studies::BasinsOptions, RunPlan,
-                          CrosscheckPlan, TolerancePlan>;
+                          CrosscheckPlan, TolerancePlan, studies::BranchesOptions>;
 
-/// How the points of a plan are looked at; of any kind.
-/// @throws std::bad_variant_access of a stage alone
+/// How the points of a plan are looked at; of any kind that has points.
+/// @throws std::bad_variant_access of a stage alone and of branches
 template <class P>
 requires std::same_as<std::remove_const_t<P>, Plan>
 [[nodiscard]] auto& look_in(P& plan) {
@@ -94,7 +95,7 @@ requires std::same_as<std::remove_const_t<P>, Plan>
 
 /// Names of the kinds, in the order of Plan.
 inline constexpr std::array<std::string_view, std::variant_size_v<Plan>> plan_kinds = {
-    "stage", "sweep", "map", "basins", "run", "crosscheck", "tolerance"};
+    "stage", "sweep", "map", "basins", "run", "crosscheck", "tolerance", "continue"};
 
 struct Study {
   std::string name;
@@ -106,14 +107,18 @@ struct Study {
 
   [[nodiscard]] std::string_view kind() const { return plan_kinds[plan.index()]; }
   /// Is anything to be computed?
-  [[nodiscard]] bool has_points() const { return !std::holds_alternative<StageAlone>(plan); }
+  [[nodiscard]] bool has_motion() const { return !std::holds_alternative<StageAlone>(plan); }
+  /// Are its motions looked at point by point?
+  [[nodiscard]] bool has_points() const {
+    return has_motion() && !std::holds_alternative<studies::BranchesOptions>(plan);
+  }
 
   /// How its points are looked at.
-  /// @throws std::bad_variant_access of a stage alone
+  /// @throws std::bad_variant_access unless it has points
   [[nodiscard]] const studies::LookOptions& look() const { return look_in(plan); }
 
   /// The sweep that its points are; a run is one of one point.
-  /// @throws std::bad_variant_access of a map, of basins and of a stage alone
+  /// @throws std::bad_variant_access of a map, of basins, of branches and of a stage alone
   [[nodiscard]] studies::SweepOptions sweep() const;
 };
 

@@ -23,6 +23,8 @@
 
 namespace epicyclic::input {
 
+using nlohmann::json;
+
 namespace {
 
 /// The operating point at values of parameters, by names or pointers.
@@ -78,6 +80,14 @@ studies::ModelAt model_family(const LoadedInput& input, const std::string& param
     model::set_parameter_derivative(model, at, scales, value, step);
     return model;
   };
+}
+
+double given_value(const LoadedInput& input, const std::string& parameter) {
+  if (const studies::NamedParameter* named = studies::find_parameter(parameter)) return named->get(point_at(input, {}));
+  const json::json_pointer pointer(parameter);
+  if (!input.resolved.contains(pointer) || !input.resolved[pointer].is_number())
+    throw InputError("/study/parameter: no number '" + parameter + "'");
+  return input.resolved[pointer].get<double>();
 }
 
 studies::SweepPlan plan_of(const Study& study) {
@@ -170,7 +180,7 @@ std::vector<std::string> texts(std::vector<gear::Warning> warnings) {
 std::vector<std::string> warnings(const LoadedInput& input) {
   const Study& study = input.study;
   std::vector<std::string> lines;
-  if (!study.has_points()) {
+  if (!study.has_motion()) {
     lines = gear_warnings(input);
   } else {
     std::vector<gear::Warning> all;
@@ -179,14 +189,22 @@ std::vector<std::string> warnings(const LoadedInput& input) {
         all, [](const gear::Warning& w) { return w.rank == gear::Rank::note && w.pointer.starts_with("/catalogue"); });
     for (gear::Warning& w : all)
       if (!w.pointer.starts_with("/study")) w.pointer.insert(0, "/stage");
-    if (const auto* method = integrate::find_method(study.integrator.method);
-        method != nullptr && method->misses_kinks && study.model.clearance_smoothing == 0.0 &&
-        !study.integrator.locate_contacts)
+    if (!study.has_points()) {
+      const integrate::IntegratorOptions& own = study.integrator;
+      const integrate::IntegratorOptions plain;
+      if (own.method != plain.method || own.relative_tolerance != plain.relative_tolerance ||
+          own.absolute_tolerance != plain.absolute_tolerance || own.locate_contacts != plain.locate_contacts)
+        all.push_back({gear::Rank::doubtful, 1.0, "/integrator", "branches",
+                       "method and tolerances are not used: branches are integrated by the explicit pair of reference "
+                       "orbits at /study/tolerance"});
+    } else if (const auto* method = integrate::find_method(study.integrator.method);
+               method != nullptr && method->misses_kinks && study.model.clearance_smoothing == 0.0 &&
+               !study.integrator.locate_contacts)
       all.push_back({gear::Rank::doubtful, 1.0, "/integrator/method", "kinks",
                      "the error estimate of \"" + std::string(method->name) +
                          "\" misses the kinks of the exact clearance; its errors are far above its tolerance"});
-    if (study.look().classification_periods > 0 && !std::holds_alternative<CrosscheckPlan>(study.plan) &&
-        !std::holds_alternative<TolerancePlan>(study.plan) &&
+    if (study.has_points() && study.look().classification_periods > 0 &&
+        !std::holds_alternative<CrosscheckPlan>(study.plan) && !std::holds_alternative<TolerancePlan>(study.plan) &&
         study.model.gap_damping == model::GapDamping::contact_slope && study.model.clearance_smoothing == 0.0)
       all.push_back({gear::Rank::note, 1.0, "/model/gap_damping", "tangents",
                      "with the exact clearance its damping jumps, and tangent vectors with it; regimes are told from "

@@ -21,6 +21,10 @@ namespace epicyclic::input {
 /// over which they change; the study has to be valid at value +- 2 h
 [[nodiscard]] studies::ModelAt model_family(const LoadedInput& input, const std::string& parameter, double step);
 
+/// What a parameter, named or a JSON pointer, is in the study as given.
+/// @throws InputError where the input has no such number
+[[nodiscard]] double given_value(const LoadedInput& input, const std::string& parameter);
+
 /// Points and chains of the study, a sweep's, a map's or those of basins.
 [[nodiscard]] studies::SweepPlan plan_of(const Study& study);
 

@@ -25,6 +25,7 @@ using gear::Stage;
 using nlohmann::json;
 using nlohmann::ordered_json;
 using studies::BasinsOptions;
+using studies::BranchesOptions;
 using studies::LookOptions;
 using studies::MapOptions;
 using studies::SweepOptions;
@@ -37,6 +38,8 @@ constexpr double stiffness_max = 1e18;
 constexpr double gap_max_um = 1e5;
 constexpr double turns_deg = 3600;
 constexpr double tolerance_min = 1e-30;
+constexpr double period_most = 1024;
+constexpr std::size_t seeds_most = 10000;
 
 /// Of a parameter with a name.
 Bounds bounds_of(const char* parameter) {
@@ -728,6 +731,89 @@ const Table<Study>& tolerance_table() {
   return table;
 }
 
+const Table<studies::BranchSeed>& seed_table() {
+  static const auto table = [] {
+    using studies::BranchSeed;
+    Table<BranchSeed> t("seed", "A state on or near a periodic motion.");
+    t.number("value", &BranchSeed::value, between(-1e300, 1e300), "Value of the parameter, in its unit.").required();
+    t.integer("period", &BranchSeed::period, between(1, period_most), "Period of the motion, in mesh periods [-].");
+    t.numbers("state", &BranchSeed::state, component_value, 1, 1000,
+              "The state at the mesh phase 0, in the order of poincare.csv [b_c, b_c per tau].")
+        .required();
+    return t;
+  }();
+  return table;
+}
+
+/// A list of objects, each as its table reads it.
+Field<Study> seeds_field() {
+  Field<Study> field;
+  field.key = "seeds";
+  field.description = "States that branches are started from besides; `--from FOLDER` writes them.";
+  field.read = [](const json& value, const std::string& pointer, Study& study, ReadContext& context) {
+    if (!value.is_array()) {
+      context.add(Finding::Kind::type, pointer, "is " + described(value) + ", must be an array of objects");
+      return;
+    }
+    if (value.size() > seeds_most) {
+      context.add(Finding::Kind::range, pointer,
+                  "has " + std::to_string(value.size()) + " seeds, must have at most " + std::to_string(seeds_most));
+      return;
+    }
+    auto& seeds = std::get<BranchesOptions>(study.plan).seeds;
+    for (std::size_t k = 0; k < value.size(); ++k)
+      seed_table().read(value[k], pointer + "/" + std::to_string(k), seeds.emplace_back(), context);
+  };
+  field.write = [](const Study& study) {
+    json list = json::array();
+    for (const studies::BranchSeed& seed : std::get<BranchesOptions>(study.plan).seeds)
+      list.push_back(seed_table().write(seed));
+    return list.empty() ? json() : list;
+  };
+  field.schema = [] {
+    return ordered_json{{"type", "array"}, {"maxItems", seeds_most}, {"items", seed_table().schema()}};
+  };
+  return field;
+}
+
+const Table<Study>& continue_table() {
+  static const auto table = [] {
+    Table<Study> t("continue", "Branches of periodic motions along one parameter, with the points where they change.");
+    add_kind(t, BranchesOptions{});
+    const auto of = [](auto member) { return in_plan<Kind<BranchesOptions>>(member); };
+    t.text("parameter", of(&BranchesOptions::parameter),
+           "Name of the parameter, or a JSON pointer to a number of the input.");
+    t.number("from", of(&BranchesOptions::from), between(-1e300, 1e300), "Least value of the parameter, in its unit.");
+    t.number("to", of(&BranchesOptions::to), between(-1e300, 1e300), "Greatest value of the parameter, in its unit.");
+    t.numbers("starts", of(&BranchesOptions::starts), between(-1e300, 1e300), 1, 1000,
+              "Values at which a motion settles from the default start, and is followed both ways; without seeds the "
+              "ends of the range and its middle, if none is given.");
+    t.integer("settle_periods", of(&BranchesOptions::settle_periods), between(0, 1e7),
+              "Mesh periods that these motions are given to settle [-].");
+    t.integer("period", of(&BranchesOptions::period), between(1, period_most),
+              "Period of these motions, in mesh periods [-].");
+    t.custom(seeds_field());
+    t.numbers("values", of(&BranchesOptions::values), between(-1e300, 1e300), 1, 100000,
+              "Values at which orbits are wanted exactly.");
+    t.integer("largest_period", of(&BranchesOptions::largest_period), between(1, period_most),
+              "Longest period that branches are followed to at period doublings, in mesh periods [-].");
+    t.boolean("branch_points", of(&BranchesOptions::branch_points),
+              "Whether the branches are followed that cross at branch points.");
+    t.integer("pieces", of(&BranchesOptions::pieces), between(1, 1000),
+              "Pieces that an orbit of `period` is cut into for multiple shooting [-].");
+    t.integer("orbits", of(&BranchesOptions::orbits), between(1, 1e6), "Most orbits on a branch, each way [-].");
+    t.integer("branches", of(&BranchesOptions::branches), between(1, 10000), "Most branches [-].");
+    t.number("tolerance", of(&BranchesOptions::tolerance), between(1e-13, 1e-6),
+             "Relative and absolute tolerance of the orbits [-]; error bounds are from a tenth of it.");
+    t.number("largest_step", of(&BranchesOptions::largest_step), between(1e-6, 10),
+             "Longest step along a branch, in units of the parameter and of b_c together [-].");
+    t.integer("output_phases", of(&BranchesOptions::output_phases), between(1, 10000),
+              "Output points per mesh period, among which extrema are looked for [-].");
+    return t;
+  }();
+  return table;
+}
+
 /// The tables of kinds of study, in the order of Plan; a stage alone has none.
 struct PlanKind {
   const Table<Study>& (*table)();
@@ -737,12 +823,13 @@ struct PlanKind {
 const std::vector<PlanKind>& kinds() {
   static const std::vector<PlanKind> all = {{&sweep_table, SweepOptions{}},        {&map_table, MapOptions{}},
                                             {&basins_table, BasinsOptions{}},      {&run_table, RunPlan{}},
-                                            {&crosscheck_table, CrosscheckPlan{}}, {&tolerance_table, TolerancePlan{}}};
+                                            {&crosscheck_table, CrosscheckPlan{}}, {&tolerance_table, TolerancePlan{}},
+                                            {&continue_table, BranchesOptions{}}};
   return all;
 }
 
 /// Kinds that the input format knows and this version does not compute.
-const std::vector<std::string> kinds_to_come = {"continue", "calibrate"};
+const std::vector<std::string> kinds_to_come = {"calibrate"};
 
 /// @returns nullptr if there is none of that name
 const PlanKind* find_kind(std::string_view name) {

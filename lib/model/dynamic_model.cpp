@@ -17,6 +17,23 @@
 
 namespace epicyclic::model {
 
+std::vector<ContactSurface> contact_surfaces(const DynamicModel& model) {
+  std::vector<ContactSurface> all;
+  const auto both = [&](const std::string& part, bool mesh) {
+    all.push_back({part, mesh, true});
+    all.push_back({part, mesh, false});
+  };
+  for (int i = 1; i <= model.planets; ++i)
+    for (const char* kind : {"sp_", "rp_"}) both(kind + std::to_string(i), true);
+  if (all.size() + 1 == model.surfaces.count) {
+    all.push_back({"sun_bearing", false, true});
+  } else {
+    both("sun_bearing_x", false);
+    both("sun_bearing_y", false);
+  }
+  return all;
+}
+
 std::size_t segment_at(const std::vector<double>& breakpoints, double s) {
   std::size_t segment = breakpoints.empty() ? 0 : breakpoints.size() - 1;
   for (std::size_t k = 0; k < breakpoints.size(); ++k)

@@ -100,6 +100,16 @@ struct DynamicModel : VectorField {
   }
 };
 
+/// Which contact a switching surface of a DynamicModel is of.
+struct ContactSurface {
+  std::string part;   ///< "sp_1", "rp_2", "sun_bearing_x", "sun_bearing_y"; "sun_bearing" of a radial law
+  bool mesh = true;   ///< of a mesh, else of the sun's bearing
+  bool upper = true;  ///< the distance is x - b, else x + b
+};
+
+/// In the order of the surfaces.
+[[nodiscard]] std::vector<ContactSurface> contact_surfaces(const DynamicModel& model);
+
 /// The segment of right_hand_side that a phase in [0, 2 pi) lies in.
 [[nodiscard]] std::size_t segment_at(const std::vector<double>& breakpoints, double s);
 

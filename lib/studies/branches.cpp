@@ -9,6 +9,7 @@
 #include "core/errors.hpp"
 #include "core/require.hpp"
 #include "integrate/make_flow.hpp"
+#include "studies/axis.hpp"
 #include "studies/motion.hpp"
 #include "studies/plane.hpp"
 
@@ -29,8 +30,11 @@ integrate::FlowFamily flows_of(const ModelAt& models, double tolerance, bool con
 
 void BranchesOptions::validate() const {
   require(from < to, "to", to, "> from");
-  if (starts.empty()) throw InputError("starts: there is none");
   for (const double at : starts) require(at >= from && at <= to, "starts", at, "within from and to");
+  for (const BranchSeed& seed : seeds) {
+    seed.validate();
+    require(seed.value >= from && seed.value <= to, "seeds", seed.value, "within from and to");
+  }
   require(settle_periods >= 0, "settle_periods", settle_periods, ">= 0");
   require(period >= 1, "period", period, ">= 1");
   require(largest_period >= period, "largest_period", largest_period, ">= period");
@@ -39,6 +43,19 @@ void BranchesOptions::validate() const {
   require(branches >= 1, "branches", branches, ">= 1");
   require(tolerance >= 1e-13 && tolerance <= 1e-6, "tolerance", tolerance, "1e-13 to 1e-6");
   require(largest_step > 0.0, "largest_step", largest_step, "> 0");
+  require(output_phases >= 1, "output_phases", output_phases, ">= 1");
+}
+
+std::vector<double> BranchesOptions::all_starts() const {
+  if (!starts.empty() || !seeds.empty()) return starts;
+  return {from, grid_value(from, to, 0.5), to};
+}
+
+void BranchSeed::validate() const {
+  require(std::isfinite(value), "value", value, "finite");
+  require(period >= 1, "period", period, ">= 1");
+  if (state.empty()) throw InputError("state is empty, must have a number for each component");
+  for (const double x : state) require(std::isfinite(x), "state", x, "finite");
 }
 
 BranchSystem branch_system(const ModelAt& models, const BranchesOptions& options,
@@ -70,18 +87,12 @@ BranchSystem branch_system(const ModelAt& models, const BranchesOptions& options
   return s;
 }
 
-SettledStart settled_start(const BranchSystem& system, const model::DynamicModel& model, double value,
-                           int settle_periods) {
-  SettledStart result;
-  std::vector<double> state = model.default_start;
-  const auto flow = system.system.flows(value);
-  for (int k = 0; k < settle_periods; ++k) {
-    const integrate::Evolution e = flow->evolve(state, 0.0, model.period);
-    if (e.reached()) continue;
-    result.message = e.message;
-    return result;
-  }
-  analysis::OrbitFamily family = system.system;
+namespace {
+
+/// The orbit of the family near a state, with its least period.
+BranchOrigin origin_near(const BranchSystem& system, analysis::OrbitFamily family, double value,
+                         const std::vector<double>& state) {
+  BranchOrigin result;
   if (family.symmetry.map.size() != 0) {
     const Eigen::Map<const Eigen::VectorXd> y(state.data(), static_cast<Eigen::Index>(state.size()));
     // The motion is still settling: what differs by less is on its way to be alike.
@@ -90,27 +101,74 @@ SettledStart settled_start(const BranchSystem& system, const model::DynamicModel
     result.keeps_symmetry = family.keeps_symmetry;
   }
   analysis::Correction c = analysis::first_orbit(family, value, state);
+  result.period = family.period;
+  result.pieces = family.pieces;
+  if (c.found) {
+    const Eigen::MatrixXd states = analysis::period_states(family, c.orbit.at);
+    const int least = analysis::least_period(states, system.options.same * family.state_scale);
+    if (least < family.period) {
+      // As one of the longer period its flips would be taken for branch points.
+      family.pieces = std::max(1, family.pieces * least / family.period);
+      family.period = result.period = least;
+      result.pieces = family.pieces;
+      const Eigen::VectorXd first = states.col(0);
+      c = analysis::first_orbit(family, value, {first.data(), static_cast<std::size_t>(first.size())});
+    }
+  }
   if (c.found) {
     result.orbit = std::move(c.orbit);
   } else {
-    result.message = "no orbit of period " + std::to_string(family.period) + " near where the motion is after " +
-                     std::to_string(settle_periods) + " mesh periods: " + c.message;
+    result.message = c.message;
   }
   return result;
 }
 
-std::optional<BranchRow> branch_row(const analysis::OrbitFamily& family, const analysis::BranchOrbit& orbit,
-                                    const model::DynamicModel& model, int phases) {
+}  // namespace
+
+BranchOrigin settled_start(const BranchSystem& system, const model::DynamicModel& model, double value,
+                           int settle_periods) {
+  std::vector<double> state = model.default_start;
+  const auto flow = system.system.flows(value);
+  for (int k = 0; k < settle_periods; ++k) {
+    const integrate::Evolution e = flow->evolve(state, 0.0, model.period);
+    if (e.reached()) continue;
+    BranchOrigin none;
+    none.message = e.message;
+    return none;
+  }
+  BranchOrigin origin = origin_near(system, system.system, value, state);
+  if (!origin.orbit)
+    origin.message = "no orbit of period " + std::to_string(system.system.period) + " near where the motion is after " +
+                     std::to_string(settle_periods) + " mesh periods: " + origin.message;
+  return origin;
+}
+
+BranchOrigin seed_start(const BranchSystem& system, const BranchSeed& seed) {
+  seed.validate();
+  analysis::OrbitFamily family = system.system;
+  family.pieces = std::max(1, family.pieces * seed.period / family.period);
+  family.period = seed.period;
+  BranchOrigin origin = origin_near(system, family, seed.value, seed.state);
+  if (!origin.orbit)
+    origin.message = "no orbit of period " + std::to_string(seed.period) + " near the seed: " + origin.message;
+  return origin;
+}
+
+BranchRow branch_row(const analysis::OrbitFamily& family, const analysis::BranchOrbit& orbit,
+                     const model::DynamicModel& model, int phases) {
   BranchRow row;
   row.value = orbit.at.value;
-  for (const auto& x : epicyclic::eigenvalues(orbit.monodromy)) {
-    row.multiplier_max = std::max(row.multiplier_max, std::abs(x));
-    row.unstable += std::abs(x) > 1.0 ? 1 : 0;
-  }
+  row.omega = model.omega;
+  row.period = family.period;
+  row.residual = orbit.residual;
+  for (const auto& x : epicyclic::eigenvalues(orbit.monodromy)) row.multipliers.push_back(x);
+  std::sort(row.multipliers.begin(), row.multipliers.end(), [](const auto& a, const auto& b) {
+    return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag();
+  });
+  for (const auto& x : row.multipliers) row.unstable += std::abs(x) > 1.0 ? 1 : 0;
   row.stable = row.unstable == 0;
   const Eigen::MatrixXd states = analysis::period_states(family, orbit.at);
-  if (states.cols() == 0) return std::nullopt;
-  row.section.assign(states.data(), states.data() + states.size());
+  if (states.cols() == 0) return row;
   const auto flow = family.flows(orbit.at.value);
   MeshWatch watch(model);
   std::vector<double> at;
@@ -119,10 +177,105 @@ std::optional<BranchRow> branch_row(const analysis::OrbitFamily& family, const a
     std::vector<double> y(states.col(n).begin(), states.col(n).end());
     flow->forget();
     const auto see = [&](std::size_t, double s, std::span<const double> state) { watch.see(s, state); };
-    if (!flow->evolve(y, 0.0, model.period, at, see).reached()) return std::nullopt;
+    if (!flow->evolve(y, 0.0, model.period, at, see).reached()) return row;
   }
+  model::MeshDeflections d;
+  for (Eigen::Index n = 0; n < states.cols(); ++n)
+    append_poincare_row(model, {states.col(n).data(), static_cast<std::size_t>(states.rows())}, d, row.section);
   row.meshes = watch.finished();
+  row.carried = true;
   return row;
+}
+
+PointSummary as_point(const BranchRow& row) {
+  PointSummary point;
+  point.point.value = row.value;
+  point.regime = analysis::Regime::periodic;
+  point.period = row.period;
+  point.classified = true;
+  point.evidence.largest_multiplier = row.multiplier_max();
+  point.evidence.residual = row.residual;
+  point.sun_planet = row.meshes.sun_planet;
+  point.ring_planet = row.meshes.ring_planet;
+  point.planet_spread = row.meshes.planet_spread;
+  point.omega = row.omega;
+  return point;
+}
+
+namespace {
+
+/// What first happens at a contact where an extremum of its distance crosses 0.
+std::string contact_event(const model::ContactSurface& surface, bool least) {
+  if (!surface.mesh) return least == surface.upper ? "release" : "touch";
+  if (surface.upper) return least ? "loss" : "drive";
+  return least ? "back" : "back_loss";
+}
+
+/// Multipliers of the whole monodromy that a point is about.
+std::vector<std::complex<double>> critical_multipliers(const analysis::SpecialPoint& point, int order) {
+  using analysis::SpecialKind;
+  if (point.kind == SpecialKind::grazing || point.kind == SpecialKind::unresolved) return {};
+  std::vector<std::complex<double>> all = {point.multiplier};
+  const bool pair = point.kind == SpecialKind::neimark_sacker;
+  // A block other than the first and the middle one stands for two.
+  const bool double_block = point.wave != 0 && 2 * point.wave != order;
+  if (pair || double_block) all.push_back(std::conj(point.multiplier));
+  return all;
+}
+
+}  // namespace
+
+std::size_t TracedBranches::broken_off() const {
+  std::size_t count = 0;
+  for (const analysis::Branch& branch : branches)
+    for (const analysis::BranchLimit* limit : {&branch.first, &branch.last})
+      count += limit->end == analysis::BranchEnd::least_step ? 1 : 0;
+  return count;
+}
+
+std::vector<SpecialRow> special_rows(const std::vector<analysis::Branch>& branches,
+                                     const std::vector<model::ContactSurface>& contacts) {
+  using analysis::SpecialKind;
+  std::vector<SpecialRow> rows;
+  for (std::size_t b = 0; b < branches.size(); ++b) {
+    const analysis::Branch& branch = branches[b];
+    for (std::size_t k = 0; k < branch.special.size(); ++k) {
+      const analysis::SpecialPoint& point = branch.special[k];
+      SpecialRow row;
+      row.branch = b;
+      row.point = k;
+      row.after = branch.after[k];
+      row.kind = point.kind;
+      row.value = point.value;
+      row.error_bound = point.error_bound;
+      row.period = branch.family.period;
+      row.multipliers = critical_multipliers(point, branch.family.symmetry.order);
+      if (point.wave != 0)
+        row.broken_symmetry = analysis::block_name({point.wave, false, {}}, branch.family.symmetry.order);
+      row.same_as = branch.same_as[k];
+      row.note = point.note;
+      if (point.kind == SpecialKind::grazing) {
+        const model::ContactSurface& surface = contacts.at(point.surface);
+        std::string event(1, ':');
+        event += contact_event(surface, point.least);
+        // Planets that move alike graze at once: one event, and no more than one value.
+        if (!rows.empty() && branch.family.keeps_symmetry && branch.family.symmetry.map.size() != 0) {
+          SpecialRow& last = rows.back();
+          const bool alike = last.branch == b && last.kind == point.kind && last.contact.ends_with(event) &&
+                             last.contact.compare(0, 2, surface.part, 0, 2) == 0 && surface.mesh &&
+                             std::abs(last.value - point.value) <= last.error_bound + point.error_bound;
+          if (alike) {
+            last.contact.insert(last.contact.size() - event.size(), "+" + surface.part);
+            last.error_bound = std::max(last.error_bound, point.error_bound);
+            continue;
+          }
+        }
+        row.contact = surface.part + event;
+      }
+      rows.push_back(std::move(row));
+    }
+  }
+  return rows;
 }
 
 }  // namespace epicyclic::studies

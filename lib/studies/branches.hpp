@@ -9,6 +9,7 @@
 // y is no part of the symmetry; motions in which all planets move alike do not reach it.
 #pragma once
 
+#include <complex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,30 +32,88 @@ struct BranchSystem {
 [[nodiscard]] BranchSystem branch_system(const ModelAt& models, const BranchesOptions& options,
                                          const model::DynamicModel& first_model);
 
-/// The orbit that the motion from the model's default start has settled to.
-struct SettledStart {
+/// The orbit that a branch is to be followed from.
+struct BranchOrigin {
   std::optional<analysis::BranchOrbit> orbit;
+  int period = 1;               ///< its least one: half of that asked for, say
+  int pieces = 1;               ///< of its states
   bool keeps_symmetry = false;  ///< all planets move alike
-  std::string message;          ///< why there is none
+  std::string message{};        ///< why there is none
 };
-[[nodiscard]] SettledStart settled_start(const BranchSystem& system, const model::DynamicModel& model, double value,
+
+/// The one that the motion from the model's default start has settled to.
+[[nodiscard]] BranchOrigin settled_start(const BranchSystem& system, const model::DynamicModel& model, double value,
                                          int settle_periods);
+
+/// The one near a seed.
+[[nodiscard]] BranchOrigin seed_start(const BranchSystem& system, const BranchSeed& seed);
 
 /// What is told of one orbit of a branch.
 struct BranchRow {
   double value = 0;
-  bool stable = false;          ///< all multipliers inside the unit circle
-  int unstable = 0;             ///< number of multipliers beyond it
-  double multiplier_max = 0;    ///< greatest modulus
-  MeshRecords meshes;           ///< over the orbit's own periods
-  std::vector<double> section;  ///< n states at s = 0, one behind the other
+  int period = 1;                                 ///< n [mesh periods]
+  bool stable = false;                            ///< all multipliers inside the unit circle
+  int unstable = 0;                               ///< number of multipliers beyond it
+  double residual = 0;                            ///< by which it did not close before the last step [b_c, b_c per tau]
+  std::vector<std::complex<double>> multipliers;  ///< by falling modulus
+  bool carried = false;                           ///< what follows is known
+  MeshRecords meshes;                             ///< over the orbit's own periods
+  std::vector<double> section;                    ///< n rows of poincare_columns()
+  double omega = 0;                               ///< Omega
+
+  /// Greatest modulus of a multiplier.
+  [[nodiscard]] double multiplier_max() const { return multipliers.empty() ? 0.0 : std::abs(multipliers.front()); }
 };
 
 /// @param model  at the orbit's value
 /// @param phases of the dense output a mesh period, as of a sweep
-/// @returns nothing if the orbit could not be carried
-[[nodiscard]] std::optional<BranchRow> branch_row(const analysis::OrbitFamily& family,
-                                                  const analysis::BranchOrbit& orbit, const model::DynamicModel& model,
-                                                  int phases);
+[[nodiscard]] BranchRow branch_row(const analysis::OrbitFamily& family, const analysis::BranchOrbit& orbit,
+                                   const model::DynamicModel& model, int phases);
+
+/// What a sweep would record of the motion on it, as far as it is known.
+[[nodiscard]] PointSummary as_point(const BranchRow& row);
+
+/// What is told of special points: one of a branch, or several contacts that alike planets make at once.
+struct SpecialRow {
+  std::size_t branch = 0;
+  std::size_t point = 0;  ///< on the branch, the first of them
+  std::size_t after = 0;  ///< index of the orbit before it
+  analysis::SpecialKind kind = analysis::SpecialKind::unresolved;
+  double value = 0, error_bound = 0;
+  int period = 1;
+  std::vector<std::complex<double>> multipliers;  ///< that are on the unit circle there
+  std::string broken_symmetry;                    ///< of the motions that leave it: "wave 1 of 3"; empty: none
+  /// Of a grazing, which contact is first made or lost: "sp_1+sp_2+sp_3:loss", "rp_1:back", "sun_bearing_x:touch".
+  std::string contact;
+  std::optional<analysis::SpecialPlace> same_as{};  ///< the point of an earlier branch that it is
+  std::string note;
+};
+
+/// Where branches were started from, and what came of it.
+struct BranchAttempt {
+  double value = 0;
+  int period = 1;
+  bool seed = false;      ///< else a settled motion
+  bool found = false;     ///< an orbit
+  std::string message{};  ///< why none
+};
+
+/// All that a study of branches comes to.
+struct TracedBranches {
+  std::vector<BranchAttempt> attempts;
+  std::vector<analysis::Branch> branches;
+  bool full = false;                         ///< more branches were there than asked for
+  std::vector<std::vector<BranchRow>> rows;  ///< of each branch's orbits
+  std::vector<SpecialRow> special;
+  std::vector<BranchRow> at_special;  ///< of the orbit at each of these
+
+  /// Ways that ended before an end of the range, where they were born or as many orbits as asked for.
+  [[nodiscard]] std::size_t broken_off() const;
+};
+
+/// Those of all branches, in their order.
+/// @param contacts  of the model's surfaces
+[[nodiscard]] std::vector<SpecialRow> special_rows(const std::vector<analysis::Branch>& branches,
+                                                   const std::vector<model::ContactSurface>& contacts);
 
 }  // namespace epicyclic::studies

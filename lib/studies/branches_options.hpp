@@ -8,13 +8,25 @@
 
 namespace epicyclic::studies {
 
+/// A state on or near a periodic motion, to start a branch from.
+struct BranchSeed {
+  double value = 0;           ///< of the parameter
+  int period = 1;             ///< n [mesh periods]
+  std::vector<double> state;  ///< at s = 0
+
+  /// @throws InputError for a period below 1, no state, and numbers that are not finite
+  void validate() const;
+};
+
 struct BranchesOptions {
   std::string parameter = "mesh_frequency_ratio";  ///< its name, or a JSON pointer to a number of the input
   double from = 0.2, to = 3.5;                     ///< range of its values, from < to
 
-  std::vector<double> starts{};  ///< values at which a motion settles from the default start, and is followed
+  std::vector<double> starts{};  ///< values at which a motion settles from the default start, and is followed; without
+                                 ///< seeds none means the ends of the range and its middle
   int settle_periods = 400;      ///< mesh periods that it is given for it
   int period = 1;                ///< of these motions [mesh periods]
+  std::vector<BranchSeed> seeds{};
   std::vector<double> values{};  ///< at which orbits are wanted exactly
 
   int largest_period = 2;     ///< that flips are followed to [mesh periods]
@@ -25,9 +37,17 @@ struct BranchesOptions {
 
   double tolerance = 1e-10;   ///< of the integrator, relative and absolute; bounds are from a tenth of it
   double largest_step = 0.1;  ///< of the arc length [-]
+  int output_phases = 64;     ///< at which extrema of an orbit are looked for, in a mesh period, as in a sweep
 
-  /// @throws InputError for an empty range, no starts or starts outside it, and numbers out of range
+  /// The starts, those that are meant where none are given among them.
+  [[nodiscard]] std::vector<double> all_starts() const;
+
+  /// @throws InputError for an empty range, starts or seeds outside it, and numbers out of range
   void validate() const;
 };
+
+/// Step of the differences that constants of the family's models are derived by, in the parameter's unit: they change
+/// over the range.
+[[nodiscard]] inline double family_step(const BranchesOptions& options) { return 1e-3 * (options.to - options.from); }
 
 }  // namespace epicyclic::studies

@@ -9,10 +9,9 @@ namespace epicyclic::studies {
 namespace {
 
 /// Half gaps are given in b_c.
-double micrometres(double gap) {
-  constexpr double per_length_scale = model::length_scale_m * 1e6;
-  return gap * per_length_scale;
-}
+constexpr double micrometres_per_length_scale = model::length_scale_m * 1e6;
+double micrometres(double gap) { return gap * micrometres_per_length_scale; }
+double in_length_scales(double gap_um) { return gap_um / micrometres_per_length_scale; }
 
 constexpr double gap_max = 1e4;
 
@@ -29,7 +28,8 @@ const std::vector<NamedParameter>& named_parameters() {
        1e-6,
        100,
        {"/operation/mesh_frequency_ratio"},
-       [](OperatingPoint& point, double value) { point.mesh_frequency_ratio = value; }},
+       [](OperatingPoint& point, double value) { point.mesh_frequency_ratio = value; },
+       [](const OperatingPoint& point) { return point.mesh_frequency_ratio; }},
       {"damping_ratio",
        "damping ratio of both meshes [-]",
        "Mesh damping ratio",
@@ -41,7 +41,8 @@ const std::vector<NamedParameter>& named_parameters() {
        [](OperatingPoint& point, double value) {
          point.stage.sun_planet_mesh.damping_ratio = value;
          point.stage.ring_planet_mesh.damping_ratio = value;
-       }},
+       },
+       [](const OperatingPoint& point) { return point.stage.sun_planet_mesh.damping_ratio.value_or(0.0); }},
       {"sun_planet_backlash",
        "half the backlash of the sun-planet mesh [b_c]",
        "Half backlash of the sun-planet mesh",
@@ -50,7 +51,8 @@ const std::vector<NamedParameter>& named_parameters() {
        0,
        gap_max,
        {"/stage/lumped/sun_planet_mesh/backlash_half_um"},
-       [](OperatingPoint& point, double value) { point.stage.sun_planet_mesh.backlash_half_um = micrometres(value); }},
+       [](OperatingPoint& point, double value) { point.stage.sun_planet_mesh.backlash_half_um = micrometres(value); },
+       [](const OperatingPoint& point) { return in_length_scales(point.stage.sun_planet_mesh.backlash_half_um); }},
       {"ring_planet_backlash",
        "half the backlash of the ring-planet mesh [b_c]",
        "Half backlash of the ring-planet mesh",
@@ -59,7 +61,8 @@ const std::vector<NamedParameter>& named_parameters() {
        0,
        gap_max,
        {"/stage/lumped/ring_planet_mesh/backlash_half_um"},
-       [](OperatingPoint& point, double value) { point.stage.ring_planet_mesh.backlash_half_um = micrometres(value); }},
+       [](OperatingPoint& point, double value) { point.stage.ring_planet_mesh.backlash_half_um = micrometres(value); },
+       [](const OperatingPoint& point) { return in_length_scales(point.stage.ring_planet_mesh.backlash_half_um); }},
       {"sun_bearing_clearance",
        "half the clearance of the sun's bearing [b_c]",
        "Half clearance of the sun bearing",
@@ -68,7 +71,8 @@ const std::vector<NamedParameter>& named_parameters() {
        0,
        gap_max,
        {"/stage/lumped/sun/bearing_clearance_half_um"},
-       [](OperatingPoint& point, double value) { point.stage.sun_bearing.clearance_half_um = micrometres(value); }}};
+       [](OperatingPoint& point, double value) { point.stage.sun_bearing.clearance_half_um = micrometres(value); },
+       [](const OperatingPoint& point) { return in_length_scales(point.stage.sun_bearing.clearance_half_um); }}};
   return all;
 }
 

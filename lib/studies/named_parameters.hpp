@@ -16,6 +16,7 @@ struct NamedParameter {
   double least = 0, most = 0;         ///< of its values
   std::vector<std::string> pointers;  ///< numbers of the input that it stands for
   void (*set)(model::OperatingPoint&, double value) = nullptr;
+  double (*get)(const model::OperatingPoint&) = nullptr;  ///< of several numbers the first
 };
 
 [[nodiscard]] const std::vector<NamedParameter>& named_parameters();

@@ -679,7 +679,20 @@ class SchemaAndReader : public ::testing::Test {
     EXPECT_TRUE(number.contains("minimum") || number.contains("exclusiveMinimum")) << pointer << " has no lower bound";
   }
 
+  /// An array of objects.
+  void check_list(const json& array, const std::string& pointer, const json& element) {
+    const auto most = array["maxItems"].get<std::size_t>();
+    EXPECT_TRUE(found(with(pointer, 1), pointer, Finding::Kind::type)) << pointer;
+    EXPECT_TRUE(found(with(pointer, std::vector<json>(most + 1, element)), pointer, Finding::Kind::range)) << pointer;
+    EXPECT_FALSE(any_at(with(pointer, std::vector<json>(most, element)), pointer)) << pointer;
+    const json before = std::exchange(whole, with(pointer, json::array({element})));
+    check_object(array["items"], pointer + "/0");
+    whole = before;
+  }
+
   void check_array(const json& array, const std::string& pointer) {
+    if (array["items"].contains("properties"))
+      return check_list(array, pointer, {{"value", 1.0}, {"state", json::array({0.0})}});
     if (array["items"].contains("enum")) {
       EXPECT_TRUE(found(with(pointer, json::array()), pointer, Finding::Kind::type));
       check_value(array["items"], pointer, {"up"});
@@ -788,6 +801,8 @@ TEST_F(SchemaAndReader, AgreeThatBasinsLetCellsSettle) {
   int kinds = 0;
   for (const auto& plan : schema["$defs"]["study"]["properties"]["study"]["anyOf"]) {
     const std::string kind = plan["properties"]["kind"]["const"];
+    ++kinds;
+    if (kind == "continue") continue;  // its orbits are settled ones
     const char* const transient = kind == "basins" ? "adaptive" : "fixed";
     EXPECT_EQ(plan["properties"]["transient"]["default"], transient) << kind;
     json other = whole;
@@ -796,9 +811,8 @@ TEST_F(SchemaAndReader, AgreeThatBasinsLetCellsSettle) {
     Study study;
     study_table().read(other, "", study, context);
     EXPECT_EQ(study_table().write(study)["study"]["transient"], transient) << kind;
-    ++kinds;
   }
-  EXPECT_EQ(kinds, 6);
+  EXPECT_EQ(kinds, 7);
 }
 
 TEST_F(SchemaAndReader, AgreeOnMethodsAndOrigins) {

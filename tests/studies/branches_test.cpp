@@ -33,7 +33,7 @@ model::DynamicModel model_at(double omega) {
 }
 
 std::vector<analysis::Branch> grown(const BranchSystem& system, double start, int settle_periods) {
-  const SettledStart from = settled_start(system, model_at(start), start, settle_periods);
+  const BranchOrigin from = settled_start(system, model_at(start), start, settle_periods);
   EXPECT_TRUE(from.orbit.has_value()) << from.message;
   analysis::BranchTree tree(system.system, system.options);
   if (from.orbit) tree.start(*from.orbit, from.keeps_symmetry);
@@ -87,14 +87,14 @@ TEST(Branches, FlipOfThePapersStageIsWhereMotionsDouble) {
   for (const Case& c : {Case{&one, 2.2, true, 1}, Case{&one, 2.1, false, 2}, Case{&two, 2.1, true, 2}}) {
     const analysis::BranchOrbit& orbit = orbit_at(*c.branch, c.value);
     const auto row = branch_row(c.branch->family, orbit, model_at(c.value), 64);
-    ASSERT_TRUE(row.has_value());
-    EXPECT_EQ(row->stable, c.stable) << c.value;
-    EXPECT_EQ(row->stable, row->multiplier_max < 1.0);
-    EXPECT_EQ(row->section.size(), static_cast<std::size_t>(c.branch->family.period) * 34U);
+    ASSERT_TRUE(row.carried);
+    EXPECT_EQ(row.stable, c.stable) << c.value;
+    EXPECT_EQ(row.stable, row.multiplier_max() < 1.0);
+    EXPECT_EQ(row.section.size(), static_cast<std::size_t>(c.branch->family.period) * 40U);  // state, deflections
     EXPECT_EQ(period_near(c.branch->family, orbit, c.value), c.period) << c.value;
     // The meshes of one kind move alike, and what they do is what a sweep records of the motion.
-    EXPECT_LT(row->meshes.planet_spread, eight_digits);
-    EXPECT_LT(row->meshes.sun_planet[0].delta_min, row->meshes.sun_planet[0].delta_max);
+    EXPECT_LT(row.meshes.planet_spread, eight_digits);
+    EXPECT_LT(row.meshes.sun_planet[0].delta_min, row.meshes.sun_planet[0].delta_max);
   }
 }
 
@@ -122,10 +122,10 @@ TEST(Branches, RowsAreWhatASweepRecords) {
   options.to = 3.5;
   options.starts = {3.3};
   const BranchSystem system = branch_system(model_at, options, model_at(3.3));
-  const SettledStart start = settled_start(system, model_at(3.3), 3.3, 400);
+  const BranchOrigin start = settled_start(system, model_at(3.3), 3.3, 400);
   ASSERT_TRUE(start.orbit.has_value()) << start.message;
   const auto row = branch_row(system.system, *start.orbit, model_at(3.3), 64);
-  ASSERT_TRUE(row.has_value());
+  ASSERT_TRUE(row.carried);
   GridPoint at;
   at.value = 3.3;
   LookOptions look;
@@ -134,24 +134,31 @@ TEST(Branches, RowsAreWhatASweepRecords) {
   ASSERT_EQ(point.period, 1);
   constexpr double settled = 1e-5;  // what the soft support modes leave after so many periods
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_NEAR(row->meshes.sun_planet[i].delta_min, point.sun_planet[i].delta_min, settled);
-    EXPECT_NEAR(row->meshes.ring_planet[i].delta_max, point.ring_planet[i].delta_max, settled);
-    EXPECT_EQ(row->meshes.sun_planet[i].contact(), point.sun_planet[i].contact());
+    EXPECT_NEAR(row.meshes.sun_planet[i].delta_min, point.sun_planet[i].delta_min, settled);
+    EXPECT_NEAR(row.meshes.ring_planet[i].delta_max, point.ring_planet[i].delta_max, settled);
+    EXPECT_EQ(row.meshes.sun_planet[i].contact(), point.sun_planet[i].contact());
   }
-  for (std::size_t k = 0; k < row->section.size(); ++k) EXPECT_NEAR(row->section[k], point.end_state[k], settled);
+  ASSERT_EQ(row.section.size(), point.poincare_columns);
+  const std::size_t last = point.poincare.size() - point.poincare_columns;
+  for (std::size_t k = 0; k < row.section.size(); ++k) EXPECT_NEAR(row.section[k], point.poincare[last + k], settled);
 }
 
 TEST(Branches, AStartWithoutAnOrbitSaysSo) {
   BranchesOptions options;
   options.starts = {0.7};
   const BranchSystem system = branch_system(model_at, options, model_at(0.7));
-  const SettledStart start = settled_start(system, model_at(0.7), 0.7, 50);
+  const BranchOrigin start = settled_start(system, model_at(0.7), 0.7, 50);
   ASSERT_FALSE(start.orbit.has_value());
   EXPECT_NE(start.message.find("no orbit of period 1"), std::string::npos) << start.message;
   BranchesOptions wrong;
-  EXPECT_THROW(wrong.validate(), InputError);
+  EXPECT_EQ(wrong.all_starts(), (std::vector<double>{0.2, 1.85, 3.5}));
   wrong.starts = {4.0};
   EXPECT_THROW(wrong.validate(), InputError);
+  BranchesOptions bad_seed;
+  bad_seed.seeds = {{1.0, 1, {}}};
+  EXPECT_THROW(bad_seed.validate(), InputError);
+  bad_seed.seeds = {{4.0, 1, {0.0}}};
+  EXPECT_THROW(bad_seed.validate(), InputError);
 }
 
 }  // namespace

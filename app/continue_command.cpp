@@ -1,0 +1,294 @@
+// epicyclic continue: branches of periodic motions along one parameter, with the points where they change.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <exception>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "core/atomic_file.hpp"
+#include "core/errors.hpp"
+#include "core/text.hpp"
+#include "finished_study.hpp"
+#include "folder.hpp"
+#include "input/study_model.hpp"
+#include "progress.hpp"
+#include "reports/continue_output.hpp"
+#include "reports/proof_output.hpp"
+#include "session.hpp"
+#include "stop.hpp"
+#include "store/branch_record.hpp"
+#include "store/journal.hpp"
+#include "streams.hpp"
+#include "studies/branch_proof.hpp"
+#include "studies/branches.hpp"
+#include "studies/probes.hpp"
+
+namespace epicyclic::app {
+
+namespace {
+
+using studies::BranchesOptions;
+using studies::TracedBranches;
+
+/// A signal has come: whatever is under way is given up.
+class Stopped : public std::exception {};
+
+/// The models of the family, until a stop is asked for.
+studies::ModelAt stoppable(studies::ModelAt models) {
+  return [models = std::move(models)](double value) {
+    if (stop_requested()) throw Stopped();
+    return models(value);
+  };
+}
+
+/// Orbits to start from: settled motions, then seeds; told apart from those that were not found.
+std::vector<studies::BranchAttempt> add_starts(const studies::BranchSystem& system, const BranchesOptions& options,
+                                               const studies::ModelAt& models, analysis::BranchTree& tree) {
+  std::vector<studies::BranchAttempt> attempts;
+  const auto add = [&](double value, int period, bool seed, studies::BranchOrigin origin) {
+    const bool found = origin.orbit.has_value();
+    if (found) tree.start(*std::move(origin.orbit), origin.keeps_symmetry, origin.period, origin.pieces);
+    attempts.push_back({value, period, seed, found, std::move(origin.message)});
+  };
+  for (const double value : options.all_starts())
+    add(value, options.period, false, settled_start(system, models(value), value, options.settle_periods));
+  for (const studies::BranchSeed& seed : options.seeds) add(seed.value, seed.period, true, seed_start(system, seed));
+  return attempts;
+}
+
+/// Brings the tree to where the journal is.
+std::size_t replay(const store::Journal& journal, analysis::BranchTree& tree) {
+  std::size_t steps = 0;
+  for (const store::JournalEntry& entry : journal.entries()) {
+    if (entry.point != steps)
+      throw store::DamagedData(fmt::format("the journal holds step {} where {} is due", entry.point, steps));
+    tree.apply(store::decode_step(journal.read(entry)));
+    ++steps;
+  }
+  return steps;
+}
+
+/// The tree to its end, each step kept in the journal.
+void grow(Session& session, const BranchesOptions& options, analysis::BranchTree& tree) {
+  const auto file = session.folder().file("journal.bin");
+  store::Journal journal(file, session.identity());
+  tell_cut_tail(file, journal.cut_bytes());
+  std::size_t steps = replay(journal, tree);
+  Progress progress("continue: orbits", unknown_total, steps);
+  std::size_t special = 0;
+  while (const auto step = tree.advance()) {
+    journal.append(steps++, store::encode_step(*step));
+    special += step->special.size();
+    std::string words = fmt::format("branch {}", tree.branches().size());
+    if (step->orbit) words += fmt::format(" at {} = {}", options.parameter, short_text(step->orbit->at.value, 6));
+    if (tree.waiting() > 0) words += fmt::format(", {} waiting", tree.waiting());
+    progress.update(steps, std::move(words));
+    if (stop_requested()) throw Stopped();
+  }
+  journal.close();
+  progress.finish();
+}
+
+/// Rows of all orbits and special points.
+void tell_rows(TracedBranches& traced, const studies::ModelAt& models, int phases) {
+  const model::DynamicModel first = models(traced.branches.front().orbits.front().at.value);
+  traced.special = studies::special_rows(traced.branches, contact_surfaces(first));
+  std::size_t total = traced.special.size();
+  for (const analysis::Branch& branch : traced.branches) total += branch.orbits.size();
+  Progress progress("continue: rows", total);
+  std::size_t finished = 0;
+  const auto row = [&](const analysis::Branch& branch, const analysis::BranchOrbit& orbit) {
+    progress.update(++finished, 0);
+    return studies::branch_row(branch.family, orbit, models(orbit.at.value), phases);
+  };
+  for (const analysis::Branch& branch : traced.branches) {
+    std::vector<studies::BranchRow>& rows = traced.rows.emplace_back();
+    for (const analysis::BranchOrbit& orbit : branch.orbits) rows.push_back(row(branch, orbit));
+  }
+  for (const studies::SpecialRow& r : traced.special) {
+    const analysis::Branch& branch = traced.branches[r.branch];
+    traced.at_special.push_back(row(branch, branch.special[r.point].orbit));
+  }
+}
+
+/// What was asked for and not reached.
+std::size_t count_failures(const TracedBranches& traced) {
+  std::size_t failed = traced.broken_off() + (traced.branches.empty() ? 1 : 0);
+  for (const studies::BranchAttempt& a : traced.attempts) failed += a.seed && !a.found ? 1 : 0;
+  for (const studies::SpecialRow& r : traced.special) failed += r.kind == analysis::SpecialKind::unresolved ? 1 : 0;
+  return failed;
+}
+
+/// A sweep that the branches are to prove.
+/// @throws InputError for one along another parameter, beside the branches' range, or of other equations
+FinishedStudy sweep_to_prove(const Arguments& arguments, const BranchesOptions& options,
+                             const studies::ModelAt& models) {
+  FinishedStudy sweep(arguments.against);
+  const std::string folder = arguments.against.string();
+  const auto* plan = std::get_if<studies::SweepOptions>(&sweep.input().study.plan);
+  if (plan == nullptr)
+    throw InputError(folder + ": --against takes a sweep, this is a " + std::string(sweep.input().study.kind()));
+  if (plan->axis.name != options.parameter)
+    throw InputError(
+        fmt::format("{}: is a sweep along {}, the branches go along {}", folder, plan->axis.name, options.parameter));
+  const double last = axis_value(plan->axis, static_cast<std::size_t>(plan->axis.points) - 1);
+  if (plan->axis.from < options.from || last > options.to)
+    throw InputError(fmt::format("{}: goes from {} to {}, the branches only from {} to {}", folder, plan->axis.from,
+                                 last, options.from, options.to));
+  for (const std::size_t point : {std::size_t{0}, sweep.points().count - 1})
+    if (!studies::same_motion(sweep.model_at(point), models(sweep.plan().points[point].value)))
+      throw InputError(fmt::format("{}: its equations of motion are not those of {}, at {} = {}", folder,
+                                   arguments.input.string(), options.parameter, sweep.plan().points[point].value));
+  return sweep;
+}
+
+/// What was proved, with its files.
+struct Proved {
+  studies::BranchProof proof;
+  std::string summary;
+  std::vector<reports::DrawnFigure> figures;
+};
+
+Proved prove_sweep(const FinishedStudy& sweep, const store::OutputFolder& folder, const reports::ContinueOutput& output,
+                   const TracedBranches& traced, std::size_t dimension) {
+  const studies::PointSource points = sweep.points();
+  const auto& plan = std::get<studies::SweepOptions>(sweep.input().study.plan);
+  Proved proved;
+  {
+    Progress progress("continue: against the sweep", points.count);
+    proved.proof = prove(traced, plan, points, dimension, {}, [&](std::size_t done) {
+      progress.update(done, 0);
+      if (stop_requested()) throw Stopped();
+    });
+  }
+  const input::Study& study = sweep.input().study;
+  const reports::ProvedSweep told{study.name.empty() ? sweep.folder().string() : study.name, sweep.identity(),
+                                  output.poincare_columns, points};
+  folder.require_there();
+  proved.summary = reports::proof_summary(output, told, traced, proved.proof);
+  reports::write_proof_csv(folder.file("proof.csv"), traced, proved.proof);
+  write_file_atomically(folder.file("proof.md"), proved.summary);
+  proved.figures = reports::draw_proof_figures(folder.file("figures"), output, told, traced);
+  return proved;
+}
+
+void tell_result(const Arguments& arguments, const TracedBranches& traced, const Proved& proved, std::size_t failed,
+                 const std::string& summary, const std::vector<reports::DrawnFigure>& figures) {
+  if (!arguments.json) {
+    print("{}\n", summary);
+    if (!proved.summary.empty()) print("{}\n", proved.summary);
+    for (const reports::DrawnFigure& figure : figures)
+      if (figure.outcome.drawn()) print("figure: {}\n", figure.file.string());
+    return;
+  }
+  nlohmann::json told = {{"folder", arguments.output.string()},
+                         {"branches", nlohmann::json::array()},
+                         {"special", nlohmann::json::array()},
+                         {"failed", failed},
+                         {"figures", nlohmann::json::array()}};
+  for (const analysis::Branch& branch : traced.branches)
+    told["branches"].push_back({{"period", branch.family.period},
+                                {"orbits", branch.orbits.size()},
+                                {"first", branch.orbits.front().at.value},
+                                {"last", branch.orbits.back().at.value}});
+  for (const studies::SpecialRow& r : traced.special) {
+    nlohmann::json one = {
+        {"branch", r.branch}, {"kind", to_string(r.kind)}, {"value", r.value}, {"error_bound", nullptr}};
+    if (std::isfinite(r.error_bound)) one["error_bound"] = r.error_bound;
+    told["special"].push_back(std::move(one));
+  }
+  if (!proved.summary.empty())
+    told["proof"] = {{"periodic", proved.proof.periodic},
+                     {"off_branches", proved.proof.off.size()},
+                     {"changes", proved.proof.counted()},
+                     {"unexplained", proved.proof.unexplained()}};
+  for (const reports::DrawnFigure& figure : figures)
+    if (figure.outcome.drawn()) told["figures"].push_back(figure.file.string());
+  print("{}\n", told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+}  // namespace
+
+int continue_command(const Arguments& arguments) {
+  stop_on_signals();
+  std::vector<std::string> notes;
+  const input::LoadedInput input =
+      with_seeds(arguments.input, input::parse_assignments(arguments.sets), arguments.from, notes);
+  require_kind(input, arguments, "continue");
+  const auto& options = std::get<BranchesOptions>(input.study.plan);
+  const studies::ModelAt models = stoppable(input::model_family(input, options.parameter, family_step(options)));
+  // Options and models that do not fit show here, before anything is written.
+  const model::DynamicModel first_model = models(options.from);
+  (void)models(options.to);
+  const studies::BranchSystem system = branch_system(models, options, first_model);
+  const auto sweep =
+      arguments.against.empty() ? nullptr : std::make_unique<FinishedStudy>(sweep_to_prove(arguments, options, models));
+  tell_warnings(input);
+  for (const std::string& note : notes) tell("{}\n", note);
+
+  Session session(arguments, input, identity_of(input, "continue"), 1, 1, sweep != nullptr);
+  if (const auto code = session.exit_code()) return *code;
+  const store::OutputFolder& folder = session.folder();
+
+  TracedBranches traced;
+  std::int64_t undrawn = 0;
+  std::size_t failed = 0;
+  const auto close_run = [&](store::RunState state) {
+    std::size_t orbits = 0;
+    for (const analysis::Branch& branch : traced.branches) orbits += branch.orbits.size();
+    session.end(state, {{"branches", static_cast<std::int64_t>(traced.branches.size())},
+                        {"orbits", static_cast<std::int64_t>(orbits)},
+                        {"special_points", static_cast<std::int64_t>(traced.special.size())},
+                        {"failed", static_cast<std::int64_t>(failed)},
+                        {"undrawn", undrawn}});
+  };
+  try {
+    analysis::BranchTree tree(system.system, system.options);
+    traced.attempts = add_starts(system, options, models, tree);
+    for (const studies::BranchAttempt& a : traced.attempts)
+      if (!a.found) tell("{} at {}: {}\n", a.seed ? "seed" : "start", short_text(a.value, 9), a.message);
+    grow(session, options, tree);
+    traced.branches = tree.branches();
+    traced.full = tree.full();
+    if (!traced.branches.empty()) tell_rows(traced, models, options.output_phases);
+  } catch (const Stopped&) {
+    close_run(store::RunState::stopped);
+    tell("stopped; the same command goes on\n");
+    return stopped_early;
+  }
+  failed = count_failures(traced);
+
+  folder.require_there();
+  const reports::ContinueOutput output{options, studies::poincare_columns(first_model),
+                                       static_cast<std::size_t>(first_model.planets), session.resolved(),
+                                       reports::figure_title(input.study)};
+  const std::string summary = reports::continue_summary(output, traced);
+  reports::write_continue_tables(folder.path(), output, traced);
+  write_file_atomically(folder.file("continue.md"), summary);
+  auto figures = reports::draw_continue_figures(folder.file("figures"), output, traced);
+  Proved proved;
+  try {
+    if (sweep) proved = prove_sweep(*sweep, folder, output, traced, first_model.dimension);
+  } catch (const Stopped&) {
+    close_run(store::RunState::stopped);
+    tell("stopped; the same command goes on\n");
+    return stopped_early;
+  }
+  std::ranges::move(proved.figures, std::back_inserter(figures));
+  undrawn = tell_undrawn(figures);
+  close_run(store::RunState::complete);
+  tell_result(arguments, traced, proved, failed, summary, figures);
+  const bool explained = proved.proof.unexplained() <= static_cast<std::size_t>(arguments.unexplained);
+  return failed == 0 && undrawn == 0 && explained ? done : done_with_failures;
+}
+
+}  // namespace epicyclic::app

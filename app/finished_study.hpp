@@ -1,0 +1,64 @@
+// The folder of a study that is complete, opened to read: a donor of seeds, or a sweep to be proved.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "input/study_input.hpp"
+#include "store/point_store.hpp"
+#include "studies/sweep_plan.hpp"
+
+namespace epicyclic::app {
+
+/// Its points come from its journal, which holds them to the last bit. Of a run, which keeps none, from its tables.
+class FinishedStudy {
+ public:
+  /// Changes nothing in it.
+  /// @throws InputError when there is no complete study whose points are kept, or one of other numerics; DamagedData
+  /// when its files are not what they were
+  explicit FinishedStudy(const std::filesystem::path& folder);
+
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  [[nodiscard]] const input::LoadedInput& input() const { return input_; }
+  [[nodiscard]] const std::string& identity() const { return identity_; }
+  [[nodiscard]] const studies::SweepPlan& plan() const { return *plan_; }
+  [[nodiscard]] studies::PointSource points() const;
+
+  /// The equations at one of its points.
+  [[nodiscard]] model::DynamicModel model_at(std::size_t point) const;
+
+ private:
+  void read_run();
+
+  std::filesystem::path folder_;
+  input::LoadedInput input_;
+  std::string identity_;
+  std::unique_ptr<studies::SweepPlan> plan_;
+  std::unique_ptr<store::PointStore> store_;  ///< null of a run
+  std::vector<studies::PointResult> run_;     ///< its one point
+};
+
+/// Where a point of a donor was, as an element of /study/seeds.
+struct Donor {
+  std::filesystem::path folder;
+  std::string text;       ///< as given
+  bool all = true;        ///< every periodic stretch
+  std::size_t point = 0;  ///< else this one
+};
+
+/// "FOLDER" or "FOLDER:INDEX".
+/// @throws InputError for an INDEX that is too large
+[[nodiscard]] Donor parse_donor(const std::string& text);
+
+/// Puts the donors' states into the study as its seeds.
+/// @param sets  of the command line
+/// @returns the input with them, and what has to be said of them on stderr
+/// @throws InputError for a donor that has no such point, or one that moves by other equations in another state
+[[nodiscard]] input::LoadedInput with_seeds(const std::filesystem::path& study,
+                                            const std::vector<input::Assignment>& sets,
+                                            const std::vector<std::string>& donors, std::vector<std::string>& notes);
+
+}  // namespace epicyclic::app

@@ -1,0 +1,458 @@
+#include "reports/continue_output.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/csv.hpp"
+#include "core/text.hpp"
+#include "reports/table_output.hpp"
+#include "store/branch_columns.hpp"
+
+namespace epicyclic::reports {
+
+namespace {
+
+using analysis::Branch;
+using analysis::BranchEnd;
+using analysis::BranchLimit;
+using analysis::SpecialKind;
+using studies::BranchRow;
+using studies::SpecialRow;
+using studies::TracedBranches;
+
+/// An orbit's place in all branches, one behind the other.
+struct Flat {
+  std::vector<std::pair<std::size_t, std::size_t>> places;  ///< branch, index
+  explicit Flat(const TracedBranches& traced) {
+    for (std::size_t b = 0; b < traced.rows.size(); ++b)
+      for (std::size_t k = 0; k < traced.rows[b].size(); ++k) places.emplace_back(b, k);
+  }
+};
+
+/// A row with what a sweep would record of it, alive while it is written.
+struct PlaceRow {
+  studies::PointSummary point;
+  store::BranchPlace place;
+  PlaceRow(const TracedBranches& traced, std::pair<std::size_t, std::size_t> at)
+      : point(as_point(traced.rows[at.first][at.second])),
+        place{at.first, at.second, traced.rows[at.first][at.second], point} {}
+  PlaceRow(const PlaceRow&) = delete;
+  PlaceRow& operator=(const PlaceRow&) = delete;
+  operator const store::BranchPlace&() const { return place; }  // NOLINT(google-explicit-constructor): it is one
+};
+
+const char* end_word(const BranchLimit& limit) {
+  if (limit.born) return "birth";
+  switch (limit.end) {
+    case BranchEnd::range:
+      return "range";
+    case BranchEnd::closed:
+      return "closed";
+    case BranchEnd::many:
+      return "orbits";
+    case BranchEnd::least_step:
+      return "least_step";
+    case BranchEnd::none:
+      break;
+  }
+  return "";
+}
+
+std::string place_text(const std::optional<analysis::SpecialPlace>& place) {
+  return place ? fmt::format("{}:{}", place->branch, place->point) : std::string();
+}
+
+void write_branches_csv(const std::filesystem::path& file, const TracedBranches& traced) {
+  CsvWriter csv(file, {"branch", "period", "in_step", "orbits", "special_points", "value_first", "value_last",
+                       "end_first", "end_last", "birth", "death", "message"});
+  for (std::size_t b = 0; b < traced.branches.size(); ++b) {
+    const Branch& branch = traced.branches[b];
+    const bool in_step = branch.family.keeps_symmetry && branch.family.symmetry.map.size() != 0;
+    csv.cell(b).cell(branch.family.period).cell(in_step ? 1 : 0).cell(branch.orbits.size());
+    csv.cell(std::ranges::count_if(traced.special, [&](const SpecialRow& r) { return r.branch == b; }));
+    csv.cell(branch.orbits.front().at.value).cell(branch.orbits.back().at.value);
+    csv.cell(end_word(branch.first)).cell(end_word(branch.last));
+    csv.cell(place_text(branch.first.place)).cell(place_text(branch.last.place));
+    csv.cell(branch.first.message.empty() ? branch.last.message : branch.first.message);
+    csv.end_row();
+  }
+  csv.commit();
+}
+
+void write_section_csv(const std::filesystem::path& file, const ContinueOutput& output, const TracedBranches& traced) {
+  std::vector<std::string> names = {"branch", "index", "crossing"};
+  names.insert(names.end(), output.poincare_columns.begin(), output.poincare_columns.end());
+  const std::size_t columns = output.poincare_columns.size();
+  CsvWriter csv(file, names);
+  for (std::size_t b = 0; b < traced.rows.size(); ++b)
+    for (std::size_t k = 0; k < traced.rows[b].size(); ++k) {
+      const std::vector<double>& section = traced.rows[b][k].section;
+      for (std::size_t n = 0; n * columns < section.size(); ++n) {
+        csv.cell(b).cell(k).cell(n);
+        for (std::size_t j = 0; j < columns; ++j) csv.cell(section[n * columns + j]);
+        csv.end_row();
+      }
+    }
+  csv.commit();
+}
+
+void write_h5(const std::filesystem::path& file, const ContinueOutput& output, const TracedBranches& traced) {
+  const Flat flat(traced);
+  store::Hdf5File h5(file);
+  h5.set_attribute("/", "input_resolved", output.resolved_input);
+  h5.set_attribute("/", "parameter", output.options.parameter);
+  write_table_h5(h5, "/branches", store::branch_columns(output.planets), flat.places.size(),
+                 [&](std::size_t i) { return PlaceRow(traced, flat.places[i]); });
+  write_table_h5(h5, "/special", store::special_columns(), traced.special.size(),
+                 [&](std::size_t i) -> const SpecialRow& { return traced.special[i]; });
+
+  std::size_t dimension = 0;
+  std::vector<std::array<std::size_t, 3>> crossings;
+  const std::size_t columns = output.poincare_columns.size();
+  for (const auto& [b, k] : flat.places) {
+    const BranchRow& row = traced.rows[b][k];
+    dimension = std::max(dimension, row.multipliers.size());
+    for (std::size_t n = 0; n * columns < row.section.size(); ++n) crossings.push_back({b, k, n});
+  }
+  h5.create_group("/multipliers");
+  for (const bool real : {true, false})
+    h5.write(real ? "/multipliers/real" : "/multipliers/imaginary", flat.places.size(), dimension,
+             [&](std::size_t i, std::span<double> values) {
+               const BranchRow& row = traced.rows[flat.places[i].first][flat.places[i].second];
+               for (std::size_t j = 0; j < dimension; ++j)
+                 values[j] = j >= row.multipliers.size() ? std::numeric_limits<double>::quiet_NaN()
+                             : real                      ? row.multipliers[j].real()
+                                                         : row.multipliers[j].imag();
+             });
+  h5.set_attribute("/multipliers", "meaning", "Floquet multipliers by falling modulus, a row for each of /branches");
+
+  h5.create_group("/poincare");
+  h5.write("/poincare/columns", std::span<const std::string>(output.poincare_columns));
+  for (const auto& [name, part] : {std::pair("branch", 0U), std::pair("index", 1U), std::pair("crossing", 2U)})
+    h5.write(std::string("/poincare/") + name, crossings.size(),
+             store::Hdf5File::Column<std::int64_t>(
+                 [&, part = part](std::size_t i) { return static_cast<std::int64_t>(crossings[i][part]); }));
+  h5.write("/poincare/values", crossings.size(), columns, [&](std::size_t i, std::span<double> values) {
+    const auto& [b, k, n] = crossings[i];
+    std::copy_n(traced.rows[b][k].section.begin() + static_cast<std::ptrdiff_t>(n * columns), columns, values.begin());
+  });
+  h5.set_units("/poincare/values", "b_c, b_c per tau");
+  h5.close();
+}
+
+/// A stretch of a branch that is stable, by values of the parameter along it.
+struct Stretch {
+  double from = 0, to = 0;
+};
+
+std::vector<Stretch> stable_stretches(const TracedBranches& traced, std::size_t b) {
+  const std::vector<BranchRow>& rows = traced.rows[b];
+  // Between an orbit that is stable and one that is not: the point where that changes, if it is known.
+  const auto change = [&](std::size_t before) {
+    for (const SpecialRow& r : traced.special)
+      if (r.branch == b && r.after == before && r.kind != SpecialKind::grazing) return r.value;
+    return 0.5 * (rows[before].value + rows[before + 1].value);
+  };
+  std::vector<Stretch> all;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (!rows[k].stable) continue;
+    if (k == 0 || !rows[k - 1].stable) all.push_back({k == 0 ? rows[k].value : change(k - 1), 0.0});
+    if (k + 1 == rows.size())
+      all.back().to = rows[k].value;
+    else if (!rows[k + 1].stable)
+      all.back().to = change(k);
+  }
+  return all;
+}
+
+std::string end_text(const ContinueOutput& output, const BranchLimit& limit, double value) {
+  const std::string at = short_text(value, 6);
+  if (limit.born)
+    return limit.place ? fmt::format("at {} on branch {}", at, limit.place->branch)
+                       : fmt::format("at {}, at a flip or branch point of a branch that was not followed", at);
+  switch (limit.end) {
+    case BranchEnd::range:
+      return fmt::format("at {}, an end of the range", at);
+    case BranchEnd::closed:
+      return fmt::format("at {}, where it began: it is closed", at);
+    case BranchEnd::many:
+      return fmt::format("at {} after `orbits` = {} orbits", at, output.options.orbits);
+    case BranchEnd::least_step:
+      return fmt::format("**at {}, broken off: {}**", at, limit.message);
+    case BranchEnd::none:
+      break;
+  }
+  return "at " + at;
+}
+
+std::string what_text(const SpecialRow& r) {
+  if (!r.contact.empty()) return r.contact;
+  std::string text;
+  if (!r.broken_symmetry.empty()) text = "breaks the planets' symmetry: " + r.broken_symmetry;
+  if (r.same_as)
+    text += fmt::format("{}point {} of branch {}", text.empty() ? "" : ", ", r.same_as->point, r.same_as->branch);
+  if (!r.note.empty()) text += (text.empty() ? "" : ", ") + r.note;
+  return text;
+}
+
+std::string branch_text(const ContinueOutput& output, const TracedBranches& traced, std::size_t b) {
+  const Branch& branch = traced.branches[b];
+  const bool alike = branch.family.symmetry.map.size() != 0;
+  std::string text = fmt::format("\n## Branch {}: period {}{}\n\n", b, branch.family.period,
+                                 !alike                         ? ""
+                                 : branch.family.keeps_symmetry ? ", all planets in step"
+                                                                : ", planets not in step");
+  text += fmt::format("{} orbits; it begins {} and ends {}.\n", branch.orbits.size(),
+                      end_text(output, branch.first, branch.orbits.front().at.value),
+                      end_text(output, branch.last, branch.orbits.back().at.value));
+  const std::vector<Stretch> stable = stable_stretches(traced, b);
+  if (stable.empty()) text += "No orbit of it is stable.\n";
+  for (std::size_t k = 0; k < stable.size(); ++k)
+    text += fmt::format("{}{} to {}{}", k == 0 ? "Stable along it from " : ", from ", short_text(stable[k].from, 9),
+                        short_text(stable[k].to, 9), k + 1 == stable.size() ? ".\n" : "");
+  bool any = false;
+  for (const SpecialRow& r : traced.special) {
+    if (r.branch != b) continue;
+    if (!any) text += "\n| kind | value | multipliers there | |\n|---|---|---|---|\n";
+    any = true;
+    std::string multipliers;
+    for (const auto& m : r.multipliers)
+      multipliers += fmt::format("{}{:.4g}{:+.4g}i", multipliers.empty() ? "" : ", ", m.real(), m.imag());
+    text += fmt::format("| {} | {} | {} | {} |\n", letters_of(r.kind).words, with_error(r.value, r.error_bound),
+                        multipliers, what_text(r));
+  }
+  return text;
+}
+
+const char* mesh_column(MeshKind mesh) { return mesh == MeshKind::sun_planet ? "delta_sp_1" : "delta_rp_1"; }
+
+using Place = std::array<double, 2>;
+constexpr double gap = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+SpecialLetters letters_of(SpecialKind kind) {
+  switch (kind) {
+    case SpecialKind::fold:
+      return {"LP", "fold"};
+    case SpecialKind::flip:
+      return {"PD", "flip (period doubling)"};
+    case SpecialKind::neimark_sacker:
+      return {"NS", "Neimark-Sacker"};
+    case SpecialKind::branch_point:
+      return {"BP", "branch point"};
+    case SpecialKind::grazing:
+      return {"GR", "grazing"};
+    case SpecialKind::unresolved:
+      break;
+  }
+  return {"??", "unresolved"};
+}
+
+void write_continue_tables(const std::filesystem::path& folder, const ContinueOutput& output,
+                           const TracedBranches& traced) {
+  const Flat flat(traced);
+  write_table_csv(folder / "branch.csv", store::branch_columns(output.planets), flat.places.size(),
+                  [&](std::size_t i) { return PlaceRow(traced, flat.places[i]); });
+  write_table_csv(folder / "special.csv", store::special_columns(), traced.special.size(),
+                  [&](std::size_t i) -> const SpecialRow& { return traced.special[i]; });
+  write_branches_csv(folder / "branches.csv", traced);
+  write_section_csv(folder / "poincare.csv", output, traced);
+  write_h5(folder / "results.h5", output, traced);
+}
+
+std::string continue_summary(const ContinueOutput& output, const TracedBranches& traced) {
+  std::size_t orbits = 0;
+  for (const Branch& branch : traced.branches) orbits += branch.orbits.size();
+  std::string text = fmt::format("# Branches of periodic motions along {}\n\n", output.options.parameter);
+  text += fmt::format(
+      "{} branches, {} orbits, {} special points between {} and {}; tolerance {}. Each value has an error bound from "
+      "other tolerances and subdivisions; stable means that no Floquet multiplier is beyond the unit circle.\n",
+      traced.branches.size(), orbits, traced.special.size(), short_text(output.options.from, 9),
+      short_text(output.options.to, 9), short_text(output.options.tolerance));
+  if (traced.full)
+    text += fmt::format("\n**There are more branches than `branches` = {}: the rest was not followed.**\n",
+                        output.options.branches);
+  if (const std::size_t broken = traced.broken_off(); broken > 0)
+    text += fmt::format("\n**{} {} off before an end of the range.**\n", broken,
+                        broken == 1 ? "way along a branch was broken" : "ways along branches were broken");
+  for (const studies::BranchAttempt& a : traced.attempts)
+    if (!a.found)
+      text += fmt::format("\n- {} at {}: {}.\n", a.seed ? "Seed" : "Start", short_text(a.value, 9), a.message);
+  for (std::size_t b = 0; b < traced.branches.size(); ++b) text += branch_text(output, traced, b);
+  return text;
+}
+
+/// Places of lines, by whether the orbits are stable; a line goes on to the first orbit of the other kind.
+struct BranchSketch::Lines {
+  std::vector<Place> stable, unstable;
+
+  /// @param y_of  ordinate at a row; not a number interrupts
+  template <class F>
+  void add(const std::vector<BranchRow>& rows, F y_of) {
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      std::vector<Place>& line = rows[k].stable ? stable : unstable;
+      const Place here = {rows[k].value, y_of(k)};
+      if (k > 0 && rows[k].stable != rows[k - 1].stable) {
+        (rows[k].stable ? unstable : stable).push_back(here);
+        (rows[k].stable ? unstable : stable).push_back({gap, gap});
+      }
+      line.push_back(here);
+    }
+    stable.push_back({gap, gap});
+    unstable.push_back({gap, gap});
+  }
+};
+
+BranchSketch::BranchSketch(std::string_view stem, const ContinueOutput& output, const TracedBranches& traced,
+                           MeshKind mesh)
+    : output_(output), traced_(traced), mesh_(mesh), sketch_(stem) {
+  const auto& columns = output.poincare_columns;
+  column_ = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), mesh_column(mesh)) - columns.begin());
+  for (const auto& rows : traced.rows)
+    for (const BranchRow& row : rows)
+      for (std::size_t k = column_; k < row.section.size(); k += columns.size()) y_.include(row.section[k]);
+}
+
+void BranchSketch::add_points(const std::vector<Place>& points, std::string_view look, std::string_view title) {
+  for (const Place& p : points) y_.include(p[1]);
+  points_.push_back(points);
+  point_looks_.emplace_back(look, title);
+}
+
+void BranchSketch::add_branches() {
+  const std::size_t columns = output_.poincare_columns.size();
+  Lines lines;
+  for (const auto& rows : traced_.rows) {
+    const auto crossings = static_cast<std::size_t>(rows.empty() ? 0 : rows.front().period);
+    for (std::size_t n = 0; n < crossings; ++n)
+      lines.add(rows,
+                [&](std::size_t k) { return rows[k].section.empty() ? gap : rows[k].section[n * columns + column_]; });
+  }
+  sketch_.add(lines.unstable, figures::dashed(figures::ink::red, 1.4, "(6,4)"), "unstable");
+  sketch_.add(lines.stable, figures::solid(figures::ink::blue, 2.4), "stable");
+}
+
+void BranchSketch::add_special_points() {
+  struct Look {
+    SpecialKind kind;
+    std::string_view colour;
+    double size;
+    int type;
+  };
+  using enum SpecialKind;
+  constexpr std::array<Look, 6> looks = {{{grazing, figures::ink::light_grey, 1.0, 6},
+                                          {fold, figures::ink::dark_grey, 1.8, 7},
+                                          {flip, figures::ink::green, 1.8, 9},
+                                          {neimark_sacker, figures::ink::ochre, 1.8, 13},
+                                          {branch_point, figures::ink::purple, 1.8, 5},
+                                          {unresolved, figures::ink::red, 1.8, 2}}};
+  const double height = y_.high - y_.low;
+  for (const Look& look : looks) {
+    std::vector<Place> places;
+    std::vector<Place> lettered;
+    for (std::size_t i = 0; i < traced_.special.size(); ++i) {
+      const SpecialRow& r = traced_.special[i];
+      const std::vector<double>& section = traced_.at_special[i].section;
+      if (r.kind != look.kind || column_ >= section.size()) continue;
+      places.push_back({r.value, section[column_]});
+      if (look.kind == grazing || r.same_as) continue;
+      // Letters that would lie on each other stand once.
+      const double width = output_.options.to - output_.options.from;
+      const bool apart = std::ranges::none_of(lettered, [&](const Place& p) {
+        return std::abs(p[0] - r.value) < 0.02 * width && std::abs(p[1] - section[column_]) < 0.05 * height;
+      });
+      if (apart) lettered.push_back(places.back());
+    }
+    const SpecialLetters letters = letters_of(look.kind);
+    sketch_.add(places, figures::dots(look.colour, look.size, look.type),
+                look.kind == grazing ? letters.words : fmt::format("{} {}", letters.letters, letters.words));
+    sketch_.letters(lettered, letters.letters, fmt::format("offset 0.9,0.9 textcolor '{}'", look.colour));
+  }
+}
+
+void BranchSketch::add_contacts() {
+  // What meshes do besides driving.
+  struct Strip {
+    double y;
+    const char* name;
+    bool sun;
+    bool studies::MeshRecord::*does;
+  };
+  using studies::MeshRecord;
+  constexpr std::array<Strip, 4> strips = {{{4.0, "sp loss", true, &MeshRecord::loss},
+                                            {3.0, "sp back", true, &MeshRecord::back},
+                                            {2.0, "rp loss", false, &MeshRecord::loss},
+                                            {1.0, "rp back", false, &MeshRecord::back}}};
+  figures::FigurePanel panel{"Contact", {0.4, 4.6}, {}, 0.9};
+  for (const Strip& s : strips) panel.names.emplace_back(s.y, s.name);
+  sketch_.panel(panel);
+  Lines lines;
+  for (const auto& rows : traced_.rows)
+    for (const Strip& s : strips)
+      lines.add(rows, [&](std::size_t k) {
+        if (!rows[k].carried) return gap;
+        const auto& meshes = s.sun ? rows[k].meshes.sun_planet : rows[k].meshes.ring_planet;
+        return std::ranges::any_of(meshes, [&](const MeshRecord& m) { return m.*s.does; }) ? s.y : gap;
+      });
+  for (auto& [x, y] : lines.unstable) y -= 0.18;
+  sketch_.add(lines.unstable, figures::solid(figures::ink::red, 3.0));
+  for (auto& [x, y] : lines.stable) y += 0.18;
+  sketch_.add(lines.stable, figures::solid(figures::ink::blue, 5.0));
+}
+
+void BranchSketch::add_multipliers() {
+  figures::FigureRange range;
+  range.include(1.0);
+  for (const auto& rows : traced_.rows)
+    for (const BranchRow& row : rows) range.include(std::clamp(row.multiplier_max(), 0.3, 30.0));
+  figures::FigurePanel panel{"|μ|_{max}", {range.low / 1.1, range.high * 1.1}, {}, 1.2};
+  panel.logarithmic = true;
+  sketch_.panel(panel);
+  Lines lines;
+  for (const auto& rows : traced_.rows)
+    lines.add(rows, [&](std::size_t k) { return std::max(rows[k].multiplier_max(), range.low); });
+  const auto& [from, to] = std::pair(output_.options.from, output_.options.to);
+  sketch_.add(std::vector<Place>{{from, 1.0}, {to, 1.0}}, figures::solid(figures::ink::light_grey, 1.2));
+  sketch_.add(lines.unstable, figures::dashed(figures::ink::red, 1.4, "(6,4)"));
+  sketch_.add(lines.stable, figures::solid(figures::ink::blue, 2.4));
+}
+
+DrawnFigure BranchSketch::draw(const std::filesystem::path& folder, const std::string& title_more) {
+  const char* subscript = mesh_ == MeshKind::sun_planet ? "sp" : "rp";
+  const figures::FigureText text{figures::literal_text(output_.title) + title_more,
+                                 parameter_label(output_.options.parameter), ""};
+  const DrawnFigure none{folder / (sketch_.stem() + ".png"), {"there is no orbit to draw"}};
+  if (y_.empty()) return none;
+  figures::FigurePanel panel{
+      fmt::format("Poincaré points of  δ_{{{}}} / b_c", subscript), y_.widened(figures::figure_margin), {}, 3.0};
+  sketch_.panel(panel);
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    sketch_.add(points_[k], point_looks_[k].first, point_looks_[k].second);
+  add_branches();
+  add_special_points();
+  add_contacts();
+  add_multipliers();
+  figures::FigureRange x;
+  x.include(output_.options.from);
+  x.include(output_.options.to);
+  return {none.file, sketch_.draw(folder, text, x, {}, {}, figures::FigureCanvas{1800, 1500})};
+}
+
+std::vector<DrawnFigure> draw_continue_figures(const std::filesystem::path& folder, const ContinueOutput& output,
+                                               const TracedBranches& traced) {
+  std::vector<DrawnFigure> figures;
+  for (const auto& [mesh, stem] :
+       {std::pair(MeshKind::sun_planet, "branches_delta_sp"), std::pair(MeshKind::ring_planet, "branches_delta_rp")})
+    figures.push_back(BranchSketch(stem, output, traced, mesh).draw(folder));
+  return figures;
+}
+
+}  // namespace epicyclic::reports

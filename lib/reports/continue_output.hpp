@@ -1,0 +1,82 @@
+// What branches leave in their folder.
+//
+//   branch.csv      a row per orbit      special.csv   a row per special point      branches.csv  a row per branch
+//   poincare.csv    a row per Poincare point of an orbit: branch, index, crossing, columns as of a sweep
+//   results.h5      all of it, and all multipliers
+//   continue.md     in words: branches, where they are stable, where they change
+//   figures/        branches over the parameter, their contacts and largest multipliers
+//
+// All of it follows from the branches alone and is the same, byte for byte, for the same study (architecture section
+// 7).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "figures/sketch.hpp"
+#include "reports/sweep_output.hpp"
+#include "studies/branches.hpp"
+
+namespace epicyclic::reports {
+
+struct ContinueOutput {
+  studies::BranchesOptions options;
+  std::vector<std::string> poincare_columns;
+  std::size_t planets = 0;
+  std::string resolved_input;  ///< text of input.resolved.json, kept in results.h5 too
+  std::string title;           ///< of the figures
+};
+
+/// The tables and results.h5.
+/// @throws OutputError
+void write_continue_tables(const std::filesystem::path& folder, const ContinueOutput& output,
+                           const studies::TracedBranches& traced);
+
+/// Text of continue.md.
+[[nodiscard]] std::string continue_summary(const ContinueOutput& output, const studies::TracedBranches& traced);
+
+/// "LP", "PD", "NS", "BP", "GR": the usual letters of a kind, and its words.
+struct SpecialLetters {
+  const char* letters;
+  const char* words;
+};
+[[nodiscard]] SpecialLetters letters_of(analysis::SpecialKind kind);
+
+/// Which deflection a figure is of.
+enum class MeshKind { sun_planet, ring_planet };
+
+/// Branches in a figure's first frame, their contacts and largest multipliers in those below.
+class BranchSketch {
+ public:
+  BranchSketch(std::string_view stem, const ContinueOutput& output, const studies::TracedBranches& traced,
+               MeshKind mesh);
+
+  /// Points under the branches: x and y.
+  void add_points(const std::vector<std::array<double, 2>>& points, std::string_view look, std::string_view title);
+
+  /// @returns what became of it
+  [[nodiscard]] DrawnFigure draw(const std::filesystem::path& folder, const std::string& title_more = {});
+
+ private:
+  struct Lines;
+  void add_branches();
+  void add_special_points();
+  void add_contacts();
+  void add_multipliers();
+
+  const ContinueOutput& output_;
+  const studies::TracedBranches& traced_;
+  MeshKind mesh_;
+  std::size_t column_ = 0;
+  figures::Sketch sketch_;
+  figures::FigureRange y_;
+  std::vector<std::vector<std::array<double, 2>>> points_;
+  std::vector<std::pair<std::string, std::string>> point_looks_;
+};
+
+[[nodiscard]] std::vector<DrawnFigure> draw_continue_figures(const std::filesystem::path& folder,
+                                                             const ContinueOutput& output,
+                                                             const studies::TracedBranches& traced);
+
+}  // namespace epicyclic::reports

@@ -1,0 +1,147 @@
+#include "reports/proof_output.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <unordered_set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/csv.hpp"
+#include "core/text.hpp"
+#include "store/branch_columns.hpp"
+
+namespace epicyclic::reports {
+
+namespace {
+
+using studies::Cause;
+using studies::SweepChange;
+using studies::SweepPlace;
+
+std::string side_text(const SweepPlace& place) {
+  std::string text = place.motion;
+  if (place.branch) text += fmt::format(" (branch {})", *place.branch);
+  return text;
+}
+
+/// The sweep's points of a column, each cell of a grid finer than the picture once.
+std::vector<std::array<double, 2>> section_points(const ProvedSweep& sweep, const studies::BranchesOptions& range,
+                                                  const char* column) {
+  const auto at = static_cast<std::size_t>(
+      std::find(sweep.poincare_columns.begin(), sweep.poincare_columns.end(), column) - sweep.poincare_columns.begin());
+  constexpr double cells_x = 3000;
+  constexpr double cells_per_length = 400;  // of b_c
+  std::vector<std::array<double, 2>> points;
+  std::unordered_set<std::int64_t> taken;
+  for (std::size_t i = 0; i < sweep.points.count; ++i) {
+    const studies::PointResult r = sweep.points.read(i);
+    const double x = r.point.value;
+    if (x < range.from || x > range.to) continue;
+    for (std::size_t k = at; k < r.poincare.size(); k += r.poincare_columns) {
+      const double y = r.poincare[k];
+      if (!std::isfinite(y)) continue;
+      const auto cell = static_cast<std::int64_t>((x - range.from) / (range.to - range.from) * cells_x) * 100000000 +
+                        std::llround(y * cells_per_length);
+      if (taken.insert(cell).second) points.push_back({x, y});
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+void write_proof_csv(const std::filesystem::path& file, const studies::TracedBranches& traced,
+                     const studies::BranchProof& proof) {
+  CsvWriter csv(file, {"change", "direction", "point_before", "point_after", "value_before", "value_after",
+                       "motion_before", "motion_after", "branch_before", "branch_after", "counted", "cause",
+                       "special_branch", "special_point", "kind", "value", "error_bound", "grid_steps", "words"});
+  const auto branch_cell = [&](const SweepPlace& place) {
+    csv.cell(place.branch ? std::to_string(*place.branch) : std::string());
+  };
+  for (std::size_t k = 0; k < proof.changes.size(); ++k) {
+    const SweepChange& c = proof.changes[k];
+    csv.cell(k).cell(store::direction_word(c.direction)).cell(c.before.point).cell(c.behind.point);
+    csv.cell(c.before.value).cell(c.behind.value).cell(c.before.motion).cell(c.behind.motion);
+    branch_cell(c.before);
+    branch_cell(c.behind);
+    csv.cell(c.counted ? 1 : 0).cell(c.counted ? to_string(c.cause) : std::string());
+    if (c.special) {
+      const studies::SpecialRow& r = traced.special[*c.special];
+      csv.cell(std::to_string(r.branch)).cell(std::to_string(r.point)).cell(to_string(r.kind));
+      csv.cell(r.value).cell(r.error_bound).cell(c.beside);
+    } else {
+      for (int i = 0; i < 3; ++i) csv.cell("");
+      for (int i = 0; i < 3; ++i) csv.cell(std::numeric_limits<double>::quiet_NaN());
+    }
+    csv.cell(c.words);
+    csv.end_row();
+  }
+  csv.commit();
+}
+
+std::string proof_summary(const ContinueOutput& output, const ProvedSweep& sweep, const studies::TracedBranches& traced,
+                          const studies::BranchProof& proof) {
+  std::map<std::string, std::size_t> causes;
+  for (const SweepChange& c : proof.changes)
+    if (c.counted) ++causes[to_string(c.cause)];
+  std::string text = fmt::format("# The sweep {} held against the branches\n\n", sweep.name);
+  text += fmt::format("Sweep of identity {}, {} points along {}.\n\n", sweep.identity, sweep.points.count,
+                      output.options.parameter);
+  text += fmt::format(
+      "{} points are periodic; {} of them lie on {} branches, the furthest {} b_c from its orbit, and {} on none.\n\n",
+      proof.periodic, proof.periodic - proof.off.size(), traced.branches.size(), short_text(proof.largest_distance, 2),
+      proof.off.size());
+  text += fmt::format("{} changes of period or regime count, since one of their sides is periodic: ", proof.counted());
+  std::string list;
+  for (const auto& [cause, count] : causes) list += fmt::format("{}{} {}", list.empty() ? "" : ", ", count, cause);
+  text += fmt::format("{}. **{} unexplained.** {} changes among motions that are not periodic are listed apart.\n",
+                      list.empty() ? "none" : list, proof.unexplained(), proof.changes.size() - proof.counted());
+  for (const bool counted : {true, false}) {
+    bool any = false;
+    for (const SweepChange& c : proof.changes) {
+      if (c.counted != counted) continue;
+      if (!any) {
+        text += counted
+                    ? "\n## Changes that count\n\n| way | between | from | to | cause | |\n|---|---|---|---|---|---|\n"
+                    : "\n## Changes apart\n\n| way | between | from | to |\n|---|---|---|---|\n";
+        any = true;
+      }
+      text +=
+          fmt::format("| {} | {} and {} | {} | {} |", store::direction_word(c.direction), short_text(c.before.value, 6),
+                      short_text(c.behind.value, 6), side_text(c.before), side_text(c.behind));
+      if (counted)
+        text += fmt::format(" {} | {}{} |", c.cause == Cause::unexplained ? "**unexplained**" : to_string(c.cause),
+                            c.words, c.beside > 0.0 ? fmt::format(", {:.2g} steps of the grid beside", c.beside) : "");
+      text += "\n";
+    }
+  }
+  if (!proof.off.empty()) {
+    text += "\n## Periodic points on no branch\n\n";
+    for (const SweepPlace& p : proof.off)
+      text += fmt::format(
+          "- point {} at {}: {}{}\n", p.point, short_text(p.value, 6), p.motion,
+          std::isfinite(p.distance) ? fmt::format(", {:.2g} b_c from the nearest branch", p.distance) : std::string());
+  }
+  return text;
+}
+
+std::vector<DrawnFigure> draw_proof_figures(const std::filesystem::path& folder, const ContinueOutput& output,
+                                            const ProvedSweep& sweep, const studies::TracedBranches& traced) {
+  std::vector<DrawnFigure> drawn;
+  const std::array<std::pair<MeshKind, const char*>, 2> kinds = {
+      {{MeshKind::sun_planet, "sp"}, {MeshKind::ring_planet, "rp"}}};
+  for (const auto& [mesh, word] : kinds) {
+    BranchSketch sketch(fmt::format("proof_delta_{}", word), output, traced, mesh);
+    sketch.add_points(section_points(sweep, output.options, mesh == MeshKind::sun_planet ? "delta_sp_1" : "delta_rp_1"),
+                      figures::dots("#c4c4c4", 0.5), "sweep");
+    drawn.push_back(sketch.draw(folder));
+  }
+  return drawn;
+}
+
+}  // namespace epicyclic::reports

@@ -1,0 +1,29 @@
+// The columns of orbits on branches and of special points: one list each behind branch.csv and special.csv, the groups
+// /branches and /special of results.h5, and docs/output.md. What a sweep has too has its name and unit.
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "store/point_columns.hpp"
+#include "studies/branches.hpp"
+
+namespace epicyclic::store {
+
+/// An orbit on a branch.
+struct BranchPlace {
+  std::size_t branch = 0, index = 0;
+  const studies::BranchRow& row;
+  const studies::PointSummary& point;  ///< as_point() of it
+};
+
+/// @param planets  number N
+[[nodiscard]] std::vector<Column<BranchPlace>> branch_columns(std::size_t planets);
+[[nodiscard]] std::vector<Column<studies::SpecialRow>> special_columns();
+
+/// "0.5+0.866i": re+imi.
+[[nodiscard]] std::string multiplier_text(const std::complex<double>& multiplier);
+
+}  // namespace epicyclic::store

@@ -1,0 +1,387 @@
+#include "studies/branch_proof.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include <Eigen/Core>
+
+#include "core/require.hpp"
+#include "core/text.hpp"
+
+namespace epicyclic::studies {
+
+namespace {
+
+using analysis::Branch;
+using analysis::BranchOrbit;
+using analysis::SpecialKind;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// The orbit of a branch at a value between two neighbours, as states at the beginnings of its periods.
+class OrbitsAt {
+ public:
+  explicit OrbitsAt(const TracedBranches& traced) : traced_(traced) {}
+
+  /// @returns no columns where Newton's method finds none
+  const Eigen::MatrixXd& states(std::size_t branch, std::size_t after, double value) {
+    const auto [known, is_new] = known_.try_emplace({branch, after, value});
+    if (is_new) known->second = find(traced_.branches[branch], after, value);
+    return known->second;
+  }
+
+ private:
+  static Eigen::MatrixXd find(const Branch& branch, std::size_t after, double value) {
+    const BranchOrbit& a = branch.orbits[after];
+    const BranchOrbit& b = branch.orbits[after + 1];
+    const double part = (value - a.at.value) / (b.at.value - a.at.value);
+    const analysis::Correction c = correct_at(branch.family, value, (1.0 - part) * a.at.states + part * b.at.states);
+    if (!c.found) return {a.at.states.rows(), 0};
+    return period_states(branch.family, c.orbit.at);
+  }
+
+  const TracedBranches& traced_;
+  std::map<std::tuple<std::size_t, std::size_t, double>, Eigen::MatrixXd> known_;
+};
+
+/// The last n states of a point's section.
+Eigen::MatrixXd last_states(const PointResult& point, std::size_t dimension, int n) {
+  const std::size_t rows = point.poincare_rows();
+  const auto count = static_cast<std::size_t>(n);
+  if (rows < count) return {static_cast<Eigen::Index>(dimension), 0};
+  Eigen::MatrixXd states(static_cast<Eigen::Index>(dimension), n);
+  for (std::size_t k = 0; k < count; ++k)
+    std::copy_n(point.poincare.begin() + static_cast<std::ptrdiff_t>((rows - count + k) * point.poincare_columns),
+                dimension, states.col(static_cast<Eigen::Index>(k)).data());
+  return states;
+}
+
+/// The same from the branch's rows, between two neighbours.
+Eigen::MatrixXd rough_states(const std::vector<BranchRow>& rows, std::size_t after, double value,
+                             std::size_t dimension) {
+  const BranchRow& a = rows[after];
+  const BranchRow& b = rows[after + 1];
+  const int n = a.period;
+  Eigen::MatrixXd states(static_cast<Eigen::Index>(dimension), n);
+  if (a.section.empty() || a.section.size() != b.section.size()) return {states.rows(), 0};
+  const std::size_t columns = a.section.size() / static_cast<std::size_t>(n);
+  const double part = (value - a.value) / (b.value - a.value);
+  for (Eigen::Index k = 0; k < n; ++k)
+    for (std::size_t j = 0; j < dimension; ++j) {
+      const std::size_t at = static_cast<std::size_t>(k) * columns + j;
+      states(static_cast<Eigen::Index>(j), k) = (1.0 - part) * a.section[at] + part * b.section[at];
+    }
+  return states;
+}
+
+bool holds(double a, double b, double value) { return value >= std::min(a, b) && value <= std::max(a, b); }
+
+/// Looks for points on branches.
+class Locator {
+ public:
+  Locator(const TracedBranches& traced, std::size_t dimension, const ProofOptions& options)
+      : traced_(traced), orbits_(traced), dimension_(dimension), options_(options) {}
+
+  /// The branch of period n that the point is nearest to, if it is on it.
+  void locate(const PointResult& point, int n, SweepPlace& place) {
+    const Eigen::MatrixXd states = last_states(point, dimension_, n);
+    place.distance = infinite;
+    if (states.cols() == 0) return;
+    for (std::size_t b = 0; b < traced_.branches.size(); ++b) {
+      const std::vector<BranchRow>& rows = traced_.rows[b];
+      if (rows.empty() || rows.front().period != n) continue;
+      const auto& symmetry = traced_.branches[b].family.symmetry;
+      for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
+        if (!holds(rows[k].value, rows[k + 1].value, point.point.value) || rows[k].value == rows[k + 1].value) continue;
+        const Eigen::MatrixXd rough = rough_states(rows, k, point.point.value, dimension_);
+        if (!(image_distance(states, rough, symmetry) <= options_.near)) continue;
+        const Eigen::MatrixXd& exact = orbits_.states(b, k, point.point.value);
+        const double distance = image_distance(states, exact, symmetry);
+        if (!(distance < place.distance)) continue;
+        place.distance = distance;
+        if (distance > options_.same) continue;
+        place.branch = b;
+        place.after = k;
+        place.stable = stable_at(b, k, point.point.value);
+      }
+    }
+  }
+
+  [[nodiscard]] bool stable_at(std::size_t branch, std::size_t after, double value) const {
+    const BranchRow& a = traced_.rows[branch][after];
+    const BranchRow& b = traced_.rows[branch][after + 1];
+    if (a.stable == b.stable) return a.stable;
+    for (const SpecialRow& r : traced_.special)
+      if (r.branch == branch && r.after == after && r.kind != SpecialKind::grazing)
+        return holds(a.value, r.value, value) ? a.stable : b.stable;
+    return holds(a.value, 0.5 * (a.value + b.value), value) ? a.stable : b.stable;
+  }
+
+ private:
+  const TracedBranches& traced_;
+  OrbitsAt orbits_;
+  std::size_t dimension_;
+  ProofOptions options_;
+};
+
+/// Finds the causes of the changes along one direction.
+class Explainer {
+ public:
+  /// @param places  of the direction's points
+  Explainer(const TracedBranches& traced, const Locator& locator, const std::vector<SweepPlace>& places)
+      : traced_(traced), locator_(locator), places_(places) {}
+
+  void explain(std::size_t i, SweepChange& change) const {
+    const SweepPlace& a = change.before;
+    const SweepPlace& b = change.behind;
+    low_ = std::min(a.value, b.value);
+    step_ = std::max(a.value, b.value) - low_;
+    // A birth tells most, then what the motion that is left says.
+    for (const bool birth_only : {true, false})
+      for (const SweepPlace* side : {&a, &b}) {
+        const SweepPlace& other = side == &a ? b : a;
+        if (side->branch && by_special_point(*side, other, birth_only, change)) return;
+      }
+    if (by_cascade(i, change)) return;
+    if (!a.periodic && b.branch && stable_within_the_grid(b)) {
+      change.cause = Cause::crisis;
+      change.words = "what was " + a.motion + " ends; it falls onto branch " + std::to_string(*b.branch) +
+                     ", which is stable on both sides";
+      return;
+    }
+    change.words = reason(change);
+  }
+
+ private:
+  /// Steps of the grid that a value is outside of the two.
+  [[nodiscard]] double beside(double value) const {
+    if (value < low_) return (low_ - value) / step_;
+    return value > low_ + step_ ? (value - low_ - step_) / step_ : 0.0;
+  }
+
+  /// A point of the side's branch within the grid where its stability changes, nearest first.
+  bool by_special_point(const SweepPlace& side, const SweepPlace& other, bool birth_only, SweepChange& change) const {
+    std::optional<std::size_t> best;
+    for (std::size_t k = 0; k < traced_.special.size(); ++k) {
+      const SpecialRow& r = traced_.special[k];
+      if (r.kind == SpecialKind::grazing || r.kind == SpecialKind::unresolved) continue;
+      const double away = beside(r.value);
+      if (away > 1.0 || (best && away >= beside(traced_.special[*best].value))) continue;
+      if (is_birth(r, side, other) || (!birth_only && r.branch == *side.branch && changes_stability(r))) best = k;
+    }
+    if (!best) return false;
+    const SpecialRow& r = traced_.special[*best];
+    const bool birth = is_birth(r, side, other);
+    change.special = best;
+    change.beside = beside(r.value);
+    change.cause = birth ? Cause::bifurcation : Cause::jump;
+    change.words =
+        to_string(r.kind) + " of branch " + std::to_string(r.branch) + " at " + with_error(r.value, r.error_bound);
+    if (birth) return true;
+    change.words += &side == &change.before ? "; the motion goes on to " : "; the motion comes from ";
+    change.words += other.branch ? "branch " + std::to_string(*other.branch) : "what is " + other.motion;
+    return true;
+  }
+
+  /// Is the other side what is born there from the side's branch?
+  [[nodiscard]] bool is_birth(const SpecialRow& r, const SweepPlace& side, const SweepPlace& other) const {
+    if (r.branch != *side.branch || !changes_stability(r)) return false;
+    if (r.kind == SpecialKind::neimark_sacker) return other.motion == "quasiperiodic";
+    if (r.kind == SpecialKind::flip && other.periodic && other.period == 2 * side.period && !other.branch) return true;
+    if (!other.branch) return false;
+    const Branch& born = traced_.branches[*other.branch];
+    const auto from = [&](const analysis::BranchLimit& limit) {
+      return limit.place && limit.place->branch == r.branch && limit.place->point == r.point;
+    };
+    return from(born.first) || from(born.last);
+  }
+
+  [[nodiscard]] bool changes_stability(const SpecialRow& r) const {
+    const std::vector<BranchRow>& rows = traced_.rows[r.branch];
+    if (r.after + 1 >= rows.size()) return !rows.empty();  // born there
+    if (rows[r.after].stable != rows[r.after + 1].stable) return true;
+    // There and back between two orbits; a multiplier of the orbit that is not critical must not be outside.
+    return !rows[r.after].stable && !rows[r.after + 1].stable ? false : several_between(r);
+  }
+
+  [[nodiscard]] bool several_between(const SpecialRow& r) const {
+    return std::ranges::count_if(traced_.special, [&](const SpecialRow& o) {
+             return o.branch == r.branch && o.after == r.after && o.kind != SpecialKind::grazing;
+           }) > 1;
+  }
+
+  /// Does the branch run stable from the point's place to the other value?
+  [[nodiscard]] bool stable_within_the_grid(const SweepPlace& place) const {
+    const std::vector<BranchRow>& rows = traced_.rows[*place.branch];
+    if (!place.stable) return false;
+    for (const double to : {low_, low_ + step_}) {
+      if (to == place.value) continue;
+      // Along the branch towards that value.
+      const bool rising = rows[place.after + 1].value > rows[place.after].value;
+      std::size_t k = place.after;
+      while (!holds(rows[k].value, rows[k + 1].value, to)) {
+        const bool onwards = (to > place.value) == rising;
+        if (onwards ? k + 2 >= rows.size() : k == 0) return false;
+        k = onwards ? k + 1 : k - 1;
+        if ((rows[k + 1].value > rows[k].value) != rising) return false;
+      }
+      if (!locator_.stable_at(*place.branch, k, to)) return false;
+    }
+    return true;
+  }
+
+  /// Between a flip that is known and the change only periods of its cascade are seen.
+  bool by_cascade(std::size_t i, SweepChange& change) const {
+    for (const bool backwards : {true, false}) {
+      const SweepPlace& side = backwards ? change.before : change.behind;
+      const SweepPlace& other = backwards ? change.behind : change.before;
+      if (!side.periodic || side.branch) continue;
+      if (other.periodic && other.period != 2 * side.period && 2 * other.period != side.period) continue;
+      // From the periodic side away from the change.
+      std::size_t k = backwards ? i : i + 1;
+      int period = side.period;
+      while (places_[k].periodic && !places_[k].branch &&
+             (places_[k].period == period || 2 * places_[k].period == period)) {
+        period = places_[k].period;
+        if (backwards ? k == 0 : k + 1 == places_.size()) break;
+        k = backwards ? k - 1 : k + 1;
+      }
+      const SweepPlace& root = places_[k];
+      if (!root.branch || 2 * root.period != period) continue;
+      const SweepPlace& next = places_[backwards ? k + 1 : k - 1];
+      for (std::size_t n = 0; n < traced_.special.size(); ++n) {
+        const SpecialRow& r = traced_.special[n];
+        const double slack = std::abs(next.value - root.value);
+        if (r.kind != SpecialKind::flip || r.branch != *root.branch ||
+            !holds(std::min(root.value, next.value) - slack, std::max(root.value, next.value) + slack, r.value))
+          continue;
+        change.cause = Cause::cascade;
+        change.special = n;
+        change.beside = beside(r.value);
+        change.words = "in the cascade whose last located flip is that of branch " + std::to_string(r.branch) + " at " +
+                       with_error(r.value, r.error_bound);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Why nothing explains it.
+  [[nodiscard]] static std::string reason(const SweepChange& change) {
+    for (const SweepPlace* side : {&change.before, &change.behind})
+      if (side->periodic && !side->branch)
+        return "no branch of period " + std::to_string(side->period) + " is known at point " +
+               std::to_string(side->point) + ": --from FOLDER:" + std::to_string(side->point) + " follows one";
+    if (change.before.branch && change.before.stable) return "the motion leaves an orbit that is stable here";
+    return "no branch changes here";
+  }
+
+  const TracedBranches& traced_;
+  const Locator& locator_;
+  const std::vector<SweepPlace>& places_;
+  mutable double low_ = 0, step_ = 0;  ///< of the change that is looked at
+};
+
+}  // namespace
+
+std::string to_string(Cause cause) {
+  switch (cause) {
+    case Cause::bifurcation:
+      return "bifurcation";
+    case Cause::jump:
+      return "jump";
+    case Cause::cascade:
+      return "cascade";
+    case Cause::crisis:
+      return "crisis";
+    case Cause::undecided:
+      return "undecided";
+    case Cause::unexplained:
+      break;
+  }
+  return "unexplained";
+}
+
+void ProofOptions::validate() const {
+  require(same > 0.0, "same", same, "> 0");
+  require(near >= same, "near", near, ">= same");
+}
+
+std::size_t BranchProof::counted() const {
+  return static_cast<std::size_t>(std::ranges::count_if(changes, [](const SweepChange& c) { return c.counted; }));
+}
+
+std::size_t BranchProof::unexplained() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(changes, [](const SweepChange& c) { return c.counted && c.cause == Cause::unexplained; }));
+}
+
+BranchProof prove(const TracedBranches& traced, const SweepOptions& sweep, const PointSource& points,
+                  std::size_t dimension, const ProofOptions& options,
+                  const std::function<void(std::size_t)>& finished) {
+  options.validate();
+  BranchProof proof;
+  Locator locator(traced, dimension, options);
+  const std::size_t each_way = points.count / sweep.directions.size();
+  for (std::size_t d = 0; d < sweep.directions.size(); ++d) {
+    std::vector<SweepPlace> places;
+    for (std::size_t i = 0; i < each_way; ++i) {
+      const PointResult point = points.read(d * each_way + i);
+      SweepPlace place;
+      place.point = point.point.index;
+      place.value = point.point.value;
+      place.motion = "failed";
+      if (point.outcome == integrate::Outcome::reached) {
+        place.motion = motion_name(point);
+        place.periodic = point.regime == analysis::Regime::periodic;
+        place.period = place.periodic ? point.period : 0;
+        if (place.periodic) {
+          locator.locate(point, point.period, place);
+          ++proof.periodic;
+          if (place.branch)
+            proof.largest_distance = std::max(proof.largest_distance, place.distance);
+          else
+            proof.off.push_back(place);
+        }
+      }
+      places.push_back(std::move(place));
+      finished(d * each_way + i + 1);
+    }
+    const Explainer explainer(traced, locator, places);
+    // Is the undecided side where the branch of the other one is?
+    const auto settles_onto = [&](const SweepChange& change) {
+      const SweepPlace& side = change.before.branch ? change.before : change.behind;
+      const SweepPlace& other = change.before.branch ? change.behind : change.before;
+      if (!side.branch || other.motion != to_string(analysis::Regime::undecided)) return false;
+      SweepPlace there = other;
+      locator.locate(points.read(other.point), side.period, there);
+      return there.branch == side.branch;
+    };
+    for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+      const SweepPlace& a = places[i];
+      const SweepPlace& b = places[i + 1];
+      const bool jumps = a.branch && b.branch && *a.branch != *b.branch;
+      if (a.motion == b.motion && !jumps) continue;
+      SweepChange change;
+      change.before = a;
+      change.behind = b;
+      change.direction = sweep.directions[d];
+      change.counted = a.periodic || b.periodic;
+      if (change.counted) explainer.explain(i, change);
+      if (change.counted && change.cause == Cause::unexplained && settles_onto(change)) {
+        change.cause = Cause::undecided;
+        change.words = "the undecided motion is on the orbit too";
+      }
+      proof.changes.push_back(std::move(change));
+    }
+  }
+  return proof;
+}
+
+}  // namespace epicyclic::studies
