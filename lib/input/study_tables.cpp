@@ -785,7 +785,7 @@ const Table<Study>& continue_table() {
            "Name of the parameter, or a JSON pointer to a number of the input.");
     t.number("from", of(&BranchesOptions::from), between(-1e300, 1e300), "Least value of the parameter, in its unit.");
     t.number("to", of(&BranchesOptions::to), between(-1e300, 1e300), "Greatest value of the parameter, in its unit.");
-    t.numbers("starts", of(&BranchesOptions::starts), between(-1e300, 1e300), 1, 1000,
+    t.numbers("starts", of(&BranchesOptions::starts), between(-1e300, 1e300), 0, 1000,
               "Values at which a motion settles from the default start, and is followed both ways; without seeds the "
               "ends of the range and its middle, if none is given.");
     t.integer("settle_periods", of(&BranchesOptions::settle_periods), between(0, 1e7),

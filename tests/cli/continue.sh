@@ -1,0 +1,99 @@
+#!/usr/bin/env bash
+# continue.sh EPICYCLIC SOURCE_DIR
+#
+# `continue`: tables, figures, the same bytes after kills and a signal; seeds from finished studies, which may vanish; a sweep
+# proved by branches, and one that is not; bad input.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
+
+study=$inputs/tang2020_branches.json
+# The last flip of the speed diagram and what is born there.
+small=(--set /study/from=2.05 --set /study/to=2.25 --set '/study/starts=[2.2]' --set /study/tolerance=1e-9)
+branches() { "$epicyclic" continue "$study" "${small[@]}" "$@"; }
+
+result_files=(branch.csv special.csv branches.csv poincare.csv results.h5 continue.md input.json input.resolved.json
+  figures/branches_delta_sp.dat)
+
+[ "$(code_of branches -o whole)" = 0 ] || fail "continue: $(<stderr)"
+for kind in png svg gp dat; do [ -s whole/figures/branches_delta_rp.$kind ] || fail "branches_delta_rp.$kind is missing"; done
+head -1 whole/branch.csv | grep -q '^branch,index,value,period,stable,multiplier_max,' || fail "columns of branch.csv"
+[ "$(head -1 whole/special.csv | cut -d, -f1-6)" = branch,kind,value,error_bound,period,multipliers ] ||
+  fail "columns of special.csv"
+# The flip is where both branches know it, within the bound; what is born there is stable.
+flip=$(awk -F, '$1 == 0 && $2 == "flip" { print $3; exit }' whole/special.csv)
+awk -v flip="$flip" 'BEGIN { exit !(flip > 2.148946 && flip < 2.148947) }' || fail "the flip is at $flip"
+awk -F, '$1 == 0 && $2 == "flip" { exit !($4 > 0 && $4 < 1e-6) }' whole/special.csv || fail "its bound"
+[ "$(sed -n 3p whole/branches.csv | cut -d, -f1-2,8,10)" = 1,2,birth,0:0 ] || fail "branch 1: $(sed -n 3p whole/branches.csv)"
+awk -F, '$1 == 1 && $2 == 3 { stable = $5 } END { exit !stable }' whole/branch.csv || fail "the doubled orbits are not stable"
+awk -F, '$1 == 0 && $3 == 2.25 && $5 == 1 { found = 1 } END { exit !found }' whole/branch.csv || fail "no orbit at the end"
+
+# Complete; another study; the resolved input; --json.
+[ "$(code_of branches -o whole)" = 0 ] || fail "a complete folder must give exit 0"
+grep -q 'complete already' stderr || fail "a complete folder is said to be so: $(<stderr)"
+[ "$(code_of branches -o whole --set /study/largest_period=1)" = 3 ] || fail "another study must give exit 3"
+[ "$(code_of "$epicyclic" continue whole/input.resolved.json -o resolved --json)" = 0 ] || fail "resolved: $(<stderr)"
+grep -q '"kind": "flip"' stdout || fail "the summary as JSON: $(<stdout)"
+cmp -s whole/branch.csv resolved/branch.csv || fail "the resolved input gives other branches"
+
+# Killed again and again, a little later each time, and stopped: the same bytes.
+killed_until_done 400 "$epicyclic" continue "$study" "${small[@]}" -o cut
+same_results whole cut
+code=0
+timeout -s TERM "$(or_if_slow 1 5)" "$epicyclic" continue "$study" "${small[@]}" -o stopped >stdout 2>stderr || code=$?
+[ "$code" = 124 ] || fail "stopped: $code $(<stderr)"
+[ "$(code_of branches -o stopped)" = 0 ] || fail "after a stop: $(<stderr)"
+same_results whole stopped
+
+# A sweep over the flip, and seeds of it.
+sweep=(--set /study/from=2.1 --set /study/to=2.2 --set /study/points=6 --set /study/transient_periods=400)
+[ "$(code_of "$epicyclic" sweep "$inputs/tang2020_speed.json" "${sweep[@]}" -o sweep)" = 0 ] || fail "sweep: $(<stderr)"
+[ "$(code_of branches -o proved --against sweep)" = 0 ] || fail "proof: $(<stderr)"
+[ "$(wc -l <proved/proof.csv)" = 3 ] || fail "one change each way: $(<proved/proof.csv)"
+[ "$(cut -d, -f7,8,11,12,15 proved/proof.csv | sed -n 2p)" = 'period 2,period 1,1,bifurcation,flip' ] ||
+  fail "the change: $(sed -n 2p proved/proof.csv)"
+[ -s proved/figures/proof_delta_sp.png ] || fail "the figure of the proof is missing"
+grep -q '0 unexplained' proved/proof.md || fail "proof.md: $(<proved/proof.md)"
+same_results whole proved
+# A complete folder takes a proof later, and keeps its results.
+[ "$(code_of branches -o whole --against sweep)" = 0 ] || fail "a later proof: $(<stderr)"
+cmp -s whole/proof.csv proved/proof.csv || fail "a later proof is another one"
+same_results whole proved
+[ "$(code_of branches -o whole)" = 0 ] || fail "complete behind a proof: $(<stderr)"
+
+# Without the doubled branch a change is unexplained to nobody, but without any branch near it is.
+far=(--set /study/from=2.05 --set /study/to=2.25 --set /study/tolerance=1e-9 --set '/study/starts=[2.06]' --set /study/period=2 --set /study/largest_period=2)
+[ "$(code_of "$epicyclic" continue "$study" "${far[@]}" --set /study/orbits=2 -o few --against sweep)" = 1 ] ||
+  fail "unexplained changes must give exit 1: $(<stderr)"
+grep -q 'unexplained' few/proof.csv || fail "and be listed: $(<few/proof.csv)"
+[ "$(code_of "$epicyclic" continue "$study" "${far[@]}" --set /study/orbits=2 -o few --against sweep --unexplained 2)" = 0 ] ||
+  fail "two were allowed: $(<stderr)"
+
+[ "$(code_of "$epicyclic" continue "$study" "${small[@]:0:4}" --set '/study/starts=[]' --set /study/orbits=3 --from sweep -o seeded)" = 0 ] ||
+  fail "seeds of a sweep: $(<stderr)"
+grep -q '"seeds"' seeded/input.resolved.json || fail "the seeds are not in the resolved input"
+mv sweep gone
+[ "$(code_of "$epicyclic" continue seeded/input.resolved.json -o seeded)" = 0 ] || fail "the donor vanished: $(<stderr)"
+mv gone sweep
+[ "$(code_of "$epicyclic" continue "$study" "${small[@]:0:4}" --set '/study/starts=[]' --set /study/orbits=3 --from sweep:1 -o seed1)" = 0 ] ||
+  fail "a seed of one point: $(<stderr)"
+grep -q '"period": 2' seed1/input.resolved.json || fail "its period is 2"
+
+# Bad input: nothing is written.
+refused() {
+  [ "$(code_of "$@" -o refused)" = 2 ] || fail "must be refused: $*"
+  [ ! -e refused ] || fail "refused, but written to: $*"
+}
+refused branches --from sweep:100
+refused branches --from "$inputs"
+refused branches --from cut
+refused branches --against "$inputs"
+refused branches --against sweep --set /study/from=2.15
+refused branches --against sweep --set /stage/load/power_kW=300
+refused branches --set '/study/starts=[3]'
+refused "$epicyclic" continue "$inputs/tang2020_speed.json"
+refused "$epicyclic" sweep "$study"
+echo 'x' >>sweep/points.csv
+[ "$(code_of branches --from sweep:1 -o refused)" = 7 ] || fail "a changed donor must give exit 7: $(<stderr)"
+[ ! -e refused ] || fail "refused, but written to"
+
+finish
