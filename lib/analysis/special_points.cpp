@@ -106,6 +106,7 @@ class Event {
       place = find(family_);
       if (!place) return unresolved("no orbit beside it");
       values_ = {place->value};
+      angles_ = {std::abs(std::arg(place->multiplier))};
       spread_ = place->spread;
       for (const Refinement& other : options_.others) {
         OrbitFamily finer_family = family_;
@@ -113,6 +114,7 @@ class Event {
         finer_family.pieces *= other.pieces;
         if (const std::optional<Place> finer = find(finer_family)) {
           values_.push_back(finer->value);
+          angles_.push_back(std::abs(std::arg(finer->multiplier)));
           spread_ = std::max(spread_, finer->spread);
         } else {
           point.note = "one of the finer families found no orbit";
@@ -131,6 +133,7 @@ class Event {
       if (std::abs(std::arg(point.multiplier)) < real) point.kind = SpecialKind::branch_point;
       if (std::numbers::pi - std::abs(std::arg(point.multiplier)) < real) point.kind = SpecialKind::flip;
     }
+    if (point.kind == SpecialKind::neimark_sacker) point.resonance = resonance();
     return point;
   }
 
@@ -197,34 +200,18 @@ class Event {
 
   /// The root of the smooth function along the branch, near near_.
   [[nodiscard]] std::optional<Place> polish(const OrbitFamily& family) const {
-    Correction base = recut(family, near_);
+    const Correction base = recut(family, near_);
     if (!base.found) return std::nullopt;
     const CurvePoint normal = base.orbit.direction;
     const CurvePoint origin = base.orbit.at;
-    const auto at = [&](double s) { return correct(family, origin + s * normal, normal); };
+    Correction last;
+    const auto at = [&](double s) -> std::optional<double> {
+      last = s == 0.0 ? base : correct(family, origin + s * normal, normal);
+      if (!last.found) return std::nullopt;
+      return smooth_function(family, last.orbit);
+    };
     const double span = length(family_, b_.at - a_.at);
-    double s_before = 1e-3 * span;
-    Correction c = at(s_before);
-    if (!c.found) return std::nullopt;
-    double f_before = smooth_function(family, c.orbit);
-    double s = 0.0;
-    Correction last = std::move(base);
-    double f = smooth_function(family, last.orbit);
-    constexpr int iterations = 8;
-    for (int k = 0; k < iterations; ++k) {
-      if (f == f_before) break;
-      const double next = s - f * (s - s_before) / (f - f_before);
-      if (!(std::abs(next) < span)) return std::nullopt;
-      c = at(next);
-      if (!c.found) return std::nullopt;
-      s_before = s;
-      f_before = f;
-      s = next;
-      last = std::move(c);
-      f = smooth_function(family, last.orbit);
-      constexpr double resolved = 1e-11;
-      if (std::abs(f) < resolved || std::abs(s - s_before) < resolved * span) break;
-    }
+    if (!secant_root(at, 1e-3 * span, span)) return std::nullopt;
     return Place{last.orbit.at.value, last.orbit, critical_of(last.orbit)};
   }
 
@@ -318,6 +305,21 @@ class Event {
     return critical(kind_, multipliers_of(*block_, orbit.monodromy), expected_);
   }
 
+  /// [A-resonance]
+  [[nodiscard]] int resonance() const {
+    if (angles_.size() < 2) return 0;
+    double most = 0.0;
+    for (const double a : angles_) most = std::max(most, std::abs(a - angles_.back()));
+    constexpr double rounding = 1e-12;  // of multipliers of modulus 1 from matrices of some dozens
+    constexpr int weakest = 4;
+    for (int k = 1; k <= weakest; ++k) {
+      // 1:1 is the angle 0.
+      const double angle = k == 1 ? 0.0 : 2.0 * std::numbers::pi / k;
+      if (std::abs(angles_.back() - angle) <= options_.safety * most + rounding) return k;
+    }
+    return 0;
+  }
+
   [[nodiscard]] double bound() const {
     if (values_.size() < 2) return std::numeric_limits<double>::infinity();
     double most = 0.0;
@@ -339,7 +341,7 @@ class Event {
   bool turns_ = false;         ///< the parameter does
   BranchOrbit near_;
   std::complex<double> expected_;
-  std::vector<double> values_;
+  std::vector<double> values_, angles_;  ///< of the family and finer ones; angles without sign
   double spread_ = 0;
 };
 
