@@ -20,7 +20,7 @@
 // A Neimark-Sacker point whose multiplier is a k-th root of 1, k = 1 ... 4, has no torus of the usual kind. With a the
 // finest of the angles a_k of the multiplier, it is told as a strong resonance where the angle could be that one:
 //
-//   | |a| - 2 pi / k | <= safety max |a_k - a| + rounding                                             [A-resonance]
+//   | |a| - 2 pi / k | <= safety max |a_k - a| + rounding ,   |a| in [0, pi], 2 pi taken as 0         [A-resonance]
 //
 // Source: Yu. A. Kuznetsov, Elements of Applied Bifurcation Theory, 3rd ed., ch. 9. None is told without other
 // tolerances to compare with.

@@ -446,7 +446,8 @@ TEST(Loci, GrazingsOfTheClearanceOscillatorAreInClosedForm) {
   const OrbitFamily family = surface.at(0.05);
   const Correction first = first_orbit(family, 0.5, problems::settled(family.flows, 0.5, {1.1, 0.0}, 100));
   ASSERT_TRUE(first.found);
-  LocusOptions options = rectangle(0.4, 0.95, 0.01, 0.2);
+  // At W = 1 it is greatest where periods, and the pieces of the orbit, begin.
+  LocusOptions options = rectangle(0.4, 1.3, 0.005, 0.2);
   for (const int pieces : {1, 2})
     options.others.push_back({problems::clearance_plane(0.1 * contact_tolerance), pieces});
   ContinuationOptions until = options.along;
@@ -460,6 +461,7 @@ TEST(Loci, GrazingsOfTheClearanceOscillatorAreInClosedForm) {
     LocusTrace trace(surface, subject_of(special[0]), options, rising ? start.point : reversed(start.point));
     const Followed f = follow(trace);
     EXPECT_EQ(f.end, LocusEnd::range);
+    EXPECT_EQ(rising ? f.points.back().second() : f.points.back().first(), rising ? 0.2 : 1.3);
     const problems::ClearanceConstants constants;
     // |dE/dW| is below 2 here.
     expect_on(
