@@ -658,7 +658,11 @@ LocusCorrection locus_start(const OrbitSurface& surface, const SpecialPoint& poi
   OrbitPlace z{point.orbit.at.states, Eigen::Vector2d(point.orbit.at.value, second)};
   if (z.states.cols() != surface.family.pieces) {
     const auto cut = cut_into_pieces(surface.at(second), z.states.col(0), z.values(0));
-    if (!cut) return {};
+    if (!cut) {
+      LocusCorrection none;
+      none.message = "the orbit could not be cut into pieces";
+      return none;
+    }
     z.states = cut->states;
   }
   return locus.begin(z, point.multiplier);
