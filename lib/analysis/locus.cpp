@@ -1,6 +1,7 @@
 #include "analysis/locus.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -639,7 +640,7 @@ void OrbitSurface::validate() const {
 
 void LocusOptions::validate() const {
   along.validate();
-  require(from < to, "to", to, "> from");
+  require(second_from < second_to, "second_to", second_to, "> second_from");
   require(safety >= 1.0, "safety", safety, ">= 1");
 }
 
@@ -673,8 +674,8 @@ LocusTrace::LocusTrace(OrbitSurface surface, const LocusSubject& subject, LocusO
   surface_.validate();
   options_.validate();
   const ContinuationOptions& range = options_.along;
-  if (!(start_.first() >= range.from && start_.first() <= range.to && start_.second() >= options_.from &&
-        start_.second() <= options_.to))
+  if (!(start_.first() >= range.from && start_.first() <= range.to && start_.second() >= options_.second_from &&
+        start_.second() <= options_.second_to))
     throw InputError("the locus starts at " + short_text(start_.first()) + ", " + short_text(start_.second()) +
                      ", outside its rectangle");
   Locus locus(surface_, subject_, start_.at.states.rows());
@@ -701,8 +702,8 @@ std::optional<LocusTrace::Edge> LocusTrace::edge_before(const OrbitPlace& there)
   };
   ask(0, options_.along.from);
   ask(0, options_.along.to);
-  ask(1, options_.from);
-  ask(1, options_.to);
+  ask(1, options_.second_from);
+  ask(1, options_.second_to);
   return first;
 }
 
@@ -713,7 +714,7 @@ bool LocusTrace::leaves_here() const {
     const double way = state_.now.direction.values(parameter);
     return (now == to && way > 0.0) || (now == from && way < 0.0);
   };
-  return leaves(0, options_.along.from, options_.along.to) || leaves(1, options_.from, options_.to);
+  return leaves(0, options_.along.from, options_.along.to) || leaves(1, options_.second_from, options_.second_to);
 }
 
 bool LocusTrace::accept(const Locus& locus, const LocusCorrection& c, double step) {

@@ -36,7 +36,6 @@
 // they are told as unresolved.
 #pragma once
 
-#include <array>
 #include <complex>
 #include <cstddef>
 #include <functional>
@@ -134,7 +133,7 @@ struct LocusRefinement {
 
 struct LocusOptions {
   ContinuationOptions along{};            ///< range of the first parameter, steps, most points; `values` play no part
-  double from = 0, to = 0;                ///< range of the second parameter, from < to
+  double second_from = 0, second_to = 0;  ///< range of the second parameter, from before to
   std::vector<LocusRefinement> others{};  ///< the finest last; none: no bounds
   double safety = 3;                      ///< of [A-bound]
 

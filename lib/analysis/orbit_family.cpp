@@ -54,18 +54,6 @@ Correction iterate(const OrbitFamily& family, const CurvePoint& guess, const Cur
 
 }  // namespace
 
-Eigen::MatrixXd shot_with_parameter(const OrbitFamily& family, const CurvePoint& z, Shot& shot) {
-  const auto flow = family.flows(z.value);
-  if (flow->field().parameter_derivative) {
-    shot = shoot(*flow, z.states, family.period, integrate::LastTangent::parameter);
-    return shot.parameter;
-  }
-  shot = shoot(*flow, z.states, family.period);
-  if (!shot.evolution.reached()) return {};
-  return parameter_difference(family.flows, z.states, z.value, family.difference * family.value_scale, family.period,
-                              shot);
-}
-
 void OrbitFamily::validate() const {
   require(period >= 1, "period", period, ">= 1");
   require(pieces >= 1, "pieces", pieces, ">= 1");

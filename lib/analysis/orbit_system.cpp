@@ -35,6 +35,18 @@ double inner_product(double state_scale, const Eigen::VectorXd& scales, const Or
   return product;
 }
 
+Eigen::MatrixXd shot_with_parameter(const OrbitFamily& family, const CurvePoint& z, Shot& shot) {
+  const auto flow = family.flows(z.value);
+  if (flow->field().parameter_derivative) {
+    shot = shoot(*flow, z.states, family.period, integrate::LastTangent::parameter);
+    return shot.parameter;
+  }
+  shot = shoot(*flow, z.states, family.period);
+  if (!shot.evolution.reached()) return {};
+  return parameter_difference(family.flows, z.states, z.value, family.difference * family.value_scale, family.period,
+                              shot);
+}
+
 Eigen::MatrixXd parameter_difference(const integrate::FlowFamily& flows, const Eigen::MatrixXd& states, double value,
                                      double step, int period, Shot& shot) {
   const Shot above = shoot_states(*flows(value + step), states, period);

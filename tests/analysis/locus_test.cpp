@@ -112,7 +112,7 @@ Located locate(const LocusProblem& problem, double to_tolerance = tolerance) {
 }
 
 LocusOptions rectangle(double first_from, double first_to, double from, double to) {
-  return {.along = {.from = first_from, .to = first_to}, .from = from, .to = to};
+  return {.along = {.from = first_from, .to = first_to}, .second_from = from, .second_to = to};
 }
 
 void expect_at(const LocusMark& m, CodimTwo kind, double first, double second, double known_to = 0.0) {
