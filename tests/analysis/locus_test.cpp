@@ -475,6 +475,13 @@ TEST(Loci, GrazingsOfTheClearanceOscillatorAreInClosedForm) {
   }
 }
 
+TEST(Loci, KindsOfTheirMarksHaveNames) {
+  const std::vector<std::string> names = {
+      "cusp",      "resonance_1_1",       "resonance_1_2",       "resonance_1_3",   "resonance_1_4",
+      "fold_flip", "fold_neimark_sacker", "flip_neimark_sacker", "double_crossing", "unresolved"};
+  for (std::size_t k = 0; k < names.size(); ++k) EXPECT_EQ(to_string(static_cast<CodimTwo>(k)), names[k]);
+}
+
 TEST(Loci, GoOnWithTheSameBits) {
   const Located l = locate(cusp_problem(1));
   ASSERT_TRUE(l.found);
