@@ -117,11 +117,26 @@ std::optional<double> contact_extremum(const OrbitFamily& family, const CurvePoi
   const Stretch* on = nullptr;
   double low = 0.0;
   double high = 0.0;
+  const auto better = [&](double value) { return least ? value < best : value > best; };
+  // Where stretches meet the motion is only as continuous as the orbit is closed: an extremum there may be on neither.
+  std::optional<Look> begun, ended;
+  const auto meet = [&](const Look& end, const Look& begin) {
+    const double value = 0.5 * (end.value + begin.value);
+    if (!turns(end, begin, least) || !better(value)) return;
+    best = value;
+    on = nullptr;
+  };
   for (const Stretch& stretch : all) {
+    bool first = true;
     const bool reached = watch.stretch(stretch, [&](std::size_t i, const Look& a, const Look& b) {
-      if (i != surface || !turns(a, b, least)) return;
+      if (i != surface) return;
+      if (!begun) begun = a;
+      if (first && ended) meet(*ended, a);
+      first = false;
+      ended = b;
+      if (!turns(a, b, least)) return;
       const double value = cubic_extremum(a, b, least);
-      if (least ? value >= best : value <= best) return;
+      if (!better(value)) return;
       best = value;
       on = &stretch;
       low = a.s;
@@ -129,7 +144,9 @@ std::optional<double> contact_extremum(const OrbitFamily& family, const CurvePoi
     });
     if (!reached) return std::nullopt;
   }
-  if (on == nullptr) return std::nullopt;
+  if (ended) meet(*ended, *begun);
+  if (!std::isfinite(best)) return std::nullopt;
+  if (on == nullptr) return best;
   Eigen::VectorXd at_low = on->state;
   flow->forget();
   if (low > on->from && !flow->evolve(span_of(at_low), on->from, low).reached()) return std::nullopt;

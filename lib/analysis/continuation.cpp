@@ -45,6 +45,28 @@ double multiplier_change(const std::vector<std::complex<double>>& a, const std::
   return most;
 }
 
+double multiplier_change(const std::vector<InvariantBlock>& blocks, const Eigen::MatrixXd& a,
+                         const Eigen::MatrixXd& b) {
+  double moved = 0.0;
+  for (const InvariantBlock& block : blocks)
+    moved = std::max(moved, multiplier_change(multipliers_of(block, a), multipliers_of(block, b)));
+  return moved;
+}
+
+StepVerdict judge_step(const ContinuationOptions& options, double step, double angle, double distance, double moved) {
+  // What steps aim at may be exceeded by as much again.
+  const double turned = angle / (2.0 * options.turn);
+  const double missed = distance / (options.guess_distance * step);
+  const double jumped = moved / options.multiplier_change;
+  StepVerdict verdict;
+  verdict.good = std::max({turned, missed, jumped}) <= 1.0;
+  verdict.reason = turned > 1.0 ? "the branch turns" : missed > 1.0 ? "the guess is far off" : "a multiplier jumps";
+  // Half of each is where the next step goes to; a guess of second order misses by the third power.
+  verdict.grow =
+      std::min({0.5 / std::max(turned, 1e-3), std::cbrt(0.3 / std::max(missed, 1e-3)), 0.7 / std::max(jumped, 1e-3)});
+  return verdict;
+}
+
 Continuation::Continuation(OrbitFamily family, const ContinuationOptions& options, BranchOrbit start)
     : family_(std::move(family)), options_(options), start_(std::move(start)) {
   family_.validate();
@@ -66,20 +88,11 @@ bool Continuation::accept(const Correction& c, double step) {
     state_.message = c.message;
     return false;
   }
-  // What steps aim at may be exceeded by as much again.
-  const double turned = angle(family_, state_.now, c.orbit) / (2.0 * options_.turn);
-  const double missed = c.distance / (options_.guess_distance * step);
-  double moved = 0.0;
-  for (const InvariantBlock& block : blocks_)
-    moved = std::max(moved, multiplier_change(multipliers_of(block, state_.now.monodromy),
-                                              multipliers_of(block, c.orbit.monodromy)));
-  moved /= options_.multiplier_change;
-  const double worst = std::max({turned, missed, moved});
-  state_.message = turned > 1.0 ? "the branch turns" : missed > 1.0 ? "the guess is far off" : "a multiplier jumps";
-  // Half of each is where the next step goes to; a guess of second order misses by the third power.
-  grow_ =
-      std::min({0.5 / std::max(turned, 1e-3), std::cbrt(0.3 / std::max(missed, 1e-3)), 0.7 / std::max(moved, 1e-3)});
-  return worst <= 1.0;
+  StepVerdict verdict = judge_step(options_, step, angle(family_, state_.now, c.orbit), c.distance,
+                                   multiplier_change(blocks_, state_.now.monodromy, c.orbit.monodromy));
+  state_.message = std::move(verdict.reason);
+  grow_ = verdict.grow;
+  return verdict.good;
 }
 
 bool Continuation::back_at_the_start(const BranchOrbit& next, double step) const {

@@ -94,8 +94,25 @@ class Continuation {
   double grow_ = 1;  ///< what the last orbit allows of the next step
 };
 
+/// How a step compares with what steps aim at.
+struct StepVerdict {
+  bool good = false;
+  double grow = 1;       ///< what it allows of the next step
+  std::string reason{};  ///< what is worst
+};
+
+/// @param angle     between the directions at both ends [rad]
+/// @param distance  of what was found from the guess
+/// @param moved     most that a multiplier has
+[[nodiscard]] StepVerdict judge_step(const ContinuationOptions& options, double step, double angle, double distance,
+                                     double moved);
+
 /// The most that a multiplier of modulus 1/2 ... 2 moves from one to the other, each matched with its nearest.
 [[nodiscard]] double multiplier_change(const std::vector<std::complex<double>>& a,
                                        const std::vector<std::complex<double>>& b);
+
+/// That of all blocks.
+[[nodiscard]] double multiplier_change(const std::vector<InvariantBlock>& blocks, const Eigen::MatrixXd& a,
+                                       const Eigen::MatrixXd& b);
 
 }  // namespace epicyclic::analysis

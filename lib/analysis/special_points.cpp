@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "analysis/contact_extrema.hpp"
+#include "analysis/crossings.hpp"
 #include "core/errors.hpp"
 #include "core/require.hpp"
 #include "core/root_finding.hpp"
@@ -17,24 +18,9 @@ namespace epicyclic::analysis {
 
 namespace {
 
-using Values = std::vector<std::complex<double>>;
-
-/// What of a block changes at special points.
-struct Signs {
-  std::size_t outside = 0;  ///< multipliers beyond the unit circle
-  bool plus = false;        ///< odd number of real ones beyond +1
-  bool minus = false;       ///< odd number of real ones beyond -1
-  bool falling = false;     ///< the parameter falls along the branch; of the synchronous block only
-};
-
+/// With the direction of the branch.
 Signs signs_of(const InvariantBlock& block, const BranchOrbit& orbit) {
-  Signs s;
-  for (const auto& x : multipliers_of(block, orbit.monodromy)) {
-    s.outside += std::abs(x) > 1.0 ? 1 : 0;
-    if (!block.real || x.imag() != 0.0) continue;
-    if (x.real() > 1.0) s.plus = !s.plus;
-    if (x.real() < -1.0) s.minus = !s.minus;
-  }
+  Signs s = signs_of(block, multipliers_of(block, orbit.monodromy));
   s.falling = block.wave == 0 && orbit.direction.value < 0.0;
   return s;
 }
@@ -42,26 +28,23 @@ Signs signs_of(const InvariantBlock& block, const BranchOrbit& orbit) {
 /// The one event between two orbits by what has changed.
 /// @returns nothing if none; unresolved if it cannot be one alone
 std::optional<SpecialKind> event_between(const InvariantBlock& block, const Signs& a, const Signs& b) {
-  const std::size_t crossed = std::max(a.outside, b.outside) - std::min(a.outside, b.outside);
-  const bool plus = a.plus != b.plus;
-  const bool minus = a.minus != b.minus;
-  const bool turns = a.falling != b.falling;
-  if (crossed == 0 && !plus && !minus && !turns) return std::nullopt;
-  if (plus && !minus && crossed == 1) return turns ? SpecialKind::fold : SpecialKind::branch_point;
-  if (turns) return SpecialKind::unresolved;
-  if (minus && !plus && crossed == 1) return SpecialKind::flip;
-  if (!plus && !minus && crossed == (block.real ? 2U : 1U)) return SpecialKind::neimark_sacker;
+  const std::optional<Crossing> crossing = crossing_between(block, a, b);
+  if (!crossing) return std::nullopt;
+  switch (*crossing) {
+    case Crossing::plus:
+      return a.falling != b.falling ? SpecialKind::fold : SpecialKind::branch_point;
+    case Crossing::minus:
+      return SpecialKind::flip;
+    case Crossing::pair:
+      return SpecialKind::neimark_sacker;
+    case Crossing::unresolved:
+      break;
+  }
   return SpecialKind::unresolved;
 }
 
-/// The multiplier nearest to a place.
-std::complex<double> nearest(const Values& values, std::complex<double> to) {
-  return *std::min_element(values.begin(), values.end(),
-                           [&](const auto& p, const auto& q) { return std::abs(p - to) < std::abs(q - to); });
-}
-
 /// The multiplier that an event is about.
-std::complex<double> critical(SpecialKind kind, const Values& values, std::complex<double> expected) {
+std::complex<double> critical(SpecialKind kind, const Multipliers& values, std::complex<double> expected) {
   switch (kind) {
     case SpecialKind::fold:
     case SpecialKind::branch_point:
@@ -123,6 +106,7 @@ class Event {
       place = find(family_);
       if (!place) return unresolved("no orbit beside it");
       values_ = {place->value};
+      angles_ = {std::abs(std::arg(place->multiplier))};
       spread_ = place->spread;
       for (const Refinement& other : options_.others) {
         OrbitFamily finer_family = family_;
@@ -130,6 +114,7 @@ class Event {
         finer_family.pieces *= other.pieces;
         if (const std::optional<Place> finer = find(finer_family)) {
           values_.push_back(finer->value);
+          angles_.push_back(std::abs(std::arg(finer->multiplier)));
           spread_ = std::max(spread_, finer->spread);
         } else {
           point.note = "one of the finer families found no orbit";
@@ -148,6 +133,7 @@ class Event {
       if (std::abs(std::arg(point.multiplier)) < real) point.kind = SpecialKind::branch_point;
       if (std::numbers::pi - std::abs(std::arg(point.multiplier)) < real) point.kind = SpecialKind::flip;
     }
+    if (point.kind == SpecialKind::neimark_sacker) point.resonance = resonance();
     return point;
   }
 
@@ -168,11 +154,10 @@ class Event {
   [[nodiscard]] double sign_function(const BranchOrbit& orbit) const {
     if (kind_ == SpecialKind::grazing) return nearest_to_the_surface(family_, orbit);
     if (turns_) return orbit.direction.value;
-    const Values values = multipliers_of(*block_, orbit.monodromy);
-    const Signs signs = signs_of(*block_, orbit);
-    if (kind_ == SpecialKind::branch_point) return (signs.plus ? -1.0 : 1.0) * std::abs(nearest(values, 1.0) - 1.0);
-    if (kind_ == SpecialKind::flip) return (signs.minus ? -1.0 : 1.0) * std::abs(nearest(values, -1.0) + 1.0);
-    return std::log(std::abs(values.at(inside_)));
+    const Crossing crossing = kind_ == SpecialKind::branch_point ? Crossing::plus
+                              : kind_ == SpecialKind::flip       ? Crossing::minus
+                                                                 : Crossing::pair;
+    return analysis::sign_function(*block_, crossing, multipliers_of(*block_, orbit.monodromy), inside_);
   }
 
   /// Smooth at the event, by the multiplier that it is about.
@@ -205,7 +190,7 @@ class Event {
     const double part = find_root(function, 0.0, 1.0, width);
     if (const Correction c = between(family_, a_, b_, part); c.found) near_ = c.orbit;
     if (block_ == nullptr) return;
-    const Values values = multipliers_of(*block_, near_.monodromy);
+    const Multipliers values = multipliers_of(*block_, near_.monodromy);
     expected_ = kind_ == SpecialKind::neimark_sacker ? values.at(inside_) : critical(kind_, values, 0.0);
   }
 
@@ -215,34 +200,18 @@ class Event {
 
   /// The root of the smooth function along the branch, near near_.
   [[nodiscard]] std::optional<Place> polish(const OrbitFamily& family) const {
-    Correction base = recut(family, near_);
+    const Correction base = recut(family, near_);
     if (!base.found) return std::nullopt;
     const CurvePoint normal = base.orbit.direction;
     const CurvePoint origin = base.orbit.at;
-    const auto at = [&](double s) { return correct(family, origin + s * normal, normal); };
+    Correction last;
+    const auto at = [&](double s) -> std::optional<double> {
+      last = s == 0.0 ? base : correct(family, origin + s * normal, normal);
+      if (!last.found) return std::nullopt;
+      return smooth_function(family, last.orbit);
+    };
     const double span = length(family_, b_.at - a_.at);
-    double s_before = 1e-3 * span;
-    Correction c = at(s_before);
-    if (!c.found) return std::nullopt;
-    double f_before = smooth_function(family, c.orbit);
-    double s = 0.0;
-    Correction last = std::move(base);
-    double f = smooth_function(family, last.orbit);
-    constexpr int iterations = 8;
-    for (int k = 0; k < iterations; ++k) {
-      if (f == f_before) break;
-      const double next = s - f * (s - s_before) / (f - f_before);
-      if (!(std::abs(next) < span)) return std::nullopt;
-      c = at(next);
-      if (!c.found) return std::nullopt;
-      s_before = s;
-      f_before = f;
-      s = next;
-      last = std::move(c);
-      f = smooth_function(family, last.orbit);
-      constexpr double resolved = 1e-11;
-      if (std::abs(f) < resolved || std::abs(s - s_before) < resolved * span) break;
-    }
+    if (!secant_root(at, 1e-3 * span, span)) return std::nullopt;
     return Place{last.orbit.at.value, last.orbit, critical_of(last.orbit)};
   }
 
@@ -336,6 +305,21 @@ class Event {
     return critical(kind_, multipliers_of(*block_, orbit.monodromy), expected_);
   }
 
+  /// [A-resonance]
+  [[nodiscard]] int resonance() const {
+    if (angles_.size() < 2) return 0;
+    double most = 0.0;
+    for (const double a : angles_) most = std::max(most, std::abs(a - angles_.back()));
+    constexpr double rounding = 1e-12;  // of multipliers of modulus 1 from matrices of some dozens
+    constexpr int weakest = 4;
+    for (int k = 1; k <= weakest; ++k) {
+      // 1:1 is the angle 0.
+      const double angle = k == 1 ? 0.0 : 2.0 * std::numbers::pi / k;
+      if (std::abs(angles_.back() - angle) <= options_.safety * most + rounding) return k;
+    }
+    return 0;
+  }
+
   [[nodiscard]] double bound() const {
     if (values_.size() < 2) return std::numeric_limits<double>::infinity();
     double most = 0.0;
@@ -357,7 +341,7 @@ class Event {
   bool turns_ = false;         ///< the parameter does
   BranchOrbit near_;
   std::complex<double> expected_;
-  std::vector<double> values_;
+  std::vector<double> values_, angles_;  ///< of the family and finer ones; angles without sign
   double spread_ = 0;
 };
 

@@ -17,6 +17,14 @@
 //
 //   bound = safety max |v_k - v| + rounding                                                               [A-bound]
 //
+// A Neimark-Sacker point whose multiplier is a k-th root of 1, k = 1 ... 4, has no torus of the usual kind. With a the
+// finest of the angles a_k of the multiplier, it is told as a strong resonance where the angle could be that one:
+//
+//   | |a| - 2 pi / k | <= safety max |a_k - a| + rounding ,   |a| in [0, pi], 2 pi taken as 0         [A-resonance]
+//
+// Source: Yu. A. Kuznetsov, Elements of Applied Bifurcation Theory, 3rd ed., ch. 9. None is told without other
+// tolerances to compare with.
+//
 // Limits: two crossings of one kind in one block between neighbours, there and back, are not seen; the continuation
 // keeps multipliers from moving that far. Events that no halving parts are told as unresolved.
 #pragma once
@@ -46,6 +54,7 @@ struct SpecialPoint {
   std::size_t surface = 0;          ///< that is grazed
   bool least = false;               ///< where its value is least, else where it is greatest
   bool rising = false;              ///< that value rises along the branch
+  int resonance = 0;                ///< k of 1 ... 4: a strong resonance 1:k [A-resonance]; 0: none, or not told
   std::string note{};               ///< what was not as usual
 };
 

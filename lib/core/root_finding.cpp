@@ -63,4 +63,25 @@ double find_root(const std::function<double(double)>& f, double low, double high
   return gsl_root_fsolver_root(solver.get());
 }
 
+std::optional<double> secant_root(const std::function<std::optional<double>(double)>& f, double beside, double span) {
+  double x_before = beside;
+  std::optional<double> f_before = f(x_before);
+  double x = 0.0;
+  std::optional<double> f_now = f_before ? f(x) : std::nullopt;
+  constexpr int iterations = 8;
+  for (int k = 0; k < iterations && f_now; ++k) {
+    if (*f_now == *f_before) break;
+    const double next = x - *f_now * (x - x_before) / (*f_now - *f_before);
+    if (!(std::abs(next) < span)) return std::nullopt;
+    x_before = x;
+    f_before = f_now;
+    x = next;
+    f_now = f(x);
+    constexpr double resolved = 1e-11;
+    if (f_now && (std::abs(*f_now) < resolved || std::abs(x - x_before) < resolved * span)) break;
+  }
+  if (!f_now) return std::nullopt;
+  return x;
+}
+
 }  // namespace epicyclic

@@ -51,7 +51,7 @@ void pass(A& a, analysis::SpecialPlace& p) {
 template <class A>
 void pass(A& a, analysis::SpecialPoint& p) {
   pass_all(a, p.kind, p.value, p.error_bound, p.orbit, p.wave, p.multiplier, p.outwards, p.surface, p.least, p.rising,
-           p.note);
+           p.resonance, p.note);
 }
 /// Whether it is there, and it.
 template <class A, class T>

@@ -18,6 +18,7 @@
 #include "core/errors.hpp"
 #include "problems/branches.hpp"
 #include "problems/clearance_exact.hpp"
+#include "problems/harmonic_balance.hpp"
 #include "problems/known_systems.hpp"
 
 namespace epicyclic::analysis {
@@ -66,111 +67,6 @@ TEST(Continuation, FindsDuffingsPublishedFlip) {
   EXPECT_EQ(t.orbits.back().at.value, 0.3);
 }
 
-/// Duffing's periodic motion x'' + d x' + x + x^3 = g cos Wt by harmonic balance: no integration, so nothing shared
-/// with what it is beside. Odd harmonics 1, 3, ... alone: x(t + T/2) = -x(t).
-class HarmonicBalance {
- public:
-  HarmonicBalance(double d, double g) : d_(d), g_(g) {}
-
-  /// The frequency at which the branch folds, from values near it.
-  /// @param z  sines and cosines, then W: the branch's own; and the null vector behind it, of length 1
-  double fold(Eigen::VectorXd z) const {
-    const Eigen::Index n = 2 * harmonics;
-    for (int k = 0; k < 30; ++k) {
-      const Eigen::VectorXd r = extended(z);
-      Eigen::MatrixXd j(2 * n + 1, 2 * n + 1);
-      for (Eigen::Index i = 0; i < z.size(); ++i) {
-        constexpr double h = 1e-6;
-        Eigen::VectorXd above = z, below = z;
-        above(i) += h;
-        below(i) -= h;
-        j.col(i) = (extended(above) - extended(below)) / (2.0 * h);
-      }
-      const Eigen::VectorXd step = epicyclic::solution(j, -r);
-      z += step;
-      if (step.lpNorm<Eigen::Infinity>() < 1e-13) break;
-    }
-    return z(n);
-  }
-
-  /// Sines and cosines of a motion given over one period, with W and the direction of the branch there.
-  static Eigen::VectorXd start(const std::vector<double>& x, double w, const std::vector<double>& along) {
-    const Eigen::Index n = 2 * harmonics;
-    Eigen::VectorXd z(2 * n + 1);
-    z.head(n) = transform(x);
-    z(n) = w;
-    z.tail(n) = transform(along).normalized();
-    return z;
-  }
-  static constexpr int samples = 256;
-
- private:
-  static constexpr int harmonics = 16;  // up to 31: what is left out is below 1e-12
-
-  static Eigen::VectorXd transform(const std::vector<double>& x) {
-    Eigen::VectorXd c = Eigen::VectorXd::Zero(2 * harmonics);
-    for (int j = 0; j < samples; ++j) {
-      const double s = 2.0 * std::numbers::pi * j / samples;
-      for (int k = 0; k < harmonics; ++k) {
-        c(2 * k) += 2.0 / samples * x[static_cast<std::size_t>(j)] * std::cos((2 * k + 1) * s);
-        c(2 * k + 1) += 2.0 / samples * x[static_cast<std::size_t>(j)] * std::sin((2 * k + 1) * s);
-      }
-    }
-    return c;
-  }
-
-  /// Balance of the harmonics, and its derivative along v.
-  std::pair<Eigen::VectorXd, Eigen::VectorXd> balance(const Eigen::VectorXd& c, double w,
-                                                      const Eigen::VectorXd& v) const {
-    std::vector<double> cube(samples), slope(samples);
-    for (int j = 0; j < samples; ++j) {
-      const double s = 2.0 * std::numbers::pi * j / samples;
-      double x = 0.0, dx = 0.0;
-      for (int k = 0; k < harmonics; ++k) {
-        const double cosine = std::cos((2 * k + 1) * s), sine = std::sin((2 * k + 1) * s);
-        x += c(2 * k) * cosine + c(2 * k + 1) * sine;
-        dx += v(2 * k) * cosine + v(2 * k + 1) * sine;
-      }
-      cube[static_cast<std::size_t>(j)] = x * x * x;
-      slope[static_cast<std::size_t>(j)] = 3.0 * x * x * dx;
-    }
-    Eigen::VectorXd r = transform(cube), dr = transform(slope);
-    const auto linear = [&](const Eigen::VectorXd& a, Eigen::VectorXd& out) {
-      for (int k = 0; k < harmonics; ++k) {
-        const double f = (2 * k + 1) * w;
-        out(2 * k) += (1.0 - f * f) * a(2 * k) + d_ * f * a(2 * k + 1);
-        out(2 * k + 1) += (1.0 - f * f) * a(2 * k + 1) - d_ * f * a(2 * k);
-      }
-    };
-    linear(c, r);
-    linear(v, dr);
-    r(0) -= g_;
-    return {r, dr};
-  }
-
-  /// The balance, its singularity, and the length of the null vector.
-  Eigen::VectorXd extended(const Eigen::VectorXd& z) const {
-    const Eigen::Index n = 2 * harmonics;
-    const auto [r, dr] = balance(z.head(n), z(n), z.tail(n));
-    Eigen::VectorXd all(2 * n + 1);
-    all << r, dr, z.tail(n).squaredNorm() - 1.0;
-    return all;
-  }
-
-  double d_, g_;
-};
-
-/// x over one period from a state.
-std::vector<double> over_a_period(integrate::Flow& flow, Eigen::VectorXd y) {
-  std::vector<double> x;
-  for (int j = 0; j < HarmonicBalance::samples; ++j) {
-    x.push_back(y(0));
-    const double step = flow.field().period / HarmonicBalance::samples;
-    EXPECT_TRUE(flow.evolve({y.data(), 2}, j * step, (j + 1) * step).reached());
-  }
-  return x;
-}
-
 TEST(Continuation, FindsDuffingsFoldsWhereHarmonicBalanceHasThem) {
   const FieldFamily fields = problems::duffing_in_frequency(0.1, 1.0, 0.3);
   const OrbitFamily family{flows(fields, tolerance)};
@@ -178,17 +74,17 @@ TEST(Continuation, FindsDuffingsFoldsWhereHarmonicBalanceHasThem) {
   ASSERT_EQ(t.special.size(), 2U);
   constexpr double printed[] = {1.77972, 1.32424};  // validation.md section 4
   constexpr double fifth_decimal = 0.5e-5;
-  const HarmonicBalance balance(0.1, 0.3);
+  const problems::HarmonicBalance balance(0.1, 0.3);
   for (std::size_t k = 0; k < 2; ++k) {
     const SpecialPoint& p = t.special[k];
     EXPECT_NEAR(p.value, printed[k], fifth_decimal);
     const auto flow = family.flows(p.value);
     const Eigen::VectorXd y = p.orbit.at.states.col(0);
-    const std::vector<double> x = over_a_period(*flow, y);
+    const std::vector<double> x = problems::over_a_period(*flow, y);
     constexpr double aside = 1e-4;
-    std::vector<double> along = over_a_period(*flow, y + aside * p.orbit.direction.states.col(0));
+    std::vector<double> along = problems::over_a_period(*flow, y + aside * p.orbit.direction.states.col(0));
     for (std::size_t i = 0; i < along.size(); ++i) along[i] -= x[i];
-    const double fold = balance.fold(HarmonicBalance::start(x, p.value, along));
+    const double fold = balance.fold(problems::HarmonicBalance::start(x, p.value, along));
     constexpr double balanced = 1e-12;  // differences between 16 and 20 harmonics
     expect_at(p, SpecialKind::fold, fold, balanced);
   }
@@ -201,6 +97,23 @@ TEST(Continuation, FindsTheNeimarkSackerPointOfTheNormalForm) {
   ASSERT_EQ(t.special.size(), 1U);
   expect_at(t.special[0], SpecialKind::neimark_sacker, 0.0, 0.0);
   EXPECT_NEAR(std::abs(std::arg(t.special[0].multiplier)), 2.0 * std::numbers::pi * 0.3, eight_digits);
+}
+
+TEST(Continuation, TellsStrongResonancesOfNeimarkSackerPoints) {
+  for (const auto& [turns, resonance] :
+       {std::pair{0.5, 2}, {1.0 / 3.0, 3}, {2.0 / 3.0, 3}, {0.25, 4}, {0.2, 0}, {0.3, 0}, {0.25 + 1e-6, 0}}) {
+    const FieldFamily fields = problems::forced_hopf(turns);
+    const Traced t = trace({flows(fields, tolerance)}, fields, {.from = -0.1, .to = 0.1}, -0.1, {1.0, 0.0}, 1);
+    ASSERT_EQ(t.special.size(), 1U) << turns;
+    expect_at(t.special[0], SpecialKind::neimark_sacker, 0.0, 0.0);
+    EXPECT_EQ(t.special[0].resonance, resonance) << turns;
+  }
+  // Without anything to compare with the angle is not known to be one.
+  const Traced alone =
+      problems::trace({flows(problems::forced_hopf(0.25), tolerance)}, {.from = -0.1, .to = 0.1}, {},
+                      first_orbit({flows(problems::forced_hopf(0.25), tolerance)}, -0.1, std::vector{1.0, 0.0}).orbit);
+  ASSERT_EQ(alone.special.size(), 1U);
+  EXPECT_EQ(alone.special[0].resonance, 0);
 }
 
 TEST(Continuation, KnowsAClosedBranchWhenItIsBack) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -76,6 +77,16 @@ TEST(FindRoot, MaySearchWithinASearch) {
   // sqrt(y) by an inner search, then the y whose root is 1.5.
   const auto root = [](double y) { return find_root([&](double x) { return x * x - y; }, 0.0, 10.0); };
   EXPECT_NEAR(find_root([&](double y) { return root(y) - 1.5; }, 1.0, 9.0), 2.25, 2.25 * rounding);
+}
+
+TEST(SecantRoot, FindsWhatIsNearAndTellsWhatIsNot) {
+  const auto f = [](double x) -> std::optional<double> { return std::exp(x) - 1.5; };
+  // Secants end when a step is below 1e-11 of the span, the root then known to far less.
+  EXPECT_NEAR(secant_root(f, 0.01, 1.0).value(), std::log(1.5), 1e-11);
+  EXPECT_FALSE(secant_root(f, 0.01, 0.1).has_value());
+  EXPECT_FALSE(secant_root([](double) -> std::optional<double> { return std::nullopt; }, 0.01, 1.0).has_value());
+  const auto ends = [&](double x) -> std::optional<double> { return x > 0.3 ? std::nullopt : f(x); };
+  EXPECT_FALSE(secant_root(ends, 0.01, 1.0).has_value());
 }
 
 }  // namespace

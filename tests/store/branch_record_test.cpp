@@ -30,6 +30,7 @@ void expect_equal(const analysis::SpecialPoint& a, const analysis::SpecialPoint&
   EXPECT_EQ(a.value, b.value);
   EXPECT_EQ(a.multiplier, b.multiplier);
   EXPECT_EQ(a.outwards, b.outwards);
+  EXPECT_EQ(a.resonance, b.resonance);
   EXPECT_EQ(a.orbit.at.states, b.orbit.at.states);
   EXPECT_EQ(a.orbit.monodromy, b.orbit.monodromy);
 }
@@ -60,6 +61,18 @@ TEST(BranchRecord, ATreeOfReadStepsIsTheSame) {
     EXPECT_EQ(branch.last.end, expected.last.end);
     EXPECT_EQ(branch.first.place.has_value(), expected.first.place.has_value());
   }
+}
+
+TEST(BranchRecord, AStrongResonanceIsKept) {
+  analysis::TreeStep step;
+  step.special.emplace_back();
+  step.special[0].kind = analysis::SpecialKind::neimark_sacker;
+  step.special[0].resonance = 3;
+  step.special[0].note = "as it was";
+  const analysis::TreeStep again = decode_step(encode_step(step));
+  ASSERT_EQ(again.special.size(), 1U);
+  expect_equal(again.special[0], step.special[0]);
+  EXPECT_EQ(again.special[0].note, step.special[0].note);
 }
 
 TEST(BranchRecord, DamageIsRefused) {
