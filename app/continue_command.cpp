@@ -202,7 +202,7 @@ void tell_result(const Arguments& arguments, const TracedBranches& traced, const
                                 {"last", branch.orbits.back().at.value}});
   for (const studies::SpecialRow& r : traced.special) {
     nlohmann::json one = {
-        {"branch", r.branch}, {"kind", to_string(r.kind)}, {"value", r.value}, {"error_bound", nullptr}};
+        {"branch", r.branch}, {"kind", kind_word(r)}, {"value", r.value}, {"error_bound", nullptr}};
     if (std::isfinite(r.error_bound)) one["error_bound"] = r.error_bound;
     told["special"].push_back(std::move(one));
   }

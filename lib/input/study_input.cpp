@@ -31,7 +31,10 @@ std::vector<VariedParameter> varied_parameters(const Study& study) {
   if (const auto* branches = std::get_if<studies::BranchesOptions>(&study.plan)) {
     // So many values of the range are tried before anything is begun.
     constexpr int tried = 33;
-    return {{{branches->parameter, branches->from, branches->to, tried}, "/study"}};
+    std::vector<VariedParameter> varied = {{{branches->parameter, branches->from, branches->to, tried}, "/study"}};
+    if (const auto& loci = branches->loci)
+      varied.push_back({{loci->parameter, loci->from, loci->to, tried}, "/study/loci"});
+    return varied;
   }
   const bool given = std::holds_alternative<RunPlan>(study.plan) ||
                      std::holds_alternative<studies::BasinsOptions>(study.plan) || !study.has_points();
@@ -689,6 +692,18 @@ std::vector<std::string> values_set_by(const std::string& parameter) {
   return named == nullptr ? std::vector{parameter} : named->pointers;
 }
 
+/// Two parameters that are varied at once set different numbers.
+void check_different(const std::string& first_name, const std::string& second_name, const std::string& place,
+                     ReadContext& context) {
+  const auto first = values_set_by(first_name);
+  for (const auto& pointer : values_set_by(second_name))
+    if (std::find(first.begin(), first.end(), pointer) != first.end()) {
+      context.add(Finding::Kind::rule, place,
+                  "is \"" + second_name + "\", which the first axis varies already, by \"" + first_name + "\"");
+      return;
+    }
+}
+
 /// Rules of the two parameters of a map.
 template <class F>
 void check_map(const studies::Plane& plane, F is_bad, ReadContext& context) {
@@ -698,14 +713,7 @@ void check_map(const studies::Plane& plane, F is_bad, ReadContext& context) {
     if (named(place)) check_named_parameter(*axis, place, is_bad, context);
   }
   if (!named("/study/first") || !named("/study/second")) return;
-  const auto first = values_set_by(plane.first.name);
-  for (const auto& pointer : values_set_by(plane.second.name))
-    if (std::find(first.begin(), first.end(), pointer) != first.end()) {
-      context.add(
-          Finding::Kind::rule, "/study/second/parameter",
-          "is \"" + plane.second.name + "\", which the first axis varies already, by \"" + plane.first.name + "\"");
-      return;
-    }
+  check_different(plane.first.name, plane.second.name, "/study/second/parameter", context);
 }
 
 /// Names of the state's components.
@@ -782,6 +790,14 @@ void check_branches(const studies::BranchesOptions& b, const gear::Stage& stage,
   }
   if (!is_bad("/study/parameter"))
     check_named_parameter(studies::Axis{b.parameter, b.from, b.to, 2}, "/study", is_bad, context);
+  if (!b.loci || is_bad("/study/loci")) return;
+  const studies::LociOptions& loci = *b.loci;
+  if (!is_bad("/study/loci/from") && !is_bad("/study/loci/to") && !(loci.from < loci.to))
+    refuse("/study/loci/from", "is " + number_text(loci.from) + ", must be < to = " + number_text(loci.to));
+  check_each("/study/loci/near", loci.near);
+  if (is_bad("/study/parameter") || is_bad("/study/loci/parameter")) return;
+  check_named_parameter(studies::Axis{loci.parameter, loci.from, loci.to, 2}, "/study/loci", is_bad, context);
+  check_different(b.parameter, loci.parameter, "/study/loci/parameter", context);
 }
 
 /// Rules of a study of points that span its keys.
@@ -1035,7 +1051,8 @@ class LoadedInput::Loader {
 
   /// Whether the one parameter of a sweep has the default range, which is one of speeds, and is none.
   bool lacks_range(const std::vector<VariedParameter>& varied) {
-    if (varied.size() != 1 || varied.front().axis.name == studies::speed_parameter) return false;
+    const bool one = varied.size() == 1 || (!varied.empty() && varied.front().place == "/study");
+    if (!one || varied.front().axis.name == studies::speed_parameter) return false;
     bool lacks = false;
     const json origins = input_.resolved["study"].value("origin", json::object());
     for (const char* key : {"from", "to"})

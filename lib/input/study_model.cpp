@@ -82,6 +82,21 @@ studies::ModelAt model_family(const LoadedInput& input, const std::string& param
   };
 }
 
+std::function<model::DynamicModel(double first, double second)> model_plane(const LoadedInput& input,
+                                                                            const std::string& first_parameter,
+                                                                            const std::string& second_parameter,
+                                                                            double step) {
+  return [&input, first_parameter, second_parameter, step, scales = model::scales_of(input.study.stage)](
+             double first, double second) {
+    const auto at = [&](double v) {
+      return point_at(input, std::array{PointerValue{first_parameter, v}, PointerValue{second_parameter, second}});
+    };
+    model::DynamicModel model = model_of(at(first), scales);
+    model::set_parameter_derivative(model, at, scales, first, step);
+    return model;
+  };
+}
+
 double given_value(const LoadedInput& input, const std::string& parameter) {
   if (const studies::NamedParameter* named = studies::find_parameter(parameter)) return named->get(point_at(input, {}));
   const json::json_pointer pointer(parameter);

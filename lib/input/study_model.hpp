@@ -21,6 +21,10 @@ namespace epicyclic::input {
 /// over which they change; the study has to be valid at value +- 2 h
 [[nodiscard]] studies::ModelAt model_family(const LoadedInput& input, const std::string& parameter, double step);
 
+/// The same at values of two parameters, with the derivative by the first.
+[[nodiscard]] std::function<model::DynamicModel(double first, double second)> model_plane(
+    const LoadedInput& input, const std::string& first_parameter, const std::string& second_parameter, double step);
+
 /// What a parameter, named or a JSON pointer, is in the study as given.
 /// @throws InputError where the input has no such number
 [[nodiscard]] double given_value(const LoadedInput& input, const std::string& parameter);

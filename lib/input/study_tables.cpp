@@ -776,6 +776,29 @@ Field<Study> seeds_field() {
   return field;
 }
 
+const Table<studies::LociOptions>& loci_table() {
+  static const auto table = [] {
+    using analysis::SpecialKind;
+    using studies::LociOptions;
+    Table<LociOptions> t("loci", "Loci of the special points over a second parameter.");
+    t.text("parameter", &LociOptions::parameter,
+           "Name of the second parameter, or a JSON pointer to a number of the input.")
+        .required();
+    t.number("from", &LociOptions::from, between(-1e300, 1e300), "Its least value, in its unit.").required();
+    t.number("to", &LociOptions::to, between(-1e300, 1e300), "Its greatest value, in its unit.").required();
+    std::vector<std::pair<std::string, SpecialKind>> kinds;
+    for (const auto kind : {SpecialKind::fold, SpecialKind::flip, SpecialKind::neimark_sacker,
+                            SpecialKind::branch_point, SpecialKind::grazing})
+      kinds.emplace_back(to_string(kind), kind);
+    t.choices("kinds", &LociOptions::kinds, kinds, "Kinds of points whose loci are followed.");
+    t.numbers("near", &LociOptions::near, between(-1e300, 1e300), 0, 1000,
+              "Values of the first parameter: loci of the points nearest to them alone; of all, if none is given.");
+    t.integer("points", &LociOptions::points, between(1, 1e6), "Most points on a locus, each way [-].");
+    return t;
+  }();
+  return table;
+}
+
 const Table<Study>& continue_table() {
   static const auto table = [] {
     Table<Study> t("continue", "Branches of periodic motions along one parameter, with the points where they change.");
@@ -809,6 +832,16 @@ const Table<Study>& continue_table() {
              "Longest step along a branch, in units of the parameter and of b_c together [-].");
     t.integer("output_phases", of(&BranchesOptions::output_phases), between(1, 10000),
               "Output points per mesh period, among which extrema are looked for [-].");
+    const table_detail::Access<Study, studies::LociOptions> loci{
+        [](Study& s) -> studies::LociOptions& {
+          auto& held = std::get<BranchesOptions>(s.plan).loci;
+          return held ? *held : held.emplace();
+        },
+        [](const Study& s) -> const studies::LociOptions* {
+          const auto& held = std::get<BranchesOptions>(s.plan).loci;
+          return held ? &*held : nullptr;
+        }};
+    t.object("loci", loci, loci_table());
     return t;
   }();
   return table;

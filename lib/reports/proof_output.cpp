@@ -72,7 +72,7 @@ void write_proof_csv(const std::filesystem::path& file, const studies::TracedBra
     csv.cell(c.counted ? 1 : 0).cell(c.counted ? to_string(c.cause) : std::string());
     if (c.special) {
       const studies::SpecialRow& r = traced.special[*c.special];
-      csv.cell(std::to_string(r.branch)).cell(std::to_string(r.point)).cell(to_string(r.kind));
+      csv.cell(std::to_string(r.branch)).cell(std::to_string(r.point)).cell(kind_word(r));
       csv.cell(r.value).cell(r.error_bound).cell(c.beside);
     } else {
       for (int i = 0; i < 3; ++i) csv.cell("");

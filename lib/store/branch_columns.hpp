@@ -9,6 +9,7 @@
 
 #include "store/point_columns.hpp"
 #include "studies/branches.hpp"
+#include "studies/loci.hpp"
 
 namespace epicyclic::store {
 
@@ -22,6 +23,14 @@ struct BranchPlace {
 /// @param planets  number N
 [[nodiscard]] std::vector<Column<BranchPlace>> branch_columns(std::size_t planets);
 [[nodiscard]] std::vector<Column<studies::SpecialRow>> special_columns();
+
+/// A point of a locus.
+struct LocusPlace {
+  std::size_t locus = 0, index = 0;
+  const studies::TracedLocus& of;
+  const studies::LocusRow& row;
+};
+[[nodiscard]] std::vector<Column<LocusPlace>> locus_columns();
 
 /// "0.5+0.866i": re+imi.
 [[nodiscard]] std::string multiplier_text(const std::complex<double>& multiplier);

@@ -92,12 +92,27 @@ void pass(A& a, analysis::TreeStep& s) {
   pass_all(a, s.kind, s.full, s.trace, s.orbit, s.special, s.same_as, s.departures, s.limit);
 }
 
+template <class A>
+void pass(A& a, studies::LocusRow& r) {
+  pass_all(a, r.first, r.second, r.first_bound, r.second_bound, r.marked, r.state);
+}
+template <class A>
+void pass(A& a, studies::TracedLocus& l) {
+  pass_all(a, l.branch, l.point, l.kind, l.period, l.wave, l.rows, l.first_end, l.last_end, l.message);
+}
+
 }  // namespace archive
 
 std::vector<std::byte> encode_step(const analysis::TreeStep& step) { return archive::encode(step); }
 
 analysis::TreeStep decode_step(std::span<const std::byte> record) {
   return archive::decode<analysis::TreeStep>(record);
+}
+
+std::vector<std::byte> encode_locus(const studies::TracedLocus& locus) { return archive::encode(locus); }
+
+studies::TracedLocus decode_locus(std::span<const std::byte> record) {
+  return archive::decode<studies::TracedLocus>(record);
 }
 
 }  // namespace epicyclic::store

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/branch_tree.hpp"
+#include "studies/loci.hpp"
 
 namespace epicyclic::store {
 
@@ -13,5 +14,11 @@ namespace epicyclic::store {
 
 /// @throws DamagedData when the record is not one of encode_step()
 [[nodiscard]] analysis::TreeStep decode_step(std::span<const std::byte> record);
+
+/// A locus, whole.
+[[nodiscard]] std::vector<std::byte> encode_locus(const studies::TracedLocus& locus);
+
+/// @throws DamagedData when the record is not one of encode_locus()
+[[nodiscard]] studies::TracedLocus decode_locus(std::span<const std::byte> record);
 
 }  // namespace epicyclic::store

@@ -15,15 +15,20 @@
 
 namespace epicyclic::studies {
 
-namespace {
-
-integrate::FlowFamily flows_of(const ModelAt& models, double tolerance, bool contacts) {
+integrate::IntegratorOptions branch_integrator(double tolerance, bool contacts) {
   integrate::IntegratorOptions o;
   o.relative_tolerance = o.absolute_tolerance = tolerance;
   o.tangent_error_control = true;
   o.locate_contacts = contacts;
   o.max_steps_per_period = 1000000;
-  return integrate::make_flow_family([models](double value) -> VectorField { return models(value); }, o);
+  return o;
+}
+
+namespace {
+
+integrate::FlowFamily flows_of(const ModelAt& models, double tolerance, bool contacts) {
+  return integrate::make_flow_family([models](double value) -> VectorField { return models(value); },
+                                     branch_integrator(tolerance, contacts));
 }
 
 }  // namespace
@@ -44,6 +49,7 @@ void BranchesOptions::validate() const {
   require(tolerance >= 1e-13 && tolerance <= 1e-6, "tolerance", tolerance, "1e-13 to 1e-6");
   require(largest_step > 0.0, "largest_step", largest_step, "> 0");
   require(output_phases >= 1, "output_phases", output_phases, ">= 1");
+  if (loci) loci->validate();
 }
 
 std::vector<double> BranchesOptions::all_starts() const {
@@ -225,6 +231,10 @@ std::vector<std::complex<double>> critical_multipliers(const analysis::SpecialPo
 
 }  // namespace
 
+std::string kind_word(const SpecialRow& row) {
+  return row.resonance > 0 ? "resonance_1_" + std::to_string(row.resonance) : to_string(row.kind);
+}
+
 std::size_t TracedBranches::broken_off() const {
   std::size_t count = 0;
   for (const analysis::Branch& branch : branches)
@@ -254,6 +264,7 @@ std::vector<SpecialRow> special_rows(const std::vector<analysis::Branch>& branch
         row.broken_symmetry = analysis::block_name({point.wave, false, {}}, branch.family.symmetry.order);
       row.same_as = branch.same_as[k];
       row.note = point.note;
+      row.resonance = point.kind == SpecialKind::neimark_sacker ? point.resonance : 0;
       if (point.kind == SpecialKind::grazing) {
         const model::ContactSurface& surface = contacts.at(point.surface);
         std::string event(1, ':');

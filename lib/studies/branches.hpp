@@ -21,6 +21,10 @@
 
 namespace epicyclic::studies {
 
+/// The explicit pair of the library's reference orbits.
+/// @param contacts  are steps to end where contact is made or lost?
+[[nodiscard]] integrate::IntegratorOptions branch_integrator(double tolerance, bool contacts);
+
 /// What a tree of branches is grown with.
 struct BranchSystem {
   analysis::OrbitFamily system;
@@ -82,12 +86,16 @@ struct SpecialRow {
   double value = 0, error_bound = 0;
   int period = 1;
   std::vector<std::complex<double>> multipliers;  ///< that are on the unit circle there
+  int resonance = 0;                              ///< k of a strong resonance 1:k of a Neimark-Sacker point; 0: none
   std::string broken_symmetry;                    ///< of the motions that leave it: "wave 1 of 3"; empty: none
   /// Of a grazing, which contact is first made or lost: "sp_1+sp_2+sp_3:loss", "rp_1:back", "sun_bearing_x:touch".
   std::string contact;
   std::optional<analysis::SpecialPlace> same_as{};  ///< the point of an earlier branch that it is
   std::string note;
 };
+
+/// The kind as it stands in tables: "fold", ..., "resonance_1_3".
+[[nodiscard]] std::string kind_word(const SpecialRow& row);
 
 /// Where branches were started from, and what came of it.
 struct BranchAttempt {

@@ -1,9 +1,11 @@
 // Which branches of periodic orbits a study follows (studies/branches.hpp).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "analysis/special_points.hpp"
 #include "studies/named_parameters.hpp"
 
 namespace epicyclic::studies {
@@ -15,6 +17,20 @@ struct BranchSeed {
   std::vector<double> state;  ///< at s = 0
 
   /// @throws InputError for a period below 1, no state, and numbers that are not finite
+  void validate() const;
+};
+
+/// Which loci of the special points are followed over a second parameter (studies/loci.hpp).
+struct LociOptions {
+  std::string parameter;    ///< its name, or a JSON pointer to a number of the input
+  double from = 0, to = 1;  ///< range of its values, from < to, around the one that the study gives
+  std::vector<analysis::SpecialKind> kinds = {analysis::SpecialKind::fold, analysis::SpecialKind::flip,
+                                              analysis::SpecialKind::neimark_sacker,
+                                              analysis::SpecialKind::branch_point};
+  std::vector<double> near{};  ///< values of the first parameter: of the points nearest to them alone; none: of all
+  int points = 1000;           ///< most on a locus, each way
+
+  /// @throws InputError for an empty range, no kinds, or no points
   void validate() const;
 };
 
@@ -38,6 +54,8 @@ struct BranchesOptions {
   double tolerance = 1e-10;   ///< of the integrator, relative and absolute; bounds are from a tenth of it
   double largest_step = 0.1;  ///< of the arc length [-]
   int output_phases = 64;     ///< at which extrema of an orbit are looked for, in a mesh period, as in a sweep
+
+  std::optional<LociOptions> loci{};
 
   /// The starts, those that are meant where none are given among them.
   [[nodiscard]] std::vector<double> all_starts() const;

@@ -1,0 +1,161 @@
+#include "studies/loci.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "core/require.hpp"
+#include "integrate/make_flow.hpp"
+
+namespace epicyclic::studies {
+
+namespace {
+
+using analysis::LocusEnd;
+using analysis::LocusPoint;
+using analysis::LocusTrace;
+
+analysis::PlaneOfFlows flows_of(const ModelOverPlane& models, double tolerance, bool contacts) {
+  const integrate::IntegratorOptions o = branch_integrator(tolerance, contacts);
+  return [models, o](double first, double second) { return integrate::make_flow(models(first, second), o); };
+}
+
+LocusRow row_of(const LocusPoint& p, std::string marked) {
+  const auto state = p.at.states.col(0);
+  return {p.first(), p.second(), p.first_bound, p.second_bound, std::move(marked), {state.begin(), state.end()}};
+}
+
+const char* end_word(LocusEnd end) {
+  switch (end) {
+    case LocusEnd::range:
+      return "range";
+    case LocusEnd::closed:
+      return "closed";
+    case LocusEnd::many:
+      return "many";
+    case LocusEnd::least_step:
+      return "least_step";
+    case LocusEnd::resonance:
+      return "resonance";
+    case LocusEnd::none:
+      break;
+  }
+  return "";
+}
+
+}  // namespace
+
+void LociOptions::validate() const {
+  require(from < to, "to", to, "> from");
+  require(points >= 1, "points", points, ">= 1");
+  if (kinds.empty()) throw InputError("kinds is empty, must have one at least");
+}
+
+std::vector<std::size_t> points_of_loci(const TracedBranches& traced, const LociOptions& options) {
+  std::vector<std::size_t> all;
+  for (std::size_t k = 0; k < traced.special.size(); ++k) {
+    const SpecialRow& r = traced.special[k];
+    const bool has_locus = r.kind != analysis::SpecialKind::branch_point || !r.broken_symmetry.empty();
+    if (std::ranges::find(options.kinds, r.kind) != options.kinds.end() && has_locus && !r.same_as) all.push_back(k);
+  }
+  if (options.near.empty()) return all;
+  std::vector<std::size_t> nearest;
+  for (const double value : options.near) {
+    const auto best = std::ranges::min_element(
+        all, {}, [&](std::size_t k) { return std::abs(traced.special[k].value - value); });
+    if (best != all.end() && std::ranges::find(nearest, *best) == nearest.end()) nearest.push_back(*best);
+  }
+  return nearest;
+}
+
+bool is_on_a_locus(const std::vector<TracedLocus>& loci, const TracedBranches& traced, const SpecialRow& point,
+                   double second, const BranchesOptions& options) {
+  const analysis::Branch& branch = traced.branches[point.branch];
+  const analysis::SpecialPoint& special = branch.special[point.point];
+  const auto y = special.orbit.at.states.col(0);
+  // Between rows a locus is taken as straight.
+  constexpr double part_of_range = 1e-3;
+  constexpr double state = 0.05;
+  for (const TracedLocus& locus : loci) {
+    if (locus.kind != point.kind || locus.period != point.period || locus.wave != special.wave) continue;
+    for (std::size_t k = 0; k + 1 < locus.rows.size(); ++k) {
+      const LocusRow& a = locus.rows[k];
+      const LocusRow& b = locus.rows[k + 1];
+      if ((a.second - second) * (b.second - second) > 0.0 || a.second == b.second) continue;
+      const double part = (second - a.second) / (b.second - a.second);
+      if (std::abs(a.first + part * (b.first - a.first) - point.value) > part_of_range * (options.to - options.from))
+        continue;
+      double most = 0.0;
+      for (std::size_t j = 0; j < a.state.size(); ++j)
+        most = std::max(most, std::abs(a.state[j] + part * (b.state[j] - a.state[j]) - y(static_cast<Eigen::Index>(j))));
+      if (most <= state) return true;
+    }
+  }
+  return false;
+}
+
+TracedLocus trace_locus(const ModelOverPlane& models, const TracedBranches& traced, const SpecialRow& point,
+                        double second, const BranchesOptions& options) {
+  const LociOptions& wanted = options.loci.value();
+  wanted.validate();
+  const analysis::Branch& branch = traced.branches[point.branch];
+  const analysis::SpecialPoint& special = branch.special[point.point];
+  TracedLocus result;
+  result.branch = point.branch;
+  result.point = point.point;
+  result.kind = point.kind;
+  result.period = point.period;
+  result.wave = special.wave;
+
+  const bool contacts = models(point.value, second).surfaces.count > 0;
+  analysis::OrbitSurface surface;
+  surface.flows = flows_of(models, options.tolerance, contacts);
+  surface.family = branch.family;
+  surface.family.value_scale = options.to - options.from;
+  surface.second_scale = wanted.to - wanted.from;
+  analysis::LocusOptions o;
+  o.along.from = options.from;
+  o.along.to = options.to;
+  o.along.largest_step = options.largest_step;
+  o.along.first_step = std::min(o.along.first_step, options.largest_step);
+  o.along.orbits = static_cast<std::size_t>(wanted.points);
+  o.second_from = wanted.from;
+  o.second_to = wanted.to;
+  const auto finer = flows_of(models, 0.1 * options.tolerance, contacts);
+  o.others = {{finer, 1}, {finer, 2}};
+
+  const analysis::LocusCorrection start = locus_start(surface, special, second);
+  if (!start.found) {
+    result.message = start.message;
+    return result;
+  }
+  const analysis::LocusSubject subject = analysis::subject_of(special);
+  const auto follow = [&](const LocusPoint& from, std::string& end) {
+    std::vector<LocusRow> rows;
+    LocusTrace trace(surface, subject, o, from);
+    while (trace.advance()) {
+      for (const analysis::LocusMark& mark : trace.marks()) rows.push_back(row_of(mark.point, to_string(mark.kind)));
+      rows.push_back(row_of(trace.now(), {}));
+    }
+    end = end_word(trace.end());
+    if (trace.end() == LocusEnd::least_step) result.message = trace.state().message;
+    return rows;
+  };
+  std::vector<LocusRow> forward = follow(start.point, result.last_end);
+  if (result.last_end == "closed") {
+    result.first_end = "closed";
+  } else {
+    result.rows = follow(analysis::reversed(start.point), result.first_end);
+    std::ranges::reverse(result.rows);
+  }
+  LocusRow here = row_of(start.point, {});
+  here.first_bound = point.error_bound;
+  here.second_bound = 0.0;
+  result.rows.push_back(std::move(here));
+  std::ranges::move(forward, std::back_inserter(result.rows));
+  return result;
+}
+
+}  // namespace epicyclic::studies
