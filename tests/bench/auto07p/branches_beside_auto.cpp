@@ -1,13 +1,13 @@
 // Branches of periodic orbits beside AUTO-07p: N oscillators in a row over smooth clearances.
 //
-//   branches_beside_auto N [TOLERANCE]      its special points, and seconds per orbit of the branch
-//   branches_beside_auto N --orbit          one orbit at W = 0.3 over a period, for AUTO to start from
+//   branches_beside_auto N [TOLERANCE [FROM TO]]   its special points, and processor seconds per orbit of the branch
+//   branches_beside_auto N --orbit                 one orbit at W = 0.3 over a period, for AUTO to start from
 //
 // tests/bench/auto07p/compare runs both.
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -68,16 +68,20 @@ int main(int argc, char** argv) {
   family.residual = 10.0 * tolerance;
   const auto first = analysis::first_orbit(family, start, state);
   if (!first.found) return 1;
-  const auto begun = std::chrono::steady_clock::now();
-  analysis::Continuation branch(family, {.from = 0.2, .to = 2.2}, first.orbit);
+  analysis::ContinuationOptions options{.from = 0.2, .to = 2.2};
+  if (argc > 4) options.from = std::atof(argv[3]);
+  if (argc > 4) options.to = std::atof(argv[4]);
+  // The machine may be busy: time of the processor, not of the clock.
+  const std::clock_t begun = std::clock();
+  analysis::Continuation branch(family, options, first.orbit);
   std::size_t orbits = 0;
   while (branch.advance()) {
     ++orbits;
     for (const auto& p : special_points_between(family, branch.before(), branch.now(), {}))
       std::printf("%s %.10f\n", to_string(p.kind).c_str(), p.value);
   }
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
-  std::printf("%zu orbits to %.4f, %.4g s per orbit\n", orbits, branch.now().at.value,
-              took.count() / static_cast<double>(orbits));
+  const double took = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
+  std::printf("%zu orbits to %.4f (end %d), %.4g s per orbit, %d evaluations\n", orbits, branch.now().at.value,
+              static_cast<int>(branch.end()), took / static_cast<double>(orbits), branch.state().evaluations);
   return 0;
 }
