@@ -15,12 +15,6 @@ namespace epicyclic::analysis {
 
 namespace {
 
-/// States among which Newton's method stays, y = V c.
-Eigen::MatrixXd kept_states(const OrbitFamily& family, Eigen::Index dimension) {
-  if (family.kept().map.size() == 0) return Eigen::MatrixXd::Identity(dimension, dimension);
-  return invariant_blocks(static_cast<std::size_t>(dimension), family.kept()).front().basis.real();
-}
-
 /// F with its derivatives at a point, by the family's own parameter derivative or by differences.
 Shot evaluate(const OrbitFamily& family, const CurvePoint& z) {
   const auto flow = family.flows(z.value);
@@ -160,6 +154,11 @@ void OrbitFamily::validate() const {
   require(state_scale > 0.0, "state_scale", state_scale, "> 0");
   require(residual > 0.0, "residual", residual, "> 0");
   require(difference > 0.0, "difference", difference, "> 0");
+}
+
+Eigen::MatrixXd kept_states(const OrbitFamily& family, Eigen::Index dimension) {
+  if (family.kept().map.size() == 0) return Eigen::MatrixXd::Identity(dimension, dimension);
+  return invariant_blocks(static_cast<std::size_t>(dimension), family.kept()).front().basis.real();
 }
 
 CurvePoint operator+(const CurvePoint& a, const CurvePoint& b) { return {a.states + b.states, a.value + b.value}; }

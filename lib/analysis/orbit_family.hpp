@@ -51,6 +51,9 @@ struct OrbitFamily {
   void validate() const;
 };
 
+/// States among which Newton's method stays, y = V c: V, with orthonormal columns.
+[[nodiscard]] Eigen::MatrixXd kept_states(const OrbitFamily& family, Eigen::Index dimension);
+
 /// A place, or a direction, in the space of the states and the parameter.
 struct CurvePoint {
   Eigen::MatrixXd states;  ///< y_i in column i
