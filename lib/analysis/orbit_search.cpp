@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <exception>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -212,16 +213,17 @@ struct Motion {
   std::vector<Eigen::VectorXd> states;
   std::string message;  ///< why it ended early
 
-  /// The state from which n periods lead nearest to itself; none if it is not carried for so long.
-  [[nodiscard]] std::optional<Eigen::VectorXd> closest_return(const Eigen::MatrixXd& kept, std::size_t n) const {
-    std::optional<std::size_t> best;
-    double least = std::numeric_limits<double>::infinity();
+  /// The states from which n periods lead nearest to themselves, the nearest first, no more than `most`.
+  [[nodiscard]] std::vector<Eigen::VectorXd> closest_returns(const Eigen::MatrixXd& kept, std::size_t n,
+                                                             std::size_t most) const {
+    std::vector<std::pair<double, std::size_t>> near;
     for (std::size_t k = 0; k + n < states.size(); ++k)
-      if (const double d = (kept.transpose() * (states[k + n] - states[k])).norm(); d < least) {
-        least = d;
-        best = k;
-      }
-    return best ? std::optional(states[*best]) : std::nullopt;
+      near.emplace_back((kept.transpose() * (states[k + n] - states[k])).norm(), k);
+    std::sort(near.begin(), near.end());
+    near.resize(std::min(near.size(), most));
+    std::vector<Eigen::VectorXd> found;
+    for (const auto& [distance, k] : near) found.push_back(states[k]);
+    return found;
   }
 };
 
@@ -308,6 +310,14 @@ Candidate at_least_period(const OrbitFamily& system, Candidate c, double map_err
   }
   return c;
 }
+
+/// What one start's ways of one kind came to.
+struct Ways {
+  std::vector<Candidate> led_to;
+  SearchFailure why = SearchFailure::no_descent;  ///< of the last one that failed
+  std::string message;
+  long evaluations = 0;
+};
 
 bool lexicographically_less(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
@@ -398,6 +408,7 @@ void SearchOptions::validate() const {
   require(smallest_period >= 1, "smallest_period", smallest_period, ">= 1");
   require(largest_period >= smallest_period, "largest_period", largest_period, ">= smallest_period");
   require(settle >= 0, "settle", settle, ">= 0");
+  require(returns >= 1, "returns", returns, ">= 1");
   require(rounds >= 0, "rounds", rounds, ">= 0");
   require(iterations >= 1, "iterations", iterations, ">= 1");
   require(jumps >= 0, "jumps", jumps, ">= 0");
@@ -440,34 +451,34 @@ OrbitSearch search_orbits(const OrbitFamily& family, double value, std::span<con
   for (int n = options.smallest_period; n <= options.largest_period; ++n) {
     const OrbitFamily of_n = of_period(family, n);
     const Eigen::MatrixXd kept = kept_states(of_n, static_cast<Eigen::Index>(dimension));
-    std::vector<std::optional<Way>> first(count);  // of each start without deflation
+    std::vector<Ways> first(count);  // of each start without deflation
     std::vector<bool> led(count, false);
     // Starts as they are, then where they come back, then with what is known taken out.
     for (int round = -1; round <= options.rounds; ++round) {
       if (round == 0 && options.settle == 0) continue;
       const Deflation deflation = round > 0 ? known_of(of_n, result.orbits) : Deflation(of_n, {});
-      std::vector<Way> ways(count);
-      std::vector<std::optional<Candidate>> there(count);
+      std::vector<Ways> ways(count);
       for_each_index(count, options.threads, [&](std::size_t i) {
-        Eigen::VectorXd y = motions[i].states.front();
-        if (round == 0) {
-          const auto back = motions[i].closest_return(kept, static_cast<std::size_t>(n));
-          if (!back) return;
-          y = *back;
+        std::vector<Eigen::VectorXd> from = {motions[i].states.front()};
+        if (round == 0)
+          from =
+              motions[i].closest_returns(kept, static_cast<std::size_t>(n), static_cast<std::size_t>(options.returns));
+        for (const Eigen::VectorXd& y : from) {
+          Way way = follow(of_n, value, y, deflation, options);
+          ways[i].evaluations += way.evaluations;
+          ways[i].why = way.why;
+          ways[i].message = std::move(way.message);
+          if (!way.orbit) continue;
+          if (std::optional<Candidate> there = candidate(of_n, *way.orbit, options.map_error)) {
+            there->start = i;
+            ways[i].led_to.push_back(at_least_period(family, *std::move(there), options.map_error));
+          }
         }
-        ways[i] = follow(of_n, value, y, deflation, options);
-        if (!ways[i].orbit) return;
-        there[i] = candidate(of_n, *ways[i].orbit, options.map_error);
-        if (!there[i]) return;
-        there[i]->start = i;
-        there[i] = at_least_period(family, *std::move(there[i]), options.map_error);
       });
       for (std::size_t i = 0; i < count; ++i) {
         result.evaluations += ways[i].evaluations;
-        if (there[i]) {
-          led[i] = true;
-          candidates.push_back(*std::move(there[i]));
-        }
+        led[i] = led[i] || !ways[i].led_to.empty();
+        std::move(ways[i].led_to.begin(), ways[i].led_to.end(), std::back_inserter(candidates));
         if (round < 0) first[i] = std::move(ways[i]);
       }
       const std::size_t before = result.orbits.size();
@@ -475,7 +486,7 @@ OrbitSearch search_orbits(const OrbitFamily& family, double value, std::span<con
       if (round > 0 && result.orbits.size() == before) break;
     }
     for (std::size_t i = 0; i < count; ++i)
-      if (!led[i]) result.missed.push_back({i, n, first[i]->why, first[i]->message});
+      if (!led[i]) result.missed.push_back({i, n, first[i].why, first[i].message});
   }
   return result;
 }

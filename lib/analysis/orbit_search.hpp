@@ -13,8 +13,8 @@
 //
 // G does not vanish at a_k, so that a start which leads to what is known may lead to another orbit yet. The step is
 // Newton's for G: the matrix is that of F with one of rank one beside it. This is repeated until nothing new is found.
-// At a third kind of start a motion has come back nearest to itself, after n of the periods that it is carried for:
-// where it settles that is its attractor, where it is chaotic an unstable orbit is near.
+// Starts of a third kind are where a motion has come back nearest to itself, after n of the periods that it is carried
+// for: where it settles that is its attractor, where it is chaotic unstable orbits are near.
 //
 // Orbits are told apart as periodic attractors are [A-same]. One found at n that closes after a divisor of n is counted
 // at its least period; begun at another of its periods, or turned by the family's symmetry, it is the same one.
@@ -48,7 +48,8 @@ struct SearchOptions {
   int smallest_period = 1;  ///< of the n that are sought, in periods of the forcing
   int largest_period = 1;
   int settle = 0;               ///< periods that a start is carried for, to come back near itself; 0: that is not tried
-  int rounds = 3;               ///< of deflation at most; 0: none
+  int returns = 1;              ///< of these, the nearest, are tried
+  int rounds = 2;               ///< of deflation at most; 0: none
   int iterations = 30;          ///< of the damped method
   double least_damping = 0.05;  ///< l
   int jumps = 3;                ///< steps without damping on one way, where no damped one falls
