@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "analysis/contact_extrema.hpp"
+#include "analysis/crossings.hpp"
 #include "core/errors.hpp"
 #include "core/require.hpp"
 #include "core/root_finding.hpp"
@@ -17,24 +18,9 @@ namespace epicyclic::analysis {
 
 namespace {
 
-using Values = std::vector<std::complex<double>>;
-
-/// What of a block changes at special points.
-struct Signs {
-  std::size_t outside = 0;  ///< multipliers beyond the unit circle
-  bool plus = false;        ///< odd number of real ones beyond +1
-  bool minus = false;       ///< odd number of real ones beyond -1
-  bool falling = false;     ///< the parameter falls along the branch; of the synchronous block only
-};
-
+/// With the direction of the branch.
 Signs signs_of(const InvariantBlock& block, const BranchOrbit& orbit) {
-  Signs s;
-  for (const auto& x : multipliers_of(block, orbit.monodromy)) {
-    s.outside += std::abs(x) > 1.0 ? 1 : 0;
-    if (!block.real || x.imag() != 0.0) continue;
-    if (x.real() > 1.0) s.plus = !s.plus;
-    if (x.real() < -1.0) s.minus = !s.minus;
-  }
+  Signs s = signs_of(block, multipliers_of(block, orbit.monodromy));
   s.falling = block.wave == 0 && orbit.direction.value < 0.0;
   return s;
 }
@@ -42,26 +28,23 @@ Signs signs_of(const InvariantBlock& block, const BranchOrbit& orbit) {
 /// The one event between two orbits by what has changed.
 /// @returns nothing if none; unresolved if it cannot be one alone
 std::optional<SpecialKind> event_between(const InvariantBlock& block, const Signs& a, const Signs& b) {
-  const std::size_t crossed = std::max(a.outside, b.outside) - std::min(a.outside, b.outside);
-  const bool plus = a.plus != b.plus;
-  const bool minus = a.minus != b.minus;
-  const bool turns = a.falling != b.falling;
-  if (crossed == 0 && !plus && !minus && !turns) return std::nullopt;
-  if (plus && !minus && crossed == 1) return turns ? SpecialKind::fold : SpecialKind::branch_point;
-  if (turns) return SpecialKind::unresolved;
-  if (minus && !plus && crossed == 1) return SpecialKind::flip;
-  if (!plus && !minus && crossed == (block.real ? 2U : 1U)) return SpecialKind::neimark_sacker;
+  const std::optional<Crossing> crossing = crossing_between(block, a, b);
+  if (!crossing) return std::nullopt;
+  switch (*crossing) {
+    case Crossing::plus:
+      return a.falling != b.falling ? SpecialKind::fold : SpecialKind::branch_point;
+    case Crossing::minus:
+      return SpecialKind::flip;
+    case Crossing::pair:
+      return SpecialKind::neimark_sacker;
+    case Crossing::unresolved:
+      break;
+  }
   return SpecialKind::unresolved;
 }
 
-/// The multiplier nearest to a place.
-std::complex<double> nearest(const Values& values, std::complex<double> to) {
-  return *std::min_element(values.begin(), values.end(),
-                           [&](const auto& p, const auto& q) { return std::abs(p - to) < std::abs(q - to); });
-}
-
 /// The multiplier that an event is about.
-std::complex<double> critical(SpecialKind kind, const Values& values, std::complex<double> expected) {
+std::complex<double> critical(SpecialKind kind, const Multipliers& values, std::complex<double> expected) {
   switch (kind) {
     case SpecialKind::fold:
     case SpecialKind::branch_point:
@@ -168,11 +151,10 @@ class Event {
   [[nodiscard]] double sign_function(const BranchOrbit& orbit) const {
     if (kind_ == SpecialKind::grazing) return nearest_to_the_surface(family_, orbit);
     if (turns_) return orbit.direction.value;
-    const Values values = multipliers_of(*block_, orbit.monodromy);
-    const Signs signs = signs_of(*block_, orbit);
-    if (kind_ == SpecialKind::branch_point) return (signs.plus ? -1.0 : 1.0) * std::abs(nearest(values, 1.0) - 1.0);
-    if (kind_ == SpecialKind::flip) return (signs.minus ? -1.0 : 1.0) * std::abs(nearest(values, -1.0) + 1.0);
-    return std::log(std::abs(values.at(inside_)));
+    const Crossing crossing = kind_ == SpecialKind::branch_point ? Crossing::plus
+                              : kind_ == SpecialKind::flip       ? Crossing::minus
+                                                                 : Crossing::pair;
+    return analysis::sign_function(*block_, crossing, multipliers_of(*block_, orbit.monodromy), inside_);
   }
 
   /// Smooth at the event, by the multiplier that it is about.
@@ -205,7 +187,7 @@ class Event {
     const double part = find_root(function, 0.0, 1.0, width);
     if (const Correction c = between(family_, a_, b_, part); c.found) near_ = c.orbit;
     if (block_ == nullptr) return;
-    const Values values = multipliers_of(*block_, near_.monodromy);
+    const Multipliers values = multipliers_of(*block_, near_.monodromy);
     expected_ = kind_ == SpecialKind::neimark_sacker ? values.at(inside_) : critical(kind_, values, 0.0);
   }
 
