@@ -372,8 +372,7 @@ std::vector<FoundOrbit> told_apart(const OrbitFamily& system, const std::vector<
         if (!kept.found) f.family.keeps_symmetry = false;
       }
     }
-    const Eigen::VectorXcd multipliers = eigenvalues(f.orbit.monodromy);
-    for (const std::complex<double>& x : multipliers) {
+    for (const std::complex<double>& x : multipliers_of(f.family, f.orbit.monodromy)) {
       f.unstable += std::abs(x) > 1.0 ? 1 : 0;
       f.multiplier_max = std::max(f.multiplier_max, std::abs(x));
     }
@@ -441,6 +440,7 @@ OrbitSearch search_orbits(const OrbitFamily& family, double value, std::span<con
     if (start.size() != dimension)
       throw InputError("a start of " + std::to_string(start.size()) + " numbers for a flow of " +
                        std::to_string(dimension));
+  if (!starts.empty()) check_neutral(family, value, starts.front());
   const std::size_t count = starts.size();
   std::vector<Motion> motions(count);
   for_each_index(count, options.threads,

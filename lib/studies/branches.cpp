@@ -103,7 +103,7 @@ std::optional<BranchRow> branch_row(const analysis::OrbitFamily& family, const a
                                     const model::DynamicModel& model, int phases) {
   BranchRow row;
   row.value = orbit.at.value;
-  for (const auto& x : epicyclic::eigenvalues(orbit.monodromy)) {
+  for (const auto& x : analysis::multipliers_of(family, orbit.monodromy)) {
     row.multiplier_max = std::max(row.multiplier_max, std::abs(x));
     row.unstable += std::abs(x) > 1.0 ? 1 : 0;
   }
