@@ -10,7 +10,7 @@
 // change of a sign tells. In its own block each is simple.
 //
 // Neutral directions c (a free rigid rotation: the flow does not change when all states are shifted along c) have
-// M c = c whatever the orbit. With C those of a range, the states modulo C are looked at instead,
+// M c = c whatever the orbit. With C the space of all of them, the states modulo C are looked at instead,
 //
 //   V_j an orthonormal basis of what of the range of P_j is orthogonal to P_j C ,    B_j = V_j^H M V_j    [A-neutral]
 //

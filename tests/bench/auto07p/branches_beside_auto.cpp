@@ -1,7 +1,8 @@
 // Branches of periodic orbits beside AUTO-07p: N oscillators in a row over smooth clearances.
 //
-//   branches_beside_auto N [TOLERANCE [FROM TO]]   its special points, and processor seconds per orbit of the branch
-//   branches_beside_auto N --orbit                 one orbit at W = 0.3 over a period, for AUTO to start from
+//   branches_beside_auto N [TOLERANCE [FROM TO [START]]]  its special points, and processor seconds per orbit of the
+//                                                         branch, from the orbit at W = START on
+//   branches_beside_auto N --orbit [START]                that orbit over a period, for AUTO to start from
 //
 // tests/bench/auto07p/compare runs both.
 #include <cmath>
@@ -47,11 +48,13 @@ int main(int argc, char** argv) {
   if (argc < 2) return 2;
   const auto n = static_cast<std::size_t>(std::atoi(argv[1]));
   const FieldFamily fields = chain(n);
-  constexpr double start = 0.3;
+  const bool orbit_alone = argc > 2 && std::string(argv[2]) == "--orbit";
+  const int start_at = orbit_alone ? 3 : 5;
+  const double start = argc > start_at ? std::atof(argv[start_at]) : 0.3;
   std::vector<double> state(2 * n, 0.0);
   for (std::size_t i = 0; i < n; ++i) state[i] = 1.1;
-  state = problems::settled(problems::flows(fields, 1e-10), start, state, 100);
-  if (argc > 2 && std::string(argv[2]) == "--orbit") {
+  state = problems::settled(problems::flows(fields, 1e-10), start, state, 300);
+  if (orbit_alone) {
     const auto flow = problems::flows(fields, 1e-12)(start);
     constexpr int looks = 400;
     const double period = 2.0 * std::numbers::pi;
