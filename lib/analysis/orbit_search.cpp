@@ -211,7 +211,6 @@ Way follow(const OrbitFamily& family, double value, const Eigen::VectorXd& start
 /// A start, and the states of its motion at the beginnings of periods.
 struct Motion {
   std::vector<Eigen::VectorXd> states;
-  std::string message;  ///< why it ended early
 
   /// The states from which n periods lead nearest to themselves, the nearest first, no more than `most`.
   [[nodiscard]] std::vector<Eigen::VectorXd> closest_returns(const Eigen::MatrixXd& kept, std::size_t n,
@@ -236,11 +235,7 @@ Motion motion_from(const OrbitFamily& family, double value, const std::vector<do
   keep_state();
   const auto flow = family.flows(value);
   for (int k = 0; k < periods; ++k) {
-    const integrate::Evolution e = flow->evolve(y, 0.0, flow->field().period);
-    if (!e.reached()) {
-      m.message = e.message;
-      break;
-    }
+    if (!flow->evolve(y, 0.0, flow->field().period).reached()) break;  // as far as it goes
     keep_state();
   }
   return m;

@@ -48,7 +48,7 @@ struct SearchOptions {
   int smallest_period = 1;  ///< of the n that are sought, in periods of the forcing
   int largest_period = 1;
   int settle = 0;               ///< periods that a start is carried for, to come back near itself; 0: that is not tried
-  int returns = 1;              ///< of these, the nearest, are tried
+  int returns = 1;              ///< how many of the states that come back nearest are tried
   int rounds = 2;               ///< of deflation at most; 0: none
   int iterations = 30;          ///< of the damped method
   double least_damping = 0.05;  ///< l

@@ -1,8 +1,10 @@
 // Branches of periodic orbits beside AUTO-07p: N oscillators in a row over smooth clearances.
 //
-//   branches_beside_auto N [TOLERANCE [FROM TO [START]]]  its special points, and processor seconds per orbit of the
-//                                                         branch, from the orbit at W = START on
-//   branches_beside_auto N --orbit [START]                that orbit over a period, for AUTO to start from
+//   branches_beside_auto N [TOLERANCE [FROM TO [START [FINER]]]]  its special points, found again by the tolerance
+//   FINER
+//                                                                 if that is told, and processor seconds per orbit of
+//                                                                 the branch, from the orbit at W = START on
+//   branches_beside_auto N --orbit [START]                        that orbit over a period, for AUTO to start from
 //
 // tests/bench/auto07p/compare runs both.
 #include <cmath>
@@ -74,13 +76,15 @@ int main(int argc, char** argv) {
   analysis::ContinuationOptions options{.from = 0.2, .to = 2.2};
   if (argc > 4) options.from = std::atof(argv[3]);
   if (argc > 4) options.to = std::atof(argv[4]);
+  analysis::SpecialOptions special;
+  if (argc > 6) special.others = {{problems::flows(fields, std::atof(argv[6])), 1}};
   // The machine may be busy: time of the processor, not of the clock.
   const std::clock_t begun = std::clock();
   analysis::Continuation branch(family, options, first.orbit);
   std::size_t orbits = 0;
   while (branch.advance()) {
     ++orbits;
-    for (const auto& p : special_points_between(family, branch.before(), branch.now(), {}))
+    for (const auto& p : special_points_between(family, branch.before(), branch.now(), special))
       std::printf("%s %.10f\n", to_string(p.kind).c_str(), p.value);
   }
   const double took = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
