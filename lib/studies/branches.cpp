@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/dense.hpp"
 #include "core/errors.hpp"
 #include "core/require.hpp"
 #include "integrate/make_flow.hpp"
