@@ -120,11 +120,59 @@ void tell_rows(TracedBranches& traced, const studies::ModelAt& models, int phase
   }
 }
 
+/// The loci that are asked for, each kept in a journal of their own when it is whole.
+std::vector<studies::TracedLocus> trace_loci(Session& session, const input::LoadedInput& input,
+                                             const BranchesOptions& options, const TracedBranches& traced) {
+  const studies::LociOptions& wanted = options.loci.value();
+  const auto plane = input::model_plane(input, options.parameter, wanted.parameter, family_step(options));
+  const studies::ModelOverPlane models = [&](double first, double second) {
+    if (stop_requested()) throw Stopped();
+    return plane(first, second);
+  };
+  const double second = input::given_value(input, wanted.parameter);
+  const auto file = session.folder().file("journal.loci.bin");
+  store::Journal journal(file, session.identity());
+  tell_cut_tail(file, journal.cut_bytes());
+  std::vector<studies::TracedLocus> loci;
+  for (const store::JournalEntry& entry : journal.entries()) {
+    if (entry.point != loci.size())
+      throw store::DamagedData(fmt::format("the journal holds locus {} where {} is due", entry.point, loci.size()));
+    loci.push_back(store::decode_locus(journal.read(entry)));
+  }
+  const std::vector<std::size_t> points = studies::points_of_loci(traced, wanted);
+  Progress progress("continue: loci", points.size());
+  std::size_t known = loci.size();  // of the journal, met again in order
+  std::vector<studies::TracedLocus> all;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const studies::SpecialRow& point = traced.special[points[k]];
+    progress.update(k, fmt::format("from {} at {}", kind_word(point), short_text(point.value, 6)));
+    if (is_on_a_locus(all, traced, point, second, options)) continue;
+    if (all.size() < known) {
+      all.push_back(loci[all.size()]);
+      continue;
+    }
+    all.push_back(trace_locus(models, traced, point, second, options));
+    journal.append(all.size() - 1, store::encode_locus(all.back()));
+  }
+  progress.update(points.size(), 0);
+  journal.close();
+  return all;
+}
+
+/// Loci begin at the study's own value of the second parameter.
+void require_given_within(const input::LoadedInput& input, const studies::LociOptions& loci) {
+  const double given = input::given_value(input, loci.parameter);
+  if (!(given >= loci.from && given <= loci.to))
+    throw InputError(fmt::format("/study/loci: {} is {} in this study, must be within from = {} and to = {}",
+                                 loci.parameter, given, loci.from, loci.to));
+}
+
 /// What was asked for and not reached.
-std::size_t count_failures(const TracedBranches& traced) {
+std::size_t count_failures(const TracedBranches& traced, const std::vector<studies::TracedLocus>& loci) {
   std::size_t failed = traced.broken_off() + (traced.branches.empty() ? 1 : 0);
   for (const studies::BranchAttempt& a : traced.attempts) failed += a.seed && !a.found ? 1 : 0;
   for (const studies::SpecialRow& r : traced.special) failed += r.kind == analysis::SpecialKind::unresolved ? 1 : 0;
+  for (const studies::TracedLocus& locus : loci) failed += locus.message.empty() ? 0 : 1;
   return failed;
 }
 
@@ -201,8 +249,7 @@ void tell_result(const Arguments& arguments, const TracedBranches& traced, const
                                 {"first", branch.orbits.front().at.value},
                                 {"last", branch.orbits.back().at.value}});
   for (const studies::SpecialRow& r : traced.special) {
-    nlohmann::json one = {
-        {"branch", r.branch}, {"kind", kind_word(r)}, {"value", r.value}, {"error_bound", nullptr}};
+    nlohmann::json one = {{"branch", r.branch}, {"kind", kind_word(r)}, {"value", r.value}, {"error_bound", nullptr}};
     if (std::isfinite(r.error_bound)) one["error_bound"] = r.error_bound;
     told["special"].push_back(std::move(one));
   }
@@ -227,6 +274,7 @@ int continue_command(const Arguments& arguments) {
   const auto& options = std::get<BranchesOptions>(input.study.plan);
   const studies::ModelAt models = stoppable(input::model_family(input, options.parameter, family_step(options)));
   // Options and models that do not fit show here, before anything is written.
+  if (options.loci) require_given_within(input, *options.loci);
   const model::DynamicModel first_model = models(options.from);
   (void)models(options.to);
   const studies::BranchSystem system = branch_system(models, options, first_model);
@@ -240,6 +288,7 @@ int continue_command(const Arguments& arguments) {
   const store::OutputFolder& folder = session.folder();
 
   TracedBranches traced;
+  std::vector<studies::TracedLocus> loci;
   std::int64_t undrawn = 0;
   std::size_t failed = 0;
   const auto close_run = [&](store::RunState state) {
@@ -260,21 +309,23 @@ int continue_command(const Arguments& arguments) {
     traced.branches = tree.branches();
     traced.full = tree.full();
     if (!traced.branches.empty()) tell_rows(traced, models, options.output_phases);
+    if (options.loci) loci = trace_loci(session, input, options, traced);
   } catch (const Stopped&) {
     close_run(store::RunState::stopped);
     tell("stopped; the same command goes on\n");
     return stopped_early;
   }
-  failed = count_failures(traced);
+  failed = count_failures(traced, loci);
 
   folder.require_there();
   const reports::ContinueOutput output{options, studies::poincare_columns(first_model),
                                        static_cast<std::size_t>(first_model.planets), session.resolved(),
                                        reports::figure_title(input.study)};
-  const std::string summary = reports::continue_summary(output, traced);
-  reports::write_continue_tables(folder.path(), output, traced);
+  const std::string summary = reports::continue_summary(output, traced, loci);
+  reports::write_continue_tables(folder.path(), output, traced, loci);
   write_file_atomically(folder.file("continue.md"), summary);
   auto figures = reports::draw_continue_figures(folder.file("figures"), output, traced);
+  if (options.loci) figures.push_back(reports::draw_loci(folder.file("figures"), output, loci));
   Proved proved;
   try {
     if (sweep) proved = prove_sweep(*sweep, folder, output, traced, first_model.dimension);

@@ -60,7 +60,7 @@ Eigen::MatrixXd period_states(const OrbitFamily& family, const CurvePoint& at) {
   y.col(0) = at.states.col(0);
   if (!carry_to_pieces(*family.flows(at.value), family.period, y).reached())
     return Eigen::MatrixXd(at.states.rows(), 0);
-  return y;
+  return without_shift(family, y);
 }
 
 double image_distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const CyclicSymmetry& symmetry) {

@@ -40,7 +40,7 @@ struct Departure {
 [[nodiscard]] std::vector<Departure> departures(const OrbitFamily& family, const SpecialPoint& point,
                                                 const SwitchOptions& options = {});
 
-/// States of an orbit at the beginnings of its n periods, one a column.
+/// States of an orbit at the beginnings of its n periods, one a column, without shifts along neutral directions.
 /// @returns no columns if it could not be carried
 [[nodiscard]] Eigen::MatrixXd period_states(const OrbitFamily& family, const CurvePoint& at);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/dense.hpp"
 #include "core/errors.hpp"
@@ -18,6 +19,69 @@ constexpr double rounding = 1e-12;
 Eigen::MatrixXcd range_of(const Eigen::MatrixXcd& projector) {
   const auto rank = static_cast<Eigen::Index>(std::lround(projector.trace().real()));
   return left_singular_vectors(projector).leftCols(rank);
+}
+
+/// Orthonormal basis of the columns' span.
+Eigen::MatrixXcd span_of(const Eigen::MatrixXcd& columns) {
+  Eigen::MatrixXcd q(columns.rows(), 0);
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+    Eigen::VectorXcd v = columns.col(k);
+    const double length = v.norm();
+    // Twice is enough for orthogonality to rounding.
+    for (int again = 0; again < 2; ++again) v -= q * (q.adjoint() * v);
+    constexpr double dependent = 1e-10;
+    if (!(v.norm() > dependent * length)) continue;
+    q.conservativeResize(Eigen::NoChange, q.cols() + 1);
+    q.rightCols(1) = v.normalized();
+  }
+  return q;
+}
+
+/// A block without what it has of the neutral directions [A-neutral].
+InvariantBlock without_neutral(InvariantBlock block, const CyclicSymmetry& symmetry, int order) {
+  // P_j C; of a wave that they have no part in it is rounding.
+  Eigen::MatrixXcd part = Eigen::MatrixXcd::Zero(symmetry.neutral.rows(), symmetry.neutral.cols());
+  Eigen::MatrixXd moved = symmetry.neutral;
+  for (int k = 0; k < order; ++k) {
+    part +=
+        std::polar(1.0 / order, -2.0 * std::numbers::pi * block.wave * k / order) * moved.cast<std::complex<double>>();
+    if (k + 1 < order) moved = symmetry.map * moved;
+  }
+  for (Eigen::Index k = 0; k < part.cols(); ++k)
+    if (part.col(k).norm() <= rounding * symmetry.neutral.col(k).norm()) part.col(k).setZero();
+  if (block.real) part = part.real().cast<std::complex<double>>();
+  const Eigen::MatrixXcd q = span_of(block.basis.adjoint() * part);
+  if (q.cols() == 0) return block;
+  const Eigen::Index size = block.basis.cols();
+  block.basis = block.basis * range_of(Eigen::MatrixXcd::Identity(size, size) - q * q.adjoint());
+  return block;
+}
+
+std::vector<InvariantBlock> all_blocks(std::size_t dimension, const CyclicSymmetry& symmetry) {
+  if (!symmetry.blocks.empty()) return symmetry.blocks;
+  const auto n = static_cast<Eigen::Index>(dimension);
+  const int order = symmetry.map.size() == 0 ? 1 : symmetry.order;
+  std::vector<InvariantBlock> blocks;
+  for (int j = 0; 2 * j <= order; ++j) {
+    Eigen::MatrixXcd projector = Eigen::MatrixXcd::Zero(n, n);
+    Eigen::MatrixXd power = Eigen::MatrixXd::Identity(n, n);
+    for (int k = 0; k < order; ++k) {
+      projector +=
+          std::polar(1.0 / order, -2.0 * std::numbers::pi * j * k / order) * power.cast<std::complex<double>>();
+      if (k + 1 < order) power = symmetry.map * power;
+    }
+    InvariantBlock block{j, j == 0 || 2 * j == order, {}};
+    if (order == 1) {
+      block.basis = projector;
+    } else if (block.real) {
+      // A real projector has a real basis.
+      block.basis = range_of(projector.real().cast<std::complex<double>>());
+    } else {
+      block.basis = range_of(projector);
+    }
+    if (block.basis.cols() > 0) blocks.push_back(std::move(block));
+  }
+  return blocks;
 }
 
 }  // namespace
@@ -49,29 +113,12 @@ CyclicSymmetry cyclic_symmetry(std::size_t dimension, int order,
 }
 
 std::vector<InvariantBlock> invariant_blocks(std::size_t dimension, const CyclicSymmetry& symmetry) {
-  if (!symmetry.blocks.empty()) return symmetry.blocks;
-  const auto n = static_cast<Eigen::Index>(dimension);
+  if (symmetry.neutral.size() == 0) return all_blocks(dimension, symmetry);
   const int order = symmetry.map.size() == 0 ? 1 : symmetry.order;
   std::vector<InvariantBlock> blocks;
-  for (int j = 0; 2 * j <= order; ++j) {
-    Eigen::MatrixXcd projector = Eigen::MatrixXcd::Zero(n, n);
-    Eigen::MatrixXd power = Eigen::MatrixXd::Identity(n, n);
-    for (int k = 0; k < order; ++k) {
-      projector +=
-          std::polar(1.0 / order, -2.0 * std::numbers::pi * j * k / order) * power.cast<std::complex<double>>();
-      if (k + 1 < order) power = symmetry.map * power;
-    }
-    InvariantBlock block{j, j == 0 || 2 * j == order, {}};
-    if (order == 1) {
-      block.basis = projector;
-    } else if (block.real) {
-      // A real projector has a real basis.
-      block.basis = range_of(projector.real().cast<std::complex<double>>());
-    } else {
-      block.basis = range_of(projector);
-    }
-    if (block.basis.cols() > 0) blocks.push_back(std::move(block));
-  }
+  for (InvariantBlock& block : all_blocks(dimension, symmetry))
+    if (InvariantBlock left = without_neutral(std::move(block), symmetry, order); left.basis.cols() > 0)
+      blocks.push_back(std::move(left));
   return blocks;
 }
 

@@ -7,8 +7,17 @@
 //                                                                                                        [A-blocks]
 // and the multipliers are the eigenvalues of the B_j. B_0 holds those of the motions in which all parts move alike, B_j
 // and B_(N-j) have conjugate ones: of real multipliers these are pairs that cross the unit circle together, which no
-// change of a sign tells. In its own block each is simple. Source: M. Golubitsky, I. Stewart, D. Schaeffer,
-// Singularities and Groups in Bifurcation Theory II, ch. XII.
+// change of a sign tells. In its own block each is simple.
+//
+// Neutral directions c (a free rigid rotation: the flow does not change when all states are shifted along c) have
+// M c = c whatever the orbit. With C the space of all of them, the states modulo C are looked at instead,
+//
+//   V_j an orthonormal basis of what of the range of P_j is orthogonal to P_j C ,    B_j = V_j^H M V_j    [A-neutral]
+//
+// which is the map that M makes of the quotient, since M maps C into itself: the multipliers 1 of C are left out, and
+// no others are changed. Sources: M. Golubitsky, I. Stewart, D. Schaeffer,
+// Singularities and Groups in Bifurcation Theory II, ch. XII; for the quotient by a group of shifts P. Chossat,
+// R. Lauterbach, Methods in Equivariant Bifurcations and Dynamical Systems (2000), ch. 5.
 #pragma once
 
 #include <complex>
@@ -32,7 +41,8 @@ struct InvariantBlock {
 struct CyclicSymmetry {
   Eigen::MatrixXd map;                   ///< empty: none
   int order = 1;                         ///< N
-  std::vector<InvariantBlock> blocks{};  ///< of invariant_blocks(), made once
+  std::vector<InvariantBlock> blocks{};  ///< of invariant_blocks() without neutral directions, made once
+  Eigen::MatrixXd neutral{};             ///< directions C as columns; empty: none
 };
 
 /// S from a linear map of states.
@@ -40,7 +50,8 @@ struct CyclicSymmetry {
 [[nodiscard]] CyclicSymmetry cyclic_symmetry(std::size_t dimension, int order,
                                              const std::function<std::vector<double>(std::span<const double>)>& map);
 
-/// Those of j = 0 ... N/2 that are not empty; without a symmetry the whole space is one.
+/// Those of j = 0 ... N/2 that are not empty; without a symmetry the whole space is one. Neutral directions are in
+/// none.
 [[nodiscard]] std::vector<InvariantBlock> invariant_blocks(std::size_t dimension, const CyclicSymmetry& symmetry);
 
 /// Eigenvalues of B_j, by falling modulus.

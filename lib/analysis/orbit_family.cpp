@@ -6,7 +6,11 @@
 
 #include "analysis/orbit_system.hpp"
 #include "analysis/shooting.hpp"
+#include "core/dense.hpp"
+#include "core/errors.hpp"
 #include "core/require.hpp"
+#include "core/text.hpp"
+#include "integrate/flow.hpp"
 
 namespace epicyclic::analysis {
 
@@ -54,6 +58,64 @@ Correction iterate(const OrbitFamily& family, const CurvePoint& guess, const Cur
 
 }  // namespace
 
+void check_neutral(const OrbitFamily& family, double value, std::span<const double> state) {
+  const Eigen::MatrixXd& c = family.neutral;
+  if (c.size() == 0) return;
+  const auto n = static_cast<Eigen::Index>(state.size());
+  if (c.rows() != n)
+    throw InputError("neutral directions of " + std::to_string(c.rows()) + " components for states of " +
+                     std::to_string(n));
+  Eigen::MatrixXd q = c;
+  const Eigen::VectorXd r = orthonormalise(q);
+  constexpr double dependent = 1e-10;
+  if (c.cols() > n || !(r.cwiseAbs().minCoeff() > dependent * c.colwise().norm().maxCoeff()))
+    throw InputError("neutral directions depend on each other");
+  // Of shifts as long as the state's scale and longer, by differences of sums of a few terms.
+  constexpr double rounding = 1e-9;
+  const Eigen::MatrixXd& s = family.symmetry.map;
+  if (s.size() != 0)
+    for (const Eigen::MatrixXd& image : {Eigen::MatrixXd(s * c), Eigen::MatrixXd(s.transpose() * c)})
+      if (without_shift(family, image).norm() > rounding * c.norm())
+        throw InputError("the symmetry does not keep the neutral directions");
+  const auto flow = family.flows(value);
+  const VectorField& field = flow->field();
+  const Eigen::VectorXd y = Eigen::Map<const Eigen::VectorXd>(state.data(), n);
+  Eigen::VectorXd here(n), there(n);
+  for (Eigen::Index k = 0; k < c.cols(); ++k) {
+    constexpr int phases = 8;
+    double most = 0.0, changed = 0.0;
+    for (int i = 0; i < phases; ++i) {
+      const double at = field.period * (i + 0.5) / phases;
+      const std::size_t segment = integrate::segment_after(field, at);
+      field.right_hand_side(segment, at, y.data(), here.data());
+      for (const double shift : {0.7, -3.1, 11.0}) {
+        const Eigen::VectorXd shifted =
+            y + (shift * family.state_scale / c.col(k).lpNorm<Eigen::Infinity>()) * c.col(k);
+        field.right_hand_side(segment, at, shifted.data(), there.data());
+        most = std::max(most, here.lpNorm<Eigen::Infinity>());
+        changed = std::max(changed, (there - here).lpNorm<Eigen::Infinity>());
+      }
+    }
+    if (!(changed <= rounding * std::max(most, family.state_scale)))
+      throw InputError("direction " + std::to_string(k + 1) +
+                       " is not neutral: a shift along it changes the field by " + short_text(changed));
+  }
+}
+
+std::vector<std::complex<double>> multipliers_of(const OrbitFamily& family, const Eigen::MatrixXd& monodromy) {
+  CyclicSymmetry none;
+  none.neutral = family.neutral;
+  const auto blocks = invariant_blocks(static_cast<std::size_t>(monodromy.rows()), none);
+  return blocks.empty() ? std::vector<std::complex<double>>{} : multipliers_of(blocks.front(), monodromy);
+}
+
+Eigen::MatrixXd without_shift(const OrbitFamily& family, const Eigen::MatrixXd& states) {
+  if (family.neutral.size() == 0) return states;
+  Eigen::MatrixXd q = family.neutral;
+  orthonormalise(q);
+  return states - q * (q.transpose() * states);
+}
+
 void OrbitFamily::validate() const {
   require(period >= 1, "period", period, ">= 1");
   require(pieces >= 1, "pieces", pieces, ">= 1");
@@ -94,11 +156,13 @@ std::optional<CurvePoint> cut_into_pieces(const OrbitFamily& family, const Eigen
   CurvePoint z{Eigen::MatrixXd(y.size(), family.pieces), value};
   z.states.col(0) = y;
   if (!carry_to_pieces(*family.flows(value), family.period, z.states).reached()) return std::nullopt;
+  z.states = without_shift(family, z.states);
   return z;
 }
 
 Correction first_orbit(const OrbitFamily& family, double value, std::span<const double> state) {
   family.validate();
+  check_neutral(family, value, state);
   Eigen::MatrixXd y(static_cast<Eigen::Index>(state.size()), family.pieces);
   std::copy(state.begin(), state.end(), y.data());
   const integrate::Evolution e = carry_to_pieces(*family.flows(value), family.period, y);

@@ -13,13 +13,18 @@
 // the parameter by L. Source: H. B. Keller, Numerical solution of bifurcation and nonlinear eigenvalue problems (1977);
 // R. Seydel, Practical Bifurcation and Stability Analysis, 3rd ed., ch. 4.
 //
+// With neutral directions [A-neutral] F is taken modulo shifts along them, which is sound since phi(y + C v) =
+// phi(y) + C v: an orbit may drift along them from period to period.
+//
 // Smoothness: the curve is as smooth as the flow. Where an orbit grazes a kink of a continuous vector field it is once
 // differentiable, and Newton's method still converges, faster than linearly.
 #pragma once
 
+#include <complex>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -38,18 +43,42 @@ struct OrbitFamily {
   CyclicSymmetry symmetry{};   ///< of the flows, if they have one
   bool keeps_symmetry = true;  ///< the orbits are those that it leaves as they are: Newton's method stays among them
 
+  /// Directions in which all states may be shifted without changing the flows, as columns: a free rigid rotation.
+  /// Orbits close but for a shift along them, and are told by their states orthogonal to them [A-neutral].
+  Eigen::MatrixXd neutral{};
+
   double residual = 1e-10;  ///< max |F| that Newton's method ends below; the orbit is nearer by its last step
   double known = 1e-6;      ///< last step, as a length, with which a state is on an orbit though the residual no longer
                             ///< falls
   int iterations = 10;
   double difference = 1e-6;  ///< step, in L, of the difference for fields that have no parameter derivative
 
-  /// The symmetry that the orbits keep.
-  [[nodiscard]] CyclicSymmetry kept() const { return keeps_symmetry ? symmetry : CyclicSymmetry{}; }
+  /// The symmetry that the orbits keep, with the neutral directions.
+  [[nodiscard]] CyclicSymmetry kept() const {
+    CyclicSymmetry s = keeps_symmetry ? symmetry : CyclicSymmetry{};
+    s.neutral = neutral;
+    return s;
+  }
 
   /// @throws InputError for a period, pieces or iterations below 1, or scales that are not positive
   void validate() const;
 };
+
+/// Asks the field itself, at the phases and shifts of a probe, whether the neutral directions are neutral.
+/// @param state  about which to probe
+/// @throws InputError if they are not, or not a subspace that the symmetry and its transpose keep, or of another
+/// dimension
+void check_neutral(const OrbitFamily& family, double value, std::span<const double> state);
+
+/// Multipliers of an orbit of the family by falling modulus, without the ones of neutral directions.
+[[nodiscard]] std::vector<std::complex<double>> multipliers_of(const OrbitFamily& family,
+                                                               const Eigen::MatrixXd& monodromy);
+
+/// The states without their parts in neutral directions.
+[[nodiscard]] Eigen::MatrixXd without_shift(const OrbitFamily& family, const Eigen::MatrixXd& states);
+
+/// States among which Newton's method stays, y = V c: V, with orthonormal columns.
+[[nodiscard]] Eigen::MatrixXd kept_states(const OrbitFamily& family, Eigen::Index dimension);
 
 /// A place, or a direction, in the space of the states and the parameter.
 struct CurvePoint {
@@ -97,11 +126,12 @@ struct Correction {
 [[nodiscard]] Correction between(const OrbitFamily& family, const BranchOrbit& a, const BranchOrbit& b, double part);
 
 /// The states at the beginnings of the family's pieces of the motion from y.
-/// @returns nothing if it could not be carried
+/// @returns nothing if it could not be carried; without shifts along neutral directions
 [[nodiscard]] std::optional<CurvePoint> cut_into_pieces(const OrbitFamily& family, const Eigen::VectorXd& y,
                                                         double value);
 
 /// The orbit at a value from one state, cut into the family's pieces.
+/// @throws as check_neutral()
 [[nodiscard]] Correction first_orbit(const OrbitFamily& family, double value, std::span<const double> state);
 
 }  // namespace epicyclic::analysis

@@ -11,14 +11,11 @@
 
 namespace epicyclic::analysis {
 
-namespace {
-
 Eigen::MatrixXd kept_states(const OrbitFamily& family, Eigen::Index dimension) {
-  if (family.kept().map.size() == 0) return Eigen::MatrixXd::Identity(dimension, dimension);
+  if (family.kept().map.size() == 0 && family.neutral.size() == 0)
+    return Eigen::MatrixXd::Identity(dimension, dimension);
   return invariant_blocks(static_cast<std::size_t>(dimension), family.kept()).front().basis.real();
 }
-
-}  // namespace
 
 OrbitPlace operator+(const OrbitPlace& a, const OrbitPlace& b) { return {a.states + b.states, a.values + b.values}; }
 OrbitPlace operator-(const OrbitPlace& a, const OrbitPlace& b) { return {a.states - b.states, a.values - b.values}; }
@@ -146,7 +143,7 @@ NewtonOutcome OrbitSystem::newton(OrbitPlace z, const std::vector<ClosingRow>& r
       result.message = shot.shot.evolution.message;
       return result;
     }
-    const double residual = shot.shot.residual.lpNorm<Eigen::Infinity>();
+    const double residual = without_shift(family_, shot.shot.residual).lpNorm<Eigen::Infinity>();
     if (!std::isfinite(residual)) break;
     result.residual = residual;
     result.distance = length(z - guess);

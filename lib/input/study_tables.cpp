@@ -832,15 +832,15 @@ const Table<Study>& continue_table() {
              "Longest step along a branch, in units of the parameter and of b_c together [-].");
     t.integer("output_phases", of(&BranchesOptions::output_phases), between(1, 10000),
               "Output points per mesh period, among which extrema are looked for [-].");
-    const table_detail::Access<Study, studies::LociOptions> loci{
-        [](Study& s) -> studies::LociOptions& {
-          auto& held = std::get<BranchesOptions>(s.plan).loci;
-          return held ? *held : held.emplace();
-        },
-        [](const Study& s) -> const studies::LociOptions* {
-          const auto& held = std::get<BranchesOptions>(s.plan).loci;
-          return held ? &*held : nullptr;
-        }};
+    const table_detail::Access<Study, studies::LociOptions> loci{[](Study& s) -> studies::LociOptions& {
+                                                                   auto& held = std::get<BranchesOptions>(s.plan).loci;
+                                                                   return held ? *held : held.emplace();
+                                                                 },
+                                                                 [](const Study& s) -> const studies::LociOptions* {
+                                                                   const auto& held =
+                                                                       std::get<BranchesOptions>(s.plan).loci;
+                                                                   return held ? &*held : nullptr;
+                                                                 }};
     t.object("loci", loci, loci_table());
     return t;
   }();

@@ -103,7 +103,16 @@ void write_section_csv(const std::filesystem::path& file, const ContinueOutput& 
   csv.commit();
 }
 
-void write_h5(const std::filesystem::path& file, const ContinueOutput& output, const TracedBranches& traced) {
+/// Points of all loci, one behind the other.
+std::vector<store::LocusPlace> locus_places(const std::vector<studies::TracedLocus>& loci) {
+  std::vector<store::LocusPlace> places;
+  for (std::size_t l = 0; l < loci.size(); ++l)
+    for (std::size_t k = 0; k < loci[l].rows.size(); ++k) places.push_back({l, k, loci[l], loci[l].rows[k]});
+  return places;
+}
+
+void write_h5(const std::filesystem::path& file, const ContinueOutput& output, const TracedBranches& traced,
+              const std::vector<studies::TracedLocus>& loci) {
   const Flat flat(traced);
   store::Hdf5File h5(file);
   h5.set_attribute("/", "input_resolved", output.resolved_input);
@@ -112,6 +121,12 @@ void write_h5(const std::filesystem::path& file, const ContinueOutput& output, c
                  [&](std::size_t i) { return PlaceRow(traced, flat.places[i]); });
   write_table_h5(h5, "/special", store::special_columns(), traced.special.size(),
                  [&](std::size_t i) -> const SpecialRow& { return traced.special[i]; });
+
+  if (output.options.loci) {
+    const auto places = locus_places(loci);
+    write_table_h5(h5, "/loci", store::locus_columns(), places.size(),
+                   [&](std::size_t i) -> const store::LocusPlace& { return places[i]; });
+  }
 
   std::size_t dimension = 0;
   std::vector<std::array<std::size_t, 3>> crossings;
@@ -231,7 +246,49 @@ std::string branch_text(const ContinueOutput& output, const TracedBranches& trac
   return text;
 }
 
+std::string loci_text(const ContinueOutput& output, const TracedBranches& traced,
+                      const std::vector<studies::TracedLocus>& loci) {
+  const studies::LociOptions& options = *output.options.loci;
+  std::string text = fmt::format("\n## Loci over {} and {}\n\n", output.options.parameter, options.parameter);
+  if (loci.empty()) text += "No special point of the kinds that were asked for has a locus.\n";
+  for (std::size_t l = 0; l < loci.size(); ++l) {
+    const studies::TracedLocus& locus = loci[l];
+    const double value = traced.branches[locus.branch].special[locus.point].value;
+    text += fmt::format("- Locus {}: {} of period {}, from the point of branch {} at {}", l,
+                        letters_of(locus.kind).words, locus.period, locus.branch, short_text(value, 9));
+    if (locus.rows.empty()) {
+      text += fmt::format(": **not begun: {}**\n", locus.message);
+      continue;
+    }
+    text +=
+        fmt::format("; {} points, {} at ({}, {}) to {} at ({}, {})", locus.rows.size(), locus.first_end,
+                    short_text(locus.rows.front().first, 6), short_text(locus.rows.front().second, 6), locus.last_end,
+                    short_text(locus.rows.back().first, 6), short_text(locus.rows.back().second, 6));
+    if (!locus.message.empty()) text += fmt::format(": **{}**", locus.message);
+    for (const studies::LocusRow& row : locus.rows)
+      if (!row.marked.empty())
+        text += fmt::format("\n  - {} at {}, {}", row.marked, with_error(row.first, row.first_bound),
+                            with_error(row.second, row.second_bound));
+    text += "\n";
+  }
+  return text;
+}
+
 const char* mesh_column(MeshKind mesh) { return mesh == MeshKind::sun_planet ? "delta_sp_1" : "delta_rp_1"; }
+
+/// How points of a kind are drawn.
+struct KindLook {
+  SpecialKind kind;
+  std::string_view colour;
+  double size;
+  int type;
+};
+constexpr std::array<KindLook, 6> kind_looks = {{{SpecialKind::grazing, figures::ink::light_grey, 1.0, 6},
+                                                 {SpecialKind::fold, figures::ink::dark_grey, 1.8, 7},
+                                                 {SpecialKind::flip, figures::ink::green, 1.8, 9},
+                                                 {SpecialKind::neimark_sacker, figures::ink::ochre, 1.8, 13},
+                                                 {SpecialKind::branch_point, figures::ink::purple, 1.8, 5},
+                                                 {SpecialKind::unresolved, figures::ink::red, 1.8, 2}}};
 
 using Place = std::array<double, 2>;
 constexpr double gap = std::numeric_limits<double>::quiet_NaN();
@@ -257,7 +314,7 @@ SpecialLetters letters_of(SpecialKind kind) {
 }
 
 void write_continue_tables(const std::filesystem::path& folder, const ContinueOutput& output,
-                           const TracedBranches& traced) {
+                           const TracedBranches& traced, const std::vector<studies::TracedLocus>& loci) {
   const Flat flat(traced);
   write_table_csv(folder / "branch.csv", store::branch_columns(output.planets), flat.places.size(),
                   [&](std::size_t i) { return PlaceRow(traced, flat.places[i]); });
@@ -265,10 +322,16 @@ void write_continue_tables(const std::filesystem::path& folder, const ContinueOu
                   [&](std::size_t i) -> const SpecialRow& { return traced.special[i]; });
   write_branches_csv(folder / "branches.csv", traced);
   write_section_csv(folder / "poincare.csv", output, traced);
-  write_h5(folder / "results.h5", output, traced);
+  if (output.options.loci) {
+    const auto places = locus_places(loci);
+    write_table_csv(folder / "loci.csv", store::locus_columns(), places.size(),
+                    [&](std::size_t i) -> const store::LocusPlace& { return places[i]; });
+  }
+  write_h5(folder / "results.h5", output, traced, loci);
 }
 
-std::string continue_summary(const ContinueOutput& output, const TracedBranches& traced) {
+std::string continue_summary(const ContinueOutput& output, const TracedBranches& traced,
+                             const std::vector<studies::TracedLocus>& loci) {
   std::size_t orbits = 0;
   for (const Branch& branch : traced.branches) orbits += branch.orbits.size();
   std::string text = fmt::format("# Branches of periodic motions along {}\n\n", output.options.parameter);
@@ -287,6 +350,7 @@ std::string continue_summary(const ContinueOutput& output, const TracedBranches&
     if (!a.found)
       text += fmt::format("\n- {} at {}: {}.\n", a.seed ? "Seed" : "Start", short_text(a.value, 9), a.message);
   for (std::size_t b = 0; b < traced.branches.size(); ++b) text += branch_text(output, traced, b);
+  if (output.options.loci) text += loci_text(output, traced, loci);
   return text;
 }
 
@@ -341,21 +405,8 @@ void BranchSketch::add_branches() {
 }
 
 void BranchSketch::add_special_points() {
-  struct Look {
-    SpecialKind kind;
-    std::string_view colour;
-    double size;
-    int type;
-  };
-  using enum SpecialKind;
-  constexpr std::array<Look, 6> looks = {{{grazing, figures::ink::light_grey, 1.0, 6},
-                                          {fold, figures::ink::dark_grey, 1.8, 7},
-                                          {flip, figures::ink::green, 1.8, 9},
-                                          {neimark_sacker, figures::ink::ochre, 1.8, 13},
-                                          {branch_point, figures::ink::purple, 1.8, 5},
-                                          {unresolved, figures::ink::red, 1.8, 2}}};
   const double height = y_.high - y_.low;
-  for (const Look& look : looks) {
+  for (const KindLook& look : kind_looks) {
     std::vector<Place> places;
     std::vector<Place> lettered;
     for (std::size_t i = 0; i < traced_.special.size(); ++i) {
@@ -363,7 +414,7 @@ void BranchSketch::add_special_points() {
       const std::vector<double>& section = traced_.at_special[i].section;
       if (r.kind != look.kind || column_ >= section.size()) continue;
       places.push_back({r.value, section[column_]});
-      if (look.kind == grazing || r.same_as) continue;
+      if (look.kind == SpecialKind::grazing || r.same_as) continue;
       // Letters that would lie on each other stand once.
       const double width = output_.options.to - output_.options.from;
       const bool apart = std::ranges::none_of(lettered, [&](const Place& p) {
@@ -372,8 +423,9 @@ void BranchSketch::add_special_points() {
       if (apart) lettered.push_back(places.back());
     }
     const SpecialLetters letters = letters_of(look.kind);
-    sketch_.add(places, figures::dots(look.colour, look.size, look.type),
-                look.kind == grazing ? letters.words : fmt::format("{} {}", letters.letters, letters.words));
+    sketch_.add(
+        places, figures::dots(look.colour, look.size, look.type),
+        look.kind == SpecialKind::grazing ? letters.words : fmt::format("{} {}", letters.letters, letters.words));
     sketch_.letters(lettered, letters.letters, fmt::format("offset 0.9,0.9 textcolor '{}'", look.colour));
   }
 }
@@ -444,6 +496,53 @@ DrawnFigure BranchSketch::draw(const std::filesystem::path& folder, const std::s
   x.include(output_.options.from);
   x.include(output_.options.to);
   return {none.file, sketch_.draw(folder, text, x, {}, {}, figures::FigureCanvas{1800, 1500})};
+}
+
+DrawnFigure draw_loci(const std::filesystem::path& folder, const ContinueOutput& output,
+                      const std::vector<studies::TracedLocus>& loci) {
+  const studies::LociOptions& options = output.options.loci.value();
+  figures::Sketch sketch("loci");
+  std::vector<std::pair<std::string, std::vector<Place>>> marks;
+  for (const KindLook& look : kind_looks) {
+    std::vector<Place> lines;
+    for (const studies::TracedLocus& locus : loci) {
+      if (locus.kind != look.kind) continue;
+      for (const studies::LocusRow& row : locus.rows) {
+        lines.push_back({row.first, row.second});
+        if (row.marked.empty()) continue;
+        auto found = std::ranges::find(marks, row.marked, &std::pair<std::string, std::vector<Place>>::first);
+        if (found == marks.end()) found = marks.insert(marks.end(), {row.marked, {}});
+        found->second.push_back(lines.back());
+      }
+      lines.push_back({gap, gap});
+    }
+    const SpecialLetters letters = letters_of(look.kind);
+    sketch.add(lines, figures::solid(look.colour, 2.4), fmt::format("{} {}", letters.letters, letters.words));
+  }
+  constexpr std::array<std::pair<const char*, const char*>, 10> letters = {{{"cusp", "CP"},
+                                                                            {"resonance_1_1", "R1"},
+                                                                            {"resonance_1_2", "R2"},
+                                                                            {"resonance_1_3", "R3"},
+                                                                            {"resonance_1_4", "R4"},
+                                                                            {"fold_flip", "LPPD"},
+                                                                            {"fold_neimark_sacker", "LPNS"},
+                                                                            {"flip_neimark_sacker", "PDNS"},
+                                                                            {"double_crossing", "DC"},
+                                                                            {"unresolved", "??"}}};
+  for (const auto& [word, letter] : letters)
+    for (const auto& [marked, places] : marks)
+      if (marked == word) {
+        sketch.add(places, figures::dots("#000000", 1.4), {});
+        sketch.letters(places, letter, "offset 1.2,0.8");
+      }
+  const figures::FigureText text{figures::literal_text(output.title), parameter_label(output.options.parameter),
+                                 parameter_label(options.parameter)};
+  figures::FigureRange x, y;
+  for (const double value : {output.options.from, output.options.to}) x.include(value);
+  for (const double value : {options.from, options.to}) y.include(value);
+  const bool any = std::ranges::any_of(loci, [](const studies::TracedLocus& l) { return !l.rows.empty(); });
+  return {folder / "loci.png",
+          any ? sketch.draw(folder, text, x, y) : figures::FigureOutcome{"there is no locus to draw"}};
 }
 
 std::vector<DrawnFigure> draw_continue_figures(const std::filesystem::path& folder, const ContinueOutput& output,

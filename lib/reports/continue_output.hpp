@@ -3,6 +3,7 @@
 //   branch.csv      a row per orbit      special.csv   a row per special point      branches.csv  a row per branch
 //   poincare.csv    a row per Poincare point of an orbit: branch, index, crossing, columns as of a sweep
 //   results.h5      all of it, and all multipliers
+//   loci.csv        a row per point of a locus in two parameters, if loci are asked for
 //   continue.md     in words: branches, where they are stable, where they change
 //   figures/        branches over the parameter, their contacts and largest multipliers
 //
@@ -17,6 +18,7 @@
 #include "figures/sketch.hpp"
 #include "reports/sweep_output.hpp"
 #include "studies/branches.hpp"
+#include "studies/loci.hpp"
 
 namespace epicyclic::reports {
 
@@ -31,10 +33,11 @@ struct ContinueOutput {
 /// The tables and results.h5.
 /// @throws OutputError
 void write_continue_tables(const std::filesystem::path& folder, const ContinueOutput& output,
-                           const studies::TracedBranches& traced);
+                           const studies::TracedBranches& traced, const std::vector<studies::TracedLocus>& loci);
 
 /// Text of continue.md.
-[[nodiscard]] std::string continue_summary(const ContinueOutput& output, const studies::TracedBranches& traced);
+[[nodiscard]] std::string continue_summary(const ContinueOutput& output, const studies::TracedBranches& traced,
+                                           const std::vector<studies::TracedLocus>& loci);
 
 /// "LP", "PD", "NS", "BP", "GR": the usual letters of a kind, and its words.
 struct SpecialLetters {
@@ -74,6 +77,10 @@ class BranchSketch {
   std::vector<std::vector<std::array<double, 2>>> points_;
   std::vector<std::pair<std::string, std::string>> point_looks_;
 };
+
+/// The loci in the plane of both parameters.
+[[nodiscard]] DrawnFigure draw_loci(const std::filesystem::path& folder, const ContinueOutput& output,
+                                    const std::vector<studies::TracedLocus>& loci);
 
 [[nodiscard]] std::vector<DrawnFigure> draw_continue_figures(const std::filesystem::path& folder,
                                                              const ContinueOutput& output,

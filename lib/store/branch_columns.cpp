@@ -115,27 +115,27 @@ std::vector<Column<LocusPlace>> locus_columns() {
   using Number = Column<LocusPlace>::Getter<double>;
   using Words = Column<LocusPlace>::Getter<std::string>;
   const auto integer = [](auto x) { return static_cast<std::int64_t>(x); };
-  return {{"locus", "1", "number of the locus, from 0", Integer([=](const LocusPlace& p) { return integer(p.locus); })},
-          {"index", "1", "number of the point along it, from 0",
-           Integer([=](const LocusPlace& p) { return integer(p.index); })},
-          {"kind", "", "of the special points: fold, flip, neimark_sacker, branch_point, grazing",
-           Words([](const LocusPlace& p) { return to_string(p.of.kind); })},
-          {"first", "of the parameter", "value of the parameter that branches go along",
-           Number([](const LocusPlace& p) { return p.row.first; })},
-          {"second", "of the second parameter", "value of the second parameter",
-           Number([](const LocusPlace& p) { return p.row.second; })},
-          {"error_bound", "of the parameter", "of the first value, the point moved along that axis alone or less",
-           Number([](const LocusPlace& p) { return p.row.first_bound; })},
-          {"marked", "", "point of codimension two: cusp, resonance_1_1 ..., fold_flip, ...; empty: none",
-           Words([](const LocusPlace& p) { return p.row.marked; })},
-          {"error_bound_second", "of the second parameter", "of the second value",
-           Number([](const LocusPlace& p) { return p.row.second_bound; })},
-          {"period", "mesh periods", "n of the orbits",
-           Integer([=](const LocusPlace& p) { return integer(p.of.period); })},
-          {"branch", "1", "of the special point that it was followed from",
-           Integer([=](const LocusPlace& p) { return integer(p.of.branch); })},
-          {"point", "1", "of the special point on its branch",
-           Integer([=](const LocusPlace& p) { return integer(p.of.point); })}};
+  return {
+      {"locus", "1", "number of the locus, from 0", Integer([=](const LocusPlace& p) { return integer(p.locus); })},
+      {"index", "1", "number of the point along it, from 0",
+       Integer([=](const LocusPlace& p) { return integer(p.index); })},
+      {"kind", "", "of the special points: fold, flip, neimark_sacker, branch_point, grazing",
+       Words([](const LocusPlace& p) { return to_string(p.of.kind); })},
+      {"first", "of the parameter", "value of the parameter that branches go along",
+       Number([](const LocusPlace& p) { return p.row.first; })},
+      {"second", "of the second parameter", "value of the second parameter",
+       Number([](const LocusPlace& p) { return p.row.second; })},
+      {"error_bound", "of the parameter", "of the first value, the point moved along that axis alone or less",
+       Number([](const LocusPlace& p) { return p.row.first_bound; })},
+      {"marked", "", "point of codimension two: cusp, resonance_1_1 ..., fold_flip, ...; empty: none",
+       Words([](const LocusPlace& p) { return p.row.marked; })},
+      {"error_bound_second", "of the second parameter", "of the second value",
+       Number([](const LocusPlace& p) { return p.row.second_bound; })},
+      {"period", "mesh periods", "n of the orbits", Integer([=](const LocusPlace& p) { return integer(p.of.period); })},
+      {"branch", "1", "of the special point that it was followed from",
+       Integer([=](const LocusPlace& p) { return integer(p.of.branch); })},
+      {"point", "1", "of the special point on its branch",
+       Integer([=](const LocusPlace& p) { return integer(p.of.point); })}};
 }
 
 }  // namespace epicyclic::store

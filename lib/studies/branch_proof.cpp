@@ -50,19 +50,28 @@ class OrbitsAt {
   std::map<std::tuple<std::size_t, std::size_t, double>, Eigen::MatrixXd> known_;
 };
 
-/// The last n states of a point's section.
-Eigen::MatrixXd last_states(const PointResult& point, std::size_t dimension, int n) {
-  const std::size_t rows = point.poincare_rows();
-  const auto count = static_cast<std::size_t>(n);
-  if (rows < count) return {static_cast<Eigen::Index>(dimension), 0};
-  Eigen::MatrixXd states(static_cast<Eigen::Index>(dimension), n);
-  for (std::size_t k = 0; k < count; ++k)
-    std::copy_n(point.poincare.begin() + static_cast<std::ptrdiff_t>((rows - count + k) * point.poincare_columns),
-                dimension, states.col(static_cast<Eigen::Index>(k)).data());
-  return states;
+/// A state of the point's orbit, or the last one of its section.
+Eigen::VectorXd state_of(const PointResult& point, std::size_t dimension) {
+  Eigen::VectorXd state(static_cast<Eigen::Index>(dimension));
+  if (point.orbit.size() >= dimension) {
+    std::copy_n(point.orbit.begin(), dimension, state.data());
+    return state;
+  }
+  if (point.poincare_rows() == 0) return {};
+  std::copy_n(point.poincare.end() - static_cast<std::ptrdiff_t>(point.poincare_columns), dimension, state.data());
+  return state;
 }
 
-/// The same from the branch's rows, between two neighbours.
+/// How far a state is from the nearest of an orbit's, or of its images.
+double distance_to_orbit(const Eigen::VectorXd& state, const Eigen::MatrixXd& orbit,
+                         const analysis::CyclicSymmetry& symmetry) {
+  double least = infinite;
+  for (Eigen::Index k = 0; k < orbit.cols(); ++k)
+    least = std::min(least, image_distance(state, orbit.col(k), symmetry));
+  return least;
+}
+
+/// States at the beginnings of the periods from the branch's rows, between two neighbours.
 Eigen::MatrixXd rough_states(const std::vector<BranchRow>& rows, std::size_t after, double value,
                              std::size_t dimension) {
   const BranchRow& a = rows[after];
@@ -90,9 +99,9 @@ class Locator {
 
   /// The branch of period n that the point is nearest to, if it is on it.
   void locate(const PointResult& point, int n, SweepPlace& place) {
-    const Eigen::MatrixXd states = last_states(point, dimension_, n);
+    const Eigen::VectorXd state = state_of(point, dimension_);
     place.distance = infinite;
-    if (states.cols() == 0) return;
+    if (state.size() == 0) return;
     for (std::size_t b = 0; b < traced_.branches.size(); ++b) {
       const std::vector<BranchRow>& rows = traced_.rows[b];
       if (rows.empty() || rows.front().period != n) continue;
@@ -100,9 +109,9 @@ class Locator {
       for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
         if (!holds(rows[k].value, rows[k + 1].value, point.point.value) || rows[k].value == rows[k + 1].value) continue;
         const Eigen::MatrixXd rough = rough_states(rows, k, point.point.value, dimension_);
-        if (!(image_distance(states, rough, symmetry) <= options_.near)) continue;
+        if (!(distance_to_orbit(state, rough, symmetry) <= options_.near)) continue;
         const Eigen::MatrixXd& exact = orbits_.states(b, k, point.point.value);
-        const double distance = image_distance(states, exact, symmetry);
+        const double distance = distance_to_orbit(state, exact, symmetry);
         if (!(distance < place.distance)) continue;
         place.distance = distance;
         if (distance > options_.same) continue;

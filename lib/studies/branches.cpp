@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/dense.hpp"
 #include "core/errors.hpp"
 #include "core/require.hpp"
 #include "integrate/make_flow.hpp"
@@ -167,10 +166,7 @@ BranchRow branch_row(const analysis::OrbitFamily& family, const analysis::Branch
   row.omega = model.omega;
   row.period = family.period;
   row.residual = orbit.residual;
-  for (const auto& x : epicyclic::eigenvalues(orbit.monodromy)) row.multipliers.push_back(x);
-  std::sort(row.multipliers.begin(), row.multipliers.end(), [](const auto& a, const auto& b) {
-    return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag();
-  });
+  row.multipliers = analysis::multipliers_of(family, orbit.monodromy);
   for (const auto& x : row.multipliers) row.unstable += std::abs(x) > 1.0 ? 1 : 0;
   row.stable = row.unstable == 0;
   const Eigen::MatrixXd states = analysis::period_states(family, orbit.at);

@@ -63,8 +63,8 @@ std::vector<std::size_t> points_of_loci(const TracedBranches& traced, const Loci
   if (options.near.empty()) return all;
   std::vector<std::size_t> nearest;
   for (const double value : options.near) {
-    const auto best = std::ranges::min_element(
-        all, {}, [&](std::size_t k) { return std::abs(traced.special[k].value - value); });
+    const auto best =
+        std::ranges::min_element(all, {}, [&](std::size_t k) { return std::abs(traced.special[k].value - value); });
     if (best != all.end() && std::ranges::find(nearest, *best) == nearest.end()) nearest.push_back(*best);
   }
   return nearest;
@@ -89,7 +89,8 @@ bool is_on_a_locus(const std::vector<TracedLocus>& loci, const TracedBranches& t
         continue;
       double most = 0.0;
       for (std::size_t j = 0; j < a.state.size(); ++j)
-        most = std::max(most, std::abs(a.state[j] + part * (b.state[j] - a.state[j]) - y(static_cast<Eigen::Index>(j))));
+        most =
+            std::max(most, std::abs(a.state[j] + part * (b.state[j] - a.state[j]) - y(static_cast<Eigen::Index>(j))));
       if (most <= state) return true;
     }
   }

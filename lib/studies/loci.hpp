@@ -1,7 +1,7 @@
 // Loci of the special points of a gear train's branches over a second parameter: analysis/locus.hpp on its models.
 //
-// Each point is followed both ways to the edges of the rectangle of both ranges. One that a locus before it passes is on
-// that one.
+// Each point is followed both ways to the edges of the rectangle of both ranges. One that a locus before it passes is
+// on that one.
 #pragma once
 
 #include <cstddef>
@@ -30,10 +30,10 @@ struct TracedLocus {
   std::size_t branch = 0, point = 0;  ///< of the special point that it was followed from
   analysis::SpecialKind kind = analysis::SpecialKind::fold;
   int period = 1;
-  int wave = 0;                 ///< of the symmetry that breaks
-  std::vector<LocusRow> rows;   ///< from one end to the other
+  int wave = 0;                     ///< of the symmetry that breaks
+  std::vector<LocusRow> rows;       ///< from one end to the other
   std::string first_end, last_end;  ///< "range", "closed", "many", "least_step", "resonance"
-  std::string message{};        ///< why it was broken off, or not begun
+  std::string message{};            ///< why it was broken off, or not begun
 };
 
 /// The special points whose loci are asked for, as indices of TracedBranches::special, in their order.
@@ -45,7 +45,7 @@ struct TracedLocus {
 
 /// The locus of a point, both ways.
 /// @param second  value of the second parameter on the branches
-[[nodiscard]] TracedLocus trace_locus(const ModelOverPlane& models, const TracedBranches& traced, const SpecialRow& point,
-                                      double second, const BranchesOptions& options);
+[[nodiscard]] TracedLocus trace_locus(const ModelOverPlane& models, const TracedBranches& traced,
+                                      const SpecialRow& point, double second, const BranchesOptions& options);
 
 }  // namespace epicyclic::studies

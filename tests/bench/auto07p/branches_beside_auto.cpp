@@ -1,13 +1,16 @@
 // Branches of periodic orbits beside AUTO-07p: N oscillators in a row over smooth clearances.
 //
-//   branches_beside_auto N [TOLERANCE]      its special points, and seconds per orbit of the branch
-//   branches_beside_auto N --orbit          one orbit at W = 0.3 over a period, for AUTO to start from
+//   branches_beside_auto N [TOLERANCE [FROM TO [START [FINER]]]]  its special points, found again by the tolerance
+//   FINER
+//                                                                 if that is told, and processor seconds per orbit of
+//                                                                 the branch, from the orbit at W = START on
+//   branches_beside_auto N --orbit [START]                        that orbit over a period, for AUTO to start from
 //
 // tests/bench/auto07p/compare runs both.
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -47,11 +50,13 @@ int main(int argc, char** argv) {
   if (argc < 2) return 2;
   const auto n = static_cast<std::size_t>(std::atoi(argv[1]));
   const FieldFamily fields = chain(n);
-  constexpr double start = 0.3;
+  const bool orbit_alone = argc > 2 && std::string(argv[2]) == "--orbit";
+  const int start_at = orbit_alone ? 3 : 5;
+  const double start = argc > start_at ? std::atof(argv[start_at]) : 0.3;
   std::vector<double> state(2 * n, 0.0);
   for (std::size_t i = 0; i < n; ++i) state[i] = 1.1;
-  state = problems::settled(problems::flows(fields, 1e-10), start, state, 100);
-  if (argc > 2 && std::string(argv[2]) == "--orbit") {
+  state = problems::settled(problems::flows(fields, 1e-10), start, state, 300);
+  if (orbit_alone) {
     const auto flow = problems::flows(fields, 1e-12)(start);
     constexpr int looks = 400;
     const double period = 2.0 * std::numbers::pi;
@@ -68,16 +73,22 @@ int main(int argc, char** argv) {
   family.residual = 10.0 * tolerance;
   const auto first = analysis::first_orbit(family, start, state);
   if (!first.found) return 1;
-  const auto begun = std::chrono::steady_clock::now();
-  analysis::Continuation branch(family, {.from = 0.2, .to = 2.2}, first.orbit);
+  analysis::ContinuationOptions options{.from = 0.2, .to = 2.2};
+  if (argc > 4) options.from = std::atof(argv[3]);
+  if (argc > 4) options.to = std::atof(argv[4]);
+  analysis::SpecialOptions special;
+  if (argc > 6) special.others = {{problems::flows(fields, std::atof(argv[6])), 1}};
+  // The machine may be busy: time of the processor, not of the clock.
+  const std::clock_t begun = std::clock();
+  analysis::Continuation branch(family, options, first.orbit);
   std::size_t orbits = 0;
   while (branch.advance()) {
     ++orbits;
-    for (const auto& p : special_points_between(family, branch.before(), branch.now(), {}))
+    for (const auto& p : special_points_between(family, branch.before(), branch.now(), special))
       std::printf("%s %.10f\n", to_string(p.kind).c_str(), p.value);
   }
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
-  std::printf("%zu orbits to %.4f, %.4g s per orbit\n", orbits, branch.now().at.value,
-              took.count() / static_cast<double>(orbits));
+  const double took = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
+  std::printf("%zu orbits to %.4f (end %d), %.4g s per orbit, %d evaluations\n", orbits, branch.now().at.value,
+              static_cast<int>(branch.end()), took / static_cast<double>(orbits), branch.state().evaluations);
   return 0;
 }
