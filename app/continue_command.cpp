@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <exception>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -56,7 +57,8 @@ std::vector<studies::BranchAttempt> add_starts(const studies::BranchSystem& syst
   std::vector<studies::BranchAttempt> attempts;
   const auto add = [&](double value, int period, bool seed, studies::BranchOrigin origin) {
     const bool found = origin.orbit.has_value();
-    if (found) tree.start(*std::move(origin.orbit), origin.keeps_symmetry, origin.period, origin.pieces);
+    const double reach = seed && options.seed_reach ? *options.seed_reach : std::numeric_limits<double>::infinity();
+    if (found) tree.start(*std::move(origin.orbit), origin.keeps_symmetry, origin.period, origin.pieces, reach);
     attempts.push_back({value, period, seed, found, std::move(origin.message)});
   };
   for (const double value : options.all_starts())

@@ -50,8 +50,11 @@ void BranchTree::start(BranchOrbit orbit, bool keeps_symmetry) {
   start(std::move(orbit), keeps_symmetry, system_.period, system_.pieces);
 }
 
-void BranchTree::start(BranchOrbit orbit, bool keeps_symmetry, int period, int pieces) {
-  starts_.push_back({period, pieces, keeps_symmetry, std::move(orbit)});
+void BranchTree::start(BranchOrbit orbit, bool keeps_symmetry, int period, int pieces, double reach) {
+  BranchStart start{period, pieces, keeps_symmetry, std::move(orbit)};
+  start.least = start.orbit.at.value - reach;
+  start.greatest = start.orbit.at.value + reach;
+  starts_.push_back(std::move(start));
 }
 
 std::optional<TreeStep> BranchTree::advance() {
@@ -110,11 +113,11 @@ std::vector<BranchStart> BranchTree::leaving(const SpecialPoint& point, std::siz
   const bool flip = point.kind == SpecialKind::flip && 2 * family_.period <= options_.largest_period;
   const bool branch_point = point.kind == SpecialKind::branch_point && options_.branch_points;
   if (!flip && !branch_point) return starts;
-  const ContinuationOptions& range = options_.continuation;
+  const ContinuationOptions range = range_of(current_);
   for (Departure& d : departures(family_, point, options_.switching)) {
     if (d.orbit.at.value < range.from || d.orbit.at.value > range.to) continue;
     starts.push_back({d.family.period, d.family.pieces, d.family.keeps_symmetry, std::move(d.orbit),
-                      SpecialPlace{branches_.size(), number}, std::move(d.origin)});
+                      SpecialPlace{branches_.size(), number}, std::move(d.origin), current_.least, current_.greatest});
   }
   return starts;
 }
@@ -144,7 +147,14 @@ void BranchTree::apply(TreeStep step) {
 
 void BranchTree::begin_way(const BranchOrbit& from) {
   ways_.push_back(Way{{from}, {}, {}, {}});
-  trace_.emplace(family_, options_.continuation, from);
+  trace_.emplace(family_, range_of(current_), from);
+}
+
+ContinuationOptions BranchTree::range_of(const BranchStart& start) const {
+  ContinuationOptions range = options_.continuation;
+  range.from = std::max(range.from, start.least);
+  range.to = std::min(range.to, start.greatest);
+  return range;
 }
 
 void BranchTree::end_way(const BranchLimit& limit) {

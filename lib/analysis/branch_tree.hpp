@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -67,6 +68,8 @@ struct BranchStart {
   BranchOrbit orbit;
   std::optional<SpecialPlace> from{};   ///< that it leaves: the branch begins there
   std::optional<BranchOrbit> origin{};  ///< that point
+  double least = -std::numeric_limits<double>::infinity();    ///< value that it, and what leaves it, is followed to
+  double greatest = std::numeric_limits<double>::infinity();  ///< the range is not left in any case
 };
 
 /// What one step of a tree has found.
@@ -97,8 +100,9 @@ class BranchTree {
   /// An orbit of the system's period and pieces to start from, unless a branch goes through it when its turn comes.
   /// @param keeps_symmetry  among the orbits that the symmetry leaves as they are
   void start(BranchOrbit orbit, bool keeps_symmetry);
-  /// One of another period, its least, and other pieces.
-  void start(BranchOrbit orbit, bool keeps_symmetry, int period, int pieces);
+  /// One of another period, its least, and other pieces; not followed further from its value than `reach`.
+  void start(BranchOrbit orbit, bool keeps_symmetry, int period, int pieces,
+             double reach = std::numeric_limits<double>::infinity());
   void start(BranchOrbit orbit) { start(std::move(orbit), system_.keeps_symmetry); }
 
   /// Follows the branch under way to its next orbit, or begins the next branch.
@@ -128,6 +132,7 @@ class BranchTree {
   void see(SpecialPoint point, TreeStep& step) const;
   [[nodiscard]] std::vector<BranchStart> leaving(const SpecialPoint& point, std::size_t number) const;
   void begin_way(const BranchOrbit& from);
+  [[nodiscard]] ContinuationOptions range_of(const BranchStart& start) const;
   void end_way(const BranchLimit& limit);
   void finish_branch();
   [[nodiscard]] bool loses_itself(const SpecialPoint& point) const;

@@ -81,7 +81,7 @@ void pass(A& a, std::optional<analysis::BranchOrbit>& x) {
 }
 template <class A>
 void pass(A& a, analysis::BranchStart& s) {
-  pass_all(a, s.period, s.pieces, s.keeps_symmetry, s.orbit, s.from, s.origin);
+  pass_all(a, s.period, s.pieces, s.keeps_symmetry, s.orbit, s.from, s.origin, s.least, s.greatest);
 }
 template <class A>
 void pass(A& a, analysis::ContinuationState& s) {

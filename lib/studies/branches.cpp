@@ -39,6 +39,7 @@ void BranchesOptions::validate() const {
     seed.validate();
     require(seed.value >= from && seed.value <= to, "seeds", seed.value, "within from and to");
   }
+  require(!seed_reach || *seed_reach > 0.0, "seed_reach", seed_reach.value_or(0.0), "> 0");
   require(settle_periods >= 0, "settle_periods", settle_periods, ">= 0");
   require(period >= 1, "period", period, ">= 1");
   require(largest_period >= period, "largest_period", largest_period, ">= period");
