@@ -67,6 +67,34 @@ std::vector<studies::BranchAttempt> add_starts(const studies::BranchSystem& syst
   return attempts;
 }
 
+/// What the search finds at each of its values, kept in a journal of its own; each is a start.
+std::vector<studies::FoundMotions> add_found(Session& session, const studies::BranchSystem& system,
+                                             const BranchesOptions& options, const studies::ModelAt& models,
+                                             analysis::BranchTree& tree) {
+  const studies::BranchSearchOptions& wanted = options.search.value();
+  const auto file = session.folder().file("journal.search.bin");
+  store::Journal journal(file, session.identity());
+  tell_cut_tail(file, journal.cut_bytes());
+  std::vector<studies::FoundMotions> all;
+  for (const store::JournalEntry& entry : journal.entries()) {
+    if (entry.point != all.size() || all.size() >= wanted.values.size())
+      throw store::DamagedData(fmt::format("the journal holds search {} where {} is due", entry.point, all.size()));
+    all.push_back(store::decode_found(journal.read(entry)));
+  }
+  Progress progress("continue: search", wanted.values.size(), all.size());
+  while (all.size() < wanted.values.size()) {
+    const double value = wanted.values[all.size()];
+    studies::FoundMotions found = search_motions(system, models(value), value, wanted, options.settle_periods);
+    journal.append(all.size(), store::encode_found(found));
+    all.push_back(std::move(found));
+    progress.update(all.size(), 0);
+  }
+  journal.close();
+  for (const studies::FoundMotions& found : all)
+    for (const studies::FoundMotion& m : found.motions) tree.start(m.orbit, m.keeps_symmetry, m.period, m.pieces);
+  return all;
+}
+
 /// Brings the tree to where the journal is.
 std::size_t replay(const store::Journal& journal, analysis::BranchTree& tree) {
   std::size_t steps = 0;
@@ -290,6 +318,7 @@ int continue_command(const Arguments& arguments) {
   const store::OutputFolder& folder = session.folder();
 
   TracedBranches traced;
+  std::vector<studies::FoundMotions> found;
   std::vector<studies::TracedLocus> loci;
   std::int64_t undrawn = 0;
   std::size_t failed = 0;
@@ -307,6 +336,7 @@ int continue_command(const Arguments& arguments) {
     traced.attempts = add_starts(system, options, models, tree);
     for (const studies::BranchAttempt& a : traced.attempts)
       if (!a.found) tell("{} at {}: {}\n", a.seed ? "seed" : "start", short_text(a.value, 9), a.message);
+    if (options.search) found = add_found(session, system, options, models, tree);
     grow(session, options, tree);
     traced.branches = tree.branches();
     traced.full = tree.full();
@@ -323,7 +353,9 @@ int continue_command(const Arguments& arguments) {
   const reports::ContinueOutput output{options, studies::poincare_columns(first_model),
                                        static_cast<std::size_t>(first_model.planets), session.resolved(),
                                        reports::figure_title(input.study)};
-  const std::string summary = reports::continue_summary(output, traced, loci);
+  const std::string summary =
+      reports::continue_summary(output, traced, loci) + reports::found_text(output, found);
+  if (options.search) reports::write_found_csv(folder.file("orbits.csv"), found);
   reports::write_continue_tables(folder.path(), output, traced, loci);
   write_file_atomically(folder.file("continue.md"), summary);
   auto figures = reports::draw_continue_figures(folder.file("figures"), output, traced);

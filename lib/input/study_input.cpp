@@ -775,6 +775,7 @@ void check_branches(const studies::BranchesOptions& b, const gear::Stage& stage,
   };
   check_each("/study/starts", b.starts);
   check_each("/study/values", b.values);
+  if (b.search) check_each("/study/search/values", b.search->values);
   if (b.largest_period < b.period)
     refuse("/study/largest_period",
            "is " + std::to_string(b.largest_period) + ", must be >= period = " + std::to_string(b.period));

@@ -776,6 +776,37 @@ Field<Study> seeds_field() {
   return field;
 }
 
+const Table<studies::BranchSearchOptions>& search_table() {
+  static const auto table = [] {
+    using studies::BranchSearchOptions;
+    Table<BranchSearchOptions> t("search", "A search for motions that exist side by side, stable or not.");
+    t.numbers("values", &BranchSearchOptions::values, between(-1e300, 1e300), 1, 1000,
+              "Values of the parameter at which it is made.")
+        .required();
+    t.integer("starts", &BranchSearchOptions::starts, between(1, 1e6),
+              "Starts of Newton's method: half of them on a settled motion, half random ones about it [-].");
+    t.number("spread", &BranchSearchOptions::spread, between(0, 1e6),
+             "Half width of the box of the random starts, in b_c and b_c per tau.");
+    t.integer("largest_period", &BranchSearchOptions::largest_period, between(1, period_most),
+              "Longest period that is sought, in mesh periods [-].");
+    return t;
+  }();
+  return table;
+}
+
+/// A part of branches that there may be.
+template <class U>
+table_detail::Access<Study, U> in_branches(std::optional<U> BranchesOptions::*member) {
+  return {[=](Study& s) -> U& {
+            auto& held = std::get<BranchesOptions>(s.plan).*member;
+            return held ? *held : held.emplace();
+          },
+          [=](const Study& s) -> const U* {
+            const auto& held = std::get<BranchesOptions>(s.plan).*member;
+            return held ? &*held : nullptr;
+          }};
+}
+
 const Table<studies::LociOptions>& loci_table() {
   static const auto table = [] {
     using analysis::SpecialKind;
@@ -835,16 +866,8 @@ const Table<Study>& continue_table() {
              "Longest step along a branch, in units of the parameter and of b_c together [-].");
     t.integer("output_phases", of(&BranchesOptions::output_phases), between(1, 10000),
               "Output points per mesh period, among which extrema are looked for [-].");
-    const table_detail::Access<Study, studies::LociOptions> loci{[](Study& s) -> studies::LociOptions& {
-                                                                   auto& held = std::get<BranchesOptions>(s.plan).loci;
-                                                                   return held ? *held : held.emplace();
-                                                                 },
-                                                                 [](const Study& s) -> const studies::LociOptions* {
-                                                                   const auto& held =
-                                                                       std::get<BranchesOptions>(s.plan).loci;
-                                                                   return held ? &*held : nullptr;
-                                                                 }};
-    t.object("loci", loci, loci_table());
+    t.object("search", in_branches(&BranchesOptions::search), search_table());
+    t.object("loci", in_branches(&BranchesOptions::loci), loci_table());
     return t;
   }();
   return table;

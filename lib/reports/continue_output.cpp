@@ -330,6 +330,35 @@ void write_continue_tables(const std::filesystem::path& folder, const ContinueOu
   write_h5(folder / "results.h5", output, traced, loci);
 }
 
+void write_found_csv(const std::filesystem::path& file, const std::vector<studies::FoundMotions>& found) {
+  CsvWriter csv(file, {"value", "orbit", "period", "in_step", "stable", "unstable", "multiplier_max", "images", "starts"});
+  for (const studies::FoundMotions& at : found)
+    for (std::size_t k = 0; k < at.motions.size(); ++k) {
+      const studies::FoundMotion& m = at.motions[k];
+      csv.row(at.value, k, m.period, m.keeps_symmetry ? 1 : 0, m.unstable == 0 ? 1 : 0, m.unstable, m.multiplier_max,
+              m.images, m.starts);
+    }
+  csv.commit();
+}
+
+std::string found_text(const ContinueOutput& output, const std::vector<studies::FoundMotions>& found) {
+  std::string text;
+  for (const studies::FoundMotions& at : found) {
+    const auto stable = std::ranges::count_if(at.motions, [](const auto& m) { return m.unstable == 0; });
+    text += fmt::format(
+        "\n## Motions at {} = {}\n\n{} periodic motions up to period {} from {} starts, {} of them stable; {} starts led to "
+        "none. No number of starts proves that there are no others.\n",
+        output.options.parameter, short_text(at.value, 9), at.motions.size(),
+        output.options.search ? output.options.search->largest_period : 1, at.starts, stable, at.missed);
+    if (at.motions.empty()) continue;
+    text += "\n| period | planets in step | multipliers beyond 1 | largest | images | starts |\n|---|---|---|---|---|---|\n";
+    for (const studies::FoundMotion& m : at.motions)
+      text += fmt::format("| {} | {} | {} | {:.4g} | {} | {} |\n", m.period, m.keeps_symmetry ? "yes" : "no", m.unstable,
+                          m.multiplier_max, m.images, m.starts);
+  }
+  return text;
+}
+
 std::string continue_summary(const ContinueOutput& output, const TracedBranches& traced,
                              const std::vector<studies::TracedLocus>& loci) {
   std::size_t orbits = 0;

@@ -3,6 +3,7 @@
 //   branch.csv      a row per orbit      special.csv   a row per special point      branches.csv  a row per branch
 //   poincare.csv    a row per Poincare point of an orbit: branch, index, crossing, columns as of a sweep
 //   results.h5      all of it, and all multipliers
+//   orbits.csv      a row per motion that a search has found, if one is asked for
 //   loci.csv        a row per point of a locus in two parameters, if loci are asked for
 //   continue.md     in words: branches, where they are stable, where they change
 //   figures/        branches over the parameter, their contacts and largest multipliers
@@ -17,6 +18,7 @@
 
 #include "figures/sketch.hpp"
 #include "reports/sweep_output.hpp"
+#include "studies/branch_search.hpp"
 #include "studies/branches.hpp"
 #include "studies/loci.hpp"
 
@@ -34,6 +36,13 @@ struct ContinueOutput {
 /// @throws OutputError
 void write_continue_tables(const std::filesystem::path& folder, const ContinueOutput& output,
                            const studies::TracedBranches& traced, const std::vector<studies::TracedLocus>& loci);
+
+/// orbits.csv.
+/// @throws OutputError
+void write_found_csv(const std::filesystem::path& file, const std::vector<studies::FoundMotions>& found);
+
+/// What was found, in words, for continue.md.
+[[nodiscard]] std::string found_text(const ContinueOutput& output, const std::vector<studies::FoundMotions>& found);
 
 /// Text of continue.md.
 [[nodiscard]] std::string continue_summary(const ContinueOutput& output, const studies::TracedBranches& traced,

@@ -101,6 +101,15 @@ void pass(A& a, studies::TracedLocus& l) {
   pass_all(a, l.branch, l.point, l.kind, l.period, l.wave, l.rows, l.first_end, l.last_end, l.message);
 }
 
+template <class A>
+void pass(A& a, studies::FoundMotion& m) {
+  pass_all(a, m.orbit, m.period, m.pieces, m.keeps_symmetry, m.images, m.unstable, m.multiplier_max, m.starts);
+}
+template <class A>
+void pass(A& a, studies::FoundMotions& f) {
+  pass_all(a, f.value, f.starts, f.missed, f.motions);
+}
+
 }  // namespace archive
 
 std::vector<std::byte> encode_step(const analysis::TreeStep& step) { return archive::encode(step); }
@@ -113,6 +122,12 @@ std::vector<std::byte> encode_locus(const studies::TracedLocus& locus) { return 
 
 studies::TracedLocus decode_locus(std::span<const std::byte> record) {
   return archive::decode<studies::TracedLocus>(record);
+}
+
+std::vector<std::byte> encode_found(const studies::FoundMotions& found) { return archive::encode(found); }
+
+studies::FoundMotions decode_found(std::span<const std::byte> record) {
+  return archive::decode<studies::FoundMotions>(record);
 }
 
 }  // namespace epicyclic::store

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/branch_tree.hpp"
+#include "studies/branch_search.hpp"
 #include "studies/loci.hpp"
 
 namespace epicyclic::store {
@@ -20,5 +21,11 @@ namespace epicyclic::store {
 
 /// @throws DamagedData when the record is not one of encode_locus()
 [[nodiscard]] studies::TracedLocus decode_locus(std::span<const std::byte> record);
+
+/// What a search has found at one value.
+[[nodiscard]] std::vector<std::byte> encode_found(const studies::FoundMotions& found);
+
+/// @throws DamagedData when the record is not one of encode_found()
+[[nodiscard]] studies::FoundMotions decode_found(std::span<const std::byte> record);
 
 }  // namespace epicyclic::store

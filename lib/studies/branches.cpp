@@ -50,10 +50,11 @@ void BranchesOptions::validate() const {
   require(largest_step > 0.0, "largest_step", largest_step, "> 0");
   require(output_phases >= 1, "output_phases", output_phases, ">= 1");
   if (loci) loci->validate();
+  if (search) search->validate();
 }
 
 std::vector<double> BranchesOptions::all_starts() const {
-  if (!starts.empty() || !seeds.empty()) return starts;
+  if (!starts.empty() || !seeds.empty() || search) return starts;
   return {from, grid_value(from, to, 0.5), to};
 }
 

@@ -34,12 +34,23 @@ struct LociOptions {
   void validate() const;
 };
 
+/// A search for motions that exist side by side, stable or not (studies/branch_search.hpp).
+struct BranchSearchOptions {
+  std::vector<double> values{};  ///< of the parameter, at which it is made
+  int starts = 60;               ///< half of them on a motion, half in a box about where it settles
+  double spread = 1;             ///< half width of the box [b_c, b_c per tau]
+  int largest_period = 1;        ///< of the motions, from 1 [mesh periods]
+
+  /// @throws InputError for no values, and counts or a spread out of range
+  void validate() const;
+};
+
 struct BranchesOptions {
   std::string parameter = "mesh_frequency_ratio";  ///< its name, or a JSON pointer to a number of the input
   double from = 0.2, to = 3.5;                     ///< range of its values, from < to
 
   std::vector<double> starts{};  ///< values at which a motion settles from the default start, and is followed; without
-                                 ///< seeds none means the ends of the range and its middle
+                                 ///< seeds and search none means the ends of the range and its middle
   int settle_periods = 400;      ///< mesh periods that it is given for it
   int period = 1;                ///< of these motions [mesh periods]
   std::vector<BranchSeed> seeds{};
@@ -56,6 +67,7 @@ struct BranchesOptions {
   double largest_step = 0.1;  ///< of the arc length [-]
   int output_phases = 64;     ///< at which extrema of an orbit are looked for, in a mesh period, as in a sweep
 
+  std::optional<BranchSearchOptions> search{};
   std::optional<LociOptions> loci{};
 
   /// The starts, those that are meant where none are given among them.
