@@ -150,6 +150,35 @@ void tell_rows(TracedBranches& traced, const studies::ModelAt& models, int phase
   }
 }
 
+/// Of a study with a smooth clearance: where the special points are with the exact one, each kept in a journal.
+void tell_exact_values(Session& session, const input::LoadedInput& input, const BranchesOptions& options,
+                       TracedBranches& traced) {
+  const double width = input.study.model.clearance_smoothing;
+  const auto plane =
+      input::model_plane(input, options.parameter, "/integrator/clearance_smoothing", family_step(options));
+  const studies::ModelOverPlane models = [&](double first, double second) {
+    if (stop_requested()) throw Stopped();
+    return plane(first, second);
+  };
+  const auto file = session.folder().file("journal.exact.bin");
+  store::Journal journal(file, session.identity());
+  tell_cut_tail(file, journal.cut_bytes());
+  std::size_t known = 0;
+  for (const store::JournalEntry& entry : journal.entries()) {
+    if (entry.point != known || known >= traced.special.size())
+      throw store::DamagedData(fmt::format("the journal holds exact value {} where {} is due", entry.point, known));
+    traced.special[known++].exact = store::decode_exact(journal.read(entry));
+  }
+  Progress progress("continue: exact clearance", traced.special.size(), known);
+  for (; known < traced.special.size(); ++known) {
+    studies::SpecialRow& row = traced.special[known];
+    row.exact = exact_value(models, traced, row, width, options);
+    journal.append(known, store::encode_exact(row.exact));
+    progress.update(known + 1, 0);
+  }
+  journal.close();
+}
+
 /// The loci that are asked for, each kept in a journal of their own when it is whole.
 std::vector<studies::TracedLocus> trace_loci(Session& session, const input::LoadedInput& input,
                                              const BranchesOptions& options, const TracedBranches& traced) {
@@ -341,6 +370,8 @@ int continue_command(const Arguments& arguments) {
     traced.branches = tree.branches();
     traced.full = tree.full();
     if (!traced.branches.empty()) tell_rows(traced, models, options.output_phases);
+    if (input.study.model.clearance_smoothing > 0.0 && options.parameter != "/integrator/clearance_smoothing")
+      tell_exact_values(session, input, options, traced);
     if (options.loci) loci = trace_loci(session, input, options, traced);
   } catch (const Stopped&) {
     close_run(store::RunState::stopped);
@@ -353,8 +384,7 @@ int continue_command(const Arguments& arguments) {
   const reports::ContinueOutput output{options, studies::poincare_columns(first_model),
                                        static_cast<std::size_t>(first_model.planets), session.resolved(),
                                        reports::figure_title(input.study)};
-  const std::string summary =
-      reports::continue_summary(output, traced, loci) + reports::found_text(output, found);
+  const std::string summary = reports::continue_summary(output, traced, loci) + reports::found_text(output, found);
   if (options.search) reports::write_found_csv(folder.file("orbits.csv"), found);
   reports::write_continue_tables(folder.path(), output, traced, loci);
   write_file_atomically(folder.file("continue.md"), summary);

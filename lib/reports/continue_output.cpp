@@ -208,11 +208,13 @@ std::string end_text(const ContinueOutput& output, const BranchLimit& limit, dou
 }
 
 std::string what_text(const SpecialRow& r) {
-  if (!r.contact.empty()) return r.contact;
-  std::string text;
+  std::string text = r.contact;
   if (!r.broken_symmetry.empty()) text = "breaks the planets' symmetry: " + r.broken_symmetry;
   if (r.same_as)
     text += fmt::format("{}point {} of branch {}", text.empty() ? "" : ", ", r.same_as->point, r.same_as->branch);
+  if (r.exact)
+    text += fmt::format("{}with the exact clearance {}", text.empty() ? "" : ", ",
+                        with_error(r.exact->value, r.exact->bound));
   if (!r.note.empty()) text += (text.empty() ? "" : ", ") + r.note;
   return text;
 }
@@ -331,7 +333,8 @@ void write_continue_tables(const std::filesystem::path& folder, const ContinueOu
 }
 
 void write_found_csv(const std::filesystem::path& file, const std::vector<studies::FoundMotions>& found) {
-  CsvWriter csv(file, {"value", "orbit", "period", "in_step", "stable", "unstable", "multiplier_max", "images", "starts"});
+  CsvWriter csv(file,
+                {"value", "orbit", "period", "in_step", "stable", "unstable", "multiplier_max", "images", "starts"});
   for (const studies::FoundMotions& at : found)
     for (std::size_t k = 0; k < at.motions.size(); ++k) {
       const studies::FoundMotion& m = at.motions[k];
@@ -346,15 +349,18 @@ std::string found_text(const ContinueOutput& output, const std::vector<studies::
   for (const studies::FoundMotions& at : found) {
     const auto stable = std::ranges::count_if(at.motions, [](const auto& m) { return m.unstable == 0; });
     text += fmt::format(
-        "\n## Motions at {} = {}\n\n{} periodic motions up to period {} from {} starts, {} of them stable; {} starts led to "
+        "\n## Motions at {} = {}\n\n{} periodic motions up to period {} from {} starts, {} of them stable; {} starts "
+        "led to "
         "none. No number of starts proves that there are no others.\n",
         output.options.parameter, short_text(at.value, 9), at.motions.size(),
         output.options.search ? output.options.search->largest_period : 1, at.starts, stable, at.missed);
     if (at.motions.empty()) continue;
-    text += "\n| period | planets in step | multipliers beyond 1 | largest | images | starts |\n|---|---|---|---|---|---|\n";
+    text +=
+        "\n| period | planets in step | multipliers beyond 1 | largest | images | starts "
+        "|\n|---|---|---|---|---|---|\n";
     for (const studies::FoundMotion& m : at.motions)
-      text += fmt::format("| {} | {} | {} | {:.4g} | {} | {} |\n", m.period, m.keeps_symmetry ? "yes" : "no", m.unstable,
-                          m.multiplier_max, m.images, m.starts);
+      text += fmt::format("| {} | {} | {} | {:.4g} | {} | {} |\n", m.period, m.keeps_symmetry ? "yes" : "no",
+                          m.unstable, m.multiplier_max, m.images, m.starts);
   }
   return text;
 }

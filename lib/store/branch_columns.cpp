@@ -107,6 +107,10 @@ std::vector<Column<studies::SpecialRow>> special_columns() {
       {"same_as", "", "branch:point of an earlier branch, if it is that one", Words([](const SpecialRow& r) {
          return r.same_as ? std::to_string(r.same_as->branch) + ":" + std::to_string(r.same_as->point) : std::string();
        })},
+      {"exact_value", "of the parameter", "with a smooth clearance: the value extrapolated to the exact one",
+       Number([](const SpecialRow& r) { return r.exact ? r.exact->value : unknown; })},
+      {"exact_bound", "of the parameter", "its error bound",
+       Number([](const SpecialRow& r) { return r.exact ? r.exact->bound : unknown; })},
       {"note", "", "what was not as usual", Words([](const SpecialRow& r) { return r.note; })}};
 }
 

@@ -110,6 +110,19 @@ void pass(A& a, studies::FoundMotions& f) {
   pass_all(a, f.value, f.starts, f.missed, f.motions);
 }
 
+template <class A>
+void pass(A& a, analysis::ExactValue& e) {
+  pass_all(a, e.value, e.bound);
+}
+/// In a record of its own.
+struct ExactRecord {
+  std::optional<analysis::ExactValue> exact;
+};
+template <class A>
+void pass(A& a, ExactRecord& r) {
+  pass_if_there(a, r.exact);
+}
+
 }  // namespace archive
 
 std::vector<std::byte> encode_step(const analysis::TreeStep& step) { return archive::encode(step); }
@@ -128,6 +141,14 @@ std::vector<std::byte> encode_found(const studies::FoundMotions& found) { return
 
 studies::FoundMotions decode_found(std::span<const std::byte> record) {
   return archive::decode<studies::FoundMotions>(record);
+}
+
+std::vector<std::byte> encode_exact(const std::optional<analysis::ExactValue>& exact) {
+  return archive::encode(archive::ExactRecord{exact});
+}
+
+std::optional<analysis::ExactValue> decode_exact(std::span<const std::byte> record) {
+  return archive::decode<archive::ExactRecord>(record).exact;
 }
 
 }  // namespace epicyclic::store

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,5 +28,11 @@ namespace epicyclic::store {
 
 /// @throws DamagedData when the record is not one of encode_found()
 [[nodiscard]] studies::FoundMotions decode_found(std::span<const std::byte> record);
+
+/// A value with the exact clearance, if there is one.
+[[nodiscard]] std::vector<std::byte> encode_exact(const std::optional<analysis::ExactValue>& exact);
+
+/// @throws DamagedData when the record is not one of encode_exact()
+[[nodiscard]] std::optional<analysis::ExactValue> decode_exact(std::span<const std::byte> record);
 
 }  // namespace epicyclic::store

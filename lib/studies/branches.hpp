@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "analysis/branch_tree.hpp"
+#include "analysis/smoothing_bias.hpp"
 #include "studies/branches_options.hpp"
 #include "studies/mesh_watch.hpp"
 #include "studies/sweep.hpp"
@@ -91,6 +92,7 @@ struct SpecialRow {
   /// Of a grazing, which contact is first made or lost: "sp_1+sp_2+sp_3:loss", "rp_1:back", "sun_bearing_x:touch".
   std::string contact;
   std::optional<analysis::SpecialPlace> same_as{};  ///< the point of an earlier branch that it is
+  std::optional<analysis::ExactValue> exact{};      ///< with a smooth clearance: the value with the exact one
   std::string note;
 };
 

@@ -55,7 +55,7 @@ struct BranchesOptions {
   int period = 1;                ///< of these motions [mesh periods]
   std::vector<BranchSeed> seeds{};
   std::optional<double> seed_reach{};  ///< how far from a seed's value its branches are followed; none: all the range
-  std::vector<double> values{};  ///< at which orbits are wanted exactly
+  std::vector<double> values{};        ///< at which orbits are wanted exactly
 
   int largest_period = 2;     ///< that flips are followed to [mesh periods]
   bool branch_points = true;  ///< are the branches followed that leave branch points?

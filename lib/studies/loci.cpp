@@ -45,6 +45,35 @@ const char* end_word(LocusEnd end) {
   return "";
 }
 
+/// A range of the second parameter, and a value in it.
+struct SecondRange {
+  double from = 0, to = 0, value = 0;
+};
+
+/// What a locus of a branch's points is traced on and with.
+std::pair<analysis::OrbitSurface, analysis::LocusOptions> plane_of(const ModelOverPlane& models,
+                                                                   const analysis::Branch& branch, double first,
+                                                                   const SecondRange& second,
+                                                                   const BranchesOptions& options, int points) {
+  const bool contacts = models(first, second.value).surfaces.count > 0;
+  analysis::OrbitSurface surface;
+  surface.flows = flows_of(models, options.tolerance, contacts);
+  surface.family = branch.family;
+  surface.family.value_scale = options.to - options.from;
+  surface.second_scale = second.to - second.from;
+  analysis::LocusOptions o;
+  o.along.from = options.from;
+  o.along.to = options.to;
+  o.along.largest_step = options.largest_step;
+  o.along.first_step = std::min(o.along.first_step, options.largest_step);
+  o.along.orbits = static_cast<std::size_t>(points);
+  o.second_from = second.from;
+  o.second_to = second.to;
+  const auto finer = flows_of(models, 0.1 * options.tolerance, contacts);
+  o.others = {{finer, 1}, {finer, 2}};
+  return {std::move(surface), std::move(o)};
+}
+
 }  // namespace
 
 void LociOptions::validate() const {
@@ -109,24 +138,8 @@ TracedLocus trace_locus(const ModelOverPlane& models, const TracedBranches& trac
   result.kind = point.kind;
   result.period = point.period;
   result.wave = special.wave;
-
-  const bool contacts = models(point.value, second).surfaces.count > 0;
-  analysis::OrbitSurface surface;
-  surface.flows = flows_of(models, options.tolerance, contacts);
-  surface.family = branch.family;
-  surface.family.value_scale = options.to - options.from;
-  surface.second_scale = wanted.to - wanted.from;
-  analysis::LocusOptions o;
-  o.along.from = options.from;
-  o.along.to = options.to;
-  o.along.largest_step = options.largest_step;
-  o.along.first_step = std::min(o.along.first_step, options.largest_step);
-  o.along.orbits = static_cast<std::size_t>(wanted.points);
-  o.second_from = wanted.from;
-  o.second_to = wanted.to;
-  const auto finer = flows_of(models, 0.1 * options.tolerance, contacts);
-  o.others = {{finer, 1}, {finer, 2}};
-
+  const auto [surface, o] =
+      plane_of(models, branch, point.value, {wanted.from, wanted.to, second}, options, wanted.points);
   const analysis::LocusCorrection start = locus_start(surface, special, second);
   if (!start.found) {
     result.message = start.message;
@@ -157,6 +170,43 @@ TracedLocus trace_locus(const ModelOverPlane& models, const TracedBranches& trac
   result.rows.push_back(std::move(here));
   std::ranges::move(forward, std::back_inserter(result.rows));
   return result;
+}
+
+std::optional<analysis::ExactValue> exact_value(const ModelOverPlane& models, const TracedBranches& traced,
+                                                const SpecialRow& point, double width, const BranchesOptions& options) {
+  using analysis::SpecialKind;
+  if (point.kind == SpecialKind::unresolved ||
+      (point.kind == SpecialKind::branch_point && point.broken_symmetry.empty()))
+    return std::nullopt;
+  const analysis::Branch& branch = traced.branches[point.branch];
+  const analysis::SpecialPoint& special = branch.special[point.point];
+  const analysis::LocusSubject subject = analysis::subject_of(special);
+  std::vector<analysis::SmoothedValue> values = {{width, point.value}};
+  double bound = point.error_bound;
+  std::optional<LocusPoint> from;
+  constexpr int most = 200;
+  constexpr double slack = 1.001;  // the start is on its width to rounding
+  for (int halving = 0; halving < 3; ++halving) {
+    const double here = values.back().width;
+    const auto [surface, o] = plane_of(models, branch, values.back().value, {0.5 * here, slack * here, here}, options, most);
+    if (!from) {
+      const analysis::LocusCorrection start = locus_start(surface, special, width);
+      if (!start.found) return std::nullopt;
+      from = analysis::reversed(start.point);
+    }
+    LocusTrace trace(surface, subject, o, *from);
+    while (trace.advance()) {
+    }
+    if (trace.end() != LocusEnd::range || trace.now().second() != 0.5 * here) return std::nullopt;
+    from = trace.now();
+    values.push_back({0.5 * here, from->first()});
+    bound = std::max(bound, from->first_bound);
+  }
+  analysis::ExactValue exact = analysis::extrapolated_to_exact(values);
+  // The extrapolation passes the values' own errors on, grown by less.
+  constexpr double growth = 4.0;
+  exact.bound += growth * bound;
+  return exact;
 }
 
 }  // namespace epicyclic::studies

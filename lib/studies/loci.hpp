@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "analysis/locus.hpp"
+#include "analysis/smoothing_bias.hpp"
 #include "studies/branches.hpp"
 
 namespace epicyclic::studies {
@@ -47,5 +48,13 @@ struct TracedLocus {
 /// @param second  value of the second parameter on the branches
 [[nodiscard]] TracedLocus trace_locus(const ModelOverPlane& models, const TracedBranches& traced,
                                       const SpecialRow& point, double second, const BranchesOptions& options);
+
+/// Where a point found with a smooth clearance of width w has it with the exact one [A-smooth]: from w, w/2, w/4 and
+/// w/8, along the locus over the width.
+/// @param models  at values of the parameter and of the width
+/// @returns nothing for a point that has no locus, or whose locus does not get there
+[[nodiscard]] std::optional<analysis::ExactValue> exact_value(const ModelOverPlane& models,
+                                                              const TracedBranches& traced, const SpecialRow& point,
+                                                              double width, const BranchesOptions& options);
 
 }  // namespace epicyclic::studies
