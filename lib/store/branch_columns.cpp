@@ -129,7 +129,7 @@ std::vector<Column<LocusPlace>> locus_columns() {
        Number([](const LocusPlace& p) { return p.row.first; })},
       {"second", "of the second parameter", "value of the second parameter",
        Number([](const LocusPlace& p) { return p.row.second; })},
-      {"error_bound", "of the parameter", "of the first value, the point moved along that axis alone or less",
+      {"error_bound", "of the parameter", "of the first value",
        Number([](const LocusPlace& p) { return p.row.first_bound; })},
       {"marked", "", "point of codimension two: cusp, resonance_1_1 ..., fold_flip, ...; empty: none",
        Words([](const LocusPlace& p) { return p.row.marked; })},

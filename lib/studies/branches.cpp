@@ -215,6 +215,22 @@ std::string contact_event(const model::ContactSurface& surface, bool least) {
   return least ? "back" : "back_loss";
 }
 
+/// Puts a part among those before the colon, in their order: "sp_1+sp_3:loss" and "sp_2".
+void add_part(std::string& contact, const std::string& part) {
+  const std::size_t colon = contact.find(':');
+  std::size_t at = 0;
+  while (at < colon) {
+    const std::size_t end = std::min(contact.find('+', at), colon);
+    if (contact.substr(at, end - at) > part) break;
+    at = end + 1;
+  }
+  if (at > colon) {
+    contact.insert(colon, "+" + part);
+  } else {
+    contact.insert(at, part + "+");
+  }
+}
+
 /// Multipliers of the whole monodromy that a point is about.
 std::vector<std::complex<double>> critical_multipliers(const analysis::SpecialPoint& point, int order) {
   using analysis::SpecialKind;
@@ -274,7 +290,7 @@ std::vector<SpecialRow> special_rows(const std::vector<analysis::Branch>& branch
                              last.contact.compare(0, 2, surface.part, 0, 2) == 0 && surface.mesh &&
                              std::abs(last.value - point.value) <= last.error_bound + point.error_bound;
           if (alike) {
-            last.contact.insert(last.contact.size() - event.size(), "+" + surface.part);
+            add_part(last.contact, surface.part);
             last.error_bound = std::max(last.error_bound, point.error_bound);
             continue;
           }

@@ -7,6 +7,8 @@
 #include <limits>
 #include <random>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -126,6 +128,25 @@ TEST(Csv, RowOfTheWrongWidthIsALogicError) {
   EXPECT_THROW(table.row(1), std::logic_error);
   CsvWriter other({"a", "b"});
   EXPECT_THROW(other.row(1, 2, 3), std::logic_error);
+}
+
+TEST(Csv, IsReadAsItWasWritten) {
+  CsvWriter table({"a", "with, a comma", "c"});
+  table.row(1.5, "plain", 3);
+  table.row(std::numeric_limits<double>::quiet_NaN(), "a \"quote\", and\nlines", -1);
+  const auto read = parse_csv(table.text());
+  ASSERT_TRUE(read.has_value());
+  EXPECT_EQ(read->columns, (std::vector<std::string>{"a", "with, a comma", "c"}));
+  ASSERT_EQ(read->rows.size(), 2U);
+  EXPECT_EQ(read->rows[0], (std::vector<std::string>{"1.5", "plain", "3"}));
+  EXPECT_EQ(read->rows[1], (std::vector<std::string>{"", "a \"quote\", and\nlines", "-1"}));
+  EXPECT_EQ(read->index_of("c"), 2U);
+  EXPECT_EQ(read->index_of("d"), 3U);
+}
+
+TEST(Csv, WhatIsNoTableIsNotRead) {
+  for (const char* text : {"", "a,b", "a,b\n1\n", "a,b\n1,2,3\n", "a,b\n1,2", "a\n\"open\n"})
+    EXPECT_FALSE(parse_csv(text).has_value()) << text;
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "reports/sweep_output.hpp"
+#include "store/branch_columns.hpp"
 #include "store/hdf5_file.hpp"
 #include "studies/point_source.hpp"
 #include "temporary_folder.hpp"
@@ -120,15 +121,24 @@ TEST(PointColumns, AreTheSameInTablesAndInHdf5) {
   }
 }
 
-TEST(PointColumns, StandInTheDocumentation) {
-  const std::string page = contents("docs/output.md");
-  std::size_t from = 0;
-  for (const store::PointColumn& column : store::point_columns(0)) {
+/// Rows of the page's tables, in the order of the columns, behind a place of the page.
+template <class Row>
+void expect_documented(const std::vector<store::Column<Row>>& columns, const std::string& page, std::size_t& from) {
+  for (const store::Column<Row>& column : columns) {
     const std::string row = "| `" + column.name + "` | " + column.unit + " | " + column.meaning + " |";
     const std::size_t at = page.find(row, from);
     EXPECT_NE(at, std::string::npos) << "missing, or not in this place: " << row;
     if (at != std::string::npos) from = at;
   }
+}
+
+TEST(PointColumns, StandInTheDocumentation) {
+  const std::string page = contents("docs/output.md");
+  std::size_t from = 0;
+  expect_documented(store::point_columns(0), page, from);
+  expect_documented(store::branch_columns(0), page, from);
+  expect_documented(store::special_columns(), page, from);
+  expect_documented(store::locus_columns(), page, from);
 }
 
 }  // namespace
