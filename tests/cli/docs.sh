@@ -32,6 +32,7 @@ declare -A cut=(
   [sweep]="--set /study/points=3 ${few[*]}"
   [map]="${plane[*]} ${few[*]}"
   [basins]="${plane[*]} ${few[*]} --set /study/transient=fixed"
+  [continue]="--set /study/largest_period=1 --set /study/orbits=2 --set /study/branches=1 --set /study/settle_periods=40 --set /study/tolerance=1e-7"
   [run]="--set /study/transient=fixed --set /study/transient_periods=2 --set /study/recorded_periods=16 --set /study/exponent_periods=12 --set /study/spectrum_periods=16 --set /study/history_periods=2"
   [tolerance]="--set /study/points=1 --set /study/from=2.8 --set /study/transient_periods=20 --set /study/recorded_periods=16 --set /study/tolerances=[1e-5,1e-6] --set /study/methods=[\"arkode-dopri5\"] --set /study/chaotic_periods=64"
   [crosscheck]="--set /study/points=1 --set /study/from=2.8 --set /study/to=2.8 --set /study/transient_periods=20 --set /study/recorded_periods=16 --set /study/methods=[\"arkode-dopri5\",\"cvode-adams\"]"
