@@ -59,7 +59,7 @@ std::vector<studies::BranchAttempt> add_starts(const studies::BranchSystem& syst
     const bool found = origin.orbit.has_value();
     const double reach = seed && options.seed_reach ? *options.seed_reach : std::numeric_limits<double>::infinity();
     if (found) tree.start(*std::move(origin.orbit), origin.keeps_symmetry, origin.period, origin.pieces, reach);
-    attempts.push_back({value, period, seed, found, std::move(origin.message)});
+    attempts.push_back({value, period, seed, found, origin.distance, std::move(origin.message)});
   };
   for (const double value : options.all_starts())
     add(value, options.period, false, settled_start(system, models(value), value, options.settle_periods));
@@ -364,7 +364,7 @@ int continue_command(const Arguments& arguments) {
     analysis::BranchTree tree(system.system, system.options);
     traced.attempts = add_starts(system, options, models, tree);
     for (const studies::BranchAttempt& a : traced.attempts)
-      if (!a.found) tell("{} at {}: {}\n", a.seed ? "seed" : "start", short_text(a.value, 9), a.message);
+      if (const std::string words = reports::attempt_text(a); !words.empty()) tell("{}\n", words);
     if (options.search) found = add_found(session, system, options, models, tree);
     grow(session, options, tree);
     traced.branches = tree.branches();

@@ -323,7 +323,10 @@ class Event {
   [[nodiscard]] double bound() const {
     if (values_.size() < 2) return std::numeric_limits<double>::infinity();
     double most = 0.0;
-    for (const double v : values_) most = std::max(most, std::abs(v - values_.back()));
+    // A family that found nothing has no value; what is left has to be enough.
+    constexpr std::size_t enough = 4;
+    const std::size_t first = options_.branch_counts || values_.size() < enough ? 0 : 1;
+    for (std::size_t k = first; k < values_.size(); ++k) most = std::max(most, std::abs(values_[k] - values_.back()));
     constexpr double rounding = 1e-14;
     return options_.safety * (most + spread_) + rounding * std::abs(values_.back());
   }
@@ -423,7 +426,11 @@ std::string to_string(SpecialKind kind) {
   return "unresolved";
 }
 
-void SpecialOptions::validate() const { require(safety >= 1.0, "safety", safety, ">= 1"); }
+void SpecialOptions::validate() const {
+  require(safety >= 1.0, "safety", safety, ">= 1");
+  require(branch_counts || others.size() >= 3, "others", static_cast<double>(others.size()),
+          ">= 3 where the branch's own value does not count");
+}
 
 std::vector<SpecialPoint> special_points_between(const OrbitFamily& family, const BranchOrbit& a, const BranchOrbit& b,
                                                  const SpecialOptions& options) {

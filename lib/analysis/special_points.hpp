@@ -66,9 +66,11 @@ struct Refinement {
 
 struct SpecialOptions {
   std::vector<Refinement> others{};  ///< the finest last; none: no bounds
+  bool branch_counts =
+      true;  ///< is the value by the branch's own family one of the v_k? If not, by three others or more
   double safety = 3;
 
-  /// @throws InputError for a safety factor below 1
+  /// @throws InputError for a safety factor below 1, or too few others
   void validate() const;
 };
 

@@ -286,10 +286,10 @@ struct KindLook {
   int type;
 };
 constexpr std::array<KindLook, 6> kind_looks = {{{SpecialKind::grazing, figures::ink::light_grey, 1.0, 6},
-                                                 {SpecialKind::fold, figures::ink::dark_grey, 1.8, 7},
-                                                 {SpecialKind::flip, figures::ink::green, 1.8, 9},
-                                                 {SpecialKind::neimark_sacker, figures::ink::ochre, 1.8, 13},
-                                                 {SpecialKind::branch_point, figures::ink::purple, 1.8, 5},
+                                                 {SpecialKind::fold, figures::ink::dark_grey, 1.3, 7},
+                                                 {SpecialKind::flip, figures::ink::green, 1.4, 9},
+                                                 {SpecialKind::neimark_sacker, figures::ink::ochre, 1.4, 13},
+                                                 {SpecialKind::branch_point, figures::ink::purple, 1.3, 5},
                                                  {SpecialKind::unresolved, figures::ink::red, 1.8, 2}}};
 
 using Place = std::array<double, 2>;
@@ -330,6 +330,14 @@ void write_continue_tables(const std::filesystem::path& folder, const ContinueOu
                     [&](std::size_t i) -> const store::LocusPlace& { return places[i]; });
   }
   write_h5(folder / "results.h5", output, traced, loci);
+}
+
+std::string attempt_text(const studies::BranchAttempt& a) {
+  const std::string at = fmt::format("{} at {}: ", a.seed ? "seed" : "start", short_text(a.value, 9));
+  if (!a.found) return at + a.message;
+  if (a.distance <= studies::far_from_its_start) return {};
+  return at + fmt::format("the orbit of period {} that was found is {} b_c away from it, and may be another one",
+                          a.period, short_text(a.distance, 2));
 }
 
 void write_found_csv(const std::filesystem::path& file, const std::vector<studies::FoundMotions>& found) {
@@ -382,8 +390,7 @@ std::string continue_summary(const ContinueOutput& output, const TracedBranches&
     text += fmt::format("\n**{} {} off before an end of the range.**\n", broken,
                         broken == 1 ? "way along a branch was broken" : "ways along branches were broken");
   for (const studies::BranchAttempt& a : traced.attempts)
-    if (!a.found)
-      text += fmt::format("\n- {} at {}: {}.\n", a.seed ? "Seed" : "Start", short_text(a.value, 9), a.message);
+    if (const std::string words = attempt_text(a); !words.empty()) text += fmt::format("\n- {}.\n", words);
   for (std::size_t b = 0; b < traced.branches.size(); ++b) text += branch_text(output, traced, b);
   if (output.options.loci) text += loci_text(output, traced, loci);
   return text;
@@ -440,7 +447,16 @@ void BranchSketch::add_branches() {
 }
 
 void BranchSketch::add_special_points() {
+  const double width = output_.options.to - output_.options.from;
   const double height = y_.high - y_.low;
+  // Letters that would lie on each other are left to the first of them.
+  std::vector<Place> taken;
+  const auto is_free = [&](const Place& here) {
+    constexpr double apart_x = 0.035, apart_y = 0.055;
+    return std::ranges::none_of(taken, [&](const Place& p) {
+      return std::abs(p[0] - here[0]) < apart_x * width && std::abs(p[1] - here[1]) < apart_y * height;
+    });
+  };
   for (const KindLook& look : kind_looks) {
     std::vector<Place> places;
     std::vector<Place> lettered;
@@ -448,14 +464,11 @@ void BranchSketch::add_special_points() {
       const SpecialRow& r = traced_.special[i];
       const std::vector<double>& section = traced_.at_special[i].section;
       if (r.kind != look.kind || column_ >= section.size()) continue;
-      places.push_back({r.value, section[column_]});
-      if (look.kind == SpecialKind::grazing || r.same_as) continue;
-      // Letters that would lie on each other stand once.
-      const double width = output_.options.to - output_.options.from;
-      const bool apart = std::ranges::none_of(lettered, [&](const Place& p) {
-        return std::abs(p[0] - r.value) < 0.02 * width && std::abs(p[1] - section[column_]) < 0.05 * height;
-      });
-      if (apart) lettered.push_back(places.back());
+      const Place here = {r.value, section[column_]};
+      places.push_back(here);
+      if (look.kind == SpecialKind::grazing || r.same_as || !is_free(here)) continue;
+      lettered.push_back(here);
+      taken.push_back(here);
     }
     const SpecialLetters letters = letters_of(look.kind);
     sketch_.add(

@@ -37,6 +37,9 @@ struct ContinueOutput {
 void write_continue_tables(const std::filesystem::path& folder, const ContinueOutput& output,
                            const studies::TracedBranches& traced, const std::vector<studies::TracedLocus>& loci);
 
+/// What was not as expected of a start: that there is no orbit near it, or only far from it. Empty: nothing.
+[[nodiscard]] std::string attempt_text(const studies::BranchAttempt& attempt);
+
 /// orbits.csv.
 /// @throws OutputError
 void write_found_csv(const std::filesystem::path& file, const std::vector<studies::FoundMotions>& found);

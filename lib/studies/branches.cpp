@@ -76,6 +76,9 @@ BranchSystem branch_system(const ModelAt& models, const BranchesOptions& options
   s.system.period = options.period;
   s.system.pieces = options.pieces;
   s.system.residual = 10.0 * options.tolerance;
+  // Whatever its unit, the parameter counts as the states do: over the range by some three b_c.
+  constexpr double part_of_range = 0.3;
+  s.system.value_scale = part_of_range * (options.to - options.from);
   if (first_model.remove_synchronous && first_model.planets > 1)
     s.system.symmetry =
         analysis::cyclic_symmetry(first_model.dimension, first_model.planets, planet_turns(first_model).front().map);
@@ -86,8 +89,14 @@ BranchSystem branch_system(const ModelAt& models, const BranchesOptions& options
   c.largest_step = options.largest_step;
   c.first_step = std::min(c.first_step, options.largest_step);
   c.orbits = static_cast<std::size_t>(options.orbits);
-  const double finer = 0.1 * options.tolerance;
-  s.options.special.others = {{flows_of(models, finer, contacts), 1}, {flows_of(models, finer, contacts), 2}};
+  // Of the branch's own tolerance a multiplier is off by a thousand times as much, and a place with it; below the last
+  // one there is rounding alone.
+  constexpr double finest = 3e-14;
+  const double finer = std::max(0.1 * options.tolerance, finest);
+  const auto fine_flows = flows_of(models, finer, contacts);
+  s.options.special.others = {
+      {fine_flows, 1}, {fine_flows, 2}, {flows_of(models, std::max(0.1 * finer, finest), contacts), 1}};
+  s.options.special.branch_counts = false;
   s.options.largest_period = options.largest_period;
   s.options.branch_points = options.branch_points;
   s.options.branches = static_cast<std::size_t>(options.branches);
@@ -123,6 +132,8 @@ BranchOrigin origin_near(const BranchSystem& system, analysis::OrbitFamily famil
     }
   }
   if (c.found) {
+    const Eigen::Map<const Eigen::VectorXd> y(state.data(), static_cast<Eigen::Index>(state.size()));
+    result.distance = (c.orbit.at.states.col(0) - y).lpNorm<Eigen::Infinity>();
     result.orbit = std::move(c.orbit);
   } else {
     result.message = c.message;

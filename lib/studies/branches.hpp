@@ -43,6 +43,7 @@ struct BranchOrigin {
   int period = 1;               ///< its least one: half of that asked for, say
   int pieces = 1;               ///< of its states
   bool keeps_symmetry = false;  ///< all planets move alike
+  double distance = 0;          ///< from the state that it was looked for near [b_c, b_c per tau]
   std::string message{};        ///< why there is none
 };
 
@@ -105,8 +106,12 @@ struct BranchAttempt {
   int period = 1;
   bool seed = false;      ///< else a settled motion
   bool found = false;     ///< an orbit
+  double distance = 0;    ///< of it from the state that it was looked for near [b_c, b_c per tau]
   std::string message{};  ///< why none
 };
+
+/// An orbit found further away is likely not the one that was meant [b_c, b_c per tau].
+inline constexpr double far_from_its_start = 0.05;
 
 /// All that a study of branches comes to.
 struct TracedBranches {
