@@ -55,15 +55,16 @@ studies::ModelAt stoppable(studies::ModelAt models) {
 std::vector<studies::BranchAttempt> add_starts(const studies::BranchSystem& system, const BranchesOptions& options,
                                                const studies::ModelAt& models, analysis::BranchTree& tree) {
   std::vector<studies::BranchAttempt> attempts;
-  const auto add = [&](double value, int period, bool seed, studies::BranchOrigin origin) {
+  constexpr double anywhere = std::numeric_limits<double>::infinity();
+  const auto add = [&](double value, int period, bool seed, double reach, studies::BranchOrigin origin) {
     const bool found = origin.orbit.has_value();
-    const double reach = seed && options.seed_reach ? *options.seed_reach : std::numeric_limits<double>::infinity();
     if (found) tree.start(*std::move(origin.orbit), origin.keeps_symmetry, origin.period, origin.pieces, reach);
     attempts.push_back({value, period, seed, found, origin.distance, std::move(origin.message)});
   };
   for (const double value : options.all_starts())
-    add(value, options.period, false, settled_start(system, models(value), value, options.settle_periods));
-  for (const studies::BranchSeed& seed : options.seeds) add(seed.value, seed.period, true, seed_start(system, seed));
+    add(value, options.period, false, anywhere, settled_start(system, models(value), value, options.settle_periods));
+  for (const studies::BranchSeed& seed : options.seeds)
+    add(seed.value, seed.period, true, seed.reach.value_or(anywhere), seed_start(system, seed));
   return attempts;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -171,7 +172,10 @@ class Sower {
         while (last + 1 < points.count && goes_on(points.read_brief(last + 1))) ++last;
         const std::size_t middle = first + (last - first) / 2;
         const double value = value_of(from, middle);
-        if (value >= options_.from && value <= options_.to) take_point(donor, from, middle);
+        if (value >= options_.from && value <= options_.to) {
+          take_point(donor, from, middle);
+          if (const double reach = reach_of(from, first, middle, last); reach > 0.0) seeds_.back()["reach"] = reach;
+        }
       }
       first = last + 1;
     }
@@ -196,6 +200,21 @@ class Sower {
     for (std::size_t k = 0; k < varied.size(); ++k)
       if (varied[k].axis.name == options_.parameter) return k == 0 ? at.value : at.second_value;
     return input::given_value(study_, options_.parameter);
+  }
+
+  /// From the middle of a stretch to two steps of the grid beyond its ends; 0 where the donor varies something else.
+  [[nodiscard]] double reach_of(const FinishedStudy& from, std::size_t first, std::size_t middle,
+                                std::size_t last) const {
+    const double here = value_of(from, middle);
+    const studies::SweepPlan& plan = from.plan();
+    double step = 0.0;
+    for (const std::size_t other :
+         {middle > 0 ? middle - 1 : middle, middle + 1 < plan.points.size() ? middle + 1 : middle}) {
+      const double apart = std::abs(value_of(from, other) - here);
+      if (apart > 0.0 && (step == 0.0 || apart < step)) step = apart;
+    }
+    constexpr double beyond = 2.0;
+    return std::max(std::abs(value_of(from, first) - here), std::abs(value_of(from, last) - here)) + beyond * step;
   }
 
   void take_point(const Donor& donor, const FinishedStudy& from, std::size_t point) {

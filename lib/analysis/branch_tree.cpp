@@ -139,7 +139,10 @@ void BranchTree::apply(TreeStep step) {
   way.after.insert(way.after.end(), step.special.size(), way.orbits.size() - 1);
   std::move(step.special.begin(), step.special.end(), std::back_inserter(way.special));
   std::move(step.same_as.begin(), step.same_as.end(), std::back_inserter(same_as_));
-  std::move(step.departures.begin(), step.departures.end(), std::back_inserter(starts_));
+  // Before starts of others, which may be on what leaves here.
+  const auto others = std::find_if(starts_.begin(), starts_.end(), [](const BranchStart& s) { return !s.from; });
+  starts_.insert(others, std::make_move_iterator(step.departures.begin()),
+                 std::make_move_iterator(step.departures.end()));
   if (step.orbit) way.orbits.push_back(*std::move(step.orbit));
   trace_->restore(std::move(step.trace));
   if (step.limit) end_way(*step.limit);

@@ -740,6 +740,10 @@ const Table<studies::BranchSeed>& seed_table() {
     t.numbers("state", &BranchSeed::state, component_value, 1, 1000,
               "The state at the mesh phase 0, in the order of poincare.csv [b_c, b_c per tau].")
         .required();
+    t.number(
+        "reach", &BranchSeed::reach, between(1e-300, 1e300),
+        "How far from the value its branches are followed, in the parameter's unit; to the ends of the range if it "
+        "is not given.");
     return t;
   }();
   return table;
@@ -847,9 +851,6 @@ const Table<Study>& continue_table() {
     t.integer("period", of(&BranchesOptions::period), between(1, period_most),
               "Period of these motions, in mesh periods [-].");
     t.custom(seeds_field());
-    t.number("seed_reach", of(&BranchesOptions::seed_reach), between(1e-300, 1e300),
-             "How far from a seed's value its branches are followed, in the parameter's unit; to the ends of the range "
-             "if it is not given.");
     t.numbers("values", of(&BranchesOptions::values), between(-1e300, 1e300), 1, 100000,
               "Values at which orbits are wanted exactly.");
     t.integer("largest_period", of(&BranchesOptions::largest_period), between(1, period_most),

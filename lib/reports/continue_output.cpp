@@ -335,7 +335,7 @@ void write_continue_tables(const std::filesystem::path& folder, const ContinueOu
 std::string attempt_text(const studies::BranchAttempt& a) {
   const std::string at = fmt::format("{} at {}: ", a.seed ? "seed" : "start", short_text(a.value, 9));
   if (!a.found) return at + a.message;
-  if (a.distance <= studies::far_from_its_start) return {};
+  if (!a.seed || a.distance <= studies::far_from_its_start) return {};
   return at + fmt::format("the orbit of period {} that was found is {} b_c away from it, and may be another one",
                           a.period, short_text(a.distance, 2));
 }

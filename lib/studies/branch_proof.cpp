@@ -98,7 +98,8 @@ class Locator {
       : traced_(traced), orbits_(traced), dimension_(dimension), options_(options) {}
 
   /// The branch of period n that the point is nearest to, if it is on it.
-  void locate(const PointResult& point, int n, SweepPlace& place) {
+  /// @param preferred  taken before others that it is on too
+  void locate(const PointResult& point, int n, std::optional<std::size_t> preferred, SweepPlace& place) {
     const Eigen::VectorXd state = state_of(point, dimension_);
     place.distance = infinite;
     if (state.size() == 0) return;
@@ -112,9 +113,13 @@ class Locator {
         if (!(distance_to_orbit(state, rough, symmetry) <= options_.near)) continue;
         const Eigen::MatrixXd& exact = orbits_.states(b, k, point.point.value);
         const double distance = distance_to_orbit(state, exact, symmetry);
-        if (!(distance < place.distance)) continue;
+        const bool on_it = distance <= options_.same;
+        if (on_it) place.branches.push_back(b);
+        const bool prefers = on_it && preferred == b && place.branch != preferred;
+        if (!prefers && (!(distance < place.distance) || (place.branch && place.branch == preferred && preferred != b)))
+          continue;
         place.distance = distance;
-        if (distance > options_.same) continue;
+        if (!on_it) continue;
         place.branch = b;
         place.after = k;
         place.stable = stable_at(b, k, point.point.value);
@@ -182,7 +187,7 @@ class Explainer {
       if (r.kind == SpecialKind::grazing || r.kind == SpecialKind::unresolved) continue;
       const double away = beside(r.value);
       if (away > 1.0 || (best && away >= beside(traced_.special[*best].value))) continue;
-      if (is_birth(r, side, other) || (!birth_only && r.branch == *side.branch && changes_stability(r))) best = k;
+      if (is_birth(r, side, other) || (!birth_only && is_on(side, r.branch) && changes_stability(r))) best = k;
     }
     if (!best) return false;
     const SpecialRow& r = traced_.special[*best];
@@ -200,15 +205,20 @@ class Explainer {
 
   /// Is the other side what is born there from the side's branch?
   [[nodiscard]] bool is_birth(const SpecialRow& r, const SweepPlace& side, const SweepPlace& other) const {
-    if (r.branch != *side.branch || !changes_stability(r)) return false;
+    if (!is_on(side, r.branch) || !changes_stability(r)) return false;
     if (r.kind == SpecialKind::neimark_sacker) return other.motion == "quasiperiodic";
     if (r.kind == SpecialKind::flip && other.periodic && other.period == 2 * side.period && !other.branch) return true;
     if (!other.branch) return false;
-    const Branch& born = traced_.branches[*other.branch];
     const auto from = [&](const analysis::BranchLimit& limit) {
       return limit.place && limit.place->branch == r.branch && limit.place->point == r.point;
     };
-    return from(born.first) || from(born.last);
+    return std::ranges::any_of(other.branches, [&](std::size_t b) {
+      return from(traced_.branches[b].first) || from(traced_.branches[b].last);
+    });
+  }
+
+  static bool is_on(const SweepPlace& place, std::size_t branch) {
+    return std::ranges::find(place.branches, branch) != place.branches.end();
   }
 
   [[nodiscard]] bool changes_stability(const SpecialRow& r) const {
@@ -351,7 +361,7 @@ BranchProof prove(const TracedBranches& traced, const SweepOptions& sweep, const
         place.periodic = point.regime == analysis::Regime::periodic;
         place.period = place.periodic ? point.period : 0;
         if (place.periodic) {
-          locator.locate(point, point.period, place);
+          locator.locate(point, point.period, places.empty() ? std::nullopt : places.back().branch, place);
           ++proof.periodic;
           if (place.branch)
             proof.largest_distance = std::max(proof.largest_distance, place.distance);
@@ -369,13 +379,14 @@ BranchProof prove(const TracedBranches& traced, const SweepOptions& sweep, const
       const SweepPlace& other = change.before.branch ? change.behind : change.before;
       if (!side.branch || other.motion != to_string(analysis::Regime::undecided)) return false;
       SweepPlace there = other;
-      locator.locate(points.read(other.point), side.period, there);
+      locator.locate(points.read(other.point), side.period, side.branch, there);
       return there.branch == side.branch;
     };
     for (std::size_t i = 0; i + 1 < places.size(); ++i) {
       const SweepPlace& a = places[i];
       const SweepPlace& b = places[i + 1];
-      const bool jumps = a.branch && b.branch && *a.branch != *b.branch;
+      const bool jumps = a.branch && b.branch && *a.branch != *b.branch &&
+                         std::ranges::find(b.branches, *a.branch) == b.branches.end();
       if (a.motion == b.motion && !jumps) continue;
       SweepChange change;
       change.before = a;

@@ -45,7 +45,8 @@ struct SweepPlace {
   std::string motion;  ///< "period 2", "chaotic"
   bool periodic = false;
   int period = 0;                       ///< if periodic
-  std::optional<std::size_t> branch{};  ///< that it is on
+  std::optional<std::size_t> branch{};  ///< that it is on; of several the one of the point before, or the nearest
+  std::vector<std::size_t> branches{};  ///< all that go through it: pieces of one, from several seeds
   std::size_t after = 0;                ///< of its orbits the one before
   bool stable = false;                  ///< the orbit there
   double distance = 0;                  ///< from it [b_c, b_c per tau]; of a periodic point on none not finite

@@ -39,7 +39,6 @@ void BranchesOptions::validate() const {
     seed.validate();
     require(seed.value >= from && seed.value <= to, "seeds", seed.value, "within from and to");
   }
-  require(!seed_reach || *seed_reach > 0.0, "seed_reach", seed_reach.value_or(0.0), "> 0");
   require(settle_periods >= 0, "settle_periods", settle_periods, ">= 0");
   require(period >= 1, "period", period, ">= 1");
   require(largest_period >= period, "largest_period", largest_period, ">= period");
@@ -61,6 +60,7 @@ std::vector<double> BranchesOptions::all_starts() const {
 void BranchSeed::validate() const {
   require(std::isfinite(value), "value", value, "finite");
   require(period >= 1, "period", period, ">= 1");
+  require(!reach || *reach > 0.0, "reach", reach.value_or(0.0), "> 0");
   if (state.empty()) throw InputError("state is empty, must have a number for each component");
   for (const double x : state) require(std::isfinite(x), "state", x, "finite");
 }

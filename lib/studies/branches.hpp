@@ -110,7 +110,7 @@ struct BranchAttempt {
   std::string message{};  ///< why none
 };
 
-/// An orbit found further away is likely not the one that was meant [b_c, b_c per tau].
+/// An orbit found further away from a seed is likely not the one that was meant [b_c, b_c per tau].
 inline constexpr double far_from_its_start = 0.05;
 
 /// All that a study of branches comes to.

@@ -12,9 +12,10 @@ namespace epicyclic::studies {
 
 /// A state on or near a periodic motion, to start a branch from.
 struct BranchSeed {
-  double value = 0;           ///< of the parameter
-  int period = 1;             ///< n [mesh periods]
-  std::vector<double> state;  ///< at s = 0
+  double value = 0;               ///< of the parameter
+  int period = 1;                 ///< n [mesh periods]
+  std::vector<double> state;      ///< at s = 0
+  std::optional<double> reach{};  ///< how far from `value` its branches are followed; none: to the ends of the range
 
   /// @throws InputError for a period below 1, no state, and numbers that are not finite
   void validate() const;
@@ -54,8 +55,7 @@ struct BranchesOptions {
   int settle_periods = 400;      ///< mesh periods that it is given for it
   int period = 1;                ///< of these motions [mesh periods]
   std::vector<BranchSeed> seeds{};
-  std::optional<double> seed_reach{};  ///< how far from a seed's value its branches are followed; none: all the range
-  std::vector<double> values{};        ///< at which orbits are wanted exactly
+  std::vector<double> values{};  ///< at which orbits are wanted exactly
 
   int largest_period = 2;     ///< that flips are followed to [mesh periods]
   bool branch_points = true;  ///< are the branches followed that leave branch points?
