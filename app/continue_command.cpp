@@ -144,11 +144,17 @@ void tell_rows(TracedBranches& traced, const studies::ModelAt& models, int phase
   for (const analysis::Branch& branch : traced.branches) {
     std::vector<studies::BranchRow>& rows = traced.rows.emplace_back();
     for (const analysis::BranchOrbit& orbit : branch.orbits) rows.push_back(row(branch, orbit));
+    settle_stability(branch, rows);
   }
   for (const studies::SpecialRow& r : traced.special) {
     const analysis::Branch& branch = traced.branches[r.branch];
     traced.at_special.push_back(row(branch, branch.special[r.point].orbit));
   }
+}
+
+void add_note(studies::SpecialRow& row, const std::string& note) {
+  if (!row.note.empty()) row.note.append("; ");
+  row.note.append(note);
 }
 
 /// Of a study with a smooth clearance: where the special points are with the exact one, each kept in a journal.
@@ -168,13 +174,17 @@ void tell_exact_values(Session& session, const input::LoadedInput& input, const 
   for (const store::JournalEntry& entry : journal.entries()) {
     if (entry.point != known || known >= traced.special.size())
       throw store::DamagedData(fmt::format("the journal holds exact value {} where {} is due", entry.point, known));
-    traced.special[known++].exact = store::decode_exact(journal.read(entry));
+    studies::SpecialRow& row = traced.special[known++];
+    row.exact = store::decode_exact(journal.read(entry), row.note);
   }
   Progress progress("continue: exact clearance", traced.special.size(), known);
   for (; known < traced.special.size(); ++known) {
     studies::SpecialRow& row = traced.special[known];
-    row.exact = exact_value(models, traced, row, width, options);
-    journal.append(known, store::encode_exact(row.exact));
+    std::string why_not;
+    row.exact = exact_value(models, traced, row, width, options, why_not);
+    if (stop_requested()) throw Stopped();
+    if (!row.exact) add_note(row, why_not);
+    journal.append(known, store::encode_exact(row.exact, row.note));
     progress.update(known + 1, 0);
   }
   journal.close();
@@ -399,6 +409,8 @@ int continue_command(const Arguments& arguments) {
     tell("stopped; the same command goes on\n");
     return stopped_early;
   }
+  if (const std::size_t off = proved.proof.off.size(); off > 0)
+    tell("{} of the sweep's {} periodic points lie on no branch; proof.md lists them\n", off, proved.proof.periodic);
   std::ranges::move(proved.figures, std::back_inserter(figures));
   undrawn = tell_undrawn(figures);
   close_run(store::RunState::complete);

@@ -193,13 +193,13 @@ class Sower {
     return r.outcome == integrate::Outcome::reached && r.regime == analysis::Regime::periodic;
   }
 
-  /// Of the parameter: the donor's, where it varies the same one.
+  /// Of the parameter in the donor, which may vary it.
   [[nodiscard]] double value_of(const FinishedStudy& from, std::size_t point) const {
     const auto varied = input::varied_parameters(from.input().study);
     const studies::GridPoint at = from.plan().points[point];
     for (std::size_t k = 0; k < varied.size(); ++k)
       if (varied[k].axis.name == options_.parameter) return k == 0 ? at.value : at.second_value;
-    return input::given_value(study_, options_.parameter);
+    return input::given_value(from.input(), options_.parameter);
   }
 
   /// From the middle of a stretch to two steps of the grid beyond its ends; 0 where the donor varies something else.

@@ -128,6 +128,7 @@ void add_continue_options(CLI::App& command, Arguments& arguments) {
                      "folder of a complete sweep: each of its changes is explained by the branches");
   command.add_option("--unexplained", arguments.unexplained, "changes of that sweep that may stay unexplained")
       ->check(CLI::Range(0, 1000000))
+      ->needs("--against")
       ->capture_default_str();
 }
 

@@ -63,6 +63,19 @@ Eigen::MatrixXd period_states(const OrbitFamily& family, const CurvePoint& at) {
   return without_shift(family, y);
 }
 
+double distance_to_simpler(const OrbitFamily& family, const CurvePoint& at) {
+  double least = std::numeric_limits<double>::infinity();
+  const bool breaks = family.symmetry.map.size() != 0 && !family.keeps_symmetry;
+  if (family.period == 1 && !breaks) return least;
+  const Eigen::MatrixXd states = period_states(family, at);
+  const Eigen::Index n = states.cols();
+  for (Eigen::Index shorter = 1; shorter < n; ++shorter)
+    if (n % shorter == 0)
+      least = std::min(least, (states.leftCols(n - shorter) - states.rightCols(n - shorter)).lpNorm<Eigen::Infinity>());
+  if (breaks && n > 0) least = std::min(least, (family.symmetry.map * states - states).lpNorm<Eigen::Infinity>());
+  return least;
+}
+
 double image_distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const CyclicSymmetry& symmetry) {
   double least = std::numeric_limits<double>::infinity();
   if (a.cols() != b.cols() || a.cols() == 0) return least;
@@ -119,7 +132,17 @@ std::vector<Departure> departures(const OrbitFamily& family, const SpecialPoint&
     const CurvePoint unit = (1.0 / length(other, *away)) * *away;
     for (const double sign : {1.0, -1.0}) {
       const CurvePoint normal = sign * unit;
-      Correction c = correct(other, *base + options.distance * normal, normal);
+      const auto at = [&](double distance) { return correct(other, *base + distance * normal, normal); };
+      Correction c = at(options.distance);
+      // A fold nearer than that would be passed unseen: there the parameter turns.
+      double distance = options.distance;
+      constexpr int nearer_ones = 4;
+      for (int k = 0; k < nearer_ones && c.found; ++k) {
+        distance *= 0.25;
+        Correction nearer = at(distance);
+        if (!nearer.found || nearer.orbit.direction.value * c.orbit.direction.value > 0.0) break;
+        c = std::move(nearer);
+      }
       if (!c.found) continue;
       const Eigen::MatrixXd states = period_states(other, c.orbit.at);
       const double difference = options.same * options.distance * family.state_scale;

@@ -49,6 +49,11 @@ struct Departure {
 /// @param difference  most of any component
 [[nodiscard]] int least_period(const Eigen::MatrixXd& states, double difference);
 
+/// How far an orbit is from one of a shorter period, or from one that has the symmetry which the family does not keep:
+/// the least over these of the largest difference of a component.
+/// @returns infinity where there is nothing simpler, and for an orbit that could not be carried
+[[nodiscard]] double distance_to_simpler(const OrbitFamily& family, const CurvePoint& at);
+
 /// How far one orbit is from the other, begun at another of its periods or turned by the symmetry: the least over these
 /// of the largest difference of a component.
 /// @param a, b      of period_states()

@@ -78,7 +78,10 @@ TreeStep BranchTree::next_start() const {
 
 TreeStep BranchTree::next_orbit() {
   TreeStep step;
-  if (trace_->advance()) {
+  const bool moved = trace_->advance();
+  if (moved && has_fallen_onto_another()) {
+    step.limit = {BranchEnd::none, true, place_behind(trace_->before(), trace_->now().at.value), {}};
+  } else if (moved) {
     for (SpecialPoint& point : special_points_between(family_, trace_->before(), trace_->now(), options_.special)) {
       if (!loses_itself(point)) {
         see(std::move(point), step);
@@ -203,6 +206,8 @@ void BranchTree::finish_branch() {
       branch.after.push_back(before - backward.after[k] - 1);
     }
   }
+  branch.least = current_.least;
+  branch.greatest = current_.greatest;
   branches_.push_back(std::move(branch));
 }
 
@@ -213,6 +218,35 @@ bool BranchTree::loses_itself(const SpecialPoint& point) const {
   const bool symmetric = !family_.keeps_symmetry && family_.symmetry.map.size() != 0 &&
                          is_left_as_it_is(states, family_.symmetry, difference);
   return symmetric || (states.cols() > 0 && least_period(states, difference) < family_.period);
+}
+
+bool BranchTree::has_fallen_onto_another() const {
+  const double before = distance_to_simpler(family_, trace_->before().at);
+  // Around its birth a branch's own orbits come as near by chance alone.
+  constexpr double near = 1e-2;
+  constexpr double is_one = 1e-6;
+  return before > is_one * family_.state_scale && distance_to_simpler(family_, trace_->now().at) < near * before;
+}
+
+std::optional<SpecialPlace> BranchTree::place_behind(const BranchOrbit& last, double beyond) const {
+  const Eigen::MatrixXd states = period_states(family_, last.at);
+  const double away = std::abs(beyond - last.at.value);
+  std::optional<SpecialPlace> nearest;
+  // Of what is born there, orbits are no further from it than from each other.
+  double least = 2.0 * distance_to_simpler(family_, last.at);
+  for (std::size_t b = 0; b < branches_.size(); ++b)
+    for (std::size_t k = 0; k < branches_[b].special.size(); ++k) {
+      const SpecialPoint& p = branches_[b].special[k];
+      if (p.kind != SpecialKind::flip && p.kind != SpecialKind::branch_point) continue;
+      if (std::abs(p.value - last.at.value) > 2.0 * away) continue;
+      const Eigen::MatrixXd at = period_states(branches_[b].family, p.orbit.at);
+      if (at.cols() == 0 || at.cols() > states.cols()) continue;
+      const double distance = image_distance(at, states.leftCols(at.cols()), family_.symmetry);
+      if (distance >= least) continue;
+      least = distance;
+      nearest = SpecialPlace{b, k};
+    }
+  return nearest;
 }
 
 std::optional<SpecialPlace> BranchTree::known_place(const SpecialPoint& point) const {
@@ -234,6 +268,9 @@ std::optional<SpecialPlace> BranchTree::known_place(const SpecialPoint& point) c
 
 bool BranchTree::passes(const Branch& branch, const BranchStart& start) const {
   if (branch.family.period != start.period) return false;
+  // It goes as far as the start would be followed, too.
+  const ContinuationOptions wanted = range_of(start);
+  if (branch.least > wanted.from || branch.greatest < wanted.to) return false;
   const double value = start.orbit.at.value;
   const double difference = options_.same * system_.state_scale;
   Eigen::MatrixXd states;

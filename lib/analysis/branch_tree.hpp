@@ -4,7 +4,8 @@
 // points those that cross: each is a branch of its own, until the period is that asked for. A branch of twice the
 // period ends where its orbit has the shorter one again, at a flip of the branch that it was born on; one without the
 // symmetry where the orbit has it again. What is met twice is followed once: such an end is looked for among the
-// special points that are known, and a branch point on two branches is one.
+// special points that are known, and a branch point on two branches is one. A step may also end beyond such a place, on
+// the orbits of the shorter period or with the symmetry, which are solutions too: the branch ends before it.
 //
 // Limits: a branch that no special point of the others leads to is found from a start of its own only.
 #pragma once
@@ -44,6 +45,8 @@ struct Branch {
   std::vector<std::size_t> after;                    ///< of each special point: the orbit before it
   std::vector<std::optional<SpecialPlace>> same_as;  ///< of each: the point of an earlier branch that it is
   BranchLimit first, last;
+  double least = -std::numeric_limits<double>::infinity();    ///< value that it was followed to at most
+  double greatest = std::numeric_limits<double>::infinity();  ///< and at the other end
 };
 
 struct TreeOptions {
@@ -66,8 +69,8 @@ struct BranchStart {
   int pieces = 1;
   bool keeps_symmetry = true;
   BranchOrbit orbit;
-  std::optional<SpecialPlace> from{};   ///< that it leaves: the branch begins there
-  std::optional<BranchOrbit> origin{};  ///< that point
+  std::optional<SpecialPlace> from{};                         ///< that it leaves: the branch begins there
+  std::optional<BranchOrbit> origin{};                        ///< that point
   double least = -std::numeric_limits<double>::infinity();    ///< value that it, and what leaves it, is followed to
   double greatest = std::numeric_limits<double>::infinity();  ///< the range is not left in any case
 };
@@ -136,6 +139,8 @@ class BranchTree {
   void end_way(const BranchLimit& limit);
   void finish_branch();
   [[nodiscard]] bool loses_itself(const SpecialPoint& point) const;
+  [[nodiscard]] bool has_fallen_onto_another() const;
+  [[nodiscard]] std::optional<SpecialPlace> place_behind(const BranchOrbit& last, double beyond) const;
   [[nodiscard]] std::optional<SpecialPlace> known_place(const SpecialPoint& point) const;
   [[nodiscard]] bool passes(const Branch& branch, const BranchStart& start) const;
 

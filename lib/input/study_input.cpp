@@ -785,6 +785,8 @@ void check_branches(const studies::BranchesOptions& b, const gear::Stage& stage,
     const studies::BranchSeed& seed = b.seeds[k];
     const std::string place = "/study/seeds/" + std::to_string(k);
     if (outside(seed.value)) refuse(place + "/value", "is " + number_text(seed.value) + range);
+    if (seed.reach && !(seed.value - *seed.reach < seed.value && seed.value + *seed.reach > seed.value))
+      refuse(place + "/reach", "is " + number_text(*seed.reach) + ", which is nothing beside the value");
     if (has_stage && !seed.state.empty() && seed.state.size() != components)
       refuse(place + "/state", "has " + std::to_string(seed.state.size()) + " numbers, must have " +
                                    std::to_string(components) + ", the state of this stage");

@@ -442,7 +442,7 @@ void BranchSketch::add_branches() {
       lines.add(rows,
                 [&](std::size_t k) { return rows[k].section.empty() ? gap : rows[k].section[n * columns + column_]; });
   }
-  sketch_.add(lines.unstable, figures::dashed(figures::ink::red, 1.4, "(6,4)"), "unstable");
+  sketch_.add(lines.unstable, figures::dashed(figures::ink::red, 1.6, "(14,10)"), "unstable");
   sketch_.add(lines.stable, figures::solid(figures::ink::blue, 2.4), "stable");
 }
 
@@ -521,7 +521,7 @@ void BranchSketch::add_multipliers() {
     lines.add(rows, [&](std::size_t k) { return std::max(rows[k].multiplier_max(), range.low); });
   const auto& [from, to] = std::pair(output_.options.from, output_.options.to);
   sketch_.add(std::vector<Place>{{from, 1.0}, {to, 1.0}}, figures::solid(figures::ink::light_grey, 1.2));
-  sketch_.add(lines.unstable, figures::dashed(figures::ink::red, 1.4, "(6,4)"));
+  sketch_.add(lines.unstable, figures::dashed(figures::ink::red, 1.6, "(14,10)"));
   sketch_.add(lines.stable, figures::solid(figures::ink::blue, 2.4));
 }
 

@@ -138,7 +138,7 @@ std::vector<DrawnFigure> draw_proof_figures(const std::filesystem::path& folder,
   for (const auto& [mesh, word] : kinds) {
     BranchSketch sketch(fmt::format("proof_delta_{}", word), output, traced, mesh);
     sketch.add_points(section_points(sweep, output.options, mesh == MeshKind::sun_planet ? "delta_sp_1" : "delta_rp_1"),
-                      figures::dots("#c4c4c4", 0.5), "sweep");
+                      figures::dots("#a0a0a0", 0.5), "sweep");
     drawn.push_back(sketch.draw(folder));
   }
   return drawn;

@@ -117,10 +117,12 @@ void pass(A& a, analysis::ExactValue& e) {
 /// In a record of its own.
 struct ExactRecord {
   std::optional<analysis::ExactValue> exact;
+  std::string note;
 };
 template <class A>
 void pass(A& a, ExactRecord& r) {
   pass_if_there(a, r.exact);
+  pass(a, r.note);
 }
 
 }  // namespace archive
@@ -143,12 +145,14 @@ studies::FoundMotions decode_found(std::span<const std::byte> record) {
   return archive::decode<studies::FoundMotions>(record);
 }
 
-std::vector<std::byte> encode_exact(const std::optional<analysis::ExactValue>& exact) {
-  return archive::encode(archive::ExactRecord{exact});
+std::vector<std::byte> encode_exact(const std::optional<analysis::ExactValue>& exact, const std::string& note) {
+  return archive::encode(archive::ExactRecord{exact, note});
 }
 
-std::optional<analysis::ExactValue> decode_exact(std::span<const std::byte> record) {
-  return archive::decode<archive::ExactRecord>(record).exact;
+std::optional<analysis::ExactValue> decode_exact(std::span<const std::byte> record, std::string& note) {
+  archive::ExactRecord read = archive::decode<archive::ExactRecord>(record);
+  note = std::move(read.note);
+  return read.exact;
 }
 
 }  // namespace epicyclic::store

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "analysis/branch_tree.hpp"
@@ -29,10 +30,11 @@ namespace epicyclic::store {
 /// @throws DamagedData when the record is not one of encode_found()
 [[nodiscard]] studies::FoundMotions decode_found(std::span<const std::byte> record);
 
-/// A value with the exact clearance, if there is one.
-[[nodiscard]] std::vector<std::byte> encode_exact(const std::optional<analysis::ExactValue>& exact);
+/// A value with the exact clearance, if there is one, and the note on its point.
+[[nodiscard]] std::vector<std::byte> encode_exact(const std::optional<analysis::ExactValue>& exact,
+                                                  const std::string& note);
 
 /// @throws DamagedData when the record is not one of encode_exact()
-[[nodiscard]] std::optional<analysis::ExactValue> decode_exact(std::span<const std::byte> record);
+[[nodiscard]] std::optional<analysis::ExactValue> decode_exact(std::span<const std::byte> record, std::string& note);
 
 }  // namespace epicyclic::store

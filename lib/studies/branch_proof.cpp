@@ -187,6 +187,7 @@ class Explainer {
       if (r.kind == SpecialKind::grazing || r.kind == SpecialKind::unresolved) continue;
       const double away = beside(r.value);
       if (away > 1.0 || (best && away >= beside(traced_.special[*best].value))) continue;
+      if (!lies_towards(r, side, other)) continue;
       if (is_birth(r, side, other) || (!birth_only && is_on(side, r.branch) && changes_stability(r))) best = k;
     }
     if (!best) return false;
@@ -201,6 +202,11 @@ class Explainer {
     change.words += &side == &change.before ? "; the motion goes on to " : "; the motion comes from ";
     change.words += other.branch ? "branch " + std::to_string(*other.branch) : "what is " + other.motion;
     return true;
+  }
+
+  /// Where the orbit is stable, what ends that is ahead, towards the other side.
+  static bool lies_towards(const SpecialRow& r, const SweepPlace& side, const SweepPlace& other) {
+    return !side.stable || (r.value - side.value) * (other.value - side.value) >= 0.0;
   }
 
   /// Is the other side what is born there from the side's branch?

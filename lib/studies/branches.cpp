@@ -117,6 +117,14 @@ BranchOrigin origin_near(const BranchSystem& system, analysis::OrbitFamily famil
     result.keeps_symmetry = family.keeps_symmetry;
   }
   analysis::Correction c = analysis::first_orbit(family, value, state);
+  if (c.found && family.symmetry.map.size() != 0 && !family.keeps_symmetry) {
+    // The motion had not settled, but its orbit is one of those that move alike.
+    const Eigen::VectorXd y = c.orbit.at.states.col(0);
+    if ((family.symmetry.map * y - y).lpNorm<Eigen::Infinity>() <= system.options.same * family.state_scale) {
+      family.keeps_symmetry = result.keeps_symmetry = true;
+      c = analysis::first_orbit(family, value, {y.data(), static_cast<std::size_t>(y.size())});
+    }
+  }
   result.period = family.period;
   result.pieces = family.pieces;
   if (c.found) {
@@ -200,6 +208,16 @@ BranchRow branch_row(const analysis::OrbitFamily& family, const analysis::Branch
   row.meshes = watch.finished();
   row.carried = true;
   return row;
+}
+
+void settle_stability(const analysis::Branch& branch, std::vector<BranchRow>& rows) {
+  if (rows.size() < 2) return;
+  const auto take = [](BranchRow& row, const BranchRow& neighbour) {
+    row.stable = neighbour.stable;
+    row.unstable = neighbour.unstable;
+  };
+  if (branch.first.born) take(rows.front(), rows[1]);
+  if (branch.last.born) take(rows.back(), rows[rows.size() - 2]);
 }
 
 PointSummary as_point(const BranchRow& row) {

@@ -76,6 +76,9 @@ struct BranchRow {
 [[nodiscard]] BranchRow branch_row(const analysis::OrbitFamily& family, const analysis::BranchOrbit& orbit,
                                    const model::DynamicModel& model, int phases);
 
+/// An orbit where a branch is born or dies has a multiplier at 1 to rounding: whether it is stable its neighbour says.
+void settle_stability(const analysis::Branch& branch, std::vector<BranchRow>& rows);
+
 /// What a sweep would record of the motion on it, as far as it is known.
 [[nodiscard]] PointSummary as_point(const BranchRow& row);
 

@@ -7,6 +7,7 @@
 
 #include "core/errors.hpp"
 #include "core/require.hpp"
+#include "core/text.hpp"
 #include "integrate/make_flow.hpp"
 
 namespace epicyclic::studies {
@@ -173,8 +174,10 @@ TracedLocus trace_locus(const ModelOverPlane& models, const TracedBranches& trac
 }
 
 std::optional<analysis::ExactValue> exact_value(const ModelOverPlane& models, const TracedBranches& traced,
-                                                const SpecialRow& point, double width, const BranchesOptions& options) {
+                                                const SpecialRow& point, double width, const BranchesOptions& options,
+                                                std::string& why_not) {
   using analysis::SpecialKind;
+  why_not = "no value with the exact clearance: such a point has no locus over the width";
   if (point.kind == SpecialKind::unresolved ||
       (point.kind == SpecialKind::branch_point && point.broken_symmetry.empty()))
     return std::nullopt;
@@ -188,16 +191,24 @@ std::optional<analysis::ExactValue> exact_value(const ModelOverPlane& models, co
   constexpr double slack = 1.001;  // the start is on its width to rounding
   for (int halving = 0; halving < 3; ++halving) {
     const double here = values.back().width;
-    const auto [surface, o] = plane_of(models, branch, values.back().value, {0.5 * here, slack * here, here}, options, most);
+    const auto [surface, o] =
+        plane_of(models, branch, values.back().value, {0.5 * here, slack * here, here}, options, most);
     if (!from) {
       const analysis::LocusCorrection start = locus_start(surface, special, width);
-      if (!start.found) return std::nullopt;
+      if (!start.found) {
+        why_not = "no value with the exact clearance: " + start.message + "; a finer tolerance may help";
+        return std::nullopt;
+      }
       from = analysis::reversed(start.point);
     }
     LocusTrace trace(surface, subject, o, *from);
     while (trace.advance()) {
     }
-    if (trace.end() != LocusEnd::range || trace.now().second() != 0.5 * here) return std::nullopt;
+    if (trace.end() != LocusEnd::range || trace.now().second() != 0.5 * here) {
+      why_not = "no value with the exact clearance: the locus over the width ends at " +
+                short_text(trace.now().second()) + ", " + end_word(trace.end()) + "; a finer tolerance may help";
+      return std::nullopt;
+    }
     from = trace.now();
     values.push_back({0.5 * here, from->first()});
     bound = std::max(bound, from->first_bound);

@@ -52,9 +52,10 @@ struct TracedLocus {
 /// Where a point found with a smooth clearance of width w has it with the exact one [A-smooth]: from w, w/2, w/4 and
 /// w/8, along the locus over the width.
 /// @param models  at values of the parameter and of the width
+/// @param why_not  why there is none
 /// @returns nothing for a point that has no locus, or whose locus does not get there
-[[nodiscard]] std::optional<analysis::ExactValue> exact_value(const ModelOverPlane& models,
-                                                              const TracedBranches& traced, const SpecialRow& point,
-                                                              double width, const BranchesOptions& options);
+[[nodiscard]] std::optional<analysis::ExactValue> exact_value(const ModelOverPlane& models, const TracedBranches& traced,
+                                                              const SpecialRow& point, double width,
+                                                              const BranchesOptions& options, std::string& why_not);
 
 }  // namespace epicyclic::studies

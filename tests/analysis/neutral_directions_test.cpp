@@ -29,7 +29,6 @@ Eigen::MatrixXd both_alike() { return Eigen::Vector4d(1.0, 1.0, 0.0, 0.0); }
 OrbitFamily free_pair(double drift) {
   OrbitFamily family{problems::free_pair_flows(clearance_e, drift, tolerance)};
   family.neutral = both_alike();
-  family.state_scale = 0.5;  // so that r by 1, the bodies by a half each, is as long as in the relative motion
   return family;
 }
 
