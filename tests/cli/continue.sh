@@ -8,7 +8,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 
 study=$inputs/tang2020_branches.json
 # The last flip of the speed diagram and what is born there.
-small=(--set /study/from=2.05 --set /study/to=2.25 --set '/study/starts=[2.2]' --set /study/tolerance=1e-8)
+small=(--set /study/from=2.05 --set /study/to=2.25 --set '/study/starts=[2.2]' --set /study/tolerance=1e-9)
 branches() { "$epicyclic" continue "$study" "${small[@]}" "$@"; }
 
 result_files=(branch.csv special.csv branches.csv poincare.csv results.h5 continue.md input.json input.resolved.json
@@ -61,7 +61,7 @@ same_results whole proved
 [ "$(code_of branches -o whole)" = 0 ] || fail "complete behind a proof: $(<stderr)"
 
 # Without the doubled branch a change is unexplained to nobody, but without any branch near it is.
-far=(--set /study/from=2.05 --set /study/to=2.25 --set /study/tolerance=1e-8 --set '/study/starts=[2.06]' --set /study/period=2 --set /study/largest_period=2)
+far=(--set /study/from=2.05 --set /study/to=2.25 --set /study/tolerance=1e-9 --set '/study/starts=[2.06]' --set /study/period=2 --set /study/largest_period=2)
 [ "$(code_of "$epicyclic" continue "$study" "${far[@]}" --set /study/orbits=2 -o few --against sweep)" = 1 ] ||
   fail "unexplained changes must give exit 1: $(<stderr)"
 grep -q 'unexplained' few/proof.csv || fail "and be listed: $(<few/proof.csv)"
@@ -79,7 +79,7 @@ mv gone sweep
 grep -q '"period": 2' seed1/input.resolved.json || fail "its period is 2"
 
 # The flip over the damping, from edge to edge; killed between.
-loci=(--set '/study/loci={"parameter":"damping_ratio","from":0.045,"to":0.055,"near":[2.149]}' --set /study/largest_period=1)
+loci=(--set '/study/loci={"parameter":"damping_ratio","from":0.045,"to":0.055,"near":[2.149]}' --set /study/largest_period=1 --set /study/tolerance=1e-10)
 [ "$(code_of branches "${loci[@]}" -o loci)" = 0 ] || fail "loci: $(<stderr)"
 [ "$(head -1 loci/loci.csv | cut -d, -f1-7)" = locus,index,kind,first,second,error_bound,marked ] || fail "columns of loci.csv"
 [ "$(sed -n 2p loci/loci.csv | cut -d, -f1,3,5)" = 0,flip,0.045 ] || fail "the first point: $(sed -n 2p loci/loci.csv)"
@@ -87,7 +87,7 @@ loci=(--set '/study/loci={"parameter":"damping_ratio","from":0.045,"to":0.055,"n
 awk -F, -v flip="$flip" '$5 > 0.05 - 1e-9 && $5 < 0.05 + 1e-9 { found = $4 - flip < 1e-7 && flip - $4 < 1e-7 } END { exit !found }' loci/loci.csv ||
   fail "the locus does not begin at the flip"
 [ -s loci/figures/loci.png ] || fail "the figure of loci is missing"
-killed_until_done 900 "$epicyclic" continue "$study" "${small[@]}" "${loci[@]}" -o loci_cut
+killed_until_done 1500 "$epicyclic" continue "$study" "${small[@]}" "${loci[@]}" -o loci_cut
 cmp -s loci/loci.csv loci_cut/loci.csv || fail "loci differ after kills"
 
 # A search at one speed: two motions of period 1 and 2, the first one unstable.
@@ -96,7 +96,7 @@ search=(--set '/study/search={"values":[2.1],"starts":8,"spread":0.01,"largest_p
 [ "$(cut -d, -f1,3,5 search/orbits.csv | sed 1d | tr '\n' ' ')" = '2.1,1,0 2.1,2,1 ' ] || fail "found: $(<search/orbits.csv)"
 
 # With a smooth clearance each value is told for the exact one too.
-smooth=(--set /integrator/clearance_smoothing=0.01 --set /study/largest_period=1)
+smooth=(--set /integrator/clearance_smoothing=0.02 --set /study/largest_period=1 --set /study/tolerance=1e-10)
 [ "$(code_of branches "${smooth[@]}" -o smooth)" = 0 ] || fail "smooth: $(<stderr)"
 awk -F, -v flip="$flip" '$2 == "flip" { off = $12 - flip; found = off < $13 && -off < $13 && $13 < 1e-5 && $3 < flip - 1e-4 }
   END { exit !found }' smooth/special.csv || fail "not the exact flip: $(<smooth/special.csv)"
