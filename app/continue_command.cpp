@@ -68,25 +68,61 @@ std::vector<studies::BranchAttempt> add_starts(const studies::BranchSystem& syst
   return attempts;
 }
 
+/// A journal in the folder whose records stand in order; what was cut from its end is told.
+class OrderedJournal {
+ public:
+  /// @param what  a record is called
+  OrderedJournal(Session& session, const char* name, std::string what)
+      : what_(std::move(what)), journal_(session.folder().file(name), session.identity()) {
+    tell_cut_tail(session.folder().file(name), journal_.cut_bytes());
+  }
+
+  /// Gives each record that is there to `take`.
+  /// @throws DamagedData when one is missing, or there are more than `most`
+  template <class Take>
+  void read(std::size_t most, Take take) {
+    for (const store::JournalEntry& entry : journal_.entries()) {
+      if (entry.point != count_ || count_ >= most)
+        throw store::DamagedData(fmt::format("the journal holds {} {} where {} is due", what_, entry.point, count_));
+      take(journal_.read(entry));
+      ++count_;
+    }
+  }
+
+  void append(const std::vector<std::byte>& record) { journal_.append(count_++, record); }
+  [[nodiscard]] std::size_t count() const { return count_; }
+  void close() { journal_.close(); }
+
+ private:
+  std::string what_;
+  store::Journal journal_;
+  std::size_t count_ = 0;
+};
+
+/// The models over two parameters, until a stop is asked for.
+studies::ModelOverPlane stoppable_plane(const input::LoadedInput& input, const BranchesOptions& options,
+                                        const std::string& second) {
+  return [plane = input::model_plane(input, options.parameter, second, family_step(options))](double x, double y) {
+    if (stop_requested()) throw Stopped();
+    return plane(x, y);
+  };
+}
+
+constexpr std::size_t any_number = static_cast<std::size_t>(-1);
+
 /// What the search finds at each of its values, kept in a journal of its own; each is a start.
 std::vector<studies::FoundMotions> add_found(Session& session, const studies::BranchSystem& system,
                                              const BranchesOptions& options, const studies::ModelAt& models,
                                              analysis::BranchTree& tree) {
   const studies::BranchSearchOptions& wanted = options.search.value();
-  const auto file = session.folder().file("journal.search.bin");
-  store::Journal journal(file, session.identity());
-  tell_cut_tail(file, journal.cut_bytes());
+  OrderedJournal journal(session, "journal.search.bin", "search");
   std::vector<studies::FoundMotions> all;
-  for (const store::JournalEntry& entry : journal.entries()) {
-    if (entry.point != all.size() || all.size() >= wanted.values.size())
-      throw store::DamagedData(fmt::format("the journal holds search {} where {} is due", entry.point, all.size()));
-    all.push_back(store::decode_found(journal.read(entry)));
-  }
+  journal.read(wanted.values.size(), [&](const auto& record) { all.push_back(store::decode_found(record)); });
   Progress progress("continue: search", wanted.values.size(), all.size());
   while (all.size() < wanted.values.size()) {
     const double value = wanted.values[all.size()];
     studies::FoundMotions found = search_motions(system, models(value), value, wanted, options.settle_periods);
-    journal.append(all.size(), store::encode_found(found));
+    journal.append(store::encode_found(found));
     all.push_back(std::move(found));
     progress.update(all.size(), 0);
   }
@@ -96,33 +132,17 @@ std::vector<studies::FoundMotions> add_found(Session& session, const studies::Br
   return all;
 }
 
-/// Brings the tree to where the journal is.
-std::size_t replay(const store::Journal& journal, analysis::BranchTree& tree) {
-  std::size_t steps = 0;
-  for (const store::JournalEntry& entry : journal.entries()) {
-    if (entry.point != steps)
-      throw store::DamagedData(fmt::format("the journal holds step {} where {} is due", entry.point, steps));
-    tree.apply(store::decode_step(journal.read(entry)));
-    ++steps;
-  }
-  return steps;
-}
-
 /// The tree to its end, each step kept in the journal.
 void grow(Session& session, const BranchesOptions& options, analysis::BranchTree& tree) {
-  const auto file = session.folder().file("journal.bin");
-  store::Journal journal(file, session.identity());
-  tell_cut_tail(file, journal.cut_bytes());
-  std::size_t steps = replay(journal, tree);
-  Progress progress("continue: orbits", unknown_total, steps);
-  std::size_t special = 0;
+  OrderedJournal journal(session, "journal.bin", "step");
+  journal.read(any_number, [&](const auto& record) { tree.apply(store::decode_step(record)); });
+  Progress progress("continue: orbits", unknown_total, journal.count());
   while (const auto step = tree.advance()) {
-    journal.append(steps++, store::encode_step(*step));
-    special += step->special.size();
+    journal.append(store::encode_step(*step));
     std::string words = fmt::format("branch {}", tree.branches().size());
     if (step->orbit) words += fmt::format(" at {} = {}", options.parameter, short_text(step->orbit->at.value, 6));
     if (tree.waiting() > 0) words += fmt::format(", {} waiting", tree.waiting());
-    progress.update(steps, std::move(words));
+    progress.update(journal.count(), std::move(words));
     if (stop_requested()) throw Stopped();
   }
   journal.close();
@@ -161,31 +181,20 @@ void add_note(studies::SpecialRow& row, const std::string& note) {
 void tell_exact_values(Session& session, const input::LoadedInput& input, const BranchesOptions& options,
                        TracedBranches& traced) {
   const double width = input.study.model.clearance_smoothing;
-  const auto plane =
-      input::model_plane(input, options.parameter, "/integrator/clearance_smoothing", family_step(options));
-  const studies::ModelOverPlane models = [&](double first, double second) {
-    if (stop_requested()) throw Stopped();
-    return plane(first, second);
-  };
-  const auto file = session.folder().file("journal.exact.bin");
-  store::Journal journal(file, session.identity());
-  tell_cut_tail(file, journal.cut_bytes());
-  std::size_t known = 0;
-  for (const store::JournalEntry& entry : journal.entries()) {
-    if (entry.point != known || known >= traced.special.size())
-      throw store::DamagedData(fmt::format("the journal holds exact value {} where {} is due", entry.point, known));
-    studies::SpecialRow& row = traced.special[known++];
-    row.exact = store::decode_exact(journal.read(entry), row.note);
-  }
-  Progress progress("continue: exact clearance", traced.special.size(), known);
-  for (; known < traced.special.size(); ++known) {
-    studies::SpecialRow& row = traced.special[known];
+  const studies::ModelOverPlane models = stoppable_plane(input, options, "/integrator/clearance_smoothing");
+  OrderedJournal journal(session, "journal.exact.bin", "exact value");
+  journal.read(traced.special.size(), [&](const auto& record) {
+    studies::SpecialRow& row = traced.special[journal.count()];
+    row.exact = store::decode_exact(record, row.note);
+  });
+  Progress progress("continue: exact clearance", traced.special.size(), journal.count());
+  while (journal.count() < traced.special.size()) {
+    studies::SpecialRow& row = traced.special[journal.count()];
     std::string why_not;
     row.exact = exact_value(models, traced, row, width, options, why_not);
-    if (stop_requested()) throw Stopped();
     if (!row.exact) add_note(row, why_not);
-    journal.append(known, store::encode_exact(row.exact, row.note));
-    progress.update(known + 1, 0);
+    journal.append(store::encode_exact(row.exact, row.note));
+    progress.update(journal.count(), 0);
   }
   journal.close();
 }
@@ -194,35 +203,24 @@ void tell_exact_values(Session& session, const input::LoadedInput& input, const 
 std::vector<studies::TracedLocus> trace_loci(Session& session, const input::LoadedInput& input,
                                              const BranchesOptions& options, const TracedBranches& traced) {
   const studies::LociOptions& wanted = options.loci.value();
-  const auto plane = input::model_plane(input, options.parameter, wanted.parameter, family_step(options));
-  const studies::ModelOverPlane models = [&](double first, double second) {
-    if (stop_requested()) throw Stopped();
-    return plane(first, second);
-  };
+  const studies::ModelOverPlane models = stoppable_plane(input, options, wanted.parameter);
   const double second = input::given_value(input, wanted.parameter);
-  const auto file = session.folder().file("journal.loci.bin");
-  store::Journal journal(file, session.identity());
-  tell_cut_tail(file, journal.cut_bytes());
+  OrderedJournal journal(session, "journal.loci.bin", "locus");
   std::vector<studies::TracedLocus> loci;
-  for (const store::JournalEntry& entry : journal.entries()) {
-    if (entry.point != loci.size())
-      throw store::DamagedData(fmt::format("the journal holds locus {} where {} is due", entry.point, loci.size()));
-    loci.push_back(store::decode_locus(journal.read(entry)));
-  }
+  journal.read(any_number, [&](const auto& record) { loci.push_back(store::decode_locus(record)); });
   const std::vector<std::size_t> points = studies::points_of_loci(traced, wanted);
   Progress progress("continue: loci", points.size());
-  std::size_t known = loci.size();  // of the journal, met again in order
-  std::vector<studies::TracedLocus> all;
+  std::vector<studies::TracedLocus> all;  // those of the journal are met again in order
   for (std::size_t k = 0; k < points.size(); ++k) {
     const studies::SpecialRow& point = traced.special[points[k]];
     progress.update(k, fmt::format("from {} at {}", kind_word(point), short_text(point.value, 6)));
     if (is_on_a_locus(all, traced, point, second, options)) continue;
-    if (all.size() < known) {
+    if (all.size() < loci.size()) {
       all.push_back(loci[all.size()]);
       continue;
     }
     all.push_back(trace_locus(models, traced, point, second, options));
-    journal.append(all.size() - 1, store::encode_locus(all.back()));
+    journal.append(store::encode_locus(all.back()));
   }
   progress.update(points.size(), 0);
   journal.close();

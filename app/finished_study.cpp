@@ -71,13 +71,14 @@ input::LoadedInput load_resolved(const std::filesystem::path& folder, const json
 
 }  // namespace
 
-FinishedStudy::FinishedStudy(const std::filesystem::path& folder)
-    : folder_(folder), input_(load_resolved(folder, complete_run(folder))) {
+FinishedStudy::FinishedStudy(const std::filesystem::path& folder) : FinishedStudy(folder, complete_run(folder)) {}
+
+FinishedStudy::FinishedStudy(const std::filesystem::path& folder, const json& run)
+    : folder_(folder), input_(load_resolved(folder, run)), identity_(run.at("identity")) {
   const std::string kind(input_.study.kind());
   if (kind != "sweep" && kind != "map" && kind != "run")
     throw InputError(
         fmt::format("{}: is a study of kind {}; points are taken from a sweep, a map or a run", folder.string(), kind));
-  identity_ = complete_run(folder).at("identity");
   if (identity_ != identity_of(input_, kind))
     throw InputError(folder.string() + ": was computed by another version of the numerics, or by another command");
   if (kind == "run") {

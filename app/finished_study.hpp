@@ -31,6 +31,7 @@ class FinishedStudy {
   [[nodiscard]] model::DynamicModel model_at(std::size_t point) const;
 
  private:
+  FinishedStudy(const std::filesystem::path& folder, const nlohmann::json& run);
   void read_run();
 
   std::filesystem::path folder_;

@@ -54,8 +54,9 @@ struct TracedLocus {
 /// @param models  at values of the parameter and of the width
 /// @param why_not  why there is none
 /// @returns nothing for a point that has no locus, or whose locus does not get there
-[[nodiscard]] std::optional<analysis::ExactValue> exact_value(const ModelOverPlane& models, const TracedBranches& traced,
-                                                              const SpecialRow& point, double width,
-                                                              const BranchesOptions& options, std::string& why_not);
+[[nodiscard]] std::optional<analysis::ExactValue> exact_value(const ModelOverPlane& models,
+                                                              const TracedBranches& traced, const SpecialRow& point,
+                                                              double width, const BranchesOptions& options,
+                                                              std::string& why_not);
 
 }  // namespace epicyclic::studies
