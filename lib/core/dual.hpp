@@ -1,4 +1,4 @@
-// Dual numbers: a value with its derivatives along M directions.
+// Dual numbers: a value with its derivatives along M directions, each of them a plain number or lanes of numbers.
 //
 //   x = a + sum_j a_j eps_j ,  eps_i eps_j = 0   =>   f(x) = f(a) + f'(a) sum_j a_j eps_j
 //
@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 
 #include "core/scalar.hpp"
@@ -24,24 +25,34 @@ constexpr void directions(const F& f) {
   (std::make_index_sequence<M>());
 }
 
-/// Value and M derivatives. Converts from double as a constant.
-template <std::size_t M>
+/// Value and M derivatives. Converts from a value, and from double, as a constant.
+/// @tparam V  double, or Lanes: each lane then has a value of its own, and its own derivatives
+template <std::size_t M, class V = double>
 struct Dual {
-  double value = 0;
-  std::array<double, M> derivative{};
+  /// What has no derivatives.
+  template <class B>
+  static constexpr bool constant = std::is_same_v<B, V> || std::is_arithmetic_v<B>;
 
-  constexpr Dual() = default;
-  constexpr Dual(double v) : value(v) {}  // NOLINT(google-explicit-constructor): a constant is a dual number
+  V value;
+  std::array<V, M> derivative;
+
+  constexpr Dual() requires(std::is_same_v<V, double>) : value(0.0), derivative{} {}
+  Dual() requires(!std::is_same_v<V, double>) = default;  // not set to anything, as lanes are not
+  constexpr Dual(V v) : value(v) {  // NOLINT(google-explicit-constructor): a constant is a dual number
+    derivative.fill(V(0.0));
+  }
+  constexpr Dual(double v) requires(!std::is_same_v<V, double>)  // NOLINT(google-explicit-constructor)
+      : Dual(V(v)) {}
 
   /// The variable of direction j.
-  [[nodiscard]] static constexpr Dual variable(double v, std::size_t j) {
+  [[nodiscard]] static constexpr Dual variable(V v, std::size_t j) {
     Dual x(v);
     x.derivative[j] = 1.0;
     return x;
   }
 
   /// Chain rule: f(value) with the slope f'(value).
-  [[nodiscard]] constexpr Dual chained(double f, double slope) const {
+  [[nodiscard]] constexpr Dual chained(const V& f, const V& slope) const {
     Dual r(f);
     directions<M>([&](std::size_t j) { r.derivative[j] = slope * derivative[j]; });
     return r;
@@ -63,28 +74,32 @@ struct Dual {
     return *this;
   }
   constexpr Dual& operator/=(const Dual& b) {
-    const double inverse = 1.0 / b.value;
+    const V inverse = 1.0 / b.value;
     value /= b.value;  // not times the inverse: values are those of the same text on doubles, to the last bit
     directions<M>([&](std::size_t j) { derivative[j] = (derivative[j] - value * b.derivative[j]) * inverse; });
     return *this;
   }
 
   // With a constant the derivatives of the constant are not multiplied out: half of a product's operations.
-  constexpr Dual& operator+=(double b) {
+  template <class B>
+  constexpr Dual& operator+=(B b) requires(constant<B>) {
     value += b;
     return *this;
   }
-  constexpr Dual& operator-=(double b) {
+  template <class B>
+  constexpr Dual& operator-=(B b) requires(constant<B>) {
     value -= b;
     return *this;
   }
-  constexpr Dual& operator*=(double b) {
-    directions<M>([&](std::size_t j) { derivative[j] *= b; });
+  template <class B>
+  constexpr Dual& operator*=(B b) requires(constant<B>) {
     value *= b;
+    directions<M>([&](std::size_t j) { derivative[j] *= b; });
     return *this;
   }
-  constexpr Dual& operator/=(double b) {
-    const double inverse = 1.0 / b;
+  template <class B>
+  constexpr Dual& operator/=(B b) requires(constant<B>) {
+    const V inverse = 1.0 / V(b);
     directions<M>([&](std::size_t j) { derivative[j] *= inverse; });
     value /= b;
     return *this;
@@ -94,43 +109,80 @@ struct Dual {
   friend constexpr Dual operator-(Dual a, const Dual& b) { return a -= b; }
   friend constexpr Dual operator*(Dual a, const Dual& b) { return a *= b; }
   friend constexpr Dual operator/(Dual a, const Dual& b) { return a /= b; }
-  friend constexpr Dual operator+(Dual a, double b) { return a += b; }
-  friend constexpr Dual operator-(Dual a, double b) { return a -= b; }
-  friend constexpr Dual operator*(Dual a, double b) { return a *= b; }
-  friend constexpr Dual operator/(Dual a, double b) { return a /= b; }
-  friend constexpr Dual operator+(double a, Dual b) { return b += a; }
-  friend constexpr Dual operator-(double a, const Dual& b) { return -b + a; }
-  friend constexpr Dual operator*(double a, Dual b) { return b *= a; }
-  friend constexpr Dual operator/(double a, const Dual& b) { return Dual(a) /= b; }
+  template <class B>
+  friend constexpr Dual operator+(Dual a, B b) requires(constant<B>) {
+    return a += b;
+  }
+  template <class B>
+  friend constexpr Dual operator-(Dual a, B b) requires(constant<B>) {
+    return a -= b;
+  }
+  template <class B>
+  friend constexpr Dual operator*(Dual a, B b) requires(constant<B>) {
+    return a *= b;
+  }
+  template <class B>
+  friend constexpr Dual operator/(Dual a, B b) requires(constant<B>) {
+    return a /= b;
+  }
+  template <class A>
+  friend constexpr Dual operator+(A a, Dual b) requires(constant<A>) {
+    return b += a;
+  }
+  template <class A>
+  friend constexpr Dual operator-(A a, const Dual& b) requires(constant<A>) {
+    return -b + a;
+  }
+  template <class A>
+  friend constexpr Dual operator*(A a, Dual b) requires(constant<A>) {
+    return b *= a;
+  }
+  template <class A>
+  friend constexpr Dual operator/(A a, const Dual& b) requires(constant<A>) {
+    return Dual(a) /= b;
+  }
   friend constexpr Dual operator-(const Dual& a) { return a.chained(-a.value, -1.0); }
 
-  friend constexpr bool operator<(const Dual& a, const Dual& b) { return a.value < b.value; }
-  friend constexpr bool operator>(const Dual& a, const Dual& b) { return a.value > b.value; }
+  friend constexpr auto operator<(const Dual& a, const Dual& b) { return a.value < b.value; }
+  friend constexpr auto operator>(const Dual& a, const Dual& b) { return a.value > b.value; }
 };
 
+/// M of a dual number; 0 of any other.
 template <class T>
-inline constexpr bool is_dual = false;
-template <std::size_t M>
-inline constexpr bool is_dual<Dual<M>> = true;
+inline constexpr std::size_t directions_of = 0;
+template <std::size_t M, class V>
+inline constexpr std::size_t directions_of<Dual<M, V>> = M;
+template <class T>
+inline constexpr bool is_dual = directions_of<T> > 0;
+template <std::size_t M, class V>
+inline constexpr bool is_lanes<Dual<M, V>> = is_lanes<V>;
 
-template <std::size_t M>
-[[nodiscard]] constexpr double value_of(const Dual<M>& x) {
+template <std::size_t M, class V>
+[[nodiscard]] constexpr const V& value_of(const Dual<M, V>& x) {
   return x.value;
 }
 
-template <std::size_t M>
-[[nodiscard]] constexpr Dual<M> chained(const Dual<M>& x, double f, double slope) {
+template <std::size_t M, class V>
+[[nodiscard]] constexpr Dual<M, V> chained(const Dual<M, V>& x, const V& f, const V& slope) {
   return x.chained(f, slope);
 }
 
-template <std::size_t M>
-[[nodiscard]] constexpr Dual<M> select(bool mask, const Dual<M>& a, const Dual<M>& b) {
-  return mask ? a : b;
+/// @param mask  what a comparison gives
+template <std::size_t M, class V, class Mask>
+[[nodiscard]] constexpr Dual<M, V> select(const Mask& mask, const Dual<M, V>& a, const Dual<M, V>& b) {
+  if constexpr (std::is_same_v<Mask, bool>) {
+    return mask ? a : b;
+  } else {
+    Dual<M, V> r(select(mask, a.value, b.value));
+    directions<M>([&](std::size_t j) { r.derivative[j] = select(mask, a.derivative[j], b.derivative[j]); });
+    return r;
+  }
 }
 
-template <std::size_t M>
-[[nodiscard]] Dual<M> sqrt(const Dual<M>& x) {
-  const double root = std::sqrt(x.value);
+template <std::size_t M, class V>
+[[nodiscard]] Dual<M, V> sqrt(const Dual<M, V>& x) {
+  using std::sqrt;
+  const V root = sqrt(x.value);
   return x.chained(root, 0.5 / root);
 }
 
@@ -162,9 +214,10 @@ template <std::size_t M>
   return x.chained(power, p * power / x.value);
 }
 
-template <std::size_t M>
-[[nodiscard]] Dual<M> power_3_2(const Dual<M>& x) {
-  const double root = std::sqrt(x.value);
+template <std::size_t M, class V>
+[[nodiscard]] Dual<M, V> power_3_2(const Dual<M, V>& x) {
+  using std::sqrt;
+  const V root = sqrt(x.value);
   return x.chained(x.value * root, 1.5 * root);
 }
 

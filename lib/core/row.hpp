@@ -232,14 +232,14 @@ class Row {
 };
 
 /// N dual numbers: their values side by side, and their derivatives along each direction.
-template <std::size_t M, std::size_t N>
-class Row<Dual<M>, N> {
-  using T = Dual<M>;
-  using V = Row<double, N>;
+template <std::size_t M, class S, std::size_t N>
+class Row<Dual<M, S>, N> {
+  using T = Dual<M, S>;
+  using V = Row<S, N>;
 
   /// What has no derivatives.
   template <class B>
-  static constexpr bool constant = std::is_same_v<B, V> || std::is_arithmetic_v<B>;
+  static constexpr bool constant = std::is_same_v<B, V> || std::is_same_v<B, S> || std::is_arithmetic_v<B>;
   /// What has some.
   template <class B>
   static constexpr bool variable = std::is_same_v<B, Row> || std::is_same_v<B, T>;
@@ -257,7 +257,9 @@ class Row<Dual<M>, N> {
   Row(const V& x) : value(x) {  // NOLINT(google-explicit-constructor): constants
     directions<M>([&](std::size_t j) { derivative[j] = V(0.0); });
   }
-  Row(double x) : Row(V(x)) {}  // NOLINT(google-explicit-constructor)
+  Row(const S& x) : Row(V(x)) {}                      // NOLINT(google-explicit-constructor)
+  Row(double x) requires(!std::is_same_v<S, double>)  // NOLINT(google-explicit-constructor)
+      : Row(V(x)) {}
 
   template <class F>
   [[nodiscard]] static Row of(const F& f) {
@@ -407,7 +409,7 @@ class Row<Dual<M>, N> {
 
   template <class F>
   void each(const F& f) const {
-    value.each([&](std::size_t i, double x) {
+    value.each([&](std::size_t i, const S& x) {
       T dual(x);
       directions<M>([&](std::size_t j) { dual.derivative[j] = derivative[j][i]; });
       f(i, dual);
@@ -416,14 +418,14 @@ class Row<Dual<M>, N> {
 };
 
 // A single dual number with a row of constants.
-#define EPICYCLIC_ROW_OF_CONSTANTS(op)                                     \
-  template <std::size_t M, std::size_t N>                                  \
-  Row<Dual<M>, N> operator op(const Dual<M>& a, const Row<double, N>& b) { \
-    return Row<Dual<M>, N>(a) op b;                                        \
-  }                                                                        \
-  template <std::size_t M, std::size_t N>                                  \
-  Row<Dual<M>, N> operator op(const Row<double, N>& a, const Dual<M>& b) { \
-    return Row<Dual<M>, N>(a) op b;                                        \
+#define EPICYCLIC_ROW_OF_CONSTANTS(op)                                      \
+  template <std::size_t M, class S, std::size_t N>                          \
+  Row<Dual<M, S>, N> operator op(const Dual<M, S>& a, const Row<S, N>& b) { \
+    return Row<Dual<M, S>, N>(a) op b;                                      \
+  }                                                                         \
+  template <std::size_t M, class S, std::size_t N>                          \
+  Row<Dual<M, S>, N> operator op(const Row<S, N>& a, const Dual<M, S>& b) { \
+    return Row<Dual<M, S>, N>(a) op b;                                      \
   }
 EPICYCLIC_ROW_OF_CONSTANTS(+)
 EPICYCLIC_ROW_OF_CONSTANTS(-)

@@ -12,6 +12,7 @@
 
 #include <type_traits>
 
+#include "core/dual.hpp"
 #include "core/scalar.hpp"
 
 namespace epicyclic::model {
@@ -53,8 +54,7 @@ template <class T, class B>
 /// The value alone. Of dual numbers it is the plain value and the plain slope: a fraction of what [M-fw] costs on them.
 template <class T, class B>
 [[nodiscard]] T closed_by(const T& d, const B& b, const B& w, bool smooth) {
-  if constexpr (std::is_same_v<B, double> && !std::is_same_v<T, double> &&
-                requires { chained(d, value_of(d), value_of(d)); }) {
+  if constexpr (!is_dual<B> && !std::is_same_v<T, B> && requires { chained(d, value_of(d), value_of(d)); }) {
     const auto plain = closure(value_of(d), b, w, smooth);
     return chained(d, plain.value, plain.slope);
   } else {

@@ -13,7 +13,7 @@ namespace epicyclic::model {
 namespace {
 
 template <std::size_t N, std::size_t W>
-LaneField lanes_of(const DynamicModel& like, LaneKernel<N, W> kernel) {
+LaneField lanes_of(const DynamicModel& like, LaneKernel<N, W> kernel, std::size_t vectors) {
   const auto point = [layout = like.layout, dimension = like.dimension](const VectorField& field) {
     auto constants = constants_of<N>(field, layout);
     if (!constants || field.dimension != dimension)
@@ -27,7 +27,7 @@ LaneField lanes_of(const DynamicModel& like, LaneKernel<N, W> kernel) {
   const auto state = std::make_shared<State>(State{LaneParameters<N, W>(point(like)), {}});
   LaneField f;
   f.width = W;
-  f.dimension = like.dimension;
+  f.dimension = like.dimension * (1 + vectors);
   f.load = [state, point](std::size_t lane, const VectorField& field) { state->lanes.load(lane, point(field)); };
   f.set_segment = [state](std::size_t lane, std::size_t segment) { state->lanes.set_segment(lane, segment); };
   f.set_places = [state, kernel](std::size_t count, const double* s) {
@@ -37,6 +37,12 @@ LaneField lanes_of(const DynamicModel& like, LaneKernel<N, W> kernel) {
   f.right_hand_side = [state, kernel](std::size_t place, const double* y, double* dyds) {
     kernel.evaluate(state->lanes, state->instants[place], y, dyds);
   };
+  if (vectors > 0)
+    f.right_hand_side = [state, kernel, vectors, layout = like.layout, vector = like.dimension * W](
+                            std::size_t place, const double* y, double* dyds) {
+      for (std::size_t j = 1; j <= vectors; ++j)
+        kernel.push(layout, state->lanes, state->instants[place], y, y + j * vector, dyds, dyds + j * vector);
+    };
   f.surfaces = like.surfaces.count;
   f.surface_values = [state, kernel](std::size_t place, const double* y, double* values, double* rates) {
     kernel.measure_contacts(state->lanes, state->instants[place], y, values, rates);
@@ -46,14 +52,15 @@ LaneField lanes_of(const DynamicModel& like, LaneKernel<N, W> kernel) {
 
 }  // namespace
 
-LaneField make_lane_field(const DynamicModel& like, const char* instruction_set, std::size_t copy) {
+LaneField make_lane_field(const DynamicModel& like, const char* instruction_set, std::size_t copy,
+                          std::size_t vectors) {
   return with_planets(like.planets, [&]<std::size_t N>() -> LaneField {
     if (const auto kernel = lane_kernel<N, 2>(like.layout, instruction_set, copy); kernel.evaluate != nullptr)
-      return lanes_of<N, 2>(like, kernel);
+      return lanes_of<N, 2>(like, kernel, vectors);
     if (const auto kernel = lane_kernel<N, 4>(like.layout, instruction_set, copy); kernel.evaluate != nullptr)
-      return lanes_of<N, 4>(like, kernel);
+      return lanes_of<N, 4>(like, kernel, vectors);
     if (const auto kernel = lane_kernel<N, 8>(like.layout, instruction_set, copy); kernel.evaluate != nullptr)
-      return lanes_of<N, 8>(like, kernel);
+      return lanes_of<N, 8>(like, kernel, vectors);
     return {};
   });
 }

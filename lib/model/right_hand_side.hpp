@@ -294,9 +294,9 @@ template <class T, class P, std::size_t N>
   for (std::size_t i = 0; i < N; ++i) {
     Coordinates<T, 1> own;
     const Reactions<T> r = accelerate_planets(p, Group{i}, StageState<T, 1, P>(layout, p, Group{i}, now, y), own);
-    a.x_p[i] = own.x_p[0];
-    a.y_p[i] = own.y_p[0];
-    a.w_p[i] = own.w_p[0];
+    a.x_p.set(i, own.x_p[0]);
+    a.y_p.set(i, own.y_p[0]);
+    a.w_p.set(i, own.w_p[0]);
     if (i == 0) {
       total = r;
     } else {

@@ -5,9 +5,10 @@
 
 namespace epicyclic::studies {
 
-LaneField stage_lanes(const model::DynamicModel& like, const integrate::StepLoops& loops) {
-  LaneField lanes = model::make_lane_field(like, loops.name, loops.copy);
+LaneField stage_lanes(const model::DynamicModel& like, const integrate::StepLoops& loops, std::size_t vectors) {
+  LaneField lanes = model::make_lane_field(like, loops.name, loops.copy, vectors);
   if (lanes.width == loops.width) return lanes;
+  if (vectors > 0) return {};
   return integrate::one_by_one(loops.width, like.dimension, like.surfaces.count);
 }
 

@@ -9,6 +9,8 @@ namespace epicyclic::studies {
 
 /// Lanes for models of one structure, as the kernels have them; each by its own right-hand side where the model layer
 /// has no lanes (full coordinates).
-[[nodiscard]] LaneField stage_lanes(const model::DynamicModel& like, const integrate::StepLoops& loops);
+/// @param vectors  tangent vectors of each lane; where the model layer has no lanes there are none: width 0
+[[nodiscard]] LaneField stage_lanes(const model::DynamicModel& like, const integrate::StepLoops& loops,
+                                    std::size_t vectors = 0);
 
 }  // namespace epicyclic::studies

@@ -276,15 +276,20 @@ TEST(StepLoops, MeasureTheWeightedRootMeanSquare) {
       h.fill(0.3);
       const std::array<double, 3> e = {0.5, -0.2, 0.1};
       const std::array<const double*, 3> k = {numbers[0].data(), numbers[1].data(), numbers[2].data()};
-      kernels->error(dimension, 3, e.data(), k.data(), h.data(), numbers[3].data(), numbers[4].data(), 1e-3, 1e-5,
-                     square.data(), largest.data());
+      alignas(64) std::array<double, most_lanes> relative{}, absolute{};
+      for (std::size_t lane = 0; lane < width; ++lane) {
+        relative[lane] = 1e-3 * static_cast<double>(lane + 1);
+        absolute[lane] = 1e-5 / static_cast<double>(lane + 1);
+      }
+      kernels->error(dimension, 3, e.data(), k.data(), h.data(), numbers[3].data(), numbers[4].data(), relative.data(),
+                     absolute.data(), square.data(), largest.data());
       for (std::size_t lane = 0; lane < width; ++lane) {
         double squares = 0.0;
         double longest = 0.0;
         for (std::size_t i = 0; i < dimension; ++i) {
           const std::size_t at = i * width + lane;
           const double error = 0.3 * (0.5 * numbers[0][at] - 0.2 * numbers[1][at] + 0.1 * numbers[2][at]);
-          const double part = error / (1e-3 * std::abs(numbers[3][at]) + 1e-5);
+          const double part = error / (relative[lane] * std::abs(numbers[3][at]) + absolute[lane]);
           squares += part * part;
           longest = std::max(longest, std::abs(numbers[4][at]));
         }
@@ -294,6 +299,46 @@ TEST(StepLoops, MeasureTheWeightedRootMeanSquare) {
       }
     }
   }
+}
+
+TEST(StepLoops, MeasureVectorsInPartsOfTheirSize) {
+  constexpr std::size_t dimension = 5;
+  constexpr double rounding = 1e-14;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-0.4, 0.4);
+  for (const StepLoops* kernels : lane_sets())
+    for (const double least : {0.0, 1.0}) {
+      const std::size_t width = kernels->width;
+      alignas(64) std::array<std::array<double, dimension * most_lanes>, 3> numbers{};
+      for (auto& values : numbers)
+        for (double& x : values) x = any(random);
+      for (std::size_t i = 0; i < dimension; ++i) numbers[2][i * width] = 0.0;  // a vector of no length
+      alignas(64) std::array<double, most_lanes> h{}, relative{}, absolute{}, square{};
+      h.fill(0.3);
+      relative.fill(1e-3);
+      absolute.fill(1e-4);
+      constexpr double large = 1e12;
+      square.back() = large;  // of the last lane of the widest
+      const std::array<double, 2> e = {0.5, -0.2};
+      const std::array<const double*, 2> k = {numbers[0].data(), numbers[1].data()};
+      kernels->vector_error(dimension, 2, e.data(), k.data(), h.data(), numbers[2].data(), relative.data(),
+                            absolute.data(), least, square.data());
+      for (std::size_t lane = 0; lane < width; ++lane) {
+        double size = least;
+        for (std::size_t i = 0; i < dimension; ++i) size = std::max(size, std::abs(numbers[2][i * width + lane]));
+        if (size == 0.0) size = 1.0;
+        double squares = 0.0;
+        for (std::size_t i = 0; i < dimension; ++i) {
+          const std::size_t at = i * width + lane;
+          const double part =
+              0.3 * (0.5 * numbers[0][at] - 0.2 * numbers[1][at]) / (1e-3 * std::abs(numbers[2][at]) + 1e-4 * size);
+          squares += part * part;
+        }
+        const double own = squares / static_cast<double>(dimension);
+        const double expected = lane + 1 == most_lanes ? large : own;
+        EXPECT_NEAR(square[lane], expected, rounding * expected) << kernels->name << " " << least;
+      }
+    }
 }
 
 TEST(StepLoops, EndStepsOnStopsToTheLastBit) {

@@ -206,15 +206,26 @@ class LaneEnsemble::Impl {
         start_(field_.surfaces * w_),
         end_(field_.surfaces * w_),
         at_(most_stages * w_),
+        relative_(w_),
+        absolute_(w_),
         lanes_(w_),
         sample_(n_) {
     options_.validate();
     if (field_.width != w_)
       throw InputError("a field of " + std::to_string(field_.width) + " lanes in loops of " + std::to_string(w_));
+    for (std::size_t lane = 0; lane < w_; ++lane)
+      set_tolerances(lane, options_.relative_tolerance, options_.absolute_tolerance);
     find_slopes();
   }
 
   std::size_t width() const { return w_; }
+
+  void set_tolerances(std::size_t lane, double relative, double absolute) {
+    relative_[lane] = relative;
+    absolute_[lane] = absolute;
+  }
+
+  void keep_together() { together_ = true; }
 
   void control(std::size_t n, std::size_t vectors, bool last_is_parameter) {
     controlled_ = n;
@@ -283,9 +294,8 @@ class LaneEnsemble::Impl {
         lanes_[lane].more_slopes + work.steps * static_cast<long>(pair_.stages - (pair_.first_same_as_last ? 1 : 0));
     return work;
   }
-  double occupancy() const {
-    return evaluated_ == 0 ? 0.0 : static_cast<double>(under_way_) / static_cast<double>(evaluated_ * w_);
-  }
+  std::size_t evaluations() const { return evaluated_; }
+  std::size_t evaluations_under_way() const { return under_way_; }
 
  private:
   static constexpr long long all_bits = -1;
@@ -424,9 +434,9 @@ class LaneEnsemble::Impl {
     if (!pair_.first_same_as_last) advance_by(pair_.weights, weight_slopes_);
     const Terms& e = pair_.differences;
     kernels_.error(controlled_, e.count, e.weight.data(), difference_slopes_.data(), steps_.h.data(), y_.get(),
-                   next_.get(), options_.relative_tolerance, options_.absolute_tolerance, steps_.norm.data(),
-                   steps_.largest.data());
+                   next_.get(), relative_.get(), absolute_.get(), steps_.norm.data(), steps_.largest.data());
     for (std::size_t j = 1; j <= vectors_; ++j) worst_with_vector(j);
+    if (together_) share_norm();
     const LaneVerdict verdict = kernels_.judge(steps_, options_.escape_bound);
     measure_surfaces(places_.end, next_.get(), end_);
     if (verdict.accepted < running_)
@@ -465,28 +475,22 @@ class LaneEnsemble::Impl {
     }
   }
 
-  /// Lanes have no kernel for tangents of their own: theirs is plain text.
   void worst_with_vector(std::size_t j) {
     const Terms& terms = pair_.differences;
-    const Slopes& slopes = difference_slopes_;
-    for (std::size_t lane = 0; lane < w_; ++lane) {
-      if (!lanes_[lane].busy) continue;
-      double size = last_is_parameter_ && (j + 1) * controlled_ == n_ ? 1.0 : 0.0;
-      const std::size_t first = j * controlled_;
-      for (std::size_t i = first; i < first + controlled_; ++i) size = std::max(size, std::abs(y_[i * w_ + lane]));
-      if (!(size > 0.0)) size = 1.0;
-      double squares = 0.0;
-      for (std::size_t i = first; i < first + controlled_; ++i) {
-        double e = 0.0;
-        for (std::size_t k = 0; k < terms.count; ++k) e += terms.weight[k] * slopes[k][i * w_ + lane];
-        const double part =
-            steps_.h[lane] * e /
-            (options_.relative_tolerance * std::abs(y_[i * w_ + lane]) + options_.absolute_tolerance * size);
-        squares += part * part;
-      }
-      const double square = squares / static_cast<double>(controlled_);
-      if (!(square <= steps_.norm[lane])) steps_.norm[lane] = square;
-    }
+    const std::size_t first = j * controlled_ * w_;
+    Slopes slopes = difference_slopes_;
+    for (std::size_t k = 0; k < terms.count; ++k) slopes[k] += first;
+    const double least = last_is_parameter_ && (j + 1) * controlled_ == n_ ? 1.0 : 0.0;
+    kernels_.vector_error(controlled_, terms.count, terms.weight.data(), slopes.data(), steps_.h.data(),
+                          y_.get() + first, relative_.get(), absolute_.get(), least, steps_.norm.data());
+  }
+
+  /// The worst of all lanes is that of each.
+  void share_norm() {
+    double worst = 0.0;
+    for (std::size_t lane = 0; lane < w_; ++lane)
+      if (!(steps_.norm[lane] <= worst)) worst = steps_.norm[lane];
+    steps_.norm.fill(worst);
   }
 
   /// Of a lane whose step was not accepted, and will not be.
@@ -526,7 +530,7 @@ class LaneEnsemble::Impl {
     double speed = 0.0;
     for (std::size_t i = 0; i < controlled_; ++i) {
       const double x = y_[i * w_ + lane];
-      const double scale = options_.relative_tolerance * std::abs(x) + options_.absolute_tolerance;
+      const double scale = relative_[lane] * std::abs(x) + absolute_[lane];
       size += x / scale * (x / scale);
       speed += k_[0][i * w_ + lane] / scale * (k_[0][i * w_ + lane] / scale);
     }
@@ -577,13 +581,15 @@ class LaneEnsemble::Impl {
   std::size_t controlled_ = n_;  ///< components of the state, whose error counts
   std::size_t vectors_ = 0;      ///< tangent vectors whose error counts too
   bool last_is_parameter_ = false;
+  bool together_ = false;
   Numbers y_, next_;
   std::array<Numbers, most_stages> k_;  ///< the last one: slopes at the end of the step
   std::array<Slopes, most_stages> row_slopes_{};
   Slopes weight_slopes_{}, difference_slopes_{};
   LaneSteps steps_;
-  SurfaceValues start_, end_;  ///< at the ends of the step
-  Numbers at_;                 ///< places of the slopes
+  SurfaceValues start_, end_;    ///< at the ends of the step
+  Numbers at_;                   ///< places of the slopes
+  Numbers relative_, absolute_;  ///< tolerances of each lane
   std::vector<Lane> lanes_;
   std::vector<double> sample_;
   std::size_t running_ = 0;      ///< lanes under way
@@ -603,6 +609,10 @@ std::size_t LaneEnsemble::width() const { return impl_->width(); }
 void LaneEnsemble::control(std::size_t n, std::size_t vectors, bool last_is_parameter) {
   impl_->control(n, vectors, last_is_parameter);
 }
+void LaneEnsemble::keep_together() { impl_->keep_together(); }
+void LaneEnsemble::set_tolerances(std::size_t lane, double relative, double absolute) {
+  impl_->set_tolerances(lane, relative, absolute);
+}
 void LaneEnsemble::load(std::size_t lane, const VectorField& system) { impl_->load(lane, system); }
 void LaneEnsemble::begin(std::size_t lane, std::span<const double> state, double from, double to,
                          std::span<const double> samples, const Observer& observer) {
@@ -615,6 +625,7 @@ void LaneEnsemble::copy_state(std::size_t lane, std::span<double> state) const {
 double LaneEnsemble::next_step(std::size_t lane) const { return impl_->next_step(lane); }
 void LaneEnsemble::set_next_step(std::size_t lane, double step) { impl_->set_next_step(lane, step); }
 Work LaneEnsemble::work(std::size_t lane) const { return impl_->work(lane); }
-double LaneEnsemble::occupancy() const { return impl_->occupancy(); }
+std::size_t LaneEnsemble::evaluations() const { return impl_->evaluations(); }
+std::size_t LaneEnsemble::evaluations_under_way() const { return impl_->evaluations_under_way(); }
 
 }  // namespace epicyclic::integrate

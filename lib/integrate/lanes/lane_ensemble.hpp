@@ -57,6 +57,13 @@ class LaneEnsemble {
   /// with respect to a parameter, in parts of 1 until it is longer. The step's error is then that of the worst.
   void control(std::size_t n, std::size_t vectors, bool last_is_parameter);
 
+  /// All lanes are to take the same steps, those of the worst: for the same state in each, with tangent vectors of its
+  /// own. They have to be begun together.
+  void keep_together();
+
+  /// Those of a lane's next evolutions; those of the options until they are set.
+  void set_tolerances(std::size_t lane, double relative, double absolute);
+
   /// Puts a system into a lane in which nothing is under way. `system` is kept until the next one.
   void load(std::size_t lane, const VectorField& system);
 
@@ -81,8 +88,9 @@ class LaneEnsemble {
   /// Right-hand sides that a lane's evolutions took since it was loaded, and steps attempted.
   [[nodiscard]] Work work(std::size_t lane) const;
 
-  /// Of all lanes at once: evaluations of the kernel, and the lanes among them that were under way.
-  [[nodiscard]] double occupancy() const;
+  /// Evaluations of the kernel, of all lanes at once, and the lanes that were under way, summed over them.
+  [[nodiscard]] std::size_t evaluations() const;
+  [[nodiscard]] std::size_t evaluations_under_way() const;
 
  private:
   class Impl;

@@ -51,11 +51,17 @@ struct StepLoops {
   void (*stage)(std::size_t dimension, std::size_t count, const double* a, const double* const* k, const double* h,
                 const double* y, double* out) = nullptr;
 
-  /// norm^2 = mean_i [ h sum_j e_j k_ij / (rtol |y_i| + atol) ]^2 and max_i |next_i|, W numbers each. A slope that is
-  /// not a number makes the norm none; the maximum leaves such components out.
+  /// norm^2 = mean_i [ h sum_j e_j k_ij / (rtol |y_i| + atol) ]^2 and max_i |next_i|, W numbers each, as are the
+  /// tolerances. A slope that is not a number makes the norm none; the maximum leaves such components out.
   void (*error)(std::size_t dimension, std::size_t count, const double* e, const double* const* k, const double* h,
-                const double* y, const double* next, double relative, double absolute, double* norm_square,
-                double* largest) = nullptr;
+                const double* y, const double* next, const double* relative, const double* absolute,
+                double* norm_square, double* largest) = nullptr;
+
+  /// norm^2 <- max(norm^2, mean_i [ h sum_j e_j k_ij / (rtol |v_i| + atol size) ]^2) of a tangent vector, whose size is
+  /// its largest component or `least`, if that is more; 1 where both are 0.
+  void (*vector_error)(std::size_t dimension, std::size_t count, const double* e, const double* const* k,
+                       const double* h, const double* v, const double* relative, const double* absolute, double least,
+                       double* norm_square) = nullptr;
 
   /// Sets h, end and cut, and out_k = s + c_k h for each of `count` nodes, the end itself where c_k = 1.
   void (*measure)(LaneSteps& steps, std::size_t count, const double* c, double* out) = nullptr;

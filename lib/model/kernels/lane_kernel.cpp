@@ -6,12 +6,15 @@
 
 namespace epicyclic::model {
 
-#define EPICYCLIC_DECLARE_KERNELS                                                                        \
-  template <std::size_t N, std::size_t W>                                                                \
-  void prepare_lanes(const LaneParameters<N, W>&, std::size_t, const double*, Instant<Lanes<W>, N>*);    \
-  template <Layout L, std::size_t N, std::size_t W>                                                      \
-  void evaluate_lanes(const LaneParameters<N, W>&, const Instant<Lanes<W>, N>&, const double*, double*); \
-  template <Layout L, std::size_t N, std::size_t W>                                                      \
+#define EPICYCLIC_DECLARE_KERNELS                                                                                 \
+  template <std::size_t N, std::size_t W>                                                                         \
+  void prepare_lanes(const LaneParameters<N, W>&, std::size_t, const double*, Instant<Lanes<W>, N>*);             \
+  template <Layout L, std::size_t N, std::size_t W>                                                               \
+  void evaluate_lanes(const LaneParameters<N, W>&, const Instant<Lanes<W>, N>&, const double*, double*);          \
+  template <std::size_t N, std::size_t W>                                                                         \
+  void push_lanes(Layout, const LaneParameters<N, W>&, const Instant<Lanes<W>, N>&, const double*, const double*, \
+                  double*, double*);                                                                              \
+  template <Layout L, std::size_t N, std::size_t W>                                                               \
   void measure_contacts(const LaneParameters<N, W>&, const Instant<Lanes<W>, N>&, const double*, double*, double*);
 namespace baseline {
 EPICYCLIC_DECLARE_KERNELS
@@ -33,28 +36,32 @@ EPICYCLIC_DECLARE_KERNELS
 
 namespace {
 
-#define EPICYCLIC_KERNELS_OF(set) \
-  { &set::prepare_lanes<N, W>, &set::evaluate_lanes<L, N, W>, &set::measure_contacts<L, N, W> }
+/// @param first  the set's first copy, which has the tangents of all
+#define EPICYCLIC_KERNELS_OF(set, first)                                                \
+  {                                                                                     \
+    &set::prepare_lanes<N, W>, &set::evaluate_lanes<L, N, W>, &first::push_lanes<N, W>, \
+        &set::measure_contacts<L, N, W>                                                 \
+  }
 
 template <Layout L, std::size_t N, std::size_t W>
 LaneKernel<N, W> kernel_of_layout(const char* name, [[maybe_unused]] std::size_t copy) {
   const std::string_view wanted(name);
   if constexpr (W == 2) {
-    if (wanted == "baseline") return EPICYCLIC_KERNELS_OF(baseline);
+    if (wanted == "baseline") return EPICYCLIC_KERNELS_OF(baseline, baseline);
   }
 #ifdef EPICYCLIC_X86_KERNELS
   static_assert(kernel_copies == 2);
   const bool again = copy % kernel_copies == 1;
   if constexpr (W == 4) {
     if (wanted == "avx2" && machine_runs(wanted)) {
-      if (again) return EPICYCLIC_KERNELS_OF(avx2_again);
-      return EPICYCLIC_KERNELS_OF(avx2);
+      if (again) return EPICYCLIC_KERNELS_OF(avx2_again, avx2);
+      return EPICYCLIC_KERNELS_OF(avx2, avx2);
     }
   }
   if constexpr (W == 8) {
     if (wanted == "avx512" && machine_runs(wanted)) {
-      if (again) return EPICYCLIC_KERNELS_OF(avx512_again);
-      return EPICYCLIC_KERNELS_OF(avx512);
+      if (again) return EPICYCLIC_KERNELS_OF(avx512_again, avx512);
+      return EPICYCLIC_KERNELS_OF(avx512, avx512);
     }
   }
 #endif

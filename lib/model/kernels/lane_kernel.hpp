@@ -25,6 +25,10 @@ struct LaneKernel {
   /// y and dyds have 2 degrees_of_freedom(L, N) times W numbers, component by component, aligned to 64 bytes.
   void (*evaluate)(const LaneParameters<N, W>& p, const Instants& now, const double* y, double* dyds) = nullptr;
 
+  /// dy/ds, and (dg/dy) v of a tangent vector in each lane, which is as long as y.
+  void (*push)(Layout layout, const LaneParameters<N, W>& p, const Instants& now, const double* y, const double* v,
+               double* dyds, double* dvds) = nullptr;
+
   /// contact_distances(), contacts_of(p) times W numbers each.
   void (*measure_contacts)(const LaneParameters<N, W>& p, const Instants& now, const double* y, double* distances,
                            double* rates) = nullptr;
