@@ -1,6 +1,7 @@
 #include "analysis/zero_one_test.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -29,12 +30,18 @@ double growth_of_walk(std::span<const double> series, double c) {
   std::vector<double> displacement;
   const std::size_t starts = size - longest;
   for (std::size_t n = 1; n <= longest; ++n) {
-    double sum = 0.0;
-    for (std::size_t j = 1; j <= starts; ++j) {
+    // Four sums, none of which waits for another.
+    std::array<double, 4> sums{};
+    const auto add = [&](std::size_t j, double& sum) {
       const double dp = p[j + n] - p[j];
       const double dq = q[j + n] - q[j];
       sum += dp * dp + dq * dq;
-    }
+    };
+    std::size_t j = 1;
+    for (; j + 3 <= starts; j += 4)
+      for (std::size_t k = 0; k < 4; ++k) add(j + k, sums[k]);
+    for (; j <= starts; ++j) add(j, sums[0]);
+    const double sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
     steps.push_back(static_cast<double>(n));
     displacement.push_back(sum / static_cast<double>(starts));
   }
