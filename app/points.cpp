@@ -29,15 +29,18 @@ bool computed(const studies::PointSummary& r) { return r.outcome == integrate::O
 
 /// Computes what the store does not hold.
 /// @param leader  of the other ranks; null: there are none
+/// @param lanes   what lanes did, if there were any
 /// @returns how many points of all failed
 std::size_t compute_missing(const Arguments& arguments, std::string_view command, std::string_view noun,
                             const input::LoadedInput& input, const studies::SweepPlan& plan,
-                            const studies::ModelAtPoint& model_at, store::PointStore& store, SweepLeader* leader) {
+                            const studies::ModelAtPoint& model_at, store::PointStore& store, SweepLeader* leader,
+                            studies::LaneUse& lanes) {
   const studies::LookOptions& look = input.study.look();
   std::size_t failed = 0;
   studies::SweepRun run;
   run.threads = arguments.threads;
   run.stop = &stop_requested();
+  run.lane_use = &lanes;
   run.done.resize(plan.points.size());
   for (std::size_t i = 0; i < plan.points.size(); ++i) {
     run.done[i] = store.holds(i);
@@ -169,15 +172,18 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
 
   store::PointStore store(folder.path(), identity, plan.points.size());
   for (const auto& [journal, bytes] : store.cut_tails()) tell_cut_tail(journal, bytes);
-  const std::size_t failed = compute_missing(arguments, command, noun, input, plan, model_at, store, leader);
+  studies::LaneUse lanes;
+  const std::size_t failed = compute_missing(arguments, command, noun, input, plan, model_at, store, leader, lanes);
   folder.require_there();
   if (leader != nullptr) store.read_others();
   std::int64_t undrawn = 0;
   const auto close_run = [&](store::RunState state) {
-    session.end(state, {{"points", static_cast<std::int64_t>(plan.points.size())},
-                        {"computed", static_cast<std::int64_t>(store.size())},
-                        {"failed", static_cast<std::int64_t>(failed)},
-                        {"undrawn", undrawn}});
+    session.end(state,
+                {{"points", static_cast<std::int64_t>(plan.points.size())},
+                 {"computed", static_cast<std::int64_t>(store.size())},
+                 {"failed", static_cast<std::int64_t>(failed)},
+                 {"undrawn", undrawn}},
+                lanes.occupancy());
   };
   if (store.size() < plan.points.size()) {
     close_run(store::RunState::stopped);

@@ -32,9 +32,10 @@ Session::Session(const Arguments& arguments, const input::LoadedInput& input, st
   watch_ = std::make_unique<FolderWatch>(folder_);
 }
 
-void Session::end(store::RunState state, std::map<std::string, std::int64_t> counts) {
+void Session::end(store::RunState state, std::map<std::string, std::int64_t> counts, std::optional<double> occupancy) {
   facts_.ended = store::utc_now();
   facts_.counts = std::move(counts);
+  facts_.occupancy = occupancy;
   folder_.write_run(state, store::run_facts(facts_));
 }
 

@@ -41,8 +41,9 @@ class Session {
   [[nodiscard]] const std::string& resolved() const { return resolved_; }
 
   /// Writes run.json as it stays: when it ended, and the counts.
+  /// @param occupancy  of lanes, if there were any
   /// @throws OutputError
-  void end(store::RunState state, std::map<std::string, std::int64_t> counts);
+  void end(store::RunState state, std::map<std::string, std::int64_t> counts, std::optional<double> occupancy = {});
 
  private:
   std::string identity_;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "integrate/make_flow.hpp"
-
 namespace epicyclic::analysis {
 
 RegimeOptions RegimeFlows::options(RegimeOptions o) const {
@@ -18,13 +16,14 @@ long RegimeFlows::right_hand_side_calls() const {
   return calls;
 }
 
-RegimeFlows make_regime_flows(const VectorField& field, const integrate::IntegratorOptions& integrator) {
+RegimeFlows make_regime_flows(const VectorField& field, const integrate::IntegratorOptions& integrator,
+                              const integrate::FlowMaker& make_flow) {
   const auto with = [&](double factor, bool controlled) {
     integrate::IntegratorOptions o = integrator;
     o.relative_tolerance *= factor;
     o.absolute_tolerance *= factor;
     o.tangent_error_control = controlled;
-    return integrate::make_flow(field, o);
+    return make_flow(field, o);
   };
   // Growth is a statistical matter, for which a looser tolerance is as good.
   constexpr double statistical = 1e-6;

@@ -5,6 +5,7 @@
 
 #include "analysis/regime.hpp"
 #include "integrate/flow.hpp"
+#include "integrate/make_flow.hpp"
 #include "integrate/options.hpp"
 
 namespace epicyclic::analysis {
@@ -20,8 +21,8 @@ struct RegimeFlows {
   [[nodiscard]] long right_hand_side_calls() const;
 };
 
-/// @param integrator  of one trajectory: tangents are not carried by lanes
 /// @throws InputError for options that no flow takes
-[[nodiscard]] RegimeFlows make_regime_flows(const VectorField& field, const integrate::IntegratorOptions& integrator);
+[[nodiscard]] RegimeFlows make_regime_flows(const VectorField& field, const integrate::IntegratorOptions& integrator,
+                                            const integrate::FlowMaker& make_flow = integrate::make_flow);
 
 }  // namespace epicyclic::analysis

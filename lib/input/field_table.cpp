@@ -386,6 +386,18 @@ Format<double> number_or_rigid_format(std::string_view key, const Bounds& bounds
   return format;
 }
 
+Format<int> integer_or_auto_format(const Bounds& bounds) {
+  Format<int> format = integer_format<int>(bounds);
+  format.read = [read = format.read](const json& value, const std::string& pointer,
+                                     ReadContext& context) -> std::optional<int> {
+    if (value == "auto") return 0;
+    return read(value, pointer, context);
+  };
+  format.write = [](int value) { return value == 0 ? json("auto") : json(value); };
+  format.schema = [=] { return ordered_json{{"anyOf", {number_schema(bounds, true), {{"const", "auto"}}}}}; };
+  return format;
+}
+
 Format<bool> boolean_format() {
   Format<bool> format;
   format.read = [](const json& value, const std::string& pointer, ReadContext& context) -> std::optional<bool> {

@@ -177,6 +177,8 @@ struct Format {
 
 Format<double> number_format(std::string_view key, const Bounds& bounds);
 Format<double> number_or_rigid_format(std::string_view key, const Bounds& bounds);
+/// 0 stands for "auto".
+Format<int> integer_or_auto_format(const Bounds& bounds);
 Format<bool> boolean_format();
 Format<std::string> text_format();
 Format<std::vector<double>> numbers_format(std::string_view key, const Bounds& bounds, std::size_t size_min,
@@ -312,6 +314,12 @@ class Table {
     const auto at = table_detail::access<T>(member);
     using I = typename table_detail::Plain<std::remove_reference_t<decltype(at.make(std::declval<T&>()))>>::type;
     return add(key, at, table_detail::integer_format<I>(bounds), description);
+  }
+
+  /// An integer, or "auto", which is stored as 0.
+  template <class F>
+  Field<T>& integer_or_auto(std::string_view key, F member, Bounds bounds, std::string_view description) {
+    return add(key, table_detail::access<T>(member), table_detail::integer_or_auto_format(bounds), description);
   }
 
   /// true or false.

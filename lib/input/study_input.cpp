@@ -1015,6 +1015,7 @@ class LoadedInput::Loader {
     check_integrator();
     const auto bad = [this](const std::string& pointer) { return is_bad(pointer); };
     if (input_.study.has_points()) check_points(input_.study, bad, context_);
+    if (auto* sweep = std::get_if<studies::SweepOptions>(&input_.study.plan)) sweep->segments = segments_of(*sweep);
     if (const auto* branches = std::get_if<studies::BranchesOptions>(&input_.study.plan))
       check_branches(*branches, input_.study.stage, bad, context_);
     input_.resolved = sources_->bare ? stage_table().write(input_.study.stage) : study_table().write(input_.study);

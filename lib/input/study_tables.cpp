@@ -518,8 +518,8 @@ void add_grid(Table<Study>& t) {
   t.number("to", of(&Axis::to), between(-1e300, 1e300), "Last value of the parameter, in its unit.");
   t.integer("points", of(&Axis::points), between(1, 100000), "Number of points, evenly spaced, ends included [-].");
   add_course<Sweep, SweepOptions>(t);
-  t.integer("segments", in_plan<Sweep>(&SweepOptions::segments), between(1, 100000),
-            "Chains per direction of a carried sweep [-].");
+  t.integer_or_auto("segments", in_plan<Sweep>(&SweepOptions::segments), between(1, 100000),
+                    "Chains per direction of a carried sweep [-], or \"auto\": by the number of points.");
   t.integer("coarse_periods", in_plan<Sweep>(&SweepOptions::coarse_periods), between(1, 1e6),
             "Mesh periods of each point in the pass along the range that says where segments start [-].");
 }

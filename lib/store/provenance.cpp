@@ -62,6 +62,7 @@ nlohmann::json run_facts(const Provenance& provenance) {
       {"process_id", provenance.process_id},
       {"started", provenance.started},
   };
+  if (provenance.occupancy) facts["occupancy"] = *provenance.occupancy;
   if (!provenance.ended.empty()) facts["ended"] = provenance.ended;
   rusage usage{};
   if (::getrusage(RUSAGE_SELF, &usage) == 0) facts["peak_memory_KiB"] = usage.ru_maxrss;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
@@ -20,6 +21,7 @@ struct Provenance {
   int ranks = 1;                                    ///< processes; given by the caller
   std::map<std::string, std::string> input_files;   ///< copy in the folder -> name of the file; given by the caller
   std::map<std::string, std::int64_t> counts;       ///< points, failed points, ...; given by the caller
+  std::optional<double> occupancy;                  ///< of lanes; nothing where there were none
   std::string host;
   std::string cpu_model;
   std::int64_t process_id = 0;

@@ -2,34 +2,62 @@
 
 #include <algorithm>
 
-#include "integrate/make_flow.hpp"
-#include "studies/motion.hpp"
-
 namespace epicyclic::studies {
 
-std::vector<double> CoarsePass::start_of(std::size_t first, const std::function<bool()>& go_on) {
+std::vector<double> CoarsePass::start_of(std::size_t first, const std::function<bool()>& go_on,
+                                         const integrate::FlowMaker& make_flow,
+                                         const std::function<void(const std::function<bool()>& over)>& wait) {
   const std::size_t count = plan_.grid.columns();
   if (plan_.grid.coarse_periods == 0 || first % count == 0) return {};
-  const std::size_t direction = first / count;
-  integrate::IntegratorOptions options = of_one_trajectory(integrator_);
+  const std::size_t first_of_direction = first - first % count;
+  std::unique_lock lock(mutex_);
+  Way& way = ways_[first / count];
+  const auto known = [&] { return way.next >= first % count; };
+  while (!known() && way.carried) {
+    lock.unlock();
+    wait([&] {
+      const std::scoped_lock own(mutex_);
+      return known() || !way.carried || !go_on();
+    });
+    if (!go_on()) return {};
+    lock.lock();
+  }
+  way.carried = !known();
+  while (way.carried) {
+    lock.unlock();
+    bool done = false;
+    try {
+      done = carry(way, first_of_direction + way.next, go_on, make_flow);
+    } catch (...) {
+      lock.lock();
+      way.carried = false;
+      throw;
+    }
+    lock.lock();
+    if (done) keep(way, first_of_direction);
+    way.carried = done && !known();
+    if (!done) return {};
+  }
+  return way.starts.at(first);
+}
+
+bool CoarsePass::carry(Way& way, std::size_t point, const std::function<bool()>& go_on,
+                       const integrate::FlowMaker& make_flow) {
+  integrate::IntegratorOptions options = integrator_;
   // Which branch it is on is all that is asked.
   constexpr double enough = 1e-5;
   const double factor = std::clamp(enough / options.relative_tolerance, 1.0, 100.0);
   options.relative_tolerance *= factor;
   options.absolute_tolerance *= factor;
-  const std::scoped_lock lock(mutex_);
-  Way& way = ways_[direction];
-  for (; way.next < first - direction * count; keep(way, direction * count)) {
-    const model::DynamicModel model = model_at_(plan_.points[direction * count + way.next]);
-    std::vector<double> state = way.state.empty() ? model.default_start : way.state;
-    const auto flow = integrate::make_flow(model, options);
-    for (int k = 0; k < plan_.grid.coarse_periods && !state.empty(); ++k) {
-      if (!go_on()) return {};
-      if (!flow->evolve(state, 0.0, flow->field().period).reached()) state.clear();
-    }
-    way.state = std::move(state);
+  const model::DynamicModel model = model_at_(plan_.points[point]);
+  std::vector<double> state = way.state.empty() ? model.default_start : way.state;
+  const auto flow = make_flow(model, options);
+  for (int k = 0; k < plan_.grid.coarse_periods && !state.empty(); ++k) {
+    if (!go_on()) return false;
+    if (!flow->evolve(state, 0.0, flow->field().period).reached()) state.clear();
   }
-  return way.starts.at(first);
+  way.state = std::move(state);
+  return true;
 }
 
 void CoarsePass::keep(Way& way, std::size_t first_of_direction) {

@@ -15,6 +15,7 @@
 #include <mutex>
 #include <vector>
 
+#include "integrate/make_flow.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::studies {
@@ -28,15 +29,25 @@ class CoarsePass {
   /// The state that a chain starts from whose first point is this one; empty, for the default start, at the first point
   /// of a direction, without segments and after a motion that did not reach its end. May be called from several
   /// threads.
-  /// @param go_on  returns false to give up: the result is then empty
-  [[nodiscard]] std::vector<double> start_of(std::size_t first, const std::function<bool()>& go_on);
+  /// Whoever asks first carries the pass of a direction on; who asks meanwhile waits.
+  /// @param go_on      returns false to give up: the result is then empty
+  /// @param make_flow  what the pass is carried by
+  /// @param wait       returns once its argument returns true
+  [[nodiscard]] std::vector<double> start_of(std::size_t first, const std::function<bool()>& go_on,
+                                             const integrate::FlowMaker& make_flow,
+                                             const std::function<void(const std::function<bool()>& over)>& wait);
 
  private:
   struct Way {
+    bool carried = false;  ///< by someone, just now
     std::size_t next = 0;  ///< point that the pass has come to, counted within the direction
     std::vector<double> state;
     std::map<std::size_t, std::vector<double>> starts;
   };
+
+  /// One point of a way; its state is the caller's meanwhile.
+  /// @returns false if given up
+  bool carry(Way& way, std::size_t point, const std::function<bool()>& go_on, const integrate::FlowMaker& make_flow);
 
   /// Goes to the next point, and keeps the state if a segment starts there.
   void keep(Way& way, std::size_t first_of_direction);
@@ -45,7 +56,7 @@ class CoarsePass {
   const integrate::IntegratorOptions& integrator_;
   const ModelAtPoint& model_at_;
   std::mutex mutex_;
-  std::map<std::size_t, Way> ways_;  ///< by direction
+  std::map<std::size_t, Way> ways_;  ///< by direction; its members belong to who carries it
 };
 
 }  // namespace epicyclic::studies

@@ -1,6 +1,7 @@
 #include "studies/motion.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "analysis/regime_flows.hpp"
 #include "integrate/methods.hpp"
@@ -15,14 +16,19 @@ integrate::IntegratorOptions of_one_trajectory(integrate::IntegratorOptions inte
   return integrator;
 }
 
+std::unique_ptr<integrate::Flow> make_flow_of_one_trajectory(VectorField field,
+                                                             const integrate::IntegratorOptions& integrator) {
+  return integrate::make_flow(std::move(field), of_one_trajectory(integrator));
+}
+
 double map_error(const integrate::IntegratorOptions& integrator) {
   return std::max(analysis::RegimeOptions{}.residual, 3.0 * integrator.relative_tolerance);
 }
 
 ToldMotion tell_motion(const VectorField& field, std::vector<double>& state, const LookOptions& look,
                        const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on,
-                       const analysis::PoincareSection* seen) {
-  const analysis::RegimeFlows flows = analysis::make_regime_flows(field, of_one_trajectory(integrator));
+                       const analysis::PoincareSection* seen, const integrate::FlowMaker& make_flow) {
+  const analysis::RegimeFlows flows = analysis::make_regime_flows(field, integrator, make_flow);
   analysis::RegimeOptions options = flows.options();
   options.budget = std::max(options.look, look.classification_periods);
   options.lasting = options.budget / 4;

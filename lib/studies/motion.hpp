@@ -1,15 +1,17 @@
 // What a motion of a stage is: the one way in which all studies ask [analysis/regime.hpp].
 //
-// By the flows of analysis/regime_flows.hpp; where lanes carry the strobe ARKODE's twin of their pair asks, since
-// tangents are a matter of one trajectory.
+// By the flows of analysis/regime_flows.hpp, made by whoever carries the motion: by lanes that many motions share, or
+// one by one, where ARKODE's twin of the lanes' pair asks, since tangents are then a matter of one trajectory.
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "analysis/poincare.hpp"
 #include "analysis/regime.hpp"
 #include "integrate/flow.hpp"
+#include "integrate/make_flow.hpp"
 #include "integrate/options.hpp"
 #include "studies/look_options.hpp"
 
@@ -20,6 +22,10 @@ namespace epicyclic::studies {
 
 /// Tangents and orbits are a matter of one trajectory: where lanes carry the strobe, ARKODE has the same pair.
 [[nodiscard]] integrate::IntegratorOptions of_one_trajectory(integrate::IntegratorOptions integrator);
+
+/// A flow by ARKODE's twin of a method of lanes, by the method itself otherwise.
+[[nodiscard]] std::unique_ptr<integrate::Flow> make_flow_of_one_trajectory(
+    VectorField field, const integrate::IntegratorOptions& integrator);
 
 /// What an integrator leaves of an orbit, in parts of its largest component: kinks make its map rough to some of its
 /// tolerances [-].
@@ -36,6 +42,7 @@ struct ToldMotion {
 /// @param seen   a section of this very motion that ends in `state`; may be null
 [[nodiscard]] ToldMotion tell_motion(const VectorField& field, std::vector<double>& state, const LookOptions& look,
                                      const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on,
-                                     const analysis::PoincareSection* seen = nullptr);
+                                     const analysis::PoincareSection* seen = nullptr,
+                                     const integrate::FlowMaker& make_flow = make_flow_of_one_trajectory);
 
 }  // namespace epicyclic::studies

@@ -46,10 +46,18 @@ void LookOptions::validate() const {
 void SweepOptions::validate() const {
   axis.validate();
   require_some("directions", directions.size());
-  require(segments >= 1, "segments", segments, ">= 1");
+  require(segments >= 0, "segments", segments, ">= 0");
   require(segments <= axis.points, "segments", segments, "<= points");
   require(coarse_periods >= 1, "coarse_periods", coarse_periods, ">= 1");
   look.validate();
+}
+
+int segments_of(const SweepOptions& options) {
+  constexpr int few = 64;
+  constexpr int points_per_chain = 8;
+  if (options.start == Start::cold) return 1;
+  if (options.segments > 0) return options.segments;
+  return options.axis.points < few ? 1 : options.axis.points / points_per_chain;
 }
 
 void Plane::validate() const {

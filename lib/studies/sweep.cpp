@@ -1,16 +1,17 @@
 #include "studies/sweep.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <mutex>
 #include <numbers>
 #include <optional>
+#include <thread>
+#include <utility>
 
 #include "core/errors.hpp"
-#include "integrate/lanes/lane_ensemble.hpp"
-#include "integrate/make_flow.hpp"
+#include "integrate/lanes/lane_pool.hpp"
 #include "integrate/methods.hpp"
 #include "studies/coarse_pass.hpp"
 #include "studies/motion.hpp"
@@ -27,16 +28,16 @@ bool in_lanes(const integrate::IntegratorOptions& o) {
   return method != nullptr && method->family == integrate::Family::lanes;
 }
 
-/// One point, in steps: a transient that ends by evidence, the periods of the strobe, which may be carried by anyone,
-/// and what is told from them.
+/// One point: a transient that may end by evidence, the periods of the strobe, and what is told from them.
 class PointRun {
  public:
   PointRun(const GridPoint& point, model::DynamicModel model, const std::vector<double>& start, const LookOptions& look,
-           const integrate::IntegratorOptions& integrator, std::function<bool()> go_on)
+           const integrate::IntegratorOptions& integrator, std::function<bool()> go_on, const PointFlows& flows)
       : model_(std::move(model)),
         look_(look),
-        integrator_(of_one_trajectory(integrator)),
+        integrator_(integrator),
         go_on_(std::move(go_on)),
+        flows_(flows),
         state_(start.empty() ? model_.default_start : start),
         // Without tangents there is nothing but recurrence, and no end of a transient.
         classifies_(look.classification_periods > 0 && has_classification(model_)),
@@ -50,22 +51,12 @@ class PointRun {
                        std::to_string(model_.dimension));
     result_.point = point;
     result_.omega = model_.omega;
-    if (!adaptive_) return;
-    analysis::Classification told = tell(state_, nullptr);
-    if (!told.evolution.reached()) {
-      strobe_.take(told.evolution, state_);
-    } else if (told.orbit) {
-      state_ = told.orbit->state;
-    }
-    orbit_ = std::move(told.orbit);
   }
 
-  [[nodiscard]] const VectorField& field() const { return model_; }
-  [[nodiscard]] std::vector<double>& state() { return state_; }
-  [[nodiscard]] analysis::StrobeProgress& strobe() { return strobe_; }
-
-  /// @param right_hand_sides  that the strobe took
-  [[nodiscard]] PointResult finish(long right_hand_sides) {
+  [[nodiscard]] PointResult result() {
+    if (adaptive_) settle();
+    const auto flow = flows_.strobe(model_, integrator_);
+    analysis::carry(*flow, state_, strobe_, go_on_);
     const analysis::Strobe& strobe = strobe_.result();
     MeshRecords seen = watch_.finished();
     result_.sun_planet = std::move(seen.sun_planet);
@@ -87,11 +78,22 @@ class PointRun {
       if (look_.keep == Keep::section && orbit_) result_.orbit = std::move(orbit_->state);
       result_.end_state = std::move(state_);
     }
-    result_.rhs_evaluations = right_hand_sides + classification_work_;
+    result_.rhs_evaluations = flow->right_hand_side_calls() + classification_work_;
     return std::move(result_);
   }
 
  private:
+  /// The transient until the regime is told.
+  void settle() {
+    analysis::Classification told = tell(state_, nullptr);
+    if (!told.evolution.reached()) {
+      strobe_.take(told.evolution, state_);
+    } else if (told.orbit) {
+      state_ = told.orbit->state;
+    }
+    orbit_ = std::move(told.orbit);
+  }
+
   void keep_section(const analysis::PoincareSection& section) {
     result_.poincare_columns = model_.dimension + 2 * static_cast<std::size_t>(model_.planets);
     model::MeshDeflections d;
@@ -100,7 +102,7 @@ class PointRun {
 
   void keep_attractor(const analysis::PoincareSection& section) {
     if (orbit_) {
-      const auto flow = integrate::make_flow(model_, integrator_);
+      const auto flow = flows_.motion(model_, integrator_);
       result_.attractor = analysis::record_of_orbit(*flow, *orbit_, result_.period, map_error(integrator_));
       classification_work_ += flow->right_hand_side_calls();
     } else {
@@ -110,7 +112,7 @@ class PointRun {
   }
 
   analysis::Classification tell(std::vector<double>& from, const analysis::PoincareSection* seen) {
-    ToldMotion motion = tell_motion(model_, from, look_, integrator_, go_on_, seen);
+    ToldMotion motion = tell_motion(model_, from, look_, integrator_, go_on_, seen, flows_.motion);
     classification_work_ += motion.right_hand_sides;
     result_.classified = motion.told.evolution.reached();
     result_.regime = motion.told.regime;
@@ -123,6 +125,7 @@ class PointRun {
   const LookOptions& look_;
   integrate::IntegratorOptions integrator_;
   std::function<bool()> go_on_;
+  const PointFlows& flows_;
   std::vector<double> state_;
   bool classifies_;
   bool adaptive_;
@@ -132,14 +135,6 @@ class PointRun {
   std::optional<analysis::PeriodicOrbit> orbit_;  ///< of a motion that is periodic by evidence
   long classification_work_ = 0;
 };
-
-/// The strobe of one point by a flow of its own.
-/// @returns right-hand sides
-long carry_alone(PointRun& run, const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on) {
-  const auto flow = integrate::make_flow(run.field(), integrator);
-  analysis::carry(*flow, run.state(), run.strobe(), go_on);
-  return flow->right_hand_side_calls();
-}
 
 /// Runs chains, each from its first point that is not done.
 class ChainRunner {
@@ -156,15 +151,35 @@ class ChainRunner {
   /// One chain after another.
   void run_chains() {
     give_up_on_failure([this] {
-      while (const auto chain = next_chain()) follow(plan_.chains[*chain]);
+      follow_all({{}, [](const std::function<bool()>& over) {
+                    constexpr std::chrono::milliseconds pause{1};
+                    while (!over()) std::this_thread::sleep_for(pause);
+                  }});
     });
   }
 
-  /// Several chains at once, each in a lane of its own; a lane that is through with its chain takes the next one.
+  /// Several chains at once, in lanes that they share.
   /// @param thread  which of those side by side this is
-  /// @param most    lanes that are used
+  /// @param most    chains at once
   void run_chains_in_lanes(std::size_t thread, std::size_t most) {
-    give_up_on_failure([&] { follow_in_lanes(thread, most); });
+    give_up_on_failure([&] {
+      const integrate::StepLoops& kernels = integrate::step_loops(thread);
+      // The same for every thread: which points have lanes does not depend on who came first.
+      const model::DynamicModel like = model_at_(plan_.points.front());
+      integrate::LanePool pool([&](std::size_t vectors) { return stage_lanes(like, kernels, vectors); }, integrator_,
+                               kernels);
+      const integrate::FlowMaker make_flow = [&](VectorField field, const integrate::IntegratorOptions& options) {
+        return pool.make_flow(std::move(field), options);
+      };
+      const Carrier carrier{{make_flow, make_flow}, [&](const std::function<bool()>& over) { pool.wait(over); }};
+      // Half of those that wait for a lane find it taken by one that goes on at once.
+      constexpr std::size_t chains_per_lane = 2;
+      pool.run(std::min(most, chains_per_lane * pool.width()), [&] { follow_all(carrier); });
+      if (run_.lane_use == nullptr) return;
+      const std::scoped_lock lock(mutex_);
+      run_.lane_use->room += pool.room();
+      run_.lane_use->taken += pool.taken();
+    });
   }
 
   [[nodiscard]] std::size_t finished() const { return finished_; }
@@ -191,106 +206,42 @@ class ChainRunner {
     return chain;
   }
 
-  /// A chain under way.
-  struct Way {
-    std::size_t chain = 0;
-    std::size_t next = 0;  ///< place in the chain
-    std::vector<double> start;
-    std::unique_ptr<PointRun> point;  ///< in the lane; null when there is none
+  /// What carries the points of a chain.
+  struct Carrier {
+    PointFlows flows;
+    std::function<void(const std::function<bool()>& over)> wait;
   };
 
   /// Goes to the chain's next point that is not done, with its start.
   /// @returns nothing at the chain's end
-  std::optional<std::size_t> advance(const Chain& chain, std::size_t& next, std::vector<double>& start) {
+  std::optional<std::size_t> advance(const Chain& chain, std::size_t& next, std::vector<double>& start,
+                                     const Carrier& carrier) {
     const std::size_t first = next;
     while (next < chain.size() && done(chain[next])) ++next;
     if (next == chain.size()) return std::nullopt;
-    if (next == 0) start = coarse_.start_of(chain.front(), [this] { return !stopped(); });
+    if (next == 0)
+      start = coarse_.start_of(
+          chain.front(), [this] { return !stopped(); }, carrier.flows.motion, carrier.wait);
     if (next > first) start = run_.end_state(chain[next - 1]);
     return chain[next];
   }
 
-  void follow(const Chain& chain) {
+  void follow_all(const Carrier& carrier) {
+    while (const auto chain = next_chain()) follow(plan_.chains[*chain], carrier);
+  }
+
+  void follow(const Chain& chain, const Carrier& carrier) {
     std::vector<double> start;
     for (std::size_t next = 0; !stopped(); ++next) {
-      const auto index = advance(chain, next, start);
-      if (!index) return;
-      const model::DynamicModel model = model_at_(plan_.points[*index]);
-      PointResult result =
-          compute_point(plan_.points[*index], model, start, look_, integrator_, [this] { return !stopped(); });
+      const auto index = advance(chain, next, start, carrier);
+      if (!index || stopped()) return;
+      const GridPoint point = plan_.points[*index];
+      PointResult result = compute_point(
+          point, model_at_(point), start, look_, integrator_, [this] { return !stopped(); }, carrier.flows);
       if (stopped()) return;
       tell(result);
       start = std::move(result.end_state);
     }
-  }
-
-  void follow_in_lanes(std::size_t thread, std::size_t most) {
-    const integrate::StepLoops& kernels = integrate::step_loops(thread);
-    // The same for every thread: which points have lanes does not depend on who came first.
-    const model::DynamicModel like = model_at_(plan_.points.front());
-    integrate::LaneEnsemble lanes(stage_lanes(like, kernels), integrator_, kernels);
-    std::vector<Way> ways(std::min(most, lanes.width()));
-    for (std::size_t lane = 0; lane < ways.size(); ++lane)
-      if (next_chain(ways[lane])) next_point(lanes, lane, ways[lane]);
-    for (std::size_t lane = lanes.run(); lane != lanes.width(); lane = lanes.run()) {
-      if (stopped()) return;
-      Way& way = ways[lane];
-      lanes.copy_state(lane, way.point->state());
-      way.point->strobe().take(lanes.evolution(lane), way.point->state());
-      if (way.point->strobe().over()) {
-        finish(way, lanes.work(lane).right_hand_sides);
-        next_point(lanes, lane, way);
-      } else {
-        begin_period(lanes, lane, *way.point);
-      }
-    }
-  }
-
-  bool next_chain(Way& way) {
-    const auto chain = next_chain();
-    if (!chain) return false;
-    way = {*chain, 0, {}, nullptr};
-    return true;
-  }
-
-  /// Puts the chain's next point that is not done into the lane, or that of the next chain; leaves it empty if there
-  /// is none.
-  void next_point(integrate::LaneEnsemble& lanes, std::size_t lane, Way& way) {
-    while (!stopped()) {
-      const auto index = advance(plan_.chains[way.chain], way.next, way.start);
-      if (!index) {
-        if (!next_chain(way)) return;
-        continue;
-      }
-      way.point = std::make_unique<PointRun>(plan_.points[*index], model_at_(plan_.points[*index]), way.start, look_,
-                                             integrator_, [this] { return !stopped(); });
-      if (stopped()) return;
-      if (way.point->strobe().over()) {
-        finish(way, 0);
-        continue;
-      }
-      try {
-        lanes.load(lane, way.point->field());
-      } catch (const InputError&) {
-        // Of another structure than the first point, as where a swept value turns something off.
-        finish(way, carry_alone(*way.point, integrator_, [this] { return !stopped(); }));
-        continue;
-      }
-      begin_period(lanes, lane, *way.point);
-      return;
-    }
-  }
-
-  static void begin_period(integrate::LaneEnsemble& lanes, std::size_t lane, PointRun& point) {
-    lanes.begin(lane, point.state(), 0.0, point.field().period, point.strobe().samples(), point.strobe().observer());
-  }
-
-  void finish(Way& way, long right_hand_sides) {
-    PointResult result = way.point->finish(right_hand_sides);
-    if (stopped()) return;
-    tell(result);
-    way.start = std::move(result.end_state);
-    ++way.next;
   }
 
   void tell(const PointResult& result) {
@@ -365,10 +316,9 @@ void append_poincare_row(const model::DynamicModel& model, std::span<const doubl
 
 PointResult compute_point(const GridPoint& point, const model::DynamicModel& model, const std::vector<double>& start,
                           const LookOptions& look, const integrate::IntegratorOptions& integrator,
-                          const std::function<bool()>& go_on) {
+                          const std::function<bool()>& go_on, const PointFlows& flows) {
   look.validate();
-  PointRun run(point, model, start, look, integrator, go_on);
-  return run.finish(carry_alone(run, integrator, go_on));
+  return PointRun(point, model, start, look, integrator, go_on, flows).result();
 }
 
 analysis::Estimate PointSummary::lyapunov_max() const {

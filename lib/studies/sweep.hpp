@@ -19,16 +19,18 @@
 #include "analysis/attractors.hpp"
 #include "analysis/poincare.hpp"
 #include "analysis/regime.hpp"
+#include "integrate/make_flow.hpp"
 #include "integrate/options.hpp"
 #include "model/dynamic_model.hpp"
 #include "studies/mesh_watch.hpp"
+#include "studies/motion.hpp"
 #include "studies/sweep_options.hpp"
 #include "studies/sweep_plan.hpp"
 
 namespace epicyclic::studies {
 
 /// Raised when a change makes the same input give other numbers: results of two versions are never mixed in one folder.
-inline constexpr int numerics_version = 12;
+inline constexpr int numerics_version = 13;
 
 /// How points are looked at without the classification of their regimes: after a fixed transient, by recurrence.
 [[nodiscard]] LookOptions by_recurrence_alone(LookOptions look);
@@ -99,12 +101,31 @@ using ModelAt = std::function<model::DynamicModel(double value)>;
 /// called from several threads at once.
 using ModelAtPoint = std::function<model::DynamicModel(const GridPoint& point)>;
 
+/// What carries the motion of a point.
+struct PointFlows {
+  integrate::FlowMaker strobe = integrate::make_flow;         ///< over the transient and the record
+  integrate::FlowMaker motion = make_flow_of_one_trajectory;  ///< while it is told what it is
+};
+
 /// Computes one point.
 /// @param start  end state of the point before; empty: the model's default start
 [[nodiscard]] PointResult compute_point(const GridPoint& point, const model::DynamicModel& model,
                                         const std::vector<double>& start, const LookOptions& look,
                                         const integrate::IntegratorOptions& integrator,
-                                        const std::function<bool()>& go_on);
+                                        const std::function<bool()>& go_on, const PointFlows& flows = {});
+
+/// What lanes that motions share did: of all evaluations of the right-hand side, how many there was room for in the
+/// lanes, and how many of them were of a motion.
+struct LaneUse {
+  std::size_t room = 0;
+  std::size_t taken = 0;
+
+  /// The part of the room that was taken; nothing where there were no lanes.
+  [[nodiscard]] std::optional<double> occupancy() const {
+    if (room == 0) return std::nullopt;
+    return static_cast<double>(taken) / static_cast<double>(room);
+  }
+};
 
 /// How a sweep is run; none of it changes a result. Results are not kept here: a sweep may be larger than memory.
 struct SweepRun {
@@ -116,6 +137,8 @@ struct SweepRun {
   std::function<std::vector<double>(std::size_t index)> end_state;
 
   std::function<void(const PointResult&)> point_finished;  ///< called for each new point, one at a time
+
+  LaneUse* lane_use = nullptr;  ///< added to by all threads of this process, if it is wanted
 
   /// The next chain to compute, nothing if there are no more; asked by several threads at once. Where there is none,
   /// all chains, in order.

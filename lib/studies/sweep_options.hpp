@@ -22,13 +22,17 @@ struct SweepOptions {
   Axis axis = {speed_parameter, 0.2, 3.5, 661};  ///< the parameter
   std::vector<Direction> directions = {Direction::up};
   Start start = Start::carried;
-  int segments = 1;         ///< chains per direction of a carried sweep
+  int segments = 0;         ///< chains per direction of a carried sweep; 0: segments_of()
   int coarse_periods = 30;  ///< mesh periods of a point in the pass that says where segments start [coarse_pass.hpp]
   LookOptions look;
 
   /// @throws InputError for what axis and look refuse, no directions, and segments that the points do not give
   void validate() const;
 };
+
+/// Chains per direction: segments, or where it is left to the number of points, 1 of fewer than 64 and else one for
+/// each 8 of them, so that lanes are busy; 1 of points that start cold.
+[[nodiscard]] int segments_of(const SweepOptions& options);
 
 /// Of one point.
 [[nodiscard]] SweepOptions sweep_of_one(double mesh_frequency_ratio, const LookOptions& look);

@@ -13,8 +13,8 @@ GridPoint PlanPoints::operator[](std::size_t index) const {
 
 Chain PlanChains::operator[](std::size_t chain) const {
   const std::size_t columns = grid_.columns();
-  const std::size_t line = chain / grid_.chains_per_line;
-  const std::size_t part = chain % grid_.chains_per_line;
+  const std::size_t line = chain % grid_.lines();
+  const std::size_t part = chain / grid_.lines();
   const std::size_t first = part * columns / grid_.chains_per_line;
   const std::size_t next = (part + 1) * columns / grid_.chains_per_line;
   return {line * columns + first, next - first};
@@ -26,8 +26,8 @@ SweepPlan plan_sweep(const SweepOptions& options) {
   grid.first = options.axis;
   grid.directions = options.directions;
   const bool cold = options.start == Start::cold;
-  grid.chains_per_line = static_cast<std::size_t>(cold ? options.axis.points : options.segments);
-  if (!cold && options.segments > 1) grid.coarse_periods = options.coarse_periods;
+  grid.chains_per_line = static_cast<std::size_t>(cold ? options.axis.points : segments_of(options));
+  if (!cold && grid.chains_per_line > 1) grid.coarse_periods = options.coarse_periods;
   return SweepPlan(grid);
 }
 

@@ -87,6 +87,7 @@ class Chain : public Indexed<Chain> {
   std::size_t size_;
 };
 
+/// The first chain of each line, then the second of each, so that all lines go on side by side.
 class PlanChains : public Indexed<PlanChains> {
  public:
   explicit PlanChains(PlanGrid grid) : grid_(std::move(grid)) {}

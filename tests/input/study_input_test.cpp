@@ -54,7 +54,7 @@ TEST_F(StudyInput, FillsTheTypedStudy) {
   EXPECT_EQ(study.integrator.absolute_tolerance, integrate::IntegratorOptions{}.absolute_tolerance);
   ASSERT_TRUE(study.has_points());
   EXPECT_EQ(study.sweep().axis.points, 3);
-  EXPECT_EQ(study.sweep().segments, studies::SweepOptions{}.segments);
+  EXPECT_EQ(study.sweep().segments, 1);  // of three points
   const auto& stage = study.stage;
   EXPECT_EQ(stage.boundary, gear::Boundary::fixed_ring);
   EXPECT_EQ(stage.planet_count, 3);
@@ -851,7 +851,7 @@ TEST_F(SchemaAndReader, AgreeOnDefaults) {
   EXPECT_GT(defaults, 100);
   const json& sweep = study_keys["study"]["anyOf"][0]["properties"];
   EXPECT_EQ(sweep["parameter"]["default"], "mesh_frequency_ratio");
-  EXPECT_EQ(sweep["segments"]["default"], 1);
+  EXPECT_EQ(sweep["segments"]["default"], "auto");
   EXPECT_EQ(sweep["directions"]["default"], json({"up"}));
 }
 

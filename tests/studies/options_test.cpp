@@ -58,7 +58,7 @@ TEST(Options, SweepsMapsAndBasinsHaveAGrid) {
   using S = SweepOptions;
   expect_refused<S>({}, {{"points", [](S& o) { o.axis.points = 0; }},
                          {"directions", [](S& o) { o.directions.clear(); }},
-                         {"segments", [](S& o) { o.segments = 0; }},
+                         {"segments", [](S& o) { o.segments = -1; }},
                          {"segments", [](S& o) { o.segments = o.axis.points + 1; }},
                          {"coarse_periods", [](S& o) { o.coarse_periods = 0; }},
                          {"output_phases", [](S& o) { o.look.output_phases = 0; }}});
