@@ -68,7 +68,8 @@ TreeStep BranchTree::next_start() const {
   TreeStep step;
   step.kind = TreeStep::Kind::begun;
   for (const Branch& branch : branches_)
-    if (passes(branch, starts_.front())) step.kind = TreeStep::Kind::skipped;
+    if (ended_at_the_birth_of(branch, starts_.front()) || passes(branch, starts_.front()))
+      step.kind = TreeStep::Kind::skipped;
   if (step.kind == TreeStep::Kind::begun && branches_.size() >= options_.branches) {
     step.kind = TreeStep::Kind::skipped;
     step.full = true;
@@ -264,6 +265,18 @@ std::optional<SpecialPlace> BranchTree::known_place(const SpecialPoint& point) c
     for (std::size_t k = 0; k < branches_[b].special.size(); ++k)
       if (is_it(branches_[b].family, branches_[b].special[k])) return SpecialPlace{b, k};
   return std::nullopt;
+}
+
+bool BranchTree::ended_at_the_birth_of(const Branch& branch, const BranchStart& start) const {
+  if (!start.from || branch.family.period != start.period) return false;
+  const SpecialPoint& birth = branches_[start.from->branch].special[start.from->point];
+  // One branch leaves a flip that keeps the symmetry, and no more.
+  if (birth.kind != SpecialKind::flip || birth.wave != 0) return false;
+  const auto ends_there = [&](const BranchLimit& limit) {
+    return limit.born && limit.place && limit.place->branch == start.from->branch &&
+           limit.place->point == start.from->point;
+  };
+  return ends_there(branch.first) || ends_there(branch.last);
 }
 
 bool BranchTree::passes(const Branch& branch, const BranchStart& start) const {

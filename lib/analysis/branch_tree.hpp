@@ -142,6 +142,8 @@ class BranchTree {
   [[nodiscard]] bool has_fallen_onto_another() const;
   [[nodiscard]] std::optional<SpecialPlace> place_behind(const BranchOrbit& last, double beyond) const;
   [[nodiscard]] std::optional<SpecialPlace> known_place(const SpecialPoint& point) const;
+  /// Is the branch the one that leaves the flip that the start is from, seen from its other end?
+  [[nodiscard]] bool ended_at_the_birth_of(const Branch& branch, const BranchStart& start) const;
   [[nodiscard]] bool passes(const Branch& branch, const BranchStart& start) const;
 
   OrbitFamily system_;

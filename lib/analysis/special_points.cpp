@@ -369,15 +369,39 @@ bool turns_at_a_pitchfork(const OrbitFamily& family, const InvariantBlock& block
          right.plus == at_a.plus;
 }
 
+/// Are as many other multipliers beyond the unit circle at an event as on the better side of it? If not, it is not the
+/// only one between the two: a flip inwards and a torus outwards look like a flip outwards.
+bool is_the_only_one(const InvariantBlock& block, SpecialKind kind, const SpecialPoint& point, const BranchOrbit& a,
+                     const BranchOrbit& b) {
+  const Signs at_a = signs_of(block, a);
+  const Signs at_b = signs_of(block, b);
+  // A turn that nothing crosses at has the multiplier on the same side before and behind.
+  if (at_a.outside == at_b.outside) return true;
+  Multipliers others = multipliers_of(block, point.orbit.monodromy);
+  const auto leave_out = [&](std::complex<double> critical) {
+    const auto it = std::min_element(others.begin(), others.end(), [&](const auto& p, const auto& q) {
+      return std::abs(p - critical) < std::abs(q - critical);
+    });
+    if (it != others.end()) others.erase(it);
+  };
+  leave_out(point.multiplier);
+  if (kind == SpecialKind::neimark_sacker && block.real) leave_out(std::conj(point.multiplier));
+  return signs_of(block, others).outside == std::min(at_a.outside, at_b.outside);
+}
+
 /// All events in one block, the part halved until each is alone.
 void find_events(const OrbitFamily& family, const InvariantBlock& block, const BranchOrbit& a, const BranchOrbit& b,
                  const SpecialOptions& options, int halvings, std::vector<SpecialPoint>& found) {
   std::optional<SpecialKind> kind = event_between(block, signs_of(block, a), signs_of(block, b));
   if (!kind) return;
   if (turns_at_a_pitchfork(family, block, a, b)) kind = SpecialKind::branch_point;
+  std::optional<SpecialPoint> one;
   if (*kind != SpecialKind::unresolved) {
-    found.push_back(Event(family, block, *kind, a, b, options).locate());
-    return;
+    one = Event(family, block, *kind, a, b, options).locate();
+    if (one->kind == SpecialKind::unresolved || is_the_only_one(block, *kind, *one, a, b)) {
+      found.push_back(std::move(*one));
+      return;
+    }
   }
   const Correction middle = halvings > 0 ? between(family, a, b, 0.5) : Correction{};
   if (middle.found) {
@@ -385,6 +409,7 @@ void find_events(const OrbitFamily& family, const InvariantBlock& block, const B
     find_events(family, block, middle.orbit, b, options, halvings - 1, found);
     return;
   }
+  if (one) found.push_back(std::move(*one));
   found.push_back(between_neighbours(a, b, block.wave, "several events that could not be parted"));
 }
 

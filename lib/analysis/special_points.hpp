@@ -10,7 +10,8 @@
 //   grazing         the least or greatest value of a switching surface along the orbit changes sign
 //                                                                                                         [A-special]
 // Signs of determinants are parities of the multipliers beyond +1 and -1, so none is missed or taken for another in the
-// company of many. Where the counts do not tell one event alone, the part is halved. The place is the root of a
+// company of many. Where the counts do not tell one event alone, before and behind or at the event itself, the part is
+// halved. The place is the root of a
 // function of the arc length that is smooth there: the direction's part, lambda - 1, lambda + 1, log |lambda|.
 //
 // The place is found again by other tolerances and subdivisions. With v the finest of the values v_k,

@@ -20,6 +20,7 @@
 #include "problems/clearance_exact.hpp"
 #include "problems/harmonic_balance.hpp"
 #include "problems/known_systems.hpp"
+#include "problems/planes.hpp"
 
 namespace epicyclic::analysis {
 namespace {
@@ -97,6 +98,31 @@ TEST(Continuation, FindsTheNeimarkSackerPointOfTheNormalForm) {
   ASSERT_EQ(t.special.size(), 1U);
   expect_at(t.special[0], SpecialKind::neimark_sacker, 0.0, 0.0);
   EXPECT_NEAR(std::abs(std::arg(t.special[0].multiplier)), 2.0 * std::numbers::pi * 0.3, eight_digits);
+}
+
+TEST(Continuation, FindsAFlipAndATorusThatCrossOppositeWaysBetweenNeighbours) {
+  // One multiplier comes in at 0 and a pair leaves behind it: by their number one has left.
+  constexpr double torus = 0.001;
+  const FieldFamily fields = [](double p) { return problems::flips_and_tori()(p, 0.1 - torus); };
+  const OrbitFamily family{flows(fields, tolerance)};
+  const std::vector<double> state = {1.0, 0.0, 0.0, 0.0};
+  const Correction before = first_orbit(family, -0.05, state);
+  const Correction behind = first_orbit(family, 0.05, state);
+  ASSERT_TRUE(before.found && behind.found);
+  for (const bool upwards : {true, false}) {
+    BranchOrbit a = upwards ? before.orbit : behind.orbit;
+    BranchOrbit b = upwards ? behind.orbit : before.orbit;
+    if (!upwards) {
+      a.direction = -1.0 * a.direction;
+      b.direction = -1.0 * b.direction;
+    }
+    const std::vector<SpecialPoint> points = special_points_between(family, a, b, with_bounds(fields));
+    ASSERT_EQ(points.size(), 2U) << upwards;
+    expect_at(points[upwards ? 0 : 1], SpecialKind::flip, 0.0, 0.0);
+    expect_at(points[upwards ? 1 : 0], SpecialKind::neimark_sacker, torus, 0.0);
+    EXPECT_EQ(points[upwards ? 0 : 1].outwards, !upwards);
+    EXPECT_EQ(points[upwards ? 1 : 0].outwards, upwards);
+  }
 }
 
 TEST(Continuation, TellsStrongResonancesOfNeimarkSackerPoints) {
