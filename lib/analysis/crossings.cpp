@@ -29,6 +29,29 @@ std::optional<Crossing> crossing_between(const InvariantBlock& block, const Sign
   return Crossing::unresolved;
 }
 
+Passages passages_between(const Multipliers& a, const Multipliers& b) {
+  struct Pair {
+    double distance;
+    std::size_t of_a, of_b;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t k = 0; k < b.size(); ++k) pairs.push_back({std::abs(a[i] - b[k]), i, k});
+  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) { return p.distance < q.distance; });
+  std::vector<bool> a_is_taken(a.size());
+  std::vector<bool> b_is_taken(b.size());
+  Passages passages;
+  for (const Pair& p : pairs) {
+    if (a_is_taken[p.of_a] || b_is_taken[p.of_b]) continue;
+    a_is_taken[p.of_a] = b_is_taken[p.of_b] = true;
+    const bool before = std::abs(a[p.of_a]) > 1.0;
+    const bool behind = std::abs(b[p.of_b]) > 1.0;
+    if (!before && behind) ++passages.outwards;
+    if (before && !behind) ++passages.inwards;
+  }
+  return passages;
+}
+
 std::complex<double> nearest(const Multipliers& values, std::complex<double> to) {
   return *std::min_element(values.begin(), values.end(),
                            [&](const auto& p, const auto& q) { return std::abs(p - to) < std::abs(q - to); });

@@ -1,7 +1,8 @@
 // What of the multipliers in an invariant block has changed between two orbits, and which one event that is.
 //
 // Signs of det(B - I) and det(B + I) are parities of the real multipliers beyond +1 and -1 [A-special]; with the number
-// beyond the unit circle they tell one event of each kind from another, in the company of many.
+// beyond the unit circle they tell one event of each kind from another, in the company of many. What goes one way
+// while another comes the other way is seen by following each multiplier from one orbit to the next.
 #pragma once
 
 #include <complex>
@@ -32,6 +33,14 @@ enum class Crossing { plus, minus, pair, unresolved };
 
 /// @returns nothing if none does; unresolved if it cannot be one alone; `plus` with or without a turn of the parameter
 [[nodiscard]] std::optional<Crossing> crossing_between(const InvariantBlock& block, const Signs& a, const Signs& b);
+
+/// Multipliers that cross the unit circle each way between two orbits, each one of `a` taken for the one of `b` that it
+/// is nearest to, the nearest first.
+struct Passages {
+  std::size_t outwards = 0;
+  std::size_t inwards = 0;
+};
+[[nodiscard]] Passages passages_between(const Multipliers& a, const Multipliers& b);
 
 /// The multiplier nearest to a place.
 [[nodiscard]] std::complex<double> nearest(const Multipliers& values, std::complex<double> to);

@@ -389,14 +389,21 @@ bool is_the_only_one(const InvariantBlock& block, SpecialKind kind, const Specia
   return signs_of(block, others).outside == std::min(at_a.outside, at_b.outside);
 }
 
+/// Do some multipliers leave the unit circle while others come in?
+bool cross_both_ways(const InvariantBlock& block, const BranchOrbit& a, const BranchOrbit& b) {
+  const Passages p = passages_between(multipliers_of(block, a.monodromy), multipliers_of(block, b.monodromy));
+  return p.outwards > 0 && p.inwards > 0;
+}
+
 /// All events in one block, the part halved until each is alone.
 void find_events(const OrbitFamily& family, const InvariantBlock& block, const BranchOrbit& a, const BranchOrbit& b,
                  const SpecialOptions& options, int halvings, std::vector<SpecialPoint>& found) {
   std::optional<SpecialKind> kind = event_between(block, signs_of(block, a), signs_of(block, b));
-  if (!kind) return;
-  if (turns_at_a_pitchfork(family, block, a, b)) kind = SpecialKind::branch_point;
+  const bool both_ways = cross_both_ways(block, a, b);
+  if (!kind && !both_ways) return;
+  if (kind && turns_at_a_pitchfork(family, block, a, b)) kind = SpecialKind::branch_point;
   std::optional<SpecialPoint> one;
-  if (*kind != SpecialKind::unresolved) {
+  if (kind && *kind != SpecialKind::unresolved && !both_ways) {
     one = Event(family, block, *kind, a, b, options).locate();
     if (one->kind == SpecialKind::unresolved || is_the_only_one(block, *kind, *one, a, b)) {
       found.push_back(std::move(*one));

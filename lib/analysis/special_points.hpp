@@ -26,8 +26,9 @@
 // Source: Yu. A. Kuznetsov, Elements of Applied Bifurcation Theory, 3rd ed., ch. 9. None is told without other
 // tolerances to compare with.
 //
-// Limits: two crossings of one kind in one block between neighbours, there and back, are not seen; the continuation
-// keeps multipliers from moving that far. Events that no halving parts are told as unresolved.
+// Limits: one multiplier's crossing between neighbours, there and back, is not seen; the continuation keeps multipliers
+// from moving that far. That one leaves while another comes in is seen. Events that no halving parts are told as
+// unresolved.
 #pragma once
 
 #include <complex>

@@ -125,6 +125,31 @@ TEST(Continuation, FindsAFlipAndATorusThatCrossOppositeWaysBetweenNeighbours) {
   }
 }
 
+TEST(Continuation, FindsToriThatComeAndGoBetweenNeighbours) {
+  // One pair leaves at -0.002 and another comes in at 0.003: by their number nothing happens. Neighbours are as far
+  // apart as the continuation lets them be, 0.2 of a multiplier's way.
+  const FieldFamily fields = [](double p) {
+    return problems::about_a_forced_motion<4>([](const auto& x, double, double, const auto* w, auto* d) {
+      d[0] = (x + 0.002) * w[0] - 0.3 * w[1];
+      d[1] = 0.3 * w[0] + (x + 0.002) * w[1];
+      d[2] = (0.003 - x) * w[2] - 0.2 * w[3];
+      d[3] = 0.2 * w[2] + (0.003 - x) * w[3];
+    })(p, 0.0);
+  };
+  const OrbitFamily family{flows(fields, tolerance)};
+  const std::vector<double> state = {1.0, 0.0, 0.0, 0.0};
+  const Correction before = first_orbit(family, -0.015, state);
+  const Correction behind = first_orbit(family, 0.015, state);
+  ASSERT_TRUE(before.found && behind.found);
+  const std::vector<SpecialPoint> points =
+      special_points_between(family, before.orbit, behind.orbit, with_bounds(fields));
+  ASSERT_EQ(points.size(), 2U);
+  expect_at(points[0], SpecialKind::neimark_sacker, -0.002, 0.0);
+  expect_at(points[1], SpecialKind::neimark_sacker, 0.003, 0.0);
+  EXPECT_TRUE(points[0].outwards);
+  EXPECT_FALSE(points[1].outwards);
+}
+
 TEST(Continuation, TellsStrongResonancesOfNeimarkSackerPoints) {
   for (const auto& [turns, resonance] :
        {std::pair{0.5, 2}, {1.0 / 3.0, 3}, {2.0 / 3.0, 3}, {0.25, 4}, {0.2, 0}, {0.3, 0}, {0.25 + 1e-6, 0}}) {
