@@ -1,6 +1,7 @@
 // The paper's speed diagram, 661 speeds in both directions, each carried from the one before, at a tolerance of 1e-7:
 // 300 + 128 mesh periods a point. Boost.odeint's dopri5 advances the states and does nothing else; ours record the last
-// periods, at 64 phases each, and tell regimes by recurrence. One thread. Minutes; asked for by name:
+// periods, at 64 phases each, and tell regimes by recurrence, or by evidence where it says classified. One thread.
+// Minutes; asked for by name:
 //   bench --benchmark_filter=speed_diagram
 
 #include <utility>
@@ -18,10 +19,10 @@ using epicyclic::studies::Direction;
 
 constexpr double tolerance = 1e-7;
 
-epicyclic::studies::SweepOptions diagram() {
+epicyclic::studies::SweepOptions diagram(bool classified = false) {
   epicyclic::studies::SweepOptions sweep;
   sweep.directions = {Direction::up, Direction::down};
-  sweep.look = epicyclic::studies::by_recurrence_alone(sweep.look);
+  if (!classified) sweep.look = epicyclic::studies::by_recurrence_alone(sweep.look);
   return sweep;
 }
 
@@ -45,8 +46,8 @@ void by_odeint(benchmark::State& state) {
   state.counters["rhs"] = calls;
 }
 
-void by_us(benchmark::State& state, const char* method, int segments) {
-  auto sweep = diagram();
+void by_us(benchmark::State& state, const char* method, int segments, bool classified) {
+  auto sweep = diagram(classified);
   sweep.segments = segments;
   double calls = 0.0;
   for (auto _ : state) {
@@ -59,14 +60,14 @@ void by_us(benchmark::State& state, const char* method, int segments) {
 
 void once(benchmark::internal::Benchmark* b) { b->Iterations(1)->Unit(benchmark::kSecond); }
 BENCHMARK(by_odeint)->Name("speed_diagram/odeint-dopri5")->Apply(once);
-// Eight segments in both directions keep four lanes busy, and not quite eight.
-BENCHMARK_CAPTURE(by_us, cash_karp_8, "lanes-cash-karp", 8)
-    ->Name("speed_diagram/lanes-cash-karp/segments:8")
+constexpr int automatic = 0;
+BENCHMARK_CAPTURE(by_us, cash_karp, "lanes-cash-karp", automatic, false)
+    ->Name("speed_diagram/lanes-cash-karp")
     ->Apply(once);
-BENCHMARK_CAPTURE(by_us, cash_karp_32, "lanes-cash-karp", 32)
-    ->Name("speed_diagram/lanes-cash-karp/segments:32")
+BENCHMARK_CAPTURE(by_us, cash_karp_classified, "lanes-cash-karp", automatic, true)
+    ->Name("speed_diagram/lanes-cash-karp/classified")
     ->Apply(once);
-BENCHMARK_CAPTURE(by_us, dopri5_32, "lanes-dopri5", 32)->Name("speed_diagram/lanes-dopri5/segments:32")->Apply(once);
-BENCHMARK_CAPTURE(by_us, arkode_dopri5, "arkode-dopri5", 1)->Name("speed_diagram/arkode-dopri5")->Apply(once);
+BENCHMARK_CAPTURE(by_us, dopri5, "lanes-dopri5", automatic, false)->Name("speed_diagram/lanes-dopri5")->Apply(once);
+BENCHMARK_CAPTURE(by_us, arkode_dopri5, "arkode-dopri5", 1, false)->Name("speed_diagram/arkode-dopri5")->Apply(once);
 
 }  // namespace
