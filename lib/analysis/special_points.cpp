@@ -379,10 +379,7 @@ bool is_the_only_one(const InvariantBlock& block, SpecialKind kind, const Specia
   if (at_a.outside == at_b.outside) return true;
   Multipliers others = multipliers_of(block, point.orbit.monodromy);
   const auto leave_out = [&](std::complex<double> critical) {
-    const auto it = std::min_element(others.begin(), others.end(), [&](const auto& p, const auto& q) {
-      return std::abs(p - critical) < std::abs(q - critical);
-    });
-    if (it != others.end()) others.erase(it);
+    others.erase(std::find(others.begin(), others.end(), nearest(others, critical)));
   };
   leave_out(point.multiplier);
   if (kind == SpecialKind::neimark_sacker && block.real) leave_out(std::conj(point.multiplier));

@@ -11,8 +11,7 @@ namespace epicyclic::model {
 /// The kernels' lanes; load() takes models of the structure of `like`, which each lane begins with.
 /// @param instruction_set  "baseline", "avx2" or "avx512"
 /// @param copy             of its kernels; any number
-/// @param vectors          tangent vectors of each lane, which follow its state one by one: the dimension is that of
-/// all
+/// @param vectors          tangent vectors of each lane, behind its state; the dimension counts them
 /// @returns lanes of width 0 where there are none: in full coordinates, or on a machine without the instruction set
 [[nodiscard]] LaneField make_lane_field(const DynamicModel& like, const char* instruction_set, std::size_t copy = 0,
                                         std::size_t vectors = 0);

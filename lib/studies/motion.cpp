@@ -11,14 +11,11 @@ namespace epicyclic::studies {
 
 bool has_classification(const VectorField& field) { return field.tangents && !field.jumps_at_surfaces; }
 
-integrate::IntegratorOptions of_one_trajectory(integrate::IntegratorOptions integrator) {
-  integrator.method = integrate::arkode_twin(integrator.method);
-  return integrator;
-}
-
 std::unique_ptr<integrate::Flow> make_flow_of_one_trajectory(VectorField field,
                                                              const integrate::IntegratorOptions& integrator) {
-  return integrate::make_flow(std::move(field), of_one_trajectory(integrator));
+  integrate::IntegratorOptions own = integrator;
+  own.method = integrate::arkode_twin(own.method);
+  return integrate::make_flow(std::move(field), own);
 }
 
 double map_error(const integrate::IntegratorOptions& integrator) {

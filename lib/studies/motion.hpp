@@ -20,9 +20,6 @@ namespace epicyclic::studies {
 /// Has the field tangents wherever it goes? Without them there is nothing but recurrence.
 [[nodiscard]] bool has_classification(const VectorField& field);
 
-/// Tangents and orbits are a matter of one trajectory: where lanes carry the strobe, ARKODE has the same pair.
-[[nodiscard]] integrate::IntegratorOptions of_one_trajectory(integrate::IntegratorOptions integrator);
-
 /// A flow by ARKODE's twin of a method of lanes, by the method itself otherwise.
 [[nodiscard]] std::unique_ptr<integrate::Flow> make_flow_of_one_trajectory(
     VectorField field, const integrate::IntegratorOptions& integrator);

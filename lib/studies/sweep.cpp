@@ -172,7 +172,7 @@ class ChainRunner {
         return pool.make_flow(std::move(field), options);
       };
       const Carrier carrier{{make_flow, make_flow}, [&](const std::function<bool()>& over) { pool.wait(over); }};
-      // Half of those that wait for a lane find it taken by one that goes on at once.
+      // So that some wait for a lane while others are looked at: those of states and those of tangents fill up.
       constexpr std::size_t chains_per_lane = 2;
       pool.run(std::min(most, chains_per_lane * pool.width()), [&] { follow_all(carrier); });
       if (run_.lane_use == nullptr) return;

@@ -25,6 +25,7 @@
 #include "bench/orbit.hpp"
 #include "core/fit.hpp"
 #include "integrate/lanes/lane_ensemble.hpp"
+#include "integrate/lanes/lane_pool.hpp"
 #include "integrate/make_flow.hpp"
 #include "studies/stage_lanes.hpp"
 
@@ -312,9 +313,8 @@ void mesh_period_lanes(benchmark::State& state) {
 }
 
 /// A mesh period with tangent vectors in the steps of the state alone; first argument: how many, 0 for the bare period.
-void mesh_period_with_tangents(benchmark::State& state) {
-  const auto model = model_at(1.2);
-  const auto flow = epicyclic::integrate::make_flow(model, options(1e-7));
+void with_tangents(benchmark::State& state, const epicyclic::model::DynamicModel& model,
+                   const std::unique_ptr<epicyclic::integrate::Flow>& flow) {
   State y = settled(model);
   const auto vectors = static_cast<std::size_t>(state.range(0));
   State v(vectors * y.size());
@@ -329,6 +329,19 @@ void mesh_period_with_tangents(benchmark::State& state) {
     }
     flow->evolve_tangents(y, v, 0.0, period);
   }
+}
+void mesh_period_with_tangents(benchmark::State& state) {
+  const auto model = model_at(1.2);
+  with_tangents(state, model, epicyclic::integrate::make_flow(model, options(1e-7)));
+}
+/// One motion alone in lanes: a tangent vector beside it, or all of them over the lanes.
+void mesh_period_with_tangents_in_lanes(benchmark::State& state) {
+  const auto model = model_at(1.2);
+  const epicyclic::integrate::StepLoops& kernels = epicyclic::integrate::step_loops();
+  const auto o = options(1e-7, "lanes-cash-karp");
+  epicyclic::integrate::LanePool pool(
+      [&](std::size_t vectors) { return epicyclic::studies::stage_lanes(model, kernels, vectors); }, o, kernels);
+  with_tangents(state, model, pool.make_flow(model, o));
 }
 
 /// What the machine's other work has disturbed least.
@@ -357,6 +370,7 @@ BENCHMARK(mesh_period_odeint)->Apply(speeds_and_tolerances);
 BENCHMARK(mesh_period_lanes)->Apply(speeds_tolerances_and_copies);
 
 BENCHMARK(mesh_period_with_tangents)->ArgName("vectors")->Arg(0)->Arg(1)->Arg(34)->Apply(with_least);
+BENCHMARK(mesh_period_with_tangents_in_lanes)->ArgName("vectors")->Arg(0)->Arg(1)->Arg(34)->Apply(with_least);
 
 void orbits_and_errors(benchmark::internal::Benchmark* b) {
   b->ArgNames({"omega_percent", "error_digits"});
