@@ -104,7 +104,7 @@ int crosscheck_command(const Arguments& arguments) {
     progress.update(++finished, failed);
   };
   const studies::Crosscheck all =
-      studies::run_crosscheck(plan, sweep.look, options, input.study.integrator, width, model_at, std::move(run));
+      studies::run_crosscheck(plan, sweep.look, options, input.study.integrator, width, model_at, run);
   progress.finish();
   journal.close();
   std::int64_t undrawn = 0;
@@ -112,9 +112,10 @@ int crosscheck_command(const Arguments& arguments) {
     session.end(state, {{"points", static_cast<std::int64_t>(points)},
                         {"comparisons", static_cast<std::int64_t>(all.comparisons.size())},
                         {"failed", static_cast<std::int64_t>(failed)},
-                        {"undrawn", undrawn}});
+                        {"undrawn", undrawn},
+                        {"differences", static_cast<std::int64_t>(reports::differences(all))}});
   };
-  if (!all.complete(plan)) {
+  if (!all.complete(points)) {
     close_run(store::RunState::stopped);
     tell("stopped after {} of {} results; the same command goes on\n", finished, points * variants.size());
     return stopped_early;

@@ -117,7 +117,9 @@ std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const inp
   switch (folder.outcome()) {
     case store::FolderOutcome::complete:
       tell("{}: this study is complete already; nothing to compute\n", where);
-      return counted(folder, "failed") > 0 || counted(folder, "undrawn") > 0 ? done_with_failures : done;
+      for (const char* const count : {"failed", "undrawn", "differences", "unexplained"})
+        if (counted(folder, count) > 0) return done_with_failures;
+      return done;
     case store::FolderOutcome::damaged:
       tell_changes(folder);
       return std::nullopt;

@@ -34,6 +34,7 @@ struct WrittenPoints {
   std::vector<std::string> lines{};                   ///< for stdout
   std::vector<std::string> notes{};                   ///< for stderr
   store::Manifest files{};                            ///< that another process put into the folder
+  std::size_t unexplained = 0;                        ///< comparisons, of which the exit code tells
 };
 
 /// Writes files of its own, on any rank and beside the other parts.

@@ -99,8 +99,9 @@ struct Pulls {
 };
 
 /// All parts, side by side: each of them reads the journals and writes files of its own.
-WrittenPoints write_results(const Arguments& arguments, const std::vector<ResultsPart>& parts,
-                            const ComputedPoints& computed, SweepLeader* leader) {
+/// @param all  joined by what they wrote
+void write_results(const Arguments& arguments, const std::vector<ResultsPart>& parts, const ComputedPoints& computed,
+                   SweepLeader* leader, WrittenPoints& all) {
   std::vector<WrittenPoints> written(parts.size());
   if (leader == nullptr) {
     PartQueue queue(parts);
@@ -108,15 +109,14 @@ WrittenPoints write_results(const Arguments& arguments, const std::vector<Result
   } else {
     written = leader->write(parts, computed, arguments.threads);
   }
-  WrittenPoints all;
   for (WrittenPoints& part : written) {
     std::ranges::move(part.figures, std::back_inserter(all.figures));
     std::ranges::move(part.lines, std::back_inserter(all.lines));
     std::ranges::move(part.notes, std::back_inserter(all.notes));
     all.summary.update(part.summary);
     all.files.merge(part.files);
+    all.unexplained += part.unexplained;
   }
-  return all;
 }
 
 /// Regimes and pulls of all points and what was drawn, on stdout.
@@ -152,7 +152,7 @@ void tell_result(const Arguments& arguments, std::string_view noun, const Comput
 }
 
 int lead(const Arguments& arguments, std::string_view command, std::string_view noun,
-         const std::vector<ResultsPart>& parts, SweepLeader* leader) {
+         const std::vector<ResultsPart>& parts, const AfterPoints& after, SweepLeader* leader) {
   stop_on_signals(leader != nullptr ? patience_of_ranks : patience);
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
   require_kind(input, arguments, command);
@@ -177,43 +177,52 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   folder.require_there();
   if (leader != nullptr) store.read_others();
   std::int64_t undrawn = 0;
+  WrittenPoints written;
   const auto close_run = [&](store::RunState state) {
     session.end(state,
                 {{"points", static_cast<std::int64_t>(plan.points.size())},
                  {"computed", static_cast<std::int64_t>(store.size())},
                  {"failed", static_cast<std::int64_t>(failed)},
-                 {"undrawn", undrawn}},
+                 {"undrawn", undrawn},
+                 {"unexplained", static_cast<std::int64_t>(written.unexplained)}},
                 lanes.occupancy());
   };
-  if (store.size() < plan.points.size()) {
+  const auto stopped = [&] {
     close_run(store::RunState::stopped);
     tell("stopped after {} of {} {}; the same command goes on\n", store.size(), plan.points.size(), noun);
     return stopped_early;
-  }
+  };
+  if (store.size() < plan.points.size()) return stopped();
 
   folder.require_there();
   const ComputedPoints computed_points{folder.path(), input, first_model, session.resolved(), store.source()};
-  const WrittenPoints written = write_results(arguments, parts, computed_points, leader);
+  if (after) {
+    auto first = after(arguments, computed_points);
+    if (!first) return stopped();
+    written = std::move(*first);
+  }
+  folder.require_there();
+  write_results(arguments, parts, computed_points, leader, written);
   folder.add(written.files);
   undrawn = tell_undrawn(written.figures);
   close_run(store::RunState::complete);
   for (const std::string& note : written.notes) tell("{}\n", note);
 
   tell_result(arguments, noun, computed_points, written, failed);
-  return failed == 0 && undrawn == 0 ? done : done_with_failures;
+  return failed == 0 && undrawn == 0 && written.unexplained == 0 ? done : done_with_failures;
 }
 
 }  // namespace
 
 int points_command(const Arguments& arguments, std::string_view command, std::string_view noun,
-                   const std::vector<ResultsPart>& parts) {
+                   const std::vector<ResultsPart>& parts, const AfterPoints& after) {
   Ranks& ranks = *arguments.ranks;
-  if (ranks.size() == 1) return lead(arguments, command, noun, parts, nullptr);
+  if (ranks.size() == 1) return lead(arguments, command, noun, parts, after, nullptr);
   if (ranks.rank() > 0) return follow(arguments, command, parts);
   SweepLeader leader(ranks);
   int code = bug;
   try {
-    code = lead(arguments, command, noun, parts, &leader);
+    code = lead(arguments, command, noun, parts, after, &leader);
   } catch (...) {
     const Failure failure = failure_of(std::current_exception());
     tell("{}\n", failure.what());

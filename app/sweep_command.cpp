@@ -2,15 +2,22 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "core/atomic_file.hpp"
 #include "input/study_model.hpp"
 #include "points.hpp"
+#include "progress.hpp"
+#include "reports/crosscheck_output.hpp"
 #include "reports/sweep_output.hpp"
+#include "stop.hpp"
+#include "studies/crosscheck.hpp"
 
 namespace epicyclic::app {
 
@@ -79,8 +86,43 @@ std::vector<ResultsPart> parts_of_sweep() {
   return parts;
 }
 
+/// Some points of each regime by other methods, if the study asks for it: crosscheck.csv and crosscheck.md.
+std::optional<WrittenPoints> cross_check(const Arguments& arguments, const ComputedPoints& all) {
+  const studies::SweepOptions& sweep = all.input.study.sweep();
+  WrittenPoints written;
+  if (sweep.check.points == 0) return written;
+  const std::size_t points = studies::points_of_each_regime(sweep, all.points).size();
+  if (points == 0) {
+    written.notes.push_back("no point is cross-checked: none has a regime and a start that is known");
+    return written;
+  }
+  studies::CrosscheckRun run;
+  run.threads = arguments.threads;
+  run.stop = &stop_requested();
+  Progress progress("crosscheck", points * sweep.check.methods.size(), 0);
+  std::size_t finished = 0;
+  run.point_finished = [&](std::size_t /*variant*/, const studies::PointResult&) { progress.update(++finished, 0); };
+  const input::Study& study = all.input.study;
+  const studies::Crosscheck checked = studies::run_check_of_sweep(
+      sweep, all.points, study.integrator, study.model.clearance_smoothing, input::smoothed_model_at(all.input), run);
+  progress.finish();
+  if (!checked.complete(points)) return std::nullopt;
+  reports::write_crosscheck_csv(all.folder / "crosscheck.csv", checked);
+  const std::string summary = reports::crosscheck_summary(checked);
+  write_file_atomically(all.folder / "crosscheck.md", summary);
+  written.unexplained = reports::unexplained(checked);
+  written.summary["crosscheck"] = {{"points", points},
+                                   {"comparisons", checked.comparisons.size()},
+                                   {"differences", reports::differences(checked)},
+                                   {"unexplained", written.unexplained}};
+  written.lines.push_back("\ncross-check: " + summary);
+  return written;
+}
+
 }  // namespace
 
-int sweep_command(const Arguments& arguments) { return points_command(arguments, "sweep", "points", parts_of_sweep()); }
+int sweep_command(const Arguments& arguments) {
+  return points_command(arguments, "sweep", "points", parts_of_sweep(), cross_check);
+}
 
 }  // namespace epicyclic::app

@@ -550,6 +550,27 @@ void add_classification(Table<Study>& t) {
             "alone.");
 }
 
+/// Methods by name, the first one counts.
+std::vector<std::pair<std::string, std::string>> method_choices() {
+  std::vector<std::pair<std::string, std::string>> same;
+  for (const auto& name : integrate::method_names()) same.emplace_back(name, name);
+  return same;
+}
+
+const Table<studies::SweepCheck>& check_table() {
+  static const auto table = [] {
+    using studies::SweepCheck;
+    Table<SweepCheck> t("sweep_check", "Points of the finished sweep by other methods, compared.");
+    t.integer("points", &SweepCheck::points, between(0, 10000),
+              "Points at most [-], shared out among the regimes; 0: none.");
+    t.choices("methods", &SweepCheck::methods, method_choices(), "Methods that the sweep's own is compared with.");
+    t.number("orbit_tolerance", &SweepCheck::orbit_tolerance, between(tolerance_min, 1),
+             "Two orbits are the same if no component differs by more, in the units of the state.");
+    return t;
+  }();
+  return table;
+}
+
 const Table<Study>& sweep_table() {
   static const auto table = [] {
     Table<Study> t("sweep", "A sweep along one parameter.");
@@ -557,6 +578,7 @@ const Table<Study>& sweep_table() {
     add_grid(t);
     add_look(t);
     add_classification(t);
+    t.object("crosscheck", in_plan<Kind<SweepOptions>>(&SweepOptions::check), check_table());
     return t;
   }();
   return table;
@@ -675,13 +697,6 @@ const Table<Study>& run_table() {
     return t;
   }();
   return table;
-}
-
-/// Methods by name, the first one counts.
-std::vector<std::pair<std::string, std::string>> method_choices() {
-  std::vector<std::pair<std::string, std::string>> same;
-  for (const auto& name : integrate::method_names()) same.emplace_back(name, name);
-  return same;
 }
 
 const Table<Study>& crosscheck_table() {

@@ -30,7 +30,7 @@ void write_crosscheck_csv(const std::filesystem::path& file, const studies::Cros
   for (const Comparison& c : all.comparisons) {
     const studies::PointResult& r = all.reference[c.point];
     const studies::Variant& v = all.variants[c.variant];
-    csv.row(c.point, store::direction_word(r.point.direction), r.point.value, v.label, v.integrator.method,
+    csv.row(r.point.index, store::direction_word(r.point.direction), r.point.value, v.label, v.integrator.method,
             v.integrator.relative_tolerance, v.clearance_smoothing, store::status_word(c.result.outcome),
             store::regime_word(c.result), c.result.period, store::status_word(r.outcome), store::regime_word(r),
             r.period, r.period, c.distance, to_string(c.verdict), c.detail, c.result.rhs_evaluations);
@@ -41,6 +41,12 @@ void write_crosscheck_csv(const std::filesystem::path& file, const studies::Cros
 std::size_t differences(const studies::Crosscheck& all) {
   return static_cast<std::size_t>(std::count_if(all.comparisons.begin(), all.comparisons.end(),
                                                 [](const Comparison& c) { return c.verdict != Verdict::agree; }));
+}
+
+std::size_t unexplained(const studies::Crosscheck& all) {
+  return static_cast<std::size_t>(std::count_if(
+      all.comparisons.begin(), all.comparisons.end(),
+      [](const Comparison& c) { return c.verdict == Verdict::unexplained || c.verdict == Verdict::not_reached; }));
 }
 
 std::string crosscheck_summary(const studies::Crosscheck& all) {
@@ -86,8 +92,8 @@ std::string crosscheck_summary(const studies::Crosscheck& all) {
     const studies::PointResult& r = all.reference[c.point];
     std::string value;
     append_number(value, r.point.value);
-    text += fmt::format("- point {} ({}, {}), {}: {}; {}\n", c.point, store::direction_word(r.point.direction), value,
-                        all.variants[c.variant].label, to_string(c.verdict), c.detail);
+    text += fmt::format("- point {} ({}, {}), {}: {}; {}\n", r.point.index, store::direction_word(r.point.direction),
+                        value, all.variants[c.variant].label, to_string(c.verdict), c.detail);
   }
   return text;
 }

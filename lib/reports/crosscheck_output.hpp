@@ -25,4 +25,7 @@ void write_crosscheck_csv(const std::filesystem::path& file, const studies::Cros
 /// Points that differ, explained or not.
 [[nodiscard]] std::size_t differences(const studies::Crosscheck& all);
 
+/// Those of them that no computation explains, or where one method has no answer.
+[[nodiscard]] std::size_t unexplained(const studies::Crosscheck& all);
+
 }  // namespace epicyclic::reports

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -93,7 +94,7 @@ class Examiner {
     const double recorded = orbit_distance(a, b, n);
     if (recorded <= options_.orbit_tolerance) return recorded;
     // Records may be those of motions that still settle: by the orbits themselves.
-    if (periodic(a) && periodic(b))
+    if (periodic(a) && periodic(b) && settles(both.point, both.ours, a) && settles(both.point, both.other, b))
       if (const double d = orbits_apart(both); std::isfinite(d)) return d;
     if (!std::isnan(recorded)) return recorded;
     double most = 0.0;
@@ -150,6 +151,11 @@ class Examiner {
   void explain(const Pair& both, const std::vector<double>& start, Comparison& c) const {
     const auto& [point, ours, reference, other, result] = both;
     const auto done = [&](Verdict verdict, std::string detail) { conclude(c, verdict, std::move(detail)); };
+    // What a finished study says must come out again by its own method.
+    if (periodic(reference))
+      if (const PointResult again = compute(point, ours, start, look_); !same({point, ours, reference, ours, again}))
+        return done(Verdict::unexplained, "the reference does not come out again: " + motion_text(reference) +
+                                              ", and now " + motion_text(again));
     if (torus(reference) && torus(result))
       if (const std::string one = one_torus(both); !one.empty()) return done(Verdict::torus, one);
     const bool near = periodic(reference) && periodic(result) && c.distance <= clearly * options_.orbit_tolerance;
@@ -257,6 +263,35 @@ class Examiner {
         .section;
   }
 
+  /// Is a periodic motion's record on its orbit, or does it come nearer to it as the orbit's multipliers have it? A
+  /// record that is wrong keeps its distance.
+  [[nodiscard]] bool settles(const GridPoint& point, const Variant& v, const PointResult& motion) const {
+    const SettledOrbit s = orbit_of(point, v, motion);
+    const std::size_t rows = motion.poincare_rows();
+    if (s.period == 0 || rows < 2) return false;
+    const std::size_t n = s.orbit.state.size();
+    const auto flow = flow_of(point, v);
+    std::vector<std::vector<double>> cycle{s.orbit.state};
+    while (cycle.size() < static_cast<std::size_t>(s.period)) {
+      cycle.push_back(cycle.back());
+      if (!flow->evolve(cycle.back(), 0.0, flow->field().period).reached()) return false;
+    }
+    const auto farthest = [&](std::size_t from, std::size_t to) {
+      double most = 0.0;
+      for (std::size_t r = from; r < to; ++r) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const auto& y : cycle)
+          nearest = std::min(nearest, largest_difference({motion.poincare.data() + r * motion.poincare_columns, n}, y));
+        most = std::max(most, nearest);
+      }
+      return most;
+    };
+    const std::size_t half = rows / 2;
+    const double last = farthest(half, rows);
+    const double contraction = std::pow(s.largest_multiplier, static_cast<double>(half) / s.period);
+    return last <= options_.orbit_tolerance || last <= 0.5 * (1.0 + contraction) * farthest(0, half);
+  }
+
   /// Distance of two periodic motions' orbits, each found by its own method; infinite if they have none, or other
   /// periods.
   [[nodiscard]] double orbits_apart(const Pair& both) const {
@@ -336,18 +371,66 @@ double orbit_distance(const PointResult& a, const PointResult& b, std::size_t di
   return analysis::cycle_distance(rows(a), rows(b), a.poincare_columns, dimension, static_cast<std::size_t>(period));
 }
 
+namespace {
+
+/// The reference's points by the other variants.
+/// @param starts  of each point
+/// @param done    results of an earlier run
+/// @param tell    hears of the others; one at a time
+void compare_with_others(Crosscheck& all, const std::vector<std::vector<double>>& starts, const LookOptions& look,
+                         const CrosscheckOptions& options, const SmoothedModelAt& model_at, const CrosscheckRun& run,
+                         const std::function<void(std::size_t variant, const PointResult&)>& tell) {
+  const Examiner examiner(look, options, all.variants, model_at, run.stop);
+  const std::size_t others = all.variants.size() - 1;
+  std::vector<std::optional<Comparison>> comparisons(all.reference.size() * others);
+  const auto stopped = [&] { return run.stop != nullptr && run.stop->load(); };
+  for_units(comparisons.size(), run.threads, run.stop, [&](std::size_t unit) {
+    Comparison c;
+    c.point = unit / others;
+    c.variant = 1 + unit % others;
+    const PointResult& reference = all.reference[c.point];
+    const std::vector<double>& start = starts[c.point];
+    const Variant& v = all.variants[c.variant];
+    const auto earlier = run.done.find({c.variant, reference.point.index});
+    if (earlier != run.done.end()) {
+      c.result = earlier->second;
+    } else {
+      c.result = compute_point(reference.point, model_at(reference.point.value, v.clearance_smoothing), start, look,
+                               v.integrator, [&] { return !stopped(); });
+      if (stopped()) return;
+      tell(c.variant, c.result);
+    }
+    examiner.judge(reference.point, start, reference, c);
+    if (!stopped()) comparisons[unit] = std::move(c);
+  });
+  for (auto& c : comparisons)
+    if (c) all.comparisons.push_back(std::move(*c));
+}
+
+/// Tells the run of results, one at a time.
+class Teller {
+ public:
+  explicit Teller(const CrosscheckRun& run) : run_(run) {}
+  void operator()(std::size_t variant, const PointResult& r) {
+    if (!run_.point_finished) return;
+    const std::scoped_lock lock(mutex_);
+    run_.point_finished(variant, r);
+  }
+
+ private:
+  const CrosscheckRun& run_;
+  std::mutex mutex_;
+};
+
+}  // namespace
+
 Crosscheck run_crosscheck(const SweepPlan& plan, const LookOptions& look, const CrosscheckOptions& options,
                           const integrate::IntegratorOptions& integrator, double study_smoothing,
-                          const SmoothedModelAt& model_at, CrosscheckRun run) {
+                          const SmoothedModelAt& model_at, const CrosscheckRun& run) {
   options.validate();
   Crosscheck all;
   all.variants = crosscheck_variants(options, integrator, study_smoothing);
-  std::mutex mutex;
-  const auto tell = [&](std::size_t variant, const PointResult& r) {
-    if (!run.point_finished) return;
-    const std::scoped_lock lock(mutex);
-    run.point_finished(variant, r);
-  };
+  Teller tell(run);
 
   SweepRun reference;
   reference.threads = run.threads;
@@ -362,35 +445,89 @@ Crosscheck run_crosscheck(const SweepPlan& plan, const LookOptions& look, const 
       std::move(known_reference));
   if (all.reference.size() < plan.points.size()) return all;
 
-  const Examiner examiner(look, options, all.variants, model_at, run.stop);
   // Where each point started: at the end of the one before in its chain, or cold.
   std::vector<std::vector<double>> starts(plan.points.size());
   for (const auto& chain : plan.chains)
     for (std::size_t k = 1; k < chain.size(); ++k) starts[chain[k]] = all.reference[chain[k - 1]].end_state;
 
-  const std::size_t others = all.variants.size() - 1;
-  std::vector<std::optional<Comparison>> comparisons(plan.points.size() * others);
-  const auto stopped = [&] { return run.stop != nullptr && run.stop->load(); };
-  for_units(comparisons.size(), run.threads, run.stop, [&](std::size_t unit) {
-    Comparison c;
-    c.point = unit / others;
-    c.variant = 1 + unit % others;
-    const GridPoint& point = plan.points[c.point];
-    const Variant& v = all.variants[c.variant];
-    const auto earlier = run.done.find({c.variant, c.point});
-    if (earlier != run.done.end()) {
-      c.result = earlier->second;
-    } else {
-      c.result = compute_point(point, model_at(point.value, v.clearance_smoothing), starts[c.point], look, v.integrator,
-                               [&] { return !stopped(); });
-      if (stopped()) return;
-      tell(c.variant, c.result);
+  compare_with_others(all, starts, look, options, model_at, run, std::ref(tell));
+  return all;
+}
+
+namespace {
+
+/// How many of `count` each group gets, one by one in turn, the largest first, while it has any.
+std::vector<std::size_t> shares(std::size_t count, const std::vector<std::size_t>& sizes) {
+  std::vector<std::size_t> order(sizes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
+  std::vector<std::size_t> share(sizes.size());
+  for (std::size_t before = count + 1; count > 0 && count < before;) {
+    before = count;
+    for (const std::size_t g : order) {
+      if (count == 0 || share[g] == sizes[g]) continue;
+      ++share[g];
+      --count;
     }
-    examiner.judge(point, starts[c.point], all.reference[c.point], c);
-    if (!stopped()) comparisons[unit] = std::move(c);
-  });
-  for (auto& c : comparisons)
-    if (c) all.comparisons.push_back(std::move(*c));
+  }
+  return share;
+}
+
+}  // namespace
+
+std::vector<std::size_t> points_of_each_regime(const SweepOptions& sweep, const PointSource& finished) {
+  std::map<Regime, std::map<int, std::vector<std::size_t>>> motions;  // by regime and period
+  const SweepPlan plan = plan_sweep(sweep);
+  for (const Chain& chain : plan.chains)
+    for (std::size_t k = sweep.start == Start::cold ? 0 : 1; k < chain.size(); ++k) {
+      const PointSummary r = finished.read_brief(chain[k]);
+      if (r.outcome == integrate::Outcome::reached && r.regime != Regime::undecided)
+        motions[r.regime][r.period].push_back(chain[k]);
+    }
+  std::vector<std::size_t> of_regime;
+  for (const auto& [regime, periods] : motions) {
+    of_regime.push_back(0);
+    for (const auto& [period, points] : periods) of_regime.back() += points.size();
+  }
+  const auto of_each = shares(static_cast<std::size_t>(sweep.check.points), of_regime);
+  std::vector<std::size_t> chosen;
+  std::size_t g = 0;
+  for (const auto& [regime, periods] : motions) {
+    std::vector<std::size_t> of_period;
+    for (const auto& [period, points] : periods) of_period.push_back(points.size());
+    const auto counts = shares(of_each[g++], of_period);
+    std::size_t p = 0;
+    for (const auto& [period, points] : periods) {
+      const std::size_t count = counts[p++];
+      for (std::size_t k = 0; k < count; ++k) chosen.push_back(points[(2 * k + 1) * points.size() / (2 * count)]);
+    }
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+Crosscheck run_check_of_sweep(const SweepOptions& sweep, const PointSource& finished,
+                              const integrate::IntegratorOptions& integrator, double study_smoothing,
+                              const SmoothedModelAt& model_at, const CrosscheckRun& run) {
+  sweep.validate();
+  CrosscheckOptions options;
+  options.methods = {integrator.method};
+  options.methods.insert(options.methods.end(), sweep.check.methods.begin(), sweep.check.methods.end());
+  options.orbit_tolerance = sweep.check.orbit_tolerance;
+  Crosscheck all;
+  all.variants = crosscheck_variants(options, integrator, study_smoothing);
+  const SweepPlan plan = plan_sweep(sweep);
+  std::vector<std::size_t> before(plan.points.size(), plan.points.size());
+  for (const Chain& chain : plan.chains)
+    for (std::size_t k = 1; k < chain.size(); ++k) before[chain[k]] = chain[k - 1];
+  std::vector<std::vector<double>> starts;
+  for (const std::size_t point : points_of_each_regime(sweep, finished)) {
+    all.reference.push_back(finished.read(point));
+    starts.emplace_back();
+    if (before[point] < plan.points.size()) starts.back() = finished.read_brief(before[point]).end_state;
+  }
+  Teller tell(run);
+  compare_with_others(all, starts, sweep.look, options, model_at, run, std::ref(tell));
   return all;
 }
 

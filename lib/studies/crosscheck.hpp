@@ -19,6 +19,7 @@
 
 #include "integrate/options.hpp"
 #include "studies/crosscheck_options.hpp"
+#include "studies/point_source.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::studies {
@@ -50,7 +51,7 @@ enum class Verdict {
 [[nodiscard]] std::string to_string(Verdict verdict);
 
 struct Comparison {
-  std::size_t point = 0;
+  std::size_t point = 0;  ///< of the reference's
   std::size_t variant = 0;
   PointResult result;
   Verdict verdict = Verdict::agree;
@@ -62,8 +63,9 @@ struct Crosscheck {
   std::vector<Variant> variants;
   std::vector<PointResult> reference;   ///< one per point
   std::vector<Comparison> comparisons;  ///< by point, then variant (from 1)
-  [[nodiscard]] bool complete(const SweepPlan& plan) const {
-    return reference.size() == plan.points.size() && comparisons.size() == plan.points.size() * (variants.size() - 1);
+  /// @param points  that were to be compared
+  [[nodiscard]] bool complete(std::size_t points) const {
+    return reference.size() == points && comparisons.size() == points * (variants.size() - 1);
   }
 };
 
@@ -86,6 +88,19 @@ struct CrosscheckRun {
 [[nodiscard]] Crosscheck run_crosscheck(const SweepPlan& plan, const LookOptions& look,
                                         const CrosscheckOptions& options,
                                         const integrate::IntegratorOptions& integrator, double study_smoothing,
-                                        const SmoothedModelAt& model_at, CrosscheckRun run);
+                                        const SmoothedModelAt& model_at, const CrosscheckRun& run);
+
+/// Points of a finished sweep that its `check` computes again: as many of each told regime as there are, and of a
+/// regime those that stand evenly among its periods and values. In order. Where a carried chain begins is a matter of
+/// its own [coarse_pass.hpp], so that no first point of one is among them.
+[[nodiscard]] std::vector<std::size_t> points_of_each_regime(const SweepOptions& sweep, const PointSource& finished);
+
+/// points_of_each_regime() by other methods than that of the sweep.
+/// @param sweep  whose `check` says how many points, and by which methods
+/// @param run    `done` is not read
+/// @returns incomplete if stopped
+[[nodiscard]] Crosscheck run_check_of_sweep(const SweepOptions& sweep, const PointSource& finished,
+                                            const integrate::IntegratorOptions& integrator, double study_smoothing,
+                                            const SmoothedModelAt& model_at, const CrosscheckRun& run);
 
 }  // namespace epicyclic::studies

@@ -43,6 +43,12 @@ void LookOptions::validate() const {
           classification_periods, ">= 1 for an adaptive transient");
 }
 
+void SweepCheck::validate() const {
+  require(points >= 0, "points", points, ">= 0");
+  require_some("methods", methods.size());
+  require(orbit_tolerance > 0.0, "orbit_tolerance", orbit_tolerance, "> 0");
+}
+
 void SweepOptions::validate() const {
   axis.validate();
   require_some("directions", directions.size());
@@ -50,6 +56,7 @@ void SweepOptions::validate() const {
   require(segments <= axis.points, "segments", segments, "<= points");
   require(coarse_periods >= 1, "coarse_periods", coarse_periods, ">= 1");
   look.validate();
+  check.validate();
 }
 
 int segments_of(const SweepOptions& options) {

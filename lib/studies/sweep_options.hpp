@@ -1,6 +1,7 @@
 // What a sweep is: a parameter and its grid, directions, start, and how long to look.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "studies/axis.hpp"
@@ -18,6 +19,16 @@ enum class Start {
 /// Name of the parameter Omega [studies/named_parameters.hpp].
 inline constexpr const char* speed_parameter = "mesh_frequency_ratio";
 
+/// Points of the finished sweep that are computed again by other methods and compared [studies/crosscheck.hpp].
+struct SweepCheck {
+  int points = 0;  ///< at most; shared out among the regimes
+  std::vector<std::string> methods = {"arkode-dopri5", "cvode-adams"};
+  double orbit_tolerance = 1e-6;  ///< two orbits are the same if no component differs by more [b_c, b_c per tau]
+
+  /// @throws InputError for a negative number of points, no method, or a tolerance that is not positive
+  void validate() const;
+};
+
 struct SweepOptions {
   Axis axis = {speed_parameter, 0.2, 3.5, 661};  ///< the parameter
   std::vector<Direction> directions = {Direction::up};
@@ -25,8 +36,9 @@ struct SweepOptions {
   int segments = 0;         ///< chains per direction of a carried sweep; 0: segments_of()
   int coarse_periods = 30;  ///< mesh periods of a point in the pass that says where segments start [coarse_pass.hpp]
   LookOptions look;
+  SweepCheck check;
 
-  /// @throws InputError for what axis and look refuse, no directions, and segments that the points do not give
+  /// @throws InputError for what axis, look and check refuse, no directions, and segments that the points do not give
   void validate() const;
 };
 

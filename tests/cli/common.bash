@@ -3,6 +3,8 @@
 
 epicyclic=$1
 inputs=$2/inputs
+# The paper's speeds by the reference method, without what the diagram is checked by.
+speeds=("$inputs/tang2020_speed.json" --set /integrator/method=arkode-dopri5 --set /study/crosscheck/points=0)
 failed=0
 work=$(mktemp -d)
 # A figure that was being drawn when its program was killed may still come: then once more.

@@ -46,7 +46,7 @@ same_results whole stopped
 
 # A sweep over the flip, and seeds of it.
 sweep=(--set /study/from=2.1 --set /study/to=2.2 --set /study/points=6 --set /study/transient_periods=400)
-[ "$(code_of "$epicyclic" sweep "$inputs/tang2020_speed.json" "${sweep[@]}" -o sweep)" = 0 ] || fail "sweep: $(<stderr)"
+[ "$(code_of "$epicyclic" sweep "${speeds[@]}" "${sweep[@]}" -o sweep)" = 0 ] || fail "sweep: $(<stderr)"
 [ "$(code_of branches -o proved --against sweep)" = 0 ] || fail "proof: $(<stderr)"
 [ "$(wc -l <proved/proof.csv)" = 3 ] || fail "one change each way: $(<proved/proof.csv)"
 [ "$(cut -d, -f7,8,11,12,15 proved/proof.csv | sed -n 2p)" = 'period 2,period 1,1,bifurcation,flip' ] ||

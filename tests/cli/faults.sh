@@ -20,7 +20,7 @@ echo "TRIALS=$trials SEED=$seed"
 without_drawing
 
 few=(--set /study/transient_periods=2 --set /study/recorded_periods=4 --set /study/classification_periods=0)
-sweep=("$epicyclic" sweep "$inputs/tang2020_speed.json" --set /study/points=2 "${few[@]}" --threads 1)
+sweep=("$epicyclic" sweep "${speeds[@]}" --set /study/points=2 "${few[@]}" --threads 1)
 map=("$epicyclic" map "$inputs/tang2020_map.json" --set /study/first/points=2 --set /study/second/points=2 "${few[@]}" --threads 1)
 gear=("$epicyclic" gear "$inputs/tang2020.json")
 run=("$epicyclic" run "$inputs/tang2020_run.json" --set /operation/mesh_frequency_ratio=2.8 --set /study/recorded_periods=16

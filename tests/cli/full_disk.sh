@@ -13,7 +13,7 @@ mkdir disk
 mount -t tmpfs -o size=1m epicyclic disk 2>/dev/null || skip "a tmpfs cannot be mounted here"
 trap 'umount "$work/disk"; rm -rf "$work"' EXIT
 
-study() { "$epicyclic" sweep "$inputs/tang2020_speed.json" --set /study/transient_periods=8 --set "/study/classification_periods=$1" "${@:2}"; }
+study() { "$epicyclic" sweep "${speeds[@]}" --set /study/transient_periods=8 --set "/study/classification_periods=$1" "${@:2}"; }
 
 # $1 classification periods, $2 points, $3 recorded periods, $4 sizes in KiB, rising; the last one suffices
 series() {

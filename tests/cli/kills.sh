@@ -15,7 +15,7 @@ RANDOM=$seed
 echo "KILLS=$kills SEED=$seed"
 
 points=20
-study=("$inputs/tang2020_speed.json" --set "/study/points=$((points / 2))"
+study=("${speeds[@]}" --set "/study/points=$((points / 2))"
   --set "/study/transient_periods=$(or_if_slow 150 20)" --set /study/recorded_periods=8
   --set "/study/classification_periods=$(or_if_slow 64 0)")
 methods=(arkode-dopri5 lanes-dopri5)

@@ -30,8 +30,8 @@ is_flat() {
   echo "$1: few points $2 KiB, $3 more $4 KiB"
   [ $(($4 - $2)) -lt $(($3 * 100 / 1024 + 4096)) ] || { echo "FAILED: memory grows"; exit 1; }
 }
-few=$(peak_of sweep tang2020_speed.json --set /study/points=500)
-is_flat sweep "$few" 4500 "$(peak_of sweep tang2020_speed.json --set /study/points=5000)"
+few=$(peak_of sweep tang2020_speed.json --set /study/crosscheck/points=0 --set /study/points=500)
+is_flat sweep "$few" 4500 "$(peak_of sweep tang2020_speed.json --set /study/crosscheck/points=0 --set /study/points=5000)"
 cells=(--set /study/recorded_periods=2 --set /study/period_max=1 --set /study/output_phases=4)
 few=$(peak_of map tang2020_map.json "${cells[@]}" --set /study/first/points=20 --set /study/second/points=20)
 is_flat map "$few" 11700 "$(peak_of map tang2020_map.json "${cells[@]}" --set /study/first/points=110 --set /study/second/points=110)"

@@ -8,7 +8,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 
 few=(--set /study/transient_periods=2 --set /study/recorded_periods=8 --set /study/classification_periods=0)
-sweep=(sweep "$inputs/tang2020_speed.json" --set /study/points=2 "${few[@]}")
+sweep=(sweep "${speeds[@]}" --set /study/points=2 "${few[@]}")
 map=(map "$inputs/tang2020_map.json" --set /study/first/points=2 --set /study/second/points=2 "${few[@]}")
 basins=(basins "$inputs/tang2020_basins.json" --set /study/transient=fixed --set /operation/mesh_frequency_ratio=2.8 --set /study/first/points=2
   --set /study/second/points=2 --set /study/transient_periods=20 --set /study/recorded_periods=8)

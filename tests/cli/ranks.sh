@@ -14,7 +14,7 @@ command -v mpirun >/dev/null || skip "no mpirun"
 launch=("${leaks_of_mpi[@]}" mpirun --oversubscribe)
 [ "$(id -u)" != 0 ] || launch+=(--allow-run-as-root)
 
-study=(sweep "$inputs/tang2020_speed.json" --set /study/points=8 --set /study/transient_periods=60
+study=(sweep "${speeds[@]}" --set /study/points=8 --set /study/transient_periods=60
   --set /study/recorded_periods=8 --set /study/classification_periods=64 --set '/study/start="cold"')
 carried=("${study[@]}" --set '/study/start="carried"')
 lanes=("${study[@]}" --set '/integrator/method="lanes-dopri5"')

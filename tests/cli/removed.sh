@@ -6,10 +6,9 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 
-speed="$inputs/tang2020_speed.json"
-sweep=(sweep "$speed" --set /study/points=2 --set /study/transient_periods=100000 --threads 2)
+sweep=(sweep "${speeds[@]}" --set /study/points=2 --set /study/transient_periods=100000 --threads 2)
 # One mesh period of it takes minutes.
-point=(sweep "$speed" --set /study/points=2 --set /study/from=1e-5 --set /study/to=2e-5
+point=(sweep "${speeds[@]}" --set /study/points=2 --set /study/from=1e-5 --set /study/to=2e-5
   --set /integrator/relative_tolerance=1e-13 --set /integrator/max_steps_per_period=1000000000 --threads 2)
 run=(run "$inputs/tang2020_run.json" --set /study/transient_periods=100000)
 studies=(sweep point run)

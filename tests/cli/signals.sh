@@ -69,10 +69,10 @@ longest() {
   if [ "$cpu_ms" -gt "$most_cpu" ]; then most_cpu=$cpu_ms; fi
 }
 
-short=("$inputs/tang2020_speed.json" --set /study/points=12 --set /study/transient_periods=60 --set /study/recorded_periods=8
+short=("${speeds[@]}" --set /study/points=12 --set /study/transient_periods=60 --set /study/recorded_periods=8
   --set "/study/classification_periods=$(or_if_slow 640 64)" --threads $threads)
 # One mesh period of it takes minutes.
-long=("$inputs/tang2020_speed.json" --set /study/points=2 --set /study/from=1e-5 --set /study/to=2e-5
+long=("${speeds[@]}" --set /study/points=2 --set /study/from=1e-5 --set /study/to=2e-5
   --set /integrator/relative_tolerance=1e-13 --set /integrator/max_steps_per_period=1000000000 --threads $threads)
 for method in arkode-dopri5 lanes-dopri5; do
   [ "$(code_of "$epicyclic" sweep "${short[@]}" --set "/integrator/method=$method" -o "$method")" = 0 ] || fail "$method: $(<stderr)"

@@ -12,7 +12,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 read -ra launch <<<"$EPICYCLIC_SRUN"
 launch=("${leaks_of_mpi[@]}" "${launch[@]}")
 
-carried=(sweep "$inputs/tang2020_speed.json" --set /study/points=8 --set /study/transient_periods=60
+carried=(sweep "${speeds[@]}" --set /study/points=8 --set /study/transient_periods=60
   --set /study/recorded_periods=8 --set /study/classification_periods=64)
 [ "$(code_of "$epicyclic" "${carried[@]}" -o carried --threads 2)" = 0 ] || fail "threads: $(<stderr)"
 for ranks in 1 2 3; do

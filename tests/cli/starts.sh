@@ -7,7 +7,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 
 starts=${STARTS:-100}
-study=("$inputs/tang2020_speed.json" --set /study/points=4 --set /study/transient_periods=60 --set /study/recorded_periods=8
+study=("${speeds[@]}" --set /study/points=4 --set /study/transient_periods=60 --set /study/recorded_periods=8
   --set /study/classification_periods=64 --threads 1)
 [ "$(code_of "$epicyclic" sweep "${study[@]}" -o single)" = 0 ] || fail "a single run: $(<stderr)"
 

@@ -10,7 +10,7 @@ command -v perl >/dev/null || skip "there is no perl to read the journal with"
 without_drawing
 
 few=(--set /study/points=2 --set /study/transient_periods=2 --set /study/recorded_periods=4 --set /study/classification_periods=0)
-sweep=("$epicyclic" sweep "$inputs/tang2020_speed.json" "${few[@]}")
+sweep=("$epicyclic" sweep "${speeds[@]}" "${few[@]}")
 [ "$(code_of "${sweep[@]}" -o whole)" = 0 ] || fail "$(<stderr)"
 
 # A pipe whose reader has gone, and one whose reader stands still: descriptors 8 and 9.

@@ -10,7 +10,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 
 small=(--set /study/points=6 --set /study/transient_periods=8 --set /study/recorded_periods=8
   --set /study/classification_periods=192)
-sweep() { "$epicyclic" sweep "$inputs/tang2020_speed.json" "${small[@]}" "$@"; }
+sweep() { "$epicyclic" sweep "${speeds[@]}" "${small[@]}" "$@"; }
 
 for threads in 1 2 8; do
   [ "$(code_of sweep -o "t$threads" --threads "$threads")" = 0 ] || fail "sweep with $threads threads: $(<stderr)"
@@ -99,7 +99,7 @@ code=0
 [ "$code" = 5 ] || fail "output that cannot be written must give exit 5, not $code"
 
 # The other commands.
-[ "$(code_of "$epicyclic" check "$inputs/tang2020_speed.json")" = 0 ] || fail "check: $(<stderr)"
+[ "$(code_of "$epicyclic" check "${speeds[@]}")" = 0 ] || fail "check: $(<stderr)"
 for study in "$inputs"/*.json; do
   [ "$(code_of "$epicyclic" check "$study")" = 0 ] || fail "check $study: $(<stderr)"
 done

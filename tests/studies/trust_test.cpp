@@ -122,14 +122,14 @@ TEST(Units, AnExceptionArrivesAndAStopIsTold) {
 Crosscheck check(const SweepOptions& sweep, const CrosscheckOptions& options, double tolerance, int threads = 1) {
   CrosscheckRun run;
   run.threads = threads;
-  return run_crosscheck(plan_sweep(sweep), sweep.look, options, integrator(tolerance), 0.0, oscillator, std::move(run));
+  return run_crosscheck(plan_sweep(sweep), sweep.look, options, integrator(tolerance), 0.0, oscillator, run);
 }
 
 TEST(Crosscheck, FourMethodsAgreeOnPeriodicOrbits) {
   const SweepOptions sweep = points(0.7, 1.3, 4);
   CrosscheckOptions options;
   const Crosscheck all = check(sweep, options, 1e-10);
-  ASSERT_TRUE(all.complete(plan_sweep(sweep)));
+  ASSERT_TRUE(all.complete(plan_sweep(sweep).points.size()));
   ASSERT_EQ(all.comparisons.size(), 12U);
   for (const Comparison& c : all.comparisons) {
     EXPECT_EQ(c.verdict, Verdict::agree) << c.detail;
@@ -156,14 +156,13 @@ TEST(Crosscheck, TheSameBytesOnAnyNumberOfThreadsAndAfterAStop) {
   };
   const SweepPlan plan = plan_sweep(sweep);
   EXPECT_FALSE(
-      run_crosscheck(plan, sweep.look, options, integrator(1e-8), 0.0, oscillator, std::move(first)).complete(plan));
+      run_crosscheck(plan, sweep.look, options, integrator(1e-8), 0.0, oscillator, first).complete(plan.points.size()));
   EXPECT_EQ(done.size(), 5U);
   CrosscheckRun second;
   second.done = done;
   int computed = 0;
   second.point_finished = [&](std::size_t, const PointResult&) { ++computed; };
-  const Crosscheck resumed =
-      run_crosscheck(plan, sweep.look, options, integrator(1e-8), 0.0, oscillator, std::move(second));
+  const Crosscheck resumed = run_crosscheck(plan, sweep.look, options, integrator(1e-8), 0.0, oscillator, second);
   EXPECT_EQ(computed, 3);
   for (const Crosscheck* other : {&three, &resumed}) {
     ASSERT_EQ(other->comparisons.size(), one.comparisons.size());
@@ -173,6 +172,73 @@ TEST(Crosscheck, TheSameBytesOnAnyNumberOfThreadsAndAfterAStop) {
       EXPECT_EQ(other->comparisons[k].result.poincare, one.comparisons[k].result.poincare);
     }
   }
+}
+
+PointResult told(std::size_t index, analysis::Regime regime, int period) {
+  PointResult r;
+  r.point.index = index;
+  r.regime = regime;
+  r.period = period;
+  return r;
+}
+
+TEST(SweepCheck, TakesPointsOfEachRegimeAndPeriodWhoseStartsAreKnown) {
+  using analysis::Regime;
+  SweepOptions sweep = points(0.0, 1.0, 40);
+  sweep.segments = 1;
+  std::vector<PointResult> finished;
+  for (std::size_t k = 0; k < 40; ++k) {
+    const bool chaotic = k >= 34 && k < 39;
+    finished.push_back(told(k,
+                            chaotic   ? Regime::chaotic
+                            : k == 39 ? Regime::undecided
+                                      : Regime::periodic,
+                            chaotic || k == 39 ? 0 : (k < 30 ? 1 : 2)));
+  }
+  const auto chosen = [&](int most) {
+    sweep.check.points = most;
+    return points_of_each_regime(sweep, points_in_memory(finished));
+  };
+  EXPECT_TRUE(chosen(0).empty());
+  // One of each regime; of the periodic ones first of the period that most have, from the middle of its points.
+  EXPECT_EQ(chosen(2), (std::vector<std::size_t>{15, 36}));
+  EXPECT_EQ(chosen(4), (std::vector<std::size_t>{15, 32, 35, 37}));
+  // As many as there are: not the first, whose start is no neighbour's end, nor the one that nothing is known of.
+  EXPECT_EQ(chosen(1000).size(), 38U);
+  EXPECT_EQ(chosen(1000).front(), 1U);
+  sweep.start = Start::cold;
+  EXPECT_EQ(chosen(1000).size(), 39U);
+  finished[3].outcome = integrate::Outcome::diverged;
+  EXPECT_EQ(chosen(1000).size(), 38U);
+}
+
+TEST(SweepCheck, ComparesWhatAPointOfTheSweepStartedFrom) {
+  SweepOptions sweep = points(0.7, 1.3, 5);
+  sweep.check.points = 3;
+  const auto model_at = [](double w) { return oscillator(w, 0.0); };
+  const auto finished = run_sweep_in_memory(plan_sweep(sweep), sweep.look, integrator(1e-10),
+                                            [&](const GridPoint& p) { return model_at(p.value); }, {});
+  const Crosscheck all =
+      run_check_of_sweep(sweep, points_in_memory(finished), integrator(1e-10), 0.0, oscillator, CrosscheckRun{});
+  ASSERT_TRUE(all.complete(3));
+  ASSERT_EQ(all.variants.size(), 3U);
+  for (const Comparison& c : all.comparisons) {
+    EXPECT_EQ(c.verdict, Verdict::agree) << c.detail;
+    EXPECT_GT(all.reference[c.point].point.index, 0U);
+  }
+  // By the sweep's own method each comes out byte for byte, which it does from the same start alone.
+  sweep.check.methods = {integrator(1e-10).method};
+  for (const Comparison& c :
+       run_check_of_sweep(sweep, points_in_memory(finished), integrator(1e-10), 0.0, oscillator, CrosscheckRun{})
+           .comparisons)
+    EXPECT_EQ(c.result.poincare, finished[c.result.point.index].poincare);
+  // A wrong answer is not agreed with.
+  auto wrong = finished;
+  for (PointResult& r : wrong)
+    for (double& x : r.poincare) x += 1e-3;
+  const Crosscheck against =
+      run_check_of_sweep(sweep, points_in_memory(wrong), integrator(1e-10), 0.0, oscillator, CrosscheckRun{});
+  for (const Comparison& c : against.comparisons) EXPECT_EQ(c.verdict, Verdict::unexplained) << c.detail;
 }
 
 TEST(Crosscheck, ADifferenceOfToleranceIsExplainedAsOne) {
