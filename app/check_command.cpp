@@ -1,14 +1,113 @@
-// epicyclic check: validates, prints the resolved input on stdout and its cost on stderr; writes nothing.
+// epicyclic check: validates, prints the resolved input on stdout and its cost on stderr; writes nothing. How long it
+// takes on this machine is measured: points spread over its ranges are computed as the study would compute them.
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 #include "input/study_model.hpp"
+#include "progress.hpp"
 #include "session.hpp"
 #include "streams.hpp"
+#include "studies/crosscheck.hpp"
 #include "studies/probes.hpp"
 
 namespace epicyclic::app {
+
+namespace {
+
+/// Time that is spent on measuring, of each thread, if points are not slower than that.
+constexpr double measured_for = 4.0;
+/// Of a sweep's cross-check: two of each of two regimes.
+constexpr int compared_at_most = 4;
+
+/// Threads that have anything to do.
+double busy(std::size_t units, int threads) {
+  return static_cast<double>(std::min(units, static_cast<std::size_t>(threads)));
+}
+
+/// Of each method alone; what explaining differences takes is not known before.
+double seconds_of_crosscheck(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
+                             std::size_t& measured) {
+  const auto& [sweep, options] = std::get<input::CrosscheckPlan>(input.study.plan);
+  const double width = input.study.model.clearance_smoothing;
+  const auto variants = studies::crosscheck_variants(options, input.study.integrator, width);
+  const auto model_at = input::smoothed_model_at(input);
+  studies::SweepRun run;
+  run.threads = threads;
+  const auto m = studies::measure_miniatures(
+      plan, 1, measured_for, threads, [&](const studies::SweepPlan& miniature, studies::LaneUse& /*lanes*/) {
+        for (const studies::Variant& v : variants)
+          (void)studies::run_sweep_in_memory(
+              miniature, sweep.look, v.integrator, [&](double value) { return model_at(value, v.clearance_smoothing); },
+              run);
+      });
+  measured = m.points;
+  return studies::processor_seconds_of(plan, m, threads) / busy(plan.points.size(), threads);
+}
+
+/// Of a sweep's check of itself.
+double seconds_of_check(const input::LoadedInput& input, const studies::SweepPlan& miniature,
+                        const std::vector<studies::PointResult>& points, int threads) {
+  studies::SweepOptions sweep = input.study.sweep();
+  if (sweep.check.points == 0) return 0.0;
+  const auto all = static_cast<std::size_t>(sweep.check.points);
+  sweep.axis = miniature.grid.first;
+  sweep.start = studies::Start::cold;  // single points have no neighbours to start from
+  sweep.segments = 0;
+  sweep.check.points = std::min(sweep.check.points, compared_at_most);
+  const studies::PointSource source = studies::points_in_memory(points);
+  const std::size_t chosen = studies::points_of_each_regime(sweep, source).size();
+  if (chosen == 0) return 0.0;
+  studies::CrosscheckRun run;
+  run.threads = threads;
+  const double begun = studies::processor_seconds();
+  (void)studies::run_check_of_sweep(sweep, source, input.study.integrator, input.study.model.clearance_smoothing,
+                                    input::smoothed_model_at(input), run);
+  const double spent = studies::processor_seconds() - begun;
+  // Motions that are rare, and so not among these, are those whose differences have to be explained: measured, as much
+  // again.
+  constexpr double explaining = 2.0;
+  return explaining * spent * static_cast<double>(all) / static_cast<double>(chosen) /
+         busy(all * sweep.check.methods.size(), threads);
+}
+
+double seconds_of_points(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
+                         std::size_t& measured) {
+  const studies::ModelAtPoint model_at = input::model_at_point(input);
+  std::vector<studies::PointResult> points;
+  std::optional<studies::SweepPlan> last;
+  studies::SweepRun run;
+  run.threads = threads;
+  const auto m = studies::measure_miniatures(
+      plan, studies::smallest_miniature(input.study.integrator, threads), measured_for, threads,
+      [&](const studies::SweepPlan& miniature, studies::LaneUse& lanes) {
+        last = miniature;
+        run.lane_use = &lanes;
+        points = studies::run_sweep_in_memory(miniature, input.study.look(), input.study.integrator, model_at, run);
+      });
+  measured = m.points;
+  double seconds = studies::processor_seconds_of(plan, m, threads) / busy(plan.chains.size(), threads);
+  if (input.study.kind() == "sweep") seconds += seconds_of_check(input, *last, points, threads);
+  return seconds;
+}
+
+/// How long it takes, in words.
+std::string time_of(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads) {
+  const std::string_view kind = input.study.kind();
+  if (kind == "run" || kind == "tolerance") return "not known before it is done";
+  std::size_t measured = 0;
+  const double seconds = kind == "crosscheck" ? seconds_of_crosscheck(input, plan, threads, measured)
+                                              : seconds_of_points(input, plan, threads, measured);
+  return fmt::format("about {} on {} of this machine, by what {} of its points took", duration_text(seconds),
+                     threads == 1 ? "1 thread" : fmt::format("{} threads", threads), measured);
+}
+
+}  // namespace
 
 int check_command(const Arguments& arguments) {
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
@@ -24,14 +123,16 @@ int check_command(const Arguments& arguments) {
          arguments.input.string());
     return done;
   }
-  const studies::Cost cost = studies::estimate_cost(input::plan_of(input.study), input.study.look(),
-                                                    input.study.integrator, input::model_at_point(input));
+  const studies::SweepPlan plan = input::plan_of(input.study);
+  const studies::Cost cost =
+      studies::estimate_cost(plan, input.study.look(), input.study.integrator, input::model_at_point(input));
   print("{}\n", input.resolved.dump(2));
   tell(
       "{}: valid\n"
       "cost: {} points in {} chains, {} mesh periods, {} state variables, about {:.2g} right-hand sides{}\n",
       arguments.input.string(), cost.points, cost.chains, cost.mesh_periods, cost.dimension, cost.rhs_evaluations(),
       input.study.look().classification_periods > 0 ? " and what it takes to tell the regimes" : "");
+  if (!arguments.no_time) tell("time: {}\n", time_of(input, plan, arguments.threads));
   return done;
 }
 

@@ -31,6 +31,7 @@ struct Arguments {
   std::vector<std::string> from;  ///< of continue: FOLDER or FOLDER:INDEX, donors of seeds
   std::filesystem::path against;  ///< of continue: a sweep's folder; empty: none
   int unexplained = 0;            ///< of continue: changes that may stay so
+  bool no_time = false;           ///< of check: time is not measured
   Ranks* ranks = nullptr;
 };
 

@@ -91,7 +91,8 @@ std::array<Subcommand, 10> subcommands() {
       {"tolerance", "answers against tolerance, clearance smoothing and method, with error bars", tolerance_command,
        Takes::threads},
       {"crosscheck", "the same points by several methods, compared", crosscheck_command, Takes::threads},
-      {"check", "validates, prints the resolved input and its cost; writes nothing", check_command, Takes::input},
+      {"check", "validates, prints the resolved input, its cost and how long it takes; writes nothing", check_command,
+       Takes::input},
       {"schema", "the JSON Schema of the input", print_schema, Takes::nothing},
   }};
 }
@@ -110,7 +111,7 @@ void add_to(CLI::App& cli, Subcommand& sub, Arguments& arguments) {
     sub.command->add_option("-o,--output", arguments.output, "folder for the results")->required();
     sub.command->add_flag("--json", arguments.json, "print the summary as JSON");
   }
-  if (sub.takes >= Takes::threads)
+  if (sub.takes >= Takes::threads || sub.run == check_command)
     sub.command->add_option("--threads", arguments.threads, "threads; the results do not depend on it")
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
@@ -145,6 +146,8 @@ int run(int argc, char** argv) {
   for (Subcommand& sub : commands) {
     add_to(cli, sub, arguments);
     if (sub.run == continue_command) add_continue_options(*sub.command, arguments);
+    if (sub.run == check_command)
+      sub.command->add_flag("--no-time", arguments.no_time, "do not measure how long it takes on this machine");
   }
   const int code = guarded(ranks, [&] {
     try {

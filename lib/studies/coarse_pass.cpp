@@ -22,7 +22,8 @@ std::vector<double> CoarsePass::start_of(std::size_t first, const std::function<
     if (!go_on()) return {};
     lock.lock();
   }
-  way.carried = !known();
+  if (known()) return way.starts.at(first);  // someone else may still carry it: that is not ours to say
+  way.carried = true;
   while (way.carried) {
     lock.unlock();
     bool done = false;

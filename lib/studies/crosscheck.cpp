@@ -117,8 +117,8 @@ class Examiner {
 
   [[nodiscard]] PointResult compute(const GridPoint& point, const Variant& v, const std::vector<double>& start,
                                     const LookOptions& look) const {
-    return compute_point(point, model_at_(point.value, v.clearance_smoothing), start, look, v.integrator,
-                         [this] { return stop_ == nullptr || !stop_->load(); });
+    return compute_point_as_swept(point, model_at_(point.value, v.clearance_smoothing), start, look, v.integrator,
+                                  [this] { return stop_ == nullptr || !stop_->load(); });
   }
 
   /// The motion that a state is on, some periods later.
@@ -156,6 +156,10 @@ class Examiner {
       if (const PointResult again = compute(point, ours, start, look_); !same({point, ours, reference, ours, again}))
         return done(Verdict::unexplained, "the reference does not come out again: " + motion_text(reference) +
                                               ", and now " + motion_text(again));
+    if (const double d = c.distance > clearly * options_.orbit_tolerance ? one_orbit(both) : nan;
+        d <= options_.orbit_tolerance)
+      return done(Verdict::settling, "both come to one orbit of period " + std::to_string(reference.period) +
+                                         ", distance " + short_text(d) + "; a record was still on its way to it");
     if (torus(reference) && torus(result))
       if (const std::string one = one_torus(both); !one.empty()) return done(Verdict::torus, one);
     const bool near = periodic(reference) && periodic(result) && c.distance <= clearly * options_.orbit_tolerance;
@@ -224,6 +228,7 @@ class Examiner {
   [[nodiscard]] std::string two_motions(const Pair& both) const {
     const auto& [point, ours, a, other, b] = both;
     if (chaotic(a) && chaotic(b)) return {};
+    if (periodic(a) && periodic(b) && orbits_apart(both) <= clearly * options_.orbit_tolerance) return {};
     if (!holds(point, other, ours, a) || !holds(point, ours, other, b)) return {};
     return "each method stays on the other's motion for " + std::to_string(options_.continued_periods) +
            " more periods: " + motion_name(a) + " and " + motion_name(b) +
@@ -237,7 +242,7 @@ class Examiner {
         later(point, v, found.orbit.empty() ? found.end_state : found.orbit, options_.continued_periods);
     const Pair both{point, by, found, v, on};
     return reached(on) && on.regime == found.regime && on.period == found.period &&
-           (!periodic(found) || orbits_apart(both) <= options_.orbit_tolerance) &&
+           (!periodic(found) || orbits_apart(both) <= clearly * options_.orbit_tolerance) &&
            (!torus(found) || !one_torus(both).empty());
   }
 
@@ -306,6 +311,18 @@ class Examiner {
       if (!flow->evolve(y, 0.0, flow->field().period).reached()) break;
     }
     return nearest;
+  }
+
+  /// orbits_apart() of orbits that seem to be one, where tolerances leave more than is asked at tighter ones; else
+  /// infinite.
+  [[nodiscard]] double one_orbit(const Pair& both) const {
+    const auto& [point, ours, a, other, b] = both;
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    if (!periodic(a) || !periodic(b)) return infinite;
+    const double d = orbits_apart(both);
+    if (d <= options_.orbit_tolerance) return d;
+    if (d > clearly * options_.orbit_tolerance) return infinite;
+    return orbits_apart({point, tightened(ours), a, tightened(other), b});
   }
 
   const LookOptions& look_;
@@ -395,8 +412,8 @@ void compare_with_others(Crosscheck& all, const std::vector<std::vector<double>>
     if (earlier != run.done.end()) {
       c.result = earlier->second;
     } else {
-      c.result = compute_point(reference.point, model_at(reference.point.value, v.clearance_smoothing), start, look,
-                               v.integrator, [&] { return !stopped(); });
+      c.result = compute_point_as_swept(reference.point, model_at(reference.point.value, v.clearance_smoothing), start,
+                                        look, v.integrator, [&] { return !stopped(); });
       if (stopped()) return;
       tell(c.variant, c.result);
     }

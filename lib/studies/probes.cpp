@@ -1,9 +1,15 @@
 #include "studies/probes.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <ctime>
 #include <numbers>
 #include <random>
 #include <vector>
+
+#include "integrate/lanes/step_loops.hpp"
+#include "integrate/methods.hpp"
 
 namespace epicyclic::studies {
 
@@ -27,6 +33,73 @@ Cost estimate_cost(const SweepPlan& plan, const LookOptions& look, const integra
   }
   cost.rhs_per_period = calls / static_cast<double>(probed_periods * probed.size());
   return cost;
+}
+
+namespace {
+
+/// As many values as `points`, each in the middle of its part of the range.
+Axis fewer(Axis axis, std::size_t points) {
+  if (points >= static_cast<std::size_t>(axis.points)) return axis;
+  const double half = 0.5 / static_cast<double>(points);
+  const double from = grid_value(axis.from, axis.to, half);
+  const double to = grid_value(axis.from, axis.to, 1.0 - half);
+  axis.from = from;
+  axis.to = points == 1 ? from : to;
+  axis.points = static_cast<int>(points);
+  return axis;
+}
+
+}  // namespace
+
+SweepPlan in_miniature(const SweepPlan& plan, std::size_t points) {
+  PlanGrid grid = plan.grid;
+  const double share = static_cast<double>(points) / static_cast<double>(plan.points.size());
+  if (share >= 1.0) return plan;
+  const auto part = [](std::size_t of, double of_it) {
+    return std::clamp(static_cast<std::size_t>(std::lround(static_cast<double>(of) * of_it)), std::size_t{1}, of);
+  };
+  // Of a plane as many rows as columns are left out.
+  const std::size_t rows = part(grid.rows(), std::sqrt(share));
+  const double columns_left = share * static_cast<double>(grid.rows()) / static_cast<double>(rows);
+  const std::size_t columns = part(grid.columns(), columns_left);
+  grid.first = fewer(grid.first, columns);
+  grid.second = fewer(grid.second, rows);
+  grid.chains_per_line = std::min(grid.chains_per_line, columns);
+  return SweepPlan(grid);
+}
+
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+std::size_t smallest_miniature(const integrate::IntegratorOptions& integrator, int threads) {
+  constexpr std::size_t for_lanes = 16;
+  if (integrate::method_named(integrator.method).family != integrate::Family::lanes) return 2;
+  return for_lanes * static_cast<std::size_t>(threads);
+}
+
+double processor_seconds_of(const SweepPlan& plan, const Measured& miniature, int threads) {
+  // Measured 0.7 to 0.9, less towards the end where the longest points are alone.
+  const auto lanes = static_cast<double>(integrate::step_loops().width) * threads;
+  const double commonly = 0.7 * std::min(1.0, static_cast<double>(plan.chains.size()) / lanes);
+  double seconds =
+      miniature.processor_seconds / static_cast<double>(miniature.points) * static_cast<double>(plan.points.size());
+  if (miniature.occupancy && plan.chains.size() > miniature.chains)
+    seconds *= std::min(1.0, *miniature.occupancy / commonly);
+  return seconds;
+}
+
+Measured measure_miniatures(const SweepPlan& plan, std::size_t first, double seconds, int threads,
+                            const std::function<void(const SweepPlan&, LaneUse&)>& compute) {
+  constexpr std::size_t times = 4;
+  for (std::size_t points = first;; points *= times) {
+    const SweepPlan miniature = in_miniature(plan, points);
+    const double begun = processor_seconds();
+    LaneUse lanes;
+    compute(miniature, lanes);
+    const double spent = processor_seconds() - begun;
+    const Measured last{miniature.points.size(), spent, lanes.occupancy(), miniature.chains.size()};
+    if (miniature.points.size() == plan.points.size() || static_cast<double>(times) * spent > seconds * threads)
+      return last;
+  }
 }
 
 bool same_motion(const model::DynamicModel& a, const model::DynamicModel& b) {

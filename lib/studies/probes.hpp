@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
 
 #include "studies/sweep.hpp"
 
@@ -21,6 +23,36 @@ struct Cost {
 /// Counts, and probes the first point, the last and the one between from the default start.
 [[nodiscard]] Cost estimate_cost(const SweepPlan& plan, const LookOptions& look,
                                  const integrate::IntegratorOptions& integrator, const ModelAtPoint& model_at);
+
+/// The same ranges with fewer values, each in the middle of its part, in as many chains as that allows.
+/// @param points  about as many are left, never more than there were
+[[nodiscard]] SweepPlan in_miniature(const SweepPlan& plan, std::size_t points);
+
+/// Processor time of this process so far, of all its threads together.
+[[nodiscard]] double processor_seconds();
+
+/// What was measured of a miniature.
+struct Measured {
+  std::size_t points = 0;
+  double processor_seconds = 0;       ///< of all threads together
+  std::optional<double> occupancy{};  ///< of lanes, if there were any
+  std::size_t chains = 0;
+};
+
+/// Processor time of all points, by what a miniature of theirs took. Where the plan has more chains for its lanes than
+/// the miniature had, they are as busy as they commonly are.
+[[nodiscard]] double processor_seconds_of(const SweepPlan& plan, const Measured& miniature, int threads);
+
+/// Points of the smallest miniature that tells anything: enough for lanes to be shared.
+[[nodiscard]] std::size_t smallest_miniature(const integrate::IntegratorOptions& integrator, int threads);
+
+/// Computes miniatures, each with four times the points of the one before, while the next one is likely to be done
+/// within `seconds` of processor time for each thread.
+/// @param first    points of the first of them
+/// @param compute  the points of a miniature, and what lanes did
+/// @returns the last of them
+[[nodiscard]] Measured measure_miniatures(const SweepPlan& plan, std::size_t first, double seconds, int threads,
+                                          const std::function<void(const SweepPlan&, LaneUse&)>& compute);
 
 /// Do two models answer alike, wherever the state is? Looked at states of all sizes, so that gaps of any width are
 /// crossed.

@@ -114,6 +114,13 @@ struct PointFlows {
                                         const integrate::IntegratorOptions& integrator,
                                         const std::function<bool()>& go_on, const PointFlows& flows = {});
 
+/// A point as a sweep computes it, to the last bit: by a method of lanes all that is told of the motion is told in
+/// lanes.
+[[nodiscard]] PointResult compute_point_as_swept(const GridPoint& point, const model::DynamicModel& model,
+                                                 const std::vector<double>& start, const LookOptions& look,
+                                                 const integrate::IntegratorOptions& integrator,
+                                                 const std::function<bool()>& go_on);
+
 /// What lanes that motions share did: of all evaluations of the right-hand side, how many there was room for in the
 /// lanes, and how many of them were of a motion.
 struct LaneUse {

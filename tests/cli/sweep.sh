@@ -17,6 +17,17 @@ for threads in 1 2 8; do
 done
 same_results t1 t2
 same_results t1 t8
+# Segments, which start from a pass that threads share: again and again, since who asks first is a matter of chance.
+many=("${speeds[@]}" --set /study/points=129 --set /study/coarse_periods=3 --set '/study/directions=["up"]' --set /study/transient_periods=2
+  --set /study/recorded_periods=2 --set /study/classification_periods=0 --set /integrator/relative_tolerance=1e-5)
+for method in arkode-dopri5 lanes-cash-karp; do
+  for threads in 1 2 3 5 8; do
+    [ "$(code_of "$epicyclic" sweep "${many[@]}" --set "/integrator/method=$method" -o "many$threads" --threads "$threads")" = 0 ] ||
+      fail "segments, $method, $threads threads: $(<stderr)"
+    same_results many1 "many$threads"
+  done
+  rm -r many*
+done
 # Whatever the machine's instruction set: each as wide as it may be and the machine is.
 for method in arkode-dopri5 lanes-cash-karp; do
   for simd in baseline avx2 avx512; do
@@ -99,9 +110,10 @@ code=0
 [ "$code" = 5 ] || fail "output that cannot be written must give exit 5, not $code"
 
 # The other commands.
-[ "$(code_of "$epicyclic" check "${speeds[@]}")" = 0 ] || fail "check: $(<stderr)"
+[ "$(code_of "$epicyclic" check "${speeds[@]}" "${small[@]}" --threads 2)" = 0 ] || fail "check: $(<stderr)"
+grep -q '^time: about .* on 2 threads of this machine, by what [0-9]* of its points took$' stderr || fail "check tells no time: $(<stderr)"
 for study in "$inputs"/*.json; do
-  [ "$(code_of "$epicyclic" check "$study")" = 0 ] || fail "check $study: $(<stderr)"
+  [ "$(code_of "$epicyclic" check --no-time "$study")" = 0 ] || fail "check $study: $(<stderr)"
 done
 [ "$(code_of "$epicyclic" schema)" = 0 ] || fail schema
 [ "$(code_of "$epicyclic" gear "$inputs/lin_parker_1999_n3.json" -o gear)" = 0 ] || fail "gear: $(<stderr)"

@@ -22,6 +22,7 @@
 #include "problems/known_systems.hpp"
 #include "problems/lane_sets.hpp"
 #include "problems/r1.hpp"
+#include "studies/crosscheck.hpp"
 #include "studies/stage_lanes.hpp"
 #include "studies/sweep.hpp"
 
@@ -255,6 +256,35 @@ TEST(Lanes, TakeStagesOfTheirStructureOnly) {
   VectorField without = full;
   without.surfaces = {};
   EXPECT_THROW(each.load(0, without), InputError);
+}
+
+TEST(SweepCheck, ByTheSweepsOwnMethodEachPointComesOutToTheLastBit) {
+  // Which it does from the same start alone, and by lanes only if what is told of the motion is told in lanes too.
+  const auto smoothed_model_at = [](double omega, double) { return model_at(omega); };
+  for (const char* method : {"arkode-dopri5", "lanes-cash-karp"}) {
+    integrate::IntegratorOptions how;
+    how.method = method;
+    SweepOptions sweep;
+    sweep.axis = {speed_parameter, 0.9, 1.7, 5};
+    sweep.look.transient_periods = 20;
+    sweep.look.recorded_periods = 16;
+    sweep.look.classification_periods = 256;
+    sweep.check.points = 3;
+    sweep.check.methods = {method};
+    const auto finished = run_sweep_in_memory(plan_sweep(sweep), sweep.look, how,
+                                              [](const GridPoint& p) { return model_at(p.value); }, {});
+    const Crosscheck all =
+        run_check_of_sweep(sweep, points_in_memory(finished), how, 0.0, smoothed_model_at, CrosscheckRun{});
+    ASSERT_FALSE(all.comparisons.empty());
+    for (const Comparison& c : all.comparisons) {
+      const PointResult& swept = finished[c.result.point.index];
+      EXPECT_EQ(c.verdict, Verdict::agree) << method << ": " << c.detail;
+      EXPECT_EQ(c.result.poincare, swept.poincare) << method;
+      EXPECT_EQ(c.result.orbit, swept.orbit) << method;
+      EXPECT_EQ(motion_text(c.result), motion_text(swept)) << method;
+      EXPECT_EQ(c.result.rhs_evaluations, swept.rhs_evaluations) << method;
+    }
+  }
 }
 
 }  // namespace

@@ -2,11 +2,15 @@
 
 #include "studies/sweep.hpp"
 
+#include <functional>
 #include <numbers>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "studies/coarse_pass.hpp"
 
 namespace epicyclic::studies {
 namespace {
@@ -146,6 +150,47 @@ TEST(Sweep, SegmentsKeepHysteresis) {
   for (const std::size_t k : {0U, 1U, 12U, 30U, 31U, 61U, 90U}) done.emplace(k, parts[k]);
   const auto again = run_sweep_in_memory(plan_sweep(o), o.look, {}, wells, std::move(threads), std::move(done));
   for (std::size_t k = 0; k < 122; ++k) EXPECT_EQ(again[k].poincare, parts[k].poincare) << k;
+}
+
+TEST(CoarsePass, WhoAsksForWhatIsKnownLeavesItToTheOneWhoCarriesIt) {
+  SweepOptions o = few_points();
+  o.axis.points = 64;
+  o.segments = 8;
+  const SweepPlan plan = plan_sweep(o);
+  const integrate::IntegratorOptions integrator;
+  int carried = 0;
+  const ModelAtPoint model_at = [&](const GridPoint& p) {
+    ++carried;
+    return oscillator(p.value);
+  };
+  const auto nobody_waits = [](const std::function<bool()>&) { ADD_FAILURE() << "nobody else carries the pass"; };
+  const auto always = [] { return true; };
+  CoarsePass alone(plan, integrator, model_at);
+  const std::vector<double> start = alone.start_of(32, always, integrate::make_flow, nobody_waits);
+  EXPECT_EQ(std::exchange(carried, 0), 32);
+
+  // While one carries the pass from 8 to 32, another asks for 8 and a third for 24.
+  CoarsePass pass(plan, integrator, model_at);
+  (void)pass.start_of(8, always, integrate::make_flow, nobody_waits);
+  bool asked = false;
+  int waited = 0;
+  const auto meanwhile = [&] {
+    if (std::exchange(asked, true)) return true;
+    EXPECT_FALSE(pass.start_of(8, always, integrate::make_flow, nobody_waits).empty());
+    bool goes_on = true;
+    const auto wait = [&](const std::function<bool()>& over) {
+      ++waited;
+      EXPECT_FALSE(over());
+      goes_on = false;
+    };
+    EXPECT_TRUE(pass.start_of(
+                        24, [&] { return goes_on; }, integrate::make_flow, wait)
+                    .empty());
+    return true;
+  };
+  EXPECT_EQ(pass.start_of(32, meanwhile, integrate::make_flow, nobody_waits), start);
+  EXPECT_EQ(waited, 1);
+  EXPECT_EQ(carried, 32);
 }
 
 TEST(Sweep, ThreadsAndResumptionLeaveEachNumberUnchanged) {
