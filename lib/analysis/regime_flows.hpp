@@ -10,6 +10,9 @@
 
 namespace epicyclic::analysis {
 
+/// Growth is a statistical matter, for which a tolerance that is looser than a study's is as good.
+inline constexpr double statistical_tolerance = 1e-6;
+
 /// Looks, whose growth is a matter of statistics, at a tolerance up to a hundred times looser; orbits at the one asked
 /// for, tangents under error control; and once more at ten times that, for what multipliers are known to.
 struct RegimeFlows {

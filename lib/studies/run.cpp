@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <numeric>
 #include <utility>
 
+#include "analysis/regime_flows.hpp"
 #include "core/largest_difference.hpp"
+#include "integrate/lanes/lane_pool.hpp"
 #include "integrate/make_flow.hpp"
 #include "studies/pulls.hpp"
+#include "studies/stage_lanes.hpp"
 
 namespace epicyclic::studies {
 
@@ -146,17 +150,22 @@ class Run {
  private:
   [[nodiscard]] std::unique_ptr<Flow> flow() const { return integrate::make_flow(model_, integrator_); }
 
+  [[nodiscard]] integrate::IntegratorOptions exact_options(double tolerance) const {
+    integrate::IntegratorOptions o;
+    o.relative_tolerance = o.absolute_tolerance = tolerance;
+    o.escape_bound = integrator_.escape_bound;
+    o.max_steps_per_period = std::max(o.max_steps_per_period, integrator_.max_steps_per_period) * 20;
+    return o;
+  }
+
   /// By the default method, whose tangents are controlled: for what has to be exact.
   [[nodiscard]] std::unique_ptr<Flow> exact_flow(double tolerance, bool controlled = true,
                                                  bool with_divergence = false) const {
     return exact_flow(with_divergence ? analysis::with_divergence(model_) : VectorField(model_), tolerance, controlled);
   }
   [[nodiscard]] std::unique_ptr<Flow> exact_flow(const VectorField& field, double tolerance, bool controlled) const {
-    integrate::IntegratorOptions o;
-    o.relative_tolerance = o.absolute_tolerance = tolerance;
+    integrate::IntegratorOptions o = exact_options(tolerance);
     o.tangent_error_control = controlled;
-    o.escape_bound = integrator_.escape_bound;
-    o.max_steps_per_period = std::max(o.max_steps_per_period, integrator_.max_steps_per_period) * 20;
     return integrate::make_flow(field, o);
   }
 
@@ -308,9 +317,30 @@ class Run {
     r.crossing_phase = std::move(section.phase);
   }
 
+  using TangentFlow = std::function<std::unique_ptr<Flow>(bool controlled)>;
+
+  /// Of chaos in lanes and at the tolerance of its looks, which is far below what its intervals leave open; of other
+  /// motions, whose exponents may be known to many digits, as exactly as their multipliers.
   void find_exponents(RunResult& r) {
+    if (r.point.regime != analysis::Regime::chaotic) {
+      find_exponents(r, [this](bool controlled) { return exact_flow(options_.check_tolerance, controlled); });
+      return;
+    }
+    integrate::IntegratorOptions o = exact_options(analysis::statistical_tolerance);
+    o.method = "lanes-cash-karp";
+    const integrate::StepLoops& kernels = integrate::step_loops();
+    integrate::LanePool pool([&](std::size_t vectors) { return stage_lanes(model_, kernels, vectors); }, o, kernels);
+    pool.run(1, [&] {
+      find_exponents(r, [&](bool controlled) {
+        o.tangent_error_control = controlled;
+        return pool.make_flow(model_, o);
+      });
+    });
+  }
+
+  void find_exponents(RunResult& r, const TangentFlow& tangent_flow) {
     const double period = 2.0 * std::numbers::pi;
-    const auto tangents = exact_flow(options_.check_tolerance);
+    const auto tangents = tangent_flow(true);
     const auto divergence = exact_flow(options_.check_tolerance, true, true);
     // The divergence is taken along the very motion: from the state at the beginning of each interval over it.
     constexpr std::size_t checked = 32;
@@ -353,7 +383,7 @@ class Run {
     o.intervals = few;
     std::vector<double> a = first;
     std::vector<double> b = first;
-    const auto free_flow = exact_flow(options_.check_tolerance, false);
+    const auto free_flow = tangent_flow(false);
     tangents->forget();
     const auto with = analysis::lyapunov_spectrum(*tangents, a, o, go_on_);
     const auto without = analysis::lyapunov_spectrum(*free_flow, b, o, go_on_);
