@@ -87,7 +87,7 @@ loci=(--set '/study/loci={"parameter":"damping_ratio","from":0.045,"to":0.055,"n
 awk -F, -v flip="$flip" '$5 > 0.05 - 1e-9 && $5 < 0.05 + 1e-9 { found = $4 - flip < 1e-7 && flip - $4 < 1e-7 } END { exit !found }' loci/loci.csv ||
   fail "the locus does not begin at the flip"
 [ -s loci/figures/loci.png ] || fail "the figure of loci is missing"
-killed_until_done 1500 "$epicyclic" continue "$study" "${small[@]}" "${loci[@]}" -o loci_cut
+killed_until_done 4000 "$epicyclic" continue "$study" "${small[@]}" "${loci[@]}" -o loci_cut
 cmp -s loci/loci.csv loci_cut/loci.csv || fail "loci differ after kills"
 
 # A search at one speed: two motions of period 1 and 2, the first one unstable.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,16 @@ bool always() { return true; }
 studies::PointResult point_at(const model::DynamicModel& m, const studies::LookOptions& look,
                               const integrate::IntegratorOptions& integrator) {
   return studies::compute_point({0, studies::Direction::up, m.omega}, m, {}, look, integrator, always);
+}
+
+/// The run of inputs/tang2020_run.json at another speed, with few periods of history and exponents.
+std::optional<studies::RunResult> run_at(const input::LoadedInput& input, const model::DynamicModel& m,
+                                         int exponent_periods) {
+  studies::RunOptions options = std::get<input::RunPlan>(input.study.plan).run;
+  options.exponent_periods = exponent_periods;
+  options.history_periods = 4;
+  return studies::run_operating_point(m, model::scales_of(input.study.stage), input.study.look(), options,
+                                      input.study.integrator, always);
 }
 
 TEST(PaperRegimes, AreToldWithTheirEvidence) {
@@ -72,11 +83,7 @@ TEST(PaperRegimes, DampingInContactOnlyPullsForAShortTime) {
 TEST(PaperRegimes, ARunChecksItsExponents) {
   const input::LoadedInput input = input::load_input("inputs/tang2020_run.json");
   const model::DynamicModel m = input::model_at(input)(2.4);
-  studies::RunOptions options = std::get<input::RunPlan>(input.study.plan).run;
-  options.exponent_periods = 40;
-  options.history_periods = 4;
-  const auto r = studies::run_operating_point(m, model::scales_of(input.study.stage), input.study.look(), options,
-                                              input.study.integrator, always);
+  const auto r = run_at(input, m, 40);
   ASSERT_TRUE(r.has_value());
   ASSERT_TRUE(r->checks.has_value());
   constexpr double of_the_sum = 1e-8;  // the check's tolerance, times the steps between contacts
@@ -125,11 +132,8 @@ TEST(PaperRegimes, ARunChecksItsExponents) {
 TEST(PaperRegimes, ExponentsOfChaosInLanesAddUpToTheDivergence) {
   const input::LoadedInput input = input::load_input("inputs/tang2020_run.json");
   const model::DynamicModel m = input::model_at(input)(1.3);
-  studies::RunOptions options = std::get<input::RunPlan>(input.study.plan).run;
-  options.exponent_periods = 60;
-  options.history_periods = 4;
-  const auto r = studies::run_operating_point(m, model::scales_of(input.study.stage), input.study.look(), options,
-                                              input.study.integrator, always);
+  constexpr int periods = 60;
+  const auto r = run_at(input, m, periods);
   ASSERT_TRUE(r.has_value());
   ASSERT_EQ(r->point.regime, analysis::Regime::chaotic);
   ASSERT_EQ(r->exponents.per_s.size(), m.dimension);
@@ -148,7 +152,7 @@ TEST(PaperRegimes, ExponentsOfChaosInLanesAddUpToTheDivergence) {
   const auto flow = integrate::make_flow(m, exact);
   std::vector<double> y = r->point.end_state;
   analysis::SpectrumOptions spectrum;
-  spectrum.intervals = options.exponent_periods;
+  spectrum.intervals = periods;
   const analysis::LyapunovSpectrum of_arkode = analysis::lyapunov_spectrum(*flow, y, spectrum, always);
   int outside = 0;
   for (std::size_t i = 0; i < m.dimension; ++i) {
