@@ -97,6 +97,10 @@ std::array<Subcommand, 10> subcommands() {
   }};
 }
 
+void add_threads(CLI::App& command, Arguments& arguments, const char* meaning) {
+  command.add_option("--threads", arguments.threads, meaning)->check(CLI::Range(1, 4096))->capture_default_str();
+}
+
 /// @param arguments  takes what is parsed; must live longer
 void add_to(CLI::App& cli, Subcommand& sub, Arguments& arguments) {
   sub.command = cli.add_subcommand(sub.name, sub.meaning);
@@ -111,10 +115,12 @@ void add_to(CLI::App& cli, Subcommand& sub, Arguments& arguments) {
     sub.command->add_option("-o,--output", arguments.output, "folder for the results")->required();
     sub.command->add_flag("--json", arguments.json, "print the summary as JSON");
   }
-  if (sub.takes >= Takes::threads || sub.run == check_command)
-    sub.command->add_option("--threads", arguments.threads, "threads; the results do not depend on it")
-        ->check(CLI::Range(1, 4096))
-        ->capture_default_str();
+  if (sub.takes >= Takes::threads) add_threads(*sub.command, arguments, "threads; the results do not depend on it");
+}
+
+void add_check_options(CLI::App& command, Arguments& arguments) {
+  command.add_flag("--no-time", arguments.no_time, "do not measure how long it takes on this machine");
+  add_threads(command, arguments, "threads that it would be computed by");
 }
 
 void add_continue_options(CLI::App& command, Arguments& arguments) {
@@ -146,8 +152,7 @@ int run(int argc, char** argv) {
   for (Subcommand& sub : commands) {
     add_to(cli, sub, arguments);
     if (sub.run == continue_command) add_continue_options(*sub.command, arguments);
-    if (sub.run == check_command)
-      sub.command->add_flag("--no-time", arguments.no_time, "do not measure how long it takes on this machine");
+    if (sub.run == check_command) add_check_options(*sub.command, arguments);
   }
   const int code = guarded(ranks, [&] {
     try {

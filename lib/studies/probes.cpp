@@ -97,7 +97,7 @@ Measured measure_miniatures(const SweepPlan& plan, std::size_t first, double sec
     compute(miniature, lanes);
     const double spent = processor_seconds() - begun;
     const Measured last{miniature.points.size(), spent, lanes.occupancy(), miniature.chains.size()};
-    if (miniature.points.size() == plan.points.size() || static_cast<double>(times) * spent > seconds * threads)
+    if (miniature.points.size() == plan.points.size() || static_cast<double>(times) * spent >= seconds * threads)
       return last;
   }
 }

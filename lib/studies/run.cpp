@@ -11,7 +11,6 @@
 
 #include "analysis/regime_flows.hpp"
 #include "core/largest_difference.hpp"
-#include "integrate/lanes/lane_pool.hpp"
 #include "integrate/make_flow.hpp"
 #include "studies/pulls.hpp"
 #include "studies/stage_lanes.hpp"
@@ -328,8 +327,7 @@ class Run {
     }
     integrate::IntegratorOptions o = exact_options(analysis::statistical_tolerance);
     o.method = "lanes-cash-karp";
-    const integrate::StepLoops& kernels = integrate::step_loops();
-    integrate::LanePool pool([&](std::size_t vectors) { return stage_lanes(model_, kernels, vectors); }, o, kernels);
+    integrate::LanePool pool = stage_pool(model_, o, integrate::step_loops());
     pool.run(1, [&] {
       find_exponents(r, [&](bool controlled) {
         o.tangent_error_control = controlled;

@@ -12,4 +12,9 @@ LaneField stage_lanes(const model::DynamicModel& like, const integrate::StepLoop
   return integrate::one_by_one(loops.width, like.dimension, like.surfaces.count);
 }
 
+integrate::LanePool stage_pool(const model::DynamicModel& like, const integrate::IntegratorOptions& integrator,
+                               const integrate::StepLoops& loops) {
+  return {[&like, &loops](std::size_t vectors) { return stage_lanes(like, loops, vectors); }, integrator, loops};
+}
+
 }  // namespace epicyclic::studies

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "core/vector_field.hpp"
+#include "integrate/lanes/lane_pool.hpp"
 #include "integrate/lanes/step_loops.hpp"
+#include "integrate/options.hpp"
 #include "model/dynamic_model.hpp"
 
 namespace epicyclic::studies {
@@ -12,5 +14,11 @@ namespace epicyclic::studies {
 /// @param vectors  tangent vectors of each lane; where the model layer has no lanes there are none: width 0
 [[nodiscard]] LaneField stage_lanes(const model::DynamicModel& like, const integrate::StepLoops& loops,
                                     std::size_t vectors = 0);
+
+/// Lanes that motions of such models share.
+/// @param like  has to live as long as the pool
+[[nodiscard]] integrate::LanePool stage_pool(const model::DynamicModel& like,
+                                             const integrate::IntegratorOptions& integrator,
+                                             const integrate::StepLoops& loops);
 
 }  // namespace epicyclic::studies

@@ -28,12 +28,6 @@ bool in_lanes(const integrate::IntegratorOptions& o) {
   return method != nullptr && method->family == integrate::Family::lanes;
 }
 
-/// Lanes that motions of models like this one share.
-integrate::LanePool pool_for(const model::DynamicModel& like, const integrate::IntegratorOptions& integrator,
-                             const integrate::StepLoops& kernels) {
-  return {[&like, &kernels](std::size_t vectors) { return stage_lanes(like, kernels, vectors); }, integrator, kernels};
-}
-
 /// The pool's lanes for all of a point.
 PointFlows flows_of(integrate::LanePool& pool) {
   const integrate::FlowMaker make_flow = [&pool](VectorField field, const integrate::IntegratorOptions& options) {
@@ -180,7 +174,7 @@ class ChainRunner {
       const integrate::StepLoops& kernels = integrate::step_loops(thread);
       // The same for every thread: which points have lanes does not depend on who came first.
       const model::DynamicModel like = model_at_(plan_.points.front());
-      integrate::LanePool pool = pool_for(like, integrator_, kernels);
+      integrate::LanePool pool = stage_pool(like, integrator_, kernels);
       const Carrier carrier{flows_of(pool), [&](const std::function<bool()>& over) { pool.wait(over); }};
       // So that some wait for a lane while others are looked at: those of states and those of tangents fill up.
       constexpr std::size_t chains_per_lane = 2;
@@ -335,7 +329,7 @@ PointResult compute_point_as_swept(const GridPoint& point, const model::DynamicM
                                    const std::vector<double>& start, const LookOptions& look,
                                    const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on) {
   if (!in_lanes(integrator)) return compute_point(point, model, start, look, integrator, go_on);
-  integrate::LanePool pool = pool_for(model, integrator, integrate::step_loops());
+  integrate::LanePool pool = stage_pool(model, integrator, integrate::step_loops());
   PointResult result;
   pool.run(1, [&] { result = compute_point(point, model, start, look, integrator, go_on, flows_of(pool)); });
   return result;

@@ -26,8 +26,8 @@ done
 [ "$(code_of "$epicyclic" crosscheck crosscheck.json -o c3 --set '/study/clearance_smoothings=[1e-6]' --set '/study/methods=["arkode-dopri5"]')" = 0 ] ||
   fail "a width of 1e-6 must agree: $(<stdout)"
 
-# A sweep that checks itself: points of each regime, the table beside the figure, the same bytes at 1 and 2 threads, by ranks, and
-# stopped on the way; exit code 1, and again, where a difference stays unexplained.
+# A sweep that checks itself: points of each regime, the table beside the figure, the same bytes at 1 and 2 threads, and
+# killed on the way; exit code 1, and again, where a difference stays unexplained.
 checked=(sweep "$inputs/tang2020_speed.json" --set /study/from=2.0 --set /study/to=2.4 --set /study/points=9 --set '/study/directions=["up"]'
   --set /study/transient_periods=40 --set /study/recorded_periods=16 --set /study/crosscheck/points=4)
 [ "$(code_of "$epicyclic" "${checked[@]}" -o s1 --threads 1)" = 0 ] || fail "a sweep with its cross-check: $(<stdout)$(<stderr)"
