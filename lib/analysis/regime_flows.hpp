@@ -10,11 +10,13 @@
 
 namespace epicyclic::analysis {
 
-/// Growth is a statistical matter, for which a tolerance that is looser than a study's is as good.
+/// Growth is a statistical matter, for which a tolerance that is looser than a study's is as good; at looser ones than
+/// this kinks pass unseen, and growth is off by more than a torus's interval.
 inline constexpr double statistical_tolerance = 1e-6;
 
-/// Looks, whose growth is a matter of statistics, at a tolerance up to a hundred times looser; orbits at the one asked
-/// for, tangents under error control; and once more at ten times that, for what multipliers are known to.
+/// Looks, whose growth is a matter of statistics, at the tolerance above, or one up to a hundred times looser; orbits
+/// at the one asked for, tangents under error control; and once more at ten times that, for what multipliers are known
+/// to.
 struct RegimeFlows {
   std::unique_ptr<integrate::Flow> looks, exact, coarser;
 

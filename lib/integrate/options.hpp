@@ -21,7 +21,8 @@ struct IntegratorOptions {
   /// answer then has the order of the method, at several times the cost.
   bool locate_contacts = false;
 
-  /// Tangent vectors count in the error of a step. If not, the steps are those of the state alone, to the last bit.
+  /// Tangent vectors count in the error of a step. If not, the steps are those of the state alone, to the last bit; in
+  /// lanes but for those over kinks [I-hop].
   bool tangent_error_control = false;
 
   /// @throws InputError for a method without that name, a tolerance or cap out of range, or located contacts with a

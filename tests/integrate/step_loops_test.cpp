@@ -28,11 +28,11 @@ LaneSteps alone(const LaneSteps& one, std::size_t lane) {
   LaneSteps steps;
   steps.sample.fill(infinite);
   const auto move = [&](auto member) { (steps.*member)[lane] = (one.*member)[0]; };
-  for (auto member : {&LaneSteps::s, &LaneSteps::stop, &LaneSteps::sample, &LaneSteps::proposed, &LaneSteps::h,
-                      &LaneSteps::end, &LaneSteps::norm, &LaneSteps::largest})
+  for (auto member : {&LaneSteps::s, &LaneSteps::stop, &LaneSteps::sample, &LaneSteps::proposed, &LaneSteps::hop,
+                      &LaneSteps::h, &LaneSteps::end, &LaneSteps::norm, &LaneSteps::largest})
     move(member);
-  for (auto member :
-       {&LaneSteps::running, &LaneSteps::cut, &LaneSteps::refused, &LaneSteps::attempts, &LaneSteps::allowed})
+  for (auto member : {&LaneSteps::running, &LaneSteps::cut, &LaneSteps::hopping, &LaneSteps::refused,
+                      &LaneSteps::attempts, &LaneSteps::allowed})
     move(member);
   return steps;
 }
@@ -95,9 +95,9 @@ LaneSteps judged(const StepLoops& kernels, const LaneSteps& one) {
   const LaneVerdict verdict = kernels.judge(steps, bound);
   EXPECT_EQ(verdict.eventful, steps.event[lane] != 0);
   EXPECT_EQ(verdict.accepted, steps.accepted[lane] != 0 ? 1U : 0U);
-  for (auto member : {&LaneSteps::accepted, &LaneSteps::refused, &LaneSteps::event})
+  for (auto member : {&LaneSteps::accepted, &LaneSteps::refused, &LaneSteps::hopping, &LaneSteps::event})
     (steps.*member)[0] = (steps.*member)[lane];
-  steps.proposed[0] = steps.proposed[lane];
+  for (auto member : {&LaneSteps::proposed, &LaneSteps::hop}) (steps.*member)[0] = (steps.*member)[lane];
   return steps;
 }
 
@@ -190,8 +190,9 @@ struct Surfaces {
   std::vector<std::vector<double>> at;  ///< values, rates, and both at the end
 };
 
-/// What is proposed after a refused step of length 0.5.
-double landed(const StepLoops& kernels, const Surfaces& s, std::size_t count, bool again = false, bool refused = true) {
+/// After a refused step of length 0.5, in the last lane.
+LaneSteps after_landing(const StepLoops& kernels, const Surfaces& s, std::size_t count, double margin, bool again,
+                        bool refused) {
   struct alignas(64) Aligned {
     std::array<double, 4 * most_lanes> x{};
   };
@@ -203,9 +204,73 @@ double landed(const StepLoops& kernels, const Surfaces& s, std::size_t count, bo
   steps.proposed[lane] = 0.05;
   steps.refused[lane] = refused ? -1 : 0;
   steps.again[lane] = again ? -1 : 0;
-  kernels.land(steps, count, copies[0].x.data(), copies[1].x.data(), copies[2].x.data(), copies[3].x.data());
+  kernels.land(steps, margin, count, copies[0].x.data(), copies[1].x.data(), copies[2].x.data(), copies[3].x.data());
   for (std::size_t other = 0; other < lane; ++other) EXPECT_EQ(steps.proposed[other], 0.0);
-  return steps.proposed[lane];
+  return steps;
+}
+
+/// What is proposed.
+double landed(const StepLoops& kernels, const Surfaces& s, std::size_t count, bool again = false, bool refused = true) {
+  const LaneSteps steps = after_landing(kernels, s, count, 0.0, again, refused);
+  EXPECT_EQ(steps.hop[kernels.width - 1], 0.0);
+  return steps.proposed[kernels.width - 1];
+}
+
+TEST(StepLoops, LandBeforeACrossingAndGoOverItWithAMargin) {
+  constexpr double margin = 0.01;
+  constexpr double rounding = 1e-15;  // of the root of a straight line
+  for (const StepLoops* kernels : lane_sets()) {
+    SCOPED_TRACE(kernels->name);
+    const std::size_t lane = kernels->width - 1;
+    Surfaces s(*kernels, 1);
+    s.set(0, 0.4, 1.0, 0.0, 0.0, 0.5);
+    LaneSteps steps = after_landing(*kernels, s, 1, margin, false, true);
+    EXPECT_NEAR(steps.proposed[lane], 0.195, rounding);
+    EXPECT_NEAR(steps.hop[lane], 0.01, rounding);
+    EXPECT_EQ(steps.hopping[lane], 0);
+    s.set(0, 0.015, 1.0, 0.0, 0.0, 0.5);  // no room
+    steps = after_landing(*kernels, s, 1, margin, false, true);
+    EXPECT_EQ(steps.proposed[lane], 0.05);
+    EXPECT_NEAR(steps.hop[lane], 0.015, rounding);
+    EXPECT_EQ(steps.hopping[lane], -1);
+  }
+}
+
+TEST(StepLoops, GoOnBehindACrossingAsBeforeIt) {
+  constexpr double hop = 0.01;
+  for (const StepLoops* kernels : lane_sets()) {
+    SCOPED_TRACE(kernels->name);
+    LaneSteps landing = plain();  // the step that ends before it is accepted
+    landing.hop[0] = hop;
+    landing.norm[0] = 0.01;
+    const LaneSteps landed = judged(*kernels, landing);
+    EXPECT_EQ(landed.hopping[0], -1);
+    EXPECT_EQ(landed.hop[0], hop);
+    LaneSteps over = plain();
+    over.hopping[0] = -1;
+    over.hop[0] = hop;
+    over.stop[0] = 9.0;
+    const double node = 1.0;
+    struct alignas(64) Aligned {
+      std::array<double, most_lanes> x{};
+    } places;
+    kernels->measure(over, 1, &node, places.x.data());
+    EXPECT_EQ(over.h[0], hop);
+    over.norm[0] = 1e-6;
+    LaneSteps behind = judged(*kernels, over);
+    EXPECT_EQ(behind.hopping[0], 0);
+    EXPECT_EQ(behind.hop[0], 0.0);
+    EXPECT_EQ(behind.proposed[0], over.proposed[0]);
+    over.norm[0] = 4.0;  // refused: as any other
+    behind = judged(*kernels, over);
+    EXPECT_EQ(behind.hopping[0], 0);
+    EXPECT_EQ(behind.hop[0], 0.0);
+    EXPECT_LT(behind.proposed[0], hop);
+    landing.norm[0] = 4.0;  // the landing is refused: nothing is gone over
+    behind = judged(*kernels, landing);
+    EXPECT_EQ(behind.hopping[0], 0);
+    EXPECT_EQ(behind.hop[0], 0.0);
+  }
 }
 
 TEST(StepLoops, LandOnTheFirstCrossing) {

@@ -44,6 +44,27 @@ Matrix2 monodromy(Flow& flow, std::array<double, 2>& y, int periods) {
   return Eigen::Map<Matrix2>(v.data());
 }
 
+TEST(Tangents, InLanesGoOverKinksWithoutAnErrorOfFirstOrder) {
+  // Kinks at the ends of steps or within long ones would leave vectors, whose error does not count, up to b_1 h (J+ -
+  // J-) v each at any tolerance: 2 to 10 % of these monodromies.
+  constexpr double largest = 0.005;  // measured: 0.0033 where the kinks fall worst
+  for (const double w : {0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 1.0, 1.1}) {
+    const VectorField field = problems::clearance_oscillator(w);
+    std::array<double, 2> orbit = {1.1, 0.0};
+    const auto exact = make_flow(field, options("arkode-dopri5", 1e-13, true));
+    for (int k = 0; k < 100; ++k) ASSERT_TRUE(exact->evolve(orbit, 0.0, field.period).reached());
+    std::array<double, 2> y = orbit;
+    const Matrix2 expected = monodromy(*exact, y, 1);
+    for (const std::string_view method : {"lanes-dopri5", "lanes-cash-karp"})
+      for (const double tolerance : {1e-6, 1e-7, 1e-8}) {
+        const auto flow = make_flow(field, options(method, tolerance));
+        y = orbit;
+        EXPECT_LT((monodromy(*flow, y, 1) - expected).norm(), largest * expected.norm())
+            << method << " " << w << " " << tolerance;
+      }
+  }
+}
+
 TEST(Tangents, DuffingFlipsWithThePublishedMultipliers) {
   // validation.md section 4; its digits.
   const auto flow = make_flow(problems::duffing(0.3, -1.0, 0.2655817861, 1.2), options("arkode-dopri5", 1e-13));
@@ -103,9 +124,13 @@ TEST_P(TangentsOfEachMethod, TheMonodromyIsTheDerivativeOfTheExactSolutionAcross
 }
 
 TEST_P(TangentsOfEachMethod, UncontrolledTangentsLeaveTheStateToTheLastBit) {
+  // In lanes but for the steps over kinks, whatever the number of vectors.
+  constexpr double tolerance = 1e-7;
+  constexpr double rest = 100.0 * tolerance;  // errors of some hundred steps
+  std::array<double, 2> by_one{};
   for (const std::size_t m : {1U, 3U, 9U, 16U}) {
-    const auto plain = make_flow(problems::clearance_oscillator(0.85), options(GetParam().name, 1e-7));
-    const auto tangent = make_flow(problems::clearance_oscillator(0.85), options(GetParam().name, 1e-7));
+    const auto plain = make_flow(problems::clearance_oscillator(0.85), options(GetParam().name, tolerance));
+    const auto tangent = make_flow(problems::clearance_oscillator(0.85), options(GetParam().name, tolerance));
     std::array<double, 2> y = {1.1, 0.0};
     std::array<double, 2> z = y;
     std::vector<double> v(2 * m, 0.5);
@@ -113,8 +138,14 @@ TEST_P(TangentsOfEachMethod, UncontrolledTangentsLeaveTheStateToTheLastBit) {
       ASSERT_TRUE(plain->evolve(y, 0.0, two_pi).reached());
       ASSERT_TRUE(tangent->evolve_tangents(z, v, 0.0, two_pi).reached());
     }
-    EXPECT_EQ(y, z) << m;
-    EXPECT_EQ(plain->work().steps, tangent->work().steps);
+    if (GetParam().family == Family::lanes) {
+      if (m == 1) by_one = z;
+      EXPECT_EQ(z, by_one) << m;
+      EXPECT_LT(std::hypot(y[0] - z[0], y[1] - z[1]), rest) << m;
+    } else {
+      EXPECT_EQ(y, z) << m;
+      EXPECT_EQ(plain->work().steps, tangent->work().steps);
+    }
     for (std::size_t j = 1; j < m; ++j) {
       EXPECT_EQ(v[2 * j], v[0]);
       EXPECT_EQ(v[2 * j + 1], v[1]);

@@ -262,6 +262,8 @@ class LaneEnsemble::Impl {
     steps_.proposed[lane] = l.proposed;
     steps_.running[lane] = all_bits;
     steps_.refused[lane] = 0;
+    steps_.hopping[lane] = 0;
+    steps_.hop[lane] = 0.0;
     steps_.allowed[lane] =
         steps_.attempts[lane] + static_cast<long long>(std::max(1.0, periods)) * options_.max_steps_per_period;
     await_sample(lane);
@@ -413,6 +415,13 @@ class LaneEnsemble::Impl {
       if (needs_guess(lane)) steps_.proposed[lane] = first_step(lane);
   }
 
+  /// How far before a surface steps land, in parts of the refused step [I-hop]: as near as lets errors of vectors pass
+  /// where they count, and no nearer than places of surfaces are good to where nothing else sees them.
+  double margin() const {
+    if (controlled_ == n_) return 0.0;
+    return vectors_ > 0 ? 1e-3 : 1e-2;
+  }
+
   /// One attempt in each lane.
   /// @returns whether a lane may have ended
   bool step() {
@@ -437,10 +446,11 @@ class LaneEnsemble::Impl {
                    next_.get(), relative_.get(), absolute_.get(), steps_.norm.data(), steps_.largest.data());
     for (std::size_t j = 1; j <= vectors_; ++j) worst_with_vector(j);
     if (together_) share_norm();
-    const LaneVerdict verdict = kernels_.judge(steps_, options_.escape_bound);
     measure_surfaces(places_.end, next_.get(), end_);
+    if (margin() > 0.0) kernels_.refuse_crossings(steps_, field_.surfaces, start_.values.get(), end_.values.get());
+    const LaneVerdict verdict = kernels_.judge(steps_, options_.escape_bound);
     if (verdict.accepted < running_)
-      kernels_.land(steps_, field_.surfaces, start_.values.get(), start_.rates.get(), end_.values.get(),
+      kernels_.land(steps_, margin(), field_.surfaces, start_.values.get(), start_.rates.get(), end_.values.get(),
                     end_.rates.get());
     if (verdict.eventful) look_closer();
     all_at_end_ = verdict.accepted == running_;

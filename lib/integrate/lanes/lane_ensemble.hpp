@@ -16,6 +16,15 @@
 // The kink then lies at the start of the step after that, but for an error that is squared. Nothing depends on the
 // root: the step is judged as any other, and its slopes are those of the field as it is.
 //
+// Slopes of tangent vectors jump at a kink. In a step that crosses one, or ends on it, some of them are those of the
+// wrong side, which leaves an error of first order, up to b_1 h (J+ - J-) v, whatever the tolerance: of one sign from
+// kink to kink where steps end on them, so that a torus seems to attract or to repel. Where vectors are carried, no
+// step but short ones cross a surface; steps end before it, and behind the short one the step's length is what it was:
+//
+//   h <- h (t - m),  then  2 m h ,  m = 1e-2, or 1e-3 where errors of vectors count                       [I-hop]
+//
+// The kink is then in the midst of the short step, where its error is below 2 m b_1 h (J+ - J-) v.
+//
 // An evolution is begun in a lane and run() goes on until the first one has ended; the caller looks at it, and begins
 // the next one, of the same system or of another. Breakpoints are stepped onto; samples come from the cubic Hermite
 // polynomial through both ends of a step, as ARKODE's do. Sources of the pairs: J. R. Dormand, P. J. Prince, J. Comput.

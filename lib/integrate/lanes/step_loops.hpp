@@ -21,6 +21,7 @@ struct alignas(64) LaneSteps {
   alignas(64) Each<double> stop{};         ///< where it has to stop next, a breakpoint or the end
   alignas(64) Each<double> sample{};       ///< the next place at which a sample is wanted; infinite if none is
   alignas(64) Each<double> proposed{};     ///< length of the next step; 0 if not known
+  alignas(64) Each<double> hop{};          ///< length of the step over a surface that follows a landing; 0: none does
   alignas(64) Each<double> h{};            ///< length of this one
   alignas(64) Each<double> end{};          ///< where it ends: on a stop to the last bit
   alignas(64) Each<double> norm{};         ///< of its error, squared
@@ -28,6 +29,8 @@ struct alignas(64) LaneSteps {
   alignas(64) Each<double> wanted{};       ///< factor of the next one by the norm
   alignas(64) Each<long long> running{};   ///< mask
   alignas(64) Each<long long> cut{};       ///< mask: the step is one to a stop
+  alignas(64) Each<long long> hopping{};   ///< mask: the step is that over a surface
+  alignas(64) Each<long long> crossing{};  ///< mask: refused for a surface that it crosses, and for nothing else
   alignas(64) Each<long long> accepted{};  ///< mask
   alignas(64) Each<long long> refused{};   ///< mask: the last attempt was refused
   alignas(64) Each<long long> again{};     ///< mask: and so was the one before
@@ -71,9 +74,16 @@ struct StepLoops {
   /// allowed any more.
   LaneVerdict (*judge)(LaneSteps& steps, double escape_bound) = nullptr;
 
+  /// Sets `crossing`, and the norm so that the step is refused, where one that is not that over a surface crosses one
+  /// of `count`. W numbers for each surface.
+  void (*refuse_crossings)(LaneSteps& steps, std::size_t count, const double* values,
+                           const double* values_at_end) = nullptr;
+
   /// A refused step that crosses one of `count` surfaces is followed by one that ends on the first crossing: the root
-  /// of the cubic through the values at both ends of the step and d/ds of them. W numbers for each surface.
-  void (*land)(LaneSteps& steps, std::size_t count, const double* values, const double* rates,
+  /// of the cubic through the values at both ends of the step and d/ds of them. W numbers for each surface. With a
+  /// margin it ends before it, by that part of the refused step, and twice the margin is the step after it; where there
+  /// is no room for that, it goes over it at once.
+  void (*land)(LaneSteps& steps, double margin, std::size_t count, const double* values, const double* rates,
                const double* values_at_end, const double* rates_at_end) = nullptr;
 
   /// to <- from in the lanes of the mask.
