@@ -29,8 +29,10 @@ struct Arguments {
   int threads = 1;
   bool json = false;
   std::vector<std::string> from;  ///< of continue: FOLDER or FOLDER:INDEX, donors of seeds
-  std::filesystem::path against;  ///< of continue: a sweep's folder; empty: none
+  std::filesystem::path against;  ///< of continue: a sweep's folder; empty: none. Of assert: the expected points' file
   int unexplained = 0;            ///< of continue: changes that may stay so
+  std::filesystem::path junit;    ///< of assert: file of the verdicts; empty: none
+  bool record = false;            ///< of assert: the points of the folder become the expected ones
   bool no_time = false;           ///< of check: time is not measured
   Ranks* ranks = nullptr;
 };
@@ -42,6 +44,7 @@ int basins_command(const Arguments& arguments);
 int crosscheck_command(const Arguments& arguments);
 int tolerance_command(const Arguments& arguments);
 int continue_command(const Arguments& arguments);
+int assert_command(const Arguments& arguments);
 int gear_command(const Arguments& arguments);
 int check_command(const Arguments& arguments);
 

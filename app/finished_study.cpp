@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -122,6 +123,30 @@ studies::PointSource FinishedStudy::points() const {
 model::DynamicModel FinishedStudy::model_at(std::size_t point) const {
   if (!store_) return input::model_at(input_)(input_.study.mesh_frequency_ratio);
   return input::model_at_point(input_)(plan_->points[point]);
+}
+
+FinishedBranches finished_branches(const std::filesystem::path& folder) {
+  const json run = complete_run(folder);
+  require_unchanged(folder, run, {"input.resolved.json", "special.csv"});
+  FinishedBranches branches{input::load_input(folder / "input.resolved.json"), {}};
+  if (branches.input.study.kind() != "continue")
+    throw InputError(fmt::format("{}: is a study of kind {}; special points are those of a continue", folder.string(),
+                                 branches.input.study.kind()));
+  const CsvTable table = read_table(folder / "special.csv");
+  const auto column = [&](const char* name) {
+    const std::size_t index = table.index_of(name);
+    if (index == table.columns.size())
+      throw store::DamagedData((folder / "special.csv").string() + ": has no column " + name);
+    return index;
+  };
+  const auto kind = column("kind"), period = column("period"), value = column("value"), bound = column("error_bound"),
+             contact = column("contact"), symmetry = column("broken_symmetry"), same = column("same_as");
+  for (const auto& row : table.rows)
+    if (row[same].empty())
+      branches.points.push_back({row[kind], static_cast<int>(number_of(row[period])), number_of(row[value]),
+                                 row[bound].empty() ? std::numeric_limits<double>::quiet_NaN() : number_of(row[bound]),
+                                 row[contact], row[symmetry]});
+  return branches;
 }
 
 Donor parse_donor(const std::string& text) {

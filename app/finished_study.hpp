@@ -9,6 +9,7 @@
 
 #include "input/study_input.hpp"
 #include "store/point_store.hpp"
+#include "studies/expected_points.hpp"
 #include "studies/sweep_plan.hpp"
 
 namespace epicyclic::app {
@@ -41,6 +42,16 @@ class FinishedStudy {
   std::unique_ptr<store::PointStore> store_;  ///< null of a run
   std::vector<studies::PointResult> run_;     ///< its one point
 };
+
+/// The folder of branches that are complete, opened to read.
+struct FinishedBranches {
+  input::LoadedInput input;
+  std::vector<studies::LocatedPoint> points;  ///< each once, in the order of special.csv
+};
+
+/// Changes nothing in it.
+/// @throws InputError when there are no complete branches in it, DamagedData when its files are not what they were
+[[nodiscard]] FinishedBranches finished_branches(const std::filesystem::path& folder);
 
 /// Where a point of a donor was, as an element of /study/seeds.
 struct Donor {

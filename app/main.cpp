@@ -67,8 +67,8 @@ int print_schema(const Arguments& /*arguments*/) {
   return done;
 }
 
-/// What a subcommand takes, from a stage or study file on.
-enum class Takes { nothing, input, output, threads };
+/// What a subcommand takes, from a stage or study file on; or a folder that is finished.
+enum class Takes { nothing, finished, input, output, threads };
 
 struct Subcommand {
   const char* name;
@@ -79,7 +79,7 @@ struct Subcommand {
   CLI::App* command = nullptr;  ///< on the command line
 };
 
-std::array<Subcommand, 10> subcommands() {
+std::array<Subcommand, 11> subcommands() {
   return {{
       {"gear", "teeth, contact, stiffness, friction, bearings and modes of the stage", gear_command, Takes::output},
       {"run", "one operating point: regime, forces, spectra, exponents, orbit, figures", run_command, Takes::output},
@@ -91,6 +91,7 @@ std::array<Subcommand, 10> subcommands() {
       {"tolerance", "answers against tolerance, clearance smoothing and method, with error bars", tolerance_command,
        Takes::threads},
       {"crosscheck", "the same points by several methods, compared", crosscheck_command, Takes::threads},
+      {"assert", "special points of finished branches against expected ones", assert_command, Takes::finished},
       {"check", "validates, prints the resolved input, its cost and how long it takes; writes nothing", check_command,
        Takes::input},
       {"schema", "the JSON Schema of the input", print_schema, Takes::nothing},
@@ -139,6 +140,14 @@ void add_continue_options(CLI::App& command, Arguments& arguments) {
       ->capture_default_str();
 }
 
+void add_assert_options(CLI::App& command, Arguments& arguments) {
+  command.add_option("FOLDER", arguments.input, "of a finished `continue`")->required();
+  command.add_option("EXPECTED", arguments.against, "file of the points that are expected of it (JSON)")->required();
+  command.add_option("--junit", arguments.junit, "write the verdicts to this file as JUnit XML");
+  command.add_flag("--json", arguments.json, "print the verdicts as JSON");
+  command.add_flag("--record", arguments.record, "write the points of FOLDER to EXPECTED, with twice their bounds");
+}
+
 int run(int argc, char** argv) {
   Ranks ranks;
   CLI::App cli("Nonlinear dynamics of planetary gear trains, with proof.", "epicyclic");
@@ -152,6 +161,7 @@ int run(int argc, char** argv) {
   for (Subcommand& sub : commands) {
     add_to(cli, sub, arguments);
     if (sub.run == continue_command) add_continue_options(*sub.command, arguments);
+    if (sub.run == assert_command) add_assert_options(*sub.command, arguments);
     if (sub.run == check_command) add_check_options(*sub.command, arguments);
   }
   const int code = guarded(ranks, [&] {
