@@ -209,9 +209,9 @@ std::vector<std::string> warnings(const LoadedInput& input) {
       const integrate::IntegratorOptions plain;
       if (own.method != plain.method || own.relative_tolerance != plain.relative_tolerance ||
           own.absolute_tolerance != plain.absolute_tolerance || own.locate_contacts != plain.locate_contacts)
-        all.push_back({gear::Rank::doubtful, 1.0, "/integrator", "branches",
-                       "method and tolerances are not used: branches are integrated by the explicit pair of reference "
-                       "orbits at /study/tolerance"});
+        all.push_back(
+            {gear::Rank::doubtful, 1.0, "/integrator", "branches",
+             "method and tolerances are not used: branches are integrated by /study/method at /study/tolerance"});
     } else if (const auto* method = integrate::find_method(study.integrator.method);
                method != nullptr && method->misses_kinks && study.model.clearance_smoothing == 0.0 &&
                !study.integrator.locate_contacts)

@@ -876,6 +876,8 @@ const Table<Study>& continue_table() {
               "Pieces that an orbit of `period` is cut into for multiple shooting [-].");
     t.integer("orbits", of(&BranchesOptions::orbits), between(1, 1e6), "Most orbits on a branch, each way [-].");
     t.integer("branches", of(&BranchesOptions::branches), between(1, 10000), "Most branches [-].");
+    t.choice("method", of(&BranchesOptions::method), integrate::method_names(),
+             "Method of integration; one that can ends its steps where contact is made or lost.");
     t.number("tolerance", of(&BranchesOptions::tolerance), between(1e-13, 1e-6),
              "Relative and absolute tolerance of the orbits [-]; error bounds are from a tenth of it.");
     t.number("largest_step", of(&BranchesOptions::largest_step), between(1e-6, 10),

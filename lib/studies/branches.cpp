@@ -8,32 +8,34 @@
 #include "core/errors.hpp"
 #include "core/require.hpp"
 #include "integrate/make_flow.hpp"
+#include "integrate/methods.hpp"
 #include "studies/axis.hpp"
 #include "studies/motion.hpp"
 #include "studies/plane.hpp"
 
 namespace epicyclic::studies {
 
-integrate::IntegratorOptions branch_integrator(double tolerance, bool contacts) {
+integrate::IntegratorOptions branch_integrator(const std::string& method, double tolerance, bool contacts) {
   integrate::IntegratorOptions o;
+  o.method = method;
   o.relative_tolerance = o.absolute_tolerance = tolerance;
   o.tangent_error_control = true;
-  o.locate_contacts = contacts;
+  o.locate_contacts = contacts && integrate::method_named(method).locates_contacts();
   o.max_steps_per_period = 1000000;
   return o;
 }
 
 namespace {
 
-integrate::FlowFamily flows_of(const ModelAt& models, double tolerance, bool contacts) {
-  return integrate::make_flow_family([models](double value) -> VectorField { return models(value); },
-                                     branch_integrator(tolerance, contacts));
+integrate::FlowFamily flows_of(const ModelAt& models, const integrate::IntegratorOptions& integrator) {
+  return integrate::make_flow_family([models](double value) -> VectorField { return models(value); }, integrator);
 }
 
 }  // namespace
 
 void BranchesOptions::validate() const {
   require(from < to, "to", to, "> from");
+  (void)integrate::method_named(method);
   for (const double at : starts) require(at >= from && at <= to, "starts", at, "within from and to");
   for (const BranchSeed& seed : seeds) {
     seed.validate();
@@ -70,9 +72,11 @@ BranchSystem branch_system(const ModelAt& models, const BranchesOptions& options
   options.validate();
   if (!has_classification(first_model))
     throw InputError("forces jump at contact: there are no tangents to follow branches by");
-  const bool contacts = first_model.surfaces.count > 0;
+  const auto at = [&, contacts = first_model.surfaces.count > 0](double tolerance) {
+    return flows_of(models, branch_integrator(options.method, tolerance, contacts));
+  };
   BranchSystem s;
-  s.system.flows = flows_of(models, options.tolerance, contacts);
+  s.system.flows = at(options.tolerance);
   s.system.period = options.period;
   s.system.pieces = options.pieces;
   s.system.residual = 10.0 * options.tolerance;
@@ -93,9 +97,8 @@ BranchSystem branch_system(const ModelAt& models, const BranchesOptions& options
   // one there is rounding alone.
   constexpr double finest = 3e-14;
   const double finer = std::max(0.1 * options.tolerance, finest);
-  const auto fine_flows = flows_of(models, finer, contacts);
-  s.options.special.others = {
-      {fine_flows, 1}, {fine_flows, 2}, {flows_of(models, std::max(0.1 * finer, finest), contacts), 1}};
+  const auto fine_flows = at(finer);
+  s.options.special.others = {{fine_flows, 1}, {fine_flows, 2}, {at(std::max(0.1 * finer, finest)), 1}};
   s.options.special.branch_counts = false;
   s.options.largest_period = options.largest_period;
   s.options.branch_points = options.branch_points;

@@ -23,8 +23,9 @@
 namespace epicyclic::studies {
 
 /// The explicit pair of the library's reference orbits.
-/// @param contacts  are steps to end where contact is made or lost?
-[[nodiscard]] integrate::IntegratorOptions branch_integrator(double tolerance, bool contacts);
+/// @param contacts  are steps to end where contact is made or lost, by a method that can?
+[[nodiscard]] integrate::IntegratorOptions branch_integrator(const std::string& method, double tolerance,
+                                                             bool contacts);
 
 /// What a tree of branches is grown with.
 struct BranchSystem {

@@ -63,9 +63,10 @@ struct BranchesOptions {
   int orbits = 5000;          ///< most on a branch, each way
   int branches = 50;          ///< most
 
-  double tolerance = 1e-10;   ///< of the integrator, relative and absolute; bounds are from a tenth of it
-  double largest_step = 0.1;  ///< of the arc length [-]
-  int output_phases = 64;     ///< at which extrema of an orbit are looked for, in a mesh period, as in a sweep
+  std::string method = "arkode-dopri5";  ///< of the integrator; contacts are located where it can
+  double tolerance = 1e-10;              ///< of the integrator, relative and absolute; bounds are from a tenth of it
+  double largest_step = 0.1;             ///< of the arc length [-]
+  int output_phases = 64;  ///< at which extrema of an orbit are looked for, in a mesh period, as in a sweep
 
   std::optional<BranchSearchOptions> search{};
   std::optional<LociOptions> loci{};

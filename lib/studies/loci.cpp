@@ -18,8 +18,7 @@ using analysis::LocusEnd;
 using analysis::LocusPoint;
 using analysis::LocusTrace;
 
-analysis::PlaneOfFlows flows_of(const ModelOverPlane& models, double tolerance, bool contacts) {
-  const integrate::IntegratorOptions o = branch_integrator(tolerance, contacts);
+analysis::PlaneOfFlows flows_of(const ModelOverPlane& models, const integrate::IntegratorOptions& o) {
   return [models, o](double first, double second) { return integrate::make_flow(models(first, second), o); };
 }
 
@@ -56,9 +55,11 @@ std::pair<analysis::OrbitSurface, analysis::LocusOptions> plane_of(const ModelOv
                                                                    const analysis::Branch& branch, double first,
                                                                    const SecondRange& second,
                                                                    const BranchesOptions& options, int points) {
-  const bool contacts = models(first, second.value).surfaces.count > 0;
+  const auto at = [&, contacts = models(first, second.value).surfaces.count > 0](double tolerance) {
+    return flows_of(models, branch_integrator(options.method, tolerance, contacts));
+  };
   analysis::OrbitSurface surface;
-  surface.flows = flows_of(models, options.tolerance, contacts);
+  surface.flows = at(options.tolerance);
   surface.family = branch.family;
   surface.family.value_scale = options.to - options.from;
   surface.second_scale = second.to - second.from;
@@ -70,7 +71,7 @@ std::pair<analysis::OrbitSurface, analysis::LocusOptions> plane_of(const ModelOv
   o.along.orbits = static_cast<std::size_t>(points);
   o.second_from = second.from;
   o.second_to = second.to;
-  const auto finer = flows_of(models, 0.1 * options.tolerance, contacts);
+  const auto finer = at(0.1 * options.tolerance);
   o.others = {{finer, 1}, {finer, 2}};
   return {std::move(surface), std::move(o)};
 }

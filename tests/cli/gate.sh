@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# gate.sh EPICYCLIC SOURCE_DIR
+#
+# Special points of the paper's stage are where validation/bifurcation_points has them: those of a small study, with WHOLE=yes
+# those of all.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
+expected=$2/validation/bifurcation_points
+
+studies=(tang2020_branches_gate)
+if [ "${WHOLE:-no}" = yes ]; then
+  studies=()
+  for file in "$expected"/*.json; do studies+=("$(basename -s .json "$file")"); done
+fi
+[ ${#studies[@]} -ge 1 ] || fail "there are no expected points"
+# By ARKODE, whose steps end on contact changes, and by CVODE, which knows of none.
+for study in "${studies[@]}"; do
+  for method in arkode-dopri5 cvode-adams; do
+    tolerance=()
+    [ $method = arkode-dopri5 ] || tolerance=(--set /study/tolerance=1e-11)
+    what="$study by $method"
+    [ "$(code_of "$epicyclic" continue "$inputs/$study.json" -o "$study.$method" --set "/study/method=$method" "${tolerance[@]}")" = 0 ] ||
+      fail "$what: $(<stderr)"
+    [ "$(code_of "$epicyclic" assert "$study.$method" "$expected/$study.json")" = 0 ] || fail "$what: $(grep -v '^agrees' stdout)$(<stderr)"
+    echo "$what: $(tail -n 1 stdout)"
+  done
+done
+
+# What a wrong model makes of them is seen: a planet whose error is out of phase, as if the program had put it there.
+moved=(--set /study/largest_period=1 --set /study/method=lanes-cash-karp --set '/stage/lumped/sun_planet_mesh/error_phase_deg=[0, 0, 3]')
+[ "$(code_of "$epicyclic" continue "$inputs/tang2020_branches_gate.json" -o moved "${moved[@]}")" = 0 ] || fail "a planet out of phase: $(<stderr)"
+[ "$(code_of "$epicyclic" assert moved "$expected/tang2020_branches_gate.json")" = 3 ] || fail "another stage: $(<stdout)"
+[ "$(code_of "$epicyclic" assert moved moved.json --record)" = 0 ] || fail "record: $(<stderr)"
+{ sed '/^"study":/,$d' "$expected/tang2020_branches_gate.json" && grep '^"study":' moved.json && echo '}'; } >points.json
+[ "$(code_of "$epicyclic" assert moved points.json)" = 1 ] || fail "a planet out of phase moves nothing: $(<stdout)$(<stderr)"
+grep -q '^agrees' stdout && fail "a point that a planet out of phase does not move: $(<stdout)"
+
+finish
