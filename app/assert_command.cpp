@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -41,7 +42,8 @@ bool is_alike(const reports::ExpectedPoints& expected, const FinishedBranches& b
 int record(const Arguments& arguments, const FinishedBranches& branches) {
   if (std::filesystem::exists(arguments.against))
     throw InputError(arguments.against.string() + ": is there already; remove it to record its points anew");
-  const std::vector<studies::LocatedPoint> points = reports::expected_of(branches.points);
+  const std::vector<studies::LocatedPoint> points =
+      reports::expected_of(branches.points, std::get<studies::BranchesOptions>(branches.input.study.plan));
   write_file_atomically(arguments.against, reports::expected_text(branches.input, points));
   tell("{} of {} points are expected from now on: {}\n", points.size(), branches.points.size(),
        arguments.against.string());

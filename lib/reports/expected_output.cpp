@@ -160,12 +160,13 @@ ExpectedPoints read_expected(const std::filesystem::path& file) {
   return {std::move(read.study), std::move(read.points)};
 }
 
-std::vector<LocatedPoint> expected_of(const std::vector<LocatedPoint>& found) {
+std::vector<LocatedPoint> expected_of(const std::vector<LocatedPoint>& found, const studies::BranchesOptions& study) {
+  constexpr double least = 1e-9;
   std::vector<LocatedPoint> points;
   for (LocatedPoint p : found) {
-    p.bound *= 2.0;
-    if (p.kind != "unresolved" && std::isfinite(p.value) && std::isfinite(p.bound) && p.bound > 0.0)
-      points.push_back(std::move(p));
+    if (p.kind == "unresolved" || !std::isfinite(p.value) || !std::isfinite(p.bound)) continue;
+    p.bound = std::max(2.0 * p.bound, least * (study.to - study.from));
+    points.push_back(std::move(p));
   }
   return points;
 }

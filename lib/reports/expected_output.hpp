@@ -31,9 +31,10 @@ struct ExpectedPoints {
 /// @throws InputError with all that is wrong
 [[nodiscard]] ExpectedPoints read_expected(const std::filesystem::path& file);
 
-/// Of points that were found: those of a kind, with a place and a bound, which is twice their own, so that another computation
-/// that is as certain agrees.
-[[nodiscard]] std::vector<studies::LocatedPoint> expected_of(const std::vector<studies::LocatedPoint>& found);
+/// Of points that were found: those of a kind, with a place and a bound. That is twice their own, so that another
+/// computation that is as certain agrees, and not less than a part of 1e-9 of the range.
+[[nodiscard]] std::vector<studies::LocatedPoint> expected_of(const std::vector<studies::LocatedPoint>& found,
+                                                             const studies::BranchesOptions& study);
 
 /// Text of such a file.
 [[nodiscard]] std::string expected_text(const input::LoadedInput& study,
