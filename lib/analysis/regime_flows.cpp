@@ -25,8 +25,8 @@ RegimeFlows make_regime_flows(const VectorField& field, const integrate::Integra
     o.tangent_error_control = controlled;
     return make_flow(field, o);
   };
-  const double looser = std::min(statistical_tolerance / integrator.relative_tolerance, 100.0);
-  return {with(looser, integrator.tangent_error_control), with(1.0, true), with(10.0, true)};
+  const double of_looks = std::min(statistical_tolerance / integrator.relative_tolerance, 100.0);
+  return {with(of_looks, integrator.tangent_error_control), with(1.0, true), with(10.0, true)};
 }
 
 }  // namespace epicyclic::analysis

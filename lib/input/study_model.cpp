@@ -212,10 +212,13 @@ std::vector<std::string> warnings(const LoadedInput& input) {
         all.push_back(
             {gear::Rank::doubtful, 1.0, "/integrator", "branches",
              "method and tolerances are not used: branches are integrated by /study/method at /study/tolerance"});
-    } else if (const auto* method = integrate::find_method(study.integrator.method);
-               method != nullptr && method->misses_kinks && study.model.clearance_smoothing == 0.0 &&
-               !study.integrator.locate_contacts)
-      all.push_back({gear::Rank::doubtful, 1.0, "/integrator/method", "kinks",
+    }
+    const auto* branches = std::get_if<studies::BranchesOptions>(&study.plan);
+    const auto* method = integrate::find_method(branches != nullptr ? branches->method : study.integrator.method);
+    const bool located =
+        method != nullptr && (branches != nullptr ? method->locates_contacts() : study.integrator.locate_contacts);
+    if (method != nullptr && method->misses_kinks && study.model.clearance_smoothing == 0.0 && !located)
+      all.push_back({gear::Rank::doubtful, 1.0, branches != nullptr ? "/study/method" : "/integrator/method", "kinks",
                      "the error estimate of \"" + std::string(method->name) +
                          "\" misses the kinks of the exact clearance; its errors are far above its tolerance"});
     if (study.has_points() && study.look().classification_periods > 0 &&

@@ -22,7 +22,7 @@
 
 namespace epicyclic::studies {
 
-/// The explicit pair of the library's reference orbits.
+/// How branches are integrated: tangents under error control.
 /// @param contacts  are steps to end where contact is made or lost, by a method that can?
 [[nodiscard]] integrate::IntegratorOptions branch_integrator(const std::string& method, double tolerance,
                                                              bool contacts);

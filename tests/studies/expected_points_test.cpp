@@ -1,8 +1,6 @@
 #include "studies/expected_points.hpp"
 
 #include <limits>
-#include <map>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
