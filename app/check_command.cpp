@@ -13,6 +13,7 @@
 #include "progress.hpp"
 #include "session.hpp"
 #include "streams.hpp"
+#include "studies/calibration.hpp"
 #include "studies/crosscheck.hpp"
 #include "studies/probes.hpp"
 
@@ -115,6 +116,12 @@ int check_command(const Arguments& arguments) {
   if (!input.study.has_motion()) {
     print("{}\n", input.resolved.dump(2));
     tell("{}: valid; a stage alone, for `epicyclic gear`\n", arguments.input.string());
+    return done;
+  }
+  if (const auto* claims = std::get_if<studies::ClaimsOptions>(&input.study.plan)) {
+    print("{}\n", input.resolved.dump(2));
+    tell("{}: valid\ncost: {} claims on {} sweeps; a search tries up to {} candidates\n", arguments.input.string(),
+         claims->claims.size(), claims->sweeps.size(), studies::most_evaluations(*claims));
     return done;
   }
   if (!input.study.has_points()) {

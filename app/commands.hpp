@@ -32,8 +32,9 @@ struct Arguments {
   std::filesystem::path against;  ///< of continue: a sweep's folder; empty: none. Of assert: the expected points' file
   int unexplained = 0;            ///< of continue: changes that may stay so
   std::filesystem::path junit;    ///< of assert: file of the verdicts; empty: none
-  bool record = false;            ///< of assert: the points of the folder become the expected ones
+  bool record = false;            ///< of assert and reproduce: what was found becomes what is expected
   bool no_time = false;           ///< of check: time is not measured
+  bool quiet = false;             ///< part of another command: nothing on stdout
   Ranks* ranks = nullptr;
 };
 
@@ -44,6 +45,8 @@ int basins_command(const Arguments& arguments);
 int crosscheck_command(const Arguments& arguments);
 int tolerance_command(const Arguments& arguments);
 int continue_command(const Arguments& arguments);
+int reproduce_command(const Arguments& arguments);
+int calibrate_command(const Arguments& arguments);
 int assert_command(const Arguments& arguments);
 int gear_command(const Arguments& arguments);
 int check_command(const Arguments& arguments);

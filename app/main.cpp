@@ -79,7 +79,7 @@ struct Subcommand {
   CLI::App* command = nullptr;  ///< on the command line
 };
 
-std::array<Subcommand, 11> subcommands() {
+std::array<Subcommand, 13> subcommands() {
   return {{
       {"gear", "teeth, contact, stiffness, friction, bearings and modes of the stage", gear_command, Takes::output},
       {"run", "one operating point: regime, forces, spectra, exponents, orbit, figures", run_command, Takes::output},
@@ -91,6 +91,9 @@ std::array<Subcommand, 11> subcommands() {
       {"tolerance", "answers against tolerance, clearance smoothing and method, with error bars", tolerance_command,
        Takes::threads},
       {"crosscheck", "the same points by several methods, compared", crosscheck_command, Takes::threads},
+      {"reproduce", "claims of a publication held against a stage, with its figures", reproduce_command,
+       Takes::threads},
+      {"calibrate", "what is not published of a stage, from what is claimed of it", calibrate_command, Takes::threads},
       {"assert", "special points of finished branches against expected ones", assert_command, Takes::finished},
       {"check", "validates, prints the resolved input, its cost and how long it takes; writes nothing", check_command,
        Takes::input},
@@ -148,6 +151,12 @@ void add_assert_options(CLI::App& command, Arguments& arguments) {
   command.add_flag("--record", arguments.record, "write the points of FOLDER to EXPECTED, with twice their bounds");
 }
 
+void add_reproduce_options(CLI::App& command, Arguments& arguments) {
+  command.get_option("INPUT")->description(
+      "claims of a publication: a name in validation/, its folder, or a file (JSON)");
+  command.add_flag("--record", arguments.record, "the verdicts are those that are expected from now on");
+}
+
 int run(int argc, char** argv) {
   Ranks ranks;
   CLI::App cli("Nonlinear dynamics of planetary gear trains, with proof.", "epicyclic");
@@ -162,6 +171,7 @@ int run(int argc, char** argv) {
     add_to(cli, sub, arguments);
     if (sub.run == continue_command) add_continue_options(*sub.command, arguments);
     if (sub.run == assert_command) add_assert_options(*sub.command, arguments);
+    if (sub.run == reproduce_command) add_reproduce_options(*sub.command, arguments);
     if (sub.run == check_command) add_check_options(*sub.command, arguments);
   }
   const int code = guarded(ranks, [&] {

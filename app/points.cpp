@@ -160,8 +160,8 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   const studies::ModelAtPoint model_at = input::model_at_point(input);
   // Options that do not fit show here, before anything is written.
   const model::DynamicModel first_model = model_at(plan.points.front());
-  tell_warnings(input);
-  if (command == "sweep" && input.study.sweep().axis.name != studies::speed_parameter)
+  if (!arguments.quiet) tell_warnings(input);
+  if (!arguments.quiet && command == "sweep" && input.study.sweep().axis.name != studies::speed_parameter)
     tell("operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
 
   const std::string identity = identity_of(input, command);
@@ -208,7 +208,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   close_run(store::RunState::complete);
   for (const std::string& note : written.notes) tell("{}\n", note);
 
-  tell_result(arguments, noun, computed_points, written, failed);
+  if (!arguments.quiet) tell_result(arguments, noun, computed_points, written, failed);
   return failed == 0 && undrawn == 0 && written.unexplained == 0 ? done : done_with_failures;
 }
 

@@ -211,6 +211,17 @@ bool check_object(const json& value, const std::string& pointer, ReadContext& co
   return false;
 }
 
+bool check_list(const json& value, const std::string& pointer, std::size_t most, ReadContext& context) {
+  if (!value.is_array()) {
+    context.add(Finding::Kind::type, pointer, "is " + described(value) + ", must be an array of objects");
+    return false;
+  }
+  if (value.size() <= most) return true;
+  context.add(Finding::Kind::range, pointer,
+              "has " + std::to_string(value.size()) + " elements, must have at most " + std::to_string(most));
+  return false;
+}
+
 void check_keys(const json& object, const std::string& pointer, const std::vector<std::string>& known,
                 const std::vector<KeyRule>& rules, ReadContext& context) {
   for (const auto& [key, value] : object.items()) {
@@ -419,6 +430,24 @@ Format<std::string> text_format() {
   };
   format.write = [](const std::string& text) { return text.empty() ? json() : json(text); };
   format.schema = [] { return ordered_json{{"type", "string"}}; };
+  return format;
+}
+
+Format<std::vector<std::string>> texts_format(std::size_t size_max) {
+  using Texts = std::vector<std::string>;
+  Format<Texts> format;
+  format.read = [=](const json& value, const std::string& pointer, ReadContext& context) -> std::optional<Texts> {
+    const bool texts =
+        value.is_array() && std::all_of(value.begin(), value.end(), [](const json& v) { return v.is_string(); });
+    if (texts && value.size() <= size_max) return value.get<Texts>();
+    context.add(Finding::Kind::type, pointer,
+                "is " + described(value) + ", must be an array of at most " + std::to_string(size_max) + " strings");
+    return std::nullopt;
+  };
+  format.write = [](const Texts& texts) { return texts.empty() ? json() : json(texts); };
+  format.schema = [=] {
+    return ordered_json{{"type", "array"}, {"maxItems", size_max}, {"items", {{"type", "string"}}}};
+  };
   return format;
 }
 

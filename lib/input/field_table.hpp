@@ -127,6 +127,9 @@ struct Plain<std::optional<V>> {
   static constexpr bool is_optional = true;
 };
 
+/// Is it a list of at most so many objects? If not, says so.
+bool check_list(const json& value, const std::string& pointer, std::size_t most, ReadContext& context);
+
 /// Reaches a member V of a T: to write (making what is absent) and to read (null if absent).
 template <class T, class V>
 struct Access {
@@ -181,6 +184,7 @@ Format<double> number_or_rigid_format(std::string_view key, const Bounds& bounds
 Format<int> integer_or_auto_format(const Bounds& bounds);
 Format<bool> boolean_format();
 Format<std::string> text_format();
+Format<std::vector<std::string>> texts_format(std::size_t size_max);
 Format<std::vector<double>> numbers_format(std::string_view key, const Bounds& bounds, std::size_t size_min,
                                            std::size_t size_max);
 Format<std::vector<double>> number_or_numbers_format(std::string_view key, const Bounds& bounds, std::size_t size_max);
@@ -361,6 +365,12 @@ class Table {
     return add(key, table_detail::access<T>(member), table_detail::number_or_rigid_format(key, bounds), description);
   }
 
+  /// An array of texts; one without any is left out when written.
+  template <class F>
+  Field<T>& texts(std::string_view key, F member, std::size_t size_max, std::string_view description) {
+    return add(key, table_detail::access<T>(member), table_detail::texts_format(size_max), description);
+  }
+
   /// An array of numbers; one that is shorter than `size_min` is left out when written.
   template <class F>
   Field<T>& numbers(std::string_view key, F member, Bounds bounds, std::size_t size_min, std::size_t size_max,
@@ -399,6 +409,34 @@ class Table {
     field.change = [at, &table](std::string_view rest, double number, const std::string& pointer, T& t,
                                 ReadContext& context) {
       return at.find(t) != nullptr && table.change(rest, number, pointer, at.make(t), context);
+    };
+    return field;
+  }
+
+  /// A list of objects, each as its table reads it; left out when written, if there are none.
+  /// @param member  std::vector<U>
+  template <class F, class U>
+  Field<T>& objects(std::string_view key, F member, const Table<U>& table, std::size_t most,
+                    std::string_view description) {
+    auto at = table_detail::access<T>(member);
+    Field<T>& field = fields_.emplace_back();
+    field.key = key;
+    field.description = description;
+    field.read = [at, &table, most](const json& value, const std::string& pointer, T& t, ReadContext& context) {
+      if (!table_detail::check_list(value, pointer, most, context)) return;
+      std::vector<U>& list = at.make(t);
+      list.clear();
+      for (std::size_t k = 0; k < value.size(); ++k)
+        table.read(value[k], pointer + "/" + std::to_string(k), list.emplace_back(), context);
+    };
+    field.write = [at, &table](const T& t) {
+      json list = json::array();
+      if (const std::vector<U>* found = at.find(t))
+        for (const U& one : *found) list.push_back(table.write(one));
+      return list.empty() ? json() : list;
+    };
+    field.schema = [&table, most] {
+      return ordered_json{{"type", "array"}, {"maxItems", most}, {"items", table.schema()}};
     };
     return field;
   }

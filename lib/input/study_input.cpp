@@ -829,6 +829,30 @@ void check_points(const Study& study, F is_bad, ReadContext& context) {
   if (!is_bad("/study/parameter")) check_named_parameter(sweep.axis, "/study", is_bad, context);
 }
 
+/// Rules of claims: those of the options themselves, and names of parameters.
+template <class F>
+void check_claims(const studies::ClaimsOptions& claims, F is_bad, ReadContext& context) {
+  if (is_bad("/study")) return;
+  for (auto& [place, message] : claims.problems())
+    if (!is_bad("/study" + place)) context.add(Finding::Kind::rule, "/study" + place, std::move(message));
+  const studies::LookOptions& look = claims.look;
+  if (look.transient == studies::Transient::adaptive && look.classification_periods == 0)
+    context.add(Finding::Kind::rule, "/study/classification_periods", "is 0, must be >= 1 for an adaptive transient");
+  for (std::size_t k = 0; k < claims.sweeps.size(); ++k) {
+    const studies::ClaimSweep& sweep = claims.sweeps[k];
+    const std::string place = "/study/sweeps/" + std::to_string(k);
+    check_range(sweep.axis, place, is_bad, "; to go downwards give \"directions\": [\"down\"]", context);
+    if (!is_bad(place + "/parameter")) check_named_parameter(sweep.axis, place, is_bad, context);
+    for (std::size_t j = 0; j < sweep.at.size(); ++j) {
+      const studies::SetValue& set = sweep.at[j];
+      const std::string at = place + "/at/" + std::to_string(j);
+      if (!is_bad(at + "/parameter"))
+        check_named_parameter(studies::Axis{set.parameter, set.value, set.value, 1}, at, is_bad, context);
+      check_different(sweep.axis.name, set.parameter, at + "/parameter", context);
+    }
+  }
+}
+
 /// Collects problems in the order of the texts: study, stage, assignments.
 class Problems {
  public:
@@ -1016,6 +1040,8 @@ class LoadedInput::Loader {
     const auto bad = [this](const std::string& pointer) { return is_bad(pointer); };
     if (input_.study.has_points()) check_points(input_.study, bad, context_);
     if (auto* sweep = std::get_if<studies::SweepOptions>(&input_.study.plan)) sweep->segments = segments_of(*sweep);
+    if (const auto* claims = std::get_if<studies::ClaimsOptions>(&input_.study.plan))
+      check_claims(*claims, bad, context_);
     if (const auto* branches = std::get_if<studies::BranchesOptions>(&input_.study.plan))
       check_branches(*branches, input_.study.stage, bad, context_);
     input_.resolved = sources_->bare ? stage_table().write(input_.study.stage) : study_table().write(input_.study);
@@ -1051,6 +1077,38 @@ class LoadedInput::Loader {
     if (ends_are_sound_ && have_values && varied.size() == 1)
       check_values(varied[0].axis, varied[0].place, as_given(), {}, "");
     if (problems_.empty() && varied.size() == 2) check_edges(varied);
+    if (const auto* claims = std::get_if<studies::ClaimsOptions>(&input_.study.plan); claims && problems_.empty())
+      check_claimed_values(*claims);
+  }
+
+  /// Numbers that sweeps and parameters of claims write at pointers, each alone with the rest of the input.
+  void check_claimed_values(const studies::ClaimsOptions& claims) {
+    const auto check = [&](const std::string& pointer, double value, const std::string& place) {
+      if (pointer.empty() || pointer.front() != '/') return;
+      Study unused;
+      for (const auto& problem : input_.check_with(as_given(), std::array{PointerValue{pointer, value}}, unused))
+        refuse(place, "takes the value " + number_text(value) + " at " + pointer + ", with which " + problem.pointer +
+                          " " + problem.message);
+    };
+    for (std::size_t k = 0; k < claims.sweeps.size(); ++k) {
+      const studies::ClaimSweep& sweep = claims.sweeps[k];
+      const std::string place = "/study/sweeps/" + std::to_string(k);
+      check(sweep.axis.name, sweep.axis.from, place + "/from");
+      check(sweep.axis.name, sweep.axis.to, place + "/to");
+      for (std::size_t j = 0; j < sweep.at.size(); ++j)
+        check(sweep.at[j].parameter, sweep.at[j].value, place + "/at/" + std::to_string(j) + "/value");
+    }
+    for (std::size_t k = 0; k < claims.space.parameters.size(); ++k) {
+      const studies::FreeParameter& p = claims.space.parameters[k];
+      if (!p.choice.empty()) continue;  // with that option in place: looked at when candidates are made
+      for (std::size_t t = 0; t < p.targets.size(); ++t) {
+        const studies::ParameterTarget& target = p.targets[t];
+        const std::string place = "/study/parameters/" + std::to_string(k) + "/targets/" + std::to_string(t);
+        if (!target.times.empty()) continue;
+        for (const double x : {p.from, p.to})
+          check(target.pointer, target.factor * std::pow(x, target.power), place + "/pointer");
+      }
+    }
   }
 
   /// Whether the one parameter of a sweep has the default range, which is one of speeds, and is none.

@@ -30,6 +30,7 @@
 #include "integrate/options.hpp"
 #include "model/options.hpp"
 #include "studies/branches_options.hpp"
+#include "studies/claims_options.hpp"
 #include "studies/crosscheck_options.hpp"
 #include "studies/plane_options.hpp"
 #include "studies/run_options.hpp"
@@ -63,7 +64,7 @@ struct TolerancePlan {
 
 /// What is computed, by kind of study.
 using Plan = std::variant<StageAlone, studies::SweepOptions, studies::MapOptions, studies::BasinsOptions, RunPlan,
-                          CrosscheckPlan, TolerancePlan, studies::BranchesOptions>;
+                          CrosscheckPlan, TolerancePlan, studies::BranchesOptions, studies::ClaimsOptions>;
 
 /// How the points of a plan are looked at; of any kind that has points.
 /// @throws std::bad_variant_access of a stage alone and of branches
@@ -95,7 +96,7 @@ requires std::same_as<std::remove_const_t<P>, Plan>
 
 /// Names of the kinds, in the order of Plan.
 inline constexpr std::array<std::string_view, std::variant_size_v<Plan>> plan_kinds = {
-    "stage", "sweep", "map", "basins", "run", "crosscheck", "tolerance", "continue"};
+    "stage", "sweep", "map", "basins", "run", "crosscheck", "tolerance", "continue", "claims"};
 
 struct Study {
   std::string name;
@@ -110,7 +111,8 @@ struct Study {
   [[nodiscard]] bool has_motion() const { return !std::holds_alternative<StageAlone>(plan); }
   /// Are its motions looked at point by point?
   [[nodiscard]] bool has_points() const {
-    return has_motion() && !std::holds_alternative<studies::BranchesOptions>(plan);
+    return has_motion() && !std::holds_alternative<studies::BranchesOptions>(plan) &&
+           !std::holds_alternative<studies::ClaimsOptions>(plan);
   }
 
   /// How its points are looked at.

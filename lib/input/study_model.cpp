@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +19,7 @@
 #include "core/errors.hpp"
 #include "gear/gear_set.hpp"
 #include "gear/warnings.hpp"
+#include "input/claims_input.hpp"
 #include "integrate/methods.hpp"
 #include "studies/named_parameters.hpp"
 #include "studies/plane.hpp"
@@ -27,6 +31,16 @@ using nlohmann::json;
 
 namespace {
 
+/// Sets those values that have names.
+void set_named(model::OperatingPoint& point, std::span<const PointerValue> values) {
+  for (const PointerValue& v : values)
+    if (v.pointer.rfind('/', 0) != 0) {
+      const studies::NamedParameter* parameter = studies::find_parameter(v.pointer);
+      if (parameter == nullptr) throw InputError("/study/parameter: no sweep parameter '" + v.pointer + "'");
+      parameter->set(point, v.value);
+    }
+}
+
 /// The operating point at values of parameters, by names or pointers.
 model::OperatingPoint point_at(const LoadedInput& input, std::span<const PointerValue> values) {
   std::vector<PointerValue> pointers;
@@ -34,12 +48,7 @@ model::OperatingPoint point_at(const LoadedInput& input, std::span<const Pointer
     if (v.pointer.rfind('/', 0) == 0) pointers.push_back(v);
   const Study study = pointers.empty() ? input.study : input.with_values(pointers);
   model::OperatingPoint point{study.stage, study.mesh_frequency_ratio, study.model};
-  for (const PointerValue& v : values)
-    if (v.pointer.rfind('/', 0) != 0) {
-      const studies::NamedParameter* parameter = studies::find_parameter(v.pointer);
-      if (parameter == nullptr) throw InputError("/study/parameter: no sweep parameter '" + v.pointer + "'");
-      parameter->set(point, v.value);
-    }
+  set_named(point, values);
   return point;
 }
 
@@ -140,6 +149,69 @@ std::function<model::DynamicModel(double value, double clearance_smoothing)> smo
 
 namespace {
 
+/// The models of a study for the sweeps of claims.
+studies::SweepModels sweep_models(std::shared_ptr<const LoadedInput> input, std::vector<PointerValue> values) {
+  const Study study = values.empty() ? input->study : input->with_values(values);
+  const model::OperatingPoint given{study.stage, study.mesh_frequency_ratio, study.model};
+  return [input = std::move(input), values = std::move(values), given, scales = model::scales_of(study.stage)](
+             const studies::ClaimSweep& sweep, double value) {
+    std::vector<PointerValue> all;
+    for (const studies::SetValue& set : sweep.at) all.push_back({set.parameter, set.value});
+    all.push_back({sweep.axis.name, value});
+    const auto is_pointer = [](const PointerValue& v) { return v.pointer.starts_with('/'); };
+    if (std::ranges::any_of(all, is_pointer)) {
+      all.insert(all.begin(), values.begin(), values.end());
+      return model_of(point_at(*input, all), scales);
+    }
+    model::OperatingPoint point = given;
+    set_named(point, all);
+    return model_of(point, scales);
+  };
+}
+
+/// Inputs with the options of choices in place, loaded when they are first asked for.
+class OptionInputs {
+ public:
+  OptionInputs(std::filesystem::path path, std::vector<Assignment> sets)
+      : path_(std::move(path)), sets_(std::move(sets)) {}
+
+  std::shared_ptr<const LoadedInput> of(const studies::ParameterSpace& space, const std::vector<std::size_t>& options) {
+    const std::scoped_lock lock(mutex_);
+    std::shared_ptr<const LoadedInput>& input = loaded_[options];
+    if (input == nullptr) {
+      std::vector<Assignment> sets = sets_;
+      std::ranges::move(option_assignments(space, options), std::back_inserter(sets));
+      input = std::make_shared<const LoadedInput>(load_input(path_, sets));
+    }
+    return input;
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::vector<Assignment> sets_;
+  std::mutex mutex_;
+  std::map<std::vector<std::size_t>, std::shared_ptr<const LoadedInput>> loaded_;
+};
+
+}  // namespace
+
+studies::CandidateModels candidate_models(const std::filesystem::path& path, std::span<const Assignment> sets,
+                                          const studies::ClaimsOptions& options) {
+  auto inputs = std::make_shared<OptionInputs>(path, std::vector<Assignment>(sets.begin(), sets.end()));
+  return [inputs, space = options.space](std::span<const double> u) {
+    std::vector<PointerValue> values;
+    for (const auto& [pointer, value] : space.targets_at(u)) values.push_back({pointer, value});
+    return sweep_models(inputs->of(space, space.options_at(u)), std::move(values));
+  };
+}
+
+studies::SweepModels claim_models(const LoadedInput& input) {
+  // Not owned: the caller's.
+  return sweep_models(std::shared_ptr<const LoadedInput>(&input, [](const LoadedInput*) {}), {});
+}
+
+namespace {
+
 /// Warnings on a stage that passes problems_for_modes(), at mesh frequencies [rad/s] if it may move.
 void warn_of_stage(std::vector<gear::Warning>& out, const gear::Stage& stage, double mesh_frequency) {
   const auto append = [&](std::vector<gear::Warning> more) { std::ranges::move(more, std::back_inserter(out)); };
@@ -204,7 +276,7 @@ std::vector<std::string> warnings(const LoadedInput& input) {
         all, [](const gear::Warning& w) { return w.rank == gear::Rank::note && w.pointer.starts_with("/catalogue"); });
     for (gear::Warning& w : all)
       if (!w.pointer.starts_with("/study")) w.pointer.insert(0, "/stage");
-    if (!study.has_points()) {
+    if (std::holds_alternative<studies::BranchesOptions>(study.plan)) {
       const integrate::IntegratorOptions& own = study.integrator;
       const integrate::IntegratorOptions plain;
       if (own.method != plain.method || own.relative_tolerance != plain.relative_tolerance ||

@@ -1,11 +1,14 @@
 // From the input to models: what a sweep asks at each value of its parameter.
 #pragma once
 
+#include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "input/study_input.hpp"
+#include "studies/candidates.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::input {
@@ -39,6 +42,16 @@ namespace epicyclic::input {
 /// The model at a value of the sweep parameter with another width of the smooth clearance.
 [[nodiscard]] std::function<model::DynamicModel(double value, double clearance_smoothing)> smoothed_model_at(
     const LoadedInput& input);
+
+/// The models of candidates for what a study of claims leaves open. An input is loaded once for each set of options
+/// that is asked for. Scales are each candidate's own: it stands for the stage, as a stage of its own would.
+/// @param path, sets  that the study was loaded from
+[[nodiscard]] studies::CandidateModels candidate_models(const std::filesystem::path& path,
+                                                        std::span<const Assignment> sets,
+                                                        const studies::ClaimsOptions& options);
+
+/// The models of the stage as it is given, for the claims' sweeps. `input` must outlive the result.
+[[nodiscard]] studies::SweepModels claim_models(const LoadedInput& input);
 
 /// What is allowed but rarely meant, most important first (gear/warnings.hpp): the stage, the operating points at the
 /// ends of what the study varies, the study itself, values that were ignored. Of a study without the notes on its

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "input/catalogue_table.hpp"
+#include "input/claims_tables.hpp"
 #include "input/study_input.hpp"
 #include "integrate/methods.hpp"
 #include "studies/named_parameters.hpp"
@@ -26,6 +27,7 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 using studies::BasinsOptions;
 using studies::BranchesOptions;
+using studies::ClaimsOptions;
 using studies::LookOptions;
 using studies::MapOptions;
 using studies::SweepOptions;
@@ -496,16 +498,15 @@ void add_kind(Table<Study>& t, const Plan& plan) {
   t.custom(std::move(kind)).required();
 }
 
+const std::vector<std::pair<std::string, studies::Start>> start_choices = {{"carried", studies::Start::carried},
+                                                                           {"cold", studies::Start::cold}};
+
 /// Directions and start, for sweeps and maps.
 template <class Part, class Options>
 void add_course(Table<Study>& t) {
-  using studies::Direction;
-  using studies::Start;
-  t.choices("directions", in_plan<Part>(&Options::directions),
-            std::vector<std::pair<std::string, Direction>>{{"up", Direction::up}, {"down", Direction::down}},
+  t.choices("directions", in_plan<Part>(&Options::directions), direction_choices(),
             "Directions, numbered one after the other; each is a chain of its own from the default start.");
-  t.choice("start", in_plan<Part>(&Options::start),
-           std::vector<std::pair<std::string, Start>>{{"carried", Start::carried}, {"cold", Start::cold}},
+  t.choice("start", in_plan<Part>(&Options::start), start_choices,
            "Where a point starts: from the end of the one before in its chain, or from the default start.");
 }
 
@@ -764,37 +765,6 @@ const Table<studies::BranchSeed>& seed_table() {
   return table;
 }
 
-/// A list of objects, each as its table reads it.
-Field<Study> seeds_field() {
-  Field<Study> field;
-  field.key = "seeds";
-  field.description = "States that branches are started from besides; `--from FOLDER` writes them.";
-  field.read = [](const json& value, const std::string& pointer, Study& study, ReadContext& context) {
-    if (!value.is_array()) {
-      context.add(Finding::Kind::type, pointer, "is " + described(value) + ", must be an array of objects");
-      return;
-    }
-    if (value.size() > seeds_most) {
-      context.add(Finding::Kind::range, pointer,
-                  "has " + std::to_string(value.size()) + " seeds, must have at most " + std::to_string(seeds_most));
-      return;
-    }
-    auto& seeds = std::get<BranchesOptions>(study.plan).seeds;
-    for (std::size_t k = 0; k < value.size(); ++k)
-      seed_table().read(value[k], pointer + "/" + std::to_string(k), seeds.emplace_back(), context);
-  };
-  field.write = [](const Study& study) {
-    json list = json::array();
-    for (const studies::BranchSeed& seed : std::get<BranchesOptions>(study.plan).seeds)
-      list.push_back(seed_table().write(seed));
-    return list.empty() ? json() : list;
-  };
-  field.schema = [] {
-    return ordered_json{{"type", "array"}, {"maxItems", seeds_most}, {"items", seed_table().schema()}};
-  };
-  return field;
-}
-
 const Table<studies::BranchSearchOptions>& search_table() {
   static const auto table = [] {
     using studies::BranchSearchOptions;
@@ -865,7 +835,8 @@ const Table<Study>& continue_table() {
               "Mesh periods that these motions are given to settle [-].");
     t.integer("period", of(&BranchesOptions::period), between(1, period_most),
               "Period of these motions, in mesh periods [-].");
-    t.custom(seeds_field());
+    t.objects("seeds", of(&BranchesOptions::seeds), seed_table(), seeds_most,
+              "States that branches are started from besides; `--from FOLDER` writes them.");
     t.numbers("values", of(&BranchesOptions::values), between(-1e300, 1e300), 1, 100000,
               "Values at which orbits are wanted exactly.");
     t.integer("largest_period", of(&BranchesOptions::largest_period), between(1, period_most),
@@ -891,6 +862,37 @@ const Table<Study>& continue_table() {
   return table;
 }
 
+template <class V>
+table_detail::Access<Study, V> of_space(V studies::ParameterSpace::*member) {
+  return {[=](Study& s) -> V& { return std::get<ClaimsOptions>(s.plan).space.*member; },
+          [=](const Study& s) -> const V* { return &(std::get<ClaimsOptions>(s.plan).space.*member); }};
+}
+
+const Table<Study>& claims_table() {
+  static const auto table = [] {
+    Table<Study> t("claims",
+                   "What is published of a stage, as claims on sweeps, and what it leaves unsaid, as ranges.");
+    add_kind(t, ClaimsOptions{});
+    const auto of = [](auto member) { return in_plan<Kind<ClaimsOptions>>(member); };
+    t.choices("starts", of(&ClaimsOptions::starts), start_choices,
+              "Where points of sweeps start; the first gives the verdict, the other stands beside it.");
+    add_look(t);
+    add_classification(t);
+    t.objects("sweeps", of(&ClaimsOptions::sweeps), claim_sweep_table(), 1000, "Sweeps that the claims speak of.")
+        .required();
+    t.objects("claims", of(&ClaimsOptions::claims), claim_table(), 1000, "What is claimed.").required();
+    t.objects("figures", of(&ClaimsOptions::figures), claim_figure_table(), 100, "Figures as they are published.");
+    t.object("brief", of(&ClaimsOptions::brief), brief_look_table());
+    t.objects("parameters", of_space(&studies::ParameterSpace::parameters), free_parameter_table(), 1000,
+              "Numbers of the input that are not published, with their ranges.");
+    t.objects("choices", of_space(&studies::ParameterSpace::choices), choice_table(), 100,
+              "Readings between which what is published does not decide.");
+    t.object("search", of(&ClaimsOptions::search), search_options_table());
+    return t;
+  }();
+  return table;
+}
+
 /// The tables of kinds of study, in the order of Plan; a stage alone has none.
 struct PlanKind {
   const Table<Study>& (*table)();
@@ -901,12 +903,9 @@ const std::vector<PlanKind>& kinds() {
   static const std::vector<PlanKind> all = {{&sweep_table, SweepOptions{}},        {&map_table, MapOptions{}},
                                             {&basins_table, BasinsOptions{}},      {&run_table, RunPlan{}},
                                             {&crosscheck_table, CrosscheckPlan{}}, {&tolerance_table, TolerancePlan{}},
-                                            {&continue_table, BranchesOptions{}}};
+                                            {&continue_table, BranchesOptions{}},  {&claims_table, ClaimsOptions{}}};
   return all;
 }
-
-/// Kinds that the input format knows and this version does not compute.
-const std::vector<std::string> kinds_to_come = {"calibrate"};
 
 /// @returns nullptr if there is none of that name
 const PlanKind* find_kind(std::string_view name) {
@@ -940,17 +939,9 @@ void read_plan(const json& value, const std::string& pointer, Study& study, Read
   if (kind != value.end() && kind->is_string()) {
     const auto& name = kind->get_ref<const std::string&>();
     read_as = find_kind(name);
-    if (std::find(kinds_to_come.begin(), kinds_to_come.end(), name) != kinds_to_come.end()) {
+    if (read_as == nullptr)
       context.add(Finding::Kind::range, pointer + "/kind",
-                  "is \"" + name + "\", which this version does not compute yet; it computes: " + listed(names));
-      return;
-    }
-    if (read_as == nullptr) {
-      auto all = kinds_to_come;
-      all.insert(all.begin(), names.begin(), names.end());
-      context.add(Finding::Kind::range, pointer + "/kind",
-                  "is \"" + name + "\", must be one of: " + listed(names) + suggestion(name, all));
-    }
+                  "is \"" + name + "\", must be one of: " + listed(names) + suggestion(name, names));
   } else if (kind != value.end()) {
     context.add(Finding::Kind::type, pointer + "/kind",
                 "is " + described(*kind) + ", must be one of: " + listed(names));

@@ -143,10 +143,10 @@ std::string figure_title(const input::Study& study) {
   const gear::Boundary b = study.stage.boundary;
   const char* boundary = b == gear::Boundary::literal ? "literal" : b == gear::Boundary::star ? "star" : "fixed ring";
   std::string title = (study.name.empty() ? study.stage.name : study.name) + ", boundary " + boundary;
-  const bool speed_is_given =
-      study.has_motion() && std::ranges::none_of(input::varied_parameters(study), [](const auto& varied) {
-        return varied.axis.name == studies::speed_parameter;
-      });
+  const bool speed_is_given = study.has_motion() && !std::holds_alternative<studies::ClaimsOptions>(study.plan) &&
+                              std::ranges::none_of(input::varied_parameters(study), [](const auto& varied) {
+                                return varied.axis.name == studies::speed_parameter;
+                              });
   if (speed_is_given) {
     title += ", Ω = ";
     append_number(title, study.mesh_frequency_ratio);

@@ -124,7 +124,8 @@ void FileRecorder::add(const Manifest& files) {
 
 void FileRecorder::note(const fs::path& path, Placed how) {
   const fs::path name = path.lexically_relative(folder_);
-  if (!is_below(name) || is_bookkeeping(name.string())) return;
+  // Of a study in a folder below this one, too.
+  if (!is_below(name) || is_bookkeeping(name.filename().string())) return;
   std::optional<FileFacts> facts;
   if (how == Placed::there) {
     facts = facts_of(path);

@@ -61,7 +61,7 @@ class Decoder {
     list.resize(static_cast<std::size_t>(size));
   }
   void require(bool holds, const char* what) {
-    if (!holds) throw DamagedData(std::string("a journal record ") + what);
+    if (!holds) throw DamagedData(std::string("a journal record ").append(what));
   }
   void finish() { require(at_ == bytes_.size(), "is longer than its contents"); }
 

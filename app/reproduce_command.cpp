@@ -1,0 +1,171 @@
+// epicyclic reproduce: the claims of a publication held against a stage: each sweep that they speak of as a study of
+// its own in a folder of its own, the scorecard, the figures as they are published.
+
+#include <map>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "core/atomic_file.hpp"
+#include "core/errors.hpp"
+#include "finished_study.hpp"
+#include "folder.hpp"
+#include "input/claims_input.hpp"
+#include "input/study_model.hpp"
+#include "reports/claims_output.hpp"
+#include "session.hpp"
+#include "stop.hpp"
+#include "streams.hpp"
+
+namespace epicyclic::app {
+
+namespace {
+
+/// The claims of a name stand in validation/NAME: here, or beside the program, or where it is installed.
+std::filesystem::path claims_file(const std::filesystem::path& named) {
+  std::error_code none;
+  if (std::filesystem::is_directory(named, none)) return named / "claims.json";
+  if (std::filesystem::exists(named, none) || named.has_parent_path() || named.has_extension()) return named;
+  const auto below = [&](const std::filesystem::path& root) { return root / "validation" / named / "claims.json"; };
+  if (std::filesystem::exists(below("."), none)) return below(".");
+  std::filesystem::path at = std::filesystem::read_symlink("/proc/self/exe", none);
+  while (at.has_relative_path()) {
+    at = at.parent_path();
+    for (const auto& root : {at, at / "share" / "epicyclic"})
+      if (std::filesystem::exists(below(root), none)) return below(root);
+  }
+  return named;
+}
+
+std::string folder_name(const studies::ClaimSweep& sweep, studies::Start start) {
+  return start == studies::Start::cold ? sweep.name + "_cold" : sweep.name;
+}
+
+/// A command of its own in a folder of its own.
+/// @param input  its text, which is put beside the folder
+int run_part(const Arguments& arguments, const std::filesystem::path& folder, const std::string& name,
+             const std::string& input, int (*command)(const Arguments&)) {
+  Arguments part = arguments;
+  part.input = folder / (name + ".json");
+  part.output = folder / name;
+  part.sets.clear();
+  part.quiet = true;
+  std::error_code none;
+  // The same text again is no reason to touch it: a folder that is complete stays as it is.
+  write_file_atomically(part.input, input);
+  tell("{}\n", name);
+  return command(part);
+}
+
+/// Where each sweep was computed.
+using Finished = std::map<std::string, std::unique_ptr<FinishedStudy>, std::less<>>;
+
+reports::Scorecard score(const input::LoadedInput& input, const studies::ClaimsOptions& options,
+                         const Finished& finished) {
+  reports::Scorecard card{input.study.name, options, {}};
+  for (const studies::Start start : options.starts) {
+    studies::ClaimRecord record;
+    for (const studies::ClaimSweep& sweep : options.sweeps)
+      record[sweep.name] =
+          reports::claim_series(finished.find(folder_name(sweep, start))->second->points(), options.look);
+    reports::ScoredStart scored{start, {}};
+    for (const studies::Claim& claim : options.claims) scored.outcomes.push_back(judge(claim, record));
+    card.scored.push_back(std::move(scored));
+  }
+  return card;
+}
+
+}  // namespace
+
+int reproduce_command(const Arguments& given) {
+  stop_on_signals();
+  Arguments arguments = given;
+  arguments.input = claims_file(given.input);
+  const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
+  require_kind(input, arguments, "claims");
+  const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
+  // What does not fit shows here, before anything is written.
+  const studies::SweepModels models = input::claim_models(input);
+  for (const studies::ClaimSweep& sweep : options.sweeps)
+    for (const double value : {sweep.axis.from, sweep.axis.to}) (void)models(sweep, value);
+  tell_warnings(input);
+
+  Session session(arguments, input, identity_of(input, "reproduce"), arguments.threads, 1, true);
+  if (const auto code = session.exit_code()) return *code;
+  const store::OutputFolder& folder = session.folder();
+  const auto close_run = [&](store::RunState state, std::map<std::string, std::int64_t> counts) {
+    session.end(state, std::move(counts));
+  };
+
+  int worst = done;
+  const auto compute = [&](const std::string& name, const nlohmann::json& text, int (*command)(const Arguments&)) {
+    const int code = run_part(arguments, folder.path(), name, text.dump(2) + "\n", command);
+    if (code != done && code != done_with_failures) return code;
+    worst = std::max(worst, code);
+    return static_cast<int>(done);
+  };
+  int code = compute("gear", input.resolved["stage"], gear_command);
+  for (const studies::Start start : options.starts)
+    for (const studies::ClaimSweep& sweep : options.sweeps)
+      if (code == done)
+        code = compute(folder_name(sweep, start), input::sweep_input(input, sweep, start), sweep_command);
+  if (code != done) {
+    close_run(store::RunState::stopped, {});
+    return code;
+  }
+
+  Finished finished;
+  for (const studies::Start start : options.starts)
+    for (const studies::ClaimSweep& sweep : options.sweeps) {
+      const std::string name = folder_name(sweep, start);
+      finished[name] = std::make_unique<FinishedStudy>(folder.path() / name);
+    }
+  const reports::Scorecard card = score(input, options, finished);
+  const std::string summary = reports::scorecard_summary(card);
+  write_file_atomically(folder.file("scorecard.csv"), reports::scorecard_csv(card));
+  write_file_atomically(folder.file("scorecard.md"), summary);
+  const auto figures = reports::draw_claim_figures(
+      folder.file("figures"), card, reports::figure_title(input.study), [&](const std::string& sweep) {
+        return finished
+            .find(folder_name(*std::ranges::find(options.sweeps, sweep, &studies::ClaimSweep::name),
+                              options.starts.front()))
+            ->second->points();
+      });
+  const std::int64_t undrawn = tell_undrawn(figures);
+
+  std::filesystem::path recorded = arguments.input;
+  recorded.replace_extension(".scorecard.csv");
+  std::vector<std::string> unlike;
+  if (arguments.record) {
+    write_file_atomically(recorded, reports::scorecard_csv(card));
+    tell("recorded: {}\n", recorded.string());
+  } else if (std::filesystem::exists(recorded)) {
+    unlike = reports::unlike_recorded(card, recorded);
+    for (const std::string& line : unlike) tell("other than recorded in {}: {}\n", recorded.string(), line);
+  }
+  close_run(store::RunState::complete, {{"claims", static_cast<std::int64_t>(options.claims.size())},
+                                        {"holding", static_cast<std::int64_t>(card.holding())},
+                                        {"unlike", static_cast<std::int64_t>(unlike.size())},
+                                        {"undrawn", undrawn}});
+  if (arguments.json) {
+    nlohmann::json told = {{"folder", folder.path().string()}, {"claims", options.claims.size()},
+                           {"holding", card.holding()},        {"holding_whatever_the_stage", card.holding_inert()},
+                           {"unlike_recorded", unlike},        {"figures", nlohmann::json::array()}};
+    for (const auto& figure : figures)
+      if (figure.outcome.drawn()) told["figures"].push_back(figure.file.string());
+    print("{}\n", told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else {
+    print("{}\n", summary);
+    for (const auto& figure : figures)
+      if (figure.outcome.drawn()) print("figure: {}\n", figure.file.string());
+  }
+  return unlike.empty() && undrawn == 0 ? worst : static_cast<int>(done_with_failures);
+}
+
+}  // namespace epicyclic::app

@@ -1,0 +1,134 @@
+#include "input/claims_input.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "model/dynamic_model.hpp"
+#include "studies/named_parameters.hpp"
+
+namespace epicyclic::input {
+
+using nlohmann::json;
+
+namespace {
+
+/// The number at a pointer, if there is one.
+const json* find_number(const json& resolved, const std::string& pointer) {
+  const json::json_pointer at(pointer);
+  return resolved.contains(at) && resolved[at].is_number() ? &resolved[at] : nullptr;
+}
+
+/// Does the input have what an option sets? Of an object the same keys, whatever their values.
+bool is_set(const json& resolved, const studies::OptionSet& set) {
+  const json::json_pointer at(set.pointer);
+  const json value = json::parse(set.value);
+  if (!resolved.contains(at)) return value.is_null();
+  if (!value.is_object()) return resolved[at] == value;
+  if (!resolved[at].is_object()) return false;
+  return std::ranges::all_of(value.items(), [&](const auto& item) { return resolved[at].contains(item.key()); });
+}
+
+}  // namespace
+
+std::vector<Assignment> option_assignments(const studies::ParameterSpace& space,
+                                           const std::vector<std::size_t>& options) {
+  std::vector<Assignment> sets;
+  for (std::size_t k = 0; k < options.size(); ++k)
+    for (const studies::OptionSet& set : space.choices[k].options[options[k]].sets)
+      sets.push_back({set.pointer, json::parse(set.value), set.pointer + "=" + set.value});
+  return sets;
+}
+
+std::vector<Assignment> candidate_assignments(const studies::ParameterSpace& space, std::span<const double> u) {
+  std::vector<Assignment> sets = option_assignments(space, space.options_at(u));
+  for (const auto& [pointer, value] : space.targets_at(u))
+    sets.push_back({pointer, value, pointer + "=" + number_text(value)});
+  return sets;
+}
+
+std::vector<double> given_candidate(const LoadedInput& input, const studies::ParameterSpace& space) {
+  std::vector<double> u;
+  for (const studies::FreeParameter& p : space.parameters) {
+    double x = 1.0;
+    if (!p.targets.empty()) {
+      const studies::ParameterTarget& target = p.targets.front();
+      const json* there = find_number(input.resolved, target.pointer);
+      if (there == nullptr) {
+        u.push_back(0.5);
+        continue;
+      }
+      x = std::pow(there->get<double>() / target.factor, 1.0 / target.power);
+    }
+    u.push_back(std::isfinite(x) ? p.place_of(x) : 0.5);
+  }
+  for (const studies::Choice& choice : space.choices) {
+    const auto chosen = std::ranges::find_if(choice.options, [&](const studies::ChoiceOption& option) {
+      return std::ranges::all_of(option.sets,
+                                 [&](const studies::OptionSet& set) { return is_set(input.resolved, set); });
+    });
+    u.push_back(choice.place_of(
+        chosen == choice.options.end() ? 0 : static_cast<std::size_t>(chosen - choice.options.begin())));
+  }
+  return u;
+}
+
+json with_origins(json resolved, std::span<const Assignment> values, const std::string& origin) {
+  // Of an element of an array the whole array has one origin.
+  const auto place_of = [&](const Assignment& value) {
+    std::string place = value.pointer;
+    while (resolved.contains(json::json_pointer(std::string(pointer_parent(place)))) &&
+           resolved[json::json_pointer(std::string(pointer_parent(place)))].is_array())
+      place = pointer_parent(place);
+    return place;
+  };
+  for (const Assignment& value : values) {
+    const std::string place = place_of(value);
+    json& object = resolved[json::json_pointer(std::string(pointer_parent(place)))];
+    if (value.value.is_object()) {
+      for (const auto& [key, unused] : value.value.items()) resolved[json::json_pointer(place)]["origin"][key] = origin;
+      continue;
+    }
+    object["origin"][pointer_leaf(place)] = origin;
+  }
+  return resolved;
+}
+
+json sweep_input(const LoadedInput& input, const studies::ClaimSweep& sweep, studies::Start start) {
+  const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
+  Study study = input.study;
+  studies::SweepOptions plan;
+  plan.axis = sweep.axis;
+  plan.directions = start == studies::Start::cold ? std::vector{studies::Direction::up} : sweep.directions;
+  plan.start = start;
+  plan.look = options.look;
+  plan.look.keep = studies::Keep::section;
+  plan.segments = segments_of(plan);
+  study.plan = plan;
+  // What names stand for is told by what they change in the study as it is written.
+  std::vector<Assignment> values;
+  for (const studies::SetValue& set : sweep.at) {
+    const studies::NamedParameter* named = studies::find_parameter(set.parameter);
+    if (named == nullptr) {
+      values.push_back({set.parameter, set.value, {}});
+      continue;
+    }
+    model::OperatingPoint point{study.stage, study.mesh_frequency_ratio, study.model};
+    named->set(point, set.value);
+    study.stage = point.stage;
+    study.mesh_frequency_ratio = point.mesh_frequency_ratio;
+    for (const std::string& pointer : named->pointers) values.push_back({pointer, {}, {}});
+  }
+  const json written = study_table().write(study);
+  json changed = input.resolved;
+  for (Assignment& value : values) {
+    const json::json_pointer at(value.pointer);
+    if (value.value.is_null()) value.value = written.at(at);
+    changed[at] = value.value;
+  }
+  changed["name"] = (study.name.empty() ? std::string() : study.name + "_") + sweep.name;
+  changed["study"] = written.at("study");
+  return with_origins(std::move(changed), values, "set: by the sweep " + sweep.name);
+}
+
+}  // namespace epicyclic::input

@@ -1,0 +1,35 @@
+// Studies of claims and the inputs that follow from them: candidates, and the sweeps as studies of their own.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "input/study_input.hpp"
+#include "studies/claims_options.hpp"
+
+namespace epicyclic::input {
+
+/// Values that options of choices put into the input, one option of each choice.
+[[nodiscard]] std::vector<Assignment> option_assignments(const studies::ParameterSpace& space,
+                                                         const std::vector<std::size_t>& options);
+
+/// A candidate as values of the input, in place of those there.
+[[nodiscard]] std::vector<Assignment> candidate_assignments(const studies::ParameterSpace& space,
+                                                            std::span<const double> u);
+
+/// The candidate that the input is as it stands: each parameter by the first number that it gives, 1 if it gives none,
+/// within its range; of choices the first option.
+[[nodiscard]] std::vector<double> given_candidate(const LoadedInput& input, const studies::ParameterSpace& space);
+
+/// A resolved input with an origin for each of these values.
+[[nodiscard]] nlohmann::json with_origins(nlohmann::json resolved, std::span<const Assignment> values,
+                                          const std::string& origin);
+
+/// A sweep of the claims as a study of its own: the resolved input with what the sweep sets in place.
+[[nodiscard]] nlohmann::json sweep_input(const LoadedInput& input, const studies::ClaimSweep& sweep,
+                                         studies::Start start);
+
+}  // namespace epicyclic::input

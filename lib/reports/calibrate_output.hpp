@@ -1,0 +1,37 @@
+// What a search for parameters leaves in its folder.
+//
+//   candidates.csv   a row per candidate: phase, number, cost, its parameters, the cost of each claim
+//   profile.csv      the cost along each parameter through the result, all others held
+//   calibrate.md     in words: what was searched, the result, which claims it meets, how sharply it is determined
+//   figures/         the profile
+//
+// All of it follows from the evaluations alone and is the same, byte for byte, for the same study.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "reports/sweep_output.hpp"
+#include "studies/calibration.hpp"
+
+namespace epicyclic::reports {
+
+struct CalibrateOutput {
+  studies::ClaimsOptions options;
+  std::string name;   ///< of the study
+  std::string title;  ///< of the figures
+};
+
+/// @throws OutputError
+void write_candidates_csv(const std::filesystem::path& file, const CalibrateOutput& output,
+                          const studies::KnownEvaluations& evaluations);
+
+/// @throws OutputError
+void write_profile_csv(const std::filesystem::path& file, const CalibrateOutput& output,
+                       const studies::Calibration& calibration);
+
+/// Text of calibrate.md.
+[[nodiscard]] std::string calibrate_summary(const CalibrateOutput& output, const studies::Calibration& calibration);
+
+}  // namespace epicyclic::reports

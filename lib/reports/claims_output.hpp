@@ -1,0 +1,54 @@
+// What is left of claims that were held against sweeps: the scorecard, and the figures as they are published.
+//
+//   scorecard.csv   a row per claim: its verdict for each start, whether it holds whatever the stage, what was measured
+//   scorecard.md    the same in words
+//   figures/        bifurcation diagrams, in panels
+//
+// All of it follows from the sweeps' points alone and is the same, byte for byte, for the same study.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "reports/sweep_output.hpp"
+#include "studies/claims.hpp"
+#include "studies/point_source.hpp"
+
+namespace epicyclic::reports {
+
+/// What became of the claims where points start so.
+struct ScoredStart {
+  studies::Start start = studies::Start::carried;
+  std::vector<studies::ClaimOutcome> outcomes;  ///< of each claim, in order
+};
+
+struct Scorecard {
+  std::string name;  ///< of the study
+  studies::ClaimsOptions options;
+  std::vector<ScoredStart> scored;  ///< in the order of the options' starts
+
+  /// Claims that hold where points start as first asked for, and how many of them whatever the stage.
+  [[nodiscard]] std::size_t holding() const;
+  [[nodiscard]] std::size_t holding_inert() const;
+};
+
+/// The points of a direction, by rising value.
+[[nodiscard]] studies::ClaimSeries claim_series(const studies::PointSource& points, const studies::LookOptions& look);
+
+[[nodiscard]] std::string scorecard_csv(const Scorecard& card);
+[[nodiscard]] std::string scorecard_summary(const Scorecard& card);
+
+/// In which claims the verdicts differ from those of a scorecard.csv that was recorded, a line each.
+/// @throws InputError when it is none
+[[nodiscard]] std::vector<std::string> unlike_recorded(const Scorecard& card, const std::filesystem::path& recorded);
+
+/// The points of a sweep by its name.
+using SweepPoints = std::function<studies::PointSource(const std::string& sweep)>;
+
+/// @throws OutputError, and what reading points throws
+[[nodiscard]] std::vector<DrawnFigure> draw_claim_figures(const std::filesystem::path& folder, const Scorecard& card,
+                                                          const std::string& title, const SweepPoints& points);
+
+}  // namespace epicyclic::reports

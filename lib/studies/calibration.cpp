@@ -1,0 +1,268 @@
+#include "studies/calibration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+
+#include <pagmo/algorithm.hpp>
+#include <pagmo/algorithms/cmaes.hpp>
+#include <pagmo/algorithms/compass_search.hpp>
+#include <pagmo/algorithms/de1220.hpp>
+#include <pagmo/population.hpp>
+#include <pagmo/problem.hpp>
+
+#include "core/errors.hpp"
+#include "studies/units.hpp"
+
+namespace epicyclic::studies {
+
+namespace {
+
+/// Everything that phases of a search share.
+class Search {
+ public:
+  Search(const ClaimsOptions& options, Evaluator evaluator, CalibrationRun run)
+      : options_(options), evaluator_(std::move(evaluator)), run_(std::move(run)) {}
+
+  [[nodiscard]] const ClaimsOptions& options() const { return options_; }
+  [[nodiscard]] const CalibrationRun& run() const { return run_; }
+  [[nodiscard]] std::size_t dimension() const { return options_.space.dimension(); }
+
+  /// The evaluation of a key: the one that is kept, or a new one.
+  const EvaluatedCandidate& evaluate(EvaluationKey key, const std::vector<double>& u, double give_up_at,
+                                     std::size_t thread) {
+    if (const EvaluatedCandidate* kept = find(key)) {
+      if (kept->u != u)
+        throw InputError("the evaluations that were kept are not those of this search: candidate " +
+                         std::to_string(key.number) + " of phase " + std::to_string(key.phase) + " is another one");
+      return *kept;
+    }
+    EvaluatedCandidate fresh{key, u, evaluator_(u, give_up_at, thread)};
+    const std::scoped_lock lock(mutex_);
+    if (run_.evaluated) run_.evaluated(fresh);
+    return run_.known.insert_or_assign(key, std::move(fresh)).first->second;
+  }
+
+  /// Of the fully evaluated ones.
+  [[nodiscard]] const EvaluatedCandidate* best() const {
+    const EvaluatedCandidate* best = nullptr;
+    for (const auto& [key, candidate] : run_.known) {
+      const Evaluation& e = candidate.evaluation;
+      if (e.given_up || !e.refused.empty()) continue;
+      if (best == nullptr || e.cost < best->evaluation.cost) best = &candidate;
+    }
+    return best;
+  }
+
+  [[nodiscard]] KnownEvaluations take_all() { return std::move(run_.known); }
+
+ private:
+  const EvaluatedCandidate* find(EvaluationKey key) {
+    const std::scoped_lock lock(mutex_);
+    const auto found = run_.known.find(key);
+    return found == run_.known.end() ? nullptr : &found->second;
+  }
+
+  const ClaimsOptions& options_;
+  Evaluator evaluator_;
+  CalibrationRun run_;
+  std::mutex mutex_;
+};
+
+/// A phase that asks for one evaluation after another.
+struct Phase {
+  Search* search = nullptr;
+  std::size_t index = 0;
+  std::size_t thread = 0;
+  std::size_t asked = 0;
+  double give_up_at = std::numeric_limits<double>::infinity();
+
+  double cost(const std::vector<double>& u) {
+    const Evaluation& e = search->evaluate({index, asked++}, u, give_up_at, thread).evaluation;
+    return e.given_up ? std::numeric_limits<double>::infinity() : e.cost;
+  }
+};
+
+/// What pagmo sees of it; it copies its problems.
+struct CostProblem {
+  Phase* phase = nullptr;
+  std::size_t dimension = 1;
+
+  [[nodiscard]] pagmo::vector_double fitness(const pagmo::vector_double& u) const { return {phase->cost(u)}; }
+  [[nodiscard]] std::pair<pagmo::vector_double, pagmo::vector_double> get_bounds() const {
+    return {pagmo::vector_double(dimension, 0.0), pagmo::vector_double(dimension, 1.0)};
+  }
+};
+
+/// Bits that differ between islands and seeds: SplitMix64 of both.
+unsigned seed_of(int seed, std::size_t island, unsigned use) {
+  std::uint64_t z = static_cast<std::uint64_t>(seed) * 0x9E3779B97F4A7C15ULL + island * 0xD1B54A32D192ED03ULL + use;
+  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
+  return static_cast<unsigned>((z ^ (z >> 31U)) & 0xFFFFFFFFU);
+}
+
+class Island {
+ public:
+  Island(Search& search, std::size_t index)
+      : phase_{&search, index}, problem_(CostProblem{&phase_, search.dimension()}), population_(problem_, 0) {
+    const SearchOptions& options = search.options().search;
+    // One generation at a time, its adaptation kept; it never ends by itself.
+    const unsigned seed = seed_of(options.seed, index, 1);
+    if (options.method == SearchMethod::differential_evolution)
+      algorithm_ =
+          pagmo::algorithm(pagmo::de1220(1, pagmo::de1220_statics<void>::allowed_variants, 1, 0.0, 0.0, true, seed));
+    else
+      algorithm_ =
+          pagmo::algorithm(pagmo::cmaes(1, -1.0, -1.0, -1.0, -1.0, options.spread, 0.0, 0.0, true, true, seed));
+    generations_ = std::max(1, options.candidates / (options.islands * options.population) - 1);
+  }
+  Island(const Island&) = delete;  // its problem knows where its phase is
+  Island& operator=(const Island&) = delete;
+
+  [[nodiscard]] int generations() const { return generations_; }
+
+  void begin(const std::vector<std::vector<double>>& first, std::size_t thread) {
+    phase_.thread = thread;
+    const SearchOptions& options = phase_.search->options().search;
+    const auto size = static_cast<std::size_t>(options.population);
+    population_ = pagmo::population(problem_, 0, seed_of(options.seed, phase_.index, 2));
+    if (options.method == SearchMethod::covariance_adaptation && !first.empty()) {
+      // It begins about the best of its population; of that the rest is not asked for.
+      population_.push_back(first.front());
+      const pagmo::vector_double cost = population_.get_f().front();
+      for (std::size_t k = 1; k < size; ++k) population_.push_back(first.front(), cost);
+      return;
+    }
+    for (std::size_t k = 0; k < size; ++k)
+      population_.push_back(k < first.size() ? first[k] : population_.random_decision_vector());
+  }
+
+  void evolve(int generations, std::size_t thread) {
+    phase_.thread = thread;
+    for (int g = 0; g < generations; ++g) {
+      // What costs more than every candidate of the generation before replaces none of them.
+      phase_.give_up_at = population_.get_f()[population_.worst_idx()][0];
+      population_ = algorithm_.evolve(population_);
+    }
+  }
+
+  [[nodiscard]] std::pair<std::vector<double>, double> best() const {
+    const auto k = population_.best_idx();
+    return {population_.get_x()[k], population_.get_f()[k][0]};
+  }
+
+  /// A candidate from elsewhere in place of the worst here, if it is better.
+  void take(const std::pair<std::vector<double>, double>& from) {
+    const auto k = population_.worst_idx();
+    if (from.second < population_.get_f()[k][0]) population_.set_xf(k, from.first, {from.second});
+  }
+
+ private:
+  Phase phase_;
+  pagmo::problem problem_;
+  pagmo::population population_;
+  pagmo::algorithm algorithm_;
+  int generations_ = 0;
+};
+
+bool run_islands(Search& search, const std::vector<std::vector<double>>& first) {
+  const SearchOptions& options = search.options().search;
+  const CalibrationRun& run = search.run();
+  std::vector<std::unique_ptr<Island>> islands;
+  for (int k = 0; k < options.islands; ++k)
+    islands.push_back(std::make_unique<Island>(search, static_cast<std::size_t>(k)));
+  const auto each = [&](const std::function<void(std::size_t)>& f) {
+    return for_units(islands.size(), run.threads, run.stop, f);
+  };
+  const std::vector<std::vector<double>> nothing;
+  // One island of a differential evolution knows the stage as it is given, and tells the others if it is good.
+  const bool all_know = options.method == SearchMethod::covariance_adaptation;
+  if (!each([&](std::size_t k) { islands[k]->begin(k == 0 || all_know ? first : nothing, k); })) return false;
+  for (int done = 0; done < islands.front()->generations(); done += options.exchange) {
+    const int now = std::min(options.exchange, islands.front()->generations() - done);
+    if (!each([&](std::size_t k) { islands[k]->evolve(now, k); })) return false;
+    std::vector<std::pair<std::vector<double>, double>> best;
+    for (const auto& island : islands) best.push_back(island->best());
+    for (std::size_t k = 0; k < islands.size(); ++k)
+      if (islands.size() > 1) islands[(k + 1) % islands.size()]->take(best[k]);
+  }
+  return true;
+}
+
+void refine(Search& search) {
+  const SearchOptions& options = search.options().search;
+  const EvaluatedCandidate* best = search.best();
+  if (options.refinement == 0 || best == nullptr) return;
+  constexpr double first_step = 0.05;  // of a range
+  constexpr double last_step = 0.002;
+  Phase phase{&search, static_cast<std::size_t>(options.islands)};
+  const pagmo::problem problem(CostProblem{&phase, search.dimension()});
+  pagmo::population population(problem, 0, 0);
+  population.push_back(best->u, {best->evaluation.cost});
+  // Only what is better than the best counts.
+  phase.give_up_at = best->evaluation.cost;
+  pagmo::compass_search compass(static_cast<unsigned>(options.refinement), first_step, last_step, 0.5);
+  (void)pagmo::algorithm(compass).evolve(population);
+}
+
+/// Places in the unit cube that the profile asks for.
+std::vector<std::pair<std::size_t, double>> profile_places(const ClaimsOptions& options) {
+  std::vector<std::pair<std::size_t, double>> places;
+  const ParameterSpace& space = options.space;
+  const int n = options.search.profile;
+  for (std::size_t k = 0; n > 0 && k < space.dimension(); ++k) {
+    if (k < space.parameters.size()) {
+      for (int j = 0; j < n; ++j) places.emplace_back(k, n == 1 ? 0.5 : static_cast<double>(j) / (n - 1));
+    } else {
+      const Choice& choice = space.choices[k - space.parameters.size()];
+      for (std::size_t option = 0; option < choice.options.size(); ++option)
+        places.emplace_back(k, choice.place_of(option));
+    }
+  }
+  return places;
+}
+
+}  // namespace
+
+std::size_t most_evaluations(const ClaimsOptions& options) {
+  const SearchOptions& s = options.search;
+  const int generations = std::max(1, s.candidates / (s.islands * s.population) - 1);
+  return static_cast<std::size_t>(s.islands) * static_cast<std::size_t>(s.population) *
+             static_cast<std::size_t>(generations + 1) +
+         static_cast<std::size_t>(s.refinement) + profile_places(options).size();
+}
+
+std::optional<Calibration> calibrate(const ClaimsOptions& options, const Evaluator& evaluate,
+                                     const std::vector<std::vector<double>>& first, CalibrationRun run) {
+  Search search(options, evaluate, std::move(run));
+  Calibration result;
+  try {
+    if (!run_islands(search, first)) return std::nullopt;
+    refine(search);
+    const EvaluatedCandidate* best = search.best();
+    if (best == nullptr) throw InputError("no candidate could be evaluated");
+    result.best = *best;
+    const auto places = profile_places(options);
+    result.profile.resize(places.size());
+    const auto profile_phase = static_cast<std::size_t>(options.search.islands) + 1;
+    const bool all = for_units(places.size(), search.run().threads, search.run().stop, [&](std::size_t k) {
+      std::vector<double> u = result.best.u;
+      u[places[k].first] = places[k].second;
+      const EvaluatedCandidate& c = search.evaluate({profile_phase, k}, u, std::numeric_limits<double>::infinity(), k);
+      result.profile[k] = {places[k].first, places[k].second, c.evaluation};
+    });
+    if (!all) return std::nullopt;
+  } catch (const EvaluationStopped&) {
+    return std::nullopt;
+  }
+  result.evaluations = search.take_all();
+  return result;
+}
+
+}  // namespace epicyclic::studies

@@ -1,0 +1,70 @@
+// A search for the unstated parameters of a stage: global, by islands of a self-adapting differential evolution
+// (pagmo's de1220: Storn and Price 1997; self-adaptation by Brest et al. 2006, Elsayed et al. 2011), then local, by a
+// compass search from the best, then the profile of the cost along each parameter through the result.
+//
+// Everything is a function of the options: an island draws its random numbers from its own seed and evaluates its
+// candidates one after another, islands exchange their best after fixed numbers of generations, and a candidate is
+// given up only by what is known on its own island. So threads do not count, and a search that was stopped goes on from
+// the evaluations that were kept: it is run again, and asks for those instead of computing them.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "studies/candidates.hpp"
+#include "studies/claims_options.hpp"
+
+namespace epicyclic::studies {
+
+/// Which evaluation it is: of an island, or of the phases after the islands, in its order there.
+struct EvaluationKey {
+  std::size_t phase = 0;   ///< 0 ... islands - 1, then the refinement, then the profile
+  std::size_t number = 0;  ///< in the order in which they are asked for
+
+  friend auto operator<=>(const EvaluationKey&, const EvaluationKey&) = default;
+};
+
+struct EvaluatedCandidate {
+  EvaluationKey key;
+  std::vector<double> u;
+  Evaluation evaluation;
+};
+
+using KnownEvaluations = std::map<EvaluationKey, EvaluatedCandidate>;
+
+struct CalibrationRun {
+  int threads = 1;
+  const std::atomic<bool>* stop = nullptr;
+  KnownEvaluations known;  ///< of earlier sessions
+  /// Told of each new one, one at a time.
+  std::function<void(const EvaluatedCandidate&)> evaluated;
+};
+
+/// A value of a parameter or an option of a choice, with all others as in the result.
+struct ProfilePoint {
+  std::size_t variable = 0;  ///< of the unit cube
+  double u = 0;
+  Evaluation evaluation;
+};
+
+struct Calibration {
+  KnownEvaluations evaluations;  ///< all of them
+  EvaluatedCandidate best;
+  std::vector<ProfilePoint> profile;  ///< by variable, then u
+};
+
+/// How many evaluations there are at the most.
+[[nodiscard]] std::size_t most_evaluations(const ClaimsOptions& options);
+
+/// @param first  candidates that the first island begins with, as points of the unit cube
+/// @returns nothing if stopped
+/// @throws InputError when kept evaluations are not those that this search asks for, or none is of a valid candidate
+[[nodiscard]] std::optional<Calibration> calibrate(const ClaimsOptions& options, const Evaluator& evaluate,
+                                                   const std::vector<std::vector<double>>& first, CalibrationRun run);
+
+}  // namespace epicyclic::studies

@@ -1,0 +1,116 @@
+#include "studies/candidates.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "studies/sweep_plan.hpp"
+
+namespace epicyclic::studies {
+
+integrate::IntegratorOptions brief_integrator(const BriefLook& brief) {
+  integrate::IntegratorOptions integrator;
+  integrator.method = "lanes-cash-karp";
+  integrator.relative_tolerance = brief.relative_tolerance;
+  integrator.absolute_tolerance = brief.relative_tolerance;
+  return integrator;
+}
+
+LookOptions brief_look(const ClaimsOptions& options) {
+  LookOptions look = options.look;
+  look.transient = Transient::fixed;
+  look.transient_periods = options.brief.transient_periods;
+  look.recorded_periods = options.brief.recorded_periods;
+  look.classification_periods = options.brief.classification_periods;
+  look.period_max = std::min(look.period_max, options.brief.recorded_periods / 2);
+  look.keep = Keep::section;
+  return look;
+}
+
+void look_briefly(const ClaimsOptions& options, const SweepModels& models, const std::vector<const ClaimSweep*>& sweeps,
+                  std::size_t thread, const std::atomic<bool>* stop, ClaimRecord& record) {
+  // All points of all sweeps are cells of one plan, so that they share the lanes.
+  std::vector<std::pair<const ClaimSweep*, double>> cells;
+  for (const ClaimSweep* sweep : sweeps) {
+    Axis axis = sweep->axis;
+    axis.points = std::min(axis.points, sweep->brief_points);
+    for (const double value : axis_values(axis)) cells.emplace_back(sweep, value);
+  }
+  PlanGrid grid;
+  grid.first = {"cell", 0.0, static_cast<double>(cells.size() - 1), static_cast<int>(cells.size())};
+  grid.directions = {Direction::up};
+  grid.chains_per_line = cells.size();
+  const LookOptions look = brief_look(options);
+  SweepRun run;
+  run.stop = stop;
+  run.process = thread;
+  const ModelAtPoint model_at = [&](const GridPoint& point) {
+    const auto& [sweep, value] = cells[point.index];
+    return models(*sweep, value);
+  };
+  std::vector<PointResult> results =
+      run_sweep_in_memory(SweepPlan(grid), look, brief_integrator(options.brief), model_at, std::move(run));
+  if (results.size() < cells.size()) throw EvaluationStopped();
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    results[k].point.value = cells[k].second;
+    record[cells[k].first->name].points.push_back(claim_point(results[k], look));
+  }
+}
+
+Evaluation evaluate(const ClaimsOptions& options, const SweepModels& models, double give_up_at, std::size_t thread,
+                    const std::atomic<bool>* stop) {
+  Evaluation evaluation;
+  evaluation.cost = 0.0;
+  evaluation.claim_costs.assign(options.claims.size(), std::numeric_limits<double>::quiet_NaN());
+  evaluation.holds.assign(options.claims.size(), 0);
+  std::set<int> rounds;
+  for (const ClaimSweep& sweep : options.sweeps) rounds.insert(sweep.round);
+  ClaimRecord record;
+  std::vector<bool> judged(options.claims.size(), false);
+  for (const int round : rounds) {
+    if (evaluation.cost >= give_up_at) {
+      evaluation.given_up = true;
+      return evaluation;
+    }
+    std::vector<const ClaimSweep*> sweeps;
+    for (const ClaimSweep& sweep : options.sweeps)
+      if (sweep.round == round) sweeps.push_back(&sweep);
+    look_briefly(options, models, sweeps, thread, stop, record);
+    for (std::size_t k = 0; k < options.claims.size(); ++k) {
+      const Claim& claim = options.claims[k];
+      const auto names = sweeps_of(claim);
+      if (judged[k] || !std::ranges::all_of(names, [&](const auto& name) { return record.contains(name); })) continue;
+      const ClaimOutcome outcome = judge(claim, record);
+      judged[k] = true;
+      evaluation.claim_costs[k] = outcome.cost;
+      evaluation.holds[k] = outcome.holds ? 1 : 0;
+      evaluation.cost += claim.weight * outcome.cost;
+    }
+  }
+  return evaluation;
+}
+
+Evaluator by_brief_looks(const ClaimsOptions& options, CandidateModels models, const std::atomic<bool>* stop) {
+  return
+      [&options, models = std::move(models), stop](std::span<const double> u, double give_up_at, std::size_t thread) {
+        const auto refused = [&](const std::string& why) {
+          Evaluation evaluation;
+          evaluation.cost = 1.0;
+          for (const Claim& claim : options.claims) evaluation.cost += claim.weight;
+          evaluation.claim_costs.assign(options.claims.size(), 1.0);
+          evaluation.holds.assign(options.claims.size(), 0);
+          evaluation.refused = why;
+          return evaluation;
+        };
+        try {
+          return evaluate(options, models(u), give_up_at, thread, stop);
+        } catch (const InputError& error) {
+          return refused(error.what());
+        } catch (const DomainError& error) {
+          return refused(error.what());
+        }
+      };
+}
+
+}  // namespace epicyclic::studies

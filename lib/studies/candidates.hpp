@@ -1,0 +1,64 @@
+// Candidates for the unstated parameters of a stage, each judged by a brief look at the claims' sweeps: cold starts on
+// coarse grids, side by side in lanes.
+//
+// The cost of a candidate is the sum over claims of weight times cost. Costs are not negative, so that the sum over the
+// claims whose sweeps are known is a lower bound of it: once it reaches `give_up_at` the rest is not computed.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "integrate/options.hpp"
+#include "model/dynamic_model.hpp"
+#include "studies/claims.hpp"
+
+namespace epicyclic::studies {
+
+/// The model of a candidate at a value of a sweep.
+using SweepModels = std::function<model::DynamicModel(const ClaimSweep& sweep, double value)>;
+
+/// The models of a candidate; called from several threads at once.
+/// @throws InputError when the numbers do not go together
+using CandidateModels = std::function<SweepModels(std::span<const double> u)>;
+
+struct Evaluation {
+  double cost = std::numeric_limits<double>::infinity();  ///< a lower bound where given up
+  bool given_up = false;
+  std::string refused;              ///< why there are no models: the candidate is none
+  std::vector<double> claim_costs;  ///< of each claim; not a number where it was not looked at
+  std::vector<char> holds;          ///< of each claim: 1 if it holds, 0 if not, or not known
+};
+
+/// How a brief look integrates.
+[[nodiscard]] integrate::IntegratorOptions brief_integrator(const BriefLook& brief);
+[[nodiscard]] LookOptions brief_look(const ClaimsOptions& options);
+
+/// Stopped from outside before it was finished: nothing is known.
+class EvaluationStopped {};
+
+/// @param thread  which of those side by side asks
+/// @param stop    may be null
+/// @throws EvaluationStopped
+[[nodiscard]] Evaluation evaluate(const ClaimsOptions& options, const SweepModels& models, double give_up_at,
+                                  std::size_t thread, const std::atomic<bool>* stop);
+
+/// Evaluates a candidate; called from several threads at once.
+/// @throws EvaluationStopped
+using Evaluator = std::function<Evaluation(std::span<const double> u, double give_up_at, std::size_t thread)>;
+
+/// By brief looks at the models of candidates; one whose models are refused costs more than any other. `options` must
+/// outlive the result.
+/// @param stop  may be null
+[[nodiscard]] Evaluator by_brief_looks(const ClaimsOptions& options, CandidateModels models,
+                                       const std::atomic<bool>* stop);
+
+/// The brief look's record of some sweeps.
+/// @throws EvaluationStopped
+void look_briefly(const ClaimsOptions& options, const SweepModels& models, const std::vector<const ClaimSweep*>& sweeps,
+                  std::size_t thread, const std::atomic<bool>* stop, ClaimRecord& record);
+
+}  // namespace epicyclic::studies

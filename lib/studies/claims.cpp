@@ -1,0 +1,559 @@
+#include "studies/claims.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <span>
+#include <stdexcept>
+
+#include "core/text.hpp"
+
+namespace epicyclic::studies {
+
+namespace {
+
+using analysis::Regime;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double step_of_failure = 0.1;  ///< a condition that just fails costs so much [C-cost]
+
+std::string number(double x) { return short_text(x, 5); }
+
+/// "period 12" -> 12; 0 for other words.
+int period_in(std::string_view word) {
+  constexpr std::string_view start = "period ";
+  constexpr std::size_t most_digits = 4;
+  if (!word.starts_with(start)) return 0;
+  word.remove_prefix(start.size());
+  if (word.empty() || word.size() > most_digits || word.front() == '0') return 0;
+  int period = 0;
+  for (const char c : word) {
+    if (c < '0' || c > '9') return 0;
+    period = 10 * period + (c - '0');
+  }
+  return period;
+}
+
+constexpr std::string_view negation = "not ";
+
+}  // namespace
+
+bool is_motion_word(std::string_view word) {
+  if (word.starts_with(negation)) word.remove_prefix(negation.size());
+  return word == "periodic" || word == "multi-period" || word == "quasiperiodic" || word == "chaotic" ||
+         word == "aperiodic" || period_in(word) > 0;
+}
+
+bool ClaimMotion::is(std::string_view word) const {
+  if (word.starts_with(negation)) return !is(word.substr(negation.size()));
+  const bool periodic = regime == Regime::periodic;
+  if (word == "periodic") return periodic;
+  if (word == "multi-period") return periodic && period >= 2;
+  if (word == "quasiperiodic") return regime == Regime::quasiperiodic;
+  if (word == "chaotic") return regime == Regime::chaotic || (regime == Regime::undecided && !told);
+  if (word == "aperiodic") return regime == Regime::chaotic || regime == Regime::quasiperiodic || (!periodic && !told);
+  return periodic && period == period_in(word);
+}
+
+std::string ClaimMotion::text() const {
+  return regime == Regime::periodic ? "period " + std::to_string(period) : to_string(regime);
+}
+
+double ClaimPoint::quantity(std::string_view name) const {
+  const auto* const found = std::ranges::find(claim_quantities, name);
+  return quantities.at(static_cast<std::size_t>(found - claim_quantities.begin()));
+}
+
+namespace {
+
+/// A short record may end while a motion is still on its way to a periodic one, next to a bifurcation for very long: it
+/// is told by where it goes. Chaos does not come back to a small part of its extent over a whole record.
+bool settles(const PointResult& result, const LookOptions& look) {
+  constexpr double small_part = 0.1;
+  if (result.classified || result.regime != Regime::undecided) return false;
+  if (still_settling(result, look)) return true;
+  const std::size_t dimension = result.poincare_columns - 2 * result.sun_planet.size();
+  analysis::PoincareSection section{dimension, {}};
+  for (std::size_t row = 0; row < result.poincare_rows(); ++row) {
+    const auto first = result.poincare.begin() + static_cast<std::ptrdiff_t>(row * result.poincare_columns);
+    section.states.insert(section.states.end(), first, first + static_cast<std::ptrdiff_t>(dimension));
+  }
+  return result.recurrence.late_error <= small_part * analysis::extent(section);
+}
+
+}  // namespace
+
+ClaimPoint claim_point(const PointResult& result, const LookOptions& look) {
+  ClaimPoint point;
+  point.value = result.point.value;
+  point.reached = result.outcome == integrate::Outcome::reached;
+  if (!point.reached) return point;
+  point.motion = {result.regime, result.period, result.classified};
+  if (settles(result, look)) point.motion = {Regime::periodic, result.recurrence.best_period, false};
+  const std::size_t planets = result.sun_planet.size();
+  const std::size_t columns = result.poincare_columns;
+  const auto column = [&](std::size_t of) {
+    analysis::PoincareSection section{1, {}};
+    for (std::size_t row = 0; row < result.poincare_rows(); ++row)
+      section.states.push_back(result.poincare[row * columns + of]);
+    return section;
+  };
+  const auto alone = [&](const analysis::PoincareSection& section) {
+    const analysis::Recurrence r = analysis::recurrence(section, look.period_max, look.recurrence_tolerance);
+    if (r.period > 0) return ClaimMotion{Regime::periodic, r.period, result.classified};
+    if (analysis::still_settling(r, look.recurrence_tolerance))
+      return ClaimMotion{Regime::periodic, r.best_period, result.classified};
+    return ClaimMotion{result.regime == Regime::periodic ? Regime::undecided : result.regime, 0, result.classified};
+  };
+  const analysis::PoincareSection sun = column(columns - 2 * planets);
+  const analysis::PoincareSection ring = column(columns - planets);
+  point.by_sun_mesh = alone(sun);
+  point.by_ring_mesh = alone(ring);
+  const MeshRecord& sp = result.sun_planet.front();
+  const MeshRecord& rp = result.ring_planet.front();
+  point.quantities = {
+      sp.delta_max - sp.delta_min, rp.delta_max - rp.delta_min, sp.delta_max,         rp.delta_max,
+      analysis::extent(sun),       analysis::extent(ring),      result.planet_spread, result.lyapunov_max().value};
+  return point;
+}
+
+namespace {
+
+/// [C-cost]; 0 within.
+double cost_within(double x, double least, double most, double scale) {
+  const double d = std::max({0.0, least - x, x - most});
+  if (!(d > 0.0)) return std::isnan(x) ? 1.0 : 0.0;
+  return step_of_failure + (1.0 - step_of_failure) * d / (d + scale);
+}
+
+std::string bound_text(const Condition& c) {
+  if (c.at_least && c.at_most) return "must be " + number(*c.at_least) + " to " + number(*c.at_most);
+  if (c.at_least) return "must be at least " + number(*c.at_least);
+  return "must be at most " + number(c.at_most.value_or(0.0));
+}
+
+/// Judges a number by at_least and at_most.
+/// @param scale  a distance that counts as far
+void judge_bounds(const Condition& c, ConditionOutcome& o, double scale) {
+  const double least = c.at_least.value_or(-std::numeric_limits<double>::infinity());
+  const double most = c.at_most.value_or(std::numeric_limits<double>::infinity());
+  o.holds = o.measured >= least && o.measured <= most;
+  o.cost = o.holds ? 0.0 : cost_within(o.measured, least, most, scale);
+}
+
+/// The part of the sweep that a condition speaks of.
+std::span<const ClaimPoint> part_of(const std::vector<ClaimPoint>& points, const Condition& c) {
+  const auto first = std::ranges::find_if(points, [&](const ClaimPoint& p) { return !c.from || p.value >= *c.from; });
+  const auto last = std::find_if(first, points.end(), [&](const ClaimPoint& p) { return c.to && p.value > *c.to; });
+  return {first, last};
+}
+
+bool moves(const ClaimPoint& p, std::string_view word) { return p.reached && p.motion.is(word); }
+
+std::string range_text(std::span<const ClaimPoint> part) {
+  return " of " + number(part.front().value) + " to " + number(part.back().value);
+}
+
+/// How much a motion is like the one that is sought, for a search to climb: 1 if it is.
+double likeness(const ClaimPoint& p, std::string_view word) {
+  constexpr double same_kind = 0.5;  // not periodic, as wanted, but another kind
+  constexpr double near_kind = 0.3;  // of several mesh periods
+  if (!p.reached) return 0.0;
+  if (p.motion.is(word)) return 1.0;
+  const bool wants_aperiodic = word == "chaotic" || word == "quasiperiodic" || word == "aperiodic";
+  if (wants_aperiodic) {
+    if (p.motion.regime != Regime::periodic) return same_kind;
+    return p.motion.period > 1 ? near_kind : 0.0;
+  }
+  if (p.motion.regime == Regime::periodic) return p.motion.period > 1 && period_in(word) != 1 ? same_kind : 0.0;
+  return near_kind;
+}
+
+double best_likeness(std::span<const ClaimPoint> part, std::string_view word) {
+  double best = 0.0;
+  for (const ClaimPoint& p : part) best = std::max(best, likeness(p, word));
+  return best;
+}
+
+void share(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
+  const auto n = static_cast<double>(part.size());
+  o.measured = static_cast<double>(std::ranges::count_if(part, [&](const auto& p) { return moves(p, c.motion); })) / n;
+  o.error = 0.5 / n;
+  judge_bounds(c, o, 1.0);
+  o.text = number(o.measured * 100.0) + " % " + c.motion + range_text(part) + ", " + bound_text(c);
+}
+
+void count(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
+  o.measured = static_cast<double>(std::ranges::count_if(part, [&](const auto& p) { return moves(p, c.motion); }));
+  judge_bounds(c, o, static_cast<double>(part.size()));
+  if (!o.holds && c.at_least && o.measured == 0.0)
+    o.cost = 1.0 - (1.0 - step_of_failure) * best_likeness(part, c.motion);
+  o.text = number(o.measured) + " points " + c.motion + range_text(part) + ", " + bound_text(c);
+}
+
+void change(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
+  o.measured = none;
+  // Of those within the bounds' neighbourhood a search is led by the nearest; the verdict is on the first or the last.
+  for (std::size_t k = 0; k + 1 < part.size(); ++k) {
+    if (!moves(part[k], c.motion) || !moves(part[k + 1], c.after)) continue;
+    if (!c.leads_to.empty()) {
+      bool met = false;
+      for (std::size_t j = k + 1; j < part.size() && !moves(part[j], c.motion); ++j)
+        met = met || moves(part[j], c.leads_to);
+      if (!met) continue;
+    }
+    o.measured = 0.5 * (part[k].value + part[k + 1].value);
+    o.error = 0.5 * (part[k + 1].value - part[k].value);
+    if (c.which == Which::first) break;
+  }
+  const std::string words = c.motion + " to " + c.after + (c.leads_to.empty() ? "" : " that leads to " + c.leads_to);
+  const std::string must = ", must be within " + number(c.within[0]) + " to " + number(c.within[1]);
+  if (std::isnan(o.measured)) {
+    o.cost = 1.0;
+    o.text = "no change from " + words + range_text(part) + must;
+    return;
+  }
+  o.cost = cost_within(o.measured, c.within[0], c.within[1], c.within[1] - c.within[0]);
+  o.holds = o.cost == 0.0;
+  o.text = words + " at " + number(o.measured) + must;
+}
+
+void sequence(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
+  std::size_t met = 0;
+  std::string text;
+  for (const ClaimPoint& p : part)
+    if (met < c.motions.size() && moves(p, c.motions[met])) {
+      text += (met == 0 ? "" : ", ") + c.motions[met] + " at " + number(p.value);
+      ++met;
+    }
+  o.measured = static_cast<double>(met);
+  o.holds = met == c.motions.size();
+  o.cost = o.holds ? 0.0 : 1.0 - o.measured / static_cast<double>(c.motions.size());
+  o.text = o.holds ? text : text + (text.empty() ? "no " : ", then no ") + c.motions[met];
+}
+
+void value(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
+  std::vector<double> values;
+  for (const ClaimPoint& p : part)
+    if (p.reached && (c.motion.empty() || p.motion.is(c.motion))) values.push_back(p.quantity(c.quantity));
+  o.measured = none;
+  if (!values.empty()) {
+    switch (c.statistic) {
+      case Statistic::least:
+        o.measured = std::ranges::min(values);
+        break;
+      case Statistic::largest:
+        o.measured = std::ranges::max(values);
+        break;
+      case Statistic::mean:
+        o.measured = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    }
+  }
+  const double bound = std::abs(c.at_least.value_or(c.at_most.value_or(0.0)));
+  judge_bounds(c, o, std::max(bound, std::numeric_limits<double>::min()));
+  o.text = c.quantity + " " + number(o.measured) + range_text(part) + ", " + bound_text(c);
+}
+
+void falls(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
+  const double first = part.front().quantity(c.quantity);
+  const double last = part.back().quantity(c.quantity);
+  double most = first;
+  double most_at = part.front().value;
+  bool reached = true;
+  for (const ClaimPoint& p : part) {
+    reached = reached && p.reached;
+    if (p.quantity(c.quantity) > most) {
+      most = p.quantity(c.quantity);
+      most_at = p.value;
+    }
+  }
+  // A range of a periodic motion is nothing but rounding: it has fallen by any factor.
+  const double factor = c.at_least.value_or(1.0);
+  const double floor = std::max(last, std::numeric_limits<double>::epsilon());
+  o.measured = first / floor;
+  const bool fell = o.measured >= factor;
+  const bool rises = most > first;
+  o.holds = reached && fell && !rises;
+  if (!o.holds) {
+    const double fell_short = fell ? 0.0 : 1.0 - std::log(std::max(1.0, o.measured)) / std::log(std::max(2.0, factor));
+    const double rose = rises ? (most - first) / most : 0.0;
+    o.cost = reached ? step_of_failure + (1.0 - step_of_failure) * std::max(fell_short, rose) : 1.0;
+  }
+  o.text = c.quantity + " " + number(first) + " at " + number(part.front().value) + ", " + number(last) + " at " +
+           number(part.back().value) + (rises ? ", but " + number(most) + " at " + number(most_at) : std::string()) +
+           ", must fall by a factor of " + number(factor) + " and never rise above the first";
+}
+
+void peaks(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
+  std::vector<double> x;
+  double most = 0.0;
+  for (const ClaimPoint& p : part) {
+    x.push_back(p.reached ? p.quantity(c.quantity) : 0.0);
+    most = std::max(most, x.back());
+  }
+  const auto prominence_at = [&](std::size_t k) {
+    double left = x[k];
+    for (std::size_t j = k; j-- > 0 && x[j] <= x[k];) left = std::min(left, x[j]);
+    double right = x[k];
+    for (std::size_t j = k + 1; j < x.size() && x[j] <= x[k]; ++j) right = std::min(right, x[j]);
+    return x[k] - std::max(left, right);
+  };
+  double costs = 0.0;
+  double met = 0.0;
+  for (const double place : c.places) {
+    double best = 0.0;
+    double at = none;
+    for (std::size_t k = 1; k + 1 < x.size(); ++k) {
+      if (std::abs(part[k].value - place) > c.place_tolerance * place || x[k] < x[k - 1] || x[k] < x[k + 1]) continue;
+      if (const double p = prominence_at(k); p > best) {
+        best = p;
+        at = part[k].value;
+      }
+    }
+    const double relative = most > 0.0 ? best / most : 0.0;
+    const bool peak = relative >= c.prominence;
+    met += peak ? 1.0 : 0.0;
+    costs += peak ? 0.0 : step_of_failure + (1.0 - step_of_failure) * (1.0 - relative / c.prominence);
+    o.text += (o.text.empty() ? "" : "; ") + ("at " + number(place)) +
+              (std::isnan(at) ? ": no maximum" : ": prominence " + number(100.0 * relative) + " % at " + number(at));
+  }
+  o.measured = met;
+  o.holds = met == static_cast<double>(c.places.size());
+  o.cost = o.holds ? 0.0 : costs / static_cast<double>(c.places.size());
+  o.text += "; each must have " + number(100.0 * c.prominence) + " %";
+}
+
+/// A step is a jump if it is so many times its neighbours' steps: a flank of a resonance is no jump.
+constexpr double beyond_neighbours = 3.0;
+
+void jump(const Condition& c, const ClaimSeries& series, std::span<const ClaimPoint> part, ConditionOutcome& o) {
+  const auto q = [&](const ClaimPoint& p) { return p.quantity(c.quantity); };
+  const auto relative = [&](const ClaimPoint& a, const ClaimPoint& b) {
+    const double larger = std::max(std::abs(q(a)), std::abs(q(b)));
+    return larger > 0.0 ? std::abs(q(a) - q(b)) / larger : 0.0;
+  };
+  const auto counts = [&](const ClaimPoint& p) { return p.reached && (c.motion.empty() || p.motion.is(c.motion)); };
+  double best = 0.0;
+  double at = none;
+  bool side_by_side = false;
+  const std::vector<ClaimPoint>& all = series.points;
+  for (std::size_t k = 0; k + 1 < all.size(); ++k) {
+    const double middle = 0.5 * (all[k].value + all[k + 1].value);
+    if ((c.from && middle < *c.from) || (c.to && middle > *c.to) || !counts(all[k]) || !counts(all[k + 1])) continue;
+    const double step = std::abs(q(all[k + 1]) - q(all[k]));
+    double beside = 0.0;
+    if (k > 0 && counts(all[k - 1])) beside = std::abs(q(all[k]) - q(all[k - 1]));
+    if (k + 2 < all.size() && counts(all[k + 2])) beside = std::max(beside, std::abs(q(all[k + 2]) - q(all[k + 1])));
+    // What falls short of being beyond its neighbours leads a search all the same, by as much as it is nearly so.
+    const double abrupt = std::min(1.0, beside > 0.0 ? step / (beyond_neighbours * beside) : 1.0);
+    const double size = relative(all[k], all[k + 1]) * abrupt * abrupt;
+    if (size > best) {
+      best = size;
+      at = middle;
+    }
+  }
+  for (const ClaimPoint& p : part) {
+    if (!counts(p)) continue;
+    const auto twin = std::ranges::find_if(series.other, [&](const ClaimPoint& r) { return r.value == p.value; });
+    if (twin == series.other.end() || !counts(*twin) || relative(p, *twin) <= best) continue;
+    best = relative(p, *twin);
+    at = p.value;
+    side_by_side = true;
+  }
+  o.measured = best;
+  judge_bounds(c, o, 1.0);
+  if (!o.holds && c.at_least)
+    o.cost = step_of_failure + (1.0 - step_of_failure) * (1.0 - std::min(1.0, best / *c.at_least));
+  o.text = (best > 0.0 ? number(100.0 * best) + " % of " + c.quantity + " at " + number(at) : std::string("none")) +
+           (side_by_side ? ", two motions side by side" : "") + ", must be at least " +
+           number(100.0 * c.at_least.value_or(0.0)) + " %";
+}
+
+/// Of two points next to each other: 1 for another motion, else the relative change of the Poincare range, where a
+/// range that recurrence takes for a point is none.
+double variation_between(const ClaimPoint& a, const ClaimPoint& b) {
+  if (!a.reached || !b.reached) return a.reached == b.reached ? 0.0 : 1.0;
+  if (!a.motion.same(b.motion)) return 1.0;
+  // The section of period 1 is one point: its range is that of the oscillation in time.
+  const bool point = a.motion.is("period 1");
+  const std::string_view name = point ? "delta_sp_range" : "poincare_sp_range";
+  const double larger = std::max(a.quantity(name), b.quantity(name));
+  return larger > 0.0 ? std::abs(a.quantity(name) - b.quantity(name)) / larger : 0.0;
+}
+
+void variation(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
+  double at = none;
+  for (std::size_t k = 0; k + 1 < part.size(); ++k)
+    if (const double v = variation_between(part[k], part[k + 1]); v > o.measured) {
+      o.measured = v;
+      at = 0.5 * (part[k].value + part[k + 1].value);
+    }
+  judge_bounds(c, o, 0.1);
+  if (!o.holds && c.at_least)
+    o.cost = step_of_failure + (1.0 - step_of_failure) * (1.0 - std::min(1.0, o.measured / *c.at_least));
+  o.text = "largest change between neighbours" + range_text(part) + " is " + number(100.0 * o.measured) + " %" +
+           (std::isnan(at) ? "" : " at " + number(at)) + ", " + bound_text(c);
+}
+
+void alike(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
+  double same = 0.0;
+  std::vector<double> sun;
+  std::vector<double> ring;
+  for (const ClaimPoint& p : part) {
+    if (!p.reached) continue;
+    same += p.by_sun_mesh.same(p.by_ring_mesh) ? 1.0 : 0.0;
+    sun.push_back(p.quantity("poincare_sp_range"));
+    ring.push_back(p.quantity("poincare_rp_range"));
+  }
+  const auto n = static_cast<double>(sun.size());
+  o.measured = same / static_cast<double>(part.size());
+  o.error = 0.5 / static_cast<double>(part.size());
+  double correlation = 0.0;
+  if (n > 1.0) {
+    const double mean_sun = std::accumulate(sun.begin(), sun.end(), 0.0) / n;
+    const double mean_ring = std::accumulate(ring.begin(), ring.end(), 0.0) / n;
+    double both = 0.0;
+    double of_sun = 0.0;
+    double of_ring = 0.0;
+    for (std::size_t k = 0; k < sun.size(); ++k) {
+      both += (sun[k] - mean_sun) * (ring[k] - mean_ring);
+      of_sun += (sun[k] - mean_sun) * (sun[k] - mean_sun);
+      of_ring += (ring[k] - mean_ring) * (ring[k] - mean_ring);
+    }
+    if (of_sun > 0.0 && of_ring > 0.0) correlation = both / std::sqrt(of_sun * of_ring);
+  }
+  judge_bounds(c, o, 1.0);
+  if (c.correlation) {
+    o.holds = o.holds && correlation >= *c.correlation;
+    o.cost =
+        0.5 * (o.cost + (correlation >= *c.correlation ? 0.0 : cost_within(correlation, *c.correlation, 1.0, 1.0)));
+  }
+  o.text = "the same motion by both meshes at " + number(100.0 * o.measured) + " %, ranges correlate by " +
+           number(correlation) + ", " + bound_text(c) +
+           (c.correlation ? " and correlate by at least " + number(*c.correlation) : std::string());
+}
+
+void decreasing(const Condition& c, const ClaimRecord& record, ConditionOutcome& o) {
+  // Where the motion is met in the first sweep, at values that all of them have.
+  std::vector<std::span<const ClaimPoint>> parts;
+  for (const std::string& sweep : c.sweeps) parts.push_back(part_of(record.at(sweep).points, c));
+  std::vector<double> most(parts.size(), 0.0);
+  std::size_t seen = 0;
+  for (const ClaimPoint& first : parts.front()) {
+    if (!first.reached || (!c.motion.empty() && !first.motion.is(c.motion))) continue;
+    std::vector<double> values;
+    for (const auto& part : parts) {
+      constexpr double same = 1e-9;  // grids are rounded to 12 digits
+      const auto at = std::ranges::find_if(part, [&](const ClaimPoint& p) {
+        return p.reached && std::abs(p.value - first.value) <= same * std::max(1.0, std::abs(first.value));
+      });
+      if (at != part.end()) values.push_back(at->quantity(c.quantity));
+    }
+    if (values.size() < parts.size()) continue;
+    ++seen;
+    for (std::size_t s = 0; s < parts.size(); ++s) most[s] = std::max(most[s], values[s]);
+  }
+  o.measured = 0.0;
+  for (std::size_t s = 0; s + 1 < most.size(); ++s) o.measured += seen > 0 && most[s + 1] < most[s] ? 1.0 : 0.0;
+  const auto pairs = static_cast<double>(most.size() - 1);
+  o.holds = seen > 0 && o.measured == pairs;
+  if (seen == 0) {
+    o.text = "no point that all sweeps have is " + c.motion;
+    return;
+  }
+  double rises = 0.0;
+  for (std::size_t s = 0; s + 1 < most.size(); ++s)
+    if (!(most[s + 1] < most[s]))
+      rises += step_of_failure + std::min(1.0 - step_of_failure, most[s + 1] / most[s] - 1.0);
+  o.cost = o.holds ? 0.0 : rises / pairs;
+  for (std::size_t s = 0; s < most.size(); ++s) o.text += (s == 0 ? "" : ", ") + number(most[s]);
+  o.text = "largest " + c.quantity + " " + o.text + ", must fall";
+}
+
+}  // namespace
+
+ConditionOutcome judge(const Condition& c, const ClaimRecord& record) {
+  ConditionOutcome o;
+  if (c.kind == ConditionKind::decreasing) {
+    decreasing(c, record, o);
+    return o;
+  }
+  const ClaimSeries& series = record.at(c.sweep);
+  const std::span<const ClaimPoint> part = part_of(series.points, c);
+  if (part.empty()) {
+    o.measured = none;
+    o.text = "no point of the sweep is there";
+    return o;
+  }
+  switch (c.kind) {
+    case ConditionKind::share:
+      share(c, part, o);
+      break;
+    case ConditionKind::count:
+      count(c, part, o);
+      break;
+    case ConditionKind::change:
+      change(c, part, o);
+      break;
+    case ConditionKind::sequence:
+      sequence(c, part, o);
+      break;
+    case ConditionKind::value:
+      value(c, part, o);
+      break;
+    case ConditionKind::falls:
+      falls(c, part, o);
+      break;
+    case ConditionKind::peaks:
+      peaks(c, part, o);
+      break;
+    case ConditionKind::jump:
+      jump(c, series, part, o);
+      break;
+    case ConditionKind::variation:
+      variation(c, part, o);
+      break;
+    case ConditionKind::alike:
+      alike(c, part, o);
+      break;
+    case ConditionKind::decreasing:
+      break;
+  }
+  if (o.holds) o.cost = 0.0;
+  return o;
+}
+
+ClaimOutcome judge(const Claim& claim, const ClaimRecord& record) {
+  ClaimOutcome outcome;
+  outcome.holds = true;
+  outcome.cost = 0.0;
+  for (const Condition& condition : claim.conditions) {
+    outcome.conditions.push_back(judge(condition, record));
+    outcome.holds = outcome.holds && outcome.conditions.back().holds;
+    outcome.cost += outcome.conditions.back().cost / static_cast<double>(claim.conditions.size());
+  }
+  const std::vector<std::string> sweeps = sweeps_of(claim);
+  outcome.inert = std::ranges::all_of(sweeps, [&](const std::string& name) { return is_inert(record.at(name)); });
+  return outcome;
+}
+
+std::vector<std::string> sweeps_of(const Claim& claim) {
+  std::set<std::string> names;
+  for (const Condition& c : claim.conditions) {
+    if (!c.sweep.empty()) names.insert(c.sweep);
+    names.insert(c.sweeps.begin(), c.sweeps.end());
+  }
+  return {names.begin(), names.end()};
+}
+
+bool is_inert(const ClaimSeries& series) {
+  constexpr double nothing = 1e-5;  // of a range; integration leaves less
+  return std::ranges::all_of(series.points, [&](const ClaimPoint& p) {
+    const ClaimPoint& first = series.points.front();
+    return p.motion.same(first.motion) && variation_between(first, p) < nothing;
+  });
+}
+
+}  // namespace epicyclic::studies

@@ -1,0 +1,84 @@
+// Claims held against sweeps [studies/claims_options.hpp].
+//
+// Every condition gives a measured number, the error of it that the sweep's grid leaves, and a cost: 0 where it holds,
+// else between 0.1 and 1, less the nearer it is. The cost of a claim is the mean of its conditions' costs, so that a
+// search sees each of them; it holds where all do.
+//
+//   cost of a number x that has to be within [a, b]:  0.1 + 0.9 d / (d + w),  d the distance, w = b - a [C-cost]
+//
+// A change between two motions is told halfway between the two points that it lies between, with half their distance as
+// its error. Points that failed count as no motion at all.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studies/claims_options.hpp"
+#include "studies/sweep.hpp"
+
+namespace epicyclic::studies {
+
+/// What a point moves like, as conditions see it.
+struct ClaimMotion {
+  analysis::Regime regime = analysis::Regime::undecided;
+  int period = 0;     ///< if periodic
+  bool told = false;  ///< by more than recurrence; otherwise what does not recur counts as chaotic
+
+  /// @param word  of is_motion_word()
+  [[nodiscard]] bool is(std::string_view word) const;
+  [[nodiscard]] bool same(const ClaimMotion& other) const { return regime == other.regime && period == other.period; }
+  [[nodiscard]] std::string text() const;
+};
+
+struct ClaimPoint {
+  double value = 0;
+  bool reached = false;
+  ClaimMotion motion;
+  ClaimMotion by_sun_mesh, by_ring_mesh;  ///< told from the deflection of planet 1's mesh alone
+  std::array<double, claim_quantities.size()> quantities{};
+
+  [[nodiscard]] double quantity(std::string_view name) const;
+};
+
+/// @param result  with its Poincare section
+[[nodiscard]] ClaimPoint claim_point(const PointResult& result, const LookOptions& look);
+
+/// A sweep's points by rising value.
+struct ClaimSeries {
+  std::vector<ClaimPoint> points;
+  std::vector<ClaimPoint> other;  ///< at the same values from elsewhere (the other direction), if there are any
+};
+
+/// By the sweeps' names.
+using ClaimRecord = std::map<std::string, ClaimSeries, std::less<>>;
+
+struct ConditionOutcome {
+  bool holds = false;
+  double measured = 0;  ///< not a number where there is nothing to measure
+  double error = 0;
+  double cost = 1;
+  std::string text;  ///< "chaotic from 0.6025 on, must be within 0.57 to 0.63"
+};
+
+/// @throws std::out_of_range when the record has not the condition's sweeps
+[[nodiscard]] ConditionOutcome judge(const Condition& condition, const ClaimRecord& record);
+
+struct ClaimOutcome {
+  bool holds = false;
+  double cost = 1;
+  std::vector<ConditionOutcome> conditions;
+  bool inert = false;  ///< no sweep that it speaks of changes anything at all: it holds whatever the stage
+};
+
+[[nodiscard]] ClaimOutcome judge(const Claim& claim, const ClaimRecord& record);
+
+/// Names of the sweeps that a claim speaks of.
+[[nodiscard]] std::vector<std::string> sweeps_of(const Claim& claim);
+
+/// Does no point of the series differ from the first by more than recurrence can tell?
+[[nodiscard]] bool is_inert(const ClaimSeries& series);
+
+}  // namespace epicyclic::studies

@@ -1,0 +1,107 @@
+#!/usr/bin/env bash
+# claims.sh EPICYCLIC SOURCE_DIR
+#
+# `reproduce` and `calibrate` of a small study of claims: scorecard, figures, what is recorded; the same bytes for any
+# number of threads, and after a stop; the result as an input; bad input.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
+
+cat >claims.json <<END
+{ "name": "small", "stage": "$inputs/tang2020.json",
+  "stage_patch": { "load": { "power_kW": null, "torque_Nm": 400 },
+    "lumped": { "sun_planet_mesh": { "error_amplitude_um": [2, 2, 2] } } },
+  "integrator": { "method": "lanes-cash-karp", "relative_tolerance": 1e-6, "absolute_tolerance": 1e-8 },
+  "study": { "kind": "claims", "starts": ["carried", "cold"],
+    "transient_periods": 60, "recorded_periods": 32, "classification_periods": 512,
+    "sweeps": [
+      { "name": "speed", "parameter": "mesh_frequency_ratio", "from": 1.5, "to": 2.5, "points": 9, "directions": ["up", "down"], "brief_points": 5 },
+      { "name": "damping", "parameter": "damping_ratio", "from": 0.03, "to": 0.1, "points": 5, "brief_points": 3, "round": 1,
+        "at": [ { "parameter": "mesh_frequency_ratio", "value": 2.0 } ] } ],
+    "claims": [
+      { "name": "A", "text": "little is chaotic", "where": "Fig. 1", "printed": "0",
+        "conditions": [ { "kind": "count", "sweep": "speed", "motion": "chaotic", "at_most": 5 } ] },
+      { "name": "B", "text": "the range is small", "conditions": [
+          { "kind": "value", "sweep": "damping", "quantity": "delta_sp_range", "at_most": 0.1 } ] } ],
+    "figures": [ { "name": "fig1", "title": "Speed", "panels": [ { "sweep": "speed", "title": "(a)" }, { "sweep": "speed", "mesh": "ring_planet" } ] } ],
+    "brief": { "transient_periods": 40, "recorded_periods": 8 },
+    "parameters": [
+      { "name": "E", "words": "error [um]", "from": 0.5, "to": 20, "targets": [
+          { "pointer": "/stage/lumped/sun_planet_mesh/error_amplitude_um/0" },
+          { "pointer": "/stage/lumped/sun_planet_mesh/error_amplitude_um/1", "times": "r" } ] },
+      { "name": "r", "from": 0.9, "to": 1.1, "spread": "linear" },
+      { "name": "T", "from": 150, "to": 900, "choice": "load", "option": "torque", "targets": [ { "pointer": "/stage/load/torque_Nm" } ] } ],
+    "choices": [ { "name": "load", "options": [
+        { "name": "torque", "sets": [ { "pointer": "/stage/load", "value": { "torque_Nm": 400 } } ] },
+        { "name": "power", "sets": [ { "pointer": "/stage/load", "value": { "power_kW": 400 } } ] } ] } ],
+    "search": { "seed": 3, "islands": 2, "population": 7, "candidates": 42, "refinement": 10, "profile": 3 } } }
+END
+[ "$(code_of "$epicyclic" check claims.json)" = 0 ] || fail "check: $(<stderr)"
+grep -q '2 claims on 2 sweeps' stderr || fail "check says nothing of claims: $(<stderr)"
+cp stdout resolved.json
+[ "$(code_of "$epicyclic" check resolved.json)" = 0 ] || fail "the resolved input: $(<stderr)"
+cmp -s stdout resolved.json || fail "the resolved input does not resolve to itself"
+
+# Scorecard and figures; each sweep is a study of its own.
+[ "$(code_of "$epicyclic" reproduce claims.json -o one --threads 1)" = 0 ] || fail "reproduce: $(<stderr)"
+grep -q '^| A | Fig. 1 | little is chaotic | 0 | holds | holds |' stdout || fail "no verdict: $(<stdout)"
+grep -q '^1 of 2 claims hold' stdout || fail "no count: $(<stdout)"
+for file in scorecard.csv scorecard.md figures/fig1.png figures/fig1.svg speed/points.csv damping_cold/run.json gear/gear.md; do
+  [ -s "one/$file" ] || fail "no $file"
+done
+grep -q '"mesh_frequency_ratio": 2.0' one/damping.json || fail "the sweep's speed is not in its input"
+[ "$(code_of "$epicyclic" sweep one/damping.json -o alone)" = 0 ] || fail "a sweep of it alone: $(<stderr)"
+cmp -s alone/points.csv one/damping/points.csv || fail "the sweep alone gives other points"
+[ "$(code_of "$epicyclic" reproduce claims.json -o two --threads 2)" = 0 ] || fail "two threads: $(<stderr)"
+for file in scorecard.csv speed/points.csv figures/fig1.dat; do cmp -s "one/$file" "two/$file" || fail "$file differs with two threads"; done
+
+# What was recorded is expected.
+[ "$(code_of "$epicyclic" reproduce claims.json -o one --record)" = 0 ] || fail "record: $(<stderr)"
+[ "$(code_of "$epicyclic" reproduce claims.json -o one)" = 0 ] || fail "as recorded: $(<stderr)"
+sed -i 's/^A,holds/A,fails/' claims.scorecard.csv
+[ "$(code_of "$epicyclic" reproduce claims.json -o one)" = 1 ] || fail "a verdict that is not the one recorded: $(<stderr)"
+grep -q 'A (carried): holds, was recorded: fails' stderr || fail "it is not said: $(<stderr)"
+rm claims.scorecard.csv
+
+# The search: the same bytes for any number of threads and after a stop.
+files=(candidates.csv profile.csv calibrate.md best.json stage.json)
+[ "$(code_of "$epicyclic" calibrate claims.json -o c1 --threads 1)" = 0 ] || fail "calibrate: $(<stderr)"
+[ "$(code_of "$epicyclic" calibrate claims.json -o c3 --threads 3)" = 0 ] || fail "three threads: $(<stderr)"
+"$epicyclic" calibrate claims.json -o c2 --threads 2 >stdout 2>stderr &
+for ((k = 0; k < 400; ++k)); do
+  [ "$(stat -c %s c2/journal.bin 2>/dev/null || echo 0)" -gt 2000 ] && break
+  sleep 0.01
+done
+kill -INT $! 2>/dev/null || true
+code=0 && wait $! || code=$?
+[ $code = 75 ] || [ $code = 0 ] || fail "a stop: $code $(<stderr)"
+[ "$(code_of "$epicyclic" calibrate claims.json -o c2 --threads 1)" = 0 ] || fail "going on: $(<stderr)"
+for file in "${files[@]}"; do
+  cmp -s "c1/$file" "c2/$file" || fail "$file differs after a stop"
+  cmp -s "c1/$file" "c3/$file" || fail "$file differs with three threads"
+done
+[ "$(code_of "$epicyclic" calibrate claims.json -o c1)" = 0 ] || fail "complete: $(<stderr)"
+grep -q 'calibrated: by claims of small, seed 3' c1/stage.json || fail "no origin"
+[ "$(code_of "$epicyclic" check c1/best.json)" = 0 ] || fail "the best as an input: $(<stderr)"
+[ "$(code_of "$epicyclic" gear c1/stage.json -o g)" = 0 ] || fail "its stage as an input: $(<stderr)"
+# The first candidate is the stage as it is given.
+[ "$(sed -n 2p c1/candidates.csv | cut -d, -f6,8)" = 2,400 ] || fail "the first candidate: $(sed -n 2p c1/candidates.csv)"
+
+# Bad input; nothing is written.
+refused() {
+  sed "$1" claims.json >bad.json
+  [ "$(code_of "$epicyclic" "$3" bad.json -o bad)" = 2 ] || fail "$1: exit code, $(<stderr)"
+  grep -q -- "$2" stderr || fail "$1: $(<stderr)"
+  [ ! -e bad ] || fail "$1: wrote"
+}
+refused 's/"motion": "chaotic"/"motion": "chaos"/' 'bad.json:13: /study/claims/0/conditions/0/motion: is "chaos", must be "period N"' reproduce
+refused 's/"sweep": "damping", "quantity"/"sweep": "dumping", "quantity"/' '/study/claims/1/conditions/0/sweep: is "dumping", which is no sweep' reproduce
+refused 's/"at_most": 0.1/"at_most": 0.1, "motions": ["chaotic"]/' 'is not read by a condition of kind "value"' reproduce
+refused 's/"name": "speed", "parameter"/"name": "..\/speed", "parameter"/' 'a folder is called so' reproduce
+refused 's/"from": 0.5, "to": 20/"from": -1, "to": 20/' '/study/parameters/0/from: is -1, must be > 0 on a logarithmic scale' calibrate
+refused 's/"from": 0.9, "to": 1.1/"from": 0.9, "to": 1.1, "targets": [ { "pointer": "\/stage\/lumped\/none" } ]/' '/study/parameters/1/targets/0/pointer: .*is no value of the resolved input' calibrate
+refused 's/"choice": "load", "option": "torque"/"choice": "load", "option": "talk"/' 'is "talk", which is no option of that choice' calibrate
+refused 's/"parameter": "damping_ratio"/"parameter": "damping"/' '/study/sweeps/1/parameter: is "damping", must be one of' calibrate
+[ "$(code_of "$epicyclic" sweep claims.json -o bad)" = 2 ] || fail "a sweep of claims: $(<stderr)"
+[ "$(code_of "$epicyclic" reproduce nobody2021 -o bad)" = 2 ] || fail "no such claims: $(<stderr)"
+
+finish

@@ -1,0 +1,267 @@
+#include "studies/claims.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace epicyclic::studies {
+namespace {
+
+using analysis::Regime;
+
+constexpr std::size_t delta_sp_range = 0;
+constexpr std::size_t poincare_sp_range = 4;
+constexpr std::size_t poincare_rp_range = 5;
+
+/// "1", "2": a period; "c" chaos; "q" a torus; "u" told by nothing; "x" a point that failed.
+ClaimPoint point(double value, char motion, double range = 1.0) {
+  ClaimPoint p;
+  p.value = value;
+  p.reached = motion != 'x';
+  p.motion.told = motion != 'u';
+  if (motion >= '1' && motion <= '9') p.motion = {Regime::periodic, motion - '0', true};
+  if (motion == 'c') p.motion.regime = Regime::chaotic;
+  if (motion == 'q') p.motion.regime = Regime::quasiperiodic;
+  p.by_sun_mesh = p.by_ring_mesh = p.motion;
+  p.quantities[delta_sp_range] = range;
+  p.quantities[poincare_sp_range] = range;
+  p.quantities[poincare_rp_range] = 2.0 * range;
+  return p;
+}
+
+/// Points at 0, 1, 2, ...
+ClaimRecord record(const std::string& motions, const std::vector<double>& ranges = {}) {
+  ClaimSeries series;
+  for (std::size_t k = 0; k < motions.size(); ++k)
+    series.points.push_back(point(static_cast<double>(k), motions[k], ranges.empty() ? 1.0 : ranges[k]));
+  return {{"s", series}};
+}
+
+Condition condition(ConditionKind kind) {
+  Condition c;
+  c.kind = kind;
+  c.sweep = "s";
+  return c;
+}
+
+TEST(ClaimMotions, AreCalledByWords) {
+  for (const char* word : {"period 1", "period 12", "periodic", "multi-period", "chaotic", "not period 1", "aperiodic"})
+    EXPECT_TRUE(is_motion_word(word)) << word;
+  for (const char* word : {"", "period", "period 0", "period 01", "period x", "not", "not not chaotic", "Chaotic"})
+    EXPECT_FALSE(is_motion_word(word)) << word;
+  EXPECT_TRUE(point(0, '2').motion.is("multi-period"));
+  EXPECT_FALSE(point(0, '1').motion.is("multi-period"));
+  EXPECT_TRUE(point(0, 'q').motion.is("aperiodic"));
+  EXPECT_FALSE(point(0, 'q').motion.is("chaotic"));
+  EXPECT_TRUE(point(0, 'q').motion.is("not period 1"));
+  // What nothing but recurrence was asked of counts as chaos; what evidence could not decide does not.
+  EXPECT_TRUE(point(0, 'u').motion.is("chaotic"));
+  ClaimMotion undecided{Regime::undecided, 0, true};
+  EXPECT_FALSE(undecided.is("chaotic"));
+  EXPECT_FALSE(undecided.is("aperiodic"));
+}
+
+TEST(Claims, OnAShareOfThePoints) {
+  Condition c = condition(ConditionKind::share);
+  c.motion = "period 1";
+  c.from = 2.0;
+  c.at_least = 0.75;
+  const ConditionOutcome all = judge(c, record("cc1111"));
+  EXPECT_TRUE(all.holds);
+  EXPECT_EQ(all.cost, 0.0);
+  const ConditionOutcome three = judge(c, record("cc111x"));
+  EXPECT_TRUE(three.holds);
+  EXPECT_EQ(three.measured, 0.75);
+  const ConditionOutcome two = judge(c, record("cc11cc"));
+  const ConditionOutcome one = judge(c, record("cc1ccc"));
+  EXPECT_FALSE(two.holds);
+  EXPECT_GT(two.cost, 0.0);
+  EXPECT_GT(one.cost, two.cost);
+}
+
+TEST(Claims, OnANumberOfPoints) {
+  Condition c = condition(ConditionKind::count);
+  c.motion = "chaotic";
+  c.at_least = 1.0;
+  EXPECT_TRUE(judge(c, record("11c1")).holds);
+  // What is nearer to chaos costs less.
+  const double torus = judge(c, record("11q1")).cost;
+  const double doubled = judge(c, record("1121")).cost;
+  const double nothing = judge(c, record("1111")).cost;
+  EXPECT_LT(torus, doubled);
+  EXPECT_LT(doubled, nothing);
+  c.at_least.reset();
+  c.at_most = 0.0;
+  EXPECT_TRUE(judge(c, record("1111")).holds);
+  EXPECT_FALSE(judge(c, record("11c1")).holds);
+}
+
+TEST(Claims, OnAChangeBetweenMotions) {
+  Condition c = condition(ConditionKind::change);
+  c.motion = "period 1";
+  c.after = "not period 1";
+  c.within = {2.0, 3.0};
+  const ConditionOutcome found = judge(c, record("111c1c"));
+  EXPECT_TRUE(found.holds);
+  EXPECT_EQ(found.measured, 2.5);
+  EXPECT_EQ(found.error, 0.5);
+  c.which = Which::last;
+  const ConditionOutcome last = judge(c, record("111c1c"));
+  EXPECT_FALSE(last.holds);
+  EXPECT_EQ(last.measured, 4.5);
+  EXPECT_GT(judge(c, record("11111111c")).cost, last.cost);
+  c.which = Which::first;
+  // The first loss of period 1 is not the first that leads to chaos.
+  c.leads_to = "chaotic";
+  EXPECT_EQ(judge(c, record("12122c1")).measured, 2.5);
+  EXPECT_TRUE(std::isnan(judge(c, record("121221")).measured));
+  EXPECT_EQ(judge(c, record("121221")).cost, 1.0);
+}
+
+TEST(Claims, OnASequence) {
+  Condition c = condition(ConditionKind::sequence);
+  c.motions = {"period 1", "period 3", "chaotic"};
+  EXPECT_TRUE(judge(c, record("112q3c")).holds);
+  const ConditionOutcome two = judge(c, record("1c3333"));
+  EXPECT_FALSE(two.holds);
+  EXPECT_EQ(two.measured, 2.0);
+  EXPECT_LT(two.cost, judge(c, record("111ccc")).cost);
+}
+
+TEST(Claims, OnAFall) {
+  Condition c = condition(ConditionKind::falls);
+  c.quantity = "poincare_sp_range";
+  c.at_least = 5.0;
+  EXPECT_TRUE(judge(c, record("ccc1", {10.0, 8.0, 9.0, 1e-9})).holds);
+  EXPECT_FALSE(judge(c, record("ccc1", {10.0, 11.0, 9.0, 1e-9})).holds);
+  EXPECT_FALSE(judge(c, record("cccc", {10.0, 8.0, 9.0, 3.0})).holds);
+  EXPECT_FALSE(judge(c, record("cxc1", {10.0, 8.0, 9.0, 1e-9})).holds);
+}
+
+TEST(Claims, OnPeaks) {
+  Condition c = condition(ConditionKind::peaks);
+  c.quantity = "delta_sp_range";
+  c.places = {2.0, 5.0};
+  c.place_tolerance = 0.1;
+  c.prominence = 0.2;
+  EXPECT_TRUE(judge(c, record("11111111", {1, 2, 5, 2, 3, 10, 1, 1})).holds);
+  // At 5 there is a shoulder alone; the maximum at 2 stands out too little.
+  EXPECT_EQ(judge(c, record("11111111", {1, 2, 5, 2, 3, 8, 10, 1})).measured, 1.0);
+  EXPECT_EQ(judge(c, record("11111111", {1, 4, 4.5, 4, 3, 10, 1, 1})).measured, 1.0);
+}
+
+TEST(Claims, OnAJumpAreNotMetByAFlank) {
+  Condition c = condition(ConditionKind::jump);
+  c.quantity = "delta_sp_range";
+  c.motion = "period 1";
+  c.at_least = 0.1;
+  EXPECT_TRUE(judge(c, record("1111", {1.0, 1.02, 1.5, 1.52})).holds);
+  EXPECT_FALSE(judge(c, record("1111", {1.0, 1.2, 1.4, 1.6})).holds);
+  EXPECT_FALSE(judge(c, record("11c1", {1.0, 1.02, 1.5, 1.52})).holds);
+  // Two motions side by side: the fold between them need not be on the grid.
+  ClaimRecord both = record("1111", {1.0, 1.1, 1.2, 1.3});
+  both["s"].other = record("1111", {1.0, 1.1, 1.5, 1.3})["s"].points;
+  const ConditionOutcome beside = judge(c, both);
+  EXPECT_TRUE(beside.holds);
+  EXPECT_NEAR(beside.measured, 0.2, 1e-12);
+}
+
+TEST(Claims, OnWhatDoesNotVary) {
+  Condition c = condition(ConditionKind::variation);
+  c.at_most = 0.01;
+  EXPECT_TRUE(judge(c, record("1111", {1.0, 1.001, 1.0, 1.0})).holds);
+  EXPECT_FALSE(judge(c, record("1111", {1.0, 1.1, 1.0, 1.0})).holds);
+  EXPECT_FALSE(judge(c, record("1121")).holds);
+  EXPECT_TRUE(is_inert(record("1111")["s"]));
+  EXPECT_FALSE(is_inert(record("1111", {1.0, 1.001, 1.0, 1.0})["s"]));
+}
+
+TEST(Claims, OnMeshesThatAreAlike) {
+  Condition c = condition(ConditionKind::alike);
+  c.at_least = 0.75;
+  c.correlation = 0.9;
+  ClaimRecord r = record("112c", {1.0, 2.0, 3.0, 4.0});
+  EXPECT_TRUE(judge(c, r).holds);
+  r["s"].points[2].by_ring_mesh.period = 1;
+  EXPECT_TRUE(judge(c, r).holds);
+  r["s"].points[3].by_ring_mesh.regime = Regime::quasiperiodic;
+  EXPECT_FALSE(judge(c, r).holds);
+  r = record("112c", {1.0, 2.0, 3.0, 4.0});
+  r["s"].points[3].quantities[poincare_rp_range] = 0.0;
+  EXPECT_FALSE(judge(c, r).holds);
+}
+
+TEST(Claims, OnSweepsThatFallCompareCommonValues) {
+  Condition c = condition(ConditionKind::decreasing);
+  c.sweep = "";
+  c.sweeps = {"s", "t"};
+  c.motion = "chaotic";
+  c.quantity = "delta_sp_range";
+  ClaimRecord r = record("1c1c", {9.0, 5.0, 9.0, 7.0});
+  r["t"].points = {point(1.0, '1', 4.0), point(2.0, '1', 9.0), point(3.0, 'c', 6.0)};
+  EXPECT_TRUE(judge(c, r).holds);
+  r["t"].points[2].quantities[delta_sp_range] = 8.0;
+  EXPECT_FALSE(judge(c, r).holds);
+  // Only values that both have: of 7 and 8 nothing is left.
+  r["t"].points.pop_back();
+  EXPECT_TRUE(judge(c, r).holds);
+  r["t"].points = {point(0.5, 'c', 1.0)};
+  EXPECT_FALSE(judge(c, r).holds);
+}
+
+TEST(Claims, HoldWhereAllConditionsDo) {
+  Condition first = condition(ConditionKind::count);
+  first.motion = "chaotic";
+  first.at_least = 1.0;
+  Condition second = first;
+  second.motion = "period 2";
+  const Claim claim{"C", "", "", "", 1.0, {first, second}};
+  EXPECT_TRUE(judge(claim, record("12c")).holds);
+  const ClaimOutcome half = judge(claim, record("11c"));
+  EXPECT_FALSE(half.holds);
+  EXPECT_EQ(half.cost, 0.5 * half.conditions[1].cost);
+}
+
+TEST(ClaimsOptions, RefuseWhatNobodyWouldJudge) {
+  ClaimsOptions options;
+  ClaimSweep sweep;
+  sweep.name = "s";
+  options.sweeps = {sweep};
+  Condition c = condition(ConditionKind::share);
+  c.motion = "period 1";
+  c.at_least = 0.5;
+  options.claims = {{"C", "", "", "", 1.0, {c}}};
+  EXPECT_TRUE(options.problems().empty());
+  const auto place_of = [&](auto change) {
+    ClaimsOptions wrong = options;
+    change(wrong);
+    const auto problems = wrong.problems();
+    return problems.size() == 1 ? problems.front().first : "problems: " + std::to_string(problems.size());
+  };
+  const std::string place = "/claims/0/conditions/0";
+  EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].sweep = "t"; }), place + "/sweep");
+  EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].motion = "chaos"; }), place + "/motion");
+  EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].at_least.reset(); }), place);
+  EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].after = "chaotic"; }), place + "/after");
+  EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions.clear(); }), "/claims/0/conditions");
+  EXPECT_EQ(place_of([](auto& o) {
+              o.sweeps[0].name = "../s";
+              o.claims[0].conditions[0].sweep = "../s";
+            }),
+            "/sweeps/0/name");
+  EXPECT_EQ(place_of([](auto& o) {
+              o.space.parameters = {{"x", "", "", 0.0, 1.0, Spread::linear, {}, "", ""}};
+            }),
+            "/parameters/0/targets");
+  EXPECT_EQ(place_of([](auto& o) {
+              o.space.parameters = {{"x", "", "", 0.0, 1.0, Spread::logarithmic, {{"/a", 1, 1, ""}}, "", ""}};
+            }),
+            "/parameters/0/from");
+}
+
+}  // namespace
+}  // namespace epicyclic::studies
