@@ -46,6 +46,7 @@ int crosscheck_command(const Arguments& arguments);
 int tolerance_command(const Arguments& arguments);
 int continue_command(const Arguments& arguments);
 int reproduce_command(const Arguments& arguments);
+int robustness_command(const Arguments& arguments);
 int calibrate_command(const Arguments& arguments);
 int assert_command(const Arguments& arguments);
 int gear_command(const Arguments& arguments);

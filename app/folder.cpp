@@ -100,6 +100,11 @@ std::int64_t tell_undrawn(const std::vector<reports::DrawnFigure>& figures) {
   return count;
 }
 
+void require_models(const studies::ClaimsOptions& options, const studies::SweepModels& models) {
+  for (const studies::ClaimSweep& sweep : options.sweeps)
+    for (const double value : {sweep.axis.from, sweep.axis.to}) (void)models(sweep, value);
+}
+
 store::Provenance provenance(int threads, const input::LoadedInput& input) {
   store::Provenance p = store::begin_provenance();
   p.library_version = EPICYCLIC_VERSION;

@@ -17,6 +17,7 @@
 #include "store/journal.hpp"
 #include "store/output_folder.hpp"
 #include "store/provenance.hpp"
+#include "studies/candidates.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::app {
@@ -34,6 +35,10 @@ template <class Plan>
   require_kind(input, arguments, command);
   return std::get<Plan>(input.study.plan);
 }
+
+/// Asks for models at both ends of each sweep of claims, so that what does not fit shows before anything is written.
+/// @throws InputError
+void require_models(const studies::ClaimsOptions& options, const studies::SweepModels& models);
 
 /// Versions, machine and the names that the input files came by, for run.json.
 [[nodiscard]] store::Provenance provenance(int threads, const input::LoadedInput& input);

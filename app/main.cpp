@@ -79,7 +79,7 @@ struct Subcommand {
   CLI::App* command = nullptr;  ///< on the command line
 };
 
-std::array<Subcommand, 13> subcommands() {
+std::array<Subcommand, 14> subcommands() {
   return {{
       {"gear", "teeth, contact, stiffness, friction, bearings and modes of the stage", gear_command, Takes::output},
       {"run", "one operating point: regime, forces, spectra, exponents, orbit, figures", run_command, Takes::output},
@@ -94,6 +94,7 @@ std::array<Subcommand, 13> subcommands() {
       {"reproduce", "claims of a publication held against a stage, with its figures", reproduce_command,
        Takes::threads},
       {"calibrate", "what is not published of a stage, from what is claimed of it", calibrate_command, Takes::threads},
+      {"robustness", "for which part of what is not published each claim holds", robustness_command, Takes::threads},
       {"assert", "special points of finished branches against expected ones", assert_command, Takes::finished},
       {"check", "validates, prints the resolved input, its cost and how long it takes; writes nothing", check_command,
        Takes::input},

@@ -90,10 +90,7 @@ int reproduce_command(const Arguments& given) {
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
   require_kind(input, arguments, "claims");
   const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
-  // What does not fit shows here, before anything is written.
-  const studies::SweepModels models = input::claim_models(input);
-  for (const studies::ClaimSweep& sweep : options.sweeps)
-    for (const double value : {sweep.axis.from, sweep.axis.to}) (void)models(sweep, value);
+  require_models(options, input::claim_models(input));
   tell_warnings(input);
 
   Session session(arguments, input, identity_of(input, "reproduce"), arguments.threads, 1, true);

@@ -17,6 +17,7 @@
 #include "analysis/shooting.hpp"
 #include "core/dense.hpp"
 #include "core/errors.hpp"
+#include "core/random_numbers.hpp"
 #include "core/require.hpp"
 #include "core/text.hpp"
 
@@ -492,21 +493,12 @@ std::vector<std::vector<double>> starts_in_box(std::span<const double> centre, s
     throw InputError(std::to_string(half_widths.size()) + " half widths for a state of " +
                      std::to_string(centre.size()) + " numbers");
   for (const double h : half_widths) require(h >= 0.0, "half width", h, ">= 0");
-  std::uint64_t state = seed;
-  const auto uniform = [&] {
-    state += 0x9e3779b97f4a7c15U;
-    std::uint64_t x = state;
-    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-    x ^= x >> 31U;
-    constexpr double ulp = 0x1p-53;
-    return static_cast<double>(x >> 11U) * ulp;
-  };
+  std::uint64_t n = 0;
   std::vector<std::vector<double>> starts;
   for (std::size_t k = 0; k < count; ++k) {
     std::vector<double> y(centre.begin(), centre.end());
     if (k > 0)
-      for (std::size_t j = 0; j < y.size(); ++j) y[j] += half_widths[j] * (2.0 * uniform() - 1.0);
+      for (std::size_t j = 0; j < y.size(); ++j) y[j] += half_widths[j] * (2.0 * random_uniform(seed, ++n) - 1.0);
     starts.push_back(std::move(y));
   }
   return starts;

@@ -107,8 +107,7 @@ struct OrbitSearch {
                                         std::span<const std::vector<double>> starts, const SearchOptions& options = {});
 
 /// The centre, and random states of a uniform distribution in the box about it: the same ones on every platform, and of
-/// more the first ones. Source: G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom number generators,
-/// OOPSLA 2014 (SplitMix64).
+/// more the first ones [core/random_numbers.hpp].
 /// @param half_widths  of the box, one a component
 /// @throws InputError for half widths that are negative, or of another number
 [[nodiscard]] std::vector<std::vector<double>> starts_in_box(std::span<const double> centre,

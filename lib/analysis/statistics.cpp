@@ -58,4 +58,39 @@ Estimate series_deviation(std::span<const double> series, int waves, double conf
   return {deviation, deviation > 0.0 ? variance.half_width / (2.0 * deviation) : 0.0};
 }
 
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double two_sided = 1.959963984540054;  // quantile of the normal distribution at 97.5 %
+
+bool varies(std::span<const double> values) {
+  return std::ranges::any_of(values, [&](double v) { return v != values.front(); });
+}
+
+}  // namespace
+
+Interval fraction(std::size_t successes, std::size_t n) {
+  if (n == 0) return {none, none, none};
+  const auto trials = static_cast<double>(n);
+  const double p = static_cast<double>(successes) / trials;
+  const double z2 = two_sided * two_sided;
+  const double middle = p + 0.5 * z2 / trials;
+  const double half = two_sided * std::sqrt(p * (1.0 - p) / trials + 0.25 * z2 / (trials * trials));
+  const double divisor = 1.0 + z2 / trials;
+  // At both ends exactly, whatever rounding leaves.
+  return {p, successes == 0 ? 0.0 : (middle - half) / divisor, successes == n ? 1.0 : (middle + half) / divisor};
+}
+
+Interval rank_correlation(std::span<const double> x, std::span<const double> y) {
+  constexpr std::size_t fewest = 4;
+  if (x.size() != y.size()) throw DomainError("ranks of series of different lengths");
+  if (x.size() < fewest || !varies(x) || !varies(y)) return {none, none, none};
+  std::vector<double> work(2 * x.size());
+  const double r = gsl_stats_spearman(x.data(), 1, y.data(), 1, x.size(), work.data());
+  constexpr double variance = 1.06;  // of ranks, beside that of a normal distribution
+  const double half = two_sided * std::sqrt(variance / (static_cast<double>(x.size()) - 3.0));
+  const double z = std::atanh(std::clamp(r, -1.0, 1.0));
+  return {r, std::tanh(z - half), std::tanh(z + half)};
+}
+
 }  // namespace epicyclic::analysis

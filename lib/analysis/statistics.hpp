@@ -15,6 +15,7 @@
 // ten times. See tests/analysis/coverage_test.cpp.
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 namespace epicyclic::analysis {
@@ -48,5 +49,22 @@ inline constexpr int default_waves = 4;
 /// Standard deviation of the series' values about their mean, from the mean of the squared deviations.
 [[nodiscard]] Estimate series_deviation(std::span<const double> series, int waves = default_waves,
                                         double confidence = default_confidence);
+
+/// A value and its interval at 95 %, which need not lie evenly about it.
+struct Interval {
+  double value = 0;
+  double low = 0;
+  double high = 0;
+};
+
+/// The part of n independent trials that succeed, with Wilson's interval (J. Am. Stat. Assoc. 22 (1927) 209):
+/// ( p + z^2 / 2n +- z sqrt( p (1 - p) / n + z^2 / 4n^2 ) ) / ( 1 + z^2 / n ) .
+/// @returns no numbers for no trials
+[[nodiscard]] Interval fraction(std::size_t successes, std::size_t n);
+
+/// Spearman's rank correlation, by GSL, with Fisher's interval tanh( artanh(r) +- z sqrt(1.06 / (n - 3)) ) (Fieller,
+/// Hartley and Pearson, Biometrika 44 (1957) 470).
+/// @returns no numbers for fewer than 4 pairs, or where one side does not vary
+[[nodiscard]] Interval rank_correlation(std::span<const double> x, std::span<const double> y);
 
 }  // namespace epicyclic::analysis

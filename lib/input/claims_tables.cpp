@@ -169,6 +169,7 @@ const Table<ClaimSweep>& claim_sweep_table() {
     t.objects("at", &ClaimSweep::at, set_value_table(), list_most, "What differs from the study besides.");
     t.choices("directions", &ClaimSweep::directions, direction_choices(), "Directions of the carried sweep.");
     t.integer("brief_points", &ClaimSweep::brief_points, between(2, 100000), "Points of a brief look [-].");
+    t.integer("survey_points", &ClaimSweep::survey_points, between(2, 100000), "Points of a survey's look [-].");
     t.integer("round", &ClaimSweep::round, between(0, 1000),
               "A brief look takes sweeps of a round if those of earlier rounds leave hope [-].");
     return t;
@@ -201,17 +202,39 @@ const Table<ClaimFigure>& claim_figure_table() {
   return table;
 }
 
+namespace {
+
+Table<BriefLook> look_table(const char* name, const char* description) {
+  Table<BriefLook> t(name, description);
+  t.integer("transient_periods", &BriefLook::transient_periods, between(0, 1e6), "Mesh periods before the record [-].");
+  t.integer("recorded_periods", &BriefLook::recorded_periods, between(4, 1e5), "Mesh periods recorded [-].");
+  t.integer("classification_periods", &BriefLook::classification_periods, between(0, 1e7),
+            "Mesh periods in which the regime may be looked for beyond the record [-]; 0: what does not recur counts "
+            "as chaotic.");
+  t.number("relative_tolerance", &BriefLook::relative_tolerance, between(1e-12, 1e-2),
+           "Relative and absolute tolerance [-].");
+  return t;
+}
+
+const Table<BriefLook>& survey_look_table() {
+  static const auto table = look_table("survey_look", "How draws are looked at, from cold starts in lanes.");
+  return table;
+}
+
+}  // namespace
+
 const Table<BriefLook>& brief_look_table() {
+  static const auto table = look_table("brief", "How candidates of a search are looked at, from cold starts in lanes.");
+  return table;
+}
+
+const Table<studies::SurveyOptions>& survey_options_table() {
   static const auto table = [] {
-    Table<BriefLook> t("brief", "How candidates of a search are looked at, from cold starts in lanes.");
-    t.integer("transient_periods", &BriefLook::transient_periods, between(0, 1e6),
-              "Mesh periods before the record [-].");
-    t.integer("recorded_periods", &BriefLook::recorded_periods, between(4, 1e5), "Mesh periods recorded [-].");
-    t.integer("classification_periods", &BriefLook::classification_periods, between(0, 1e7),
-              "Mesh periods in which the regime may be looked for beyond the record [-]; 0: what does not recur counts "
-              "as chaotic.");
-    t.number("relative_tolerance", &BriefLook::relative_tolerance, between(1e-12, 1e-2),
-             "Relative and absolute tolerance [-].");
+    using studies::SurveyOptions;
+    Table<SurveyOptions> t("survey", "Draws from the ranges of the parameters.");
+    t.integer("draws", &SurveyOptions::draws, between(1, 1e7), "Completions that are drawn [-].");
+    t.integer("seed", &SurveyOptions::seed, between(0, 1e9), "Seed of their random numbers [-].");
+    t.object("look", &SurveyOptions::look, survey_look_table());
     return t;
   }();
   return table;

@@ -19,6 +19,7 @@ namespace epicyclic::input {
 [[nodiscard]] const Table<studies::BriefLook>& brief_look_table();
 [[nodiscard]] const Table<studies::FreeParameter>& free_parameter_table();
 [[nodiscard]] const Table<studies::Choice>& choice_table();
+[[nodiscard]] const Table<studies::SurveyOptions>& survey_options_table();
 [[nodiscard]] const Table<studies::SearchOptions>& search_options_table();
 
 }  // namespace epicyclic::input

@@ -888,6 +888,7 @@ const Table<Study>& claims_table() {
     t.objects("choices", of_space(&studies::ParameterSpace::choices), choice_table(), 100,
               "Readings between which what is published does not decide.");
     t.object("search", of(&ClaimsOptions::search), search_options_table());
+    t.object("survey", of(&ClaimsOptions::survey), survey_options_table());
     return t;
   }();
   return table;

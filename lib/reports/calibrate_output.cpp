@@ -10,6 +10,7 @@
 
 #include "core/csv.hpp"
 #include "core/text.hpp"
+#include "reports/variable_words.hpp"
 
 namespace epicyclic::reports {
 
@@ -26,30 +27,6 @@ std::string phase_name(const ClaimsOptions& options, std::size_t phase) {
   return phase == islands ? "refinement" : "profile";
 }
 
-/// A variable of the unit cube.
-std::string variable_name(const ClaimsOptions& options, std::size_t variable) {
-  const studies::ParameterSpace& space = options.space;
-  if (variable < space.parameters.size()) return space.parameters[variable].name;
-  return space.choices[variable - space.parameters.size()].name;
-}
-
-/// What a variable is at a place of the cube: a number, or an option.
-std::string variable_text(const ClaimsOptions& options, std::size_t variable, double u, int digits) {
-  const studies::ParameterSpace& space = options.space;
-  if (variable < space.parameters.size()) return short_text(space.parameters[variable].at(u), digits);
-  const studies::Choice& choice = space.choices[variable - space.parameters.size()];
-  return choice.options[choice.at(u)].name;
-}
-
-void add_variables(CsvWriter& csv, const ClaimsOptions& options, const std::vector<double>& u) {
-  for (std::size_t k = 0; k < u.size(); ++k) {
-    if (k < options.space.parameters.size())
-      csv.cell(options.space.parameters[k].at(u[k]));
-    else
-      csv.cell(variable_text(options, k, u[k], 0));
-  }
-}
-
 std::size_t claims_met(const studies::Evaluation& evaluation) {
   return static_cast<std::size_t>(std::ranges::count(evaluation.holds, 1));
 }
@@ -60,14 +37,13 @@ void write_candidates_csv(const std::filesystem::path& file, const CalibrateOutp
                           const studies::KnownEvaluations& evaluations) {
   const ClaimsOptions& options = output.options;
   std::vector<std::string> columns = {"phase", "number", "cost", "given_up", "claims_met"};
-  for (std::size_t k = 0; k < options.space.dimension(); ++k) columns.push_back(variable_name(options, k));
-  for (const studies::Claim& claim : options.claims) columns.push_back("cost_" + claim.name);
+  const auto more = candidate_columns(options);
+  columns.insert(columns.end(), more.begin(), more.end());
   CsvWriter csv(file, columns);
   for (const auto& [key, c] : evaluations) {
     csv.cell(phase_name(options, key.phase)).cell(key.number).cell(c.evaluation.cost);
     csv.cell(c.evaluation.given_up ? 1 : 0).cell(claims_met(c.evaluation));
-    add_variables(csv, options, c.u);
-    for (const double cost : c.evaluation.claim_costs) csv.cell(cost);
+    add_candidate_cells(csv, options, c.u, c.evaluation.claim_costs);
     csv.end_row();
   }
   csv.commit();
@@ -80,7 +56,7 @@ void write_profile_csv(const std::filesystem::path& file, const CalibrateOutput&
   for (const studies::Claim& claim : options.claims) columns.push_back("cost_" + claim.name);
   CsvWriter csv(file, columns);
   for (const studies::ProfilePoint& p : calibration.profile) {
-    csv.cell(variable_name(options, p.variable)).cell(variable_text(options, p.variable, p.u, 17));
+    csv.cell(variable_name(options.space, p.variable)).cell(variable_text(options.space, p.variable, p.u, 17));
     csv.cell(p.evaluation.cost).cell(claims_met(p.evaluation));
     for (const double cost : p.evaluation.claim_costs) csv.cell(cost);
     csv.end_row();
@@ -92,7 +68,7 @@ namespace {
 
 /// The range of a variable in the profile where the cost stays below that of the result and one claim more.
 std::string determined_text(const CalibrateOutput& output, const Calibration& calibration, std::size_t variable) {
-  const double bound = calibration.best.evaluation.cost + 1.0;
+  const double bound = calibration.best->evaluation.cost + 1.0;
   double least = std::numeric_limits<double>::infinity();
   double most = -least;
   std::size_t good = 0;
@@ -108,14 +84,15 @@ std::string determined_text(const CalibrateOutput& output, const Calibration& ca
   if (all == 0) return "";
   if (good == 0) return "no other value tried";
   if (good == all) return "any";
-  return variable_text(output.options, variable, least, 4) + " to " + variable_text(output.options, variable, most, 4);
+  return variable_text(output.options.space, variable, least, 4) + " to " +
+         variable_text(output.options.space, variable, most, 4);
 }
 
 }  // namespace
 
 std::string calibrate_summary(const CalibrateOutput& output, const Calibration& calibration) {
   const ClaimsOptions& options = output.options;
-  const EvaluatedCandidate& best = calibration.best;
+  const EvaluatedCandidate& best = calibration.best.value();
   std::size_t given_up = 0;
   std::size_t refused = 0;
   for (const auto& [key, c] : calibration.evaluations) {
@@ -127,6 +104,7 @@ std::string calibrate_summary(const CalibrateOutput& output, const Calibration& 
       "{} candidates, {} of them given up early, {} refused as no valid stage; seed {}, {} islands of {}.\n\n",
       calibration.evaluations.size(), given_up, refused, options.search.seed, options.search.islands,
       options.search.population);
+  if (!calibration.complete) text += "Stopped before its end.\n\n";
   text += fmt::format("Best: {} of {} claims by the brief look, cost {}; found by {}, candidate {}.\n\n",
                       claims_met(best.evaluation), options.claims.size(), short_text(best.evaluation.cost, 5),
                       phase_name(options, best.key.phase), best.key.number);
@@ -139,13 +117,13 @@ std::string calibrate_summary(const CalibrateOutput& output, const Calibration& 
       "| parameter | range | result | determined to |\n|---|---|---|---|\n";
   for (std::size_t k = 0; k < options.space.dimension(); ++k) {
     std::string range;
-    std::string words = variable_name(options, k);
+    std::string words = variable_name(options.space, k);
     if (k < options.space.parameters.size()) {
       const studies::FreeParameter& p = options.space.parameters[k];
       range = short_text(p.from, 4) + " to " + short_text(p.to, 4);
       if (!p.words.empty()) words += ", " + p.words;
     }
-    text += fmt::format("| {} | {} | {} | {} |\n", words, range, variable_text(options, k, best.u[k], 4),
+    text += fmt::format("| {} | {} | {} | {} |\n", words, range, variable_text(options.space, k, best.u[k], 4),
                         determined_text(output, calibration, k));
   }
   return text;

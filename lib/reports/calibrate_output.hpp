@@ -3,7 +3,6 @@
 //   candidates.csv   a row per candidate: phase, number, cost, its parameters, the cost of each claim
 //   profile.csv      the cost along each parameter through the result, all others held
 //   calibrate.md     in words: what was searched, the result, which claims it meets, how sharply it is determined
-//   figures/         the profile
 //
 // All of it follows from the evaluations alone and is the same, byte for byte, for the same study.
 #pragma once
@@ -19,8 +18,7 @@ namespace epicyclic::reports {
 
 struct CalibrateOutput {
   studies::ClaimsOptions options;
-  std::string name;   ///< of the study
-  std::string title;  ///< of the figures
+  std::string name;  ///< of the study
 };
 
 /// @throws OutputError
@@ -31,7 +29,7 @@ void write_candidates_csv(const std::filesystem::path& file, const CalibrateOutp
 void write_profile_csv(const std::filesystem::path& file, const CalibrateOutput& output,
                        const studies::Calibration& calibration);
 
-/// Text of calibrate.md.
+/// Text of calibrate.md, of a search that has a best candidate.
 [[nodiscard]] std::string calibrate_summary(const CalibrateOutput& output, const studies::Calibration& calibration);
 
 }  // namespace epicyclic::reports

@@ -17,6 +17,7 @@
 #include <pagmo/problem.hpp>
 
 #include "core/errors.hpp"
+#include "core/random_numbers.hpp"
 #include "studies/units.hpp"
 
 namespace epicyclic::studies {
@@ -99,12 +100,9 @@ struct CostProblem {
   }
 };
 
-/// Bits that differ between islands and seeds: SplitMix64 of both.
+/// Of an island, for one of two uses.
 unsigned seed_of(int seed, std::size_t island, unsigned use) {
-  std::uint64_t z = static_cast<std::uint64_t>(seed) * 0x9E3779B97F4A7C15ULL + island * 0xD1B54A32D192ED03ULL + use;
-  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
-  return static_cast<unsigned>((z ^ (z >> 31U)) & 0xFFFFFFFFU);
+  return static_cast<unsigned>(random_bits(static_cast<std::uint64_t>(seed), 2 * island + use) & 0xFFFFFFFFU);
 }
 
 class Island {
@@ -131,7 +129,7 @@ class Island {
     phase_.thread = thread;
     const SearchOptions& options = phase_.search->options().search;
     const auto size = static_cast<std::size_t>(options.population);
-    population_ = pagmo::population(problem_, 0, seed_of(options.seed, phase_.index, 2));
+    population_ = pagmo::population(problem_, 0, seed_of(options.seed, phase_.index, 0));
     if (options.method == SearchMethod::covariance_adaptation && !first.empty()) {
       // It begins about the best of its population; of that the rest is not asked for.
       population_.push_back(first.front());
@@ -238,28 +236,36 @@ std::size_t most_evaluations(const ClaimsOptions& options) {
          static_cast<std::size_t>(s.refinement) + profile_places(options).size();
 }
 
-std::optional<Calibration> calibrate(const ClaimsOptions& options, const Evaluator& evaluate,
-                                     const std::vector<std::vector<double>>& first, CalibrationRun run) {
+Calibration calibrate(const ClaimsOptions& options, const Evaluator& evaluate,
+                      const std::vector<std::vector<double>>& first, CalibrationRun run) {
   Search search(options, evaluate, std::move(run));
   Calibration result;
-  try {
-    if (!run_islands(search, first)) return std::nullopt;
+  const auto keep_best = [&] {
+    if (const EvaluatedCandidate* best = search.best()) result.best = *best;
+  };
+  const auto run_all = [&] {
+    if (!run_islands(search, first)) return false;
     refine(search);
-    const EvaluatedCandidate* best = search.best();
-    if (best == nullptr) throw InputError("no candidate could be evaluated");
-    result.best = *best;
+    keep_best();
+    if (!result.best) throw InputError("no candidate is a valid stage");
     const auto places = profile_places(options);
     result.profile.resize(places.size());
     const auto profile_phase = static_cast<std::size_t>(options.search.islands) + 1;
-    const bool all = for_units(places.size(), search.run().threads, search.run().stop, [&](std::size_t k) {
-      std::vector<double> u = result.best.u;
+    return for_units(places.size(), search.run().threads, search.run().stop, [&](std::size_t k) {
+      std::vector<double> u = result.best->u;
       u[places[k].first] = places[k].second;
       const EvaluatedCandidate& c = search.evaluate({profile_phase, k}, u, std::numeric_limits<double>::infinity(), k);
       result.profile[k] = {places[k].first, places[k].second, c.evaluation};
     });
-    if (!all) return std::nullopt;
+  };
+  try {
+    result.complete = run_all();
   } catch (const EvaluationStopped&) {
-    return std::nullopt;
+    result.complete = false;
+  }
+  if (!result.complete) {
+    keep_best();
+    result.profile.clear();
   }
   result.evaluations = search.take_all();
   return result;

@@ -53,18 +53,18 @@ struct ProfilePoint {
 };
 
 struct Calibration {
-  KnownEvaluations evaluations;  ///< all of them
-  EvaluatedCandidate best;
-  std::vector<ProfilePoint> profile;  ///< by variable, then u
+  bool complete = false;                   ///< not stopped
+  KnownEvaluations evaluations;            ///< all of them
+  std::optional<EvaluatedCandidate> best;  ///< so far, if it was stopped; nothing before the first
+  std::vector<ProfilePoint> profile;       ///< by variable, then u; of a complete search
 };
 
 /// How many evaluations there are at the most.
 [[nodiscard]] std::size_t most_evaluations(const ClaimsOptions& options);
 
 /// @param first  candidates that the first island begins with, as points of the unit cube
-/// @returns nothing if stopped
 /// @throws InputError when kept evaluations are not those that this search asks for, or none is of a valid candidate
-[[nodiscard]] std::optional<Calibration> calibrate(const ClaimsOptions& options, const Evaluator& evaluate,
-                                                   const std::vector<std::vector<double>>& first, CalibrationRun run);
+[[nodiscard]] Calibration calibrate(const ClaimsOptions& options, const Evaluator& evaluate,
+                                    const std::vector<std::vector<double>>& first, CalibrationRun run);
 
 }  // namespace epicyclic::studies

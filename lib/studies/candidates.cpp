@@ -9,7 +9,9 @@
 
 namespace epicyclic::studies {
 
-integrate::IntegratorOptions brief_integrator(const BriefLook& brief) {
+namespace {
+
+integrate::IntegratorOptions integrator_of(const BriefLook& brief) {
   integrate::IntegratorOptions integrator;
   integrator.method = "lanes-cash-karp";
   integrator.relative_tolerance = brief.relative_tolerance;
@@ -17,31 +19,38 @@ integrate::IntegratorOptions brief_integrator(const BriefLook& brief) {
   return integrator;
 }
 
-LookOptions brief_look(const ClaimsOptions& options) {
+LookOptions look_of(const ClaimsOptions& options, const BriefLook& brief) {
   LookOptions look = options.look;
   look.transient = Transient::fixed;
-  look.transient_periods = options.brief.transient_periods;
-  look.recorded_periods = options.brief.recorded_periods;
-  look.classification_periods = options.brief.classification_periods;
-  look.period_max = std::min(look.period_max, options.brief.recorded_periods / 2);
+  look.transient_periods = brief.transient_periods;
+  look.recorded_periods = brief.recorded_periods;
+  look.classification_periods = brief.classification_periods;
+  look.period_max = std::min(look.period_max, brief.recorded_periods / 2);
   look.keep = Keep::section;
   return look;
 }
 
-void look_briefly(const ClaimsOptions& options, const SweepModels& models, const std::vector<const ClaimSweep*>& sweeps,
-                  std::size_t thread, const std::atomic<bool>* stop, ClaimRecord& record) {
+}  // namespace
+
+Glance search_glance(const ClaimsOptions& options) { return {options.brief, &ClaimSweep::brief_points}; }
+
+Glance survey_glance(const ClaimsOptions& options) { return {options.survey.look, &ClaimSweep::survey_points}; }
+
+void look_briefly(const ClaimsOptions& options, const Glance& glance, const SweepModels& models,
+                  const std::vector<const ClaimSweep*>& sweeps, std::size_t thread, const std::atomic<bool>* stop,
+                  ClaimRecord& record) {
   // All points of all sweeps are cells of one plan, so that they share the lanes.
   std::vector<std::pair<const ClaimSweep*, double>> cells;
   for (const ClaimSweep* sweep : sweeps) {
     Axis axis = sweep->axis;
-    axis.points = std::min(axis.points, sweep->brief_points);
+    axis.points = std::min(axis.points, sweep->*glance.points);
     for (const double value : axis_values(axis)) cells.emplace_back(sweep, value);
   }
   PlanGrid grid;
   grid.first = {"cell", 0.0, static_cast<double>(cells.size() - 1), static_cast<int>(cells.size())};
   grid.directions = {Direction::up};
   grid.chains_per_line = cells.size();
-  const LookOptions look = brief_look(options);
+  const LookOptions look = look_of(options, glance.look);
   SweepRun run;
   run.stop = stop;
   run.process = thread;
@@ -50,7 +59,7 @@ void look_briefly(const ClaimsOptions& options, const SweepModels& models, const
     return models(*sweep, value);
   };
   std::vector<PointResult> results =
-      run_sweep_in_memory(SweepPlan(grid), look, brief_integrator(options.brief), model_at, std::move(run));
+      run_sweep_in_memory(SweepPlan(grid), look, integrator_of(glance.look), model_at, std::move(run));
   if (results.size() < cells.size()) throw EvaluationStopped();
   for (std::size_t k = 0; k < cells.size(); ++k) {
     results[k].point.value = cells[k].second;
@@ -58,8 +67,8 @@ void look_briefly(const ClaimsOptions& options, const SweepModels& models, const
   }
 }
 
-Evaluation evaluate(const ClaimsOptions& options, const SweepModels& models, double give_up_at, std::size_t thread,
-                    const std::atomic<bool>* stop) {
+Evaluation evaluate(const ClaimsOptions& options, const Glance& glance, const SweepModels& models, double give_up_at,
+                    std::size_t thread, const std::atomic<bool>* stop) {
   Evaluation evaluation;
   evaluation.cost = 0.0;
   evaluation.claim_costs.assign(options.claims.size(), std::numeric_limits<double>::quiet_NaN());
@@ -76,7 +85,7 @@ Evaluation evaluate(const ClaimsOptions& options, const SweepModels& models, dou
     std::vector<const ClaimSweep*> sweeps;
     for (const ClaimSweep& sweep : options.sweeps)
       if (sweep.round == round) sweeps.push_back(&sweep);
-    look_briefly(options, models, sweeps, thread, stop, record);
+    look_briefly(options, glance, models, sweeps, thread, stop, record);
     for (std::size_t k = 0; k < options.claims.size(); ++k) {
       const Claim& claim = options.claims[k];
       const auto names = sweeps_of(claim);
@@ -91,26 +100,27 @@ Evaluation evaluate(const ClaimsOptions& options, const SweepModels& models, dou
   return evaluation;
 }
 
-Evaluator by_brief_looks(const ClaimsOptions& options, CandidateModels models, const std::atomic<bool>* stop) {
-  return
-      [&options, models = std::move(models), stop](std::span<const double> u, double give_up_at, std::size_t thread) {
-        const auto refused = [&](const std::string& why) {
-          Evaluation evaluation;
-          evaluation.cost = 1.0;
-          for (const Claim& claim : options.claims) evaluation.cost += claim.weight;
-          evaluation.claim_costs.assign(options.claims.size(), 1.0);
-          evaluation.holds.assign(options.claims.size(), 0);
-          evaluation.refused = why;
-          return evaluation;
-        };
-        try {
-          return evaluate(options, models(u), give_up_at, thread, stop);
-        } catch (const InputError& error) {
-          return refused(error.what());
-        } catch (const DomainError& error) {
-          return refused(error.what());
-        }
-      };
+Evaluator by_glances(const ClaimsOptions& options, const Glance& glance, CandidateModels models,
+                     const std::atomic<bool>* stop) {
+  return [&options, glance, models = std::move(models), stop](std::span<const double> u, double give_up_at,
+                                                              std::size_t thread) {
+    const auto refused = [&](const std::string& why) {
+      Evaluation evaluation;
+      evaluation.cost = 1.0;
+      for (const Claim& claim : options.claims) evaluation.cost += claim.weight;
+      evaluation.claim_costs.assign(options.claims.size(), 1.0);
+      evaluation.holds.assign(options.claims.size(), 0);
+      evaluation.refused = why;
+      return evaluation;
+    };
+    try {
+      return evaluate(options, glance, models(u), give_up_at, thread, stop);
+    } catch (const InputError& error) {
+      return refused(error.what());
+    } catch (const DomainError& error) {
+      return refused(error.what());
+    }
+  };
 }
 
 }  // namespace epicyclic::studies

@@ -33,9 +33,15 @@ struct Evaluation {
   std::vector<char> holds;          ///< of each claim: 1 if it holds, 0 if not, or not known
 };
 
-/// How a brief look integrates.
-[[nodiscard]] integrate::IntegratorOptions brief_integrator(const BriefLook& brief);
-[[nodiscard]] LookOptions brief_look(const ClaimsOptions& options);
+/// A way of looking at candidates: how long, and at how many points of each sweep.
+struct Glance {
+  BriefLook look;
+  int ClaimSweep::*points = &ClaimSweep::brief_points;
+};
+
+/// Of a search, and of a survey.
+[[nodiscard]] Glance search_glance(const ClaimsOptions& options);
+[[nodiscard]] Glance survey_glance(const ClaimsOptions& options);
 
 /// Stopped from outside before it was finished: nothing is known.
 class EvaluationStopped {};
@@ -43,22 +49,23 @@ class EvaluationStopped {};
 /// @param thread  which of those side by side asks
 /// @param stop    may be null
 /// @throws EvaluationStopped
-[[nodiscard]] Evaluation evaluate(const ClaimsOptions& options, const SweepModels& models, double give_up_at,
-                                  std::size_t thread, const std::atomic<bool>* stop);
+[[nodiscard]] Evaluation evaluate(const ClaimsOptions& options, const Glance& glance, const SweepModels& models,
+                                  double give_up_at, std::size_t thread, const std::atomic<bool>* stop);
 
 /// Evaluates a candidate; called from several threads at once.
 /// @throws EvaluationStopped
 using Evaluator = std::function<Evaluation(std::span<const double> u, double give_up_at, std::size_t thread)>;
 
-/// By brief looks at the models of candidates; one whose models are refused costs more than any other. `options` must
+/// By glances at the models of candidates; one whose models are refused costs more than any other. `options` must
 /// outlive the result.
 /// @param stop  may be null
-[[nodiscard]] Evaluator by_brief_looks(const ClaimsOptions& options, CandidateModels models,
-                                       const std::atomic<bool>* stop);
+[[nodiscard]] Evaluator by_glances(const ClaimsOptions& options, const Glance& glance, CandidateModels models,
+                                   const std::atomic<bool>* stop);
 
-/// The brief look's record of some sweeps.
+/// The record of some sweeps by a glance.
 /// @throws EvaluationStopped
-void look_briefly(const ClaimsOptions& options, const SweepModels& models, const std::vector<const ClaimSweep*>& sweeps,
-                  std::size_t thread, const std::atomic<bool>* stop, ClaimRecord& record);
+void look_briefly(const ClaimsOptions& options, const Glance& glance, const SweepModels& models,
+                  const std::vector<const ClaimSweep*>& sweeps, std::size_t thread, const std::atomic<bool>* stop,
+                  ClaimRecord& record);
 
 }  // namespace epicyclic::studies

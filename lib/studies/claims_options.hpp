@@ -30,8 +30,9 @@ struct ClaimSweep {
   Axis axis = {speed_parameter, 0.2, 3.5, 661};
   std::vector<SetValue> at;  ///< what differs from the study besides
   std::vector<Direction> directions = {Direction::up};
-  int brief_points = 30;  ///< of a brief look, cold
-  int round = 0;          ///< a brief look takes sweeps of a round only if those of earlier rounds leave hope
+  int brief_points = 30;   ///< of a brief look, cold
+  int survey_points = 60;  ///< of a survey's look, cold
+  int round = 0;           ///< a brief look takes sweeps of a round only if those of earlier rounds leave hope
 };
 
 enum class ConditionKind {
@@ -123,6 +124,13 @@ struct BriefLook {
   double relative_tolerance = 1e-5;
 };
 
+/// Draws from the ranges: how robust is what is claimed to what is not said?
+struct SurveyOptions {
+  int draws = 1000;
+  int seed = 1;
+  BriefLook look = {.recorded_periods = 64, .classification_periods = 512};
+};
+
 enum class SearchMethod {
   differential_evolution,  ///< looks everywhere
   covariance_adaptation,   ///< goes on from the stage as it is given
@@ -149,6 +157,7 @@ struct ClaimsOptions {
   BriefLook brief;
   ParameterSpace space;
   SearchOptions search;
+  SurveyOptions survey;
 
   /// What is wrong, each at its place below the study: ("/claims/3/conditions/0/motion", "is ..., must be ...").
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> problems() const;

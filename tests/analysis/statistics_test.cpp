@@ -92,5 +92,36 @@ TEST(SeriesMean, SmallAndWrongSeries) {
   EXPECT_FALSE(overlap({1.0, 0.4}, {2.0, 0.5}));
 }
 
+// Wilson's score interval of 8 of 10 without correction for continuity, to the digits of Newcombe, Stat. Med. 17 (1998)
+// 857, method 3: 0.4902 to 0.9433; of 0 of 20, 0 to 0.1611 (his table I).
+TEST(Fraction, HasWilsonsInterval) {
+  constexpr double printed = 5e-5;
+  const Interval most = fraction(8, 10);
+  EXPECT_EQ(most.value, 0.8);
+  EXPECT_NEAR(most.low, 0.4902, printed);
+  EXPECT_NEAR(most.high, 0.9433, printed);
+  EXPECT_EQ(fraction(0, 20).low, 0.0);
+  EXPECT_NEAR(fraction(0, 20).high, 0.1611, printed);
+  EXPECT_EQ(fraction(20, 20).high, 1.0);
+  EXPECT_TRUE(std::isnan(fraction(0, 0).value));
+}
+
+TEST(RankCorrelation, IsOfRanksAlone) {
+  const std::vector<double> x = {1.0, 2.0, 3.0, 4.0, 5.0};
+  // 1 - 6 sum d^2 / (n (n^2 - 1)) with d^2 of 1, 1, 1, 1, 0.
+  const std::vector<double> y = {-2.0, -30.0, 1e6, 7.0, 1e9};
+  const Interval r = rank_correlation(x, y);
+  constexpr double rounding = 1e-12;
+  EXPECT_NEAR(r.value, 0.8, rounding);
+  constexpr double normal = 1.959963984540054;
+  const double half = normal * std::sqrt(1.06 / 2.0);
+  EXPECT_NEAR(r.low, std::tanh(std::atanh(0.8) - half), rounding);
+  EXPECT_NEAR(r.high, std::tanh(std::atanh(0.8) + half), rounding);
+  EXPECT_NEAR(rank_correlation(x, x).value, 1.0, rounding);
+  EXPECT_TRUE(std::isnan(rank_correlation(x, std::vector<double>(5, 1.0)).value));
+  EXPECT_TRUE(std::isnan(rank_correlation(std::vector<double>{1, 2, 3}, std::vector<double>{1, 2, 3}).value));
+  EXPECT_THROW((void)rank_correlation(x, std::vector<double>{1.0}), DomainError);
+}
+
 }  // namespace
 }  // namespace epicyclic::analysis

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # claims.sh EPICYCLIC SOURCE_DIR
 #
-# `reproduce` and `calibrate` of a small study of claims: scorecard, figures, what is recorded; the same bytes for any
-# number of threads, and after a stop; the result as an input; bad input.
+# `reproduce`, `calibrate` and `robustness` of a small study of claims: scorecard, figures, what is recorded; the same
+# bytes for any number of threads, and after a stop; the result as an input; bad input.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 
@@ -85,6 +85,16 @@ grep -q 'calibrated: by claims of small, seed 3' c1/stage.json || fail "no origi
 [ "$(code_of "$epicyclic" gear c1/stage.json -o g)" = 0 ] || fail "its stage as an input: $(<stderr)"
 # The first candidate is the stage as it is given.
 [ "$(sed -n 2p c1/candidates.csv | cut -d, -f6,8)" = 2,400 ] || fail "the first candidate: $(sed -n 2p c1/candidates.csv)"
+
+# The survey of draws: the same bytes for any number of threads.
+[ "$(code_of "$epicyclic" robustness claims.json -o r1 --threads 1 --set /study/survey/draws=6)" = 0 ] || fail "robustness: $(<stderr)"
+grep -q '^| A | little is chaotic |' stdout || fail "no table: $(<stdout)"
+[ "$(code_of "$epicyclic" robustness claims.json -o r2 --threads 2 --set /study/survey/draws=6)" = 0 ] || fail "two threads: $(<stderr)"
+for file in draws.csv robustness.csv influence.csv robustness.md figures/robustness.dat; do
+  cmp -s "r1/$file" "r2/$file" || fail "$file differs with two threads"
+done
+[ "$(wc -l <r1/draws.csv)" = 7 ] || fail "not a row per draw"
+[ -s r1/figures/influence.png ] || fail "no figure"
 
 # Bad input; nothing is written.
 refused() {

@@ -49,10 +49,11 @@ Calibration search(const ClaimsOptions& options, int threads, KnownEvaluations k
   CalibrationRun run;
   run.threads = threads;
   run.known = std::move(known);
-  return calibrate(
-             options, [](std::span<const double> u, double give_up_at, std::size_t) { return rippled(u, give_up_at); },
-             first, run)
-      .value();
+  Calibration found = calibrate(
+      options, [](std::span<const double> u, double give_up_at, std::size_t) { return rippled(u, give_up_at); }, first,
+      run);
+  EXPECT_TRUE(found.complete);
+  return found;
 }
 
 bool same(const KnownEvaluations& a, const KnownEvaluations& b) {
@@ -69,8 +70,8 @@ TEST(Calibration, FindsTheDeepestOfManyValleys) {
     options.search.method = method;
     options.search.spread = 0.3;
     const Calibration found = search(options, 1, {}, {std::vector<double>(5, 0.5)});
-    EXPECT_LT(found.best.evaluation.cost, 1e-3);
-    for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(found.best.u[k], 0.2 + 0.1 * static_cast<double>(k), 0.01);
+    EXPECT_LT(found.best->evaluation.cost, 1e-3);
+    for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(found.best->u[k], 0.2 + 0.1 * static_cast<double>(k), 0.01);
     EXPECT_LE(found.evaluations.size(), most_evaluations(options) + 2 * 5);  // a compass ends a round that it began
     ASSERT_EQ(found.profile.size(), 25U);
     EXPECT_EQ(found.profile[4].u, 1.0);
@@ -104,11 +105,14 @@ TEST(Calibration, GoesOnFromWhatWasKept) {
     }
     return rippled(u, give_up_at);
   };
-  EXPECT_FALSE(calibrate(options, until_stopped, {}, run).has_value());
+  const Calibration stopped = calibrate(options, until_stopped, {}, run);
+  EXPECT_FALSE(stopped.complete);
+  EXPECT_EQ(stopped.evaluations.size(), 99U);
+  EXPECT_TRUE(stopped.best.has_value());
   EXPECT_EQ(kept.size(), 99U);
   const Calibration resumed = search(options, 2, kept);
   EXPECT_TRUE(same(whole.evaluations, resumed.evaluations));
-  EXPECT_EQ(whole.best.u, resumed.best.u);
+  EXPECT_EQ(whole.best->u, resumed.best->u);
 }
 
 TEST(Calibration, RefusesEvaluationsOfAnotherSearch) {
@@ -125,7 +129,7 @@ TEST(Calibration, BeginsWithTheStageAsItIsGiven) {
   const std::vector<double> given = {0.2, 0.3, 0.4};
   const Calibration found = search(options, 1, {}, {given});
   EXPECT_EQ(found.evaluations.at({0, 0}).u, given);
-  EXPECT_EQ(found.best.u, given);
+  EXPECT_EQ(found.best->u, given);
 }
 
 TEST(ParameterSpace, MapsTheUnitCube) {

@@ -1,0 +1,68 @@
+#include "candidate_journal.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/text.hpp"
+#include "folder.hpp"
+#include "stop.hpp"
+#include "store/candidate_record.hpp"
+
+namespace epicyclic::app {
+
+namespace {
+
+/// @param finished  set to the number of records
+studies::KnownEvaluations read_known(const store::Journal& journal, std::size_t& finished) {
+  studies::KnownEvaluations known;
+  for (const store::JournalEntry& entry : journal.entries()) {
+    studies::EvaluatedCandidate c = store::decode_candidate(journal.read(entry));
+    known.insert_or_assign(c.key, std::move(c));
+    ++finished;
+  }
+  return known;
+}
+
+}  // namespace
+
+CandidateJournal::CandidateJournal(Session& session, const std::string& command, std::size_t total, std::size_t claims)
+    : journal_(session.folder().file("journal.bin"), session.identity()),
+      known_(read_known(journal_, finished_)),
+      claims_(claims),
+      progress_(command, total, finished_) {
+  tell_cut_tail(session.folder().file("journal.bin"), journal_.cut_bytes());
+  for (const auto& [key, candidate] : known_) see(candidate);
+}
+
+studies::CalibrationRun CandidateJournal::run(int threads) {
+  studies::CalibrationRun run;
+  run.threads = threads;
+  run.stop = &stop_requested();
+  run.known = std::move(known_);
+  run.evaluated = [this](const studies::EvaluatedCandidate& candidate) {
+    journal_.append(finished_, store::encode_candidate(candidate));
+    see(candidate);
+    progress_.update(++finished_, words());
+  };
+  return run;
+}
+
+void CandidateJournal::see(const studies::EvaluatedCandidate& candidate) {
+  const studies::Evaluation& e = candidate.evaluation;
+  if (e.given_up) return;
+  least_ = std::min(least_, e.cost);
+  most_ = std::max(most_, static_cast<std::size_t>(std::ranges::count(e.holds, 1)));
+}
+
+std::string CandidateJournal::words() const {
+  return fmt::format("least cost {}, at most {} of {} claims", short_text(least_, 4), most_, claims_);
+}
+
+void CandidateJournal::close() {
+  progress_.finish();
+  journal_.close();
+}
+
+}  // namespace epicyclic::app

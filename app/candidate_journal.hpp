@@ -1,0 +1,42 @@
+// Evaluated candidates of a search or a survey: those of earlier sessions, and new ones kept as they come.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string>
+
+#include "progress.hpp"
+#include "session.hpp"
+#include "store/journal.hpp"
+#include "studies/calibration.hpp"
+
+namespace epicyclic::app {
+
+class CandidateJournal {
+ public:
+  /// @param command  for the progress line
+  /// @param total    evaluations at the most
+  CandidateJournal(Session& session, const std::string& command, std::size_t total, std::size_t claims);
+  CandidateJournal(const CandidateJournal&) = delete;
+  CandidateJournal& operator=(const CandidateJournal&) = delete;
+
+  /// What a search or a survey is run with. This has to outlive it.
+  [[nodiscard]] studies::CalibrationRun run(int threads);
+
+  [[nodiscard]] std::size_t finished() const { return finished_; }
+  void close();
+
+ private:
+  void see(const studies::EvaluatedCandidate& candidate);
+  [[nodiscard]] std::string words() const;
+
+  store::Journal journal_;
+  studies::KnownEvaluations known_;
+  std::size_t finished_ = 0;
+  std::size_t claims_ = 0;
+  std::size_t most_ = 0;  ///< claims that one candidate meets
+  double least_ = std::numeric_limits<double>::infinity();
+  Progress progress_;
+};
+
+}  // namespace epicyclic::app

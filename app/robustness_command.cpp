@@ -1,0 +1,79 @@
+// epicyclic robustness: how robust claims are to what is not published: stages drawn from the ranges of it.
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "candidate_journal.hpp"
+#include "commands.hpp"
+#include "core/atomic_file.hpp"
+#include "core/errors.hpp"
+#include "folder.hpp"
+#include "input/claims_input.hpp"
+#include "input/study_model.hpp"
+#include "reports/robustness_output.hpp"
+#include "session.hpp"
+#include "stop.hpp"
+#include "streams.hpp"
+#include "studies/robustness.hpp"
+
+namespace epicyclic::app {
+
+int robustness_command(const Arguments& arguments) {
+  stop_on_signals();
+  const std::vector<input::Assignment> sets = input::parse_assignments(arguments.sets);
+  const input::LoadedInput input = input::load_input(arguments.input, sets);
+  require_kind(input, arguments, "claims");
+  const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
+  if (options.space.dimension() == 0) throw InputError("/study/parameters: is empty; there is nothing to draw");
+  const studies::CandidateModels models = input::candidate_models(arguments.input, sets, options);
+  require_models(options, models(std::vector<double>(options.space.dimension(), 0.5)));
+  tell_warnings(input);
+
+  Session session(arguments, input, identity_of(input, "robustness"), arguments.threads);
+  if (const auto code = session.exit_code()) return *code;
+  const store::OutputFolder& folder = session.folder();
+  const auto draws = static_cast<std::size_t>(options.survey.draws);
+  CandidateJournal journal(session, "robustness", draws, options.claims.size());
+  const studies::KnownEvaluations evaluations =
+      studies::survey(options, studies::by_glances(options, studies::survey_glance(options), models, &stop_requested()),
+                      journal.run(arguments.threads));
+  journal.close();
+  std::int64_t undrawn = 0;
+  const auto close_run = [&](store::RunState state) {
+    session.end(state, {{"draws", static_cast<std::int64_t>(evaluations.size())}, {"undrawn", undrawn}});
+  };
+  if (evaluations.size() < draws) {
+    close_run(store::RunState::stopped);
+    tell("stopped after {} of {} draws; the same command goes on\n", evaluations.size(), draws);
+    return stopped_early;
+  }
+
+  folder.require_there();
+  const reports::RobustnessOutput output{options, input.study.name, studies::robustness(options, evaluations)};
+  reports::write_draws_csv(folder.file("draws.csv"), output, evaluations);
+  reports::write_robustness_tables(folder.path(), output);
+  const std::string summary = reports::robustness_summary(output, evaluations);
+  write_file_atomically(folder.file("robustness.md"), summary);
+  const auto figures = reports::draw_robustness_figures(folder.file("figures"), output);
+  undrawn = tell_undrawn(figures);
+  close_run(store::RunState::complete);
+  if (arguments.json) {
+    nlohmann::json told = {{"folder", folder.path().string()}, {"draws", draws}, {"claims", nlohmann::json::array()}};
+    for (std::size_t k = 0; k < options.claims.size(); ++k) {
+      const analysis::Interval& f = output.claims[k].fraction;
+      told["claims"].push_back(
+          {{"claim", options.claims[k].name}, {"fraction", f.value}, {"low", f.low}, {"high", f.high}});
+    }
+    print("{}\n", told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else {
+    print("{}\n", summary);
+    for (const auto& figure : figures)
+      if (figure.outcome.drawn()) print("figure: {}\n", figure.file.string());
+  }
+  return undrawn == 0 ? done : done_with_failures;
+}
+
+}  // namespace epicyclic::app

@@ -1,0 +1,194 @@
+#include "reports/robustness_output.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/csv.hpp"
+#include "core/text.hpp"
+#include "figures/sketch.hpp"
+#include "reports/variable_words.hpp"
+
+namespace epicyclic::reports {
+
+using analysis::Interval;
+using studies::ClaimRobustness;
+
+namespace {
+
+/// Does the interval leave out zero?
+bool is_told(const Interval& i) { return i.low > 0.0 || i.high < 0.0; }
+
+std::string percent(double part) { return short_text(100.0 * part, 3); }
+
+/// Variables by how much they decide a claim, the most first; those whose intervals hold zero are left out.
+std::vector<std::size_t> deciding(const ClaimRobustness& claim) {
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < claim.influences.size(); ++k)
+    if (is_told(claim.influences[k])) order.push_back(k);
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+    return std::abs(claim.influences[a].value) > std::abs(claim.influences[b].value);
+  });
+  return order;
+}
+
+}  // namespace
+
+void write_draws_csv(const std::filesystem::path& file, const RobustnessOutput& output,
+                     const studies::KnownEvaluations& evaluations) {
+  std::vector<std::string> columns = {"draw", "valid"};
+  for (const studies::Claim& claim : output.options.claims) columns.push_back("holds_" + claim.name);
+  const auto more = candidate_columns(output.options);
+  columns.insert(columns.end(), more.begin(), more.end());
+  CsvWriter csv(file, columns);
+  for (const auto& [key, c] : evaluations) {
+    csv.cell(key.number).cell(c.evaluation.refused.empty() ? 1 : 0);
+    for (const char holds : c.evaluation.holds) csv.cell(static_cast<int>(holds));
+    add_candidate_cells(csv, output.options, c.u, c.evaluation.claim_costs);
+    csv.end_row();
+  }
+  csv.commit();
+}
+
+void write_robustness_tables(const std::filesystem::path& folder, const RobustnessOutput& output) {
+  CsvWriter parts(folder / "robustness.csv", {"claim", "draws", "holds", "fraction", "fraction_low", "fraction_high"});
+  CsvWriter influences(folder / "influence.csv",
+                       {"claim", "variable", "rank_correlation", "rank_correlation_low", "rank_correlation_high"});
+  for (std::size_t k = 0; k < output.claims.size(); ++k) {
+    const ClaimRobustness& claim = output.claims[k];
+    const std::string& name = output.options.claims[k].name;
+    parts.row(name, claim.draws, claim.holds, claim.fraction.value, claim.fraction.low, claim.fraction.high);
+    for (std::size_t v = 0; v < claim.influences.size(); ++v) {
+      const Interval& i = claim.influences[v];
+      influences.row(name, variable_name(output.options.space, v), i.value, i.low, i.high);
+    }
+  }
+  parts.commit();
+  influences.commit();
+}
+
+std::string robustness_summary(const RobustnessOutput& output, const studies::KnownEvaluations& evaluations) {
+  const studies::ClaimsOptions& options = output.options;
+  std::size_t refused = 0;
+  std::map<std::size_t, std::size_t> met;
+  for (const auto& [key, c] : evaluations) {
+    if (!c.evaluation.refused.empty())
+      ++refused;
+    else
+      ++met[static_cast<std::size_t>(std::ranges::count(c.evaluation.holds, 1))];
+  }
+  std::string text = fmt::format("# How robust claims are to what is not published: {}\n\n", output.name);
+  text += fmt::format("{} draws from the ranges, seed {}; {} of them are no valid stage and are left out.\n\n",
+                      evaluations.size(), options.survey.seed, refused);
+  text += "| claim | what | holds for | 95 % interval | decided by (rank correlation) |\n|---|---|---|---|---|\n";
+  constexpr std::size_t told = 4;
+  for (std::size_t k = 0; k < output.claims.size(); ++k) {
+    const ClaimRobustness& claim = output.claims[k];
+    std::string words;
+    const auto order = deciding(claim);
+    for (std::size_t j = 0; j < std::min(told, order.size()); ++j)
+      words += fmt::format("{}{} {}", j == 0 ? "" : ", ", variable_name(options.space, order[j]),
+                           short_text(claim.influences[order[j]].value, 2));
+    text +=
+        fmt::format("| {} | {} | {} % | {} to {} % | {} |\n", options.claims[k].name, options.claims[k].text,
+                    percent(claim.fraction.value), percent(claim.fraction.low), percent(claim.fraction.high), words);
+  }
+  text += "\nClaims met together | draws\n---|---\n";
+  for (const auto& [number, draws] : met) text += fmt::format("{} | {}\n", number, draws);
+  return text;
+}
+
+namespace {
+
+/// Cut at a blank, as long as fits beside a figure.
+std::string cut(const std::string& words, std::size_t longest) {
+  if (words.size() <= longest) return figures::literal_text(words);
+  return figures::literal_text(words.substr(0, words.rfind(' ', longest)) + " ...");
+}
+
+/// As high as its rows need.
+figures::FigureCanvas canvas_of(std::size_t rows) {
+  constexpr int row_height = 42;
+  constexpr int around = 260;
+  return {1800, around + row_height * static_cast<int>(rows)};
+}
+
+DrawnFigure draw_parts(const std::filesystem::path& folder, const RobustnessOutput& output) {
+  const std::size_t claims = output.claims.size();
+  figures::Sketch sketch("robustness");
+  figures::FigurePanel panel{"", {0.4, static_cast<double>(claims) + 0.6}, {}};
+  std::vector<std::array<double, 4>> bars;
+  for (std::size_t k = 0; k < claims; ++k) {
+    const Interval& f = output.claims[k].fraction;
+    const auto row = static_cast<double>(claims - k);
+    bars.push_back({100.0 * f.value, row, 100.0 * f.low, 100.0 * f.high});
+    constexpr std::size_t longest = 46;
+    const studies::Claim& claim = output.options.claims[k];
+    panel.names.emplace_back(row, cut(claim.name + "  " + claim.text, longest));
+  }
+  sketch.panel(panel);
+  sketch.add(bars,
+             fmt::format("xerrorbars pointtype 7 pointsize 0.8*mark linewidth 2 linecolor '{}'", figures::ink::blue));
+  const std::size_t draws = output.claims.empty() ? 0 : output.claims.front().draws;
+  constexpr double margin = 1.5;  // so that marks at both ends are whole
+  return {folder / "robustness.png", sketch.draw(folder,
+                                                 {fmt::format("{} stages drawn from the ranges", draws),
+                                                  "Part that meets the claim [%], interval at 95 %", ""},
+                                                 {-margin, 100.0 + margin}, {}, {}, canvas_of(claims))};
+}
+
+DrawnFigure draw_influences(const std::filesystem::path& folder, const RobustnessOutput& output) {
+  const studies::ParameterSpace& space = output.options.space;
+  const std::size_t claims = output.claims.size();
+  const std::size_t variables = space.dimension();
+  figures::Sketch sketch("influence");
+  figures::FigurePanel panel{"", {0.4, static_cast<double>(variables) + 0.6}, {}};
+  for (std::size_t v = 0; v < variables; ++v) {
+    // Without the unit: a rank has none.
+    const bool has_words = v < space.parameters.size() && !space.parameters[v].words.empty();
+    const std::string words = has_words ? space.parameters[v].words : variable_name(space, v);
+    constexpr std::size_t longest = 34;
+    panel.names.emplace_back(static_cast<double>(variables - v), cut(words.substr(0, words.find(" [")), longest));
+  }
+  sketch.panel(panel);
+  // The largest circle is as high as a row; radii are in units of the abscissa.
+  constexpr double row_height = 42.0;
+  constexpr double frame_width = 1050.0;
+  const double largest = 0.48 * row_height * static_cast<double>(claims) / frame_width;
+  for (const bool positive : {true, false}) {
+    std::vector<std::array<double, 3>> circles;
+    for (std::size_t k = 0; k < claims; ++k)
+      for (std::size_t v = 0; v < output.claims[k].influences.size(); ++v) {
+        const Interval& i = output.claims[k].influences[v];
+        if (is_told(i) && (i.value > 0.0) == positive)
+          circles.push_back(
+              {static_cast<double>(k + 1), static_cast<double>(variables - v), largest * std::sqrt(std::abs(i.value))});
+      }
+    if (!circles.empty())
+      sketch.add(circles,
+                 fmt::format("circles fillstyle solid 0.8 noborder linecolor '{}'",
+                             positive ? figures::ink::blue : figures::ink::red),
+                 positive ? "rank correlation of parameter and score > 0" : "< 0");
+  }
+  std::string tics;
+  for (std::size_t k = 0; k < claims; ++k)
+    tics += fmt::format("{}{} {}", k == 0 ? "" : ", ",
+                        figures::gnuplot_quoted(figures::literal_text(output.options.claims[k].name)), k + 1);
+  sketch.command("set xlabel offset 0,0.15");
+  sketch.command("set xtics rotate by 90 right (" + tics + ")");
+  const std::size_t draws = output.claims.empty() ? 0 : output.claims.front().draws;
+  return {folder / "influence.png",
+          sketch.draw(folder, {"", fmt::format("Claim ({} draws)", draws), ""},
+                      {0.4, static_cast<double>(claims) + 0.6}, {}, {}, canvas_of(variables))};
+}
+
+}  // namespace
+
+std::vector<DrawnFigure> draw_robustness_figures(const std::filesystem::path& folder, const RobustnessOutput& output) {
+  return {draw_parts(folder, output), draw_influences(folder, output)};
+}
+
+}  // namespace epicyclic::reports

@@ -1,0 +1,41 @@
+// What a survey of draws leaves in its folder.
+//
+//   draws.csv        a row per draw: its parameters, which claims it meets, the cost of each
+//   robustness.csv   a row per claim: the part of the draws that it holds for, with its interval at 95 %
+//   influence.csv    a row per claim and parameter: rank correlation with the claim's score, with its interval
+//   robustness.md    in words
+//   figures/         robustness: the parts; influence: the correlations that are not zero
+//
+// All of it follows from the evaluations alone and is the same, byte for byte, for the same study.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "reports/sweep_output.hpp"
+#include "studies/robustness.hpp"
+
+namespace epicyclic::reports {
+
+struct RobustnessOutput {
+  studies::ClaimsOptions options;
+  std::string name;  ///< of the study
+  std::vector<studies::ClaimRobustness> claims;
+};
+
+/// @throws OutputError
+void write_draws_csv(const std::filesystem::path& file, const RobustnessOutput& output,
+                     const studies::KnownEvaluations& evaluations);
+
+/// @throws OutputError
+void write_robustness_tables(const std::filesystem::path& folder, const RobustnessOutput& output);
+
+[[nodiscard]] std::string robustness_summary(const RobustnessOutput& output,
+                                             const studies::KnownEvaluations& evaluations);
+
+/// @throws OutputError
+[[nodiscard]] std::vector<DrawnFigure> draw_robustness_figures(const std::filesystem::path& folder,
+                                                               const RobustnessOutput& output);
+
+}  // namespace epicyclic::reports

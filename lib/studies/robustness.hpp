@@ -1,0 +1,38 @@
+// How robust is what is claimed to what is not said: completions drawn from the ranges, each judged by a glance, and
+// per claim the part of them for which it holds and the parameters that decide it.
+//
+// Draw d has u_k = uniform number d n + k + 1 of the seed's sequence [C-rand], n the dimension: any draw without those
+// before it, and of more draws the first ones.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "analysis/statistics.hpp"
+#include "studies/calibration.hpp"
+
+namespace epicyclic::studies {
+
+/// A draw's place in the unit cube.
+[[nodiscard]] std::vector<double> draw(const ParameterSpace& space, int seed, std::size_t index);
+
+/// All draws, those that were kept as they are; key {0, draw}.
+/// @returns by draw; fewer than asked for only if stopped
+/// @throws InputError when kept evaluations are not of these draws
+[[nodiscard]] KnownEvaluations survey(const ClaimsOptions& options, const Evaluator& evaluate, CalibrationRun run);
+
+/// Of one claim.
+struct ClaimRobustness {
+  std::size_t draws = 0;  ///< of valid stages
+  std::size_t holds = 0;
+  analysis::Interval fraction;                 ///< that it holds for, at 95 %
+  std::vector<analysis::Interval> influences;  ///< of each variable: rank correlation of its value and 1 - cost
+};
+
+/// @param evaluations  of survey()
+[[nodiscard]] std::vector<ClaimRobustness> robustness(const ClaimsOptions& options,
+                                                      const KnownEvaluations& evaluations);
+
+}  // namespace epicyclic::studies
