@@ -137,13 +137,18 @@ int reproduce_command(const Arguments& given) {
   const std::int64_t undrawn = tell_undrawn(figures);
 
   std::filesystem::path recorded = arguments.input;
-  recorded.replace_extension(".scorecard.csv");
+  recorded.replace_extension(".scorecard.json");
   std::vector<std::string> unlike;
+  std::error_code none;
   if (arguments.record) {
-    write_file_atomically(recorded, reports::scorecard_csv(card));
+    write_file_atomically(recorded, reports::recorded_text(card, input));
     tell("recorded: {}\n", recorded.string());
-  } else if (std::filesystem::exists(recorded)) {
-    unlike = reports::unlike_recorded(card, recorded);
+  } else if (std::filesystem::exists(recorded, none)) {
+    reports::RecordedDifference difference = reports::unlike_recorded(card, input, recorded);
+    if (!difference.study.empty())
+      tell("the verdicts in {} are of another study and are not compared: {}\n", recorded.string(),
+           difference.study.front());
+    unlike = std::move(difference.verdicts);
     for (const std::string& line : unlike) tell("other than recorded in {}: {}\n", recorded.string(), line);
   }
   close_run(store::RunState::complete, {{"claims", static_cast<std::int64_t>(options.claims.size())},

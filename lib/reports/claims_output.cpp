@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,6 +11,8 @@
 #include "core/errors.hpp"
 #include "core/text.hpp"
 #include "figures/sketch.hpp"
+#include "input/stage_completion.hpp"
+#include "store/identity.hpp"
 
 namespace epicyclic::reports {
 
@@ -110,43 +111,73 @@ std::string scorecard_summary(const Scorecard& card) {
   return text;
 }
 
-std::vector<std::string> unlike_recorded(const Scorecard& card, const std::filesystem::path& recorded) {
-  std::ifstream stream(recorded, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  const auto table = parse_csv(text);
-  if (!table || table->index_of("claim") == table->columns.size())
-    throw InputError(recorded.string() + ": is no scorecard that this program writes");
-  const auto now = parse_csv(scorecard_csv(card));
-  std::vector<std::string> lines;
-  const auto row_of = [](const CsvTable& of, const std::string& claim) -> const std::vector<std::string>* {
-    const std::size_t column = of.index_of("claim");
-    for (const auto& row : of.rows)
-      if (row[column] == claim) return &row;
-    return nullptr;
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* recorded_format = "epicyclic scorecard 1";
+
+json verdicts_of(const Scorecard& card) {
+  json list = json::array();
+  for (std::size_t k = 0; k < card.options.claims.size(); ++k) {
+    json one = {{"claim", card.options.claims[k].name}};
+    for (const ScoredStart& s : card.scored) one[start_name(s.start)] = verdict(s.outcomes[k]);
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
+/// How the sweeps are integrated, and what a search would do, is no part of what is claimed.
+bool is_beside_the_claims(const std::string& line) {
+  for (const char* pointer : {"/name:", "/integrator/", "/study/brief/", "/study/search/", "/study/survey/",
+                              "/study/parameters", "/study/choices", "/study/figures"})
+    if (line.starts_with(pointer) && !line.starts_with("/integrator/clearance_smoothing")) return true;
+  return false;
+}
+
+}  // namespace
+
+std::string recorded_text(const Scorecard& card, const input::LoadedInput& study) {
+  std::string text = fmt::format("{{\n\"format\": \"{}\",\n\"verdicts\": [", recorded_format);
+  const json verdicts = verdicts_of(card);
+  for (std::size_t k = 0; k < verdicts.size(); ++k) text += (k == 0 ? "\n" : ",\n") + verdicts[k].dump();
+  return text + "\n],\n\"study\": " + study.resolved.dump() + "\n}\n";
+}
+
+RecordedDifference unlike_recorded(const Scorecard& card, const input::LoadedInput& study,
+                                   const std::filesystem::path& recorded) {
+  const input::JsonSource source = input::read_json_file(recorded);
+  if (!source.problems.empty()) throw input::InputProblems(source.problems);
+  const json& file = source.value;
+  const auto is_list_of_objects = [](const json& list) {
+    return list.is_array() && std::ranges::all_of(list, [](const json& one) {
+             return one.is_object() && one.contains("claim") && one["claim"].is_string();
+           });
   };
-  for (const auto& row : now->rows) {
-    const std::string& claim = row[now->index_of("claim")];
-    const auto* was = row_of(*table, claim);
-    if (was == nullptr) {
-      lines.push_back(claim + ": is not recorded");
-      continue;
-    }
-    for (const ScoredStart& s : card.scored) {
-      const std::string column = start_name(s.start);
-      if (table->index_of(column) == table->columns.size()) {
-        lines.push_back(fmt::format("{}: nothing is recorded of points that are {}", claim, column));
-        continue;
-      }
-      const std::string& before = (*was)[table->index_of(column)];
-      const std::string& is = row[now->index_of(column)];
-      if (before != is) lines.push_back(fmt::format("{} ({}): {}, was recorded: {}", claim, column, is, before));
+  if (!file.is_object() || file.value("format", json()) != recorded_format ||
+      !is_list_of_objects(file.value("verdicts", json())) || !file.value("study", json()).is_object())
+    throw InputError(recorded.string() + ": holds no recorded verdicts");
+  RecordedDifference difference;
+  json there = file["study"];
+  const json computed = input::computed_values(there);
+  difference.study = store::differences({there, computed}, {study.resolved, study.computed});
+  std::erase_if(difference.study, is_beside_the_claims);
+  if (!difference.study.empty()) return difference;
+  const auto of_claim = [](const json& list, const json& claim) {
+    return std::ranges::find_if(list, [&](const json& one) { return one["claim"] == claim; });
+  };
+  const json now = verdicts_of(card);
+  for (const json& one : now) {
+    const auto was = of_claim(file["verdicts"], one["claim"]);
+    for (const auto& [start, is] : one.items()) {
+      const json before = was == file["verdicts"].end() ? json() : was->value(start, json());
+      if (before != is)
+        difference.verdicts.push_back(fmt::format("{} ({}): {}, was recorded: {}", one["claim"].get<std::string>(),
+                                                  start, is.get<std::string>(),
+                                                  before.is_string() ? before.get<std::string>() : "nothing"));
     }
   }
-  for (const auto& row : table->rows) {
-    const std::string& claim = row[table->index_of("claim")];
-    if (row_of(*now, claim) == nullptr) lines.push_back(claim + ": is recorded, and no claim of the study");
-  }
-  return lines;
+  return difference;
 }
 
 namespace {

@@ -40,9 +40,20 @@ struct Scorecard {
 [[nodiscard]] std::string scorecard_csv(const Scorecard& card);
 [[nodiscard]] std::string scorecard_summary(const Scorecard& card);
 
-/// In which claims the verdicts differ from those of a scorecard.csv that was recorded, a line each.
-/// @throws InputError when it is none
-[[nodiscard]] std::vector<std::string> unlike_recorded(const Scorecard& card, const std::filesystem::path& recorded);
+/// Verdicts that were recorded of a study:
+///
+///   { "format": "epicyclic scorecard 1", "verdicts": [ { "claim": "C01", "carried": "holds", "cold": "fails" }, ... ],
+///     "study": the resolved input }
+[[nodiscard]] std::string recorded_text(const Scorecard& card, const input::LoadedInput& study);
+
+struct RecordedDifference {
+  std::vector<std::string> study;     ///< in what the study is not the recorded one; how it is integrated may differ
+  std::vector<std::string> verdicts;  ///< that are not the recorded ones, of the same study
+};
+
+/// @throws InputError when the file is none of recorded_text()
+[[nodiscard]] RecordedDifference unlike_recorded(const Scorecard& card, const input::LoadedInput& study,
+                                                 const std::filesystem::path& recorded);
 
 /// The points of a sweep by its name.
 using SweepPoints = std::function<studies::PointSource(const std::string& sweep)>;

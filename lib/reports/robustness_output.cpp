@@ -188,7 +188,11 @@ DrawnFigure draw_influences(const std::filesystem::path& folder, const Robustnes
 }  // namespace
 
 std::vector<DrawnFigure> draw_robustness_figures(const std::filesystem::path& folder, const RobustnessOutput& output) {
-  return {draw_parts(folder, output), draw_influences(folder, output)};
+  std::vector<DrawnFigure> drawn = {draw_parts(folder, output)};
+  // Few draws tell nothing of what decides.
+  if (std::ranges::any_of(output.claims, [](const auto& claim) { return !deciding(claim).empty(); }))
+    drawn.push_back(draw_influences(folder, output));
+  return drawn;
 }
 
 }  // namespace epicyclic::reports

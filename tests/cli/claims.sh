@@ -57,10 +57,16 @@ for file in scorecard.csv speed/points.csv figures/fig1.dat; do cmp -s "one/$fil
 # What was recorded is expected.
 [ "$(code_of "$epicyclic" reproduce claims.json -o one --record)" = 0 ] || fail "record: $(<stderr)"
 [ "$(code_of "$epicyclic" reproduce claims.json -o one)" = 0 ] || fail "as recorded: $(<stderr)"
-sed -i 's/^A,holds/A,fails/' claims.scorecard.csv
+[ "$(code_of "$epicyclic" reproduce claims.json -o tight --set /integrator/relative_tolerance=1e-7)" = 0 ] || fail "at another tolerance: $(<stderr)"
+! grep -q 'not compared' stderr || fail "another tolerance is no other study: $(<stderr)"
+sed -i 's/"carried":"holds"/"carried":"fails"/' claims.scorecard.json
 [ "$(code_of "$epicyclic" reproduce claims.json -o one)" = 1 ] || fail "a verdict that is not the one recorded: $(<stderr)"
 grep -q 'A (carried): holds, was recorded: fails' stderr || fail "it is not said: $(<stderr)"
-rm claims.scorecard.csv
+[ "$(code_of "$epicyclic" reproduce claims.json -o other --set /stage/load/torque_Nm=390 --set '/study/starts=["cold"]')" = 0 ] || fail "another load: $(<stderr)"
+grep -q 'of another study and are not compared: /st' stderr || fail "it is not said that it is another study: $(<stderr)"
+echo '{ "format": "none" }' >claims.scorecard.json
+[ "$(code_of "$epicyclic" reproduce claims.json -o one)" = 2 ] || fail "no recorded verdicts: $(<stderr)"
+rm claims.scorecard.json
 
 # The search: the same bytes for any number of threads and after a stop.
 files=(candidates.csv profile.csv calibrate.md best.json stage.json)
@@ -94,7 +100,7 @@ for file in draws.csv robustness.csv influence.csv robustness.md figures/robustn
   cmp -s "r1/$file" "r2/$file" || fail "$file differs with two threads"
 done
 [ "$(wc -l <r1/draws.csv)" = 7 ] || fail "not a row per draw"
-[ -s r1/figures/influence.png ] || fail "no figure"
+[ -s r1/figures/robustness.png ] || fail "no figure"
 
 # Bad input; nothing is written.
 refused() {

@@ -28,8 +28,14 @@ done | sort -u >commands
 
 few=(--set /study/transient_periods=2 --set /study/recorded_periods=4 --set /study/classification_periods=0)
 plane=(--set /study/first/points=2 --set /study/second/points=2)
+# A name's sweeps are cut where all of them are.
+claims=(--set /study/sweeps/0/points=3 --set /study/sweeps/1/points=2)
+glance=(--set /study/brief/transient_periods=2 --set /study/brief/recorded_periods=4 --set /study/sweeps/0/survey_points=2 --set /study/sweeps/1/survey_points=2)
 declare -A cut=(
   [sweep]="--set /study/points=3 ${few[*]}"
+  [reproduce]="${claims[*]} ${few[*]}"
+  [calibrate]="${glance[*]} --set /study/search/candidates=16 --set /study/search/refinement=0 --set /study/search/profile=0"
+  [robustness]="${glance[*]} --set /study/survey/draws=2 --set /study/survey/look/transient_periods=2 --set /study/survey/look/recorded_periods=4 --set /study/survey/look/classification_periods=0"
   [map]="${plane[*]} ${few[*]}"
   [basins]="${plane[*]} ${few[*]} --set /study/transient=fixed"
   [continue]="--set /study/largest_period=1 --set /study/orbits=2 --set /study/branches=1 --set /study/settle_periods=40 --set /study/tolerance=1e-7"
@@ -45,6 +51,11 @@ while IFS= read -r line; do
   command=${words[1]:-}
   read -r -a more <<<"${cut[$command]:-}"
   arguments=("${words[@]:1}" "${more[@]}")
+  # Claims that have a name have more sweeps.
+  if [ "$command ${words[2]:-}" = "reproduce tang2020" ]; then
+    for ((k = 2; k < 9; ++k)); do arguments+=(--set "/study/sweeps/$k/points=2"); done
+    arguments+=(--set '/study/starts=["cold"]')
+  fi
   # Each in a folder of its own, whatever the page calls it.
   for ((k = 0; k < ${#arguments[@]}; ++k)); do
     [ "${arguments[k]}" != -o ] || arguments[k + 1]=out$count
