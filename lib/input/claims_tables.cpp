@@ -209,8 +209,10 @@ Table<BriefLook> look_table(const char* name, const char* description) {
   t.integer("transient_periods", &BriefLook::transient_periods, between(0, 1e6), "Mesh periods before the record [-].");
   t.integer("recorded_periods", &BriefLook::recorded_periods, between(4, 1e5), "Mesh periods recorded [-].");
   t.integer("classification_periods", &BriefLook::classification_periods, between(0, 1e7),
-            "Mesh periods in which the regime may be looked for beyond the record [-]; 0: what does not recur counts "
-            "as chaotic.");
+            "Mesh periods in which the regime may be looked for beyond the record [-]; 0: it is told by a glance.");
+  t.integer("growth_periods", &BriefLook::growth_periods, between(0, 1e6),
+            "Mesh periods in which a glance tells chaos from what does not recur but does not grow either [-]; 0: all "
+            "that does not recur counts as chaotic.");
   t.number("relative_tolerance", &BriefLook::relative_tolerance, between(1e-12, 1e-2),
            "Relative and absolute tolerance [-].");
   return t;

@@ -25,6 +25,7 @@ LookOptions look_of(const ClaimsOptions& options, const BriefLook& brief) {
   look.transient_periods = brief.transient_periods;
   look.recorded_periods = brief.recorded_periods;
   look.classification_periods = brief.classification_periods;
+  look.growth_periods = brief.growth_periods;
   look.period_max = std::min(look.period_max, brief.recorded_periods / 2);
   look.keep = Keep::section;
   return look;

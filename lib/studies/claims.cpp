@@ -72,8 +72,8 @@ namespace {
 /// is told by where it goes. Chaos does not come back to a small part of its extent over a whole record.
 bool settles(const PointResult& result, const LookOptions& look) {
   constexpr double small_part = 0.1;
-  if (result.classified || result.regime != Regime::undecided) return false;
-  if (still_settling(result, look)) return true;
+  if (result.classified || result.regime == Regime::periodic || result.regime == Regime::chaotic) return false;
+  if (analysis::still_settling(result.recurrence, look.recurrence_tolerance)) return true;
   const std::size_t dimension = result.poincare_columns - 2 * result.sun_planet.size();
   analysis::PoincareSection section{dimension, {}};
   for (std::size_t row = 0; row < result.poincare_rows(); ++row) {

@@ -120,7 +120,8 @@ struct ClaimFigure {
 struct BriefLook {
   int transient_periods = 160;
   int recorded_periods = 32;
-  int classification_periods = 0;  ///< 0: what does not recur within the record counts as chaotic
+  int classification_periods = 0;  ///< 0: regimes are told by a glance, from recurrence and growth
+  int growth_periods = 64;         ///< of that glance; 0: what does not recur within the record counts as chaotic
   double relative_tolerance = 1e-5;
 };
 

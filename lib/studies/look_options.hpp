@@ -30,6 +30,10 @@ struct LookOptions {
   /// to last for a quarter of them, for all where an orbit attracts near by or the 0-1 test says regular.
   int classification_periods = 3584;
 
+  /// Where the regime is told from recurrence alone and there is none: mesh periods in which one tangent vector tells
+  /// growth, that is chaos, from none; 0: nothing is told. By the kind of study, not by the input.
+  int growth_periods = 0;
+
   Keep keep = Keep::section;  ///< by the kind of study, not by the input
 
   /// @throws InputError for counts below what there has to be, or a tolerance that is not positive

@@ -38,6 +38,7 @@ void LookOptions::validate() const {
   require(output_phases >= 1, "output_phases", output_phases, ">= 1");
   require(period_max >= 1, "period_max", period_max, ">= 1");
   require(recurrence_tolerance > 0.0, "recurrence_tolerance", recurrence_tolerance, "> 0");
+  require(growth_periods >= 0, "growth_periods", growth_periods, ">= 0");
   require(classification_periods >= 0, "classification_periods", classification_periods, ">= 0");
   require(classification_periods >= 1 || transient == Transient::fixed, "classification_periods",
           classification_periods, ">= 1 for an adaptive transient");

@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "analysis/lyapunov.hpp"
 #include "core/errors.hpp"
 #include "integrate/lanes/lane_pool.hpp"
 #include "integrate/methods.hpp"
@@ -77,7 +78,7 @@ class PointRun {
       result_.recurrence = analysis::recurrence(strobe.section, look_.period_max, look_.recurrence_tolerance);
       if (!classifies_) {
         result_.period = result_.recurrence.period;
-        result_.regime = result_.period > 0 ? analysis::Regime::periodic : analysis::Regime::undecided;
+        result_.regime = result_.period > 0 ? analysis::Regime::periodic : tell_growth();
       } else if (!adaptive_) {
         std::vector<double> onwards = state_;  // the next point of a chain starts where the record ends
         orbit_ = tell(onwards, &strobe.section).orbit;
@@ -127,6 +128,22 @@ class PointRun {
     result_.period = motion.told.period;
     result_.evidence = motion.told.evidence;
     return std::move(motion.told);
+  }
+
+  /// Of a motion that does not recur, by a glance: whether vectors grow.
+  analysis::Regime tell_growth() {
+    if (look_.growth_periods == 0 || !has_classification(model_) ||
+        analysis::still_settling(result_.recurrence, look_.recurrence_tolerance))
+      return analysis::Regime::undecided;
+    std::vector<double> onwards = state_;
+    const auto flow = flows_.motion(model_, integrator_);
+    constexpr int aligning = 16;
+    const analysis::LargestExponent e = analysis::largest_exponent(
+        *flow, onwards, {.aligning_periods = aligning, .periods = look_.growth_periods}, {}, go_on_);
+    classification_work_ += flow->right_hand_side_calls();
+    if (!e.evolution.reached()) return analysis::Regime::undecided;
+    return analysis::late_growth(e.growth) > analysis::neutral_growth ? analysis::Regime::chaotic
+                                                                      : analysis::Regime::quasiperiodic;
   }
 
   model::DynamicModel model_;
