@@ -14,6 +14,8 @@
 #include "folder.hpp"
 #include "input/claims_input.hpp"
 #include "input/study_model.hpp"
+#include "ranks/ranks.hpp"
+#include "ranks/shared_evaluations.hpp"
 #include "reports/calibrate_output.hpp"
 #include "session.hpp"
 #include "stop.hpp"
@@ -33,27 +35,37 @@ nlohmann::json calibrated_input(const std::filesystem::path& path, std::vector<i
   return input::with_origins(input::load_input(path, sets).resolved, values, origin);
 }
 
-}  // namespace
+studies::Evaluator make_evaluator(const input::LoadedInput& input, const Arguments& arguments,
+                                  const std::atomic<bool>& stop) {
+  const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
+  const std::vector<input::Assignment> sets = input::parse_assignments(arguments.sets);
+  return studies::by_glances(options, studies::search_glance(options),
+                             input::candidate_models(arguments.input, sets, options), &stop);
+}
 
-int calibrate_command(const Arguments& arguments) {
-  stop_on_signals();
+int lead(const Arguments& arguments, SharedEvaluations& shared) {
+  stop_on_signals(arguments.ranks->size() > 1 ? patience_of_ranks : patience);
   const std::vector<input::Assignment> sets = input::parse_assignments(arguments.sets);
   const input::LoadedInput input = input::load_input(arguments.input, sets);
   require_kind(input, arguments, "claims");
   const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
   if (options.space.dimension() == 0) throw InputError("/study/parameters: is empty; there is nothing to search for");
-  const studies::CandidateModels models = input::candidate_models(arguments.input, sets, options);
-  require_models(options, models(std::vector<double>(options.space.dimension(), 0.5)));
+  require_models(options, input::candidate_models(arguments.input, sets,
+                                                  options)(std::vector<double>(options.space.dimension(), 0.5)));
   tell_warnings(input);
 
-  Session session(arguments, input, identity_of(input, "calibrate"), arguments.threads);
+  const std::string identity = identity_of(input, "calibrate");
+  shared.gather(identity);
+  Session session(arguments, input, identity, arguments.threads, arguments.ranks->size());
   if (const auto code = session.exit_code()) return *code;
   const store::OutputFolder& folder = session.folder();
 
   CandidateJournal journal(session, "calibrate", studies::most_evaluations(options), options.claims.size());
-  const studies::Calibration found = studies::calibrate(
-      options, studies::by_glances(options, studies::search_glance(options), models, &stop_requested()),
-      {input::given_candidate(input, options.space)}, journal.run(arguments.threads));
+  studies::Calibration found;
+  shared.run(make_evaluator(input, arguments, shared.stop()), [&](const studies::Evaluator& evaluate, int threads) {
+    found = studies::calibrate(options, evaluate, {input::given_candidate(input, options.space)},
+                               journal.run(threads, shared.stop()));
+  });
   journal.close();
   const auto close_run = [&](store::RunState state) {
     session.end(state, {{"candidates", static_cast<std::int64_t>(journal.finished())}});
@@ -91,6 +103,13 @@ int calibrate_command(const Arguments& arguments) {
     print("{}\nbest: {}\n", summary, folder.file("best.json").string());
   }
   return done;
+}
+
+}  // namespace
+
+int calibrate_command(const Arguments& arguments) {
+  return share_evaluations(arguments, "calibrate", make_evaluator,
+                           [&](SharedEvaluations& shared) { return lead(arguments, shared); });
 }
 
 }  // namespace epicyclic::app

@@ -7,7 +7,6 @@
 
 #include "core/text.hpp"
 #include "folder.hpp"
-#include "stop.hpp"
 #include "store/candidate_record.hpp"
 
 namespace epicyclic::app {
@@ -36,10 +35,10 @@ CandidateJournal::CandidateJournal(Session& session, const std::string& command,
   for (const auto& [key, candidate] : known_) see(candidate);
 }
 
-studies::CalibrationRun CandidateJournal::run(int threads) {
+studies::CalibrationRun CandidateJournal::run(int threads, const std::atomic<bool>& stop) {
   studies::CalibrationRun run;
   run.threads = threads;
-  run.stop = &stop_requested();
+  run.stop = &stop;
   run.known = std::move(known_);
   run.evaluated = [this](const studies::EvaluatedCandidate& candidate) {
     journal_.append(finished_, store::encode_candidate(candidate));

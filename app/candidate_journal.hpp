@@ -1,6 +1,7 @@
 // Evaluated candidates of a search or a survey: those of earlier sessions, and new ones kept as they come.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -21,7 +22,7 @@ class CandidateJournal {
   CandidateJournal& operator=(const CandidateJournal&) = delete;
 
   /// What a search or a survey is run with. This has to outlive it.
-  [[nodiscard]] studies::CalibrationRun run(int threads);
+  [[nodiscard]] studies::CalibrationRun run(int threads, const std::atomic<bool>& stop);
 
   [[nodiscard]] std::size_t finished() const { return finished_; }
   void close();

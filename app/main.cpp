@@ -93,8 +93,10 @@ std::array<Subcommand, 14> subcommands() {
       {"crosscheck", "the same points by several methods, compared", crosscheck_command, Takes::threads},
       {"reproduce", "claims of a publication held against a stage, with its figures", reproduce_command,
        Takes::threads},
-      {"calibrate", "what is not published of a stage, from what is claimed of it", calibrate_command, Takes::threads},
-      {"robustness", "for which part of what is not published each claim holds", robustness_command, Takes::threads},
+      {"calibrate", "what is not published of a stage, from what is claimed of it", calibrate_command, Takes::threads,
+       true},
+      {"robustness", "for which part of what is not published each claim holds", robustness_command, Takes::threads,
+       true},
       {"assert", "special points of finished branches against expected ones", assert_command, Takes::finished},
       {"check", "validates, prints the resolved input, its cost and how long it takes; writes nothing", check_command,
        Takes::input},
@@ -187,7 +189,7 @@ int run(int argc, char** argv) {
     const auto asked =
         std::find_if(commands.begin(), commands.end(), [](const Subcommand& sub) { return sub.command->parsed(); });
     if (ranks.size() > 1 && (asked == commands.end() || !asked->shares_work))
-      throw InputError("only sweep, map and basins run on several processes");
+      throw InputError("only sweep, map, basins, calibrate and robustness run on several processes");
     return asked == commands.end() ? static_cast<int>(done) : asked->run(arguments);
   });
   if (ranks.size() > 1) leave_ranks(code);

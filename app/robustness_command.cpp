@@ -13,6 +13,8 @@
 #include "folder.hpp"
 #include "input/claims_input.hpp"
 #include "input/study_model.hpp"
+#include "ranks/ranks.hpp"
+#include "ranks/shared_evaluations.hpp"
 #include "reports/robustness_output.hpp"
 #include "session.hpp"
 #include "stop.hpp"
@@ -21,25 +23,38 @@
 
 namespace epicyclic::app {
 
-int robustness_command(const Arguments& arguments) {
-  stop_on_signals();
+namespace {
+
+studies::Evaluator make_evaluator(const input::LoadedInput& input, const Arguments& arguments,
+                                  const std::atomic<bool>& stop) {
+  const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
+  const std::vector<input::Assignment> sets = input::parse_assignments(arguments.sets);
+  return studies::by_glances(options, studies::survey_glance(options),
+                             input::candidate_models(arguments.input, sets, options), &stop);
+}
+
+int lead(const Arguments& arguments, SharedEvaluations& shared) {
+  stop_on_signals(arguments.ranks->size() > 1 ? patience_of_ranks : patience);
   const std::vector<input::Assignment> sets = input::parse_assignments(arguments.sets);
   const input::LoadedInput input = input::load_input(arguments.input, sets);
   require_kind(input, arguments, "claims");
   const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
   if (options.space.dimension() == 0) throw InputError("/study/parameters: is empty; there is nothing to draw");
-  const studies::CandidateModels models = input::candidate_models(arguments.input, sets, options);
-  require_models(options, models(std::vector<double>(options.space.dimension(), 0.5)));
+  require_models(options, input::candidate_models(arguments.input, sets,
+                                                  options)(std::vector<double>(options.space.dimension(), 0.5)));
   tell_warnings(input);
 
-  Session session(arguments, input, identity_of(input, "robustness"), arguments.threads);
+  const std::string identity = identity_of(input, "robustness");
+  shared.gather(identity);
+  Session session(arguments, input, identity, arguments.threads, arguments.ranks->size());
   if (const auto code = session.exit_code()) return *code;
   const store::OutputFolder& folder = session.folder();
   const auto draws = static_cast<std::size_t>(options.survey.draws);
   CandidateJournal journal(session, "robustness", draws, options.claims.size());
-  const studies::KnownEvaluations evaluations =
-      studies::survey(options, studies::by_glances(options, studies::survey_glance(options), models, &stop_requested()),
-                      journal.run(arguments.threads));
+  studies::KnownEvaluations evaluations;
+  shared.run(make_evaluator(input, arguments, shared.stop()), [&](const studies::Evaluator& evaluate, int threads) {
+    evaluations = studies::survey(options, evaluate, journal.run(threads, shared.stop()));
+  });
   journal.close();
   std::int64_t undrawn = 0;
   const auto close_run = [&](store::RunState state) {
@@ -74,6 +89,13 @@ int robustness_command(const Arguments& arguments) {
       if (figure.outcome.drawn()) print("figure: {}\n", figure.file.string());
   }
   return undrawn == 0 ? done : done_with_failures;
+}
+
+}  // namespace
+
+int robustness_command(const Arguments& arguments) {
+  return share_evaluations(arguments, "robustness", make_evaluator,
+                           [&](SharedEvaluations& shared) { return lead(arguments, shared); });
 }
 
 }  // namespace epicyclic::app

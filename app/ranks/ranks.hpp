@@ -12,7 +12,7 @@
 
 namespace epicyclic::app {
 
-/// What a message is about; see shared_sweep.cpp.
+/// What a message is about; see shared_sweep.cpp and shared_evaluations.cpp.
 enum class Topic : int {
   hello,
   begin,
@@ -25,6 +25,8 @@ enum class Topic : int {
   finished,
   write,
   written,
+  evaluate,
+  evaluated,
   leave
 };
 

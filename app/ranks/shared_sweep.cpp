@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <string_view>
 #include <thread>
@@ -24,6 +25,7 @@
 #include "failure.hpp"
 #include "folder.hpp"
 #include "input/study_model.hpp"
+#include "messages.hpp"
 #include "ranks.hpp"
 #include "session.hpp"
 #include "stop.hpp"
@@ -37,46 +39,7 @@ namespace epicyclic::app {
 namespace {
 
 using nlohmann::json;
-using Clock = std::chrono::steady_clock;
-
-/// How long a message may lie before it is looked at: at first, and when nothing was asked or answered for long. Each
-/// look wakes a thread on a core that computes.
-constexpr std::chrono::milliseconds look_interval{2};
-constexpr std::chrono::milliseconds rare_look_interval{20};
 constexpr std::chrono::milliseconds progress_interval{100};
-/// How long ranks that were told to stop may take: all of it must fit into the 2 s of a signal.
-constexpr std::chrono::milliseconds farewell{1500};
-
-std::string text_of(const json& message) { return message.dump(-1, ' ', false, json::error_handler_t::replace); }
-
-template <class T>
-std::string bytes_of(const std::vector<T>& values) {
-  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
-}
-
-template <class T>
-std::vector<T> values_of(const std::string& bytes) {
-  std::vector<T> values(bytes.size() / sizeof(T));
-  if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
-  return values;
-}
-
-using Index = std::uint64_t;
-
-/// When to look for messages: the sooner, the less time has passed since a question or its answer.
-class Attention {
- public:
-  void rouse() { roused_ = Clock::now(); }
-
-  [[nodiscard]] std::chrono::milliseconds pause() const {
-    const auto quiet = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - roused_);
-    return std::clamp(quiet / 50, look_interval, rare_look_interval);
-  }
-
- private:
-  Clock::time_point roused_ = Clock::now();
-};
-
 /// The chains in which something is left to do, in order. Both arguments must live longer.
 class OpenChains {
  public:
@@ -146,26 +109,6 @@ std::vector<bool> flags_in(std::string_view text, std::size_t size) {
   return flags;
 }
 
-std::string host_name() {
-  std::string name(256, '\0');
-  if (::gethostname(name.data(), name.size() - 1) != 0) return "unknown";
-  return name.c_str();
-}
-
-/// What a rank tells of itself when it is through, or cannot begin.
-json report_of(const Ranks& ranks, const std::exception_ptr& error) {
-  if (!error) return {{"exit_code", static_cast<int>(done)}};
-  const Failure failure = failure_of(error);
-  return {{"exit_code", failure.exit_code()},
-          {"message", fmt::format("rank {} on {}: {}", ranks.rank(), host_name(), failure.what())}};
-}
-
-std::optional<Failure> failure_in(const json& report) {
-  const int code = report.at("exit_code").get<int>();
-  if (code == done) return std::nullopt;
-  return Failure(code, report.at("message").get<std::string>());
-}
-
 json written_to(const WrittenPoints& written) {
   json figures = json::array();
   for (const reports::DrawnFigure& figure : written.figures)
@@ -187,55 +130,6 @@ WrittenPoints written_from(const json& report) {
   written.files = store::manifest_from(report.at("files")).value();
   return written;
 }
-
-/// A computation in a thread of its own, because messages belong to the thread that made it.
-class Computation {
- public:
-  /// @param stop  ends it, given that `compute` looks at it
-  Computation(std::function<void()> compute, std::atomic<bool>& stop)
-      : stop_(stop), worker_([this, compute = std::move(compute)] {
-          try {
-            compute();
-          } catch (...) {
-            error_ = std::current_exception();
-          }
-          const std::scoped_lock lock(mutex_);
-          ended_ = true;
-          wake_.notify_all();
-        }) {}
-  Computation(const Computation&) = delete;
-  Computation& operator=(const Computation&) = delete;
-
-  /// Left early, as by an exception of the messages, it is stopped and waited for.
-  ~Computation() {
-    if (!worker_.joinable()) return;
-    stop_ = true;
-    worker_.join();
-  }
-
-  [[nodiscard]] bool ends_within(std::chrono::milliseconds pause) {
-    std::unique_lock lock(mutex_);
-    return wake_.wait_for(lock, pause, [&] { return ended_; });
-  }
-
-  /// Whether it threw, once it has ended.
-  [[nodiscard]] bool failed() const { return error_ != nullptr; }
-
-  /// Waits for its end.
-  /// @throws what it threw
-  void join() {
-    worker_.join();
-    if (error_) std::rethrow_exception(error_);
-  }
-
- private:
-  std::atomic<bool>& stop_;
-  std::exception_ptr error_;
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  bool ended_ = false;
-  std::thread worker_;  // last: begins when the others stand
-};
 
 /// What the ranks of a sweep ask for and tell, and what became of it. All arguments must live longer.
 class RankAnswers {
@@ -308,24 +202,8 @@ class RankAnswers {
 }  // namespace
 
 void SweepLeader::gather(const Arguments& arguments, const std::string& identity) {
-  threads_of_all_ = arguments.threads;
-  for (int missing = ranks_.size() - 1; missing > 0;) {
-    const auto message = ranks_.receive();
-    if (!message) {
-      std::this_thread::sleep_for(look_interval);
-      continue;
-    }
-    if (message->topic != Topic::hello) continue;
-    --missing;
-    const json hello = json::parse(message->bytes);
-    if (const auto failure = failure_in(hello)) throw *failure;
-    const std::string who = fmt::format("rank {} on {}", message->from, hello.at("host").get<std::string>());
-    if (hello.at("program") != version_text())
-      throw Failure(bad_input,
-                    fmt::format("{} runs another program:\n{}", who, hello.at("program").get<std::string>()));
-    if (hello.at("identity") != identity) throw Failure(bad_input, who + " reads another input from the same path");
-    threads_of_all_ += hello.at("threads").get<int>();
-  }
+  const std::vector<int> threads = muster(arguments, identity);
+  threads_of_all_ = std::accumulate(threads.begin(), threads.end(), 0);
 }
 
 void SweepLeader::run(const studies::SweepPlan& plan, const studies::LookOptions& look,
@@ -424,8 +302,7 @@ std::vector<WrittenPoints> SweepLeader::write(const std::vector<ResultsPart>& pa
 
 void SweepLeader::dismiss(int exit_code) {
   if (silent_) ranks_.abort(exit_code);
-  for (int rank = 1; rank < ranks_.size(); ++rank)
-    ranks_.send(rank, Topic::leave, bytes_of(std::vector<Index>{static_cast<Index>(exit_code)}));
+  let_go(ranks_, exit_code);
 }
 
 namespace {
@@ -625,12 +502,7 @@ int follow(const Arguments& arguments, std::string_view command, const std::vect
   } catch (...) {
     error = std::current_exception();
   }
-  json hello = report_of(ranks, error);
-  hello["host"] = host_name();
-  hello["program"] = version_text();
-  hello["identity"] = identity;
-  hello["threads"] = arguments.threads;
-  ranks.send(0, Topic::hello, text_of(hello));
+  say_hello(arguments, identity, error);
   for (Attention attention;;) {
     const auto message = ranks.receive();
     if (message && message->topic == Topic::leave) return static_cast<int>(values_of<Index>(message->bytes).at(0));

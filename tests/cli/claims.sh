@@ -2,7 +2,7 @@
 # claims.sh EPICYCLIC SOURCE_DIR
 #
 # `reproduce`, `calibrate` and `robustness` of a small study of claims: scorecard, figures, what is recorded; the same
-# bytes for any number of threads, and after a stop; the result as an input; bad input.
+# bytes for any number of threads and ranks, and after a stop; the result as an input; bad input.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 
@@ -101,6 +101,36 @@ for file in draws.csv robustness.csv influence.csv robustness.md figures/robustn
 done
 [ "$(wc -l <r1/draws.csv)" = 7 ] || fail "not a row per draw"
 [ -s r1/figures/robustness.png ] || fail "no figure"
+
+# On several ranks: the same bytes, also after a rank was killed; one rank talks.
+if "$epicyclic" --version | grep -q '^MPI ' && command -v mpirun >/dev/null; then
+  launch=("${leaks_of_mpi[@]}" mpirun --oversubscribe)
+  [ "$(id -u)" != 0 ] || launch+=(--allow-run-as-root)
+  for ranks in 2 3; do
+    [ "$(code_of "${launch[@]}" -n $ranks "$epicyclic" calibrate claims.json -o "m$ranks" --threads 1)" = 0 ] || fail "$ranks ranks: $(<stderr)"
+    for file in "${files[@]}"; do cmp -s "c1/$file" "m$ranks/$file" || fail "$file differs with $ranks ranks"; done
+    grep -q "\"ranks\": $ranks," "m$ranks/run.json" || fail "run.json says otherwise of $ranks ranks"
+    [ "$(grep -c '^best: ' stdout)" = 1 ] || fail "not one rank talks: $(<stdout)"
+  done
+  [ "$(code_of "${launch[@]}" -n 2 "$epicyclic" robustness claims.json -o rm --threads 1 --set /study/survey/draws=6)" = 0 ] || fail "robustness on ranks: $(<stderr)"
+  cmp -s r1/draws.csv rm/draws.csv || fail "draws.csv differs with ranks"
+  for victim in 0 1; do
+    rm -rf cut
+    "${launch[@]}" -n 2 "$epicyclic" calibrate claims.json -o cut --threads 1 >stdout 2>stderr &
+    pid=$!
+    sleep "0.$((RANDOM % 6 + 3))"
+    mapfile -t ranks < <(pgrep -P $pid -x epicyclic || true)
+    [ ${#ranks[@]} -le "$victim" ] || kill -KILL "${ranks[$victim]}" 2>/dev/null || true
+    (sleep 100 && kill -KILL $pid) 2>/dev/null &
+    guard=$!
+    wait $pid || true
+    pkill -P $guard 2>/dev/null || true
+    [ "$(code_of "$epicyclic" calibrate claims.json -o cut)" = 0 ] || fail "after kill -9 of rank $victim: $(<stderr)"
+    cmp -s c1/candidates.csv cut/candidates.csv || fail "candidates.csv differs after kill -9 of rank $victim"
+  done
+  [ "$(code_of "${launch[@]}" -n 2 "$epicyclic" calibrate none.json -o none --threads 1)" = 2 ] || fail "no input on ranks: $(<stderr)"
+  [ "$(code_of "${launch[@]}" -n 2 "$epicyclic" reproduce claims.json -o none --threads 1)" = 2 ] || fail "reproduce is not shared: $(<stderr)"
+fi
 
 # Bad input; nothing is written.
 refused() {
