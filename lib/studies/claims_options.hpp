@@ -129,7 +129,7 @@ struct BriefLook {
 struct SurveyOptions {
   int draws = 1000;
   int seed = 1;
-  BriefLook look = {.recorded_periods = 64, .classification_periods = 512};
+  BriefLook look = {.recorded_periods = 64};
 };
 
 enum class SearchMethod {

@@ -35,7 +35,7 @@ declare -A cut=(
   [sweep]="--set /study/points=3 ${few[*]}"
   [reproduce]="${claims[*]} ${few[*]}"
   [calibrate]="${glance[*]} --set /study/search/candidates=16 --set /study/search/refinement=0 --set /study/search/profile=0"
-  [robustness]="${glance[*]} --set /study/survey/draws=2 --set /study/survey/look/transient_periods=2 --set /study/survey/look/recorded_periods=4 --set /study/survey/look/classification_periods=0"
+  [robustness]="${glance[*]} --set /study/survey/draws=2 --set /study/survey/look/transient_periods=2 --set /study/survey/look/recorded_periods=4"
   [map]="${plane[*]} ${few[*]}"
   [basins]="${plane[*]} ${few[*]} --set /study/transient=fixed"
   [continue]="--set /study/largest_period=1 --set /study/orbits=2 --set /study/branches=1 --set /study/settle_periods=40 --set /study/tolerance=1e-7"
