@@ -117,11 +117,11 @@ store::Provenance provenance(int threads, const input::LoadedInput& input) {
   return p;
 }
 
-std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const input::LoadedInput& input) {
+std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const input::LoadedInput& input, bool quiet) {
   const std::string where = folder.path().string();
   switch (folder.outcome()) {
     case store::FolderOutcome::complete:
-      tell("{}: this study is complete already; nothing to compute\n", where);
+      if (!quiet) tell("{}: this study is complete already; nothing to compute\n", where);
       for (const char* const count : {"failed", "undrawn", "differences", "unexplained"})
         if (counted(folder, count) > 0) return done_with_failures;
       return done;

@@ -54,8 +54,10 @@ void tell_cut_tail(const std::filesystem::path& journal, std::size_t bytes);
 
 /// Says on stderr why a folder cannot be used, of another study, in which values it differs; and which files of a
 /// complete study have to be made again.
+/// @param quiet  that a study is complete goes without saying
 /// @returns the exit code, or nothing if the study may be computed in it
-[[nodiscard]] std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const input::LoadedInput& input);
+[[nodiscard]] std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const input::LoadedInput& input,
+                                                  bool quiet = false);
 
 /// What input.resolved.json holds.
 [[nodiscard]] std::string resolved_text(const input::LoadedInput& input);

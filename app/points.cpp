@@ -49,7 +49,9 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
   if (store.size() > 0)
     tell("{}: {} of {} {} were there already\n", arguments.output.string(), store.size(), plan.points.size(), noun);
 
-  Progress progress(std::string(command), plan.points.size(), store.size());
+  // A part of another command is called by its folder.
+  Progress progress(arguments.quiet ? arguments.output.filename().string() : std::string(command), plan.points.size(),
+                    store.size());
   progress.update(store.size(), failed);
   std::mutex counting;
   std::size_t elsewhere = 0;  // points of other ranks

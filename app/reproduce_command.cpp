@@ -56,10 +56,7 @@ int run_part(const Arguments& arguments, const std::filesystem::path& folder, co
   part.output = folder / name;
   part.sets.clear();
   part.quiet = true;
-  std::error_code none;
-  // The same text again is no reason to touch it: a folder that is complete stays as it is.
   write_file_atomically(part.input, input);
-  tell("{}\n", name);
   return command(part);
 }
 
@@ -101,17 +98,20 @@ int reproduce_command(const Arguments& given) {
   };
 
   int worst = done;
-  const auto compute = [&](const std::string& name, const nlohmann::json& text, int (*command)(const Arguments&)) {
-    const int code = run_part(arguments, folder.path(), name, text.dump(2) + "\n", command);
+  const std::filesystem::path sweeps = folder.file("sweeps");
+  create_folder(sweeps, /*parents=*/false);
+  const auto compute = [&](const std::filesystem::path& place, const std::string& name, const nlohmann::json& text,
+                           int (*command)(const Arguments&)) {
+    const int code = run_part(arguments, place, name, text.dump(2) + "\n", command);
     if (code != done && code != done_with_failures) return code;
     worst = std::max(worst, code);
     return static_cast<int>(done);
   };
-  int code = compute("gear", input.resolved["stage"], gear_command);
+  int code = compute(folder.path(), "gear", input.resolved["stage"], gear_command);
   for (const studies::Start start : options.starts)
     for (const studies::ClaimSweep& sweep : options.sweeps)
       if (code == done)
-        code = compute(folder_name(sweep, start), input::sweep_input(input, sweep, start), sweep_command);
+        code = compute(sweeps, folder_name(sweep, start), input::sweep_input(input, sweep, start), sweep_command);
   if (code != done) {
     close_run(store::RunState::stopped, {});
     return code;
@@ -121,7 +121,7 @@ int reproduce_command(const Arguments& given) {
   for (const studies::Start start : options.starts)
     for (const studies::ClaimSweep& sweep : options.sweeps) {
       const std::string name = folder_name(sweep, start);
-      finished[name] = std::make_unique<FinishedStudy>(folder.path() / name);
+      finished[name] = std::make_unique<FinishedStudy>(sweeps / name);
     }
   const reports::Scorecard card = score(input, options, finished);
   const std::string summary = reports::scorecard_summary(card);

@@ -22,8 +22,9 @@ Session::Session(const Arguments& arguments, const input::LoadedInput& input, st
                  int ranks, bool again)
     : identity_(std::move(identity)),
       folder_(arguments.output, identity_, figures::gnuplot_is_installed()),
-      exit_code_(again && folder_.outcome() == store::FolderOutcome::complete ? std::nullopt
-                                                                              : refuse_or_finish(folder_, input)) {
+      exit_code_(again && folder_.outcome() == store::FolderOutcome::complete
+                     ? std::nullopt
+                     : refuse_or_finish(folder_, input, arguments.quiet)) {
   if (exit_code_) return;
   facts_ = provenance(threads, input);
   facts_.ranks = ranks;

@@ -162,6 +162,12 @@ std::vector<std::pair<std::string, std::string>> ClaimsOptions::problems() const
       checks.refuse(
           "/sweeps/" + std::to_string(k) + "/name",
           "is \"" + sweeps[k].name + "\", must be of letters, digits, '_', '-' and '.': a folder is called so");
+  // Of cold starts a sweep's folder has its name with an ending.
+  for (std::size_t k = 0; k < sweeps.size(); ++k)
+    if (names.contains(sweeps[k].name + "_cold"))
+      checks.refuse(
+          "/sweeps/" + std::to_string(k) + "/name",
+          "is \"" + sweeps[k].name + "\", and another \"" + sweeps[k].name + "_cold\", as its cold starts are called");
   for (std::size_t k = 0; k < claims.size(); ++k) {
     const std::string place = "/claims/" + std::to_string(k) + "/conditions";
     if (claims[k].conditions.empty()) checks.refuse(place, "is empty: the claim would always hold");

@@ -45,14 +45,14 @@ cmp -s stdout resolved.json || fail "the resolved input does not resolve to itse
 [ "$(code_of "$epicyclic" reproduce claims.json -o one --threads 1)" = 0 ] || fail "reproduce: $(<stderr)"
 grep -q '^| A | Fig. 1 | little is chaotic | 0 | holds | holds |' stdout || fail "no verdict: $(<stdout)"
 grep -q '^1 of 2 claims hold' stdout || fail "no count: $(<stdout)"
-for file in scorecard.csv scorecard.md figures/fig1.png figures/fig1.svg speed/points.csv damping_cold/run.json gear/gear.md; do
+for file in scorecard.csv scorecard.md figures/fig1.png figures/fig1.svg sweeps/speed/points.csv sweeps/damping_cold/run.json gear/gear.md; do
   [ -s "one/$file" ] || fail "no $file"
 done
-grep -q '"mesh_frequency_ratio": 2.0' one/damping.json || fail "the sweep's speed is not in its input"
-[ "$(code_of "$epicyclic" sweep one/damping.json -o alone)" = 0 ] || fail "a sweep of it alone: $(<stderr)"
-cmp -s alone/points.csv one/damping/points.csv || fail "the sweep alone gives other points"
+grep -q '"mesh_frequency_ratio": 2.0' one/sweeps/damping.json || fail "the sweep's speed is not in its input"
+[ "$(code_of "$epicyclic" sweep one/sweeps/damping.json -o alone)" = 0 ] || fail "a sweep of it alone: $(<stderr)"
+cmp -s alone/points.csv one/sweeps/damping/points.csv || fail "the sweep alone gives other points"
 [ "$(code_of "$epicyclic" reproduce claims.json -o two --threads 2)" = 0 ] || fail "two threads: $(<stderr)"
-for file in scorecard.csv speed/points.csv figures/fig1.dat; do cmp -s "one/$file" "two/$file" || fail "$file differs with two threads"; done
+for file in scorecard.csv sweeps/speed/points.csv figures/fig1.dat; do cmp -s "one/$file" "two/$file" || fail "$file differs with two threads"; done
 
 # What was recorded is expected.
 [ "$(code_of "$epicyclic" reproduce claims.json -o one --record)" = 0 ] || fail "record: $(<stderr)"
@@ -143,6 +143,7 @@ refused 's/"motion": "chaotic"/"motion": "chaos"/' 'bad.json:13: /study/claims/0
 refused 's/"sweep": "damping", "quantity"/"sweep": "dumping", "quantity"/' '/study/claims/1/conditions/0/sweep: is "dumping", which is no sweep' reproduce
 refused 's/"at_most": 0.1/"at_most": 0.1, "motions": ["chaotic"]/' 'is not read by a condition of kind "value"' reproduce
 refused 's/"name": "speed", "parameter"/"name": "..\/speed", "parameter"/' 'a folder is called so' reproduce
+refused 's/"name": "damping", "parameter"/"name": "speed_cold", "parameter"/; s/"sweep": "damping"/"sweep": "speed_cold"/' 'as its cold starts are called' reproduce
 refused 's/"from": 0.5, "to": 20/"from": -1, "to": 20/' '/study/parameters/0/from: is -1, must be > 0 on a logarithmic scale' calibrate
 refused 's/"from": 0.9, "to": 1.1/"from": 0.9, "to": 1.1, "targets": [ { "pointer": "\/stage\/lumped\/none" } ]/' '/study/parameters/1/targets/0/pointer: .*is no value of the resolved input' calibrate
 refused 's/"choice": "load", "option": "torque"/"choice": "load", "option": "talk"/' 'is "talk", which is no option of that choice' calibrate
