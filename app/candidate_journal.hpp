@@ -32,8 +32,8 @@ class CandidateJournal {
   [[nodiscard]] std::string words() const;
 
   store::Journal journal_;
+  std::size_t finished_ = 0;  ///< records; before what counts them
   studies::KnownEvaluations known_;
-  std::size_t finished_ = 0;
   std::size_t claims_ = 0;
   std::size_t most_ = 0;  ///< claims that one candidate meets
   double least_ = std::numeric_limits<double>::infinity();

@@ -81,6 +81,7 @@ kill -INT $! 2>/dev/null || true
 code=0 && wait $! || code=$?
 [ $code = 75 ] || [ $code = 0 ] || fail "a stop: $code $(<stderr)"
 [ "$(code_of "$epicyclic" calibrate claims.json -o c2 --threads 1)" = 0 ] || fail "going on: $(<stderr)"
+[ "$(grep -o '"candidates": [0-9]*' c1/run.json)" = "$(grep -o '"candidates": [0-9]*' c2/run.json)" ] || fail "a stopped search counts other candidates"
 for file in "${files[@]}"; do
   cmp -s "c1/$file" "c2/$file" || fail "$file differs after a stop"
   cmp -s "c1/$file" "c3/$file" || fail "$file differs with three threads"
