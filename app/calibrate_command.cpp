@@ -50,8 +50,7 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
   require_kind(input, arguments, "claims");
   const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
   if (options.space.dimension() == 0) throw InputError("/study/parameters: is empty; there is nothing to search for");
-  require_models(options, input::candidate_models(arguments.input, sets,
-                                                  options)(std::vector<double>(options.space.dimension(), 0.5)));
+  require_candidates(options, input::candidate_models(arguments.input, sets, options));
   tell_warnings(input);
 
   const std::string identity = identity_of(input, "calibrate");
@@ -60,11 +59,14 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
   if (const auto code = session.exit_code()) return *code;
   const store::OutputFolder& folder = session.folder();
 
+  std::vector<std::string> moved;
+  const std::vector<double> given = input::given_candidate(input, options.space, &moved);
+  for (const std::string& words : moved)
+    tell("the stage as it is given lies outside the ranges; the first candidate has {}\n", words);
   CandidateJournal journal(session, "calibrate", studies::most_evaluations(options), options.claims.size());
   studies::Calibration found;
   shared.run(make_evaluator(input, arguments, shared.stop()), [&](const studies::Evaluator& evaluate, int threads) {
-    found = studies::calibrate(options, evaluate, {input::given_candidate(input, options.space)},
-                               journal.run(threads, shared.stop()));
+    found = studies::calibrate(options, evaluate, {given}, journal.run(threads, shared.stop()));
   });
   journal.close();
   const auto close_run = [&](store::RunState state) {

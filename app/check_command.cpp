@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "folder.hpp"
 #include "input/study_model.hpp"
 #include "progress.hpp"
 #include "session.hpp"
@@ -119,6 +120,10 @@ int check_command(const Arguments& arguments) {
     return done;
   }
   if (const auto* claims = std::get_if<studies::ClaimsOptions>(&input.study.plan)) {
+    require_models(*claims, input::claim_models(input));
+    if (claims->space.dimension() > 0)
+      require_candidates(*claims,
+                         input::candidate_models(arguments.input, input::parse_assignments(arguments.sets), *claims));
     print("{}\n", input.resolved.dump(2));
     tell("{}: valid\ncost: {} claims on {} sweeps; a search tries up to {} candidates\n", arguments.input.string(),
          claims->claims.size(), claims->sweeps.size(), studies::most_evaluations(*claims));

@@ -40,6 +40,11 @@ template <class Plan>
 /// @throws InputError
 void require_models(const studies::ClaimsOptions& options, const studies::SweepModels& models);
 
+/// Asks for models at both ends of each parameter's range and with each option of each choice, all others in the middle
+/// of theirs.
+/// @throws InputError that names the parameter
+void require_candidates(const studies::ClaimsOptions& options, const studies::CandidateModels& models);
+
 /// Versions, machine and the names that the input files came by, for run.json.
 [[nodiscard]] store::Provenance provenance(int threads, const input::LoadedInput& input);
 

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -40,7 +41,7 @@ std::filesystem::path claims_file(const std::filesystem::path& named) {
     for (const auto& root : {at, at / "share" / "epicyclic"})
       if (std::filesystem::exists(below(root), none)) return below(root);
   }
-  return named;
+  throw InputError(named.string() + ": neither a file, nor a folder of validation/ here or above the program");
 }
 
 std::string folder_name(const studies::ClaimSweep& sweep, studies::Start start) {
@@ -88,6 +89,11 @@ int reproduce_command(const Arguments& given) {
   require_kind(input, arguments, "claims");
   const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
   require_models(options, input::claim_models(input));
+  std::filesystem::path recorded = arguments.input;
+  recorded.replace_extension(".scorecard.json");
+  std::error_code none;
+  std::optional<nlohmann::json> expected;
+  if (!arguments.record && std::filesystem::exists(recorded, none)) expected = reports::read_recorded(recorded);
   tell_warnings(input);
 
   Session session(arguments, input, identity_of(input, "reproduce"), arguments.threads, 1, true);
@@ -136,15 +142,12 @@ int reproduce_command(const Arguments& given) {
       });
   const std::int64_t undrawn = tell_undrawn(figures);
 
-  std::filesystem::path recorded = arguments.input;
-  recorded.replace_extension(".scorecard.json");
   std::vector<std::string> unlike;
-  std::error_code none;
   if (arguments.record) {
     write_file_atomically(recorded, reports::recorded_text(card, input));
     tell("recorded: {}\n", recorded.string());
-  } else if (std::filesystem::exists(recorded, none)) {
-    reports::RecordedDifference difference = reports::unlike_recorded(card, input, recorded);
+  } else if (expected) {
+    reports::RecordedDifference difference = reports::unlike_recorded(card, input, *expected);
     if (!difference.study.empty())
       tell("the verdicts in {} are of another study and are not compared: {}\n", recorded.string(),
            difference.study.front());

@@ -40,8 +40,7 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
   require_kind(input, arguments, "claims");
   const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
   if (options.space.dimension() == 0) throw InputError("/study/parameters: is empty; there is nothing to draw");
-  require_models(options, input::candidate_models(arguments.input, sets,
-                                                  options)(std::vector<double>(options.space.dimension(), 0.5)));
+  require_candidates(options, input::candidate_models(arguments.input, sets, options));
   tell_warnings(input);
 
   const std::string identity = identity_of(input, "robustness");

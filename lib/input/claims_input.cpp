@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "model/dynamic_model.hpp"
@@ -19,14 +20,17 @@ const json* find_number(const json& resolved, const std::string& pointer) {
   return resolved.contains(at) && resolved[at].is_number() ? &resolved[at] : nullptr;
 }
 
-/// Does the input have what an option sets? Of an object the same keys, whatever their values.
+/// Does the input have what an option sets? Of an object the same keys, whose numbers may be others.
 bool is_set(const json& resolved, const studies::OptionSet& set) {
   const json::json_pointer at(set.pointer);
   const json value = json::parse(set.value);
   if (!resolved.contains(at)) return value.is_null();
   if (!value.is_object()) return resolved[at] == value;
   if (!resolved[at].is_object()) return false;
-  return std::ranges::all_of(value.items(), [&](const auto& item) { return resolved[at].contains(item.key()); });
+  return std::ranges::all_of(value.items(), [&](const auto& item) {
+    const auto there = resolved[at].find(item.key());
+    return there != resolved[at].end() && (item.value() == *there || (item.value().is_number() && there->is_number()));
+  });
 }
 
 }  // namespace
@@ -47,20 +51,39 @@ std::vector<Assignment> candidate_assignments(const studies::ParameterSpace& spa
   return sets;
 }
 
-std::vector<double> given_candidate(const LoadedInput& input, const studies::ParameterSpace& space) {
+namespace {
+
+/// What a parameter is in the input: by its first target that nothing multiplies, else by its first one, divided by
+/// what the parameter that multiplies it is; 1 without targets; nothing where the input has no such number.
+std::optional<double> given_parameter(const LoadedInput& input, const studies::ParameterSpace& space,
+                                      const studies::FreeParameter& p) {
+  if (p.targets.empty()) return 1.0;
+  const auto plain = std::ranges::find_if(p.targets, [](const auto& t) { return t.times.empty(); });
+  const studies::ParameterTarget& target = plain == p.targets.end() ? p.targets.front() : *plain;
+  const json* there = find_number(input.resolved, target.pointer);
+  if (there == nullptr) return std::nullopt;
+  double product = 1.0;
+  if (plain == p.targets.end()) {
+    const auto other = std::ranges::find(space.parameters, target.times, &studies::FreeParameter::name);
+    // One that is given by a product itself counts as it would be alone.
+    const bool is_plain =
+        other != space.parameters.end() && (other->targets.empty() || other->targets.front().times.empty());
+    if (is_plain) product = given_parameter(input, space, *other).value_or(1.0);
+  }
+  const double x = std::pow(there->get<double>() / (target.factor * product), 1.0 / target.power);
+  return std::isfinite(x) ? std::optional(x) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<double> given_candidate(const LoadedInput& input, const studies::ParameterSpace& space,
+                                    std::vector<std::string>* moved) {
   std::vector<double> u;
   for (const studies::FreeParameter& p : space.parameters) {
-    double x = 1.0;
-    if (!p.targets.empty()) {
-      const studies::ParameterTarget& target = p.targets.front();
-      const json* there = find_number(input.resolved, target.pointer);
-      if (there == nullptr) {
-        u.push_back(0.5);
-        continue;
-      }
-      x = std::pow(there->get<double>() / target.factor, 1.0 / target.power);
-    }
-    u.push_back(std::isfinite(x) ? p.place_of(x) : 0.5);
+    const std::optional<double> x = given_parameter(input, space, p);
+    u.push_back(x ? p.place_of(*x) : 0.5);
+    if (moved != nullptr && x && !(*x >= p.from && *x <= p.to))
+      moved->push_back(p.name + " = " + number_text(*x) + " to " + number_text(p.at(u.back())));
   }
   for (const studies::Choice& choice : space.choices) {
     const auto chosen = std::ranges::find_if(choice.options, [&](const studies::ChoiceOption& option) {

@@ -20,9 +20,11 @@ namespace epicyclic::input {
 [[nodiscard]] std::vector<Assignment> candidate_assignments(const studies::ParameterSpace& space,
                                                             std::span<const double> u);
 
-/// The candidate that the input is as it stands: each parameter by the first number that it gives, 1 if it gives none,
-/// within its range; of choices the first option.
-[[nodiscard]] std::vector<double> given_candidate(const LoadedInput& input, const studies::ParameterSpace& space);
+/// The candidate that the input is as it stands: each parameter by the numbers that it gives, 1 if it gives none, the
+/// middle of its range where the input has none; of choices the option that the input has, or the first.
+/// @param moved  if not null, is told which parameters lie outside their ranges and are moved to their edges
+[[nodiscard]] std::vector<double> given_candidate(const LoadedInput& input, const studies::ParameterSpace& space,
+                                                  std::vector<std::string>* moved = nullptr);
 
 /// A resolved input with an origin for each of these values.
 [[nodiscard]] nlohmann::json with_origins(nlohmann::json resolved, std::span<const Assignment> values,

@@ -849,7 +849,19 @@ void check_claims(const studies::ClaimsOptions& claims, F is_bad, ReadContext& c
       if (!is_bad(at + "/parameter"))
         check_named_parameter(studies::Axis{set.parameter, set.value, set.value, 1}, at, is_bad, context);
       check_different(sweep.axis.name, set.parameter, at + "/parameter", context);
+      for (std::size_t before = 0; before < j; ++before)
+        check_different(sweep.at[before].parameter, set.parameter, at + "/parameter", context);
     }
+    const auto is_no_parameter = [](const std::string& name) {
+      return (pointer_within(name, "/integrator") && name != "/integrator/clearance_smoothing") ||
+             pointer_within(name, "/study") || name == "/stage/planets/count";
+    };
+    if (is_no_parameter(sweep.axis.name))
+      context.add(Finding::Kind::rule, place + "/parameter", "is no parameter of the motion of one stage");
+    for (std::size_t j = 0; j < sweep.at.size(); ++j)
+      if (is_no_parameter(sweep.at[j].parameter))
+        context.add(Finding::Kind::rule, place + "/at/" + std::to_string(j) + "/parameter",
+                    "is no parameter of the motion of one stage");
   }
 }
 

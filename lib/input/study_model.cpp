@@ -149,22 +149,29 @@ std::function<model::DynamicModel(double value, double clearance_smoothing)> smo
 
 namespace {
 
-/// The models of a study for the sweeps of claims.
+/// The models of a study for the sweeps of claims, each sweep as the study of its own that sweep_input() makes of it:
+/// with the scales of the stage that its `at` has set.
 studies::SweepModels sweep_models(std::shared_ptr<const LoadedInput> input, std::vector<PointerValue> values) {
   const Study study = values.empty() ? input->study : input->with_values(values);
   const model::OperatingPoint given{study.stage, study.mesh_frequency_ratio, study.model};
-  return [input = std::move(input), values = std::move(values), given, scales = model::scales_of(study.stage)](
-             const studies::ClaimSweep& sweep, double value) {
-    std::vector<PointerValue> all;
-    for (const studies::SetValue& set : sweep.at) all.push_back({set.parameter, set.value});
-    all.push_back({sweep.axis.name, value});
-    const auto is_pointer = [](const PointerValue& v) { return v.pointer.starts_with('/'); };
-    if (std::ranges::any_of(all, is_pointer)) {
-      all.insert(all.begin(), values.begin(), values.end());
-      return model_of(point_at(*input, all), scales);
-    }
+  return [input = std::move(input), values = std::move(values), given](const studies::ClaimSweep& sweep, double value) {
+    const auto is_pointer = [](const std::string& name) { return name.starts_with('/'); };
+    std::vector<PointerValue> set;
+    for (const studies::SetValue& v : sweep.at) set.push_back({v.parameter, v.value});
+    const bool any_pointer =
+        is_pointer(sweep.axis.name) || std::ranges::any_of(set, [&](const auto& v) { return is_pointer(v.pointer); });
     model::OperatingPoint point = given;
-    set_named(point, all);
+    if (any_pointer) set.insert(set.begin(), values.begin(), values.end());
+    if (any_pointer)
+      point = point_at(*input, set);
+    else
+      set_named(point, set);
+    const model::Scales scales = model::scales_of(point.stage);
+    set.push_back({sweep.axis.name, value});
+    if (any_pointer)
+      point = point_at(*input, set);
+    else
+      set_named(point, std::span(set).last(1));
     return model_of(point, scales);
   };
 }

@@ -66,26 +66,43 @@ void write_profile_csv(const std::filesystem::path& file, const CalibrateOutput&
 
 namespace {
 
-/// The range of a variable in the profile where the cost stays below that of the result and one claim more.
+/// Where the cost, along one variable through the result, stays within half of the least weight of a claim: no claim is
+/// lost there. Of a parameter the stretch about the result, of a choice its options.
 std::string determined_text(const CalibrateOutput& output, const Calibration& calibration, std::size_t variable) {
-  const double bound = calibration.best->evaluation.cost + 1.0;
-  double least = std::numeric_limits<double>::infinity();
-  double most = -least;
-  std::size_t good = 0;
-  std::size_t all = 0;
-  for (const studies::ProfilePoint& p : calibration.profile) {
-    if (p.variable != variable) continue;
-    ++all;
-    if (p.evaluation.cost > bound) continue;
-    ++good;
-    least = std::min(least, p.u);
-    most = std::max(most, p.u);
+  const studies::ParameterSpace& space = output.options.space;
+  double least_weight = std::numeric_limits<double>::infinity();
+  for (const studies::Claim& claim : output.options.claims)
+    if (claim.weight > 0.0) least_weight = std::min(least_weight, claim.weight);
+  const double bound = calibration.best->evaluation.cost + 0.5 * least_weight;
+  std::vector<const studies::ProfilePoint*> points;
+  for (const studies::ProfilePoint& p : calibration.profile)
+    if (p.variable == variable) points.push_back(&p);
+  if (points.empty()) return "";
+  const auto is_good = [&](const studies::ProfilePoint* p) {
+    return p->evaluation.refused.empty() && p->evaluation.cost <= bound;
+  };
+  if (std::ranges::all_of(points, is_good)) return "any";
+  if (variable >= space.parameters.size()) {
+    std::string options;
+    for (const auto* p : points)
+      if (is_good(p)) options += (options.empty() ? "" : ", ") + variable_text(space, variable, p->u, 0);
+    return options;
   }
-  if (all == 0) return "";
-  if (good == 0) return "no other value tried";
-  if (good == all) return "any";
-  return variable_text(output.options.space, variable, least, 4) + " to " +
-         variable_text(output.options.space, variable, most, 4);
+  const double u = calibration.best->u[variable];
+  double low = u;
+  double high = u;
+  for (auto p = points.rbegin(); p != points.rend(); ++p)
+    if ((*p)->u <= u) {
+      if (!is_good(*p)) break;
+      low = (*p)->u;
+    }
+  for (const auto* p : points)
+    if (p->u >= u) {
+      if (!is_good(p)) break;
+      high = p->u;
+    }
+  if (low == high) return "nearer than the profile's values";
+  return variable_text(space, variable, low, 4) + " to " + variable_text(space, variable, high, 4);
 }
 
 }  // namespace
@@ -113,7 +130,9 @@ std::string calibrate_summary(const CalibrateOutput& output, const Calibration& 
     text += fmt::format("| {} | {} | {} |\n", options.claims[k].name, options.claims[k].text,
                         best.evaluation.holds[k] == 1 ? "holds" : short_text(best.evaluation.claim_costs[k], 3));
   text +=
-      "\nEach parameter alone, all others as in the result: where the cost rises by less than one claim.\n\n"
+      "\nEach parameter alone, all others as in the result: the stretch of the profile's values where no claim is lost "
+      "(the "
+      "cost rises by less than half of one).\n\n"
       "| parameter | range | result | determined to |\n|---|---|---|---|\n";
   for (std::size_t k = 0; k < options.space.dimension(); ++k) {
     std::string range;

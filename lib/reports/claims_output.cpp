@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -24,6 +25,16 @@ namespace {
 std::string start_name(studies::Start start) { return start == studies::Start::cold ? "cold" : "carried"; }
 
 std::string verdict(const ClaimOutcome& outcome) { return outcome.holds ? "holds" : "fails"; }
+
+/// A text as a cell of a table.
+std::string cell(std::string_view text) {
+  std::string cell;
+  for (const char c : text) {
+    if (c == '|') cell += '\\';
+    cell += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return cell;
+}
 
 /// All conditions' texts in a row.
 std::string measured_text(const ClaimOutcome& outcome) {
@@ -64,7 +75,7 @@ studies::ClaimSeries claim_series(const studies::PointSource& points, const stud
 std::string scorecard_csv(const Scorecard& card) {
   std::vector<std::string> columns = {"claim"};
   for (const ScoredStart& s : card.scored) columns.push_back(start_name(s.start));
-  columns.emplace_back("whatever_the_stage");
+  columns.emplace_back("nothing_changes");
   for (const ScoredStart& s : card.scored) columns.push_back("measured_" + start_name(s.start));
   CsvWriter csv(columns);
   for (std::size_t k = 0; k < card.options.claims.size(); ++k) {
@@ -81,7 +92,7 @@ std::string scorecard_summary(const Scorecard& card) {
   std::string text = fmt::format("# Claims held against {}\n\n", card.name);
   text += fmt::format("{} of {} claims hold", card.holding(), card.options.claims.size());
   if (card.holding_inert() > 0)
-    text += fmt::format(", {} of them whatever the stage: nothing that they speak of changes anything",
+    text += fmt::format(", {} of them with sweeps along which nothing changes at all, by symmetry, say",
                         card.holding_inert());
   text += fmt::format(" (points {}).\n\n", card.scored.front().start == studies::Start::cold
                                                ? "that start cold"
@@ -95,9 +106,10 @@ std::string scorecard_summary(const Scorecard& card) {
   text += " measured |\n" + line + "---|\n";
   for (std::size_t k = 0; k < card.options.claims.size(); ++k) {
     const studies::Claim& claim = card.options.claims[k];
-    text += fmt::format("| {} | {} | {} | {} |", claim.name, claim.where, claim.text, claim.printed);
+    text += fmt::format("| {} | {} | {} | {} |", cell(claim.name), cell(claim.where), cell(claim.text),
+                        cell(claim.printed));
     for (const ScoredStart& s : card.scored)
-      text += fmt::format(" {}{} |", verdict(s.outcomes[k]), s.outcomes[k].inert ? ", whatever the stage" : "");
+      text += fmt::format(" {}{} |", verdict(s.outcomes[k]), s.outcomes[k].inert ? ", nothing changes" : "");
     text += fmt::format(" {} |\n", measured_text(card.scored.front().outcomes[k]));
   }
   for (std::size_t s = 1; s < card.scored.size(); ++s) {
@@ -132,7 +144,10 @@ bool is_beside_the_claims(const std::string& line) {
   for (const char* pointer : {"/name:", "/integrator/", "/study/brief/", "/study/search/", "/study/survey/",
                               "/study/parameters", "/study/choices", "/study/figures"})
     if (line.starts_with(pointer) && !line.starts_with("/integrator/clearance_smoothing")) return true;
-  return false;
+  const std::string_view pointer = std::string_view(line).substr(0, line.find(": "));
+  return (line.starts_with("/study/claims/") && pointer.ends_with("/weight")) ||
+         (line.starts_with("/study/sweeps/") &&
+          (pointer.ends_with("/brief_points") || pointer.ends_with("/survey_points") || pointer.ends_with("/round")));
 }
 
 }  // namespace
@@ -144,21 +159,24 @@ std::string recorded_text(const Scorecard& card, const input::LoadedInput& study
   return text + "\n],\n\"study\": " + study.resolved.dump() + "\n}\n";
 }
 
-RecordedDifference unlike_recorded(const Scorecard& card, const input::LoadedInput& study,
-                                   const std::filesystem::path& recorded) {
-  const input::JsonSource source = input::read_json_file(recorded);
+json read_recorded(const std::filesystem::path& file) {
+  const input::JsonSource source = input::read_json_file(file);
   if (!source.problems.empty()) throw input::InputProblems(source.problems);
-  const json& file = source.value;
+  const json& recorded = source.value;
   const auto is_list_of_objects = [](const json& list) {
     return list.is_array() && std::ranges::all_of(list, [](const json& one) {
              return one.is_object() && one.contains("claim") && one["claim"].is_string();
            });
   };
-  if (!file.is_object() || file.value("format", json()) != recorded_format ||
-      !is_list_of_objects(file.value("verdicts", json())) || !file.value("study", json()).is_object())
-    throw InputError(recorded.string() + ": holds no recorded verdicts");
+  if (!recorded.is_object() || recorded.value("format", json()) != recorded_format ||
+      !is_list_of_objects(recorded.value("verdicts", json())) || !recorded.value("study", json()).is_object())
+    throw InputError(file.string() + ": holds no recorded verdicts");
+  return recorded;
+}
+
+RecordedDifference unlike_recorded(const Scorecard& card, const input::LoadedInput& study, const json& recorded) {
   RecordedDifference difference;
-  json there = file["study"];
+  json there = recorded["study"];
   const json computed = input::computed_values(there);
   difference.study = store::differences({there, computed}, {study.resolved, study.computed});
   std::erase_if(difference.study, is_beside_the_claims);
@@ -168,9 +186,10 @@ RecordedDifference unlike_recorded(const Scorecard& card, const input::LoadedInp
   };
   const json now = verdicts_of(card);
   for (const json& one : now) {
-    const auto was = of_claim(file["verdicts"], one["claim"]);
+    const auto was = of_claim(recorded["verdicts"], one["claim"]);
     for (const auto& [start, is] : one.items()) {
-      const json before = was == file["verdicts"].end() ? json() : was->value(start, json());
+      if (start == "claim") continue;
+      const json before = was == recorded["verdicts"].end() ? json() : was->value(start, json());
       if (before != is)
         difference.verdicts.push_back(fmt::format("{} ({}): {}, was recorded: {}", one["claim"].get<std::string>(),
                                                   start, is.get<std::string>(),
@@ -183,11 +202,12 @@ RecordedDifference unlike_recorded(const Scorecard& card, const input::LoadedInp
 namespace {
 
 /// Poincare points of planet 1's mesh over the parameter, of the first direction.
-std::vector<std::array<double, 2>> section_dots(const studies::PointSource& points, studies::MeshSide mesh) {
+std::vector<std::array<double, 2>> section_dots(const studies::PointSource& points, studies::MeshSide mesh,
+                                                studies::Direction direction) {
   std::vector<std::array<double, 2>> dots;
   for (std::size_t k = 0; k < points.count; ++k) {
     const studies::PointResult r = points.read(k);
-    if (r.point.direction != studies::Direction::up || r.outcome != integrate::Outcome::reached) continue;
+    if (r.point.direction != direction || r.outcome != integrate::Outcome::reached) continue;
     const std::size_t planets = r.sun_planet.size();
     const std::size_t column = r.poincare_columns - (mesh == studies::MeshSide::sun_planet ? 2 : 1) * planets;
     for (std::size_t row = 0; row < r.poincare_rows(); ++row)
@@ -206,14 +226,14 @@ std::vector<DrawnFigure> draw_claim_figures(const std::filesystem::path& folder,
     figures::FigureRange x;
     std::string parameter;
     for (const studies::ClaimPanel& panel : figure.panels) {
-      const auto dots = section_dots(points(panel.sweep), panel.mesh);
+      const auto sweep = std::ranges::find(card.options.sweeps, panel.sweep, &studies::ClaimSweep::name);
+      const auto dots = section_dots(points(panel.sweep), panel.mesh, sweep->directions.front());
       figures::FigureRange y;
       for (const auto& [value, delta] : dots) {
         x.include(value);
         y.include(delta);
       }
-      for (const studies::ClaimSweep& sweep : card.options.sweeps)
-        if (sweep.name == panel.sweep) parameter = sweep.axis.name;
+      parameter = sweep->axis.name;
       const std::string symbol = panel.mesh == studies::MeshSide::sun_planet ? "δ_{sp1} / b_c" : "δ_{rp1} / b_c";
       const std::string words = panel.title.empty() ? symbol : figures::literal_text(panel.title) + "    " + symbol;
       sketch.panel(words, y.widened(figures::figure_margin));

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "reports/sweep_output.hpp"
 #include "studies/claims.hpp"
 #include "studies/point_source.hpp"
@@ -52,8 +54,11 @@ struct RecordedDifference {
 };
 
 /// @throws InputError when the file is none of recorded_text()
+[[nodiscard]] nlohmann::json read_recorded(const std::filesystem::path& file);
+
+/// @param recorded  of read_recorded()
 [[nodiscard]] RecordedDifference unlike_recorded(const Scorecard& card, const input::LoadedInput& study,
-                                                 const std::filesystem::path& recorded);
+                                                 const nlohmann::json& recorded);
 
 /// The points of a sweep by its name.
 using SweepPoints = std::function<studies::PointSource(const std::string& sweep)>;

@@ -233,7 +233,9 @@ std::size_t most_evaluations(const ClaimsOptions& options) {
   const int generations = std::max(1, s.candidates / (s.islands * s.population) - 1);
   return static_cast<std::size_t>(s.islands) * static_cast<std::size_t>(s.population) *
              static_cast<std::size_t>(generations + 1) +
-         static_cast<std::size_t>(s.refinement) + profile_places(options).size();
+         (s.refinement > 0 ? static_cast<std::size_t>(s.refinement) + 2 * options.space.dimension()
+                           : 0) +  // it ends a round
+         profile_places(options).size();
 }
 
 Calibration calibrate(const ClaimsOptions& options, const Evaluator& evaluate,

@@ -17,6 +17,8 @@ namespace {
 using analysis::Regime;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
+/// Ranges below it are what integration and settling leave [b_c].
+constexpr double noise = 1e-6;
 constexpr double step_of_failure = 0.1;  ///< a condition that just fails costs so much [C-cost]
 
 std::string number(double x) { return short_text(x, 5); }
@@ -39,6 +41,11 @@ int period_in(std::string_view word) {
 constexpr std::string_view negation = "not ";
 
 }  // namespace
+
+int motion_period(std::string_view word) {
+  if (word.starts_with(negation)) word.remove_prefix(negation.size());
+  return period_in(word);
+}
 
 bool is_motion_word(std::string_view word) {
   if (word.starts_with(negation)) word.remove_prefix(negation.size());
@@ -109,13 +116,20 @@ ClaimPoint claim_point(const PointResult& result, const LookOptions& look) {
   };
   const analysis::PoincareSection sun = column(columns - 2 * planets);
   const analysis::PoincareSection ring = column(columns - planets);
+  // Of period 1 the section is one point; what it is wide is what settling leaves.
+  const bool is_point = point.motion.regime == Regime::periodic && point.motion.period == 1;
   point.by_sun_mesh = alone(sun);
   point.by_ring_mesh = alone(ring);
   const MeshRecord& sp = result.sun_planet.front();
   const MeshRecord& rp = result.ring_planet.front();
-  point.quantities = {
-      sp.delta_max - sp.delta_min, rp.delta_max - rp.delta_min, sp.delta_max,         rp.delta_max,
-      analysis::extent(sun),       analysis::extent(ring),      result.planet_spread, result.lyapunov_max().value};
+  point.quantities = {sp.delta_max - sp.delta_min,
+                      rp.delta_max - rp.delta_min,
+                      sp.delta_max,
+                      rp.delta_max,
+                      is_point ? 0.0 : analysis::extent(sun),
+                      is_point ? 0.0 : analysis::extent(ring),
+                      result.planet_spread,
+                      result.lyapunov_max().value};
   return point;
 }
 
@@ -177,17 +191,32 @@ double best_likeness(std::span<const ClaimPoint> part, std::string_view word) {
   return best;
 }
 
+std::size_t failed_in(std::span<const ClaimPoint> part) {
+  return static_cast<std::size_t>(std::ranges::count_if(part, [](const ClaimPoint& p) { return !p.reached; }));
+}
+
+/// What failed points may have been counts against an upper bound.
+/// @param unit  what one of them would add
+void judge_failed(const Condition& c, std::span<const ClaimPoint> part, double unit, ConditionOutcome& o) {
+  const double more = unit * static_cast<double>(failed_in(part));
+  if (!c.at_most || !(o.measured + more > *c.at_most) || !o.holds) return;
+  o.holds = false;
+  o.cost = step_of_failure;
+}
+
 void share(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
   const auto n = static_cast<double>(part.size());
   o.measured = static_cast<double>(std::ranges::count_if(part, [&](const auto& p) { return moves(p, c.motion); })) / n;
   o.error = 0.5 / n;
   judge_bounds(c, o, 1.0);
+  judge_failed(c, part, 1.0 / n, o);
   o.text = number(o.measured * 100.0) + " % " + c.motion + range_text(part) + ", " + bound_text(c);
 }
 
 void count(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
   o.measured = static_cast<double>(std::ranges::count_if(part, [&](const auto& p) { return moves(p, c.motion); }));
   judge_bounds(c, o, static_cast<double>(part.size()));
+  judge_failed(c, part, 1.0, o);
   if (!o.holds && c.at_least && o.measured == 0.0)
     o.cost = 1.0 - (1.0 - step_of_failure) * best_likeness(part, c.motion);
   o.text = number(o.measured) + " points " + c.motion + range_text(part) + ", " + bound_text(c);
@@ -206,7 +235,7 @@ void change(const Condition& c, std::span<const ClaimPoint> part, ConditionOutco
     }
     o.measured = 0.5 * (part[k].value + part[k + 1].value);
     o.error = 0.5 * (part[k + 1].value - part[k].value);
-    if (c.which == Which::first) break;
+    if (c.which.value_or(Which::first) == Which::first) break;
   }
   const std::string words = c.motion + " to " + c.after + (c.leads_to.empty() ? "" : " that leads to " + c.leads_to);
   const std::string must = ", must be within " + number(c.within[0]) + " to " + number(c.within[1]);
@@ -240,7 +269,7 @@ void value(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
     if (p.reached && (c.motion.empty() || p.motion.is(c.motion))) values.push_back(p.quantity(c.quantity));
   o.measured = none;
   if (!values.empty()) {
-    switch (c.statistic) {
+    switch (c.statistic.value_or(Statistic::largest)) {
       case Statistic::least:
         o.measured = std::ranges::min(values);
         break;
@@ -253,6 +282,7 @@ void value(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
   }
   const double bound = std::abs(c.at_least.value_or(c.at_most.value_or(0.0)));
   judge_bounds(c, o, std::max(bound, std::numeric_limits<double>::min()));
+  judge_failed(c, part, std::numeric_limits<double>::infinity(), o);
   o.text = c.quantity + " " + number(o.measured) + range_text(part) + ", " + bound_text(c);
 }
 
@@ -269,13 +299,13 @@ void falls(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
       most_at = p.value;
     }
   }
-  // A range of a periodic motion is nothing but rounding: it has fallen by any factor.
+  // A range of period 1 is none: it has fallen by any factor. Where there is none at first, nothing falls.
   const double factor = c.at_least.value_or(1.0);
   const double floor = std::max(last, std::numeric_limits<double>::epsilon());
   o.measured = first / floor;
   const bool fell = o.measured >= factor;
   const bool rises = most > first;
-  o.holds = reached && fell && !rises;
+  o.holds = reached && fell && !rises && first > noise;
   if (!o.holds) {
     const double fell_short = fell ? 0.0 : 1.0 - std::log(std::max(1.0, o.measured)) / std::log(std::max(2.0, factor));
     const double rose = rises ? (most - first) / most : 0.0;
@@ -286,12 +316,17 @@ void falls(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
            ", must fall by a factor of " + number(factor) + " and never rise above the first";
 }
 
+constexpr double default_place_tolerance = 0.1;
+constexpr double default_prominence = 0.1;
+
 void peaks(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
+  const double place_tolerance = c.place_tolerance.value_or(default_place_tolerance);
+  const double prominence = c.prominence.value_or(default_prominence);
   std::vector<double> x;
   double most = 0.0;
   for (const ClaimPoint& p : part) {
     x.push_back(p.reached ? p.quantity(c.quantity) : 0.0);
-    most = std::max(most, x.back());
+    most = std::max(most, std::abs(x.back()));
   }
   const auto prominence_at = [&](std::size_t k) {
     double left = x[k];
@@ -306,23 +341,23 @@ void peaks(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
     double best = 0.0;
     double at = none;
     for (std::size_t k = 1; k + 1 < x.size(); ++k) {
-      if (std::abs(part[k].value - place) > c.place_tolerance * place || x[k] < x[k - 1] || x[k] < x[k + 1]) continue;
+      if (std::abs(part[k].value - place) > place_tolerance * place || x[k] < x[k - 1] || x[k] < x[k + 1]) continue;
       if (const double p = prominence_at(k); p > best) {
         best = p;
         at = part[k].value;
       }
     }
     const double relative = most > 0.0 ? best / most : 0.0;
-    const bool peak = relative >= c.prominence;
+    const bool peak = relative >= prominence;
     met += peak ? 1.0 : 0.0;
-    costs += peak ? 0.0 : step_of_failure + (1.0 - step_of_failure) * (1.0 - relative / c.prominence);
+    costs += peak ? 0.0 : step_of_failure + (1.0 - step_of_failure) * (1.0 - relative / prominence);
     o.text += (o.text.empty() ? "" : "; ") + ("at " + number(place)) +
               (std::isnan(at) ? ": no maximum" : ": prominence " + number(100.0 * relative) + " % at " + number(at));
   }
   o.measured = met;
   o.holds = met == static_cast<double>(c.places.size());
   o.cost = o.holds ? 0.0 : costs / static_cast<double>(c.places.size());
-  o.text += "; each must have " + number(100.0 * c.prominence) + " %";
+  o.text += "; each must have " + number(100.0 * prominence) + " %";
 }
 
 /// A step is a jump if it is so many times its neighbours' steps: a flank of a resonance is no jump.
@@ -332,7 +367,7 @@ void jump(const Condition& c, const ClaimSeries& series, std::span<const ClaimPo
   const auto q = [&](const ClaimPoint& p) { return p.quantity(c.quantity); };
   const auto relative = [&](const ClaimPoint& a, const ClaimPoint& b) {
     const double larger = std::max(std::abs(q(a)), std::abs(q(b)));
-    return larger > 0.0 ? std::abs(q(a) - q(b)) / larger : 0.0;
+    return larger > noise ? std::abs(q(a) - q(b)) / larger : 0.0;
   };
   const auto counts = [&](const ClaimPoint& p) { return p.reached && (c.motion.empty() || p.motion.is(c.motion)); };
   double best = 0.0;
@@ -374,17 +409,21 @@ void jump(const Condition& c, const ClaimSeries& series, std::span<const ClaimPo
 /// Of two points next to each other: 1 for another motion, else the relative change of the Poincare range, where a
 /// range that recurrence takes for a point is none.
 double variation_between(const ClaimPoint& a, const ClaimPoint& b) {
-  if (!a.reached || !b.reached) return a.reached == b.reached ? 0.0 : 1.0;
+  if (!a.reached || !b.reached) return 1.0;
   if (!a.motion.same(b.motion)) return 1.0;
   // The section of period 1 is one point: its range is that of the oscillation in time.
   const bool point = a.motion.is("period 1");
   const std::string_view name = point ? "delta_sp_range" : "poincare_sp_range";
   const double larger = std::max(a.quantity(name), b.quantity(name));
-  return larger > 0.0 ? std::abs(a.quantity(name) - b.quantity(name)) / larger : 0.0;
+  return larger > noise ? std::abs(a.quantity(name) - b.quantity(name)) / larger : 0.0;
 }
 
 void variation(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
   double at = none;
+  if (part.size() < 2) {
+    o.text = "a single point does not vary";
+    return;
+  }
   for (std::size_t k = 0; k + 1 < part.size(); ++k)
     if (const double v = variation_between(part[k], part[k + 1]); v > o.measured) {
       o.measured = v;
@@ -439,7 +478,7 @@ void decreasing(const Condition& c, const ClaimRecord& record, ConditionOutcome&
   // Where the motion is met in the first sweep, at values that all of them have.
   std::vector<std::span<const ClaimPoint>> parts;
   for (const std::string& sweep : c.sweeps) parts.push_back(part_of(record.at(sweep).points, c));
-  std::vector<double> most(parts.size(), 0.0);
+  std::vector<double> most(parts.size(), -std::numeric_limits<double>::infinity());
   std::size_t seen = 0;
   for (const ClaimPoint& first : parts.front()) {
     if (!first.reached || (!c.motion.empty() && !first.motion.is(c.motion))) continue;
@@ -465,8 +504,10 @@ void decreasing(const Condition& c, const ClaimRecord& record, ConditionOutcome&
   }
   double rises = 0.0;
   for (std::size_t s = 0; s + 1 < most.size(); ++s)
-    if (!(most[s + 1] < most[s]))
-      rises += step_of_failure + std::min(1.0 - step_of_failure, most[s + 1] / most[s] - 1.0);
+    if (!(most[s + 1] < most[s])) {
+      const double size = std::max(std::abs(most[s]), std::numeric_limits<double>::min());
+      rises += step_of_failure + std::min(1.0 - step_of_failure, (most[s + 1] - most[s]) / size);
+    }
   o.cost = o.holds ? 0.0 : rises / pairs;
   for (std::size_t s = 0; s < most.size(); ++s) o.text += (s == 0 ? "" : ", ") + number(most[s]);
   o.text = "largest " + c.quantity + " " + o.text + ", must fall";
@@ -522,6 +563,8 @@ ConditionOutcome judge(const Condition& c, const ClaimRecord& record) {
       break;
   }
   if (o.holds) o.cost = 0.0;
+  if (const std::size_t failed = failed_in(part); failed > 0)
+    o.text += "; " + std::to_string(failed) + (failed == 1 ? " point" : " points") + " failed";
   return o;
 }
 
@@ -552,7 +595,7 @@ bool is_inert(const ClaimSeries& series) {
   constexpr double nothing = 1e-5;  // of a range; integration leaves less
   return std::ranges::all_of(series.points, [&](const ClaimPoint& p) {
     const ClaimPoint& first = series.points.front();
-    return p.motion.same(first.motion) && variation_between(first, p) < nothing;
+    return p.reached && p.motion.same(first.motion) && variation_between(first, p) < nothing;
   });
 }
 

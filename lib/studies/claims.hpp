@@ -7,7 +7,8 @@
 //   cost of a number x that has to be within [a, b]:  0.1 + 0.9 d / (d + w),  d the distance, w = b - a [C-cost]
 //
 // A change between two motions is told halfway between the two points that it lies between, with half their distance as
-// its error. Points that failed count as no motion at all.
+// its error. Points that failed count as no motion at all, and against an upper bound. The Poincare range of period 1
+// is 0.
 #pragma once
 
 #include <cstddef>
@@ -70,7 +71,7 @@ struct ClaimOutcome {
   bool holds = false;
   double cost = 1;
   std::vector<ConditionOutcome> conditions;
-  bool inert = false;  ///< no sweep that it speaks of changes anything at all: it holds whatever the stage
+  bool inert = false;  ///< along none of its sweeps anything changes at all, by symmetry, say
 };
 
 [[nodiscard]] ClaimOutcome judge(const Claim& claim, const ClaimRecord& record);

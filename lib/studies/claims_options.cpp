@@ -87,6 +87,10 @@ void check_condition(Checks& checks, const std::string& place, const Condition& 
         "quantity");
   wants(!c.places.empty(), c.kind == peaks, c.kind == peaks, "places");
   wants(c.correlation.has_value(), false, c.kind == alike, "correlation");
+  wants(c.which.has_value(), false, c.kind == change, "which");
+  wants(c.statistic.has_value(), false, c.kind == value, "statistic");
+  wants(c.place_tolerance.has_value(), false, c.kind == peaks, "place_tolerance");
+  wants(c.prominence.has_value(), false, c.kind == peaks, "prominence");
   const bool bounded = of({share, count, value, variation});
   wants(c.at_least.has_value(), of({falls, jump, alike}), bounded || of({falls, jump, alike}), "at_least");
   wants(c.at_most.has_value(), false, bounded, "at_most");
@@ -94,6 +98,23 @@ void check_condition(Checks& checks, const std::string& place, const Condition& 
     checks.refuse(place, "needs \"at_least\" or \"at_most\": it bounds nothing");
   if (c.at_least && c.at_most && !(*c.at_least <= *c.at_most))
     checks.refuse(place + "/at_least", "is " + short_text(*c.at_least, 17) + ", must be <= at_most");
+  // Parts of 1; beyond them a condition would never hold, or always.
+  if (of({share, alike, variation, jump})) {
+    if (c.at_least && !(*c.at_least > 0.0 && *c.at_least <= 1.0))
+      checks.refuse(place + "/at_least", "is " + short_text(*c.at_least, 17) + ", must be > 0 and <= 1: a part of 1");
+    if (c.at_most && !(*c.at_most >= 0.0 && *c.at_most < 1.0))
+      checks.refuse(place + "/at_most", "is " + short_text(*c.at_most, 17) + ", must be >= 0 and < 1: a part of 1");
+  }
+  if (c.kind == count) {
+    if (c.at_least && !(*c.at_least > 0.0))
+      checks.refuse(place + "/at_least", "is " + short_text(*c.at_least, 17) + ", must be > 0");
+    if (c.at_most && !(*c.at_most >= 0.0))
+      checks.refuse(place + "/at_most", "is " + short_text(*c.at_most, 17) + ", must be >= 0");
+  }
+  if (c.prominence && !(*c.prominence > 0.0))
+    checks.refuse(place + "/prominence", "is 0, must be > 0: any point has it");
+  if (!c.leads_to.empty() && c.leads_to == c.motion)
+    checks.refuse(place + "/leads_to", "is the motion that is left, which is not met before it comes back");
   if (c.kind == falls && c.at_least && !(*c.at_least > 1.0)) checks.refuse(place + "/at_least", "must be > 1");
   if (c.kind == jump && c.at_least && !(*c.at_least > 0.0)) checks.refuse(place + "/at_least", "must be > 0");
   if (c.from && c.to && !(*c.from <= *c.to))
@@ -112,13 +133,89 @@ void check_condition(Checks& checks, const std::string& place, const Condition& 
   for (std::size_t k = 0; k < c.motions.size(); ++k) word(c.motions[k], "motions/" + std::to_string(k));
 }
 
+/// What a condition wants of its sweep's grids: values in its part, and places and bounds among them.
+void check_grids(Checks& checks, const std::string& place, const Condition& c, const ClaimSweep& sweep,
+                 const ClaimsOptions& options) {
+  using enum ConditionKind;
+  const Axis& axis = sweep.axis;
+  if (!(axis.from < axis.to)) return;
+  const double from = std::max(axis.from, c.from.value_or(axis.from));
+  const double to = std::min(axis.to, c.to.value_or(axis.to));
+  const std::string range = short_text(from, 6) + " to " + short_text(to, 6);
+  std::size_t needed = 1;
+  if (c.kind == change || c.kind == jump || c.kind == variation) needed = 2;
+  if (c.kind == peaks) needed = 3;
+  if (c.kind == sequence) needed = c.motions.size();
+  if (c.kind == count && c.at_least) needed = static_cast<std::size_t>(std::max(1.0, std::ceil(*c.at_least)));
+  for (const auto& [points, key] : {std::pair(axis.points, "points"), std::pair(sweep.brief_points, "brief_points"),
+                                    std::pair(sweep.survey_points, "survey_points")}) {
+    Axis grid = axis;
+    grid.points = std::min(points, axis.points);
+    const std::vector<double> values = axis_values(grid);
+    const auto there =
+        static_cast<std::size_t>(std::ranges::count_if(values, [&](double v) { return v >= from && v <= to; }));
+    if (there < needed)
+      checks.refuse(place, "needs " + std::to_string(needed) + " points of \"" + sweep.name + "\" within " + range +
+                               "; its grid of " + std::to_string(grid.points) + " (" + key + ") has " +
+                               std::to_string(there));
+  }
+  if (c.within.size() == 2 && (c.within[1] < from || c.within[0] > to))
+    checks.refuse(place + "/within", "lies outside the part that is looked at, " + range);
+  for (std::size_t k = 0; k < c.places.size(); ++k)
+    if (!(c.places[k] >= from && c.places[k] <= to && c.places[k] > 0.0))
+      checks.refuse(place + "/places/" + std::to_string(k),
+                    "is " + short_text(c.places[k], 17) + ", must be > 0 and within " + range);
+  const auto check_period = [&](const std::string& word, const std::string& key) {
+    const int period = motion_period(word);
+    if (period > options.look.period_max)
+      checks.refuse(place + "/" + key, "is \"" + word + "\", longer than period_max = " +
+                                           std::to_string(options.look.period_max) + ": it is not looked for");
+    else if (2 * period > options.brief.recorded_periods || 2 * period > options.survey.look.recorded_periods)
+      checks.refuse(place + "/" + key, "is \"" + word + "\", which takes twice as many recorded_periods to be seen; " +
+                                           "brief or survey look at fewer");
+  };
+  check_period(c.motion, "motion");
+  check_period(c.after, "after");
+  check_period(c.leads_to, "leads_to");
+  for (std::size_t k = 0; k < c.motions.size(); ++k) check_period(c.motions[k], "motions/" + std::to_string(k));
+  if (c.quantity == "lyapunov_max" && options.look.classification_periods == 0)
+    checks.refuse(place + "/quantity", "is \"lyapunov_max\", which nobody computes with classification_periods = 0");
+}
+
+/// Numbers of the study that are no part of the stage and its motion cannot be set.
+bool can_be_set(const std::string& pointer) {
+  for (const char* root : {"/stage/", "/model/", "/operation/", "/integrator/clearance_smoothing"})
+    if (pointer.starts_with(root)) return true;
+  return pointer == "/stage" || pointer == "/model" || pointer == "/operation";
+}
+
+const char* const what_can_be_set = "must begin with /stage, /model or /operation: the rest is no matter of the stage";
+
 void check_space(Checks& checks, const ParameterSpace& space) {
   const Names parameters = checks.names(space.parameters, "/parameters");
-  (void)checks.names(space.choices, "/choices");
+  const Names choices = checks.names(space.choices, "/choices");
+  for (std::size_t k = 0; k < space.choices.size(); ++k)
+    if (parameters.contains(space.choices[k].name))
+      checks.refuse("/choices/" + std::to_string(k) + "/name", "is \"" + space.choices[k].name + "\", as a parameter");
+  // Names head columns beside others.
+  const auto is_taken = [](const std::string& name) {
+    for (const char* taken :
+         {"phase", "number", "cost", "given_up", "claims_met", "draw", "valid", "variable", "value"})
+      if (name == taken) return true;
+    return name.starts_with("cost_") || name.starts_with("holds_");
+  };
+  for (const auto& [list, place] : {std::pair(&parameters, "/parameters"), std::pair(&choices, "/choices")})
+    for (const std::string& name : *list)
+      if (is_taken(name)) checks.refuse(place, "have one called \"" + name + "\", as a column of their tables is");
   for (std::size_t k = 0; k < space.choices.size(); ++k) {
     const Choice& choice = space.choices[k];
     const std::string place = "/choices/" + std::to_string(k);
     (void)checks.names(choice.options, place + "/options");
+    for (std::size_t o = 0; o < choice.options.size(); ++o)
+      for (std::size_t t = 0; t < choice.options[o].sets.size(); ++t)
+        if (!can_be_set(choice.options[o].sets[t].pointer))
+          checks.refuse(place + "/options/" + std::to_string(o) + "/sets/" + std::to_string(t) + "/pointer",
+                        "is \"" + choice.options[o].sets[t].pointer + "\", " + what_can_be_set);
     if (choice.options.size() < 2) checks.refuse(place + "/options", "must be two at least");
   }
   for (std::size_t k = 0; k < space.parameters.size(); ++k) {
@@ -138,6 +235,21 @@ void check_space(Checks& checks, const ParameterSpace& space) {
       if (!p.targets[t].times.empty() && !parameters.contains(p.targets[t].times))
         checks.refuse(place + "/targets/" + std::to_string(t) + "/times",
                       "is \"" + p.targets[t].times + "\", which is no parameter of the study");
+    for (std::size_t t = 0; t < p.targets.size(); ++t) {
+      const ParameterTarget& target = p.targets[t];
+      const std::string at = place + "/targets/" + std::to_string(t);
+      if (!can_be_set(target.pointer))
+        checks.refuse(at + "/pointer", "is \"" + target.pointer + "\", " + what_can_be_set);
+      if (target.power == 0.0) checks.refuse(at + "/power", "is 0: the parameter would change nothing");
+      if (target.factor == 0.0) checks.refuse(at + "/factor", "is 0: the parameter would change nothing");
+      for (std::size_t other = 0; other <= k; ++other) {
+        const FreeParameter& q = space.parameters[other];
+        const bool never_together = !p.choice.empty() && p.choice == q.choice && p.option != q.option;
+        for (std::size_t u = 0; u < (other == k ? t : q.targets.size()); ++u)
+          if (!never_together && q.targets[u].pointer == target.pointer)
+            checks.refuse(at + "/pointer", "is \"" + target.pointer + "\", which \"" + q.name + "\" gives already");
+      }
+    }
     if (p.choice.empty() != p.option.empty()) checks.refuse(place + "/choice", "and \"option\" stand together");
     if (p.choice.empty()) continue;
     const auto choice = std::ranges::find(space.choices, p.choice, &Choice::name);
@@ -158,6 +270,16 @@ std::vector<std::pair<std::string, std::string>> ClaimsOptions::problems() const
   (void)checks.names(claims, "/claims");
   (void)checks.names(figures, "/figures");
   for (std::size_t k = 0; k < sweeps.size(); ++k)
+    if (sweeps[k].name.ends_with(".json"))
+      checks.refuse("/sweeps/" + std::to_string(k) + "/name", "ends with .json, as inputs do");
+  if (search.candidates < search.islands * search.population)
+    checks.refuse("/search/candidates",
+                  "is " + std::to_string(search.candidates) +
+                      ", must be >= islands x population = " + std::to_string(search.islands * search.population));
+  for (std::size_t k = 0; k < sweeps.size(); ++k)
+    if (!(sweeps[k].axis.from < sweeps[k].axis.to))
+      checks.refuse("/sweeps/" + std::to_string(k) + "/from", "must be < to");
+  for (std::size_t k = 0; k < sweeps.size(); ++k)
     if (!sweeps[k].name.empty() && !is_file_name(sweeps[k].name))
       checks.refuse(
           "/sweeps/" + std::to_string(k) + "/name",
@@ -171,8 +293,24 @@ std::vector<std::pair<std::string, std::string>> ClaimsOptions::problems() const
   for (std::size_t k = 0; k < claims.size(); ++k) {
     const std::string place = "/claims/" + std::to_string(k) + "/conditions";
     if (claims[k].conditions.empty()) checks.refuse(place, "is empty: the claim would always hold");
-    for (std::size_t c = 0; c < claims[k].conditions.size(); ++c)
-      check_condition(checks, place + "/" + std::to_string(c), claims[k].conditions[c], names);
+    for (std::size_t c = 0; c < claims[k].conditions.size(); ++c) {
+      const Condition& condition = claims[k].conditions[c];
+      const std::string at = place + "/" + std::to_string(c);
+      check_condition(checks, at, condition, names);
+      std::string parameter;
+      for (std::size_t j = 0; j < condition.sweeps.size(); ++j) {
+        const auto sweep = std::ranges::find(sweeps, condition.sweeps[j], &ClaimSweep::name);
+        if (sweep == sweeps.end()) continue;
+        if (std::ranges::count(condition.sweeps, condition.sweeps[j]) > 1)
+          checks.refuse(at + "/sweeps/" + std::to_string(j), "is there twice: it does not fall from itself to itself");
+        if (!parameter.empty() && sweep->axis.name != parameter)
+          checks.refuse(at + "/sweeps/" + std::to_string(j), "is a sweep of another parameter than the first");
+        if (parameter.empty()) parameter = sweep->axis.name;
+      }
+      const auto sweep = std::ranges::find(sweeps, condition.sweep, &ClaimSweep::name);
+      if (sweep != sweeps.end() && condition.kind != ConditionKind::decreasing)
+        check_grids(checks, at, condition, *sweep, *this);
+    }
   }
   for (std::size_t k = 0; k < figures.size(); ++k) {
     const std::string place = "/figures/" + std::to_string(k);

@@ -75,15 +75,15 @@ struct Condition {
   std::string after;                 ///< change: the motion after it
   std::string leads_to;              ///< change: what is met before `motion` comes back, if given
   std::vector<std::string> motions;  ///< sequence
-  Which which = Which::first;        ///< change: of several, along the rising parameter
+  std::optional<Which> which;        ///< change: of several, along the rising parameter; the first if not given
   std::vector<double> within;        ///< change: least and greatest value
   std::optional<double> at_least, at_most;
-  std::string quantity;  ///< of claim_quantities
-  Statistic statistic = Statistic::largest;
-  std::vector<double> places;         ///< peaks
-  double place_tolerance = 0.1;       ///< peaks: relative distance from a place
-  double prominence = 0.1;            ///< peaks: in parts of the largest value
-  std::optional<double> correlation;  ///< alike: of the two ranges
+  std::string quantity;                   ///< of claim_quantities
+  std::optional<Statistic> statistic;     ///< value: the largest if not given
+  std::vector<double> places;             ///< peaks
+  std::optional<double> place_tolerance;  ///< peaks: relative distance from a place; 0.1 if not given
+  std::optional<double> prominence;       ///< peaks: in parts of the largest value; 0.1 if not given
+  std::optional<double> correlation;      ///< alike: of the two ranges
 };
 
 /// Quantities of a point that conditions speak of, of planet 1 where they are of a mesh. [b_c], exponent per tau.
@@ -129,7 +129,7 @@ struct BriefLook {
 struct SurveyOptions {
   int draws = 1000;
   int seed = 1;
-  BriefLook look = {.recorded_periods = 64};
+  BriefLook look;
 };
 
 enum class SearchMethod {
@@ -167,5 +167,8 @@ struct ClaimsOptions {
 /// Is it a motion that conditions can name: "period 3", "periodic", "multi-period" (periodic, of 2 or more mesh
 /// periods), "quasiperiodic", "chaotic", "aperiodic" (either of them), or "not " and one of these?
 [[nodiscard]] bool is_motion_word(std::string_view word);
+
+/// N of "period N", also behind "not "; 0 of other words.
+[[nodiscard]] int motion_period(std::string_view word);
 
 }  // namespace epicyclic::studies

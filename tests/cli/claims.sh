@@ -81,7 +81,7 @@ kill -INT $! 2>/dev/null || true
 code=0 && wait $! || code=$?
 [ $code = 75 ] || [ $code = 0 ] || fail "a stop: $code $(<stderr)"
 [ "$(code_of "$epicyclic" calibrate claims.json -o c2 --threads 1)" = 0 ] || fail "going on: $(<stderr)"
-[ "$(grep -o '"candidates": [0-9]*' c1/run.json)" = "$(grep -o '"candidates": [0-9]*' c2/run.json)" ] || fail "a stopped search counts other candidates"
+[ "$(grep -om1 '"candidates": [0-9]*' c1/run.json)" = "$(grep -om1 '"candidates": [0-9]*' c2/run.json)" ] || fail "a stopped search counts other candidates: $(grep candidates c1/run.json) $(grep candidates c2/run.json) $(wc -l <c2/candidates.csv)"
 for file in "${files[@]}"; do
   cmp -s "c1/$file" "c2/$file" || fail "$file differs after a stop"
   cmp -s "c1/$file" "c3/$file" || fail "$file differs with three threads"
@@ -148,8 +148,19 @@ refused 's/"name": "damping", "parameter"/"name": "speed_cold", "parameter"/; s/
 refused 's/"from": 0.5, "to": 20/"from": -1, "to": 20/' '/study/parameters/0/from: is -1, must be > 0 on a logarithmic scale' calibrate
 refused 's/"from": 0.9, "to": 1.1/"from": 0.9, "to": 1.1, "targets": [ { "pointer": "\/stage\/lumped\/none" } ]/' '/study/parameters/1/targets/0/pointer: .*is no value of the resolved input' calibrate
 refused 's/"choice": "load", "option": "torque"/"choice": "load", "option": "talk"/' 'is "talk", which is no option of that choice' calibrate
+refused 's/"motion": "chaotic", "at_most": 5/"motion": "chaotic", "which": "last", "at_most": 5/' '/which: is not read by a condition of kind "count"' reproduce
+refused 's/"motion": "chaotic", "at_most": 5/"motion": "chaotic", "from": 1.9, "to": 1.95, "at_most": 5/' 'its grid of 9 (points) has 0' reproduce
+refused 's/"value": { "power_kW": 400 }/"value": { "power_kW": -4 }/' '/study/choices/0: with "power": .*power_kW: is -4' calibrate
+refused 's/"pointer": "\/stage\/load", "value": { "power_kW": 400 }/"pointer": "\/study\/points", "value": 3/' 'must begin with /stage, /model or /operation' calibrate
+refused 's/"candidates": 42/"candidates": 13/' 'must be >= islands x population = 14' calibrate
+refused 's/"name": "E", "words"/"name": "cost", "words"/' 'as a column of their tables is' calibrate
 refused 's/"parameter": "damping_ratio"/"parameter": "damping"/' '/study/sweeps/1/parameter: is "damping", must be one of' calibrate
 [ "$(code_of "$epicyclic" sweep claims.json -o bad)" = 2 ] || fail "a sweep of claims: $(<stderr)"
+grep -q 'run `epicyclic reproduce`' stderr || fail "which command it is of: $(<stderr)"
+# A stage outside the ranges is said to be moved into them.
+sed 's/"from": 0.5, "to": 20/"from": 3, "to": 20/; s/"candidates": 42/"candidates": 14/; s/"refinement": 10, "profile": 3/"refinement": 0, "profile": 0/' claims.json >moved.json
+[ "$(code_of "$epicyclic" calibrate moved.json -o moved)" = 0 ] || fail "outside the ranges: $(<stderr)"
+grep -q 'the first candidate has E = 2.* to 3' stderr || fail "it is not said: $(<stderr)"
 [ "$(code_of "$epicyclic" reproduce nobody2021 -o bad)" = 2 ] || fail "no such claims: $(<stderr)"
 
 finish

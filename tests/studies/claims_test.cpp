@@ -226,6 +226,48 @@ TEST(Claims, HoldWhereAllConditionsDo) {
   EXPECT_EQ(half.cost, 0.5 * half.conditions[1].cost);
 }
 
+TEST(Claims, AreNotMetByPointsThatFailed) {
+  Condition c = condition(ConditionKind::count);
+  c.motion = "chaotic";
+  c.at_most = 1.0;
+  EXPECT_TRUE(judge(c, record("11c1")).holds);
+  EXPECT_FALSE(judge(c, record("1xc1")).holds);  // it may have been a second one
+  EXPECT_TRUE(judge(c, record("1x11")).holds);
+  c = condition(ConditionKind::variation);
+  c.at_most = 0.5;
+  EXPECT_FALSE(judge(c, record("xxxx")).holds);
+  EXPECT_FALSE(judge(c, record("1")).holds);
+  EXPECT_FALSE(is_inert(record("xxxx")["s"]));
+  c = condition(ConditionKind::value);
+  c.quantity = "delta_sp_range";
+  c.at_most = 5.0;
+  EXPECT_TRUE(judge(c, record("11")).holds);
+  EXPECT_FALSE(judge(c, record("1x")).holds);
+}
+
+TEST(Claims, AreNotMetByRounding) {
+  Condition c = condition(ConditionKind::jump);
+  c.quantity = "delta_sp_range";
+  c.at_least = 0.1;
+  EXPECT_FALSE(judge(c, record("1111", {1e-14, 1e-14, 9e-14, 9e-14})).holds);
+  c = condition(ConditionKind::falls);
+  c.quantity = "delta_sp_range";
+  c.at_least = 5.0;
+  EXPECT_FALSE(judge(c, record("11", {1e-13, 1e-14})).holds);
+}
+
+TEST(Claims, OnQuantitiesBelowZero) {
+  Condition c = condition(ConditionKind::decreasing);
+  c.sweep = "";
+  c.sweeps = {"s", "t"};
+  c.quantity = "delta_sp_range";
+  ClaimRecord r = record("11", {-1.0, -2.0});
+  r["t"] = record("11", {-3.0, -4.0})["s"];
+  EXPECT_TRUE(judge(c, r).holds);
+  std::swap(r["s"], r["t"]);
+  EXPECT_FALSE(judge(c, r).holds);
+}
+
 TEST(ClaimsOptions, RefuseWhatNobodyWouldJudge) {
   ClaimsOptions options;
   ClaimSweep sweep;
@@ -258,9 +300,23 @@ TEST(ClaimsOptions, RefuseWhatNobodyWouldJudge) {
             }),
             "/parameters/0/targets");
   EXPECT_EQ(place_of([](auto& o) {
-              o.space.parameters = {{"x", "", "", 0.0, 1.0, Spread::logarithmic, {{"/a", 1, 1, ""}}, "", ""}};
+              o.space.parameters = {{"x", "", "", 0.0, 1.0, Spread::logarithmic, {{"/stage/a", 1, 1, ""}}, "", ""}};
             }),
             "/parameters/0/from");
+  EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].at_least = 95.0; }), place + "/at_least");
+  EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].at_least = 0.0; }), place + "/at_least");
+  EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].which = Which::last; }), place + "/which");
+  EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].motion = "period 40"; }), place + "/motion");
+  EXPECT_EQ(place_of([](auto& o) {
+              o.sweeps[0].name = "s.json";
+              o.claims[0].conditions[0].sweep = "s.json";
+            }),
+            "/sweeps/0/name");
+  EXPECT_EQ(place_of([](auto& o) {
+              o.space.parameters = {{"x", "", "", 0.0, 1.0, Spread::linear, {{"/stage/a", 1, 1, ""}}, "", ""},
+                                    {"y", "", "", 0.0, 1.0, Spread::linear, {{"/stage/a", 1, 1, ""}}, "", ""}};
+            }),
+            "/parameters/1/targets/0/pointer");
 }
 
 }  // namespace
