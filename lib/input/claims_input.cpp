@@ -126,6 +126,7 @@ json sweep_input(const LoadedInput& input, const studies::ClaimSweep& sweep, stu
   plan.start = start;
   plan.look = options.look;
   plan.look.keep = studies::Keep::section;
+  plan.look.recorded_periods = sweep.recorded_periods.value_or(plan.look.recorded_periods);
   plan.segments = segments_of(plan);
   study.plan = plan;
   // What names stand for is told by what they change in the study as it is written.

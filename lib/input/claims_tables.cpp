@@ -168,6 +168,9 @@ const Table<ClaimSweep>& claim_sweep_table() {
     t.integer("points", of(&Axis::points), between(2, 100000), "Number of points, evenly spaced, ends included [-].");
     t.objects("at", &ClaimSweep::at, set_value_table(), list_most, "What differs from the study besides.");
     t.choices("directions", &ClaimSweep::directions, direction_choices(), "Directions of the carried sweep.");
+    t.integer("recorded_periods", &ClaimSweep::recorded_periods, between(1, 1e5),
+              "Mesh periods recorded of each point [-]; as the study if it is not given. Extrema of chaos take long "
+              "records.");
     t.integer("brief_points", &ClaimSweep::brief_points, between(2, 100000), "Points of a brief look [-].");
     t.integer("survey_points", &ClaimSweep::survey_points, between(2, 100000), "Points of a survey's look [-].");
     t.integer("round", &ClaimSweep::round, between(0, 1000),

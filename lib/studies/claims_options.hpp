@@ -30,9 +30,10 @@ struct ClaimSweep {
   Axis axis = {speed_parameter, 0.2, 3.5, 661};
   std::vector<SetValue> at;  ///< what differs from the study besides
   std::vector<Direction> directions = {Direction::up};
-  int brief_points = 30;   ///< of a brief look, cold
-  int survey_points = 60;  ///< of a survey's look, cold
-  int round = 0;           ///< a brief look takes sweeps of a round only if those of earlier rounds leave hope
+  std::optional<int> recorded_periods;  ///< where not the study's: extrema of chaos take long records
+  int brief_points = 30;                ///< of a brief look, cold
+  int survey_points = 60;               ///< of a survey's look, cold
+  int round = 0;  ///< a brief look takes sweeps of a round only if those of earlier rounds leave hope
 };
 
 enum class ConditionKind {
