@@ -53,7 +53,8 @@ while IFS= read -r line; do
   arguments=("${words[@]:1}" "${more[@]}")
   # Claims that have a name have more sweeps.
   if [ "$command ${words[2]:-}" = "reproduce tang2020" ]; then
-    for ((k = 2; k < 9; ++k)); do arguments+=(--set "/study/sweeps/$k/points=2"); done
+    k=0
+    for points in 67 19 19 11 21 11 4 23 23; do arguments+=(--set "/study/sweeps/$((k++))/points=$points"); done
     arguments+=(--set '/study/starts=["cold"]')
   fi
   # Each in a folder of its own, whatever the page calls it.
