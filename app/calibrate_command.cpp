@@ -8,12 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "candidate_journal.hpp"
+#include "claims.hpp"
 #include "commands.hpp"
 #include "core/atomic_file.hpp"
-#include "core/errors.hpp"
 #include "folder.hpp"
 #include "input/claims_input.hpp"
-#include "input/study_model.hpp"
 #include "ranks/ranks.hpp"
 #include "ranks/shared_evaluations.hpp"
 #include "reports/calibrate_output.hpp"
@@ -27,31 +26,18 @@ namespace epicyclic::app {
 namespace {
 
 /// The input with a candidate's values in place, each with its origin.
-nlohmann::json calibrated_input(const std::filesystem::path& path, std::vector<input::Assignment> sets,
-                                const studies::ParameterSpace& space, std::span<const double> u,
-                                const std::string& origin) {
+nlohmann::json calibrated_input(const Arguments& arguments, const studies::ParameterSpace& space,
+                                std::span<const double> u, const std::string& origin) {
+  std::vector<input::Assignment> sets = input::parse_assignments(arguments.sets);
   const std::vector<input::Assignment> values = input::candidate_assignments(space, u);
   sets.insert(sets.end(), values.begin(), values.end());
-  return input::with_origins(input::load_input(path, sets).resolved, values, origin);
-}
-
-studies::Evaluator make_evaluator(const input::LoadedInput& input, const Arguments& arguments,
-                                  const std::atomic<bool>& stop) {
-  const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
-  const std::vector<input::Assignment> sets = input::parse_assignments(arguments.sets);
-  return studies::by_glances(options, studies::search_glance(options),
-                             input::candidate_models(arguments.input, sets, options), &stop);
+  return input::with_origins(input::load_input(arguments.input, sets).resolved, values, origin);
 }
 
 int lead(const Arguments& arguments, SharedEvaluations& shared) {
   stop_on_signals(arguments.ranks->size() > 1 ? patience_of_ranks : patience);
-  const std::vector<input::Assignment> sets = input::parse_assignments(arguments.sets);
-  const input::LoadedInput input = input::load_input(arguments.input, sets);
-  require_kind(input, arguments, "claims");
+  const input::LoadedInput input = load_open_claims(arguments);
   const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
-  if (options.space.dimension() == 0) throw InputError("/study/parameters: is empty; there is nothing to search for");
-  require_candidates(options, input::candidate_models(arguments.input, sets, options));
-  tell_warnings(input);
 
   const std::string identity = identity_of(input, "calibrate");
   shared.gather(identity);
@@ -65,9 +51,10 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
     tell("the stage as it is given lies outside the ranges; the first candidate has {}\n", words);
   CandidateJournal journal(session, "calibrate", studies::most_evaluations(options), options.claims.size());
   studies::Calibration found;
-  shared.run(make_evaluator(input, arguments, shared.stop()), [&](const studies::Evaluator& evaluate, int threads) {
-    found = studies::calibrate(options, evaluate, {given}, journal.run(threads, shared.stop()));
-  });
+  shared.run(evaluator_by(studies::search_glance)(input, arguments, shared.stop()),
+             [&](const studies::Evaluator& evaluate, int threads) {
+               found = studies::calibrate(options, evaluate, {given}, journal.run(threads, shared.stop()));
+             });
   journal.close();
   const auto close_run = [&](store::RunState state) {
     session.end(state, {{"candidates", static_cast<std::int64_t>(journal.finished())}});
@@ -82,7 +69,7 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
   if (found.best) {
     const std::string origin =
         fmt::format("calibrated: by claims of {}, seed {}", input.study.name, options.search.seed);
-    nlohmann::json best_input = calibrated_input(arguments.input, sets, options.space, found.best->u, origin);
+    nlohmann::json best_input = calibrated_input(arguments, options.space, found.best->u, origin);
     write_file_atomically(folder.file("best.json"), best_input.dump(2) + "\n");
     nlohmann::json stage = best_input["stage"];
     write_file_atomically(folder.file("stage.json"), stage.dump(2) + "\n");
@@ -110,7 +97,7 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
 }  // namespace
 
 int calibrate_command(const Arguments& arguments) {
-  return share_evaluations(arguments, "calibrate", make_evaluator,
+  return share_evaluations(arguments, "calibrate", evaluator_by(studies::search_glance),
                            [&](SharedEvaluations& shared) { return lead(arguments, shared); });
 }
 

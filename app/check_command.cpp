@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "claims.hpp"
 #include "commands.hpp"
-#include "folder.hpp"
 #include "input/study_model.hpp"
 #include "progress.hpp"
 #include "session.hpp"

@@ -9,7 +9,6 @@
 
 #include "core/atomic_file.hpp"
 #include "core/errors.hpp"
-#include "core/text.hpp"
 #include "core/version.hpp"
 #include "input/json_source.hpp"
 #include "input/stage_completion.hpp"
@@ -101,43 +100,6 @@ std::int64_t tell_undrawn(const std::vector<reports::DrawnFigure>& figures) {
     ++count;
   }
   return count;
-}
-
-void require_models(const studies::ClaimsOptions& options, const studies::SweepModels& models) {
-  for (const studies::ClaimSweep& sweep : options.sweeps)
-    for (const double value : {sweep.axis.from, sweep.axis.to}) (void)models(sweep, value);
-}
-
-void require_candidates(const studies::ClaimsOptions& options, const studies::CandidateModels& models) {
-  const studies::ParameterSpace& space = options.space;
-  const std::vector<double> middle(space.dimension(), 0.5);
-  const auto require = [&](const std::vector<double>& u, const std::string& what) {
-    try {
-      const studies::ClaimSweep& sweep = options.sweeps.front();
-      (void)models(u)(sweep, sweep.axis.from);
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {}", what, error.what()));
-    }
-  };
-  for (std::size_t k = 0; k < space.choices.size(); ++k)
-    for (std::size_t option = 0; option < space.choices[k].options.size(); ++option) {
-      std::vector<double> u = middle;
-      u[space.parameters.size() + k] = space.choices[k].place_of(option);
-      require(u, fmt::format("/study/choices/{}: with \"{}\"", k, space.choices[k].options[option].name));
-    }
-  for (std::size_t k = 0; k < space.parameters.size(); ++k) {
-    const studies::FreeParameter& p = space.parameters[k];
-    std::vector<double> u = middle;
-    for (std::size_t c = 0; c < space.choices.size(); ++c)
-      for (std::size_t option = 0; option < space.choices[c].options.size(); ++option)
-        if (space.choices[c].name == p.choice && space.choices[c].options[option].name == p.option)
-          u[space.parameters.size() + c] = space.choices[c].place_of(option);
-    for (const double end : {0.0, 1.0}) {
-      u[k] = end;
-      require(u, fmt::format("/study/parameters/{}: with {} = {}", k, p.name, short_text(p.at(end), 6)));
-    }
-  }
-  require_models(options, models(middle));
 }
 
 store::Provenance provenance(int threads, const input::LoadedInput& input) {

@@ -17,7 +17,6 @@
 #include "store/journal.hpp"
 #include "store/output_folder.hpp"
 #include "store/provenance.hpp"
-#include "studies/candidates.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::app {
@@ -35,15 +34,6 @@ template <class Plan>
   require_kind(input, arguments, command);
   return std::get<Plan>(input.study.plan);
 }
-
-/// Asks for models at both ends of each sweep of claims, so that what does not fit shows before anything is written.
-/// @throws InputError
-void require_models(const studies::ClaimsOptions& options, const studies::SweepModels& models);
-
-/// Asks for models at both ends of each parameter's range and with each option of each choice, all others in the middle
-/// of theirs.
-/// @throws InputError that names the parameter
-void require_candidates(const studies::ClaimsOptions& options, const studies::CandidateModels& models);
 
 /// Versions, machine and the names that the input files came by, for run.json.
 [[nodiscard]] store::Provenance provenance(int threads, const input::LoadedInput& input);

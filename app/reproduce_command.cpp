@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "claims.hpp"
 #include "commands.hpp"
 #include "core/atomic_file.hpp"
 #include "core/errors.hpp"
@@ -99,9 +100,6 @@ int reproduce_command(const Arguments& given) {
   Session session(arguments, input, identity_of(input, "reproduce"), arguments.threads, 1, true);
   if (const auto code = session.exit_code()) return *code;
   const store::OutputFolder& folder = session.folder();
-  const auto close_run = [&](store::RunState state, std::map<std::string, std::int64_t> counts) {
-    session.end(state, std::move(counts));
-  };
 
   int worst = done;
   const std::filesystem::path sweeps = folder.file("sweeps");
@@ -119,7 +117,7 @@ int reproduce_command(const Arguments& given) {
       if (code == done)
         code = compute(sweeps, folder_name(sweep, start), input::sweep_input(input, sweep, start), sweep_command);
   if (code != done) {
-    close_run(store::RunState::stopped, {});
+    session.end(store::RunState::stopped, {});
     return code;
   }
 
@@ -154,10 +152,10 @@ int reproduce_command(const Arguments& given) {
     unlike = std::move(difference.verdicts);
     for (const std::string& line : unlike) tell("other than recorded in {}: {}\n", recorded.string(), line);
   }
-  close_run(store::RunState::complete, {{"claims", static_cast<std::int64_t>(options.claims.size())},
-                                        {"holding", static_cast<std::int64_t>(card.holding())},
-                                        {"unlike", static_cast<std::int64_t>(unlike.size())},
-                                        {"undrawn", undrawn}});
+  session.end(store::RunState::complete, {{"claims", static_cast<std::int64_t>(options.claims.size())},
+                                          {"holding", static_cast<std::int64_t>(card.holding())},
+                                          {"unlike", static_cast<std::int64_t>(unlike.size())},
+                                          {"undrawn", undrawn}});
   if (arguments.json) {
     nlohmann::json told = {{"folder", folder.path().string()}, {"claims", options.claims.size()},
                            {"holding", card.holding()},        {"holding_whatever_the_stage", card.holding_inert()},

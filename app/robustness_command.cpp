@@ -7,12 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "candidate_journal.hpp"
+#include "claims.hpp"
 #include "commands.hpp"
 #include "core/atomic_file.hpp"
-#include "core/errors.hpp"
 #include "folder.hpp"
-#include "input/claims_input.hpp"
-#include "input/study_model.hpp"
 #include "ranks/ranks.hpp"
 #include "ranks/shared_evaluations.hpp"
 #include "reports/robustness_output.hpp"
@@ -25,23 +23,10 @@ namespace epicyclic::app {
 
 namespace {
 
-studies::Evaluator make_evaluator(const input::LoadedInput& input, const Arguments& arguments,
-                                  const std::atomic<bool>& stop) {
-  const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
-  const std::vector<input::Assignment> sets = input::parse_assignments(arguments.sets);
-  return studies::by_glances(options, studies::survey_glance(options),
-                             input::candidate_models(arguments.input, sets, options), &stop);
-}
-
 int lead(const Arguments& arguments, SharedEvaluations& shared) {
   stop_on_signals(arguments.ranks->size() > 1 ? patience_of_ranks : patience);
-  const std::vector<input::Assignment> sets = input::parse_assignments(arguments.sets);
-  const input::LoadedInput input = input::load_input(arguments.input, sets);
-  require_kind(input, arguments, "claims");
+  const input::LoadedInput input = load_open_claims(arguments);
   const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
-  if (options.space.dimension() == 0) throw InputError("/study/parameters: is empty; there is nothing to draw");
-  require_candidates(options, input::candidate_models(arguments.input, sets, options));
-  tell_warnings(input);
 
   const std::string identity = identity_of(input, "robustness");
   shared.gather(identity);
@@ -51,9 +36,10 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
   const auto draws = static_cast<std::size_t>(options.survey.draws);
   CandidateJournal journal(session, "robustness", draws, options.claims.size());
   studies::KnownEvaluations evaluations;
-  shared.run(make_evaluator(input, arguments, shared.stop()), [&](const studies::Evaluator& evaluate, int threads) {
-    evaluations = studies::survey(options, evaluate, journal.run(threads, shared.stop()));
-  });
+  shared.run(evaluator_by(studies::survey_glance)(input, arguments, shared.stop()),
+             [&](const studies::Evaluator& evaluate, int threads) {
+               evaluations = studies::survey(options, evaluate, journal.run(threads, shared.stop()));
+             });
   journal.close();
   std::int64_t undrawn = 0;
   const auto close_run = [&](store::RunState state) {
@@ -93,7 +79,7 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
 }  // namespace
 
 int robustness_command(const Arguments& arguments) {
-  return share_evaluations(arguments, "robustness", make_evaluator,
+  return share_evaluations(arguments, "robustness", evaluator_by(studies::survey_glance),
                            [&](SharedEvaluations& shared) { return lead(arguments, shared); });
 }
 

@@ -81,6 +81,12 @@ Interval fraction(std::size_t successes, std::size_t n) {
   return {p, successes == 0 ? 0.0 : (middle - half) / divisor, successes == n ? 1.0 : (middle + half) / divisor};
 }
 
+double correlation(std::span<const double> x, std::span<const double> y) {
+  if (x.size() != y.size()) throw DomainError("correlation of series of different lengths");
+  if (x.size() < 2 || !varies(x) || !varies(y)) return 0.0;
+  return gsl_stats_correlation(x.data(), 1, y.data(), 1, x.size());
+}
+
 Interval rank_correlation(std::span<const double> x, std::span<const double> y) {
   constexpr std::size_t fewest = 4;
   if (x.size() != y.size()) throw DomainError("ranks of series of different lengths");

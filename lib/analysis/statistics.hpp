@@ -62,6 +62,9 @@ struct Interval {
 /// @returns no numbers for no trials
 [[nodiscard]] Interval fraction(std::size_t successes, std::size_t n);
 
+/// Pearson's correlation, by GSL; 0 for fewer than 2 pairs, or where one side does not vary.
+[[nodiscard]] double correlation(std::span<const double> x, std::span<const double> y);
+
 /// Spearman's rank correlation, by GSL, with Fisher's interval tanh( artanh(r) +- z sqrt(1.06 / (n - 3)) ) (Fieller,
 /// Hartley and Pearson, Biometrika 44 (1957) 470).
 /// @returns no numbers for fewer than 4 pairs, or where one side does not vary

@@ -1,6 +1,6 @@
 // Random numbers by their place in a sequence, the same ones on every platform: any of them without those before it.
 //
-//   z_n = mix(seed + n g) ,  g = 2^64 / golden ratio, odd                                                       [C-rand]
+//   z_n = mix(seed + n g) ,  g = 2^64 / golden ratio, odd [C-rand]
 //
 // Source: G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom number generators, OOPSLA 2014 (SplitMix64).
 #pragma once

@@ -686,6 +686,14 @@ void check_named_parameter(const studies::Axis& axis, const std::string& place, 
   }
 }
 
+/// Why a number of the input is no parameter of the motion; nothing where it may be one.
+std::string why_no_parameter(const std::string& pointer) {
+  if (pointer_within(pointer, "/integrator") && pointer != "/integrator/clearance_smoothing")
+    return "an option of the integrator is not a parameter of the motion and cannot be swept";
+  if (pointer == "/stage/planets/count") return "the number of planets changes the state itself and cannot be swept";
+  return {};
+}
+
 /// Pointers of the input that a parameter stands for.
 std::vector<std::string> values_set_by(const std::string& parameter) {
   const studies::NamedParameter* named = studies::find_parameter(parameter);
@@ -841,8 +849,9 @@ void check_claims(const studies::ClaimsOptions& claims, F is_bad, ReadContext& c
   for (std::size_t k = 0; k < claims.sweeps.size(); ++k) {
     const studies::ClaimSweep& sweep = claims.sweeps[k];
     const std::string place = "/study/sweeps/" + std::to_string(k);
-    check_range(sweep.axis, place, is_bad, "; to go downwards give \"directions\": [\"down\"]", context);
     if (!is_bad(place + "/parameter")) check_named_parameter(sweep.axis, place, is_bad, context);
+    if (std::string why = why_no_parameter(sweep.axis.name); !why.empty())
+      context.add(Finding::Kind::rule, place + "/parameter", std::move(why));
     for (std::size_t j = 0; j < sweep.at.size(); ++j) {
       const studies::SetValue& set = sweep.at[j];
       const std::string at = place + "/at/" + std::to_string(j);
@@ -851,17 +860,9 @@ void check_claims(const studies::ClaimsOptions& claims, F is_bad, ReadContext& c
       check_different(sweep.axis.name, set.parameter, at + "/parameter", context);
       for (std::size_t before = 0; before < j; ++before)
         check_different(sweep.at[before].parameter, set.parameter, at + "/parameter", context);
+      if (std::string why = why_no_parameter(set.parameter); !why.empty())
+        context.add(Finding::Kind::rule, at + "/parameter", std::move(why));
     }
-    const auto is_no_parameter = [](const std::string& name) {
-      return (pointer_within(name, "/integrator") && name != "/integrator/clearance_smoothing") ||
-             pointer_within(name, "/study") || name == "/stage/planets/count";
-    };
-    if (is_no_parameter(sweep.axis.name))
-      context.add(Finding::Kind::rule, place + "/parameter", "is no parameter of the motion of one stage");
-    for (std::size_t j = 0; j < sweep.at.size(); ++j)
-      if (is_no_parameter(sweep.at[j].parameter))
-        context.add(Finding::Kind::rule, place + "/at/" + std::to_string(j) + "/parameter",
-                    "is no parameter of the motion of one stage");
   }
 }
 
@@ -1176,12 +1177,9 @@ class LoadedInput::Loader {
 
   /// A parameter that is a pointer: its place, and the ends of its range, if there is one.
   void check_ends(const studies::Axis& axis, const std::string& place, bool has_values) {
-    const bool integrator = pointer_within(axis.name, "/integrator");
     const json* there = find_at(input_.resolved, axis.name);
-    if ((integrator && axis.name != "/integrator/clearance_smoothing") || axis.name == "/stage/planets/count") {
-      refuse_end(place + "/parameter",
-                 integrator ? "an option of the integrator is not a parameter of the motion and cannot be swept"
-                            : "the number of planets changes the state itself and cannot be swept");
+    if (std::string why = why_no_parameter(axis.name); !why.empty()) {
+      refuse_end(place + "/parameter", std::move(why));
     } else if (there == nullptr || !there->is_number() || pointer_within(axis.name, "/study")) {
       // Whether there is a value that was not read, or not computed, cannot be told.
       const auto at_place = [&](const KeyPlace& p) { return p.pointer == axis.name; };

@@ -155,24 +155,21 @@ studies::SweepModels sweep_models(std::shared_ptr<const LoadedInput> input, std:
   const Study study = values.empty() ? input->study : input->with_values(values);
   const model::OperatingPoint given{study.stage, study.mesh_frequency_ratio, study.model};
   return [input = std::move(input), values = std::move(values), given](const studies::ClaimSweep& sweep, double value) {
-    const auto is_pointer = [](const std::string& name) { return name.starts_with('/'); };
+    const auto with = [&](const std::vector<PointerValue>& set) {
+      if (std::ranges::any_of(set, [](const PointerValue& v) { return v.pointer.starts_with('/'); })) {
+        std::vector<PointerValue> all = values;
+        all.insert(all.end(), set.begin(), set.end());
+        return point_at(*input, all);
+      }
+      model::OperatingPoint point = given;
+      set_named(point, set);
+      return point;
+    };
     std::vector<PointerValue> set;
     for (const studies::SetValue& v : sweep.at) set.push_back({v.parameter, v.value});
-    const bool any_pointer =
-        is_pointer(sweep.axis.name) || std::ranges::any_of(set, [&](const auto& v) { return is_pointer(v.pointer); });
-    model::OperatingPoint point = given;
-    if (any_pointer) set.insert(set.begin(), values.begin(), values.end());
-    if (any_pointer)
-      point = point_at(*input, set);
-    else
-      set_named(point, set);
-    const model::Scales scales = model::scales_of(point.stage);
+    const model::Scales scales = model::scales_of(with(set).stage);
     set.push_back({sweep.axis.name, value});
-    if (any_pointer)
-      point = point_at(*input, set);
-    else
-      set_named(point, std::span(set).last(1));
-    return model_of(point, scales);
+    return model_of(with(set), scales);
   };
 }
 

@@ -240,13 +240,14 @@ std::vector<DrawnFigure> draw_claim_figures(const std::filesystem::path& folder,
       constexpr double dot = 0.25;
       sketch.add(dots, figures::dots(figures::ink::blue, dot));
     }
+    constexpr double edge = 0.01;  // the frame would hide half of the first dots and of the last
     constexpr int height_alone = 1100;
     constexpr int height_each = 620;
     const figures::FigureCanvas canvas{
         1800, figure.panels.size() == 1 ? height_alone : height_each * static_cast<int>(figure.panels.size())};
     const std::string words = figure.title.empty() ? title : figures::literal_text(figure.title) + ": " + title;
     drawn.push_back({folder / (figure.name + ".png"),
-                     sketch.draw(folder, {words, parameter_label(parameter), ""}, x, {}, {}, canvas)});
+                     sketch.draw(folder, {words, parameter_label(parameter), ""}, x.widened(edge), {}, {}, canvas)});
   }
   return drawn;
 }

@@ -105,6 +105,8 @@ unsigned seed_of(int seed, std::size_t island, unsigned use) {
   return static_cast<unsigned>(random_bits(static_cast<std::uint64_t>(seed), 2 * island + use) & 0xFFFFFFFFU);
 }
 
+int generations_of(const SearchOptions& s) { return std::max(1, s.candidates / (s.islands * s.population) - 1); }
+
 class Island {
  public:
   Island(Search& search, std::size_t index)
@@ -112,25 +114,23 @@ class Island {
     const SearchOptions& options = search.options().search;
     // One generation at a time, its adaptation kept; it never ends by itself.
     const unsigned seed = seed_of(options.seed, index, 1);
-    if (options.method == SearchMethod::differential_evolution)
+    replaces_ = options.method == SearchMethod::differential_evolution;
+    if (replaces_)
       algorithm_ =
           pagmo::algorithm(pagmo::de1220(1, pagmo::de1220_statics<void>::allowed_variants, 1, 0.0, 0.0, true, seed));
     else
       algorithm_ =
           pagmo::algorithm(pagmo::cmaes(1, -1.0, -1.0, -1.0, -1.0, options.spread, 0.0, 0.0, true, true, seed));
-    generations_ = std::max(1, options.candidates / (options.islands * options.population) - 1);
   }
   Island(const Island&) = delete;  // its problem knows where its phase is
   Island& operator=(const Island&) = delete;
-
-  [[nodiscard]] int generations() const { return generations_; }
 
   void begin(const std::vector<std::vector<double>>& first, std::size_t thread) {
     phase_.thread = thread;
     const SearchOptions& options = phase_.search->options().search;
     const auto size = static_cast<std::size_t>(options.population);
     population_ = pagmo::population(problem_, 0, seed_of(options.seed, phase_.index, 0));
-    if (options.method == SearchMethod::covariance_adaptation && !first.empty()) {
+    if (!replaces_ && !first.empty()) {
       // It begins about the best of its population; of that the rest is not asked for.
       population_.push_back(first.front());
       const pagmo::vector_double cost = population_.get_f().front();
@@ -144,8 +144,9 @@ class Island {
   void evolve(int generations, std::size_t thread) {
     phase_.thread = thread;
     for (int g = 0; g < generations; ++g) {
-      // What costs more than every candidate of the generation before replaces none of them.
-      phase_.give_up_at = population_.get_f()[population_.worst_idx()][0];
+      // Of a differential evolution what costs more than every candidate of the generation before replaces none of
+      // them. A covariance adaptation goes by the ranks of all.
+      if (replaces_) phase_.give_up_at = population_.get_f()[population_.worst_idx()][0];
       population_ = algorithm_.evolve(population_);
     }
   }
@@ -166,7 +167,7 @@ class Island {
   pagmo::problem problem_;
   pagmo::population population_;
   pagmo::algorithm algorithm_;
-  int generations_ = 0;
+  bool replaces_ = true;  ///< candidates by better ones, one by one
 };
 
 bool run_islands(Search& search, const std::vector<std::vector<double>>& first) {
@@ -179,16 +180,17 @@ bool run_islands(Search& search, const std::vector<std::vector<double>>& first) 
     return for_units(islands.size(), run.threads, run.stop, f);
   };
   const std::vector<std::vector<double>> nothing;
-  // One island of a differential evolution knows the stage as it is given, and tells the others if it is good.
-  const bool all_know = options.method == SearchMethod::covariance_adaptation;
-  if (!each([&](std::size_t k) { islands[k]->begin(k == 0 || all_know ? first : nothing, k); })) return false;
-  for (int done = 0; done < islands.front()->generations(); done += options.exchange) {
-    const int now = std::min(options.exchange, islands.front()->generations() - done);
+  // One island of a differential evolution knows the stage as it is given, and tells the others if it is good. A
+  // covariance adaptation has its state beside its population, and takes nothing from elsewhere.
+  const bool alone = options.method == SearchMethod::covariance_adaptation;
+  if (!each([&](std::size_t k) { islands[k]->begin(k == 0 || alone ? first : nothing, k); })) return false;
+  const int generations = generations_of(options);
+  for (int done = 0; done < generations; done += options.exchange) {
+    const int now = std::min(options.exchange, generations - done);
     if (!each([&](std::size_t k) { islands[k]->evolve(now, k); })) return false;
     std::vector<std::pair<std::vector<double>, double>> best;
     for (const auto& island : islands) best.push_back(island->best());
-    for (std::size_t k = 0; k < islands.size(); ++k)
-      if (islands.size() > 1) islands[(k + 1) % islands.size()]->take(best[k]);
+    for (std::size_t k = 0; k < islands.size() && !alone; ++k) islands[(k + 1) % islands.size()]->take(best[k]);
   }
   return true;
 }
@@ -230,12 +232,11 @@ std::vector<std::pair<std::size_t, double>> profile_places(const ClaimsOptions& 
 
 std::size_t most_evaluations(const ClaimsOptions& options) {
   const SearchOptions& s = options.search;
-  const int generations = std::max(1, s.candidates / (s.islands * s.population) - 1);
-  return static_cast<std::size_t>(s.islands) * static_cast<std::size_t>(s.population) *
-             static_cast<std::size_t>(generations + 1) +
-         (s.refinement > 0 ? static_cast<std::size_t>(s.refinement) + 2 * options.space.dimension()
-                           : 0) +  // it ends a round
-         profile_places(options).size();
+  std::size_t most = static_cast<std::size_t>(s.islands) * static_cast<std::size_t>(s.population) *
+                     static_cast<std::size_t>(generations_of(s) + 1);
+  // A compass ends a round that it has begun.
+  if (s.refinement > 0) most += static_cast<std::size_t>(s.refinement) + 2 * options.space.dimension();
+  return most + profile_places(options).size();
 }
 
 Calibration calibrate(const ClaimsOptions& options, const Evaluator& evaluate,

@@ -446,23 +446,9 @@ void alike(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
     sun.push_back(p.quantity("poincare_sp_range"));
     ring.push_back(p.quantity("poincare_rp_range"));
   }
-  const auto n = static_cast<double>(sun.size());
   o.measured = same / static_cast<double>(part.size());
   o.error = 0.5 / static_cast<double>(part.size());
-  double correlation = 0.0;
-  if (n > 1.0) {
-    const double mean_sun = std::accumulate(sun.begin(), sun.end(), 0.0) / n;
-    const double mean_ring = std::accumulate(ring.begin(), ring.end(), 0.0) / n;
-    double both = 0.0;
-    double of_sun = 0.0;
-    double of_ring = 0.0;
-    for (std::size_t k = 0; k < sun.size(); ++k) {
-      both += (sun[k] - mean_sun) * (ring[k] - mean_ring);
-      of_sun += (sun[k] - mean_sun) * (sun[k] - mean_sun);
-      of_ring += (ring[k] - mean_ring) * (ring[k] - mean_ring);
-    }
-    if (of_sun > 0.0 && of_ring > 0.0) correlation = both / std::sqrt(of_sun * of_ring);
-  }
+  const double correlation = analysis::correlation(sun, ring);
   judge_bounds(c, o, 1.0);
   if (c.correlation) {
     o.holds = o.holds && correlation >= *c.correlation;

@@ -116,7 +116,6 @@ void check_condition(Checks& checks, const std::string& place, const Condition& 
   if (!c.leads_to.empty() && c.leads_to == c.motion)
     checks.refuse(place + "/leads_to", "is the motion that is left, which is not met before it comes back");
   if (c.kind == falls && c.at_least && !(*c.at_least > 1.0)) checks.refuse(place + "/at_least", "must be > 1");
-  if (c.kind == jump && c.at_least && !(*c.at_least > 0.0)) checks.refuse(place + "/at_least", "must be > 0");
   if (c.from && c.to && !(*c.from <= *c.to))
     checks.refuse(place + "/from", "is " + short_text(*c.from, 17) + ", must be <= to = " + short_text(*c.to, 17));
   if (!c.within.empty() && (c.within.size() != 2 || !(c.within[0] < c.within[1])))
@@ -278,7 +277,9 @@ std::vector<std::pair<std::string, std::string>> ClaimsOptions::problems() const
                       ", must be >= islands x population = " + std::to_string(search.islands * search.population));
   for (std::size_t k = 0; k < sweeps.size(); ++k)
     if (!(sweeps[k].axis.from < sweeps[k].axis.to))
-      checks.refuse("/sweeps/" + std::to_string(k) + "/from", "must be < to");
+      checks.refuse("/sweeps/" + std::to_string(k) + "/from",
+                    "is " + short_text(sweeps[k].axis.from, 17) + ", must be < to = " +
+                        short_text(sweeps[k].axis.to, 17) + "; to go downwards give \"directions\": [\"down\"]");
   for (std::size_t k = 0; k < sweeps.size(); ++k)
     if (!sweeps[k].name.empty() && !is_file_name(sweeps[k].name))
       checks.refuse(

@@ -1,5 +1,6 @@
 #include "studies/robustness.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <mutex>
 #include <string>
@@ -46,29 +47,32 @@ KnownEvaluations survey(const ClaimsOptions& options, const Evaluator& evaluate,
 
 std::vector<ClaimRobustness> robustness(const ClaimsOptions& options, const KnownEvaluations& evaluations) {
   const ParameterSpace& space = options.space;
-  std::vector<ClaimRobustness> all;
-  for (std::size_t claim = 0; claim < options.claims.size(); ++claim) {
-    ClaimRobustness r;
-    for (const auto& [key, c] : evaluations) {
-      if (!c.evaluation.refused.empty()) continue;
-      ++r.draws;
-      r.holds += c.evaluation.holds[claim] == 1 ? 1 : 0;
+  std::vector<const EvaluatedCandidate*> valid;
+  for (const auto& [key, c] : evaluations)
+    if (c.evaluation.refused.empty()) valid.push_back(&c);
+  std::vector<ClaimRobustness> all(options.claims.size());
+  for (std::size_t claim = 0; claim < all.size(); ++claim) {
+    all[claim].draws = valid.size();
+    all[claim].holds = static_cast<std::size_t>(
+        std::ranges::count_if(valid, [&](const auto* c) { return c->evaluation.holds[claim] == 1; }));
+    all[claim].fraction = analysis::fraction(all[claim].holds, valid.size());
+  }
+  for (std::size_t k = 0; k < space.dimension(); ++k) {
+    // Its values, of the draws that it counts in.
+    std::vector<double> values;
+    std::vector<const EvaluatedCandidate*> counted;
+    for (const EvaluatedCandidate* c : valid) {
+      const std::vector<std::size_t> chosen = space.options_at(c->u);
+      const bool is_parameter = k < space.parameters.size();
+      if (is_parameter && !space.counts(space.parameters[k], chosen)) continue;
+      values.push_back(is_parameter ? c->u[k] : static_cast<double>(chosen[k - space.parameters.size()]));
+      counted.push_back(c);
     }
-    r.fraction = analysis::fraction(r.holds, r.draws);
-    for (std::size_t k = 0; k < space.dimension(); ++k) {
-      std::vector<double> values;
+    for (std::size_t claim = 0; claim < all.size(); ++claim) {
       std::vector<double> scores;
-      for (const auto& [key, c] : evaluations) {
-        if (!c.evaluation.refused.empty()) continue;
-        const std::vector<std::size_t> chosen = space.options_at(c.u);
-        const bool is_parameter = k < space.parameters.size();
-        if (is_parameter && !space.counts(space.parameters[k], chosen)) continue;
-        values.push_back(is_parameter ? c.u[k] : static_cast<double>(chosen[k - space.parameters.size()]));
-        scores.push_back(1.0 - c.evaluation.claim_costs[claim]);
-      }
-      r.influences.push_back(analysis::rank_correlation(values, scores));
+      for (const EvaluatedCandidate* c : counted) scores.push_back(1.0 - c->evaluation.claim_costs[claim]);
+      all[claim].influences.push_back(analysis::rank_correlation(values, scores));
     }
-    all.push_back(std::move(r));
   }
   return all;
 }

@@ -117,15 +117,7 @@ if "$epicyclic" --version | grep -q '^MPI ' && command -v mpirun >/dev/null; the
   cmp -s r1/draws.csv rm/draws.csv || fail "draws.csv differs with ranks"
   for victim in 0 1; do
     rm -rf cut
-    "${launch[@]}" -n 2 "$epicyclic" calibrate claims.json -o cut --threads 1 >stdout 2>stderr &
-    pid=$!
-    sleep "0.$((RANDOM % 6 + 3))"
-    mapfile -t ranks < <(pgrep -P $pid -x epicyclic || true)
-    [ ${#ranks[@]} -le "$victim" ] || kill -KILL "${ranks[$victim]}" 2>/dev/null || true
-    (sleep 100 && kill -KILL $pid) 2>/dev/null &
-    guard=$!
-    wait $pid || true
-    pkill -P $guard 2>/dev/null || true
+    kill_a_rank_of "$victim" "$epicyclic" calibrate claims.json -o cut
     [ "$(code_of "$epicyclic" calibrate claims.json -o cut)" = 0 ] || fail "after kill -9 of rank $victim: $(<stderr)"
     cmp -s c1/candidates.csv cut/candidates.csv || fail "candidates.csv differs after kill -9 of rank $victim"
   done

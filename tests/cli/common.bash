@@ -160,3 +160,21 @@ journal_records() {
       print "$at $point $crc\n";
     }' "$1"
 }
+
+# Starts two ranks of a command in the background, kills one of them at some moment, and waits for the end.
+# $1: which; `launch` is theirs.
+kill_a_rank_of() {
+  local victim=$1 pid guard ranks
+  shift
+  "${launch[@]}" -n 2 "$@" --threads 1 >stdout 2>stderr &
+  pid=$!
+  sleep "0.$((RANDOM % 6 + 3))"
+  # The ranks are children of mpirun, in order.
+  mapfile -t ranks < <(pgrep -P $pid -x epicyclic || true)
+  [ ${#ranks[@]} -le "$victim" ] || kill -KILL "${ranks[$victim]}" 2>/dev/null || true
+  # Open MPI has been seen to lock up in its own end after that, for ever.
+  (sleep 100 && kill -KILL $pid) 2>/dev/null &
+  guard=$!
+  wait $pid || true
+  pkill -P $guard 2>/dev/null || true
+}

@@ -40,17 +40,7 @@ for rank in 1 2; do [ "$(wc -c <study.3/journal.rank-$rank.bin)" -gt 1000 ] || f
 for victim in 0 1; do
   for resume in 1 3 threads; do
     rm -rf cut
-    "${launch[@]}" -n 2 "$epicyclic" "${carried[@]}" -o cut --threads 1 >stdout 2>stderr &
-    pid=$!
-    sleep "0.$((RANDOM % 6 + 3))"
-    # The ranks are children of mpirun, in order.
-    mapfile -t ranks < <(pgrep -P $pid -x epicyclic || true)
-    [ ${#ranks[@]} -le "$victim" ] || kill -KILL "${ranks[$victim]}" 2>/dev/null || true
-    # Open MPI has been seen to lock up in its own end after that, for ever.
-    (sleep 100 && kill -KILL $pid) 2>/dev/null &
-    guard=$!
-    wait $pid || true
-    pkill -P $guard 2>/dev/null || true
+    kill_a_rank_of "$victim" "$epicyclic" "${carried[@]}" -o cut
     again=("$epicyclic")
     [ "$resume" = threads ] || again=("${launch[@]}" -n "$resume" "$epicyclic")
     [ "$(code_of "${again[@]}" "${carried[@]}" -o cut)" = 0 ] || fail "resume after kill -9 with $resume: $(<stderr)"

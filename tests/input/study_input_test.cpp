@@ -691,19 +691,19 @@ class SchemaAndReader : public ::testing::Test {
   }
 
   void check_array(const json& array, const std::string& pointer) {
-    if (array["items"].contains("properties")) {
-      if (pointer.ends_with("/seeds"))
-        return check_list(array, pointer, {{"value", 1.0}, {"state", json::array({0.0})}});
-      // Lists of claims, whose elements have rules beyond their tables: cli.claims.
-      const auto most = array["maxItems"].get<std::size_t>();
-      EXPECT_TRUE(found(with(pointer, 1), pointer, Finding::Kind::type)) << pointer;
-      EXPECT_TRUE(found(with(pointer, std::vector<json>(most + 1, json::object())), pointer, Finding::Kind::range))
-          << pointer;
-      return;
-    }
+    if (array["items"].contains("properties"))
+      return check_list(array, pointer, {{"value", 1.0}, {"state", json::array({0.0})}});
     if (array["items"].contains("enum")) {
       EXPECT_TRUE(found(with(pointer, json::array()), pointer, Finding::Kind::type));
       check_value(array["items"], pointer, {"up"});
+      return;
+    }
+    if (array["items"].value("type", "") == "string") {
+      const auto most = array["maxItems"].get<std::size_t>();
+      EXPECT_TRUE(found(with(pointer, "a"), pointer, Finding::Kind::type)) << pointer;
+      EXPECT_TRUE(found(with(pointer, json::array({"a", 1})), pointer, Finding::Kind::type)) << pointer;
+      EXPECT_TRUE(any_at(with(pointer, std::vector<std::string>(most + 1, "a")), pointer)) << pointer;
+      EXPECT_FALSE(any_at(with(pointer, std::vector<std::string>(most, "a")), pointer)) << pointer;
       return;
     }
     const auto least = array["minItems"].get<std::size_t>(), most = array["maxItems"].get<std::size_t>();
@@ -719,7 +719,10 @@ class SchemaAndReader : public ::testing::Test {
   }
 
   void check_value(const json& value, const std::string& pointer, const json& element = json()) {
-    if (value.contains("enum")) {
+    if (!value.contains("enum") && !value.contains("const") && !value.contains("type")) {  // any JSON value
+      for (const json& any : {json(5), json("text"), json::object({{"a", 1}}), json(nullptr)})
+        EXPECT_FALSE(any_at(with(pointer, any), pointer)) << pointer;
+    } else if (value.contains("enum")) {
       for (const auto& name : value["enum"])
         EXPECT_FALSE(any_at(with(pointer, element.is_null() ? name : json::array({name})), pointer)) << pointer;
       const std::string place = element.is_null() ? pointer : pointer + "/0";
