@@ -67,8 +67,8 @@ MakeEvaluator evaluator_by(studies::Glance (*glance)(const studies::ClaimsOption
   return [glance](const input::LoadedInput& input, const Arguments& arguments, const std::atomic<bool>& stop) {
     const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
     const std::vector<input::Assignment> sets = input::parse_assignments(arguments.sets);
-    return studies::by_glances(options, glance(options), input::candidate_models(arguments.input, sets, options),
-                               &stop);
+    return studies::evaluator_of(options, glance(options), input.study.integrator,
+                                 input::candidate_models(arguments.input, sets, options), &stop);
   };
 }
 

@@ -21,7 +21,7 @@ void require_candidates(const studies::ClaimsOptions& options, const studies::Ca
 /// @throws InputError where it has none, and for what does not fit
 [[nodiscard]] input::LoadedInput load_open_claims(const Arguments& arguments);
 
-/// Candidates of a study by glances of one kind, as ranks share them.
+/// Candidates of a study by glances of one kind, or by whole sweeps, as ranks share them.
 [[nodiscard]] MakeEvaluator evaluator_by(studies::Glance (*glance)(const studies::ClaimsOptions&));
 
 }  // namespace epicyclic::app

@@ -72,7 +72,7 @@ reports::Scorecard score(const input::LoadedInput& input, const studies::ClaimsO
     studies::ClaimRecord record;
     for (const studies::ClaimSweep& sweep : options.sweeps)
       record[sweep.name] =
-          reports::claim_series(finished.find(folder_name(sweep, start))->second->points(), options.look);
+          studies::claim_series(finished.find(folder_name(sweep, start))->second->points(), options.look);
     reports::ScoredStart scored{start, {}};
     for (const studies::Claim& claim : options.claims) scored.outcomes.push_back(judge(claim, record));
     card.scored.push_back(std::move(scored));

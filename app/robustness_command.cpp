@@ -34,7 +34,8 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
   if (const auto code = session.exit_code()) return *code;
   const store::OutputFolder& folder = session.folder();
   const auto draws = static_cast<std::size_t>(options.survey.draws);
-  CandidateJournal journal(session, "robustness", draws, options.claims.size());
+  CandidateJournal journal(session, "robustness", draws + static_cast<std::size_t>(options.survey.confirmed),
+                           options.claims.size());
   studies::KnownEvaluations evaluations;
   shared.run(evaluator_by(studies::survey_glance)(input, arguments, shared.stop()),
              [&](const studies::Evaluator& evaluate, int threads) {
@@ -43,16 +44,21 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
   journal.close();
   std::int64_t undrawn = 0;
   const auto close_run = [&](store::RunState state) {
-    session.end(state, {{"draws", static_cast<std::int64_t>(evaluations.size())}, {"undrawn", undrawn}});
+    session.end(state, {{"draws", static_cast<std::int64_t>(studies::surveyed_draws(evaluations).size())},
+                        {"confirmed", static_cast<std::int64_t>(options.survey.confirmed)},
+                        {"undrawn", undrawn}});
   };
-  if (evaluations.size() < draws) {
+  if (!studies::survey_is_complete(options, evaluations)) {
     close_run(store::RunState::stopped);
-    tell("stopped after {} of {} draws; the same command goes on\n", evaluations.size(), draws);
+    tell("stopped after {} of {} draws, {} of them confirmed; the same command goes on\n",
+         studies::surveyed_draws(evaluations).size(), draws,
+         evaluations.size() - studies::surveyed_draws(evaluations).size());
     return stopped_early;
   }
 
   folder.require_there();
-  const reports::RobustnessOutput output{options, input.study.name, studies::robustness(options, evaluations)};
+  const reports::RobustnessOutput output{options, input.study.name, studies::robustness(options, evaluations),
+                                         studies::agreement(options, evaluations)};
   reports::write_draws_csv(folder.file("draws.csv"), output, evaluations);
   reports::write_robustness_tables(folder.path(), output);
   const std::string summary = reports::robustness_summary(output, evaluations);

@@ -24,19 +24,22 @@ using nlohmann::json;
 using studies::EvaluatedCandidate;
 using studies::Evaluation;
 
-/// A candidate to be evaluated, as a message: number, bound, place.
-struct Question {
+/// A candidate to be evaluated, as a message: number, how, bound, place.
+struct SentQuestion {
   Index number = 0;
+  Index whole = 0;
   double give_up_at = 0;
   std::vector<double> u;
 
   [[nodiscard]] std::string bytes() const {
-    return bytes_of(std::vector<Index>{number}) + bytes_of(std::vector<double>{give_up_at}) + bytes_of(u);
+    return bytes_of(std::vector<Index>{number, whole}) + bytes_of(std::vector<double>{give_up_at}) + bytes_of(u);
   }
-  [[nodiscard]] static Question from(const std::string& bytes) {
-    Question q;
-    q.number = values_of<Index>(bytes.substr(0, sizeof(Index))).at(0);
-    std::vector<double> numbers = values_of<double>(bytes.substr(sizeof(Index)));
+  [[nodiscard]] static SentQuestion from(const std::string& bytes) {
+    SentQuestion q;
+    const std::vector<Index> head = values_of<Index>(bytes.substr(0, 2 * sizeof(Index)));
+    q.number = head.at(0);
+    q.whole = head.at(1);
+    std::vector<double> numbers = values_of<double>(bytes.substr(2 * sizeof(Index)));
     q.give_up_at = numbers.at(0);
     q.u.assign(numbers.begin() + 1, numbers.end());
     return q;
@@ -65,7 +68,7 @@ class Places {
 
   // For the threads that work.
 
-  Evaluation evaluate(std::span<const double> u, double give_up_at) {
+  Evaluation evaluate(const studies::Question& question) {
     std::unique_lock lock(mutex_);
     freed_.wait(lock, [&] { return over_ || !free_.empty(); });
     throw_if_over();
@@ -73,7 +76,7 @@ class Places {
     free_.pop_back();
     std::optional<Evaluation> evaluation;
     try {
-      evaluation = rank == 0 ? evaluate_here(u, give_up_at, lock) : evaluate_there(rank, u, give_up_at, lock);
+      evaluation = rank == 0 ? evaluate_here(question, lock) : evaluate_there(rank, question, lock);
     } catch (...) {
       if (!lock.owns_lock()) lock.lock();
       free_.push_back(rank);
@@ -88,7 +91,7 @@ class Places {
   // For the thread of the messages.
 
   /// What is to be sent, to whom.
-  [[nodiscard]] std::vector<std::pair<int, Question>> take_questions() {
+  [[nodiscard]] std::vector<std::pair<int, SentQuestion>> take_questions() {
     const std::scoped_lock lock(mutex_);
     return std::exchange(questions_, {});
   }
@@ -115,18 +118,17 @@ class Places {
     throw studies::EvaluationStopped();
   }
 
-  Evaluation evaluate_here(std::span<const double> u, double give_up_at, std::unique_lock<std::mutex>& lock) {
-    const std::size_t thread = local_++;
+  Evaluation evaluate_here(studies::Question question, std::unique_lock<std::mutex>& lock) {
+    question.thread = local_++;
     lock.unlock();
-    Evaluation evaluation = here_(u, give_up_at, thread);
+    Evaluation evaluation = here_(question);
     lock.lock();
     return evaluation;
   }
 
-  Evaluation evaluate_there(int rank, std::span<const double> u, double give_up_at,
-                            std::unique_lock<std::mutex>& lock) {
+  Evaluation evaluate_there(int rank, const studies::Question& q, std::unique_lock<std::mutex>& lock) {
     const Index number = next_++;
-    questions_.emplace_back(rank, Question{number, give_up_at, {u.begin(), u.end()}});
+    questions_.emplace_back(rank, SentQuestion{number, q.whole ? 1U : 0U, q.give_up_at, {q.u.begin(), q.u.end()}});
     answered_.wait(lock, [&] { return over_ || answers_.contains(number); });
     auto answer = answers_.extract(number);
     if (answer.empty()) throw_if_over();
@@ -139,7 +141,7 @@ class Places {
   std::vector<int> free_;  ///< ranks of free places; those here last
   std::size_t local_ = 0;
   Index next_ = 0;
-  std::vector<std::pair<int, Question>> questions_;
+  std::vector<std::pair<int, SentQuestion>> questions_;
   std::map<Index, Evaluation> answers_;
   bool over_ = false;
   std::optional<Failure> failure_;
@@ -160,9 +162,7 @@ void SharedEvaluations::run(const studies::Evaluator& here,
   Ranks& ranks = *arguments_.ranks;
   if (ranks.size() == 1) return work(here, arguments_.threads);
   Places places(here, threads_);
-  const studies::Evaluator shared = [&](std::span<const double> u, double give_up_at, std::size_t /*thread*/) {
-    return places.evaluate(u, give_up_at);
-  };
+  const studies::Evaluator shared = [&](const studies::Question& question) { return places.evaluate(question); };
   Computation computation([&] { work(shared, std::accumulate(threads_.begin(), threads_.end(), 0)); }, stop_);
   Attention attention;
   bool told = false;
@@ -210,7 +210,7 @@ class Follower {
   Follower& operator=(const Follower&) = delete;
   ~Follower() { end(); }
 
-  void take(Question question) {
+  void take(SentQuestion question) {
     const std::scoped_lock lock(mutex_);
     questions_.push_back(std::move(question));
     wake_.notify_one();
@@ -242,7 +242,7 @@ class Follower {
  private:
   void work(std::size_t thread) {
     for (;;) {
-      Question question;
+      SentQuestion question;
       {
         std::unique_lock lock(mutex_);
         wake_.wait(lock, [&] { return stop_ || !questions_.empty(); });
@@ -251,7 +251,8 @@ class Follower {
         questions_.pop_front();
       }
       try {
-        std::string answer = answer_bytes(question.number, evaluate_(question.u, question.give_up_at, thread));
+        std::string answer =
+            answer_bytes(question.number, evaluate_({question.u, question.give_up_at, thread, question.whole != 0}));
         const std::scoped_lock lock(mutex_);
         answers_.push_back(std::move(answer));
       } catch (const studies::EvaluationStopped&) {
@@ -268,7 +269,7 @@ class Follower {
   std::atomic<bool>& stop_;
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::deque<Question> questions_;
+  std::deque<SentQuestion> questions_;
   std::vector<std::string> answers_;
   std::exception_ptr error_;
   std::vector<std::thread> threads_;
@@ -297,7 +298,7 @@ int follow(const Arguments& arguments, std::string_view command, const MakeEvalu
     if (message && message->topic == Topic::leave) return static_cast<int>(values_of<Index>(message->bytes).at(0));
     if (message && message->topic == Topic::evaluate && !stop) {
       if (!follower) follower.emplace(ranks, evaluate, arguments.threads, stop);
-      follower->take(Question::from(message->bytes));
+      follower->take(SentQuestion::from(message->bytes));
     }
     if (message && message->topic == Topic::stop && follower) follower->end();
     if (stop_requested() && !std::exchange(told, true)) ranks.send(0, Topic::stop, {});

@@ -120,15 +120,7 @@ json with_origins(json resolved, std::span<const Assignment> values, const std::
 json sweep_input(const LoadedInput& input, const studies::ClaimSweep& sweep, studies::Start start) {
   const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
   Study study = input.study;
-  studies::SweepOptions plan;
-  plan.axis = sweep.axis;
-  plan.directions = start == studies::Start::cold ? std::vector{studies::Direction::up} : sweep.directions;
-  plan.start = start;
-  plan.look = options.look;
-  plan.look.keep = studies::Keep::section;
-  plan.look.recorded_periods = sweep.recorded_periods.value_or(plan.look.recorded_periods);
-  plan.segments = segments_of(plan);
-  study.plan = plan;
+  study.plan = options.whole_sweep(sweep, start);
   // What names stand for is told by what they change in the study as it is written.
   std::vector<Assignment> values;
   for (const studies::SetValue& set : sweep.at) {

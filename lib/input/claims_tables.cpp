@@ -239,6 +239,8 @@ const Table<studies::SurveyOptions>& survey_options_table() {
     Table<SurveyOptions> t("survey", "Draws from the ranges of the parameters.");
     t.integer("draws", &SurveyOptions::draws, between(1, 1e7), "Completions that are drawn [-].");
     t.integer("seed", &SurveyOptions::seed, between(0, 1e9), "Seed of their random numbers [-].");
+    t.integer("confirmed", &SurveyOptions::confirmed, between(0, 1e6),
+              "Draws, the first ones, that are held against whole sweeps too, to see what their looks are worth [-].");
     t.object("look", &SurveyOptions::look, survey_look_table());
     return t;
   }();
@@ -293,6 +295,9 @@ const Table<SearchOptions>& search_options_table() {
     t.integer("candidates", &SearchOptions::candidates, between(7, 1e8), "Candidates that they try in all [-].");
     t.integer("exchange", &SearchOptions::exchange, between(1, 1e6), "Generations between exchanges of the best [-].");
     t.integer("refinement", &SearchOptions::refinement, between(0, 1e6), "Candidates of the local refinement [-].");
+    t.integer(
+        "confirmed", &SearchOptions::confirmed, between(0, 10000),
+        "Of the best candidates: held against whole sweeps, and the one that meets most claims is the result [-].");
     t.integer("profile", &SearchOptions::profile, between(0, 1000),
               "Values of each parameter in the profile of the cost through the result [-].");
     return t;

@@ -24,7 +24,8 @@ namespace {
 std::string phase_name(const ClaimsOptions& options, std::size_t phase) {
   const auto islands = static_cast<std::size_t>(options.search.islands);
   if (phase < islands) return fmt::format("island {}", phase + 1);
-  return phase == islands ? "refinement" : "profile";
+  if (phase == islands) return "refinement";
+  return phase == islands + 1 ? "profile" : "whole sweeps";
 }
 
 std::size_t claims_met(const studies::Evaluation& evaluation) {
@@ -122,13 +123,35 @@ std::string calibrate_summary(const CalibrateOutput& output, const Calibration& 
       calibration.evaluations.size(), given_up, refused, options.search.seed, options.search.islands,
       options.search.population);
   if (!calibration.complete) text += "Stopped before its end.\n\n";
-  text += fmt::format("Best: {} of {} claims by the brief look, cost {}; found by {}, candidate {}.\n\n",
+  const std::string whole = calibration.confirmed.empty()
+                                ? ""
+                                : fmt::format("{} by whole sweeps, ", claims_met(calibration.confirmed.front().whole));
+  text += fmt::format("Best: {}{} of {} claims by the brief look, cost {}; found by {}, candidate {}.\n\n", whole,
                       claims_met(best.evaluation), options.claims.size(), short_text(best.evaluation.cost, 5),
                       phase_name(options, best.key.phase), best.key.number);
-  text += "| claim | what | cost |\n|---|---|---|\n";
-  for (std::size_t k = 0; k < options.claims.size(); ++k)
-    text += fmt::format("| {} | {} | {} |\n", options.claims[k].name, options.claims[k].text,
-                        best.evaluation.holds[k] == 1 ? "holds" : short_text(best.evaluation.claim_costs[k], 3));
+  const auto told = [&](const studies::Evaluation& e, std::size_t k) {
+    return e.holds[k] == 1 ? std::string("holds") : short_text(e.claim_costs[k], 3);
+  };
+  text += calibration.confirmed.empty() ? "| claim | what | cost |\n|---|---|---|\n"
+                                        : "| claim | what | cost | by whole sweeps |\n|---|---|---|---|\n";
+  for (std::size_t k = 0; k < options.claims.size(); ++k) {
+    text += fmt::format("| {} | {} | {} |", options.claims[k].name, options.claims[k].text, told(best.evaluation, k));
+    if (!calibration.confirmed.empty()) text += " " + told(calibration.confirmed.front().whole, k) + " |";
+    text += "\n";
+  }
+  if (!calibration.confirmed.empty()) {
+    text +=
+        "\nThe best that differ, held against whole sweeps:\n\n| candidate | cost | claims by the brief look | "
+        "by whole sweeps | which |\n|---|---|---|---|---|\n";
+    for (const studies::Confirmed& c : calibration.confirmed) {
+      std::string which;
+      for (std::size_t k = 0; k < options.claims.size(); ++k)
+        if (c.whole.holds[k] == 1) which += (which.empty() ? "" : ", ") + options.claims[k].name;
+      text += fmt::format("| {}, {} | {} | {} | {} | {} |\n", phase_name(options, c.candidate.key.phase),
+                          c.candidate.key.number, short_text(c.candidate.evaluation.cost, 5),
+                          claims_met(c.candidate.evaluation), claims_met(c.whole), which);
+    }
+  }
   text +=
       "\nEach parameter alone, all others as in the result: the stretch of the profile's values where no claim is lost "
       "(the "

@@ -59,19 +59,6 @@ std::size_t Scorecard::holding_inert() const {
       std::ranges::count_if(scored.front().outcomes, [](const ClaimOutcome& o) { return o.holds && o.inert; }));
 }
 
-studies::ClaimSeries claim_series(const studies::PointSource& points, const studies::LookOptions& look) {
-  studies::ClaimSeries series;
-  for (std::size_t k = 0; k < points.count; ++k) {
-    const studies::PointResult result = points.read(k);
-    auto& list = result.point.direction == studies::Direction::up ? series.points : series.other;
-    list.push_back(claim_point(result, look));
-  }
-  std::ranges::sort(series.points, {}, &studies::ClaimPoint::value);
-  std::ranges::sort(series.other, {}, &studies::ClaimPoint::value);
-  if (series.points.empty()) std::swap(series.points, series.other);
-  return series;
-}
-
 std::string scorecard_csv(const Scorecard& card) {
   std::vector<std::string> columns = {"claim"};
   for (const ScoredStart& s : card.scored) columns.push_back(start_name(s.start));

@@ -36,9 +36,6 @@ struct Scorecard {
   [[nodiscard]] std::size_t holding_inert() const;
 };
 
-/// The points of a direction, by rising value.
-[[nodiscard]] studies::ClaimSeries claim_series(const studies::PointSource& points, const studies::LookOptions& look);
-
 [[nodiscard]] std::string scorecard_csv(const Scorecard& card);
 [[nodiscard]] std::string scorecard_summary(const Scorecard& card);
 

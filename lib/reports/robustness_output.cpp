@@ -39,13 +39,13 @@ std::vector<std::size_t> deciding(const ClaimRobustness& claim) {
 
 void write_draws_csv(const std::filesystem::path& file, const RobustnessOutput& output,
                      const studies::KnownEvaluations& evaluations) {
-  std::vector<std::string> columns = {"draw", "valid"};
+  std::vector<std::string> columns = {"draw", "judged_by", "valid"};
   for (const studies::Claim& claim : output.options.claims) columns.push_back("holds_" + claim.name);
   const auto more = candidate_columns(output.options);
   columns.insert(columns.end(), more.begin(), more.end());
   CsvWriter csv(file, columns);
   for (const auto& [key, c] : evaluations) {
-    csv.cell(key.number).cell(c.evaluation.refused.empty() ? 1 : 0);
+    csv.cell(key.number).cell(key.phase == 0 ? "look" : "whole sweeps").cell(c.evaluation.refused.empty() ? 1 : 0);
     for (const char holds : c.evaluation.holds) csv.cell(static_cast<int>(holds));
     add_candidate_cells(csv, output.options, c.u, c.evaluation.claim_costs);
     csv.end_row();
@@ -54,13 +54,17 @@ void write_draws_csv(const std::filesystem::path& file, const RobustnessOutput& 
 }
 
 void write_robustness_tables(const std::filesystem::path& folder, const RobustnessOutput& output) {
-  CsvWriter parts(folder / "robustness.csv", {"claim", "draws", "holds", "fraction", "fraction_low", "fraction_high"});
+  CsvWriter parts(folder / "robustness.csv",
+                  {"claim", "draws", "holds", "fraction", "fraction_low", "fraction_high", "confirmed_both",
+                   "confirmed_neither", "confirmed_look_only", "confirmed_whole_only"});
   CsvWriter influences(folder / "influence.csv",
                        {"claim", "variable", "rank_correlation", "rank_correlation_low", "rank_correlation_high"});
   for (std::size_t k = 0; k < output.claims.size(); ++k) {
     const ClaimRobustness& claim = output.claims[k];
     const std::string& name = output.options.claims[k].name;
-    parts.row(name, claim.draws, claim.holds, claim.fraction.value, claim.fraction.low, claim.fraction.high);
+    const studies::ClaimAgreement& a = output.agreement[k];
+    parts.row(name, claim.draws, claim.holds, claim.fraction.value, claim.fraction.low, claim.fraction.high, a.both,
+              a.neither, a.glance_only, a.whole_only);
     for (std::size_t v = 0; v < claim.influences.size(); ++v) {
       const Interval& i = claim.influences[v];
       influences.row(name, variable_name(output.options.space, v), i.value, i.low, i.high);
@@ -74,15 +78,16 @@ std::string robustness_summary(const RobustnessOutput& output, const studies::Kn
   const studies::ClaimsOptions& options = output.options;
   std::size_t refused = 0;
   std::map<std::size_t, std::size_t> met;
-  for (const auto& [key, c] : evaluations) {
-    if (!c.evaluation.refused.empty())
+  const auto draws = studies::surveyed_draws(evaluations);
+  for (const auto* c : draws) {
+    if (!c->evaluation.refused.empty())
       ++refused;
     else
-      ++met[static_cast<std::size_t>(std::ranges::count(c.evaluation.holds, 1))];
+      ++met[static_cast<std::size_t>(std::ranges::count(c->evaluation.holds, 1))];
   }
   std::string text = fmt::format("# How robust claims are to what is not published: {}\n\n", output.name);
   text += fmt::format("{} draws from the ranges, seed {}; {} of them are no valid stage and are left out.\n\n",
-                      evaluations.size(), options.survey.seed, refused);
+                      draws.size(), options.survey.seed, refused);
   text += "| claim | what | holds for | 95 % interval | decided by (rank correlation) |\n|---|---|---|---|---|\n";
   constexpr std::size_t told = 4;
   for (std::size_t k = 0; k < output.claims.size(); ++k) {
@@ -97,7 +102,19 @@ std::string robustness_summary(const RobustnessOutput& output, const studies::Kn
                     percent(claim.fraction.value), percent(claim.fraction.low), percent(claim.fraction.high), words);
   }
   text += "\nClaims met together | draws\n---|---\n";
-  for (const auto& [number, draws] : met) text += fmt::format("{} | {}\n", number, draws);
+  for (const auto& [number, of] : met) text += fmt::format("{} | {}\n", number, of);
+  if (evaluations.size() == draws.size()) return text;
+  text += fmt::format(
+      "\n{} of the draws held against whole sweeps too:\n\n"
+      "| claim | holds for (of all draws) | both say it holds | both say it fails | by the look alone | by whole "
+      "sweeps "
+      "alone |\n|---|---|---|---|---|---|\n",
+      evaluations.size() - draws.size());
+  for (std::size_t k = 0; k < output.claims.size(); ++k) {
+    const studies::ClaimAgreement& a = output.agreement[k];
+    text += fmt::format("| {} | {} % | {} | {} | {} | {} |\n", options.claims[k].name,
+                        percent(output.claims[k].fraction.value), a.both, a.neither, a.glance_only, a.whole_only);
+  }
   return text;
 }
 

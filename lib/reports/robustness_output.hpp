@@ -1,7 +1,9 @@
 // What a survey of draws leaves in its folder.
 //
-//   draws.csv        a row per draw: its parameters, which claims it meets, the cost of each
-//   robustness.csv   a row per claim: the part of the draws that it holds for, with its interval at 95 %
+//   draws.csv        a row per draw: its parameters, which claims it meets, the cost of each; a row more for each way
+//                    in which it was judged besides
+//   robustness.csv   a row per claim: the part of the draws that it holds for, with its interval at 95 %; of the draws
+//                    that were held against whole sweeps too, how many agree
 //   influence.csv    a row per claim and parameter: rank correlation with the claim's score, with its interval
 //   robustness.md    in words
 //   figures/         robustness: the parts; influence: the correlations that are not zero
@@ -22,6 +24,7 @@ struct RobustnessOutput {
   studies::ClaimsOptions options;
   std::string name;  ///< of the study
   std::vector<studies::ClaimRobustness> claims;
+  std::vector<studies::ClaimAgreement> agreement;  ///< of each claim
 };
 
 /// @throws OutputError

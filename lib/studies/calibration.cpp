@@ -35,30 +35,38 @@ class Search {
   [[nodiscard]] std::size_t dimension() const { return options_.space.dimension(); }
 
   /// The evaluation of a key: the one that is kept, or a new one.
-  const EvaluatedCandidate& evaluate(EvaluationKey key, const std::vector<double>& u, double give_up_at,
-                                     std::size_t thread) {
+  const EvaluatedCandidate& evaluate(EvaluationKey key, const std::vector<double>& u, Question question) {
     if (const EvaluatedCandidate* kept = find(key)) {
       if (kept->u != u)
         throw InputError("the evaluations that were kept are not those of this search: candidate " +
                          std::to_string(key.number) + " of phase " + std::to_string(key.phase) + " is another one");
       return *kept;
     }
-    EvaluatedCandidate fresh{key, u, evaluator_(u, give_up_at, thread)};
+    question.u = u;
+    EvaluatedCandidate fresh{key, u, evaluator_(question)};
     const std::scoped_lock lock(mutex_);
     if (run_.evaluated) run_.evaluated(fresh);
     return run_.known.insert_or_assign(key, std::move(fresh)).first->second;
   }
 
-  /// Of the fully evaluated ones.
-  [[nodiscard]] const EvaluatedCandidate* best() const {
-    const EvaluatedCandidate* best = nullptr;
-    for (const auto& [key, candidate] : run_.known) {
-      const Evaluation& e = candidate.evaluation;
-      if (e.given_up || !e.refused.empty()) continue;
-      if (best == nullptr || e.cost < best->evaluation.cost) best = &candidate;
-    }
-    return best;
+  /// Those of islands and refinement that were looked at in all rounds, by rising cost, then in the order of keys.
+  [[nodiscard]] std::vector<const EvaluatedCandidate*> ranked() const {
+    std::vector<const EvaluatedCandidate*> all;
+    for (const auto& [key, candidate] : run_.known)
+      if (key.phase < profile_phase() && !candidate.evaluation.given_up && candidate.evaluation.refused.empty())
+        all.push_back(&candidate);
+    std::ranges::stable_sort(all, {}, [](const EvaluatedCandidate* c) { return c->evaluation.cost; });
+    return all;
   }
+
+  [[nodiscard]] const EvaluatedCandidate* best() const {
+    const auto all = ranked();
+    return all.empty() ? nullptr : all.front();
+  }
+
+  [[nodiscard]] std::size_t refinement_phase() const { return static_cast<std::size_t>(options_.search.islands); }
+  [[nodiscard]] std::size_t profile_phase() const { return refinement_phase() + 1; }
+  [[nodiscard]] std::size_t whole_phase() const { return refinement_phase() + 2; }
 
   [[nodiscard]] KnownEvaluations take_all() { return std::move(run_.known); }
 
@@ -84,7 +92,7 @@ struct Phase {
   double give_up_at = std::numeric_limits<double>::infinity();
 
   double cost(const std::vector<double>& u) {
-    const Evaluation& e = search->evaluate({index, asked++}, u, give_up_at, thread).evaluation;
+    const Evaluation& e = search->evaluate({index, asked++}, u, {{}, give_up_at, thread}).evaluation;
     return e.given_up ? std::numeric_limits<double>::infinity() : e.cost;
   }
 };
@@ -201,7 +209,7 @@ void refine(Search& search) {
   if (options.refinement == 0 || best == nullptr) return;
   constexpr double first_step = 0.05;  // of a range
   constexpr double last_step = 0.002;
-  Phase phase{&search, static_cast<std::size_t>(options.islands)};
+  Phase phase{&search, search.refinement_phase()};
   const pagmo::problem problem(CostProblem{&phase, search.dimension()});
   pagmo::population population(problem, 0, 0);
   population.push_back(best->u, {best->evaluation.cost});
@@ -209,6 +217,33 @@ void refine(Search& search) {
   phase.give_up_at = best->evaluation.cost;
   pagmo::compass_search compass(static_cast<unsigned>(options.refinement), first_step, last_step, 0.5);
   (void)pagmo::algorithm(compass).evolve(population);
+}
+
+/// The best candidates that differ, held against whole sweeps: those that meet most claims first, then the less cost.
+/// @returns nothing if stopped
+std::optional<std::vector<Confirmed>> confirm(Search& search) {
+  const auto wanted = static_cast<std::size_t>(search.options().search.confirmed);
+  std::vector<const EvaluatedCandidate*> chosen;
+  for (const EvaluatedCandidate* c : search.ranked()) {
+    if (chosen.size() == wanted) break;
+    const auto is_near = [&](const EvaluatedCandidate* other) {
+      for (std::size_t k = 0; k < c->u.size(); ++k)
+        if (std::abs(c->u[k] - other->u[k]) >= least_distance) return false;
+      return true;
+    };
+    if (std::ranges::none_of(chosen, is_near)) chosen.push_back(c);
+  }
+  std::vector<Confirmed> confirmed(chosen.size());
+  const bool all = for_units(chosen.size(), search.run().threads, search.run().stop, [&](std::size_t k) {
+    const Question whole{{}, std::numeric_limits<double>::infinity(), k, true};
+    confirmed[k] = {*chosen[k], search.evaluate({search.whole_phase(), k}, chosen[k]->u, whole).evaluation};
+  });
+  if (!all) return std::nullopt;
+  const auto rank = [](const Confirmed& c) {
+    return std::pair(-std::ranges::count(c.whole.holds, 1), c.candidate.evaluation.cost);
+  };
+  std::ranges::stable_sort(confirmed, {}, rank);
+  return confirmed;
 }
 
 /// Places in the unit cube that the profile asks for.
@@ -236,7 +271,7 @@ std::size_t most_evaluations(const ClaimsOptions& options) {
                      static_cast<std::size_t>(generations_of(s) + 1);
   // A compass ends a round that it has begun.
   if (s.refinement > 0) most += static_cast<std::size_t>(s.refinement) + 2 * options.space.dimension();
-  return most + profile_places(options).size();
+  return most + profile_places(options).size() + static_cast<std::size_t>(s.confirmed);
 }
 
 Calibration calibrate(const ClaimsOptions& options, const Evaluator& evaluate,
@@ -244,20 +279,26 @@ Calibration calibrate(const ClaimsOptions& options, const Evaluator& evaluate,
   Search search(options, evaluate, std::move(run));
   Calibration result;
   const auto keep_best = [&] {
-    if (const EvaluatedCandidate* best = search.best()) result.best = *best;
+    if (!result.confirmed.empty())
+      result.best = result.confirmed.front().candidate;
+    else if (const EvaluatedCandidate* best = search.best())
+      result.best = *best;
   };
   const auto run_all = [&] {
     if (!run_islands(search, first)) return false;
     refine(search);
+    if (search.best() == nullptr) throw InputError("no candidate is a valid stage");
+    auto confirmed = confirm(search);
+    if (!confirmed) return false;
+    result.confirmed = *std::move(confirmed);
     keep_best();
-    if (!result.best) throw InputError("no candidate is a valid stage");
     const auto places = profile_places(options);
     result.profile.resize(places.size());
-    const auto profile_phase = static_cast<std::size_t>(options.search.islands) + 1;
     return for_units(places.size(), search.run().threads, search.run().stop, [&](std::size_t k) {
       std::vector<double> u = result.best->u;
       u[places[k].first] = places[k].second;
-      const EvaluatedCandidate& c = search.evaluate({profile_phase, k}, u, std::numeric_limits<double>::infinity(), k);
+      const EvaluatedCandidate& c =
+          search.evaluate({search.profile_phase(), k}, u, {{}, std::numeric_limits<double>::infinity(), k});
       result.profile[k] = {places[k].first, places[k].second, c.evaluation};
     });
   };

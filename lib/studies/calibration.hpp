@@ -1,6 +1,7 @@
 // A search for the unstated parameters of a stage: global, by islands of a self-adapting differential evolution
 // (pagmo's de1220: Storn and Price 1997; self-adaptation by Brest et al. 2006, Elsayed et al. 2011), then local, by a
-// compass search from the best, then the profile of the cost along each parameter through the result.
+// compass search from the best; then some of the best are held against whole sweeps, and the profile of the cost is
+// taken along each parameter through the result.
 //
 // Everything is a function of the options: an island draws its random numbers from its own seed and evaluates its
 // candidates one after another, islands exchange their best after fixed numbers of generations, and a candidate is
@@ -23,7 +24,7 @@ namespace epicyclic::studies {
 
 /// Which evaluation it is: of an island, or of the phases after the islands, in its order there.
 struct EvaluationKey {
-  std::size_t phase = 0;   ///< 0 ... islands - 1, then the refinement, then the profile
+  std::size_t phase = 0;   ///< 0 ... islands - 1, then the refinement, the profile, and candidates by whole sweeps
   std::size_t number = 0;  ///< in the order in which they are asked for
 
   friend auto operator<=>(const EvaluationKey&, const EvaluationKey&) = default;
@@ -52,11 +53,22 @@ struct ProfilePoint {
   Evaluation evaluation;
 };
 
+/// A candidate that was held against whole sweeps.
+struct Confirmed {
+  EvaluatedCandidate candidate;  ///< by its glance
+  Evaluation whole;
+};
+
+/// Candidates for whole sweeps: by rising cost, none nearer to an earlier one than this in each variable. What lies
+/// nearer looks the same.
+inline constexpr double least_distance = 0.01;
+
 struct Calibration {
   bool complete = false;                   ///< not stopped
   KnownEvaluations evaluations;            ///< all of them
   std::optional<EvaluatedCandidate> best;  ///< so far, if it was stopped; nothing before the first
   std::vector<ProfilePoint> profile;       ///< by variable, then u; of a complete search
+  std::vector<Confirmed> confirmed;        ///< the first is the result
 };
 
 /// How many evaluations there are at the most.

@@ -1,6 +1,7 @@
 #include "studies/candidates.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -68,16 +69,38 @@ void look_briefly(const ClaimsOptions& options, const Glance& glance, const Swee
   }
 }
 
-Evaluation evaluate(const ClaimsOptions& options, const Glance& glance, const SweepModels& models, double give_up_at,
-                    std::size_t thread, const std::atomic<bool>* stop) {
+namespace {
+
+/// Nothing is known yet.
+Evaluation unknown(const ClaimsOptions& options) {
   Evaluation evaluation;
   evaluation.cost = 0.0;
   evaluation.claim_costs.assign(options.claims.size(), std::numeric_limits<double>::quiet_NaN());
   evaluation.holds.assign(options.claims.size(), 0);
+  return evaluation;
+}
+
+/// Judges the claims whose sweeps are all there and that have not been judged.
+void judge_known(const ClaimsOptions& options, const ClaimRecord& record, Evaluation& evaluation) {
+  for (std::size_t k = 0; k < options.claims.size(); ++k) {
+    const Claim& claim = options.claims[k];
+    const auto is_there = [&](const std::string& name) { return record.contains(name); };
+    if (!std::isnan(evaluation.claim_costs[k]) || !std::ranges::all_of(sweeps_of(claim), is_there)) continue;
+    const ClaimOutcome outcome = judge(claim, record);
+    evaluation.claim_costs[k] = outcome.cost;
+    evaluation.holds[k] = outcome.holds ? 1 : 0;
+    evaluation.cost += claim.weight * outcome.cost;
+  }
+}
+
+}  // namespace
+
+Evaluation evaluate(const ClaimsOptions& options, const Glance& glance, const SweepModels& models, double give_up_at,
+                    std::size_t thread, const std::atomic<bool>* stop) {
+  Evaluation evaluation = unknown(options);
   std::set<int> rounds;
   for (const ClaimSweep& sweep : options.sweeps) rounds.insert(sweep.round);
   ClaimRecord record;
-  std::vector<bool> judged(options.claims.size(), false);
   for (const int round : rounds) {
     if (evaluation.cost >= give_up_at) {
       evaluation.given_up = true;
@@ -87,24 +110,33 @@ Evaluation evaluate(const ClaimsOptions& options, const Glance& glance, const Sw
     for (const ClaimSweep& sweep : options.sweeps)
       if (sweep.round == round) sweeps.push_back(&sweep);
     look_briefly(options, glance, models, sweeps, thread, stop, record);
-    for (std::size_t k = 0; k < options.claims.size(); ++k) {
-      const Claim& claim = options.claims[k];
-      const auto names = sweeps_of(claim);
-      if (judged[k] || !std::ranges::all_of(names, [&](const auto& name) { return record.contains(name); })) continue;
-      const ClaimOutcome outcome = judge(claim, record);
-      judged[k] = true;
-      evaluation.claim_costs[k] = outcome.cost;
-      evaluation.holds[k] = outcome.holds ? 1 : 0;
-      evaluation.cost += claim.weight * outcome.cost;
-    }
+    judge_known(options, record, evaluation);
   }
   return evaluation;
 }
 
-Evaluator by_glances(const ClaimsOptions& options, const Glance& glance, CandidateModels models,
-                     const std::atomic<bool>* stop) {
-  return [&options, glance, models = std::move(models), stop](std::span<const double> u, double give_up_at,
-                                                              std::size_t thread) {
+Evaluation evaluate_whole(const ClaimsOptions& options, const integrate::IntegratorOptions& integrator,
+                          const SweepModels& models, const std::atomic<bool>* stop) {
+  ClaimRecord record;
+  for (const ClaimSweep& sweep : options.sweeps) {
+    const SweepOptions whole = options.whole_sweep(sweep, options.starts.front());
+    const SweepPlan plan = plan_sweep(whole);
+    SweepRun run;
+    run.stop = stop;
+    const ModelAt model_at = [&](double value) { return models(sweep, value); };
+    const std::vector<PointResult> points = run_sweep_in_memory(plan, whole.look, integrator, model_at, std::move(run));
+    if (points.size() < plan.points.size()) throw EvaluationStopped();
+    record[sweep.name] = claim_series(points_in_memory(points), options.look);
+  }
+  Evaluation evaluation = unknown(options);
+  judge_known(options, record, evaluation);
+  return evaluation;
+}
+
+Evaluator evaluator_of(const ClaimsOptions& options, const Glance& glance,
+                       const integrate::IntegratorOptions& integrator, CandidateModels models,
+                       const std::atomic<bool>* stop) {
+  return [&options, glance, integrator, models = std::move(models), stop](const Question& q) {
     const auto refused = [&](const std::string& why) {
       Evaluation evaluation;
       evaluation.cost = 1.0;
@@ -115,7 +147,9 @@ Evaluator by_glances(const ClaimsOptions& options, const Glance& glance, Candida
       return evaluation;
     };
     try {
-      return evaluate(options, glance, models(u), give_up_at, thread, stop);
+      const SweepModels of_candidate = models(q.u);
+      return q.whole ? evaluate_whole(options, integrator, of_candidate, stop)
+                     : evaluate(options, glance, of_candidate, q.give_up_at, q.thread, stop);
     } catch (const InputError& error) {
       return refused(error.what());
     } catch (const DomainError& error) {

@@ -1,5 +1,5 @@
 // Candidates for the unstated parameters of a stage, each judged by a brief look at the claims' sweeps: cold starts on
-// coarse grids, side by side in lanes.
+// coarse grids, side by side in lanes; or by the whole sweeps, as `reproduce` computes them.
 //
 // The cost of a candidate is the sum over claims of weight times cost. Costs are not negative, so that the sum over the
 // claims whose sweeps are known is a lower bound of it: once it reaches `give_up_at` the rest is not computed.
@@ -52,15 +52,31 @@ class EvaluationStopped {};
 [[nodiscard]] Evaluation evaluate(const ClaimsOptions& options, const Glance& glance, const SweepModels& models,
                                   double give_up_at, std::size_t thread, const std::atomic<bool>* stop);
 
+/// By the whole sweeps, from the first of the study's starts, in one thread: the verdicts of `reproduce`.
+/// @param stop  may be null
+/// @throws EvaluationStopped
+[[nodiscard]] Evaluation evaluate_whole(const ClaimsOptions& options, const integrate::IntegratorOptions& integrator,
+                                        const SweepModels& models, const std::atomic<bool>* stop);
+
+/// What is asked about a candidate.
+struct Question {
+  std::span<const double> u;
+  double give_up_at = std::numeric_limits<double>::infinity();  ///< of a glance
+  std::size_t thread = 0;                                       ///< which of those side by side asks
+  bool whole = false;                                           ///< by whole sweeps, not by a glance
+};
+
 /// Evaluates a candidate; called from several threads at once.
 /// @throws EvaluationStopped
-using Evaluator = std::function<Evaluation(std::span<const double> u, double give_up_at, std::size_t thread)>;
+using Evaluator = std::function<Evaluation(const Question& question)>;
 
-/// By glances at the models of candidates; one whose models are refused costs more than any other. `options` must
-/// outlive the result.
-/// @param stop  may be null
-[[nodiscard]] Evaluator by_glances(const ClaimsOptions& options, const Glance& glance, CandidateModels models,
-                                   const std::atomic<bool>* stop);
+/// By the models of candidates; one whose models are refused costs more than any other. `options` must outlive the
+/// result.
+/// @param integrator  of whole sweeps
+/// @param stop        may be null
+[[nodiscard]] Evaluator evaluator_of(const ClaimsOptions& options, const Glance& glance,
+                                     const integrate::IntegratorOptions& integrator, CandidateModels models,
+                                     const std::atomic<bool>* stop);
 
 /// The record of some sweeps by a glance.
 /// @throws EvaluationStopped

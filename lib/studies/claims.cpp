@@ -133,6 +133,19 @@ ClaimPoint claim_point(const PointResult& result, const LookOptions& look) {
   return point;
 }
 
+ClaimSeries claim_series(const PointSource& points, const LookOptions& look) {
+  ClaimSeries series;
+  for (std::size_t k = 0; k < points.count; ++k) {
+    const PointResult result = points.read(k);
+    auto& list = result.point.direction == Direction::up ? series.points : series.other;
+    list.push_back(claim_point(result, look));
+  }
+  std::ranges::sort(series.points, {}, &ClaimPoint::value);
+  std::ranges::sort(series.other, {}, &ClaimPoint::value);
+  if (series.points.empty()) std::swap(series.points, series.other);
+  return series;
+}
+
 namespace {
 
 /// [C-cost]; 0 within.

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "studies/claims_options.hpp"
+#include "studies/point_source.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::studies {
@@ -52,6 +53,9 @@ struct ClaimSeries {
   std::vector<ClaimPoint> points;
   std::vector<ClaimPoint> other;  ///< at the same values from elsewhere (the other direction), if there are any
 };
+
+/// A sweep's points, up and beside them those down, if there are any.
+[[nodiscard]] ClaimSeries claim_series(const PointSource& points, const LookOptions& look);
 
 /// By the sweeps' names.
 using ClaimRecord = std::map<std::string, ClaimSeries, std::less<>>;

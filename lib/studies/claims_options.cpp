@@ -261,6 +261,18 @@ void check_space(Checks& checks, const ParameterSpace& space) {
 
 }  // namespace
 
+SweepOptions ClaimsOptions::whole_sweep(const ClaimSweep& sweep, Start start) const {
+  SweepOptions plan;
+  plan.axis = sweep.axis;
+  plan.directions = start == Start::cold ? std::vector{Direction::up} : sweep.directions;
+  plan.start = start;
+  plan.look = look;
+  plan.look.keep = Keep::section;
+  plan.look.recorded_periods = sweep.recorded_periods.value_or(look.recorded_periods);
+  plan.segments = segments_of(plan);
+  return plan;
+}
+
 std::vector<std::pair<std::string, std::string>> ClaimsOptions::problems() const {
   Checks checks;
   const Names names = checks.names(sweeps, "/sweeps");

@@ -130,6 +130,7 @@ struct BriefLook {
 struct SurveyOptions {
   int draws = 1000;
   int seed = 1;
+  int confirmed = 0;  ///< of the draws: held against whole sweeps too, to see whether their looks can be trusted
   BriefLook look;
 };
 
@@ -147,6 +148,7 @@ struct SearchOptions {
   int candidates = 10000;  ///< evaluated in all by the islands
   int exchange = 10;       ///< generations between exchanges of the best candidates
   int refinement = 400;    ///< candidates of the local refinement of the best
+  int confirmed = 0;       ///< of the best: held against whole sweeps, and the one that meets most is the result
   int profile = 9;         ///< values of each parameter in the profile of the score
 };
 
@@ -160,6 +162,9 @@ struct ClaimsOptions {
   ParameterSpace space;
   SearchOptions search;
   SurveyOptions survey;
+
+  /// A sweep of the claims in full, from one kind of start.
+  [[nodiscard]] SweepOptions whole_sweep(const ClaimSweep& sweep, Start start) const;
 
   /// What is wrong, each at its place below the study: ("/claims/3/conditions/0/motion", "is ..., must be ...").
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> problems() const;

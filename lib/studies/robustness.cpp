@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <limits>
 #include <mutex>
+#include <numeric>
 #include <string>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "core/random_numbers.hpp"
@@ -18,12 +20,26 @@ std::vector<double> draw(const ParameterSpace& space, int seed, std::size_t inde
   return u;
 }
 
-KnownEvaluations survey(const ClaimsOptions& options, const Evaluator& evaluate, CalibrationRun run) {
-  KnownEvaluations all = std::move(run.known);
-  const auto draws = static_cast<std::size_t>(options.survey.draws);
+namespace {
+
+constexpr std::size_t by_glance = 0;
+constexpr std::size_t by_whole_sweeps = 1;
+
+/// The draws that are to be confirmed, of those that are known.
+std::vector<std::size_t> to_confirm(const ClaimsOptions& options, const KnownEvaluations& evaluations) {
+  std::vector<std::size_t> numbers;
+  for (const EvaluatedCandidate* c : surveyed_draws(evaluations))
+    if (numbers.size() < static_cast<std::size_t>(options.survey.confirmed) && c->evaluation.refused.empty())
+      numbers.push_back(c->key.number);
+  return numbers;
+}
+
+/// Evaluates draws that are not kept, in one way.
+void evaluate_draws(const ClaimsOptions& options, std::size_t phase, const std::vector<std::size_t>& numbers,
+                    const Evaluator& evaluate, const CalibrationRun& run, KnownEvaluations& all) {
   std::vector<std::size_t> missing;
-  for (std::size_t d = 0; d < draws; ++d) {
-    const auto kept = all.find({0, d});
+  for (const std::size_t d : numbers) {
+    const auto kept = all.find({phase, d});
     if (kept == all.end())
       missing.push_back(d);
     else if (kept->second.u != draw(options.space, options.survey.seed, d))
@@ -31,25 +47,64 @@ KnownEvaluations survey(const ClaimsOptions& options, const Evaluator& evaluate,
                        " is another one");
   }
   std::mutex mutex;
+  (void)for_units(missing.size(), run.threads, run.stop, [&](std::size_t k) {
+    EvaluatedCandidate c{{phase, missing[k]}, draw(options.space, options.survey.seed, missing[k]), {}};
+    c.evaluation = evaluate({c.u, std::numeric_limits<double>::infinity(), k, phase == by_whole_sweeps});
+    const std::scoped_lock lock(mutex);
+    if (run.evaluated) run.evaluated(c);
+    all.emplace(c.key, std::move(c));
+  });
+}
+
+}  // namespace
+
+std::vector<const EvaluatedCandidate*> surveyed_draws(const KnownEvaluations& evaluations) {
+  std::vector<const EvaluatedCandidate*> draws;
+  for (const auto& [key, c] : evaluations)
+    if (key.phase == by_glance) draws.push_back(&c);
+  return draws;
+}
+
+bool survey_is_complete(const ClaimsOptions& options, const KnownEvaluations& evaluations) {
+  return surveyed_draws(evaluations).size() >= static_cast<std::size_t>(options.survey.draws) &&
+         std::ranges::all_of(to_confirm(options, evaluations), [&](std::size_t d) {
+           return evaluations.contains({by_whole_sweeps, d});
+         });
+}
+
+KnownEvaluations survey(const ClaimsOptions& options, const Evaluator& evaluate, CalibrationRun run) {
+  KnownEvaluations all = std::exchange(run.known, {});
+  std::vector<std::size_t> draws(static_cast<std::size_t>(options.survey.draws));
+  std::iota(draws.begin(), draws.end(), std::size_t{0});
   try {
-    (void)for_units(missing.size(), run.threads, run.stop, [&](std::size_t k) {
-      EvaluatedCandidate c{{0, missing[k]}, draw(options.space, options.survey.seed, missing[k]), {}};
-      c.evaluation = evaluate(c.u, std::numeric_limits<double>::infinity(), k);
-      const std::scoped_lock lock(mutex);
-      if (run.evaluated) run.evaluated(c);
-      all.emplace(c.key, std::move(c));
-    });
+    evaluate_draws(options, by_glance, draws, evaluate, run, all);
+    if (surveyed_draws(all).size() >= draws.size())
+      evaluate_draws(options, by_whole_sweeps, to_confirm(options, all), evaluate, run, all);
   } catch (const EvaluationStopped&) {
     // What is there is returned.
   }
   return all;
 }
 
+std::vector<ClaimAgreement> agreement(const ClaimsOptions& options, const KnownEvaluations& evaluations) {
+  std::vector<ClaimAgreement> all(options.claims.size());
+  for (const auto& [key, whole] : evaluations) {
+    if (key.phase != by_whole_sweeps) continue;
+    const Evaluation& glance = evaluations.at({by_glance, key.number}).evaluation;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const bool at_a_glance = glance.holds[k] == 1;
+      const bool in_full = whole.evaluation.holds[k] == 1;
+      ClaimAgreement& a = all[k];
+      ++(at_a_glance ? (in_full ? a.both : a.glance_only) : (in_full ? a.whole_only : a.neither));
+    }
+  }
+  return all;
+}
+
 std::vector<ClaimRobustness> robustness(const ClaimsOptions& options, const KnownEvaluations& evaluations) {
   const ParameterSpace& space = options.space;
-  std::vector<const EvaluatedCandidate*> valid;
-  for (const auto& [key, c] : evaluations)
-    if (c.evaluation.refused.empty()) valid.push_back(&c);
+  std::vector<const EvaluatedCandidate*> valid = surveyed_draws(evaluations);
+  std::erase_if(valid, [](const EvaluatedCandidate* c) { return !c->evaluation.refused.empty(); });
   std::vector<ClaimRobustness> all(options.claims.size());
   for (std::size_t claim = 0; claim < all.size(); ++claim) {
     all[claim].draws = valid.size();

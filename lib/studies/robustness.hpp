@@ -18,10 +18,27 @@ namespace epicyclic::studies {
 /// A draw's place in the unit cube.
 [[nodiscard]] std::vector<double> draw(const ParameterSpace& space, int seed, std::size_t index);
 
-/// All draws, those that were kept as they are; key {0, draw}.
-/// @returns by draw; fewer than asked for only if stopped
+/// All draws, those that were kept as they are, key {0, draw}; then the first valid ones by whole sweeps, as many as
+/// are to be confirmed, key {1, draw}.
+/// @returns by key; fewer than asked for only if stopped, and survey_is_complete() tells
 /// @throws InputError when kept evaluations are not of these draws
 [[nodiscard]] KnownEvaluations survey(const ClaimsOptions& options, const Evaluator& evaluate, CalibrationRun run);
+
+[[nodiscard]] bool survey_is_complete(const ClaimsOptions& options, const KnownEvaluations& evaluations);
+
+/// Of the draws alone, without those by whole sweeps.
+[[nodiscard]] std::vector<const EvaluatedCandidate*> surveyed_draws(const KnownEvaluations& evaluations);
+
+/// How far glances at the draws that were confirmed say of a claim what whole sweeps say.
+struct ClaimAgreement {
+  std::size_t both = 0;         ///< draws for which it holds either way
+  std::size_t neither = 0;      ///< and for which it fails either way
+  std::size_t glance_only = 0;  ///< and for which it holds by the glance alone
+  std::size_t whole_only = 0;
+};
+
+/// Of each claim.
+[[nodiscard]] std::vector<ClaimAgreement> agreement(const ClaimsOptions& options, const KnownEvaluations& evaluations);
 
 /// Of one claim.
 struct ClaimRobustness {

@@ -33,7 +33,8 @@ cat >claims.json <<END
     "choices": [ { "name": "load", "options": [
         { "name": "torque", "sets": [ { "pointer": "/stage/load", "value": { "torque_Nm": 400 } } ] },
         { "name": "power", "sets": [ { "pointer": "/stage/load", "value": { "power_kW": 400 } } ] } ] } ],
-    "search": { "seed": 3, "islands": 2, "population": 7, "candidates": 42, "refinement": 10, "profile": 3 } } }
+    "search": { "seed": 3, "islands": 2, "population": 7, "candidates": 42, "refinement": 10, "profile": 3, "confirmed": 2 },
+    "survey": { "draws": 6, "confirmed": 2 } } }
 END
 [ "$(code_of "$epicyclic" check claims.json)" = 0 ] || fail "check: $(<stderr)"
 grep -q '2 claims on 2 sweeps' stderr || fail "check says nothing of claims: $(<stderr)"
@@ -90,17 +91,25 @@ done
 grep -q 'calibrated: by claims of small, seed 3' c1/stage.json || fail "no origin"
 [ "$(code_of "$epicyclic" check c1/best.json)" = 0 ] || fail "the best as an input: $(<stderr)"
 [ "$(code_of "$epicyclic" gear c1/stage.json -o g)" = 0 ] || fail "its stage as an input: $(<stderr)"
+# What whole sweeps said of the best is what its claims are held to.
+[ "$(code_of "$epicyclic" reproduce c1/best.json -o whole --set '/study/starts=["carried"]')" = 0 ] || fail "the best held against sweeps: $(<stderr)"
+for claim in A B; do
+  said=$(grep "^| $claim |" c1/calibrate.md | awk -F'|' '{ gsub(/ /, "", $5); print $5 }')
+  [ "$said" = holds ] || said=fails
+  grep -q "^$claim,$said," whole/scorecard.csv || fail "claim $claim $said by whole sweeps of the search, but not by reproduce: $(<whole/scorecard.csv)"
+done
 # The first candidate is the stage as it is given.
 [ "$(sed -n 2p c1/candidates.csv | cut -d, -f6,8)" = 2,400 ] || fail "the first candidate: $(sed -n 2p c1/candidates.csv)"
 
 # The survey of draws: the same bytes for any number of threads.
-[ "$(code_of "$epicyclic" robustness claims.json -o r1 --threads 1 --set /study/survey/draws=6)" = 0 ] || fail "robustness: $(<stderr)"
+[ "$(code_of "$epicyclic" robustness claims.json -o r1 --threads 1)" = 0 ] || fail "robustness: $(<stderr)"
 grep -q '^| A | little is chaotic |' stdout || fail "no table: $(<stdout)"
-[ "$(code_of "$epicyclic" robustness claims.json -o r2 --threads 2 --set /study/survey/draws=6)" = 0 ] || fail "two threads: $(<stderr)"
+[ "$(code_of "$epicyclic" robustness claims.json -o r2 --threads 2)" = 0 ] || fail "two threads: $(<stderr)"
 for file in draws.csv robustness.csv influence.csv robustness.md figures/robustness.dat; do
   cmp -s "r1/$file" "r2/$file" || fail "$file differs with two threads"
 done
-[ "$(wc -l <r1/draws.csv)" = 7 ] || fail "not a row per draw"
+[ "$(wc -l <r1/draws.csv)" = 9 ] || fail "not a row per draw and for each that was confirmed"
+grep -q '^2 of the draws held against whole sweeps too' r1/robustness.md || fail "it is not said how many were confirmed"
 [ -s r1/figures/robustness.png ] || fail "no figure"
 
 # On several ranks: the same bytes, also after a rank was killed; one rank talks.
@@ -113,7 +122,7 @@ if "$epicyclic" --version | grep -q '^MPI ' && command -v mpirun >/dev/null; the
     grep -q "\"ranks\": $ranks," "m$ranks/run.json" || fail "run.json says otherwise of $ranks ranks"
     [ "$(grep -c '^best: ' stdout)" = 1 ] || fail "not one rank talks: $(<stdout)"
   done
-  [ "$(code_of "${launch[@]}" -n 2 "$epicyclic" robustness claims.json -o rm --threads 1 --set /study/survey/draws=6)" = 0 ] || fail "robustness on ranks: $(<stderr)"
+  [ "$(code_of "${launch[@]}" -n 2 "$epicyclic" robustness claims.json -o rm --threads 1)" = 0 ] || fail "robustness on ranks: $(<stderr)"
   cmp -s r1/draws.csv rm/draws.csv || fail "draws.csv differs with ranks"
   for victim in 0 1; do
     rm -rf cut
@@ -150,7 +159,7 @@ refused 's/"parameter": "damping_ratio"/"parameter": "damping"/' '/study/sweeps/
 [ "$(code_of "$epicyclic" sweep claims.json -o bad)" = 2 ] || fail "a sweep of claims: $(<stderr)"
 grep -q 'run `epicyclic reproduce`' stderr || fail "which command it is of: $(<stderr)"
 # A stage outside the ranges is said to be moved into them.
-sed 's/"from": 0.5, "to": 20/"from": 3, "to": 20/; s/"candidates": 42/"candidates": 14/; s/"refinement": 10, "profile": 3/"refinement": 0, "profile": 0/' claims.json >moved.json
+sed 's/"from": 0.5, "to": 20/"from": 3, "to": 20/; s/"candidates": 42/"candidates": 14/; s/"refinement": 10, "profile": 3, "confirmed": 2/"refinement": 0, "profile": 0/' claims.json >moved.json
 [ "$(code_of "$epicyclic" calibrate moved.json -o moved)" = 0 ] || fail "outside the ranges: $(<stderr)"
 grep -q 'the first candidate has E = 2.* to 3' stderr || fail "it is not said: $(<stderr)"
 [ "$(code_of "$epicyclic" reproduce nobody2021 -o bad)" = 2 ] || fail "no such claims: $(<stderr)"

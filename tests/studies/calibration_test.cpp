@@ -50,8 +50,7 @@ Calibration search(const ClaimsOptions& options, int threads, KnownEvaluations k
   run.threads = threads;
   run.known = std::move(known);
   Calibration found = calibrate(
-      options, [](std::span<const double> u, double give_up_at, std::size_t) { return rippled(u, give_up_at); }, first,
-      run);
+      options, [](const Question& q) { return rippled(q.u, q.give_up_at); }, first, run);
   EXPECT_TRUE(found.complete);
   return found;
 }
@@ -98,12 +97,12 @@ TEST(Calibration, GoesOnFromWhatWasKept) {
   CalibrationRun run;
   run.stop = &stop;
   run.evaluated = [&](const EvaluatedCandidate& c) { kept.emplace(c.key, c); };
-  const auto until_stopped = [&](std::span<const double> u, double give_up_at, std::size_t) {
+  const auto until_stopped = [&](const Question& q) {
     if (++evaluated == 100) {
       stop = true;
       throw EvaluationStopped();
     }
-    return rippled(u, give_up_at);
+    return rippled(q.u, q.give_up_at);
   };
   const Calibration stopped = calibrate(options, until_stopped, {}, run);
   EXPECT_FALSE(stopped.complete);
@@ -113,6 +112,45 @@ TEST(Calibration, GoesOnFromWhatWasKept) {
   const Calibration resumed = search(options, 2, kept);
   EXPECT_TRUE(same(whole.evaluations, resumed.evaluations));
   EXPECT_EQ(whole.best->u, resumed.best->u);
+}
+
+TEST(Calibration, TakesOfItsBestTheOneThatMeetsMostByWholeSweeps) {
+  ClaimsOptions options = options_of(3);
+  options.search.candidates = 300;
+  options.search.confirmed = 6;
+  options.search.profile = 1;
+  std::atomic<int> whole = 0;
+  // By whole sweeps only what lies off the least cost holds.
+  const auto evaluate = [&](const Question& q) {
+    Evaluation e = rippled(q.u, q.give_up_at);
+    if (q.whole) {
+      ++whole;
+      e.holds = {static_cast<char>(q.u[0] > 0.21 ? 1 : 0)};
+    }
+    return e;
+  };
+  CalibrationRun run;
+  run.threads = 2;
+  const Calibration found = calibrate(options, evaluate, {}, run);
+  ASSERT_TRUE(found.complete);
+  ASSERT_EQ(found.confirmed.size(), 6U);
+  EXPECT_EQ(whole, 6);
+  EXPECT_LE(found.evaluations.size(), most_evaluations(options));
+  EXPECT_EQ(found.confirmed.front().whole.holds[0], 1);
+  EXPECT_GT(found.best->u[0], 0.21);
+  EXPECT_EQ(found.best->u, found.confirmed.front().candidate.u);
+  for (std::size_t a = 0; a < 6; ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      double distance = 0.0;
+      for (std::size_t k = 0; k < 3; ++k)
+        distance = std::max(distance, std::abs(found.confirmed[a].candidate.u[k] - found.confirmed[b].candidate.u[k]));
+      EXPECT_GE(distance, least_distance);
+    }
+  // Of equals the one of less cost.
+  for (std::size_t k = 1; k < 6; ++k)
+    if (found.confirmed[k].whole.holds == found.confirmed[k - 1].whole.holds) {
+      EXPECT_GE(found.confirmed[k].candidate.evaluation.cost, found.confirmed[k - 1].candidate.evaluation.cost);
+    }
 }
 
 TEST(Calibration, RefusesEvaluationsOfAnotherSearch) {

@@ -35,7 +35,7 @@ KnownEvaluations surveyed(const ClaimsOptions& options, int threads, KnownEvalua
   run.threads = threads;
   run.known = std::move(known);
   return survey(
-      options, [](std::span<const double> u, double, std::size_t) { return decided_by_first(u); }, run);
+      options, [](const Question& q) { return decided_by_first(q.u); }, run);
 }
 
 TEST(Survey, DrawsTheSameWhoeverAsks) {
@@ -57,6 +57,48 @@ TEST(Survey, DrawsTheSameWhoeverAsks) {
   ClaimsOptions other = options;
   other.survey.seed = 6;
   EXPECT_THROW((void)surveyed(other, 1, one), InputError);
+}
+
+TEST(Survey, HoldsItsFirstValidDrawsAgainstWholeSweeps) {
+  ClaimsOptions options = options_of(20);
+  options.survey.confirmed = 12;
+  CalibrationRun run;
+  run.threads = 2;
+  // Draw 3 is no stage. Whole sweeps say of the first claim what the second parameter does, and the opposite of the
+  // second claim.
+  const std::vector<double> no_stage = draw(options.space, 5, 3);
+  const KnownEvaluations all = survey(
+      options,
+      [&](const Question& q) {
+        Evaluation e = decided_by_first(q.u);
+        if (q.u[0] == no_stage[0]) e.refused = "no stage";
+        if (q.whole) e.holds = {static_cast<char>(q.u[1] < 0.5 ? 1 : 0), 0};
+        return e;
+      },
+      run);
+  EXPECT_TRUE(survey_is_complete(options, all));
+  EXPECT_EQ(surveyed_draws(all).size(), 20U);
+  EXPECT_EQ(all.size(), 32U);
+  EXPECT_FALSE(all.contains({1, 3}));
+  EXPECT_TRUE(all.contains({1, 12}));
+  const auto agreed = agreement(options, all);
+  ClaimAgreement expected;
+  for (std::size_t d = 0; d <= 12; ++d) {
+    if (d == 3) continue;
+    const std::vector<double> u = draw(options.space, 5, d);
+    ++(u[0] < 0.25 ? (u[1] < 0.5 ? expected.both : expected.glance_only)
+                   : (u[1] < 0.5 ? expected.whole_only : expected.neither));
+  }
+  EXPECT_EQ(agreed[0].both, expected.both);
+  EXPECT_EQ(agreed[0].neither, expected.neither);
+  EXPECT_EQ(agreed[0].glance_only, expected.glance_only);
+  EXPECT_EQ(agreed[0].whole_only, expected.whole_only);
+  EXPECT_EQ(agreed[1].glance_only, 12U);
+  // What whole sweeps say is no draw.
+  EXPECT_EQ(robustness(options, all)[1].draws, 19U);
+  KnownEvaluations without = all;
+  without.erase({1, 12});
+  EXPECT_FALSE(survey_is_complete(options, without));
 }
 
 TEST(Robustness, TellsPartsAndWhatDecides) {
