@@ -56,8 +56,9 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
                found = studies::calibrate(options, evaluate, {given}, journal.run(threads, shared.stop()));
              });
   journal.close();
+  std::int64_t undrawn = 0;
   const auto close_run = [&](store::RunState state) {
-    session.end(state, {{"candidates", static_cast<std::int64_t>(journal.finished())}});
+    session.end(state, {{"candidates", static_cast<std::int64_t>(journal.finished())}, {"undrawn", undrawn}});
   };
 
   folder.require_there();
@@ -81,6 +82,9 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
     tell("stopped after {} candidates; the same command goes on\n", journal.finished());
     return stopped_early;
   }
+  std::vector<reports::DrawnFigure> figures;
+  if (!found.profile.empty()) figures.push_back(reports::draw_determination(folder.file("figures"), output, found));
+  undrawn = tell_undrawn(figures);
   close_run(store::RunState::complete);
   if (arguments.json) {
     nlohmann::json told = {{"folder", folder.path().string()},
@@ -90,8 +94,10 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
     print("{}\n", told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     print("{}\nbest: {}\n", summary, folder.file("best.json").string());
+    for (const auto& figure : figures)
+      if (figure.outcome.drawn()) print("figure: {}\n", figure.file.string());
   }
-  return done;
+  return undrawn == 0 ? done : done_with_failures;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "reports/calibrate_output.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "core/csv.hpp"
 #include "core/text.hpp"
+#include "figures/sketch.hpp"
 #include "reports/variable_words.hpp"
 
 namespace epicyclic::reports {
@@ -68,45 +70,94 @@ void write_profile_csv(const std::filesystem::path& file, const CalibrateOutput&
 namespace {
 
 /// Where the cost, along one variable through the result, stays within half of the least weight of a claim: no claim is
-/// lost there. Of a parameter the stretch about the result, of a choice its options.
-std::string determined_text(const CalibrateOutput& output, const Calibration& calibration, std::size_t variable) {
-  const studies::ParameterSpace& space = output.options.space;
+/// lost there.
+struct Determination {
+  std::vector<const studies::ProfilePoint*> points;  ///< of the variable
+  std::vector<bool> good;                            ///< no claim is lost there
+  double low = 0, high = 0;                          ///< of a parameter: the stretch about the result, in its range
+
+  [[nodiscard]] bool any() const {
+    return std::ranges::all_of(good, [](bool is) { return is; });
+  }
+};
+
+Determination determination(const CalibrateOutput& output, const Calibration& calibration, std::size_t variable) {
   double least_weight = std::numeric_limits<double>::infinity();
   for (const studies::Claim& claim : output.options.claims)
     if (claim.weight > 0.0) least_weight = std::min(least_weight, claim.weight);
   const double bound = calibration.best->evaluation.cost + 0.5 * least_weight;
-  std::vector<const studies::ProfilePoint*> points;
+  Determination d;
   for (const studies::ProfilePoint& p : calibration.profile)
-    if (p.variable == variable) points.push_back(&p);
-  if (points.empty()) return "";
-  const auto is_good = [&](const studies::ProfilePoint* p) {
-    return p->evaluation.refused.empty() && p->evaluation.cost <= bound;
-  };
-  if (std::ranges::all_of(points, is_good)) return "any";
+    if (p.variable == variable) {
+      d.points.push_back(&p);
+      d.good.push_back(p.evaluation.refused.empty() && p.evaluation.cost <= bound);
+    }
+  const double u = calibration.best->u[variable];
+  d.low = u;
+  d.high = u;
+  for (std::size_t k = d.points.size(); k-- > 0;)
+    if (d.points[k]->u <= u) {
+      if (!d.good[k]) break;
+      d.low = d.points[k]->u;
+    }
+  for (std::size_t k = 0; k < d.points.size(); ++k)
+    if (d.points[k]->u >= u) {
+      if (!d.good[k]) break;
+      d.high = d.points[k]->u;
+    }
+  return d;
+}
+
+/// Of a parameter the stretch about the result, of a choice its options.
+std::string determined_text(const CalibrateOutput& output, const Calibration& calibration, std::size_t variable) {
+  const studies::ParameterSpace& space = output.options.space;
+  const Determination d = determination(output, calibration, variable);
+  if (d.points.empty()) return "";
+  if (d.any()) return "any";
   if (variable >= space.parameters.size()) {
     std::string options;
-    for (const auto* p : points)
-      if (is_good(p)) options += (options.empty() ? "" : ", ") + variable_text(space, variable, p->u, 0);
+    for (std::size_t k = 0; k < d.points.size(); ++k)
+      if (d.good[k]) options += (options.empty() ? "" : ", ") + variable_text(space, variable, d.points[k]->u, 0);
     return options;
   }
-  const double u = calibration.best->u[variable];
-  double low = u;
-  double high = u;
-  for (auto p = points.rbegin(); p != points.rend(); ++p)
-    if ((*p)->u <= u) {
-      if (!is_good(*p)) break;
-      low = (*p)->u;
-    }
-  for (const auto* p : points)
-    if (p->u >= u) {
-      if (!is_good(p)) break;
-      high = p->u;
-    }
-  if (low == high) return "nearer than the profile's values";
-  return variable_text(space, variable, low, 4) + " to " + variable_text(space, variable, high, 4);
+  if (d.low == d.high) return "nearer than the profile's values";
+  return variable_text(space, variable, d.low, 4) + " to " + variable_text(space, variable, d.high, 4);
 }
 
 }  // namespace
+
+DrawnFigure draw_determination(const std::filesystem::path& folder, const CalibrateOutput& output,
+                               const Calibration& calibration) {
+  const studies::ParameterSpace& space = output.options.space;
+  const std::size_t rows = space.parameters.size();
+  figures::Sketch sketch("determination");
+  figures::FigurePanel panel{"", {0.4, static_cast<double>(rows) + 0.6}, {}};
+  std::vector<std::array<double, 2>> ranges;
+  std::vector<std::array<double, 2>> stretches;
+  std::vector<std::array<double, 2>> results;
+  constexpr double gap = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t k = 0; k < rows; ++k) {
+    const auto row = static_cast<double>(rows - k);
+    const studies::FreeParameter& p = space.parameters[k];
+    constexpr std::size_t longest = 46;
+    const std::string words = p.words.empty() ? p.name : p.words;
+    panel.names.emplace_back(
+        row, row_text(fmt::format("{}: {} to {}", words, short_text(p.from, 3), short_text(p.to, 3)), longest));
+    const std::vector<std::size_t> options = space.options_at(calibration.best->u);
+    if (!space.counts(p, options)) continue;
+    const Determination d = determination(output, calibration, k);
+    ranges.insert(ranges.end(), {{0.0, row}, {1.0, row}, {gap, gap}});
+    stretches.insert(stretches.end(), {{d.low, row}, {d.high, row}, {gap, gap}});
+    results.push_back({calibration.best->u[k], row});
+  }
+  sketch.panel(panel);
+  sketch.add(ranges, figures::solid(figures::ink::light_grey, 1));
+  sketch.add(stretches, figures::solid(figures::ink::blue, 7), "no claim is lost");
+  sketch.add(results, figures::dots(figures::ink::red, 1.2), "result");
+  constexpr double margin = 0.02;  // so that marks at both ends are whole
+  return {folder / "determination.png", sketch.draw(folder, {"", "Place in the range, all else as in the result", ""},
+                                                    {-margin, 1.0 + margin}, {}, {}, canvas_of_rows(rows))};
+}
 
 std::string calibrate_summary(const CalibrateOutput& output, const Calibration& calibration) {
   const ClaimsOptions& options = output.options;

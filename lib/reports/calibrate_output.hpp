@@ -3,6 +3,7 @@
 //   candidates.csv   a row per candidate: phase, number, cost, its parameters, the cost of each claim
 //   profile.csv      the cost along each parameter through the result, all others held
 //   calibrate.md     in words: what was searched, the result, which claims it meets, how sharply it is determined
+//   figures/         determination: of each parameter its place in its range, and the stretch where no claim is lost
 //
 // All of it follows from the evaluations alone and is the same, byte for byte, for the same study.
 #pragma once
@@ -28,6 +29,11 @@ void write_candidates_csv(const std::filesystem::path& file, const CalibrateOutp
 /// @throws OutputError
 void write_profile_csv(const std::filesystem::path& file, const CalibrateOutput& output,
                        const studies::Calibration& calibration);
+
+/// Of a complete search with a profile.
+/// @throws OutputError
+[[nodiscard]] DrawnFigure draw_determination(const std::filesystem::path& folder, const CalibrateOutput& output,
+                                             const studies::Calibration& calibration);
 
 /// Text of calibrate.md, of a search that has a best candidate.
 [[nodiscard]] std::string calibrate_summary(const CalibrateOutput& output, const studies::Calibration& calibration);

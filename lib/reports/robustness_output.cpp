@@ -120,19 +120,6 @@ std::string robustness_summary(const RobustnessOutput& output, const studies::Kn
 
 namespace {
 
-/// Cut at a blank, as long as fits beside a figure.
-std::string cut(const std::string& words, std::size_t longest) {
-  if (words.size() <= longest) return figures::literal_text(words);
-  return figures::literal_text(words.substr(0, words.rfind(' ', longest)) + " ...");
-}
-
-/// As high as its rows need.
-figures::FigureCanvas canvas_of(std::size_t rows) {
-  constexpr int row_height = 42;
-  constexpr int around = 260;
-  return {1800, around + row_height * static_cast<int>(rows)};
-}
-
 DrawnFigure draw_parts(const std::filesystem::path& folder, const RobustnessOutput& output) {
   const std::size_t claims = output.claims.size();
   figures::Sketch sketch("robustness");
@@ -144,7 +131,7 @@ DrawnFigure draw_parts(const std::filesystem::path& folder, const RobustnessOutp
     bars.push_back({100.0 * f.value, row, 100.0 * f.low, 100.0 * f.high});
     constexpr std::size_t longest = 46;
     const studies::Claim& claim = output.options.claims[k];
-    panel.names.emplace_back(row, cut(claim.name + "  " + claim.text, longest));
+    panel.names.emplace_back(row, row_text(claim.name + "  " + claim.text, longest));
   }
   sketch.panel(panel);
   sketch.add(bars,
@@ -154,7 +141,7 @@ DrawnFigure draw_parts(const std::filesystem::path& folder, const RobustnessOutp
   return {folder / "robustness.png", sketch.draw(folder,
                                                  {fmt::format("{} stages drawn from the ranges", draws),
                                                   "Part that meets the claim [%], interval at 95 %", ""},
-                                                 {-margin, 100.0 + margin}, {}, {}, canvas_of(claims))};
+                                                 {-margin, 100.0 + margin}, {}, {}, canvas_of_rows(claims))};
 }
 
 DrawnFigure draw_influences(const std::filesystem::path& folder, const RobustnessOutput& output) {
@@ -164,15 +151,11 @@ DrawnFigure draw_influences(const std::filesystem::path& folder, const Robustnes
   figures::Sketch sketch("influence");
   figures::FigurePanel panel{"", {0.4, static_cast<double>(variables) + 0.6}, {}};
   for (std::size_t v = 0; v < variables; ++v) {
-    // Without the unit: a rank has none.
-    const bool has_words = v < space.parameters.size() && !space.parameters[v].words.empty();
-    const std::string words = has_words ? space.parameters[v].words : variable_name(space, v);
     constexpr std::size_t longest = 34;
-    panel.names.emplace_back(static_cast<double>(variables - v), cut(words.substr(0, words.find(" [")), longest));
+    panel.names.emplace_back(static_cast<double>(variables - v), row_text(words_without_unit(space, v), longest));
   }
   sketch.panel(panel);
   // The largest circle is as high as a row; radii are in units of the abscissa.
-  constexpr double row_height = 42.0;
   constexpr double frame_width = 1050.0;
   const double largest = 0.48 * row_height * static_cast<double>(claims) / frame_width;
   for (const bool positive : {true, false}) {
@@ -199,7 +182,7 @@ DrawnFigure draw_influences(const std::filesystem::path& folder, const Robustnes
   const std::size_t draws = output.claims.empty() ? 0 : output.claims.front().draws;
   return {folder / "influence.png",
           sketch.draw(folder, {"", fmt::format("Claim ({} draws)", draws), ""},
-                      {0.4, static_cast<double>(claims) + 0.6}, {}, {}, canvas_of(variables))};
+                      {0.4, static_cast<double>(claims) + 0.6}, {}, {}, canvas_of_rows(variables))};
 }
 
 }  // namespace

@@ -15,6 +15,22 @@ std::string variable_text(const studies::ParameterSpace& space, std::size_t vari
   return choice.options[choice.at(u)].name;
 }
 
+std::string words_without_unit(const studies::ParameterSpace& space, std::size_t variable) {
+  const bool has_words = variable < space.parameters.size() && !space.parameters[variable].words.empty();
+  const std::string words = has_words ? space.parameters[variable].words : variable_name(space, variable);
+  return words.substr(0, words.find(" ["));
+}
+
+std::string row_text(const std::string& words, std::size_t longest) {
+  if (words.size() <= longest) return figures::literal_text(words);
+  return figures::literal_text(words.substr(0, words.rfind(' ', longest)) + " ...");
+}
+
+figures::FigureCanvas canvas_of_rows(std::size_t rows) {
+  constexpr int around = 260;
+  return {1800, around + row_height * static_cast<int>(rows)};
+}
+
 std::vector<std::string> candidate_columns(const studies::ClaimsOptions& options) {
   std::vector<std::string> columns;
   for (std::size_t k = 0; k < options.space.dimension(); ++k) columns.push_back(variable_name(options.space, k));

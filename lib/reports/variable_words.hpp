@@ -1,4 +1,4 @@
-// Candidates for what is not published, as cells and words.
+// Candidates for what is not published, as cells and words, and figures with a row for each.
 #pragma once
 
 #include <cstddef>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/csv.hpp"
+#include "figures/gnuplot.hpp"
 #include "studies/claims_options.hpp"
 
 namespace epicyclic::reports {
@@ -16,6 +17,17 @@ namespace epicyclic::reports {
 /// What it is at a place of the cube: a number, or an option.
 [[nodiscard]] std::string variable_text(const studies::ParameterSpace& space, std::size_t variable, double u,
                                         int digits);
+
+/// What it is in words, without its unit.
+[[nodiscard]] std::string words_without_unit(const studies::ParameterSpace& space, std::size_t variable);
+
+/// A text beside a row of a figure, cut at a blank.
+[[nodiscard]] std::string row_text(const std::string& words, std::size_t longest);
+
+inline constexpr int row_height = 42;  ///< [pixels]
+
+/// A canvas as high as its rows need.
+[[nodiscard]] figures::FigureCanvas canvas_of_rows(std::size_t rows);
 
 /// Names of the columns of add_candidate_cells().
 [[nodiscard]] std::vector<std::string> candidate_columns(const studies::ClaimsOptions& options);

@@ -223,12 +223,16 @@ void refine(Search& search) {
 /// @returns nothing if stopped
 std::optional<std::vector<Confirmed>> confirm(Search& search) {
   const auto wanted = static_cast<std::size_t>(search.options().search.confirmed);
+  const ParameterSpace& space = search.options().space;
   std::vector<const EvaluatedCandidate*> chosen;
   for (const EvaluatedCandidate* c : search.ranked()) {
     if (chosen.size() == wanted) break;
+    const std::vector<std::size_t> options = space.options_at(c->u);
     const auto is_near = [&](const EvaluatedCandidate* other) {
-      for (std::size_t k = 0; k < c->u.size(); ++k)
-        if (std::abs(c->u[k] - other->u[k]) >= least_distance) return false;
+      if (space.options_at(other->u) != options) return false;
+      for (std::size_t k = 0; k < space.parameters.size(); ++k)
+        if (space.counts(space.parameters[k], options) && std::abs(c->u[k] - other->u[k]) >= least_distance)
+          return false;
       return true;
     };
     if (std::ranges::none_of(chosen, is_near)) chosen.push_back(c);

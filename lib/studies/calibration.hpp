@@ -59,8 +59,8 @@ struct Confirmed {
   Evaluation whole;
 };
 
-/// Candidates for whole sweeps: by rising cost, none nearer to an earlier one than this in each variable. What lies
-/// nearer looks the same.
+/// Candidates for whole sweeps: by rising cost, none nearer to an earlier one than this in each variable that counts.
+/// What lies nearer looks the same.
 inline constexpr double least_distance = 0.01;
 
 struct Calibration {

@@ -89,6 +89,7 @@ for file in "${files[@]}"; do
 done
 [ "$(code_of "$epicyclic" calibrate claims.json -o c1)" = 0 ] || fail "complete: $(<stderr)"
 grep -q 'calibrated: by claims of small, seed 3' c1/stage.json || fail "no origin"
+[ -s c1/figures/determination.png ] || fail "no figure of how sharply parameters are determined"
 [ "$(code_of "$epicyclic" check c1/best.json)" = 0 ] || fail "the best as an input: $(<stderr)"
 [ "$(code_of "$epicyclic" gear c1/stage.json -o g)" = 0 ] || fail "its stage as an input: $(<stderr)"
 # What whole sweeps said of the best is what its claims are held to.
