@@ -117,6 +117,14 @@ json with_origins(json resolved, std::span<const Assignment> values, const std::
   return resolved;
 }
 
+std::optional<double> number_to_set(const LoadedInput& input, std::span<const PointerValue> values,
+                                    const studies::SetValue& set) {
+  if (set.value) return set.value;
+  for (const PointerValue& v : values)
+    if (v.pointer == set.as) return v.value;
+  return input.number_at(set.as);
+}
+
 json sweep_input(const LoadedInput& input, const studies::ClaimSweep& sweep, studies::Start start) {
   const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
   Study study = input.study;
@@ -125,12 +133,13 @@ json sweep_input(const LoadedInput& input, const studies::ClaimSweep& sweep, stu
   std::vector<Assignment> values;
   for (const studies::SetValue& set : sweep.at) {
     const studies::NamedParameter* named = studies::find_parameter(set.parameter);
+    const double value = number_to_set(input, {}, set).value();
     if (named == nullptr) {
-      values.push_back({set.parameter, set.value, {}});
+      values.push_back({set.parameter, value, {}});
       continue;
     }
     model::OperatingPoint point{study.stage, study.mesh_frequency_ratio, study.model};
-    named->set(point, set.value);
+    named->set(point, value);
     study.stage = point.stage;
     study.mesh_frequency_ratio = point.mesh_frequency_ratio;
     for (const std::string& pointer : named->pointers) values.push_back({pointer, {}, {}});

@@ -1,6 +1,7 @@
 // Studies of claims and the inputs that follow from them: candidates, and the sweeps as studies of their own.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,6 +30,11 @@ namespace epicyclic::input {
 /// A resolved input with an origin for each of these values.
 [[nodiscard]] nlohmann::json with_origins(nlohmann::json resolved, std::span<const Assignment> values,
                                           const std::string& origin);
+
+/// The number that a sweep sets: its value, or what the input has where it is to be like that, `values` in place.
+/// @returns nothing where that is no number of the resolved input
+[[nodiscard]] std::optional<double> number_to_set(const LoadedInput& input, std::span<const PointerValue> values,
+                                                  const studies::SetValue& set);
 
 /// A sweep of the claims as a study of its own: the resolved input with what the sweep sets in place.
 [[nodiscard]] nlohmann::json sweep_input(const LoadedInput& input, const studies::ClaimSweep& sweep,

@@ -34,7 +34,8 @@ const Table<SetValue>& set_value_table() {
     Table<SetValue> t("set_value", "A value in place of the study's.");
     t.text("parameter", &SetValue::parameter, "Name of the parameter, or a JSON pointer to a number of the input.")
         .required();
-    t.number("value", &SetValue::value, any_value, "Its value, in its unit.").required();
+    t.number("value", &SetValue::value, any_value, "Its value, in its unit.");
+    t.text("as", &SetValue::as, "Instead of a value: JSON pointer to a number of the input that it is to be like.");
     return t;
   }();
   return table;

@@ -12,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "input/claims_input.hpp"
 #include "input/stage_completion.hpp"
 #include "integrate/methods.hpp"
 #include "model/dynamic_model.hpp"
@@ -855,8 +856,10 @@ void check_claims(const studies::ClaimsOptions& claims, F is_bad, ReadContext& c
     for (std::size_t j = 0; j < sweep.at.size(); ++j) {
       const studies::SetValue& set = sweep.at[j];
       const std::string at = place + "/at/" + std::to_string(j);
-      if (!is_bad(at + "/parameter"))
-        check_named_parameter(studies::Axis{set.parameter, set.value, set.value, 1}, at, is_bad, context);
+      if (!is_bad(at + "/parameter") && set.value)
+        check_named_parameter(studies::Axis{set.parameter, *set.value, *set.value, 1}, at, is_bad, context);
+      if (set.value.has_value() != set.as.empty())
+        context.add(Finding::Kind::rule, at, "must have \"value\" or \"as\", and not both");
       check_different(sweep.axis.name, set.parameter, at + "/parameter", context);
       for (std::size_t before = 0; before < j; ++before)
         check_different(sweep.at[before].parameter, set.parameter, at + "/parameter", context);
@@ -1108,8 +1111,14 @@ class LoadedInput::Loader {
       const std::string place = "/study/sweeps/" + std::to_string(k);
       check(sweep.axis.name, sweep.axis.from, place + "/from");
       check(sweep.axis.name, sweep.axis.to, place + "/to");
-      for (std::size_t j = 0; j < sweep.at.size(); ++j)
-        check(sweep.at[j].parameter, sweep.at[j].value, place + "/at/" + std::to_string(j) + "/value");
+      for (std::size_t j = 0; j < sweep.at.size(); ++j) {
+        const studies::SetValue& set = sweep.at[j];
+        const std::string at = place + "/at/" + std::to_string(j);
+        if (const auto value = number_to_set(input_, {}, set))
+          check(set.parameter, *value, at + (set.value ? "/value" : "/as"));
+        else
+          refuse(at + "/as", "is \"" + set.as + "\", which is no number of the resolved input");
+      }
     }
     for (std::size_t k = 0; k < claims.space.parameters.size(); ++k) {
       const studies::FreeParameter& p = claims.space.parameters[k];
@@ -1231,6 +1240,11 @@ class LoadedInput::Loader {
 
 LoadedInput load_input(const std::filesystem::path& path, std::span<const Assignment> sets) {
   return LoadedInput::Loader(path).load(sets);
+}
+
+std::optional<double> LoadedInput::number_at(std::string_view pointer) const {
+  const json* there = pointer.starts_with('/') ? find_at(resolved, pointer) : nullptr;
+  return there != nullptr && there->is_number() ? std::optional(there->get<double>()) : std::nullopt;
 }
 
 std::vector<std::string> LoadedInput::number_pointers() const {

@@ -176,6 +176,9 @@ class LoadedInput {
   /// Pointers of all numbers that with_value() takes.
   [[nodiscard]] std::vector<std::string> number_pointers() const;
 
+  /// The number of the resolved input at a JSON pointer; nothing where there is none.
+  [[nodiscard]] std::optional<double> number_at(std::string_view pointer) const;
+
  private:
   friend LoadedInput load_input(const std::filesystem::path&, std::span<const Assignment>);
   struct Sources;

@@ -166,7 +166,7 @@ studies::SweepModels sweep_models(std::shared_ptr<const LoadedInput> input, std:
       return point;
     };
     std::vector<PointerValue> set;
-    for (const studies::SetValue& v : sweep.at) set.push_back({v.parameter, v.value});
+    for (const studies::SetValue& v : sweep.at) set.push_back({v.parameter, number_to_set(*input, values, v).value()});
     const model::Scales scales = model::scales_of(with(set).stage);
     set.push_back({sweep.axis.name, value});
     return model_of(with(set), scales);

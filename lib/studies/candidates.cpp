@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -80,6 +82,17 @@ Evaluation unknown(const ClaimsOptions& options) {
   return evaluation;
 }
 
+/// Sweeps that are there for a figure alone tell nothing of a candidate.
+std::vector<const ClaimSweep*> sweeps_spoken_of(const ClaimsOptions& options) {
+  std::set<std::string> names;
+  for (const Claim& claim : options.claims)
+    for (const std::string& name : sweeps_of(claim)) names.insert(name);
+  std::vector<const ClaimSweep*> sweeps;
+  for (const ClaimSweep& sweep : options.sweeps)
+    if (names.contains(sweep.name)) sweeps.push_back(&sweep);
+  return sweeps;
+}
+
 /// Judges the claims whose sweeps are all there and that have not been judged.
 void judge_known(const ClaimsOptions& options, const ClaimRecord& record, Evaluation& evaluation) {
   for (std::size_t k = 0; k < options.claims.size(); ++k) {
@@ -98,8 +111,9 @@ void judge_known(const ClaimsOptions& options, const ClaimRecord& record, Evalua
 Evaluation evaluate(const ClaimsOptions& options, const Glance& glance, const SweepModels& models, double give_up_at,
                     std::size_t thread, const std::atomic<bool>* stop) {
   Evaluation evaluation = unknown(options);
+  const std::vector<const ClaimSweep*> spoken_of = sweeps_spoken_of(options);
   std::set<int> rounds;
-  for (const ClaimSweep& sweep : options.sweeps) rounds.insert(sweep.round);
+  for (const ClaimSweep* sweep : spoken_of) rounds.insert(sweep->round);
   ClaimRecord record;
   for (const int round : rounds) {
     if (evaluation.cost >= give_up_at) {
@@ -107,8 +121,7 @@ Evaluation evaluate(const ClaimsOptions& options, const Glance& glance, const Sw
       return evaluation;
     }
     std::vector<const ClaimSweep*> sweeps;
-    for (const ClaimSweep& sweep : options.sweeps)
-      if (sweep.round == round) sweeps.push_back(&sweep);
+    std::ranges::copy_if(spoken_of, std::back_inserter(sweeps), [&](const auto* s) { return s->round == round; });
     look_briefly(options, glance, models, sweeps, thread, stop, record);
     judge_known(options, record, evaluation);
   }
@@ -118,15 +131,15 @@ Evaluation evaluate(const ClaimsOptions& options, const Glance& glance, const Sw
 Evaluation evaluate_whole(const ClaimsOptions& options, const integrate::IntegratorOptions& integrator,
                           const SweepModels& models, const std::atomic<bool>* stop) {
   ClaimRecord record;
-  for (const ClaimSweep& sweep : options.sweeps) {
-    const SweepOptions whole = options.whole_sweep(sweep, options.starts.front());
+  for (const ClaimSweep* sweep : sweeps_spoken_of(options)) {
+    const SweepOptions whole = options.whole_sweep(*sweep, options.starts.front());
     const SweepPlan plan = plan_sweep(whole);
     SweepRun run;
     run.stop = stop;
-    const ModelAt model_at = [&](double value) { return models(sweep, value); };
+    const ModelAt model_at = [&](double value) { return models(*sweep, value); };
     const std::vector<PointResult> points = run_sweep_in_memory(plan, whole.look, integrator, model_at, std::move(run));
     if (points.size() < plan.points.size()) throw EvaluationStopped();
-    record[sweep.name] = claim_series(points_in_memory(points), options.look);
+    record[sweep->name] = claim_series(points_in_memory(points), options.look);
   }
   Evaluation evaluation = unknown(options);
   judge_known(options, record, evaluation);

@@ -18,10 +18,12 @@
 
 namespace epicyclic::studies {
 
-/// A number of the study in place of another one, by the name of a parameter or a JSON pointer.
+/// A number of the study in place of another one, by the name of a parameter or a JSON pointer: a value, or as another
+/// number of the input is.
 struct SetValue {
   std::string parameter;
-  double value = 0;
+  std::optional<double> value;
+  std::string as;  ///< JSON pointer
 };
 
 /// A sweep that conditions speak of.

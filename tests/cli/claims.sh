@@ -7,7 +7,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 
 cat >claims.json <<END
-{ "name": "small", "stage": "$inputs/tang2020.json",
+{ "name": "small", "operation": { "mesh_frequency_ratio": 2.5 }, "stage": "$inputs/tang2020.json",
   "stage_patch": { "load": { "power_kW": null, "torque_Nm": 400 },
     "lumped": { "sun_planet_mesh": { "error_amplitude_um": [2, 2, 2] } } },
   "integrator": { "method": "lanes-cash-karp", "relative_tolerance": 1e-6, "absolute_tolerance": 1e-8 },
@@ -16,7 +16,8 @@ cat >claims.json <<END
     "sweeps": [
       { "name": "speed", "parameter": "mesh_frequency_ratio", "from": 1.5, "to": 2.5, "points": 9, "directions": ["up", "down"], "brief_points": 5 },
       { "name": "damping", "parameter": "damping_ratio", "from": 0.03, "to": 0.1, "points": 5, "brief_points": 3, "round": 1,
-        "at": [ { "parameter": "mesh_frequency_ratio", "value": 2.0 } ] } ],
+        "at": [ { "parameter": "mesh_frequency_ratio", "value": 2.0 } ] },
+      { "name": "alike", "parameter": "damping_ratio", "from": 0.03, "to": 0.1, "points": 3, "at": [ { "parameter": "mesh_frequency_ratio", "as": "/operation/mesh_frequency_ratio" } ] } ],
     "claims": [
       { "name": "A", "text": "little is chaotic", "where": "Fig. 1", "printed": "0",
         "conditions": [ { "kind": "count", "sweep": "speed", "motion": "chaotic", "at_most": 5 } ] },
@@ -37,7 +38,7 @@ cat >claims.json <<END
     "survey": { "draws": 6, "confirmed": 2 } } }
 END
 [ "$(code_of "$epicyclic" check claims.json)" = 0 ] || fail "check: $(<stderr)"
-grep -q '2 claims on 2 sweeps' stderr || fail "check says nothing of claims: $(<stderr)"
+grep -q '2 claims on 3 sweeps' stderr || fail "check says nothing of claims: $(<stderr)"
 cp stdout resolved.json
 [ "$(code_of "$epicyclic" check resolved.json)" = 0 ] || fail "the resolved input: $(<stderr)"
 cmp -s stdout resolved.json || fail "the resolved input does not resolve to itself"
@@ -52,6 +53,7 @@ done
 grep -q '"mesh_frequency_ratio": 2.0' one/sweeps/damping.json || fail "the sweep's speed is not in its input"
 [ "$(code_of "$epicyclic" sweep one/sweeps/damping.json -o alone)" = 0 ] || fail "a sweep of it alone: $(<stderr)"
 cmp -s alone/points.csv one/sweeps/damping/points.csv || fail "the sweep alone gives other points"
+grep -q '"mesh_frequency_ratio": 2.5' one/sweeps/alike.json || fail "the sweep is not at the speed that it is to be like"
 [ "$(code_of "$epicyclic" reproduce claims.json -o two --threads 2)" = 0 ] || fail "two threads: $(<stderr)"
 for file in scorecard.csv sweeps/speed/points.csv figures/fig1.dat; do cmp -s "one/$file" "two/$file" || fail "$file differs with two threads"; done
 
@@ -142,7 +144,7 @@ refused() {
   grep -q -- "$2" stderr || fail "$1: $(<stderr)"
   [ ! -e bad ] || fail "$1: wrote"
 }
-refused 's/"motion": "chaotic"/"motion": "chaos"/' 'bad.json:13: /study/claims/0/conditions/0/motion: is "chaos", must be "period N"' reproduce
+refused 's/"motion": "chaotic"/"motion": "chaos"/' 'bad.json:14: /study/claims/0/conditions/0/motion: is "chaos", must be "period N"' reproduce
 refused 's/"sweep": "damping", "quantity"/"sweep": "dumping", "quantity"/' '/study/claims/1/conditions/0/sweep: is "dumping", which is no sweep' reproduce
 refused 's/"at_most": 0.1/"at_most": 0.1, "motions": ["chaotic"]/' 'is not read by a condition of kind "value"' reproduce
 refused 's/"name": "speed", "parameter"/"name": "..\/speed", "parameter"/' 'a folder is called so' reproduce
@@ -155,6 +157,9 @@ refused 's/"motion": "chaotic", "at_most": 5/"motion": "chaotic", "from": 1.9, "
 refused 's/"value": { "power_kW": 400 }/"value": { "power_kW": -4 }/' '/study/choices/0: with "power": .*power_kW: is -4' calibrate
 refused 's/"pointer": "\/stage\/load", "value": { "power_kW": 400 }/"pointer": "\/study\/points", "value": 3/' 'must begin with /stage, /model or /operation' calibrate
 refused 's/"candidates": 42/"candidates": 13/' 'must be >= islands x population = 14' calibrate
+refused 's/"value": 2.0 }/"value": 2.0, "as": "\/operation\/mesh_frequency_ratio" }/' '/study/sweeps/1/at/0: must have "value" or "as", and not both' reproduce
+refused 's/"value": 2.0 }/"as": "\/stage\/name" }/' '/study/sweeps/1/at/0/as: is "/stage/name", which is no number of the resolved input' reproduce
+refused 's/"value": 2.0 }/"as": "\/stage\/~2" }/' '/study/sweeps/1/at/0/as: is "/stage/~2", which is no number of the resolved input' reproduce
 refused 's/"name": "E", "words"/"name": "cost", "words"/' 'as a column of their tables is' calibrate
 refused 's/"parameter": "damping_ratio"/"parameter": "damping"/' '/study/sweeps/1/parameter: is "damping", must be one of' calibrate
 [ "$(code_of "$epicyclic" sweep claims.json -o bad)" = 2 ] || fail "a sweep of claims: $(<stderr)"
