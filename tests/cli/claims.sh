@@ -12,7 +12,7 @@ cat >claims.json <<END
     "lumped": { "sun_planet_mesh": { "error_amplitude_um": [2, 2, 2] } } },
   "integrator": { "method": "lanes-cash-karp", "relative_tolerance": 1e-6, "absolute_tolerance": 1e-8 },
   "study": { "kind": "claims", "starts": ["carried", "cold"],
-    "transient_periods": 60, "recorded_periods": 32, "classification_periods": 512,
+    "transient_periods": 60, "recorded_periods": 32, "classification_periods": 128,
     "sweeps": [
       { "name": "speed", "parameter": "mesh_frequency_ratio", "from": 1.5, "to": 2.5, "points": 9, "directions": ["up", "down"], "brief_points": 5 },
       { "name": "damping", "parameter": "damping_ratio", "from": 0.03, "to": 0.1, "points": 5, "brief_points": 3, "round": 1,
@@ -24,7 +24,7 @@ cat >claims.json <<END
       { "name": "B", "text": "the range is small", "conditions": [
           { "kind": "value", "sweep": "damping", "quantity": "delta_sp_range", "at_most": 0.1 } ] } ],
     "figures": [ { "name": "fig1", "title": "Speed", "panels": [ { "sweep": "speed", "title": "(a)" }, { "sweep": "speed", "mesh": "ring_planet" } ] } ],
-    "brief": { "transient_periods": 40, "recorded_periods": 8 },
+    "brief": { "transient_periods": 40, "recorded_periods": 8, "growth_periods": 16 },
     "parameters": [
       { "name": "E", "words": "error [um]", "from": 0.5, "to": 20, "targets": [
           { "pointer": "/stage/lumped/sun_planet_mesh/error_amplitude_um/0" },
@@ -35,7 +35,7 @@ cat >claims.json <<END
         { "name": "torque", "sets": [ { "pointer": "/stage/load", "value": { "torque_Nm": 400 } } ] },
         { "name": "power", "sets": [ { "pointer": "/stage/load", "value": { "power_kW": 400 } } ] } ] } ],
     "search": { "seed": 3, "islands": 2, "population": 7, "candidates": 42, "refinement": 10, "profile": 3, "confirmed": 2 },
-    "survey": { "draws": 6, "confirmed": 2 } } }
+    "survey": { "draws": 6, "confirmed": 2, "look": { "transient_periods": 40, "recorded_periods": 8, "growth_periods": 16 } } } }
 END
 [ "$(code_of "$epicyclic" check claims.json)" = 0 ] || fail "check: $(<stderr)"
 grep -q '2 claims on 3 sweeps' stderr || fail "check says nothing of claims: $(<stderr)"
