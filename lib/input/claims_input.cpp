@@ -15,21 +15,21 @@ using nlohmann::json;
 namespace {
 
 /// The number at a pointer, if there is one.
-const json* find_number(const json& resolved, const std::string& pointer) {
-  const json::json_pointer at(pointer);
-  return resolved.contains(at) && resolved[at].is_number() ? &resolved[at] : nullptr;
+std::optional<double> number_at(const LoadedInput& input, const std::string& pointer) {
+  const json* there = input.value_at(pointer);
+  return there != nullptr && there->is_number() ? std::optional(there->get<double>()) : std::nullopt;
 }
 
 /// Does the input have what an option sets? Of an object the same keys, whose numbers may be others.
-bool is_set(const json& resolved, const studies::OptionSet& set) {
-  const json::json_pointer at(set.pointer);
+bool is_set(const LoadedInput& input, const studies::OptionSet& set) {
+  const json* at = input.value_at(set.pointer);
   const json value = json::parse(set.value);
-  if (!resolved.contains(at)) return value.is_null();
-  if (!value.is_object()) return resolved[at] == value;
-  if (!resolved[at].is_object()) return false;
+  if (at == nullptr) return value.is_null();
+  if (!value.is_object()) return *at == value;
+  if (!at->is_object()) return false;
   return std::ranges::all_of(value.items(), [&](const auto& item) {
-    const auto there = resolved[at].find(item.key());
-    return there != resolved[at].end() && (item.value() == *there || (item.value().is_number() && there->is_number()));
+    const auto there = at->find(item.key());
+    return there != at->end() && (item.value() == *there || (item.value().is_number() && there->is_number()));
   });
 }
 
@@ -54,23 +54,38 @@ std::vector<Assignment> candidate_assignments(const studies::ParameterSpace& spa
 namespace {
 
 /// What a parameter is in the input: by its first target that nothing multiplies, else by its first one, divided by
-/// what the parameter that multiplies it is; 1 without targets; nothing where the input has no such number.
+/// what the parameter that multiplies it is. Without targets: by the first one that it multiplies, of a parameter that
+/// has one that nothing multiplies; 1 if there is none. Nothing where the input has no such number.
 std::optional<double> given_parameter(const LoadedInput& input, const studies::ParameterSpace& space,
                                       const studies::FreeParameter& p) {
-  if (p.targets.empty()) return 1.0;
-  const auto plain = std::ranges::find_if(p.targets, [](const auto& t) { return t.times.empty(); });
+  const auto plain_target = [](const studies::FreeParameter& of) {
+    return std::ranges::find_if(of.targets, [](const auto& t) { return t.times.empty(); });
+  };
+  if (p.targets.empty()) {
+    for (const studies::FreeParameter& q : space.parameters)
+      for (const studies::ParameterTarget& target : q.targets) {
+        if (target.times != p.name || plain_target(q) == q.targets.end()) continue;
+        const std::optional<double> multiplied = given_parameter(input, space, q);
+        const std::optional<double> there = number_at(input, target.pointer);
+        if (!there || !multiplied) return std::nullopt;
+        const double x = *there / (target.factor * std::pow(*multiplied, target.power));
+        return std::isfinite(x) ? std::optional(x) : std::nullopt;
+      }
+    return 1.0;
+  }
+  const auto plain = plain_target(p);
   const studies::ParameterTarget& target = plain == p.targets.end() ? p.targets.front() : *plain;
-  const json* there = find_number(input.resolved, target.pointer);
-  if (there == nullptr) return std::nullopt;
+  const std::optional<double> there = number_at(input, target.pointer);
+  if (!there) return std::nullopt;
   double product = 1.0;
   if (plain == p.targets.end()) {
     const auto other = std::ranges::find(space.parameters, target.times, &studies::FreeParameter::name);
     // One that is given by a product itself counts as it would be alone.
     const bool is_plain =
-        other != space.parameters.end() && (other->targets.empty() || other->targets.front().times.empty());
+        other != space.parameters.end() && !other->targets.empty() && plain_target(*other) != other->targets.end();
     if (is_plain) product = given_parameter(input, space, *other).value_or(1.0);
   }
-  const double x = std::pow(there->get<double>() / (target.factor * product), 1.0 / target.power);
+  const double x = std::pow(*there / (target.factor * product), 1.0 / target.power);
   return std::isfinite(x) ? std::optional(x) : std::nullopt;
 }
 
@@ -87,8 +102,7 @@ std::vector<double> given_candidate(const LoadedInput& input, const studies::Par
   }
   for (const studies::Choice& choice : space.choices) {
     const auto chosen = std::ranges::find_if(choice.options, [&](const studies::ChoiceOption& option) {
-      return std::ranges::all_of(option.sets,
-                                 [&](const studies::OptionSet& set) { return is_set(input.resolved, set); });
+      return std::ranges::all_of(option.sets, [&](const studies::OptionSet& set) { return is_set(input, set); });
     });
     u.push_back(choice.place_of(
         chosen == choice.options.end() ? 0 : static_cast<std::size_t>(chosen - choice.options.begin())));
@@ -122,7 +136,7 @@ std::optional<double> number_to_set(const LoadedInput& input, std::span<const Po
   if (set.value) return set.value;
   for (const PointerValue& v : values)
     if (v.pointer == set.as) return v.value;
-  return input.number_at(set.as);
+  return number_at(input, set.as);
 }
 
 json sweep_input(const LoadedInput& input, const studies::ClaimSweep& sweep, studies::Start start) {

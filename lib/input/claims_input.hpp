@@ -21,7 +21,7 @@ namespace epicyclic::input {
 [[nodiscard]] std::vector<Assignment> candidate_assignments(const studies::ParameterSpace& space,
                                                             std::span<const double> u);
 
-/// The candidate that the input is as it stands: each parameter by the numbers that it gives, 1 if it gives none, the
+/// The candidate that the input is as it stands: each parameter by the numbers that it gives or multiplies, the
 /// middle of its range where the input has none; of choices the option that the input has, or the first.
 /// @param moved  if not null, is told which parameters lie outside their ranges and are moved to their edges
 [[nodiscard]] std::vector<double> given_candidate(const LoadedInput& input, const studies::ParameterSpace& space,

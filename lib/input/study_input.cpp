@@ -1242,9 +1242,8 @@ LoadedInput load_input(const std::filesystem::path& path, std::span<const Assign
   return LoadedInput::Loader(path).load(sets);
 }
 
-std::optional<double> LoadedInput::number_at(std::string_view pointer) const {
-  const json* there = pointer.starts_with('/') ? find_at(resolved, pointer) : nullptr;
-  return there != nullptr && there->is_number() ? std::optional(there->get<double>()) : std::nullopt;
+const json* LoadedInput::value_at(std::string_view pointer) const {
+  return pointer.starts_with('/') ? find_at(resolved, pointer) : nullptr;
 }
 
 std::vector<std::string> LoadedInput::number_pointers() const {

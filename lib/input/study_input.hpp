@@ -176,8 +176,8 @@ class LoadedInput {
   /// Pointers of all numbers that with_value() takes.
   [[nodiscard]] std::vector<std::string> number_pointers() const;
 
-  /// The number of the resolved input at a JSON pointer; nothing where there is none.
-  [[nodiscard]] std::optional<double> number_at(std::string_view pointer) const;
+  /// What the resolved input has at a JSON pointer; null where it has nothing, or that is no pointer.
+  [[nodiscard]] const nlohmann::json* value_at(std::string_view pointer) const;
 
  private:
   friend LoadedInput load_input(const std::filesystem::path&, std::span<const Assignment>);

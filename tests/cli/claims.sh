@@ -9,7 +9,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 cat >claims.json <<END
 { "name": "small", "operation": { "mesh_frequency_ratio": 2.5 }, "stage": "$inputs/tang2020.json",
   "stage_patch": { "load": { "power_kW": null, "torque_Nm": 400 },
-    "lumped": { "sun_planet_mesh": { "error_amplitude_um": [2, 2, 2] } } },
+    "lumped": { "sun_planet_mesh": { "error_amplitude_um": [2, 2.1, 2] } } },
   "integrator": { "method": "lanes-cash-karp", "relative_tolerance": 1e-6, "absolute_tolerance": 1e-8 },
   "study": { "kind": "claims", "starts": ["carried", "cold"],
     "transient_periods": 60, "recorded_periods": 32, "classification_periods": 128,
@@ -101,8 +101,8 @@ for claim in A B; do
   [ "$said" = holds ] || said=fails
   grep -q "^$claim,$said," whole/scorecard.csv || fail "claim $claim $said by whole sweeps of the search, but not by reproduce: $(<whole/scorecard.csv)"
 done
-# The first candidate is the stage as it is given.
-[ "$(sed -n 2p c1/candidates.csv | cut -d, -f6,8)" = 2,400 ] || fail "the first candidate: $(sed -n 2p c1/candidates.csv)"
+# The first candidate is the stage as it is given, planets with unequal errors too.
+[ "$(sed -n 2p c1/candidates.csv | cut -d, -f6-8)" = 2,1.05,400 ] || fail "the first candidate: $(sed -n 2p c1/candidates.csv)"
 
 # The survey of draws: the same bytes for any number of threads.
 [ "$(code_of "$epicyclic" robustness claims.json -o r1 --threads 1)" = 0 ] || fail "robustness: $(<stderr)"
@@ -156,6 +156,7 @@ refused 's/"motion": "chaotic", "at_most": 5/"motion": "chaotic", "which": "last
 refused 's/"motion": "chaotic", "at_most": 5/"motion": "chaotic", "from": 1.9, "to": 1.95, "at_most": 5/' 'its grid of 9 (points) has 0' reproduce
 refused 's/"value": { "power_kW": 400 }/"value": { "power_kW": -4 }/' '/study/choices/0: with "power": .*power_kW: is -4' calibrate
 refused 's/"pointer": "\/stage\/load", "value": { "power_kW": 400 }/"pointer": "\/study\/points", "value": 3/' 'must begin with /stage, /model or /operation' calibrate
+refused 's/"pointer": "\/stage\/load", "value": { "power_kW": 400 }/"pointer": "\/stage\/~2", "value": 3/' 'unknown key' calibrate
 refused 's/"candidates": 42/"candidates": 13/' 'must be >= islands x population = 14' calibrate
 refused 's/"value": 2.0 }/"value": 2.0, "as": "\/operation\/mesh_frequency_ratio" }/' '/study/sweeps/1/at/0: must have "value" or "as", and not both' reproduce
 refused 's/"value": 2.0 }/"as": "\/stage\/name" }/' '/study/sweeps/1/at/0/as: is "/stage/name", which is no number of the resolved input' reproduce

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # kills.sh EPICYCLIC SOURCE_DIR
 #
-# kill -9 at random moments: KILLS of them (30, with sanitizers 12), seeded by SEED, over sweeps with 1, 2 and 8 threads,
+# kill -9 at random moments: KILLS of them (16, with sanitizers 8), seeded by SEED, over sweeps with 1, 2 and 8 threads,
 # with one trajectory at a time and in lanes; of fresh runs, of resumed ones, and while the results are written. Whatever
 # record was in the journal stays, no point is computed twice, the same command ends with the same bytes, nothing is done by
 # hand. Some kills are followed by half a record, which only the death of a machine leaves.
@@ -9,7 +9,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 command -v perl >/dev/null || skip "there is no perl to read the journal with"
 
-kills=${KILLS:-$(or_if_slow 30 12)}
+kills=${KILLS:-$(or_if_slow 16 8)}
 seed=${SEED:-$RANDOM}
 RANDOM=$seed
 echo "KILLS=$kills SEED=$seed"
