@@ -17,6 +17,7 @@
 #include "studies/calibration.hpp"
 #include "studies/crosscheck.hpp"
 #include "studies/probes.hpp"
+#include "studies/run.hpp"
 
 namespace epicyclic::app {
 
@@ -98,10 +99,34 @@ double seconds_of_points(const input::LoadedInput& input, const studies::SweepPl
   return seconds;
 }
 
+/// Of one operating point: computed with its exponents over few mesh periods, twice, whose difference is what a period
+/// of exponents takes. Tables and figures are not measured.
+double seconds_of_run(const input::LoadedInput& input) {
+  const auto& [look, options] = std::get<input::RunPlan>(input.study.plan);
+  const model::DynamicModel model = input::model_at(input)(input.study.mesh_frequency_ratio);
+  const auto seconds_with = [&, &look = look, &options = options](int exponent_periods) {
+    studies::RunOptions fewer = options;
+    fewer.exponent_periods = exponent_periods;
+    const double begun = studies::processor_seconds();
+    (void)studies::run_operating_point(model, model::scales_of(input.study.stage), look, fewer, input.study.integrator,
+                                       [] { return true; });
+    return studies::processor_seconds() - begun;
+  };
+  constexpr int few = 40;
+  constexpr int more = 160;
+  const int all = options.exponent_periods;
+  if (all <= more) return seconds_with(all);
+  const double with_more = seconds_with(more);
+  const double per_period = std::max(0.0, with_more - seconds_with(few)) / (more - few);
+  return with_more + per_period * (all - more);
+}
+
 /// How long it takes, in words.
 std::string time_of(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads) {
   const std::string_view kind = input.study.kind();
-  if (kind == "run" || kind == "tolerance") return "not known before it is done";
+  if (kind == "run")
+    return fmt::format("about {} on 1 thread of this machine, and its figures", duration_text(seconds_of_run(input)));
+  if (kind == "tolerance") return "not known before it is done";
   std::size_t measured = 0;
   const double seconds = kind == "crosscheck" ? seconds_of_crosscheck(input, plan, threads, measured)
                                               : seconds_of_points(input, plan, threads, measured);
