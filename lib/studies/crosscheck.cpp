@@ -219,6 +219,12 @@ class Examiner {
     if (chaotic(our_last) || chaotic(their_last))
       return done(Verdict::chaos,
                   "largest exponents " + exponent_of(our_last) + " and " + exponent_of(their_last) + "; " + motions);
+    // Growth so slow that one record tells it and the other does not: what is measured agrees.
+    const auto undecided = [](const PointResult& r) { return reached(r) && r.regime == Regime::undecided; };
+    if (((chaotic(reference) && undecided(result)) || (undecided(reference) && chaotic(result))) &&
+        overlap(reference.lyapunov_max(), result.lyapunov_max()))
+      return done(Verdict::chaos, "one is undecided, and the largest exponents agree by their intervals: " +
+                                      exponent_of(reference) + " and " + exponent_of(result) + "; " + motions);
     done(Verdict::unexplained, "distance " + short_text(c.distance) + "; " + motions);
   }
 

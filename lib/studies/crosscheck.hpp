@@ -44,7 +44,8 @@ enum class Verdict {
   smoothing,    ///< with the reference's smoothing they agree
   settling,     ///< continued, both come to the same motion: the transient was too short
   torus,        ///< both are quasiperiodic and fill one set of states: no phase of theirs is right
-  chaos,        ///< followed for long, one of them is chaotic at least: states at one instant cannot agree
+  chaos,        ///< followed for long, one of them is chaotic at least: states at one instant cannot agree; or one is,
+                ///< the other is undecided, and their exponents agree by their intervals
   not_reached,  ///< one of them has no answer (its status says why)
   unexplained,
 };

@@ -1,22 +1,24 @@
 #!/usr/bin/env bash
 # gate.sh EPICYCLIC SOURCE_DIR
 #
-# Special points of the paper's stage are where validation/bifurcation_points has them: those of a small study, with WHOLE=yes
-# those of all.
+# Special points of the paper's stages are where validation/bifurcation_points has them: those of two small studies, with
+# WHOLE=yes those of all.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 expected=$2/validation/bifurcation_points
 
-studies=(tang2020_branches_gate)
+# Those where CVODE finds all points too.
+by_cvode=(tang2020_branches_gate tang2020_calibrated_branches_{clearance_0.85,clearance_2.05,damping_2.83})
+studies=("${by_cvode[@]:0:2}")
 if [ "${WHOLE:-no}" = yes ]; then
   studies=()
   for file in "$expected"/*.json; do studies+=("$(basename -s .json "$file")"); done
 fi
 [ ${#studies[@]} -ge 1 ] || fail "there are no expected points"
-# By ARKODE, whose steps end on contact changes, and the small one by CVODE, which knows of none.
+# By ARKODE, whose steps end on contact changes, and the small ones by CVODE, which knows of none.
 for study in "${studies[@]}"; do
   methods=(arkode-dopri5)
-  [ "$study" != tang2020_branches_gate ] || methods+=(cvode-adams)
+  [[ " ${by_cvode[*]} " != *" $study "* ]] || methods+=(cvode-adams)
   for method in "${methods[@]}"; do
     tolerance=()
     [ $method = arkode-dopri5 ] || tolerance=(--set /study/tolerance=1e-11)
