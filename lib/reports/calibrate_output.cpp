@@ -113,6 +113,9 @@ std::string determined_text(const CalibrateOutput& output, const Calibration& ca
   const studies::ParameterSpace& space = output.options.space;
   const Determination d = determination(output, calibration, variable);
   if (d.points.empty()) return "";
+  if (variable < space.parameters.size() &&
+      !space.counts(space.parameters[variable], space.options_at(calibration.best->u)))
+    return "does not count";
   if (d.any()) return "any";
   if (variable >= space.parameters.size()) {
     std::string options;
@@ -139,7 +142,7 @@ DrawnFigure draw_determination(const std::filesystem::path& folder, const Calibr
   for (std::size_t k = 0; k < rows; ++k) {
     const auto row = static_cast<double>(rows - k);
     const studies::FreeParameter& p = space.parameters[k];
-    constexpr std::size_t longest = 46;
+    constexpr std::size_t longest = 64;
     const std::string words = p.words.empty() ? p.name : p.words;
     panel.names.emplace_back(
         row, row_text(fmt::format("{}: {} to {}", words, short_text(p.from, 3), short_text(p.to, 3)), longest));
