@@ -142,7 +142,7 @@ DrawnFigure draw_determination(const std::filesystem::path& folder, const Calibr
   for (std::size_t k = 0; k < rows; ++k) {
     const auto row = static_cast<double>(rows - k);
     const studies::FreeParameter& p = space.parameters[k];
-    constexpr std::size_t longest = 64;
+    constexpr std::size_t longest = 46;
     const std::string words = p.words.empty() ? p.name : p.words;
     panel.names.emplace_back(
         row, row_text(fmt::format("{}: {} to {}", words, short_text(p.from, 3), short_text(p.to, 3)), longest));
@@ -158,7 +158,7 @@ DrawnFigure draw_determination(const std::filesystem::path& folder, const Calibr
   sketch.add(stretches, figures::solid(figures::ink::blue, 7), "no claim is lost");
   sketch.add(results, figures::dots(figures::ink::red, 1.2), "result");
   constexpr double margin = 0.02;  // so that marks at both ends are whole
-  return {folder / "determination.png", sketch.draw(folder, {"", "Place in the range, all else as in the result", ""},
+  return {folder / "determination.png", sketch.draw(folder, {"", "Place in the range", ""},
                                                     {-margin, 1.0 + margin}, {}, {}, canvas_of_rows(rows))};
 }
 
