@@ -43,16 +43,16 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
              });
   journal.close();
   std::int64_t undrawn = 0;
+  const std::size_t surveyed = studies::surveyed_draws(evaluations).size();
+  const std::size_t confirmed = evaluations.size() - surveyed;
   const auto close_run = [&](store::RunState state) {
-    session.end(state, {{"draws", static_cast<std::int64_t>(studies::surveyed_draws(evaluations).size())},
-                        {"confirmed", static_cast<std::int64_t>(options.survey.confirmed)},
+    session.end(state, {{"draws", static_cast<std::int64_t>(surveyed)},
+                        {"confirmed", static_cast<std::int64_t>(confirmed)},
                         {"undrawn", undrawn}});
   };
   if (!studies::survey_is_complete(options, evaluations)) {
     close_run(store::RunState::stopped);
-    tell("stopped after {} of {} draws, {} of them confirmed; the same command goes on\n",
-         studies::surveyed_draws(evaluations).size(), draws,
-         evaluations.size() - studies::surveyed_draws(evaluations).size());
+    tell("stopped after {} of {} draws, {} of them confirmed; the same command goes on\n", surveyed, draws, confirmed);
     return stopped_early;
   }
 

@@ -1114,7 +1114,10 @@ class LoadedInput::Loader {
       for (std::size_t j = 0; j < sweep.at.size(); ++j) {
         const studies::SetValue& set = sweep.at[j];
         const std::string at = place + "/at/" + std::to_string(j);
-        if (const auto value = number_to_set(input_, {}, set))
+        // Of a candidate it would be another number than that of the stage as it is given.
+        if (!set.as.empty() && find_at(input_.computed, set.as) != nullptr)
+          refuse(at + "/as", "is \"" + set.as + "\", which is computed from other numbers: it cannot be followed");
+        else if (const auto value = number_to_set(input_, {}, set))
           check(set.parameter, *value, at + (set.value ? "/value" : "/as"));
         else
           refuse(at + "/as", "is \"" + set.as + "\", which is no number of the resolved input");

@@ -139,6 +139,7 @@ DrawnFigure draw_determination(const std::filesystem::path& folder, const Calibr
   std::vector<std::array<double, 2>> stretches;
   std::vector<std::array<double, 2>> results;
   constexpr double gap = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<std::size_t> options = space.options_at(calibration.best->u);
   for (std::size_t k = 0; k < rows; ++k) {
     const auto row = static_cast<double>(rows - k);
     const studies::FreeParameter& p = space.parameters[k];
@@ -146,7 +147,6 @@ DrawnFigure draw_determination(const std::filesystem::path& folder, const Calibr
     const std::string words = p.words.empty() ? p.name : p.words;
     panel.names.emplace_back(
         row, row_text(fmt::format("{}: {} to {}", words, short_text(p.from, 3), short_text(p.to, 3)), longest));
-    const std::vector<std::size_t> options = space.options_at(calibration.best->u);
     if (!space.counts(p, options)) continue;
     const Determination d = determination(output, calibration, k);
     ranges.insert(ranges.end(), {{0.0, row}, {1.0, row}, {gap, gap}});
@@ -158,8 +158,8 @@ DrawnFigure draw_determination(const std::filesystem::path& folder, const Calibr
   sketch.add(stretches, figures::solid(figures::ink::blue, 7), "no claim is lost");
   sketch.add(results, figures::dots(figures::ink::red, 1.2), "result");
   constexpr double margin = 0.02;  // so that marks at both ends are whole
-  return {folder / "determination.png", sketch.draw(folder, {"", "Place in the range", ""},
-                                                    {-margin, 1.0 + margin}, {}, {}, canvas_of_rows(rows))};
+  return {folder / "determination.png",
+          sketch.draw(folder, {"", "Place in the range", ""}, {-margin, 1.0 + margin}, {}, {}, canvas_of_rows(rows))};
 }
 
 std::string calibrate_summary(const CalibrateOutput& output, const Calibration& calibration) {

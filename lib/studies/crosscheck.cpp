@@ -223,8 +223,9 @@ class Examiner {
     const auto undecided = [](const PointResult& r) { return reached(r) && r.regime == Regime::undecided; };
     if (((chaotic(reference) && undecided(result)) || (undecided(reference) && chaotic(result))) &&
         overlap(reference.lyapunov_max(), result.lyapunov_max()))
-      return done(Verdict::chaos, "one is undecided, and the largest exponents agree by their intervals: " +
-                                      exponent_of(reference) + " and " + exponent_of(result) + "; " + motions);
+      return done(Verdict::chaos,
+                  "one is undecided, and the largest exponents agree by their intervals: " + exponent_of(reference) +
+                      " and " + exponent_of(result) + "; " + motions + "; followed, neither is told chaotic");
     done(Verdict::unexplained, "distance " + short_text(c.distance) + "; " + motions);
   }
 

@@ -160,6 +160,7 @@ refused 's/"pointer": "\/stage\/load", "value": { "power_kW": 400 }/"pointer": "
 refused 's/"candidates": 42/"candidates": 13/' 'must be >= islands x population = 14' calibrate
 refused 's/"value": 2.0 }/"value": 2.0, "as": "\/operation\/mesh_frequency_ratio" }/' '/study/sweeps/1/at/0: must have "value" or "as", and not both' reproduce
 refused 's/"value": 2.0 }/"as": "\/stage\/name" }/' '/study/sweeps/1/at/0/as: is "/stage/name", which is no number of the resolved input' reproduce
+refused 's/"value": 2.0 }/"as": "\/stage\/lumped\/sun\/mass_kg" }/' '/study/sweeps/1/at/0/as: is "/stage/lumped/sun/mass_kg", which is computed from other numbers' reproduce
 refused 's/"value": 2.0 }/"as": "\/stage\/~2" }/' '/study/sweeps/1/at/0/as: is "/stage/~2", which is no number of the resolved input' reproduce
 refused 's/"name": "E", "words"/"name": "cost", "words"/' 'as a column of their tables is' calibrate
 refused 's/"parameter": "damping_ratio"/"parameter": "damping"/' '/study/sweeps/1/parameter: is "damping", must be one of' calibrate
