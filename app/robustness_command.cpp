@@ -58,7 +58,8 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
 
   folder.require_there();
   const reports::RobustnessOutput output{options, input.study.name, studies::robustness(options, evaluations),
-                                         studies::agreement(options, evaluations)};
+                                         studies::agreement(options, evaluations),
+                                         studies::robustness_by_option(options, evaluations)};
   reports::write_draws_csv(folder.file("draws.csv"), output, evaluations);
   reports::write_robustness_tables(folder.path(), output);
   const std::string summary = reports::robustness_summary(output, evaluations);

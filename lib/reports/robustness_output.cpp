@@ -72,7 +72,48 @@ void write_robustness_tables(const std::filesystem::path& folder, const Robustne
   }
   parts.commit();
   influences.commit();
+  CsvWriter by_option(folder / "options.csv",
+                      {"choice", "option", "claim", "draws", "holds", "fraction", "fraction_low", "fraction_high"});
+  for (const studies::OptionRobustness& of : output.by_option) {
+    const studies::Choice& choice = output.options.space.choices[of.choice];
+    for (std::size_t k = 0; k < of.fraction.size(); ++k)
+      by_option.row(choice.name, choice.options[of.option].name, output.options.claims[k].name, of.draws, of.holds[k],
+                    of.fraction[k].value, of.fraction[k].low, of.fraction[k].high);
+  }
+  by_option.commit();
 }
+
+namespace {
+
+/// A table for each choice: claims, and the part of the draws with each option that meets them.
+std::string options_in_words(const RobustnessOutput& output) {
+  std::string text;
+  const auto& choices = output.options.space.choices;
+  for (std::size_t c = 0; c < choices.size(); ++c) {
+    std::vector<const studies::OptionRobustness*> of_choice;
+    for (const studies::OptionRobustness& of : output.by_option)
+      if (of.choice == c && of.draws > 0) of_choice.push_back(&of);
+    if (of_choice.size() < 2) continue;
+    text += fmt::format("\nBy {}, with 95 % intervals:\n\n| claim |", choices[c].name);
+    std::string rule = "|---|";
+    for (const auto* of : of_choice) {
+      text += fmt::format(" {} ({} draws) |", choices[c].options[of->option].name, of->draws);
+      rule += "---|";
+    }
+    text += "\n" + rule + "\n";
+    for (std::size_t k = 0; k < output.claims.size(); ++k) {
+      text += "| " + output.options.claims[k].name + " |";
+      for (const auto* of : of_choice) {
+        const Interval& f = of->fraction[k];
+        text += fmt::format(" {} % ({} to {} %) |", percent(f.value), percent(f.low), percent(f.high));
+      }
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace
 
 std::string robustness_summary(const RobustnessOutput& output, const studies::KnownEvaluations& evaluations) {
   const studies::ClaimsOptions& options = output.options;
@@ -101,8 +142,9 @@ std::string robustness_summary(const RobustnessOutput& output, const studies::Kn
         fmt::format("| {} | {} | {} % | {} to {} % | {} |\n", options.claims[k].name, options.claims[k].text,
                     percent(claim.fraction.value), percent(claim.fraction.low), percent(claim.fraction.high), words);
   }
-  text += "\nClaims met together | draws\n---|---\n";
-  for (const auto& [number, of] : met) text += fmt::format("{} | {}\n", number, of);
+  text += "\n| claims met together | draws |\n|---|---|\n";
+  for (const auto& [number, of] : met) text += fmt::format("| {} | {} |\n", number, of);
+  text += options_in_words(output);
   if (evaluations.size() == draws.size()) return text;
   text += fmt::format(
       "\n{} of the draws held against whole sweeps too:\n\n"

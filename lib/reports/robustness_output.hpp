@@ -4,6 +4,7 @@
 //                    in which it was judged besides
 //   robustness.csv   a row per claim: the part of the draws that it holds for, with its interval at 95 %; of the draws
 //                    that were held against whole sweeps too, how many agree
+//   options.csv      a row per option of a choice and claim: the part of the draws with it that the claim holds for
 //   influence.csv    a row per claim and parameter: rank correlation with the claim's score, with its interval
 //   robustness.md    in words
 //   figures/         robustness: the parts; influence: the correlations that are not zero
@@ -25,6 +26,7 @@ struct RobustnessOutput {
   std::string name;  ///< of the study
   std::vector<studies::ClaimRobustness> claims;
   std::vector<studies::ClaimAgreement> agreement;  ///< of each claim
+  std::vector<studies::OptionRobustness> by_option;
 };
 
 /// @throws OutputError

@@ -1,6 +1,7 @@
 #include "studies/robustness.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <mutex>
 #include <numeric>
@@ -101,15 +102,46 @@ std::vector<ClaimAgreement> agreement(const ClaimsOptions& options, const KnownE
   return all;
 }
 
-std::vector<ClaimRobustness> robustness(const ClaimsOptions& options, const KnownEvaluations& evaluations) {
-  const ParameterSpace& space = options.space;
+namespace {
+
+std::vector<const EvaluatedCandidate*> valid_draws(const KnownEvaluations& evaluations) {
   std::vector<const EvaluatedCandidate*> valid = surveyed_draws(evaluations);
   std::erase_if(valid, [](const EvaluatedCandidate* c) { return !c->evaluation.refused.empty(); });
+  return valid;
+}
+
+std::size_t meeting(const std::vector<const EvaluatedCandidate*>& draws, std::size_t claim) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(draws, [&](const auto* c) { return c->evaluation.holds[claim] == 1; }));
+}
+
+}  // namespace
+
+std::vector<OptionRobustness> robustness_by_option(const ClaimsOptions& options, const KnownEvaluations& evaluations) {
+  const std::vector<const EvaluatedCandidate*> valid = valid_draws(evaluations);
+  std::vector<OptionRobustness> all;
+  for (std::size_t choice = 0; choice < options.space.choices.size(); ++choice)
+    for (std::size_t option = 0; option < options.space.choices[choice].options.size(); ++option) {
+      std::vector<const EvaluatedCandidate*> draws;
+      std::ranges::copy_if(valid, std::back_inserter(draws),
+                           [&](const auto* c) { return options.space.options_at(c->u)[choice] == option; });
+      OptionRobustness of{choice, option, draws.size(), {}, {}};
+      for (std::size_t claim = 0; claim < options.claims.size(); ++claim) {
+        of.holds.push_back(meeting(draws, claim));
+        of.fraction.push_back(analysis::fraction(of.holds.back(), draws.size()));
+      }
+      all.push_back(std::move(of));
+    }
+  return all;
+}
+
+std::vector<ClaimRobustness> robustness(const ClaimsOptions& options, const KnownEvaluations& evaluations) {
+  const ParameterSpace& space = options.space;
+  const std::vector<const EvaluatedCandidate*> valid = valid_draws(evaluations);
   std::vector<ClaimRobustness> all(options.claims.size());
   for (std::size_t claim = 0; claim < all.size(); ++claim) {
     all[claim].draws = valid.size();
-    all[claim].holds = static_cast<std::size_t>(
-        std::ranges::count_if(valid, [&](const auto* c) { return c->evaluation.holds[claim] == 1; }));
+    all[claim].holds = meeting(valid, claim);
     all[claim].fraction = analysis::fraction(all[claim].holds, valid.size());
   }
   for (std::size_t k = 0; k < space.dimension(); ++k) {

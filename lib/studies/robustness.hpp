@@ -48,6 +48,19 @@ struct ClaimRobustness {
   std::vector<analysis::Interval> influences;  ///< of each variable: rank correlation of its value and 1 - cost
 };
 
+/// Of the draws with one option of one choice.
+struct OptionRobustness {
+  std::size_t choice = 0;
+  std::size_t option = 0;
+  std::size_t draws = 0;                     ///< of valid stages
+  std::vector<std::size_t> holds;            ///< of each claim
+  std::vector<analysis::Interval> fraction;  ///< of each claim, at 95 %
+};
+
+/// Choice by choice, option by option.
+[[nodiscard]] std::vector<OptionRobustness> robustness_by_option(const ClaimsOptions& options,
+                                                                 const KnownEvaluations& evaluations);
+
 /// @param evaluations  of survey()
 [[nodiscard]] std::vector<ClaimRobustness> robustness(const ClaimsOptions& options,
                                                       const KnownEvaluations& evaluations);

@@ -108,10 +108,12 @@ done
 [ "$(code_of "$epicyclic" robustness claims.json -o r1 --threads 1)" = 0 ] || fail "robustness: $(<stderr)"
 grep -q '^| A | little is chaotic |' stdout || fail "no table: $(<stdout)"
 [ "$(code_of "$epicyclic" robustness claims.json -o r2 --threads 2)" = 0 ] || fail "two threads: $(<stderr)"
-for file in draws.csv robustness.csv influence.csv robustness.md figures/robustness.dat; do
+for file in draws.csv robustness.csv influence.csv options.csv robustness.md figures/robustness.dat; do
   cmp -s "r1/$file" "r2/$file" || fail "$file differs with two threads"
 done
 [ "$(wc -l <r1/draws.csv)" = 9 ] || fail "not a row per draw and for each that was confirmed"
+grep -q '^By load, ' r1/robustness.md || fail "no table by the options of the choice: $(<r1/robustness.md)"
+[ "$(wc -l <r1/options.csv)" = 5 ] || fail "not a row per option and claim: $(<r1/options.csv)"
 grep -q '^2 of the draws held against whole sweeps too' r1/robustness.md || fail "it is not said how many were confirmed"
 [ -s r1/figures/robustness.png ] || fail "no figure"
 

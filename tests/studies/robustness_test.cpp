@@ -117,6 +117,28 @@ TEST(Robustness, TellsPartsAndWhatDecides) {
   EXPECT_TRUE(std::isnan(claims[1].influences[0].value));  // always the same: nothing decides it
 }
 
+TEST(Robustness, TellsWhichReadingMeetsWhat) {
+  ClaimsOptions options = options_of(400);
+  options.space.choices = {{"reading", "unsaid", {{"one", 1.0, {}}, {"other", 3.0, {}}}}};
+  KnownEvaluations all;
+  for (std::size_t d = 0; d < 400; ++d) {
+    EvaluatedCandidate c{{0, d}, draw(options.space, 5, d), {}};
+    c.evaluation.claim_costs = {0.0, 0.0};
+    // The first claim holds with the other reading alone, the second always; draw 7 is no stage.
+    c.evaluation.holds = {static_cast<char>(options.space.options_at(c.u)[0]), 1};
+    if (d == 7) c.evaluation.refused = "no stage";
+    all.emplace(c.key, c);
+  }
+  const auto by_option = robustness_by_option(options, all);
+  ASSERT_EQ(by_option.size(), 2U);
+  EXPECT_EQ(by_option[0].draws + by_option[1].draws, 399U);
+  EXPECT_NEAR(static_cast<double>(by_option[0].draws), 100.0, 30.0);
+  EXPECT_EQ(by_option[0].holds, (std::vector<std::size_t>{0, by_option[0].draws}));
+  EXPECT_EQ(by_option[1].holds, (std::vector<std::size_t>{by_option[1].draws, by_option[1].draws}));
+  EXPECT_LT(by_option[0].fraction[0].high, 0.06);
+  EXPECT_EQ(by_option[1].fraction[1].value, 1.0);
+}
+
 TEST(Robustness, LeavesOutWhatIsNoStage) {
   const ClaimsOptions options = options_of(10);
   KnownEvaluations all = surveyed(options, 1);
