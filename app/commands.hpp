@@ -28,13 +28,14 @@ struct Arguments {
   std::vector<std::string> sets;
   int threads = 1;
   bool json = false;
-  std::vector<std::string> from;  ///< of continue: FOLDER or FOLDER:INDEX, donors of seeds
-  std::filesystem::path against;  ///< of continue: a sweep's folder; empty: none. Of assert: the expected points' file
-  int unexplained = 0;            ///< of continue: changes that may stay so
-  std::filesystem::path junit;    ///< of assert: file of the verdicts; empty: none
-  bool record = false;            ///< of assert and reproduce: what was found becomes what is expected
-  bool no_time = false;           ///< of check: time is not measured
-  bool quiet = false;             ///< part of another command: nothing on stdout
+  std::vector<std::string> from;   ///< of continue: FOLDER or FOLDER:INDEX, donors of seeds
+  std::filesystem::path against;   ///< of continue: a sweep's folder; empty: none. Of assert: the expected points' file
+  int unexplained = 0;             ///< of continue: changes that may stay so
+  std::filesystem::path expected;  ///< of reproduce: file of the verdicts that are expected; empty: beside the input
+  std::filesystem::path junit;     ///< of assert: file of the verdicts; empty: none
+  bool record = false;             ///< of assert and reproduce: what was found becomes what is expected
+  bool no_time = false;            ///< of check: time is not measured
+  bool quiet = false;              ///< part of another command: nothing on stdout
   Ranks* ranks = nullptr;
 };
 

@@ -158,6 +158,9 @@ void add_reproduce_options(CLI::App& command, Arguments& arguments) {
   command.get_option("INPUT")->description(
       "claims of a publication: a name in validation/, its folder, or a file (JSON)");
   command.add_flag("--record", arguments.record, "the verdicts are those that are expected from now on");
+  command.add_option(
+      "--expected", arguments.expected,
+      "file of the verdicts that are expected, of another stage say (default: NAME.scorecard.json beside the input)");
 }
 
 int run(int argc, char** argv) {

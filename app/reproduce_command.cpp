@@ -80,6 +80,12 @@ reports::Scorecard score(const input::LoadedInput& input, const studies::ClaimsO
   return card;
 }
 
+std::filesystem::path recorded_verdicts(const Arguments& arguments) {
+  if (!arguments.expected.empty()) return arguments.expected;
+  std::filesystem::path beside = arguments.input;
+  return beside.replace_extension(".scorecard.json");
+}
+
 }  // namespace
 
 int reproduce_command(const Arguments& given) {
@@ -90,11 +96,12 @@ int reproduce_command(const Arguments& given) {
   require_kind(input, arguments, "claims");
   const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
   require_models(options, input::claim_models(input));
-  std::filesystem::path recorded = arguments.input;
-  recorded.replace_extension(".scorecard.json");
+  const std::filesystem::path recorded = recorded_verdicts(arguments);
   std::error_code none;
   std::optional<nlohmann::json> expected;
-  if (!arguments.record && std::filesystem::exists(recorded, none)) expected = reports::read_recorded(recorded);
+  // A file that is named has to be there.
+  if (!arguments.record && (!arguments.expected.empty() || std::filesystem::exists(recorded, none)))
+    expected = reports::read_recorded(recorded);
   tell_warnings(input);
 
   Session session(arguments, input, identity_of(input, "reproduce"), arguments.threads, 1, true);

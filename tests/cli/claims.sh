@@ -67,6 +67,15 @@ sed -i 's/"carried":"holds"/"carried":"fails"/' claims.scorecard.json
 grep -q 'A (carried): holds, was recorded: fails' stderr || fail "it is not said: $(<stderr)"
 [ "$(code_of "$epicyclic" reproduce claims.json -o other --set /stage/load/torque_Nm=390 --set '/study/starts=["cold"]')" = 0 ] || fail "another load: $(<stderr)"
 grep -q 'of another study and are not compared: /st' stderr || fail "it is not said that it is another study: $(<stderr)"
+# Another stage has verdicts of its own, in a file that is named, and has to be there.
+other=(reproduce claims.json -o other --set /stage/load/torque_Nm=390 --set '/study/starts=["cold"]' --expected other.verdicts.json)
+[ "$(code_of "$epicyclic" "${other[@]}")" = 2 ] || fail "verdicts that are not there: $(<stderr)"
+[ "$(code_of "$epicyclic" "${other[@]}" --record)" = 0 ] || fail "recording verdicts of another stage: $(<stderr)"
+[ "$(code_of "$epicyclic" "${other[@]}")" = 0 ] || fail "another stage as recorded: $(<stderr)"
+! grep -q 'not compared' stderr || fail "the verdicts of the other stage are not compared: $(<stderr)"
+sed -i 's/"cold":"holds"/"cold":"fails"/' other.verdicts.json
+[ "$(code_of "$epicyclic" "${other[@]}")" = 1 ] || fail "another verdict of the other stage: $(<stderr)"
+grep -q '"carried":"fails"' claims.scorecard.json || fail "the verdicts beside the input were touched"
 echo '{ "format": "none" }' >claims.scorecard.json
 [ "$(code_of "$epicyclic" reproduce claims.json -o one)" = 2 ] || fail "no recorded verdicts: $(<stderr)"
 rm claims.scorecard.json
