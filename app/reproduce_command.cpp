@@ -99,8 +99,9 @@ int reproduce_command(const Arguments& given) {
   const std::filesystem::path recorded = recorded_verdicts(arguments);
   std::error_code none;
   std::optional<nlohmann::json> expected;
-  // A file that is named has to be there.
-  if (!arguments.record && (!arguments.expected.empty() || std::filesystem::exists(recorded, none)))
+  // A file that is named has to be there, and only recorded verdicts are written over.
+  const bool is_named = !arguments.expected.empty();
+  if ((is_named && !arguments.record) || std::filesystem::exists(recorded, none))
     expected = reports::read_recorded(recorded);
   tell_warnings(input);
 
@@ -148,12 +149,14 @@ int reproduce_command(const Arguments& given) {
   const std::int64_t undrawn = tell_undrawn(figures);
 
   std::vector<std::string> unlike;
+  bool is_other_study = false;
   if (arguments.record) {
     write_file_atomically(recorded, reports::recorded_text(card, input));
     tell("recorded: {}\n", recorded.string());
   } else if (expected) {
     reports::RecordedDifference difference = reports::unlike_recorded(card, input, *expected);
-    if (!difference.study.empty())
+    is_other_study = !difference.study.empty();
+    if (is_other_study)
       tell("the verdicts in {} are of another study and are not compared: {}\n", recorded.string(),
            difference.study.front());
     unlike = std::move(difference.verdicts);
@@ -175,6 +178,7 @@ int reproduce_command(const Arguments& given) {
     for (const auto& figure : figures)
       if (figure.outcome.drawn()) print("figure: {}\n", figure.file.string());
   }
+  if (is_named && is_other_study) return other_study;
   return unlike.empty() && undrawn == 0 ? worst : static_cast<int>(done_with_failures);
 }
 

@@ -75,6 +75,13 @@ other=(reproduce claims.json -o other --set /stage/load/torque_Nm=390 --set '/st
 ! grep -q 'not compared' stderr || fail "the verdicts of the other stage are not compared: $(<stderr)"
 sed -i 's/"cold":"holds"/"cold":"fails"/' other.verdicts.json
 [ "$(code_of "$epicyclic" "${other[@]}")" = 1 ] || fail "another verdict of the other stage: $(<stderr)"
+cp other.verdicts.json kept.json
+[ "$(code_of "$epicyclic" reproduce claims.json -o one --expected other.verdicts.json)" = 3 ] || fail "verdicts that are named and are of another study: $(<stderr)"
+grep -q 'of another study and are not compared' stderr || fail "it is not said that the named verdicts are of another study: $(<stderr)"
+cp claims.json kept_claims.json
+[ "$(code_of "$epicyclic" reproduce claims.json -o one --expected claims.json --record)" = 2 ] || fail "a file that holds no verdicts must not be written over: $(<stderr)"
+cmp -s claims.json kept_claims.json || fail "the input was written over"
+cmp -s other.verdicts.json kept.json || fail "verdicts were written without --record"
 grep -q '"carried":"fails"' claims.scorecard.json || fail "the verdicts beside the input were touched"
 echo '{ "format": "none" }' >claims.scorecard.json
 [ "$(code_of "$epicyclic" reproduce claims.json -o one)" = 2 ] || fail "no recorded verdicts: $(<stderr)"
