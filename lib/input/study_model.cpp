@@ -259,6 +259,30 @@ void warn_of_points(std::vector<gear::Warning>& out, const LoadedInput& input) {
   }
 }
 
+bool damping_jumps(const model::ModelOptions& options) {
+  return options.gap_damping == model::GapDamping::contact_slope && options.clearance_smoothing == 0.0;
+}
+
+gear::Warning without_tangents(std::string pointer) {
+  return {gear::Rank::note, 1.0, std::move(pointer), "tangents",
+          "with the exact clearance its damping jumps, and tangent vectors with it; regimes are told from "
+          "recurrence alone, unless /integrator/clearance_smoothing > 0"};
+}
+
+/// On options of choices that make damping jump where the input does not: no candidate with one can be told chaotic.
+void warn_of_options(std::vector<gear::Warning>& out, const LoadedInput& input, const studies::ParameterSpace& space) {
+  for (std::size_t c = 0; c < space.choices.size(); ++c)
+    for (std::size_t o = 0; o < space.choices[c].options.size(); ++o) {
+      json changed = {{"model", input.resolved.at("model")}, {"integrator", input.resolved.at("integrator")}};
+      for (const studies::OptionSet& set : space.choices[c].options[o].sets)
+        if (set.pointer.starts_with("/model") || set.pointer.starts_with("/integrator"))
+          changed[json::json_pointer(set.pointer)] = json::parse(set.value);
+      if (changed["model"].value("gap_damping", "") == "contact_slope" &&
+          changed["integrator"].value("clearance_smoothing", 0.0) == 0.0)
+        out.push_back(without_tangents("/study/choices/" + std::to_string(c) + "/options/" + std::to_string(o)));
+    }
+}
+
 std::vector<std::string> texts(std::vector<gear::Warning> warnings) {
   gear::put_in_order(warnings);
   std::vector<std::string> lines;
@@ -297,12 +321,14 @@ std::vector<std::string> warnings(const LoadedInput& input) {
       all.push_back({gear::Rank::doubtful, 1.0, branches != nullptr ? "/study/method" : "/integrator/method", "kinks",
                      "the error estimate of \"" + std::string(method->name) +
                          "\" misses the kinks of the exact clearance; its errors are far above its tolerance"});
-    if (study.has_points() && study.look().classification_periods > 0 &&
-        !std::holds_alternative<CrosscheckPlan>(study.plan) && !std::holds_alternative<TolerancePlan>(study.plan) &&
-        study.model.gap_damping == model::GapDamping::contact_slope && study.model.clearance_smoothing == 0.0)
-      all.push_back({gear::Rank::note, 1.0, "/model/gap_damping", "tangents",
-                     "with the exact clearance its damping jumps, and tangent vectors with it; regimes are told from "
-                     "recurrence alone, unless /integrator/clearance_smoothing > 0"});
+    const auto* claims = std::get_if<studies::ClaimsOptions>(&study.plan);
+    if ((claims != nullptr ||
+         (study.has_points() && study.look().classification_periods > 0 &&
+          !std::holds_alternative<CrosscheckPlan>(study.plan) && !std::holds_alternative<TolerancePlan>(study.plan))) &&
+        damping_jumps(study.model))
+      all.push_back(without_tangents("/model/gap_damping"));
+    else if (claims != nullptr)
+      warn_of_options(all, input, claims->space);
     lines = texts(std::move(all));
     lines.insert(lines.end(), input.notes.begin(), input.notes.end());
   }

@@ -38,6 +38,15 @@ cat >claims.json <<END
     "survey": { "draws": 6, "confirmed": 2, "look": { "transient_periods": 40, "recorded_periods": 8, "growth_periods": 16 } } } }
 END
 [ "$(code_of "$epicyclic" check claims.json)" = 0 ] || fail "check: $(<stderr)"
+! grep -q 'recurrence alone' stderr || fail "a warning without its reason: $(<stderr)"
+slope='{ "pointer": "/model/gap_damping", "value": "contact_slope" }'
+[ "$(code_of "$epicyclic" check claims.json --no-time --set "/study/choices/0/options/0/sets=[ $slope ]")" = 0 ] || fail "damping by contact as an option: $(<stderr)"
+grep -q '/study/choices/0/options/0: .* recurrence alone' stderr || fail "it is not said that no candidate of an option can be told chaotic: $(<stderr)"
+[ "$(code_of "$epicyclic" check claims.json --no-time --set "/study/choices/0/options/0/sets=[ $slope, { \"pointer\": \"/integrator/clearance_smoothing\", \"value\": 0.01 } ]")" = 0 ] || fail "the same with a smooth clearance: $(<stderr)"
+! grep -q 'recurrence alone' stderr || fail "a warning without its reason, smooth: $(<stderr)"
+[ "$(code_of "$epicyclic" check claims.json --no-time --set /model/gap_damping=contact_slope)" = 0 ] || fail "damping by contact: $(<stderr)"
+grep -q '/model/gap_damping: .* recurrence alone' stderr || fail "it is not said of the stage as given: $(<stderr)"
+"$epicyclic" check claims.json --no-time >stdout 2>stderr
 grep -q '2 claims on 3 sweeps' stderr || fail "check says nothing of claims: $(<stderr)"
 cp stdout resolved.json
 [ "$(code_of "$epicyclic" check resolved.json)" = 0 ] || fail "the resolved input: $(<stderr)"
