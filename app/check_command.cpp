@@ -18,6 +18,7 @@
 #include "studies/crosscheck.hpp"
 #include "studies/probes.hpp"
 #include "studies/run.hpp"
+#include "studies/tolerance.hpp"
 
 namespace epicyclic::app {
 
@@ -121,15 +122,52 @@ double seconds_of_run(const input::LoadedInput& input) {
   return with_more + per_period * (all - more);
 }
 
+/// Of a ladder at each point: points spread over the study, in full where they are periodic; where they are not, the
+/// statistics over fewer periods.
+double seconds_of_tolerance(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
+                            std::size_t& measured) {
+  const auto& [sweep, options] = std::get<input::TolerancePlan>(input.study.plan);
+  constexpr int few = 60;
+  studies::ToleranceOptions fewer = options;
+  fewer.chaotic_periods = std::min(options.chaotic_periods, few);
+  const double longer = static_cast<double>(studies::aligning_periods + options.chaotic_periods) /
+                        (studies::aligning_periods + fewer.chaotic_periods);
+  const double width = input.study.model.clearance_smoothing;
+  const auto model_at = input::smoothed_model_at(input);
+  studies::SweepRun run;
+  run.threads = threads;
+  double own = 0.0;     // of the study's points, in chains
+  double ladder = 0.0;  // of what is measured on them, a point after the other
+  const auto m = studies::measure_miniatures(
+      plan, 2, measured_for, threads, [&](const studies::SweepPlan& miniature, studies::LaneUse& /*lanes*/) {
+        double last = studies::processor_seconds();
+        const auto spent = [&last] {
+          return studies::processor_seconds() - std::exchange(last, studies::processor_seconds());
+        };
+        const auto points = studies::run_sweep_in_memory(
+            miniature, sweep.look, input.study.integrator, [&](double value) { return model_at(value, width); }, run);
+        own = spent();
+        ladder = 0.0;
+        for (const studies::PointResult& point : points) {
+          const studies::TolerancePoint t = studies::compute_tolerance_point(
+              point, sweep.look, fewer, input.study.integrator, width, model_at, threads, nullptr);
+          ladder += (t.statistics.empty() ? 1.0 : longer) * spent();
+        }
+      });
+  measured = m.points;
+  const double all = static_cast<double>(plan.points.size()) / static_cast<double>(m.points);
+  return all * (own / busy(plan.chains.size(), threads) + ladder / threads);
+}
+
 /// How long it takes, in words.
 std::string time_of(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads) {
   const std::string_view kind = input.study.kind();
   if (kind == "run")
     return fmt::format("about {} on 1 thread of this machine, and its figures", duration_text(seconds_of_run(input)));
-  if (kind == "tolerance") return "not known before it is done";
   std::size_t measured = 0;
-  const double seconds = kind == "crosscheck" ? seconds_of_crosscheck(input, plan, threads, measured)
-                                              : seconds_of_points(input, plan, threads, measured);
+  const double seconds = kind == "crosscheck"  ? seconds_of_crosscheck(input, plan, threads, measured)
+                         : kind == "tolerance" ? seconds_of_tolerance(input, plan, threads, measured)
+                                               : seconds_of_points(input, plan, threads, measured);
   return fmt::format("about {} on {} of this machine, by what {} of its points took", duration_text(seconds),
                      threads == 1 ? "1 thread" : fmt::format("{} threads", threads), measured);
 }

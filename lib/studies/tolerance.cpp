@@ -293,9 +293,8 @@ class PointStudy {
       std::vector<double> y = out_.study.end_state;
       std::array<std::vector<double>, 2> series;
       model::MeshDeflections d;
-      constexpr int aligning = 100;
       const analysis::LargestExponent e = analysis::largest_exponent(
-          *own, y, {aligning, options_.chaotic_periods},
+          *own, y, {aligning_periods, options_.chaotic_periods},
           [&](std::size_t, double, std::span<const double> at) {
             model.deflections(0.0, at.data(), d);
             series[0].push_back(d.sun_planet[0]);

@@ -95,6 +95,9 @@ struct TolerancePoint {
   std::vector<StatisticsStep> statistics;  ///< the reference first
 };
 
+/// Mesh periods that go before `chaotic_periods`: they turn the tangent vector into its direction.
+inline constexpr int aligning_periods = 100;
+
 /// Cost of a step in right-hand sides, a Jacobian counted as `dimension` of them.
 [[nodiscard]] double cost(const integrate::Work& work, std::size_t dimension);
 
