@@ -140,9 +140,11 @@ double seconds_of_tolerance(const input::LoadedInput& input, const studies::Swee
   double ladder = 0.0;  // of what is measured on them, a point after the other
   const auto m = studies::measure_miniatures(
       plan, 2, measured_for, threads, [&](const studies::SweepPlan& miniature, studies::LaneUse& /*lanes*/) {
-        double last = studies::processor_seconds();
-        const auto spent = [&last] {
-          return studies::processor_seconds() - std::exchange(last, studies::processor_seconds());
+        double begun = studies::processor_seconds();
+        const auto spent = [&begun] {
+          const double before = begun;
+          begun = studies::processor_seconds();
+          return begun - before;
         };
         const auto points = studies::run_sweep_in_memory(
             miniature, sweep.look, input.study.integrator, [&](double value) { return model_at(value, width); }, run);

@@ -294,7 +294,8 @@ void keep_from_computing(json& root, const std::string& pointer) {
 
 std::string shown(const Assignment& set) { return "--set " + set.text; }
 
-/// Writes the value at its pointer, making the objects on the way. @returns what is wrong, or nothing
+}  // namespace
+
 std::string assign(json& root, std::string_view pointer, const json& value) {
   json* at = &root;
   json* object = nullptr;  // innermost object, and the key in it
@@ -340,8 +341,6 @@ std::string assign(json& root, std::string_view pointer, const json& value) {
   }
   return {};
 }
-
-}  // namespace
 
 std::vector<Assignment> parse_assignments(std::span<const std::string> texts) {
   std::vector<Assignment> sets;

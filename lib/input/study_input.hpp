@@ -144,6 +144,10 @@ struct Assignment {
 /// The value is JSON, or a bare word that stands for a string.
 [[nodiscard]] std::vector<Assignment> parse_assignments(std::span<const std::string> texts);
 
+/// Writes the value at its pointer, as `--set` does: objects are made on the way, null removes, origins say where from.
+/// @returns what is wrong, or nothing
+[[nodiscard]] std::string assign(nlohmann::json& root, std::string_view pointer, const nlohmann::json& value);
+
 /// A file exactly as stored.
 struct RawFile {
   std::string name;  ///< without folders

@@ -259,8 +259,11 @@ void warn_of_points(std::vector<gear::Warning>& out, const LoadedInput& input) {
   }
 }
 
-bool damping_jumps(const model::ModelOptions& options) {
-  return options.gap_damping == model::GapDamping::contact_slope && options.clearance_smoothing == 0.0;
+/// By what the resolved input says; what it does not say is the default.
+bool damping_jumps(const LoadedInput& input) {
+  const json* damping = input.value_at("/model/gap_damping");
+  const json* width = input.value_at("/integrator/clearance_smoothing");
+  return damping != nullptr && *damping == "contact_slope" && (width == nullptr || *width == 0.0);
 }
 
 gear::Warning without_tangents(std::string pointer) {
@@ -273,12 +276,11 @@ gear::Warning without_tangents(std::string pointer) {
 void warn_of_options(std::vector<gear::Warning>& out, const LoadedInput& input, const studies::ParameterSpace& space) {
   for (std::size_t c = 0; c < space.choices.size(); ++c)
     for (std::size_t o = 0; o < space.choices[c].options.size(); ++o) {
-      json changed = {{"model", input.resolved.at("model")}, {"integrator", input.resolved.at("integrator")}};
+      LoadedInput changed;
+      changed.resolved = {{"model", input.resolved.at("model")}, {"integrator", input.resolved.at("integrator")}};
       for (const studies::OptionSet& set : space.choices[c].options[o].sets)
-        if (set.pointer.starts_with("/model") || set.pointer.starts_with("/integrator"))
-          changed[json::json_pointer(set.pointer)] = json::parse(set.value);
-      if (changed["model"].value("gap_damping", "") == "contact_slope" &&
-          changed["integrator"].value("clearance_smoothing", 0.0) == 0.0)
+        (void)assign(changed.resolved, set.pointer, json::parse(set.value));  // what is wrong is refused elsewhere
+      if (damping_jumps(changed))
         out.push_back(without_tangents("/study/choices/" + std::to_string(c) + "/options/" + std::to_string(o)));
     }
 }
@@ -325,7 +327,7 @@ std::vector<std::string> warnings(const LoadedInput& input) {
     if ((claims != nullptr ||
          (study.has_points() && study.look().classification_periods > 0 &&
           !std::holds_alternative<CrosscheckPlan>(study.plan) && !std::holds_alternative<TolerancePlan>(study.plan))) &&
-        damping_jumps(study.model))
+        damping_jumps(input))
       all.push_back(without_tangents("/model/gap_damping"));
     else if (claims != nullptr)
       warn_of_options(all, input, claims->space);

@@ -46,6 +46,9 @@ grep -q '/study/choices/0/options/0: .* recurrence alone' stderr || fail "it is 
 ! grep -q 'recurrence alone' stderr || fail "a warning without its reason, smooth: $(<stderr)"
 [ "$(code_of "$epicyclic" check claims.json --no-time --set /model/gap_damping=contact_slope)" = 0 ] || fail "damping by contact: $(<stderr)"
 grep -q '/model/gap_damping: .* recurrence alone' stderr || fail "it is not said of the stage as given: $(<stderr)"
+for odd in '{ "pointer": "/model", "value": 3 }, { "pointer": "/model/gap_damping", "value": "always" }' '{ "pointer": "/model", "value": [1] }'; do
+  [ "$(code_of "$epicyclic" check claims.json --no-time --set "/study/choices/0/options/0/sets=[ $odd ]")" = 2 ] || fail "an option that makes no model: $(<stderr)"
+done
 "$epicyclic" check claims.json --no-time >stdout 2>stderr
 grep -q '2 claims on 3 sweeps' stderr || fail "check says nothing of claims: $(<stderr)"
 cp stdout resolved.json
