@@ -72,8 +72,11 @@ struct LanePlace {
       return cubics_at<W, K>(own, found.t);
     }
     std::array<Row<double, K>, W> rows;
-    for (std::size_t lane = 0; lane < W; ++lane)
-      rows[lane] = track[lane]->at(piece[lane], found.x[lane], static_cast<std::size_t>(found.number[lane]));
+    for (std::size_t lane = 0; lane < W; ++lane) {
+      const auto number = static_cast<std::size_t>(found.number[lane]);
+      rows[lane] = piece[lane].regular ? cubics_at(cubics[lane][number], found.t[lane])
+                                       : track[lane]->at(piece[lane], found.x[lane], number);
+    }
     return transposed<W, K>(rows);
   }
 };

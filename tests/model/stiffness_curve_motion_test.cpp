@@ -1,5 +1,7 @@
 // The model with a stiffness curve in place of harmonics.
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -7,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "model/dynamic_model.hpp"
+#include "model/lane_field.hpp"
 #include "problems/r1.hpp"
 
 namespace epicyclic::model {
@@ -122,6 +125,46 @@ TEST(StiffnessCurve, ExcludesHarmonics) {
   gear::Stage s = tabulated(with_harmonics(), 16);
   s.sun_planet_mesh.stiffness_cos_N_per_m = {1e8};
   EXPECT_FALSE(gear::problems_for_motion(s).empty());
+}
+
+TEST(StiffnessCurve, LanesOnPiecesOfDifferentKindsAreTheSingleRuns) {
+  // Rows on a grid in one piece and on none in the other: each lane reads its own as a single run does.
+  gear::Stage stage = problems::r1();
+  for (gear::Mesh* mesh : {&stage.sun_planet_mesh, &stage.ring_planet_mesh}) {
+    const double k = mesh->stiffness_N_per_m;
+    mesh->stiffness_curve =
+        gear::StiffnessCurve{{0.0, 0.0, 0.3, 0.3, 0.6}, {k, 1.3 * k, 1.2 * k, 0.8 * k, 0.9 * k}, {0.0, 0.3}};
+  }
+  const DynamicModel m = model_of(stage);
+  ASSERT_GE(m.breakpoints.size(), 2U);
+  constexpr double rounding = 1e-12;  // of some hundred operations
+  for (const char* set : {"baseline", "avx2", "avx512"}) {
+    const LaneField lanes = make_lane_field(m, set);
+    for (std::size_t trial = 0; trial < 100 && lanes.width > 0; ++trial) {
+      alignas(64) std::array<double, 8> s{};
+      std::vector<std::size_t> segment;
+      for (std::size_t w = 0; w < lanes.width; ++w) {
+        s[w] = two_pi * (0.5 + static_cast<double>((trial + 13 * w) % 100)) / 100.0;
+        segment.push_back(segment_at(m.breakpoints, s[w]));
+        lanes.load(w, m);
+        lanes.set_segment(w, segment[w]);
+      }
+      alignas(64) std::array<double, 8 * 64> y{};
+      alignas(64) std::array<double, 8 * 64> f{};
+      ASSERT_LE(m.dimension, 64U);
+      for (std::size_t i = 0; i < m.dimension; ++i)
+        for (std::size_t w = 0; w < lanes.width; ++w) y[i * lanes.width + w] = m.default_start[i];
+      lanes.set_places(1, s.data());
+      lanes.right_hand_side(0, y.data(), f.data());
+      std::vector<double> expected(m.dimension);
+      for (std::size_t w = 0; w < lanes.width; ++w) {
+        m.right_hand_side(segment[w], s[w], m.default_start.data(), expected.data());
+        for (std::size_t i = 0; i < m.dimension; ++i)
+          ASSERT_NEAR(f[i * lanes.width + w], expected[i], rounding * (1.0 + std::abs(expected[i])))
+              << set << " lane " << w << " s " << s[w];
+      }
+    }
+  }
 }
 
 }  // namespace
