@@ -86,9 +86,9 @@ struct Pulls {
   void see(const studies::PointSummary& r) {
     if (!r.pulls()) return;
     ++points;
-    for (const auto* meshes : {&r.sun_planet, &r.ring_planet}) {
-      force = std::max(force, studies::PointSummary::pull(*meshes));
-      time = std::max(time, studies::PointSummary::pull_time(*meshes));
+    for (const auto* meshes : {&r.meshes.sun_planet, &r.meshes.ring_planet}) {
+      force = std::max(force, studies::StageRecord::pull(*meshes));
+      time = std::max(time, studies::StageRecord::pull_time(*meshes));
     }
   }
   [[nodiscard]] std::string note(std::string_view noun) const {

@@ -70,10 +70,9 @@ WrittenPoints write_points(const ComputedPoints& all) {
 
 /// In the order in which they are handed out: the longest first, but for figures' data, which their pictures wait for.
 std::vector<ResultsPart> parts_of_sweep() {
-  using enum reports::SweepFigure;
   std::vector<ResultsPart> parts = {{write_h5}};
   std::map<reports::SweepFigure, std::size_t> written_by;
-  for (const reports::SweepFigure figure : {delta_sp, delta_rp, regimes_first, regimes_second}) {
+  for (const reports::SweepFigure figure : reports::all_sweep_figures) {
     written_by[figure] = parts.size();
     parts.push_back({[figure](const ComputedPoints& all) { return write_figure(all, figure); }});
   }

@@ -36,35 +36,76 @@ double window_at(Window window, std::size_t j, std::size_t n) {
   return 1.0;
 }
 
+/// A window and the transform behind it, for signals of one length.
+class Transform {
+ public:
+  Transform(std::size_t n, double dt, Window window) : resolution_(1.0 / (dt * static_cast<double>(n))) {
+    if (n < 2) throw DomainError("a spectrum of " + std::to_string(n) + " samples is asked for, at least 2 are needed");
+    if (!(dt > 0.0)) throw DomainError("the sampling interval " + std::to_string(dt) + " must be > 0");
+    for (std::size_t j = 0; j < n; ++j) window_.push_back(window_at(window, j, n));
+    for (const double w : window_) weight_ += w;
+    table_.reset(gsl_fft_real_wavetable_alloc(n));
+    work_.reset(gsl_fft_real_workspace_alloc(n));
+    if (!table_ || !work_) throw SolverError("gsl_fft_real_wavetable_alloc", -1, 0.0, "no memory");
+  }
+
+  /// @param of  (k, Re X_k, Im X_k, what makes A_k of |X_k|): called for k = 0 .. n/2
+  template <class F>
+  void each(std::span<const double> x, const F& of) {
+    const std::size_t n = window_.size();
+    data_.resize(n);
+    for (std::size_t j = 0; j < n; ++j) data_[j] = x[j] * window_[j];
+    const int flag = gsl_fft_real_transform(data_.data(), 1, n, table_.get(), work_.get());
+    if (flag != 0) throw SolverError("gsl_fft_real_transform", flag, 0.0, "the transform failed");
+    for (std::size_t k = 0; k <= n / 2; ++k) {
+      // GSL's half-complex order: Re 0, Re 1, Im 1, Re 2, Im 2, ..., and the last one real if n is even.
+      const double re = k == 0 ? data_[0] : data_[2 * k - 1];
+      const double im = k == 0 || 2 * k == n ? 0.0 : data_[2 * k];
+      of(k, re, im, (k == 0 || 2 * k == n ? 1.0 : 2.0) / weight_);
+    }
+  }
+
+  [[nodiscard]] double resolution() const { return resolution_; }
+
+ private:
+  double resolution_;
+  std::vector<double> window_, data_;
+  double weight_ = 0.0;
+  std::unique_ptr<gsl_fft_real_wavetable, WavetableDeleter> table_;
+  std::unique_ptr<gsl_fft_real_workspace, WorkspaceDeleter> work_;
+};
+
 }  // namespace
 
 Spectrum amplitude_spectrum(std::span<const double> x, double dt, Window window) {
-  const std::size_t n = x.size();
-  if (n < 2) throw DomainError("a spectrum of " + std::to_string(n) + " samples is asked for, at least 2 are needed");
-  if (!(dt > 0.0)) throw DomainError("the sampling interval " + std::to_string(dt) + " must be > 0");
-  std::vector<double> data(x.begin(), x.end());
-  double weight = 0.0;
-  for (std::size_t j = 0; j < n; ++j) {
-    const double w = window_at(window, j, n);
-    data[j] *= w;
-    weight += w;
-  }
-  const std::unique_ptr<gsl_fft_real_wavetable, WavetableDeleter> table(gsl_fft_real_wavetable_alloc(n));
-  const std::unique_ptr<gsl_fft_real_workspace, WorkspaceDeleter> work(gsl_fft_real_workspace_alloc(n));
-  if (!table || !work) throw SolverError("gsl_fft_real_wavetable_alloc", -1, 0.0, "no memory");
-  const int flag = gsl_fft_real_transform(data.data(), 1, n, table.get(), work.get());
-  if (flag != 0) throw SolverError("gsl_fft_real_transform", flag, 0.0, "the transform failed");
-
+  Transform transform(x.size(), dt, window);
   Spectrum s;
-  s.resolution = 1.0 / (dt * static_cast<double>(n));
-  for (std::size_t k = 0; k <= n / 2; ++k) {
-    // GSL's half-complex order: Re 0, Re 1, Im 1, Re 2, Im 2, ..., and the last one real if n is even.
-    const double re = k == 0 ? data[0] : data[2 * k - 1];
-    const double im = k == 0 || 2 * k == n ? 0.0 : data[2 * k];
-    const double once = k == 0 || 2 * k == n ? 1.0 : 2.0;
-    s.amplitude.push_back(once * std::hypot(re, im) / weight);
+  s.resolution = transform.resolution();
+  transform.each(x, [&s](std::size_t /*k*/, double re, double im, double scale) {
+    s.amplitude.push_back(scale * std::hypot(re, im));
     s.phase.push_back(std::atan2(im, re));
+  });
+  return s;
+}
+
+Spectrum averaged_spectrum(std::span<const double> x, double dt, std::size_t stretch, Window window) {
+  const std::size_t n = std::min(stretch, x.size());
+  Transform transform(n, dt, window);
+  const double mean = std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
+  std::vector<double> alternating(x.begin(), x.end());
+  for (double& value : alternating) value -= mean;
+  Spectrum s;
+  s.resolution = transform.resolution();
+  s.amplitude.assign(n / 2 + 1, 0.0);
+  double count = 0.0;
+  for (std::size_t first = 0; first + n <= x.size(); first += std::max<std::size_t>(1, n / 2)) {
+    transform.each(std::span(alternating).subspan(first, n), [&s](std::size_t k, double re, double im, double scale) {
+      s.amplitude[k] += scale * scale * (re * re + im * im);
+    });
+    count += 1.0;
   }
+  for (double& a : s.amplitude) a = std::sqrt(a / count);
+  s.amplitude[0] = std::abs(mean);
   return s;
 }
 

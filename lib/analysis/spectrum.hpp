@@ -32,6 +32,12 @@ struct Spectrum {
 /// @throws DomainError for fewer than two samples or dt <= 0
 [[nodiscard]] Spectrum amplitude_spectrum(std::span<const double> x, double dt, Window window);
 
+/// The root of the mean square of A_k over stretches of the signal that overlap by half (Welch, IEEE Trans. Audio
+/// Electroacoust. 15 (1967) 70), the signal's mean taken off and told as A_0. Without phases.
+/// @param stretch  samples of one; all of them if there are fewer
+/// @throws DomainError for fewer than two samples or dt <= 0
+[[nodiscard]] Spectrum averaged_spectrum(std::span<const double> x, double dt, std::size_t stretch, Window window);
+
 /// A line of a motion that repeats: at p / n of the frequency of the forcing.
 struct Harmonic {
   int order = 0;   ///< p

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -206,6 +207,50 @@ FigureOutcome value_figure(const std::filesystem::path& folder, std::string_view
   if (grey) plot += legend_entry({grey_label, "#9a9a9a"});
   return draw_figure(folder, stem, write_data,
                      figure_script(stem, text, span_of(grid.x), span_of(grid.y), {}, {}, extra, plot));
+}
+
+FigureOutcome decade_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
+                            const CellGrid& grid, const std::string& bar_label, const std::vector<double>& cells,
+                            double floor, Pictures which) {
+  check(grid, cells.size());
+  constexpr double steps = 4.0;  // in a decade
+  const double lowest = std::floor(steps * std::log10(floor));
+  double highest = -std::numeric_limits<double>::infinity();
+  // The step a value is in, counted from the lowest; below zero: none.
+  std::vector<double> step(cells.size(), -1.0);
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    if (!(cells[k] >= floor) || !std::isfinite(cells[k])) continue;
+    step[k] = std::floor(steps * std::log10(cells[k])) - lowest;
+    highest = std::max(highest, step[k]);
+  }
+  if (!std::isfinite(highest)) return {"there is no value to draw above " + number(floor)};
+  const auto write_data = [&](AtomicFile& file) {
+    file.write("# x from, x to, y from, y to, decades\n");
+    write_rectangles(
+        file, grid, [&](std::size_t a, std::size_t b) { return step[a] == step[b]; },
+        [&](std::size_t cell) {
+          return step[cell] < 0.0 ? std::string() : number((lowest + step[cell] + 0.5) / steps);
+        });
+  };
+  // After Brewer's YlGnBu, whose lightness falls all the way: it can be read in grey, and by colour-blind eyes.
+  const std::string extra =
+      overlap(grid) +
+      fmt::format(
+          "set rmargin screen 0.84\n"
+          "set tics out nomirror\n"
+          "set palette defined (0 '#edf8b1', 1 '#c7e9b4', 2 '#7fcdbb', 3 '#41b6c4', 4 '#1d91c0', 5 '#225ea8', 6 "
+          "'#0c2c84', 7 '#041040')\n"
+          "set palette maxcolors {}\n"
+          "set cbrange [{}:{}]\n"
+          "set cblabel {} offset 1.5,0\n"
+          "set colorbox user origin screen 0.86, graph 0 size screen 0.025, graph 1\n"
+          "set cbtics 1 font ',20'\n"
+          "set format cb '10^{{%.0f}}'\n",
+          static_cast<int>(highest) + 1, number(lowest / steps), number((lowest + highest + 1.0) / steps),
+          gnuplot_quoted(portable_text(bar_label)));
+  const std::string plot = fmt::format("'{}.dat' {} linecolor palette notitle", stem, boxes);
+  return draw_figure(folder, stem, write_data,
+                     figure_script(stem, text, span_of(grid.x), span_of(grid.y), {}, {}, extra, plot), which);
 }
 
 }  // namespace epicyclic::figures

@@ -41,4 +41,12 @@ FigureOutcome value_figure(const std::filesystem::path& folder, std::string_view
                            const CellGrid& grid, const std::string& bar_label, const std::string& grey_label,
                            const std::vector<double>& cells);
 
+/// Cells with a positive value on a logarithmic scale, the darker the larger, in steps of a quarter of a decade. What
+/// is below `floor`, or no number, is white.
+/// @param cells  row by row, from below
+/// @param which  none: draw_pictures follows
+FigureOutcome decade_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
+                            const CellGrid& grid, const std::string& bar_label, const std::vector<double>& cells,
+                            double floor, Pictures which = Pictures::both);
+
 }  // namespace epicyclic::figures

@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "model/dispatch.hpp"
 #include "model/folded_constants.hpp"
+#include "model/kernels/lane_kernel.hpp"
 #include "model/kernels/stage_kernel.hpp"
 #include "model/right_hand_side.hpp"
 #include "model/tangents.hpp"
@@ -148,40 +149,40 @@ bool has_computed_tables(const gear::Stage& stage) {
   return of(stage.sun_planet_mesh) || of(stage.ring_planet_mesh);
 }
 
-/// No stiffness of a mesh is below this.
-template <std::size_t N>
-double stiffness_bound(const MeshParameters<double, N>& mesh) {
-  double least = mesh.stiffness;
-  if (mesh.stiffness_curve) {
-    constexpr int samples = 128;
-    constexpr double share = 0.5;  // between them it is not that much lower
-    for (int k = 0; k < samples; ++k) {
-      const double phase = static_cast<double>(k) / samples;
-      least = std::min(least, mesh.stiffness_curve->at(mesh.stiffness_curve->place(phase), phase)[0]);
+/// The instants of all phases are made here, once.
+template <std::size_t N, std::size_t W>
+StageLooks stage_looks(Layout layout, const std::shared_ptr<const Parameters<double, N>>& p,
+                       const LookKernel<N, W>& kernel) {
+  struct Looks {
+    LaneParameters<N, W> lanes;
+    std::vector<Instant<Lanes<W>, N>> instants;
+  };
+  return [layout, p, kernel](std::span<const double> phases) -> StageLook {
+    const auto looks = std::make_shared<Looks>(Looks{LaneParameters<N, W>(p), {}});
+    const std::size_t groups = (phases.size() + looks_together - 1) / looks_together;
+    looks->instants.resize(groups * looks_together / W);
+    alignas(sizeof(double) * W) std::array<double, W> s;
+    for (std::size_t k = 0; k < looks->instants.size(); ++k) {
+      for (std::size_t lane = 0; lane < W; ++lane) {
+        s[lane] = phases[std::min(k * W + lane, phases.size() - 1)];
+        looks->lanes.set_segment(lane, segment_at(p->breakpoints, s[lane]));
+      }
+      kernel.prepare(looks->lanes, 1, s.data(), &looks->instants[k]);
     }
-    return share * least;
-  }
-  for (std::size_t h = 0; h < mesh.harmonics; ++h)
-    least -= std::hypot(mesh.stiffness_cos[h][0], mesh.stiffness_sin[h][0]);
-  return least;
+    return [layout, kernel, looks](std::size_t group, const double* states, double* rows) {
+      for (std::size_t first = 0; first < looks_together; first += W)
+        kernel.look(layout, looks->lanes, looks->instants[(group * looks_together + first) / W], states + first,
+                    rows + first);
+    };
+  };
 }
 
-/// DynamicModel::pull() of the planets' meshes of one kind.
-/// @param stiffness  Row<double, N> (): k_i at this instant
-template <std::size_t N, class F>
-void mesh_pulls(const Parameters<double, N>& p, const MeshParameters<double, N>& mesh, double least_stiffness,
-                const std::vector<double>& delta, const std::vector<double>& rate, const F& stiffness,
-                std::vector<double>& pulls) {
-  pulls.assign(N, 0.0);
-  for (std::size_t i = 0; i < N; ++i) {
-    const Closure<double> closed = closure(delta[i], mesh.half_gap, p.smoothing, p.smooth);
-    const double damping = mesh.damping * (p.gap_damping == GapDamping::contact_slope ? closed.slope : 1.0) * rate[i];
-    const Contact side = DynamicModel::contact(delta[i], mesh.half_gap);
-    const auto pull = [&](double k) { return DynamicModel::pull(k * closed.value, damping, side); };
-    // The stiffer, the less it pulls.
-    pulls[i] = pull(least_stiffness);
-    if (pulls[i] > 0.0 && closed.value != 0.0) pulls[i] = pull(stiffness()[i]);
-  }
+/// By the widest lanes that this machine runs.
+template <std::size_t N>
+StageLooks make_stage_looks(Layout layout, const std::shared_ptr<const Parameters<double, N>>& p) {
+  if (const auto kernel = look_kernel<N, 8>("avx512"); kernel.look != nullptr) return stage_looks(layout, p, kernel);
+  if (const auto kernel = look_kernel<N, 4>("avx2"); kernel.look != nullptr) return stage_looks(layout, p, kernel);
+  return stage_looks(layout, p, look_kernel<N, 2>("baseline"));
 }
 
 template <std::size_t N>
@@ -220,31 +221,28 @@ DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& sca
     set(out.sun_planet_rate, now.sun_planet.rate(all, d_rate.sun_planet));
     set(out.ring_planet_rate, now.ring_planet.rate(all, d_rate.ring_planet));
   };
-  m.pulls = [p, sun = stiffness_bound(p->sun_planet), ring = stiffness_bound(p->ring_planet)](
-                double s, const MeshDeflections& d, MeshPulls& out) {
-    const auto now = [&] { return Instant<double, N>(*p, segment_at(p->breakpoints, s), s); };
-    mesh_pulls(
-        *p, p->sun_planet, sun, d.sun_planet, d.sun_planet_rate, [&] { return now().sun_planet.stiffness; },
-        out.sun_planet);
-    mesh_pulls(
-        *p, p->ring_planet, ring, d.ring_planet, d.ring_planet_rate, [&] { return now().ring_planet.stiffness; },
-        out.ring_planet);
-  };
   m.surfaces.count = contacts_of(*p);
   m.surfaces.evaluate = [layout, p](double s, const double* y, double* distances, double* rates) {
     contact_distances(layout, *p, without_tables(*p, s), y, distances, rates);
   };
   m.forces = [layout, p](double s, const double* y, StageForces& out) {
-    const StageState<double, N> g = stage_state(layout, *p, segment_at(p->breakpoints, s), s, y);
-    out.sun_planet.assign(g.sun_planet.force.begin(), g.sun_planet.force.end());
-    out.ring_planet.assign(g.ring_planet.force.begin(), g.ring_planet.force.end());
-    const Row<double, N> x = p->bearing_p * g.d.carrier_x + p->bearing_damping_p * g.d_rate.carrier_x;
-    const Row<double, N> y_force = p->bearing_p * g.d.carrier_y + p->bearing_damping_p * g.d_rate.carrier_y;
-    out.planet_bearing.resize(N);
-    for (std::size_t i = 0; i < N; ++i) out.planet_bearing[i] = std::hypot(x[i], y_force[i]);
-    const BearingForce<double> sun = sun_bearing_force(*p, g.q.x_s, g.q.y_s);
-    out.sun_bearing = std::hypot(sun.x + p->damping_s * g.v.x_s, sun.y + p->damping_s * g.v.y_s);
+    std::array<double, LookRows{N}.count()> seen;
+    look(layout, *p, Instant<double, N>(*p, segment_at(p->breakpoints, s), s), y, seen.data());
+    constexpr LookRows rows{N};
+    for (auto* list :
+         {&out.sun_planet, &out.ring_planet, &out.sun_planet_elastic, &out.ring_planet_elastic, &out.planet_bearing})
+      list->resize(N);
+    for (std::size_t i = 0; i < N; ++i) {
+      out.sun_planet[i] = seen[rows.sun_planet(i).force()];
+      out.sun_planet_elastic[i] = seen[rows.sun_planet(i).elastic()];
+      out.ring_planet[i] = seen[rows.ring_planet(i).force()];
+      out.ring_planet_elastic[i] = seen[rows.ring_planet(i).elastic()];
+      out.planet_bearing[i] = seen[rows.planet_bearing(i)];
+    }
+    out.sun_bearing = seen[rows.sun_bearing()];
   };
+  m.looks = make_stage_looks(layout, p);
+  m.scales = scales;
   m.origin = constants;
   if (has_computed_tables(stage)) {
     m.with_halved_tables = [layout, stage = std::make_shared<const gear::Stage>(stage), scales, mesh_frequency_ratio,

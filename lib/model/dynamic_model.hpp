@@ -17,6 +17,7 @@
 #include "model/layout.hpp"
 #include "model/options.hpp"
 #include "model/scales.hpp"
+#include "model/stage_look.hpp"
 
 namespace epicyclic::model {
 
@@ -31,14 +32,10 @@ struct MeshDeflections {
 
 /// Forces in all meshes and bearings at one instant [m_0 omega_sn^2 b_c]; N entries each.
 struct StageForces {
-  std::vector<double> sun_planet, ring_planet;  ///< F of [M-27], damping included
-  std::vector<double> planet_bearing;           ///< magnitude of spring and damper between planet and carrier
-  double sun_bearing = 0;                       ///< magnitude of bearing and support damping
-};
-
-/// How hard the flanks of all meshes pull at each other at one instant [m_0 omega_sn^2 b_c]; 0 where they press.
-struct MeshPulls {
-  std::vector<double> sun_planet, ring_planet;
+  std::vector<double> sun_planet, ring_planet;                  ///< F of [M-27], damping included
+  std::vector<double> sun_planet_elastic, ring_planet_elastic;  ///< k f(delta), the part of it that is no damping
+  std::vector<double> planet_bearing;  ///< magnitude of spring and damper between planet and carrier
+  double sun_bearing = 0;              ///< magnitude of bearing and support damping
 };
 
 /// The equations of motion, s the mesh phase, and what else can be said of a state. Switching surfaces are the
@@ -54,6 +51,7 @@ struct DynamicModel : VectorField {
   double sun_planet_half_gap = 0;        ///< b_sp [b_c]
   double ring_planet_half_gap = 0;       ///< b_rp [b_c]
   double omega = 0;                      ///< Omega
+  Scales scales;                         ///< that the stage was made dimensionless with
 
   /// Allocation-free when `out` has been used before. Rates included.
   std::function<void(double s, const double* y, MeshDeflections& out)> deflections;
@@ -61,9 +59,9 @@ struct DynamicModel : VectorField {
   /// Forces of meshes and bearings at a state; allocation-free when `out` has been used before.
   std::function<void(double s, const double* y, StageForces& out)> forces;
 
-  /// pull() of all meshes, given deflections() at s. A tenth of the cost of forces(): the stiffness is asked for only
-  /// where damping may exceed the elastic force. May be empty in a model of one's own: nothing is then told to pull.
-  std::function<void(double s, const MeshDeflections& d, MeshPulls& out)> pulls;
+  /// The same and the transmission error, for many instants [model/stage_look.hpp]. Empty in a model of one's own: of
+  /// its meshes nothing but deflections is then told.
+  StageLooks looks;
 
   /// This model with tables that are half as fine, where rows of something known make them: how far an orbit moves is
   /// more than what their interpolation moves it, some 16 times. Empty without such tables.
@@ -87,16 +85,6 @@ struct DynamicModel : VectorField {
   [[nodiscard]] static Contact contact(double delta, double half_gap) {
     if (delta > half_gap) return Contact::drive;
     return delta < -half_gap ? Contact::back : Contact::loss;
-  }
-
-  /// Tension of a mesh [S-pull]: what of its damping is beyond the elastic force of the flank that it pulls at, the
-  /// driving one but where the back is in contact. Teeth that lie on each other cannot pull; damping makes it, through
-  /// the open gap or just before contact is lost.
-  [[nodiscard]] static double pull(double elastic, double damping, Contact side) {
-    const double sign = side == Contact::back ? -1.0 : 1.0;
-    // A smoothed clearance has a little of the other flank's force in the gap: that is no tension.
-    const double tension = -(std::max(0.0, sign * elastic) + sign * damping);
-    return tension > 0.0 ? tension : 0.0;
   }
 };
 

@@ -28,6 +28,7 @@
 #include "model/instant.hpp"
 #include "model/layout.hpp"
 #include "model/parameters.hpp"
+#include "model/stage_look.hpp"
 
 namespace epicyclic::model {
 
@@ -400,6 +401,34 @@ void contact_distances(Layout layout, const Parameters<P, N>& p, const Instant<P
     flanks(x_s, x_rate, p.sun_half_gap);
     flanks(y_s, y_rate, p.sun_half_gap);
   }
+}
+
+/// What meshes and bearings do at an instant: LookRows::count() numbers.
+///
+/// @param y     as of right_hand_side()
+template <class T, class P, std::size_t N>
+void look(Layout layout, const Parameters<P, N>& p, const Instant<P, N>& now, const T* y, T* rows) {
+  using epicyclic::sqrt;
+  constexpr LookRows at{N};
+  const auto magnitude = [](const T& a, const T& b) { return sqrt(a * a + b * b); };
+  for (std::size_t i = 0; i < N; ++i) {
+    const StageState<T, 1, P> g(layout, p, Planets<N, 1>{i}, now, y);
+    const auto mesh = [rows](const LookRows::Mesh& place, const MeshState<T, 1, P>& m) {
+      rows[place.delta()] = m.delta[0];
+      rows[place.force()] = m.force[0];
+      rows[place.elastic()] = m.elastic[0];
+    };
+    mesh(at.sun_planet(i), g.sun_planet);
+    mesh(at.ring_planet(i), g.ring_planet);
+    rows[at.planet_bearing(i)] =
+        magnitude(p.bearing_p * g.d.carrier_x[0] + p.bearing_damping_p * g.d_rate.carrier_x[0],
+                  p.bearing_p * g.d.carrier_y[0] + p.bearing_damping_p * g.d_rate.carrier_y[0]);
+  }
+  const Coordinates<T, 1> q = unpack(layout, Planets<N, 1>{}, y);
+  const Coordinates<T, 1> v = unpack(layout, Planets<N, 1>{}, y + degrees_of_freedom(layout, N));
+  const BearingForce<T> sun = sun_bearing_force(p, q.x_s, q.y_s);
+  rows[at.sun_bearing()] = magnitude(sun.x + p.damping_s * v.x_s, sun.y + p.damping_s * v.y_s);
+  rows[at.transmission_error()] = q.w_s + q.u_r - q.u_c * (p.cos_alpha_sp + p.cos_alpha_rp);
 }
 
 /// dy/ds at mesh phase s.

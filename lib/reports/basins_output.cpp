@@ -65,11 +65,11 @@ std::vector<Row> rows_of(const BasinsOutput& output, const std::vector<PointSumm
     if (periodic) row.orbit_error = a.record.orbit_error;
     for (const std::size_t k : a.members) {
       const PointSummary& r = results[k];
-      row.sp.include(r.sun_planet.front().delta_min);
-      row.sp.include(r.sun_planet.front().delta_max);
-      row.rp.include(r.ring_planet.front().delta_min);
-      row.rp.include(r.ring_planet.front().delta_max);
-      row.spread = std::max(row.spread, r.planet_spread);
+      row.sp.include(r.meshes.sun_planet.front().delta.least);
+      row.sp.include(r.meshes.sun_planet.front().delta.largest);
+      row.rp.include(r.meshes.ring_planet.front().delta.least);
+      row.rp.include(r.meshes.ring_planet.front().delta.largest);
+      row.spread = std::max(row.spread, r.meshes.planet_spread);
     }
     row.image_of = static_cast<std::int64_t>(a.image_of);
     if (a.image_of > 0) row.turn = output.turns[a.image_by].planets;

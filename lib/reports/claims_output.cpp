@@ -195,7 +195,7 @@ std::vector<std::array<double, 2>> section_dots(const studies::PointSource& poin
   for (std::size_t k = 0; k < points.count; ++k) {
     const studies::PointResult r = points.read(k);
     if (r.point.direction != direction || r.outcome != integrate::Outcome::reached) continue;
-    const std::size_t planets = r.sun_planet.size();
+    const std::size_t planets = r.meshes.sun_planet.size();
     const std::size_t column = r.poincare_columns - (mesh == studies::MeshSide::sun_planet ? 2 : 1) * planets;
     for (std::size_t row = 0; row < r.poincare_rows(); ++row)
       dots.push_back({r.point.value, r.poincare[row * r.poincare_columns + column]});

@@ -36,17 +36,9 @@ struct Flat {
   }
 };
 
-/// A row with what a sweep would record of it, alive while it is written.
-struct PlaceRow {
-  studies::PointSummary point;
-  store::BranchPlace place;
-  PlaceRow(const TracedBranches& traced, std::pair<std::size_t, std::size_t> at)
-      : point(as_point(traced.rows[at.first][at.second])),
-        place{at.first, at.second, traced.rows[at.first][at.second], point} {}
-  PlaceRow(const PlaceRow&) = delete;
-  PlaceRow& operator=(const PlaceRow&) = delete;
-  operator const store::BranchPlace&() const { return place; }  // NOLINT(google-explicit-constructor): it is one
-};
+store::BranchPlace place_of(const TracedBranches& traced, std::pair<std::size_t, std::size_t> at) {
+  return {at.first, at.second, traced.rows[at.first][at.second]};
+}
 
 const char* end_word(const BranchLimit& limit) {
   if (limit.born) return "birth";
@@ -118,7 +110,7 @@ void write_h5(const std::filesystem::path& file, const ContinueOutput& output, c
   h5.set_attribute("/", "input_resolved", output.resolved_input);
   h5.set_attribute("/", "parameter", output.options.parameter);
   write_table_h5(h5, "/branches", store::branch_columns(output.planets), flat.places.size(),
-                 [&](std::size_t i) { return PlaceRow(traced, flat.places[i]); });
+                 [&](std::size_t i) { return place_of(traced, flat.places[i]); });
   write_table_h5(h5, "/special", store::special_columns(), traced.special.size(),
                  [&](std::size_t i) -> const SpecialRow& { return traced.special[i]; });
 
@@ -319,7 +311,7 @@ void write_continue_tables(const std::filesystem::path& folder, const ContinueOu
                            const TracedBranches& traced, const std::vector<studies::TracedLocus>& loci) {
   const Flat flat(traced);
   write_table_csv(folder / "branch.csv", store::branch_columns(output.planets), flat.places.size(),
-                  [&](std::size_t i) { return PlaceRow(traced, flat.places[i]); });
+                  [&](std::size_t i) { return place_of(traced, flat.places[i]); });
   write_table_csv(folder / "special.csv", store::special_columns(), traced.special.size(),
                   [&](std::size_t i) -> const SpecialRow& { return traced.special[i]; });
   write_branches_csv(folder / "branches.csv", traced);
@@ -484,7 +476,7 @@ void BranchSketch::add_contacts() {
     double y;
     const char* name;
     bool sun;
-    bool studies::MeshRecord::*does;
+    double studies::MeshRecord::*time;
   };
   using studies::MeshRecord;
   constexpr std::array<Strip, 4> strips = {{{4.0, "sp loss", true, &MeshRecord::loss},
@@ -500,7 +492,7 @@ void BranchSketch::add_contacts() {
       lines.add(rows, [&](std::size_t k) {
         if (!rows[k].carried) return gap;
         const auto& meshes = s.sun ? rows[k].meshes.sun_planet : rows[k].meshes.ring_planet;
-        return std::ranges::any_of(meshes, [&](const MeshRecord& m) { return m.*s.does; }) ? s.y : gap;
+        return std::ranges::any_of(meshes, [&](const MeshRecord& m) { return m.*s.time > 0.0; }) ? s.y : gap;
       });
   for (auto& [x, y] : lines.unstable) y -= 0.18;
   sketch_.add(lines.unstable, figures::solid(figures::ink::red, 3.0));

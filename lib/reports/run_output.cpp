@@ -197,7 +197,7 @@ void write_point(store::Hdf5File& h5, const RunOutput& output, const RunResult& 
   g.integer("classified", r.point.classified ? 1 : 0, "-");
   g.number("recurrence_error", r.point.recurrence.error, "b_c, b_c per tau");
   g.number("recurrence_error_late", r.point.recurrence.late_error, "b_c, b_c per tau");
-  g.number("planet_spread", r.point.planet_spread, "b_c");
+  g.number("planet_spread", r.point.meshes.planet_spread, "b_c");
   g.number("static_force", r.static_force, "N");
   g.number("half_gap_sp", output.half_gap_sp, "b_c");
   g.number("half_gap_rp", output.half_gap_rp, "b_c");
@@ -551,7 +551,7 @@ std::string meshes_text(const RunOutput& output, const RunResult& r) {
                                  r.static_force, record_periods(r.history)));
   text += pulls_text(output, r);
   text += "\n" + wrapped(fmt::format("Planets' spread: {:.3g} b_c, the largest difference between their deflections.",
-                                     r.point.planet_spread));
+                                     r.point.meshes.planet_spread));
   return text;
 }
 

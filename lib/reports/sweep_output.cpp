@@ -13,6 +13,7 @@
 
 #include "core/csv.hpp"
 #include "figures/bifurcation_figure.hpp"
+#include "reports/response_output.hpp"
 #include "reports/table_output.hpp"
 #include "store/hdf5_file.hpp"
 #include "studies/named_parameters.hpp"
@@ -52,8 +53,19 @@ class SectionRows {
   std::size_t point_ = 0, first_ = 0;  ///< last asked for, and its first row
 };
 
-/// Which direction the regimes of a figure are of; 0 for the diagrams of both.
-std::size_t direction_of(SweepFigure figure) { return figure == SweepFigure::regimes_second ? 1 : 0; }
+/// Which direction a figure of one direction is of; nothing of the others.
+std::optional<std::size_t> direction_of(SweepFigure figure) {
+  switch (figure) {
+    case SweepFigure::regimes_first:
+    case SweepFigure::waterfall_first:
+      return 0;
+    case SweepFigure::regimes_second:
+    case SweepFigure::waterfall_second:
+      return 1;
+    default:
+      return std::nullopt;
+  }
+}
 
 bool shows_regimes(SweepFigure figure) {
   return figure == SweepFigure::regimes_first || figure == SweepFigure::regimes_second;
@@ -61,11 +73,32 @@ bool shows_regimes(SweepFigure figure) {
 
 /// File name without its ending; nothing if the study has no such figure.
 std::optional<std::string> stem_of(const SweepOutput& output, SweepFigure figure) {
-  if (figure == SweepFigure::delta_sp) return "bifurcation_delta_sp";
-  if (figure == SweepFigure::delta_rp) return "bifurcation_delta_rp";
-  const std::size_t direction = direction_of(figure);
-  if (output.sweep.look.classification_periods == 0 || direction >= output.sweep.directions.size()) return std::nullopt;
-  return "regimes_delta_sp_" + store::direction_word(output.sweep.directions[direction]);
+  const auto direction = direction_of(figure);
+  if (direction && *direction >= output.sweep.directions.size()) return std::nullopt;
+  if (shows_regimes(figure) && output.sweep.look.classification_periods == 0) return std::nullopt;
+  const std::string of_direction =
+      direction ? "_" + store::direction_word(output.sweep.directions[*direction]) : std::string();
+  switch (figure) {
+    case SweepFigure::delta_sp:
+      return "bifurcation_delta_sp";
+    case SweepFigure::delta_rp:
+      return "bifurcation_delta_rp";
+    case SweepFigure::regimes_first:
+    case SweepFigure::regimes_second:
+      return "regimes_delta_sp" + of_direction;
+    case SweepFigure::response_sp:
+      return "response_delta_sp";
+    case SweepFigure::response_rp:
+      return "response_delta_rp";
+    case SweepFigure::dynamic_factor:
+      return "dynamic_factor";
+    case SweepFigure::load_sharing:
+      return "load_sharing";
+    case SweepFigure::waterfall_first:
+    case SweepFigure::waterfall_second:
+      return "waterfall_delta_sp" + of_direction;
+  }
+  return std::nullopt;
 }
 
 /// Of the Poincare section.
@@ -75,7 +108,8 @@ figures::FigureText text_of(const SweepOutput& output, SweepFigure figure) {
   figures::FigureText text{
       figures::literal_text(output.title), parameter_label(output.sweep.axis.name),
       fmt::format("Poincaré points of  δ_{{{}}} / b_c", figure == SweepFigure::delta_rp ? "rp" : "sp")};
-  if (shows_regimes(figure)) text.title += ", " + store::direction_word(output.sweep.directions[direction_of(figure)]);
+  if (const auto direction = direction_of(figure))
+    text.title += ", " + store::direction_word(output.sweep.directions[*direction]);
   return text;
 }
 
@@ -158,7 +192,7 @@ namespace {
 
 std::vector<store::PointColumn> columns_of(const studies::PointSource& points,
                                            const std::vector<store::PointColumn>& more) {
-  return store::point_columns(points.count == 0 ? 0 : points.read_brief(0).sun_planet.size(), more);
+  return store::point_columns(points.count == 0 ? 0 : points.read_brief(0).meshes.sun_planet.size(), more);
 }
 
 }  // namespace
@@ -190,6 +224,33 @@ void write_point_columns(store::Hdf5File& h5, const studies::PointSource& points
                  [&](std::size_t i) { return points.read_brief(i); });
 }
 
+namespace {
+
+/// A row of amplitudes for each point; of points without, NaN.
+void write_spectra(store::Hdf5File& h5, const studies::PointSource& points) {
+  std::size_t orders = 0;
+  double resolution = 0.0;
+  for (std::size_t i = 0; i < points.count && orders == 0; ++i) {
+    const PointResult r = points.read(i);
+    orders = r.spectrum.size();
+    resolution = r.spectrum_resolution;
+  }
+  if (orders == 0) return;
+  h5.create_group("/spectra");
+  h5.write("/spectra/order", orders, store::Hdf5File::Column<double>([resolution](std::size_t k) {
+             return resolution * static_cast<double>(k);
+           }));
+  h5.set_units("/spectra/order", "mesh frequency");
+  h5.write("/spectra/delta_sp_1", points.count, orders, [&](std::size_t row, std::span<double> values) {
+    std::fill(values.begin(), values.end(), std::numeric_limits<double>::quiet_NaN());
+    const PointResult r = points.read(row);
+    std::copy_n(r.spectrum.begin(), std::min(orders, r.spectrum.size()), values.begin());
+  });
+  h5.set_units("/spectra/delta_sp_1", "b_c");
+}
+
+}  // namespace
+
 void write_results_h5(const std::filesystem::path& file, const SweepOutput& output,
                       const studies::PointSource& points) {
   store::Hdf5File h5(file);
@@ -215,6 +276,7 @@ void write_results_h5(const std::filesystem::path& file, const SweepOutput& outp
     std::copy_n(current.poincare.begin() + static_cast<std::ptrdiff_t>(k * columns), columns, values.begin());
   });
   h5.set_units("/poincare/values", "b_c, b_c per tau");
+  write_spectra(h5, points);
   h5.close();
 }
 
@@ -223,17 +285,39 @@ std::optional<DrawnFigure> write_sweep_figure(const std::filesystem::path& folde
   const auto stem = stem_of(output, figure);
   if (!stem) return std::nullopt;
   const figures::FigureText text = text_of(output, figure);
+  const ResponseInput response{output.sweep, points, text};
   figures::FigureOutcome outcome;
-  if (shows_regimes(figure)) {
-    outcome = figures::class_bifurcation_figure(
-        folder, *stem, text, "exponent", "Exponent  λ_1 / ω_{sn}", classes(), points_each_way(output, points),
-        section(output, points, direction_of(figure), figure), figures::Pictures::none);
-  } else {
-    std::vector<figures::BifurcationSeries> series;
-    for (std::size_t d = 0; d < output.sweep.directions.size(); ++d)
-      series.push_back({store::direction_word(output.sweep.directions[d]), points_each_way(output, points),
-                        section(output, points, d, figure)});
-    outcome = figures::bifurcation_figure(folder, *stem, text, series, {}, figures::Pictures::none);
+  switch (figure) {
+    case SweepFigure::regimes_first:
+    case SweepFigure::regimes_second:
+      outcome = figures::class_bifurcation_figure(
+          folder, *stem, text, "exponent", "Exponent  λ_1 / ω_{sn}", classes(), points_each_way(output, points),
+          section(output, points, *direction_of(figure), figure), figures::Pictures::none);
+      break;
+    case SweepFigure::delta_sp:
+    case SweepFigure::delta_rp: {
+      std::vector<figures::BifurcationSeries> series;
+      for (std::size_t d = 0; d < output.sweep.directions.size(); ++d)
+        series.push_back({store::direction_word(output.sweep.directions[d]), points_each_way(output, points),
+                          section(output, points, d, figure)});
+      outcome = figures::bifurcation_figure(folder, *stem, text, series, {}, figures::Pictures::none);
+      break;
+    }
+    case SweepFigure::response_sp:
+    case SweepFigure::response_rp:
+      outcome = write_response_figure(folder, *stem, response, figure == SweepFigure::response_sp);
+      break;
+    case SweepFigure::dynamic_factor:
+      outcome = write_dynamic_factor_figure(folder, *stem, response);
+      break;
+    case SweepFigure::load_sharing:
+      if (!loads_differ(points)) return std::nullopt;
+      outcome = write_load_sharing_figure(folder, *stem, response);
+      break;
+    case SweepFigure::waterfall_first:
+    case SweepFigure::waterfall_second:
+      outcome = write_waterfall_figure(folder, *stem, response, *direction_of(figure));
+      break;
   }
   if (outcome.drawn()) return std::nullopt;
   return DrawnFigure{folder / (*stem + ".png"), outcome};

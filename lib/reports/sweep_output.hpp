@@ -3,6 +3,7 @@
 // All of it follows from the points alone and is the same, byte for byte, for the same study (architecture section 7).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -51,9 +52,26 @@ struct DrawnFigure {
   figures::FigureOutcome outcome;
 };
 
-/// The figures of a sweep: bifurcation diagrams of the meshes of planet 1, and of its sun mesh coloured by regime, one
-/// for each direction, because the colours are needed for the regimes.
-enum class SweepFigure { delta_sp, delta_rp, regimes_first, regimes_second };
+/// The figures of a sweep: bifurcation diagrams of the meshes of planet 1; that of its sun mesh coloured by regime, one
+/// for each direction, because the colours are needed for the regimes; response curves of both meshes, dynamic factor,
+/// load sharing where planets differ [reports/response_output.hpp]; spectra over the parameter, one for each direction.
+enum class SweepFigure {
+  delta_sp,
+  delta_rp,
+  regimes_first,
+  regimes_second,
+  response_sp,
+  response_rp,
+  dynamic_factor,
+  load_sharing,
+  waterfall_first,
+  waterfall_second,
+};
+inline constexpr std::array all_sweep_figures{SweepFigure::delta_sp,        SweepFigure::delta_rp,
+                                              SweepFigure::regimes_first,   SweepFigure::regimes_second,
+                                              SweepFigure::response_sp,     SweepFigure::response_rp,
+                                              SweepFigure::dynamic_factor,  SweepFigure::load_sharing,
+                                              SweepFigure::waterfall_first, SweepFigure::waterfall_second};
 
 /// Data and script of a figure in `folder`, for draw_sweep_picture.
 /// @returns nothing, or why there is nothing to draw; that the study has no such figure (one direction, regimes not

@@ -42,9 +42,9 @@ const LadderStep* study_step(const TolerancePoint& p, const integrate::Integrato
 }
 
 studies::Quantities study_quantities(const TolerancePoint& p) {
-  const studies::MeshRecord& sp = p.study.sun_planet.front();
-  const studies::MeshRecord& rp = p.study.ring_planet.front();
-  return {sp.delta_min, sp.delta_max, rp.delta_min, rp.delta_max};
+  const studies::MeshRecord& sp = p.study.meshes.sun_planet.front();
+  const studies::MeshRecord& rp = p.study.meshes.ring_planet.front();
+  return {sp.delta.least, sp.delta.largest, rp.delta.least, rp.delta.largest};
 }
 
 /// Of quantity k: the study's difference, the reference's own, and what tables' interpolation may make.

@@ -1,13 +1,11 @@
 #include "store/branch_columns.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <string_view>
-#include <utility>
+#include <type_traits>
 
 #include "core/csv.hpp"
+#include "store/stage_columns.hpp"
 
 namespace epicyclic::store {
 
@@ -15,26 +13,13 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Those of a sweep's columns that an orbit has too, but for the meshes of each planet.
-constexpr std::array<std::string_view, 12> of_sweeps = {
-    "delta_sp_min",  "delta_sp_max", "delta_rp_min", "delta_rp_max", "contact_sp",   "contact_rp",
-    "planet_spread", "pull_sp",      "pull_rp",      "pull_time_sp", "pull_time_rp", "orbit_residual"};
-
-bool is_of_a_planet(const std::string& name) {
-  for (const std::string_view kind : {"delta_sp_", "delta_rp_", "contact_sp_", "contact_rp_"})
-    if (name.size() > kind.size() && name.starts_with(kind) && name[kind.size()] >= '0' && name[kind.size()] <= '9')
-      return true;
-  return false;
-}
-
-/// A column of points as one of orbits; what was not carried has none of it.
-Column<BranchPlace> of_place(const PointColumn& column) {
+/// What is told of the periods of an orbit; what was not carried has none of it.
+Column<BranchPlace> of_orbit(const StageColumn& column) {
   Column<BranchPlace> result{column.name, column.unit, column.meaning, {}};
-  const bool needs_motion = column.name != "orbit_residual";
   std::visit(
-      [&]<class Value>(const std::function<Value(const studies::PointSummary&)>& value) {
-        result.value = std::function<Value(const BranchPlace&)>([value, needs_motion](const BranchPlace& p) {
-          if (p.row.carried || !needs_motion) return value(p.point);
+      [&]<class Value>(const std::function<Value(const studies::StageRecord&)>& value) {
+        result.value = std::function<Value(const BranchPlace&)>([value](const BranchPlace& p) {
+          if (p.row.carried) return value(p.row.meshes);
           if constexpr (std::is_same_v<Value, double>) return unknown;
           return Value{};
         });
@@ -71,9 +56,14 @@ std::vector<Column<BranchPlace>> branch_columns(std::size_t planets) {
        Number([](const BranchPlace& p) { return p.row.multiplier_max(); })},
       {"unstable", "1", "number of multipliers beyond the unit circle",
        Integer([=](const BranchPlace& p) { return integer(p.row.unstable); })}};
-  for (const PointColumn& column : point_columns(planets))
-    if (std::find(of_sweeps.begin(), of_sweeps.end(), column.name) != of_sweeps.end() || is_of_a_planet(column.name))
-      all.push_back(of_place(column));
+  const auto append = [&all](const std::vector<StageColumn>& columns) {
+    for (const StageColumn& column : columns) all.push_back(of_orbit(column));
+  };
+  append(contact_columns());
+  append(stage_columns());
+  all.push_back({"orbit_residual", "b_c, b_c per tau", "by which the orbit found does not close",
+                 Number([](const BranchPlace& p) { return p.row.residual; })});
+  append(planet_columns(planets));
   return all;
 }
 

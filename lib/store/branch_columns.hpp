@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "store/point_columns.hpp"
+#include "store/column.hpp"
 #include "studies/branches.hpp"
 #include "studies/loci.hpp"
 
@@ -17,7 +17,6 @@ namespace epicyclic::store {
 struct BranchPlace {
   std::size_t branch = 0, index = 0;
   const studies::BranchRow& row;
-  const studies::PointSummary& point;  ///< as_point() of it
 };
 
 /// @param planets  number N

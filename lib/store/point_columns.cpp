@@ -5,11 +5,12 @@
 #include <limits>
 #include <utility>
 
+#include "store/stage_columns.hpp"
+
 namespace epicyclic::store {
 
 namespace {
 
-using studies::MeshRecord;
 using studies::PointSummary;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -31,20 +32,13 @@ Number of_orbit(double analysis::Evidence::*member) {
   return [member](const PointSummary& r) { return proven(r) ? r.evidence.*member : unknown; };
 }
 
-using Meshes = std::vector<MeshRecord> PointSummary::*;
-
-/// The extrema of one mesh, "sp_1", or of planet 1's as "sp".
-void add_extrema(std::vector<PointColumn>& all, const std::string& suffix, Meshes meshes, std::size_t planet,
-                 const std::string& mesh) {
-  all.push_back({"delta_" + suffix + "_min", "b_c", "least deflection of " + mesh + " in the record",
-                 Number([=](const PointSummary& r) { return seen((r.*meshes)[planet].delta_min); })});
-  all.push_back({"delta_" + suffix + "_max", "b_c", "largest deflection of " + mesh,
-                 Number([=](const PointSummary& r) { return seen((r.*meshes)[planet].delta_max); })});
-}
-
-PointColumn contact_of(const std::string& suffix, Meshes meshes, std::size_t planet, const std::string& mesh) {
-  return {"contact_" + suffix, "", "contact of " + mesh + " seen in the record: drive, loss, back",
-          Words([=](const PointSummary& r) { return (r.*meshes)[planet].contact(); })};
+/// What is told of the record of a point.
+std::vector<PointColumn> of_points(const std::vector<StageColumn>& columns) {
+  std::vector<PointColumn> all;
+  for (const StageColumn& column : columns)
+    all.push_back(column_of_part<PointSummary>(
+        column, [](const PointSummary& r) -> const studies::StageRecord& { return r.meshes; }));
+  return all;
 }
 
 }  // namespace
@@ -79,6 +73,9 @@ std::vector<PointColumn> point_columns(std::size_t planets, const std::vector<Po
   const auto add = [&all](const char* name, const char* unit, const char* meaning, auto&& value) {
     all.push_back({name, unit, meaning, std::forward<decltype(value)>(value)});
   };
+  const auto append = [&all](const std::vector<StageColumn>& columns) {
+    for (PointColumn& column : of_points(columns)) all.push_back(std::move(column));
+  };
   add("status", "", "ok, diverged, step_limit or failed",
       Words([](const PointSummary& r) { return status_word(r.outcome); }));
   add("regime", "", "periodic, quasiperiodic, chaotic or undecided; empty unless ok", Words(regime_word));
@@ -86,27 +83,14 @@ std::vector<PointColumn> point_columns(std::size_t planets, const std::vector<Po
       Integer([=](const PointSummary& r) { return integer(ok(r) ? r.period : 0); }));
   add("lyapunov_max", "1 per tau", "largest Lyapunov exponent",
       Number([](const PointSummary& r) { return r.lyapunov_max().value; }));
-  const std::pair<const char*, Meshes> kinds[] = {{"sp", &PointSummary::sun_planet},
-                                                  {"rp", &PointSummary::ring_planet}};
-  for (const auto& [kind, meshes] : kinds) add_extrema(all, kind, meshes, 0, std::string(kind) + " of planet 1");
-  for (const auto& [kind, meshes] : kinds)
-    all.push_back(contact_of(kind, meshes, 0, std::string(kind) + " of planet 1"));
+  append(contact_columns());
   add("rhs_evaluations", "1", "right-hand sides that the point took",
       Integer([=](const PointSummary& r) { return integer(r.rhs_evaluations); }));
   add("recurrence_error", "b_c, b_c per tau", "largest difference of two states n periods apart, at the n of the least",
       Number([](const PointSummary& r) { return ok(r) ? seen(r.recurrence.error) : unknown; }));
   add("recurrence_error_late", "b_c, b_c per tau", "the same over the second half of the record",
       Number([](const PointSummary& r) { return ok(r) ? r.recurrence.late_error : unknown; }));
-  add("planet_spread", "b_c", "largest difference between planets' deflections",
-      Number([](const PointSummary& r) { return r.planet_spread; }));
-  add("pull_sp", "static mesh force", "greatest tension of a sun mesh, by its damping",
-      Number([](const PointSummary& r) { return PointSummary::pull(r.sun_planet); }));
-  add("pull_rp", "static mesh force", "greatest tension of a ring mesh",
-      Number([](const PointSummary& r) { return PointSummary::pull(r.ring_planet); }));
-  add("pull_time_sp", "part of the time", "how long a sun mesh pulls",
-      Number([](const PointSummary& r) { return PointSummary::pull_time(r.sun_planet); }));
-  add("pull_time_rp", "part of the time", "how long a ring mesh pulls",
-      Number([](const PointSummary& r) { return PointSummary::pull_time(r.ring_planet); }));
+  append(stage_columns());
   add("lyapunov_max_error", "1 per tau", "half of the exponent's 95 % interval",
       Number([](const PointSummary& r) { return r.lyapunov_max().half_width; }));
   add("multiplier_max", "1", "largest modulus of the orbit's Floquet multipliers",
@@ -121,14 +105,7 @@ std::vector<PointColumn> point_columns(std::size_t planets, const std::vector<Po
   add("classified_periods", "mesh periods", "that it took to tell the regime",
       Integer([=](const PointSummary& r) { return integer(r.evidence.periods); }));
   add("evidence", "", "for the regime, in words", Words([](const PointSummary& r) { return r.evidence.note; }));
-  for (const auto& [kind, meshes] : kinds)
-    for (std::size_t i = 0; i < planets; ++i) {
-      const std::string number = std::to_string(i + 1);
-      const std::string suffix = std::string(kind) + "_" + number;
-      const std::string mesh = std::string(kind) + " of planet " + number;
-      add_extrema(all, suffix, meshes, i, mesh);
-      all.push_back(contact_of(suffix, meshes, i, mesh));
-    }
+  append(planet_columns(planets));
   add("message", "", "what went wrong, of a point that was not reached",
       Words([](const PointSummary& r) { return r.message; }));
   return all;

@@ -54,13 +54,21 @@ void pass(A& a, integrate::Work& w) {
   pass_all(a, w.right_hand_sides, w.tangent_right_hand_sides, w.jacobians, w.steps);
 }
 template <class A>
+void pass(A& a, studies::Course& c) {
+  pass_all(a, c.least, c.largest, c.mean, c.rms);
+}
+template <class A>
 void pass(A& a, studies::MeshRecord& m) {
-  pass_all(a, m.delta_min, m.delta_max, m.pull, m.pull_time);
-  auto seen = static_cast<std::uint8_t>((m.drive ? 1U : 0U) | (m.loss ? 2U : 0U) | (m.back ? 4U : 0U));
-  a.bytes_of(seen);
-  m.drive = (seen & 1U) != 0;
-  m.loss = (seen & 2U) != 0;
-  m.back = (seen & 4U) != 0;
+  pass_all(a, m.delta, m.force, m.drive, m.loss, m.back, m.pull, m.pull_time);
+}
+template <class A>
+void pass(A& a, studies::MeshHarmonics& h) {
+  for (double& x : h) pass(a, x);
+}
+template <class A>
+void pass(A& a, studies::StageRecord& r) {
+  pass_all(a, r.sun_planet, r.ring_planet, r.planet_spread, r.planet_bearing, r.sun_bearing, r.transmission_error,
+           r.sun_planet_harmonics, r.ring_planet_harmonics, r.transmission_error_harmonics, r.static_force);
 }
 template <class A>
 void pass(A& a, studies::GridPoint& p) {
@@ -78,14 +86,14 @@ void pass(A& a, analysis::AttractorRecord& r) {
 /// All but the Poincare section.
 template <class A>
 void pass_brief(A& a, studies::PointResult& r) {
-  pass_all(a, r.point, r.outcome, r.message, r.recurrence, r.regime, r.period, r.classified, r.evidence, r.sun_planet,
-           r.ring_planet, r.planet_spread, r.rhs_evaluations, r.end_state, r.orbit, r.omega, r.poincare_columns,
-           r.attractor);
+  pass_all(a, r.point, r.outcome, r.message, r.recurrence, r.regime, r.period, r.classified, r.evidence, r.meshes,
+           r.rhs_evaluations, r.end_state, r.orbit, r.omega, r.poincare_columns, r.attractor);
 }
 
 template <class A>
 void pass(A& a, studies::PointResult& r) {
   pass_brief(a, r);
+  pass_all(a, r.spectrum, r.spectrum_resolution);
   pass(a, r.poincare);
   a.require(r.poincare_columns == 0 ? r.poincare.empty() : r.poincare.size() % r.poincare_columns == 0,
             "has a Poincare section that is not whole rows");

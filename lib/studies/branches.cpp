@@ -196,19 +196,18 @@ BranchRow branch_row(const analysis::OrbitFamily& family, const analysis::Branch
   const Eigen::MatrixXd states = analysis::period_states(family, orbit.at);
   if (states.cols() == 0) return row;
   const auto flow = family.flows(orbit.at.value);
-  MeshWatch watch(model);
-  std::vector<double> at;
-  for (int k = 1; k <= phases; ++k) at.push_back(k == phases ? model.period : model.period * k / phases);
+  StageWatch watch(model, phases);
+  const std::vector<double> at = analysis::uniform_phases(model.period, phases);
   for (Eigen::Index n = 0; n < states.cols(); ++n) {
     std::vector<double> y(states.col(n).begin(), states.col(n).end());
     flow->forget();
-    const auto see = [&](std::size_t, double s, std::span<const double> state) { watch.see(s, state); };
+    const auto see = [&](std::size_t, double, std::span<const double> state) { watch.see(state); };
     if (!flow->evolve(y, 0.0, model.period, at, see).reached()) return row;
   }
   model::MeshDeflections d;
   for (Eigen::Index n = 0; n < states.cols(); ++n)
     append_poincare_row(model, {states.col(n).data(), static_cast<std::size_t>(states.rows())}, d, row.section);
-  row.meshes = watch.finished();
+  row.meshes = watch.finish();
   row.carried = true;
   return row;
 }
@@ -221,21 +220,6 @@ void settle_stability(const analysis::Branch& branch, std::vector<BranchRow>& ro
   };
   if (branch.first.born) take(rows.front(), rows[1]);
   if (branch.last.born) take(rows.back(), rows[rows.size() - 2]);
-}
-
-PointSummary as_point(const BranchRow& row) {
-  PointSummary point;
-  point.point.value = row.value;
-  point.regime = analysis::Regime::periodic;
-  point.period = row.period;
-  point.classified = true;
-  point.evidence.largest_multiplier = row.multiplier_max();
-  point.evidence.residual = row.residual;
-  point.sun_planet = row.meshes.sun_planet;
-  point.ring_planet = row.meshes.ring_planet;
-  point.planet_spread = row.meshes.planet_spread;
-  point.omega = row.omega;
-  return point;
 }
 
 namespace {

@@ -17,7 +17,7 @@
 #include "analysis/branch_tree.hpp"
 #include "analysis/smoothing_bias.hpp"
 #include "studies/branches_options.hpp"
-#include "studies/mesh_watch.hpp"
+#include "studies/stage_watch.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::studies {
@@ -64,7 +64,7 @@ struct BranchRow {
   double residual = 0;                            ///< by which it did not close before the last step [b_c, b_c per tau]
   std::vector<std::complex<double>> multipliers;  ///< by falling modulus
   bool carried = false;                           ///< what follows is known
-  MeshRecords meshes;                             ///< over the orbit's own periods
+  StageRecord meshes;                             ///< over the orbit's own periods
   std::vector<double> section;                    ///< n rows of poincare_columns()
   double omega = 0;                               ///< Omega
 
@@ -79,9 +79,6 @@ struct BranchRow {
 
 /// An orbit where a branch is born or dies has a multiplier at 1 to rounding: whether it is stable its neighbour says.
 void settle_stability(const analysis::Branch& branch, std::vector<BranchRow>& rows);
-
-/// What a sweep would record of the motion on it, as far as it is known.
-[[nodiscard]] PointSummary as_point(const BranchRow& row);
 
 /// What is told of special points: one of a branch, or several contacts that alike planets make at once.
 struct SpecialRow {

@@ -81,7 +81,7 @@ bool settles(const PointResult& result, const LookOptions& look) {
   constexpr double small_part = 0.1;
   if (result.classified || result.regime == Regime::periodic || result.regime == Regime::chaotic) return false;
   if (analysis::still_settling(result.recurrence, look.recurrence_tolerance)) return true;
-  const std::size_t dimension = result.poincare_columns - 2 * result.sun_planet.size();
+  const std::size_t dimension = result.poincare_columns - 2 * result.meshes.sun_planet.size();
   analysis::PoincareSection section{dimension, {}};
   for (std::size_t row = 0; row < result.poincare_rows(); ++row) {
     const auto first = result.poincare.begin() + static_cast<std::ptrdiff_t>(row * result.poincare_columns);
@@ -99,7 +99,7 @@ ClaimPoint claim_point(const PointResult& result, const LookOptions& look) {
   if (!point.reached) return point;
   point.motion = {result.regime, result.period, result.classified};
   if (settles(result, look)) point.motion = {Regime::periodic, result.recurrence.best_period, false};
-  const std::size_t planets = result.sun_planet.size();
+  const std::size_t planets = result.meshes.sun_planet.size();
   const std::size_t columns = result.poincare_columns;
   const auto column = [&](std::size_t of) {
     analysis::PoincareSection section{1, {}};
@@ -120,15 +120,15 @@ ClaimPoint claim_point(const PointResult& result, const LookOptions& look) {
   const bool is_point = point.motion.regime == Regime::periodic && point.motion.period == 1;
   point.by_sun_mesh = alone(sun);
   point.by_ring_mesh = alone(ring);
-  const MeshRecord& sp = result.sun_planet.front();
-  const MeshRecord& rp = result.ring_planet.front();
-  point.quantities = {sp.delta_max - sp.delta_min,
-                      rp.delta_max - rp.delta_min,
-                      sp.delta_max,
-                      rp.delta_max,
+  const MeshRecord& sp = result.meshes.sun_planet.front();
+  const MeshRecord& rp = result.meshes.ring_planet.front();
+  point.quantities = {sp.delta.range(),
+                      rp.delta.range(),
+                      sp.delta.largest,
+                      rp.delta.largest,
                       is_point ? 0.0 : analysis::extent(sun),
                       is_point ? 0.0 : analysis::extent(ring),
-                      result.planet_spread,
+                      result.meshes.planet_spread,
                       result.lyapunov_max().value};
   return point;
 }

@@ -1,13 +1,16 @@
 // When a mesh is told to pull [S-pull].
 #pragma once
 
+#include "core/scalar.hpp"
+
 namespace epicyclic::studies {
 
 /// A tension as it is told: nothing below a thousandth of the static mesh force, where a smoothed clearance leaves
 /// traces of stiffness and damping all through the gap.
-[[nodiscard]] constexpr double told_pull(double tension, double static_force) {
+template <class T>
+[[nodiscard]] T told_pull(const T& tension, double static_force) {
   constexpr double least = 1e-3;
-  return tension > least * static_force ? tension : 0.0;
+  return select(tension > T(least * static_force), tension, T(0.0));
 }
 
 }  // namespace epicyclic::studies

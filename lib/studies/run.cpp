@@ -69,9 +69,8 @@ class Recorder {
       const double sum = std::accumulate(list->begin(), list->end(), 0.0);
       for (const double f : *list) put(static_cast<double>(list->size()) * f / sum);
     }
-    model_.pulls(s, d_, now_pulls_);
-    for (const auto* list : {&now_pulls_.sun_planet, &now_pulls_.ring_planet})
-      for (const double f : *list) pulls_.push_back(scales_.force_newton(f));
+    put_pulls(d_.sun_planet, model_.sun_planet_half_gap, f_.sun_planet_elastic, f_.sun_planet);
+    put_pulls(d_.ring_planet, model_.ring_planet_half_gap, f_.ring_planet_elastic, f_.ring_planet);
     put_newtons(f_.planet_bearing);
     put(scales_.force_newton(f_.sun_bearing));
   }
@@ -89,13 +88,17 @@ class Recorder {
   void put_newtons(const std::vector<double>& list) {
     for (const double f : list) put(scales_.force_newton(f));
   }
+  void put_pulls(const std::vector<double>& delta, double half_gap, const std::vector<double>& elastic,
+                 const std::vector<double>& force) {
+    for (std::size_t i = 0; i < delta.size(); ++i)
+      pulls_.push_back(scales_.force_newton(model::pull(delta[i], half_gap, elastic[i], force[i])));
+  }
 
   const model::DynamicModel& model_;
   const model::Scales& scales_;
   History& history_;
   model::MeshDeflections d_;
   model::StageForces f_;
-  model::MeshPulls now_pulls_;
   std::vector<double> pulls_;
 };
 
@@ -141,7 +144,7 @@ class Run {
     if (go_on_()) cross(r);
     if (options_.exponent_periods > 0 && !model_.jumps_at_surfaces) {
       if (go_on_()) find_exponents(r);
-      if (go_on_() && model_.remove_synchronous && r.point.planet_spread <= synchronous) find_transverse(r);
+      if (go_on_() && model_.remove_synchronous && r.point.meshes.planet_spread <= synchronous) find_transverse(r);
     }
     return go_on_();
   }

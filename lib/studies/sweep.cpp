@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "analysis/lyapunov.hpp"
+#include "analysis/spectrum.hpp"
 #include "core/errors.hpp"
 #include "integrate/lanes/lane_pool.hpp"
 #include "integrate/methods.hpp"
@@ -51,10 +52,10 @@ class PointRun {
         // Without tangents there is nothing but recurrence, and no end of a transient.
         classifies_(look.classification_periods > 0 && has_classification(model_)),
         adaptive_(classifies_ && look.transient == Transient::adaptive),
-        watch_(model_),
+        watch_(model_, look.output_phases, look.keep == Keep::section),
         strobe_(model_.dimension, model_.period,
                 {adaptive_ ? 0 : look.transient_periods, look.recorded_periods, look.output_phases},
-                [this](std::size_t, double s, std::span<const double> y) { watch_.see(s, y); }) {
+                [this](std::size_t, double, std::span<const double> y) { watch_.see(y); }) {
     if (state_.size() != model_.dimension)
       throw InputError("a start of " + std::to_string(state_.size()) + " numbers for a state of " +
                        std::to_string(model_.dimension));
@@ -67,13 +68,11 @@ class PointRun {
     const auto flow = flows_.strobe(model_, integrator_);
     analysis::carry(*flow, state_, strobe_, go_on_);
     const analysis::Strobe& strobe = strobe_.result();
-    MeshRecords seen = watch_.finished();
-    result_.sun_planet = std::move(seen.sun_planet);
-    result_.ring_planet = std::move(seen.ring_planet);
-    result_.planet_spread = seen.planet_spread;
+    result_.meshes = watch_.finish();
     result_.outcome = strobe.evolution.outcome;
     result_.message = strobe.evolution.message;
     if (look_.keep == Keep::section) keep_section(strobe.section);
+    if (strobe.evolution.reached() && !watch_.signal().empty()) keep_spectrum();
     if (strobe.evolution.reached()) {
       result_.recurrence = analysis::recurrence(strobe.section, look_.period_max, look_.recurrence_tolerance);
       if (!classifies_) {
@@ -107,6 +106,17 @@ class PointRun {
     result_.poincare_columns = model_.dimension + 2 * static_cast<std::size_t>(model_.planets);
     model::MeshDeflections d;
     for (std::size_t k = 0; k < section.size(); ++k) append_poincare_row(model_, section.point(k), d, result_.poincare);
+  }
+
+  void keep_spectrum() {
+    const auto phases = static_cast<std::size_t>(look_.output_phases);
+    if (watch_.signal().size() < 2) return;
+    analysis::Spectrum s = analysis::averaged_spectrum(watch_.signal(), 1.0 / look_.output_phases,
+                                                       spectrum_periods * phases, analysis::Window::hann);
+    const double kept = spectrum_orders / s.resolution;
+    if (kept + 1.0 < static_cast<double>(s.amplitude.size())) s.amplitude.resize(static_cast<std::size_t>(kept) + 1);
+    result_.spectrum = std::move(s.amplitude);
+    result_.spectrum_resolution = s.resolution;
   }
 
   void keep_attractor(const analysis::PoincareSection& section) {
@@ -155,7 +165,7 @@ class PointRun {
   bool classifies_;
   bool adaptive_;
   PointResult result_;
-  MeshWatch watch_;
+  StageWatch watch_;
   analysis::StrobeProgress strobe_;
   std::optional<analysis::PeriodicOrbit> orbit_;  ///< of a motion that is periodic by evidence
   long classification_work_ = 0;
@@ -289,18 +299,6 @@ LookOptions by_recurrence_alone(LookOptions look) {
   look.classification_periods = 0;
   look.transient = Transient::fixed;
   return look;
-}
-
-double PointSummary::pull(const std::vector<MeshRecord>& meshes) {
-  double most = 0.0;
-  for (const MeshRecord& r : meshes) most = std::max(most, r.pull);
-  return most;
-}
-
-double PointSummary::pull_time(const std::vector<MeshRecord>& meshes) {
-  double most = 0.0;
-  for (const MeshRecord& r : meshes) most = std::max(most, r.pull_time);
-  return most;
 }
 
 bool still_settling(const PointSummary& result, const LookOptions& look) {

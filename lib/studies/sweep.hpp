@@ -22,15 +22,19 @@
 #include "integrate/make_flow.hpp"
 #include "integrate/options.hpp"
 #include "model/dynamic_model.hpp"
-#include "studies/mesh_watch.hpp"
 #include "studies/motion.hpp"
+#include "studies/stage_watch.hpp"
 #include "studies/sweep_options.hpp"
 #include "studies/sweep_plan.hpp"
 
 namespace epicyclic::studies {
 
 /// Raised when a change makes the same input give other numbers: results of two versions are never mixed in one folder.
-inline constexpr int numerics_version = 16;
+inline constexpr int numerics_version = 17;
+
+/// Mesh periods of a stretch of the spectra of points, and up to how many times the mesh frequency they are kept.
+inline constexpr int spectrum_periods = 32;
+inline constexpr int spectrum_orders = 8;
 
 /// How points are looked at without the classification of their regimes: after a fixed transient, by recurrence.
 [[nodiscard]] LookOptions by_recurrence_alone(LookOptions look);
@@ -44,12 +48,10 @@ struct PointSummary {
 
   /// What the motion is [analysis/regime.hpp]: periodic where it is proven, or where nothing but recurrence was asked.
   analysis::Regime regime = analysis::Regime::undecided;
-  int period = 0;                       ///< n, if periodic
-  bool classified = false;              ///< by more than recurrence: the evidence is there
-  analysis::Evidence evidence;          ///< per unit of the mesh phase
-  std::vector<MeshRecord> sun_planet;   ///< one per planet
-  std::vector<MeshRecord> ring_planet;  ///< one per planet
-  double planet_spread = 0;             ///< largest difference between planets' deflections of one kind of mesh [b_c]
+  int period = 0;               ///< n, if periodic
+  bool classified = false;      ///< by more than recurrence: the evidence is there
+  analysis::Evidence evidence;  ///< per unit of the mesh phase
+  StageRecord meshes;           ///< and bearings, over the record
   long rhs_evaluations = 0;
   std::vector<double> end_state;  ///< what the next point of a chain starts from
   std::vector<double> orbit;      ///< a state on the orbit of a motion that is periodic by evidence; if Keep::section
@@ -59,17 +61,21 @@ struct PointSummary {
   /// Largest Lyapunov exponent per tau; not a number where there is none.
   [[nodiscard]] analysis::Estimate lyapunov_max() const;
 
-  /// Greatest tension of any of the meshes, and the greatest part of the time that one of them pulls.
-  [[nodiscard]] static double pull(const std::vector<MeshRecord>& meshes);
-  [[nodiscard]] static double pull_time(const std::vector<MeshRecord>& meshes);
   /// Does any mesh pull?
-  [[nodiscard]] bool pulls() const { return std::max(pull(sun_planet), pull(ring_planet)) > 0.0; }
+  [[nodiscard]] bool pulls() const {
+    return std::max(StageRecord::pull(meshes.sun_planet), StageRecord::pull(meshes.ring_planet)) > 0.0;
+  }
 };
 
 /// A point with its Poincare section.
 struct PointResult : PointSummary {
   std::vector<double> poincare;  ///< rows of poincare_columns(): state, delta_sp_i, delta_rp_i; if Keep::section
   std::size_t poincare_columns = 0;
+
+  /// Amplitudes of delta_sp_1 over the record at k spectrum_resolution times the mesh frequency, averaged over
+  /// stretches [analysis::averaged_spectrum()] [b_c]; if Keep::section and reached.
+  std::vector<double> spectrum;
+  double spectrum_resolution = 0;
 
   [[nodiscard]] std::size_t poincare_rows() const {
     return poincare_columns == 0 ? 0 : poincare.size() / poincare_columns;

@@ -114,11 +114,37 @@ TEST(Spectrum, SquaresOfAmplitudesAddUpToTheMeanSquare) {
   }
 }
 
+TEST(AveragedSpectrum, OfALineOnABinIsThatLine) {
+  // The mean is told apart and leaks nowhere, however large it is.
+  const auto x = sampled(512, 1.0 / 16.0, [](double t) { return 40.0 + 0.5 * std::cos(2.0 * std::numbers::pi * t); });
+  const Spectrum s = averaged_spectrum(x, 1.0 / 16.0, 128, Window::hann);
+  EXPECT_DOUBLE_EQ(s.resolution, 1.0 / 8.0);
+  ASSERT_EQ(s.amplitude.size(), 65U);
+  EXPECT_NEAR(s.amplitude[0], 40.0, of_the_sums * 40.0);
+  EXPECT_NEAR(s.amplitude[8], 0.5, of_the_sums * 40.0);
+  EXPECT_NEAR(s.amplitude[7], 0.25, of_the_sums * 40.0) << "Hann's window has half of it beside the line";
+  EXPECT_NEAR(s.amplitude[20], 0.0, of_the_sums * 40.0);
+}
+
+TEST(AveragedSpectrum, IsTheMeanSquareOfItsStretches) {
+  // A line that is there in the first half only: two of three stretches have it, one of them by half the window.
+  const auto x = sampled(256, 1.0, [](double t) { return t < 128.0 ? std::cos(0.25 * std::numbers::pi * t) : 0.0; });
+  const Spectrum s = averaged_spectrum(x, 1.0, 128, Window::rectangular);
+  EXPECT_NEAR(s.amplitude[16], std::sqrt((1.0 + 0.25 + 0.0) / 3.0), 1e-2);  // the mean of x is taken off
+  // Shorter than a stretch: all of it.
+  const Spectrum whole = averaged_spectrum(x, 1.0, 1000, Window::rectangular);
+  EXPECT_DOUBLE_EQ(whole.resolution, 1.0 / 256.0);
+  EXPECT_NEAR(whole.amplitude[32], 0.5, 1e-2);
+}
+
 TEST(Spectrum, RefusesWhatHasNone) {
   const std::vector<double> one = {1.0};
   const std::vector<double> two = {1.0, 2.0};
   EXPECT_THROW((void)amplitude_spectrum(one, 1.0, Window::hann), DomainError);
   EXPECT_THROW((void)amplitude_spectrum(two, 0.0, Window::hann), DomainError);
+  EXPECT_THROW((void)averaged_spectrum(one, 1.0, 8, Window::hann), DomainError);
+  EXPECT_THROW((void)averaged_spectrum(two, 0.0, 8, Window::hann), DomainError);
+  EXPECT_THROW((void)averaged_spectrum(two, 1.0, 1, Window::hann), DomainError);
   EXPECT_THROW((void)harmonics(two, 0), DomainError);
   EXPECT_THROW((void)harmonics(two, 2), DomainError);
   EXPECT_TRUE(peaks({1.0, {1.0, 2.0}, {0.0, 0.0}}, 1.0, 3, 0.0).empty());

@@ -54,5 +54,21 @@ TEST(CellFigure, WhiteIsZeroAndCellsWithoutAValueAreGrey) {
   EXPECT_FALSE(value_figure(folder.path(), "values", text, grid, "bar", "grey", std::vector(6, none)).drawn());
 }
 
+TEST(CellFigure, DecadesAreStepsOfAQuarterAndWhatIsBelowTheFloorIsWhite) {
+  const TemporaryFolder folder;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const FigureOutcome outcome =
+      decade_figure(folder.path(), "decades", text, grid, "bar", {0.011, 0.012, 1.0, 0.0, none, 0.005}, 0.01);
+  EXPECT_TRUE(outcome.drawn()) << outcome.message;
+  EXPECT_EQ(contents(folder / "decades.dat"),
+            "# x from, x to, y from, y to, decades\n"
+            "0.5 2.5 5 15 -1.875\n"
+            "2.5 3.5 5 15 0.125\n");
+  const std::string script = contents(folder / "decades.gp");
+  EXPECT_NE(script.find("set cbrange [-2:0.25]"), std::string::npos) << script;
+  EXPECT_NE(script.find("set palette maxcolors 9"), std::string::npos);
+  EXPECT_FALSE(decade_figure(folder.path(), "decades", text, grid, "bar", std::vector(6, 0.001), 0.01).drawn());
+}
+
 }  // namespace
 }  // namespace epicyclic::figures

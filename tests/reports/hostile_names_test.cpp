@@ -19,6 +19,7 @@
 #include "figures/gnuplot.hpp"
 #include "figures/line_figure.hpp"
 #include "figures/sketch.hpp"
+#include "figures/track_figure.hpp"
 #include "gnuplot_guard.hpp"
 #include "problems/lin_parker.hpp"
 #include "reports/gear_figures.hpp"
@@ -150,6 +151,20 @@ const std::vector<Drawing>& drawings() {
          return figures::value_figure(folder, "a", text_of(name), {values, values}, figures::literal_text(name),
                                       figures::literal_text(name),
                                       {1, 2, 3, 4, 5, 6, 7, 8, std::numeric_limits<double>::quiet_NaN()});
+       }},
+      {"decades",
+       [](const std::filesystem::path& folder, const std::string& name) {
+         return figures::decade_figure(folder, "a", text_of(name), {values, values}, figures::literal_text(name),
+                                       {1, 2, 3, 4, 5, 6, 7, 8, 9}, 0.1);
+       }},
+      {"tracks",
+       [](const std::filesystem::path& folder, const std::string& name) {
+         const auto at = [](std::size_t i) {
+           return figures::TrackRow{static_cast<double>(i), true, {static_cast<double>(i)}};
+         };
+         return figures::track_figure(folder, "a", text_of(name),
+                                      {{figures::literal_text(name), 3, at}, {figures::literal_text(name), 3, at}},
+                                      {{figures::literal_text(name), {0}}}, {figures::literal_text(name)});
        }},
       {"panels",
        [](const std::filesystem::path& folder, const std::string& name) {

@@ -137,7 +137,7 @@ TEST(PaperRegimes, DampingInContactOnlyPullsForAShortTime) {
     const studies::PointResult r = point_at(input::model_at(input)(2.8), look, input.study.integrator);
     EXPECT_EQ(r.outcome, integrate::Outcome::reached);
     EXPECT_TRUE(r.pulls());
-    return studies::PointResult::pull_time(r.ring_planet);
+    return studies::StageRecord::pull_time(r.meshes.ring_planet);
   };
   const double always = pull_time({});
   const double in_contact = pull_time({"/model/gap_damping=contact_slope", "/integrator/clearance_smoothing=0.01"});
@@ -175,9 +175,9 @@ TEST(PaperRegimes, ARunChecksItsExponents) {
   }
   // The record of the point, with half as many samples a period, tells the same.
   constexpr double sampling = 0.02;
-  EXPECT_NEAR(studies::PointResult::pull(r->point.ring_planet) * r->static_force / r->meshes[3].pull_max, 1.0,
+  EXPECT_NEAR(studies::StageRecord::pull(r->point.meshes.ring_planet) * r->static_force / r->meshes[3].pull_max, 1.0,
               sampling);
-  EXPECT_NEAR(studies::PointResult::pull_time(r->point.ring_planet), r->meshes[3].pull_time, sampling);
+  EXPECT_NEAR(studies::StageRecord::pull_time(r->point.meshes.ring_planet), r->meshes[3].pull_time, sampling);
   // Contact is made on the flank, with a rate.
   ASSERT_GT(r->crossing.size(), 0U);
   ASSERT_EQ(r->crossing_rate.size(), r->crossing.size());

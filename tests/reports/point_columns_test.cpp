@@ -5,9 +5,11 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -29,26 +31,48 @@ using test::TemporaryFolder;
 std::vector<PointResult> points(std::size_t planets) {
   double next = 0.5;
   const auto number = [&next] { return next += 1.0; };
+  const auto course = [&number](studies::Course& c) {
+    c.least = -number();
+    c.largest = number();
+    c.mean = number();
+    c.rms = number();
+  };
   const auto fill = [&](std::vector<studies::MeshRecord>& meshes) {
     for (studies::MeshRecord& m : meshes) {
-      m.delta_min = -number();
-      m.delta_max = number();
+      course(m.delta);
+      course(m.force);
+      m.drive = number();
+      m.loss = number();
+      m.back = number();
+      m.pull = number();
+      m.pull_time = number();
     }
+  };
+  const auto fill_stage = [&](studies::StageRecord& stage) {
+    stage.sun_planet.resize(planets);
+    stage.ring_planet.resize(planets);
+    stage.planet_bearing.resize(planets);
+    fill(stage.sun_planet);
+    fill(stage.ring_planet);
+    for (studies::Course& bearing : stage.planet_bearing) course(bearing);
+    course(stage.sun_bearing);
+    course(stage.transmission_error);
+    for (auto* harmonics :
+         {&stage.sun_planet_harmonics, &stage.ring_planet_harmonics, &stage.transmission_error_harmonics})
+      for (double& x : *harmonics) x = number();
+    stage.planet_spread = number();
+    stage.static_force = number();
   };
   std::vector<PointResult> all(3);
   for (std::size_t i = 0; i < all.size(); ++i) {
     PointResult& r = all[i];
     r.point.index = i;
     r.point.value = number();
-    r.sun_planet.resize(planets);
-    r.ring_planet.resize(planets);
-    fill(r.sun_planet);
-    fill(r.ring_planet);
+    fill_stage(r.meshes);
     r.period = static_cast<int>(number());
     r.rhs_evaluations = static_cast<long>(number());
     r.recurrence.error = number();
     r.recurrence.late_error = number();
-    r.planet_spread = number();
     r.omega = number();
     r.classified = true;
     r.regime = i == 0 ? analysis::Regime::periodic : analysis::Regime::chaotic;
@@ -130,6 +154,27 @@ void expect_documented(const std::vector<store::Column<Row>>& columns, const std
     EXPECT_NE(at, std::string::npos) << "missing, or not in this place: " << row;
     if (at != std::string::npos) from = at;
   }
+}
+
+TEST(PointColumns, AreEachOfANumberOfItsOwn) {
+  // Two columns that read the same place would be the same in each row, but for planet 1's, which stand twice.
+  constexpr std::size_t planets = 2;
+  const std::vector<PointResult> all = points(planets);
+  std::map<std::pair<double, double>, std::string> seen;
+  std::size_t numbers = 0;
+  for (const store::PointColumn& column : store::point_columns(planets)) {
+    const auto* of = std::get_if<store::PointColumn::Getter<double>>(&column.value);
+    if (of == nullptr) continue;
+    const std::pair values((*of)(all[0]), (*of)(all[1]));
+    if (std::isnan(values.first) || std::isnan(values.second)) continue;
+    ++numbers;
+    const auto [known, is_new] = seen.emplace(values, column.name);
+    if (is_new) continue;
+    const std::string of_planet_1 =
+        known->second.substr(0, known->second.rfind('_')) + "_1" + known->second.substr(known->second.rfind('_'));
+    EXPECT_EQ(column.name, of_planet_1);
+  }
+  EXPECT_GT(numbers, 90U);
 }
 
 TEST(PointColumns, StandInTheDocumentation) {

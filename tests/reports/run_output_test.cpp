@@ -140,8 +140,8 @@ studies::RunResult result_of(double lag = 0.0) {
   p.evidence.exponent = {std::log(0.5) / (4.0 * pi), 0.0};
   p.evidence.note = "drawn to the orbit of period 2 from 0.01 away";
   p.rhs_evaluations = 424242;
-  p.sun_planet.resize(at(planets));
-  p.ring_planet.resize(at(planets));
+  p.meshes.sun_planet.resize(at(planets));
+  p.meshes.ring_planet.resize(at(planets));
   p.omega = omega;
   return r;
 }
@@ -163,8 +163,8 @@ studies::RunResult failed() {
   r.omega = omega;
   r.point.outcome = integrate::Outcome::diverged;
   r.point.message = "component 3 left the escape bound at s = 17.5";
-  r.point.sun_planet.resize(at(planets));
-  r.point.ring_planet.resize(at(planets));
+  r.point.meshes.sun_planet.resize(at(planets));
+  r.point.meshes.ring_planet.resize(at(planets));
   return r;
 }
 

@@ -94,7 +94,7 @@ TEST(Branches, FlipOfThePapersStageIsWhereMotionsDouble) {
     EXPECT_EQ(period_near(c.branch->family, orbit, c.value), c.period) << c.value;
     // The meshes of one kind move alike, and what they do is what a sweep records of the motion.
     EXPECT_LT(row.meshes.planet_spread, eight_digits);
-    EXPECT_LT(row.meshes.sun_planet[0].delta_min, row.meshes.sun_planet[0].delta_max);
+    EXPECT_LT(row.meshes.sun_planet[0].delta.least, row.meshes.sun_planet[0].delta.largest);
   }
 }
 
@@ -134,9 +134,9 @@ TEST(Branches, RowsAreWhatASweepRecords) {
   ASSERT_EQ(point.period, 1);
   constexpr double settled = 1e-5;  // what the soft support modes leave after so many periods
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_NEAR(row.meshes.sun_planet[i].delta_min, point.sun_planet[i].delta_min, settled);
-    EXPECT_NEAR(row.meshes.ring_planet[i].delta_max, point.ring_planet[i].delta_max, settled);
-    EXPECT_EQ(row.meshes.sun_planet[i].contact(), point.sun_planet[i].contact());
+    EXPECT_NEAR(row.meshes.sun_planet[i].delta.least, point.meshes.sun_planet[i].delta.least, settled);
+    EXPECT_NEAR(row.meshes.ring_planet[i].delta.largest, point.meshes.ring_planet[i].delta.largest, settled);
+    EXPECT_EQ(row.meshes.sun_planet[i].contact(), point.meshes.sun_planet[i].contact());
   }
   ASSERT_EQ(row.section.size(), point.poincare_columns);
   const std::size_t last = point.poincare.size() - point.poincare_columns;

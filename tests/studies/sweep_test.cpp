@@ -99,10 +99,10 @@ TEST(Sweep, RecordsExtremaContactAndPeriodOfAKnownResponse) {
   for (const PointResult& r : results) {
     const double amplitude = r.point.value / 0.4;
     EXPECT_EQ(r.recurrence.period, 1);
-    EXPECT_NEAR(r.sun_planet[0].delta_max, amplitude, settled);
-    EXPECT_NEAR(r.sun_planet[1].delta_min, -amplitude, settled);
-    EXPECT_NEAR(r.planet_spread, 2.0 * amplitude, 2.0 * settled);
-    EXPECT_EQ(r.sun_planet[0].contact(), amplitude > 0.5 ? "drive+loss+back" : "loss") << amplitude;
+    EXPECT_NEAR(r.meshes.sun_planet[0].delta.largest, amplitude, settled);
+    EXPECT_NEAR(r.meshes.sun_planet[1].delta.least, -amplitude, settled);
+    EXPECT_NEAR(r.meshes.planet_spread, 2.0 * amplitude, 2.0 * settled);
+    EXPECT_EQ(r.meshes.sun_planet[0].contact(), amplitude > 0.5 ? "drive+loss+back" : "loss") << amplitude;
     EXPECT_EQ(r.poincare_rows(), 8U);
     EXPECT_GT(r.rhs_evaluations, 1000);
   }

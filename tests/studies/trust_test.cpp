@@ -405,8 +405,8 @@ TEST(Tolerance, ErrorsAndErrorBarsAreTheTrueOnes) {
   double most = -10.0;
   for (int j = 1; j <= 64; ++j)
     most = std::max(most, solution.evolve(exact, 0.0, 2.0 * 3.14159265358979323846 * j / 64)[0]);
-  const double bar = std::abs(p.study.sun_planet[0].delta_max - p.reference[1]) + p.reference_error[1];
-  EXPECT_LE(std::abs(p.study.sun_planet[0].delta_max - most), bar + reference);
+  const double bar = std::abs(p.study.meshes.sun_planet[0].delta.largest - p.reference[1]) + p.reference_error[1];
+  EXPECT_LE(std::abs(p.study.meshes.sun_planet[0].delta.largest - most), bar + reference);
   EXPECT_LE(std::abs(p.reference[1] - most), p.reference_error[1] + reference);
   constexpr double times_the_condition = 1e-4;  // tolerance 1e-7, and its dense output between steps
   EXPECT_LT(bar, times_the_condition);

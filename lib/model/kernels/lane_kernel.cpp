@@ -14,6 +14,8 @@ namespace epicyclic::model {
   template <std::size_t N, std::size_t W>                                                                         \
   void push_lanes(Layout, const LaneParameters<N, W>&, const Instant<Lanes<W>, N>&, const double*, const double*, \
                   double*, double*);                                                                              \
+  template <std::size_t N, std::size_t W>                                                                         \
+  void look_lanes(Layout, const LaneParameters<N, W>&, const Instant<Lanes<W>, N>&, const double*, double*);      \
   template <Layout L, std::size_t N, std::size_t W>                                                               \
   void measure_contacts(const LaneParameters<N, W>&, const Instant<Lanes<W>, N>&, const double*, double*, double*);
 namespace baseline {
@@ -85,7 +87,27 @@ LaneKernel<N, W> lane_kernel(Layout layout, const char* name, std::size_t copy) 
   return {};
 }
 
+template <std::size_t N, std::size_t W>
+LookKernel<N, W> look_kernel(const char* name) {
+  const std::string_view wanted(name);
+  if constexpr (W == 2) {
+    if (wanted == "baseline") return {&baseline::prepare_lanes<N, W>, &baseline::look_lanes<N, W>};
+  }
+#ifdef EPICYCLIC_X86_KERNELS
+  if constexpr (W == 4) {
+    if (wanted == "avx2" && machine_runs(wanted)) return {&avx2::prepare_lanes<N, W>, &avx2::look_lanes<N, W>};
+  }
+  if constexpr (W == 8) {
+    if (wanted == "avx512" && machine_runs(wanted)) return {&avx512::prepare_lanes<N, W>, &avx512::look_lanes<N, W>};
+  }
+#endif
+  return {};
+}
+
 #define EPICYCLIC_DEFINE(N)                                                                  \
+  template LookKernel<N, 2> look_kernel<N, 2>(const char* name);                             \
+  template LookKernel<N, 4> look_kernel<N, 4>(const char* name);                             \
+  template LookKernel<N, 8> look_kernel<N, 8>(const char* name);                             \
   template LaneKernel<N, 2> lane_kernel<N, 2>(Layout layout, const char* name, std::size_t); \
   template LaneKernel<N, 4> lane_kernel<N, 4>(Layout layout, const char* name, std::size_t); \
   template LaneKernel<N, 8> lane_kernel<N, 8>(Layout layout, const char* name, std::size_t);

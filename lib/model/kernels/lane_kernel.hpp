@@ -3,7 +3,7 @@
 //
 // The text is that of model/right_hand_side.hpp, with lanes for scalars. Each lane's bits depend neither on the others
 // nor on W nor on the instruction set; they differ from those of model/kernels/stage_kernel.hpp by the rounding of
-// sine, cosine and of places in tables. Limits: relative coordinates.
+// sine, cosine and of places in tables. Limits: relative coordinates, but for looks.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +12,7 @@
 #include "model/kernels/stage_kernel.hpp"
 #include "model/lane_parameters.hpp"
 #include "model/layout.hpp"
+#include "model/stage_look.hpp"
 
 namespace epicyclic::model {
 
@@ -33,6 +34,22 @@ struct LaneKernel {
   void (*measure_contacts)(const LaneParameters<N, W>& p, const Instants& now, const double* y, double* distances,
                            double* rates) = nullptr;
 };
+
+/// Looks at W instants of one operating point [model/stage_look.hpp], in any coordinates.
+template <std::size_t N, std::size_t W>
+struct LookKernel {
+  /// As LaneKernel::prepare().
+  void (*prepare)(const LaneParameters<N, W>& p, std::size_t count, const double* s,
+                  Instant<Lanes<W>, N>* instants) = nullptr;
+
+  /// Of `looks_together` numbers in each row of y and of `rows`, the first W.
+  void (*look)(Layout layout, const LaneParameters<N, W>& p, const Instant<Lanes<W>, N>& now, const double* y,
+               double* rows) = nullptr;
+};
+
+/// That of one instruction set, empty if it was not compiled or this machine does not run it.
+template <std::size_t N, std::size_t W>
+[[nodiscard]] LookKernel<N, W> look_kernel(const char* name);
 
 /// That of one instruction set, empty if it was not compiled or this machine does not run it, and in full coordinates.
 /// @param name "baseline" (W = 2), "avx2" (4) or "avx512" (8)

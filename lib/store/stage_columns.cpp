@@ -1,0 +1,166 @@
+#include "store/stage_columns.hpp"
+
+#include <array>
+#include <functional>
+#include <string>
+
+namespace epicyclic::store {
+
+namespace {
+
+using studies::Course;
+using studies::MeshHarmonics;
+using studies::MeshRecord;
+using studies::StageRecord;
+
+using Number = StageColumn::Getter<double>;
+using Words = StageColumn::Getter<std::string>;
+
+/// One kind of mesh.
+struct Kind {
+  const char* suffix;
+  std::vector<MeshRecord> StageRecord::*meshes;
+  MeshHarmonics StageRecord::*harmonics;
+};
+constexpr std::array<Kind, 2> kinds = {{{"sp", &StageRecord::sun_planet, &StageRecord::sun_planet_harmonics},
+                                        {"rp", &StageRecord::ring_planet, &StageRecord::ring_planet_harmonics}}};
+
+using CourseOf = std::function<const Course&(const StageRecord&)>;
+
+CourseOf course_of(const Kind& kind, std::size_t planet, Course MeshRecord::*what) {
+  return
+      [meshes = kind.meshes, planet, what](const StageRecord& r) -> const Course& { return (r.*meshes)[planet].*what; };
+}
+
+void add(std::vector<StageColumn>& all, std::string name, const char* unit, std::string meaning, Number value) {
+  all.push_back({std::move(name), unit, std::move(meaning), std::move(value)});
+}
+
+void add(std::vector<StageColumn>& all, std::string name, const char* unit, std::string meaning, const CourseOf& of,
+         double Course::*member) {
+  add(all, std::move(name), unit, std::move(meaning),
+      Number([of, member](const StageRecord& r) { return of(r).*member; }));
+}
+
+void add_range(std::vector<StageColumn>& all, const std::string& what, const std::string& meaning, const CourseOf& of) {
+  add(all, what + "_range", "b_c", "peak to peak of " + meaning,
+      Number([of](const StageRecord& r) { return of(r).range(); }));
+}
+
+/// Mean and what is left without it.
+void add_mean_and_rms(std::vector<StageColumn>& all, const std::string& what, const char* unit,
+                      const std::string& meaning, const CourseOf& of) {
+  add(all, what + "_mean", unit, "time mean of " + meaning, of, &Course::mean);
+  add(all, what + "_rms", unit, "root mean square of " + meaning + " about its mean", of, &Course::rms);
+}
+
+void add_harmonics(std::vector<StageColumn>& all, const std::string& what, const std::string& meaning,
+                   MeshHarmonics StageRecord::*harmonics) {
+  constexpr std::size_t count = std::tuple_size_v<MeshHarmonics>;
+  for (std::size_t h = 0; h < count; ++h)
+    add(all, what + "_h" + std::to_string(h + 1), "b_c",
+        "amplitude of " + meaning + " at " + (h == 0 ? "" : std::to_string(h + 1) + " times ") + "the mesh frequency",
+        Number([harmonics, h](const StageRecord& r) { return (r.*harmonics)[h]; }));
+}
+
+void add_force(std::vector<StageColumn>& all, const std::string& what, const std::string& meaning, const CourseOf& of) {
+  add_mean_and_rms(all, what, "N", meaning, of);
+  add(all, what + "_max", "N", "largest of " + meaning, of, &Course::largest);
+}
+
+void add_extrema(std::vector<StageColumn>& all, const std::string& what, const std::string& mesh, const CourseOf& of) {
+  add(all, what + "_min", "b_c", "least deflection of " + mesh + " in the record", of, &Course::least);
+  add(all, what + "_max", "b_c", "largest deflection of " + mesh, of, &Course::largest);
+}
+
+StageColumn contact_of(const Kind& kind, const std::string& suffix, std::size_t planet, const std::string& mesh) {
+  return {"contact_" + suffix, "", "contact of " + mesh + " seen in the record: drive, loss, back",
+          Words([meshes = kind.meshes, planet](const StageRecord& r) { return (r.*meshes)[planet].contact(); })};
+}
+
+std::string mesh_words(const Kind& kind, std::size_t planet) {
+  return std::string(kind.suffix) + " of planet " + std::to_string(planet + 1);
+}
+
+}  // namespace
+
+std::vector<StageColumn> contact_columns() {
+  std::vector<StageColumn> all;
+  for (const Kind& kind : kinds)
+    add_extrema(all, std::string("delta_") + kind.suffix, mesh_words(kind, 0), course_of(kind, 0, &MeshRecord::delta));
+  for (const Kind& kind : kinds) all.push_back(contact_of(kind, kind.suffix, 0, mesh_words(kind, 0)));
+  return all;
+}
+
+std::vector<StageColumn> stage_columns() {
+  std::vector<StageColumn> all;
+  add(all, "planet_spread", "b_c", "largest difference between planets' deflections",
+      Number([](const StageRecord& r) { return r.planet_spread; }));
+  add(all, "pull_sp", "static mesh force", "greatest tension of a sun mesh, by its damping",
+      Number([](const StageRecord& r) { return StageRecord::pull(r.sun_planet); }));
+  add(all, "pull_rp", "static mesh force", "greatest tension of a ring mesh",
+      Number([](const StageRecord& r) { return StageRecord::pull(r.ring_planet); }));
+  add(all, "pull_time_sp", "part of the time", "how long a sun mesh pulls",
+      Number([](const StageRecord& r) { return StageRecord::pull_time(r.sun_planet); }));
+  add(all, "pull_time_rp", "part of the time", "how long a ring mesh pulls",
+      Number([](const StageRecord& r) { return StageRecord::pull_time(r.ring_planet); }));
+  for (const Kind& kind : kinds) {
+    const std::string what = std::string("delta_") + kind.suffix;
+    const std::string meaning = "the deflection of " + mesh_words(kind, 0);
+    add_mean_and_rms(all, what, "b_c", meaning, course_of(kind, 0, &MeshRecord::delta));
+    add_range(all, what, meaning, course_of(kind, 0, &MeshRecord::delta));
+    add_harmonics(all, what, meaning, kind.harmonics);
+  }
+  const CourseOf error = [](const StageRecord& r) -> const Course& { return r.transmission_error; };
+  const std::string te = "transmission_error";
+  add_mean_and_rms(all, te, "b_c", "the stage's transmission error", error);
+  add_range(all, te, "the stage's transmission error", error);
+  add_harmonics(all, te, "the stage's transmission error", &StageRecord::transmission_error_harmonics);
+  for (const Kind& kind : kinds)
+    add_force(all, std::string("force_") + kind.suffix, "the force of " + mesh_words(kind, 0),
+              course_of(kind, 0, &MeshRecord::force));
+  for (const Kind& kind : kinds)
+    add(all, std::string("dynamic_factor_") + kind.suffix, "1",
+        std::string("largest force of any ") + kind.suffix + " over the static one",
+        Number([meshes = kind.meshes](const StageRecord& r) { return r.dynamic_factor(r.*meshes); }));
+  add_force(all, "force_sun_bearing", "the force of the sun's bearing",
+            [](const StageRecord& r) -> const Course& { return r.sun_bearing; });
+  add(all, "static_force", "N", "static force of a sun mesh: torque over base radius and number of planets",
+      Number([](const StageRecord& r) { return r.static_force; }));
+  return all;
+}
+
+std::vector<StageColumn> planet_columns(std::size_t planets) {
+  std::vector<StageColumn> all;
+  for (const Kind& kind : kinds)
+    for (std::size_t i = 0; i < planets; ++i) {
+      const std::string suffix = std::string(kind.suffix) + "_" + std::to_string(i + 1);
+      const std::string mesh = mesh_words(kind, i);
+      const CourseOf delta = course_of(kind, i, &MeshRecord::delta);
+      add_extrema(all, "delta_" + suffix, mesh, delta);
+      all.push_back(contact_of(kind, suffix, i, mesh));
+      add_mean_and_rms(all, "delta_" + suffix, "b_c", "the deflection of " + mesh, delta);
+      add_force(all, "force_" + suffix, "the force of " + mesh, course_of(kind, i, &MeshRecord::force));
+      const auto share = [&](const char* name, const std::string& meaning, double Course::*member) {
+        add(all, name + suffix, "1", meaning + mesh + " in the mean of those of all planets",
+            Number([meshes = kind.meshes, i, member](const StageRecord& r) {
+              return StageRecord::share(r.*meshes, member, i);
+            }));
+      };
+      share("load_sharing_", "time mean of the force of ", &Course::mean);
+      share("load_sharing_max_", "largest force of ", &Course::largest);
+      const auto time = [&](const char* name, const char* where, double MeshRecord::*member) {
+        add(all, name + suffix, "part of the time", "how long " + mesh + where,
+            Number([meshes = kind.meshes, i, member](const StageRecord& r) { return (r.*meshes)[i].*member; }));
+      };
+      time("drive_time_", " is in contact on its driving flank", &MeshRecord::drive);
+      time("loss_time_", " is out of contact", &MeshRecord::loss);
+      time("back_time_", " is in contact on its back", &MeshRecord::back);
+    }
+  for (std::size_t i = 0; i < planets; ++i)
+    add_force(all, "force_bearing_" + std::to_string(i + 1), "the bearing force of planet " + std::to_string(i + 1),
+              [i](const StageRecord& r) -> const Course& { return r.planet_bearing[i]; });
+  return all;
+}
+
+}  // namespace epicyclic::store

@@ -1,0 +1,23 @@
+// What is told of meshes and bearings over a record [studies/stage_watch.hpp], as columns of points and of orbits.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "store/column.hpp"
+#include "studies/stage_watch.hpp"
+
+namespace epicyclic::store {
+
+using StageColumn = Column<studies::StageRecord>;
+
+/// Extrema and contact of the meshes of planet 1.
+[[nodiscard]] std::vector<StageColumn> contact_columns();
+
+/// Of the stage, and of planet 1 what it has to say of deflections and forces.
+[[nodiscard]] std::vector<StageColumn> stage_columns();
+
+/// Of each mesh and bearing of each planet.
+[[nodiscard]] std::vector<StageColumn> planet_columns(std::size_t planets);
+
+}  // namespace epicyclic::store

@@ -1,0 +1,230 @@
+#include "studies/stage_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "analysis/poincare.hpp"
+#include "studies/pulls.hpp"
+
+namespace epicyclic::studies {
+
+namespace {
+
+/// In the order of time.
+template <class Numbers>
+double sum_of(const Numbers& x) {
+  double sum = 0.0;
+  for (std::size_t lane = 0; lane < model::looks_together; ++lane) sum += x[lane];
+  return sum;
+}
+
+template <class Numbers>
+double largest_of(const Numbers& x) {
+  double most = x[0];
+  for (std::size_t lane = 1; lane < model::looks_together; ++lane) most = std::max(most, x[lane]);
+  return most;
+}
+
+/// What a model of one's own, without looks, tells of its meshes: deflections.
+model::StageLook look_at_deflections(const model::DynamicModel& model, const std::vector<double>& phases) {
+  return [&model, phases, y = std::vector<double>(model.dimension), d = model::MeshDeflections()](
+             std::size_t group, const double* states, double* rows) mutable {
+    constexpr std::size_t together = model::looks_together;
+    const model::LookRows at{static_cast<std::size_t>(model.planets)};
+    std::fill(rows, rows + at.count() * together, 0.0);
+    for (std::size_t lane = 0; lane < together; ++lane) {
+      for (std::size_t k = 0; k < y.size(); ++k) y[k] = states[k * together + lane];
+      model.deflections(phases[std::min(group * together + lane, phases.size() - 1)], y.data(), d);
+      for (std::size_t i = 0; i < d.sun_planet.size(); ++i) {
+        rows[at.sun_planet(i).delta() * together + lane] = d.sun_planet[i];
+        rows[at.ring_planet(i).delta() * together + lane] = d.ring_planet[i];
+      }
+    }
+  };
+}
+
+}  // namespace
+
+std::string MeshRecord::contact() const {
+  std::string text;
+  const auto add = [&](double time, const char* word) {
+    if (!(time > 0.0)) return;
+    if (!text.empty()) text += '+';
+    text += word;
+  };
+  add(drive, "drive");
+  add(loss, "loss");
+  add(back, "back");
+  return text;
+}
+
+double StageRecord::share(const std::vector<MeshRecord>& meshes, double Course::*of, std::size_t planet) {
+  double sum = 0.0;
+  for (const MeshRecord& r : meshes) sum += r.force.*of;
+  return static_cast<double>(meshes.size()) * meshes[planet].force.*of / sum;
+}
+
+double StageRecord::dynamic_factor(const std::vector<MeshRecord>& meshes) const {
+  double most = meshes.front().force.largest;
+  for (const MeshRecord& r : meshes) most = std::max(most, r.force.largest);
+  return most / static_force;
+}
+
+double StageRecord::pull(const std::vector<MeshRecord>& meshes) {
+  double most = 0.0;
+  for (const MeshRecord& r : meshes) most = std::max(most, r.pull);
+  return most;
+}
+
+double StageRecord::pull_time(const std::vector<MeshRecord>& meshes) {
+  double most = 0.0;
+  for (const MeshRecord& r : meshes) most = std::max(most, r.pull_time);
+  return most;
+}
+
+StageWatch::StageWatch(const model::DynamicModel& model, int phases, bool keeps_signal)
+    : model_(model),
+      rows_{static_cast<std::size_t>(model.planets)},
+      phases_(static_cast<std::size_t>(phases)),
+      states_(model.dimension, Numbers(0.0)),
+      now_(rows_.count()),
+      sums_(rows_.count()),
+      sun_planet_(rows_.planets),
+      ring_planet_(rows_.planets),
+      keeps_signal_(keeps_signal) {
+  const std::vector<double> at = analysis::uniform_phases(model.period, phases);
+  look_ = model.looks ? model.looks(at) : look_at_deflections(model, at);
+  for (std::vector<double>& profile : profiles_) profile.assign(phases_, 0.0);
+}
+
+void StageWatch::see(std::span<const double> y) {
+  const std::size_t phase = seen_ % phases_;
+  const std::size_t lane = phase % model::looks_together;
+  for (std::size_t k = 0; k < y.size(); ++k) states_[k].set(lane, y[k]);
+  ++seen_;
+  if (lane + 1 == model::looks_together || phase + 1 == phases_) look(phase / model::looks_together, lane + 1);
+}
+
+void StageWatch::look(std::size_t group, std::size_t count) {
+  look_(group, reinterpret_cast<const double*>(states_.data()), reinterpret_cast<double*>(now_.data()));
+  if (seen_ == count)
+    for (std::size_t row = 0; row < sums_.size(); ++row) {
+      const Numbers first(now_[row][0]);
+      sums_[row] = {first, first, first, Numbers(0.0), Numbers(0.0)};
+    }
+  // A group at the end of a period may not be full: what is not there is told as what adds nothing.
+  Numbers one(1.0);
+  for (std::size_t lane = count; lane < model::looks_together; ++lane) {
+    one.set(lane, 0.0);
+    for (std::size_t row = 0; row < sums_.size(); ++row) now_[row].set(lane, sums_[row].first[0]);
+  }
+  for (std::size_t row = 0; row < sums_.size(); ++row) {
+    Sums& s = sums_[row];
+    const Numbers beyond = now_[row] - s.first;
+    s.sum += beyond;
+    s.squares += beyond * beyond;
+    s.least = min(s.least, now_[row]);
+    s.largest = max(s.largest, now_[row]);
+  }
+  for (std::size_t i = 0; i < rows_.planets; ++i) {
+    count_contact(rows_.sun_planet(i), model_.sun_planet_half_gap, one, sun_planet_[i]);
+    count_contact(rows_.ring_planet(i), model_.ring_planet_half_gap, one, ring_planet_[i]);
+  }
+  for (const auto kind : {&model::LookRows::sun_planet, &model::LookRows::ring_planet}) {
+    Numbers least = now_[(rows_.*kind)(0).delta()];
+    Numbers most = least;
+    for (std::size_t i = 1; i < rows_.planets; ++i) {
+      const Numbers& delta = now_[(rows_.*kind)(i).delta()];
+      least = min(least, delta);
+      most = max(most, delta);
+    }
+    spread_ = max(spread_, one * (most - least));
+  }
+  const std::array signals = {rows_.sun_planet(0).delta(), rows_.ring_planet(0).delta(), rows_.transmission_error()};
+  for (std::size_t k = 0; k < signals.size(); ++k)
+    for (std::size_t lane = 0; lane < count; ++lane)
+      profiles_[k][group * model::looks_together + lane] += now_[signals[k]][lane];
+  for (std::size_t lane = 0; keeps_signal_ && lane < count; ++lane) signal_.push_back(now_[signals[0]][lane]);
+}
+
+void StageWatch::count_contact(const model::LookRows::Mesh& at, double half_gap, const Numbers& one,
+                               Counts& counts) const {
+  const Numbers nothing(0.0);
+  const Numbers& delta = now_[at.delta()];
+  const Numbers drive = select(delta > Numbers(half_gap), one, nothing);
+  const Numbers back = select(delta < Numbers(-half_gap), one, nothing);
+  counts.drive += drive;
+  counts.back += back;
+  counts.loss += (one - drive) - back;
+  const Numbers pull =
+      told_pull(model::pull(delta, half_gap, now_[at.elastic()], now_[at.force()]), model_.static_mesh_force);
+  counts.pull = max(counts.pull, pull);
+  counts.pulling += select(pull > nothing, one, nothing);
+}
+
+StageRecord StageWatch::finish() {
+  if (const std::size_t begun = seen_ % phases_ % model::looks_together; begun > 0)
+    look(seen_ % phases_ / model::looks_together, begun);
+  const double newton = model_.scales.force_newton(1.0);
+  StageRecord all;
+  for (std::size_t i = 0; i < rows_.planets; ++i) {
+    all.sun_planet.push_back(mesh(rows_.sun_planet(i), sun_planet_[i]));
+    all.ring_planet.push_back(mesh(rows_.ring_planet(i), ring_planet_[i]));
+    all.planet_bearing.push_back(course(rows_.planet_bearing(i), newton));
+  }
+  all.planet_spread = largest_of(spread_);
+  all.sun_bearing = course(rows_.sun_bearing(), newton);
+  all.transmission_error = course(rows_.transmission_error(), 1.0);
+  all.sun_planet_harmonics = harmonics(profiles_[0]);
+  all.ring_planet_harmonics = harmonics(profiles_[1]);
+  all.transmission_error_harmonics = harmonics(profiles_[2]);
+  all.static_force = newton * model_.static_mesh_force;
+  return all;
+}
+
+Course StageWatch::course(std::size_t row, double unit) const {
+  if (seen_ == 0) return {};
+  const Sums& s = sums_[row];
+  const auto count = static_cast<double>(seen_);
+  const double mean = sum_of(s.sum) / count;
+  Course c;
+  c.least = unit * -largest_of(-s.least);
+  c.largest = unit * largest_of(s.largest);
+  c.mean = unit * (s.first[0] + mean);
+  c.rms = unit * std::sqrt(std::max(0.0, sum_of(s.squares) / count - mean * mean));
+  return c;
+}
+
+MeshRecord StageWatch::mesh(const model::LookRows::Mesh& at, const Counts& counts) const {
+  const double part = seen_ == 0 ? 0.0 : 1.0 / static_cast<double>(seen_);
+  MeshRecord m;
+  m.delta = course(at.delta(), 1.0);
+  m.force = course(at.force(), model_.scales.force_newton(1.0));
+  m.drive = part * sum_of(counts.drive);
+  m.loss = part * sum_of(counts.loss);
+  m.back = part * sum_of(counts.back);
+  if (model_.static_mesh_force > 0.0) m.pull = largest_of(counts.pull) / model_.static_mesh_force;
+  m.pull_time = part * sum_of(counts.pulling);
+  return m;
+}
+
+MeshHarmonics StageWatch::harmonics(const std::vector<double>& profile) const {
+  MeshHarmonics amplitudes;
+  const auto phases = static_cast<double>(phases_);
+  for (std::size_t h = 1; h <= amplitudes.size(); ++h) {
+    if (seen_ == 0 || seen_ % phases_ != 0 || phases_ <= 2 * h) {
+      amplitudes[h - 1] = std::numeric_limits<double>::quiet_NaN();
+      continue;
+    }
+    std::complex<double> sum;
+    for (std::size_t j = 0; j < phases_; ++j)
+      sum +=
+          profile[j] * std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(h * (j + 1) % phases_) / phases);
+    amplitudes[h - 1] = 2.0 * std::abs(sum) / static_cast<double>(seen_);
+  }
+  return amplitudes;
+}
+
+}  // namespace epicyclic::studies

@@ -1,0 +1,122 @@
+// What meshes and bearings of a motion do over whole mesh periods: means, alternating parts, extrema, contact, tension,
+// load sharing, mesh harmonics.
+//
+//   mean and RMS   x_m = mean x ,  x_rms = sqrt( mean (x - x_m)^2 ) , about the mean                        [S-rms]
+//   load sharing   L_i = N x_i / sum_j x_j  of the time means of F_i and of the largest F_i                   [S-share]
+//   dynamic factor K_i = max F_i / F_0 ,  F_0 = T_D / (N r_bs)                                                [S-force]
+//   harmonics      x_h = 2 | mean x(s) e^(-i h s) | ,  h = 1, 2, 3, over whole periods                        [S-harm]
+//
+// All from samples at even phases. Limits: what happens between two of them is not seen; the extrema of a force with
+// friction jump there.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/lanes.hpp"
+#include "model/dynamic_model.hpp"
+
+namespace epicyclic::studies {
+
+/// Of something over time; no numbers where nothing was seen.
+struct Course {
+  double least = std::numeric_limits<double>::quiet_NaN();
+  double largest = least;
+  double mean = least;
+  double rms = least;  ///< about the mean [S-rms]
+
+  [[nodiscard]] double range() const { return largest - least; }
+};
+
+/// What was seen of one mesh over some periods.
+struct MeshRecord {
+  Course delta;                          ///< deflection [b_c]
+  Course force;                          ///< F, damping included [N]
+  double drive = 0, loss = 0, back = 0;  ///< parts of the time on each side of the teeth [-]
+  double pull = 0;                       ///< greatest tension [model::pull()], over the static force of a sun mesh [-]
+  double pull_time = 0;                  ///< part of the time that there is tension [-]
+
+  /// "drive+loss" and so on.
+  [[nodiscard]] std::string contact() const;
+};
+
+/// Amplitudes of the first harmonics of the mesh frequency [b_c].
+using MeshHarmonics = std::array<double, 3>;
+
+struct StageRecord {
+  std::vector<MeshRecord> sun_planet;   ///< one per planet
+  std::vector<MeshRecord> ring_planet;  ///< one per planet
+  double planet_spread = 0;             ///< largest difference between planets' deflections of one kind of mesh [b_c]
+  std::vector<Course> planet_bearing;   ///< magnitude of the force, one per planet [N]
+  Course sun_bearing;                   ///< likewise
+  Course transmission_error;            ///< [S-te] [b_c]
+  MeshHarmonics sun_planet_harmonics{}, ring_planet_harmonics{};  ///< of the deflections of planet 1
+  MeshHarmonics transmission_error_harmonics{};
+  double static_force = 0;  ///< F_0 [N]
+
+  /// [S-share] of planets' meshes of one kind, by a number of each.
+  /// @returns not a number of forces without a sum
+  [[nodiscard]] static double share(const std::vector<MeshRecord>& meshes, double Course::*of, std::size_t planet);
+  /// The largest dynamic factor of them [S-force].
+  [[nodiscard]] double dynamic_factor(const std::vector<MeshRecord>& meshes) const;
+  /// Greatest tension of any of them, and the greatest part of the time that one of them pulls.
+  [[nodiscard]] static double pull(const std::vector<MeshRecord>& meshes);
+  [[nodiscard]] static double pull_time(const std::vector<MeshRecord>& meshes);
+};
+
+/// Sees a motion at even phases of its dense output.
+class StageWatch {
+ public:
+  /// @param model   must live longer
+  /// @param phases  looks per mesh period
+  /// @param keeps_signal  delta_sp_1 at each of them, for signal()
+  StageWatch(const model::DynamicModel& model, int phases, bool keeps_signal = false);
+
+  /// The state at the next phase; the first one is that of j = 1 of analysis::uniform_phases().
+  void see(std::span<const double> y);
+
+  /// What was seen. The watch is over.
+  [[nodiscard]] StageRecord finish();
+
+  /// The deflection of the sun mesh of planet 1 at all phases seen [b_c].
+  [[nodiscard]] const std::vector<double>& signal() const { return signal_; }
+
+ private:
+  using Numbers = Lanes<model::looks_together>;
+
+  /// Samples of one number, side by side.
+  struct Sums {
+    Numbers first, least, largest;
+    Numbers sum, squares;  ///< of what is beyond the first one: it would else be lost in the mean
+  };
+  /// Of one mesh.
+  struct Counts {
+    Numbers drive{0.0}, loss{0.0}, back{0.0}, pulling{0.0}, pull{0.0};
+  };
+
+  void look(std::size_t group, std::size_t count);
+  void count_contact(const model::LookRows::Mesh& at, double half_gap, const Numbers& one, Counts& counts) const;
+  [[nodiscard]] Course course(std::size_t row, double unit) const;
+  [[nodiscard]] MeshRecord mesh(const model::LookRows::Mesh& at, const Counts& counts) const;
+  [[nodiscard]] MeshHarmonics harmonics(const std::vector<double>& profile) const;
+
+  const model::DynamicModel& model_;
+  model::LookRows rows_;
+  std::size_t phases_;
+  model::StageLook look_;
+  std::vector<Numbers> states_, now_;  ///< of the group under way
+  std::vector<Sums> sums_;
+  std::vector<Counts> sun_planet_, ring_planet_;
+  Numbers spread_{0.0};
+  /// Sums over the periods at each phase: of delta_sp_1, delta_rp_1 and the transmission error.
+  std::array<std::vector<double>, 3> profiles_;
+  std::size_t seen_ = 0;
+  bool keeps_signal_;
+  std::vector<double> signal_;
+};
+
+}  // namespace epicyclic::studies

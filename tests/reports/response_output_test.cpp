@@ -1,0 +1,124 @@
+// Response curves, dynamic factor, load sharing and spectra of a sweep, as figures' data.
+
+#include "reports/response_output.hpp"
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "reports/sweep_output.hpp"
+#include "store/hdf5_file.hpp"
+#include "temporary_folder.hpp"
+
+namespace epicyclic::reports {
+namespace {
+
+using studies::PointResult;
+using test::contents;
+using test::TemporaryFolder;
+
+/// Three values up and down; the second one failed on its way up.
+std::vector<PointResult> points() {
+  std::vector<PointResult> all(6);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    PointResult& p = all[i];
+    const bool up = i < 3;
+    p.point = {i, up ? studies::Direction::up : studies::Direction::down, static_cast<double>(up ? i + 1 : 6 - i)};
+    p.regime = analysis::Regime::periodic;
+    p.period = 1;
+    p.meshes.sun_planet.resize(2);
+    p.meshes.ring_planet.resize(2);
+    p.meshes.planet_bearing.resize(2);
+    p.meshes.static_force = 100.0;
+    const double x = static_cast<double>(i);
+    for (auto* meshes : {&p.meshes.sun_planet, &p.meshes.ring_planet})
+      for (studies::MeshRecord& m : *meshes) {
+        m.delta = {1.0, 3.0 + x, 2.0, 0.5 + x};
+        m.force = {0.0, 250.0, 100.0, 10.0};
+      }
+    p.spectrum = {2.0, 0.1 * (x + 1.0), 1e-6};
+    p.spectrum_resolution = 0.5;
+  }
+  all[1].outcome = integrate::Outcome::diverged;
+  all[1].spectrum.clear();
+  return all;
+}
+
+SweepOutput output() {
+  SweepOutput o;
+  o.sweep.axis.name = "mesh_frequency_ratio";
+  o.sweep.directions = {studies::Direction::up, studies::Direction::down};
+  o.poincare_columns = {"delta_sp_1"};
+  o.title = "by hand";
+  return o;
+}
+
+TEST(ResponseOutput, CurvesAreOfEachDirectionAndOfReachedPointsAlone) {
+  const TemporaryFolder folder;
+  const std::vector<PointResult> all = points();
+  const studies::PointSource source = studies::points_in_memory(all);
+  EXPECT_FALSE(write_sweep_figure(folder.path(), output(), source, SweepFigure::response_sp));
+  EXPECT_EQ(contents(folder / "response_delta_sp.dat"),
+            "# 'up': x, joined, values\n1 1 0.5 2\n2 1 NaN NaN\n3 1 2.5 4\n\n\n"
+            "# 'down': x, joined, values\n3 1 3.5 5\n2 1 4.5 6\n1 1 5.5 7\n\n\n");
+  const std::string script = contents(folder / "response_delta_sp.gp");
+  EXPECT_NE(script.find("RMS of δ_{sp,1} / b_c"), std::string::npos);
+  EXPECT_NE(script.find("Mesh frequency ratio"), std::string::npos) << script.substr(0, 2000);
+  EXPECT_FALSE(write_sweep_figure(folder.path(), output(), source, SweepFigure::dynamic_factor));
+  EXPECT_NE(contents(folder / "dynamic_factor.dat").find("1 1 2.5 2.5\n"), std::string::npos);
+}
+
+TEST(ResponseOutput, NoLineGoesThroughChaos) {
+  const TemporaryFolder folder;
+  std::vector<PointResult> all = points();
+  all.erase(all.begin() + 3, all.end());
+  all[1].outcome = integrate::Outcome::reached;
+  all[1].regime = analysis::Regime::chaotic;
+  SweepOutput up = output();
+  up.sweep.directions = {studies::Direction::up};
+  EXPECT_FALSE(write_sweep_figure(folder.path(), up, studies::points_in_memory(all), SweepFigure::response_rp));
+  EXPECT_EQ(contents(folder / "response_delta_rp.dat"),
+            "# 'up': x, joined, values\n1 1 0.5 2\n2 NaN 1.5 3\n3 1 2.5 4\n\n\n");
+  EXPECT_NE(contents(folder / "response_delta_rp.gp").find("using 1:($3 * $2) with lines"), std::string::npos);
+}
+
+TEST(ResponseOutput, SharesAreDrawnWherePlanetsDiffer) {
+  const TemporaryFolder folder;
+  std::vector<PointResult> all = points();
+  EXPECT_FALSE(loads_differ(studies::points_in_memory(all)));
+  EXPECT_FALSE(write_sweep_figure(folder.path(), output(), studies::points_in_memory(all), SweepFigure::load_sharing));
+  EXPECT_FALSE(std::filesystem::exists(folder / "load_sharing.gp"));
+  all[2].meshes.ring_planet[1].force.mean = 300.0;
+  EXPECT_TRUE(loads_differ(studies::points_in_memory(all)));
+  EXPECT_FALSE(write_sweep_figure(folder.path(), output(), studies::points_in_memory(all), SweepFigure::load_sharing));
+  const std::string data = contents(folder / "load_sharing.dat");
+  EXPECT_NE(data.find("3 1 1 1 0.5 1.5\n"), std::string::npos) << data;
+}
+
+TEST(ResponseOutput, SpectraAreAMapOfEachDirectionAndADataset) {
+  const TemporaryFolder folder;
+  const std::vector<PointResult> all = points();
+  const studies::PointSource source = studies::points_in_memory(all);
+  for (const SweepFigure figure : {SweepFigure::waterfall_first, SweepFigure::waterfall_second})
+    EXPECT_FALSE(write_sweep_figure(folder.path(), output(), source, figure));
+  // The mean is left out, and what is below the floor; up, the second point has none.
+  EXPECT_EQ(contents(folder / "waterfall_delta_sp_up.dat"),
+            "# x from, x to, y from, y to, decades\n"
+            "0.5 1.5 0.25 0.75 -0.875\n"
+            "2.5 3.5 0.25 0.75 -0.625\n");
+  EXPECT_EQ(contents(folder / "waterfall_delta_sp_down.dat"),
+            "# x from, x to, y from, y to, decades\n"
+            "0.5 1.5 0.25 0.75 -0.125\n"
+            "1.5 3.5 0.25 0.75 -0.375\n");
+  write_results_h5(folder / "results.h5", output(), source);
+  const store::Hdf5Dataset values = store::read_hdf5(folder / "results.h5", "/spectra/delta_sp_1");
+  ASSERT_EQ(values.values.size(), 18U);
+  EXPECT_TRUE(std::isnan(values.values[3]));
+  EXPECT_EQ(values.values[7], all[2].spectrum[1]);
+  EXPECT_EQ(store::read_hdf5(folder / "results.h5", "/spectra/order").values, (std::vector<double>{0.0, 0.5, 1.0}));
+}
+
+}  // namespace
+}  // namespace epicyclic::reports

@@ -1,0 +1,190 @@
+// What is told of meshes and bearings over whole periods, against signals that are known and against sums one by one.
+
+#include "studies/stage_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "model/dynamic_model.hpp"
+#include "problems/r1.hpp"
+
+namespace epicyclic::studies {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double rounding = 1e-13;  // of sums of some hundred numbers of size 1
+
+/// A state of two numbers that are the deflections of a sun mesh and a ring mesh.
+model::DynamicModel two_signals(double half_gap) {
+  model::DynamicModel m;
+  m.planets = 1;
+  m.dimension = 2;
+  m.sun_planet_half_gap = m.ring_planet_half_gap = half_gap;
+  m.deflections = [](double, const double* y, model::MeshDeflections& d) {
+    d.sun_planet = {y[0]};
+    d.ring_planet = {y[1]};
+  };
+  return m;
+}
+
+/// @param signal  of s, which goes on over the periods
+StageRecord record_of(const std::function<double(double s)>& signal, int phases, int periods, double half_gap = 1.0) {
+  const model::DynamicModel m = two_signals(half_gap);
+  StageWatch watch(m, phases);
+  for (int j = 1; j <= periods * phases; ++j) {
+    const double s = 2.0 * pi * j / phases;
+    const std::array y = {signal(s), -signal(s)};
+    watch.see(y);
+  }
+  return watch.finish();
+}
+
+TEST(StageWatch, TellsWhatAHarmonicMotionIs) {
+  // Phases that are whole groups of looks, and those that are not.
+  for (const int phases : {64, 36, 20, 12}) {
+    const StageRecord r = record_of(
+        [](double s) { return 3.0 + 0.5 * std::cos(s) + 0.25 * std::sin(2.0 * s) + 0.125 * std::cos(3.0 * s + 1.0); },
+        phases, 3);
+    const Course& sp = r.sun_planet[0].delta;
+    EXPECT_NEAR(sp.mean, 3.0, rounding) << phases;
+    EXPECT_NEAR(sp.rms, std::sqrt((0.25 + 0.0625 + 0.015625) / 2.0), rounding) << phases;
+    EXPECT_NEAR(r.ring_planet[0].delta.mean, -3.0, rounding);
+    EXPECT_NEAR(r.ring_planet[0].delta.largest, -sp.least, 0.0);
+    EXPECT_NEAR(r.sun_planet_harmonics[0], 0.5, rounding) << phases;
+    EXPECT_NEAR(r.sun_planet_harmonics[1], 0.25, rounding) << phases;
+    EXPECT_NEAR(r.sun_planet_harmonics[2], 0.125, rounding) << phases;
+    EXPECT_NEAR(r.ring_planet_harmonics[0], 0.5, rounding);
+  }
+  const StageRecord r = record_of([](double s) { return std::cos(s); }, 64, 2);
+  EXPECT_NEAR(r.sun_planet[0].delta.range(), 2.0, rounding);
+}
+
+TEST(StageWatch, SubharmonicsAreNoMeshHarmonics) {
+  const StageRecord r = record_of([](double s) { return std::cos(s / 2.0) + 0.3 * std::cos(s); }, 64, 8);
+  EXPECT_NEAR(r.sun_planet_harmonics[0], 0.3, rounding);
+  EXPECT_NEAR(r.sun_planet_harmonics[1], 0.0, rounding);
+  EXPECT_NEAR(r.sun_planet[0].delta.rms, std::sqrt((1.0 + 0.09) / 2.0), rounding);
+}
+
+TEST(StageWatch, HarmonicsThatCannotBeToldAreNone) {
+  const StageRecord r = record_of([](double s) { return std::cos(s); }, 4, 2);
+  EXPECT_NEAR(r.sun_planet_harmonics[0], 1.0, rounding);
+  EXPECT_TRUE(std::isnan(r.sun_planet_harmonics[1])) << "two samples of a wave";
+  EXPECT_TRUE(std::isnan(r.sun_planet_harmonics[2]));
+}
+
+TEST(StageWatch, ASmallMotionIsNotLostInItsMean) {
+  const double small = 1e-9;
+  const StageRecord r = record_of([small](double s) { return 4.0 + small * std::cos(s); }, 64, 4);
+  constexpr double of_the_mean = 4.0 * 2.3e-16;  // a sample's own rounding
+  EXPECT_NEAR(r.sun_planet[0].delta.rms, small / std::sqrt(2.0), of_the_mean);
+}
+
+TEST(StageWatch, TellsHowLongAMeshIsOnEachSide) {
+  // cos s > 1/2 for a third of the time; at 12 phases for 3 of them, since the ends do not count.
+  for (const int phases : {12, 20, 64}) {
+    const auto wave = [](double s) { return std::cos(s); };
+    long drive = 0;
+    long back = 0;
+    for (int j = 1; j <= 3 * phases; ++j) {
+      drive += wave(2.0 * pi * j / phases) > 0.5 ? 1 : 0;
+      back += wave(2.0 * pi * j / phases) < -0.5 ? 1 : 0;
+    }
+    const StageRecord r = record_of(wave, phases, 3, 0.5);
+    const MeshRecord& sp = r.sun_planet[0];
+    EXPECT_NEAR(sp.drive, static_cast<double>(drive) / (3.0 * phases), rounding) << phases;
+    EXPECT_NEAR(sp.back, static_cast<double>(back) / (3.0 * phases), rounding) << phases;
+    EXPECT_NEAR(sp.drive + sp.loss + sp.back, 1.0, rounding);
+    EXPECT_EQ(sp.contact(), "drive+loss+back");
+  }
+  EXPECT_EQ(record_of([](double) { return 2.0; }, 12, 1).sun_planet[0].contact(), "drive");
+}
+
+TEST(StageWatch, ARecordThatBrokeOffTellsWhatWasSeen) {
+  const model::DynamicModel m = two_signals(1.0);
+  StageWatch watch(m, 64);
+  double sum = 0.0;
+  for (int j = 1; j <= 64 + 11; ++j) {
+    const double x = 0.01 * j;
+    sum += x;
+    watch.see(std::array{x, -x});
+  }
+  const StageRecord r = watch.finish();
+  EXPECT_NEAR(r.sun_planet[0].delta.mean, sum / 75.0, rounding);
+  EXPECT_EQ(r.sun_planet[0].delta.largest, 0.75);
+  EXPECT_EQ(r.sun_planet[0].delta.least, 0.01);
+  EXPECT_NEAR(r.sun_planet[0].loss, 1.0, rounding);
+  EXPECT_TRUE(std::isnan(r.sun_planet_harmonics[0])) << "over whole periods only";
+  StageWatch none(m, 64);
+  const StageRecord nothing = none.finish();
+  EXPECT_TRUE(std::isnan(nothing.sun_planet[0].delta.mean));
+  EXPECT_EQ(nothing.sun_planet[0].contact(), "");
+}
+
+TEST(StageWatch, TellsTheForcesOfAStageOneByOne) {
+  const gear::Stage stage = problems::r1_nonlinear();
+  const model::Scales scales = model::scales_of(stage);
+  const model::DynamicModel m = model::make_dynamic_model(stage, scales, 0.9, {});
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> component(-6.0, 6.0);  // on all three sides of the gaps
+  constexpr int phases = 20;
+  StageWatch watch(m, phases);
+  std::vector<double> sp_2;
+  std::vector<double> bearing;
+  double greatest = 0.0;
+  double spread = 0.0;
+  for (int j = 1; j <= 2 * phases; ++j) {
+    std::vector<double> y(m.dimension);
+    for (double& x : y) x = component(random);
+    watch.see(y);
+    const double s = 2.0 * pi * (j > phases ? j - phases : j) / phases;
+    model::StageForces f;
+    model::MeshDeflections d;
+    m.forces(s, y.data(), f);
+    m.deflections(s, y.data(), d);
+    sp_2.push_back(scales.force_newton(f.sun_planet[1]));
+    bearing.push_back(scales.force_newton(f.planet_bearing[2]));
+    for (const double force : f.sun_planet) greatest = std::max(greatest, scales.force_newton(force));
+    for (const auto* list : {&d.sun_planet, &d.ring_planet}) {
+      const auto [least, most] = std::minmax_element(list->begin(), list->end());
+      spread = std::max(spread, *most - *least);
+    }
+  }
+  const StageRecord r = watch.finish();
+  const auto expect = [](const Course& told, const std::vector<double>& x) {
+    const auto n = static_cast<double>(x.size());
+    double mean = 0.0;
+    for (const double v : x) mean += v / n;
+    double square = 0.0;
+    for (const double v : x) square += (v - mean) * (v - mean) / n;
+    const double size = *std::max_element(x.begin(), x.end());
+    EXPECT_NEAR(told.mean, mean, rounding * size);
+    EXPECT_NEAR(told.rms, std::sqrt(square), rounding * size);
+    EXPECT_NEAR(told.largest, size, rounding * size);
+    EXPECT_NEAR(told.least, *std::min_element(x.begin(), x.end()), rounding * size);
+  };
+  expect(r.sun_planet[1].force, sp_2);
+  expect(r.planet_bearing[2], bearing);
+  EXPECT_NEAR(r.planet_spread, spread, rounding * spread);
+  EXPECT_NEAR(r.static_force, scales.force_newton(m.static_mesh_force), rounding * r.static_force);
+  EXPECT_NEAR(r.dynamic_factor(r.sun_planet), greatest / r.static_force, rounding * greatest / r.static_force);
+  double shares = 0.0;
+  double largest_shares = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    shares += StageRecord::share(r.sun_planet, &Course::mean, i);
+    largest_shares += StageRecord::share(r.sun_planet, &Course::largest, i);
+  }
+  EXPECT_NEAR(shares, 3.0, rounding * 10.0);
+  EXPECT_NEAR(largest_shares, 3.0, rounding * 10.0);
+  EXPECT_NEAR(StageRecord::share(r.sun_planet, &Course::mean, 1) / StageRecord::share(r.sun_planet, &Course::mean, 0),
+              r.sun_planet[1].force.mean / r.sun_planet[0].force.mean, rounding * 1e3);
+}
+
+}  // namespace
+}  // namespace epicyclic::studies
