@@ -26,13 +26,27 @@ studies::KnownEvaluations read_known(const store::Journal& journal, std::size_t&
 
 }  // namespace
 
-CandidateJournal::CandidateJournal(Session& session, const std::string& command, std::size_t total, std::size_t claims)
+CandidateJournal::CandidateJournal(Session& session, const std::string& command, std::size_t total, std::size_t whole,
+                                   std::size_t claims)
     : journal_(session.folder().file("journal.bin"), session.identity()),
       known_(read_known(journal_, finished_)),
       claims_(claims),
-      progress_(command, total, finished_) {
+      command_(command),
+      total_(total),
+      whole_(whole) {
   tell_cut_tail(session.folder().file("journal.bin"), journal_.cut_bytes());
   for (const auto& [key, candidate] : known_) see(candidate);
+  if (finished_ < total_) progress_.emplace(command_, total_, finished_);
+  tell_progress();
+}
+
+void CandidateJournal::tell_progress() {
+  if (finished_ >= total_ && whole_ > 0 && !of_whole_) {
+    of_whole_ = true;
+    if (progress_) progress_->update(finished_, words());
+    progress_.emplace(command_ + ", whole sweeps", whole_, finished_ - total_);
+  }
+  if (progress_) progress_->update(of_whole_ ? finished_ - total_ : finished_, words());
 }
 
 studies::CalibrationRun CandidateJournal::run(int threads, const std::atomic<bool>& stop) {
@@ -43,7 +57,8 @@ studies::CalibrationRun CandidateJournal::run(int threads, const std::atomic<boo
   run.evaluated = [this](const studies::EvaluatedCandidate& candidate) {
     journal_.append(finished_, store::encode_candidate(candidate));
     see(candidate);
-    progress_.update(++finished_, words());
+    ++finished_;
+    tell_progress();
   };
   return run;
 }
@@ -60,7 +75,7 @@ std::string CandidateJournal::words() const {
 }
 
 void CandidateJournal::close() {
-  progress_.finish();
+  if (progress_) progress_->finish();
   journal_.close();
 }
 

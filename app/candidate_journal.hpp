@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "progress.hpp"
@@ -17,7 +18,9 @@ class CandidateJournal {
  public:
   /// @param command  for the progress line
   /// @param total    evaluations at the most
-  CandidateJournal(Session& session, const std::string& command, std::size_t total, std::size_t claims);
+  /// @param whole    by whole sweeps, after all of those: they take longer, and have a progress line of their own
+  CandidateJournal(Session& session, const std::string& command, std::size_t total, std::size_t whole,
+                   std::size_t claims);
   CandidateJournal(const CandidateJournal&) = delete;
   CandidateJournal& operator=(const CandidateJournal&) = delete;
 
@@ -30,6 +33,7 @@ class CandidateJournal {
  private:
   void see(const studies::EvaluatedCandidate& candidate);
   [[nodiscard]] std::string words() const;
+  void tell_progress();
 
   store::Journal journal_;
   std::size_t finished_ = 0;  ///< records; before what counts them
@@ -37,7 +41,10 @@ class CandidateJournal {
   std::size_t claims_ = 0;
   std::size_t most_ = 0;  ///< claims that one candidate meets
   double least_ = std::numeric_limits<double>::infinity();
-  Progress progress_;
+  std::string command_;
+  std::size_t total_, whole_;
+  std::optional<Progress> progress_;
+  bool of_whole_ = false;  ///< what the line is of
 };
 
 }  // namespace epicyclic::app

@@ -34,7 +34,7 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
   if (const auto code = session.exit_code()) return *code;
   const store::OutputFolder& folder = session.folder();
   const auto draws = static_cast<std::size_t>(options.survey.draws);
-  CandidateJournal journal(session, "robustness", draws + static_cast<std::size_t>(options.survey.confirmed),
+  CandidateJournal journal(session, "robustness", draws, static_cast<std::size_t>(options.survey.confirmed),
                            options.claims.size());
   studies::KnownEvaluations evaluations;
   shared.run(evaluator_by(studies::survey_glance)(input, arguments, shared.stop()),

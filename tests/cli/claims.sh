@@ -134,6 +134,7 @@ done
 
 # The survey of draws: the same bytes for any number of threads.
 [ "$(code_of "$epicyclic" robustness claims.json -o r1 --threads 1)" = 0 ] || fail "robustness: $(<stderr)"
+grep -q '^robustness, whole sweeps 2/2 ' stderr || fail "whole sweeps have no progress of their own: $(<stderr)"
 grep -q '^| A | little is chaotic |' stdout || fail "no table: $(<stdout)"
 [ "$(code_of "$epicyclic" robustness claims.json -o r2 --threads 2)" = 0 ] || fail "two threads: $(<stderr)"
 for file in draws.csv robustness.csv influence.csv options.csv robustness.md figures/robustness.dat; do
