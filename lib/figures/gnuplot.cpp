@@ -343,13 +343,14 @@ void append_literal(std::string& text, char32_t point) {
 constexpr double font_height = 32;         // of size 24
 constexpr double legend_font_height = 29;  // of size 22
 constexpr double right_edge = 0.975;       // of the canvas
+constexpr int second_abscissa = 92;        // its tics and label
 
 /// Tags of labels beyond those that gnuplot gives.
 constexpr int title_tag = 1000;
 constexpr int label_tag = 1001;
 
 /// %h has six digits: more where the range is a small part of its values.
-std::string more_digits(char axis, const FigureRange& range) {
+std::string more_digits(std::string_view axis, const FigureRange& range) {
   const double largest = std::max(std::abs(range.low), std::abs(range.high));
   return fmt::format("set format {} '{}'\n", axis, range.high - range.low < 1e-3 * largest ? "%.9h" : "%h");
 }
@@ -393,7 +394,23 @@ std::string title_expression(const std::string& title) {
       png, rare, gnuplot_quoted(plain), gnuplot_quoted(title));
 }
 
-Head head_of(const std::string& plain_title, const std::vector<std::string>& legend, const FigureCanvas& canvas) {
+/// A second abscissa takes nothing from the frame.
+FigureCanvas with_room(FigureCanvas canvas, const FigureText& text) {
+  if (text.above) canvas.height += second_abscissa;
+  return canvas;
+}
+
+/// The abscissa above the frame, if there is one.
+std::string second_abscissa_of(const FigureText& text, const FigureRange& x) {
+  if (!text.above) return {};
+  const FigureRange above{x.low * text.above->factor, x.high * text.above->factor};
+  return fmt::format(
+      "set xtics nomirror\nset x2range [{}:{}]\nset x2tics\nset mx2tics 5\n{}set x2label {} offset 0,-0.4\n",
+      text_of(above.low), text_of(above.high), more_digits("x2", above),
+      gnuplot_quoted(portable_text(text.above->label)));
+}
+
+Head head_of(const FigureText& text, const std::vector<std::string>& legend, const FigureCanvas& canvas) {
   constexpr double pad = 12;
   constexpr double title_line = 46;
   constexpr double legend_line = 34;
@@ -401,7 +418,7 @@ Head head_of(const std::string& plain_title, const std::vector<std::string>& leg
   constexpr double left = 190;  // of the frame, at most
   constexpr double least_font = 10;
   const double width = right_edge * canvas.width - left;
-  const std::string title = portable_text(plain_title);
+  const std::string title = portable_text(text.title);
   const double title_width = font_height * text_width(title);
   const auto vertical = [&](double pixels) { return text_of(1.0 - pixels / canvas.height); };
   Head head;
@@ -438,6 +455,7 @@ Head head_of(const std::string& plain_title, const std::vector<std::string>& leg
   }
   head.height = std::min(y + above_frame, 0.6 * canvas.height);
   if (title.empty() && legend.empty()) head.height = 24;  // half a label of a tic
+  if (text.above) head.height += second_abscissa;
   head.settings += fmt::format("set tmargin screen {}\n", vertical(head.height));
   return head;
 }
@@ -604,8 +622,9 @@ double text_width(std::string_view text) {
 
 std::string figure_script(std::string_view stem, const FigureText& text, const FigureRange& x, const FigureRange& y,
                           const std::vector<std::string>& legend, const std::vector<FigureMarker>& markers,
-                          std::string_view extra, std::string_view plot, const FigureCanvas& canvas) {
-  const Head head = head_of(text.title, legend, canvas);
+                          std::string_view extra, std::string_view plot, const FigureCanvas& given) {
+  const FigureCanvas canvas = with_room(given, text);
+  const Head head = head_of(text, legend, canvas);
   std::string script = opening(stem);
   script += fmt::format(
       "set xrange [{0}:{1}]\n"
@@ -615,7 +634,7 @@ std::string figure_script(std::string_view stem, const FigureText& text, const F
       "set rmargin screen {6}\n",
       text_of(x.low), text_of(x.high), text_of(y.low), text_of(y.high), gnuplot_quoted(portable_text(text.x_label)),
       gnuplot_quoted(portable_text(text.y_label)), right_edge);
-  script += more_digits('x', x) + more_digits('y', y) + head.settings;
+  script += more_digits("x", x) + more_digits("y", y) + head.settings + second_abscissa_of(text, x);
   if (!markers.empty()) script += "set style textbox opaque noborder fillcolor '#ffffff' margins 0.4,0.4\n";
   for (const FigureMarker& marker : markers) {
     if (!(marker.x >= x.low && marker.x <= x.high)) continue;
@@ -643,11 +662,12 @@ std::string named_tics(const std::vector<std::pair<double, std::string>>& names)
 
 std::string panel_script(std::string_view stem, const FigureText& text, const FigureRange& x,
                          const std::vector<FigurePanel>& panels, const std::vector<std::string>& legend,
-                         std::string_view extra, const FigureCanvas& canvas) {
+                         std::string_view extra, const FigureCanvas& given) {
+  const FigureCanvas canvas = with_room(given, text);
   constexpr double bottom = 130;  // tics and label of the abscissa [pixels]
   constexpr double apart = 28;    // half a label of a tic on both sides [pixels]
   constexpr double label_place = 40;
-  const Head head = head_of(text.title, legend, canvas);
+  const Head head = head_of(text, legend, canvas);
   double left = 0.0;  // one edge for all
   double parts = 0.0;
   for (const FigurePanel& panel : panels) {
@@ -672,17 +692,18 @@ std::string panel_script(std::string_view stem, const FigureText& text, const Fi
     commands += fmt::format("set yrange [{}:{}]\n", text_of(panel.y.low), text_of(panel.y.high));
     commands += fmt::format("set label {} {} at screen {}, graph 0.5 center rotate by 90\n", label_tag,
                             gnuplot_quoted(portable_text(panel.y_label)), text_of(label_place / canvas.width));
-    commands += more_digits('y', panel.y);
+    commands += more_digits("y", panel.y);
     if (panel.logarithmic) commands += "set logscale y\n";
     if (!panel.names.empty()) commands += "set ytics " + named_tics(panel.names) + "\n";
-    if (k == 0) commands += head.title;
+    if (k == 0) commands += head.title + second_abscissa_of(text, x);
     if (k + 1 == panels.size())
-      commands += fmt::format("set format x '%h'\n{}set xlabel {}\n", more_digits('x', x),
+      commands += fmt::format("set format x '%h'\n{}set xlabel {}\n", more_digits("x", x),
                               gnuplot_quoted(portable_text(text.x_label)));
     commands += fmt::format("plot {}\n", panel.plot);
     if (panel.logarithmic) commands += "unset logscale y\n";
     if (!panel.names.empty()) commands += "set ytics autofreq\n";
     if (k == 0) commands += fmt::format("unset label {}\nunset key\n", title_tag);
+    if (k == 0 && text.above) commands += "unset x2tics\nunset x2label\nset xtics mirror\n";
     top += height + apart;
   }
   return fmt::format("{}set rmargin screen {}\n{}{}{}", opening(stem), right_edge, head.settings, extra,

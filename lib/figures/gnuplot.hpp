@@ -46,11 +46,18 @@ struct FigureRange {
 /// Share of the height of the data that is left free above and below them [-].
 inline constexpr double figure_margin = 0.04;
 
+/// The abscissa in another unit, above the frame.
+struct SecondAbscissa {
+  std::string label;
+  double factor = 1;  ///< its number over that of the abscissa
+};
+
 /// Title and axis labels of a figure; the title may be empty. A long title is written smaller.
 struct FigureText {
   std::string title;
   std::string x_label;
   std::string y_label;
+  std::optional<SecondAbscissa> above{};
 };
 
 /// A vertical line at an abscissa, with a label; not drawn outside the figure.

@@ -243,6 +243,7 @@ DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& sca
   };
   m.looks = make_stage_looks(layout, p);
   m.scales = scales;
+  m.speeds = gear::speeds(stage, mesh_frequency_ratio * scales.omega_sn);
   m.origin = constants;
   if (has_computed_tables(stage)) {
     m.with_halved_tables = [layout, stage = std::make_shared<const gear::Stage>(stage), scales, mesh_frequency_ratio,

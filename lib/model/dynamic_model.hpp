@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/vector_field.hpp"
+#include "gear/kinematics.hpp"
 #include "gear/stage.hpp"
 #include "model/layout.hpp"
 #include "model/options.hpp"
@@ -52,6 +53,7 @@ struct DynamicModel : VectorField {
   double ring_planet_half_gap = 0;       ///< b_rp [b_c]
   double omega = 0;                      ///< Omega
   Scales scales;                         ///< that the stage was made dimensionless with
+  gear::Speeds speeds{};                 ///< of its members
 
   /// Allocation-free when `out` has been used before. Rates included.
   std::function<void(double s, const double* y, MeshDeflections& out)> deflections;

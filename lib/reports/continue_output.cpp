@@ -519,8 +519,11 @@ void BranchSketch::add_multipliers() {
 
 DrawnFigure BranchSketch::draw(const std::filesystem::path& folder, const std::string& title_more) {
   const char* subscript = mesh_ == MeshKind::sun_planet ? "sp" : "rp";
-  const figures::FigureText text{figures::literal_text(output_.title) + title_more,
-                                 parameter_label(output_.options.parameter), ""};
+  figures::FigureText text{figures::literal_text(output_.title) + title_more,
+                           parameter_label(output_.options.parameter), ""};
+  for (const auto& rows : traced_.rows)
+    for (const studies::BranchRow& row : rows)
+      if (!text.above && row.carried) text.above = speed_above(output_.options.parameter, row.omega, row.meshes);
   const DrawnFigure none{folder / (sketch_.stem() + ".png"), {"there is no orbit to draw"}};
   if (y_.empty()) return none;
   figures::FigurePanel panel{

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -104,12 +105,13 @@ std::optional<std::string> stem_of(const SweepOutput& output, SweepFigure figure
 /// Of the Poincare section.
 const char* column_of(SweepFigure figure) { return figure == SweepFigure::delta_rp ? "delta_rp_1" : "delta_sp_1"; }
 
-figures::FigureText text_of(const SweepOutput& output, SweepFigure figure) {
+figures::FigureText text_of(const SweepOutput& output, const studies::PointSource& points, SweepFigure figure) {
   figures::FigureText text{
       figures::literal_text(output.title), parameter_label(output.sweep.axis.name),
       fmt::format("Poincaré points of  δ_{{{}}} / b_c", figure == SweepFigure::delta_rp ? "rp" : "sp")};
   if (const auto direction = direction_of(figure))
     text.title += ", " + store::direction_word(output.sweep.directions[*direction]);
+  text.above = speed_above(output.sweep.axis.name, points);
   return text;
 }
 
@@ -171,6 +173,19 @@ std::string parameter_label(const std::string& parameter) {
 std::string parameter_symbol(const std::string& parameter) {
   const studies::NamedParameter* named = studies::find_parameter(parameter);
   return named == nullptr ? figures::literal_text(parameter) : named->symbol;
+}
+
+std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter, double omega,
+                                                   const studies::StageRecord& record) {
+  constexpr double rpm = 60.0 / (2.0 * std::numbers::pi);
+  if (parameter != studies::speed_parameter || !(omega > 0.0) || !(record.speeds.sun > 0.0)) return std::nullopt;
+  return figures::SecondAbscissa{"Sun speed  n_s  [rpm]", rpm * record.speeds.sun / omega};
+}
+
+std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter, const studies::PointSource& points) {
+  if (points.count == 0) return std::nullopt;
+  const PointSummary first = points.read_brief(0);
+  return speed_above(parameter, first.omega, first.meshes);
 }
 
 std::string figure_title(const input::Study& study) {
@@ -284,7 +299,7 @@ std::optional<DrawnFigure> write_sweep_figure(const std::filesystem::path& folde
                                               const studies::PointSource& points, SweepFigure figure) {
   const auto stem = stem_of(output, figure);
   if (!stem) return std::nullopt;
-  const figures::FigureText text = text_of(output, figure);
+  const figures::FigureText text = text_of(output, points, figure);
   const ResponseInput response{output.sweep, points, text};
   figures::FigureOutcome outcome;
   switch (figure) {

@@ -25,6 +25,13 @@ namespace epicyclic::reports {
 [[nodiscard]] std::string parameter_label(const std::string& parameter);
 [[nodiscard]] std::string parameter_symbol(const std::string& parameter);
 
+/// The sun's speed in rpm, over an abscissa that is the mesh frequency ratio; nothing over any other.
+/// @param points  of which one was seen
+[[nodiscard]] std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter,
+                                                                 const studies::PointSource& points);
+[[nodiscard]] std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter, double omega,
+                                                                 const studies::StageRecord& record);
+
 /// Name of study or stage with the boundary and, unless it is swept, the speed: for figures.
 [[nodiscard]] std::string figure_title(const input::Study& study);
 

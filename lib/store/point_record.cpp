@@ -68,7 +68,8 @@ void pass(A& a, studies::MeshHarmonics& h) {
 template <class A>
 void pass(A& a, studies::StageRecord& r) {
   pass_all(a, r.sun_planet, r.ring_planet, r.planet_spread, r.planet_bearing, r.sun_bearing, r.transmission_error,
-           r.sun_planet_harmonics, r.ring_planet_harmonics, r.transmission_error_harmonics, r.static_force);
+           r.sun_planet_harmonics, r.ring_planet_harmonics, r.transmission_error_harmonics, r.static_force,
+           r.mesh_frequency, r.speeds.sun, r.speeds.carrier);
 }
 template <class A>
 void pass(A& a, studies::GridPoint& p) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <numbers>
 #include <string>
 
 namespace epicyclic::store {
@@ -93,6 +94,7 @@ std::vector<StageColumn> contact_columns() {
 }
 
 std::vector<StageColumn> stage_columns() {
+  constexpr double rpm = 60.0 / (2.0 * std::numbers::pi);
   std::vector<StageColumn> all;
   add(all, "planet_spread", "b_c", "largest difference between planets' deflections",
       Number([](const StageRecord& r) { return r.planet_spread; }));
@@ -127,6 +129,12 @@ std::vector<StageColumn> stage_columns() {
             [](const StageRecord& r) -> const Course& { return r.sun_bearing; });
   add(all, "static_force", "N", "static force of a sun mesh: torque over base radius and number of planets",
       Number([](const StageRecord& r) { return r.static_force; }));
+  add(all, "mesh_frequency_Hz", "Hz", "mesh frequency",
+      Number([](const StageRecord& r) { return r.mesh_frequency / (2.0 * std::numbers::pi); }));
+  add(all, "sun_speed_rpm", "rpm", "speed of the sun",
+      Number([=](const StageRecord& r) { return rpm * r.speeds.sun; }));
+  add(all, "carrier_speed_rpm", "rpm", "speed of the carrier",
+      Number([=](const StageRecord& r) { return rpm * r.speeds.carrier; }));
   return all;
 }
 

@@ -181,6 +181,8 @@ StageRecord StageWatch::finish() {
   all.ring_planet_harmonics = harmonics(profiles_[1]);
   all.transmission_error_harmonics = harmonics(profiles_[2]);
   all.static_force = newton * model_.static_mesh_force;
+  all.mesh_frequency = model_.omega * model_.scales.omega_sn;
+  all.speeds = model_.speeds;
   return all;
 }
 

@@ -56,7 +56,9 @@ struct StageRecord {
   Course transmission_error;            ///< [S-te] [b_c]
   MeshHarmonics sun_planet_harmonics{}, ring_planet_harmonics{};  ///< of the deflections of planet 1
   MeshHarmonics transmission_error_harmonics{};
-  double static_force = 0;  ///< F_0 [N]
+  double static_force = 0;    ///< F_0 [N]
+  double mesh_frequency = 0;  ///< omega_m [rad/s]
+  gear::Speeds speeds{};
 
   /// [S-share] of planets' meshes of one kind, by a number of each.
   /// @returns not a number of forces without a sum

@@ -62,6 +62,8 @@ std::vector<PointResult> points(std::size_t planets) {
       for (double& x : *harmonics) x = number();
     stage.planet_spread = number();
     stage.static_force = number();
+    stage.mesh_frequency = number();
+    stage.speeds = {number(), number()};
   };
   std::vector<PointResult> all(3);
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -2,7 +2,10 @@
 
 #include "reports/response_output.hpp"
 
+#include <cmath>
+#include <filesystem>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -68,6 +71,25 @@ TEST(ResponseOutput, CurvesAreOfEachDirectionAndOfReachedPointsAlone) {
   EXPECT_NE(script.find("Mesh frequency ratio"), std::string::npos) << script.substr(0, 2000);
   EXPECT_FALSE(write_sweep_figure(folder.path(), output(), source, SweepFigure::dynamic_factor));
   EXPECT_NE(contents(folder / "dynamic_factor.dat").find("1 1 2.5 2.5\n"), std::string::npos);
+}
+
+TEST(ResponseOutput, SpeedsInRpmStandAboveTheFrame) {
+  const TemporaryFolder folder;
+  std::vector<PointResult> all = points();
+  EXPECT_FALSE(speed_above("mesh_frequency_ratio", studies::points_in_memory(all))) << "no speed is known";
+  for (PointResult& p : all) {
+    p.omega = p.point.value;
+    p.meshes.speeds.sun = 2.0 * std::numbers::pi * 10.0 * p.omega;  // 600 rpm at Omega = 1
+  }
+  const auto above = speed_above("mesh_frequency_ratio", studies::points_in_memory(all));
+  ASSERT_TRUE(above);
+  EXPECT_NEAR(above->factor, 600.0, 1e-10);
+  EXPECT_FALSE(speed_above("damping_ratio", studies::points_in_memory(all)));
+  EXPECT_FALSE(write_sweep_figure(folder.path(), output(), studies::points_in_memory(all), SweepFigure::response_sp));
+  const std::string script = contents(folder / "response_delta_sp.gp");
+  EXPECT_NE(script.find("set x2range [600:1800]"), std::string::npos) << script;
+  EXPECT_NE(script.find("set x2label 'Sun speed  n_s  [rpm]'"), std::string::npos);
+  EXPECT_NE(script.find("unset x2tics"), std::string::npos) << "the lower frame has none";
 }
 
 TEST(ResponseOutput, NoLineGoesThroughChaos) {

@@ -172,6 +172,10 @@ TEST(StageWatch, TellsTheForcesOfAStageOneByOne) {
   expect(r.sun_planet[1].force, sp_2);
   expect(r.planet_bearing[2], bearing);
   EXPECT_NEAR(r.planet_spread, spread, rounding * spread);
+  // Omega = 0.9 with the ring fixed: omega_s = omega_m / z_s (1 + z_s / z_r).
+  EXPECT_NEAR(r.mesh_frequency, 0.9 * scales.omega_sn, rounding * r.mesh_frequency);
+  EXPECT_NEAR(r.speeds.sun, r.mesh_frequency / 27.0 * (1.0 + 27.0 / 81.0), rounding * r.speeds.sun);
+  EXPECT_NEAR(r.speeds.carrier, r.mesh_frequency / 81.0, rounding * r.speeds.carrier);
   EXPECT_NEAR(r.static_force, scales.force_newton(m.static_mesh_force), rounding * r.static_force);
   EXPECT_NEAR(r.dynamic_factor(r.sun_planet), greatest / r.static_force, rounding * greatest / r.static_force);
   double shares = 0.0;
