@@ -8,9 +8,14 @@
 // Source: model.md section 4; any textbook on epicyclic trains. Limits: a stage that passes problems_for_motion().
 #pragma once
 
+#include <numbers>
+
 #include "gear/stage.hpp"
 
 namespace epicyclic::gear {
+
+/// 1 rad/s [rpm].
+inline constexpr double rpm = 30.0 / std::numbers::pi;
 
 /// Speeds at a mesh frequency omega_m [rad/s].
 struct Speeds {

@@ -203,7 +203,6 @@ void check_speed(Warnings& out, const std::string& pointer, const std::string& w
                  double density) {
   const double speed = std::abs(angular) * radius_mm * 1e-3;
   const double stress = density * speed * speed;
-  constexpr double rpm = 30.0 / std::numbers::pi;
   if (stress > strength_Pa)
     out.add(Rank::impossible, speed / std::sqrt(strength_Pa / density), pointer, "speed", what, " run at ", speed,
             " m/s (", std::abs(angular) * rpm, " rpm): a rim at that speed bears ", 1e-6 * stress,

@@ -270,11 +270,10 @@ std::vector<Quantity> operating_quantities(const gear::Stage& stage, double mesh
   const gear::Speeds speeds = gear::speeds(stage, mesh_frequency);
   const gear::Torques torques = gear::torques(stage, mesh_frequency);
   const gear::MeshLoad load = gear::mean_mesh_load(stage, mesh_frequency);
-  constexpr double rpm = 30.0 / std::numbers::pi;
   g.add("mesh_frequency_ratio", "Ω", mesh_frequency_ratio, "-", "of the study; 1 for a stage alone");
   g.add("mesh_frequency", "ω_m", mesh_frequency, "rad/s", "[M-23]");
-  g.add("sun_speed", "n_s", speeds.sun * rpm, "rpm", "[G-kin]");
-  g.add("carrier_speed", "n_c", speeds.carrier * rpm, "rpm", "[G-kin]");
+  g.add("sun_speed", "n_s", speeds.sun * gear::rpm, "rpm", "[G-kin]");
+  g.add("carrier_speed", "n_c", speeds.carrier * gear::rpm, "rpm", "[G-kin]");
   g.add("sun_torque", "T_D", torques.sun, "N m", "[G-kin]");
   g.add("carrier_load_torque", "T_c", torques.carrier, "N m", "[G-kin], external");
   g.add("ring_load_torque", "T_r", torques.ring, "N m", "[G-kin], external; a support's reaction is not in it");
@@ -316,7 +315,6 @@ std::vector<std::string> contact_verdicts(const gear::GearSet& set, const gear::
 std::string operation_verdict(const gear::Stage& stage, double mesh_frequency_ratio) {
   const double mesh_frequency = mesh_frequency_ratio * model::scales_of(stage).omega_sn;
   const gear::Speeds speeds = gear::speeds(stage, mesh_frequency);
-  constexpr double rpm = 30.0 / std::numbers::pi;
   constexpr double giga = 1e9;
   return fmt::format(
       "{}/{}/{} teeth, {} planets: ω_m = {:.4g} ω_s; at Ω = {:.4g} the sun turns at {:.0f} rpm, the carrier at {:.0f} "
@@ -324,9 +322,9 @@ std::string operation_verdict(const gear::Stage& stage, double mesh_frequency_ra
       "T_D = {:.4g} N m, mean mesh force {:.4g} N; mean stiffness {:.4g} (sun-planet) and {:.4g} (ring-planet) 10^9 "
       "N/m.",
       *stage.sun.teeth, *stage.planet.teeth, *stage.ring.teeth, stage.planet_count, mesh_frequency / speeds.sun,
-      mesh_frequency_ratio, speeds.sun * rpm, speeds.carrier * rpm, gear::torques(stage, mesh_frequency).sun,
-      gear::mean_mesh_load(stage, mesh_frequency).force_N, stage.sun_planet_mesh.stiffness_N_per_m / giga,
-      stage.ring_planet_mesh.stiffness_N_per_m / giga);
+      mesh_frequency_ratio, speeds.sun * gear::rpm, speeds.carrier * gear::rpm,
+      gear::torques(stage, mesh_frequency).sun, gear::mean_mesh_load(stage, mesh_frequency).force_N,
+      stage.sun_planet_mesh.stiffness_N_per_m / giga, stage.ring_planet_mesh.stiffness_N_per_m / giga);
 }
 
 std::string gear_page(const GearPage& page, const input::LoadedInput& input, const std::vector<model::Mode>& modes,

@@ -14,6 +14,7 @@
 
 #include "core/csv.hpp"
 #include "figures/bifurcation_figure.hpp"
+#include "gear/kinematics.hpp"
 #include "reports/response_output.hpp"
 #include "reports/table_output.hpp"
 #include "store/hdf5_file.hpp"
@@ -177,9 +178,8 @@ std::string parameter_symbol(const std::string& parameter) {
 
 std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter, double omega,
                                                    const studies::StageRecord& record) {
-  constexpr double rpm = 60.0 / (2.0 * std::numbers::pi);
   if (parameter != studies::speed_parameter || !(omega > 0.0) || !(record.speeds.sun > 0.0)) return std::nullopt;
-  return figures::SecondAbscissa{"Sun speed  n_s  [rpm]", rpm * record.speeds.sun / omega};
+  return figures::SecondAbscissa{"Sun speed  n_s  [rpm]", gear::rpm * record.speeds.sun / omega};
 }
 
 std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter, const studies::PointSource& points) {

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <string>
 
+#include "gear/kinematics.hpp"
+
 namespace epicyclic::store {
 
 namespace {
@@ -94,7 +96,6 @@ std::vector<StageColumn> contact_columns() {
 }
 
 std::vector<StageColumn> stage_columns() {
-  constexpr double rpm = 60.0 / (2.0 * std::numbers::pi);
   std::vector<StageColumn> all;
   add(all, "planet_spread", "b_c", "largest difference between planets' deflections",
       Number([](const StageRecord& r) { return r.planet_spread; }));
@@ -132,9 +133,9 @@ std::vector<StageColumn> stage_columns() {
   add(all, "mesh_frequency_Hz", "Hz", "mesh frequency",
       Number([](const StageRecord& r) { return r.mesh_frequency / (2.0 * std::numbers::pi); }));
   add(all, "sun_speed_rpm", "rpm", "speed of the sun",
-      Number([=](const StageRecord& r) { return rpm * r.speeds.sun; }));
+      Number([](const StageRecord& r) { return gear::rpm * r.speeds.sun; }));
   add(all, "carrier_speed_rpm", "rpm", "speed of the carrier",
-      Number([=](const StageRecord& r) { return rpm * r.speeds.carrier; }));
+      Number([](const StageRecord& r) { return gear::rpm * r.speeds.carrier; }));
   return all;
 }
 

@@ -53,15 +53,8 @@ TEST(Pulls, AreTheTensionOfTheForces) {
   // Teeth that lie on each other press; in the open gap and before they part, damping may pull.
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> component(-6.0, 6.0);  // on all three sides of the gaps
-  gear::Stage harmonics = problems::r1_nonlinear();
-  gear::Stage curve = harmonics;
-  for (gear::Mesh* mesh : {&curve.sun_planet_mesh, &curve.ring_planet_mesh}) {
-    mesh->stiffness_cos_N_per_m.clear();
-    mesh->stiffness_sin_N_per_m.clear();
-    const double k = mesh->stiffness_N_per_m;
-    mesh->stiffness_curve =
-        gear::StiffnessCurve{{0.0, 0.0, 0.3, 0.3, 0.6}, {k, 1.3 * k, 1.2 * k, 0.8 * k, 0.9 * k}, {0.0, 0.3}};
-  }
+  const gear::Stage harmonics = problems::r1_nonlinear();
+  const gear::Stage curve = problems::with_stiffness_curve(harmonics);
   long pulling = 0;
   long in_contact = 0;
   long on_the_back = 0;

@@ -32,14 +32,7 @@ std::vector<gear::Stage> stages() {
   gear::Stage radial = problems::literal(base);
   radial.sun_bearing.law = gear::BearingLaw::linear_radial;
   radial.sun_bearing.clearance_half_um = 3.0;
-  gear::Stage curve = problems::star(base);
-  for (gear::Mesh* mesh : {&curve.sun_planet_mesh, &curve.ring_planet_mesh}) {
-    mesh->stiffness_cos_N_per_m.clear();
-    mesh->stiffness_sin_N_per_m.clear();
-    const double k = mesh->stiffness_N_per_m;
-    mesh->stiffness_curve =
-        gear::StiffnessCurve{{0.0, 0.0, 0.3, 0.3, 0.6}, {k, 1.3 * k, 1.2 * k, 0.8 * k, 0.9 * k}, {0.0, 0.3}};
-  }
+  const gear::Stage curve = problems::with_stiffness_curve(problems::star(base));
   return {base, problems::rigid_ring(base), radial, curve, problems::with_teeth(base, 28, 26, 80, 3)};
 }
 

@@ -129,13 +129,7 @@ TEST(StiffnessCurve, ExcludesHarmonics) {
 
 TEST(StiffnessCurve, LanesOnPiecesOfDifferentKindsAreTheSingleRuns) {
   // Rows on a grid in one piece and on none in the other: each lane reads its own as a single run does.
-  gear::Stage stage = problems::r1();
-  for (gear::Mesh* mesh : {&stage.sun_planet_mesh, &stage.ring_planet_mesh}) {
-    const double k = mesh->stiffness_N_per_m;
-    mesh->stiffness_curve =
-        gear::StiffnessCurve{{0.0, 0.0, 0.3, 0.3, 0.6}, {k, 1.3 * k, 1.2 * k, 0.8 * k, 0.9 * k}, {0.0, 0.3}};
-  }
-  const DynamicModel m = model_of(stage);
+  const DynamicModel m = model_of(problems::with_stiffness_curve(problems::r1()));
   ASSERT_GE(m.breakpoints.size(), 2U);
   constexpr double rounding = 1e-12;  // of some hundred operations
   for (const char* set : {"baseline", "avx2", "avx512"}) {

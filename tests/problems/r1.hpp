@@ -70,6 +70,19 @@ inline gear::Stage with_gap(gear::Stage s, double half_gap_um = 40.0) {
   return s;
 }
 
+/// A curve in place of harmonics on both meshes: with a jump, and with rows that are even in one piece and not in the
+/// other.
+inline gear::Stage with_stiffness_curve(gear::Stage s) {
+  for (gear::Mesh* mesh : {&s.sun_planet_mesh, &s.ring_planet_mesh}) {
+    mesh->stiffness_cos_N_per_m.clear();
+    mesh->stiffness_sin_N_per_m.clear();
+    const double k = mesh->stiffness_N_per_m;
+    mesh->stiffness_curve =
+        gear::StiffnessCurve{{0.0, 0.0, 0.3, 0.3, 0.6}, {k, 1.3 * k, 1.2 * k, 0.8 * k, 0.9 * k}, {0.0, 0.3}};
+  }
+  return s;
+}
+
 /// Fourier stiffness of parameters.md section 3, with its means.
 inline gear::Stage with_moving_stiffness(gear::Stage s) {
   s.sun_planet_mesh.stiffness_N_per_m = 1.2589e9;
