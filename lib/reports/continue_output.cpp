@@ -476,13 +476,15 @@ void BranchSketch::add_contacts() {
     double y;
     const char* name;
     bool sun;
-    double studies::MeshRecord::*time;
+    double (*time)(const studies::MeshRecord&);
   };
   using studies::MeshRecord;
-  constexpr std::array<Strip, 4> strips = {{{4.0, "sp loss", true, &MeshRecord::loss},
-                                            {3.0, "sp back", true, &MeshRecord::back},
-                                            {2.0, "rp loss", false, &MeshRecord::loss},
-                                            {1.0, "rp back", false, &MeshRecord::back}}};
+  constexpr auto loss = +[](const MeshRecord& m) { return m.loss(); };
+  constexpr auto back = +[](const MeshRecord& m) { return m.back; };
+  constexpr std::array<Strip, 4> strips = {{{4.0, "sp loss", true, loss},
+                                            {3.0, "sp back", true, back},
+                                            {2.0, "rp loss", false, loss},
+                                            {1.0, "rp back", false, back}}};
   figures::FigurePanel panel{"Contact", {0.4, 4.6}, {}, 0.9};
   for (const Strip& s : strips) panel.names.emplace_back(s.y, s.name);
   sketch_.panel(panel);
@@ -492,7 +494,7 @@ void BranchSketch::add_contacts() {
       lines.add(rows, [&](std::size_t k) {
         if (!rows[k].carried) return gap;
         const auto& meshes = s.sun ? rows[k].meshes.sun_planet : rows[k].meshes.ring_planet;
-        return std::ranges::any_of(meshes, [&](const MeshRecord& m) { return m.*s.time > 0.0; }) ? s.y : gap;
+        return std::ranges::any_of(meshes, [&](const MeshRecord& m) { return s.time(m) > 0.0; }) ? s.y : gap;
       });
   for (auto& [x, y] : lines.unstable) y -= 0.18;
   sketch_.add(lines.unstable, figures::solid(figures::ink::red, 3.0));

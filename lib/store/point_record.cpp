@@ -59,11 +59,7 @@ void pass(A& a, studies::Course& c) {
 }
 template <class A>
 void pass(A& a, studies::MeshRecord& m) {
-  pass_all(a, m.delta, m.force, m.drive, m.loss, m.back, m.pull, m.pull_time);
-}
-template <class A>
-void pass(A& a, studies::MeshHarmonics& h) {
-  for (double& x : h) pass(a, x);
+  pass_all(a, m.delta, m.force, m.drive, m.back, m.pull, m.pull_time);
 }
 template <class A>
 void pass(A& a, studies::StageRecord& r) {
@@ -78,9 +74,10 @@ void pass(A& a, studies::GridPoint& p) {
 
 template <class A>
 void pass(A& a, analysis::AttractorRecord& r) {
-  pass_all(a, r.regime, r.dimension, r.orbit, r.orbit_error, r.waves, r.means, r.deviations, r.exponent);
-  a.require(r.dimension == 0 ? r.orbit.empty() : r.orbit.size() % r.dimension == 0,
-            "has an orbit that is not whole states");
+  pass_all(a, r.regime, r.dimension);
+  if (r.dimension == 0) return;  // none was kept
+  pass_all(a, r.orbit, r.orbit_error, r.waves, r.means, r.deviations, r.exponent);
+  a.require(r.orbit.size() % r.dimension == 0, "has an orbit that is not whole states");
   a.require(r.means.size() == r.deviations.size(), "has means without deviations");
 }
 
@@ -94,7 +91,8 @@ void pass_brief(A& a, studies::PointResult& r) {
 template <class A>
 void pass(A& a, studies::PointResult& r) {
   pass_brief(a, r);
-  pass_all(a, r.spectrum, r.spectrum_resolution);
+  pass(a, r.spectrum);
+  if (!r.spectrum.empty()) pass(a, r.spectrum_resolution);
   pass(a, r.poincare);
   a.require(r.poincare_columns == 0 ? r.poincare.empty() : r.poincare.size() % r.poincare_columns == 0,
             "has a Poincare section that is not whole rows");

@@ -158,9 +158,9 @@ std::vector<StageColumn> planet_columns(std::size_t planets) {
       };
       share("load_sharing_", "time mean of the force of ", &Course::mean);
       share("load_sharing_max_", "largest force of ", &Course::largest);
-      const auto time = [&](const char* name, const char* where, double MeshRecord::*member) {
+      const auto time = [&](const char* name, const char* where, const std::function<double(const MeshRecord&)>& part) {
         add(all, name + suffix, "part of the time", "how long " + mesh + where,
-            Number([meshes = kind.meshes, i, member](const StageRecord& r) { return (r.*meshes)[i].*member; }));
+            Number([meshes = kind.meshes, i, part](const StageRecord& r) { return part((r.*meshes)[i]); }));
       };
       time("drive_time_", " is in contact on its driving flank", &MeshRecord::drive);
       time("loss_time_", " is out of contact", &MeshRecord::loss);

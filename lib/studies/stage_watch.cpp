@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <numbers>
 
 #include "analysis/poincare.hpp"
@@ -27,6 +28,13 @@ double largest_of(const Numbers& x) {
   return most;
 }
 
+/// The largest of a number of some meshes; 0 of none.
+template <class F>
+double largest(const std::vector<MeshRecord>& meshes, const F& number) {
+  if (meshes.empty()) return 0.0;
+  return std::invoke(number, *std::ranges::max_element(meshes, {}, number));
+}
+
 /// What a model of one's own, without looks, tells of its meshes: deflections.
 model::StageLook look_at_deflections(const model::DynamicModel& model, const std::vector<double>& phases) {
   return [&model, phases, y = std::vector<double>(model.dimension), d = model::MeshDeflections()](
@@ -47,6 +55,12 @@ model::StageLook look_at_deflections(const model::DynamicModel& model, const std
 
 }  // namespace
 
+double MeshRecord::loss() const {
+  constexpr double rounding = 1e-12;  // far below the part of one sample
+  const double part = 1.0 - drive - back;
+  return std::abs(part) < rounding ? 0.0 : part;
+}
+
 std::string MeshRecord::contact() const {
   std::string text;
   const auto add = [&](double time, const char* word) {
@@ -55,7 +69,7 @@ std::string MeshRecord::contact() const {
     text += word;
   };
   add(drive, "drive");
-  add(loss, "loss");
+  add(loss(), "loss");
   add(back, "back");
   return text;
 }
@@ -67,22 +81,12 @@ double StageRecord::share(const std::vector<MeshRecord>& meshes, double Course::
 }
 
 double StageRecord::dynamic_factor(const std::vector<MeshRecord>& meshes) const {
-  double most = meshes.front().force.largest;
-  for (const MeshRecord& r : meshes) most = std::max(most, r.force.largest);
-  return most / static_force;
+  return largest(meshes, [](const MeshRecord& r) { return r.force.largest; }) / static_force;
 }
 
-double StageRecord::pull(const std::vector<MeshRecord>& meshes) {
-  double most = 0.0;
-  for (const MeshRecord& r : meshes) most = std::max(most, r.pull);
-  return most;
-}
+double StageRecord::pull(const std::vector<MeshRecord>& meshes) { return largest(meshes, &MeshRecord::pull); }
 
-double StageRecord::pull_time(const std::vector<MeshRecord>& meshes) {
-  double most = 0.0;
-  for (const MeshRecord& r : meshes) most = std::max(most, r.pull_time);
-  return most;
-}
+double StageRecord::pull_time(const std::vector<MeshRecord>& meshes) { return largest(meshes, &MeshRecord::pull_time); }
 
 StageWatch::StageWatch(const model::DynamicModel& model, int phases, bool keeps_signal)
     : model_(model),
@@ -157,7 +161,6 @@ void StageWatch::count_contact(const model::LookRows::Mesh& at, double half_gap,
   const Numbers back = select(delta < Numbers(-half_gap), one, nothing);
   counts.drive += drive;
   counts.back += back;
-  counts.loss += (one - drive) - back;
   const Numbers pull =
       told_pull(model::pull(delta, half_gap, now_[at.elastic()], now_[at.force()]), model_.static_mesh_force);
   counts.pull = max(counts.pull, pull);
@@ -200,12 +203,12 @@ Course StageWatch::course(std::size_t row, double unit) const {
 }
 
 MeshRecord StageWatch::mesh(const model::LookRows::Mesh& at, const Counts& counts) const {
-  const double part = seen_ == 0 ? 0.0 : 1.0 / static_cast<double>(seen_);
   MeshRecord m;
+  if (seen_ == 0) return m;
+  const double part = 1.0 / static_cast<double>(seen_);
   m.delta = course(at.delta(), 1.0);
   m.force = course(at.force(), model_.scales.force_newton(1.0));
   m.drive = part * sum_of(counts.drive);
-  m.loss = part * sum_of(counts.loss);
   m.back = part * sum_of(counts.back);
   if (model_.static_mesh_force > 0.0) m.pull = largest_of(counts.pull) / model_.static_mesh_force;
   m.pull_time = part * sum_of(counts.pulling);

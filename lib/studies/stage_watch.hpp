@@ -34,11 +34,15 @@ struct Course {
 
 /// What was seen of one mesh over some periods.
 struct MeshRecord {
-  Course delta;                          ///< deflection [b_c]
-  Course force;                          ///< F, damping included [N]
-  double drive = 0, loss = 0, back = 0;  ///< parts of the time on each side of the teeth [-]
-  double pull = 0;                       ///< greatest tension [model::pull()], over the static force of a sun mesh [-]
-  double pull_time = 0;                  ///< part of the time that there is tension [-]
+  Course delta;                                             ///< deflection [b_c]
+  Course force;                                             ///< F, damping included [N]
+  double drive = std::numeric_limits<double>::quiet_NaN();  ///< part of the time on that flank [-]; likewise none
+  double back = drive;
+  double pull = 0;       ///< greatest tension [model::pull()], over the static force of a sun mesh [-]
+  double pull_time = 0;  ///< part of the time that there is tension [-]
+
+  /// Part of the time out of contact: what the flanks leave [-].
+  [[nodiscard]] double loss() const;
 
   /// "drive+loss" and so on.
   [[nodiscard]] std::string contact() const;
@@ -97,7 +101,7 @@ class StageWatch {
   };
   /// Of one mesh.
   struct Counts {
-    Numbers drive{0.0}, loss{0.0}, back{0.0}, pulling{0.0}, pull{0.0};
+    Numbers drive{0.0}, back{0.0}, pulling{0.0}, pull{0.0};
   };
 
   void look(std::size_t group, std::size_t count);

@@ -42,7 +42,6 @@ std::vector<PointResult> points(std::size_t planets) {
       course(m.delta);
       course(m.force);
       m.drive = number();
-      m.loss = number();
       m.back = number();
       m.pull = number();
       m.pull_time = number();

@@ -22,7 +22,7 @@ studies::PointResult example() {
   studies::MeshRecord mesh;
   mesh.delta.least = -std::numeric_limits<double>::infinity();
   mesh.delta.largest = 5e-324;
-  mesh.loss = 0.75;
+  mesh.drive = 0.0;
   mesh.back = 0.25;
   mesh.pull = 1.25;
   mesh.pull_time = 0.0625;

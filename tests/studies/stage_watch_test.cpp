@@ -100,7 +100,7 @@ TEST(StageWatch, TellsHowLongAMeshIsOnEachSide) {
     const MeshRecord& sp = r.sun_planet[0];
     EXPECT_NEAR(sp.drive, static_cast<double>(drive) / (3.0 * phases), rounding) << phases;
     EXPECT_NEAR(sp.back, static_cast<double>(back) / (3.0 * phases), rounding) << phases;
-    EXPECT_NEAR(sp.drive + sp.loss + sp.back, 1.0, rounding);
+    EXPECT_NEAR(sp.drive + sp.loss() + sp.back, 1.0, rounding);
     EXPECT_EQ(sp.contact(), "drive+loss+back");
   }
   EXPECT_EQ(record_of([](double) { return 2.0; }, 12, 1).sun_planet[0].contact(), "drive");
@@ -119,7 +119,7 @@ TEST(StageWatch, ARecordThatBrokeOffTellsWhatWasSeen) {
   EXPECT_NEAR(r.sun_planet[0].delta.mean, sum / 75.0, rounding);
   EXPECT_EQ(r.sun_planet[0].delta.largest, 0.75);
   EXPECT_EQ(r.sun_planet[0].delta.least, 0.01);
-  EXPECT_NEAR(r.sun_planet[0].loss, 1.0, rounding);
+  EXPECT_NEAR(r.sun_planet[0].loss(), 1.0, rounding);
   EXPECT_TRUE(std::isnan(r.sun_planet_harmonics[0])) << "over whole periods only";
   StageWatch none(m, 64);
   const StageRecord nothing = none.finish();
