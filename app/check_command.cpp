@@ -109,8 +109,7 @@ double seconds_of_run(const input::LoadedInput& input) {
     studies::RunOptions fewer = options;
     fewer.exponent_periods = exponent_periods;
     const double begun = studies::processor_seconds();
-    (void)studies::run_operating_point(model, model::scales_of(input.study.stage), look, fewer, input.study.integrator,
-                                       [] { return true; });
+    (void)studies::run_operating_point(model, look, fewer, input.study.integrator);
     return studies::processor_seconds() - begun;
   };
   constexpr int few = 40;

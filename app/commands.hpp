@@ -28,7 +28,7 @@ struct Arguments {
   std::vector<std::string> sets;
   int threads = 1;
   bool json = false;
-  std::vector<std::string> from;   ///< of continue: FOLDER or FOLDER:INDEX, donors of seeds
+  std::vector<std::string> from;   ///< points to start from, of finished studies [finished_study.hpp]
   std::filesystem::path against;   ///< of continue: a sweep's folder; empty: none. Of assert: the expected points' file
   int unexplained = 0;             ///< of continue: changes that may stay so
   std::filesystem::path expected;  ///< of reproduce: file of the verdicts that are expected; empty: beside the input

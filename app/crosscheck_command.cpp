@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "core/errors.hpp"
+#include "finished_study.hpp"
 #include "folder.hpp"
 #include "input/study_model.hpp"
 #include "progress.hpp"
@@ -73,7 +74,7 @@ void tell_result(const Arguments& arguments, const store::OutputFolder& folder, 
 
 int crosscheck_command(const Arguments& arguments) {
   stop_on_signals();
-  const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
+  const input::LoadedInput input = with_start(arguments, "crosscheck");
   const auto [sweep, options] = plan_with_points<input::CrosscheckPlan>(input, arguments, "crosscheck");
   const studies::SweepPlan plan = studies::plan_sweep(sweep);
   const auto model_at = input::smoothed_model_at(input);

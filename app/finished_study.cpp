@@ -16,10 +16,14 @@
 #include "core/csv.hpp"
 #include "core/errors.hpp"
 #include "core/text.hpp"
+#include "input/derived_study.hpp"
 #include "input/json_source.hpp"
 #include "input/study_model.hpp"
 #include "session.hpp"
 #include "store/manifest.hpp"
+#include "store/point_columns.hpp"
+#include "streams.hpp"
+#include "studies/known_motions.hpp"
 #include "studies/probes.hpp"
 
 namespace epicyclic::app {
@@ -77,9 +81,9 @@ FinishedStudy::FinishedStudy(const std::filesystem::path& folder) : FinishedStud
 FinishedStudy::FinishedStudy(const std::filesystem::path& folder, const json& run)
     : folder_(folder), input_(load_resolved(folder, run)), identity_(run.at("identity")) {
   const std::string kind(input_.study.kind());
-  if (kind != "sweep" && kind != "map" && kind != "run")
-    throw InputError(
-        fmt::format("{}: is a study of kind {}; points are taken from a sweep, a map or a run", folder.string(), kind));
+  if (kind != "sweep" && kind != "map" && kind != "basins" && kind != "run")
+    throw InputError(fmt::format("{}: is a study of kind {}; points are taken from a sweep, a map, basins or a run",
+                                 folder.string(), kind));
   if (identity_ != identity_of(input_, kind))
     throw InputError(folder.string() + ": was computed by another version of the numerics, or by another command");
   if (kind == "run") {
@@ -152,15 +156,131 @@ FinishedBranches finished_branches(const std::filesystem::path& folder) {
 Donor parse_donor(const std::string& text) {
   Donor donor{text, text};
   const std::size_t colon = text.rfind(':');
-  if (colon == std::string::npos || colon + 1 == text.size() ||
-      !std::all_of(text.begin() + static_cast<std::ptrdiff_t>(colon) + 1, text.end(),
-                   [](char c) { return c >= '0' && c <= '9'; }))
-    return donor;
+  if (colon == std::string::npos || colon + 1 == text.size()) return donor;
+  const std::string_view which = std::string_view(text).substr(colon + 1);
+  const char* const end = which.data() + which.size();
+  if (std::ranges::all_of(which, [](char c) { return c >= '0' && c <= '9'; })) {
+    std::size_t point = 0;
+    if (std::from_chars(which.data(), end, point).ec != std::errc())
+      throw InputError("--from " + text + ": there is no such point");
+    donor.point = point;
+  } else {
+    for (const auto direction : {studies::Direction::up, studies::Direction::down})
+      if (which.starts_with(store::direction_word(direction) + "=")) donor.direction = direction;
+    if (!donor.direction) return donor;
+    const auto read = std::from_chars(which.data() + which.find('=') + 1, end, donor.value);
+    if (read.ec != std::errc() || read.ptr != end || !std::isfinite(donor.value))
+      throw InputError("--from " + text + ": behind = there must be a number");
+  }
   donor.folder = text.substr(0, colon);
-  donor.all = false;
-  const auto read = std::from_chars(text.data() + colon + 1, text.data() + text.size(), donor.point);
-  if (read.ec != std::errc()) throw InputError("--from " + text + ": there is no such point");
   return donor;
+}
+
+std::size_t point_of(const Donor& donor, const FinishedStudy& from) {
+  const studies::SweepPlan& plan = from.plan();
+  if (donor.point) {
+    if (*donor.point >= plan.points.size())
+      throw InputError(fmt::format("--from {}: there is no point {}, the last one is {}", donor.text, *donor.point,
+                                   plan.points.size() - 1));
+    return *donor.point;
+  }
+  const std::string kind(from.input().study.kind());
+  if (donor.all() || kind != "sweep")
+    throw InputError(fmt::format("--from {}: must name one point, as FOLDER:INDEX{}", donor.text,
+                                 kind == "sweep" ? ", FOLDER:up=VALUE or FOLDER:down=VALUE" : ""));
+  const studies::Axis& axis = plan.grid.first;
+  const double half_step = axis.points > 1 ? 0.5 * std::abs(axis.to - axis.from) / (axis.points - 1) : 0.0;
+  constexpr double rounding = 1.0 + 1e-9;
+  std::optional<studies::GridPoint> nearest;
+  for (const studies::GridPoint& p : plan.points)
+    if (p.direction == *donor.direction &&
+        (!nearest || std::abs(p.value - donor.value) < std::abs(nearest->value - donor.value)))
+      nearest = p;
+  if (!nearest) throw InputError(fmt::format("--from {}: the sweep does not go that way", donor.text));
+  if (std::abs(nearest->value - donor.value) > half_step * rounding)
+    throw InputError(fmt::format("--from {}: {} goes from {} to {} there", donor.text, axis.name,
+                                 short_text(axis.from, 9), short_text(axis.to, 9)));
+  return nearest->index;
+}
+
+namespace {
+
+/// A point in words: "point 137 (up, mesh_frequency_ratio = 0.885), period 1".
+std::string point_words(const FinishedStudy& from, const studies::PointSummary& r) {
+  std::string words = fmt::format("point {}", r.point.index);
+  const auto varied = input::varied_parameters(from.input().study);
+  for (std::size_t k = 0; k < varied.size(); ++k)
+    words += fmt::format("{}{} = {}", k == 0 ? fmt::format(" ({}, ", store::direction_word(r.point.direction)) : ", ",
+                         varied[k].axis.name, short_text(k == 0 ? r.point.value : r.point.second_value, 9));
+  if (!varied.empty()) words += ")";
+  return words + ", " + studies::motion_name(r);
+}
+
+/// What else the study knows at the values of a point, a line each.
+std::vector<std::string> other_motions(const FinishedStudy& from, std::size_t point, const model::DynamicModel& model) {
+  const bool basins = std::holds_alternative<studies::BasinsOptions>(from.input().study.plan);
+  const studies::PointSource points = from.points();
+  const studies::KnownMotions known =
+      studies::motions_known_at(from.plan(), points, point, basins, model, from.input().study.integrator);
+  std::vector<std::string> lines;
+  for (std::size_t k = 0; k < known.all.size(); ++k) {
+    const studies::KnownMotion& motion = known.all[k];
+    if (k + 1 == known.here) continue;
+    std::string line = basins ? fmt::format("known there too: {}, {} of {} cells, the first of them point {}",
+                                            motion.motion, motion.points, known.looked_at, motion.point)
+                              : fmt::format("known there too: {}", point_words(from, points.read_brief(motion.point)));
+    if (motion.image_of > 0)
+      line += motion.image_of == known.here ? "; it is this motion with the planets moved on"
+                                            : "; it is another one of these with the planets moved on";
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+}  // namespace
+
+input::LoadedInput with_start(const Arguments& arguments, std::string_view kind, std::vector<std::string>* notes) {
+  const std::vector<input::Assignment> sets = input::parse_assignments(arguments.sets);
+  if (arguments.from.empty()) {
+    if (arguments.input.empty())
+      throw InputError(fmt::format("{} needs INPUT, or --from FOLDER:INDEX of a finished study", kind));
+    return input::load_input(arguments.input, sets);
+  }
+  if (arguments.from.size() > 1) throw InputError("--from: there can be one start only");
+  const Donor donor = parse_donor(arguments.from.front());
+  const FinishedStudy from(donor.folder);
+  const std::size_t index = point_of(donor, from);
+  const studies::PointResult r = from.points().read(index);
+  const model::DynamicModel there = from.model_at(index);
+  std::vector<double> state = studies::state_on(r, there.dimension);
+  if (r.outcome != integrate::Outcome::reached || state.empty())
+    throw InputError(fmt::format("--from {}: {}: has no state that was kept", donor.text, point_words(from, r)));
+  std::vector<std::string> lines = other_motions(from, index, there);
+  lines.insert(lines.begin(), point_words(from, r));
+
+  std::vector<input::Assignment> all;
+  std::filesystem::path path = arguments.input;
+  if (path.empty()) {
+    path = from.folder() / "input.resolved.json";
+    all = input::point_as_study(from.input(), from.plan().points[index], kind);
+  }
+  all.insert(all.end(), sets.begin(), sets.end());
+  const auto scales_of = [](const input::LoadedInput& of) { return model::scales_of(of.study.stage); };
+  input::LoadedInput stage = input::load_input(path, all);
+  if (!stage.study.has_points()) return stage;  // refused for its kind
+  // Rates are per tau = omega_sn t, and omega_sn is the stage's own.
+  const double slower = scales_of(from.input()).omega_sn / scales_of(stage).omega_sn;
+  for (std::size_t k = state.size() / 2; k < state.size(); ++k) state[k] *= slower;
+  all.push_back({"/study/initial_state", state, "/study/initial_state, by --from"});
+  input::LoadedInput input = input::load_input(path, all);
+  const bool same =
+      slower == 1.0 ? studies::same_motion(input::model_at(input)(input::plan_of(input.study).points[0].value), there)
+                    : arguments.input.empty();
+  if (!same)
+    lines.emplace_back("its equations of motion are not those of this study; its state is a start like any other");
+  for (const std::string& line : lines) tell("--from {}: {}\n", donor.text, line);
+  if (notes != nullptr) *notes = std::move(lines);
+  return input;
 }
 
 namespace {
@@ -177,13 +297,11 @@ class Sower {
   void take(const Donor& donor) {
     const FinishedStudy from(donor.folder);
     const studies::PointSource points = from.points();
-    if (!donor.all) {
-      if (donor.point >= points.count)
-        throw InputError(fmt::format("--from {}: there is no point {}, the last one is {}", donor.text, donor.point,
-                                     points.count - 1));
-      take_point(donor, from, donor.point);
+    if (!donor.all()) {
+      take_point(donor, from, point_of(donor, from));
       return;
     }
+    if (std::holds_alternative<studies::BasinsOptions>(from.input().study.plan)) (void)point_of(donor, from);
     const std::size_t before = seeds_.size();
     // The middle of each stretch of points of one period.
     std::size_t first = 0;
@@ -248,13 +366,8 @@ class Sower {
     const std::string which = fmt::format("--from {}: point {}", donor.text, point);
     if (r.outcome != integrate::Outcome::reached) throw InputError(which + " was not reached: it has no state");
     const model::DynamicModel there = from.model_at(point);
-    std::vector<double> state = r.orbit;
-    if (state.empty() && r.poincare_rows() > 0)
-      state.assign(r.poincare.end() - static_cast<std::ptrdiff_t>(r.poincare_columns),
-                   r.poincare.end() - static_cast<std::ptrdiff_t>(r.poincare_columns - there.dimension));
-    if (state.empty()) state = r.attractor.orbit;
-    if (state.size() > there.dimension) state.resize(there.dimension);
-    if (state.size() != there.dimension) throw InputError(which + " has no state that was kept");
+    const std::vector<double> state = studies::state_on(r, there.dimension);
+    if (state.empty()) throw InputError(which + " has no state that was kept");
     const double value = value_of(from, point);
     const model::DynamicModel here = input::model_family(study_, options_.parameter, family_step(options_))(value);
     if (here.dimension != there.dimension)

@@ -4,9 +4,12 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "commands.hpp"
 #include "input/study_input.hpp"
 #include "store/point_store.hpp"
 #include "studies/expected_points.hpp"
@@ -53,17 +56,32 @@ struct FinishedBranches {
 /// @throws InputError when there are no complete branches in it, DamagedData when its files are not what they were
 [[nodiscard]] FinishedBranches finished_branches(const std::filesystem::path& folder);
 
-/// Where a point of a donor was, as an element of /study/seeds.
+/// What --from asks for: a folder, and one of its points or none.
 struct Donor {
   std::filesystem::path folder;
-  std::string text;       ///< as given
-  bool all = true;        ///< every periodic stretch
-  std::size_t point = 0;  ///< else this one
+  std::string text;                               ///< as given
+  std::optional<std::size_t> point{};             ///< by its index,
+  std::optional<studies::Direction> direction{};  ///< or by a direction and a value along it
+  double value = 0;
+
+  [[nodiscard]] bool all() const { return !point && !direction; }
 };
 
-/// "FOLDER" or "FOLDER:INDEX".
-/// @throws InputError for an INDEX that is too large
+/// "FOLDER", "FOLDER:INDEX", "FOLDER:up=VALUE" or "FOLDER:down=VALUE".
+/// @throws InputError for an INDEX or a VALUE that is no such number
 [[nodiscard]] Donor parse_donor(const std::string& text);
+
+/// The index of its point.
+/// @throws InputError where the study has no such point; of a value, none within half a step
+[[nodiscard]] std::size_t point_of(const Donor& donor, const FinishedStudy& from);
+
+/// The study of `run`, `crosscheck` or `tolerance`, started from the point that --from names, if it is given: that of
+/// INPUT with the point's state as its initial one, or without INPUT the point itself.
+/// Says on stderr where it starts, and which other motions are known there.
+/// @param notes  takes what was said, if it is not null
+/// @throws InputError without INPUT and --from, with several, and where there is no such point or it has no state
+[[nodiscard]] input::LoadedInput with_start(const Arguments& arguments, std::string_view kind,
+                                            std::vector<std::string>* notes = nullptr);
 
 /// Puts the donors' states into the study as its seeds.
 /// @param sets  of the command line

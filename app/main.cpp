@@ -82,7 +82,7 @@ struct Subcommand {
 std::array<Subcommand, 14> subcommands() {
   return {{
       {"gear", "teeth, contact, stiffness, friction, bearings and modes of the stage", gear_command, Takes::output},
-      {"run", "one operating point: regime, forces, spectra, exponents, orbit, figures", run_command, Takes::output},
+      {"run", "one operating point: regime, forces, spectra, exponents, orbit, figures", run_command, Takes::threads},
       {"sweep", "bifurcation diagram along one parameter, up, down or both", sweep_command, Takes::threads, true},
       {"continue", "branches of periodic motions with their bifurcations, and a sweep proved by them", continue_command,
        Takes::output},
@@ -133,8 +133,9 @@ void add_check_options(CLI::App& command, Arguments& arguments) {
 void add_continue_options(CLI::App& command, Arguments& arguments) {
   command
       .add_option("--from", arguments.from,
-                  "FOLDER or FOLDER:INDEX, a finished study and one of its points: branches are started from there; "
-                  "without INDEX from each periodic stretch of it; may be repeated")
+                  "FOLDER, FOLDER:INDEX or FOLDER:up=VALUE (down=VALUE), a finished study and one of its points: "
+                  "branches are started from there; of a FOLDER alone from each of its periodic stretches; may be "
+                  "repeated")
       ->take_all()
       ->expected(1)
       ->allow_extra_args(false);
@@ -144,6 +145,16 @@ void add_continue_options(CLI::App& command, Arguments& arguments) {
       ->check(CLI::Range(0, 1000000))
       ->needs("--against")
       ->capture_default_str();
+}
+
+void add_start_option(CLI::App& command, Arguments& arguments) {
+  command.get_option("INPUT")->required(false)->description(
+      "study or stage file (JSON); with --from, without it, the point itself");
+  command
+      .add_option("--from", arguments.from,
+                  "FOLDER:INDEX or FOLDER:up=VALUE (down=VALUE), a point of a finished study: motions start from its "
+                  "state")
+      ->expected(1);
 }
 
 void add_assert_options(CLI::App& command, Arguments& arguments) {
@@ -176,6 +187,8 @@ int run(int argc, char** argv) {
   for (Subcommand& sub : commands) {
     add_to(cli, sub, arguments);
     if (sub.run == continue_command) add_continue_options(*sub.command, arguments);
+    if (sub.run == run_command || sub.run == crosscheck_command || sub.run == tolerance_command)
+      add_start_option(*sub.command, arguments);
     if (sub.run == assert_command) add_assert_options(*sub.command, arguments);
     if (sub.run == reproduce_command) add_reproduce_options(*sub.command, arguments);
     if (sub.run == check_command) add_check_options(*sub.command, arguments);

@@ -1,11 +1,17 @@
 // epicyclic run: one operating point with everything that analysis can say of it.
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 #include "core/atomic_file.hpp"
+#include "finished_study.hpp"
 #include "folder.hpp"
 #include "input/study_model.hpp"
+#include "progress.hpp"
 #include "reports/run_output.hpp"
 #include "reports/sweep_output.hpp"
 #include "session.hpp"
@@ -15,22 +21,37 @@
 
 namespace epicyclic::app {
 
+namespace {
+
+std::optional<studies::RunResult> compute(int threads, const model::DynamicModel& model, const input::Study& study) {
+  const auto& [look, options] = std::get<input::RunPlan>(study.plan);
+  // Exponents are most of the work.
+  const int periods_of_exponents = options.exponent_periods;
+  Progress progress("run", periods_of_exponents > 0 ? static_cast<std::size_t>(periods_of_exponents) : unknown_total);
+  return studies::run_operating_point(
+      model, look, options, study.integrator,
+      {threads, [] { return !stop_requested().load(); },
+       [&](const char* what, int periods) { progress.update(static_cast<std::size_t>(periods), what); }});
+}
+
+}  // namespace
+
 int run_command(const Arguments& arguments) {
   stop_on_signals();
-  const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
+  std::vector<std::string> start;
+  const input::LoadedInput input = with_start(arguments, "run", &start);
   require_kind(input, arguments, "run");
   const input::Study& study = input.study;
-  const auto& [look, options] = std::get<input::RunPlan>(study.plan);
+  const studies::RunOptions& options = std::get<input::RunPlan>(study.plan).run;
   const model::DynamicModel model = input::model_at(input)(study.mesh_frequency_ratio);
   tell_warnings(input);
 
-  Session session(arguments, input, identity_of(input, "run"), 1);
+  Session session(arguments, input, identity_of(input, "run"), arguments.threads);
   if (const auto code = session.exit_code()) return *code;
   const store::OutputFolder& folder = session.folder();
 
   // A minute at most: what is stopped begins anew.
-  const auto result = studies::run_operating_point(model, model::scales_of(study.stage), look, options,
-                                                   study.integrator, [] { return !stop_requested().load(); });
+  const auto result = compute(arguments.threads, model, study);
   if (!result) {
     session.end(store::RunState::stopped, {});
     tell("stopped; the same command begins anew\n");
@@ -40,8 +61,8 @@ int run_command(const Arguments& arguments) {
   folder.require_there();
   const reports::SweepOutput points{study.sweep(), studies::poincare_columns(model), session.resolved(),
                                     reports::figure_title(study)};
-  const reports::RunOutput output{points, options, model.sun_planet_half_gap, model.ring_planet_half_gap,
-                                  study.model.gap_damping};
+  const reports::RunOutput output{
+      points, options, model.sun_planet_half_gap, model.ring_planet_half_gap, study.model.gap_damping, start};
   const bool computed = result->point.outcome == integrate::Outcome::reached;
   const std::string summary = reports::run_summary(output, *result);
   const studies::PointSource point = studies::points_in_memory({&result->point, 1});

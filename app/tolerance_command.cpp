@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "finished_study.hpp"
 #include "folder.hpp"
 #include "input/study_model.hpp"
 #include "progress.hpp"
@@ -143,7 +144,7 @@ void tell_result(const Arguments& arguments, const store::OutputFolder& folder, 
 
 int tolerance_command(const Arguments& arguments) {
   stop_on_signals();
-  const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
+  const input::LoadedInput input = with_start(arguments, "tolerance");
   const auto tolerance = plan_with_points<input::TolerancePlan>(input, arguments, "tolerance");
   const auto& [sweep, options] = tolerance;
   const studies::SweepPlan plan = studies::plan_sweep(sweep);

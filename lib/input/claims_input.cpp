@@ -5,8 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "model/dynamic_model.hpp"
-#include "studies/named_parameters.hpp"
+#include "input/derived_study.hpp"
 
 namespace epicyclic::input {
 
@@ -143,30 +142,13 @@ json sweep_input(const LoadedInput& input, const studies::ClaimSweep& sweep, stu
   const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
   Study study = input.study;
   study.plan = options.whole_sweep(sweep, start);
-  // What names stand for is told by what they change in the study as it is written.
-  std::vector<Assignment> values;
-  for (const studies::SetValue& set : sweep.at) {
-    const studies::NamedParameter* named = studies::find_parameter(set.parameter);
-    const double value = number_to_set(input, {}, set).value();
-    if (named == nullptr) {
-      values.push_back({set.parameter, value, {}});
-      continue;
-    }
-    model::OperatingPoint point{study.stage, study.mesh_frequency_ratio, study.model};
-    named->set(point, value);
-    study.stage = point.stage;
-    study.mesh_frequency_ratio = point.mesh_frequency_ratio;
-    for (const std::string& pointer : named->pointers) values.push_back({pointer, {}, {}});
-  }
-  const json written = study_table().write(study);
+  std::vector<PointerValue> set;
+  for (const studies::SetValue& s : sweep.at) set.push_back({s.parameter, number_to_set(input, {}, s).value()});
+  const std::vector<Assignment> values = written_values(study, set);
   json changed = input.resolved;
-  for (Assignment& value : values) {
-    const json::json_pointer at(value.pointer);
-    if (value.value.is_null()) value.value = written.at(at);
-    changed[at] = value.value;
-  }
+  for (const Assignment& value : values) changed[json::json_pointer(value.pointer)] = value.value;
   changed["name"] = (study.name.empty() ? std::string() : study.name + "_") + sweep.name;
-  changed["study"] = written.at("study");
+  changed["study"] = study_table().write(study).at("study");
   return with_origins(std::move(changed), values, "set: by the sweep " + sweep.name);
 }
 

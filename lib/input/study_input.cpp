@@ -690,6 +690,8 @@ void check_named_parameter(const studies::Axis& axis, const std::string& place, 
 std::string why_no_parameter(const std::string& pointer) {
   if (pointer_within(pointer, "/integrator") && pointer != "/integrator/clearance_smoothing")
     return "an option of the integrator is not a parameter of the motion and cannot be swept";
+  if (pointer_within(pointer, "/study/initial_state"))
+    return "a component of the start is no parameter of the motion; `epicyclic basins` varies two of them";
   if (pointer == "/stage/planets/count") return "the number of planets changes the state itself and cannot be swept";
   return {};
 }
@@ -730,6 +732,15 @@ std::vector<std::string> state_names(const gear::Stage& stage) {
       model::coordinate_names(model::layout_of(stage, model::CoordinateChoice::relative), stage.planet_count);
   for (std::size_t k = 0, n = names.size(); k < n; ++k) names.push_back(names[k] + "_rate");
   return names;
+}
+
+/// What is wrong with a state of this stage, if one is given.
+std::string why_no_state(const std::vector<double>& state, const gear::Stage& stage) {
+  if (state.empty() || stage.planet_count < gear::planets_min || stage.planet_count > gear::planets_max) return {};
+  const std::size_t components = state_names(stage).size();
+  if (state.size() == components) return {};
+  return "has " + std::to_string(state.size()) + " numbers, must have " + std::to_string(components) +
+         ", the state of this stage";
 }
 
 /// Rules of the components that basins start from.
@@ -787,17 +798,13 @@ void check_branches(const studies::BranchesOptions& b, const gear::Stage& stage,
   if (b.largest_period < b.period)
     refuse("/study/largest_period",
            "is " + std::to_string(b.largest_period) + ", must be >= period = " + std::to_string(b.period));
-  const bool has_stage = stage.planet_count >= gear::planets_min && stage.planet_count <= gear::planets_max;
-  const std::size_t components = has_stage ? state_names(stage).size() : 0;
   for (std::size_t k = 0; k < b.seeds.size(); ++k) {
     const studies::BranchSeed& seed = b.seeds[k];
     const std::string place = "/study/seeds/" + std::to_string(k);
     if (outside(seed.value)) refuse(place + "/value", "is " + number_text(seed.value) + range);
     if (seed.reach && !(seed.value - *seed.reach < seed.value && seed.value + *seed.reach > seed.value))
       refuse(place + "/reach", "is " + number_text(*seed.reach) + ", which is nothing beside the value");
-    if (has_stage && !seed.state.empty() && seed.state.size() != components)
-      refuse(place + "/state", "has " + std::to_string(seed.state.size()) + " numbers, must have " +
-                                   std::to_string(components) + ", the state of this stage");
+    if (std::string why = why_no_state(seed.state, stage); !why.empty()) refuse(place + "/state", why);
   }
   if (!is_bad("/study/parameter"))
     check_named_parameter(studies::Axis{b.parameter, b.from, b.to, 2}, "/study", is_bad, context);
@@ -820,6 +827,8 @@ void check_points(const Study& study, F is_bad, ReadContext& context) {
                 "is 0, must be >= 1 for an adaptive transient, which ends when the regime is told; without it give "
                 "\"transient\": \"fixed\"");
   }
+  if (std::string why = why_no_state(study.initial_state, study.stage); !why.empty() && !is_bad("/study/initial_state"))
+    context.add(Finding::Kind::rule, "/study/initial_state", std::move(why));
   if (const auto* map = std::get_if<studies::MapOptions>(&study.plan)) return check_map(map->plane, is_bad, context);
   if (const auto* basins = std::get_if<studies::BasinsOptions>(&study.plan))
     return check_basins(*basins, study.stage, is_bad, context);

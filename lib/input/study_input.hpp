@@ -105,6 +105,7 @@ struct Study {
   model::ModelOptions model;
   integrate::IntegratorOptions integrator;
   Plan plan;
+  std::vector<double> initial_state;  ///< in place of the default start [b_c, b_c per tau]; empty: that one
 
   [[nodiscard]] std::string_view kind() const { return plan_kinds[plan.index()]; }
   /// Is anything to be computed?

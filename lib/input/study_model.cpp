@@ -74,11 +74,17 @@ std::string parameter_of(const Study& study) {
   return varied.empty() ? studies::speed_parameter : varied.front().axis.name;
 }
 
+/// The model with the start that the study gives.
+model::DynamicModel started(model::DynamicModel model, const Study& study) {
+  if (!study.initial_state.empty()) model.default_start = study.initial_state;
+  return model;
+}
+
 }  // namespace
 
 studies::ModelAt model_at(const LoadedInput& input) {
   return [&input, parameter = parameter_of(input.study), scales = model::scales_of(input.study.stage)](double value) {
-    return model_of(point_at(input, std::array{PointerValue{parameter, value}}), scales);
+    return started(model_of(point_at(input, std::array{PointerValue{parameter, value}}), scales), input.study);
   };
 }
 
@@ -124,9 +130,10 @@ studies::ModelAtPoint model_at_point(const LoadedInput& input) {
   const Study& study = input.study;
   if (const auto* map = std::get_if<studies::MapOptions>(&study.plan))
     return [&input, &plane = map->plane, scales = model::scales_of(study.stage)](const studies::GridPoint& p) {
-      return model_of(point_at(input, std::array{PointerValue{plane.first.name, p.value},
-                                                 PointerValue{plane.second.name, p.second_value}}),
-                      scales);
+      return started(model_of(point_at(input, std::array{PointerValue{plane.first.name, p.value},
+                                                         PointerValue{plane.second.name, p.second_value}}),
+                              scales),
+                     input.study);
     };
   if (const auto* basins = std::get_if<studies::BasinsOptions>(&study.plan))
     return [basins, model = model_at(input)(study.mesh_frequency_ratio)](const studies::GridPoint& p) {
@@ -143,7 +150,7 @@ std::function<model::DynamicModel(double value, double clearance_smoothing)> smo
              double value, double clearance_smoothing) {
     model::OperatingPoint point = point_at(input, std::array{PointerValue{parameter, value}});
     point.options.clearance_smoothing = clearance_smoothing;
-    return model_of(point, scales);
+    return started(model_of(point, scales), input.study);
   };
 }
 

@@ -539,6 +539,13 @@ void add_look(Table<Study>& t) {
            "Two states recur if no component differs by more, in the units of the state.");
 }
 
+/// Where motions start that are not carried on from another point.
+void add_initial_state(Table<Study>& t) {
+  t.numbers("initial_state", &Study::initial_state, component_value, 1, 1000,
+            "Start in place of the default one, at the mesh phase 0, in the order of poincare.csv [b_c, b_c per tau]; "
+            "`--from` writes it.");
+}
+
 /// The keys of studies that tell their points' regimes.
 void add_classification(Table<Study>& t) {
   const auto of = [](auto member) { return in_plan<Look>(member); };
@@ -579,6 +586,7 @@ const Table<Study>& sweep_table() {
     add_grid(t);
     add_look(t);
     add_classification(t);
+    add_initial_state(t);
     t.object("crosscheck", in_plan<Kind<SweepOptions>>(&SweepOptions::check), check_table());
     return t;
   }();
@@ -626,6 +634,7 @@ const Table<Study>& map_table() {
     add_course<Kind<MapOptions>, MapOptions>(t);
     add_look(t);
     add_classification(t);
+    add_initial_state(t);
     return t;
   }();
   return table;
@@ -682,6 +691,7 @@ const Table<Study>& run_table() {
     add_kind(t, RunPlan{});
     add_look(t);
     add_classification(t);
+    add_initial_state(t);
     const auto of = [](auto member) { return in_plan<Run>(member); };
     t.integer("exponent_periods", of(&RunOptions::exponent_periods), between(0, 1e6),
               "Mesh periods that the Lyapunov exponents are counted over [-]; 0: none are computed.");
@@ -708,6 +718,7 @@ const Table<Study>& crosscheck_table() {
     add_grid(t);
     add_look(t);
     add_classification(t);
+    add_initial_state(t);
     const auto of = [](auto member) { return in_plan<Crosscheck>(member); };
     t.choices("methods", of(&CrosscheckOptions::methods), method_choices(),
               "Methods; the first is the reference of the others.");
@@ -730,6 +741,7 @@ const Table<Study>& tolerance_table() {
     add_grid(t);
     add_look(t);
     add_classification(t);
+    add_initial_state(t);
     const auto of = [](auto member) { return in_plan<Tolerance>(member); };
     t.choices("methods", of(&ToleranceOptions::methods), method_choices(), "Methods of the ladder.");
     t.numbers("tolerances", of(&ToleranceOptions::tolerances), integrator_tolerance, 1, 100,

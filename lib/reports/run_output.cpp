@@ -730,6 +730,7 @@ std::string run_summary(const RunOutput& output, const RunResult& r) {
                           "{:g} µm); static mesh force F_0 = {:.1f} N.",
                           short_text(r.omega, 8), short_text(output.half_gap_sp, 6), short_text(output.half_gap_rp, 6),
                           1e6 * model::length_scale_m, r.static_force));
+  if (!output.start.empty()) text += "\n" + wrapped(fmt::format("Start: {}.", fmt::join(output.start, "; ")));
   const std::string work = fmt::format("\nWork: {} right-hand sides.\n", r.point.rhs_evaluations);
   if (!ok(r)) {
     text += "\n" + wrapped(fmt::format("**No motion to speak of: status {}**: {}.", store::status_word(r.point.outcome),

@@ -33,6 +33,7 @@ struct RunOutput {
   double half_gap_sp = 0;  ///< b_sp [b_c]
   double half_gap_rp = 0;  ///< b_rp [b_c]
   model::GapDamping gap_damping = model::GapDamping::always;
+  std::vector<std::string> start;  ///< where it started and what else is known there, a sentence each; none by default
 };
 
 /// Highest frequency in spectrum.csv [mesh frequencies]; results.h5 has all.

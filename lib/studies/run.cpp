@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <future>
 #include <memory>
 #include <numbers>
 #include <numeric>
@@ -127,29 +128,47 @@ std::vector<double> finer(const std::vector<double>& samples, int detail) {
 /// One operating point, step by step into its result.
 class Run {
  public:
-  Run(const model::DynamicModel& model, const model::Scales& scales, const LookOptions& look, const RunOptions& options,
-      const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on)
-      : model_(model), scales_(scales), look_(look), options_(options), integrator_(integrator), go_on_(go_on) {}
+  Run(const model::DynamicModel& model, const LookOptions& look, const RunOptions& options,
+      const integrate::IntegratorOptions& integrator, const RunControl& control)
+      : model_(model),
+        scales_(model.scales),
+        look_(look),
+        options_(options),
+        integrator_(integrator),
+        control_(control),
+        go_on_(control.go_on ? control.go_on : [] { return true; }) {}
 
   /// @returns false if ended
   bool all(RunResult& r) {
     r.omega = model_.omega;
     r.static_force = scales_.force_newton(model_.static_mesh_force);
+    at("settling, regime");
     r.point = compute_point({0, Direction::up, model_.omega}, model_, {}, look_, integrator_, go_on_);
     if (!go_on_()) return false;
     if (r.point.outcome != integrate::Outcome::reached) return true;
     state_ = r.point.end_state;
+    at("orbit");
     if (!model_.jumps_at_surfaces) find_orbit(r);
+    // Exponents read what is there by now, the record writes other parts of the result.
+    std::future<void> exponents;
+    if (options_.exponent_periods > 0 && !model_.jumps_at_surfaces && go_on_())
+      exponents =
+          std::async(control_.threads > 1 ? std::launch::async : std::launch::deferred, [&] { find_exponents(r); });
+    at("histories, spectra");
     summarise(r, record(r));
     if (go_on_()) cross(r);
-    if (options_.exponent_periods > 0 && !model_.jumps_at_surfaces) {
-      if (go_on_()) find_exponents(r);
-      if (go_on_() && model_.remove_synchronous && r.point.meshes.planet_spread <= synchronous) find_transverse(r);
-    }
+    if (exponents.valid()) exponents.get();
+    if (options_.exponent_periods > 0 && !model_.jumps_at_surfaces && go_on_() && model_.remove_synchronous &&
+        r.point.meshes.planet_spread <= synchronous)
+      find_transverse(r);
     return go_on_();
   }
 
  private:
+  void at(const char* what, int exponent_periods = 0) const {
+    if (control_.at) control_.at(what, exponent_periods);
+  }
+
   [[nodiscard]] std::unique_ptr<Flow> flow() const { return integrate::make_flow(model_, integrator_); }
 
   [[nodiscard]] integrate::IntegratorOptions exact_options(double tolerance) const {
@@ -361,7 +380,11 @@ class Run {
       ++intervals;
     };
     std::vector<double> y = state_;
-    r.exponents = analysis::lyapunov_spectrum(*tangents, y, o, go_on_);
+    int counted = -o.aligning_intervals;
+    r.exponents = analysis::lyapunov_spectrum(*tangents, y, o, [&] {
+      at("Lyapunov exponents", std::max(0, ++counted));
+      return go_on_();
+    });
     const std::size_t m = r.exponents.exponents;
     if (!go_on_() || !r.exponents.evolution.reached() || intervals == 0) return;
     std::vector<double> values;
@@ -433,7 +456,8 @@ class Run {
   const LookOptions& look_;
   const RunOptions& options_;
   const integrate::IntegratorOptions& integrator_;
-  const std::function<bool()>& go_on_;
+  const RunControl& control_;
+  const std::function<bool()> go_on_;
   std::vector<double> state_;  ///< what everything after the point starts from: the orbit's, or the record's last
 };
 
@@ -451,14 +475,13 @@ std::vector<double> History::column(const std::string& name) const {
   return values_of;
 }
 
-std::optional<RunResult> run_operating_point(const model::DynamicModel& model, const model::Scales& scales,
-                                             const LookOptions& look, const RunOptions& options,
-                                             const integrate::IntegratorOptions& integrator,
-                                             const std::function<bool()>& go_on) {
+std::optional<RunResult> run_operating_point(const model::DynamicModel& model, const LookOptions& look,
+                                             const RunOptions& options, const integrate::IntegratorOptions& integrator,
+                                             const RunControl& control) {
   look.validate();
   options.validate();
   RunResult result;
-  if (!Run(model, scales, look, options, integrator, go_on).all(result)) return std::nullopt;
+  if (!Run(model, look, options, integrator, control).all(result)) return std::nullopt;
   return result;
 }
 

@@ -103,13 +103,18 @@ struct RunResult {
   double omega = 0;                                    ///< Omega: exponents per s times Omega are per tau
 };
 
-/// @param scales  of the stage as given: forces are written in newtons
-/// @param go_on   asked now and then; false ends the run
+/// How a run is computed; none of it changes a result.
+struct RunControl {
+  int threads = 1;                        ///< more than 2 are of no use
+  std::function<bool()> go_on = nullptr;  ///< asked now and then, by all threads; false ends the run
+  /// Told what is begun, and of how many mesh periods the exponents are counted by now; by all threads.
+  std::function<void(const char* what, int exponent_periods)> at = nullptr;
+};
+
 /// @returns nothing if ended; of a point that is not reached, the point alone
-[[nodiscard]] std::optional<RunResult> run_operating_point(const model::DynamicModel& model,
-                                                           const model::Scales& scales, const LookOptions& look,
+[[nodiscard]] std::optional<RunResult> run_operating_point(const model::DynamicModel& model, const LookOptions& look,
                                                            const RunOptions& options,
                                                            const integrate::IntegratorOptions& integrator,
-                                                           const std::function<bool()>& go_on);
+                                                           const RunControl& control = {});
 
 }  // namespace epicyclic::studies

@@ -34,8 +34,7 @@ std::optional<studies::RunResult> run_at(const input::LoadedInput& input, const 
   studies::RunOptions options = std::get<input::RunPlan>(input.study.plan).run;
   options.exponent_periods = exponent_periods;
   options.history_periods = 4;
-  return studies::run_operating_point(m, model::scales_of(input.study.stage), input.study.look(), options,
-                                      input.study.integrator, always);
+  return studies::run_operating_point(m, input.study.look(), options, input.study.integrator);
 }
 
 TEST(PaperRegimes, AreToldWithTheirEvidence) {

@@ -1,0 +1,65 @@
+#include "input/derived_study.hpp"
+
+#include <array>
+#include <string>
+#include <utility>
+
+#include "model/dynamic_model.hpp"
+#include "model/scales.hpp"
+#include "studies/named_parameters.hpp"
+
+namespace epicyclic::input {
+
+using nlohmann::json;
+
+std::vector<Assignment> written_values(Study& study, std::span<const PointerValue> values) {
+  std::vector<Assignment> written;
+  for (const PointerValue& v : values) {
+    const studies::NamedParameter* named = studies::find_parameter(v.pointer);
+    if (named == nullptr) {
+      written.push_back({v.pointer, v.value, {}});
+      continue;
+    }
+    model::OperatingPoint point{study.stage, study.mesh_frequency_ratio, study.model};
+    named->set(point, v.value);
+    study.stage = point.stage;
+    study.mesh_frequency_ratio = point.mesh_frequency_ratio;
+    for (const std::string& pointer : named->pointers) written.push_back({pointer, {}, {}});
+  }
+  const json as_written = study_table().write(study);
+  for (Assignment& w : written)
+    if (w.value.is_null()) w.value = as_written.at(json::json_pointer(w.pointer));
+  return written;
+}
+
+std::vector<Assignment> point_as_study(const LoadedInput& input, const studies::GridPoint& point,
+                                       std::string_view kind) {
+  Study study = input.study;
+  const std::vector<VariedParameter> varied = varied_parameters(study);
+  std::vector<PointerValue> values;
+  for (std::size_t k = 0; k < varied.size(); ++k)
+    values.push_back({varied[k].axis.name, k == 0 ? point.value : point.second_value});
+  std::vector<Assignment> sets = written_values(study, values);
+  std::vector<PointerValue> pointers;
+  for (const PointerValue& v : values)
+    if (v.pointer.starts_with('/')) pointers.push_back(v);
+  if (!pointers.empty()) {
+    // The speed stays what it was, in rad/s.
+    const double speed = study.mesh_frequency_ratio * model::scales_of(input.study.stage).omega_sn;
+    study.mesh_frequency_ratio = speed / model::scales_of(input.with_values(pointers).stage).omega_sn;
+    sets.push_back({"/operation/mesh_frequency_ratio", study.mesh_frequency_ratio, {}});
+  }
+  json plan = {{"kind", kind}};
+  for (const char* key : {"transient", "transient_periods", "recorded_periods", "output_phases", "period_max",
+                          "recurrence_tolerance", "classification_periods"})
+    if (const json* there = input.value_at(std::string("/study/") + key)) plan[key] = *there;
+  if (kind != "run") {
+    plan["parameter"] = studies::speed_parameter;
+    plan["from"] = plan["to"] = study.mesh_frequency_ratio;
+    plan["points"] = 1;
+  }
+  sets.push_back({"/study", std::move(plan), {}});
+  return sets;
+}
+
+}  // namespace epicyclic::input

@@ -1,0 +1,27 @@
+// Studies that are made from another one: the values of its parameters as numbers of the input, and one of its points
+// as a study of its own.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "input/study_input.hpp"
+#include "studies/sweep_plan.hpp"
+
+namespace epicyclic::input {
+
+/// What parameters, named or JSON pointers, are at these values, as numbers of the input as it is written: a name may
+/// stand for several of them, in another unit.
+/// @param study  of the input, with or without changes; is changed on
+[[nodiscard]] std::vector<Assignment> written_values(Study& study, std::span<const PointerValue> values);
+
+/// One point of a finished study as a study of its own: what the study varies is set there, its points are looked at as
+/// they were, and its scales are those of the stage that stands in it then, so that its Omega may be another number for
+/// the same speed. A cross-check and a tolerance study are of that one point.
+/// @param kind  "run", "crosscheck" or "tolerance"
+/// @returns what is to be set in the resolved input
+[[nodiscard]] std::vector<Assignment> point_as_study(const LoadedInput& input, const studies::GridPoint& point,
+                                                     std::string_view kind);
+
+}  // namespace epicyclic::input

@@ -1,0 +1,69 @@
+#include "studies/known_motions.hpp"
+
+#include <utility>
+
+#include "analysis/attractors.hpp"
+#include "studies/motion.hpp"
+
+namespace epicyclic::studies {
+
+namespace {
+
+/// The states of a point's section, without its deflections.
+analysis::PoincareSection section_of(const PointResult& r, std::size_t dimension) {
+  analysis::PoincareSection section{dimension, {}};
+  for (std::size_t row = 0; row < r.poincare_rows(); ++row) {
+    const auto begin = r.poincare.begin() + static_cast<std::ptrdiff_t>(row * r.poincare_columns);
+    section.states.insert(section.states.end(), begin, begin + static_cast<std::ptrdiff_t>(dimension));
+  }
+  return section;
+}
+
+/// What its attractor is told from, kept or made of its section; of nothing else than the regime where there is none.
+analysis::AttractorRecord record_of(PointResult& r, std::size_t dimension,
+                                    const integrate::IntegratorOptions& integrator) {
+  if (r.attractor.dimension > 0) return std::move(r.attractor);
+  if (r.outcome != integrate::Outcome::reached || r.poincare_rows() == 0) return {};
+  return analysis::record_of_section(section_of(r, dimension), r.regime, r.recurrence, r.lyapunov_max(),
+                                     map_error(integrator));
+}
+
+}  // namespace
+
+std::vector<double> state_on(const PointResult& point, std::size_t dimension) {
+  std::vector<double> state = point.orbit;
+  if (state.empty() && point.poincare_rows() > 0)
+    state.assign(point.poincare.end() - static_cast<std::ptrdiff_t>(point.poincare_columns),
+                 point.poincare.end() - static_cast<std::ptrdiff_t>(point.poincare_columns - dimension));
+  if (state.empty()) state = point.attractor.orbit;
+  if (state.empty()) state = point.end_state;
+  if (state.size() > dimension) state.resize(dimension);
+  if (state.size() != dimension) state.clear();
+  return state;
+}
+
+KnownMotions motions_known_at(const SweepPlan& plan, const PointSource& points, std::size_t point, bool basins,
+                              const model::DynamicModel& model, const integrate::IntegratorOptions& integrator) {
+  const GridPoint here = plan.points[point];
+  std::vector<std::size_t> looked_at;
+  std::vector<PointSummary> results;
+  for (const GridPoint& other : plan.points) {
+    if (!basins && (other.value != here.value || other.second_value != here.second_value)) continue;
+    PointResult r = points.read(other.index);
+    r.attractor = record_of(r, model.dimension, integrator);
+    looked_at.push_back(other.index);
+    results.push_back(std::move(r));
+  }
+  std::vector<std::string> names;
+  for (const PointSummary& r : results) names.push_back(motion_name(r));
+  const analysis::Attractors attractors = attractors_of(results, planet_turns(model));
+  KnownMotions known;
+  known.looked_at = looked_at.size();
+  for (const analysis::Attractor& a : attractors.all)
+    known.all.push_back({looked_at[a.members.front()], names[a.members.front()], a.members.size(), a.image_of});
+  for (std::size_t k = 0; k < looked_at.size(); ++k)
+    if (looked_at[k] == point) known.here = attractors.number[k];
+  return known;
+}
+
+}  // namespace epicyclic::studies
