@@ -10,8 +10,11 @@
 
 #include "claims.hpp"
 #include "commands.hpp"
+#include "core/text.hpp"
+#include "gear/kinematics.hpp"
 #include "input/study_model.hpp"
 #include "progress.hpp"
+#include "reports/speed_words.hpp"
 #include "session.hpp"
 #include "streams.hpp"
 #include "studies/calibration.hpp"
@@ -173,6 +176,25 @@ std::string time_of(const input::LoadedInput& input, const studies::SweepPlan& p
                      threads == 1 ? "1 thread" : fmt::format("{} threads", threads), measured);
 }
 
+/// The speeds of the study's points as people know them.
+void tell_speeds(const input::LoadedInput& input) {
+  const gear::Stage& stage = input.study.stage;
+  const double omega_sn = model::scales_of(stage).omega_sn;
+  double from = input.study.mesh_frequency_ratio;
+  double to = from;
+  for (const auto& [axis, place] : input::varied_parameters(input.study))
+    if (axis.name == studies::speed_parameter) {
+      from = axis.from;
+      to = axis.to;
+    }
+  const auto words = [&](double ratio) {
+    return fmt::format("mesh frequency ratio {}: {}", short_text(ratio, 6),
+                       reports::speed_words(gear::speeds(stage, ratio * omega_sn), ratio * omega_sn));
+  };
+  tell("speed: {}\n", words(from));
+  if (to != from) tell("    to {}\n", words(to));
+}
+
 }  // namespace
 
 int check_command(const Arguments& arguments) {
@@ -208,6 +230,7 @@ int check_command(const Arguments& arguments) {
       "cost: {} points in {} chains, {} mesh periods, {} state variables, about {:.2g} right-hand sides{}\n",
       arguments.input.string(), cost.points, cost.chains, cost.mesh_periods, cost.dimension, cost.rhs_evaluations(),
       input.study.look().classification_periods > 0 ? " and what it takes to tell the regimes" : "");
+  tell_speeds(input);
   if (!arguments.no_time) tell("time: {}\n", time_of(input, plan, arguments.threads));
   return done;
 }

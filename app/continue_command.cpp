@@ -166,9 +166,11 @@ void tell_rows(TracedBranches& traced, const studies::ModelAt& models, int phase
     for (const analysis::BranchOrbit& orbit : branch.orbits) rows.push_back(row(branch, orbit));
     settle_stability(branch, rows);
   }
-  for (const studies::SpecialRow& r : traced.special) {
+  for (studies::SpecialRow& r : traced.special) {
     const analysis::Branch& branch = traced.branches[r.branch];
     traced.at_special.push_back(row(branch, branch.special[r.point].orbit));
+    r.mesh_frequency = traced.at_special.back().meshes.mesh_frequency;
+    r.speeds = traced.at_special.back().meshes.speeds;
   }
 }
 

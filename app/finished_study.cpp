@@ -399,7 +399,10 @@ input::LoadedInput with_seeds(const std::filesystem::path& study, const std::vec
   Sower sower(input, notes);
   for (const std::string& donor : donors) sower.take(parse_donor(donor));
   std::vector<input::Assignment> all = sets;
-  all.push_back({"/study/seeds", sower.seeds(), "/study/seeds, by --from"});
+  // As it is resolved: seeds are in the unit that its parameter has there.
+  json resolved = input.resolved.at("study");
+  resolved["seeds"] = sower.seeds();
+  all.push_back({"/study", std::move(resolved), "/study, by --from"});
   return input::load_input(study, all);
 }
 

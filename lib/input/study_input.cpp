@@ -49,6 +49,7 @@ using nlohmann::json;
 
 constexpr std::string_view stage_root = "/stage";
 constexpr std::string_view patch_root = "/stage_patch";
+constexpr std::string_view operation_root = "/operation";
 
 bool is_leaf(const json& value) { return !value.is_object(); }
 
@@ -669,6 +670,7 @@ void check_named_parameter(const studies::Axis& axis, const std::string& place, 
   if (parameter == nullptr) {
     std::vector<std::string> names;
     for (const auto& p : studies::named_parameters()) names.push_back(p.name);
+    for (const SpeedAlias& alias : speed_aliases()) names.emplace_back(alias.key);
     context.add(Finding::Kind::range, place + "/parameter",
                 "is \"" + axis.name + "\", must be one of: " + listed(names) +
                     ", or a JSON pointer to a number, such as /stage/lumped/planet/bearing_N_per_m" +
@@ -978,8 +980,124 @@ class LoadedInput::Loader {
   void make(const Assignment& set) {
     std::string pointer = set.pointer;
     if (sources_->bare && pointer_within(pointer, stage_root)) pointer.erase(0, stage_root.size());
+    if (pointer_parent(pointer) == operation_root && !set.value.is_null()) drop_other_speeds(pointer_leaf(pointer));
     if (auto message = assign(whole_, pointer, set.value); !message.empty())
       problems_.add({shown(set), 0, set.pointer, std::move(message)});
+  }
+
+  /// A speed that is set takes the place of one that was given otherwise.
+  void drop_other_speeds(const std::string& key) {
+    const auto is_speed = [](std::string_view k) {
+      return k == studies::speed_parameter || find_speed_alias(k) != nullptr;
+    };
+    const auto operation = whole_.find("operation");
+    if (!is_speed(key) || operation == whole_.end() || !operation->is_object()) return;
+    std::vector<std::string> others;
+    for (const auto& [other, value] : operation->items())
+      if (is_speed(other) && other != key) others.push_back(other);
+    for (const std::string& other : others) (void)assign(whole_, std::string(operation_root) + "/" + other, nullptr);
+  }
+
+  /// Omega at a speed that stands at a pointer; nothing where it is out of range, which is told.
+  std::optional<double> ratio_of(const SpeedAlias& alias, double value, const std::string& pointer) {
+    const std::optional<double> per_unit = ratio_per_unit(alias, input_.study.stage);
+    const studies::NamedParameter& speed = *studies::find_parameter(studies::speed_parameter);
+    const Bounds bounds = between(speed.least, speed.most);
+    std::string why;
+    if (!per_unit)
+      why = "is a speed of a member that stands still in this stage";
+    else if (!bounds.contains(value * *per_unit))
+      why = "is " + number_text(value) + ", with which the mesh frequency ratio is " + number_text(value * *per_unit) +
+            ", must be " + bounds.text();
+    if (why.empty()) return value * *per_unit;
+    context_.add(Finding::Kind::range, pointer, std::move(why));
+    found_.insert(pointer);
+    return std::nullopt;
+  }
+
+  /// Where the number at a key comes from: as before, with the speed that it was.
+  /// @param moved  key that the speed stood at, if that is another one
+  static void note_conversion(json& object, const std::string& key, std::string_view moved, const SpeedAlias& alias,
+                              double given) {
+    if (object.contains("origin") && object["origin"].is_string()) spread_origins(object);
+    json& origin = object["origin"];
+    if (!origin.is_null() && !origin.is_object()) return;  // told of the file
+    const std::string from(moved.empty() ? std::string_view(key) : moved);
+    std::string text =
+        origin.contains(from) && origin[from].is_string() ? origin[from].get<std::string>() : std::string("choice");
+    text += (text.find(": ") == std::string::npos ? ": " : ", ") + std::string(alias.key) + " = " + number_text(given);
+    if (!moved.empty()) {
+      object.erase(from);
+      if (origin.is_object()) origin.erase(from);
+      object[key] = 0.0;  // stands there: no default
+    }
+    origin[key] = std::move(text);
+  }
+
+  /// The speeds in rpm and Hz, of the operating point and of axes, as Omega.
+  void convert_speeds() {
+    Study& study = input_.study;
+    const bool moves = sound_ && gear::problems_for_motion(study.stage).empty();
+    for (const SpeedAlias& alias : speed_aliases()) {
+      std::optional<double>& given = study.given_speed.*alias.given;
+      const std::string place = std::string(operation_root) + "/" + std::string(alias.key);
+      if (const auto value = std::exchange(given, std::nullopt); value && moves && !is_bad(place))
+        if (const auto ratio = ratio_of(alias, *value, place)) {
+          study.mesh_frequency_ratio = *ratio;
+          note_conversion(whole_["operation"], studies::speed_parameter, alias.key, alias, *value);
+        }
+    }
+    const auto convert = [&](std::string& name, double& from, double& to, const std::string& place) {
+      const SpeedAlias* alias = find_speed_alias(name);
+      if (alias == nullptr) return;
+      name = studies::speed_parameter;
+      json& object = *find_at(whole_, place);
+      const studies::Axis standard = studies::SweepOptions{}.axis;
+      if (object.contains("from") && object.contains("to") && !is_bad(place + "/from") && !is_bad(place + "/to") &&
+          from > to) {
+        context_.add(Finding::Kind::rule, place + "/from",
+                     "is " + number_text(from) + ", must be <= to = " + number_text(to));
+        found_.insert(place + "/from");
+      }
+      for (const auto& [key, value, otherwise] : {std::tuple("from", &from, standard.from), {"to", &to, standard.to}}) {
+        const double given = std::exchange(*value, otherwise);
+        const std::string at = place + "/" + key;
+        if (!object.contains(key))
+          context_.add(Finding::Kind::missing_key, at,
+                       "is missing; " + std::string(alias->key) + " needs a range of its own");
+        else if (moves && !is_bad(at)) {
+          *value = ratio_of(*alias, given, at).value_or(otherwise);
+          note_conversion(object, key, {}, *alias, given);
+        }
+      }
+    };
+    const auto each = [&](const SpeedAlias* alias, std::vector<double>& values, const std::string& place) {
+      if (alias == nullptr || !moves) return;
+      for (std::size_t k = 0; k < values.size(); ++k)
+        values[k] = ratio_of(*alias, values[k], place + "/" + std::to_string(k)).value_or(1.0);
+    };
+    const auto axis = [&](studies::Axis& of, const std::string& place) { convert(of.name, of.from, of.to, place); };
+    if (auto* map = std::get_if<studies::MapOptions>(&study.plan)) {
+      axis(map->plane.first, "/study/first");
+      axis(map->plane.second, "/study/second");
+    } else if (auto* b = std::get_if<studies::BranchesOptions>(&study.plan)) {
+      const SpeedAlias* alias = find_speed_alias(b->parameter);
+      each(alias, b->starts, "/study/starts");
+      each(alias, b->values, "/study/values");
+      if (b->search) each(alias, b->search->values, "/study/search/values");
+      if (b->loci) each(alias, b->loci->near, "/study/loci/near");
+      for (std::size_t k = 0; k < b->seeds.size() && alias != nullptr && moves; ++k) {
+        studies::BranchSeed& seed = b->seeds[k];
+        const std::string place = "/study/seeds/" + std::to_string(k);
+        seed.value = ratio_of(*alias, seed.value, place + "/value").value_or(1.0);
+        if (seed.reach) seed.reach = ratio_of(*alias, *seed.reach, place + "/reach").value_or(1.0);
+      }
+      convert(b->parameter, b->from, b->to, "/study");
+      if (b->loci) convert(b->loci->parameter, b->loci->from, b->loci->to, "/study/loci");
+    } else if (study.has_points() && !std::holds_alternative<RunPlan>(study.plan) &&
+               !std::holds_alternative<studies::BasinsOptions>(study.plan)) {
+      axis(sweep_in(study.plan).axis, "/study");
+    }
   }
 
   /// Puts the stage that the study names in the place of its name.
@@ -1060,6 +1178,7 @@ class LoadedInput::Loader {
   void read_values() {
     std::tie(input_.study, sound_) = read_study(whole_, sources_->bare, context_, &input_.computed);
     for (const auto& finding : context_.findings) found_.insert(finding.pointer);
+    convert_speeds();
     check_integrator();
     const auto bad = [this](const std::string& pointer) { return is_bad(pointer); };
     if (input_.study.has_points()) check_points(input_.study, bad, context_);

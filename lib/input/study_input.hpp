@@ -27,6 +27,7 @@
 #include "gear/stage.hpp"
 #include "input/field_table.hpp"
 #include "input/json_source.hpp"
+#include "input/speed_aliases.hpp"
 #include "integrate/options.hpp"
 #include "model/options.hpp"
 #include "studies/branches_options.hpp"
@@ -102,6 +103,7 @@ struct Study {
   std::string name;
   gear::Stage stage;
   double mesh_frequency_ratio = 1;  ///< Omega = omega_m / omega_sn where no sweep varies it [-]
+  GivenSpeed given_speed{};         ///< in place of it, until the input is loaded
   model::ModelOptions model;
   integrate::IntegratorOptions integrator;
   Plan plan;

@@ -62,6 +62,10 @@ const Bounds table_error = between(0, 1);
 const Bounds smoothing_width = between(0, 10);
 const Bounds component_value = between(-1e6, 1e6);  // below it a motion has diverged
 
+const std::string parameter_words =
+    "Name of the parameter, or a JSON pointer to a number of the input; values of sun_speed_rpm, carrier_speed_rpm and "
+    "mesh_frequency_Hz become those of mesh_frequency_ratio.";
+
 constexpr auto itself = [](auto& t) -> auto& { return t; };
 
 const std::vector<std::pair<std::string, Interpolation>> interpolations = {
@@ -396,6 +400,17 @@ const Table<Study>& operation_table() {
     Table<Study> t("operation", "The operating point.");
     t.number("mesh_frequency_ratio", &Study::mesh_frequency_ratio, frequency_ratio,
              "Mesh frequency over the reference frequency omega_sn [-], where no sweep varies it.");
+    const auto speed = [&](const char* key, std::optional<double> GivenSpeed::*member, const char* description) {
+      t.number(
+          key, [member](auto& study) -> auto& { return study.given_speed.*member; }, between(1e-9, 1e9), description);
+    };
+    speed("sun_speed_rpm", &GivenSpeed::sun_speed_rpm, "Speed of the sun [rpm], in place of mesh_frequency_ratio.");
+    speed("carrier_speed_rpm", &GivenSpeed::carrier_speed_rpm,
+          "Speed of the carrier [rpm], in place of mesh_frequency_ratio.");
+    speed("mesh_frequency_Hz", &GivenSpeed::mesh_frequency_Hz,
+          "Mesh frequency [Hz], in place of mesh_frequency_ratio.");
+    t.rule(KeyRule::Kind::at_most_one,
+           {"mesh_frequency_ratio", "sun_speed_rpm", "carrier_speed_rpm", "mesh_frequency_Hz"});
     return t;
   }();
   return table;
@@ -514,7 +529,7 @@ void add_course(Table<Study>& t) {
 void add_grid(Table<Study>& t) {
   using studies::Axis;
   const auto of = [](auto member) { return in_plan<Sweep>(&SweepOptions::axis, member); };
-  t.text("parameter", of(&Axis::name), "Name of the parameter, or a JSON pointer to a number of the input.");
+  t.text("parameter", of(&Axis::name), parameter_words);
   t.number("from", of(&Axis::from), between(-1e300, 1e300), "First value of the parameter, in its unit.");
   t.number("to", of(&Axis::to), between(-1e300, 1e300), "Last value of the parameter, in its unit.");
   t.integer("points", of(&Axis::points), between(1, 100000), "Number of points, evenly spaced, ends included [-].");
@@ -603,8 +618,7 @@ void add_axis_range(Table<studies::Axis>& t) {
 const Table<studies::Axis>& parameter_axis_table() {
   static const auto table = [] {
     Table<studies::Axis> t("parameter_axis", "A parameter and its values.");
-    t.text("parameter", &studies::Axis::name, "Name of the parameter, or a JSON pointer to a number of the input.")
-        .required();
+    t.text("parameter", &studies::Axis::name, parameter_words).required();
     add_axis_range(t);
     return t;
   }();
@@ -836,8 +850,7 @@ const Table<Study>& continue_table() {
     Table<Study> t("continue", "Branches of periodic motions along one parameter, with the points where they change.");
     add_kind(t, BranchesOptions{});
     const auto of = [](auto member) { return in_plan<Kind<BranchesOptions>>(member); };
-    t.text("parameter", of(&BranchesOptions::parameter),
-           "Name of the parameter, or a JSON pointer to a number of the input.");
+    t.text("parameter", of(&BranchesOptions::parameter), parameter_words);
     t.number("from", of(&BranchesOptions::from), between(-1e300, 1e300), "Least value of the parameter, in its unit.");
     t.number("to", of(&BranchesOptions::to), between(-1e300, 1e300), "Greatest value of the parameter, in its unit.");
     t.numbers("starts", of(&BranchesOptions::starts), between(-1e300, 1e300), 0, 1000,

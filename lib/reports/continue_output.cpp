@@ -12,6 +12,7 @@
 
 #include "core/csv.hpp"
 #include "core/text.hpp"
+#include "gear/kinematics.hpp"
 #include "reports/table_output.hpp"
 #include "store/branch_columns.hpp"
 
@@ -226,16 +227,20 @@ std::string branch_text(const ContinueOutput& output, const TracedBranches& trac
   for (std::size_t k = 0; k < stable.size(); ++k)
     text += fmt::format("{}{} to {}{}", k == 0 ? "Stable along it from " : ", from ", short_text(stable[k].from, 9),
                         short_text(stable[k].to, 9), k + 1 == stable.size() ? ".\n" : "");
+  const bool of_speed = output.options.parameter == studies::speed_parameter;
   bool any = false;
   for (const SpecialRow& r : traced.special) {
     if (r.branch != b) continue;
-    if (!any) text += "\n| kind | value | multipliers there | |\n|---|---|---|---|\n";
+    if (!any)
+      text += fmt::format("\n| kind | value |{} multipliers there | |\n|---|---|{}---|---|\n",
+                          of_speed ? " sun [rpm] |" : "", of_speed ? "---|" : "");
     any = true;
     std::string multipliers;
     for (const auto& m : r.multipliers)
       multipliers += fmt::format("{}{:.4g}{:+.4g}i", multipliers.empty() ? "" : ", ", m.real(), m.imag());
-    text += fmt::format("| {} | {} | {} | {} |\n", letters_of(r.kind).words, with_error(r.value, r.error_bound),
-                        multipliers, what_text(r));
+    const std::string speed = r.mesh_frequency > 0.0 ? short_text(gear::rpm * r.speeds.sun, 6) : std::string();
+    text += fmt::format("| {} | {} |{} {} | {} |\n", letters_of(r.kind).words, with_error(r.value, r.error_bound),
+                        of_speed ? " " + speed + " |" : "", multipliers, what_text(r));
   }
   return text;
 }

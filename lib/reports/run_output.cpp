@@ -13,6 +13,7 @@
 #include "core/csv.hpp"
 #include "core/text.hpp"
 #include "model/scales.hpp"
+#include "reports/speed_words.hpp"
 #include "store/hdf5_file.hpp"
 
 namespace epicyclic::reports {
@@ -726,9 +727,10 @@ void write_run_h5(const std::filesystem::path& file, const RunOutput& output, co
 std::string run_summary(const RunOutput& output, const RunResult& r) {
   std::string text = fmt::format("# {}\n\n", output.points.title);
   text +=
-      wrapped(fmt::format("Operating point: mesh frequency ratio Ω = {}; half gaps b_sp = {}, b_rp = {} b_c (b_c = "
+      wrapped(fmt::format("Operating point: mesh frequency ratio Ω = {}: {}; half gaps b_sp = {}, b_rp = {} b_c (b_c = "
                           "{:g} µm); static mesh force F_0 = {:.1f} N.",
-                          short_text(r.omega, 8), short_text(output.half_gap_sp, 6), short_text(output.half_gap_rp, 6),
+                          short_text(r.omega, 8), speed_words(r.point.meshes.speeds, r.point.meshes.mesh_frequency),
+                          short_text(output.half_gap_sp, 6), short_text(output.half_gap_rp, 6),
                           1e6 * model::length_scale_m, r.static_force));
   if (!output.start.empty()) text += "\n" + wrapped(fmt::format("Start: {}.", fmt::join(output.start, "; ")));
   const std::string work = fmt::format("\nWork: {} right-hand sides.\n", r.point.rhs_evaluations);

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <type_traits>
 
 #include "core/csv.hpp"
+#include "gear/kinematics.hpp"
 #include "store/stage_columns.hpp"
 
 namespace epicyclic::store {
@@ -73,6 +75,10 @@ std::vector<Column<studies::SpecialRow>> special_columns() {
   using Number = Column<SpecialRow>::Getter<double>;
   using Words = Column<SpecialRow>::Getter<std::string>;
   const auto integer = [](auto x) { return static_cast<std::int64_t>(x); };
+  // Of an orbit that could not be carried over its periods nothing is known.
+  const auto of_speed = [](auto get) {
+    return Number([get](const SpecialRow& r) { return r.mesh_frequency > 0.0 ? get(r) : unknown; });
+  };
   return {
       {"branch", "1", "number of the branch, from 0", Integer([=](const SpecialRow& r) { return integer(r.branch); })},
       {"kind", "", "fold, flip, neimark_sacker, resonance_1_1 to resonance_1_4, branch_point, grazing, or unresolved",
@@ -101,6 +107,12 @@ std::vector<Column<studies::SpecialRow>> special_columns() {
        Number([](const SpecialRow& r) { return r.exact ? r.exact->value : unknown; })},
       {"exact_bound", "of the parameter", "its error bound",
        Number([](const SpecialRow& r) { return r.exact ? r.exact->bound : unknown; })},
+      {"mesh_frequency_Hz", "Hz", "mesh frequency there",
+       of_speed([](const SpecialRow& r) { return 0.5 / std::numbers::pi * r.mesh_frequency; })},
+      {"sun_speed_rpm", "rpm", "speed of the sun there",
+       of_speed([](const SpecialRow& r) { return gear::rpm * r.speeds.sun; })},
+      {"carrier_speed_rpm", "rpm", "speed of the carrier there",
+       of_speed([](const SpecialRow& r) { return gear::rpm * r.speeds.carrier; })},
       {"note", "", "what was not as usual", Words([](const SpecialRow& r) { return r.note; })}};
 }
 

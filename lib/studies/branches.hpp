@@ -96,6 +96,8 @@ struct SpecialRow {
   std::optional<analysis::SpecialPlace> same_as{};  ///< the point of an earlier branch that it is
   std::optional<analysis::ExactValue> exact{};      ///< with a smooth clearance: the value with the exact one
   std::string note;
+  double mesh_frequency = 0;  ///< omega_m there [rad/s]
+  gear::Speeds speeds{};      ///< there
 };
 
 /// The kind as it stands in tables: "fold", ..., "resonance_1_3".

@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "integrate/methods.hpp"
+#include "model/layout.hpp"
+#include "model/scales.hpp"
 #include "temporary_folder.hpp"
 
 namespace epicyclic::input {
@@ -314,6 +316,77 @@ TEST_F(StudyInput, SweepOverAPointerLoads) {
   const auto input =
       load({"/study/parameter=/stage/lumped/planet/bearing_N_per_m", "/study/from=1e7", "/study/to=1e9"});
   EXPECT_EQ(input.study.sweep().axis.name, "/stage/lumped/planet/bearing_N_per_m");
+}
+
+/// Omega of a sun's speed, by model.md section 4: omega_m = z_s z_r / (z_s + z_r) omega_s of a fixed ring.
+double ratio_at_rpm(const gear::Stage& stage, double rpm) {
+  const double z_s = *stage.sun.teeth;
+  const double z_r = *stage.ring.teeth;
+  return rpm * M_PI / 30 * z_s * z_r / (z_s + z_r) / model::scales_of(stage).omega_sn;
+}
+
+TEST_F(StudyInput, TakesSpeedsInRpmAndHertz) {
+  const auto input = load({"/operation/sun_speed_rpm=6000"});
+  const gear::Stage& stage = input.study.stage;
+  EXPECT_NEAR(input.study.mesh_frequency_ratio, ratio_at_rpm(stage, 6000), 1e-13);
+  const double z_ratio = static_cast<double>(*stage.sun.teeth) / (*stage.sun.teeth + *stage.ring.teeth);
+  EXPECT_NEAR(load({"/operation/carrier_speed_rpm=6000"}).study.mesh_frequency_ratio,
+              ratio_at_rpm(stage, 6000) / z_ratio, 1e-13);
+  EXPECT_NEAR(load({"/operation/mesh_frequency_Hz=500"}).study.mesh_frequency_ratio,
+              1000 * M_PI / model::scales_of(stage).omega_sn, 1e-13);
+  // What is resolved has Omega alone, and says where it comes from.
+  EXPECT_EQ(input.resolved["operation"].size(), 2);
+  EXPECT_EQ(input.resolved["operation"]["origin"]["mesh_frequency_ratio"], "set: command line, sun_speed_rpm = 6000");
+  EXPECT_EQ(reload(input.resolved).resolved, input.resolved);
+  // The last one that is set counts; a file gives one.
+  EXPECT_EQ(load({"/operation/carrier_speed_rpm=1", "/operation/sun_speed_rpm=6000"}).study.mesh_frequency_ratio,
+            input.study.mesh_frequency_ratio);
+  EXPECT_EQ(load({"/operation/sun_speed_rpm=6000", "/operation/mesh_frequency_ratio=2"}).study.mesh_frequency_ratio, 2);
+}
+
+TEST_F(StudyInput, TakesAxesInRpmAndHertz) {
+  const std::string axis = R"({"parameter": "sun_speed_rpm", "from": 3000, "to": 9000, "points": 3})";
+  const auto sweep = load({"/study/parameter=sun_speed_rpm", "/study/from=3000", "/study/to=9000"});
+  const gear::Stage& stage = sweep.study.stage;
+  const double slow = ratio_at_rpm(stage, 3000);
+  const double fast = ratio_at_rpm(stage, 9000);
+  const auto is_converted = [&](const std::string& name, double from, double to) {
+    EXPECT_EQ(name, studies::speed_parameter);
+    EXPECT_NEAR(from, slow, 1e-13);
+    EXPECT_NEAR(to, fast, 1e-13);
+  };
+  const studies::Axis& along = std::get<studies::SweepOptions>(sweep.study.plan).axis;
+  is_converted(along.name, along.from, along.to);
+  EXPECT_EQ(sweep.resolved["study"]["parameter"], studies::speed_parameter);
+  EXPECT_EQ(sweep.resolved["study"]["origin"]["from"], "set: command line, sun_speed_rpm = 3000");
+  EXPECT_EQ(reload(sweep.resolved).resolved, sweep.resolved);
+
+  const auto map =
+      load({R"(/study={"kind": "map", "first": {"parameter": "damping_ratio", "from": 0.1, "to": 0.2}, "second": )" +
+            axis + "}"});
+  const studies::Axis& second = std::get<studies::MapOptions>(map.study.plan).plane.second;
+  is_converted(second.name, second.from, second.to);
+
+  const std::size_t components =
+      2 *
+      model::coordinate_names(model::layout_of(stage, model::CoordinateChoice::relative), stage.planet_count).size();
+  const auto branches = load(
+      {R"(/study={"kind": "continue", "parameter": "sun_speed_rpm", "from": 3000, "to": 9000, "starts": [3000, 9000],
+          "values": [3000], "search": {"values": [9000]}, "loci": {"parameter": "damping_ratio", "from": 0, "to": 1, "near": [9000]},
+          "seeds": [{"value": 3000, "reach": 9000, "state": [)" +
+       [&] {
+         std::string zeros = "0";
+         for (std::size_t k = 1; k < components; ++k) zeros += ", 0";
+         return zeros;
+       }() +
+       "]}]}"});
+  const auto& b = std::get<studies::BranchesOptions>(branches.study.plan);
+  is_converted(b.parameter, b.from, b.to);
+  is_converted(studies::speed_parameter, b.starts[0], b.starts[1]);
+  is_converted(studies::speed_parameter, b.values[0], b.search->values[0]);
+  is_converted(studies::speed_parameter, b.seeds[0].value, *b.seeds[0].reach);
+  EXPECT_NEAR(b.loci->near[0], fast, 1e-13);
+  EXPECT_EQ(reload(branches.resolved).resolved, branches.resolved);
 }
 
 TEST_F(StudyInput, TellsProblemsInTheOrderOfTheTexts) {
