@@ -15,6 +15,7 @@
 #include "core/csv.hpp"
 #include "figures/bifurcation_figure.hpp"
 #include "gear/kinematics.hpp"
+#include "reports/quantity_words.hpp"
 #include "reports/response_output.hpp"
 #include "reports/table_output.hpp"
 #include "store/hdf5_file.hpp"
@@ -166,14 +167,15 @@ auto section(const SweepOutput& output, const studies::PointSource& points, std:
 }  // namespace
 
 std::string parameter_label(const std::string& parameter) {
-  const studies::NamedParameter* named = studies::find_parameter(parameter);
-  return named == nullptr ? figures::literal_text(parameter)
-                          : fmt::format("{}  {}{}", named->words, named->symbol, named->unit);
+  if (const studies::NamedParameter* named = studies::find_parameter(parameter))
+    return fmt::format("{}  {}{}", named->words, named->symbol, named->unit);
+  const auto [words, unit] = quantity_words(parameter);
+  return figures::literal_text(words) + (unit.empty() ? std::string() : "  [" + unit + "]");
 }
 
 std::string parameter_symbol(const std::string& parameter) {
   const studies::NamedParameter* named = studies::find_parameter(parameter);
-  return named == nullptr ? figures::literal_text(parameter) : named->symbol;
+  return named == nullptr ? figures::literal_text(quantity_words(parameter).words) : named->symbol;
 }
 
 std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter, double omega,
