@@ -21,6 +21,16 @@ enum ExitCode : int {
   stopped_early = 75,
 };
 
+/// What the command line gives to `plot`.
+struct PlotArguments {
+  std::vector<std::filesystem::path> folders;
+  std::vector<std::string> quantities, labels, formats;
+  std::string abscissa, x_range, y_range, size, title;
+  double font = 24;
+  bool micrometres = false;
+  bool logarithmic = false;
+};
+
 /// What the command line gives to a subcommand.
 struct Arguments {
   std::filesystem::path input;
@@ -36,6 +46,7 @@ struct Arguments {
   bool record = false;             ///< of assert and reproduce: what was found becomes what is expected
   bool no_time = false;            ///< of check: time is not measured
   bool quiet = false;              ///< part of another command: nothing on stdout
+  PlotArguments plot{};
   Ranks* ranks = nullptr;
 };
 
@@ -50,6 +61,7 @@ int reproduce_command(const Arguments& arguments);
 int robustness_command(const Arguments& arguments);
 int calibrate_command(const Arguments& arguments);
 int assert_command(const Arguments& arguments);
+int plot_command(const Arguments& arguments);
 int gear_command(const Arguments& arguments);
 int check_command(const Arguments& arguments);
 

@@ -44,11 +44,11 @@ json complete_run(const std::filesystem::path& folder) {
 
 /// The files of the manifest as they were left.
 /// @throws DamagedData
-void require_unchanged(const std::filesystem::path& folder, const json& run, std::initializer_list<const char*> names) {
+void require_unchanged(const std::filesystem::path& folder, const json& run, const std::vector<std::string>& names) {
   const auto manifest = store::manifest_from(run.value("files", json()));
   if (!manifest) throw store::DamagedData(folder.string() + ": run.json does not say which files it has");
   store::Manifest needed;
-  for (const char* name : names)
+  for (const std::string& name : names)
     if (const auto file = manifest->find(name); file != manifest->end()) needed.insert(*file);
   for (const store::ChangedFile& file : store::changed_files(folder, needed))
     throw store::DamagedData(
@@ -127,6 +127,15 @@ studies::PointSource FinishedStudy::points() const {
 model::DynamicModel FinishedStudy::model_at(std::size_t point) const {
   if (!store_) return input::model_at(input_)(input_.study.mesh_frequency_ratio);
   return input::model_at_point(input_)(plan_->points[point]);
+}
+
+FinishedTables finished_tables(const std::filesystem::path& folder,
+                               const std::function<std::vector<std::string>(std::string_view kind)>& tables) {
+  const json run = complete_run(folder);
+  require_unchanged(folder, run, {"input.resolved.json"});
+  FinishedTables finished{folder, input::load_input(folder / "input.resolved.json")};
+  require_unchanged(folder, run, tables(finished.input.study.kind()));
+  return finished;
 }
 
 FinishedBranches finished_branches(const std::filesystem::path& folder) {

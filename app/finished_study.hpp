@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -45,6 +46,18 @@ class FinishedStudy {
   std::unique_ptr<store::PointStore> store_;  ///< null of a run
   std::vector<studies::PointResult> run_;     ///< its one point
 };
+
+/// The folder of a study that is complete, of whatever numerics, whose tables are to be read.
+struct FinishedTables {
+  std::filesystem::path folder;
+  input::LoadedInput input;
+};
+
+/// Changes nothing in it.
+/// @param tables  of a kind of study, that have to be as they were left
+/// @throws InputError when there is no complete study in it, DamagedData when its files are not what they were
+[[nodiscard]] FinishedTables finished_tables(
+    const std::filesystem::path& folder, const std::function<std::vector<std::string>(std::string_view kind)>& tables);
 
 /// The folder of branches that are complete, opened to read.
 struct FinishedBranches {

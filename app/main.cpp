@@ -79,7 +79,7 @@ struct Subcommand {
   CLI::App* command = nullptr;  ///< on the command line
 };
 
-std::array<Subcommand, 14> subcommands() {
+std::array<Subcommand, 15> subcommands() {
   return {{
       {"gear", "teeth, contact, stiffness, friction, bearings and modes of the stage", gear_command, Takes::output},
       {"run", "one operating point: regime, forces, spectra, exponents, orbit, figures", run_command, Takes::threads},
@@ -98,6 +98,8 @@ std::array<Subcommand, 14> subcommands() {
       {"robustness", "for which part of what is not published each claim holds", robustness_command, Takes::threads,
        true},
       {"assert", "special points of finished branches against expected ones", assert_command, Takes::finished},
+      {"plot", "figures of what finished studies left, of several over each other; computes nothing", plot_command,
+       Takes::finished},
       {"check", "validates, prints the resolved input, its cost and how long it takes; writes nothing", check_command,
        Takes::input},
       {"schema", "the JSON Schema of the input", print_schema, Takes::nothing},
@@ -165,6 +167,31 @@ void add_assert_options(CLI::App& command, Arguments& arguments) {
   command.add_flag("--record", arguments.record, "write the points of FOLDER to EXPECTED, with twice their bounds");
 }
 
+void add_plot_options(CLI::App& command, PlotArguments& plot, Arguments& arguments) {
+  command.add_option("FOLDER", plot.folders, "of finished sweeps, branches, maps or runs; several in one figure")
+      ->required();
+  command.add_option("-o,--output", arguments.output, "folder for the figures")->required();
+  const auto several = [&](const char* name, std::vector<std::string>& values, const char* meaning) {
+    return command.add_option(name, values, meaning)->take_all()->expected(1)->allow_extra_args(false);
+  };
+  several("--quantity", plot.quantities,
+          "column of points.csv, poincare.csv, branch.csv or history.csv; may be repeated");
+  several("--label", plot.labels, "of the folders, in their order, for the legend; may be repeated");
+  several("--format", plot.formats, "png, svg or pdf; may be repeated; png and svg by default")
+      ->check(CLI::IsMember({"png", "svg", "pdf"}));
+  command.add_option("--x", plot.abscissa, "column for the abscissa, as sun_speed_rpm; the parameter by default");
+  command.add_option("--x-range", plot.x_range, "FROM:TO");
+  command.add_option("--y-range", plot.y_range, "FROM:TO");
+  command.add_option("--size", plot.size, "WIDTHxHEIGHT in pixels; 1800x1100 by default");
+  command.add_option("--font", plot.font, "size of the texts, which lines and points go with")
+      ->check(CLI::Range(6.0, 96.0))
+      ->capture_default_str();
+  command.add_option("--title", plot.title, "of the figure");
+  command.add_flag("--um", plot.micrometres, "lengths in micrometres instead of b_c");
+  command.add_flag("--log", plot.logarithmic, "logarithmic ordinate");
+  command.add_flag("--json", arguments.json, "print the figures' names as JSON");
+}
+
 void add_reproduce_options(CLI::App& command, Arguments& arguments) {
   command.get_option("INPUT")->description(
       "claims of a publication: a name in validation/, its folder, or a file (JSON)");
@@ -189,6 +216,7 @@ int run(int argc, char** argv) {
     if (sub.run == continue_command) add_continue_options(*sub.command, arguments);
     if (sub.run == run_command || sub.run == crosscheck_command || sub.run == tolerance_command)
       add_start_option(*sub.command, arguments);
+    if (sub.run == plot_command) add_plot_options(*sub.command, arguments.plot, arguments);
     if (sub.run == assert_command) add_assert_options(*sub.command, arguments);
     if (sub.run == reproduce_command) add_reproduce_options(*sub.command, arguments);
     if (sub.run == check_command) add_check_options(*sub.command, arguments);

@@ -111,37 +111,50 @@ std::size_t CsvTable::index_of(std::string_view column) const {
   return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin());
 }
 
-std::optional<CsvTable> parse_csv(std::string_view text) {
-  CsvTable table;
-  std::vector<std::string> row(1);
+bool scan_csv(std::string_view text, const std::function<void(std::vector<std::string>& cells)>& row) {
+  std::vector<std::string> cells(1);
+  std::size_t used = 1;     // of the cells; those behind keep their memory
+  std::size_t columns = 0;  // of the first row
   bool quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
+    std::string& cell = cells[used - 1];
     if (quoted) {
       if (c != '"') {
-        row.back() += c;
+        cell += c;
       } else if (i + 1 < text.size() && text[i + 1] == '"') {
-        row.back() += text[++i];
+        cell += text[++i];
       } else {
         quoted = false;
       }
-    } else if (c == '"' && row.back().empty()) {
+    } else if (c == '"' && cell.empty()) {
       quoted = true;
     } else if (c == ',') {
-      row.emplace_back();
+      if (++used > cells.size()) cells.emplace_back();
+      cells[used - 1].clear();
     } else if (c == '\n') {
-      if (table.columns.empty()) {
-        table.columns = std::move(row);
-      } else {
-        if (row.size() != table.columns.size()) return std::nullopt;
-        table.rows.push_back(std::move(row));
-      }
-      row.assign(1, {});
+      if (columns > 0 && used != columns) return false;
+      cells.resize(columns = used);
+      row(cells);
+      cells.resize(columns);
+      used = 1;
+      cells[0].clear();
     } else {
-      row.back() += c;
+      cell += c;
     }
   }
-  if (quoted || row.size() != 1 || !row.front().empty() || table.columns.empty()) return std::nullopt;
+  return !quoted && used == 1 && cells[0].empty() && columns > 0;
+}
+
+std::optional<CsvTable> parse_csv(std::string_view text) {
+  CsvTable table;
+  const bool is_table = scan_csv(text, [&table](std::vector<std::string>& cells) {
+    if (table.columns.empty())
+      table.columns = std::move(cells);
+    else
+      table.rows.push_back(std::move(cells));
+  });
+  if (!is_table) return std::nullopt;
   return table;
 }
 

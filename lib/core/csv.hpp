@@ -8,6 +8,7 @@
 #include <concepts>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -86,6 +87,11 @@ struct CsvTable {
   /// Index of a column, or columns.size().
   [[nodiscard]] std::size_t index_of(std::string_view column) const;
 };
+
+/// Reads what CsvWriter writes, row by row, the names of the columns first.
+/// @param row  may take the cells
+/// @returns false where the text is no such table: a row of another length, a quote that does not end
+[[nodiscard]] bool scan_csv(std::string_view text, const std::function<void(std::vector<std::string>& cells)>& row);
 
 /// Reads what CsvWriter writes.
 /// @returns nothing where the text is no such table: a row of another length, a quote that does not end

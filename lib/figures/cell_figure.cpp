@@ -209,27 +209,25 @@ FigureOutcome value_figure(const std::filesystem::path& folder, std::string_view
                      figure_script(stem, text, span_of(grid.x), span_of(grid.y), {}, {}, extra, plot));
 }
 
-FigureOutcome decade_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
-                            const CellGrid& grid, const std::string& bar_label, const std::vector<double>& cells,
-                            double floor, Pictures which) {
-  check(grid, cells.size());
-  constexpr double steps = 4.0;  // in a decade
-  const double lowest = std::floor(steps * std::log10(floor));
-  double highest = -std::numeric_limits<double>::infinity();
-  // The step a value is in, counted from the lowest; below zero: none.
-  std::vector<double> step(cells.size(), -1.0);
-  for (std::size_t k = 0; k < cells.size(); ++k) {
-    if (!(cells[k] >= floor) || !std::isfinite(cells[k])) continue;
-    step[k] = std::floor(steps * std::log10(cells[k])) - lowest;
-    highest = std::max(highest, step[k]);
-  }
-  if (!std::isfinite(highest)) return {"there is no value to draw above " + number(floor)};
+namespace {
+
+/// Cells in steps of a scale, the darker the larger.
+struct Steps {
+  std::vector<double> of;       ///< the step of each cell, from 0; below zero: none
+  double first = 0, width = 1;  ///< where step 0 begins, and how wide each of them is
+  int count = 1;
+  std::string tics;  ///< of the bar
+};
+
+FigureOutcome stepped_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
+                             const CellGrid& grid, const std::string& bar_label, const Steps& steps,
+                             const FigureCanvas& canvas, Pictures which) {
   const auto write_data = [&](AtomicFile& file) {
-    file.write("# x from, x to, y from, y to, decades\n");
+    file.write("# x from, x to, y from, y to, middle of the step\n");
     write_rectangles(
-        file, grid, [&](std::size_t a, std::size_t b) { return step[a] == step[b]; },
+        file, grid, [&](std::size_t a, std::size_t b) { return steps.of[a] == steps.of[b]; },
         [&](std::size_t cell) {
-          return step[cell] < 0.0 ? std::string() : number((lowest + step[cell] + 0.5) / steps);
+          return steps.of[cell] < 0.0 ? std::string() : number(steps.first + (steps.of[cell] + 0.5) * steps.width);
         });
   };
   // After Brewer's YlGnBu, whose lightness falls all the way: it can be read in grey, and by colour-blind eyes.
@@ -244,13 +242,50 @@ FigureOutcome decade_figure(const std::filesystem::path& folder, std::string_vie
           "set cbrange [{}:{}]\n"
           "set cblabel {} offset 1.5,0\n"
           "set colorbox user origin screen 0.86, graph 0 size screen 0.025, graph 1\n"
-          "set cbtics 1 font ',20'\n"
-          "set format cb '10^{{%.0f}}'\n",
-          static_cast<int>(highest) + 1, number(lowest / steps), number((lowest + highest + 1.0) / steps),
-          gnuplot_quoted(portable_text(bar_label)));
+          "{}",
+          steps.count, number(steps.first), number(steps.first + steps.count * steps.width),
+          gnuplot_quoted(portable_text(bar_label)), steps.tics);
   const std::string plot = fmt::format("'{}.dat' {} linecolor palette notitle", stem, boxes);
   return draw_figure(folder, stem, write_data,
-                     figure_script(stem, text, span_of(grid.x), span_of(grid.y), {}, {}, extra, plot), which);
+                     figure_script(stem, text, span_of(grid.x), span_of(grid.y), {}, {}, extra, plot, canvas), which);
+}
+
+}  // namespace
+
+FigureOutcome decade_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
+                            const CellGrid& grid, const std::string& bar_label, const std::vector<double>& cells,
+                            double floor, Pictures which) {
+  check(grid, cells.size());
+  constexpr double in_a_decade = 4.0;
+  const double lowest = std::floor(in_a_decade * std::log10(floor));
+  double highest = -std::numeric_limits<double>::infinity();
+  Steps steps{std::vector<double>(cells.size(), -1.0), lowest / in_a_decade, 1.0 / in_a_decade, 1,
+              "set cbtics 1 font ',20'\nset format cb '10^{%.0f}'\n"};
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    if (!(cells[k] >= floor) || !std::isfinite(cells[k])) continue;
+    steps.of[k] = std::floor(in_a_decade * std::log10(cells[k])) - lowest;
+    highest = std::max(highest, steps.of[k]);
+  }
+  if (!std::isfinite(highest)) return {"there is no value to draw above " + number(floor)};
+  steps.count = static_cast<int>(highest) + 1;
+  return stepped_figure(folder, stem, text, grid, bar_label, steps, {}, which);
+}
+
+FigureOutcome scale_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
+                           const CellGrid& grid, const std::string& bar_label, const std::vector<double>& cells,
+                           const FigureCanvas& canvas, Pictures which) {
+  check(grid, cells.size());
+  FigureRange all;
+  for (const double v : cells) all.include(v);
+  if (all.empty()) return {"there is no finite value to draw"};
+  constexpr int count = 20;
+  const FigureRange range = all.low < all.high ? all : all.widened(0.0);
+  Steps steps{std::vector<double>(cells.size(), -1.0), range.low, (range.high - range.low) / count, count,
+              "set cbtics font ',20'\nset format cb '%h'\n"};
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    if (std::isfinite(cells[k]))
+      steps.of[k] = std::clamp(std::floor((cells[k] - steps.first) / steps.width), 0.0, count - 1.0);
+  return stepped_figure(folder, stem, text, grid, bar_label, steps, canvas, which);
 }
 
 }  // namespace epicyclic::figures

@@ -49,4 +49,12 @@ FigureOutcome decade_figure(const std::filesystem::path& folder, std::string_vie
                             const CellGrid& grid, const std::string& bar_label, const std::vector<double>& cells,
                             double floor, Pictures which = Pictures::both);
 
+/// Cells with a value on a linear scale, the darker the larger, in twenty steps over the range of all. What is no
+/// number is white.
+/// @param cells  row by row, from below
+/// @param which  none: draw_pictures follows
+FigureOutcome scale_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
+                           const CellGrid& grid, const std::string& bar_label, const std::vector<double>& cells,
+                           const FigureCanvas& canvas = {}, Pictures which = Pictures::both);
+
 }  // namespace epicyclic::figures

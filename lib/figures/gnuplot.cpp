@@ -8,6 +8,8 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <system_error>
@@ -36,6 +38,7 @@ constexpr std::size_t longest_complaint = 400;
 
 constexpr std::string_view png_end("IEND\xae\x42\x60\x82", 8);
 constexpr std::string_view svg_end = "</svg>";
+constexpr std::string_view pdf_end = "%%EOF";
 
 /// How long a drawing may take: for a machine that is busy with other work.
 constexpr std::chrono::seconds least_limit{120};
@@ -48,10 +51,10 @@ using Clock = std::chrono::steady_clock;
 
 /// The environment with all locale settings replaced by the C locale.
 std::vector<std::string> c_locale_environment() {
-  std::vector<std::string> variables{"LC_ALL=C"};
+  std::vector<std::string> variables{"LC_ALL=C", "TZ=UTC0"};
   for (char** variable = environ; *variable != nullptr; ++variable) {
     const std::string_view text(*variable);
-    if (!text.starts_with("LC_") && !text.starts_with("LANG")) variables.emplace_back(text);
+    if (!text.starts_with("LC_") && !text.starts_with("LANG") && !text.starts_with("TZ=")) variables.emplace_back(text);
   }
   return variables;
 }
@@ -221,23 +224,46 @@ std::string opening(std::string_view stem) {
 
 constexpr std::string_view png = "png";
 constexpr std::string_view svg = "svg";
+constexpr std::string_view pdf = "pdf";
 
-/// The commands, for each of the two files or for the one that the script is called with.
+/// The commands, for each of the files or for the one that the script is called with.
 std::string drawn_to_files(std::string_view stem, std::string_view commands, const FigureCanvas& canvas = {}) {
-  return fmt::format(
-      "do for [kind in (ARGC > 0 ? ARG1 : '{1} {2}')] {{\n"
+  constexpr double svg_share = 0.8;
+  constexpr double pdf_share = 0.28;  // of a point of a page for each pixel: two columns of a journal are 7 inches
+  constexpr double points_per_inch = 72;
+  const auto pixels = [&](int length, double share) {
+    return static_cast<int>(std::floor(length * canvas.scale * share + 1e-9));
+  };
+  const auto scaled = [](double scale) {
+    return scale == 1.0 ? std::string() : fmt::format(" fontscale {0} pointscale {0}", text_of(scale));
+  };
+  std::string script = fmt::format(
+      "do for [kind in (ARGC > 0 ? ARG1 : '{1} {2}{3}')] {{\n"
       "if (kind eq '{1}') {{\n"
-      "set terminal pngcairo enhanced rounded size {3},{4} font 'DejaVu Sans,24' linewidth 1.5 background '#ffffff'\n"
-      "mark = 1.4\n"
+      "set terminal pngcairo enhanced rounded size {4},{5} font 'DejaVu Sans,24'{6} linewidth {7} background "
+      "'#ffffff'\n"
+      "mark = 1.4\n",
+      stem, png, svg, canvas.pdf ? " pdf" : "", pixels(canvas.width, 1.0), pixels(canvas.height, 1.0),
+      scaled(canvas.scale), text_of(1.5 * canvas.scale));
+  if (canvas.pdf) {
+    const double share = pdf_share * canvas.scale / points_per_inch;
+    script += fmt::format(
+        "}} else {{ if (kind eq '{}') {{\n"
+        "set terminal pdfcairo enhanced rounded size {}in,{}in font 'DejaVu Sans,24'{} linewidth {} background "
+        "'#ffffff'\n"
+        "mark = 1.4\n",
+        pdf, text_of(canvas.width * share), text_of(canvas.height * share), scaled(pdf_share * canvas.scale),
+        text_of(1.5 * pdf_share * canvas.scale));
+  }
+  script += fmt::format(
       "}} else {{\n"
-      "set terminal svg enhanced round size {5},{6} font 'DejaVu Sans,24' linewidth 1.2 background '#ffffff'\n"
+      "set terminal svg enhanced round size {},{} font 'DejaVu Sans,24'{} linewidth {} background '#ffffff'\n"
       "mark = 0.7\n"
-      "}}\n"
-      "set output '{0}.'.kind\n"
-      "{7}"
-      "unset output\n"
-      "}}\n",
-      stem, png, svg, canvas.width, canvas.height, 4 * canvas.width / 5, 4 * canvas.height / 5, commands);
+      "{}}}\n",
+      pixels(canvas.width, svg_share), pixels(canvas.height, svg_share),
+      canvas.scale == 1.0 ? std::string() : fmt::format(" fontscale {}", text_of(canvas.scale)),
+      text_of(1.2 * canvas.scale), canvas.pdf ? "}" : "");
+  return script + fmt::format("set output '{}.'.kind\n{}unset output\n}}\n", stem, commands);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -343,7 +369,6 @@ void append_literal(std::string& text, char32_t point) {
 constexpr double font_height = 32;         // of size 24
 constexpr double legend_font_height = 29;  // of size 22
 constexpr double right_edge = 0.975;       // of the canvas
-constexpr int second_abscissa = 92;        // its tics and label
 
 /// Tags of labels beyond those that gnuplot gives.
 constexpr int title_tag = 1000;
@@ -396,7 +421,7 @@ std::string title_expression(const std::string& title) {
 
 /// A second abscissa takes nothing from the frame.
 FigureCanvas with_room(FigureCanvas canvas, const FigureText& text) {
-  if (text.above) canvas.height += second_abscissa;
+  if (text.above) canvas.height += second_abscissa_height;
   return canvas;
 }
 
@@ -455,7 +480,7 @@ Head head_of(const FigureText& text, const std::vector<std::string>& legend, con
   }
   head.height = std::min(y + above_frame, 0.6 * canvas.height);
   if (title.empty() && legend.empty()) head.height = 24;  // half a label of a tic
-  if (text.above) head.height += second_abscissa;
+  if (text.above) head.height += second_abscissa_height;
   head.settings += fmt::format("set tmargin screen {}\n", vertical(head.height));
   return head;
 }
@@ -475,7 +500,7 @@ int start_gnuplot(const fs::path& folder, const fs::path& script, Pictures which
   std::string without_user_settings = "-d";
   std::string called_with_argument = "-c";
   std::string script_name = "./" + script.filename().string();
-  std::string argument(which == Pictures::svg ? svg : png);
+  std::string argument(which == Pictures::svg ? svg : which == Pictures::pdf ? pdf : png);
   std::array<char*, 6> arguments{
       program.data(), without_user_settings.data(), called_with_argument.data(), script_name.data(), argument.data(),
       nullptr};
@@ -710,6 +735,23 @@ std::string panel_script(std::string_view stem, const FigureText& text, const Fi
                      drawn_to_files(stem, commands + "unset multiplot\nset format x '%h'\nunset xlabel\n", canvas));
 }
 
+namespace {
+
+/// The time of day in a PDF file: the same figure is the same bytes.
+void forget_date(const fs::path& file) {
+  std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  constexpr std::string_view tag = "/CreationDate (D:";
+  constexpr std::string_view date = "20000101000000";
+  const std::size_t at = bytes.rfind(tag);
+  if (at == std::string::npos || at + tag.size() + date.size() > bytes.size()) return;
+  stream.clear();
+  stream.seekp(static_cast<std::streamoff>(at + tag.size()));
+  stream << date;
+}
+
+}  // namespace
+
 FigureOutcome draw_pictures(const fs::path& folder, std::string_view stem, Pictures which) {
   if (which == Pictures::none) return {};
   const auto named = [&](std::string_view suffix) { return folder / fmt::format("{}.{}", stem, suffix); };
@@ -729,8 +771,12 @@ FigureOutcome draw_pictures(const fs::path& folder, std::string_view stem, Pictu
     sync_descriptor(picture.get(), path);
     tell_placed(path);
   };
-  if (which != Pictures::svg) take(png, png_end);
-  if (which != Pictures::png) take(svg, svg_end);
+  if (which == Pictures::png || which == Pictures::both) take(png, png_end);
+  if (which == Pictures::svg || which == Pictures::both) take(svg, svg_end);
+  if (which == Pictures::pdf) {
+    if (outcome.drawn()) forget_date(named(pdf));
+    take(pdf, pdf_end);
+  }
   if (outcome.drawn()) sync_folder(folder);
   return outcome;
 }
@@ -754,7 +800,7 @@ FigureOutcome draw_figure(const fs::path& folder, std::string_view stem,
 
   const auto named = [&](std::string_view suffix) { return folder / fmt::format("{}{}", stem, suffix); };
   // An old picture must not pass for one of these data.
-  for (const std::string_view suffix : {".png", ".svg"}) fs::remove(named(suffix), error);
+  for (const std::string_view suffix : {".png", ".svg", ".pdf"}) fs::remove(named(suffix), error);
   AtomicFile data(named(".dat"));
   write_data(data);
   data.commit();

@@ -52,6 +52,9 @@ struct SecondAbscissa {
   double factor = 1;  ///< its number over that of the abscissa
 };
 
+/// Tics and label of a second abscissa, which a canvas is higher by [pixels].
+inline constexpr int second_abscissa_height = 92;
+
 /// Title and axis labels of a figure; the title may be empty. A long title is written smaller.
 struct FigureText {
   std::string title;
@@ -66,10 +69,12 @@ struct FigureMarker {
   std::string label;
 };
 
-/// Size of a picture as PNG; the SVG file has four fifths of it.
+/// Size of a picture as PNG; the SVG file has four fifths of it, a PDF page 1 inch for 257 pixels.
 struct FigureCanvas {
-  int width = 1800;   ///< [pixels]
-  int height = 1100;  ///< [pixels]
+  int width = 1800;   ///< [pixels], times scale
+  int height = 1100;  ///< [pixels], times scale
+  double scale = 1;   ///< of all that is in it: texts, lines and points
+  bool pdf = false;   ///< whether the script draws STEM.pdf, too
 };
 
 /// For a square frame, with room above it for a title and a legend.
@@ -85,15 +90,15 @@ struct FigurePanel {
   bool logarithmic = false;                             ///< ordinate
 };
 
-/// Which of its two files a script draws. Drawn apart, they can be drawn side by side.
-enum class Pictures { none, png, svg, both };
+/// Which of its files a script draws. Drawn apart, they can be drawn side by side.
+enum class Pictures { none, png, svg, both, pdf };
 
 /// Is there a program of that name, where run_gnuplot looks for it?
 bool gnuplot_is_installed();
 
 /// Runs gnuplot on the script, without a shell, in the script's folder, in the C locale and without the user's own
 /// settings (~/.gnuplot). A gnuplot that does not come to an end is ended, with its children.
-/// @param which  of the files of figure_script or panel_script; not none
+/// @param which  of the files of figure_script or panel_script; not none; pdf of a canvas that has it
 /// @param limit  longest time that it may take; none: two minutes and ten seconds for each megabyte of its data,
 ///               some ten times what it needs; less after others that hung
 FigureOutcome run_gnuplot(const std::filesystem::path& script, Pictures which = Pictures::both,
@@ -132,7 +137,7 @@ std::string panel_script(std::string_view stem, const FigureText& text, const Fi
                          const std::vector<FigurePanel>& panels, const std::vector<std::string>& legend,
                          std::string_view extra, const FigureCanvas& canvas = {});
 
-/// Draws STEM.png, STEM.svg or both from STEM.dat with STEM.gp, which are in `folder`.
+/// Draws STEM.png, STEM.svg, both, or STEM.pdf from STEM.dat with STEM.gp, which are in `folder`.
 /// @throws OutputError  when gnuplot leaves a picture unfinished
 FigureOutcome draw_pictures(const std::filesystem::path& folder, std::string_view stem, Pictures which);
 

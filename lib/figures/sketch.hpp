@@ -81,10 +81,11 @@ class Sketch {
   void command(std::string_view line) { (commands_ += line) += '\n'; }
 
   /// Writes the figure's files to `folder` and draws it. With panels, y and the label of the ordinate are theirs.
+  /// @param which  none: draw_pictures follows
   /// @throws OutputError when data or script cannot be written
   [[nodiscard]] FigureOutcome draw(const std::filesystem::path& folder, const FigureText& text, const FigureRange& x,
                                    const FigureRange& y, const std::vector<FigureMarker>& markers = {},
-                                   const FigureCanvas& canvas = {}) const;
+                                   const FigureCanvas& canvas = {}, Pictures which = Pictures::both) const;
 
  private:
   template <class Row>

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/csv.hpp"
+#include "core/text.hpp"
 #include "figures/bifurcation_figure.hpp"
 #include "gear/kinematics.hpp"
 #include "reports/quantity_words.hpp"
@@ -199,8 +200,7 @@ std::string figure_title(const input::Study& study) {
                                 return varied.axis.name == studies::speed_parameter;
                               });
   if (speed_is_given) {
-    title += ", Ω = ";
-    append_number(title, study.mesh_frequency_ratio);
+    title += ", Ω = " + short_text(study.mesh_frequency_ratio, 8);
   }
   return title;
 }

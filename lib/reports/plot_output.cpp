@@ -1,0 +1,548 @@
+#include "reports/plot_output.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/csv.hpp"
+#include "core/errors.hpp"
+#include "figures/cell_figure.hpp"
+#include "figures/sketch.hpp"
+#include "input/field_table.hpp"
+#include "model/scales.hpp"
+#include "reports/quantity_words.hpp"
+#include "store/branch_columns.hpp"
+#include "store/point_columns.hpp"
+
+namespace epicyclic::reports {
+
+namespace {
+
+using figures::FigureRange;
+using Place = std::array<double, 2>;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr Place gap{nan, nan};
+
+// ---- tables -----------------------------------------------------------------------------------------------------
+
+std::string text_of_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// Some columns of a table that may have more than fit into memory.
+class Columns {
+ public:
+  /// @throws InputError where it has not all of them
+  Columns(const std::filesystem::path& file, std::vector<std::string> names) : names_(std::move(names)) {
+    std::vector<std::size_t> at;
+    columns_.resize(names_.size());
+    const bool is_table = scan_csv(text_of_file(file), [&](std::vector<std::string>& cells) {
+      if (at.empty()) {
+        for (const std::string& name : names_) {
+          const auto found = std::ranges::find(cells, name);
+          if (found == cells.end()) throw InputError(file.string() + ": has no column '" + name + "'");
+          at.push_back(static_cast<std::size_t>(found - cells.begin()));
+        }
+        return;
+      }
+      for (std::size_t k = 0; k < at.size(); ++k) columns_[k].push_back(cells[at[k]]);
+    });
+    if (!is_table) throw InputError(file.string() + ": is not a table that this program writes");
+  }
+
+  [[nodiscard]] std::size_t rows() const { return columns_.empty() ? 0 : columns_.front().size(); }
+  [[nodiscard]] const std::string& word(std::string_view name, std::size_t row) const { return column(name)[row]; }
+  /// Not a number of an empty cell.
+  [[nodiscard]] double number(std::string_view name, std::size_t row) const {
+    const std::string& cell = column(name)[row];
+    double value = nan;
+    std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    return value;
+  }
+
+ private:
+  [[nodiscard]] const std::vector<std::string>& column(std::string_view name) const {
+    return columns_[static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin())];
+  }
+
+  std::vector<std::string> names_;
+  std::vector<std::vector<std::string>> columns_;
+};
+
+std::vector<std::string> header_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string line;
+  std::getline(stream, line);
+  std::vector<std::string> names;
+  (void)scan_csv(line + "\n", [&names](std::vector<std::string>& cells) { names = cells; });
+  return names;
+}
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+// ---- words ------------------------------------------------------------------------------------------------------
+
+/// What a column is the statistic of: endings of names, in words.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> statistics = {{{"_mean", "Mean of "},
+                                                                                      {"_rms", "RMS of "},
+                                                                                      {"_range", "Peak to peak of "},
+                                                                                      {"_min", "Least "},
+                                                                                      {"_max", "Largest "},
+                                                                                      {"_h1", "Harmonic 1 of "},
+                                                                                      {"_h2", "Harmonic 2 of "},
+                                                                                      {"_h3", "Harmonic 3 of "}}};
+
+/// The symbol of a signal, "δ_{sp,1}" of delta_sp and delta_sp_1; its words where it has none; or nothing.
+std::string symbol_of(std::string_view signal) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 3> words = {
+      {{"transmission_error", "the transmission error"},
+       {"force_sun_bearing", "the sun bearing's force"},
+       {"planet_spread", "the spread of the planets' deflections"}}};
+  for (const auto& [name, text] : words)
+    if (signal == name) return std::string(text);
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> symbols = {
+      {{"delta_", "δ"}, {"force_", "F"}, {"dynamic_factor_", "K"}, {"load_sharing_", "L"}}};
+  for (const auto& [name, symbol] : symbols) {
+    if (!signal.starts_with(name)) continue;
+    std::string index(signal.substr(name.size()));
+    const bool planet = index.size() == 4 && index[2] == '_' && index[3] >= '1' && index[3] <= '9';
+    const std::string mesh = index.substr(0, 2);
+    if ((mesh != "sp" && mesh != "rp") || !(index.size() == 2 || planet)) continue;
+    if (planet)
+      index[2] = ',';
+    else if (symbol != "K")
+      index += ",1";
+    return fmt::format("{}_{{{}}}", symbol, index);
+  }
+  return {};
+}
+
+struct Described {
+  std::string words;
+  std::string unit;
+};
+
+/// By the lists of columns; of states and histories by their names.
+Described described(const std::string& column) {
+  static const auto listed_columns = [] {
+    std::vector<std::pair<std::string, Described>> all;
+    for (const auto& c : store::point_columns(gear::planets_max)) all.push_back({c.name, {c.meaning, c.unit}});
+    for (const auto& c : store::branch_columns(gear::planets_max)) all.push_back({c.name, {c.meaning, c.unit}});
+    return all;
+  }();
+  const auto found = std::ranges::find(listed_columns, column, &std::pair<std::string, Described>::first);
+  if (found != listed_columns.end()) return found->second;
+  if (column == "periods") return {"Mesh periods", "1"};
+  if (column == "tau") return {"τ", "1"};
+  if (column.ends_with("_rate")) return {"Rate of " + column.substr(0, column.size() - 5), "b_c per tau"};
+  if (column.starts_with("force_") || column.starts_with("bearing_")) return {column, "N"};
+  if (column.starts_with("load_sharing_")) return {column, "1"};
+  return {column, "b_c"};
+}
+
+double factor_of(const std::string& column, bool micrometres) {
+  return micrometres && described(column).unit == "b_c" ? 1e6 * model::length_scale_m : 1.0;
+}
+
+std::string unit_text(const std::string& unit, bool micrometres) {
+  if (unit.empty() || unit == "1") return {};
+  if (unit == "b_c") return micrometres ? "  [µm]" : " / b_c";
+  return "  [" + figures::literal_text(unit) + "]";
+}
+
+/// The parameter that a study goes along, where it is one.
+std::string parameter_of(const input::Study& study) {
+  const auto varied = input::varied_parameters(study);
+  return varied.empty() ? std::string() : varied.front().axis.name;
+}
+
+// ---- figures ----------------------------------------------------------------------------------------------------
+
+constexpr std::array colours{figures::ink::blue,  figures::ink::red,    figures::ink::green,
+                             figures::ink::ochre, figures::ink::purple, figures::ink::dark_grey};
+
+std::string_view colour_of(std::size_t k) { return colours[k % colours.size()]; }
+
+/// One figure, put together study by study.
+class Plot {
+ public:
+  Plot(const std::vector<PlottedStudy>& studies, PlotOptions options)
+      : studies_(studies), options_(std::move(options)), factor_(factor_of(options_.quantity, options_.micrometres)) {}
+
+  std::vector<DrawnFigure> draw(const std::filesystem::path& folder) {
+    std::string stem = options_.quantity;
+    if (!options_.abscissa.empty()) stem += "_over_" + options_.abscissa;
+    figures::Sketch sketch(stem);
+    read_all();
+    const bool of_sections = std::ranges::any_of(series_, [](const Series& s) { return s.section; });
+    // Where both ways are chaotic, one would hide the other: each has a frame of its own.
+    std::set<std::string> ways;
+    for (const Series& s : series_)
+      if (!s.rows.empty() && !s.lines) ways.insert(s.way);
+    const bool apart = of_sections && ways.size() > 1;
+    const std::string label =
+        (of_sections && !apart ? "Poincaré points of  " : "") + quantity_label(options_.quantity, options_.micrometres);
+    const FigureRange x = options_.x ? *options_.x : x_.widened(0.0);
+    const FigureRange y = options_.y ? *options_.y : y_.widened(figures::figure_margin);
+    if (x_.empty() || y_.empty())
+      return {{folder / (stem + ".png"),
+               {options_.x ? "there is no finite point to draw in that range" : "there is no finite point to draw"}}};
+    if (apart) sketch.command("set style textbox opaque noborder fillcolor '#ffffff' margins 0.4,0.4");
+    const std::vector<std::string> frames =
+        apart ? std::vector<std::string>{"up", "down"} : std::vector<std::string>{{}};
+    for (const std::string& frame : frames) {
+      figures::FigurePanel panel{label, y, {}};
+      panel.logarithmic = options_.logarithmic;
+      sketch.panel(std::move(panel));
+      for (auto s = series_.rbegin(); s != series_.rend(); ++s)
+        if (!apart || s->way == frame || s->lines) add(sketch, *s);
+      if (apart) sketch.letters(std::vector<Place>{{x.high, y.high}}, frame, "right offset character -0.8,-0.9 boxed");
+      if (frame == frames.front()) add_legend(sketch, ways.size() > 1 && !apart);
+    }
+    const figures::FigureText text{title(), abscissa_label(), "", above()};
+    // The picture has the size that was asked for, whatever is in it.
+    figures::FigureCanvas canvas = options_.canvas;
+    if (text.above) canvas.height -= figures::second_abscissa_height;
+    return drawn(folder, stem, sketch.draw(folder, text, x, y, {}, canvas, figures::Pictures::none));
+  }
+
+  std::vector<DrawnFigure> draw_map(const std::filesystem::path& folder) {
+    const PlottedStudy& of = studies_.front();
+    const auto& map = std::get<studies::MapOptions>(of.study->plan);
+    const Columns table(of.folder / "points.csv", {"direction", options_.quantity});
+    const figures::CellGrid grid{axis_values(map.plane.first), axis_values(map.plane.second)};
+    const std::size_t cells = grid.x.size() * grid.y.size();
+    std::vector<DrawnFigure> all;
+    for (std::size_t d = 0; d < map.directions.size(); ++d) {
+      std::vector<double> values;
+      for (std::size_t k = d * cells; k < std::min((d + 1) * cells, table.rows()); ++k)
+        values.push_back(factor_ * table.number(options_.quantity, k));
+      values.resize(cells, nan);
+      const std::string way = store::direction_word(map.directions[d]);
+      figures::FigureText text{title(), parameter_label(map.plane.first.name), parameter_label(map.plane.second.name)};
+      if (map.directions.size() > 1) text.title += ", " + way;
+      const std::string stem = options_.quantity + "_" + way;
+      const std::string label = quantity_label(options_.quantity, options_.micrometres);
+      std::ranges::move(drawn(folder, stem,
+                              figures::scale_figure(folder, stem, text, grid, label, values, options_.canvas,
+                                                    figures::Pictures::none)),
+                        std::back_inserter(all));
+    }
+    return all;
+  }
+
+ private:
+  struct Series {
+    std::size_t study = 0;
+    std::string way;            ///< "up", "down"; empty: neither
+    bool lines = false;         ///< alone, without dots
+    bool section = false;       ///< many values over each abscissa
+    std::vector<Place> rows;    ///< dots, or stable orbits
+    std::vector<Place> joined;  ///< a line through those that belong together, or unstable orbits
+  };
+
+  void read_all() {
+    for (std::size_t k = 0; k < studies_.size(); ++k) {
+      const std::string_view kind = studies_[k].study->kind();
+      if (kind == "run")
+        read_run(k);
+      else if (kind == "continue")
+        read_branches(k);
+      else
+        read_sweep(k);
+    }
+    for (const Series& s : series_)
+      for (const auto* rows : {&s.rows, &s.joined})
+        for (const auto& [x, y] : *rows) {
+          if (!std::isfinite(x) || !std::isfinite(y) || (options_.x && (x < options_.x->low || x > options_.x->high)))
+            continue;
+          x_.include(x);
+          y_.include(y);
+        }
+  }
+
+  [[nodiscard]] Place place(double x, double y) const {
+    const bool drawn = std::isfinite(x) && std::isfinite(y) && (!options_.logarithmic || y > 0.0);
+    return drawn ? Place{x, factor_ * y} : gap;
+  }
+
+  [[nodiscard]] std::string abscissa_or(const char* otherwise) const {
+    return options_.abscissa.empty() ? otherwise : options_.abscissa;
+  }
+
+  void read_sweep(std::size_t k) {
+    const std::filesystem::path& folder = studies_[k].folder;
+    const std::string x = abscissa_or("value");
+    const std::vector<std::string> names = header_of(folder / "points.csv");
+    const bool section = !has(names, options_.quantity);
+    std::vector<std::string> wanted{"direction", "regime", x};
+    if (!section) wanted.push_back(options_.quantity);
+    const Columns points(folder / "points.csv", wanted);
+    // First where the points are, then what the section has at each.
+    std::vector<Series> ways;
+    const auto series_at = [&](std::size_t row) -> Series& {
+      const std::string& way = points.word("direction", row);
+      auto found = std::ranges::find(ways, way, &Series::way);
+      if (found == ways.end()) found = ways.insert(ways.end(), Series{k, way, false, section, {}, {}});
+      return *found;
+    };
+    for (std::size_t row = 0; row < points.rows(); ++row) {
+      Series& s = series_at(row);
+      if (section) continue;
+      const Place at = place(points.number(x, row), points.number(options_.quantity, row));
+      s.rows.push_back(at);
+      // No line goes through chaos, where such numbers are a matter of chance.
+      const std::string& regime = points.word("regime", row);
+      s.joined.push_back(regime == "periodic" || regime == "quasiperiodic" ? at : gap);
+    }
+    if (section) {
+      const Columns rows(folder / "poincare.csv", {"point", options_.quantity});
+      for (std::size_t row = 0; row < rows.rows(); ++row) {
+        const auto point = static_cast<std::size_t>(rows.number("point", row));
+        if (point < points.rows())
+          series_at(point).rows.push_back(place(points.number(x, point), rows.number(options_.quantity, row)));
+      }
+    }
+    std::ranges::move(ways, std::back_inserter(series_));
+  }
+
+  void read_branches(std::size_t k) {
+    const std::string x = abscissa_or("value");
+    const Columns table(studies_[k].folder / "branch.csv", {"branch", "stable", x, options_.quantity});
+    Series s{k, {}, true, false, {}, {}};
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+      const bool begins = row == 0 || table.word("branch", row) != table.word("branch", row - 1);
+      const bool stable = table.number("stable", row) == 1.0;
+      const Place at = place(table.number(x, row), table.number(options_.quantity, row));
+      if (begins) {
+        s.rows.push_back(gap);
+        s.joined.push_back(gap);
+      } else if (stable != (table.number("stable", row - 1) == 1.0)) {
+        // A line goes on to the first orbit of the other kind.
+        auto& before = stable ? s.joined : s.rows;
+        before.push_back(at);
+        before.push_back(gap);
+      }
+      (stable ? s.rows : s.joined).push_back(at);
+    }
+    series_.push_back(std::move(s));
+  }
+
+  void read_run(std::size_t k) {
+    const std::string x = abscissa_or("periods");
+    const Columns table(studies_[k].folder / "history.csv", {x, options_.quantity});
+    Series s{k, {}, true, false, {}, {}};
+    for (std::size_t row = 0; row < table.rows(); ++row)
+      s.rows.push_back(place(table.number(x, row), table.number(options_.quantity, row)));
+    series_.push_back(std::move(s));
+  }
+
+  [[nodiscard]] bool alone() const { return studies_.size() == 1; }
+
+  void add(figures::Sketch& sketch, const Series& s) const {
+    const bool down = s.way == "down";
+    const std::string_view colour = colour_of(alone() && down ? 1 : s.study);
+    if (s.lines) {
+      sketch.add(s.joined, figures::dashed(colour, 1.6, "(8,6)"));
+      sketch.add(s.rows, figures::solid(colour, 2.2));
+      return;
+    }
+    if (s.section) {
+      const std::vector<Place> dots = thinned(s.rows);
+      constexpr std::size_t many = 2000;
+      sketch.add(dots, figures::dots(colour, dots.size() > many ? 0.15 : 0.4));
+      return;
+    }
+    sketch.add(s.joined, down ? figures::dashed(colour, 0.8, "(8,6)") : figures::solid(colour, 0.8));
+    constexpr std::size_t many = 300;
+    sketch.add(dots_of(s.rows), figures::dots(colour, s.rows.size() > many ? 0.3 : 0.6, down ? 6 : 7));
+  }
+
+  /// Without the gaps, which would part them.
+  static std::vector<Place> dots_of(const std::vector<Place>& rows) {
+    std::vector<Place> dots;
+    std::ranges::copy_if(rows, std::back_inserter(dots), [](const Place& p) { return std::isfinite(p[0]); });
+    return dots;
+  }
+
+  /// One dot of those that no picture shows apart, the first.
+  [[nodiscard]] std::vector<Place> thinned(const std::vector<Place>& rows) const {
+    constexpr double columns = 4000;
+    constexpr double lines = 3000;
+    const auto cell = [](double v, const FigureRange& r, double n) {
+      return r.high > r.low ? static_cast<std::int64_t>(n * (v - r.low) / (r.high - r.low)) : 0;
+    };
+    std::set<std::pair<std::int64_t, std::int64_t>> taken;
+    std::vector<Place> dots;
+    for (const Place& p : rows)
+      if (std::isfinite(p[0]) && taken.emplace(cell(p[0], x_, columns), cell(p[1], y_, lines)).second)
+        dots.push_back(p);
+    return dots;
+  }
+
+  void add_legend(figures::Sketch& sketch, bool ways) const {
+    if (!alone())
+      for (std::size_t k = 0; k < studies_.size(); ++k)
+        sketch.entry(figures::solid(colour_of(k), 2.5), figures::literal_text(studies_[k].label));
+    if (ways)
+      for (const bool down : {false, true})
+        sketch.entry(figures::dots(alone() ? colour_of(down ? 1 : 0) : figures::ink::dark_grey, 0.8, down ? 6 : 7),
+                     down ? "down" : "up");
+    if (std::ranges::any_of(studies_, [](const PlottedStudy& s) { return s.study->kind() == "continue"; }))
+      sketch.entry(figures::dashed(alone() ? colour_of(0) : figures::ink::dark_grey, 1.6, "(8,6)"), "unstable");
+  }
+
+  [[nodiscard]] std::string title() const {
+    if (!options_.title.empty()) return figures::literal_text(options_.title);
+    return alone() ? figures::literal_text(figure_title(*studies_.front().study)) : std::string();
+  }
+
+  [[nodiscard]] std::string abscissa_label() const {
+    if (!options_.abscissa.empty()) return quantity_label(options_.abscissa, false);
+    const std::string parameter = parameter_of(*studies_.front().study);
+    return parameter.empty() ? quantity_label("periods", false) : parameter_label(parameter);
+  }
+
+  /// Omega below and the sun's speed above, or the other way round; of stages with one scale of time.
+  [[nodiscard]] std::optional<figures::SecondAbscissa> above() const {
+    const bool of_rpm = options_.abscissa == "sun_speed_rpm";
+    if (!(options_.abscissa.empty() || of_rpm)) return std::nullopt;
+    std::optional<double> rpm_per_ratio;
+    for (const PlottedStudy& s : studies_) {
+      const gear::Stage& stage = s.study->stage;
+      if (parameter_of(*s.study) != studies::speed_parameter) return std::nullopt;
+      const double here = gear::rpm * gear::speeds(stage, model::scales_of(stage).omega_sn).sun;
+      constexpr double rounding = 1e-9;
+      if (rpm_per_ratio && std::abs(here / *rpm_per_ratio - 1.0) > rounding) return std::nullopt;
+      rpm_per_ratio = here;
+    }
+    if (of_rpm) return figures::SecondAbscissa{parameter_label(studies::speed_parameter), 1.0 / *rpm_per_ratio};
+    return figures::SecondAbscissa{quantity_label("sun_speed_rpm", false), *rpm_per_ratio};
+  }
+
+  [[nodiscard]] std::vector<DrawnFigure> drawn(const std::filesystem::path& folder, const std::string& stem,
+                                               figures::FigureOutcome written) const {
+    std::vector<DrawnFigure> all;
+    for (const figures::Pictures picture : options_.pictures) {
+      const char* ending = picture == figures::Pictures::svg   ? ".svg"
+                           : picture == figures::Pictures::pdf ? ".pdf"
+                                                               : ".png";
+      all.push_back(
+          {folder / (stem + ending), written.drawn() ? figures::draw_pictures(folder, stem, picture) : written});
+    }
+    return all;
+  }
+
+  const std::vector<PlottedStudy>& studies_;
+  PlotOptions options_;
+  double factor_;
+  std::vector<Series> series_;
+  FigureRange x_, y_;
+};
+
+/// The tables that columns are looked for in, of a kind of study.
+struct KindOfPlot {
+  std::string_view kind;
+  std::vector<std::string> tables;
+  std::string quantity;  ///< that it is best known by
+};
+
+const std::vector<KindOfPlot>& kinds_of_plot() {
+  static const std::vector<KindOfPlot> all = {{"sweep", {"points.csv", "poincare.csv"}, "delta_sp_1"},
+                                              {"map", {"points.csv"}, "delta_sp_rms"},
+                                              {"continue", {"branch.csv"}, "delta_sp_rms"},
+                                              {"run", {"history.csv"}, "delta_sp_1"}};
+  return all;
+}
+
+const KindOfPlot& kind_of_plot(std::string_view kind) {
+  const auto found = std::ranges::find(kinds_of_plot(), kind, &KindOfPlot::kind);
+  if (found == kinds_of_plot().end())
+    throw InputError(fmt::format("plot draws sweeps, maps, branches and runs, not a study of kind {}", kind));
+  return *found;
+}
+
+/// Columns that are words have no place on an axis.
+bool is_of_words(const std::string& column) {
+  for (const auto& c : store::point_columns(0))
+    if (c.name == column) return c.unit.empty();
+  return column.starts_with("contact_") || column == "multipliers";
+}
+
+}  // namespace
+
+std::vector<std::string> plotted_tables(std::string_view kind) { return kind_of_plot(kind).tables; }
+
+std::string quantity_label(const std::string& column, bool micrometres) {
+  const Described d = described(column);
+  const std::string unit = unit_text(d.unit, micrometres);
+  if (column == "sun_speed_rpm") return "Sun speed  n_s  [rpm]";
+  if (column == "carrier_speed_rpm") return "Carrier speed  n_c  [rpm]";
+  if (column == "value") return "Parameter";
+  if (const std::string symbol = symbol_of(column); !symbol.empty())
+    return (symbol.starts_with("K") ? "Dynamic factor  " : "") + symbol + unit;
+  for (const auto& [ending, words] : statistics)
+    if (column.ends_with(ending))
+      if (const std::string symbol = symbol_of(std::string_view(column).substr(0, column.size() - ending.size()));
+          !symbol.empty())
+        return std::string(words) + symbol + unit;
+  std::string words = d.words;
+  if (!words.empty()) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
+  return figures::literal_text(words) + unit;
+}
+
+PlotOptions sound_options(const std::vector<PlottedStudy>& studies, PlotOptions options) {
+  const PlottedStudy& first = studies.front();
+  const std::string_view kind = first.study->kind();
+  const bool of_branches =
+      std::ranges::any_of(studies, [](const PlottedStudy& s) { return s.study->kind() == "continue"; });
+  if (options.quantity.empty()) options.quantity = kind_of_plot(of_branches ? "continue" : kind).quantity;
+  for (const PlottedStudy& s : studies) {
+    const std::string_view other = s.study->kind();
+    const auto may_be_beside = [](std::string_view k) { return k == "sweep" || k == "continue"; };
+    if (studies.size() > 1 && !(other == kind && kind == "run") && !(may_be_beside(other) && may_be_beside(kind)))
+      throw InputError(fmt::format("plot: {} is a study of kind {}, {} one of kind {}; they do not go into one figure",
+                                   first.folder.string(), kind, s.folder.string(), other));
+    if (options.abscissa.empty() && parameter_of(*s.study) != parameter_of(*first.study))
+      throw InputError(fmt::format("plot: {} goes along {}, {} along {}; give an abscissa that both have, by --x",
+                                   first.folder.string(), parameter_of(*first.study), s.folder.string(),
+                                   parameter_of(*s.study)));
+    std::vector<std::string> known;
+    for (const std::string& table : kind_of_plot(other).tables) {
+      std::vector<std::string> names = header_of(s.folder / table);
+      if (table == kind_of_plot(other).tables.front() && !options.abscissa.empty() && !has(names, options.abscissa))
+        throw InputError(fmt::format("plot: {} has no column '{}' for the abscissa{}", (s.folder / table).string(),
+                                     options.abscissa, input::suggestion(options.abscissa, names)));
+      std::ranges::move(names, std::back_inserter(known));
+    }
+    if (!has(known, options.quantity))
+      throw InputError(fmt::format("plot: {} has no quantity '{}'{}; docs/output.md lists them", s.folder.string(),
+                                   options.quantity, input::suggestion(options.quantity, known)));
+  }
+  for (const std::string& column : {options.quantity, options.abscissa})
+    if (is_of_words(column)) throw InputError("plot: '" + column + "' is a column of words, which no axis has");
+  if (options.micrometres && factor_of(options.quantity, true) == 1.0)
+    throw InputError("plot: '" + options.quantity + "' is no length in b_c, so it has none in micrometres");
+  return options;
+}
+
+std::vector<DrawnFigure> draw_plot(const std::filesystem::path& folder, const std::vector<PlottedStudy>& studies,
+                                   const PlotOptions& options) {
+  Plot plot(studies, options);
+  return studies.front().study->kind() == "map" ? plot.draw_map(folder) : plot.draw(folder);
+}
+
+}  // namespace epicyclic::reports
