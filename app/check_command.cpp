@@ -11,7 +11,6 @@
 #include "claims.hpp"
 #include "commands.hpp"
 #include "core/text.hpp"
-#include "gear/kinematics.hpp"
 #include "input/study_model.hpp"
 #include "progress.hpp"
 #include "reports/speed_words.hpp"
@@ -178,8 +177,6 @@ std::string time_of(const input::LoadedInput& input, const studies::SweepPlan& p
 
 /// The speeds of the study's points as people know them.
 void tell_speeds(const input::LoadedInput& input) {
-  const gear::Stage& stage = input.study.stage;
-  const double omega_sn = model::scales_of(stage).omega_sn;
   double from = input.study.mesh_frequency_ratio;
   double to = from;
   for (const auto& [axis, place] : input::varied_parameters(input.study))
@@ -189,7 +186,7 @@ void tell_speeds(const input::LoadedInput& input) {
     }
   const auto words = [&](double ratio) {
     return fmt::format("mesh frequency ratio {}: {}", short_text(ratio, 6),
-                       reports::speed_words(gear::speeds(stage, ratio * omega_sn), ratio * omega_sn));
+                       reports::speed_words(input.study.stage, ratio));
   };
   tell("speed: {}\n", words(from));
   if (to != from) tell("    to {}\n", words(to));

@@ -31,6 +31,18 @@ struct PlotArguments {
   bool logarithmic = false;
 };
 
+/// What the command line gives to `init`, of a drawing.
+struct InitArguments {
+  std::vector<int> teeth;              ///< sun, planet, ring
+  std::vector<double> profile_shifts;  ///< likewise
+  double module_mm = 3;
+  double pressure_angle_deg = 20;
+  double width_mm = 30;
+  int planets = 3;
+  double torque_Nm = 0;  ///< 0: not given
+  double speed_rpm = 0;  ///< 0: not given
+};
+
 /// What the command line gives to a subcommand.
 struct Arguments {
   std::filesystem::path input;
@@ -39,6 +51,7 @@ struct Arguments {
   int threads = 1;
   bool json = false;
   std::vector<std::string> from;   ///< points to start from, of finished studies [finished_study.hpp]
+  std::filesystem::path grow;      ///< of sweep, map and basins: a finished study whose points are taken; empty: none
   std::filesystem::path against;   ///< of continue: a sweep's folder; empty: none. Of assert: the expected points' file
   int unexplained = 0;             ///< of continue: changes that may stay so
   std::filesystem::path expected;  ///< of reproduce: file of the verdicts that are expected; empty: beside the input
@@ -46,7 +59,9 @@ struct Arguments {
   bool record = false;             ///< of assert and reproduce: what was found becomes what is expected
   bool no_time = false;            ///< of check: time is not measured
   bool quiet = false;              ///< part of another command: nothing on stdout
+  std::vector<std::string> words;  ///< of keys: what is looked for
   PlotArguments plot{};
+  InitArguments init{};
   Ranks* ranks = nullptr;
 };
 
@@ -62,6 +77,9 @@ int robustness_command(const Arguments& arguments);
 int calibrate_command(const Arguments& arguments);
 int assert_command(const Arguments& arguments);
 int plot_command(const Arguments& arguments);
+int init_command(const Arguments& arguments);
+int keys_command(const Arguments& arguments);
+int init_command(const Arguments& arguments);
 int gear_command(const Arguments& arguments);
 int check_command(const Arguments& arguments);
 

@@ -79,8 +79,10 @@ struct Subcommand {
   CLI::App* command = nullptr;  ///< on the command line
 };
 
-std::array<Subcommand, 15> subcommands() {
+std::array<Subcommand, 17> subcommands() {
   return {{
+      {"init", "a stage of your own and its studies to begin with, from a drawing's numbers", init_command,
+       Takes::finished},
       {"gear", "teeth, contact, stiffness, friction, bearings and modes of the stage", gear_command, Takes::output},
       {"run", "one operating point: regime, forces, spectra, exponents, orbit, figures", run_command, Takes::threads},
       {"sweep", "bifurcation diagram along one parameter, up, down or both", sweep_command, Takes::threads, true},
@@ -102,6 +104,8 @@ std::array<Subcommand, 15> subcommands() {
        Takes::finished},
       {"check", "validates, prints the resolved input, its cost and how long it takes; writes nothing", check_command,
        Takes::input},
+      {"keys", "the keys of the input with unit, default, bounds and meaning; those that speak of WORD", keys_command,
+       Takes::nothing},
       {"schema", "the JSON Schema of the input", print_schema, Takes::nothing},
   }};
 }
@@ -167,6 +171,25 @@ void add_assert_options(CLI::App& command, Arguments& arguments) {
   command.add_flag("--record", arguments.record, "write the points of FOLDER to EXPECTED, with twice their bounds");
 }
 
+void add_init_options(CLI::App& command, Arguments& arguments) {
+  InitArguments& init = arguments.init;
+  command.add_option("FOLDER", arguments.output, "takes stage.json, speed.json and point.json")->required();
+  command
+      .add_option("--teeth", init.teeth, "Z_SUN,Z_PLANET[,Z_RING]; 21,28,77 by default, Z_RING = Z_SUN + 2 Z_PLANET")
+      ->delimiter(',')
+      ->expected(2, 3);
+  command.add_option("--module", init.module_mm, "module [mm]")->capture_default_str();
+  command.add_option("--pressure-angle", init.pressure_angle_deg, "pressure angle [deg]")->capture_default_str();
+  command.add_option("--shifts", init.profile_shifts, "X_SUN,X_PLANET,X_RING, profile shifts [-]; 0,0,0 by default")
+      ->delimiter(',')
+      ->expected(3);
+  command.add_option("--width", init.width_mm, "face width [mm]")->capture_default_str();
+  command.add_option("--planets", init.planets, "number of planets")->capture_default_str();
+  command.add_option("--torque", init.torque_Nm, "torque on the sun [N m]")->check(CLI::PositiveNumber);
+  command.add_option("--speed", init.speed_rpm, "rated speed of the sun [rpm]; the sweep goes from 0.2 to 1.5 of it")
+      ->check(CLI::PositiveNumber);
+}
+
 void add_plot_options(CLI::App& command, PlotArguments& plot, Arguments& arguments) {
   command.add_option("FOLDER", plot.folders, "of finished sweeps, branches, maps or runs; several in one figure")
       ->required();
@@ -216,6 +239,14 @@ int run(int argc, char** argv) {
     if (sub.run == continue_command) add_continue_options(*sub.command, arguments);
     if (sub.run == run_command || sub.run == crosscheck_command || sub.run == tolerance_command)
       add_start_option(*sub.command, arguments);
+    if (sub.run == keys_command)
+      sub.command->add_option("WORD", arguments.words, "in its name or meaning; several: all");
+    if (sub.run == sweep_command || sub.run == map_command || sub.run == basins_command)
+      sub.command->add_option(
+          "--grow", arguments.grow,
+          "folder of a finished smaller study: its points are taken where a fresh computation would "
+          "give the same bytes");
+    if (sub.run == init_command) add_init_options(*sub.command, arguments);
     if (sub.run == plot_command) add_plot_options(*sub.command, arguments.plot, arguments);
     if (sub.run == assert_command) add_assert_options(*sub.command, arguments);
     if (sub.run == reproduce_command) add_reproduce_options(*sub.command, arguments);

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <utility>
 
 #include "failure.hpp"
 #include "folder.hpp"
+#include "grow.hpp"
 #include "input/study_input.hpp"
 #include "input/study_model.hpp"
 #include "progress.hpp"
@@ -166,6 +168,9 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   if (!arguments.quiet && command == "sweep" && input.study.sweep().axis.name != studies::speed_parameter)
     tell("operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
 
+  std::unique_ptr<GrownStudy> grown;
+  if (!arguments.grow.empty()) grown = std::make_unique<GrownStudy>(arguments.grow, input, plan, command);
+
   const std::string identity = identity_of(input, command);
   if (leader != nullptr) leader->gather(arguments, identity);
   Session session(arguments, input, identity, arguments.threads, arguments.ranks->size());
@@ -174,6 +179,12 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
 
   store::PointStore store(folder.path(), identity, plan.points.size());
   for (const auto& [journal, bytes] : store.cut_tails()) tell_cut_tail(journal, bytes);
+  std::size_t taken = 0;
+  if (grown) {
+    taken = grown->take_into(store);
+    tell("{}: {} of {} {} are those of {}\n", folder.path().string(), taken, plan.points.size(), noun,
+         arguments.grow.string());
+  }
   studies::LaneUse lanes;
   const std::size_t failed = compute_missing(arguments, command, noun, input, plan, model_at, store, leader, lanes);
   folder.require_there();
@@ -184,6 +195,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
     session.end(state,
                 {{"points", static_cast<std::int64_t>(plan.points.size())},
                  {"computed", static_cast<std::int64_t>(store.size())},
+                 {"taken", static_cast<std::int64_t>(taken)},
                  {"failed", static_cast<std::int64_t>(failed)},
                  {"undrawn", undrawn},
                  {"unexplained", static_cast<std::int64_t>(written.unexplained)}},

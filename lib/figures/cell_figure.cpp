@@ -216,14 +216,15 @@ struct Steps {
   std::vector<double> of;       ///< the step of each cell, from 0; below zero: none
   double first = 0, width = 1;  ///< where step 0 begins, and how wide each of them is
   int count = 1;
-  std::string tics;  ///< of the bar
+  std::string values;  ///< what is written of a cell
+  std::string tics;    ///< of the bar
 };
 
 FigureOutcome stepped_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
                              const CellGrid& grid, const std::string& bar_label, const Steps& steps,
                              const FigureCanvas& canvas, Pictures which) {
   const auto write_data = [&](AtomicFile& file) {
-    file.write("# x from, x to, y from, y to, middle of the step\n");
+    file.write("# x from, x to, y from, y to, " + steps.values + "\n");
     write_rectangles(
         file, grid, [&](std::size_t a, std::size_t b) { return steps.of[a] == steps.of[b]; },
         [&](std::size_t cell) {
@@ -259,7 +260,11 @@ FigureOutcome decade_figure(const std::filesystem::path& folder, std::string_vie
   constexpr double in_a_decade = 4.0;
   const double lowest = std::floor(in_a_decade * std::log10(floor));
   double highest = -std::numeric_limits<double>::infinity();
-  Steps steps{std::vector<double>(cells.size(), -1.0), lowest / in_a_decade, 1.0 / in_a_decade, 1,
+  Steps steps{std::vector<double>(cells.size(), -1.0),
+              lowest / in_a_decade,
+              1.0 / in_a_decade,
+              1,
+              "decades",
               "set cbtics 1 font ',20'\nset format cb '10^{%.0f}'\n"};
   for (std::size_t k = 0; k < cells.size(); ++k) {
     if (!(cells[k] >= floor) || !std::isfinite(cells[k])) continue;
@@ -280,7 +285,11 @@ FigureOutcome scale_figure(const std::filesystem::path& folder, std::string_view
   if (all.empty()) return {"there is no finite value to draw"};
   constexpr int count = 20;
   const FigureRange range = all.low < all.high ? all : all.widened(0.0);
-  Steps steps{std::vector<double>(cells.size(), -1.0), range.low, (range.high - range.low) / count, count,
+  Steps steps{std::vector<double>(cells.size(), -1.0),
+              range.low,
+              (range.high - range.low) / count,
+              count,
+              "middle of the step",
               "set cbtics font ',20'\nset format cb '%h'\n"};
   for (std::size_t k = 0; k < cells.size(); ++k)
     if (std::isfinite(cells[k]))

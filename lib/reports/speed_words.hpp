@@ -6,6 +6,7 @@
 
 #include "core/text.hpp"
 #include "gear/kinematics.hpp"
+#include "model/scales.hpp"
 
 namespace epicyclic::reports {
 
@@ -16,6 +17,12 @@ namespace epicyclic::reports {
   return "sun " + short_text(gear::rpm * speeds.sun, digits) + " rpm, carrier " +
          short_text(gear::rpm * speeds.carrier, digits) + " rpm, mesh frequency " +
          short_text(mesh_frequency / (2.0 * std::numbers::pi), digits) + " Hz";
+}
+
+/// At a mesh frequency ratio of a stage that moves.
+[[nodiscard]] inline std::string speed_words(const gear::Stage& stage, double mesh_frequency_ratio) {
+  const double mesh_frequency = mesh_frequency_ratio * model::scales_of(stage).omega_sn;
+  return speed_words(gear::speeds(stage, mesh_frequency), mesh_frequency);
 }
 
 }  // namespace epicyclic::reports

@@ -36,7 +36,7 @@ std::string identity(const ResolvedValues& input, std::string_view command) {
   return sha256_hex(canonical_json(what));
 }
 
-std::vector<std::string> differences(const ResolvedValues& there, const ResolvedValues& here) {
+std::vector<Difference> differing_values(const ResolvedValues& there, const ResolvedValues& here) {
   const nlohmann::json from = identifying_values(there.resolved, there.computed);
   const nlohmann::json to = identifying_values(here.resolved, here.computed);
   const auto text = [](const nlohmann::json& values, const nlohmann::json::json_pointer& at) {
@@ -45,12 +45,19 @@ std::vector<std::string> differences(const ResolvedValues& there, const Resolved
     std::string value = values.at(at).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     return value.size() <= longest ? value : std::string("another value");
   };
-  std::vector<std::string> lines;
+  std::vector<Difference> all;
   for (const nlohmann::json& change : nlohmann::json::diff(from, to)) {
     const std::string pointer = change.at("path");
     const nlohmann::json::json_pointer at(pointer);
-    lines.push_back(fmt::format("{}: {} there, {} here", pointer, text(there.resolved, at), text(here.resolved, at)));
+    all.push_back(
+        {pointer, fmt::format("{}: {} there, {} here", pointer, text(there.resolved, at), text(here.resolved, at))});
   }
+  return all;
+}
+
+std::vector<std::string> differences(const ResolvedValues& there, const ResolvedValues& here) {
+  std::vector<std::string> lines;
+  for (Difference& d : differing_values(there, here)) lines.push_back(std::move(d.text));
   return lines;
 }
 

@@ -23,7 +23,15 @@ struct ResolvedValues {
 /// SHA-256 (64 hexadecimal digits) of what decides, with the command and the versions of journal and numerics.
 [[nodiscard]] std::string identity(const ResolvedValues& input, std::string_view command);
 
-/// Where two studies differ in what identifies them, a line each: pointer and both values.
+/// Where two studies differ in what identifies them.
+struct Difference {
+  std::string pointer;
+  std::string text;  ///< a line: the pointer and both values
+};
+
+[[nodiscard]] std::vector<Difference> differing_values(const ResolvedValues& there, const ResolvedValues& here);
+
+/// Their texts.
 [[nodiscard]] std::vector<std::string> differences(const ResolvedValues& there, const ResolvedValues& here);
 
 }  // namespace epicyclic::store

@@ -1,0 +1,54 @@
+// epicyclic keys: the keys of the input, a line each.
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "commands.hpp"
+#include "core/errors.hpp"
+#include "input/field_table.hpp"
+#include "input/keys.hpp"
+#include "streams.hpp"
+
+namespace epicyclic::app {
+
+namespace {
+
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// Is each word in its place, its unit, its kinds or its meaning?
+bool speaks_of(const input::KeyLine& key, const std::vector<std::string>& words) {
+  const std::string text = lower(input::key_text(key));
+  return std::ranges::all_of(words,
+                             [&](const std::string& word) { return text.find(lower(word)) != std::string::npos; });
+}
+
+}  // namespace
+
+int keys_command(const Arguments& arguments) {
+  std::vector<std::string> known;
+  bool any = false;
+  for (const input::KeyLine& key : input::key_lines()) {
+    // Its words: "backlash", "half".
+    std::string_view name = std::string_view(key.pointer).substr(key.pointer.rfind('/') + 1);
+    for (std::size_t end = 0; end != std::string_view::npos; name.remove_prefix(end + 1)) {
+      end = name.find('_');
+      known.emplace_back(name.substr(0, end));
+      if (end == std::string_view::npos) break;
+    }
+    if (!speaks_of(key, arguments.words)) continue;
+    any = true;
+    print("{}", input::key_text(key));
+  }
+  if (any) return done;
+  std::string words;
+  for (const std::string& word : arguments.words) words += (words.empty() ? "'" : ", '") + word + "'";
+  throw InputError("no key speaks of " + words + input::suggestion(arguments.words.front(), known));
+}
+
+}  // namespace epicyclic::app

@@ -1,0 +1,222 @@
+#include "input/starter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
+#include "core/text.hpp"
+#include "gear/stage.hpp"
+
+namespace epicyclic::input {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr double addendum = 1.0;    // in modules
+constexpr double clearance = 0.25;  // in modules
+
+double rounded(double x, double step) { return step * std::round(x / step); }
+
+/// Of a gear's root circle.
+double root_mm(const Drawing& d, int teeth, double shift) {
+  return d.module_mm * (teeth - 2.0 * (addendum + clearance - shift));
+}
+
+void check(const Drawing& d) {
+  const auto refuse = [](const std::string& what) { throw InputError("init: " + what); };
+  for (const int z : {d.sun_teeth, d.planet_teeth, d.ring()})
+    if (z < 5 || z > 1000) refuse(fmt::format("{} teeth are none of a gear; from 5 to 1000", z));
+  if (d.planets < gear::planets_min || d.planets > gear::planets_max)
+    refuse(fmt::format("{} planets; from {} to {}", d.planets, gear::planets_min, gear::planets_max));
+  const auto positive = [&](const char* what, double x, double most) {
+    if (!(x > 0.0 && x <= most)) refuse(fmt::format("{} of {}; must be above 0, at most {}", what, x, most));
+  };
+  positive("a module", d.module_mm, 100);
+  positive("a width", d.width_mm, 2000);
+  positive("a torque", d.torque_Nm, 1e8);
+  if (d.speed_rpm) positive("a speed", *d.speed_rpm, 1e6);
+  if (!(d.pressure_angle_deg >= 10 && d.pressure_angle_deg <= 35))
+    refuse(fmt::format("a pressure angle of {}; from 10 to 35 degrees", d.pressure_angle_deg));
+}
+
+ordered_json gear_of(const Drawing& d, int teeth, double shift) {
+  return {{"teeth", teeth},         {"module_mm", d.module_mm}, {"pressure_angle_deg", d.pressure_angle_deg},
+          {"profile_shift", shift}, {"width_mm", d.width_mm},   {"accuracy_grade", 6}};
+}
+
+ordered_json origins_of_gear(const char* more_key, const std::string& more) {
+  return {{"teeth", "source: drawing"},
+          {"module_mm", "source: drawing"},
+          {"pressure_angle_deg", "source: drawing"},
+          {"profile_shift", "source: drawing"},
+          {"width_mm", "source: drawing"},
+          {"accuracy_grade", "estimate: ground gears, ISO 1328 grade 5 to 7; the transmission error follows from it"},
+          {more_key, more}};
+}
+
+/// Angles at which the teeth fit, as near to even spacing as there are any; none where even spacing fits.
+std::vector<double> angles(const Drawing& d) {
+  const int sum = d.sun_teeth + d.ring();
+  if (sum % d.planets == 0) return {};
+  std::vector<double> all;
+  for (int i = 0; i < d.planets; ++i) {
+    const double step = std::round(static_cast<double>(i) * sum / d.planets);
+    all.push_back(360.0 * step / sum);
+  }
+  return all;
+}
+
+}  // namespace
+
+ordered_json starter_stage(const Drawing& d) {
+  check(d);
+  const double m = d.module_mm;
+  const double centre = 0.5 * m * (d.sun_teeth + d.planet_teeth);
+  const double sun_root = root_mm(d, d.sun_teeth, d.profile_shift[0]);
+  const double planet_root = root_mm(d, d.planet_teeth, d.profile_shift[1]);
+  const double step = m >= 1.0 ? 1.0 : 0.1;  // of what is rounded [mm]
+  const double sun_bore = rounded(0.35 * sun_root, step);
+  const double planet_bore = std::max(rounded(planet_root - 6.0 * m, step), rounded(0.3 * planet_root, step));
+  const double ring_outer =
+      rounded(m * (d.ring() + 2.0 * (addendum + clearance) + 2.0 * d.profile_shift[2]) + 8.0 * m, step);
+  const double pin = rounded(0.6 * planet_bore, step);
+  const double backlash_um = rounded(0.5 * 2.0 / 3.0 * (60.0 + 0.5 * centre + 30.0 * m), 1.0);
+  const std::string backlash =
+      fmt::format("estimate: half of the least that ISO/TR 10064-2 recommends at this module and centre distance");
+
+  ordered_json sun = gear_of(d, d.sun_teeth, d.profile_shift[0]);
+  sun["bore_mm"] = sun_bore;
+  sun["origin"] = origins_of_gear("bore_mm", "estimate: hollow shaft, a third of the root circle; 0 of a solid one");
+  ordered_json planet = gear_of(d, d.planet_teeth, d.profile_shift[1]);
+  planet["bore_mm"] = planet_bore;
+  planet["origin"] = origins_of_gear("bore_mm",
+                                     "estimate: leaves a rim of 3 modules; from 1.2 tooth depths on ISO 6336-3 "
+                                     "counts it as solid");
+  ordered_json ring = gear_of(d, d.ring(), d.profile_shift[2]);
+  ring["outer_diameter_mm"] = ring_outer;
+  ring["origin"] = origins_of_gear("outer_diameter_mm", "estimate: leaves a rim of 4 modules");
+
+  ordered_json planets = {{"count", d.planets}};
+  if (const std::vector<double> at = angles(d); !at.empty()) {
+    planets["angles_deg"] = at;
+    planets["origin"] = {
+        {"count", "source: drawing"},
+        {"angles_deg", fmt::format("choice: nearest to even spacing that can be put together, in steps "
+                                   "of 360 / {} degrees",
+                                   d.sun_teeth + d.ring())}};
+  } else {
+    planets["origin"] = "source: drawing";
+  }
+
+  ordered_json stage;
+  stage["name"] = d.name;
+  stage["note"] =
+      "A set to begin with: ring held, carrier free. What has the origin \"estimate\" stands on no drawing: values "
+      "that "
+      "machines have, with the reason and the range; replace what you know. `epicyclic keys WORD` explains a key.";
+  stage["boundary"] = "fixed_ring";
+  stage["planets"] = planets;
+  stage["load"] = {{"torque_Nm", d.torque_Nm},
+                   {"origin", d.torque_is_given ? "source: rating, on the sun" : "estimate: on the sun; give yours"}};
+  stage["catalogue"] = {
+      {"sun", sun},
+      {"planet", planet},
+      {"ring", ring},
+      {"carrier",
+       {{"body",
+         {{"cheek_thickness_mm", rounded(0.3 * d.width_mm, step)},
+          {"outer_diameter_mm", rounded(2.0 * centre + 1.8 * pin, step)},
+          {"inner_diameter_mm", rounded(std::max(sun_root, 2.0 * centre - 2.2 * pin), step)},
+          {"pin_diameter_mm", pin},
+          {"pin_length_mm", rounded(1.4 * d.width_mm, step)},
+          {"origin", "estimate: two cheeks about the pins, pins of 0.6 of the planets' bores"}}}}},
+      {"lubrication",
+       {{"viscosity_mPas", 15}, {"origin", "estimate: ISO VG 150 at 85 degrees Celsius; 5 to 50 in service"}}}};
+  const auto damping = [](const char* of) {
+    return std::string("estimate: usual for ") + of + ", 0.02 to 0.1; no drawing has it, and motions depend on it";
+  };
+  const char* stiffness = "estimate: as in the benchmark of Lin and Parker 1999";
+  stage["lumped"] = {
+      {"sun",
+       {{"support_N_per_m", 2e7},
+        {"support_damping_ratio", 0.05},
+        {"bearing_clearance_half_um", 10},
+        {"origin",
+         {{"support_N_per_m",
+           "estimate: shaft and bearings of a sun that is held, 1e7 to 4e8; some 1e6 of one that floats"},
+          {"support_damping_ratio", damping("rolling bearings")},
+          {"bearing_clearance_half_um",
+           "estimate: half the radial clearance of a ball bearing, group CN of ISO 5753-1, "
+           "3 to 14; 0 of one that is preloaded"}}}}},
+      {"ring",
+       {{"support_N_per_m", 1e8},
+        {"torsional_support_N_per_m", 1e9},
+        {"support_damping_ratio", 0.05},
+        {"origin",
+         {{"support_N_per_m", std::string(stiffness) + ", 1e8 to 3e9; some 1e6 of a ring that floats"},
+          {"torsional_support_N_per_m", std::string(stiffness)},
+          {"support_damping_ratio", damping("mounted rings")}}}}},
+      {"carrier",
+       {{"support_N_per_m", 1e8},
+        {"torsional_support_N_per_m", 0},
+        {"support_damping_ratio", 0.05},
+        {"origin",
+         {{"support_N_per_m", std::string(stiffness) + ", 5e7 to 1e9"},
+          {"torsional_support_N_per_m", "choice: the carrier is the free output"},
+          {"support_damping_ratio", damping("rolling bearings")}}}}},
+      {"planet",
+       {{"bearing_N_per_m", 1e8},
+        {"support_damping_ratio", 0.05},
+        {"origin",
+         {{"bearing_N_per_m", std::string(stiffness) + ", 5e7 to 3e9 of needle and roller bearings"},
+          {"support_damping_ratio", damping("rolling bearings")}}}}},
+      {"sun_planet_mesh",
+       {{"damping_ratio", 0.05},
+        {"backlash_half_um", backlash_um},
+        {"origin", {{"damping_ratio", damping("steel gears")}, {"backlash_half_um", backlash}}}}},
+      {"ring_planet_mesh",
+       {{"damping_ratio", 0.05},
+        {"backlash_half_um", backlash_um},
+        {"origin", {{"damping_ratio", damping("steel gears")}, {"backlash_half_um", backlash}}}}}};
+  return stage;
+}
+
+ordered_json starter_sweep(const Drawing& d, const std::string& stage_file) {
+  ordered_json plan = {{"kind", "sweep"}};
+  if (d.speed_rpm) {
+    plan["parameter"] = "sun_speed_rpm";
+    plan["from"] = rounded(0.2 * *d.speed_rpm, 1.0);
+    plan["to"] = rounded(1.5 * *d.speed_rpm, 1.0);
+  } else {
+    plan["parameter"] = "mesh_frequency_ratio";
+    plan["from"] = 0.2;
+    plan["to"] = 2;
+  }
+  plan["points"] = 181;
+  plan["directions"] = {"up", "down"};
+  plan["crosscheck"] = {{"points", 6}};
+  return {{"name", d.name + "_speed"},
+          {"note", "Diagram over the speed, up and down; some of its points once more by ARKODE and CVODE."},
+          {"stage", stage_file},
+          {"integrator", {{"method", "lanes-cash-karp"}, {"relative_tolerance", 1e-8}, {"absolute_tolerance", 1e-10}}},
+          {"study", plan}};
+}
+
+ordered_json starter_run(const Drawing& d, const std::string& stage_file) {
+  ordered_json operation;
+  if (d.speed_rpm)
+    operation["sun_speed_rpm"] = *d.speed_rpm;
+  else
+    operation["mesh_frequency_ratio"] = 1;
+  return {{"name", d.name + "_point"},
+          {"note", "One speed with everything: regime, forces, spectra, exponents."},
+          {"stage", stage_file},
+          {"operation", operation},
+          {"study", {{"kind", "run"}, {"transient", "adaptive"}}}};
+}
+
+}  // namespace epicyclic::input

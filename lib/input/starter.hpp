@@ -1,0 +1,42 @@
+// A stage and studies to begin with: what a drawing says, and for what no drawing gives a value that machines have,
+// with its reason and the range that it comes from in its origin.
+//
+//   rims      planet 3 m (ISO 6336-3 counts a rim of 1.2 tooth depths, 2.7 m, as solid), ring 4 m (1.75 depths, 3.9 m)
+//   backlash  j_bn = 2/3 (60 um + 0.5 um/mm a + 30 um/mm m), the least that ISO/TR 10064-2 recommends
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace epicyclic::input {
+
+/// What is on the drawing.
+struct Drawing {
+  std::string name = "stage";
+  int sun_teeth = 21, planet_teeth = 28;
+  std::optional<int> ring_teeth{};  ///< none: z_s + 2 z_p
+  double module_mm = 3;
+  double pressure_angle_deg = 20;
+  std::array<double, 3> profile_shift{};  ///< sun, planet, ring
+  double width_mm = 30;
+  int planets = 3;
+  double torque_Nm = 100;             ///< on the sun
+  std::optional<double> speed_rpm{};  ///< rated, of the sun; none: studies are in Omega
+  bool torque_is_given = false;       ///< else it is a starter, too
+
+  [[nodiscard]] int ring() const { return ring_teeth.value_or(sun_teeth + 2 * planet_teeth); }
+};
+
+/// The stage as a file: ring held, carrier free. Planets are spaced evenly, or where that cannot be put together as
+/// nearly so as can.
+/// @throws InputError for numbers that are no gears
+[[nodiscard]] nlohmann::ordered_json starter_stage(const Drawing& drawing);
+
+/// A sweep over the speed, and a run of one, of the stage in a file beside them.
+[[nodiscard]] nlohmann::ordered_json starter_sweep(const Drawing& drawing, const std::string& stage_file);
+[[nodiscard]] nlohmann::ordered_json starter_run(const Drawing& drawing, const std::string& stage_file);
+
+}  // namespace epicyclic::input

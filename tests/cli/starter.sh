@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# starter.sh EPICYCLIC SOURCE_DIR
+#
+# `init`: a set of one's own from a drawing's numbers, every file of it valid without a warning about what init itself chose,
+# nothing written over; sets whose planets cannot be spaced evenly. `keys`: each key of the schema, a line each.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
+
+[ "$(code_of "$epicyclic" init mine)" = 0 ] || fail "init: $(<stderr)"
+[ -z "$(<stderr)" ] || fail "init warns of what it chose: $(<stderr)"
+for name in stage speed point; do [ -s "mine/$name.json" ] || fail "$name.json is missing"; done
+# The commands that it names are there to be typed.
+grep '^  epicyclic' stdout >next
+[ "$(wc -l <next)" = 3 ] || fail "next: $(<stdout)"
+while read -r _ command; do
+  read -r -a words <<<"$command"
+  # Few points: that it runs is enough.
+  [ "${words[0]}" = sweep ] && words+=(--set /study/points=3 --set /study/transient_periods=5 --set /study/classification_periods=0 --set /study/crosscheck/points=0)
+  [ "$(code_of "$epicyclic" "${words[@]}")" = 0 ] || fail "$command: $(<stderr)"
+done <next
+cp -r mine before
+[ "$(code_of "$epicyclic" init mine)" = 2 ] || fail "init over itself"
+diff -r mine before >/dev/null || fail "init wrote over what was there"
+
+# Drawings: three and five planets, even and uneven spacing, given shifts, a rated speed.
+drawing() {
+  rm -rf set
+  [ "$(code_of "$epicyclic" init set "$@")" = 0 ] || fail "init $*: $(<stderr)"
+  [ -z "$(<stderr)" ] || fail "init $* warns: $(<stderr)"
+  for name in speed point; do
+    [ "$(code_of "$epicyclic" check "set/$name.json" --no-time)" = 0 ] || fail "check of init $*: $(<stderr)"
+    grep -q '^warning' stderr && fail "init $*: $(<stderr)"
+  done
+  [ "$(code_of "$epicyclic" gear set/stage.json -o set/gear)" = 0 ] || fail "gear of init $*: $(<stderr)"
+}
+drawing --teeth 21,28,77 --module 3 --width 30 --torque 120 --speed 3000
+grep -q '"angles_deg"' set/stage.json || fail "98 teeth and three planets, but no angles"
+grep -q '"sun_speed_rpm"' set/speed.json || fail "no speeds in rpm"
+drawing --teeth 20,25,70 --module 2 --planets 3
+grep -q '"angles_deg"' set/stage.json && fail "90 teeth and three planets, but angles"
+drawing --teeth 28,20,68 --module 3 --planets 5
+drawing --teeth 30,21 --module 1.5 --planets 4 --pressure-angle 25
+drawing --teeth 24,30,84 --module 4 --shifts 0.3,0.1,0.5 --torque 2000 --width 80
+
+refused() {
+  rm -rf refused
+  [ "$(code_of "$epicyclic" "$@")" = 2 ] || fail "exit code of $*: $(<stderr)"
+  [ ! -e refused ] || fail "$* left a folder"
+}
+refused init
+refused init refused --teeth 21
+refused init refused --teeth 21,x
+refused init refused --teeth 3,28,77
+refused init refused --teeth 21,28,90
+refused init refused --module 0
+refused init refused --planets 9
+refused init refused --torque -3
+refused init refused --shifts 0,0
+
+# Each key once, in the schema's own words.
+[ "$(code_of "$epicyclic" keys)" = 0 ] || fail "keys: $(<stderr)"
+[ "$(wc -l <stdout)" -gt 300 ] || fail "keys: only $(wc -l <stdout)"
+[ "$(sort stdout | uniq -d | wc -l)" = 0 ] || fail "keys: some twice: $(sort stdout | uniq -d | head -3)"
+[ "$(code_of "$epicyclic" keys backlash mesh)" = 0 ] || fail "keys backlash mesh"
+[ "$(cut -d' ' -f1,2 stdout | grep -c '^/stage/lumped/.*_planet_mesh/backlash_half_um \[um\]$')" = 2 ] || fail "keys backlash mesh: $(<stdout)"
+[ "$(code_of "$epicyclic" keys transient_periods)" = 0 ] || fail "keys transient_periods"
+grep -q '^/study/transient_periods  default 300; 0 to 10000000  .*(sweep, map, basins, run' stdout || fail "kinds: $(<stdout)"
+refused keys backlsh
+grep -q "did you mean 'backlash'" stderr || fail "keys: no suggestion: $(<stderr)"
+finish
