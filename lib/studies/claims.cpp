@@ -92,6 +92,19 @@ bool settles(const PointResult& result, const LookOptions& look) {
 
 }  // namespace
 
+namespace {
+
+/// Of the load that a planet carries in the mean, the largest; of the sun's meshes and of the ring's.
+double largest_share(const StageRecord& record) {
+  double most = 0.0;
+  for (const auto* meshes : {&record.sun_planet, &record.ring_planet})
+    for (std::size_t i = 0; i < meshes->size(); ++i)
+      most = std::max(most, StageRecord::share(*meshes, &Course::mean, i));
+  return most;
+}
+
+}  // namespace
+
 ClaimPoint claim_point(const PointResult& result, const LookOptions& look) {
   ClaimPoint point;
   point.value = result.point.value;
@@ -129,7 +142,16 @@ ClaimPoint claim_point(const PointResult& result, const LookOptions& look) {
                       is_point ? 0.0 : analysis::extent(sun),
                       is_point ? 0.0 : analysis::extent(ring),
                       result.meshes.planet_spread,
-                      result.lyapunov_max().value};
+                      result.lyapunov_max().value,
+                      sp.delta.rms,
+                      rp.delta.rms,
+                      result.meshes.transmission_error.rms,
+                      result.meshes.transmission_error.range(),
+                      sp.force.largest,
+                      rp.force.largest,
+                      result.meshes.dynamic_factor(result.meshes.sun_planet),
+                      result.meshes.dynamic_factor(result.meshes.ring_planet),
+                      largest_share(result.meshes)};
   return point;
 }
 

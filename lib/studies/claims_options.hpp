@@ -90,9 +90,12 @@ struct Condition {
 };
 
 /// Quantities of a point that conditions speak of, of planet 1 where they are of a mesh. [b_c], exponent per tau.
-inline constexpr std::array<std::string_view, 8> claim_quantities = {
-    "delta_sp_range",    "delta_rp_range",    "delta_sp_max",  "delta_rp_max",
-    "poincare_sp_range", "poincare_rp_range", "planet_spread", "lyapunov_max"};
+inline constexpr std::array<std::string_view, 17> claim_quantities = {
+    "delta_sp_range",    "delta_rp_range",    "delta_sp_max",           "delta_rp_max",
+    "poincare_sp_range", "poincare_rp_range", "planet_spread",          "lyapunov_max",
+    "delta_sp_rms",      "delta_rp_rms",      "transmission_error_rms", "transmission_error_range",
+    "force_sp_max",      "force_rp_max",      "dynamic_factor_sp",      "dynamic_factor_rp",
+    "load_sharing_max"};
 
 struct Claim {
   std::string name;     ///< "C01"

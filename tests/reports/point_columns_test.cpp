@@ -2,6 +2,7 @@
 
 #include "store/point_columns.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -9,7 +10,9 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -17,6 +20,7 @@
 #include "reports/sweep_output.hpp"
 #include "store/branch_columns.hpp"
 #include "store/hdf5_file.hpp"
+#include "studies/claims.hpp"
 #include "studies/point_source.hpp"
 #include "temporary_folder.hpp"
 
@@ -185,6 +189,34 @@ TEST(PointColumns, StandInTheDocumentation) {
   expect_documented(store::branch_columns(0), page, from);
   expect_documented(store::special_columns(), page, from);
   expect_documented(store::locus_columns(), page, from);
+}
+
+/// A claim asks for what points.csv has under the same name.
+TEST(PointColumns, QuantitiesOfClaimsAreColumnsOfTheirNames) {
+  constexpr std::size_t planets = 3;
+  PointResult r = points(planets)[0];
+  r.poincare_columns = 2 + 2 * planets;
+  r.poincare.assign(r.poincare_columns, 1.0);
+  const studies::ClaimPoint point = studies::claim_point(r, {});
+  std::map<std::string, double> columns;
+  for (const store::PointColumn& c : store::point_columns(planets))
+    if (const auto* number = std::get_if<store::PointColumn::Getter<double>>(&c.value)) columns[c.name] = (*number)(r);
+  std::size_t compared = 0;
+  for (const std::string_view name : studies::claim_quantities) {
+    const auto column = columns.find(std::string(name));
+    if (column == columns.end()) {
+      EXPECT_TRUE(name.starts_with("poincare_") || name == "load_sharing_max") << name;
+      continue;
+    }
+    EXPECT_EQ(point.quantity(name), column->second) << name;
+    ++compared;
+  }
+  EXPECT_EQ(compared, studies::claim_quantities.size() - 3);
+  double most = 0.0;
+  for (std::size_t i = 1; i <= planets; ++i)
+    for (const char* mesh : {"sp_", "rp_"})
+      most = std::max(most, columns.at("load_sharing_" + (mesh + std::to_string(i))));
+  EXPECT_EQ(point.quantity("load_sharing_max"), most);
 }
 
 }  // namespace
