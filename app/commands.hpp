@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,7 @@ struct InitArguments {
   double pressure_angle_deg = 20;
   double width_mm = 30;
   int planets = 3;
-  double torque_Nm = 0;  ///< 0: not given
-  double speed_rpm = 0;  ///< 0: not given
+  std::optional<double> torque_Nm{}, speed_rpm{};
 };
 
 /// What the command line gives to a subcommand.

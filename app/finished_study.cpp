@@ -92,6 +92,9 @@ FinishedStudy::FinishedStudy(const std::filesystem::path& folder, const json& ru
     return;
   }
   plan_ = std::make_unique<studies::SweepPlan>(input::plan_of(input_.study));
+  if (std::error_code error; !std::filesystem::exists(folder_ / "journal.bin", error))
+    throw store::DamagedData(folder_.string() +
+                             ": its journal is not there; its own command computes its points again");
   store_ = std::make_unique<store::PointStore>(folder_, identity_, plan_->points.size(), store::Journal::Use::read);
   if (store_->size() != plan_->points.size())
     throw store::DamagedData(folder_.string() +
@@ -178,8 +181,10 @@ Donor parse_donor(const std::string& text) {
       if (which.starts_with(store::direction_word(direction) + "=")) donor.direction = direction;
     if (!donor.direction) return donor;
     const auto read = std::from_chars(which.data() + which.find('=') + 1, end, donor.value);
-    if (read.ec != std::errc() || read.ptr != end || !std::isfinite(donor.value))
-      throw InputError("--from " + text + ": behind = there must be a number");
+    donor.unit = std::string(read.ptr, end);
+    if (read.ec != std::errc() || !(donor.unit.empty() || donor.unit == "rpm" || donor.unit == "Hz") ||
+        !std::isfinite(donor.value))
+      throw InputError("--from " + text + ": behind = there must be a number, or one with rpm or Hz");
   }
   donor.folder = text.substr(0, colon);
   return donor;
@@ -200,15 +205,25 @@ std::size_t point_of(const Donor& donor, const FinishedStudy& from) {
   const studies::Axis& axis = plan.grid.first;
   const double half_step = axis.points > 1 ? 0.5 * std::abs(axis.to - axis.from) / (axis.points - 1) : 0.0;
   constexpr double rounding = 1.0 + 1e-9;
+  double value = donor.value;
+  if (!donor.unit.empty()) {
+    if (axis.name != studies::speed_parameter)
+      throw InputError(fmt::format("--from {}: the sweep goes along {}, not along the speed", donor.text, axis.name));
+    value *= input::ratio_per_unit(*input::find_speed_alias(donor.unit == "Hz" ? "mesh_frequency_Hz" : "sun_speed_rpm"),
+                                   from.input().study.stage)
+                 .value();
+  }
   std::optional<studies::GridPoint> nearest;
   for (const studies::GridPoint& p : plan.points)
-    if (p.direction == *donor.direction &&
-        (!nearest || std::abs(p.value - donor.value) < std::abs(nearest->value - donor.value)))
+    if (p.direction == *donor.direction && (!nearest || std::abs(p.value - value) < std::abs(nearest->value - value)))
       nearest = p;
   if (!nearest) throw InputError(fmt::format("--from {}: the sweep does not go that way", donor.text));
-  if (std::abs(nearest->value - donor.value) > half_step * rounding)
-    throw InputError(fmt::format("--from {}: {} goes from {} to {} there", donor.text, axis.name,
-                                 short_text(axis.from, 9), short_text(axis.to, 9)));
+  if (std::abs(nearest->value - value) > half_step * rounding)
+    throw InputError(fmt::format("--from {}: {} goes from {} to {} there{}", donor.text, axis.name,
+                                 short_text(axis.from, 9), short_text(axis.to, 9),
+                                 axis.name == studies::speed_parameter && donor.unit.empty()
+                                     ? "; a speed in rpm or Hz is given as up=3000rpm"
+                                     : ""));
   return nearest->index;
 }
 
@@ -222,7 +237,8 @@ std::string point_words(const FinishedStudy& from, const studies::PointSummary& 
     words += fmt::format("{}{} = {}", k == 0 ? fmt::format(" ({}, ", store::direction_word(r.point.direction)) : ", ",
                          varied[k].axis.name, short_text(k == 0 ? r.point.value : r.point.second_value, 9));
   if (!varied.empty()) words += ")";
-  return words + ", " + studies::motion_name(r);
+  return words + ", " +
+         (r.outcome == integrate::Outcome::reached ? studies::motion_name(r) : store::status_word(r.outcome));
 }
 
 /// What else the study knows at the values of a point, a line each.
@@ -238,9 +254,13 @@ std::vector<std::string> other_motions(const FinishedStudy& from, std::size_t po
     std::string line = basins ? fmt::format("known there too: {}, {} of {} cells, the first of them point {}",
                                             motion.motion, motion.points, known.looked_at, motion.point)
                               : fmt::format("known there too: {}", point_words(from, points.read_brief(motion.point)));
-    if (motion.image_of > 0)
-      line += motion.image_of == known.here ? "; it is this motion with the planets moved on"
-                                            : "; it is another one of these with the planets moved on";
+    const auto root = [&](std::size_t of) {
+      return of > 0 && known.all[of - 1].image_of > 0 ? known.all[of - 1].image_of : of;
+    };
+    if (known.here > 0 && root(k + 1) == root(known.here))
+      line += "; it is this motion with the planets moved on";
+    else if (motion.image_of > 0)
+      line += "; it is another one of these with the planets moved on";
     lines.push_back(std::move(line));
   }
   return lines;
@@ -274,18 +294,23 @@ input::LoadedInput with_start(const Arguments& arguments, std::string_view kind,
     all = input::point_as_study(from.input(), from.plan().points[index], kind);
   }
   all.insert(all.end(), sets.begin(), sets.end());
-  const auto scales_of = [](const input::LoadedInput& of) { return model::scales_of(of.study.stage); };
-  input::LoadedInput stage = input::load_input(path, all);
+  const input::LoadedInput stage = input::load_input(path, all);
   if (!stage.study.has_points()) return stage;  // refused for its kind
+  const bool plans = std::ranges::any_of(sets, [](const auto& set) {
+    return set.pointer == "/study" || set.pointer == "/study/parameter" || set.pointer == "/study/from" ||
+           set.pointer == "/study/to";
+  });
+  if (arguments.input.empty() && kind != "run" && !plans) {
+    // At the speed that is set, if one is.
+    for (const char* end : {"/study/from", "/study/to"})
+      all.push_back({end, stage.study.mesh_frequency_ratio, std::string(end) + ", by --from"});
+  }
   // Rates are per tau = omega_sn t, and omega_sn is the stage's own.
-  const double slower = scales_of(from.input()).omega_sn / scales_of(stage).omega_sn;
+  const double slower = input::time_scale(from.input()) / input::time_scale(stage);
   for (std::size_t k = state.size() / 2; k < state.size(); ++k) state[k] *= slower;
   all.push_back({"/study/initial_state", state, "/study/initial_state, by --from"});
   input::LoadedInput input = input::load_input(path, all);
-  const bool same =
-      slower == 1.0 ? studies::same_motion(input::model_at(input)(input::plan_of(input.study).points[0].value), there)
-                    : arguments.input.empty();
-  if (!same)
+  if (!input::moves_like(input, from.input(), there))
     lines.emplace_back("its equations of motion are not those of this study; its state is a start like any other");
   for (const std::string& line : lines) tell("--from {}: {}\n", donor.text, line);
   if (notes != nullptr) *notes = std::move(lines);
@@ -346,13 +371,19 @@ class Sower {
     return r.outcome == integrate::Outcome::reached && r.regime == analysis::Regime::periodic;
   }
 
+  /// What rates and Omega of the donor are to be multiplied by: they are in the scale of time of its stage.
+  [[nodiscard]] double slower(const FinishedStudy& from) const {
+    return input::time_scale(from.input()) / input::time_scale(study_);
+  }
+
   /// Of the parameter in the donor, which may vary it.
   [[nodiscard]] double value_of(const FinishedStudy& from, std::size_t point) const {
     const auto varied = input::varied_parameters(from.input().study);
     const studies::GridPoint at = from.plan().points[point];
+    const double scale = options_.parameter == studies::speed_parameter ? slower(from) : 1.0;
     for (std::size_t k = 0; k < varied.size(); ++k)
-      if (varied[k].axis.name == options_.parameter) return k == 0 ? at.value : at.second_value;
-    return input::given_value(from.input(), options_.parameter);
+      if (varied[k].axis.name == options_.parameter) return scale * (k == 0 ? at.value : at.second_value);
+    return scale * input::given_value(from.input(), options_.parameter);
   }
 
   /// From the middle of a stretch to two steps of the grid beyond its ends; 0 where the donor varies something else.
@@ -375,7 +406,8 @@ class Sower {
     const std::string which = fmt::format("--from {}: point {}", donor.text, point);
     if (r.outcome != integrate::Outcome::reached) throw InputError(which + " was not reached: it has no state");
     const model::DynamicModel there = from.model_at(point);
-    const std::vector<double> state = studies::state_on(r, there.dimension);
+    std::vector<double> state = studies::state_on(r, there.dimension);
+    for (std::size_t k = state.size() / 2; k < state.size(); ++k) state[k] *= slower(from);
     if (state.empty()) throw InputError(which + " has no state that was kept");
     const double value = value_of(from, point);
     const model::DynamicModel here = input::model_family(study_, options_.parameter, family_step(options_))(value);

@@ -76,11 +76,13 @@ struct Donor {
   std::optional<std::size_t> point{};             ///< by its index,
   std::optional<studies::Direction> direction{};  ///< or by a direction and a value along it
   double value = 0;
+  std::string unit{};  ///< "rpm" or "Hz" of a speed of the sun or of the mesh; empty: as the sweep has it
 
   [[nodiscard]] bool all() const { return !point && !direction; }
 };
 
-/// "FOLDER", "FOLDER:INDEX", "FOLDER:up=VALUE" or "FOLDER:down=VALUE".
+/// "FOLDER", "FOLDER:INDEX", "FOLDER:up=VALUE" or "FOLDER:down=VALUE"; VALUE may be of a sweep over the speed in rpm of
+/// the sun or in Hz of the mesh: "FOLDER:up=3000rpm".
 /// @throws InputError for an INDEX or a VALUE that is no such number
 [[nodiscard]] Donor parse_donor(const std::string& text);
 

@@ -82,7 +82,7 @@ std::map<std::size_t, studies::PointResult> known_points(const store::Journal& j
 }
 
 void require_kind(const input::LoadedInput& input, const Arguments& arguments, std::string_view kind) {
-  const std::string file = arguments.input.string();
+  const std::string file = arguments.input.empty() ? std::string("the study") : arguments.input.string();
   const std::string name(kind);
   if (!input.study.has_motion())
     throw InputError(file + ": is a stage without a study; " + name + " needs a study of kind " + name);

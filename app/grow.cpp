@@ -17,9 +17,9 @@ namespace {
 
 /// What may be another in the larger study: its grid, and what is done with finished points.
 bool may_grow(std::string_view pointer) {
-  constexpr std::array<std::string_view, 8> free = {"/study/from",       "/study/to",       "/study/points",
-                                                    "/study/directions", "/study/segments", "/study/crosscheck",
-                                                    "/study/first",      "/study/second"};
+  constexpr std::array<std::string_view, 9> free = {
+      "/name",           "/study/from",       "/study/to",    "/study/points", "/study/directions",
+      "/study/segments", "/study/crosscheck", "/study/first", "/study/second"};
   if (pointer == "/study/first/parameter" || pointer == "/study/second/parameter" ||
       pointer == "/study/first/component" || pointer == "/study/second/component")
     return false;
@@ -36,10 +36,14 @@ GrownStudy::GrownStudy(const std::filesystem::path& folder, const input::LoadedI
   if (from_.input().study.kind() != command)
     throw InputError(
         fmt::format("{}is a study of kind {}, this is one of kind {}", where, from_.input().study.kind(), command));
+  const auto varied = input::varied_parameters(input.study);
+  const bool speed_is_varied = std::ranges::any_of(
+      varied, [](const auto& parameter) { return parameter.axis.name == studies::speed_parameter; });
   std::string reasons;
   for (const store::Difference& d :
        store::differing_values({from_.input().resolved, from_.input().computed}, {input.resolved, input.computed}))
-    if (!may_grow(d.pointer)) reasons += "\n  " + d.text;
+    if (!may_grow(d.pointer) && !(d.pointer == "/operation/mesh_frequency_ratio" && speed_is_varied))
+      reasons += "\n  " + d.text;
   if (!reasons.empty())
     throw InputError(
         where + "its points are not this study's; a study grows in its range, points, directions and segments alone:" +

@@ -3,14 +3,17 @@
 #include <array>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 #include "core/atomic_file.hpp"
 #include "core/errors.hpp"
+#include "core/text.hpp"
 #include "input/starter.hpp"
 #include "input/study_input.hpp"
 #include "input/study_model.hpp"
@@ -29,8 +32,9 @@ constexpr const char* run_name = "point.json";
 input::Drawing drawing_of(const Arguments& arguments) {
   const InitArguments& given = arguments.init;
   input::Drawing d;
-  const std::string folder = fs::weakly_canonical(arguments.output).filename().string();
-  if (!folder.empty()) d.name = folder;
+  fs::path folder = fs::weakly_canonical(arguments.output);
+  if (folder.filename().empty()) folder = folder.parent_path();  // "set/"
+  if (const std::string name = folder.filename().string(); !name.empty()) d.name = name;
   if (!given.teeth.empty()) {
     d.sun_teeth = given.teeth[0];
     d.planet_teeth = given.teeth[1];
@@ -41,9 +45,9 @@ input::Drawing drawing_of(const Arguments& arguments) {
   d.pressure_angle_deg = given.pressure_angle_deg;
   d.width_mm = given.width_mm;
   d.planets = given.planets;
-  d.torque_is_given = given.torque_Nm > 0.0;
-  if (d.torque_is_given) d.torque_Nm = given.torque_Nm;
-  if (given.speed_rpm > 0.0) d.speed_rpm = given.speed_rpm;
+  d.torque_is_given = given.torque_Nm.has_value();
+  d.torque_Nm = given.torque_Nm.value_or(d.torque_Nm);
+  d.speed_rpm = given.speed_rpm;
   return d;
 }
 
@@ -58,7 +62,7 @@ int init_command(const Arguments& arguments) {
        {run_name, input::starter_run(drawing, stage_name)}}};
   std::error_code error;
   for (const auto& [name, unused] : files)
-    if (fs::exists(folder / name, error))
+    if (fs::exists(fs::symlink_status(folder / name, error)))
       throw InputError((folder / name).string() + ": is there already; init writes over nothing");
   const bool was_there = fs::exists(folder, error);
   fs::create_directories(folder, error);
@@ -68,7 +72,9 @@ int init_command(const Arguments& arguments) {
     if (!was_there) fs::remove(folder, error);
   };
   try {
-    for (const auto& [name, content] : files) write_file_atomically(folder / name, content.dump(2) + "\n");
+    for (const auto& [name, content] : files)
+      write_file_atomically(folder / name,
+                            content.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
     for (const char* name : {sweep_name, run_name})
       for (const std::string& warning : input::warnings(input::load_input(folder / name)))
         if (name == sweep_name) tell("{}\n", warning);
@@ -76,17 +82,34 @@ int init_command(const Arguments& arguments) {
     take_back();
     throw;
   }
-  const auto path = [&](const char* name) { return (folder / name).string(); };
+  // As a shell takes it.
+  const auto path = [&](const char* name) {
+    const std::string text = (folder / name).string();
+    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:+";
+    if (text.find_first_not_of(plain) == std::string::npos) return text;
+    std::string quoted = "'";
+    for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+  };
+  if (const std::vector<double> angles = input::assembly_angles(drawing); !angles.empty()) {
+    std::string at;
+    for (const double angle : angles) at += (at.empty() ? "" : ", ") + short_text(angle, 6);
+    print("{} + {} teeth of sun and ring are no multiple of {} planets: these stand at {} degrees, not evenly\n",
+          drawing.sun_teeth, drawing.ring(), drawing.planets, at);
+  }
+  if (!drawing.torque_is_given) print("no --torque: {:g} N m on the sun\n", drawing.torque_Nm);
+  if (!drawing.speed_rpm)
+    print("no --speed: the diagram goes over 0.2 to 2 of the mesh frequency ratio; `epicyclic check` says in rpm\n");
   print(
       "{}  the set: what no drawing gives has the origin \"estimate\", with its reason and range; put in what you "
       "know\n"
       "{}  its diagram over the speed\n"
       "{}  one speed, with everything\n"
       "\nnext:\n"
-      "  epicyclic gear  {} -o {}\n"
+      "  epicyclic gear {} -o {}\n"
       "  epicyclic check {}\n"
       "  epicyclic sweep {} -o {}\n",
-      path(stage_name), path(sweep_name), path(run_name), path(stage_name), path("out/gear"), path(sweep_name),
+      path(stage_name), path(sweep_name), path(run_name), path(run_name), path("out/gear"), path(sweep_name),
       path(sweep_name), path("out/speed"));
   return done;
 }

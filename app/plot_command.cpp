@@ -62,8 +62,8 @@ figures::FigureCanvas parse_canvas(const PlotArguments& plot) {
   constexpr double usual_font = 24;
   canvas.scale = plot.font / usual_font;
   // What is left for the layout, in pixels of the usual font.
-  canvas.width = static_cast<int>(canvas.width / canvas.scale);
-  canvas.height = static_cast<int>(canvas.height / canvas.scale);
+  canvas.width = static_cast<int>(std::lround(canvas.width / canvas.scale));
+  canvas.height = static_cast<int>(std::lround(canvas.height / canvas.scale));
   if (canvas.width < 2 * least || canvas.height < 2 * least)
     throw InputError(fmt::format("--font {}: is too large for a picture of that size", plot.font));
   return canvas;
@@ -80,11 +80,15 @@ std::vector<figures::Pictures> parse_formats(const std::vector<std::string>& for
   return all.empty() ? std::vector{figures::Pictures::png, figures::Pictures::svg} : all;
 }
 
-/// The folder for the figures; not one that a study lives in.
+/// The folder for the figures; not one that a study lives in, nor one in such a one.
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
-  if (std::filesystem::exists(folder / "run.json", error))
-    throw InputError(folder.string() + ": is the folder of a study; give --output another one for the figures");
+  for (auto of = std::filesystem::weakly_canonical(folder, error); !of.empty(); of = of.parent_path()) {
+    if (std::filesystem::exists(of / "run.json", error) && std::filesystem::exists(of / ".lock", error))
+      throw InputError(folder.string() + ": belongs to the study in " + of.string() +
+                       "; give --output another folder for the figures");
+    if (of == of.parent_path()) break;
+  }
   std::filesystem::create_directories(folder, error);
   if (error) throw OutputError(folder.string() + ": " + error.message());
 }
@@ -114,8 +118,9 @@ int plot_command(const Arguments& arguments) {
   for (const auto& folder : given.folders) tables.push_back(finished_tables(folder, reports::plotted_tables));
   std::vector<reports::PlottedStudy> studies;
   for (std::size_t k = 0; k < tables.size(); ++k)
-    studies.push_back({tables[k].folder, &tables[k].input.study,
-                       k < given.labels.size() ? given.labels[k] : tables[k].folder.string()});
+    studies.push_back(
+        {tables[k].folder, &tables[k].input.study,
+         k < given.labels.size() && !given.labels[k].empty() ? given.labels[k] : tables[k].folder.string()});
   std::vector<std::string> quantities = given.quantities;
   if (quantities.empty()) quantities.emplace_back();
   std::vector<reports::PlotOptions> plots;
@@ -125,10 +130,12 @@ int plot_command(const Arguments& arguments) {
   }
   make_folder(arguments.output);
   std::vector<reports::DrawnFigure> figures;
+  std::vector<std::string> notes;
   for (const reports::PlotOptions& plot : plots) {
-    std::ranges::move(reports::draw_plot(arguments.output, studies, plot), std::back_inserter(figures));
+    std::ranges::move(reports::draw_plot(arguments.output, studies, plot, notes), std::back_inserter(figures));
     if (stop_requested()) return stopped_early;
   }
+  for (const std::string& note : notes) tell("{}\n", note);
   const std::int64_t undrawn = tell_undrawn(figures);
   nlohmann::json told = {{"figures", nlohmann::json::array()}};
   for (const reports::DrawnFigure& figure : figures)

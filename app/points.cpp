@@ -79,6 +79,24 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
   return failed;
 }
 
+/// Points that are told periodic by their orbit, while their record is still on its way to it.
+struct Unsettled {
+  std::size_t points = 0;
+
+  void see(const studies::PointSummary& r) {
+    if (r.classified && r.regime == analysis::Regime::periodic && r.recurrence.period == 0) ++points;
+  }
+  [[nodiscard]] std::string note(std::string_view noun) const {
+    return fmt::format(
+        "at {} {} the motion is periodic, but the record does not repeat yet, or is too short to: their Poincaré "
+        "points, means, "
+        "RMS and extrema are not those of the orbit (recurrence_error of points.csv); a longer "
+        "/study/transient_periods, or "
+        "\"transient\": \"adaptive\", lets them settle",
+        points, noun);
+  }
+};
+
 /// Points at which teeth pull.
 struct Pulls {
   std::size_t points = 0;
@@ -129,17 +147,20 @@ void tell_result(const Arguments& arguments, std::string_view noun, const Comput
   const studies::PointSource& points = computed_points.points;
   std::map<std::string, std::size_t> regimes;
   Pulls pulls;
+  Unsettled unsettled;
   for (std::size_t i = 0; i < points.count; ++i) {
     const studies::PointSummary r = points.read_brief(i);
     if (!computed(r)) continue;
     ++regimes[to_string(r.regime)];
     pulls.see(r);
+    unsettled.see(r);
   }
   nlohmann::json summary = {{"folder", computed_points.folder.string()},
                             {"points", points.count},
                             {"failed", failed},
                             {"regimes", regimes},
                             {"pulling", pulls.points},
+                            {"unsettled", unsettled.points},
                             {"figures", nlohmann::json::array()}};
   summary.update(written.summary);
   for (const reports::DrawnFigure& figure : written.figures)
@@ -149,6 +170,7 @@ void tell_result(const Arguments& arguments, std::string_view noun, const Comput
   } else {
     print("{} {}, {} failed, in {}\n", points.count, noun, failed, computed_points.folder.string());
     for (const auto& [regime, count] : regimes) print("{}: {}\n", regime, count);
+    if (unsettled.points > 0) print("{}\n", unsettled.note(noun));
     if (pulls.points > 0) print("{}\n", pulls.note(noun));
     for (const std::string& line : written.lines) print("{}\n", line);
     for (const auto& figure : summary["figures"]) print("figure: {}\n", figure.get<std::string>());
@@ -182,8 +204,8 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   std::size_t taken = 0;
   if (grown) {
     taken = grown->take_into(store);
-    tell("{}: {} of {} {} are those of {}\n", folder.path().string(), taken, plan.points.size(), noun,
-         arguments.grow.string());
+    tell("{}: {} of {} {} are those of {}; the others are new, or have come another way\n", folder.path().string(),
+         taken, plan.points.size(), noun, arguments.grow.string());
   }
   studies::LaneUse lanes;
   const std::size_t failed = compute_missing(arguments, command, noun, input, plan, model_at, store, leader, lanes);

@@ -216,8 +216,9 @@ struct Steps {
   std::vector<double> of;       ///< the step of each cell, from 0; below zero: none
   double first = 0, width = 1;  ///< where step 0 begins, and how wide each of them is
   int count = 1;
-  std::string values;  ///< what is written of a cell
-  std::string tics;    ///< of the bar
+  std::string values;           ///< what is written of a cell, in words
+  std::vector<double> written;  ///< and as numbers
+  std::string tics;             ///< of the bar
 };
 
 FigureOutcome stepped_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
@@ -225,11 +226,11 @@ FigureOutcome stepped_figure(const std::filesystem::path& folder, std::string_vi
                              const FigureCanvas& canvas, Pictures which) {
   const auto write_data = [&](AtomicFile& file) {
     file.write("# x from, x to, y from, y to, " + steps.values + "\n");
+    const auto written = [&](std::size_t cell) {
+      return steps.of[cell] < 0.0 ? std::string() : number(steps.written[cell]);
+    };
     write_rectangles(
-        file, grid, [&](std::size_t a, std::size_t b) { return steps.of[a] == steps.of[b]; },
-        [&](std::size_t cell) {
-          return steps.of[cell] < 0.0 ? std::string() : number(steps.first + (steps.of[cell] + 0.5) * steps.width);
-        });
+        file, grid, [&](std::size_t a, std::size_t b) { return written(a) == written(b); }, written);
   };
   // After Brewer's YlGnBu, whose lightness falls all the way: it can be read in grey, and by colour-blind eyes.
   const std::string extra =
@@ -265,6 +266,7 @@ FigureOutcome decade_figure(const std::filesystem::path& folder, std::string_vie
               1.0 / in_a_decade,
               1,
               "decades",
+              {},
               "set cbtics 1 font ',20'\nset format cb '10^{%.0f}'\n"};
   for (std::size_t k = 0; k < cells.size(); ++k) {
     if (!(cells[k] >= floor) || !std::isfinite(cells[k])) continue;
@@ -273,6 +275,7 @@ FigureOutcome decade_figure(const std::filesystem::path& folder, std::string_vie
   }
   if (!std::isfinite(highest)) return {"there is no value to draw above " + number(floor)};
   steps.count = static_cast<int>(highest) + 1;
+  for (const double step : steps.of) steps.written.push_back(steps.first + (step + 0.5) * steps.width);
   return stepped_figure(folder, stem, text, grid, bar_label, steps, {}, which);
 }
 
@@ -285,12 +288,9 @@ FigureOutcome scale_figure(const std::filesystem::path& folder, std::string_view
   if (all.empty()) return {"there is no finite value to draw"};
   constexpr int count = 20;
   const FigureRange range = all.low < all.high ? all : all.widened(0.0);
-  Steps steps{std::vector<double>(cells.size(), -1.0),
-              range.low,
-              (range.high - range.low) / count,
-              count,
-              "middle of the step",
-              "set cbtics font ',20'\nset format cb '%h'\n"};
+  Steps steps{
+      std::vector<double>(cells.size(), -1.0),      range.low, (range.high - range.low) / count, count, "value", cells,
+      "set cbtics font ',20'\nset format cb '%h'\n"};
   for (std::size_t k = 0; k < cells.size(); ++k)
     if (std::isfinite(cells[k]))
       steps.of[k] = std::clamp(std::floor((cells[k] - steps.first) / steps.width), 0.0, count - 1.0);

@@ -232,7 +232,7 @@ std::string drawn_to_files(std::string_view stem, std::string_view commands, con
   constexpr double pdf_share = 0.28;  // of a point of a page for each pixel: two columns of a journal are 7 inches
   constexpr double points_per_inch = 72;
   const auto pixels = [&](int length, double share) {
-    return static_cast<int>(std::floor(length * canvas.scale * share + 1e-9));
+    return static_cast<int>(std::floor(static_cast<double>(std::lround(length * canvas.scale)) * share + 1e-9));
   };
   const auto scaled = [](double scale) {
     return scale == 1.0 ? std::string() : fmt::format(" fontscale {0} pointscale {0}", text_of(scale));
@@ -368,7 +368,7 @@ void append_literal(std::string& text, char32_t point) {
 
 constexpr double font_height = 32;         // of size 24
 constexpr double legend_font_height = 29;  // of size 22
-constexpr double right_edge = 0.975;       // of the canvas
+constexpr double right_edge = 0.975;       // of the canvas, or as far as the last tic of the abscissa has room
 
 /// Tags of labels beyond those that gnuplot gives.
 constexpr int title_tag = 1000;
@@ -390,6 +390,13 @@ double tic_width(const FigureRange& range) {
   const double behind = std::max(0.0, -std::floor(std::log10(step)));
   const double characters = before + behind + (behind > 0.0 ? 1.0 : 0.0) + (range.low < 0.0 ? 1.0 : 0.0);
   return 0.64 * font_height * std::min(characters, 11.0) + 20.0;
+}
+
+/// The frame's right edge, in parts of the canvas: half of the last tic's label has room beside it.
+double right_edge_of(const FigureRange& x, const FigureCanvas& canvas) {
+  constexpr double beside = 20.0;  // of tic_width()
+  constexpr double least = 8.0;
+  return std::min(right_edge, 1.0 - (0.5 * (tic_width(x) - beside) + least) / canvas.width);
 }
 
 /// What stands above the frame.
@@ -658,7 +665,7 @@ std::string figure_script(std::string_view stem, const FigureText& text, const F
       "set ylabel {5}\n"
       "set rmargin screen {6}\n",
       text_of(x.low), text_of(x.high), text_of(y.low), text_of(y.high), gnuplot_quoted(portable_text(text.x_label)),
-      gnuplot_quoted(portable_text(text.y_label)), right_edge);
+      gnuplot_quoted(portable_text(text.y_label)), text_of(right_edge_of(x, canvas)));
   script += more_digits("x", x) + more_digits("y", y) + head.settings + second_abscissa_of(text, x);
   if (!markers.empty()) script += "set style textbox opaque noborder fillcolor '#ffffff' margins 0.4,0.4\n";
   for (const FigureMarker& marker : markers) {
@@ -731,7 +738,8 @@ std::string panel_script(std::string_view stem, const FigureText& text, const Fi
     if (k == 0 && text.above) commands += "unset x2tics\nunset x2label\nset xtics mirror\n";
     top += height + apart;
   }
-  return fmt::format("{}set rmargin screen {}\n{}{}{}", opening(stem), right_edge, head.settings, extra,
+  return fmt::format("{}set rmargin screen {}\n{}{}{}", opening(stem), text_of(right_edge_of(x, canvas)), head.settings,
+                     extra,
                      drawn_to_files(stem, commands + "unset multiplot\nset format x '%h'\nunset xlabel\n", canvas));
 }
 
@@ -800,7 +808,8 @@ FigureOutcome draw_figure(const fs::path& folder, std::string_view stem,
 
   const auto named = [&](std::string_view suffix) { return folder / fmt::format("{}{}", stem, suffix); };
   // An old picture must not pass for one of these data.
-  for (const std::string_view suffix : {".png", ".svg", ".pdf"}) fs::remove(named(suffix), error);
+  if (which != Pictures::none)  // else those that are drawn later are replaced, and others are kept
+    for (const std::string_view suffix : {".png", ".svg"}) fs::remove(named(suffix), error);
   AtomicFile data(named(".dat"));
   write_data(data);
   data.commit();

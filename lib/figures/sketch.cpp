@@ -27,8 +27,12 @@ std::string dots(std::string_view colour, double size, int type) {
 FigureOutcome Sketch::draw(const std::filesystem::path& folder, const FigureText& text, const FigureRange& x,
                            const FigureRange& y, const std::vector<FigureMarker>& markers, const FigureCanvas& canvas,
                            Pictures which) const {
-  if (!panels_.empty())
-    return draw_figure(folder, stem_, data_, panel_script(stem_, text, x, panels_, legend_, commands_, canvas), which);
+  if (!panels_.empty()) {
+    std::vector<FigurePanel> panels = panels_;
+    std::erase_if(panels, [](const FigurePanel& panel) { return panel.plot.empty(); });
+    if (panels.empty()) return {"there is nothing to draw"};
+    return draw_figure(folder, stem_, data_, panel_script(stem_, text, x, panels, legend_, commands_, canvas), which);
+  }
   return draw_figure(folder, stem_, data_, figure_script(stem_, text, x, y, legend_, markers, commands_, plot_, canvas),
                      which);
 }

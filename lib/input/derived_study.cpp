@@ -1,12 +1,14 @@
 #include "input/derived_study.hpp"
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
-#include "model/dynamic_model.hpp"
+#include "input/study_model.hpp"
 #include "model/scales.hpp"
 #include "studies/named_parameters.hpp"
+#include "studies/probes.hpp"
 
 namespace epicyclic::input {
 
@@ -45,8 +47,11 @@ std::vector<Assignment> point_as_study(const LoadedInput& input, const studies::
     if (v.pointer.starts_with('/')) pointers.push_back(v);
   if (!pointers.empty()) {
     // The speed stays what it was, in rad/s.
-    const double speed = study.mesh_frequency_ratio * model::scales_of(input.study.stage).omega_sn;
-    study.mesh_frequency_ratio = speed / model::scales_of(input.with_values(pointers).stage).omega_sn;
+    const Study changed = input.with_values(pointers);
+    const bool by_pointer = std::ranges::any_of(
+        pointers, [](const PointerValue& v) { return v.pointer == "/operation/mesh_frequency_ratio"; });
+    const double ratio = by_pointer ? changed.mesh_frequency_ratio : study.mesh_frequency_ratio;
+    study.mesh_frequency_ratio = ratio * time_scale(input) / model::scales_of(changed.stage).omega_sn;
     sets.push_back({"/operation/mesh_frequency_ratio", study.mesh_frequency_ratio, {}});
   }
   json plan = {{"kind", kind}};
@@ -60,6 +65,29 @@ std::vector<Assignment> point_as_study(const LoadedInput& input, const studies::
   }
   sets.push_back({"/study", std::move(plan), {}});
   return sets;
+}
+
+double time_scale(const LoadedInput& input) { return model::scales_of(input.study.stage).omega_sn; }
+
+bool moves_like(const LoadedInput& input, const LoadedInput& other, const model::DynamicModel& model) {
+  const double first = plan_of(input.study).points[0].value;
+  const std::vector<VariedParameter> varied = varied_parameters(input.study);
+  Study study = input.study;
+  if (!varied.empty()) {
+    const std::string& name = varied.front().axis.name;
+    if (name.starts_with('/')) study = input.with_value(name, first);
+    model::OperatingPoint named{study.stage, study.mesh_frequency_ratio, study.model};
+    if (const studies::NamedParameter* parameter = studies::find_parameter(name)) parameter->set(named, first);
+    study.stage = named.stage;
+    study.mesh_frequency_ratio = named.mesh_frequency_ratio;
+  }
+  // In the scale of time of the other study. A speed that came by it and back is the same.
+  constexpr double rounding = 1e-12;
+  double ratio = study.mesh_frequency_ratio * time_scale(input) / time_scale(other);
+  if (std::abs(ratio / model.omega - 1.0) < rounding) ratio = model.omega;
+  const model::DynamicModel here =
+      model::make_dynamic_model(study.stage, model::scales_of(other.study.stage), ratio, study.model);
+  return studies::same_motion(here, model);
 }
 
 }  // namespace epicyclic::input

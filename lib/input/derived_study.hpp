@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "input/study_input.hpp"
+#include "model/dynamic_model.hpp"
 #include "studies/sweep_plan.hpp"
 
 namespace epicyclic::input {
@@ -23,5 +24,12 @@ namespace epicyclic::input {
 /// @returns what is to be set in the resolved input
 [[nodiscard]] std::vector<Assignment> point_as_study(const LoadedInput& input, const studies::GridPoint& point,
                                                      std::string_view kind);
+
+/// omega_sn of the stage as it is given, which a study's Omega and rates are in [rad/s].
+[[nodiscard]] double time_scale(const LoadedInput& input);
+
+/// Are the equations of motion at a study's first point those of a model, at the same speed?
+/// @param other, model  a finished study, and its model at a point
+[[nodiscard]] bool moves_like(const LoadedInput& input, const LoadedInput& other, const model::DynamicModel& model);
 
 }  // namespace epicyclic::input

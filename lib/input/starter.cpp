@@ -19,7 +19,11 @@ namespace {
 constexpr double addendum = 1.0;    // in modules
 constexpr double clearance = 0.25;  // in modules
 
-double rounded(double x, double step) { return step * std::round(x / step); }
+/// To three digits, as it is typed: 0.3, not 0.30000000000000004.
+double neat(double x) {
+  constexpr int digits = 3;
+  return std::stod(short_text(x, digits));
+}
 
 /// Of a gear's root circle.
 double root_mm(const Drawing& d, int teeth, double shift) {
@@ -39,6 +43,8 @@ void check(const Drawing& d) {
   positive("a width", d.width_mm, 2000);
   positive("a torque", d.torque_Nm, 1e8);
   if (d.speed_rpm) positive("a speed", *d.speed_rpm, 1e6);
+  for (const double shift : d.profile_shift)
+    if (!(std::abs(shift) <= 2.0)) refuse(fmt::format("a profile shift of {}; from -2 to 2", shift));
   if (!(d.pressure_angle_deg >= 10 && d.pressure_angle_deg <= 35))
     refuse(fmt::format("a pressure angle of {}; from 10 to 35 degrees", d.pressure_angle_deg));
 }
@@ -58,8 +64,9 @@ ordered_json origins_of_gear(const char* more_key, const std::string& more) {
           {more_key, more}};
 }
 
-/// Angles at which the teeth fit, as near to even spacing as there are any; none where even spacing fits.
-std::vector<double> angles(const Drawing& d) {
+}  // namespace
+
+std::vector<double> assembly_angles(const Drawing& d) {
   const int sum = d.sun_teeth + d.ring();
   if (sum % d.planets == 0) return {};
   std::vector<double> all;
@@ -70,21 +77,17 @@ std::vector<double> angles(const Drawing& d) {
   return all;
 }
 
-}  // namespace
-
 ordered_json starter_stage(const Drawing& d) {
   check(d);
   const double m = d.module_mm;
   const double centre = 0.5 * m * (d.sun_teeth + d.planet_teeth);
   const double sun_root = root_mm(d, d.sun_teeth, d.profile_shift[0]);
   const double planet_root = root_mm(d, d.planet_teeth, d.profile_shift[1]);
-  const double step = m >= 1.0 ? 1.0 : 0.1;  // of what is rounded [mm]
-  const double sun_bore = rounded(0.35 * sun_root, step);
-  const double planet_bore = std::max(rounded(planet_root - 6.0 * m, step), rounded(0.3 * planet_root, step));
-  const double ring_outer =
-      rounded(m * (d.ring() + 2.0 * (addendum + clearance) + 2.0 * d.profile_shift[2]) + 8.0 * m, step);
-  const double pin = rounded(0.6 * planet_bore, step);
-  const double backlash_um = rounded(0.5 * 2.0 / 3.0 * (60.0 + 0.5 * centre + 30.0 * m), 1.0);
+  const double sun_bore = neat(0.35 * sun_root);
+  const double planet_bore = std::max(neat(planet_root - 6.0 * m), neat(0.3 * planet_root));
+  const double ring_outer = neat(m * (d.ring() + 2.0 * (addendum + clearance) + 2.0 * d.profile_shift[2]) + 8.0 * m);
+  const double pin = neat(0.6 * planet_bore);
+  const double backlash_um = neat(0.5 * 2.0 / 3.0 * (60.0 + 0.5 * centre + 30.0 * m));
   const std::string backlash =
       fmt::format("estimate: half of the least that ISO/TR 10064-2 recommends at this module and centre distance");
 
@@ -101,7 +104,7 @@ ordered_json starter_stage(const Drawing& d) {
   ring["origin"] = origins_of_gear("outer_diameter_mm", "estimate: leaves a rim of 4 modules");
 
   ordered_json planets = {{"count", d.planets}};
-  if (const std::vector<double> at = angles(d); !at.empty()) {
+  if (const std::vector<double> at = assembly_angles(d); !at.empty()) {
     planets["angles_deg"] = at;
     planets["origin"] = {
         {"count", "source: drawing"},
@@ -128,11 +131,11 @@ ordered_json starter_stage(const Drawing& d) {
       {"ring", ring},
       {"carrier",
        {{"body",
-         {{"cheek_thickness_mm", rounded(0.3 * d.width_mm, step)},
-          {"outer_diameter_mm", rounded(2.0 * centre + 1.8 * pin, step)},
-          {"inner_diameter_mm", rounded(std::max(sun_root, 2.0 * centre - 2.2 * pin), step)},
+         {{"cheek_thickness_mm", neat(0.3 * d.width_mm)},
+          {"outer_diameter_mm", neat(2.0 * centre + 1.8 * pin)},
+          {"inner_diameter_mm", neat(std::max(sun_root, 2.0 * centre - 2.2 * pin))},
           {"pin_diameter_mm", pin},
-          {"pin_length_mm", rounded(1.4 * d.width_mm, step)},
+          {"pin_length_mm", neat(1.4 * d.width_mm)},
           {"origin", "estimate: two cheeks about the pins, pins of 0.6 of the planets' bores"}}}}},
       {"lubrication",
        {{"viscosity_mPas", 15}, {"origin", "estimate: ISO VG 150 at 85 degrees Celsius; 5 to 50 in service"}}}};
@@ -140,48 +143,50 @@ ordered_json starter_stage(const Drawing& d) {
     return std::string("estimate: usual for ") + of + ", 0.02 to 0.1; no drawing has it, and motions depend on it";
   };
   const char* stiffness = "estimate: as in the benchmark of Lin and Parker 1999";
-  stage["lumped"] = {
-      {"sun",
-       {{"support_N_per_m", 2e7},
-        {"support_damping_ratio", 0.05},
-        {"bearing_clearance_half_um", 10},
-        {"origin",
-         {{"support_N_per_m",
-           "estimate: shaft and bearings of a sun that is held, 1e7 to 4e8; some 1e6 of one that floats"},
-          {"support_damping_ratio", damping("rolling bearings")},
-          {"bearing_clearance_half_um",
-           "estimate: half the radial clearance of a ball bearing, group CN of ISO 5753-1, "
-           "3 to 14; 0 of one that is preloaded"}}}}},
-      {"ring",
-       {{"support_N_per_m", 1e8},
-        {"torsional_support_N_per_m", 1e9},
-        {"support_damping_ratio", 0.05},
-        {"origin",
-         {{"support_N_per_m", std::string(stiffness) + ", 1e8 to 3e9; some 1e6 of a ring that floats"},
-          {"torsional_support_N_per_m", std::string(stiffness)},
-          {"support_damping_ratio", damping("mounted rings")}}}}},
-      {"carrier",
-       {{"support_N_per_m", 1e8},
-        {"torsional_support_N_per_m", 0},
-        {"support_damping_ratio", 0.05},
-        {"origin",
-         {{"support_N_per_m", std::string(stiffness) + ", 5e7 to 1e9"},
-          {"torsional_support_N_per_m", "choice: the carrier is the free output"},
-          {"support_damping_ratio", damping("rolling bearings")}}}}},
-      {"planet",
-       {{"bearing_N_per_m", 1e8},
-        {"support_damping_ratio", 0.05},
-        {"origin",
-         {{"bearing_N_per_m", std::string(stiffness) + ", 5e7 to 3e9 of needle and roller bearings"},
-          {"support_damping_ratio", damping("rolling bearings")}}}}},
-      {"sun_planet_mesh",
-       {{"damping_ratio", 0.05},
-        {"backlash_half_um", backlash_um},
-        {"origin", {{"damping_ratio", damping("steel gears")}, {"backlash_half_um", backlash}}}}},
-      {"ring_planet_mesh",
-       {{"damping_ratio", 0.05},
-        {"backlash_half_um", backlash_um},
-        {"origin", {{"damping_ratio", damping("steel gears")}, {"backlash_half_um", backlash}}}}}};
+  stage["lumped"] = {{"sun",
+                      {{"support_N_per_m", 2e7},
+                       {"support_damping_ratio", 0.05},
+                       {"bearing_clearance_half_um", 10},
+                       {"origin",
+                        {{"support_N_per_m",
+                          "estimate: shaft and bearings of a sun that is held, 1e7 to 4e8; some 1e6 of one that "
+                          "floats; take this key out where /stage/catalogue/sun_bearing is to give it"},
+                         {"support_damping_ratio", damping("rolling bearings")},
+                         {"bearing_clearance_half_um",
+                          "estimate: half the radial clearance of a ball bearing, group CN of ISO 5753-1, "
+                          "3 to 14; 0 of one that is preloaded"}}}}},
+                     {"ring",
+                      {{"support_N_per_m", 1e8},
+                       {"torsional_support_N_per_m", 1e9},
+                       {"support_damping_ratio", 0.05},
+                       {"origin",
+                        {{"support_N_per_m", std::string(stiffness) + ", 1e8 to 3e9; some 1e6 of a ring that floats"},
+                         {"torsional_support_N_per_m", std::string(stiffness)},
+                         {"support_damping_ratio", damping("mounted rings")}}}}},
+                     {"carrier",
+                      {{"support_N_per_m", 1e8},
+                       {"torsional_support_N_per_m", 0},
+                       {"support_damping_ratio", 0.05},
+                       {"origin",
+                        {{"support_N_per_m",
+                          std::string(stiffness) +
+                              ", 5e7 to 1e9; take this key out where /stage/catalogue/carrier/bearing is to give it"},
+                         {"torsional_support_N_per_m", "choice: the carrier is the free output"},
+                         {"support_damping_ratio", damping("rolling bearings")}}}}},
+                     {"planet",
+                      {{"bearing_N_per_m", 1e8},
+                       {"support_damping_ratio", 0.05},
+                       {"origin",
+                        {{"bearing_N_per_m", std::string(stiffness) + ", 5e7 to 3e9 of needle and roller bearings"},
+                         {"support_damping_ratio", damping("rolling bearings")}}}}},
+                     {"sun_planet_mesh",
+                      {{"damping_ratio", 0.05},
+                       {"backlash_half_um", backlash_um},
+                       {"origin", {{"damping_ratio", damping("steel gears")}, {"backlash_half_um", backlash}}}}},
+                     {"ring_planet_mesh",
+                      {{"damping_ratio", 0.05},
+                       {"backlash_half_um", backlash_um},
+                       {"origin", {{"damping_ratio", damping("steel gears")}, {"backlash_half_um", backlash}}}}}};
   return stage;
 }
 
@@ -189,8 +194,8 @@ ordered_json starter_sweep(const Drawing& d, const std::string& stage_file) {
   ordered_json plan = {{"kind", "sweep"}};
   if (d.speed_rpm) {
     plan["parameter"] = "sun_speed_rpm";
-    plan["from"] = rounded(0.2 * *d.speed_rpm, 1.0);
-    plan["to"] = rounded(1.5 * *d.speed_rpm, 1.0);
+    plan["from"] = neat(0.2 * *d.speed_rpm);
+    plan["to"] = neat(1.5 * *d.speed_rpm);
   } else {
     plan["parameter"] = "mesh_frequency_ratio";
     plan["from"] = 0.2;
@@ -199,11 +204,14 @@ ordered_json starter_sweep(const Drawing& d, const std::string& stage_file) {
   plan["points"] = 181;
   plan["directions"] = {"up", "down"};
   plan["crosscheck"] = {{"points", 6}};
-  return {{"name", d.name + "_speed"},
-          {"note", "Diagram over the speed, up and down; some of its points once more by ARKODE and CVODE."},
-          {"stage", stage_file},
-          {"integrator", {{"method", "lanes-cash-karp"}, {"relative_tolerance", 1e-8}, {"absolute_tolerance", 1e-10}}},
-          {"study", plan}};
+  ordered_json study = {
+      {"name", d.name + "_speed"},
+      {"note", "Diagram over the speed, up and down; some of its points once more by ARKODE and CVODE."},
+      {"stage", stage_file}};
+  if (d.speed_rpm) study["operation"] = {{"sun_speed_rpm", *d.speed_rpm}};  // of sweeps over something else
+  study["integrator"] = {{"method", "lanes-cash-karp"}, {"relative_tolerance", 1e-8}, {"absolute_tolerance", 1e-10}};
+  study["study"] = plan;
+  return study;
 }
 
 ordered_json starter_run(const Drawing& d, const std::string& stage_file) {

@@ -8,6 +8,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -29,6 +30,9 @@ struct Drawing {
 
   [[nodiscard]] int ring() const { return ring_teeth.value_or(sun_teeth + 2 * planet_teeth); }
 };
+
+/// Angles at which the teeth fit, as near to even spacing as there are any [deg]; none where even spacing fits.
+[[nodiscard]] std::vector<double> assembly_angles(const Drawing& drawing);
 
 /// The stage as a file: ring held, carrier free. Planets are spaced evenly, or where that cannot be put together as
 /// nearly so as can.

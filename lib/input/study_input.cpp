@@ -441,8 +441,11 @@ struct LoadedInput::Sources {
     if (finding.kind == Finding::Kind::unknown_key && !stands(finding.pointer))
       for (auto set = sets.rbegin(); set != sets.rend(); ++set) {
         if (!pointer_within(set->pointer, finding.pointer)) continue;
-        const std::string meant = suggested(meant_pointers(set->pointer, all_places()));
-        if (!meant.empty()) return finding.message.substr(0, finding.message.find("'; ") + 1) + meant;
+        const std::vector<std::string> pointers = meant_pointers(set->pointer, all_places());
+        const std::string meant = suggested(pointers);
+        const std::size_t end = finding.message.find("'; ");
+        const bool same = pointers.size() == 1 && pointers.front() == set->pointer;  // known elsewhere, not here
+        if (!meant.empty() && !same && end != std::string::npos) return finding.message.substr(0, end + 1) + meant;
       }
     return finding.message;
   }
@@ -670,7 +673,8 @@ void check_named_parameter(const studies::Axis& axis, const std::string& place, 
   if (parameter == nullptr) {
     std::vector<std::string> names;
     for (const auto& p : studies::named_parameters()) names.push_back(p.name);
-    for (const SpeedAlias& alias : speed_aliases()) names.emplace_back(alias.key);
+    if (!place.starts_with("/study/sweeps"))  // of claims, whose values are in Omega
+      for (const SpeedAlias& alias : speed_aliases()) names.emplace_back(alias.key);
     context.add(Finding::Kind::range, place + "/parameter",
                 "is \"" + axis.name + "\", must be one of: " + listed(names) +
                     ", or a JSON pointer to a number, such as /stage/lumped/planet/bearing_N_per_m" +
@@ -1062,11 +1066,14 @@ class LoadedInput::Loader {
       for (const auto& [key, value, otherwise] : {std::tuple("from", &from, standard.from), {"to", &to, standard.to}}) {
         const double given = std::exchange(*value, otherwise);
         const std::string at = place + "/" + key;
-        if (!object.contains(key))
-          context_.add(Finding::Kind::missing_key, at,
-                       "is missing; " + std::string(alias->key) + " needs a range of its own");
-        else if (moves && !is_bad(at)) {
-          *value = ratio_of(*alias, given, at).value_or(otherwise);
+        if (!object.contains(key)) {
+          if (place == "/study")  // else its table has told
+            context_.add(Finding::Kind::missing_key, at,
+                         "is missing; " + std::string(alias->key) + " needs a range of its own");
+          found_.insert(at);
+        } else if (moves && !is_bad(at)) {
+          // To as many digits as the values between the ends have, so that a longer range has the same values.
+          if (const auto ratio = ratio_of(*alias, given, at)) *value = studies::grid_value(*ratio, *ratio, 0.5);
           note_conversion(object, key, {}, *alias, given);
         }
       }

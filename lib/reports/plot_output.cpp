@@ -171,16 +171,21 @@ std::string parameter_of(const input::Study& study) {
 
 // ---- figures ----------------------------------------------------------------------------------------------------
 
-constexpr std::array colours{figures::ink::blue,  figures::ink::red,    figures::ink::green,
-                             figures::ink::ochre, figures::ink::purple, figures::ink::dark_grey};
+constexpr std::array<std::string_view, 10> colours{
+    figures::ink::blue,      figures::ink::red, figures::ink::green, figures::ink::ochre, figures::ink::purple,
+    figures::ink::dark_grey, "#3f8fd0",         "#e08fb0",           "#6fb25a",           "#8a5a2b"};
 
 std::string_view colour_of(std::size_t k) { return colours[k % colours.size()]; }
 
 /// One figure, put together study by study.
 class Plot {
  public:
-  Plot(const std::vector<PlottedStudy>& studies, PlotOptions options)
-      : studies_(studies), options_(std::move(options)), factor_(factor_of(options_.quantity, options_.micrometres)) {}
+  Plot(const std::vector<PlottedStudy>& studies, PlotOptions options, std::vector<std::string>& notes)
+      : studies_(studies),
+        options_(std::move(options)),
+        notes_(notes),
+        factor_(factor_of(options_.quantity, options_.micrometres)),
+        x_factor_(options_.abscissa.empty() ? 1.0 : factor_of(options_.abscissa, options_.micrometres)) {}
 
   std::vector<DrawnFigure> draw(const std::filesystem::path& folder) {
     std::string stem = options_.quantity;
@@ -196,10 +201,11 @@ class Plot {
     const std::string label =
         (of_sections && !apart ? "Poincaré points of  " : "") + quantity_label(options_.quantity, options_.micrometres);
     const FigureRange x = options_.x ? *options_.x : x_.widened(0.0);
-    const FigureRange y = options_.y ? *options_.y : y_.widened(figures::figure_margin);
     if (x_.empty() || y_.empty())
       return {{folder / (stem + ".png"),
                {options_.x ? "there is no finite point to draw in that range" : "there is no finite point to draw"}}};
+    const FigureRange y = options_.y ? *options_.y : widened_ordinate();
+    shown_ = {x, y};
     if (apart) sketch.command("set style textbox opaque noborder fillcolor '#ffffff' margins 0.4,0.4");
     const std::vector<std::string> frames =
         apart ? std::vector<std::string>{"up", "down"} : std::vector<std::string>{{}};
@@ -216,7 +222,12 @@ class Plot {
     // The picture has the size that was asked for, whatever is in it.
     figures::FigureCanvas canvas = options_.canvas;
     if (text.above) canvas.height -= figures::second_abscissa_height;
-    return drawn(folder, stem, sketch.draw(folder, text, x, y, {}, canvas, figures::Pictures::none));
+    std::vector<DrawnFigure> all =
+        drawn(folder, stem, sketch.draw(folder, text, x, y, {}, canvas, figures::Pictures::none));
+    if (not_positive_ > 0)
+      notes_.push_back(
+          fmt::format("{}: {} values that are not positive have no place on a logarithmic scale", stem, not_positive_));
+    return all;
   }
 
   std::vector<DrawnFigure> draw_map(const std::filesystem::path& folder) {
@@ -227,10 +238,14 @@ class Plot {
     const std::size_t cells = grid.x.size() * grid.y.size();
     std::vector<DrawnFigure> all;
     for (std::size_t d = 0; d < map.directions.size(); ++d) {
-      std::vector<double> values;
-      for (std::size_t k = d * cells; k < std::min((d + 1) * cells, table.rows()); ++k)
-        values.push_back(factor_ * table.number(options_.quantity, k));
-      values.resize(cells, nan);
+      // Rows are in the order of computing; cells from below, each row from the left.
+      const std::size_t columns = grid.x.size();
+      std::vector<double> values(cells, nan);
+      for (std::size_t k = 0; k < cells && d * cells + k < table.rows(); ++k) {
+        const std::size_t step = k % columns;
+        const std::size_t column = map.directions[d] == studies::Direction::up ? step : columns - 1 - step;
+        values[k - step + column] = factor_ * table.number(options_.quantity, d * cells + k);
+      }
       const std::string way = store::direction_word(map.directions[d]);
       figures::FigureText text{title(), parameter_label(map.plane.first.name), parameter_label(map.plane.second.name)};
       if (map.directions.size() > 1) text.title += ", " + way;
@@ -274,9 +289,21 @@ class Plot {
         }
   }
 
-  [[nodiscard]] Place place(double x, double y) const {
-    const bool drawn = std::isfinite(x) && std::isfinite(y) && (!options_.logarithmic || y > 0.0);
-    return drawn ? Place{x, factor_ * y} : gap;
+  /// With a margin, on a logarithmic scale one of a share of its decades.
+  [[nodiscard]] FigureRange widened_ordinate() const {
+    if (!options_.logarithmic) return y_.widened(figures::figure_margin);
+    const FigureRange decades = FigureRange{std::log10(y_.low), std::log10(y_.high)}.widened(figures::figure_margin);
+    return {std::pow(10.0, decades.low), std::pow(10.0, decades.high)};
+  }
+
+  [[nodiscard]] Place place(double x, double y) {
+    if (!std::isfinite(x) || !std::isfinite(y)) return gap;
+    if (!options_.x) x_.include(x_factor_ * x);
+    if (options_.logarithmic && !(y > 0.0)) {
+      ++not_positive_;
+      return gap;
+    }
+    return {x_factor_ * x, factor_ * y};
   }
 
   [[nodiscard]] std::string abscissa_or(const char* otherwise) const {
@@ -288,7 +315,7 @@ class Plot {
     const std::string x = abscissa_or("value");
     const std::vector<std::string> names = header_of(folder / "points.csv");
     const bool section = !has(names, options_.quantity);
-    std::vector<std::string> wanted{"direction", "regime", x};
+    std::vector<std::string> wanted{"direction", "status", "regime", x};
     if (!section) wanted.push_back(options_.quantity);
     const Columns points(folder / "points.csv", wanted);
     // First where the points are, then what the section has at each.
@@ -302,7 +329,8 @@ class Plot {
     for (std::size_t row = 0; row < points.rows(); ++row) {
       Series& s = series_at(row);
       if (section) continue;
-      const Place at = place(points.number(x, row), points.number(options_.quantity, row));
+      const bool reached = points.word("status", row) == "ok";
+      const Place at = reached ? place(points.number(x, row), points.number(options_.quantity, row)) : gap;
       s.rows.push_back(at);
       // No line goes through chaos, where such numbers are a matter of chance.
       const std::string& regime = points.word("regime", row);
@@ -382,13 +410,19 @@ class Plot {
   [[nodiscard]] std::vector<Place> thinned(const std::vector<Place>& rows) const {
     constexpr double columns = 4000;
     constexpr double lines = 3000;
-    const auto cell = [](double v, const FigureRange& r, double n) {
-      return r.high > r.low ? static_cast<std::int64_t>(n * (v - r.low) / (r.high - r.low)) : 0;
+    const auto cell = [](double v, FigureRange r, double n, bool logarithmic) {
+      if (logarithmic) {
+        r = {std::log10(r.low), std::log10(r.high)};
+        v = std::log10(v);
+      }
+      return r.high > r.low ? static_cast<std::int64_t>(std::floor(n * (v - r.low) / (r.high - r.low))) : 0;
     };
+    const auto& [x, y] = shown_;
     std::set<std::pair<std::int64_t, std::int64_t>> taken;
     std::vector<Place> dots;
     for (const Place& p : rows)
-      if (std::isfinite(p[0]) && taken.emplace(cell(p[0], x_, columns), cell(p[1], y_, lines)).second)
+      if (std::isfinite(p[0]) &&
+          taken.emplace(cell(p[0], x, columns, false), cell(p[1], y, lines, options_.logarithmic)).second)
         dots.push_back(p);
     return dots;
   }
@@ -411,7 +445,7 @@ class Plot {
   }
 
   [[nodiscard]] std::string abscissa_label() const {
-    if (!options_.abscissa.empty()) return quantity_label(options_.abscissa, false);
+    if (!options_.abscissa.empty()) return quantity_label(options_.abscissa, options_.micrometres);
     const std::string parameter = parameter_of(*studies_.front().study);
     return parameter.empty() ? quantity_label("periods", false) : parameter_label(parameter);
   }
@@ -448,9 +482,13 @@ class Plot {
 
   const std::vector<PlottedStudy>& studies_;
   PlotOptions options_;
-  double factor_;
+  std::vector<std::string>& notes_;
+  double factor_;    ///< of the ordinate's numbers, for their unit
+  double x_factor_;  ///< likewise
   std::vector<Series> series_;
   FigureRange x_, y_;
+  std::pair<FigureRange, FigureRange> shown_;  ///< of the axes
+  std::size_t not_positive_ = 0;               ///< values that a logarithmic scale has no place for
 };
 
 /// The tables that columns are looked for in, of a kind of study.
@@ -528,20 +566,25 @@ PlotOptions sound_options(const std::vector<PlottedStudy>& studies, PlotOptions 
                                      options.abscissa, input::suggestion(options.abscissa, names)));
       std::ranges::move(names, std::back_inserter(known));
     }
+    if (!has(known, options.quantity) && has(known, options.quantity + "_1")) options.quantity += "_1";
     if (!has(known, options.quantity))
       throw InputError(fmt::format("plot: {} has no quantity '{}'{}; docs/output.md lists them", s.folder.string(),
                                    options.quantity, input::suggestion(options.quantity, known)));
   }
   for (const std::string& column : {options.quantity, options.abscissa})
     if (is_of_words(column)) throw InputError("plot: '" + column + "' is a column of words, which no axis has");
-  if (options.micrometres && factor_of(options.quantity, true) == 1.0)
-    throw InputError("plot: '" + options.quantity + "' is no length in b_c, so it has none in micrometres");
+  if (studies.size() > colours.size())
+    throw InputError(
+        fmt::format("plot: {} studies in one figure; there are colours for {}", studies.size(), colours.size()));
+  if (kind == "map" && (options.x || options.y || options.logarithmic || !options.abscissa.empty()))
+    throw InputError(
+        "plot: a map is drawn over its plane, on a linear scale; --x, --x-range, --y-range and --log are not for it");
   return options;
 }
 
 std::vector<DrawnFigure> draw_plot(const std::filesystem::path& folder, const std::vector<PlottedStudy>& studies,
-                                   const PlotOptions& options) {
-  Plot plot(studies, options);
+                                   const PlotOptions& options, std::vector<std::string>& notes) {
+  Plot plot(studies, options, notes);
   return studies.front().study->kind() == "map" ? plot.draw_map(folder) : plot.draw(folder);
 }
 

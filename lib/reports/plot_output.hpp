@@ -47,8 +47,10 @@ struct PlotOptions {
 
 /// Draws STEM.png and the others to `folder`, STEM from quantity and abscissa.
 /// @param options  sound ones
+/// @param notes    takes what is left out of a figure
 /// @throws InputError for tables that are none; OutputError
 [[nodiscard]] std::vector<DrawnFigure> draw_plot(const std::filesystem::path& folder,
-                                                 const std::vector<PlottedStudy>& studies, const PlotOptions& options);
+                                                 const std::vector<PlottedStudy>& studies, const PlotOptions& options,
+                                                 std::vector<std::string>& notes);
 
 }  // namespace epicyclic::reports

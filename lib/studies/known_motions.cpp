@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "analysis/attractors.hpp"
+#include "analysis/periodic_orbit.hpp"
 #include "studies/motion.hpp"
 
 namespace epicyclic::studies {
@@ -19,11 +20,20 @@ analysis::PoincareSection section_of(const PointResult& r, std::size_t dimension
   return section;
 }
 
-/// What its attractor is told from, kept or made of its section; of nothing else than the regime where there is none.
-analysis::AttractorRecord record_of(PointResult& r, std::size_t dimension,
+/// What its attractor is told from, kept or made of its section; that of an undecided motion where nothing was kept.
+analysis::AttractorRecord record_of(PointResult& r, const model::DynamicModel& model,
                                     const integrate::IntegratorOptions& integrator) {
+  const std::size_t dimension = model.dimension;
   if (r.attractor.dimension > 0) return std::move(r.attractor);
   if (r.outcome != integrate::Outcome::reached || r.poincare_rows() == 0) return {};
+  if (r.regime == analysis::Regime::periodic && r.recurrence.period == 0) {
+    // Told by its orbit, which the record is still on its way to, or longer than.
+    if (r.orbit.empty()) return {};
+    const auto flow = make_flow_of_one_trajectory(model, integrator);
+    const analysis::PeriodicOrbit orbit = analysis::find_periodic_orbit(*flow, r.orbit, r.period);
+    if (!orbit.found()) return {};
+    return analysis::record_of_orbit(*flow, orbit, r.period, map_error(integrator));
+  }
   return analysis::record_of_section(section_of(r, dimension), r.regime, r.recurrence, r.lyapunov_max(),
                                      map_error(integrator));
 }
@@ -50,7 +60,7 @@ KnownMotions motions_known_at(const SweepPlan& plan, const PointSource& points, 
   for (const GridPoint& other : plan.points) {
     if (!basins && (other.value != here.value || other.second_value != here.second_value)) continue;
     PointResult r = points.read(other.index);
-    r.attractor = record_of(r, model.dimension, integrator);
+    r.attractor = record_of(r, model, integrator);
     looked_at.push_back(other.index);
     results.push_back(std::move(r));
   }

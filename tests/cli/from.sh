@@ -54,6 +54,22 @@ awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) if ($k == "delta_sp_max") at = k; n
   fail "tolerance: $(<stderr)"
 near "$(value delta_sp_max accuracy)" "$(value delta_sp_max run_down)" 1e-5 || fail "tolerance: on another branch"
 
+# At a speed that is set, and one that is told in rpm.
+[ "$(code_of "$epicyclic" crosscheck --from sweep:4 -o faster --threads 2 --set /operation/mesh_frequency_ratio=0.895 --set '/study/methods=["arkode-dopri5"]')" = 0 ] ||
+  fail "crosscheck at another speed: $(<stderr)"
+[ "$(value value faster)" = 0.895 ] || fail "crosscheck at another speed: $(value value faster)"
+rpm=$(value sun_speed_rpm sweep 4)
+[ "$(code_of "$epicyclic" run --from "sweep:down=${rpm}rpm" -o by_rpm "${brief[@]}")" = 0 ] || fail "by rpm: $(<stderr)"
+grep -q 'point 4 (down' stderr || fail "by rpm: $(<stderr)"
+
+# Points whose record has not settled, or is shorter than the motion's period.
+"$epicyclic" sweep "$inputs/tang2020_calibrated_speed.json" -o unsettled --set /study/from=0.3 --set /study/to=0.9 --set /study/points=3 \
+  --set /study/crosscheck/points=0 --set /study/transient_periods=40 --set /study/recorded_periods=16 >out 2>&1 || fail "the unsettled sweep"
+grep -q 'points the motion is periodic, but the record does not repeat yet' out || fail "an unsettled record is not told: $(<out)"
+for point in 0 2 4; do
+  [ "$(code_of "$epicyclic" run --from unsettled:$point -o "settled$point" "${brief[@]}")" = 0 ] || fail "unsettled:$point: $(<stderr)"
+done
+
 # A map's cell, and a parameter that changes the scale of time: Omega is another number for the same speed.
 "$epicyclic" map "$inputs/tang2020_map.json" -o map --set /study/first/points=2 --set /study/second/points=2 --set /study/transient_periods=50 \
   --set '/stage="'"$inputs"'/tang2020_calibrated.json"' --set /study/first/from=1 --set /study/first/to=1.05 >/dev/null 2>&1 || fail "the map"
@@ -68,6 +84,11 @@ grep -q 'not those of this study' stderr && fail "of a bore: $(<stderr)"
 near "$(value mesh_frequency_Hz of_bore)" "$(value mesh_frequency_Hz bore 1)" 1e-12 || fail "of a bore: another speed"
 [ "$(value value of_bore)" != 0.85 ] || fail "of a bore: the scale of time did not change"
 near "$(value delta_sp_max of_bore)" "$(value delta_sp_max bore 1)" 1e-6 || fail "of a bore: another motion"
+[ "$(code_of "$epicyclic" run --from bore:1 -o damped "${brief[@]}" --set /stage/lumped/sun_planet_mesh/damping_ratio=0.3)" = 0 ] || fail "damped: $(<stderr)"
+grep -q 'not those of this study' stderr || fail "other equations in another scale of time are not told: $(<stderr)"
+mv bore/journal.bin kept
+[ "$(code_of "$epicyclic" run --from bore:1 -o refused)" = 7 ] || fail "no journal: $(<stderr)"
+mv kept bore/journal.bin
 
 # Basins: every attractor that is known.
 "$epicyclic" basins "$inputs/tang2020_basins.json" -o basins --set /study/first/points=2 --set /study/first/to=-1.33333333333 \

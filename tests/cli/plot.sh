@@ -13,7 +13,7 @@ swept() {
 }
 swept one
 swept two --set /stage/lumped/sun_planet_mesh/damping_ratio=0.08
-"$epicyclic" map "$inputs/tang2020_map.json" -o map --set /study/first/points=3 --set /study/second/points=2 "${few[@]}" >/dev/null 2>&1 || fail "the map"
+"$epicyclic" map "$inputs/tang2020_map.json" -o map --set '/study/directions=["up", "down"]' --set /study/first/points=3 --set /study/second/points=2 "${few[@]}" >/dev/null 2>&1 || fail "the map"
 "$epicyclic" run "$inputs/tang2020_run.json" -o run --set /study/transient=fixed "${few[@]}" --set /study/exponent_periods=0 \
   --set /study/spectrum_periods=16 --set /study/history_periods=2 >/dev/null 2>&1 || fail "the run"
 "$epicyclic" continue "$inputs/tang2020_branches_fixed_ring.json" -o branches --set /study/from=3 --set /study/to=3.2 --set '/study/starts=[3.1]' \
@@ -61,6 +61,19 @@ grep -q '"figures/delta_rp_rms.png"' stdout || fail "json: $(<stdout)"
 grep -q unstable figures/delta_rp_rms.gp || fail "branches: no legend"
 [ "$(code_of "$epicyclic" plot map -o figures --quantity dynamic_factor_sp --format svg)" = 0 ] || fail "a map: $(<stderr)"
 [ -s figures/dynamic_factor_sp_up.svg ] || fail "a map: no figure"
+# Each cell of a map stands where its values are, whichever way it was come to.
+[ "$(code_of "$epicyclic" plot map -o figures --quantity value --format svg)" = 0 ] || fail "a map's values: $(<stderr)"
+for way in up down; do
+  awk 'NF == 5 && ($5 < $1 || $5 > $2) { exit 1 }' "figures/value_$way.dat" || fail "a map, $way: $(<"figures/value_$way.dat")"
+done
+# What a logarithm has no place for is told; "delta_sp" is that of planet 1; forces have no micrometres, and need none.
+[ "$(code_of "$epicyclic" plot one -o figures --quantity lyapunov_max --log --format svg)" = 1 ] || fail "no positive value: $(<stderr)"
+[ "$(code_of "$epicyclic" plot one -o figures --quantity planet_spread --log --format svg)" -le 1 ] || fail "log: $(<stderr)"
+[ "$(code_of "$epicyclic" plot one -o figures --quantity delta_sp --quantity force_sp_max --um --format svg)" = 0 ] || fail "delta_sp: $(<stderr)"
+[ -s figures/force_sp_max.svg ] || fail "no figure of a force"
+# Pictures of other formats stay.
+[ "$(code_of "$epicyclic" plot one -o figures --quantity delta_sp --format pdf)" = 0 ] || fail "pdf: $(<stderr)"
+[ -s figures/delta_sp_1.svg ] && [ -s figures/delta_sp_1.pdf ] || fail "a picture of another format is gone"
 [ "$(code_of "$epicyclic" plot run -o figures --quantity force_sp_1)" = 0 ] || fail "a run: $(<stderr)"
 grep -q 'Mesh periods' figures/force_sp_1.gp || fail "a run: abscissa"
 
@@ -80,7 +93,9 @@ refused one -o refused --x nothing
 refused one -o refused --x contact_sp
 refused one map -o refused
 refused one run -o refused
-refused one -o refused --quantity force_sp_max --um
+refused one -o one/figures
+refused map -o refused --quantity delta_sp_rms --log
+refused map -o refused --quantity delta_sp_rms --x sun_speed_rpm
 refused one -o refused --x-range 3:2
 refused one -o refused --x-range 3
 refused one -o refused --y-range 0:inf
