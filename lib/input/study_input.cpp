@@ -1019,6 +1019,14 @@ class LoadedInput::Loader {
     return std::nullopt;
   }
 
+  /// The same along an axis: to as many digits as the values between its ends have, so that a longer range has the same
+  /// values and an end is one of them.
+  std::optional<double> axis_ratio_of(const SpeedAlias& alias, double value, const std::string& pointer) {
+    const std::optional<double> ratio = ratio_of(alias, value, pointer);
+    constexpr double between_ends = 0.5;
+    return ratio ? std::optional(studies::grid_value(*ratio, *ratio, between_ends)) : std::nullopt;
+  }
+
   /// Where the number at a key comes from: as before, with the speed that it was.
   /// @param moved  key that the speed stood at, if that is another one
   static void note_conversion(json& object, const std::string& key, std::string_view moved, const SpeedAlias& alias,
@@ -1072,8 +1080,7 @@ class LoadedInput::Loader {
                          "is missing; " + std::string(alias->key) + " needs a range of its own");
           found_.insert(at);
         } else if (moves && !is_bad(at)) {
-          // To as many digits as the values between the ends have, so that a longer range has the same values.
-          if (const auto ratio = ratio_of(*alias, given, at)) *value = studies::grid_value(*ratio, *ratio, 0.5);
+          *value = axis_ratio_of(*alias, given, at).value_or(otherwise);
           note_conversion(object, key, {}, *alias, given);
         }
       }
@@ -1081,7 +1088,7 @@ class LoadedInput::Loader {
     const auto each = [&](const SpeedAlias* alias, std::vector<double>& values, const std::string& place) {
       if (alias == nullptr || !moves) return;
       for (std::size_t k = 0; k < values.size(); ++k)
-        values[k] = ratio_of(*alias, values[k], place + "/" + std::to_string(k)).value_or(1.0);
+        values[k] = axis_ratio_of(*alias, values[k], place + "/" + std::to_string(k)).value_or(1.0);
     };
     const auto axis = [&](studies::Axis& of, const std::string& place) { convert(of.name, of.from, of.to, place); };
     if (auto* map = std::get_if<studies::MapOptions>(&study.plan)) {
@@ -1096,8 +1103,8 @@ class LoadedInput::Loader {
       for (std::size_t k = 0; k < b->seeds.size() && alias != nullptr && moves; ++k) {
         studies::BranchSeed& seed = b->seeds[k];
         const std::string place = "/study/seeds/" + std::to_string(k);
-        seed.value = ratio_of(*alias, seed.value, place + "/value").value_or(1.0);
-        if (seed.reach) seed.reach = ratio_of(*alias, *seed.reach, place + "/reach").value_or(1.0);
+        seed.value = axis_ratio_of(*alias, seed.value, place + "/value").value_or(1.0);
+        if (seed.reach) seed.reach = axis_ratio_of(*alias, *seed.reach, place + "/reach").value_or(1.0);
       }
       convert(b->parameter, b->from, b->to, "/study");
       if (b->loci) convert(b->loci->parameter, b->loci->from, b->loci->to, "/study/loci");

@@ -82,12 +82,7 @@ bool settles(const PointResult& result, const LookOptions& look) {
   if (result.classified || result.regime == Regime::periodic || result.regime == Regime::chaotic) return false;
   if (analysis::still_settling(result.recurrence, look.recurrence_tolerance)) return true;
   const std::size_t dimension = result.poincare_columns - 2 * result.meshes.sun_planet.size();
-  analysis::PoincareSection section{dimension, {}};
-  for (std::size_t row = 0; row < result.poincare_rows(); ++row) {
-    const auto first = result.poincare.begin() + static_cast<std::ptrdiff_t>(row * result.poincare_columns);
-    section.states.insert(section.states.end(), first, first + static_cast<std::ptrdiff_t>(dimension));
-  }
-  return result.recurrence.late_error <= small_part * analysis::extent(section);
+  return result.recurrence.late_error <= small_part * analysis::extent(section_of(result, dimension));
 }
 
 }  // namespace

@@ -10,16 +10,6 @@ namespace epicyclic::studies {
 
 namespace {
 
-/// The states of a point's section, without its deflections.
-analysis::PoincareSection section_of(const PointResult& r, std::size_t dimension) {
-  analysis::PoincareSection section{dimension, {}};
-  for (std::size_t row = 0; row < r.poincare_rows(); ++row) {
-    const auto begin = r.poincare.begin() + static_cast<std::ptrdiff_t>(row * r.poincare_columns);
-    section.states.insert(section.states.end(), begin, begin + static_cast<std::ptrdiff_t>(dimension));
-  }
-  return section;
-}
-
 /// What its attractor is told from, kept or made of its section; that of an undecided motion where nothing was kept.
 analysis::AttractorRecord record_of(PointResult& r, const model::DynamicModel& model,
                                     const integrate::IntegratorOptions& integrator) {

@@ -325,6 +325,15 @@ std::vector<std::string> poincare_columns(const model::DynamicModel& model) {
   return names;
 }
 
+analysis::PoincareSection section_of(const PointResult& result, std::size_t dimension) {
+  analysis::PoincareSection section{dimension, {}};
+  for (std::size_t row = 0; row < result.poincare_rows(); ++row) {
+    const auto begin = result.poincare.begin() + static_cast<std::ptrdiff_t>(row * result.poincare_columns);
+    section.states.insert(section.states.end(), begin, begin + static_cast<std::ptrdiff_t>(dimension));
+  }
+  return section;
+}
+
 void append_poincare_row(const model::DynamicModel& model, std::span<const double> y, model::MeshDeflections& d,
                          std::vector<double>& rows) {
   model.deflections(0.0, y.data(), d);

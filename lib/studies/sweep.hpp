@@ -100,6 +100,10 @@ struct PointResult : PointSummary {
 void append_poincare_row(const model::DynamicModel& model, std::span<const double> y, model::MeshDeflections& d,
                          std::vector<double>& rows);
 
+/// The states of a point's section, without its deflections.
+/// @param dimension  of the state
+[[nodiscard]] analysis::PoincareSection section_of(const PointResult& result, std::size_t dimension);
+
 /// The model at a value of the sweep parameter; called from several threads at once.
 using ModelAt = std::function<model::DynamicModel(double value)>;
 

@@ -345,6 +345,7 @@ TEST_F(StudyInput, TakesSpeedsInRpmAndHertz) {
 }
 
 TEST_F(StudyInput, TakesAxesInRpmAndHertz) {
+  constexpr double twelve_digits = 1e-12;  // as the values between an axis's ends have
   const std::string axis = R"({"parameter": "sun_speed_rpm", "from": 3000, "to": 9000, "points": 3})";
   const auto sweep = load({"/study/parameter=sun_speed_rpm", "/study/from=3000", "/study/to=9000"});
   const gear::Stage& stage = sweep.study.stage;
@@ -352,8 +353,8 @@ TEST_F(StudyInput, TakesAxesInRpmAndHertz) {
   const double fast = ratio_at_rpm(stage, 9000);
   const auto is_converted = [&](const std::string& name, double from, double to) {
     EXPECT_EQ(name, studies::speed_parameter);
-    EXPECT_NEAR(from, slow, 1e-13);
-    EXPECT_NEAR(to, fast, 1e-13);
+    EXPECT_NEAR(from, slow, twelve_digits);
+    EXPECT_NEAR(to, fast, twelve_digits);
   };
   const studies::Axis& along = std::get<studies::SweepOptions>(sweep.study.plan).axis;
   is_converted(along.name, along.from, along.to);
@@ -385,7 +386,7 @@ TEST_F(StudyInput, TakesAxesInRpmAndHertz) {
   is_converted(studies::speed_parameter, b.starts[0], b.starts[1]);
   is_converted(studies::speed_parameter, b.values[0], b.search->values[0]);
   is_converted(studies::speed_parameter, b.seeds[0].value, *b.seeds[0].reach);
-  EXPECT_NEAR(b.loci->near[0], fast, 1e-13);
+  EXPECT_NEAR(b.loci->near[0], fast, twelve_digits);
   EXPECT_EQ(reload(branches.resolved).resolved, branches.resolved);
 }
 
