@@ -77,7 +77,6 @@ int robustness_command(const Arguments& arguments);
 int calibrate_command(const Arguments& arguments);
 int assert_command(const Arguments& arguments);
 int plot_command(const Arguments& arguments);
-int init_command(const Arguments& arguments);
 int keys_command(const Arguments& arguments);
 int init_command(const Arguments& arguments);
 int gear_command(const Arguments& arguments);

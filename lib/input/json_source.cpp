@@ -602,6 +602,16 @@ std::string pointer_leaf(std::string_view pointer) {
   return leaf;
 }
 
+std::vector<std::string> pointer_steps(std::string_view pointer) {
+  std::vector<std::string> steps;
+  while (!pointer.empty()) {
+    const auto slash = pointer.find('/', 1);
+    steps.push_back(pointer_leaf(pointer.substr(0, slash)));
+    pointer = slash == std::string_view::npos ? std::string_view() : pointer.substr(slash);
+  }
+  return steps;
+}
+
 bool pointer_within(std::string_view pointer, std::string_view ancestor) {
   return pointer.substr(0, ancestor.size()) == ancestor &&
          (pointer.size() == ancestor.size() || pointer[ancestor.size()] == '/');

@@ -88,6 +88,9 @@ struct JsonSource {
 /// The last step of a pointer, unescaped.
 [[nodiscard]] std::string pointer_leaf(std::string_view pointer);
 
+/// Its keys and indices, from the root.
+[[nodiscard]] std::vector<std::string> pointer_steps(std::string_view pointer);
+
 /// Is `pointer` the same as `ancestor` or below it?
 [[nodiscard]] bool pointer_within(std::string_view pointer, std::string_view ancestor);
 

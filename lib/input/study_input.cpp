@@ -180,20 +180,10 @@ void fill_origins(json& resolved, const json& given) {
 
 // ---- pointers ---------------------------------------------------------------------------------------------------
 
-std::vector<std::string> steps_of(std::string_view pointer) {
-  std::vector<std::string> steps;
-  while (!pointer.empty()) {
-    const auto slash = pointer.find('/', 1);
-    steps.push_back(pointer_leaf(pointer.substr(0, slash)));
-    pointer = slash == std::string_view::npos ? std::string_view() : pointer.substr(slash);
-  }
-  return steps;
-}
-
 /// The value at a pointer, or null pointer.
 const json* find_at(const json& root, std::string_view pointer) {
   const json* at = &root;
-  for (const auto& step : steps_of(pointer)) {
+  for (const auto& step : pointer_steps(pointer)) {
     if (at->is_object()) {
       const auto it = at->find(step);
       if (it == at->end()) return nullptr;
@@ -280,7 +270,7 @@ const std::vector<KeyPlace>& all_places() {
 /// A value that is set is not computed any more: its origin says so, or would have it computed anew.
 void keep_from_computing(json& root, const std::string& pointer) {
   json* at = &root;
-  for (const auto& step : steps_of(pointer)) {
+  for (const auto& step : pointer_steps(pointer)) {
     if (!at->is_object()) break;
     if (const auto origin = at->find("origin"); origin != at->end() && origin->is_object()) {
       const auto text = origin->find(step);
@@ -302,7 +292,7 @@ std::string assign(json& root, std::string_view pointer, const json& value) {
   json* object = nullptr;  // innermost object, and the key in it
   std::string key;
   std::string so_far;
-  for (const auto& step : steps_of(pointer)) {
+  for (const auto& step : pointer_steps(pointer)) {
     if (at->is_null()) *at = json::object();
     if (at->is_object()) {
       object = at;
@@ -370,7 +360,7 @@ std::vector<Assignment> parse_assignments(std::span<const std::string> texts) {
       refuse("must be /json/pointer=value: a pointer begins with '/'" + hint);
       continue;
     }
-    if (const auto steps = steps_of(set.pointer); std::find(steps.begin(), steps.end(), "origin") != steps.end()) {
+    if (const auto steps = pointer_steps(set.pointer); std::find(steps.begin(), steps.end(), "origin") != steps.end()) {
       refuse("an origin is written in the file; values given here carry \"set: command line\"");
       continue;
     }
@@ -461,7 +451,7 @@ struct LoadedInput::Sources {
   /// Does the patch write the value at this pointer of the stage?
   [[nodiscard]] bool patches(std::string_view rest) const {
     const json* at = &patch;
-    for (const auto& step : steps_of(rest)) {
+    for (const auto& step : pointer_steps(rest)) {
       if (!at->is_object()) break;
       const auto it = at->find(step);
       if (it == at->end()) return false;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "input/field_table.hpp"
+#include "input/json_source.hpp"
 
 namespace epicyclic::reports {
 
@@ -59,12 +60,7 @@ std::string printed(const std::string& unit) {
 }  // namespace
 
 QuantityWords quantity_words(std::string_view pointer) {
-  std::vector<std::string> steps;
-  while (!pointer.empty()) {
-    const auto slash = pointer.find('/', 1);
-    steps.push_back(input::pointer_leaf(pointer.substr(0, slash)));
-    pointer = slash == std::string_view::npos ? std::string_view() : pointer.substr(slash);
-  }
+  std::vector<std::string> steps = input::pointer_steps(pointer);
   std::string index;
   if (!steps.empty() && std::ranges::all_of(steps.back(), [](unsigned char c) { return std::isdigit(c) != 0; })) {
     index = std::to_string(std::stoul("0" + steps.back().substr(0, 9)) + 1);
