@@ -39,7 +39,8 @@ struct InitArguments {
   double module_mm = 3;
   double pressure_angle_deg = 20;
   double width_mm = 30;
-  int planets = 3;
+  std::optional<int> planets{};
+  std::vector<double> angles_deg{};
   std::optional<double> torque_Nm{}, speed_rpm{};
 };
 

@@ -85,7 +85,9 @@ void require_kind(const input::LoadedInput& input, const Arguments& arguments, s
   const std::string file = arguments.input.empty() ? std::string("the study") : arguments.input.string();
   const std::string name(kind);
   if (!input.study.has_motion())
-    throw InputError(file + ": is a stage without a study; " + name + " needs a study of kind " + name);
+    throw InputError(file + ": is a stage without a study; " + name + " needs a file such as {\"stage\": \"" +
+                     arguments.input.filename().string() + "\", \"study\": {\"kind\": \"" + name +
+                     "\", ...}}; `epicyclic keys study` lists its keys");
   if (const std::string own(input.study.kind()); own != kind)
     throw InputError(
         file + ": is a study of kind " + own + "; run " +

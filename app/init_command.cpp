@@ -14,6 +14,7 @@
 #include "core/atomic_file.hpp"
 #include "core/errors.hpp"
 #include "core/text.hpp"
+#include "input/json_source.hpp"
 #include "input/starter.hpp"
 #include "input/study_input.hpp"
 #include "input/study_model.hpp"
@@ -44,7 +45,9 @@ input::Drawing drawing_of(const Arguments& arguments) {
   d.module_mm = given.module_mm;
   d.pressure_angle_deg = given.pressure_angle_deg;
   d.width_mm = given.width_mm;
-  d.planets = given.planets;
+  d.angles_deg = given.angles_deg;
+  const int of_angles = d.angles_deg.empty() ? d.planets : static_cast<int>(d.angles_deg.size());
+  d.planets = given.planets.value_or(of_angles);
   d.torque_is_given = given.torque_Nm.has_value();
   d.torque_Nm = given.torque_Nm.value_or(d.torque_Nm);
   d.speed_rpm = given.speed_rpm;
@@ -78,6 +81,14 @@ int init_command(const Arguments& arguments) {
     for (const char* name : {sweep_name, run_name})
       for (const std::string& warning : input::warnings(input::load_input(folder / name)))
         if (name == sweep_name) tell("{}\n", warning);
+  } catch (const input::InputProblems& found) {
+    take_back();
+    std::vector<input::Problem> problems = found.problems();
+    for (input::Problem& problem : problems) {  // of files that are not kept
+      problem.file = "init";
+      problem.line = 0;
+    }
+    throw input::InputProblems(std::move(problems));
   } catch (...) {
     take_back();
     throw;

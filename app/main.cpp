@@ -184,7 +184,10 @@ void add_init_options(CLI::App& command, Arguments& arguments) {
       ->delimiter(',')
       ->expected(3);
   command.add_option("--width", init.width_mm, "face width [mm]")->capture_default_str();
-  command.add_option("--planets", init.planets, "number of planets")->capture_default_str();
+  command.add_option("--planets", init.planets, "number of planets; 3 if neither it nor --angles is given");
+  command
+      .add_option("--angles", init.angles_deg, "of the planets [deg], such as 0,71.25,146.25; evenly spaced by default")
+      ->delimiter(',');
   command.add_option("--torque", init.torque_Nm, "torque on the sun [N m]; 100 if it is not given");
   command.add_option("--speed", init.speed_rpm,
                      "rated speed of the sun [rpm]; the sweep goes from 0.2 to 1.5 of it, without it over 0.2 to 2 of "

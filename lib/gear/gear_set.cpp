@@ -239,9 +239,13 @@ bool meshes_at_its_distance(Problems& out, const Stage& stage) {
 /// Planets beside each other, bores and the rim.
 void check_room(Problems& out, const GearSet& set) {
   const Catalogue& c = set.catalogue;
+  bool even = true;
+  for (std::size_t i = 0; i < set.angles_deg.size(); ++i)
+    even = even && std::abs(set.angles_deg[i] * static_cast<double>(set.angles_deg.size()) -
+                            360.0 * static_cast<double>(i)) < 1e-6;
   if (planet_gap_mm(set) <= 0.0)
-    out.add("/planets/count", "neighbouring planets overlap by ", -planet_gap_mm(set), " mm (tip radius ",
-            set.planet.tip_radius_mm, " mm, centre distance ", set.centre_distance_mm, " mm)");
+    out.add(even ? "/planets/count" : "/planets/angles_deg", "neighbouring planets overlap by ", -planet_gap_mm(set),
+            " mm (tip radius ", set.planet.tip_radius_mm, " mm, centre distance ", set.centre_distance_mm, " mm)");
   const auto bore = [&](const ExternalGear& gear, const Tooth& tooth, const std::string& pointer) {
     if (0.5 * gear.bore_mm >= tooth.root_radius_mm)
       out.add(pointer + "/bore_mm", "the bore, ", gear.bore_mm, " mm, must be smaller than the root circle, ",

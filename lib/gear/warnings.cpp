@@ -28,7 +28,13 @@ constexpr double external_rim_usual = 1.2;
 constexpr double ring_rim_usual = 3.5;
 // Over ISO/TR 10064-2's least one.
 constexpr double backlash_most = 4.0;
-constexpr double half_clearance_most = 0.5;  // in modules
+constexpr double backlash_least = 0.01;
+constexpr double half_clearance_most = 0.5;   // in modules
+constexpr double form_overrun = 0.1;          // in modules; standard tips of rings overrun by half of it
+constexpr double error_most = 0.1;            // in modules
+constexpr double mesh_damping_least = 0.003;  // over critical
+constexpr double gravity = 9.80665;           // m/s^2
+constexpr double pressure_least_GPa = 0.02;
 constexpr double strength_Pa = 1e9;
 constexpr double pressure_most_GPa = 1.65 * 1.6;
 constexpr double mass_most = 3.0;            // over that of the drawing
@@ -53,6 +59,11 @@ void check_backlash(Warnings& out, const std::string& pointer, const std::string
                  " mesh has ", backlash_mm, " mm of backlash on its line of action, ", backlash_mm / module_mm,
                  " modules and ", times, " times the least that ISO/TR 10064-2 recommends (", recommended, " mm)",
                  remedy);
+  if (times > 0.0 && times < backlash_least)
+    out.add_once(Rank::doubtful, backlash_least / times, pointer, "backlash of the " + mesh + " mesh", "the ", mesh,
+                 " mesh has ", 1e3 * backlash_mm, " um of backlash on its line of action, ", times,
+                 " times the least that ISO/TR 10064-2 recommends (", 1e3 * recommended,
+                 " um); without any it is 0, and the key takes half of it in um");
 }
 
 void check_tooth(Warnings& out, const Tooth& t, const std::string& pointer) {
@@ -86,14 +97,15 @@ void check_pair(Warnings& out, const Pair& p, const std::string& driving, const 
     out.add(Rank::note, 1.0, driven, "overlap", "nominal teeth of the ", mesh, " mesh overlap by ", -p.backlash_mm(),
             " mm; thinning must make up for it");
   check_backlash(out, driven, mesh, p.normal_backlash_mm(), p.centre_distance_mm, module, remedy);
-  if (p.radius_1_mm(p.start_mm) < p.driving.form_radius_mm())
-    out.add(Rank::note, 1.0, driving, "form of the " + mesh + " mesh", "contact of the ", mesh,
-            " mesh reaches down to radius ", p.radius_1_mm(p.start_mm),
-            " mm, below the end of the rack-cut involute at ", p.driving.form_radius_mm(), " mm");
-  if (!p.internal() && p.radius_2_mm(p.end_mm) < p.driven.form_radius_mm())
-    out.add(Rank::note, 1.0, driven, "form of the " + mesh + " mesh", "contact of the ", mesh,
-            " mesh reaches down to radius ", p.radius_2_mm(p.end_mm), " mm, below the end of the rack-cut involute at ",
-            p.driven.form_radius_mm(), " mm");
+  const auto form = [&](const std::string& pointer, double lowest_mm, const Tooth& tooth) {
+    const double below_mm = tooth.form_radius_mm() - lowest_mm;
+    if (below_mm > 0.0)
+      out.add(below_mm > form_overrun * module ? Rank::doubtful : Rank::note, 1.0, pointer,
+              "form of the " + mesh + " mesh", "contact of the ", mesh, " mesh reaches down to radius ", lowest_mm,
+              " mm, below the end of the rack-cut involute at ", tooth.form_radius_mm(), " mm");
+  };
+  form(driving, p.radius_1_mm(p.start_mm), p.driving);
+  if (!p.internal()) form(driven, p.radius_2_mm(p.end_mm), p.driven);
 }
 
 void check_body(Warnings& out, const MeshedPair& m, const ToothBody& b, double bore_mm, const std::string& pointer) {
@@ -153,7 +165,8 @@ void check_assembly(Warnings& out, const Stage& s) {
       out.add(Rank::impossible, 1.0,
               s.angles_deg.empty() ? "/planets/count" : "/planets/angles_deg/" + std::to_string(i),
               "assembly of planet " + std::to_string(i + 1), "planet ", static_cast<double>(i + 1), " at ", angles[i],
-              " deg cannot be assembled: (z_s + z_r)(phi_i - phi_1) / 360 deg = ", turns, " is not whole");
+              " deg cannot be assembled: (z_s + z_r)(phi_i - phi_1) / 360 deg = ", turns, " is not whole; it could at ",
+              std::fmod(angles[0] + 360.0 * std::round(turns) / teeth, 360.0), " deg");
   }
 }
 
@@ -174,6 +187,40 @@ void check_mesh_damping(Warnings& out, const std::string& pointer, const Mesh& m
   if (const double ratio = mesh.damping_ratio.value_or(0.0); ratio >= 1.0)
     out.add(Rank::doubtful, ratio, pointer + "/damping_ratio", "damping", "is ", ratio,
             ", at or above critical; meshes have 0.03 to 0.17");
+  else if (mesh.damping_ratio && ratio < mesh_damping_least)
+    out.add(Rank::note, 1.0, pointer + "/damping_ratio", "damping", "is ", ratio,
+            ": motions may never settle; meshes have 0.03 to 0.17");
+}
+
+/// Error amplitudes are a few hundredths of a module in the coarsest grade of ISO 1328.
+void check_error(Warnings& out, const std::string& pointer, const Mesh& mesh, double module) {
+  const double largest_um = std::ranges::max(mesh.error_amplitude_um);
+  const double modules = 1e-3 * largest_um / module;
+  if (modules > error_most)
+    out.add(Rank::doubtful, modules / error_most, pointer + "/error_amplitude_um", "error", "is ", largest_um, " um, ",
+            modules, " modules; the coarsest grade of ISO 1328 has some 0.03");
+}
+
+/// A member whose support yields to its own weight by more than a module.
+void check_sag(Warnings& out, const std::string& pointer, double mass, double stiffness, double module) {
+  if (!(stiffness > 0.0)) return;
+  const double modules = 1e3 * mass * gravity / stiffness / module;
+  if (modules > 1.0)
+    out.add(Rank::doubtful, modules, pointer, "support", "is ", stiffness, " N/m, which its own weight moves by ",
+            modules * module, " mm, ", modules, " modules; a member that floats has 0, bearings 1e6 to 1e9 N/m");
+}
+
+/// One mesh with another kind of friction than the other.
+void check_friction(Warnings& out, const Stage& s) {
+  const auto words = [](const Friction& f) {
+    return f.ehl ? "lubricated contact" : f.coefficient ? "a coefficient of friction" : f.table ? "a table" : "none";
+  };
+  const std::string sun = words(s.sun_planet_mesh.friction);
+  const std::string ring = words(s.ring_planet_mesh.friction);
+  if (sun != ring)
+    out.add(Rank::doubtful, 1.0, "/lumped/ring_planet_mesh/friction", "friction",
+            "the two meshes have different kinds of friction: sun-planet ", sun, ", ring-planet ", ring,
+            "; give both the same, unless it is meant");
 }
 
 /// m of the drawing, or of teeth of 20 degrees.
@@ -197,6 +244,12 @@ void check_gaps(Warnings& out, const Stage& s) {
     out.add(Rank::doubtful, modules / half_clearance_most, "/lumped/sun/bearing_clearance_half_um", "clearance", "is ",
             s.sun_bearing.clearance_half_um, " um, ", modules,
             " modules: the sun may move out of its meshes before its bearing holds it");
+  check_error(out, "/lumped/sun_planet_mesh", s.sun_planet_mesh, module);
+  check_error(out, "/lumped/ring_planet_mesh", s.ring_planet_mesh, module);
+  check_sag(out, "/lumped/sun/support_N_per_m", s.sun.mass_kg, s.sun.support_N_per_m, module);
+  check_sag(out, "/lumped/ring/support_N_per_m", s.ring.mass_kg, s.ring.support_N_per_m, module);
+  check_sag(out, "/lumped/carrier/support_N_per_m", s.carrier.mass_kg, s.carrier.support_N_per_m, module);
+  check_sag(out, "/lumped/planet/bearing_N_per_m", s.planet.mass_kg, s.planet.bearing_N_per_m, module);
 }
 
 void check_speed(Warnings& out, const std::string& pointer, const std::string& what, double angular, double radius_mm,
@@ -227,6 +280,10 @@ void check_pressure(Warnings& out, const EhlFriction& contact, const LineOfActio
     out.add_once(Rank::impossible, pressure / pressure_most_GPa, "/load", "force", "the mean force of the ", mesh,
                  " mesh, ", load.force_N, " N on a width of ", contact.width_mm, " mm, presses its flanks with ",
                  pressure, " GPa; the best case-hardened steel bears ", pressure_most_GPa, " GPa, and at rest only");
+  if (pressure > 0.0 && pressure < pressure_least_GPa)
+    out.add_once(Rank::doubtful, pressure_least_GPa / pressure, "/load", "force", "the mean force of the ", mesh,
+                 " mesh, ", load.force_N, " N on a width of ", contact.width_mm, " mm, presses its flanks with ",
+                 1e3 * pressure, " MPa: next to no load; gears under load have 300 to 1500 MPa");
 }
 
 }  // namespace
@@ -292,6 +349,7 @@ std::vector<Warning> warnings_for_motion(const Stage& s) {
   check_mesh_damping(out, "/lumped/sun_planet_mesh", s.sun_planet_mesh);
   check_mesh_damping(out, "/lumped/ring_planet_mesh", s.ring_planet_mesh);
   check_gaps(out, s);
+  check_friction(out, s);
   if (!s.catalogue)
     for (const auto& [name, mass, inertia] : {std::tuple("sun", s.sun.mass_kg, s.sun.inertia_over_r2_kg),
                                               std::tuple("planet", s.planet.mass_kg, s.planet.inertia_over_r2_kg),

@@ -1,14 +1,21 @@
 // Warnings: what is allowed but rarely meant, with the number that tells it, ranked.
 //
-//   backlash        j_bn > 4 (2/3)(0.06 + 0.0005 a + 0.03 m) mm, four times the least that ISO/TR 10064-2 recommends
+//   backlash        j_bn > 4 (2/3)(0.06 + 0.0005 a + 0.03 m) mm, four times the least that ISO/TR 10064-2 recommends;
+//   or
+//                   some, but below a hundredth of it
 //   tip clearance   outside 0.1 to 0.6 m
 //   sun's bearing   half clearance > m / 2: the sun may leave the mesh
+//   error           amplitude > m / 10; 0.03 m in the coarsest grade of ISO 1328
+//   support         yields to the member's own weight by more than m
+//   friction        another kind in one mesh than in the other
+//   form            contact more than 0.1 m below the end of the rack-cut involute; less is a note
 //   speed           rho v^2 > 1000 MPa, the hoop stress of a thin ring at the base circle's speed (or at that of the
 //                   planets' axes): the tensile strength of quenched and tempered gear steels
 //   force           Hertz's pressure of the mean mesh force, load shared, > 2.64 GPa: sigma_H,lim 1650 MPa of the best
-//                   case-hardened steel (ISO 6336-5, ME) times Z_NT = 1.6 of a static load (ISO 6336-2)
+//                   case-hardened steel (ISO 6336-5, ME) times Z_NT = 1.6 of a static load (ISO 6336-2); or < 20 MPa,
+//                   which is no load
 //   deflection      of a mesh, a planet's bearing or a torsional support under the static load, > m
-//   damping         at or above critical: zeta >= 1, c >= 2 sqrt(k m)
+//   damping         at or above critical: zeta >= 1, c >= 2 sqrt(k m); of a mesh below 0.003, of a support none
 //   mass            3 times that of the body on the drawing, or a radius of gyration of twice the member's radius
 //   stiffness       of a mesh more than 30 % from c_gamma of [G-iso], ISO 6336-1:2006, 9.3: that is how far models of
 //                   this kind differ

@@ -134,6 +134,9 @@ void fill_mesh(Filler mesh, const gear::MeshedPair& pair, const gear::FourierSer
   if (first || second)
     mesh.fill("error_amplitude_um", std::max(first ? first->single_pitch : 0.0, second ? second->single_pitch : 0.0),
               "[G-1328] single pitch deviation of the accuracy grade, the larger of the two members");
+  Filler coulomb = mesh.below("friction");
+  coulomb.fill("contact_ratio", pair.pair.contact_ratio(), "[G-path]");
+  coulomb.fill("path_start_mm", pair.pair.start_mm, "[G-path]");
   if (catalogue.lubrication) {
     const gear::EhlFriction e = gear::ehl_of(pair, *catalogue.lubrication);
     Filler friction = mesh.below("friction").below("lubricated");
@@ -242,6 +245,15 @@ void complete(json& object, const json& computed, const std::string& pointer, st
   }
 }
 
+/// Of the forms of computed friction that of lubricated contact alone, or none.
+void leave_lubricated(json& computed) {
+  json& friction = computed["friction"];
+  if (!friction.contains("lubricated"))
+    computed.erase("friction");
+  else
+    friction = {{"lubricated", std::move(friction["lubricated"])}};
+}
+
 /// Stiffness and friction of a mesh have several forms. What is computed gives way to another form that is given, and
 /// takes the place of one that was computed once.
 void settle_forms(json& mesh, json& computed) {
@@ -264,10 +276,43 @@ void settle_forms(json& mesh, json& computed) {
       computed.erase("stiffness_sin_N_per_m");
     }
   }
-  if (const auto friction = mesh.find("friction"); friction != mesh.end()) {
-    const auto once = friction->is_object() ? friction->find("lubricated") : friction->end();
-    const bool of_the_form = once != friction->end() && once->is_object() && once->contains("origin") && !gives(*once);
-    if (!of_the_form) computed.erase("friction");
+  const auto friction = mesh.find("friction");
+  if (friction == mesh.end()) return leave_lubricated(computed);
+  if (!friction->is_object()) {
+    computed.erase("friction");
+    return;
+  }
+  const auto once = friction->find("lubricated");
+  const bool computed_once = once != friction->end() && once->is_object() && once->contains("origin") && !gives(*once);
+  if (is_given(*friction, "coefficient")) {
+    if (computed_once) friction->erase(once);
+    computed["friction"].erase("lubricated");
+  } else if (computed_once) {
+    leave_lubricated(computed);
+  } else {
+    computed.erase("friction");
+  }
+}
+
+/// Bearings and a shaft of the catalogue that something else is given in the place of.
+void note_unused(const json& stage, const json& computed, const std::string& root, std::vector<std::string>& notes) {
+  struct Place {
+    const char *member, *key, *from;
+  };
+  for (const auto& [member, key, from] : {Place{"sun", "support_N_per_m", "/catalogue/sun_bearing"},
+                                          Place{"carrier", "support_N_per_m", "/catalogue/carrier/bearing"},
+                                          Place{"carrier", "torsional_support_N_per_m", "/catalogue/carrier/shaft"}}) {
+    const auto place = json::json_pointer("/lumped") / member;
+    if (!computed.contains(place / key) || !stage.contains(place) || !stage.at(place).is_object()) continue;
+    const json& object = stage.at(place);
+    if (!is_given(object, key) || !object.at(key).is_number()) continue;
+    const json origin = object.value("origin", json());
+    const std::string text = origin.is_object() && origin.contains(key) && origin.at(key).is_string()
+                                 ? origin.at(key).get<std::string>()
+                                 : std::string();
+    if (text.rfind("calibrated", 0) == 0 || text.rfind("set", 0) == 0) continue;  // meant
+    notes.push_back(root + (place / key).to_string() + ": is given, so the " + number_text(computed.at(place / key)) +
+                    " N/m that " + root + from + " gives is not used; take one of them out");
   }
 }
 
@@ -296,10 +341,14 @@ Completion complete_stage(json& stage, const std::string& root, ReadContext& con
   if (!problems.empty()) return {.complete = false, .computed = {}};
   Completion completion{.complete = true, .computed = computed_values(*read)};
   json computed = completion.computed;
-  if (const auto lumped = stage.find("lumped"); lumped != stage.end() && lumped->is_object())
-    for (const char* key : {"sun_planet_mesh", "ring_planet_mesh"})
-      if (const auto mesh = lumped->find(key); mesh != lumped->end() && mesh->is_object())
-        settle_forms(*mesh, computed["lumped"][key]);
+  json none = json::object();
+  const auto lumped = stage.find("lumped");
+  for (const char* key : {"sun_planet_mesh", "ring_planet_mesh"}) {
+    const bool there =
+        lumped != stage.end() && lumped->is_object() && lumped->contains(key) && (*lumped)[key].is_object();
+    settle_forms(there ? (*lumped)[key] : none, computed["lumped"][key]);
+  }
+  note_unused(stage, computed, root, context.notes);
   complete(stage, computed, root, context.notes);
   return completion;
 }

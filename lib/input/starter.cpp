@@ -34,6 +34,8 @@ void check(const Drawing& d) {
   const auto refuse = [](const std::string& what) { throw InputError("init: " + what); };
   for (const int z : {d.sun_teeth, d.planet_teeth, d.ring()})
     if (z < 5 || z > 1000) refuse(fmt::format("{} teeth are none of a gear; from 5 to 1000", z));
+  if (!d.angles_deg.empty() && d.angles_deg.size() != static_cast<std::size_t>(d.planets))
+    refuse(fmt::format("{} angles of {} planets", d.angles_deg.size(), d.planets));
   if (d.planets < gear::planets_min || d.planets > gear::planets_max)
     refuse(fmt::format("{} planets; from {} to {}", d.planets, gear::planets_min, gear::planets_max));
   const auto positive = [&](const char* what, double x, double most) {
@@ -68,7 +70,7 @@ ordered_json origins_of_gear(const char* more_key, const std::string& more) {
 
 std::vector<double> assembly_angles(const Drawing& d) {
   const int sum = d.sun_teeth + d.ring();
-  if (sum % d.planets == 0) return {};
+  if (sum % d.planets == 0 || !d.angles_deg.empty()) return {};
   std::vector<double> all;
   for (int i = 0; i < d.planets; ++i) {
     const double step = std::round(static_cast<double>(i) * sum / d.planets);
@@ -104,7 +106,10 @@ ordered_json starter_stage(const Drawing& d) {
   ring["origin"] = origins_of_gear("outer_diameter_mm", "estimate: leaves a rim of 4 modules");
 
   ordered_json planets = {{"count", d.planets}};
-  if (const std::vector<double> at = assembly_angles(d); !at.empty()) {
+  if (!d.angles_deg.empty()) {
+    planets["angles_deg"] = d.angles_deg;
+    planets["origin"] = "source: drawing";
+  } else if (const std::vector<double> at = assembly_angles(d); !at.empty()) {
     planets["angles_deg"] = at;
     planets["origin"] = {
         {"count", "source: drawing"},

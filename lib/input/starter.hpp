@@ -24,6 +24,7 @@ struct Drawing {
   std::array<double, 3> profile_shift{};  ///< sun, planet, ring
   double width_mm = 30;
   int planets = 3;
+  std::vector<double> angles_deg{};   ///< of the planets; none: as even as can be
   double torque_Nm = 100;             ///< on the sun
   std::optional<double> speed_rpm{};  ///< rated, of the sun; none: studies are in Omega
   bool torque_is_given = false;       ///< else it is a starter, too
@@ -31,7 +32,8 @@ struct Drawing {
   [[nodiscard]] int ring() const { return ring_teeth.value_or(sun_teeth + 2 * planet_teeth); }
 };
 
-/// Angles at which the teeth fit, as near to even spacing as there are any [deg]; none where even spacing fits.
+/// Angles at which the teeth fit, as near to even spacing as there are any [deg]; none where even spacing fits or
+/// others are given.
 [[nodiscard]] std::vector<double> assembly_angles(const Drawing& drawing);
 
 /// The stage as a file: ring held, carrier free. Planets are spaced evenly, or where that cannot be put together as

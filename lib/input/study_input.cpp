@@ -1194,6 +1194,7 @@ class LoadedInput::Loader {
     input_.resolved = sources_->bare ? stage_table().write(input_.study.stage) : study_table().write(input_.study);
     fill_origins(input_.resolved, whole_);
     note_uncomputed(input_.resolved, input_.computed, context_.notes);
+    note_undone();
     input_.study_file = {path_.filename().string(), sources_->study.bytes};
     input_.sources_ = sources_;
     input_.notes = std::move(context_.notes);
@@ -1202,6 +1203,25 @@ class LoadedInput::Loader {
       if (sources_->is_unreadable(finding.pointer)) continue;
       refuse(finding.pointer, sources_->meant_by_set(finding));
     }
+  }
+
+  /// What was taken out and is there again, since it follows from what was left.
+  void note_undone() {
+    const auto note = [&](const std::string& pointer, const std::string& who) {
+      if (find_at(input_.computed, pointer) != nullptr && find_at(input_.resolved, pointer) != nullptr)
+        context_.notes.push_back(pointer + ": " + who +
+                                 " takes it out, and it is computed from the catalogue data again; give a value in its "
+                                 "place, or take out the data that it follows from");
+    };
+    for (const Assignment& set : sources_->sets)
+      if (set.value.is_null() && set.pointer != patch_root) note(set.pointer, shown(set));
+    const std::function<void(const json&, const std::string&)> walk = [&](const json& patch, const std::string& at) {
+      for (const auto& [key, value] : patch.items()) {
+        if (value.is_object()) walk(value, at + pointer_step(key));
+        if (value.is_null()) note(at + pointer_step(key), "stage_patch");
+      }
+    };
+    if (sources_->patch.is_object()) walk(sources_->patch, std::string(stage_root));
   }
 
   /// The values that the study's parameters take, each with the rest of the input.
@@ -1404,7 +1424,10 @@ std::vector<Problem> LoadedInput::check_with(const Base& base, std::span<const P
       const auto& all = all_places();
       const auto at_place = [&pointer = pointer](const KeyPlace& p) { return p.pointer == pointer; };
       if (std::any_of(all.begin(), all.end(), at_place))
-        return refuse("\"" + pointer + "\" is no value of the resolved input: the input does not give it");
+        return refuse("\"" + pointer + "\" is no value of the resolved input: the input does not give it" +
+                      (find_speed_alias(pointer_leaf(pointer)) != nullptr
+                           ? "; did you mean '" + pointer_leaf(pointer) + "'?"
+                           : std::string()));
       const auto meant = meant_pointers(place, all);
       return refuse("\"" + pointer + "\" is no value of the resolved input" +
                     (meant.empty() ? suggestion(place, number_pointers()) : suggested(meant)));

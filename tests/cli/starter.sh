@@ -42,6 +42,10 @@ drawing --teeth 28,20,68 --module 3 --planets 5
 drawing --teeth 30,21 --module 1.5 --planets 4 --pressure-angle 25
 drawing --teeth 24,30,84 --module 4 --shifts 0.3,0.1,0.5 --torque 2000 --width 80
 
+# Planets where the drawing has them.
+drawing --teeth 21,28,77 --angles 0,117.551020408,238.775510204
+grep -c '117.551020408' set/stage.json >/dev/null || fail "angles of the drawing are not in the stage"
+
 refused() {
   rm -rf refused
   [ "$(code_of "$epicyclic" "$@")" = 2 ] || fail "exit code of $*: $(<stderr)"
@@ -52,6 +56,10 @@ refused init refused --teeth 21
 refused init refused --teeth 21,x
 refused init refused --teeth 3,28,77
 refused init refused --teeth 21,28,90
+grep -q '^init: /stage/catalogue/ring' stderr || fail "told of a file that is not kept: $(<stderr)"
+refused init refused --angles 0,90,180 --planets 4
+refused init refused --angles 0,40,180
+grep -q 'angles_deg: neighbouring planets overlap' stderr || fail "overlap of given angles: $(<stderr)"
 refused init refused --module 0
 refused init refused --planets 9
 refused init refused --torque -3

@@ -57,7 +57,7 @@ TEST(GearSet, EachProblemIsToldAtItsPlace) {
       {"/catalogue/sun", "the tooth is pointed", [](Stage&, Catalogue& c) { c.sun.data.tip_diameter_mm = 83.0; }},
       {"/catalogue/planet", "the tooth is pointed", [](Stage&, Catalogue& c) { c.planet.data.tip_diameter_mm = 78.0; }},
       {"/planets/count", "neighbouring planets overlap by", [](Stage& s, Catalogue&) { s.planet_count = 6; }},
-      {"/planets/count", "neighbouring planets overlap by",
+      {"/planets/angles_deg", "neighbouring planets overlap by",
        [](Stage& s, Catalogue&) {
          s.angles_deg = {0.0, 50.0, 180.0};
        }},

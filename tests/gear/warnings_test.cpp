@@ -173,6 +173,21 @@ TEST(Warnings, EachOneOnTheMotionIsToldAtItsPlace) {
        [](Stage& s) { s.ring_planet_mesh.backlash_half_um = 600.0; }},
       {"/lumped/sun/bearing_clearance_half_um", "modules: the sun may move out",
        [](Stage& s) { s.sun_bearing.clearance_half_um = 1500.0; }},
+      {"/lumped/sun_planet_mesh/damping_ratio", "is 0: motions may never settle",
+       [](Stage& s) { s.sun_planet_mesh.damping_ratio = 0.0; }},
+      {"/lumped/sun_planet_mesh/backlash_half_um", "has 0.124 um of backlash",
+       [](Stage& s) { s.sun_planet_mesh.backlash_half_um = 0.062; }},
+      {"/lumped/sun_planet_mesh/error_amplitude_um", "is 850 um",
+       [](Stage& s) {
+         s.sun_planet_mesh.error_amplitude_um = {8.5, 850.0, 8.5};
+       }},
+      {"/lumped/sun/support_N_per_m", "which its own weight moves by", [](Stage& s) { s.sun.support_N_per_m = 0.02; }},
+      {"/lumped/ring_planet_mesh/friction", "sun-planet a coefficient of friction, ring-planet none",
+       [](Stage& s) {
+         s.sun_planet_mesh.friction = {};
+         s.ring_planet_mesh.friction = {};
+         s.sun_planet_mesh.friction.coefficient = CoulombFriction{.coefficient = 0.05, .path_start_mm = {}};
+       }},
       {"/lumped/ring/inertia_over_r2_kg", "a radius of gyration of 3.4",
        [](Stage& s) { s.ring.inertia_over_r2_kg = 50.0; }},
   };
@@ -218,6 +233,7 @@ TEST(Warnings, EachOneOnAnOperatingPointIsToldAtItsPlace) {
   };
   EXPECT_EQ(joined(load(845.0)), "");
   EXPECT_TRUE(has_line(load(3e4), "/load", "presses its flanks with")) << joined(load(3e4));
+  EXPECT_TRUE(has_line(load(0.5), "/load", "next to no load")) << joined(load(0.5));
   EXPECT_TRUE(has_line(load(1e6), "/lumped/sun_planet_mesh/stiffness_N_per_m", "modules, under the static load"));
   const auto weak = at(1.0, [](Stage& s) { s.planet.bearing_N_per_m = 1e5; });
   EXPECT_TRUE(has_line(weak, "/lumped/planet/bearing_N_per_m", "yields by 3")) << joined(weak);

@@ -239,6 +239,40 @@ TEST(StageCompletion, WithoutLubricationThereIsNoFriction) {
   EXPECT_FALSE(input.study.stage.sun_planet_mesh.friction.any());
 }
 
+TEST(StageCompletion, ACoefficientOfFrictionHasThePathOfTheDrawing) {
+  const LoadedInput oiled = loaded();
+  const LoadedInput input = loaded({"/lumped/sun_planet_mesh/friction/coefficient=0.05"});
+  const gear::Friction& friction = input.study.stage.sun_planet_mesh.friction;
+  ASSERT_TRUE(friction.coefficient.has_value());
+  EXPECT_FALSE(friction.ehl.has_value());
+  const gear::EhlFriction& path = *oiled.study.stage.sun_planet_mesh.friction.ehl;
+  EXPECT_EQ(friction.coefficient->contact_ratio, path.contact_ratio);
+  EXPECT_EQ(friction.coefficient->path_start_mm, path.path_start_mm);
+  // The other mesh is as it was, and that is told.
+  EXPECT_TRUE(input.study.stage.ring_planet_mesh.friction.ehl.has_value());
+  EXPECT_TRUE(any_has(warnings(input), "different kinds of friction"));
+  // Of a resolved input, where the computed form stands already.
+  const TemporaryFolder folder;
+  std::ofstream(folder / "stage.json") << oiled.resolved.dump();
+  const LoadedInput again =
+      load_input(folder / "stage.json",
+                 parse_assignments(std::vector<std::string>{"/lumped/sun_planet_mesh/friction/coefficient=0.05"}));
+  EXPECT_EQ(again.resolved["lumped"], input.resolved["lumped"]);
+}
+
+TEST(StageCompletion, WhatIsTakenOutAndComputedAgainIsTold) {
+  const LoadedInput input = loaded({"/lumped/sun_planet_mesh/friction=null"});
+  EXPECT_EQ(input.resolved, loaded().resolved);
+  EXPECT_TRUE(any_has(warnings(input), "/lumped/sun_planet_mesh/friction: --set")) << "nothing changed, without a word";
+  EXPECT_FALSE(any_has(warnings(loaded({"/catalogue/lubrication=null"})), "computed from the catalogue data again"));
+}
+
+TEST(StageCompletion, ABearingThatAGivenSupportReplacesIsTold) {
+  const auto lines = warnings(loaded({R"(/lumped/sun={"support_N_per_m": 1e7, "origin": "estimate: shaft"})"}));
+  EXPECT_TRUE(any_has(lines, "/lumped/sun/support_N_per_m: is given, so the"));
+  EXPECT_TRUE(any_has(lines, "/catalogue/sun_bearing gives is not used"));
+}
+
 TEST(StageCompletion, AFixedRingGetsNoTorsionalStiffnessOfTheCarrier) {
   const LoadedInput input = loaded({"/boundary=fixed_ring", "/lumped/ring/torsional_support_N_per_m=1e9"});
   EXPECT_EQ(input.study.stage.carrier.torsional_support_N_per_m, 0.0);
