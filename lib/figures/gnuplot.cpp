@@ -442,6 +442,19 @@ std::string second_abscissa_of(const FigureText& text, const FigureRange& x) {
       gnuplot_quoted(portable_text(text.above->label)));
 }
 
+/// Of a text with gnuplot's markup, the characters that are drawn.
+std::u32string seen_characters(std::string_view text) {
+  std::u32string seen;
+  bool literal = false;
+  for (const char32_t point : code_points(text)) {
+    const bool markup =
+        !literal && (point == U'\\' || point == U'{' || point == U'}' || point == U'_' || point == U'^');
+    literal = !literal && point == U'\\';
+    if (!markup) seen += point;
+  }
+  return seen;
+}
+
 Head head_of(const FigureText& text, const std::vector<std::string>& legend, const FigureCanvas& canvas) {
   constexpr double pad = 12;
   constexpr double title_line = 46;
@@ -464,13 +477,18 @@ Head head_of(const FigureText& text, const std::vector<std::string>& legend, con
   if (legend.empty()) {
     head.settings += "unset key\n";
   } else {
-    // gnuplot makes all columns as wide as the longest entry.
-    double longest = 0.0;
-    for (const std::string& entry : legend) longest = std::max(longest, text_width(portable_text(entry)));
-    // It counts 0.65 heights of the font for a character, which is more than they have.
+    // gnuplot makes all columns as wide as the longest entry, and counts 0.65 heights of the font for a character,
+    // which is mostly more than they have.
     constexpr double character = 0.65;
-    const double characters = longest / 0.57;
-    const double narrower = std::clamp(0.25 * (characters - 4.0), 0.0, 3.0);
+    constexpr double gap = 0.5;
+    double widest = 0.0;
+    double characters = 0.0;
+    for (const std::string& entry : legend) {
+      const std::string shown = portable_text(entry);
+      widest = std::max(widest, text_width(shown));
+      characters = std::max(characters, static_cast<double>(seen_characters(shown).size()));
+    }
+    const double narrower = std::clamp(characters - widest / character - gap, -3.0, 3.0);
     constexpr double sample = 4.3;  // with the gaps about it, in characters
     const double column = character * legend_font_height * (characters + sample - narrower);
     const auto entries = static_cast<double>(legend.size());
@@ -480,9 +498,9 @@ Head head_of(const FigureText& text, const std::vector<std::string>& legend, con
     if (beside) y = pad + 0.5 * (title_line - legend_line);
     head.settings += fmt::format(
         "set key at graph 1, screen {} right top horizontal maxcols {} maxrows {} Left reverse samplen 1.5 width "
-        "-{:.1f} "
+        "{:.1f} "
         "font ',22'\n",
-        vertical(y), columns, rows, narrower);
+        vertical(y), columns, rows, -narrower);
     y = beside ? pad + title_line : y + rows * legend_line;
   }
   head.height = std::min(y + above_frame, 0.6 * canvas.height);
@@ -642,13 +660,7 @@ std::string literal_text(std::string_view typed) {
 
 double text_width(std::string_view text) {
   double width = 0.0;
-  bool literal = false;
-  for (const char32_t point : code_points(text)) {
-    const bool markup =
-        !literal && (point == U'\\' || point == U'{' || point == U'}' || point == U'_' || point == U'^');
-    literal = !literal && point == U'\\';
-    if (!markup) width += width_of(point);
-  }
+  for (const char32_t point : seen_characters(text)) width += width_of(point);
   return width;
 }
 

@@ -92,26 +92,26 @@ bool loads_differ(const studies::PointSource& points) {
 }
 
 figures::FigureOutcome write_load_sharing_figure(const std::filesystem::path& folder, const std::string& stem,
-                                                 const ResponseInput& input) {
+                                                 const ResponseInput& input, bool largest) {
   const std::size_t planets = input.points.count == 0 ? 0 : input.points.read_brief(0).meshes.sun_planet.size();
-  figures::TrackPanel sun{"Load sharing  L_{sp}", {}};
-  figures::TrackPanel ring{"Load sharing  L_{rp}", {}};
+  figures::TrackPanel sun{largest ? "Peak load share  L_{sp,max}" : "Load sharing  L_{sp}", {}};
+  figures::TrackPanel ring{largest ? "Peak load share  L_{rp,max}" : "Load sharing  L_{rp}", {}};
   std::vector<std::string> names;
   for (std::size_t i = 0; i < planets; ++i) {
     sun.columns.push_back(i);
     ring.columns.push_back(planets + i);
     names.push_back(fmt::format("planet {}", i + 1));
   }
-  return figures::track_figure(folder, stem, input.text,
-                               series_of(input,
-                                         [planets](const StageRecord& r) {
-                                           std::vector<double> shares;
-                                           for (const auto* meshes : {&r.sun_planet, &r.ring_planet})
-                                             for (std::size_t i = 0; i < planets; ++i)
-                                               shares.push_back(StageRecord::share(*meshes, &Course::mean, i));
-                                           return shares;
-                                         }),
-                               {sun, ring}, names, figures::Pictures::none);
+  return figures::track_figure(
+      folder, stem, input.text,
+      series_of(input,
+                [planets, course = largest ? &Course::largest : &Course::mean](const StageRecord& r) {
+                  std::vector<double> shares;
+                  for (const auto* meshes : {&r.sun_planet, &r.ring_planet})
+                    for (std::size_t i = 0; i < planets; ++i) shares.push_back(StageRecord::share(*meshes, course, i));
+                  return shares;
+                }),
+      {sun, ring}, names, figures::Pictures::none);
 }
 
 figures::FigureOutcome write_waterfall_figure(const std::filesystem::path& folder, const std::string& stem,

@@ -29,9 +29,10 @@ struct ResponseInput {
 /// Do planets carry unlike loads anywhere?
 [[nodiscard]] bool loads_differ(const studies::PointSource& points);
 
-/// Share of each planet in the load of both kinds of mesh, by time means.
+/// Share of each planet in the load of both kinds of mesh, by time means or by largest forces.
 [[nodiscard]] figures::FigureOutcome write_load_sharing_figure(const std::filesystem::path& folder,
-                                                               const std::string& stem, const ResponseInput& input);
+                                                               const std::string& stem, const ResponseInput& input,
+                                                               bool largest);
 
 /// Spectra of the sun mesh of planet 1 over the parameter, along one direction.
 [[nodiscard]] figures::FigureOutcome write_waterfall_figure(const std::filesystem::path& folder,

@@ -98,6 +98,8 @@ std::optional<std::string> stem_of(const SweepOutput& output, SweepFigure figure
       return "dynamic_factor";
     case SweepFigure::load_sharing:
       return "load_sharing";
+    case SweepFigure::load_sharing_max:
+      return "load_sharing_max";
     case SweepFigure::waterfall_first:
     case SweepFigure::waterfall_second:
       return "waterfall_delta_sp" + of_direction;
@@ -328,8 +330,9 @@ std::optional<DrawnFigure> write_sweep_figure(const std::filesystem::path& folde
       outcome = write_dynamic_factor_figure(folder, *stem, response);
       break;
     case SweepFigure::load_sharing:
+    case SweepFigure::load_sharing_max:
       if (!loads_differ(points)) return std::nullopt;
-      outcome = write_load_sharing_figure(folder, *stem, response);
+      outcome = write_load_sharing_figure(folder, *stem, response, figure == SweepFigure::load_sharing_max);
       break;
     case SweepFigure::waterfall_first:
     case SweepFigure::waterfall_second:

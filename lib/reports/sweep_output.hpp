@@ -71,14 +71,15 @@ enum class SweepFigure {
   response_rp,
   dynamic_factor,
   load_sharing,
+  load_sharing_max,
   waterfall_first,
   waterfall_second,
 };
-inline constexpr std::array all_sweep_figures{SweepFigure::delta_sp,        SweepFigure::delta_rp,
-                                              SweepFigure::regimes_first,   SweepFigure::regimes_second,
-                                              SweepFigure::response_sp,     SweepFigure::response_rp,
-                                              SweepFigure::dynamic_factor,  SweepFigure::load_sharing,
-                                              SweepFigure::waterfall_first, SweepFigure::waterfall_second};
+inline constexpr std::array all_sweep_figures{
+    SweepFigure::delta_sp,        SweepFigure::delta_rp,        SweepFigure::regimes_first,
+    SweepFigure::regimes_second,  SweepFigure::response_sp,     SweepFigure::response_rp,
+    SweepFigure::dynamic_factor,  SweepFigure::load_sharing,    SweepFigure::load_sharing_max,
+    SweepFigure::waterfall_first, SweepFigure::waterfall_second};
 
 /// Data and script of a figure in `folder`, for draw_sweep_picture.
 /// @returns nothing, or why there is nothing to draw; that the study has no such figure (one direction, regimes not

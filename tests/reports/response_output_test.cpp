@@ -117,6 +117,13 @@ TEST(ResponseOutput, SharesAreDrawnWherePlanetsDiffer) {
   EXPECT_FALSE(write_sweep_figure(folder.path(), output(), studies::points_in_memory(all), SweepFigure::load_sharing));
   const std::string data = contents(folder / "load_sharing.dat");
   EXPECT_NE(data.find("3 1 1 1 0.5 1.5\n"), std::string::npos) << data;
+  // Of the largest forces, which are told apart from the means.
+  all[2].meshes.ring_planet[0].force.largest = 900.0;
+  all[2].meshes.ring_planet[1].force.largest = 300.0;
+  EXPECT_FALSE(
+      write_sweep_figure(folder.path(), output(), studies::points_in_memory(all), SweepFigure::load_sharing_max));
+  const std::string largest = contents(folder / "load_sharing_max.dat");
+  EXPECT_NE(largest.find(" 1.5 0.5\n"), std::string::npos) << largest;
 }
 
 TEST(ResponseOutput, SpectraAreAMapOfEachDirectionAndADataset) {
