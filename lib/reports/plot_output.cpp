@@ -219,11 +219,8 @@ class Plot {
       if (frame == frames.front()) add_legend(sketch, ways.size() > 1 && !apart);
     }
     const figures::FigureText text{title(), abscissa_label(), "", above()};
-    // The picture has the size that was asked for, whatever is in it.
-    figures::FigureCanvas canvas = options_.canvas;
-    if (text.above) canvas.height -= figures::second_abscissa_height;
     std::vector<DrawnFigure> all =
-        drawn(folder, stem, sketch.draw(folder, text, x, y, {}, canvas, figures::Pictures::none));
+        drawn(folder, stem, sketch.draw(folder, text, x, y, {}, canvas_of(text), figures::Pictures::none));
     if (not_positive_ > 0)
       notes_.push_back(
           fmt::format("{}: {} values that are not positive have no place on a logarithmic scale", stem, not_positive_));
@@ -247,12 +244,13 @@ class Plot {
         values[k - step + column] = factor_ * table.number(options_.quantity, d * cells + k);
       }
       const std::string way = store::direction_word(map.directions[d]);
-      figures::FigureText text{title(), parameter_label(map.plane.first.name), parameter_label(map.plane.second.name)};
+      figures::FigureText text{title(), parameter_label(map.plane.first.name), parameter_label(map.plane.second.name),
+                               above()};
       if (map.directions.size() > 1) text.title += ", " + way;
       const std::string stem = options_.quantity + "_" + way;
       const std::string label = quantity_label(options_.quantity, options_.micrometres);
       std::ranges::move(drawn(folder, stem,
-                              figures::scale_figure(folder, stem, text, grid, label, values, options_.canvas,
+                              figures::scale_figure(folder, stem, text, grid, label, values, canvas_of(text),
                                                     figures::Pictures::none)),
                         std::back_inserter(all));
     }
@@ -448,6 +446,13 @@ class Plot {
     if (!options_.abscissa.empty()) return quantity_label(options_.abscissa, options_.micrometres);
     const std::string parameter = parameter_of(*studies_.front().study);
     return parameter.empty() ? quantity_label("periods", false) : parameter_label(parameter);
+  }
+
+  /// The picture has the size that was asked for, whatever is in it.
+  [[nodiscard]] figures::FigureCanvas canvas_of(const figures::FigureText& text) const {
+    figures::FigureCanvas canvas = options_.canvas;
+    if (text.above) canvas.height -= figures::second_abscissa_height;
+    return canvas;
   }
 
   /// Omega below and the sun's speed above, or the other way round; of stages with one scale of time.

@@ -499,7 +499,8 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
       text +=
           bullet(fmt::format("A tangent vector grew by e^{:.3g} over the last half of the last look.", e.late_growth));
     }
-    text += bullet(fmt::format("Looked at: {}.", mesh_periods(e.periods)));
+    text += bullet(e.periods > 0 ? fmt::format("Looked at: {}.", mesh_periods(e.periods))
+                                 : std::string("Looked at: the record alone, which closes already."));
     if (!e.note.empty()) text += bullet(fmt::format("Note: {}.", unstopped(e.note)));
   }
   text += bullet(p.recurrence.period > 0
