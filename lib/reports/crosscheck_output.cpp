@@ -9,6 +9,7 @@
 
 #include "core/csv.hpp"
 #include "figures/line_figure.hpp"
+#include "gear/kinematics.hpp"
 
 namespace epicyclic::reports {
 
@@ -92,6 +93,7 @@ std::string crosscheck_summary(const studies::Crosscheck& all) {
     const studies::PointResult& r = all.reference[c.point];
     std::string value;
     append_number(value, r.point.value);
+    if (const double sun = r.meshes.speeds.sun; sun != 0.0) value += fmt::format(", sun {:.6g} rpm", gear::rpm * sun);
     text += fmt::format("- point {} ({}, {}), {}: {}; {}\n", r.point.index, store::direction_word(r.point.direction),
                         value, all.variants[c.variant].label, to_string(c.verdict), c.detail);
   }
