@@ -282,6 +282,19 @@ void settle_forms(json& mesh, json& computed) {
     computed.erase("friction");
     return;
   }
+  // Of a coefficient that was taken out, its computed path goes, too.
+  if (!friction->contains("coefficient") &&
+      (friction->contains("contact_ratio") || friction->contains("path_start_mm"))) {
+    for (const char* key : {"contact_ratio", "path_start_mm"})
+      if (friction->contains(key) && !is_given(*friction, key)) {
+        friction->erase(key);
+        (*friction)["origin"].erase(key);
+      }
+    if (!gives(*friction)) {
+      mesh.erase(friction);
+      return leave_lubricated(computed);
+    }
+  }
   const auto once = friction->find("lubricated");
   const bool computed_once = once != friction->end() && once->is_object() && once->contains("origin") && !gives(*once);
   if (is_given(*friction, "coefficient")) {

@@ -258,6 +258,12 @@ TEST(StageCompletion, ACoefficientOfFrictionHasThePathOfTheDrawing) {
       load_input(folder / "stage.json",
                  parse_assignments(std::vector<std::string>{"/lumped/sun_planet_mesh/friction/coefficient=0.05"}));
   EXPECT_EQ(again.resolved["lumped"], input.resolved["lumped"]);
+  // And back.
+  std::ofstream(folder / "coulomb.json") << input.resolved.dump();
+  const LoadedInput back =
+      load_input(folder / "coulomb.json",
+                 parse_assignments(std::vector<std::string>{"/lumped/sun_planet_mesh/friction/coefficient=null"}));
+  EXPECT_EQ(back.resolved["lumped"], oiled.resolved["lumped"]);
 }
 
 TEST(StageCompletion, WhatIsTakenOutAndComputedAgainIsTold) {
