@@ -87,9 +87,13 @@ judge_time() {
   fi
 }
 
-# For tests that are not about what is drawn: a gnuplot that takes no time.
+# For tests, or what is left of one, that are not about what is drawn: a gnuplot that takes no time, or $1 seconds in the
+# midst of each picture, but none of the processor's. Before a command, `PATH=$with_gnuplot` brings the real one back, and
+# PICTURE_TAKES gives other seconds, to what is killed as it draws.
+with_gnuplot=$PATH
 without_drawing() {
   mkdir bin
+  export PICTURE_TAKES=${1:-0}
   cat >bin/gnuplot <<'END'
 #!/bin/sh
 # As the program calls it: -d [-c] ./STEM.gp [KIND]
@@ -102,13 +106,30 @@ for word; do
 done
 for kind in $kinds; do
   case $kind in
-    png) printf 'a picture of %s\nIEND\256B`\202' "$stem" ;;
-    svg) printf '<svg>%s</svg>' "$stem" ;;
-  esac >"$stem.$kind" || exit 1
+    png) begun='a picture' end='IEND\256B`\202' ;;
+    svg) begun='<svg>' end='</svg>' ;;
+  esac
+  {
+    printf '%s %s' "$begun" "$stem"
+    [ "$PICTURE_TAKES" = 0 ] || sleep "$PICTURE_TAKES"
+    printf "$end"
+  } >"$stem.$kind" || exit 1
 done
 END
   chmod +x bin/gnuplot
   export PATH=$work/bin:$PATH
+}
+
+# After that: the files of figure $1, a path without an end, are there, and of its script the real gnuplot makes whole
+# pictures, elsewhere.
+is_drawn() {
+  local kind stem=${1##*/}
+  for kind in png svg gp dat; do [ -s "$1.$kind" ] || fail "$1.$kind is missing"; done
+  mkdir -p redrawn && cp "$1".{gp,dat} redrawn
+  (cd redrawn && PATH=$with_gnuplot gnuplot -d "./$stem.gp") >drawing 2>&1 || fail "gnuplot on $1.gp: $(<drawing)"
+  tail -c 8 "redrawn/$stem.png" | grep -qa IEND || fail "$1.gp makes no whole picture, PNG"
+  tail -n 2 "redrawn/$stem.svg" | grep -q '</svg>' || fail "$1.gp makes no whole picture, SVG"
+  rm -r redrawn
 }
 
 # $2 holds what $1 holds, but for what tells of the session, and is complete.

@@ -5,6 +5,7 @@
 # proved by branches, and one that is not; bad input. With WHOLE=yes what takes longest too: loci cut by kills, smooth widths.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
+without_drawing
 
 study=$inputs/tang2020_branches.json
 # The last flip of the speed diagram and what is born there.
@@ -15,7 +16,7 @@ result_files=(branch.csv special.csv branches.csv poincare.csv results.h5 contin
   figures/branches_delta_sp.dat)
 
 [ "$(code_of branches -o whole)" = 0 ] || fail "continue: $(<stderr)"
-for kind in png svg gp dat; do [ -s whole/figures/branches_delta_rp.$kind ] || fail "branches_delta_rp.$kind is missing"; done
+is_drawn whole/figures/branches_delta_rp
 head -1 whole/branch.csv | grep -q '^branch,index,value,period,stable,multiplier_max,' || fail "columns of branch.csv"
 [ "$(head -1 whole/special.csv | cut -d, -f1-6)" = branch,kind,value,error_bound,period,multipliers ] ||
   fail "columns of special.csv"
@@ -27,31 +28,29 @@ awk -F, '$1 == 0 && $2 == "flip" { exit !($4 > 0 && $4 < 1e-6) }' whole/special.
 awk -F, '$1 == 1 && $2 == 3 { stable = $5 } END { exit !stable }' whole/branch.csv || fail "the doubled orbits are not stable"
 awk -F, '$1 == 0 && $3 == 2.2 && $5 == 1 { found = 1 } END { exit !found }' whole/branch.csv || fail "no orbit at the end"
 
-# Complete; another study; the resolved input; --json.
+# Complete; another study.
 [ "$(code_of branches -o whole)" = 0 ] || fail "a complete folder must give exit 0"
 grep -q 'complete already' stderr || fail "a complete folder is said to be so: $(<stderr)"
 [ "$(code_of branches -o whole --set /study/largest_period=1)" = 3 ] || fail "another study must give exit 3"
-[ "$(code_of "$epicyclic" continue whole/input.resolved.json -o resolved --json)" = 0 ] || fail "resolved: $(<stderr)"
-grep -q '"kind": "flip"' stdout || fail "the summary as JSON: $(<stdout)"
-cmp -s whole/branch.csv resolved/branch.csv || fail "the resolved input gives other branches"
 
-# Killed again and again, a little later each time, and stopped: the same bytes.
-killed_until_done 400 "$epicyclic" continue "$study" "${small[@]}" -o cut
-same_results whole cut
+# The resolved input, stopped, and then with --json: the same bytes, but of the input as it was given.
 code=0
-timeout -s TERM "$(or_if_slow 1 5)" "$epicyclic" continue "$study" "${small[@]}" -o stopped >stdout 2>stderr || code=$?
+timeout -s TERM "$(or_if_slow 1 5)" "$epicyclic" continue whole/input.resolved.json -o resolved >stdout 2>stderr || code=$?
 [ "$code" = 124 ] || fail "stopped: $code $(<stderr)"
-[ "$(code_of branches -o stopped)" = 0 ] || fail "after a stop: $(<stderr)"
-same_results whole stopped
+[ "$(code_of "$epicyclic" continue whole/input.resolved.json -o resolved --json)" = 0 ] || fail "resolved, after a stop: $(<stderr)"
+grep -q '"kind": "flip"' stdout || fail "the summary as JSON: $(<stdout)"
+cmp -s whole/input.resolved.json resolved/input.json || fail "the resolved input is not the one that was given"
+cp whole/input.json resolved
+same_results whole resolved
 
-# A sweep over the flip, and seeds of it.
+# A sweep over the flip, its proof by branches that are killed again and again, a little later each time, and seeds of it.
 sweep=(--set /study/from=2.1 --set /study/to=2.2 --set /study/points=6 --set /study/transient_periods=400)
 [ "$(code_of "$epicyclic" sweep "${speeds[@]}" "${sweep[@]}" -o sweep)" = 0 ] || fail "sweep: $(<stderr)"
-[ "$(code_of branches -o proved --against sweep)" = 0 ] || fail "proof: $(<stderr)"
+PICTURE_TAKES=0.1 killed_until_done 400 "$epicyclic" continue "$study" "${small[@]}" -o proved --against sweep
 [ "$(wc -l <proved/proof.csv)" = 3 ] || fail "one change each way: $(<proved/proof.csv)"
 [ "$(cut -d, -f7,8,11,12,15 proved/proof.csv | sed -n 2p)" = 'period 2,period 1,1,bifurcation,flip' ] ||
   fail "the change: $(sed -n 2p proved/proof.csv)"
-[ -s proved/figures/proof_delta_sp.png ] || fail "the figure of the proof is missing"
+is_drawn proved/figures/proof_delta_sp
 grep -q '0 unexplained' proved/proof.md || fail "proof.md: $(<proved/proof.md)"
 same_results whole proved
 # A complete folder takes a proof later, and keeps its results.
@@ -79,21 +78,22 @@ mv gone sweep
 grep -q '"period": 2' seed1/input.resolved.json || fail "its period is 2"
 
 # The flip over the damping, from edge to edge; killed between.
-loci=(--set '/study/loci={"parameter":"damping_ratio","from":0.049,"to":0.051,"near":[2.149]}' --set /study/largest_period=1 --set /study/tolerance=1e-10)
+loci=(--set '/study/loci={"parameter":"damping_ratio","from":0.0499,"to":0.051,"near":[2.149]}' --set /study/largest_period=1 --set /study/tolerance=1e-10
+  --set '/study/starts=[2.15]' --set /study/orbits=4)
 [ "$(code_of branches "${loci[@]}" -o loci)" = 0 ] || fail "loci: $(<stderr)"
 [ "$(head -1 loci/loci.csv | cut -d, -f1-7)" = locus,index,kind,first,second,error_bound,marked ] || fail "columns of loci.csv"
-[ "$(sed -n 2p loci/loci.csv | cut -d, -f1,3,5)" = 0,flip,0.049 ] || fail "the first point: $(sed -n 2p loci/loci.csv)"
+[ "$(sed -n 2p loci/loci.csv | cut -d, -f1,3,5)" = 0,flip,0.0499 ] || fail "the first point: $(sed -n 2p loci/loci.csv)"
 [ "$(tail -1 loci/loci.csv | cut -d, -f1,3,5)" = 0,flip,0.051 ] || fail "the last point: $(tail -1 loci/loci.csv)"
 awk -F, -v flip="$flip" '$5 > 0.05 - 1e-9 && $5 < 0.05 + 1e-9 { found = $4 - flip < 1e-7 && flip - $4 < 1e-7 } END { exit !found }' loci/loci.csv ||
   fail "the locus does not begin at the flip"
-[ -s loci/figures/loci.png ] || fail "the figure of loci is missing"
+is_drawn loci/figures/loci
 if [ "${WHOLE:-no}" = yes ]; then
   killed_until_done 4000 "$epicyclic" continue "$study" "${small[@]}" "${loci[@]}" -o loci_cut
   cmp -s loci/loci.csv loci_cut/loci.csv || fail "loci differ after kills"
 fi
 
 # A search at one speed: two motions of period 1 and 2, the first one unstable.
-search=(--set '/study/search={"values":[2.12],"starts":4,"spread":0.01,"largest_period":2}' --set '/study/starts=[]')
+search=(--set '/study/search={"values":[2.12],"starts":4,"spread":0.01,"largest_period":2}' --set '/study/starts=[]' --set /study/tolerance=1e-7)
 [ "$(code_of branches "${search[@]}" --set /study/orbits=2 --set /study/branches=2 -o search)" = 0 ] || fail "search: $(<stderr)"
 [ "$(cut -d, -f1,3,5 search/orbits.csv | sed 1d | tr '\n' ' ')" = '2.12,1,0 2.12,2,1 ' ] || fail "found: $(<search/orbits.csv)"
 
@@ -112,7 +112,7 @@ refused() {
 }
 refused branches --from sweep:100
 refused branches --from "$inputs"
-refused branches --from cut
+refused branches --from proved
 refused branches --against "$inputs"
 refused branches --against sweep --set /study/from=2.15
 refused branches --against sweep --set /stage/load/power_kW=300

@@ -2,8 +2,9 @@
 # docs.sh EPICYCLIC SOURCE_DIR
 #
 # What README.md and docs/ tell readers to type, works: each `app/run ...` of a table and of a block marked sh, with the
-# files of blocks that stand behind "<!-- file: NAME -->". Studies are cut to a few points and periods; that each key is
-# known, each file there and each command ends with 0 stays true. Links and pictures of the pages lead to files.
+# files of blocks that stand behind "<!-- file: NAME -->". Studies are cut to a few points and periods, and drawn once for
+# each command; that each key is known, each file there and each command ends with 0 stays true. Links and pictures of the
+# pages lead to files.
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
@@ -34,16 +35,18 @@ glance=(--set /study/brief/transient_periods=2 --set /study/brief/recorded_perio
 declare -A cut=(
   [sweep]="--set /study/points=3 ${few[*]}"
   [reproduce]="${claims[*]} ${few[*]}"
-  [calibrate]="${glance[*]} --set /study/search/candidates=16 --set /study/search/refinement=0 --set /study/search/profile=0"
+  [calibrate]="${claims[*]} ${few[*]} ${glance[*]} --set /study/search/candidates=16 --set /study/search/refinement=0 --set /study/search/profile=0"
   [robustness]="${glance[*]} --set /study/survey/draws=2 --set /study/survey/look/transient_periods=2 --set /study/survey/look/recorded_periods=4"
   [map]="${plane[*]} ${few[*]}"
   [basins]="${plane[*]} ${few[*]} --set /study/transient=fixed"
   [continue]="--set /study/largest_period=1 --set /study/orbits=2 --set /study/branches=1 --set /study/settle_periods=40 --set /study/tolerance=1e-7"
-  [run]="--set /study/transient=fixed --set /study/transient_periods=2 --set /study/recorded_periods=16 --set /study/exponent_periods=12 --set /study/spectrum_periods=16 --set /study/history_periods=2"
+  [run]="--set /study/transient=fixed --set /study/transient_periods=2 --set /study/recorded_periods=16 --set /study/exponent_periods=12 --set /study/spectrum_periods=16 --set /study/history_periods=2 --set /study/check_tolerance=1e-6"
   [tolerance]="--set /study/points=1 --set /study/from=2.8 --set /study/transient_periods=20 --set /study/recorded_periods=16 --set /study/tolerances=[1e-5,1e-6] --set /study/methods=[\"arkode-dopri5\"] --set /study/chaotic_periods=64"
   [crosscheck]="--set /study/points=1 --set /study/from=2.8 --set /study/to=2.8 --set /study/transient_periods=20 --set /study/recorded_periods=16 --set /study/methods=[\"arkode-dopri5\",\"cvode-adams\"]"
 )
 count=0
+without_drawing
+declare -A drawn
 while IFS= read -r line; do
   eval "words=($line)"  # as a shell takes it: quotes are part of what is typed
   [ "${words[0]}" = app/run ] || { fail "not a command of ours: $line"; continue; }
@@ -51,6 +54,11 @@ while IFS= read -r line; do
   command=${words[1]:-}
   read -r -a more <<<"${cut[$command]:-}"
   arguments=("${words[@]:1}" "${more[@]}")
+  # What is said of its time is measured, for seconds by each thread. Stages have no periods.
+  if [ "$command" = check ]; then
+    arguments+=(--threads 1)
+    ! grep -q '"study"' "${words[2]}" || arguments+=("${few[@]}")
+  fi
   # Claims that have a name have more sweeps.
   if [ "$command ${words[2]:-}" = "reproduce tang2020" ]; then
     k=0
@@ -61,7 +69,10 @@ while IFS= read -r line; do
   for ((k = 0; k < ${#arguments[@]}; ++k)); do
     [ "${arguments[k]}" != -o ] || arguments[k + 1]=out$count
   done
-  code=$(code_of "$epicyclic" "${arguments[@]}")
+  path=$PATH
+  [ -n "${drawn[$command]:-}" ] && [ "$command" != plot ] || path=$with_gnuplot
+  drawn[$command]=yes
+  code=$(PATH=$path code_of "$epicyclic" "${arguments[@]}")
   [ "$code" = 0 ] || fail "$line: exit $code: $(tail -n 3 stderr)"
 done <commands
 echo "$count commands"

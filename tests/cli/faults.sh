@@ -24,7 +24,7 @@ sweep=("$epicyclic" sweep "${speeds[@]}" --set /study/points=2 "${few[@]}" --thr
 map=("$epicyclic" map "$inputs/tang2020_map.json" --set /study/first/points=2 --set /study/second/points=2 "${few[@]}" --threads 1)
 gear=("$epicyclic" gear "$inputs/tang2020.json")
 run=("$epicyclic" run "$inputs/tang2020_run.json" --set /operation/mesh_frequency_ratio=2.8 --set /study/recorded_periods=16
-  --set /study/transient_periods=2 --set /study/exponent_periods=12 --set /study/spectrum_periods=16 --set /study/history_periods=2)
+  --set /study/transient_periods=2 --set /study/exponent_periods=12 --set /study/check_tolerance=1e-6 --set /study/spectrum_periods=16 --set /study/history_periods=2)
 ranks=("${sweep[@]}")
 mpi=(mpirun --oversubscribe --mca pml ob1)
 [ "$(id -u)" != 0 ] || mpi+=(--allow-run-as-root)

@@ -5,6 +5,7 @@
 # another direction, segments, maps; and where nothing can be taken it is refused with the reason.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
+without_drawing
 
 common=("$inputs/tang2020_speed.json" --set /study/crosscheck/points=0 --set /study/transient_periods=40 --set /study/recorded_periods=16
   --set /study/classification_periods=200 --set /study/from=2)

@@ -14,7 +14,7 @@ basins=(basins "$inputs/tang2020_basins.json" --set /study/transient=fixed --set
   --set /study/second/points=2 --set /study/transient_periods=20 --set /study/recorded_periods=8)
 gear=(gear "$inputs/tang2020.json")
 run=(run "$inputs/tang2020_run.json" --set /operation/mesh_frequency_ratio=2.8 --set /study/recorded_periods=16
-  --set /study/transient_periods=2 --set /study/exponent_periods=12 --set /study/spectrum_periods=16 --set /study/history_periods=2)
+  --set /study/transient_periods=2 --set /study/exponent_periods=12 --set /study/check_tolerance=1e-6 --set /study/spectrum_periods=16 --set /study/history_periods=2)
 cat >crosscheck.json <<END
 { "stage": "$inputs/tang2020.json",
   "study": { "kind": "crosscheck", "from": 2.6, "to": 2.8, "points": 2, "transient_periods": 4, "recorded_periods": 8,

@@ -14,6 +14,7 @@ command -v mpirun >/dev/null || skip "no mpirun"
 launch=("${leaks_of_mpi[@]}" mpirun --oversubscribe)
 [ "$(id -u)" != 0 ] || launch+=(--allow-run-as-root)
 
+without_drawing
 study=(sweep "${speeds[@]}" --set /study/points=8 --set /study/transient_periods=60
   --set /study/recorded_periods=8 --set /study/classification_periods=64 --set '/study/start="cold"')
 carried=("${study[@]}" --set '/study/start="carried"')
@@ -40,7 +41,7 @@ for rank in 1 2; do [ "$(wc -c <study.3/journal.rank-$rank.bin)" -gt 1000 ] || f
 for victim in 0 1; do
   for resume in 1 3 threads; do
     rm -rf cut
-    kill_a_rank_of "$victim" "$epicyclic" "${carried[@]}" -o cut
+    PICTURE_TAKES=0.1 kill_a_rank_of "$victim" "$epicyclic" "${carried[@]}" -o cut
     again=("$epicyclic")
     [ "$resume" = threads ] || again=("${launch[@]}" -n "$resume" "$epicyclic")
     [ "$(code_of "${again[@]}" "${carried[@]}" -o cut)" = 0 ] || fail "resume after kill -9 with $resume: $(<stderr)"

@@ -5,8 +5,9 @@
 # point too, and said why; what is moved goes on where it is; what stands in the folder's place is not touched.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
+without_drawing
 
-sweep=(sweep "${speeds[@]}" --set /study/points=2 --set /study/transient_periods=100000 --threads 2)
+sweep=(sweep "${speeds[@]}" --set /study/points=2 --set /study/transient_periods=100000 --threads 1)
 # One mesh period of it takes minutes.
 point=(sweep "${speeds[@]}" --set /study/points=2 --set /study/from=1e-5 --set /study/to=2e-5
   --set /integrator/relative_tolerance=1e-13 --set /integrator/max_steps_per_period=1000000000 --threads 2)
