@@ -36,9 +36,7 @@ struct PlotArguments {
 struct InitArguments {
   std::vector<int> teeth;              ///< sun, planet, ring
   std::vector<double> profile_shifts;  ///< likewise
-  double module_mm = 3;
-  double pressure_angle_deg = 20;
-  double width_mm = 30;
+  std::optional<double> module_mm{}, pressure_angle_deg{}, width_mm{};
   std::optional<int> planets{};
   std::vector<double> angles_deg{};
   std::optional<double> torque_Nm{}, speed_rpm{};

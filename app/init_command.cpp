@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -42,9 +43,16 @@ input::Drawing drawing_of(const Arguments& arguments) {
     if (given.teeth.size() > 2) d.ring_teeth = given.teeth[2];
   }
   for (std::size_t k = 0; k < given.profile_shifts.size(); ++k) d.profile_shift.at(k) = given.profile_shifts[k];
-  d.module_mm = given.module_mm;
-  d.pressure_angle_deg = given.pressure_angle_deg;
-  d.width_mm = given.width_mm;
+  const auto take = [&d](double& of, const std::optional<double>& value, const char* key) {
+    if (!value) d.assumed.emplace(key);
+    of = value.value_or(of);
+  };
+  take(d.module_mm, given.module_mm, "module_mm");
+  take(d.pressure_angle_deg, given.pressure_angle_deg, "pressure_angle_deg");
+  take(d.width_mm, given.width_mm, "width_mm");
+  if (given.teeth.empty()) d.assumed.emplace("teeth");
+  if (given.profile_shifts.empty()) d.assumed.emplace("profile_shift");
+  if (!given.planets && given.angles_deg.empty()) d.assumed.emplace("count");
   d.angles_deg = given.angles_deg;
   const int of_angles = d.angles_deg.empty() ? d.planets : static_cast<int>(d.angles_deg.size());
   d.planets = given.planets.value_or(of_angles);

@@ -178,15 +178,16 @@ void add_init_options(CLI::App& command, Arguments& arguments) {
       .add_option("--teeth", init.teeth, "Z_SUN,Z_PLANET[,Z_RING]; 21,28,77 by default, Z_RING = Z_SUN + 2 Z_PLANET")
       ->delimiter(',')
       ->expected(2, 3);
-  command.add_option("--module", init.module_mm, "module [mm]")->capture_default_str();
-  command.add_option("--pressure-angle", init.pressure_angle_deg, "pressure angle [deg]")->capture_default_str();
+  command.add_option("--module", init.module_mm, "module [mm]; 3 if it is not given");
+  command.add_option("--pressure-angle", init.pressure_angle_deg, "pressure angle [deg]; 20 if it is not given");
   command.add_option("--shifts", init.profile_shifts, "X_SUN,X_PLANET,X_RING, profile shifts [-]; 0,0,0 by default")
       ->delimiter(',')
       ->expected(3);
-  command.add_option("--width", init.width_mm, "face width [mm]")->capture_default_str();
+  command.add_option("--width", init.width_mm, "face width [mm]; 30 if it is not given");
   command.add_option("--planets", init.planets, "number of planets; 3 if neither it nor --angles is given");
   command
-      .add_option("--angles", init.angles_deg, "of the planets [deg], such as 0,71.25,146.25; evenly spaced by default")
+      .add_option("--angles", init.angles_deg,
+                  "of the planets [deg], such as 0,71.25,146.25; as even as can be put together by default")
       ->delimiter(',');
   command.add_option("--torque", init.torque_Nm, "torque on the sun [N m]; 100 if it is not given");
   command.add_option("--speed", init.speed_rpm,

@@ -84,7 +84,7 @@ struct Unsettled {
   std::size_t points = 0;
 
   void see(const studies::PointSummary& r) {
-    if (r.classified && r.regime == analysis::Regime::periodic && r.recurrence.period == 0) ++points;
+    if (r.on_its_way()) ++points;
   }
   [[nodiscard]] std::string note(std::string_view noun) const {
     return fmt::format(

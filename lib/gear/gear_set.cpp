@@ -237,14 +237,11 @@ bool meshes_at_its_distance(Problems& out, const Stage& stage) {
 }
 
 /// Planets beside each other, bores and the rim.
-void check_room(Problems& out, const GearSet& set) {
+/// @param evenly  no angles are given
+void check_room(Problems& out, const GearSet& set, bool evenly) {
   const Catalogue& c = set.catalogue;
-  bool even = true;
-  for (std::size_t i = 0; i < set.angles_deg.size(); ++i)
-    even = even && std::abs(set.angles_deg[i] * static_cast<double>(set.angles_deg.size()) -
-                            360.0 * static_cast<double>(i)) < 1e-6;
   if (planet_gap_mm(set) <= 0.0)
-    out.add(even ? "/planets/count" : "/planets/angles_deg", "neighbouring planets overlap by ", -planet_gap_mm(set),
+    out.add(evenly ? "/planets/count" : "/planets/angles_deg", "neighbouring planets overlap by ", -planet_gap_mm(set),
             " mm (tip radius ", set.planet.tip_radius_mm, " mm, centre distance ", set.centre_distance_mm, " mm)");
   const auto bore = [&](const ExternalGear& gear, const Tooth& tooth, const std::string& pointer) {
     if (0.5 * gear.bore_mm >= tooth.root_radius_mm)
@@ -292,7 +289,7 @@ std::vector<std::string> catalogue_problems(const Stage& stage) {
   check_tip(out, set.sun, sun_pointer);
   check_tip(out, set.planet, planet_pointer);
   check_tip(out, set.ring, ring_pointer);
-  check_room(out, set);
+  check_room(out, set, stage.angles_deg.empty());
   lines = out.take();
   if (!lines.empty()) return lines;
   check_fillet(out, set);

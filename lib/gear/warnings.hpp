@@ -1,8 +1,7 @@
 // Warnings: what is allowed but rarely meant, with the number that tells it, ranked.
 //
-//   backlash        j_bn > 4 (2/3)(0.06 + 0.0005 a + 0.03 m) mm, four times the least that ISO/TR 10064-2 recommends;
-//   or
-//                   some, but below a hundredth of it
+//   backlash        j_bn > 4 (2/3)(0.06 + 0.0005 a + 0.03 m) mm, four times the least that ISO/TR 10064-2
+//                   recommends; or some, but below a hundredth of it
 //   tip clearance   outside 0.1 to 0.6 m
 //   sun's bearing   half clearance > m / 2: the sun may leave the mesh
 //   error           amplitude > m / 10; 0.03 m in the coarsest grade of ISO 1328

@@ -56,12 +56,16 @@ ordered_json gear_of(const Drawing& d, int teeth, double shift) {
           {"profile_shift", shift}, {"width_mm", d.width_mm},   {"accuracy_grade", 6}};
 }
 
-ordered_json origins_of_gear(const char* more_key, const std::string& more) {
-  return {{"teeth", "source: drawing"},
-          {"module_mm", "source: drawing"},
-          {"pressure_angle_deg", "source: drawing"},
-          {"profile_shift", "source: drawing"},
-          {"width_mm", "source: drawing"},
+std::string origin_of(const Drawing& d, const std::string& key) {
+  return d.assumed.contains(key) ? "choice: not given; replace it by what the drawing has" : "source: drawing";
+}
+
+ordered_json origins_of_gear(const Drawing& d, const char* more_key, const std::string& more) {
+  return {{"teeth", origin_of(d, "teeth")},
+          {"module_mm", origin_of(d, "module_mm")},
+          {"pressure_angle_deg", origin_of(d, "pressure_angle_deg")},
+          {"profile_shift", origin_of(d, "profile_shift")},
+          {"width_mm", origin_of(d, "width_mm")},
           {"accuracy_grade", "estimate: ground gears, ISO 1328 grade 5 to 7; the transmission error follows from it"},
           {more_key, more}};
 }
@@ -95,15 +99,15 @@ ordered_json starter_stage(const Drawing& d) {
 
   ordered_json sun = gear_of(d, d.sun_teeth, d.profile_shift[0]);
   sun["bore_mm"] = sun_bore;
-  sun["origin"] = origins_of_gear("bore_mm", "estimate: hollow shaft, a third of the root circle; 0 of a solid one");
+  sun["origin"] = origins_of_gear(d, "bore_mm", "estimate: hollow shaft, a third of the root circle; 0 of a solid one");
   ordered_json planet = gear_of(d, d.planet_teeth, d.profile_shift[1]);
   planet["bore_mm"] = planet_bore;
-  planet["origin"] = origins_of_gear("bore_mm",
+  planet["origin"] = origins_of_gear(d, "bore_mm",
                                      "estimate: leaves a rim of 3 modules; from 1.2 tooth depths on ISO 6336-3 "
                                      "counts it as solid");
   ordered_json ring = gear_of(d, d.ring(), d.profile_shift[2]);
   ring["outer_diameter_mm"] = ring_outer;
-  ring["origin"] = origins_of_gear("outer_diameter_mm", "estimate: leaves a rim of 4 modules");
+  ring["origin"] = origins_of_gear(d, "outer_diameter_mm", "estimate: leaves a rim of 4 modules");
 
   ordered_json planets = {{"count", d.planets}};
   if (!d.angles_deg.empty()) {
@@ -112,12 +116,12 @@ ordered_json starter_stage(const Drawing& d) {
   } else if (const std::vector<double> at = assembly_angles(d); !at.empty()) {
     planets["angles_deg"] = at;
     planets["origin"] = {
-        {"count", "source: drawing"},
+        {"count", origin_of(d, "count")},
         {"angles_deg", fmt::format("choice: nearest to even spacing that can be put together, in steps "
                                    "of 360 / {} degrees",
                                    d.sun_teeth + d.ring())}};
   } else {
-    planets["origin"] = "source: drawing";
+    planets["origin"] = origin_of(d, "count");
   }
 
   ordered_json stage;

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@
 
 namespace epicyclic::input {
 
-/// What is on the drawing.
+/// What is on the drawing, and of it what was not said: `assumed`.
 struct Drawing {
   std::string name = "stage";
   int sun_teeth = 21, planet_teeth = 28;
@@ -28,6 +29,7 @@ struct Drawing {
   double torque_Nm = 100;             ///< on the sun
   std::optional<double> speed_rpm{};  ///< rated, of the sun; none: studies are in Omega
   bool torque_is_given = false;       ///< else it is a starter, too
+  std::set<std::string> assumed{};  ///< keys of gears and planets that stand at the values above, which no drawing gave
 
   [[nodiscard]] int ring() const { return ring_teeth.value_or(sun_teeth + 2 * planet_teeth); }
 };

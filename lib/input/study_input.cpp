@@ -1214,7 +1214,7 @@ class LoadedInput::Loader {
                                  "place, or take out the data that it follows from");
     };
     for (const Assignment& set : sources_->sets)
-      if (set.value.is_null() && set.pointer != patch_root) note(set.pointer, shown(set));
+      if (set.value.is_null()) note(set.pointer, shown(set));
     const std::function<void(const json&, const std::string&)> walk = [&](const json& patch, const std::string& at) {
       for (const auto& [key, value] : patch.items()) {
         if (value.is_object()) walk(value, at + pointer_step(key));

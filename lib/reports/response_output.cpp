@@ -31,8 +31,7 @@ std::size_t points_each_way(const ResponseInput& input) { return input.points.co
 
 /// Is the motion one whose numbers do not depend on when it is recorded, as far as is known?
 bool regular(const PointSummary& r) {
-  const bool on_its_way = r.classified && r.regime == analysis::Regime::periodic && r.recurrence.period == 0;
-  return !on_its_way && r.regime != analysis::Regime::chaotic &&
+  return !r.on_its_way() && r.regime != analysis::Regime::chaotic &&
          !(r.regime == analysis::Regime::undecided && r.classified);
 }
 

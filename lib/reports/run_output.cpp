@@ -500,7 +500,7 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
           bullet(fmt::format("A tangent vector grew by e^{:.3g} over the last half of the last look.", e.late_growth));
     }
     text += bullet(e.periods > 0 ? fmt::format("Looked at: {}.", mesh_periods(e.periods))
-                                 : std::string("Looked at: the record alone, which closes already."));
+                                 : std::string("Looked at: the record alone."));
     if (!e.note.empty()) text += bullet(fmt::format("Note: {}.", unstopped(e.note)));
   }
   text += bullet(p.recurrence.period > 0

@@ -16,8 +16,7 @@ analysis::AttractorRecord record_of(PointResult& r, const model::DynamicModel& m
   const std::size_t dimension = model.dimension;
   if (r.attractor.dimension > 0) return std::move(r.attractor);
   if (r.outcome != integrate::Outcome::reached || r.poincare_rows() == 0) return {};
-  if (r.regime == analysis::Regime::periodic && r.recurrence.period == 0) {
-    // Told by its orbit, which the record is still on its way to, or longer than.
+  if (r.on_its_way()) {
     if (r.orbit.empty()) return {};
     const auto flow = make_flow_of_one_trajectory(model, integrator);
     const analysis::PeriodicOrbit orbit = analysis::find_periodic_orbit(*flow, r.orbit, r.period);

@@ -61,6 +61,11 @@ struct PointSummary {
   /// Largest Lyapunov exponent per tau; not a number where there is none.
   [[nodiscard]] analysis::Estimate lyapunov_max() const;
 
+  /// Is it told periodic by its orbit, while the record is still on its way to it, or too short to show it?
+  [[nodiscard]] bool on_its_way() const {
+    return classified && regime == analysis::Regime::periodic && recurrence.period == 0;
+  }
+
   /// Does any mesh pull?
   [[nodiscard]] bool pulls() const {
     return std::max(StageRecord::pull(meshes.sun_planet), StageRecord::pull(meshes.ring_planet)) > 0.0;

@@ -37,6 +37,10 @@ drawing() {
 }
 drawing --teeth 21,28,77 --module 3 --width 30 --torque 120 --speed 3000
 grep -q '"angles_deg"' set/stage.json || fail "98 teeth and three planets, but no angles"
+# Of a drawing is what was given, and nothing else.
+[ "$(grep -c '"module_mm": "source: drawing"' set/stage.json)" = 3 ] || fail "the origin of a module that was given"
+[ "$(grep -c '"profile_shift": "choice: not given' set/stage.json)" = 3 ] || fail "the origin of a shift that was not given"
+[ "$(grep -c '"pressure_angle_deg": "choice: not given' set/stage.json)" = 3 ] || fail "the origin of an angle that was not given"
 grep -q '"sun_speed_rpm"' set/speed.json || fail "no speeds in rpm"
 drawing --teeth 20,25,70 --module 2 --planets 3
 grep -q '"angles_deg"' set/stage.json && fail "90 teeth and three planets, but angles"
