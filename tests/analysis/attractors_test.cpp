@@ -14,7 +14,7 @@
 #include "integrate/make_flow.hpp"
 #include "problems/known_systems.hpp"
 
-namespace epicyclic::analysis {
+namespace epicyclic::analysis::attractors_test {
 namespace {
 
 constexpr double tolerance = 1e-9;
@@ -156,4 +156,4 @@ TEST(Attractors, UndecidedMotionsAreOnNone) {
 }
 
 }  // namespace
-}  // namespace epicyclic::analysis
+}  // namespace epicyclic::analysis::attractors_test

@@ -24,7 +24,7 @@
 #include "problems/clearance_points.hpp"
 #include "problems/known_systems.hpp"
 
-namespace epicyclic::analysis {
+namespace epicyclic::analysis::clearance_regimes_test {
 namespace {
 
 using problems::ClearancePoint;
@@ -235,4 +235,4 @@ TEST(ClearanceRegimesLong, TwoHundredPointsNearFlipsFoldsAndWithTransients) {
 }
 
 }  // namespace
-}  // namespace epicyclic::analysis
+}  // namespace epicyclic::analysis::clearance_regimes_test

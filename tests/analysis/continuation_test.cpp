@@ -22,7 +22,7 @@
 #include "problems/known_systems.hpp"
 #include "problems/planes.hpp"
 
-namespace epicyclic::analysis {
+namespace epicyclic::analysis::continuation_test {
 namespace {
 
 using problems::BranchProblem;
@@ -583,4 +583,4 @@ TEST(Tree, GoesOnFromItsStepsWithTheSameBits) {
 }
 
 }  // namespace
-}  // namespace epicyclic::analysis
+}  // namespace epicyclic::analysis::continuation_test

@@ -21,7 +21,7 @@
 #include "integrate/make_flow.hpp"
 #include "problems/known_systems.hpp"
 
-namespace epicyclic::analysis {
+namespace epicyclic::analysis::coverage_test {
 namespace {
 
 constexpr int runs = 400;
@@ -161,4 +161,4 @@ TEST(Coverage, OfAutoregressiveMeans) {
 }
 
 }  // namespace
-}  // namespace epicyclic::analysis
+}  // namespace epicyclic::analysis::coverage_test

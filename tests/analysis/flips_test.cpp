@@ -17,7 +17,7 @@
 #include "integrate/make_flow.hpp"
 #include "problems/known_systems.hpp"
 
-namespace epicyclic::analysis {
+namespace epicyclic::analysis::flips_test {
 namespace {
 
 constexpr double damping = 0.3;
@@ -98,4 +98,4 @@ TEST(Flips, DuffingsSecondIsThePublishedOne) {
 }
 
 }  // namespace
-}  // namespace epicyclic::analysis
+}  // namespace epicyclic::analysis::flips_test

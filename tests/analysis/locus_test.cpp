@@ -18,7 +18,7 @@
 #include "problems/harmonic_balance.hpp"
 #include "problems/planes.hpp"
 
-namespace epicyclic::analysis {
+namespace epicyclic::analysis::locus_test {
 namespace {
 
 using problems::FieldPlane;
@@ -80,7 +80,7 @@ struct Located {
   }
   [[nodiscard]] Followed follow(bool rising) const {
     LocusTrace way = trace(rising);
-    return analysis::follow(way);
+    return locus_test::follow(way);
   }
 };
 
@@ -683,4 +683,4 @@ TEST(LociLong, BoundsHoldAndAreNotIdle) {
 }
 
 }  // namespace
-}  // namespace epicyclic::analysis
+}  // namespace epicyclic::analysis::locus_test

@@ -17,7 +17,7 @@
 #include "integrate/make_flow.hpp"
 #include "problems/known_systems.hpp"
 
-namespace epicyclic::analysis {
+namespace epicyclic::analysis::lyapunov_test {
 namespace {
 
 integrate::IntegratorOptions tight(double tolerance) {
@@ -143,4 +143,4 @@ TEST(LyapunovSpectrum, RefusesWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace epicyclic::analysis
+}  // namespace epicyclic::analysis::lyapunov_test

@@ -15,7 +15,7 @@
 #include "problems/branches.hpp"
 #include "problems/free_rotation.hpp"
 
-namespace epicyclic::analysis {
+namespace epicyclic::analysis::neutral_directions_test {
 namespace {
 
 constexpr double tolerance = 1e-11;
@@ -162,4 +162,4 @@ TEST(NeutralDirections, AreAskedOfTheField) {
 }
 
 }  // namespace
-}  // namespace epicyclic::analysis
+}  // namespace epicyclic::analysis::neutral_directions_test

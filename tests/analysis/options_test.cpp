@@ -15,7 +15,7 @@
 #include "problems/known_systems.hpp"
 #include "wrong_options.hpp"
 
-namespace epicyclic::analysis {
+namespace epicyclic::analysis::options_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -88,4 +88,4 @@ TEST(AnalysisOptions, NothingIsComputedWithWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace epicyclic::analysis
+}  // namespace epicyclic::analysis::options_test

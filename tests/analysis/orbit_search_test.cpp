@@ -19,7 +19,7 @@
 #include "problems/clearance_exact.hpp"
 #include "problems/known_systems.hpp"
 
-namespace epicyclic::analysis {
+namespace epicyclic::analysis::orbit_search_test {
 namespace {
 
 using problems::flows;
@@ -286,4 +286,4 @@ TEST(OrbitSearchLong, OrbitsInChaosComeWithTheirMirrorImagesAndAsTheDegreeOfTheM
 }
 
 }  // namespace
-}  // namespace epicyclic::analysis
+}  // namespace epicyclic::analysis::orbit_search_test

@@ -19,7 +19,7 @@
 #include "problems/clearance_exact.hpp"
 #include "problems/known_systems.hpp"
 
-namespace epicyclic::analysis {
+namespace epicyclic::analysis::orbits_test {
 namespace {
 
 integrate::IntegratorOptions tight(double tolerance = 1e-13) {
@@ -264,4 +264,4 @@ TEST(LargestExponent, StopsWhenTold) {
 }
 
 }  // namespace
-}  // namespace epicyclic::analysis
+}  // namespace epicyclic::analysis::orbits_test

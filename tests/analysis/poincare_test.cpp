@@ -12,7 +12,7 @@
 #include "integrate/sundials/arkode_flow.hpp"
 #include "problems/known_systems.hpp"
 
-namespace epicyclic::analysis {
+namespace epicyclic::analysis::poincare_test {
 namespace {
 
 /// Duffing x'' + 0.3 x' - x + x^3 = g cos 1.2 t (validation.md section 4).
@@ -176,4 +176,4 @@ TEST(SurfaceSection, LeavesThePathAsItIs) {
 }
 
 }  // namespace
-}  // namespace epicyclic::analysis
+}  // namespace epicyclic::analysis::poincare_test

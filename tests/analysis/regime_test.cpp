@@ -16,7 +16,7 @@
 #include "integrate/make_flow.hpp"
 #include "problems/known_systems.hpp"
 
-namespace epicyclic::analysis {
+namespace epicyclic::analysis::regime_test {
 namespace {
 
 bool always() { return true; }
@@ -251,4 +251,4 @@ TEST(Regime, RefusesAFieldWithoutAPeriod) {
 }
 
 }  // namespace
-}  // namespace epicyclic::analysis
+}  // namespace epicyclic::analysis::regime_test

@@ -11,7 +11,7 @@
 
 #include "problems/branches.hpp"
 
-namespace epicyclic::analysis {
+namespace epicyclic::analysis::special_bounds_test {
 namespace {
 
 using problems::BranchProblem;
@@ -85,4 +85,4 @@ TEST(SpecialPointsLong, BoundsHoldAndAreNotIdle) {
 }
 
 }  // namespace
-}  // namespace epicyclic::analysis
+}  // namespace epicyclic::analysis::special_bounds_test

@@ -10,7 +10,7 @@
 
 #include "core/errors.hpp"
 
-namespace epicyclic::analysis {
+namespace epicyclic::analysis::spectrum_test {
 namespace {
 
 constexpr double turn = 2.0 * std::numbers::pi;
@@ -151,4 +151,4 @@ TEST(Spectrum, RefusesWhatHasNone) {
 }
 
 }  // namespace
-}  // namespace epicyclic::analysis
+}  // namespace epicyclic::analysis::spectrum_test

@@ -10,7 +10,7 @@
 
 #include "core/errors.hpp"
 
-namespace epicyclic::analysis {
+namespace epicyclic::analysis::statistics_test {
 namespace {
 
 TEST(SeriesMean, OfAKnownSeriesIsTheTextbookInterval) {
@@ -124,4 +124,4 @@ TEST(RankCorrelation, IsOfRanksAlone) {
 }
 
 }  // namespace
-}  // namespace epicyclic::analysis
+}  // namespace epicyclic::analysis::statistics_test

@@ -12,7 +12,7 @@
 #include "integrate/make_flow.hpp"
 #include "problems/known_systems.hpp"
 
-namespace epicyclic::analysis {
+namespace epicyclic::analysis::zero_one {
 namespace {
 
 std::vector<double> logistic(double r, int count) {
@@ -70,4 +70,4 @@ TEST(ZeroOneTest, RefusesShortSeriesAndTakesAConstantOne) {
 }
 
 }  // namespace
-}  // namespace epicyclic::analysis
+}  // namespace epicyclic::analysis::zero_one

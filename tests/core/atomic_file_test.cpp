@@ -14,7 +14,7 @@
 #include "core/errors.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic {
+namespace epicyclic::atomic_file_test {
 namespace {
 
 using test::contents;
@@ -108,7 +108,8 @@ TEST(AtomicFile, ASlowReaderIsWaitedForAlsoWhereWritingDoesNotWait) {
       if (count > 0) got.append(block, 0, static_cast<std::size_t>(count));
     }
   });
-  const std::string text = std::string(300'000, 'y') + "the end";
+  std::string text(300'000, 'y');
+  text += "the end";
   write_all(pipe.write_end.get(), text, "pipe");
   reader.join();
   EXPECT_TRUE(got.ends_with(text));
@@ -164,4 +165,4 @@ TEST(AtomicFile, ReadAllReturnsWhatWasWritten) {
 }
 
 }  // namespace
-}  // namespace epicyclic
+}  // namespace epicyclic::atomic_file_test

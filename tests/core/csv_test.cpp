@@ -15,7 +15,7 @@
 #include "core/errors.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic {
+namespace epicyclic::csv_test {
 namespace {
 
 using test::contents;
@@ -150,4 +150,4 @@ TEST(Csv, WhatIsNoTableIsNotRead) {
 }
 
 }  // namespace
-}  // namespace epicyclic
+}  // namespace epicyclic::csv_test

@@ -7,7 +7,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-namespace epicyclic {
+namespace epicyclic::dense_test {
 namespace {
 
 constexpr double rounding = 1e-13;
@@ -64,4 +64,4 @@ TEST(Dense, AnOrthonormalBasisKeepsTheStretching) {
 }
 
 }  // namespace
-}  // namespace epicyclic
+}  // namespace epicyclic::dense_test

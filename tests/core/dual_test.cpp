@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace epicyclic {
+namespace epicyclic::dual_test {
 namespace {
 
 // One rounding of a value of order 1, with room for a handful of operations.
@@ -68,4 +68,4 @@ TEST(Dual, ThreeHalvesPowerHasAFiniteSlopeAtZero) {
 }
 
 }  // namespace
-}  // namespace epicyclic
+}  // namespace epicyclic::dual_test

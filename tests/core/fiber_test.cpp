@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace epicyclic {
+namespace epicyclic::fiber_test {
 namespace {
 
 TEST(Fibers, TakeTurnsWhereTheySuspend) {
@@ -107,4 +107,4 @@ TEST(Fibers, ThatNobodyWaitsForAreUnwound) {
 }
 
 }  // namespace
-}  // namespace epicyclic
+}  // namespace epicyclic::fiber_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace epicyclic {
+namespace epicyclic::fit_test {
 namespace {
 
 TEST(FittedSlope, IsThatOfLeastSquares) {
@@ -39,4 +39,4 @@ TEST(PooledSlope, IsTheSameWhateverTheLevelsAre) {
 }
 
 }  // namespace
-}  // namespace epicyclic
+}  // namespace epicyclic::fit_test

@@ -14,7 +14,7 @@
 #include "core/fitted_rows.hpp"
 #include "core/interval_grid.hpp"
 
-namespace epicyclic {
+namespace epicyclic::interpolation_test {
 namespace {
 
 constexpr double rounding = 1e-14;
@@ -242,4 +242,4 @@ TEST(FittedRows, OfAFunctionThatHasKinksTellWhatTheyReach) {
 }
 
 }  // namespace
-}  // namespace epicyclic
+}  // namespace epicyclic::interpolation_test

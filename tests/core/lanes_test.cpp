@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace epicyclic {
+namespace epicyclic::lanes_test {
 namespace {
 
 using L = Lanes<4>;
@@ -65,4 +65,4 @@ TEST(Lanes, ANumberIsTheSameInEveryLane) {
 }
 
 }  // namespace
-}  // namespace epicyclic
+}  // namespace epicyclic::lanes_test

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
-namespace epicyclic {
+namespace epicyclic::quadrature_test {
 namespace {
 
 // A few roundings of sums of order 1.
@@ -82,4 +82,4 @@ TEST(GaussLegendre, NeedsAPoint) {
 }
 
 }  // namespace
-}  // namespace epicyclic
+}  // namespace epicyclic::quadrature_test

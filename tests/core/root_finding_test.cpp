@@ -10,7 +10,7 @@
 
 #include "core/errors.hpp"
 
-namespace epicyclic {
+namespace epicyclic::root_finding_test {
 namespace {
 
 // The bracket is closed to four units in the last place, and f is rounded too.
@@ -90,4 +90,4 @@ TEST(SecantRoot, FindsWhatIsNearAndTellsWhatIsNot) {
 }
 
 }  // namespace
-}  // namespace epicyclic
+}  // namespace epicyclic::root_finding_test

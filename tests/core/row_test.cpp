@@ -10,7 +10,7 @@
 #include "core/dual.hpp"
 #include "core/lanes.hpp"
 
-namespace epicyclic {
+namespace epicyclic::row_test {
 namespace {
 
 /// A formula with every operation that a row has; T is a scalar, or a row of it.
@@ -89,4 +89,4 @@ TEST(Row, OfLanesPicksInEachLane) {
 }
 
 }  // namespace
-}  // namespace epicyclic
+}  // namespace epicyclic::row_test

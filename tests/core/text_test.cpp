@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace epicyclic {
+namespace epicyclic::text_test {
 namespace {
 
 TEST(WithError, TheErrorHasTwoDigitsAndTheValueReachesDownToThem) {
@@ -46,4 +46,4 @@ TEST(WithError, WhatIsNotKnownIsSaid) {
 }
 
 }  // namespace
-}  // namespace epicyclic
+}  // namespace epicyclic::text_test

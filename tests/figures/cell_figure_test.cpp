@@ -11,7 +11,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace epicyclic::figures {
+namespace epicyclic::figures::cell_figure_test {
 namespace {
 
 using test::contents;
@@ -71,4 +71,4 @@ TEST(CellFigure, DecadesAreStepsOfAQuarterAndWhatIsBelowTheFloorIsWhite) {
 }
 
 }  // namespace
-}  // namespace epicyclic::figures
+}  // namespace epicyclic::figures::cell_figure_test

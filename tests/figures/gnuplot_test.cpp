@@ -20,7 +20,7 @@
 #include "gnuplot_guard.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::figures {
+namespace epicyclic::figures::gnuplot_test {
 namespace {
 
 using test::contents;
@@ -474,4 +474,4 @@ TEST(LineFigure, WrongCurvesAreRefused) {
 }
 
 }  // namespace
-}  // namespace epicyclic::figures
+}  // namespace epicyclic::figures::gnuplot_test

@@ -13,7 +13,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace epicyclic::figures {
+namespace epicyclic::figures::sketch_test {
 namespace {
 
 using Rows = std::vector<std::array<double, 2>>;
@@ -82,4 +82,4 @@ TEST(Sketch, PanelsHaveNamesAndScalesOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace epicyclic::figures
+}  // namespace epicyclic::figures::sketch_test

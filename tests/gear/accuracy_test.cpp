@@ -9,7 +9,7 @@
 #include "gear/gear_set.hpp"
 #include "problems/table1.hpp"
 
-namespace epicyclic::gear {
+namespace epicyclic::gear::accuracy_test {
 namespace {
 
 // Products of a step and a whole number.
@@ -115,4 +115,4 @@ TEST(Accuracy, OutsideItsRangesThereIsNoStandard) {
 }
 
 }  // namespace
-}  // namespace epicyclic::gear
+}  // namespace epicyclic::gear::accuracy_test

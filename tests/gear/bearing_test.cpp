@@ -8,7 +8,7 @@
 
 #include "core/quadrature.hpp"
 
-namespace epicyclic::gear {
+namespace epicyclic::gear::bearing_test {
 namespace {
 
 constexpr double um = 1e-6;
@@ -105,4 +105,4 @@ TEST(BearingCatalogue, EveryEntryIsABearingThatCanBeMade) {
 }
 
 }  // namespace
-}  // namespace epicyclic::gear
+}  // namespace epicyclic::gear::bearing_test

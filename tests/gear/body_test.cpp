@@ -10,7 +10,7 @@
 #include "gear/gear_set.hpp"
 #include "problems/table1.hpp"
 
-namespace epicyclic::gear {
+namespace epicyclic::gear::body_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -119,4 +119,4 @@ TEST(Body, WhatIsNoCylinderIsADomainError) {
 }
 
 }  // namespace
-}  // namespace epicyclic::gear
+}  // namespace epicyclic::gear::body_test

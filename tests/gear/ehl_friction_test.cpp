@@ -11,7 +11,7 @@
 #include "gear/gear_set.hpp"
 #include "problems/table1.hpp"
 
-namespace epicyclic::gear {
+namespace epicyclic::gear::ehl_friction_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -301,4 +301,4 @@ TEST(EhlFriction, TableFallsOffWithTheLoad) {
 }
 
 }  // namespace
-}  // namespace epicyclic::gear
+}  // namespace epicyclic::gear::ehl_friction_test

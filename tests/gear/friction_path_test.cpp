@@ -12,7 +12,7 @@
 #include "gear/kinematics.hpp"
 #include "problems/r1.hpp"
 
-namespace epicyclic::gear {
+namespace epicyclic::gear::friction_path_test {
 namespace {
 
 // Roundings of arms of some 30 mm [mm].
@@ -178,4 +178,4 @@ TEST(FrictionPath, MissingGeometryIsADomainError) {
 }
 
 }  // namespace
-}  // namespace epicyclic::gear
+}  // namespace epicyclic::gear::friction_path_test

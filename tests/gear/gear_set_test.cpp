@@ -14,7 +14,7 @@
 #include "lines.hpp"
 #include "problems/table1.hpp"
 
-namespace epicyclic::gear {
+namespace epicyclic::gear::gear_set_test {
 namespace {
 
 using problems::degree;
@@ -346,4 +346,4 @@ TEST(GearSet, WithoutCatalogueThereIsNone) {
 }
 
 }  // namespace
-}  // namespace epicyclic::gear
+}  // namespace epicyclic::gear::gear_set_test

@@ -9,7 +9,7 @@
 #include "gear/bearing.hpp"
 #include "problems/r1.hpp"
 
-namespace epicyclic::gear {
+namespace epicyclic::gear::kinematics_test {
 namespace {
 
 // A few roundings in a row.
@@ -159,4 +159,4 @@ TEST(Bearing, MissingBallsAreADomainError) {
 }
 
 }  // namespace
-}  // namespace epicyclic::gear
+}  // namespace epicyclic::gear::kinematics_test

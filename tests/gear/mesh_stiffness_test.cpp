@@ -11,7 +11,7 @@
 #include "gear/gear_set.hpp"
 #include "problems/table1.hpp"
 
-namespace epicyclic::gear {
+namespace epicyclic::gear::mesh_stiffness_test {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -372,4 +372,4 @@ TEST(IsoStiffness, StandardSteelGearsHaveTheUsual14) {
 }
 
 }  // namespace
-}  // namespace epicyclic::gear
+}  // namespace epicyclic::gear::mesh_stiffness_test

@@ -10,7 +10,7 @@
 #include "gear/tooth_compliance.hpp"
 #include "wrong_options.hpp"
 
-namespace epicyclic::gear {
+namespace epicyclic::gear::options_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -41,4 +41,4 @@ TEST(GearOptions, NothingIsComputedWithWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace epicyclic::gear
+}  // namespace epicyclic::gear::options_test

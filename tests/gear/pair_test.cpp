@@ -12,7 +12,7 @@
 #include "gear/kinematics.hpp"
 #include "problems/table1.hpp"
 
-namespace epicyclic::gear {
+namespace epicyclic::gear::pair_test {
 namespace {
 
 using problems::degree;
@@ -339,4 +339,4 @@ TEST(Pair, WhatCannotMeshIsADomainError) {
 }
 
 }  // namespace
-}  // namespace epicyclic::gear
+}  // namespace epicyclic::gear::pair_test

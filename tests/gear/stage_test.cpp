@@ -9,7 +9,7 @@
 
 #include "problems/r1.hpp"
 
-namespace epicyclic::gear {
+namespace epicyclic::gear::stage_test {
 namespace {
 
 struct Rule {
@@ -213,4 +213,4 @@ TEST(Stage, FrictionTablesNameEachRuleThatIsBroken) {
 }
 
 }  // namespace
-}  // namespace epicyclic::gear
+}  // namespace epicyclic::gear::stage_test

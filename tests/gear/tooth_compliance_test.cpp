@@ -15,7 +15,7 @@
 #include "gear/pair.hpp"
 #include "problems/table1.hpp"
 
-namespace epicyclic::gear {
+namespace epicyclic::gear::tooth_compliance_test {
 namespace {
 
 using problems::degree;
@@ -527,4 +527,4 @@ TEST(ToothCompliance, SainsotsBodyWithoutItsWindUpIsAnElasticDisc) {
 }
 
 }  // namespace
-}  // namespace epicyclic::gear
+}  // namespace epicyclic::gear::tooth_compliance_test

@@ -11,7 +11,7 @@
 #include "core/errors.hpp"
 #include "problems/table1.hpp"
 
-namespace epicyclic::gear {
+namespace epicyclic::gear::tooth_test {
 namespace {
 
 using problems::degree;
@@ -348,4 +348,4 @@ TEST(Tooth, WhatMakesNoToothIsADomainError) {
 }
 
 }  // namespace
-}  // namespace epicyclic::gear
+}  // namespace epicyclic::gear::tooth_test

@@ -12,7 +12,7 @@
 #include "problems/r1.hpp"
 #include "problems/table1.hpp"
 
-namespace epicyclic::gear {
+namespace epicyclic::gear::warnings_test {
 namespace {
 
 using test::has_line;
@@ -258,4 +258,4 @@ TEST(Warnings, TheMostImportantOnesComeFirstAndOnce) {
 }
 
 }  // namespace
-}  // namespace epicyclic::gear
+}  // namespace epicyclic::gear::warnings_test

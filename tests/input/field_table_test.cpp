@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace epicyclic::input {
+namespace epicyclic::input::field_table_test {
 namespace {
 
 using nlohmann::json;
@@ -182,4 +182,4 @@ TEST(FieldTable, FindsTheNearestWord) {
 }
 
 }  // namespace
-}  // namespace epicyclic::input
+}  // namespace epicyclic::input::field_table_test

@@ -6,7 +6,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace epicyclic::input {
+namespace epicyclic::input::json_source_test {
 namespace {
 
 using nlohmann::json;
@@ -208,4 +208,4 @@ TEST(JsonPointer, TakesStepsApart) {
 }
 
 }  // namespace
-}  // namespace epicyclic::input
+}  // namespace epicyclic::input::json_source_test

@@ -12,7 +12,7 @@
 #include "input/study_model.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::input {
+namespace epicyclic::input::stage_completion_test {
 namespace {
 
 using nlohmann::json;
@@ -301,4 +301,4 @@ TEST(StageCompletion, WhatNoDrawingGivesIsMissing) {
 }
 
 }  // namespace
-}  // namespace epicyclic::input
+}  // namespace epicyclic::input::stage_completion_test

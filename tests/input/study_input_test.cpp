@@ -14,7 +14,7 @@
 #include "model/scales.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::input {
+namespace epicyclic::input::study_input_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -958,4 +958,4 @@ TEST_F(SchemaAndReader, EveryKeyThatIsWrittenIsInTheSchema) {
 }
 
 }  // namespace
-}  // namespace epicyclic::input
+}  // namespace epicyclic::input::study_input_test

@@ -11,7 +11,7 @@
 
 #include "lines.hpp"
 
-namespace epicyclic::input {
+namespace epicyclic::input::study_model_test {
 namespace {
 
 using test::joined;
@@ -126,4 +126,4 @@ TEST(ModelFamily, HasTheDerivativeByAnyNumberOfTheInput) {
 }
 
 }  // namespace
-}  // namespace epicyclic::input
+}  // namespace epicyclic::input::study_model_test

@@ -19,7 +19,7 @@
 #include "integrate/methods.hpp"
 #include "problems/known_systems.hpp"
 
-namespace epicyclic::integrate {
+namespace epicyclic::integrate::arkode_flow_test {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -368,4 +368,4 @@ TEST(ClearanceOscillator, PoincarePointsAreThePublishedOnes) {
 }
 
 }  // namespace
-}  // namespace epicyclic::integrate
+}  // namespace epicyclic::integrate::arkode_flow_test

@@ -19,7 +19,7 @@
 #include "problems/clearance_exact.hpp"
 #include "problems/known_systems.hpp"
 
-namespace epicyclic::integrate {
+namespace epicyclic::integrate::contacts_test {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -204,4 +204,4 @@ TEST(Contacts, LocatedRunsAreTheSameWithAnyNumberOfSamples) {
 }
 
 }  // namespace
-}  // namespace epicyclic::integrate
+}  // namespace epicyclic::integrate::contacts_test

@@ -19,7 +19,7 @@
 #include "problems/clearance_exact.hpp"
 #include "problems/known_systems.hpp"
 
-namespace epicyclic::integrate {
+namespace epicyclic::integrate::families_test {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -226,4 +226,4 @@ TEST(ImplicitMethods, AreNotHeldBackByAStiffSystem) {
 }
 
 }  // namespace
-}  // namespace epicyclic::integrate
+}  // namespace epicyclic::integrate::families_test

@@ -15,7 +15,7 @@
 #include "integrate/methods.hpp"
 #include "problems/known_systems.hpp"
 
-namespace epicyclic::integrate {
+namespace epicyclic::integrate::faults_test {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -129,4 +129,4 @@ TEST(Faults, TwoHundredInjectedFaultsEachHaveTheirStatus) {
 }
 
 }  // namespace
-}  // namespace epicyclic::integrate
+}  // namespace epicyclic::integrate::faults_test

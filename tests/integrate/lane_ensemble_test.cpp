@@ -19,7 +19,7 @@
 #include "problems/known_systems.hpp"
 #include "problems/lane_sets.hpp"
 
-namespace epicyclic::integrate {
+namespace epicyclic::integrate::lane_ensemble_test {
 namespace {
 
 /// A state carried over `periods` periods in one lane, period by period.
@@ -262,4 +262,4 @@ INSTANTIATE_TEST_SUITE_P(Each, LaneEnsembles, testing::Values("lanes-dopri5", "l
                          [](const auto& of) { return std::string(of.param).substr(6, 4); });
 
 }  // namespace
-}  // namespace epicyclic::integrate
+}  // namespace epicyclic::integrate::lane_ensemble_test

@@ -12,7 +12,7 @@
 #include "integrate/make_flow.hpp"
 #include "problems/known_systems.hpp"
 
-namespace epicyclic::integrate {
+namespace epicyclic::integrate::lane_pool_test {
 namespace {
 
 constexpr int periods = 5;
@@ -136,4 +136,4 @@ TEST(LanePools, GoOnWhileOneWaitsForAnotherThread) {
 }
 
 }  // namespace
-}  // namespace epicyclic::integrate
+}  // namespace epicyclic::integrate::lane_pool_test

@@ -15,7 +15,7 @@
 #include "integrate/sundials/arkode_flow.hpp"
 #include "problems/known_systems.hpp"
 
-namespace epicyclic::integrate {
+namespace epicyclic::integrate::methods_test {
 namespace {
 
 /// Relative error of n fixed steps; y_4 is of order 1.
@@ -135,4 +135,4 @@ TEST(Methods, AnUnknownMethodIsAnInputError) {
 }
 
 }  // namespace
-}  // namespace epicyclic::integrate
+}  // namespace epicyclic::integrate::methods_test

@@ -16,7 +16,7 @@
 #include "problems/known_systems.hpp"
 #include "wrong_options.hpp"
 
-namespace epicyclic::integrate {
+namespace epicyclic::integrate::options_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -84,4 +84,4 @@ TEST(IntegratorOptions, NoFlowAndNoLanesAreMadeOfWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace epicyclic::integrate
+}  // namespace epicyclic::integrate::options_test

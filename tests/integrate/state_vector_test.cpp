@@ -17,7 +17,7 @@
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
 
-namespace epicyclic::integrate {
+namespace epicyclic::integrate::state_vector_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -377,4 +377,4 @@ INSTANTIATE_TEST_SUITE_P(Kernels, StateVector, ::testing::ValuesIn(cases()), [](
 });
 
 }  // namespace
-}  // namespace epicyclic::integrate
+}  // namespace epicyclic::integrate::state_vector_test

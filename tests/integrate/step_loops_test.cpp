@@ -14,7 +14,7 @@
 
 #include "problems/lane_sets.hpp"
 
-namespace epicyclic::integrate {
+namespace epicyclic::integrate::step_loops_test {
 namespace {
 
 using problems::lane_sets;
@@ -456,4 +456,4 @@ TEST(StepLoops, CopiesLieInMemoryOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace epicyclic::integrate
+}  // namespace epicyclic::integrate::step_loops_test

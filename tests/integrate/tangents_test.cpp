@@ -20,7 +20,7 @@
 #include "problems/clearance_exact.hpp"
 #include "problems/known_systems.hpp"
 
-namespace epicyclic::integrate {
+namespace epicyclic::integrate::tangents_test {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -237,4 +237,4 @@ TEST(Tangents, WrongRequestsAreInputErrors) {
 }
 
 }  // namespace
-}  // namespace epicyclic::integrate
+}  // namespace epicyclic::integrate::tangents_test

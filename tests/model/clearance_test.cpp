@@ -7,7 +7,7 @@
 
 #include "core/dual.hpp"
 
-namespace epicyclic::model {
+namespace epicyclic::model::clearance_test {
 namespace {
 
 // Roundings of numbers of order 10.
@@ -126,4 +126,4 @@ TEST(Clearance, SafeRadiusIsTheRadius) {
 }
 
 }  // namespace
-}  // namespace epicyclic::model
+}  // namespace epicyclic::model::clearance_test

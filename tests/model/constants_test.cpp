@@ -6,7 +6,7 @@
 
 #include "model/parameters.hpp"
 
-namespace epicyclic::model {
+namespace epicyclic::model::constants_test {
 namespace {
 
 /// A scalar as long as K doubles.
@@ -45,4 +45,4 @@ TEST(Constants, AreAllVisited) {
 }
 
 }  // namespace
-}  // namespace epicyclic::model
+}  // namespace epicyclic::model::constants_test

@@ -16,7 +16,7 @@
 #include "gear/kinematics.hpp"
 #include "problems/r1.hpp"
 
-namespace epicyclic::model {
+namespace epicyclic::model::dynamic_model_test {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -375,4 +375,4 @@ TEST(DynamicModel, RightHandSideJumpsOnlyAtBreakpoints) {
 }
 
 }  // namespace
-}  // namespace epicyclic::model
+}  // namespace epicyclic::model::dynamic_model_test

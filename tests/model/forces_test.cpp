@@ -20,7 +20,7 @@
 #include "problems/mesh_laws.hpp"
 #include "problems/r1.hpp"
 
-namespace epicyclic::model {
+namespace epicyclic::model::forces_test {
 namespace {
 
 using problems::MeshLaw;
@@ -613,4 +613,4 @@ TEST(SunBearing, TangentsAtTheCentreAreFiniteAndRight) {
 }
 
 }  // namespace
-}  // namespace epicyclic::model
+}  // namespace epicyclic::model::forces_test

@@ -12,7 +12,7 @@
 #include "gear/friction_path.hpp"
 #include "problems/r1.hpp"
 
-namespace epicyclic::model {
+namespace epicyclic::model::friction_track_test {
 namespace {
 
 // Roundings of numbers of order 1 after a shift of the phase by whole turns.
@@ -160,4 +160,4 @@ TEST(FrictionTrack, APieceWithoutEndsIsAnInputError) {
 }
 
 }  // namespace
-}  // namespace epicyclic::model
+}  // namespace epicyclic::model::friction_track_test

@@ -19,7 +19,7 @@
 #include "model/parameters.hpp"
 #include "problems/r1.hpp"
 
-namespace epicyclic::model {
+namespace epicyclic::model::linear_response_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -251,4 +251,4 @@ TEST(Gyroscopic, RelativeCoordinatesHaveTheSpectrumOfTheFullOnesWithoutTheRigidR
 }
 
 }  // namespace
-}  // namespace epicyclic::model
+}  // namespace epicyclic::model::linear_response_test

@@ -25,7 +25,7 @@
 #include "problems/r1.hpp"
 #include "problems/table1.hpp"
 
-namespace epicyclic::model {
+namespace epicyclic::model::lubricated_track_test {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -327,4 +327,4 @@ TEST(LubricatedTrack, HalfAsFineIsAboutSixteenTimesAsFarOff) {
 }
 
 }  // namespace
-}  // namespace epicyclic::model
+}  // namespace epicyclic::model::lubricated_track_test

@@ -12,7 +12,7 @@
 
 #include "problems/lin_parker.hpp"
 
-namespace epicyclic::model {
+namespace epicyclic::model::modes_test {
 namespace {
 
 using problems::lin_parker;
@@ -218,4 +218,4 @@ TEST(Modes, ShapesAreOrthonormalAndSolveTheEigenproblem) {
 }
 
 }  // namespace
-}  // namespace epicyclic::model
+}  // namespace epicyclic::model::modes_test

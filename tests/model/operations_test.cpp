@@ -9,7 +9,7 @@
 #include "model/counted_lanes.hpp"
 #include "problems/r1.hpp"
 
-namespace epicyclic::model {
+namespace epicyclic::model::operations_test {
 namespace {
 
 TEST(Operations, OfOneLaneOfThePapersStage) {
@@ -43,4 +43,4 @@ TEST(Operations, OfOneLaneOfThePapersStage) {
 }
 
 }  // namespace
-}  // namespace epicyclic::model
+}  // namespace epicyclic::model::operations_test

@@ -12,7 +12,7 @@
 #include "problems/r1.hpp"
 #include "wrong_options.hpp"
 
-namespace epicyclic::model {
+namespace epicyclic::model::options_test {
 namespace {
 
 using O = ModelOptions;
@@ -31,4 +31,4 @@ TEST(ModelOptions, NoModelIsMadeOfWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace epicyclic::model
+}  // namespace epicyclic::model::options_test

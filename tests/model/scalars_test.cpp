@@ -22,7 +22,7 @@
 #include "model/right_hand_side.hpp"
 #include "problems/r1.hpp"
 
-namespace epicyclic::model {
+namespace epicyclic::model::scalars_test {
 namespace {
 
 constexpr std::size_t planets = 3;
@@ -175,4 +175,4 @@ TEST(Scalars, DualJacobianIsThatOfDifferences) {
 }
 
 }  // namespace
-}  // namespace epicyclic::model
+}  // namespace epicyclic::model::scalars_test

@@ -6,7 +6,7 @@
 
 #include "problems/r1.hpp"
 
-namespace epicyclic::model {
+namespace epicyclic::model::scales_test {
 namespace {
 
 // A few roundings in a row, relative.
@@ -63,4 +63,4 @@ TEST(Scales, OnlyMeanStiffnessAndInertiasOfSunAndPlanetMatter) {
 }
 
 }  // namespace
-}  // namespace epicyclic::model
+}  // namespace epicyclic::model::scales_test

@@ -12,7 +12,7 @@
 #include "model/dynamic_model.hpp"
 #include "problems/r1.hpp"
 
-namespace epicyclic::model {
+namespace epicyclic::model::stage_forces_test {
 namespace {
 
 constexpr double rounding = 1e-14;      // of some ten operations
@@ -162,4 +162,4 @@ TEST(RemoveSynchronous, SplitsWhatTheLinearisedFlowKeepsApart) {
 }
 
 }  // namespace
-}  // namespace epicyclic::model
+}  // namespace epicyclic::model::stage_forces_test

@@ -13,7 +13,7 @@
 #include "model/right_hand_side.hpp"
 #include "problems/r1.hpp"
 
-namespace epicyclic::model {
+namespace epicyclic::model::stage_kernel_test {
 namespace {
 
 /// One error for all planets: r1_nonlinear() has those of three.
@@ -132,4 +132,4 @@ TEST(StageKernel, BaselineIsAlwaysThereAndUnknownNamesAreNot) {
 }
 
 }  // namespace
-}  // namespace epicyclic::model
+}  // namespace epicyclic::model::stage_kernel_test

@@ -15,7 +15,7 @@
 #include "model/kernels/lane_kernel.hpp"
 #include "problems/r1.hpp"
 
-namespace epicyclic::model {
+namespace epicyclic::model::stage_look_test {
 namespace {
 
 constexpr double rounding = 1e-13;  // of some ten operations on lanes' own sine and places in tables
@@ -162,4 +162,4 @@ TEST(StageLooks, BitsDoNotDependOnTheInstructionSet) {
 }
 
 }  // namespace
-}  // namespace epicyclic::model
+}  // namespace epicyclic::model::stage_look_test

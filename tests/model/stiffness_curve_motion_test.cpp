@@ -12,7 +12,7 @@
 #include "model/lane_field.hpp"
 #include "problems/r1.hpp"
 
-namespace epicyclic::model {
+namespace epicyclic::model::stiffness_curve_motion_test {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -162,4 +162,4 @@ TEST(StiffnessCurve, LanesOnPiecesOfDifferentKindsAreTheSingleRuns) {
 }
 
 }  // namespace
-}  // namespace epicyclic::model
+}  // namespace epicyclic::model::stiffness_curve_motion_test

@@ -9,7 +9,7 @@
 #include "model/friction_track.hpp"
 #include "problems/table1.hpp"
 
-namespace epicyclic::model {
+namespace epicyclic::model::stiffness_curve_test {
 namespace {
 
 constexpr double rounding = 1e-13;
@@ -168,4 +168,4 @@ TEST(StiffnessCurve, ContactRatioOfAWholeNumberMakesATrackOfOnePiece) {
 }
 
 }  // namespace
-}  // namespace epicyclic::model
+}  // namespace epicyclic::model::stiffness_curve_test

@@ -16,7 +16,7 @@
 #include "reports/gear_output.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::reports::extreme_numbers_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -132,4 +132,4 @@ TEST(ExtremeNumbersLong, AModelIsRefusedOrFinite) {
 }
 
 }  // namespace
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::reports::extreme_numbers_test

@@ -16,7 +16,7 @@
 #include "problems/table1.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::reports::gear_figures_test {
 namespace {
 
 using problems::lin_parker;
@@ -280,4 +280,4 @@ TEST(ModeFigures, AppearForLumpedStagesOfAllKinds) {
 }
 
 }  // namespace
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::reports::gear_figures_test

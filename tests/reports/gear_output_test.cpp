@@ -16,7 +16,7 @@
 #include "input/study_input.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::reports::gear_output_test {
 namespace {
 
 using test::TemporaryFolder;
@@ -223,4 +223,4 @@ TEST(GearOutput, AMeshWithoutBacklashHasNone) {
 }
 
 }  // namespace
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::reports::gear_output_test

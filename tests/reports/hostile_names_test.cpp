@@ -25,7 +25,7 @@
 #include "reports/gear_figures.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::reports::hostile_names_test {
 namespace {
 
 using test::contents;
@@ -249,4 +249,4 @@ TEST(HostileNames, WithoutAFontAreBoxesThatDoNotCoverTheFigure) {
 }
 
 }  // namespace
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::reports::hostile_names_test

@@ -18,7 +18,7 @@
 #include "studies/stage_lanes.hpp"
 #include "studies/sweep.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::reports::paper_regimes_test {
 namespace {
 
 bool always() { return true; }
@@ -256,4 +256,4 @@ TEST(PaperRegimesLong, ExponentsOfPeriodicPointsAreThoseOfTheirMultipliers) {
 }
 
 }  // namespace
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::reports::paper_regimes_test

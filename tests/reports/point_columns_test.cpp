@@ -24,7 +24,7 @@
 #include "studies/point_source.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::reports::point_columns_test {
 namespace {
 
 using studies::PointResult;
@@ -220,4 +220,4 @@ TEST(PointColumns, QuantitiesOfClaimsAreColumnsOfTheirNames) {
 }
 
 }  // namespace
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::reports::point_columns_test

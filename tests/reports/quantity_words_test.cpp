@@ -4,7 +4,7 @@
 
 #include "input/study_input.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::reports::quantity_words_test {
 namespace {
 
 std::string text(const std::string& pointer) {
@@ -42,4 +42,4 @@ TEST(QuantityWords, OfNoNumberOfTheInputsArePointers) {
 }
 
 }  // namespace
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::reports::quantity_words_test

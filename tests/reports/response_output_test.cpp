@@ -15,7 +15,7 @@
 #include "store/hdf5_file.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::reports::response_output_test {
 namespace {
 
 using studies::PointResult;
@@ -150,4 +150,4 @@ TEST(ResponseOutput, SpectraAreAMapOfEachDirectionAndADataset) {
 }
 
 }  // namespace
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::reports::response_output_test

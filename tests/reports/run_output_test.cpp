@@ -16,7 +16,7 @@
 #include "store/hdf5_file.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::reports::run_output_test {
 namespace {
 
 using test::contents;
@@ -541,4 +541,4 @@ TEST(RunFigures, AreTheSameTwice) {
 }
 
 }  // namespace
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::reports::run_output_test

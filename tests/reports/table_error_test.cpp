@@ -20,7 +20,7 @@
 #include "model/folded_constants.hpp"
 #include "model/right_hand_side.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::reports::table_error_test {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -154,4 +154,4 @@ TEST(TableError, OrbitsOnTheWholeStiffnessCurveToo) {
 }
 
 }  // namespace
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::reports::table_error_test

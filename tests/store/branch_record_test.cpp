@@ -11,7 +11,7 @@
 #include "problems/branches.hpp"
 #include "store/journal.hpp"
 
-namespace epicyclic::store {
+namespace epicyclic::store::branch_record_test {
 namespace {
 
 /// A tree of two branches, with folds, flips and an end at a flip of the other.
@@ -93,4 +93,4 @@ TEST(BranchRecord, DamageIsRefused) {
 }
 
 }  // namespace
-}  // namespace epicyclic::store
+}  // namespace epicyclic::store::branch_record_test

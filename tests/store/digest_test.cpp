@@ -8,7 +8,7 @@
 
 #include "core/errors.hpp"
 
-namespace epicyclic::store {
+namespace epicyclic::store::digest_test {
 namespace {
 
 using nlohmann::json;
@@ -54,4 +54,4 @@ TEST(Digest, WhatJsonCannotSayIsRefused) {
 }
 
 }  // namespace
-}  // namespace epicyclic::store
+}  // namespace epicyclic::store::digest_test

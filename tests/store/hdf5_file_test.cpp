@@ -17,7 +17,7 @@
 #include <sanitizer/lsan_interface.h>
 #endif
 
-namespace epicyclic::store {
+namespace epicyclic::store::hdf5_file_test {
 namespace {
 
 /// HDF5 1.10 does not free what it holds of a file whose last flush fails; while this lives, AddressSanitizer does not
@@ -217,4 +217,4 @@ TEST(Hdf5File, DamagedFileIsAnInputError) {
 }
 
 }  // namespace
-}  // namespace epicyclic::store
+}  // namespace epicyclic::store::hdf5_file_test

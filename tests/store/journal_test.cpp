@@ -39,7 +39,7 @@ extern "C" int fsync(int descriptor) {
   return result;
 }
 
-namespace epicyclic::store {
+namespace epicyclic::store::journal_test {
 namespace {
 
 using test::contents;
@@ -467,4 +467,4 @@ TEST(Journal, AppendAfterCloseIsALogicError) {
 }
 
 }  // namespace
-}  // namespace epicyclic::store
+}  // namespace epicyclic::store::journal_test

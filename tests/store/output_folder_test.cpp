@@ -15,7 +15,7 @@
 #include "store/provenance.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::store {
+namespace epicyclic::store::output_folder_test {
 namespace {
 
 using nlohmann::json;
@@ -315,4 +315,4 @@ TEST(Provenance, HoldsWhatTheCallerGaveAndWhatTheMachineIs) {
 }
 
 }  // namespace
-}  // namespace epicyclic::store
+}  // namespace epicyclic::store::output_folder_test

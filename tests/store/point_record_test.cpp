@@ -10,7 +10,7 @@
 
 #include "store/journal.hpp"
 
-namespace epicyclic::store {
+namespace epicyclic::store::point_record_test {
 namespace {
 
 studies::PointResult example() {
@@ -158,4 +158,4 @@ TEST(PointRecord, LengthsBeyondTheRecordAreRefusedBeforeMemoryIsTaken) {
 }
 
 }  // namespace
-}  // namespace epicyclic::store
+}  // namespace epicyclic::store::point_record_test

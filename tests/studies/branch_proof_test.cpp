@@ -14,7 +14,7 @@
 #include "problems/branches.hpp"
 #include "studies/axis.hpp"
 
-namespace epicyclic::studies {
+namespace epicyclic::studies::branch_proof_test {
 namespace {
 
 constexpr std::size_t dimension = 2;
@@ -156,4 +156,4 @@ TEST(BranchProof, AFlipFarFromTheChangeExplainsNothing) {
 }
 
 }  // namespace
-}  // namespace epicyclic::studies
+}  // namespace epicyclic::studies::branch_proof_test

@@ -15,7 +15,7 @@
 #include "problems/gear_flow.hpp"
 #include "problems/r1.hpp"
 
-namespace epicyclic::studies {
+namespace epicyclic::studies::branches_test {
 namespace {
 
 model::DynamicModel model_at(double omega) {
@@ -162,4 +162,4 @@ TEST(Branches, AStartWithoutAnOrbitSaysSo) {
 }
 
 }  // namespace
-}  // namespace epicyclic::studies
+}  // namespace epicyclic::studies::branches_test

@@ -11,7 +11,7 @@
 
 #include "core/errors.hpp"
 
-namespace epicyclic::studies {
+namespace epicyclic::studies::calibration_test {
 namespace {
 
 /// A space of linear parameters in [0, 1], and claims in name alone.
@@ -197,4 +197,4 @@ TEST(ParameterSpace, MapsTheUnitCube) {
 }
 
 }  // namespace
-}  // namespace epicyclic::studies
+}  // namespace epicyclic::studies::calibration_test

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace epicyclic::studies {
+namespace epicyclic::studies::claims_test {
 namespace {
 
 using analysis::Regime;
@@ -320,4 +320,4 @@ TEST(ClaimsOptions, RefuseWhatNobodyWouldJudge) {
 }
 
 }  // namespace
-}  // namespace epicyclic::studies
+}  // namespace epicyclic::studies::claims_test

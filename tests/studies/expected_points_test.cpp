@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace epicyclic::studies {
+namespace epicyclic::studies::expected_points_test {
 namespace {
 
 constexpr double reach = 1e-3;
@@ -58,4 +58,4 @@ TEST(ExpectedPoints, ArePairedWithTheNearestOnes) {
 }
 
 }  // namespace
-}  // namespace epicyclic::studies
+}  // namespace epicyclic::studies::expected_points_test

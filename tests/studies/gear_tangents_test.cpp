@@ -18,7 +18,7 @@
 #include "problems/r1.hpp"
 #include "studies/named_parameters.hpp"
 
-namespace epicyclic::studies {
+namespace epicyclic::studies::gear_tangents_test {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
@@ -199,4 +199,4 @@ TEST(GearTangents, AParameterThatMovesBreakpointsHasNoDerivative) {
 }
 
 }  // namespace
-}  // namespace epicyclic::studies
+}  // namespace epicyclic::studies::gear_tangents_test

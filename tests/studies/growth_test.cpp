@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace epicyclic::studies {
+namespace epicyclic::studies::growth_test {
 namespace {
 
 SweepOptions sweep(double from, double to, int points, int segments,
@@ -98,4 +98,4 @@ TEST(Growth, LinesOfAMapAreGrownEachByItself) {
 }
 
 }  // namespace
-}  // namespace epicyclic::studies
+}  // namespace epicyclic::studies::growth_test

@@ -18,7 +18,7 @@
 #include "problems/mesh_laws.hpp"
 #include "problems/r1.hpp"
 
-namespace epicyclic {
+namespace epicyclic::identities_coordinates_test {
 namespace {
 
 using model::CoordinateChoice;
@@ -398,4 +398,4 @@ TEST(Coordinates, ThePapersOwnVariablesGiveTheSameDeflections) {
 }
 
 }  // namespace
-}  // namespace epicyclic
+}  // namespace epicyclic::identities_coordinates_test

@@ -18,7 +18,7 @@
 #include "problems/mesh_laws.hpp"
 #include "problems/r1.hpp"
 
-namespace epicyclic {
+namespace epicyclic::identities_energy_test {
 namespace {
 
 using model::Layout;
@@ -229,4 +229,4 @@ TEST(Energy, IsKeptWithoutAnythingThatDoesWork) {
 }
 
 }  // namespace
-}  // namespace epicyclic
+}  // namespace epicyclic::identities_energy_test

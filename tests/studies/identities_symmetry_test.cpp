@@ -15,7 +15,7 @@
 #include "problems/gear_flow.hpp"
 #include "problems/r1.hpp"
 
-namespace epicyclic {
+namespace epicyclic::identities_symmetry_test {
 namespace {
 
 using model::DynamicModel;
@@ -182,4 +182,4 @@ TEST(Motion, OfUnequalPlanetsOrPhasesMovesTheSun) {
 }
 
 }  // namespace
-}  // namespace epicyclic
+}  // namespace epicyclic::identities_symmetry_test

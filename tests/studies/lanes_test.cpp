@@ -26,7 +26,7 @@
 #include "studies/stage_lanes.hpp"
 #include "studies/sweep.hpp"
 
-namespace epicyclic::studies {
+namespace epicyclic::studies::lanes_test {
 namespace {
 
 constexpr double period = 2.0 * std::numbers::pi;
@@ -288,4 +288,4 @@ TEST(SweepCheck, ByTheSweepsOwnMethodEachPointComesOutToTheLastBit) {
 }
 
 }  // namespace
-}  // namespace epicyclic::studies
+}  // namespace epicyclic::studies::lanes_test

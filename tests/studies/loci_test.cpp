@@ -9,7 +9,7 @@
 #include "problems/r1.hpp"
 #include "studies/branches.hpp"
 
-namespace epicyclic::studies {
+namespace epicyclic::studies::loci_test {
 namespace {
 
 model::DynamicModel model_at(double omega, double damping_ratio) {
@@ -90,4 +90,4 @@ TEST(LociOfGearsLong, FlipsOfThePapersStageAreThoseOfItsBranches) {
 }
 
 }  // namespace
-}  // namespace epicyclic::studies
+}  // namespace epicyclic::studies::loci_test

@@ -14,7 +14,7 @@
 #include "studies/tolerance_options.hpp"
 #include "wrong_options.hpp"
 
-namespace epicyclic::studies {
+namespace epicyclic::studies::options_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -114,4 +114,4 @@ TEST(Options, PlansAreNotMadeOfWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace epicyclic::studies
+}  // namespace epicyclic::studies::options_test

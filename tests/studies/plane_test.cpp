@@ -16,7 +16,7 @@
 #include "problems/r1.hpp"
 #include "studies/point_source.hpp"
 
-namespace epicyclic::studies {
+namespace epicyclic::studies::plane_test {
 namespace {
 
 MapOptions map() {
@@ -239,4 +239,4 @@ TEST(Plane, AMapsCellIsThePointOfASweepAtItsSecondValue) {
 }
 
 }  // namespace
-}  // namespace epicyclic::studies
+}  // namespace epicyclic::studies::plane_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace epicyclic::studies {
+namespace epicyclic::studies::probes_test {
 namespace {
 
 TEST(Miniature, HasFewerValuesInTheMiddleOfTheirParts) {
@@ -71,4 +71,4 @@ TEST(Miniature, TellsWhatAllPointsTake) {
 }
 
 }  // namespace
-}  // namespace epicyclic::studies
+}  // namespace epicyclic::studies::probes_test

@@ -12,7 +12,7 @@
 #include "problems/r1.hpp"
 #include "studies/sweep.hpp"
 
-namespace epicyclic::studies {
+namespace epicyclic::studies::regimes_test {
 namespace {
 
 bool always() { return true; }
@@ -79,4 +79,4 @@ TEST(Regimes, AnAdaptiveTransientEndsOnTheOrbitOfALongOne) {
 }
 
 }  // namespace
-}  // namespace epicyclic::studies
+}  // namespace epicyclic::studies::regimes_test

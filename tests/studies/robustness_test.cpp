@@ -8,7 +8,7 @@
 
 #include "core/errors.hpp"
 
-namespace epicyclic::studies {
+namespace epicyclic::studies::robustness_test {
 namespace {
 
 /// Two parameters; a claim that the first alone decides, one that holds always, one that is never looked at.
@@ -147,4 +147,4 @@ TEST(Robustness, LeavesOutWhatIsNoStage) {
 }
 
 }  // namespace
-}  // namespace epicyclic::studies
+}  // namespace epicyclic::studies::robustness_test

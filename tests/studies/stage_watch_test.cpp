@@ -14,7 +14,7 @@
 #include "model/dynamic_model.hpp"
 #include "problems/r1.hpp"
 
-namespace epicyclic::studies {
+namespace epicyclic::studies::stage_watch_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -191,4 +191,4 @@ TEST(StageWatch, TellsTheForcesOfAStageOneByOne) {
 }
 
 }  // namespace
-}  // namespace epicyclic::studies
+}  // namespace epicyclic::studies::stage_watch_test

@@ -12,7 +12,7 @@
 
 #include "studies/coarse_pass.hpp"
 
-namespace epicyclic::studies {
+namespace epicyclic::studies::sweep_test {
 namespace {
 
 TEST(SweepPlan, GridHasBothEndsAndReadableValues) {
@@ -263,4 +263,4 @@ TEST(Sweep, ExceptionOfAPointArrivesUnchanged) {
 }
 
 }  // namespace
-}  // namespace epicyclic::studies
+}  // namespace epicyclic::studies::sweep_test

@@ -18,7 +18,7 @@
 #include "studies/tolerance.hpp"
 #include "studies/units.hpp"
 
-namespace epicyclic::studies {
+namespace epicyclic::studies::trust_test {
 namespace {
 
 /// One "planet" whose deflection is x; the parameter is W.
@@ -486,4 +486,4 @@ TEST(Statistics, AgreeWhereAllIntervalsOverlap) {
 }
 
 }  // namespace
-}  // namespace epicyclic::studies
+}  // namespace epicyclic::studies::trust_test
