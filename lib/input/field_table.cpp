@@ -568,4 +568,145 @@ ordered_json object_schema(const std::string& title, const std::string& descript
 
 }  // namespace table_detail
 
+AnyField& AnyTable::add_leaf(std::string_view key, table_detail::AnyAccess at, table_detail::AnyFormat format,
+                             std::string_view description) {
+  AnyField& field = fields_.emplace_back();
+  field.key = key;
+  field.description = description;
+  field.write = [find = at.find, write = std::move(format.write)](const void* object) {
+    const void* found = find(object);
+    return found == nullptr ? json() : write(found);
+  };
+  field.read = [at = std::move(at), read = std::move(format.read)](const json& value, const std::string& pointer,
+                                                                   void* object, ReadContext& context) {
+    read(value, pointer, at, object, context);
+  };
+  field.schema = std::move(format.schema);
+  return field;
+}
+
+AnyField& AnyTable::add_object(std::string_view key, table_detail::AnyAccess at, const AnyTable& table) {
+  AnyField& field = fields_.emplace_back();
+  field.key = key;
+  field.description = table.description();
+  field.read = [make = at.make, &table](const json& value, const std::string& pointer, void* object,
+                                        ReadContext& context) {
+    table.read_any(value, pointer, make(object), context);
+  };
+  field.write = [find = at.find, &table](const void* object) {
+    const void* found = find(object);
+    json written = found == nullptr ? json() : table.write_any(found);
+    return written.empty() ? json() : written;
+  };
+  field.schema = [&table] { return table.schema_any(table.plain_().get()); };
+  field.collect = [&table](const std::string& pointer, std::vector<KeyPlace>& places) {
+    table.collect(pointer, places);
+  };
+  field.change = [at = std::move(at), &table](std::string_view rest, double number, const std::string& pointer,
+                                              void* object, ReadContext& context) {
+    return at.find(object) != nullptr && table.change_any(rest, number, pointer, at.make(object), context);
+  };
+  return field;
+}
+
+AnyField& AnyTable::add_objects(std::string_view key, table_detail::AnyAccess at, table_detail::AnyList list,
+                                const AnyTable& table, std::size_t most, std::string_view description) {
+  AnyField& field = fields_.emplace_back();
+  field.key = key;
+  field.description = description;
+  field.read = [make = std::move(at.make), list, &table, most](const json& value, const std::string& pointer,
+                                                               void* object, ReadContext& context) {
+    if (!table_detail::check_list(value, pointer, most, context)) return;
+    void* elements = make(object);
+    list.clear(elements);
+    for (std::size_t k = 0; k < value.size(); ++k)
+      table.read_any(value[k], pointer + "/" + std::to_string(k), list.append(elements), context);
+  };
+  field.write = [find = std::move(at.find), list, &table](const void* object) {
+    json written = json::array();
+    if (const void* found = find(object))
+      for (std::size_t k = 0; k < list.size(found); ++k) written.push_back(table.write_any(list.element(found, k)));
+    return written.empty() ? json() : written;
+  };
+  field.schema = [&table, most] {
+    return ordered_json{{"type", "array"}, {"maxItems", most}, {"items", table.schema_any(table.plain_().get())}};
+  };
+  return field;
+}
+
+void AnyTable::read_any(const json& value, const std::string& pointer, void* object, ReadContext& context) const {
+  if (!table_detail::check_object(value, pointer, context)) return;
+  table_detail::check_keys(value, pointer, keys(), rules_, context);
+  for (const auto& field : fields_) {
+    const std::string place = pointer + pointer_step(field.key);
+    if (const auto it = value.find(field.key); it != value.end()) {
+      field.read(*it, place, object, context);
+    } else if (field.is_required) {
+      context.add(Finding::Kind::missing_key, place, "is missing: " + field.description);
+    }
+  }
+}
+
+bool AnyTable::change_any(std::string_view rest, double number, const std::string& pointer, void* object,
+                          ReadContext& context) const {
+  if (rest.empty() || rest.front() != '/') return false;
+  const std::string_view key = rest.substr(1, rest.find('/', 1) - 1);
+  const auto field = std::find_if(fields_.begin(), fields_.end(), [&](const auto& f) { return f.key == key; });
+  if (field == fields_.end()) return false;
+  const std::string_view below = rest.substr(1 + key.size());
+  if (field->change) return field->change(below, number, pointer, object, context);
+  json value = field->write(object);
+  if (below.empty()) {
+    if (!value.is_number()) return false;
+    field->read(number, pointer, object, context);
+    return true;
+  }
+  const json::json_pointer element{std::string(below)};
+  if (!value.is_array() || !value.contains(element) || !value[element].is_number()) return false;
+  value[element] = number;
+  field->read(value, pointer.substr(0, pointer.size() - below.size()), object, context);
+  return true;
+}
+
+nlohmann::json AnyTable::write_any(const void* object) const {
+  json written = json::object();
+  for (const auto& field : fields_) {
+    json value = field.write(object);
+    if (!value.is_null()) written[field.key] = std::move(value);
+  }
+  return written;
+}
+
+nlohmann::ordered_json AnyTable::schema_any(const void* plain) const {
+  const json defaults = write_any(plain);
+  ordered_json properties = ordered_json::object();
+  std::vector<std::string> required;
+  for (const auto& field : fields_) {
+    ordered_json property = field.schema();
+    if (!property.contains("description")) property["description"] = field.description;
+    const auto given = defaults.find(field.key);
+    if (field.is_required) {
+      required.push_back(field.key);
+    } else if (given != defaults.end() && !given->is_object()) {
+      property["default"] = *given;
+    }
+    properties[field.key] = std::move(property);
+  }
+  return table_detail::object_schema(name_, description_, properties, required, rules_);
+}
+
+std::vector<std::string> AnyTable::keys() const {
+  std::vector<std::string> all;
+  for (const auto& field : fields_) all.push_back(field.key);
+  return all;
+}
+
+void AnyTable::collect(const std::string& pointer, std::vector<KeyPlace>& places) const {
+  for (const auto& field : fields_) {
+    const std::string place = pointer + pointer_step(field.key);
+    places.push_back({field.key, place});
+    if (field.collect) field.collect(place, places);
+  }
+}
+
 }  // namespace epicyclic::input

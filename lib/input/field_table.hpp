@@ -8,10 +8,12 @@
 //   table.write(planet);                               // every key, defaults included
 //   table.schema();                                    // draft 2020-12
 //
-// A Field joins what reaches the member (Access) to what reads and writes its type (Format), which are compiled apart.
-// A member is named by a pointer to it or by a generic lambda [](auto& t) -> auto& {...}; within(a, b) names a member
-// of an optional one. Members that are std::optional are keys without a default: left out when written, if not set.
-// Every object also takes "origin" (where its values come from) and "note"; see study_input.hpp.
+// A field joins what reaches the member (Access) to what reads and writes its type (Format), which are compiled apart.
+// Types are told by Table alone, which checks them: below it, in AnyTable, objects and members are passed by their
+// addresses, so that what a table does is compiled once and not for each of 400 keys. A member is named by a pointer to
+// it or by a generic lambda [](auto& t) -> auto& {...}; within(a, b) names a member of an optional one. Members that
+// are std::optional are keys without a default: left out when written, if not set. Every object also takes "origin"
+// (where its values come from) and "note"; see study_input.hpp.
 #pragma once
 
 #include <algorithm>
@@ -20,6 +22,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -130,19 +133,24 @@ struct Plain<std::optional<V>> {
 /// Is it a list of at most so many objects? If not, says so.
 bool check_list(const json& value, const std::string& pointer, std::size_t most, ReadContext& context);
 
-/// Reaches a member V of a T: to write (making what is absent) and to read (null if absent).
+/// Reaches a member of an object, by their addresses: to write (making what is absent) and to read (null if absent).
+struct AnyAccess {
+  std::function<void*(void*)> make;
+  std::function<const void*(const void*)> find;
+};
+
+/// The same of a member V of a T, from [](T&) -> V& and [](const T&) -> const V*.
 template <class T, class V>
-struct Access {
-  std::function<V&(T&)> make;
-  std::function<const V*(const T&)> find;
+struct Access : AnyAccess {
+  template <class Make, class Find>
+  Access(Make make_member, Find find_member)
+      : AnyAccess{[=](void* t) -> void* { return &make_member(*static_cast<T*>(t)); },
+                  [=](const void* t) -> const void* { return find_member(*static_cast<const T*>(t)); }} {}
 };
 
 template <class T, class F>
 auto access(F member) {
-  if constexpr (requires {
-                  member.make;
-                  member.find;
-                }) {
+  if constexpr (std::derived_from<F, AnyAccess>) {
     return member;
   } else {
     using V = std::remove_reference_t<std::invoke_result_t<F, T&>>;
@@ -150,6 +158,10 @@ auto access(F member) {
                         [member](const T& t) -> const V* { return &std::invoke(member, t); }};
   }
 }
+
+/// V of an Access<T, V>, without std::optional.
+template <class T, class V>
+typename Plain<V>::type plain_member(const Access<T, V>& at);
 
 // Pieces that do not depend on the type read.
 void check_note(const json& object, const std::string& pointer, ReadContext& context);
@@ -177,6 +189,50 @@ struct Format {
   std::function<json(const V&)> write = [](const V& value) { return json(value); };  ///< null: the key is left out
   std::function<ordered_json()> schema;
 };
+
+/// The same of a member by its address.
+struct AnyFormat {
+  std::function<void(const json&, const std::string& pointer, const AnyAccess& at, void* object, ReadContext&)> read;
+  std::function<json(const void* member)> write;
+  std::function<ordered_json()> schema;
+};
+
+/// Of a member M, which is a V or an optional one. It is made only if there is something good to read into it.
+template <class M, class V>
+AnyFormat any_format(Format<V> format) {
+  AnyFormat any;
+  any.read = [read = std::move(format.read)](const json& value, const std::string& pointer, const AnyAccess& at,
+                                             void* object, ReadContext& context) {
+    if (auto good = read(value, pointer, context)) *static_cast<M*>(at.make(object)) = std::move(*good);
+  };
+  any.write = [write = std::move(format.write)](const void* found) {
+    const M& member = *static_cast<const M*>(found);
+    if constexpr (Plain<M>::is_optional) {
+      return member.has_value() ? write(*member) : json();
+    } else {
+      return write(member);
+    }
+  };
+  any.schema = std::move(format.schema);
+  return any;
+}
+
+/// A list of objects by its address.
+struct AnyList {
+  std::function<void(void*)> clear;
+  std::function<void*(void*)> append;  ///< one more, made by default
+  std::function<std::size_t(const void*)> size;
+  std::function<const void*(const void*, std::size_t)> element;
+};
+
+template <class U>
+AnyList any_list() {
+  using List = std::vector<U>;
+  return {[](void* list) { static_cast<List*>(list)->clear(); },
+          [](void* list) -> void* { return &static_cast<List*>(list)->emplace_back(); },
+          [](const void* list) { return static_cast<const List*>(list)->size(); },
+          [](const void* list, std::size_t k) -> const void* { return &(*static_cast<const List*>(list))[k]; }};
+}
 
 Format<double> number_format(std::string_view key, const Bounds& bounds);
 Format<double> number_or_rigid_format(std::string_view key, const Bounds& bounds);
@@ -283,69 +339,124 @@ auto present(std::optional<U> T::*member) {
                                     }};
 }
 
+/// A key of an object of type T that reads and writes itself: for Table::custom.
 template <class T>
 struct Field {
   std::string key;
   std::string description;
-  bool is_required = false;
   std::function<void(const nlohmann::json&, const std::string& pointer, T&, ReadContext&)> read;
   std::function<nlohmann::json(const T&)> write;  ///< null: the key is left out
   std::function<nlohmann::ordered_json()> schema;
   std::function<void(const std::string& pointer, std::vector<KeyPlace>&)> collect;  ///< keys of an object; may be empty
   /// Of an object: Table::change. Empty: the field is a leaf.
   std::function<bool(std::string_view rest, double value, const std::string& pointer, T&, ReadContext&)> change;
+};
 
-  Field& required() {
+/// A key of any object.
+struct AnyField {
+  std::string key;
+  std::string description;
+  bool is_required = false;
+  std::function<void(const nlohmann::json&, const std::string& pointer, void* object, ReadContext&)> read;
+  std::function<nlohmann::json(const void* object)> write;
+  std::function<nlohmann::ordered_json()> schema;
+  std::function<void(const std::string& pointer, std::vector<KeyPlace>&)> collect;
+  std::function<bool(std::string_view rest, double value, const std::string& pointer, void* object, ReadContext&)>
+      change;
+
+  AnyField& required() {
     is_required = true;
     return *this;
   }
 };
 
-template <class T>
-class Table {
+/// A table without its type: what Table does, by the addresses of objects.
+class AnyTable {
  public:
-  Table(std::string_view name, std::string_view description) : name_(name), description_(description) {}
+  void rule(KeyRule::Kind kind, std::vector<std::string> keys) { rules_.push_back({kind, std::move(keys)}); }
+
+  [[nodiscard]] std::vector<std::string> keys() const;
+  void collect(const std::string& pointer, std::vector<KeyPlace>& places) const;
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const std::string& description() const { return description_; }
+
+ protected:
+  using json = nlohmann::json;
+  using ordered_json = nlohmann::ordered_json;
+
+  /// An object as it is made by default.
+  using Plain = std::function<std::shared_ptr<const void>()>;
+
+  AnyTable(std::string_view name, std::string_view description, Plain plain)
+      : name_(name), description_(description), plain_(std::move(plain)) {}
+
+  AnyField& add(AnyField field) { return fields_.emplace_back(std::move(field)); }
+  AnyField& add_leaf(std::string_view key, table_detail::AnyAccess at, table_detail::AnyFormat format,
+                     std::string_view description);
+  AnyField& add_object(std::string_view key, table_detail::AnyAccess at, const AnyTable& table);
+  AnyField& add_objects(std::string_view key, table_detail::AnyAccess at, table_detail::AnyList list,
+                        const AnyTable& table, std::size_t most, std::string_view description);
+
+  void read_any(const json& value, const std::string& pointer, void* object, ReadContext& context) const;
+  bool change_any(std::string_view rest, double number, const std::string& pointer, void* object,
+                  ReadContext& context) const;
+  [[nodiscard]] json write_any(const void* object) const;
+  [[nodiscard]] ordered_json schema_any(const void* plain) const;
+
+ private:
+  std::string name_;
+  std::string description_;
+  Plain plain_;
+  std::vector<AnyField> fields_;
+  std::vector<KeyRule> rules_;
+};
+
+template <class T>
+class Table : public AnyTable {
+ public:
+  Table(std::string_view name, std::string_view description)
+      : AnyTable(name, description, [] { return std::make_shared<const T>(); }) {}
 
   /// double or std::optional<double>.
   template <class F>
-  Field<T>& number(std::string_view key, F member, Bounds bounds, std::string_view description) {
-    return add(key, table_detail::access<T>(member), table_detail::number_format(key, bounds), description);
+  AnyField& number(std::string_view key, F member, Bounds bounds, std::string_view description) {
+    return leaf(key, table_detail::access<T>(member), table_detail::number_format(key, bounds), description);
   }
 
   /// An integer type or an optional of one; a number without fractional part.
   template <class F>
-  Field<T>& integer(std::string_view key, F member, Bounds bounds, std::string_view description) {
+  AnyField& integer(std::string_view key, F member, Bounds bounds, std::string_view description) {
     const auto at = table_detail::access<T>(member);
-    using I = typename table_detail::Plain<std::remove_reference_t<decltype(at.make(std::declval<T&>()))>>::type;
-    return add(key, at, table_detail::integer_format<I>(bounds), description);
+    using I = decltype(table_detail::plain_member(at));
+    return leaf(key, at, table_detail::integer_format<I>(bounds), description);
   }
 
   /// An integer, or "auto", which is stored as 0.
   template <class F>
-  Field<T>& integer_or_auto(std::string_view key, F member, Bounds bounds, std::string_view description) {
-    return add(key, table_detail::access<T>(member), table_detail::integer_or_auto_format(bounds), description);
+  AnyField& integer_or_auto(std::string_view key, F member, Bounds bounds, std::string_view description) {
+    return leaf(key, table_detail::access<T>(member), table_detail::integer_or_auto_format(bounds), description);
   }
 
   /// true or false.
   template <class F>
-  Field<T>& boolean(std::string_view key, F member, std::string_view description) {
-    return add(key, table_detail::access<T>(member), table_detail::boolean_format(), description);
+  AnyField& boolean(std::string_view key, F member, std::string_view description) {
+    return leaf(key, table_detail::access<T>(member), table_detail::boolean_format(), description);
   }
 
   /// std::string; an empty one is left out when written.
   template <class F>
-  Field<T>& text(std::string_view key, F member, std::string_view description) {
-    return add(key, table_detail::access<T>(member), table_detail::text_format(), description);
+  AnyField& text(std::string_view key, F member, std::string_view description) {
+    return leaf(key, table_detail::access<T>(member), table_detail::text_format(), description);
   }
 
   /// One name of a list, read into an enum (by the pairs) or into a string (by names).
   template <class F, class E>
-  Field<T>& choice(std::string_view key, F member, const std::vector<std::pair<std::string, E>>& choices,
+  AnyField& choice(std::string_view key, F member, const std::vector<std::pair<std::string, E>>& choices,
                    std::string_view description) {
-    return add(key, table_detail::access<T>(member), table_detail::choice_format(choices), description);
+    return leaf(key, table_detail::access<T>(member), table_detail::choice_format(choices), description);
   }
   template <class F>
-  Field<T>& choice(std::string_view key, F member, const std::vector<std::string>& names,
+  AnyField& choice(std::string_view key, F member, const std::vector<std::string>& names,
                    std::string_view description) {
     std::vector<std::pair<std::string, std::string>> same;
     for (const auto& name : names) same.emplace_back(name, name);
@@ -354,110 +465,79 @@ class Table {
 
   /// Different names of a list, in an order that counts; at least one.
   template <class F, class E>
-  Field<T>& choices(std::string_view key, F member, const std::vector<std::pair<std::string, E>>& choices,
+  AnyField& choices(std::string_view key, F member, const std::vector<std::pair<std::string, E>>& choices,
                     std::string_view description) {
-    return add(key, table_detail::access<T>(member), table_detail::choices_format(choices), description);
+    return leaf(key, table_detail::access<T>(member), table_detail::choices_format(choices), description);
   }
 
   /// A stiffness: a number, or "rigid", which is stored as infinity.
   template <class F>
-  Field<T>& number_or_rigid(std::string_view key, F member, Bounds bounds, std::string_view description) {
-    return add(key, table_detail::access<T>(member), table_detail::number_or_rigid_format(key, bounds), description);
+  AnyField& number_or_rigid(std::string_view key, F member, Bounds bounds, std::string_view description) {
+    return leaf(key, table_detail::access<T>(member), table_detail::number_or_rigid_format(key, bounds), description);
   }
 
   /// An array of texts; one without any is left out when written.
   template <class F>
-  Field<T>& texts(std::string_view key, F member, std::size_t size_max, std::string_view description) {
-    return add(key, table_detail::access<T>(member), table_detail::texts_format(size_max), description);
+  AnyField& texts(std::string_view key, F member, std::size_t size_max, std::string_view description) {
+    return leaf(key, table_detail::access<T>(member), table_detail::texts_format(size_max), description);
   }
 
   /// An array of numbers; one that is shorter than `size_min` is left out when written.
   template <class F>
-  Field<T>& numbers(std::string_view key, F member, Bounds bounds, std::size_t size_min, std::size_t size_max,
+  AnyField& numbers(std::string_view key, F member, Bounds bounds, std::size_t size_min, std::size_t size_max,
                     std::string_view description) {
-    return add(key, table_detail::access<T>(member), table_detail::numbers_format(key, bounds, size_min, size_max),
-               description);
+    return leaf(key, table_detail::access<T>(member), table_detail::numbers_format(key, bounds, size_min, size_max),
+                description);
   }
 
   /// One number for all, or an array with a number for each; stored as an array, one number as one of length 1.
   template <class F>
-  Field<T>& number_or_numbers(std::string_view key, F member, Bounds bounds, std::size_t size_max,
+  AnyField& number_or_numbers(std::string_view key, F member, Bounds bounds, std::size_t size_max,
                               std::string_view description) {
-    return add(key, table_detail::access<T>(member), table_detail::number_or_numbers_format(key, bounds, size_max),
-               description);
+    return leaf(key, table_detail::access<T>(member), table_detail::number_or_numbers_format(key, bounds, size_max),
+                description);
   }
 
   /// An object of its own; left out when written, if nothing in it is set.
   template <class F, class U>
-  Field<T>& object(std::string_view key, F member, const Table<U>& table) {
-    auto at = table_detail::access<T>(member);
-    Field<T>& field = fields_.emplace_back();
-    field.key = key;
-    field.description = table.description();
-    field.read = [at, &table](const json& value, const std::string& pointer, T& t, ReadContext& context) {
-      table.read(value, pointer, at.make(t), context);
-    };
-    field.write = [at, &table](const T& t) {
-      const auto* found = at.find(t);
-      json object = found == nullptr ? json() : table.write(*found);
-      return object.empty() ? json() : object;
-    };
-    field.schema = [&table] { return table.schema(); };
-    field.collect = [&table](const std::string& pointer, std::vector<KeyPlace>& places) {
-      table.collect(pointer, places);
-    };
-    field.change = [at, &table](std::string_view rest, double number, const std::string& pointer, T& t,
-                                ReadContext& context) {
-      return at.find(t) != nullptr && table.change(rest, number, pointer, at.make(t), context);
-    };
-    return field;
+  AnyField& object(std::string_view key, F member, const Table<U>& table) {
+    static_assert(std::is_same_v<decltype(table_detail::plain_member(table_detail::access<T>(member))), U>);
+    return add_object(key, table_detail::access<T>(member), table);
   }
 
   /// A list of objects, each as its table reads it; left out when written, if there are none.
   /// @param member  std::vector<U>
   template <class F, class U>
-  Field<T>& objects(std::string_view key, F member, const Table<U>& table, std::size_t most,
+  AnyField& objects(std::string_view key, F member, const Table<U>& table, std::size_t most,
                     std::string_view description) {
-    auto at = table_detail::access<T>(member);
-    Field<T>& field = fields_.emplace_back();
-    field.key = key;
-    field.description = description;
-    field.read = [at, &table, most](const json& value, const std::string& pointer, T& t, ReadContext& context) {
-      if (!table_detail::check_list(value, pointer, most, context)) return;
-      std::vector<U>& list = at.make(t);
-      list.clear();
-      for (std::size_t k = 0; k < value.size(); ++k)
-        table.read(value[k], pointer + "/" + std::to_string(k), list.emplace_back(), context);
-    };
-    field.write = [at, &table](const T& t) {
-      json list = json::array();
-      if (const std::vector<U>* found = at.find(t))
-        for (const U& one : *found) list.push_back(table.write(one));
-      return list.empty() ? json() : list;
-    };
-    field.schema = [&table, most] {
-      return ordered_json{{"type", "array"}, {"maxItems", most}, {"items", table.schema()}};
-    };
-    return field;
+    using List = decltype(table_detail::plain_member(table_detail::access<T>(member)));
+    static_assert(std::is_same_v<List, std::vector<U>>);
+    return add_objects(key, table_detail::access<T>(member), table_detail::any_list<U>(), table, most, description);
   }
 
   /// A field made by hand.
-  Field<T>& custom(Field<T> field) { return fields_.emplace_back(std::move(field)); }
-
-  void rule(KeyRule::Kind kind, std::vector<std::string> keys) { rules_.push_back({kind, std::move(keys)}); }
+  AnyField& custom(Field<T> field) {
+    AnyField any;
+    any.key = std::move(field.key);
+    any.description = std::move(field.description);
+    any.read = [read = std::move(field.read)](const json& value, const std::string& pointer, void* t,
+                                              ReadContext& context) {
+      read(value, pointer, *static_cast<T*>(t), context);
+    };
+    any.write = [write = std::move(field.write)](const void* t) { return write(*static_cast<const T*>(t)); };
+    any.schema = std::move(field.schema);
+    any.collect = std::move(field.collect);
+    if (field.change)
+      any.change = [change = std::move(field.change)](std::string_view rest, double value, const std::string& pointer,
+                                                      void* t, ReadContext& context) {
+        return change(rest, value, pointer, *static_cast<T*>(t), context);
+      };
+    return add(std::move(any));
+  }
 
   /// Reads into `t` what can be read, and says what is wrong. A number out of its range is read all the same.
   void read(const nlohmann::json& value, const std::string& pointer, T& t, ReadContext& context) const {
-    if (!table_detail::check_object(value, pointer, context)) return;
-    table_detail::check_keys(value, pointer, keys(), rules_, context);
-    for (const auto& field : fields_) {
-      const std::string place = pointer + pointer_step(field.key);
-      if (const auto it = value.find(field.key); it != value.end()) {
-        field.read(*it, place, t, context);
-      } else if (field.is_required) {
-        context.add(Finding::Kind::missing_key, place, "is missing: " + field.description);
-      }
-    }
+    read_any(value, pointer, &t, context);
   }
 
   /// Replaces one number of what was read, checked as reading checks it; rules on keys that stand together are not
@@ -466,101 +546,21 @@ class Table {
   /// @param pointer  its whole place, for findings
   /// @returns false where the table does not know such a number; `t` is then unchanged
   bool change(std::string_view rest, double number, const std::string& pointer, T& t, ReadContext& context) const {
-    if (rest.empty() || rest.front() != '/') return false;
-    const std::string_view key = rest.substr(1, rest.find('/', 1) - 1);
-    const auto field = std::find_if(fields_.begin(), fields_.end(), [&](const auto& f) { return f.key == key; });
-    if (field == fields_.end()) return false;
-    const std::string_view below = rest.substr(1 + key.size());
-    if (field->change) return field->change(below, number, pointer, t, context);
-    json value = field->write(t);
-    if (below.empty()) {
-      if (!value.is_number()) return false;
-      field->read(number, pointer, t, context);
-      return true;
-    }
-    const json::json_pointer element{std::string(below)};
-    if (!value.is_array() || !value.contains(element) || !value[element].is_number()) return false;
-    value[element] = number;
-    field->read(value, pointer.substr(0, pointer.size() - below.size()), t, context);
-    return true;
+    return change_any(rest, number, pointer, &t, context);
   }
 
-  [[nodiscard]] nlohmann::json write(const T& t) const {
-    json object = json::object();
-    for (const auto& field : fields_) {
-      json value = field.write(t);
-      if (!value.is_null()) object[field.key] = std::move(value);
-    }
-    return object;
-  }
+  [[nodiscard]] nlohmann::json write(const T& t) const { return write_any(&t); }
 
   /// @param plain the object that reading starts from: what it holds are the defaults
-  [[nodiscard]] nlohmann::ordered_json schema(const T& plain = {}) const {
-    const json defaults = write(plain);
-    ordered_json properties = ordered_json::object();
-    std::vector<std::string> required;
-    for (const auto& field : fields_) {
-      ordered_json property = field.schema();
-      if (!property.contains("description")) property["description"] = field.description;
-      const auto given = defaults.find(field.key);
-      if (field.is_required) {
-        required.push_back(field.key);
-      } else if (given != defaults.end() && !given->is_object()) {
-        property["default"] = *given;
-      }
-      properties[field.key] = std::move(property);
-    }
-    return table_detail::object_schema(name_, description_, properties, required, rules_);
-  }
-
-  [[nodiscard]] std::vector<std::string> keys() const {
-    std::vector<std::string> all;
-    for (const auto& field : fields_) all.push_back(field.key);
-    return all;
-  }
-
-  void collect(const std::string& pointer, std::vector<KeyPlace>& places) const {
-    for (const auto& field : fields_) {
-      const std::string place = pointer + pointer_step(field.key);
-      places.push_back({field.key, place});
-      if (field.collect) field.collect(place, places);
-    }
-  }
-
-  [[nodiscard]] const std::string& name() const { return name_; }
-  [[nodiscard]] const std::string& description() const { return description_; }
+  [[nodiscard]] nlohmann::ordered_json schema(const T& plain = {}) const { return schema_any(&plain); }
 
  private:
-  using json = nlohmann::json;
-  using ordered_json = nlohmann::ordered_json;
-
   /// A member M, which is a V or an optional one.
   template <class M, class V>
-  Field<T>& add(std::string_view key, const table_detail::Access<T, M>& at, const table_detail::Format<V>& format,
-                std::string_view description) {
-    Field<T>& field = fields_.emplace_back();
-    field.key = key;
-    field.description = description;
-    field.read = [at, read = format.read](const json& value, const std::string& pointer, T& t, ReadContext& context) {
-      if (auto good = read(value, pointer, context)) at.make(t) = std::move(*good);
-    };
-    field.write = [at, write = format.write](const T& t) {
-      const M* found = at.find(t);
-      if (found == nullptr) return json();
-      if constexpr (table_detail::Plain<M>::is_optional) {
-        return found->has_value() ? write(**found) : json();
-      } else {
-        return write(*found);
-      }
-    };
-    field.schema = format.schema;
-    return field;
+  AnyField& leaf(std::string_view key, const table_detail::Access<T, M>& at, table_detail::Format<V> format,
+                 std::string_view description) {
+    return add_leaf(key, at, table_detail::any_format<M>(std::move(format)), description);
   }
-
-  std::string name_;
-  std::string description_;
-  std::vector<Field<T>> fields_;
-  std::vector<KeyRule> rules_;
 };
 
 }  // namespace epicyclic::input
