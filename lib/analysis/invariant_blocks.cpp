@@ -13,7 +13,7 @@ namespace epicyclic::analysis {
 namespace {
 
 // Of maps that are made of sines, cosines and sums of a state's components.
-constexpr double rounding = 1e-12;
+constexpr double block_rounding = 1e-12;
 
 /// Orthonormal basis of the range of a projector, whose trace is its rank.
 Eigen::MatrixXcd range_of(const Eigen::MatrixXcd& projector) {
@@ -48,7 +48,7 @@ InvariantBlock without_neutral(InvariantBlock block, const CyclicSymmetry& symme
     if (k + 1 < order) moved = symmetry.map * moved;
   }
   for (Eigen::Index k = 0; k < part.cols(); ++k)
-    if (part.col(k).norm() <= rounding * symmetry.neutral.col(k).norm()) part.col(k).setZero();
+    if (part.col(k).norm() <= block_rounding * symmetry.neutral.col(k).norm()) part.col(k).setZero();
   if (block.real) part = part.real().cast<std::complex<double>>();
   const Eigen::MatrixXcd q = span_of(block.basis.adjoint() * part);
   if (q.cols() == 0) return block;
@@ -99,14 +99,14 @@ CyclicSymmetry cyclic_symmetry(std::size_t dimension, int order,
   }
   Eigen::MatrixXd power = Eigen::MatrixXd::Identity(n, n);
   for (int k = 0; k < order; ++k) power = s.map * power;
-  if (!((power - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff() <= rounding))
+  if (!((power - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff() <= block_rounding))
     throw InputError("a symmetry of order " + std::to_string(order) + " is not the identity after as many times");
   std::vector<double> probe(dimension);
   for (std::size_t k = 0; k < dimension; ++k) probe[k] = 1.0 + 1.0 / static_cast<double>(k + 1);
   const std::vector<double> image = map(probe);
   const Eigen::VectorXd linear = s.map * Eigen::Map<const Eigen::VectorXd>(probe.data(), n);
   if (!((linear - Eigen::Map<const Eigen::VectorXd>(image.data(), n)).cwiseAbs().maxCoeff() <=
-        rounding * static_cast<double>(dimension)))
+        block_rounding * static_cast<double>(dimension)))
     throw InputError("a symmetry is not a linear map of the state");
   s.blocks = invariant_blocks(dimension, s);
   return s;

@@ -144,13 +144,13 @@ double orbit_error(const Eigen::MatrixXd& monodromy, double residual) {
   return inverse.cwiseAbs().rowwise().sum().maxCoeff() * residual;
 }
 
-bool Multipliers::stable() const {
+bool FloquetMultipliers::stable() const {
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!(std::abs(values[i]) + errors[i] < 1.0)) return false;
   return true;
 }
 
-Multipliers floquet_multipliers(const PeriodicOrbit& orbit, const PeriodicOrbit& second) {
+FloquetMultipliers floquet_multipliers(const PeriodicOrbit& orbit, const PeriodicOrbit& second) {
   const auto sorted = [](const Eigen::MatrixXd& m) {
     const Eigen::VectorXcd e = eigenvalues(m);
     std::vector<std::complex<double>> values(e.begin(), e.end());
@@ -159,7 +159,7 @@ Multipliers floquet_multipliers(const PeriodicOrbit& orbit, const PeriodicOrbit&
     });
     return values;
   };
-  Multipliers result;
+  FloquetMultipliers result;
   result.values = sorted(orbit.monodromy);
   std::vector<std::complex<double>> others = sorted(second.monodromy);
   for (const auto& value : result.values) {

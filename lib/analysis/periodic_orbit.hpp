@@ -89,7 +89,7 @@ struct PeriodicOrbit {
 [[nodiscard]] double largest_multiplier(const PeriodicOrbit& orbit);
 
 /// Floquet multipliers, by falling modulus, with what is known of their errors.
-struct Multipliers {
+struct FloquetMultipliers {
   std::vector<std::complex<double>> values;
   std::vector<double> errors;     ///< distance from the nearest one of a second estimate, one each
   std::vector<int> multiplicity;  ///< of each: those that its error cannot tell from it, itself included
@@ -102,7 +102,7 @@ struct Multipliers {
 };
 
 /// @param orbit, second  the same orbit twice, from two tolerances or two subdivisions
-[[nodiscard]] Multipliers floquet_multipliers(const PeriodicOrbit& orbit, const PeriodicOrbit& second);
+[[nodiscard]] FloquetMultipliers floquet_multipliers(const PeriodicOrbit& orbit, const PeriodicOrbit& second);
 
 /// The orbit of a slightly different map phi' near one that is known: y' = y + (I - M)^-1 (phi'_n(y') - y'), iterated
 /// with the M of the known one. For the orbit that a coarser integrator sees.

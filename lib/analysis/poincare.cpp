@@ -66,7 +66,7 @@ Strobe strobe(integrate::Flow& flow, std::span<double> state, const StrobeOption
 
 SurfaceSection surface_section(integrate::Flow& flow, std::span<double> state,
                                const std::function<double(double s, std::span<const double> y)>& surface,
-                               Crossing direction, int periods, int phases, const std::function<bool()>& go_on) {
+                               SectionCrossing direction, int periods, int phases, const std::function<bool()>& go_on) {
   const double period = flow.field().period;
   SurfaceSection result;
   result.section.dimension = state.size();
@@ -76,7 +76,7 @@ SurfaceSection surface_section(integrate::Flow& flow, std::span<double> state,
     std::vector<double> y;
     double side = 0;  ///< h, its sign turned so that crossings rise
   };
-  const double sign = direction == Crossing::rising ? 1.0 : -1.0;
+  const double sign = direction == SectionCrossing::rising ? 1.0 : -1.0;
   const auto look = [&](double s, std::span<const double> y) {
     return Sample{s, {y.begin(), y.end()}, sign * surface(s, y)};
   };

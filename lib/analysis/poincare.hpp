@@ -101,7 +101,7 @@ void carry(integrate::Flow& flow, std::span<double> state, StrobeProgress& strob
 [[nodiscard]] Strobe strobe(integrate::Flow& flow, std::span<double> state, const StrobeOptions& options,
                             const integrate::Observer& observer, const std::function<bool()>& go_on);
 
-enum class Crossing { rising, falling };
+enum class SectionCrossing { rising, falling };
 
 /// Crossings of a surface in the order of time.
 struct SurfaceSection {
@@ -115,7 +115,7 @@ struct SurfaceSection {
 /// @param phases   samples per period that bracket crossings
 [[nodiscard]] SurfaceSection surface_section(integrate::Flow& flow, std::span<double> state,
                                              const std::function<double(double s, std::span<const double> y)>& surface,
-                                             Crossing direction, int periods, int phases,
+                                             SectionCrossing direction, int periods, int phases,
                                              const std::function<bool()>& go_on);
 
 struct Recurrence {

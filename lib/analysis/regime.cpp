@@ -262,7 +262,7 @@ class Classifier {
   /// Modulus of an orbit's largest multiplier and its error; the orbit is told with tangents of its own if need be.
   std::pair<double, double> largest_multiplier_of(KnownOrbit& known, integrate::Flow& exact, int n) const {
     const auto multipliers = [&] {
-      const Multipliers m = floquet_multipliers(known.orbit, known.second);
+      const FloquetMultipliers m = floquet_multipliers(known.orbit, known.second);
       return std::pair{std::abs(m.values.front()), *std::max_element(m.errors.begin(), m.errors.end())};
     };
     const auto [multiplier, error] = multipliers();

@@ -13,7 +13,7 @@ using gear::ComplianceOptions;
 using gear::ExternalGear;
 using gear::RingGear;
 
-const Bounds length = between(length_min_mm, length_max_mm);
+const Bounds length_bounds = between(length_min_mm, length_max_mm);
 const Bounds factor = between(1e-6, 100);
 const Bounds coefficient = between(0, 5);
 
@@ -24,7 +24,7 @@ void add_gear_data(Table<T>& t) {
   };
   using gear::GearData;
   t.integer("teeth", data(&GearData::teeth), between(3, 10000), "Number of teeth [-].").required();
-  t.number("module_mm", data(&GearData::module_mm), length, "Module of the reference profile [mm].").required();
+  t.number("module_mm", data(&GearData::module_mm), length_bounds, "Module of the reference profile [mm].").required();
   t.number("pressure_angle_deg", data(&GearData::pressure_angle_deg), between(5, 45),
            "Pressure angle of the reference profile [deg].");
   t.number("profile_shift", data(&GearData::profile_shift), between(-5, 5),
@@ -32,10 +32,10 @@ void add_gear_data(Table<T>& t) {
   t.number("addendum_coefficient", data(&GearData::addendum_coefficient), coefficient, "Addendum coefficient [-].");
   t.number("clearance_coefficient", data(&GearData::clearance_coefficient), coefficient,
            "Tip clearance coefficient of the reference profile [-].");
-  t.number("width_mm", data(&GearData::width_mm), length, "Face width [mm].").required();
-  t.number("tip_diameter_mm", data(&GearData::tip_diameter_mm), length,
+  t.number("width_mm", data(&GearData::width_mm), length_bounds, "Face width [mm].").required();
+  t.number("tip_diameter_mm", data(&GearData::tip_diameter_mm), length_bounds,
            "Diameter of the tip circle [mm]; decides over addendum coefficient and tip shortening.");
-  t.number("root_diameter_mm", data(&GearData::root_diameter_mm), length,
+  t.number("root_diameter_mm", data(&GearData::root_diameter_mm), length_bounds,
            "Diameter of the root circle [mm]; decides over the coefficients.");
   t.integer(
       "accuracy_grade", [](auto& gear) -> auto& { return gear.accuracy_grade; }, between(0, 12),
@@ -66,7 +66,7 @@ const Table<RingGear>& ring_table() {
   static const auto table = [] {
     Table<RingGear> t("ring", "Drawing of the ring.");
     add_gear_data(t);
-    t.number("outer_diameter_mm", &RingGear::outer_diameter_mm, length,
+    t.number("outer_diameter_mm", &RingGear::outer_diameter_mm, length_bounds,
              "Outer diameter of the rim [mm]; gives mass and inertia.");
     t.choice("base_pitch", &RingGear::base_pitch,
              std::vector<std::pair<std::string, gear::BasePitch>>{{"as_given", gear::BasePitch::as_given},
@@ -95,7 +95,7 @@ const Table<gear::SupportBearing>& bearing_table() {
     Table<SupportBearing> t("bearing", "Bearing of a support.");
     t.text("type", &SupportBearing::type, "Designation of a deep groove ball bearing; gives the support's stiffness.");
     t.integer("balls", &SupportBearing::balls, between(3, 1000), "Number of balls, in place of a type [-].");
-    t.number("ball_diameter_mm", &SupportBearing::ball_diameter_mm, length, "Diameter of a ball [mm].");
+    t.number("ball_diameter_mm", &SupportBearing::ball_diameter_mm, length_bounds, "Diameter of a ball [mm].");
     t.number("contact_angle_deg", &SupportBearing::contact_angle_deg, from_below(0, 90), "Contact angle [deg].");
     t.rule(KeyRule::Kind::exactly_one, {"type", "balls"});
     t.rule(KeyRule::Kind::together, {"balls", "ball_diameter_mm"});
@@ -111,13 +111,14 @@ const Table<gear::CarrierBody>& body_table() {
     using gear::CarrierBody;
     Table<CarrierBody> t("body", "Carrier of round cheeks and one pin per planet.");
     t.integer("cheeks", &CarrierBody::cheeks, between(1, 10), "Number of cheeks [-].");
-    t.number("cheek_thickness_mm", &CarrierBody::cheek_thickness_mm, length, "Thickness of a cheek [mm].").required();
-    t.number("outer_diameter_mm", &CarrierBody::outer_diameter_mm, length, "Outer diameter of a cheek [mm].")
+    t.number("cheek_thickness_mm", &CarrierBody::cheek_thickness_mm, length_bounds, "Thickness of a cheek [mm].")
+        .required();
+    t.number("outer_diameter_mm", &CarrierBody::outer_diameter_mm, length_bounds, "Outer diameter of a cheek [mm].")
         .required();
     t.number("inner_diameter_mm", &CarrierBody::inner_diameter_mm, between(0, length_max_mm),
              "Inner diameter of a cheek [mm].");
-    t.number("pin_diameter_mm", &CarrierBody::pin_diameter_mm, length, "Diameter of a pin [mm].").required();
-    t.number("pin_length_mm", &CarrierBody::pin_length_mm, length, "Length of a pin [mm].").required();
+    t.number("pin_diameter_mm", &CarrierBody::pin_diameter_mm, length_bounds, "Diameter of a pin [mm].").required();
+    t.number("pin_length_mm", &CarrierBody::pin_length_mm, length_bounds, "Length of a pin [mm].").required();
     return t;
   }();
   return table;
@@ -127,9 +128,9 @@ const Table<gear::OutputShaft>& shaft_table() {
   static const auto table = [] {
     using gear::OutputShaft;
     Table<OutputShaft> t("shaft", "Shaft that holds a grounded carrier by its torsional stiffness.");
-    t.number("diameter_mm", &OutputShaft::diameter_mm, length, "Outer diameter [mm].").required();
+    t.number("diameter_mm", &OutputShaft::diameter_mm, length_bounds, "Outer diameter [mm].").required();
     t.number("inner_diameter_mm", &OutputShaft::inner_diameter_mm, between(0, length_max_mm), "Inner diameter [mm].");
-    t.number("length_mm", &OutputShaft::length_mm, length, "Length [mm].").required();
+    t.number("length_mm", &OutputShaft::length_mm, length_bounds, "Length [mm].").required();
     return t;
   }();
   return table;

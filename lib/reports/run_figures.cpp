@@ -372,7 +372,7 @@ class RunFigures {
   }
 
   void multipliers() {
-    const analysis::Multipliers& m = *result_.multipliers;
+    const analysis::FloquetMultipliers& m = *result_.multipliers;
     double reach = 1.15;
     for (const std::complex<double>& z : m.values) reach = std::max(reach, 1.1 * std::abs(z));
     Curve circle;

@@ -96,7 +96,7 @@ void write_exponents_csv(const std::filesystem::path& file, const RunResult& res
 }
 
 void write_multipliers_csv(const std::filesystem::path& file, const RunResult& result) {
-  const analysis::Multipliers& m = *result.multipliers;
+  const analysis::FloquetMultipliers& m = *result.multipliers;
   const double time = mesh_period * std::max(1, result.point.period) / result.omega;
   CsvWriter csv(file, {"index", "re", "im", "modulus", "argument", "error", "multiplicity", "critical", "exponent"});
   for (std::size_t k = 0; k < m.values.size(); ++k) {
@@ -336,7 +336,7 @@ void write_orbit(store::Hdf5File& h5, const RunOutput& output, const RunResult& 
   g.number("friction_table_error", r.friction_table_error, "-");
 }
 
-void write_multipliers(store::Hdf5File& h5, const analysis::Multipliers& m) {
+void write_multipliers(store::Hdf5File& h5, const analysis::FloquetMultipliers& m) {
   Group g(h5, "/multipliers");
   g.column(
       "re", m.values, [](const std::complex<double>& z) { return z.real(); }, "-");
@@ -419,7 +419,7 @@ std::string complex_text(const std::complex<double>& z) {
                          : fmt::format("{:.6g} {} {:.6g}i", z.real(), z.imag() < 0.0 ? '-' : '+', std::abs(z.imag()));
 }
 
-std::string multiplier_text(const analysis::Multipliers& m, std::size_t k) {
+std::string multiplier_text(const analysis::FloquetMultipliers& m, std::size_t k) {
   std::string text =
       fmt::format("{}, modulus {}", complex_text(m.values[k]), with_error(std::abs(m.values[k]), m.errors[k]));
   if (m.multiplicity[k] > 1) text += fmt::format(", one of {} that its error cannot tell apart", m.multiplicity[k]);
@@ -481,7 +481,7 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
     text += bullet(line + ".");
   }
   if (has_multipliers(r)) {
-    const analysis::Multipliers& m = *r.multipliers;
+    const analysis::FloquetMultipliers& m = *r.multipliers;
     text += bullet(fmt::format("Largest Floquet multiplier: {}. The orbit is {}.", multiplier_text(m, 0),
                                m.stable() ? "stable" : "not proven to be stable"));
     if (m.critical != 0) text += bullet(fmt::format("Nearest to the unit circle: {}.", multiplier_text(m, m.critical)));

@@ -328,7 +328,7 @@ class Run {
       return d.sun_planet[0] - model_.sun_planet_half_gap;
     };
     analysis::SurfaceSection section =
-        analysis::surface_section(*carried, y, surface, analysis::Crossing::rising,
+        analysis::surface_section(*carried, y, surface, analysis::SectionCrossing::rising,
                                   r.orbit ? r.point.period : look_.recorded_periods, look_.output_phases, go_on_);
     for (std::size_t k = 0; k < section.section.size(); ++k) {
       model_.deflections(section.phase[k], section.section.point(k).data(), d);

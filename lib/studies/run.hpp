@@ -99,7 +99,7 @@ struct RunResult {
   /// a periodic motion with such tables [b_c, b_c per tau].
   std::optional<double> table_displacement{};
   double friction_table_error = 0;  ///< of friction over normal force between the rows of its tables [-]
-  std::optional<analysis::Multipliers> multipliers{};  ///< if periodic
+  std::optional<analysis::FloquetMultipliers> multipliers{};  ///< if periodic
   double omega = 0;                                    ///< Omega: exponents per s times Omega are per tau
 };
 

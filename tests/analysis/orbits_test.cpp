@@ -177,7 +177,7 @@ TEST(Multipliers, OfDuffingsFlipWithTheirErrors) {
   const auto fine = integrate::make_flow(field, tight(1e-13));
   const auto coarse = integrate::make_flow(field, tight(1e-11));
   const PeriodicOrbit orbit = find_periodic_orbit(*fine, near, 1);
-  const Multipliers m = floquet_multipliers(orbit, find_periodic_orbit(*coarse, near, 1));
+  const FloquetMultipliers m = floquet_multipliers(orbit, find_periodic_orbit(*coarse, near, 1));
   EXPECT_EQ(m.critical, 0U);
   EXPECT_NEAR(m.values[0].real(), -1.0, flip);
   EXPECT_EQ(m.values[0].imag(), 0.0);
@@ -201,7 +201,8 @@ TEST(Multipliers, EqualOnesAreCountedTogether) {
   const auto fine = integrate::make_flow(field, tight(1e-12));
   const auto coarse = integrate::make_flow(field, tight(1e-10));
   const std::vector<double> zero(6, 0.0);
-  const Multipliers m = floquet_multipliers(find_periodic_orbit(*fine, zero, 1), find_periodic_orbit(*coarse, zero, 1));
+  const FloquetMultipliers m =
+      floquet_multipliers(find_periodic_orbit(*fine, zero, 1), find_periodic_orbit(*coarse, zero, 1));
   ASSERT_EQ(m.values.size(), 6U);
   EXPECT_EQ(m.multiplicity, (std::vector<int>{3, 3, 3, 3, 3, 3}));
   constexpr double times_the_steps = 1e-10;  // tolerance 1e-12, a hundred steps: equal multipliers are not defective

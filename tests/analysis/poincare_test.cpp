@@ -144,17 +144,18 @@ TEST(SurfaceSection, OfAFreeOscillationIsWhereItsSolutionCrosses) {
     d[1] = -1.0 * y[0];
   });
   const auto flow = integrate::make_arkode_flow(field, {.relative_tolerance = 1e-12, .absolute_tolerance = 1e-12});
-  for (const Crossing direction : {Crossing::falling, Crossing::rising}) {
+  for (const SectionCrossing direction : {SectionCrossing::falling, SectionCrossing::rising}) {
     std::vector<double> y = {1.0, 0.0};
     const SurfaceSection s = surface_section(
         *flow, y, [](double, std::span<const double> now) { return now[0] - 0.3; }, direction, 20, 16, always);
     ASSERT_TRUE(s.evolution.reached());
     ASSERT_EQ(s.section.size(), 3U);  // of 20 units of time, 3.18 turns
     ASSERT_EQ(s.phase.size(), 3U);
-    const double speed = (direction == Crossing::falling ? -1.0 : 1.0) * std::sqrt(1.0 - 0.09);
+    const double speed = (direction == SectionCrossing::falling ? -1.0 : 1.0) * std::sqrt(1.0 - 0.09);
     for (std::size_t k = 0; k < 3; ++k) {
-      const double turn = 2.0 * std::numbers::pi * static_cast<double>(direction == Crossing::falling ? k : k + 1);
-      const double t = turn + (direction == Crossing::falling ? 1.0 : -1.0) * std::acos(0.3);
+      const double turn =
+          2.0 * std::numbers::pi * static_cast<double>(direction == SectionCrossing::falling ? k : k + 1);
+      const double t = turn + (direction == SectionCrossing::falling ? 1.0 : -1.0) * std::acos(0.3);
       constexpr double tolerances = 1e-9;  // of the dense output that a crossing is sought from
       EXPECT_NEAR(s.phase[k], t - std::floor(t), tolerances);
       EXPECT_NEAR(s.section.point(k)[0], 0.3, tolerances);
@@ -169,7 +170,7 @@ TEST(SurfaceSection, LeavesThePathAsItIs) {
   std::vector<double> y = {1.0, 0.0};
   std::vector<double> z = y;
   const SurfaceSection s = surface_section(
-      *a, y, [](double, std::span<const double> now) { return now[0]; }, Crossing::rising, 30, 32, always);
+      *a, y, [](double, std::span<const double> now) { return now[0]; }, SectionCrossing::rising, 30, 32, always);
   for (int k = 0; k < 30; ++k) (void)b->evolve(z, 0.0, b->field().period);
   EXPECT_GT(s.section.size(), 5U);
   EXPECT_EQ(y, z);  // chaos would show any difference

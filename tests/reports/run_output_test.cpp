@@ -120,7 +120,7 @@ studies::RunResult result_of(double lag = 0.0) {
   orbit.monodromy << 0.6, -0.1, 0.2, 0.5;
   orbit.residuals = {1e-4, 3e-13};
   r.orbit = orbit;
-  analysis::Multipliers m;
+  analysis::FloquetMultipliers m;
   m.values = {{0.3, 0.4}, {0.3, -0.4}};
   m.errors = {1e-8, 1e-8};
   m.multiplicity = {2, 2};
