@@ -3,13 +3,16 @@
 // periods, at 64 phases each, and tell regimes by recurrence, or by evidence where it says classified. One thread.
 // Minutes; asked for by name:
 //   bench --benchmark_filter=speed_diagram
+// EPICYCLIC_INPUT names a sweep over the speed whose stage is taken instead of the paper's default one.
 
+#include <cstdlib>
 #include <utility>
 
 #include <benchmark/benchmark.h>
 
 #include "bench/odeint.hpp"
 #include "bench/orbit.hpp"
+#include "input/study_model.hpp"
 #include "studies/sweep.hpp"
 
 namespace {
@@ -26,15 +29,24 @@ epicyclic::studies::SweepOptions diagram(bool classified = false) {
   return sweep;
 }
 
+/// The stage at each speed.
+epicyclic::studies::ModelAt models() {
+  const char* const path = std::getenv("EPICYCLIC_INPUT");
+  if (path == nullptr) return [](double omega) { return model_at(omega); };
+  static const auto input = epicyclic::input::load_input(path);
+  return epicyclic::input::model_at(input);
+}
+
 void by_odeint(benchmark::State& state) {
   const auto sweep = diagram();
+  const auto at = models();
   double calls = 0.0;
   for (auto _ : state) {
     for (const Direction direction : sweep.directions) {
       State y;
       for (const auto& point : plan_sweep(sweep).points) {
         if (point.direction != direction) continue;
-        const auto model = model_at(point.value);
+        const auto model = at(point.value);
         if (y.empty()) y = model.default_start;
         Odeint odeint(model, tolerance, std::move(y));
         for (int k = 0; k < sweep.look.transient_periods + sweep.look.recorded_periods; ++k) odeint.mesh_period();
@@ -51,8 +63,8 @@ void by_us(benchmark::State& state, const char* method, int segments, bool class
   sweep.segments = segments;
   double calls = 0.0;
   for (auto _ : state) {
-    const auto points = epicyclic::studies::run_sweep_in_memory(
-        plan_sweep(sweep), sweep.look, options(tolerance, method), [](double omega) { return model_at(omega); }, {});
+    const auto points = epicyclic::studies::run_sweep_in_memory(plan_sweep(sweep), sweep.look,
+                                                                options(tolerance, method), models(), {});
     for (const auto& point : points) calls += static_cast<double>(point.rhs_evaluations);
   }
   state.counters["rhs"] = calls;

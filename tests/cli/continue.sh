@@ -46,7 +46,7 @@ same_results whole resolved
 # A sweep over the flip, its proof by branches that are killed again and again, a little later each time, and seeds of it.
 sweep=(--set /study/from=2.1 --set /study/to=2.2 --set /study/points=6 --set /study/transient_periods=400)
 [ "$(code_of "$epicyclic" sweep "${speeds[@]}" "${sweep[@]}" -o sweep)" = 0 ] || fail "sweep: $(<stderr)"
-PICTURE_TAKES=0.1 killed_until_done 400 "$epicyclic" continue "$study" "${small[@]}" -o proved --against sweep
+PICTURE_TAKES=0.1 killed_until_done 600 "$epicyclic" continue "$study" "${small[@]}" -o proved --against sweep
 [ "$(wc -l <proved/proof.csv)" = 3 ] || fail "one change each way: $(<proved/proof.csv)"
 [ "$(cut -d, -f7,8,11,12,15 proved/proof.csv | sed -n 2p)" = 'period 2,period 1,1,bifurcation,flip' ] ||
   fail "the change: $(sed -n 2p proved/proof.csv)"

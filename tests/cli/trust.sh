@@ -37,7 +37,7 @@ checked=(sweep "$inputs/tang2020_speed.json" --set /study/from=2.0 --set /study/
 grep -q '^cross-check: reference: lanes-cash-karp' stdout || fail "no table of the cross-check: $(<stdout)"
 [ "$(wc -l <s1/crosscheck.csv)" = 9 ] || fail "crosscheck.csv must have a header and 4 x 2 rows: $(<s1/crosscheck.csv)"
 for method in arkode-dopri5 cvode-adams; do grep -q ",$method,.*,agree," s1/crosscheck.csv || fail "$method agrees nowhere: $(<s1/crosscheck.csv)"; done
-PICTURE_TAKES=0.1 killed_until_done 300 "$epicyclic" "${checked[@]}" -o s2 --threads 2
+PICTURE_TAKES=0.1 killed_until_done 700 "$epicyclic" "${checked[@]}" -o s2 --threads 2
 same_folder s1 s2
 rm s2/crosscheck.md
 [ "$(code_of "$epicyclic" "${checked[@]}" -o s2)" = 0 ] || fail "the table made again: $(<stderr)"
