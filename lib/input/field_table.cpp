@@ -598,7 +598,7 @@ AnyField& AnyTable::add_object(std::string_view key, table_detail::AnyAccess at,
     json written = found == nullptr ? json() : table.write_any(found);
     return written.empty() ? json() : written;
   };
-  field.schema = [&table] { return table.schema_any(table.plain_().get()); };
+  field.schema = [&table] { return table.schema_any(table.make_plain_().get()); };
   field.collect = [&table](const std::string& pointer, std::vector<KeyPlace>& places) {
     table.collect(pointer, places);
   };
@@ -629,7 +629,7 @@ AnyField& AnyTable::add_objects(std::string_view key, table_detail::AnyAccess at
     return written.empty() ? json() : written;
   };
   field.schema = [&table, most] {
-    return ordered_json{{"type", "array"}, {"maxItems", most}, {"items", table.schema_any(table.plain_().get())}};
+    return ordered_json{{"type", "array"}, {"maxItems", most}, {"items", table.schema_any(table.make_plain_().get())}};
   };
   return field;
 }

@@ -339,28 +339,28 @@ auto present(std::optional<U> T::*member) {
                                     }};
 }
 
-/// A key of an object of type T that reads and writes itself: for Table::custom.
-template <class T>
-struct Field {
+/// What of a key does not depend on the type of its object.
+struct FieldWords {
   std::string key;
   std::string description;
-  std::function<void(const nlohmann::json&, const std::string& pointer, T&, ReadContext&)> read;
-  std::function<nlohmann::json(const T&)> write;  ///< null: the key is left out
   std::function<nlohmann::ordered_json()> schema;
   std::function<void(const std::string& pointer, std::vector<KeyPlace>&)> collect;  ///< keys of an object; may be empty
+};
+
+/// A key of an object of type T that reads and writes itself: for Table::custom.
+template <class T>
+struct Field : FieldWords {
+  std::function<void(const nlohmann::json&, const std::string& pointer, T&, ReadContext&)> read;
+  std::function<nlohmann::json(const T&)> write;  ///< null: the key is left out
   /// Of an object: Table::change. Empty: the field is a leaf.
   std::function<bool(std::string_view rest, double value, const std::string& pointer, T&, ReadContext&)> change;
 };
 
-/// A key of any object.
-struct AnyField {
-  std::string key;
-  std::string description;
+/// A key of any object: the same by its address.
+struct AnyField : FieldWords {
   bool is_required = false;
   std::function<void(const nlohmann::json&, const std::string& pointer, void* object, ReadContext&)> read;
   std::function<nlohmann::json(const void* object)> write;
-  std::function<nlohmann::ordered_json()> schema;
-  std::function<void(const std::string& pointer, std::vector<KeyPlace>&)> collect;
   std::function<bool(std::string_view rest, double value, const std::string& pointer, void* object, ReadContext&)>
       change;
 
@@ -384,11 +384,11 @@ class AnyTable {
   using json = nlohmann::json;
   using ordered_json = nlohmann::ordered_json;
 
-  /// An object as it is made by default.
-  using Plain = std::function<std::shared_ptr<const void>()>;
+  /// Makes an object by default.
+  using MakePlain = std::function<std::shared_ptr<const void>()>;
 
-  AnyTable(std::string_view name, std::string_view description, Plain plain)
-      : name_(name), description_(description), plain_(std::move(plain)) {}
+  AnyTable(std::string_view name, std::string_view description, MakePlain make_plain)
+      : name_(name), description_(description), make_plain_(std::move(make_plain)) {}
 
   AnyField& add(AnyField field) { return fields_.emplace_back(std::move(field)); }
   AnyField& add_leaf(std::string_view key, table_detail::AnyAccess at, table_detail::AnyFormat format,
@@ -406,7 +406,7 @@ class AnyTable {
  private:
   std::string name_;
   std::string description_;
-  Plain plain_;
+  MakePlain make_plain_;
   std::vector<AnyField> fields_;
   std::vector<KeyRule> rules_;
 };
@@ -518,15 +518,12 @@ class Table : public AnyTable {
   /// A field made by hand.
   AnyField& custom(Field<T> field) {
     AnyField any;
-    any.key = std::move(field.key);
-    any.description = std::move(field.description);
+    static_cast<FieldWords&>(any) = std::move(static_cast<FieldWords&>(field));
     any.read = [read = std::move(field.read)](const json& value, const std::string& pointer, void* t,
                                               ReadContext& context) {
       read(value, pointer, *static_cast<T*>(t), context);
     };
     any.write = [write = std::move(field.write)](const void* t) { return write(*static_cast<const T*>(t)); };
-    any.schema = std::move(field.schema);
-    any.collect = std::move(field.collect);
     if (field.change)
       any.change = [change = std::move(field.change)](std::string_view rest, double value, const std::string& pointer,
                                                       void* t, ReadContext& context) {

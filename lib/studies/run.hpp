@@ -100,7 +100,7 @@ struct RunResult {
   std::optional<double> table_displacement{};
   double friction_table_error = 0;  ///< of friction over normal force between the rows of its tables [-]
   std::optional<analysis::FloquetMultipliers> multipliers{};  ///< if periodic
-  double omega = 0;                                    ///< Omega: exponents per s times Omega are per tau
+  double omega = 0;                                           ///< Omega: exponents per s times Omega are per tau
 };
 
 /// How a run is computed; none of it changes a result.
