@@ -55,13 +55,13 @@ int record(const Arguments& arguments, const FinishedBranches& branches) {
 int assert_command(const Arguments& arguments) {
   const FinishedBranches branches = finished_branches(arguments.input);
   if (arguments.record) return record(arguments, branches);
+  const std::filesystem::path junit = arguments.junit.empty() ? arguments.junit : linked_file(arguments.junit);
   const reports::ExpectedPoints expected = reports::read_expected(arguments.against);
   if (!is_alike(expected, branches, arguments)) return other_study;
   const auto compared = studies::compare_points(expected.points, branches.points, expected.reach());
   const auto failed = static_cast<std::size_t>(
       std::ranges::count_if(compared, [](const auto& c) { return c.verdict != PointVerdict::agrees; }));
-  if (!arguments.junit.empty())
-    write_file_atomically(arguments.junit, reports::junit_text(arguments.input.string(), compared));
+  if (!junit.empty()) write_file_atomically(junit, reports::junit_text(arguments.input.string(), compared));
   if (arguments.json) {
     print("{}\n", reports::compared_json(compared).dump(2, ' ', false, json::error_handler_t::replace));
   } else {

@@ -48,7 +48,7 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
   std::vector<std::string> moved;
   const std::vector<double> given = input::given_candidate(input, options.space, &moved);
   for (const std::string& words : moved)
-    tell("the stage as it is given lies outside the ranges; the first candidate has {}\n", words);
+    tell("the stage as it is given is no candidate; the first one has {}\n", words);
   CandidateJournal journal(session, "calibrate", studies::most_evaluations(options), 0, options.claims.size());
   studies::Calibration found;
   shared.run(evaluator_by(studies::search_glance)(input, arguments, shared.stop()),

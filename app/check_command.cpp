@@ -205,7 +205,7 @@ int check_command(const Arguments& arguments) {
   if (const auto* claims = std::get_if<studies::ClaimsOptions>(&input.study.plan)) {
     require_models(*claims, input::claim_models(input));
     if (claims->space.dimension() > 0)
-      require_candidates(*claims,
+      examine_candidates(*claims,
                          input::candidate_models(arguments.input, input::parse_assignments(arguments.sets), *claims));
     print("{}\n", input.resolved.dump(2));
     tell("{}: valid\ncost: {} claims on {} sweeps; a search tries up to {} candidates\n", arguments.input.string(),

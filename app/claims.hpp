@@ -13,9 +13,10 @@ namespace epicyclic::app {
 void require_models(const studies::ClaimsOptions& options, const studies::SweepModels& models);
 
 /// Asks for models at both ends of each parameter's range and with each option of each choice, all others in the middle
-/// of theirs.
+/// of theirs, and warns of what changes nothing: nothing could determine it, and what a table says of it would be
+/// chance.
 /// @throws InputError that names the parameter
-void require_candidates(const studies::ClaimsOptions& options, const studies::CandidateModels& models);
+void examine_candidates(const studies::ClaimsOptions& options, const studies::CandidateModels& models);
 
 /// The study of claims whose parameters a command searches or draws, checked, its warnings told.
 /// @throws InputError where it has none, and for what does not fit

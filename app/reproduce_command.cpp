@@ -151,7 +151,7 @@ int reproduce_command(const Arguments& given) {
   std::vector<std::string> unlike;
   bool is_other_study = false;
   if (arguments.record) {
-    write_file_atomically(recorded, reports::recorded_text(card, input));
+    write_file_atomically(linked_file(recorded), reports::recorded_text(card, input));
     tell("recorded: {}\n", recorded.string());
   } else if (expected) {
     reports::RecordedDifference difference = reports::unlike_recorded(card, input, *expected);

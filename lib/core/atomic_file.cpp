@@ -222,6 +222,22 @@ void AtomicFile::discard() noexcept {
   temporary_.clear();
 }
 
+std::filesystem::path linked_file(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::path file = path;
+  constexpr int most = 40;  // links after one another, as of open(2)
+  for (int k = 0; std::filesystem::is_symlink(file, error); ++k) {
+    if (k == most) throw_output_error(path, "follow the link", ELOOP);
+    const std::filesystem::path target = std::filesystem::read_symlink(file, error);
+    if (error) throw_output_error(path, "follow the link", error.value());
+    file = folder_of(file) / target;
+  }
+  const std::filesystem::file_status there = std::filesystem::status(file, error);
+  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
+    throw OutputError(path.string() + ": is there and is no file that could be replaced");
+  return file;
+}
+
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
   AtomicFile file(path);
   file.write(bytes);

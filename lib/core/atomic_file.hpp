@@ -119,6 +119,10 @@ class AtomicFile {
   FileDescriptor descriptor_;
 };
 
+/// The file that a name stands for, so that a link leads to what is written as it does to what is read.
+/// @throws OutputError for what is there and no file: a folder, a device, a pipe
+[[nodiscard]] std::filesystem::path linked_file(const std::filesystem::path& path);
+
 /// Replaces or creates the file `path` with `bytes`, atomically and durably.
 /// @throws OutputError when a step fails; what stood under the name before is then unchanged
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);

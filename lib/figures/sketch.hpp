@@ -21,6 +21,7 @@ namespace epicyclic::figures {
 /// The colours of line_figure.cpp, distinct for colour-blind eyes.
 namespace ink {
 inline constexpr std::string_view blue = "#12285c";
+inline constexpr std::string_view light_blue = "#9db4dc";
 inline constexpr std::string_view red = "#c8553d";
 inline constexpr std::string_view green = "#1b8a6b";
 inline constexpr std::string_view ochre = "#b07a00";

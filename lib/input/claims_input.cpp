@@ -97,14 +97,16 @@ std::vector<double> given_candidate(const LoadedInput& input, const studies::Par
     const std::optional<double> x = given_parameter(input, space, p);
     u.push_back(x ? p.place_of(*x) : 0.5);
     if (moved != nullptr && x && !(*x >= p.from && *x <= p.to))
-      moved->push_back(p.name + " = " + number_text(*x) + " to " + number_text(p.at(u.back())));
+      moved->push_back(p.name + " = " + number_text(p.at(u.back())) + " in place of " + number_text(*x));
   }
   for (const studies::Choice& choice : space.choices) {
     const auto chosen = std::ranges::find_if(choice.options, [&](const studies::ChoiceOption& option) {
       return std::ranges::all_of(option.sets, [&](const studies::OptionSet& set) { return is_set(input, set); });
     });
-    u.push_back(choice.place_of(
-        chosen == choice.options.end() ? 0 : static_cast<std::size_t>(chosen - choice.options.begin())));
+    const bool is_any = chosen != choice.options.end();
+    u.push_back(choice.place_of(is_any ? static_cast<std::size_t>(chosen - choice.options.begin()) : 0));
+    if (moved != nullptr && !is_any)
+      moved->push_back(choice.name + " = \"" + choice.options.front().name + "\", of whose options it has none");
   }
   return u;
 }

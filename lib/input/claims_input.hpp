@@ -23,7 +23,8 @@ namespace epicyclic::input {
 
 /// The candidate that the input is as it stands: each parameter by the numbers that it gives or multiplies, the
 /// middle of its range where the input has none; of choices the option that the input has, or the first.
-/// @param moved  if not null, is told which parameters lie outside their ranges and are moved to their edges
+/// @param moved  if not null, is told which parameters lie outside their ranges and are moved to their edges, and of
+/// which choices the input has no option
 [[nodiscard]] std::vector<double> given_candidate(const LoadedInput& input, const studies::ParameterSpace& space,
                                                   std::vector<std::string>* moved = nullptr);
 

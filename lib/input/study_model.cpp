@@ -279,6 +279,15 @@ gear::Warning without_tangents(std::string pointer) {
           "recurrence alone, unless /integrator/clearance_smoothing > 0"};
 }
 
+/// Do candidates have a width of the clearance of their own?
+bool smoothed_by_a_parameter(const studies::ParameterSpace& space) {
+  return std::ranges::any_of(space.parameters, [](const studies::FreeParameter& p) {
+    return p.choice.empty() && std::ranges::any_of(p.targets, [](const studies::ParameterTarget& target) {
+             return target.pointer == "/integrator/clearance_smoothing";
+           });
+  });
+}
+
 /// On options of choices that make damping jump where the input does not: no candidate with one can be told chaotic.
 void warn_of_options(std::vector<gear::Warning>& out, const LoadedInput& input, const studies::ParameterSpace& space) {
   for (std::size_t c = 0; c < space.choices.size(); ++c)
@@ -331,12 +340,14 @@ std::vector<std::string> warnings(const LoadedInput& input) {
                      "the error estimate of \"" + std::string(method->name) +
                          "\" misses the kinks of the exact clearance; its errors are far above its tolerance"});
     const auto* claims = std::get_if<studies::ClaimsOptions>(&study.plan);
-    if ((claims != nullptr ||
+    const bool smoothed = claims != nullptr && smoothed_by_a_parameter(claims->space);
+    if (!smoothed &&
+        (claims != nullptr ||
          (study.has_points() && study.look().classification_periods > 0 &&
           !std::holds_alternative<CrosscheckPlan>(study.plan) && !std::holds_alternative<TolerancePlan>(study.plan))) &&
         damping_jumps(input))
       all.push_back(without_tangents("/model/gap_damping"));
-    else if (claims != nullptr)
+    else if (claims != nullptr && !smoothed)
       warn_of_options(all, input, claims->space);
     lines = texts(std::move(all));
     lines.insert(lines.end(), input.notes.begin(), input.notes.end());

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -69,28 +71,46 @@ void write_profile_csv(const std::filesystem::path& file, const CalibrateOutput&
 
 namespace {
 
-/// Where the cost, along one variable through the result, stays within half of the least weight of a claim: no claim is
-/// lost there.
+/// Is a candidate of the profile as good as the result, in one sense?
+using AsGood = std::function<bool(const studies::Evaluation&)>;
+
+/// It meets what the result meets.
+AsGood no_claim_is_lost(const Calibration& calibration) {
+  return [&holds = calibration.best->evaluation.holds](const studies::Evaluation& evaluation) {
+    if (!evaluation.refused.empty()) return false;
+    for (std::size_t k = 0; k < holds.size(); ++k)
+      if (holds[k] == 1 && evaluation.holds[k] != 1) return false;
+    return true;
+  };
+}
+
+/// Its cost is above the result's by less than half of that of the claim that weighs least.
+AsGood costs_little_more(const CalibrateOutput& output, const Calibration& calibration) {
+  double least_weight = std::numeric_limits<double>::infinity();
+  for (const studies::Claim& claim : output.options.claims)
+    if (claim.weight > 0.0) least_weight = std::min(least_weight, claim.weight);
+  return [bound = calibration.best->evaluation.cost + 0.5 * least_weight](const studies::Evaluation& evaluation) {
+    return evaluation.refused.empty() && evaluation.cost <= bound;
+  };
+}
+
+/// Where candidates are as good as the result along one variable through it.
 struct Determination {
   std::vector<const studies::ProfilePoint*> points;  ///< of the variable
-  std::vector<bool> good;                            ///< no claim is lost there
-  double low = 0, high = 0;                          ///< of a parameter: the stretch about the result, in its range
+  std::vector<bool> good;
+  double low = 0, high = 0;  ///< of a parameter: the stretch about the result, in its range
 
   [[nodiscard]] bool any() const {
     return std::ranges::all_of(good, [](bool is) { return is; });
   }
 };
 
-Determination determination(const CalibrateOutput& output, const Calibration& calibration, std::size_t variable) {
-  double least_weight = std::numeric_limits<double>::infinity();
-  for (const studies::Claim& claim : output.options.claims)
-    if (claim.weight > 0.0) least_weight = std::min(least_weight, claim.weight);
-  const double bound = calibration.best->evaluation.cost + 0.5 * least_weight;
+Determination determination(const Calibration& calibration, std::size_t variable, const AsGood& as_good) {
   Determination d;
   for (const studies::ProfilePoint& p : calibration.profile)
     if (p.variable == variable) {
       d.points.push_back(&p);
-      d.good.push_back(p.evaluation.refused.empty() && p.evaluation.cost <= bound);
+      d.good.push_back(as_good(p.evaluation));
     }
   const double u = calibration.best->u[variable];
   d.low = u;
@@ -109,9 +129,10 @@ Determination determination(const CalibrateOutput& output, const Calibration& ca
 }
 
 /// Of a parameter the stretch about the result, of a choice its options.
-std::string determined_text(const CalibrateOutput& output, const Calibration& calibration, std::size_t variable) {
+std::string determined_text(const CalibrateOutput& output, const Calibration& calibration, std::size_t variable,
+                            const AsGood& as_good) {
   const studies::ParameterSpace& space = output.options.space;
-  const Determination d = determination(output, calibration, variable);
+  const Determination d = determination(calibration, variable, as_good);
   if (d.points.empty()) return "";
   if (variable < space.parameters.size() &&
       !space.counts(space.parameters[variable], space.options_at(calibration.best->u)))
@@ -136,7 +157,8 @@ DrawnFigure draw_determination(const std::filesystem::path& folder, const Calibr
   figures::Sketch sketch("determination");
   figures::FigurePanel panel{"", {0.4, static_cast<double>(rows) + 0.6}, {}};
   std::vector<std::array<double, 2>> ranges;
-  std::vector<std::array<double, 2>> stretches;
+  std::vector<std::array<double, 2>> met;   // no claim is lost
+  std::vector<std::array<double, 2>> near;  // little more of a cost
   std::vector<std::array<double, 2>> results;
   constexpr double gap = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::size_t> options = space.options_at(calibration.best->u);
@@ -148,19 +170,45 @@ DrawnFigure draw_determination(const std::filesystem::path& folder, const Calibr
     panel.names.emplace_back(
         row, row_text(fmt::format("{}: {} to {}", words, short_text(p.from, 3), short_text(p.to, 3)), longest));
     if (!space.counts(p, options)) continue;
-    const Determination d = determination(output, calibration, k);
     ranges.insert(ranges.end(), {{0.0, row}, {1.0, row}, {gap, gap}});
-    stretches.insert(stretches.end(), {{d.low, row}, {d.high, row}, {gap, gap}});
+    for (const auto& [as_good, stretches] :
+         {std::pair(no_claim_is_lost(calibration), &met), std::pair(costs_little_more(output, calibration), &near)}) {
+      const Determination d = determination(calibration, k, as_good);
+      stretches->insert(stretches->end(), {{d.low, row}, {d.high, row}, {gap, gap}});
+    }
     results.push_back({calibration.best->u[k], row});
   }
   sketch.panel(panel);
   sketch.add(ranges, figures::solid(figures::ink::light_grey, 1));
-  sketch.add(stretches, figures::solid(figures::ink::blue, 7), "no claim is lost");
+  sketch.add(near, figures::solid(figures::ink::light_blue, 7), "cost rises by less than half a claim");
+  sketch.add(met, figures::solid(figures::ink::blue, 7), "no claim is lost");
   sketch.add(results, figures::dots(figures::ink::red, 1.2), "result");
   constexpr double margin = 0.02;  // so that marks at both ends are whole
   return {folder / "determination.png",
           sketch.draw(folder, {"", "Place in the range", ""}, {-margin, 1.0 + margin}, {}, {}, canvas_of_rows(rows))};
 }
+
+namespace {
+
+/// Says so where the profile came upon a candidate that is better than the result through which it goes.
+std::string better_text(const CalibrateOutput& output, const Calibration& calibration) {
+  const studies::ProfilePoint* better = nullptr;
+  double least = calibration.best->evaluation.cost;
+  for (const studies::ProfilePoint& p : calibration.profile)
+    if (p.evaluation.refused.empty() && p.evaluation.cost < least) {
+      least = p.evaluation.cost;
+      better = &p;
+    }
+  if (better == nullptr) return "";
+  return fmt::format(
+      "\n**Not the least cost yet**: with {} = {} and all else as it is the profile has {}, and {} claims by the brief "
+      "look. A search that begins there may go further.\n",
+      variable_name(output.options.space, better->variable),
+      variable_text(output.options.space, better->variable, better->u, 4), short_text(least, 5),
+      claims_met(better->evaluation));
+}
+
+}  // namespace
 
 std::string calibrate_summary(const CalibrateOutput& output, const Calibration& calibration) {
   const ClaimsOptions& options = output.options;
@@ -206,11 +254,13 @@ std::string calibrate_summary(const CalibrateOutput& output, const Calibration& 
                           claims_met(c.candidate.evaluation), claims_met(c.whole), which);
     }
   }
+  text += better_text(output, calibration);
   text +=
-      "\nEach parameter alone, all others as in the result: the stretch of the profile's values where no claim is lost "
-      "(the "
-      "cost rises by less than half of one).\n\n"
-      "| parameter | range | result | determined to |\n|---|---|---|---|\n";
+      "\nEach parameter alone, all others as in the result, by the profile's values: the stretch about the result "
+      "where the "
+      "cost rises by less than half of a claim (one that just fails costs a tenth), and where no claim that the result "
+      "meets by the brief look is lost.\n\n"
+      "| parameter | range | result | cost rises little | no claim is lost |\n|---|---|---|---|---|\n";
   for (std::size_t k = 0; k < options.space.dimension(); ++k) {
     std::string range;
     std::string words = variable_name(options.space, k);
@@ -219,8 +269,9 @@ std::string calibrate_summary(const CalibrateOutput& output, const Calibration& 
       range = short_text(p.from, 4) + " to " + short_text(p.to, 4);
       if (!p.words.empty()) words += ", " + p.words;
     }
-    text += fmt::format("| {} | {} | {} | {} |\n", words, range, variable_text(options.space, k, best.u[k], 4),
-                        determined_text(output, calibration, k));
+    text += fmt::format("| {} | {} | {} | {} | {} |\n", words, range, variable_text(options.space, k, best.u[k], 4),
+                        determined_text(output, calibration, k, costs_little_more(output, calibration)),
+                        determined_text(output, calibration, k, no_claim_is_lost(calibration)));
   }
   return text;
 }

@@ -3,7 +3,8 @@
 //   candidates.csv   a row per candidate: phase, number, cost, its parameters, the cost of each claim
 //   profile.csv      the cost along each parameter through the result, all others held
 //   calibrate.md     in words: what was searched, the result, which claims it meets, how sharply it is determined
-//   figures/         determination: of each parameter its place in its range, and the stretch where no claim is lost
+//   figures/         determination: of each parameter its place in its range, and the stretches where the cost rises
+//                    little and where no claim is lost
 //
 // All of it follows from the evaluations alone and is the same, byte for byte, for the same study.
 #pragma once

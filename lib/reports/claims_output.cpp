@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/csv.hpp"
 #include "core/errors.hpp"
@@ -168,21 +171,29 @@ RecordedDifference unlike_recorded(const Scorecard& card, const input::LoadedInp
   difference.study = store::differences({there, computed}, {study.resolved, study.computed});
   std::erase_if(difference.study, is_beside_the_claims);
   if (!difference.study.empty()) return difference;
-  const auto of_claim = [](const json& list, const json& claim) {
-    return std::ranges::find_if(list, [&](const json& one) { return one["claim"] == claim; });
+  // Claim and start by verdict; of a claim that is recorded twice all that is recorded.
+  using Verdicts = std::map<std::pair<std::string, std::string>, std::set<std::string>>;
+  const auto by_place = [](const json& list) {
+    Verdicts verdicts;
+    for (const json& one : list)
+      for (const auto& [start, verdict] : one.items())
+        if (start != "claim")
+          verdicts[{one["claim"].get<std::string>(), start}].insert(verdict.is_string() ? verdict.get<std::string>()
+                                                                                        : verdict.dump());
+    return verdicts;
   };
-  const json now = verdicts_of(card);
-  for (const json& one : now) {
-    const auto was = of_claim(recorded["verdicts"], one["claim"]);
-    for (const auto& [start, is] : one.items()) {
-      if (start == "claim") continue;
-      const json before = was == recorded["verdicts"].end() ? json() : was->value(start, json());
-      if (before != is)
-        difference.verdicts.push_back(fmt::format("{} ({}): {}, was recorded: {}", one["claim"].get<std::string>(),
-                                                  start, is.get<std::string>(),
-                                                  before.is_string() ? before.get<std::string>() : "nothing"));
-    }
-  }
+  const Verdicts was = by_place(recorded["verdicts"]);
+  const Verdicts now = by_place(verdicts_of(card));
+  const auto told = [](const Verdicts& verdicts, const Verdicts::key_type& place) {
+    const auto found = verdicts.find(place);
+    return found == verdicts.end() ? std::string("nothing") : fmt::format("{}", fmt::join(found->second, " and "));
+  };
+  Verdicts all = now;
+  all.insert(was.begin(), was.end());
+  for (const auto& [place, unused] : all)
+    if (const std::string is = told(now, place), before = told(was, place); is != before)
+      difference.verdicts.push_back(
+          fmt::format("{} ({}): {}, was recorded: {}", place.first, place.second, is, before));
   return difference;
 }
 

@@ -1,5 +1,6 @@
 #include "studies/axis.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -31,6 +32,11 @@ double grid_value(double from, double to, double share) {
 double axis_value(const Axis& axis, std::size_t point) {
   const double share = axis.points == 1 ? 0.0 : static_cast<double>(point) / static_cast<double>(axis.points - 1);
   return grid_value(axis.from, axis.to, share);
+}
+
+bool is_same_value(double a, double b) {
+  constexpr double rounding = 1e-9;
+  return std::abs(a - b) <= rounding * std::max(1.0, std::abs(a));
 }
 
 std::vector<double> axis_values(const Axis& axis) {

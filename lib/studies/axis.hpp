@@ -24,6 +24,9 @@ struct Axis {
 /// The value of an axis at one of its points; as grid_value().
 [[nodiscard]] double axis_value(const Axis& axis, std::size_t point);
 
+/// Are values of two grids the same but for their rounding?
+[[nodiscard]] bool is_same_value(double a, double b);
+
 /// All values of an axis.
 [[nodiscard]] std::vector<double> axis_values(const Axis& axis);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <span>
 #include <stdexcept>
@@ -17,7 +18,7 @@ namespace {
 using analysis::Regime;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-/// Ranges below it are what integration and settling leave [b_c].
+/// Ranges below it are what integration and settling leave [b_c]; of a quantity, the part of it that they leave.
 constexpr double noise = 1e-6;
 constexpr double step_of_failure = 0.1;  ///< a condition that just fails costs so much [C-cost]
 
@@ -80,6 +81,7 @@ namespace {
 bool settles(const PointResult& result, const LookOptions& look) {
   constexpr double small_part = 0.1;
   if (result.classified || result.regime == Regime::periodic || result.regime == Regime::chaotic) return false;
+  if (result.recurrence.best_period < 1) return false;  // of a record too short to come back at all
   if (analysis::still_settling(result.recurrence, look.recurrence_tolerance)) return true;
   const std::size_t dimension = result.poincare_columns - 2 * result.meshes.sun_planet.size();
   return result.recurrence.late_error <= small_part * analysis::extent(section_of(result, dimension));
@@ -225,13 +227,23 @@ std::size_t failed_in(std::span<const ClaimPoint> part) {
   return static_cast<std::size_t>(std::ranges::count_if(part, [](const ClaimPoint& p) { return !p.reached; }));
 }
 
+/// A condition that holds by the points that are there, but not whatever those that failed would have been.
+void withdraw(ConditionOutcome& o) {
+  if (!o.holds) return;
+  o.holds = false;
+  o.cost = step_of_failure;
+}
+
 /// What failed points may have been counts against an upper bound.
 /// @param unit  what one of them would add
 void judge_failed(const Condition& c, std::span<const ClaimPoint> part, double unit, ConditionOutcome& o) {
   const double more = unit * static_cast<double>(failed_in(part));
-  if (!c.at_most || !(o.measured + more > *c.at_most) || !o.holds) return;
-  o.holds = false;
-  o.cost = step_of_failure;
+  if (c.at_most && o.measured + more > *c.at_most) withdraw(o);
+}
+
+std::string failed_text(std::size_t failed) {
+  if (failed == 0) return {};
+  return "; " + std::to_string(failed) + (failed == 1 ? " point failed" : " points failed");
 }
 
 void share(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
@@ -312,7 +324,11 @@ void value(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
   }
   const double bound = std::abs(c.at_least.value_or(c.at_most.value_or(0.0)));
   judge_bounds(c, o, std::max(bound, std::numeric_limits<double>::min()));
-  judge_failed(c, part, std::numeric_limits<double>::infinity(), o);
+  // A point that failed can only raise the largest value and only lower the least; the mean it can move either way.
+  const Statistic statistic = c.statistic.value_or(Statistic::largest);
+  const bool could_break =
+      (c.at_most && statistic != Statistic::least) || (c.at_least && statistic != Statistic::largest);
+  if (could_break && failed_in(part) > 0) withdraw(o);
   o.text = c.quantity + " " + number(o.measured) + range_text(part) + ", " + bound_text(c);
 }
 
@@ -334,7 +350,7 @@ void falls(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
   const double floor = std::max(last, std::numeric_limits<double>::epsilon());
   o.measured = first / floor;
   const bool fell = o.measured >= factor;
-  const bool rises = most > first;
+  const bool rises = most > first + noise * std::abs(first);
   o.holds = reached && fell && !rises && first > noise;
   if (!o.holds) {
     const double fell_short = fell ? 0.0 : 1.0 - std::log(std::max(1.0, o.measured)) / std::log(std::max(2.0, factor));
@@ -346,18 +362,16 @@ void falls(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
            ", must fall by a factor of " + number(factor) + " and never rise above the first";
 }
 
-constexpr double default_place_tolerance = 0.1;
-constexpr double default_prominence = 0.1;
+/// A local maximum, of several the most prominent.
+struct Peak {
+  double prominence = 0.0;
+  double at = none;
+};
 
-void peaks(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
-  const double place_tolerance = c.place_tolerance.value_or(default_place_tolerance);
-  const double prominence = c.prominence.value_or(default_prominence);
-  std::vector<double> x;
-  double most = 0.0;
-  for (const ClaimPoint& p : part) {
-    x.push_back(p.reached ? p.quantity(c.quantity) : 0.0);
-    most = std::max(most, std::abs(x.back()));
-  }
+/// Of a quantity along a part of a sweep. Points that failed are no maxima and bound none; what lies behind them makes
+/// no maximum stand out, as if the sweep ended there.
+/// @param x  not a number where a point failed
+Peak highest_peak(std::span<const ClaimPoint> part, const std::vector<double>& x, double low, double high) {
   const auto prominence_at = [&](std::size_t k) {
     double left = x[k];
     for (std::size_t j = k; j-- > 0 && x[j] <= x[k];) left = std::min(left, x[j]);
@@ -365,81 +379,143 @@ void peaks(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
     for (std::size_t j = k + 1; j < x.size() && x[j] <= x[k]; ++j) right = std::min(right, x[j]);
     return x[k] - std::max(left, right);
   };
+  Peak best;
+  for (std::size_t k = 1; k + 1 < x.size(); ++k) {
+    if (!(part[k].value >= low && part[k].value <= high) || !(x[k] >= x[k - 1] && x[k] >= x[k + 1])) continue;
+    if (const double p = prominence_at(k); p > best.prominence) best = {p, part[k].value};
+  }
+  return best;
+}
+
+void peaks(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
+  const double place_tolerance = c.place_tolerance.value_or(default_place_tolerance);
+  const double prominence = c.prominence.value_or(default_prominence);
+  std::vector<double> x;
+  double most = 0.0;
+  for (const ClaimPoint& p : part) {
+    x.push_back(p.reached ? p.quantity(c.quantity) : none);
+    if (p.reached) most = std::max(most, std::abs(x.back()));
+  }
   double costs = 0.0;
   double met = 0.0;
   for (const double place : c.places) {
-    double best = 0.0;
-    double at = none;
-    for (std::size_t k = 1; k + 1 < x.size(); ++k) {
-      if (std::abs(part[k].value - place) > place_tolerance * place || x[k] < x[k - 1] || x[k] < x[k + 1]) continue;
-      if (const double p = prominence_at(k); p > best) {
-        best = p;
-        at = part[k].value;
-      }
-    }
-    const double relative = most > 0.0 ? best / most : 0.0;
+    const Peak best = highest_peak(part, x, place * (1.0 - place_tolerance), place * (1.0 + place_tolerance));
+    const double relative = most > 0.0 ? best.prominence / most : 0.0;
     const bool peak = relative >= prominence;
     met += peak ? 1.0 : 0.0;
     costs += peak ? 0.0 : step_of_failure + (1.0 - step_of_failure) * (1.0 - relative / prominence);
     o.text += (o.text.empty() ? "" : "; ") + ("at " + number(place)) +
-              (std::isnan(at) ? ": no maximum" : ": prominence " + number(100.0 * relative) + " % at " + number(at));
+              (std::isnan(best.at) ? ": no maximum"
+                                   : ": prominence " + number(100.0 * relative) + " % at " + number(best.at));
   }
   o.measured = met;
   o.holds = met == static_cast<double>(c.places.size());
   o.cost = o.holds ? 0.0 : costs / static_cast<double>(c.places.size());
+  // The largest value, of which a prominence is a part, may have been at a point that failed.
+  if (failed_in(part) > 0) withdraw(o);
   o.text += "; each must have " + number(100.0 * prominence) + " %";
 }
 
 /// A step is a jump if it is so many times its neighbours' steps: a flank of a resonance is no jump.
 constexpr double beyond_neighbours = 3.0;
 
-void jump(const Condition& c, const ClaimSeries& series, std::span<const ClaimPoint> part, ConditionOutcome& o) {
-  const auto q = [&](const ClaimPoint& p) { return p.quantity(c.quantity); };
-  const auto relative = [&](const ClaimPoint& a, const ClaimPoint& b) {
-    const double larger = std::max(std::abs(q(a)), std::abs(q(b)));
-    return larger > noise ? std::abs(q(a) - q(b)) / larger : 0.0;
-  };
-  const auto counts = [&](const ClaimPoint& p) { return p.reached && (c.motion.empty() || p.motion.is(c.motion)); };
-  double best = 0.0;
-  double at = none;
+/// A step of a quantity from one point to the next.
+struct Step {
+  double size = 0.0;        ///< of the larger value
+  double at = none;         ///< halfway
+  double abruptness = 0.0;  ///< times the larger of the steps beside it
   bool side_by_side = false;
-  const std::vector<ClaimPoint>& all = series.points;
-  for (std::size_t k = 0; k + 1 < all.size(); ++k) {
-    const double middle = 0.5 * (all[k].value + all[k + 1].value);
-    if ((c.from && middle < *c.from) || (c.to && middle > *c.to) || !counts(all[k]) || !counts(all[k + 1])) continue;
-    const double step = std::abs(q(all[k + 1]) - q(all[k]));
-    double beside = 0.0;
-    if (k > 0 && counts(all[k - 1])) beside = std::abs(q(all[k]) - q(all[k - 1]));
-    if (k + 2 < all.size() && counts(all[k + 2])) beside = std::max(beside, std::abs(q(all[k + 2]) - q(all[k + 1])));
-    // What falls short of being beyond its neighbours leads a search all the same, by as much as it is nearly so.
-    const double abrupt = std::min(1.0, beside > 0.0 ? step / (beyond_neighbours * beside) : 1.0);
-    const double size = relative(all[k], all[k + 1]) * abrupt * abrupt;
-    if (size > best) {
-      best = size;
-      at = middle;
+
+  [[nodiscard]] bool is_jump() const { return side_by_side || abruptness > beyond_neighbours; }
+  /// What falls short of being beyond its neighbours leads a search all the same, by as much as it is nearly so.
+  [[nodiscard]] double nearness() const {
+    const double part = is_jump() ? 1.0 : abruptness / beyond_neighbours;
+    return size * part * part;
+  }
+};
+
+/// Steps of a quantity of one motion, between `from` and `to` of the condition.
+class Steps {
+ public:
+  explicit Steps(const Condition& c) : c_(c) {}
+
+  /// From each point to the next. Without a neighbour that counts, on either side, nothing tells how abrupt one is.
+  [[nodiscard]] std::vector<Step> along(const std::vector<ClaimPoint>& points) const {
+    std::vector<Step> steps;
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+      const double middle = 0.5 * (points[k].value + points[k + 1].value);
+      if ((c_.from && middle < *c_.from) || (c_.to && middle > *c_.to)) continue;
+      if (!counts(points[k]) || !counts(points[k + 1])) continue;
+      std::optional<double> beside;
+      if (k > 0 && counts(points[k - 1])) beside = step(points[k - 1], points[k]);
+      if (k + 2 < points.size() && counts(points[k + 2]))
+        beside = std::max(beside.value_or(0.0), step(points[k + 1], points[k + 2]));
+      if (!beside) continue;
+      // Steps below rounding are all alike.
+      const double least = noise * std::max(std::abs(q(points[k])), std::abs(q(points[k + 1])));
+      const double abruptness = step(points[k], points[k + 1]) / std::max({*beside, least, noise * noise});
+      steps.push_back({relative(points[k], points[k + 1]), middle, abruptness, false});
     }
+    return steps;
   }
-  for (const ClaimPoint& p : part) {
-    if (!counts(p)) continue;
-    const auto twin = std::ranges::find_if(series.other, [&](const ClaimPoint& r) { return r.value == p.value; });
-    if (twin == series.other.end() || !counts(*twin) || relative(p, *twin) <= best) continue;
-    best = relative(p, *twin);
-    at = p.value;
-    side_by_side = true;
+
+  /// Between points of both directions at one value. What is not periodic differs from record to record.
+  [[nodiscard]] std::vector<Step> across(std::span<const ClaimPoint> part, const std::vector<ClaimPoint>& other) const {
+    std::vector<Step> steps;
+    const auto is_periodic = [&](const ClaimPoint& p) { return counts(p) && p.motion.regime == Regime::periodic; };
+    for (const ClaimPoint& p : part) {
+      const auto twin = std::ranges::find(other, p.value, &ClaimPoint::value);
+      if (twin != other.end() && is_periodic(p) && is_periodic(*twin))
+        steps.push_back({relative(p, *twin), p.value, 0.0, true});
+    }
+    return steps;
   }
-  o.measured = best;
+
+ private:
+  const Condition& c_;
+
+  [[nodiscard]] double q(const ClaimPoint& p) const { return p.quantity(c_.quantity); }
+  [[nodiscard]] bool counts(const ClaimPoint& p) const {
+    return p.reached && (c_.motion.empty() || p.motion.is(c_.motion));
+  }
+  [[nodiscard]] double step(const ClaimPoint& a, const ClaimPoint& b) const { return std::abs(q(b) - q(a)); }
+  [[nodiscard]] double relative(const ClaimPoint& a, const ClaimPoint& b) const {
+    const double larger = std::max(std::abs(q(a)), std::abs(q(b)));
+    return larger > noise ? step(a, b) / larger : 0.0;
+  }
+};
+
+void jump(const Condition& c, const ClaimSeries& series, std::span<const ClaimPoint> part, ConditionOutcome& o) {
+  const Steps steps(c);
+  std::vector<Step> all = steps.along(series.points);
+  const std::vector<Step> across = steps.across(part, series.other);
+  all.insert(all.end(), across.begin(), across.end());
+  const double least = c.at_least.value_or(0.0);
+  Step largest;  // jump
+  Step nearest;  // to one
+  for (const Step& one : all) {
+    if (one.is_jump() && one.size > largest.size) largest = one;
+    if (one.nearness() > nearest.nearness()) nearest = one;
+  }
+  o.measured = largest.size;
   judge_bounds(c, o, 1.0);
-  if (!o.holds && c.at_least)
-    o.cost = step_of_failure + (1.0 - step_of_failure) * (1.0 - std::min(1.0, best / *c.at_least));
-  o.text = (best > 0.0 ? number(100.0 * best) + " % of " + c.quantity + " at " + number(at) : std::string("none")) +
-           (side_by_side ? ", two motions side by side" : "") + ", must be at least " +
-           number(100.0 * c.at_least.value_or(0.0)) + " %";
+  if (!o.holds) o.cost = step_of_failure + (1.0 - step_of_failure) * (1.0 - std::min(1.0, nearest.nearness() / least));
+  const auto told = [&](const Step& one) {
+    return number(100.0 * one.size) + " % of " + c.quantity + " at " + number(one.at);
+  };
+  if (largest.size > 0.0) {
+    o.text = told(largest) + (largest.side_by_side ? ", two motions side by side" : "");
+  } else {
+    o.text = "none";
+    if (nearest.size > 0.0)
+      o.text += " (" + told(nearest) + " are " + number(nearest.abruptness) + " times the steps beside it)";
+  }
+  o.text += ", must be at least " + number(100.0 * least) + " %";
 }
 
 /// Of two points next to each other: 1 for another motion, else the relative change of the Poincare range, where a
-/// range that recurrence takes for a point is none.
+/// range that recurrence takes for a point is none. Neither may have failed.
 double variation_between(const ClaimPoint& a, const ClaimPoint& b) {
-  if (!a.reached || !b.reached) return 1.0;
   if (!a.motion.same(b.motion)) return 1.0;
   // The section of period 1 is one point: its range is that of the oscillation in time.
   const bool point = a.motion.is("period 1");
@@ -454,12 +530,15 @@ void variation(const Condition& c, std::span<const ClaimPoint> part, ConditionOu
     o.text = "a single point does not vary";
     return;
   }
-  for (std::size_t k = 0; k + 1 < part.size(); ++k)
+  for (std::size_t k = 0; k + 1 < part.size(); ++k) {
+    if (!part[k].reached || !part[k + 1].reached) continue;
     if (const double v = variation_between(part[k], part[k + 1]); v > o.measured) {
       o.measured = v;
       at = 0.5 * (part[k].value + part[k + 1].value);
     }
+  }
   judge_bounds(c, o, 0.1);
+  judge_failed(c, part, 1.0, o);
   if (!o.holds && c.at_least)
     o.cost = step_of_failure + (1.0 - step_of_failure) * (1.0 - std::min(1.0, o.measured / *c.at_least));
   o.text = "largest change between neighbours" + range_text(part) + " is " + number(100.0 * o.measured) + " %" +
@@ -496,37 +575,45 @@ void decreasing(const Condition& c, const ClaimRecord& record, ConditionOutcome&
   for (const std::string& sweep : c.sweeps) parts.push_back(part_of(record.at(sweep).points, c));
   std::vector<double> most(parts.size(), -std::numeric_limits<double>::infinity());
   std::size_t seen = 0;
+  std::size_t failed = 0;
   for (const ClaimPoint& first : parts.front()) {
-    if (!first.reached || (!c.motion.empty() && !first.motion.is(c.motion))) continue;
-    std::vector<double> values;
+    if (first.reached && !c.motion.empty() && !first.motion.is(c.motion)) continue;
+    std::vector<const ClaimPoint*> there;
     for (const auto& part : parts) {
-      constexpr double same = 1e-9;  // grids are rounded to 12 digits
-      const auto at = std::ranges::find_if(part, [&](const ClaimPoint& p) {
-        return p.reached && std::abs(p.value - first.value) <= same * std::max(1.0, std::abs(first.value));
-      });
-      if (at != part.end()) values.push_back(at->quantity(c.quantity));
+      const auto at =
+          std::ranges::find_if(part, [&](const ClaimPoint& p) { return is_same_value(p.value, first.value); });
+      if (at != part.end()) there.push_back(&*at);
     }
-    if (values.size() < parts.size()) continue;
+    if (there.size() < parts.size()) continue;
+    const auto lost = std::ranges::count_if(there, [](const ClaimPoint* p) { return !p->reached; });
+    failed += static_cast<std::size_t>(lost);
+    if (lost > 0) continue;
     ++seen;
-    for (std::size_t s = 0; s < parts.size(); ++s) most[s] = std::max(most[s], values[s]);
+    for (std::size_t s = 0; s < parts.size(); ++s) most[s] = std::max(most[s], there[s]->quantity(c.quantity));
   }
   o.measured = 0.0;
-  for (std::size_t s = 0; s + 1 < most.size(); ++s) o.measured += seen > 0 && most[s + 1] < most[s] ? 1.0 : 0.0;
-  const auto pairs = static_cast<double>(most.size() - 1);
-  o.holds = seen > 0 && o.measured == pairs;
   if (seen == 0) {
-    o.text = "no point that all sweeps have is " + c.motion;
+    o.text =
+        "no point that all sweeps have " + (c.motion.empty() ? "was computed" : "is " + c.motion) + failed_text(failed);
     return;
   }
+  const auto pairs = static_cast<double>(most.size() - 1);
   double rises = 0.0;
-  for (std::size_t s = 0; s + 1 < most.size(); ++s)
-    if (!(most[s + 1] < most[s])) {
-      const double size = std::max(std::abs(most[s]), std::numeric_limits<double>::min());
-      rises += step_of_failure + std::min(1.0 - step_of_failure, (most[s + 1] - most[s]) / size);
-    }
+  for (std::size_t s = 0; s + 1 < most.size(); ++s) {
+    const double size = std::max(std::abs(most[s]), std::numeric_limits<double>::min());
+    const double rise = (most[s + 1] - most[s]) / size;
+    if (rise < -noise)
+      o.measured += 1.0;
+    else
+      rises += step_of_failure + std::clamp(rise, 0.0, 1.0 - step_of_failure);
+  }
+  o.holds = o.measured == pairs;
   o.cost = o.holds ? 0.0 : rises / pairs;
+  // The largest value of any sweep may have been at a point that failed.
+  if (failed > 0) withdraw(o);
   for (std::size_t s = 0; s < most.size(); ++s) o.text += (s == 0 ? "" : ", ") + number(most[s]);
-  o.text = "largest " + c.quantity + " " + o.text + ", must fall";
+  o.text = "largest " + c.quantity + " of " + std::to_string(seen) + (seen == 1 ? " value: " : " values: ") + o.text +
+           ", must fall" + failed_text(failed);
 }
 
 }  // namespace
@@ -579,8 +666,7 @@ ConditionOutcome judge(const Condition& c, const ClaimRecord& record) {
       break;
   }
   if (o.holds) o.cost = 0.0;
-  if (const std::size_t failed = failed_in(part); failed > 0)
-    o.text += "; " + std::to_string(failed) + (failed == 1 ? " point" : " points") + " failed";
+  o.text += failed_text(failed_in(part));
   return o;
 }
 
@@ -611,7 +697,7 @@ bool is_inert(const ClaimSeries& series) {
   constexpr double nothing = 1e-5;  // of a range; integration leaves less
   return std::ranges::all_of(series.points, [&](const ClaimPoint& p) {
     const ClaimPoint& first = series.points.front();
-    return p.reached && p.motion.same(first.motion) && variation_between(first, p) < nothing;
+    return first.reached && p.reached && p.motion.same(first.motion) && variation_between(first, p) < nothing;
   });
 }
 

@@ -23,6 +23,9 @@
 
 namespace epicyclic::studies {
 
+/// Of judge(): it changes when what is judged of the same points may change.
+inline constexpr int judging_version = 2;
+
 /// What a point moves like, as conditions see it.
 struct ClaimMotion {
   analysis::Regime regime = analysis::Regime::undecided;

@@ -65,6 +65,10 @@ inline constexpr std::array<std::pair<std::string_view, ConditionKind>, 11> cond
      {"alike", ConditionKind::alike},
      {"decreasing", ConditionKind::decreasing}}};
 
+/// Of a condition on peaks that does not say.
+inline constexpr double default_place_tolerance = 0.1;
+inline constexpr double default_prominence = 0.1;
+
 enum class Which { first, last };
 enum class Statistic { least, mean, largest };
 
@@ -84,8 +88,8 @@ struct Condition {
   std::string quantity;                   ///< of claim_quantities
   std::optional<Statistic> statistic;     ///< value: the largest if not given
   std::vector<double> places;             ///< peaks
-  std::optional<double> place_tolerance;  ///< peaks: relative distance from a place; 0.1 if not given
-  std::optional<double> prominence;       ///< peaks: in parts of the largest value; 0.1 if not given
+  std::optional<double> place_tolerance;  ///< peaks: relative distance from a place
+  std::optional<double> prominence;       ///< peaks: in parts of the largest value
   std::optional<double> correlation;      ///< alike: of the two ranges
 };
 

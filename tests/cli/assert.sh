@@ -49,6 +49,16 @@ moved 's/"bound":[^,]*,/"bound":-1,"bounds":1,/'
 grep -q 'moved.json:4: /points/0/bound' stderr || fail "where: $(<stderr)"
 grep -q 'bounds.*did you mean' stderr || fail "an unknown key: $(<stderr)"
 [ ! -e none.xml ] || fail "verdicts of nothing"
+# A link leads to what is written; what is no file stays what it is.
+ln -s verdicts.xml link.xml
+rm verdicts.xml
+[ "$(code_of "$epicyclic" assert fine points.json --junit link.xml)" = 0 ] || fail "a link: $(<stderr)"
+[ -L link.xml ] && grep -q '<testsuite' verdicts.xml || fail "the link was replaced"
+mkfifo pipe
+for taken in pipe fine; do
+  [ "$(code_of "$epicyclic" assert fine points.json --junit "$taken")" = 5 ] || fail "no file: $taken: $(<stderr)"
+done
+[ -p pipe ] || fail "the pipe was replaced"
 echo '{ "format": "epicyclic expected points 1", "study": {}, "points": {} }' >moved.json
 [ "$(code_of "$epicyclic" assert fine moved.json)" = 2 ] || fail "no points: $(<stdout)"
 [ "$(grep -c 'moved.json:1:' stderr)" = 2 ] || fail "both mistakes: $(<stderr)"

@@ -30,8 +30,8 @@ done | sort -u >commands
 few=(--set /study/transient_periods=2 --set /study/recorded_periods=4 --set /study/classification_periods=0)
 plane=(--set /study/first/points=2 --set /study/second/points=2)
 # A name's sweeps are cut where all of them are.
-claims=(--set /study/sweeps/0/points=3 --set /study/sweeps/1/points=2)
-glance=(--set /study/brief/transient_periods=2 --set /study/brief/recorded_periods=4 --set /study/sweeps/0/survey_points=2 --set /study/sweeps/1/survey_points=2)
+claims=(--set /study/sweeps/0/points=5 --set /study/sweeps/1/points=2)
+glance=(--set /study/brief/transient_periods=2 --set /study/brief/recorded_periods=4 --set /study/sweeps/0/survey_points=5 --set /study/sweeps/1/survey_points=2)
 declare -A cut=(
   [sweep]="--set /study/points=3 ${few[*]}"
   [reproduce]="${claims[*]} ${few[*]}"
@@ -62,8 +62,8 @@ while IFS= read -r line; do
   # Claims that have a name have more sweeps.
   if [ "$command ${words[2]:-}" = "reproduce tang2020" ]; then
     k=0
-    for points in 67 19 19 11 21 11 4 23 23; do arguments+=(--set "/study/sweeps/$((k++))/points=$points"); done
-    arguments+=(--set '/study/starts=["cold"]')
+    for points in 67 19 19 11 21 11 4 11 4 23 23; do arguments+=(--set "/study/sweeps/$((k++))/points=$points"); done
+    arguments+=(--set '/study/starts=["cold"]' --set /study/recorded_periods=6)
   fi
   # Each in a folder of its own, whatever the page calls it.
   for ((k = 0; k < ${#arguments[@]}; ++k)); do

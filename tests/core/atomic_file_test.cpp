@@ -124,6 +124,20 @@ TEST(AtomicFile, WordsAreNotWaitedFor) {
   write_without_waiting(-1, "lost");
 }
 
+TEST(AtomicFile, ALinkLeadsToTheFileThatItStandsFor) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(linked_file(folder / "new.txt"), folder / "new.txt");
+  std::filesystem::create_symlink("second", folder / "first");
+  std::filesystem::create_symlink("there.txt", folder / "second");
+  EXPECT_EQ(linked_file(folder / "first"), folder / "there.txt");  // though nothing is there yet
+  test::put_file(folder / "there.txt", "old");
+  EXPECT_EQ(linked_file(folder / "first"), folder / "there.txt");
+  std::filesystem::create_symlink("round", folder / "round");
+  EXPECT_THROW((void)linked_file(folder / "round"), OutputError);
+  EXPECT_THROW((void)linked_file(folder.path()), OutputError);
+  EXPECT_THROW((void)linked_file("/dev/null"), OutputError);
+}
+
 TEST(AtomicFile, MissingFolderIsAnOutputError) {
   const TemporaryFolder folder;
   const std::string message = message_of<OutputError>([&] { write_file_atomically(folder / "no/such/a.txt", "x"); });

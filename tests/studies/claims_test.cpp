@@ -170,6 +170,29 @@ TEST(Claims, OnAJumpAreNotMetByAFlank) {
   EXPECT_NEAR(beside.measured, 0.2, 1e-12);
 }
 
+TEST(Claims, OnAJumpAreToldTheStepAndNotHowNearItIsToAJump) {
+  Condition c = condition(ConditionKind::jump);
+  c.quantity = "delta_sp_range";
+  c.at_least = 0.05;
+  // 2.5 times the step beside it: a search is led by it, no verdict.
+  const ConditionOutcome flank = judge(c, record("1111", {1.0, 1.2, 1.7, 1.9}));
+  EXPECT_FALSE(flank.holds);
+  EXPECT_EQ(flank.measured, 0.0);
+  EXPECT_GE(flank.cost, 0.1);
+  EXPECT_LT(flank.cost, judge(c, record("1111", {1.0, 1.2, 1.4, 1.6})).cost);
+  EXPECT_NE(flank.text.find("2.5 times"), std::string::npos) << flank.text;
+  const ConditionOutcome found = judge(c, record("1111", {1.0, 1.1, 1.6, 1.7}));
+  EXPECT_TRUE(found.holds);
+  EXPECT_NEAR(found.measured, 0.5 / 1.6, 1e-12);
+  // Nothing beside it that counts: neither its edge nor a point that failed tells how abrupt it is.
+  EXPECT_FALSE(judge(c, record("11", {1.0, 2.0})).holds);
+  EXPECT_FALSE(judge(c, record("x11x", {0.0, 1.0, 2.0, 0.0})).holds);
+  // Records of chaos differ in their extrema.
+  ClaimRecord both = record("ccc", {1.0, 1.0, 1.0});
+  both["s"].other = record("ccc", {1.0, 1.2, 1.0})["s"].points;
+  EXPECT_FALSE(judge(c, both).holds);
+}
+
 TEST(Claims, OnWhatDoesNotVary) {
   Condition c = condition(ConditionKind::variation);
   c.at_most = 0.01;
@@ -243,6 +266,52 @@ TEST(Claims, AreNotMetByPointsThatFailed) {
   c.at_most = 5.0;
   EXPECT_TRUE(judge(c, record("11")).holds);
   EXPECT_FALSE(judge(c, record("1x")).holds);
+  c.at_most.reset();
+  c.at_least = 0.5;
+  EXPECT_TRUE(judge(c, record("1x")).holds);  // the largest can only be larger
+  for (const Statistic statistic : {Statistic::least, Statistic::mean}) {
+    c.statistic = statistic;
+    EXPECT_TRUE(judge(c, record("11")).holds);
+    EXPECT_FALSE(judge(c, record("1x")).holds);
+  }
+}
+
+TEST(Claims, OnChangesTakeNoPointThatFailedForOne) {
+  Condition c = condition(ConditionKind::variation);
+  c.at_least = 0.5;
+  EXPECT_TRUE(judge(c, record("112")).holds);
+  EXPECT_FALSE(judge(c, record("1x1")).holds);
+  EXPECT_FALSE(judge(c, record("xxx")).holds);
+  c.at_least.reset();
+  c.at_most = 0.5;
+  EXPECT_FALSE(judge(c, record("111x")).holds);
+}
+
+TEST(Claims, OnPeaksTakeNoPointThatFailedForAValley) {
+  Condition c = condition(ConditionKind::peaks);
+  c.quantity = "delta_sp_range";
+  c.places = {1.0};
+  EXPECT_TRUE(judge(c, record("111", {1.0, 4.0, 3.0})).holds);
+  const ConditionOutcome falling = judge(c, record("x111", {0.0, 4.0, 3.0, 2.0}));
+  EXPECT_FALSE(falling.holds);
+  EXPECT_NE(falling.text.find("1 point failed"), std::string::npos) << falling.text;
+  // The largest value, of which it is a part, may have been there.
+  EXPECT_FALSE(judge(c, record("111x", {1.0, 4.0, 3.0, 0.0})).holds);
+}
+
+TEST(Claims, OnSweepsThatFallAreNotMetWherePointsFailed) {
+  Condition c = condition(ConditionKind::decreasing);
+  c.sweep = "";
+  c.sweeps = {"s", "t"};
+  c.quantity = "delta_sp_range";
+  ClaimRecord r = record("11", {2.0, 3.0});
+  r["t"] = record("11", {1.0, 1.0})["s"];
+  EXPECT_TRUE(judge(c, r).holds);
+  r["t"].points[1].reached = false;
+  const ConditionOutcome lost = judge(c, r);
+  EXPECT_FALSE(lost.holds);
+  EXPECT_NE(lost.text.find("of 1 value"), std::string::npos) << lost.text;
+  EXPECT_NE(lost.text.find("1 point failed"), std::string::npos) << lost.text;
 }
 
 TEST(Claims, AreNotMetByRounding) {
@@ -254,6 +323,16 @@ TEST(Claims, AreNotMetByRounding) {
   c.quantity = "delta_sp_range";
   c.at_least = 5.0;
   EXPECT_FALSE(judge(c, record("11", {1e-13, 1e-14})).holds);
+  EXPECT_TRUE(judge(c, record("111", {10.0, 10.0 + 1e-9, 1.0})).holds);
+  c = condition(ConditionKind::decreasing);
+  c.sweep = "";
+  c.sweeps = {"s", "t"};
+  c.quantity = "delta_sp_range";
+  for (const double rounding : {-1e-9, 0.0, 1e-9}) {
+    ClaimRecord r = record("11", {1.0, 2.0});
+    r["t"] = record("11", {1.0, 2.0 + rounding})["s"];
+    EXPECT_FALSE(judge(c, r).holds);
+  }
 }
 
 TEST(Claims, OnQuantitiesBelowZero) {
@@ -317,6 +396,138 @@ TEST(ClaimsOptions, RefuseWhatNobodyWouldJudge) {
                                     {"y", "", "", 0.0, 1.0, Spread::linear, {{"/stage/a", 1, 1, ""}}, "", ""}};
             }),
             "/parameters/1/targets/0/pointer");
+}
+
+/// Where the options with one condition are refused, if once.
+std::string refused_at(const ClaimsOptions& options) {
+  const auto problems = options.problems();
+  if (problems.empty()) return "nowhere";
+  return problems.size() == 1 ? problems.front().first : "in " + std::to_string(problems.size()) + " places";
+}
+
+/// A sweep of 29 points, from 0.2 to 3.
+ClaimsOptions options_with(const Condition& c) {
+  ClaimsOptions options;
+  ClaimSweep sweep;
+  sweep.name = "s";
+  sweep.axis = {speed_parameter, 0.2, 3.0, 29};
+  options.sweeps = {sweep};
+  options.claims = {{"C", "", "", "", 1.0, {c}}};
+  return options;
+}
+
+TEST(ClaimsOptions, RefuseConditionsThatAlwaysHold) {
+  const std::string place = "/claims/0/conditions/0";
+  Condition c = condition(ConditionKind::count);
+  c.motion = "period 1";
+  c.at_most = 28.0;
+  EXPECT_EQ(refused_at(options_with(c)), "nowhere");
+  c.at_most = 29.0;
+  EXPECT_EQ(refused_at(options_with(c)), place + "/at_most");
+  c = condition(ConditionKind::value);
+  c.quantity = "delta_sp_range";
+  c.at_least = -1.0;
+  EXPECT_EQ(refused_at(options_with(c)), place + "/at_least");
+  c = condition(ConditionKind::change);
+  c.within = {0.5, 1.0};
+  for (const auto& [motion, after] : {std::pair("period 1", "period 1"), std::pair("periodic", "not chaotic")}) {
+    c.motion = motion;
+    c.after = after;
+    EXPECT_EQ(refused_at(options_with(c)), place + "/after") << motion;
+  }
+  c.after = "not periodic";
+  EXPECT_EQ(refused_at(options_with(c)), "nowhere");
+  c = condition(ConditionKind::peaks);
+  c.quantity = "delta_sp_range";
+  c.places = {1.0, 1.1};
+  EXPECT_EQ(refused_at(options_with(c)), place + "/places/1");
+}
+
+TEST(ClaimsOptions, RefuseConditionsThatNeverHold) {
+  const std::string place = "/claims/0/conditions/0";
+  Condition c = condition(ConditionKind::change);
+  c.motion = "period 1";
+  c.after = "not period 1";
+  c.within = {1.01, 1.04};
+  EXPECT_EQ(refused_at(options_with(c)), place + "/within");
+  c.within = {1.01, 1.06};
+  EXPECT_EQ(refused_at(options_with(c)), "nowhere");
+  ClaimsOptions coarse = options_with(c);
+  coarse.sweeps[0].brief_points = 8;  // at 0.2, 0.6, 1, 1.4, ...
+  EXPECT_EQ(refused_at(coarse), place + "/within");
+  c = condition(ConditionKind::peaks);
+  c.quantity = "delta_sp_range";
+  c.places = {0.95};
+  c.place_tolerance = 0.01;
+  EXPECT_EQ(refused_at(options_with(c)), place + "/places/0");
+  c = condition(ConditionKind::count);
+  c.motion = "period 3";
+  c.at_least = 1.0;
+  ClaimsOptions brief = options_with(c);
+  brief.look.recorded_periods = 4;
+  EXPECT_EQ(refused_at(brief), "nowhere");  // evidence is sought for as long as it takes
+  brief.look.classification_periods = 0;
+  EXPECT_EQ(refused_at(brief), place + "/motion");
+  brief.claims[0].conditions[0].motion = "chaotic";
+  brief.look.recorded_periods = 1;
+  EXPECT_EQ(refused_at(brief), "/recorded_periods");
+}
+
+TEST(ClaimsOptions, RefuseExponentsThatSearchesDoNotCompute) {
+  Condition c = condition(ConditionKind::value);
+  c.quantity = "lyapunov_max";
+  c.at_most = 0.0;
+  ClaimsOptions options = options_with(c);
+  EXPECT_EQ(refused_at(options), "nowhere");
+  options.space.parameters = {{"x", "", "", 0.0, 1.0, Spread::linear, {{"/stage/a", 1, 1, ""}}, "", ""}};
+  EXPECT_EQ(refused_at(options), "/claims/0/conditions/0/quantity");
+  options.brief.classification_periods = options.survey.look.classification_periods = 512;
+  EXPECT_EQ(refused_at(options), "nowhere");
+}
+
+TEST(ClaimsOptions, RefuseSweepsThatShareNoValues) {
+  Condition c = condition(ConditionKind::decreasing);
+  c.sweep = "";
+  c.sweeps = {"s", "t"};
+  c.quantity = "delta_sp_range";
+  ClaimsOptions options = options_with(c);
+  options.sweeps.push_back(options.sweeps.front());
+  options.sweeps[1].name = "t";
+  EXPECT_EQ(refused_at(options), "nowhere");
+  options.sweeps[1].axis.points = options.sweeps[1].brief_points = options.sweeps[1].survey_points = 15;
+  EXPECT_EQ(refused_at(options), "nowhere");
+  options.sweeps[1].axis.points = options.sweeps[1].brief_points = options.sweeps[1].survey_points = 14;
+  EXPECT_EQ(refused_at(options), "in 3 places");  // both ends alone
+  options = options_with(c);
+  options.sweeps.push_back(options.sweeps.front());
+  options.sweeps[1].name = "t";
+  options.claims[0].conditions[0].from = 5.0;
+  EXPECT_EQ(refused_at(options), "/claims/0/conditions/0");
+  options.claims[0].conditions[0].from.reset();
+  options.claims[0].conditions[0].motion = "period 100";
+  EXPECT_EQ(refused_at(options), "/claims/0/conditions/0/motion");
+}
+
+TEST(ClaimsOptions, RefuseChoicesThatDecideNothing) {
+  Condition c = condition(ConditionKind::share);
+  c.motion = "period 1";
+  c.at_least = 0.5;
+  const Choice choice{"A", "", {{"a", 1, {{"/stage/x", "1"}}}, {"b", 1, {{"/stage/x", "2"}}}}};
+  ClaimsOptions options = options_with(c);
+  options.space.choices = {choice};
+  EXPECT_EQ(refused_at(options), "nowhere");
+  options.space.choices[0].options[1].sets[0].value = "1";
+  EXPECT_EQ(refused_at(options), "/choices/0/options/1/sets");
+  options.space.choices = {choice, {"B", "", {{"c", 1, {{"/stage/x/y", "3"}}}, {"d", 1, {}}}}};
+  EXPECT_EQ(refused_at(options), "in 2 places");  // by both options of A
+  options.space.choices = {choice};
+  options.space.parameters = {{"p", "", "", 0.0, 1.0, Spread::linear, {{"/stage/x", 1, 1, ""}}, "", ""}};
+  EXPECT_EQ(refused_at(options), "in 2 places");  // both options of A
+  options.space.parameters[0].choice = "A";
+  options.space.parameters[0].option = "a";
+  EXPECT_EQ(refused_at(options), "nowhere");
+  options.space.parameters[0].targets[0].times = "p";
+  EXPECT_EQ(refused_at(options), "/parameters/0/targets/0/times");
 }
 
 }  // namespace
