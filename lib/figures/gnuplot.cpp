@@ -455,12 +455,15 @@ std::u32string seen_characters(std::string_view text) {
   return seen;
 }
 
-Head head_of(const FigureText& text, const std::vector<std::string>& legend, const FigureCanvas& canvas) {
+constexpr double usual_left = 190;  // of the frame, at most [pixels]
+
+/// @param left  edge of the frame [pixels]
+Head head_of(const FigureText& text, const std::vector<std::string>& legend, const FigureCanvas& canvas,
+             double left = usual_left) {
   constexpr double pad = 12;
   constexpr double title_line = 46;
   constexpr double legend_line = 34;
   constexpr double above_frame = 16;
-  constexpr double left = 190;  // of the frame, at most
   constexpr double least_font = 10;
   const double width = right_edge * canvas.width - left;
   const std::string title = portable_text(text.title);
@@ -711,7 +714,6 @@ std::string panel_script(std::string_view stem, const FigureText& text, const Fi
   constexpr double bottom = 130;  // tics and label of the abscissa [pixels]
   constexpr double apart = 28;    // half a label of a tic on both sides [pixels]
   constexpr double label_place = 40;
-  const Head head = head_of(text, legend, canvas);
   double left = 0.0;  // one edge for all
   double parts = 0.0;
   for (const FigurePanel& panel : panels) {
@@ -720,6 +722,7 @@ std::string panel_script(std::string_view stem, const FigureText& text, const Fi
     left = std::max(left, label_place + 45.0 + width);
     parts += panel.height;
   }
+  const Head head = head_of(text, legend, canvas, std::max(usual_left, left));
   const auto vertical = [&](double pixels) { return text_of(1.0 - pixels / canvas.height); };
   const double heights = canvas.height - head.height - bottom - apart * static_cast<double>(panels.size() - 1);
   std::string commands = fmt::format(
