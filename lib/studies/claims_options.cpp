@@ -109,8 +109,10 @@ std::vector<std::pair<std::string, std::string>> ClaimsOptions::problems() const
                       "is 1, must be >= 2 with classification_periods = 0: of one Poincare point nothing comes back");
   };
   check_recorded(look.recorded_periods, look.classification_periods, "/recorded_periods");
-  check_recorded(brief.recorded_periods, brief.classification_periods, "/brief/recorded_periods");
-  check_recorded(survey.look.recorded_periods, survey.look.classification_periods, "/survey/look/recorded_periods");
+  if (space.dimension() > 0) {
+    check_recorded(brief.recorded_periods, brief.classification_periods, "/brief/recorded_periods");
+    check_recorded(survey.look.recorded_periods, survey.look.classification_periods, "/survey/look/recorded_periods");
+  }
   for (std::size_t k = 0; k < sweeps.size(); ++k)
     if (sweeps[k].recorded_periods)
       check_recorded(*sweeps[k].recorded_periods, look.classification_periods,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -143,17 +144,21 @@ struct Grid {
   std::vector<double> values;  ///< within the part that a condition speaks of
 };
 
+/// Is anything searched or drawn, so that claims are judged by brief looks, too?
+bool has_brief_looks(const ClaimsOptions& options) { return options.space.dimension() > 0; }
+
 /// The part of a sweep that a condition speaks of, by each look.
 struct PartOfSweep {
   double from, to;
   std::vector<Grid> grids;
 
-  PartOfSweep(const Condition& c, const ClaimSweep& sweep)
+  PartOfSweep(const Condition& c, const ClaimSweep& sweep, const ClaimsOptions& options)
       : from(std::max(sweep.axis.from, c.from.value_or(sweep.axis.from))),
         to(std::min(sweep.axis.to, c.to.value_or(sweep.axis.to))) {
     for (const auto& [points, key] :
          {std::pair(sweep.axis.points, "points"), std::pair(sweep.brief_points, "brief_points"),
           std::pair(sweep.survey_points, "survey_points")}) {
+      if (!grids.empty() && !has_brief_looks(options)) break;
       Axis axis = sweep.axis;
       axis.points = std::min(points, axis.points);
       Grid grid{key, axis.points, axis_values(axis)};
@@ -220,7 +225,7 @@ void check_part(ProblemList& problems, const std::string& place, const Condition
                 const ClaimsOptions& options) {
   const Axis& axis = sweep.axis;
   if (!(axis.from < axis.to)) return;
-  const PartOfSweep part(c, sweep);
+  const PartOfSweep part(c, sweep, options);
   if (part.from > part.to) {
     problems.refuse(place, "looks where \"" + sweep.name + "\" has no point: it goes from " + short_text(axis.from, 6) +
                                " to " + short_text(axis.to, 6));
@@ -254,7 +259,8 @@ void check_looks(ProblemList& problems, const std::string& place, const Conditio
     if (period > options.look.period_max)
       problems.refuse(place + "/" + key, "is \"" + word + "\", longer than period_max = " +
                                              std::to_string(options.look.period_max) + ": it is not looked for");
-    else if (2 * period > options.brief.recorded_periods || 2 * period > options.survey.look.recorded_periods)
+    else if (has_brief_looks(options) &&
+             2 * period > std::min(options.brief.recorded_periods, options.survey.look.recorded_periods))
       problems.refuse(place + "/" + key, "is \"" + word +
                                              "\", which takes twice as many recorded_periods to be seen; " +
                                              "brief or survey look at fewer");
@@ -267,7 +273,7 @@ void check_looks(ProblemList& problems, const std::string& place, const Conditio
   const std::string nobody = "is \"lyapunov_max\", which nobody computes with ";
   if (options.look.classification_periods == 0)
     problems.refuse(place + "/quantity", nobody + "classification_periods = 0");
-  else if (options.space.dimension() == 0)
+  else if (!has_brief_looks(options))
     return;
   else if (options.brief.classification_periods == 0)
     problems.refuse(place + "/quantity", nobody + "brief/classification_periods = 0, its default");
@@ -277,15 +283,18 @@ void check_looks(ProblemList& problems, const std::string& place, const Conditio
 
 /// Sweeps are compared at the values that all of them have: by each look half of those of the coarsest at least.
 void check_common_values(ProblemList& problems, const std::string& place, const Condition& c,
-                         const std::vector<const ClaimSweep*>& sweeps) {
+                         const std::vector<const ClaimSweep*>& sweeps, const ClaimsOptions& options) {
   std::vector<PartOfSweep> parts;
-  for (const ClaimSweep* sweep : sweeps) parts.emplace_back(c, *sweep);
+  for (const ClaimSweep* sweep : sweeps) parts.emplace_back(c, *sweep, options);
   for (std::size_t g = 0; g < parts.front().grids.size(); ++g) {
     std::size_t fewest = parts.front().grids[g].values.size();
     for (const PartOfSweep& part : parts) fewest = std::min(fewest, part.grids[g].values.size());
     const auto is_common = [&](double v) {
       return std::ranges::all_of(parts, [&](const PartOfSweep& part) {
-        return std::ranges::any_of(part.grids[g].values, [&](double w) { return is_same_value(v, w); });
+        const std::vector<double>& values = part.grids[g].values;  // rise
+        const auto above = std::ranges::lower_bound(values, v);
+        return (above != values.end() && is_same_value(v, *above)) ||
+               (above != values.begin() && is_same_value(v, *std::prev(above)));
       });
     };
     const auto common = static_cast<std::size_t>(std::ranges::count_if(parts.front().grids[g].values, is_common));
@@ -313,7 +322,7 @@ void check_grids(ProblemList& problems, const std::string& place, const Conditio
     check_part(problems, place, c, *sweep, options);
     if (problems.count() > before) return;
   }
-  if (sweeps.size() > 1) check_common_values(problems, place, c, sweeps);
+  if (sweeps.size() > 1) check_common_values(problems, place, c, sweeps, options);
 }
 
 }  // namespace epicyclic::studies

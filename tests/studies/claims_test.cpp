@@ -416,6 +416,8 @@ ClaimsOptions options_with(const Condition& c) {
   return options;
 }
 
+FreeParameter one_parameter() { return {"x", "", "", 0.0, 1.0, Spread::linear, {{"/stage/a", 1, 1, ""}}, "", ""}; }
+
 TEST(ClaimsOptions, RefuseConditionsThatAlwaysHold) {
   const std::string place = "/claims/0/conditions/0";
   Condition c = condition(ConditionKind::count);
@@ -453,7 +455,9 @@ TEST(ClaimsOptions, RefuseConditionsThatNeverHold) {
   c.within = {1.01, 1.06};
   EXPECT_EQ(refused_at(options_with(c)), "nowhere");
   ClaimsOptions coarse = options_with(c);
-  coarse.sweeps[0].brief_points = 8;  // at 0.2, 0.6, 1, 1.4, ...
+  coarse.sweeps[0].brief_points = 8;         // at 0.2, 0.6, 1, 1.4, ...
+  EXPECT_EQ(refused_at(coarse), "nowhere");  // there is nothing to search for
+  coarse.space.parameters = {one_parameter()};
   EXPECT_EQ(refused_at(coarse), place + "/within");
   c = condition(ConditionKind::peaks);
   c.quantity = "delta_sp_range";
@@ -479,7 +483,7 @@ TEST(ClaimsOptions, RefuseExponentsThatSearchesDoNotCompute) {
   c.at_most = 0.0;
   ClaimsOptions options = options_with(c);
   EXPECT_EQ(refused_at(options), "nowhere");
-  options.space.parameters = {{"x", "", "", 0.0, 1.0, Spread::linear, {{"/stage/a", 1, 1, ""}}, "", ""}};
+  options.space.parameters = {one_parameter()};
   EXPECT_EQ(refused_at(options), "/claims/0/conditions/0/quantity");
   options.brief.classification_periods = options.survey.look.classification_periods = 512;
   EXPECT_EQ(refused_at(options), "nowhere");
@@ -491,6 +495,7 @@ TEST(ClaimsOptions, RefuseSweepsThatShareNoValues) {
   c.sweeps = {"s", "t"};
   c.quantity = "delta_sp_range";
   ClaimsOptions options = options_with(c);
+  options.space.parameters = {one_parameter()};
   options.sweeps.push_back(options.sweeps.front());
   options.sweeps[1].name = "t";
   EXPECT_EQ(refused_at(options), "nowhere");
