@@ -163,7 +163,7 @@ is_drawn r1/figures/robustness
 
 # On several ranks: the same bytes, also after a rank was killed; one rank talks.
 if "$epicyclic" --version | grep -q '^MPI ' && command -v mpirun >/dev/null; then
-  launch=("${leaks_of_mpi[@]}" mpirun --oversubscribe)
+  launch=("${of_mpi[@]}" mpirun --oversubscribe)
   [ "$(id -u)" != 0 ] || launch+=(--allow-run-as-root)
   for ranks in 2 3; do
     [ "$(code_of "${launch[@]}" -n $ranks "$epicyclic" calibrate claims.json -o "m$ranks" --threads 1)" = 0 ] || fail "$ranks ranks: $(<stderr)"

@@ -11,7 +11,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 command -v mpirun >/dev/null || skip "no mpirun"
 
 # More ranks than cores are enough for bytes; Open MPI wants to be asked for that, and for running as root.
-launch=("${leaks_of_mpi[@]}" mpirun --oversubscribe)
+launch=("${of_mpi[@]}" mpirun --oversubscribe)
 [ "$(id -u)" != 0 ] || launch+=(--allow-run-as-root)
 
 without_drawing

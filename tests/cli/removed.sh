@@ -17,7 +17,7 @@ launch=()
 if "$epicyclic" --version | grep -q '^MPI ' && command -v mpirun >/dev/null; then
   ranks=("${sweep[@]}")
   studies+=(ranks)
-  launch=("${leaks_of_mpi[@]}" mpirun --oversubscribe -n 2)
+  launch=("${of_mpi[@]}" mpirun --oversubscribe -n 2)
   [ "$(id -u)" != 0 ] || launch+=(--allow-run-as-root)
 fi
 

@@ -10,7 +10,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 [ -n "${EPICYCLIC_SRUN:-}" ] || skip "EPICYCLIC_SRUN is not set"
 "$epicyclic" --version | grep -q '^MPI ' || skip "built without MPI"
 read -ra launch <<<"$EPICYCLIC_SRUN"
-launch=("${leaks_of_mpi[@]}" "${launch[@]}")
+launch=("${of_mpi[@]}" "${launch[@]}")
 
 carried=(sweep "${speeds[@]}" --set /study/points=8 --set /study/transient_periods=60
   --set /study/recorded_periods=8 --set /study/classification_periods=64)
