@@ -44,7 +44,7 @@ int record(const Arguments& arguments, const FinishedBranches& branches) {
     throw InputError(arguments.against.string() + ": is there already; remove it to record its points anew");
   const std::vector<studies::LocatedPoint> points =
       reports::expected_of(branches.points, std::get<studies::BranchesOptions>(branches.input.study.plan));
-  write_file_atomically(arguments.against, reports::expected_text(branches.input, points));
+  write_file_atomically(linked_file(arguments.against), reports::expected_text(branches.input, points));
   tell("{} of {} points are expected from now on: {}\n", points.size(), branches.points.size(),
        arguments.against.string());
   return points.size() == branches.points.size() ? done : done_with_failures;

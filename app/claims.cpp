@@ -45,34 +45,6 @@ bool move_alike(const studies::ClaimsOptions& options, const studies::CandidateM
   });
 }
 
-/// Parameters and choices that change nothing on any sweep. A line for each.
-std::vector<std::string> idle_variables(const studies::ClaimsOptions& options, const studies::CandidateModels& models) {
-  const studies::ParameterSpace& space = options.space;
-  std::vector<std::string> lines;
-  constexpr const char* words = "{}: {} changes nothing on any sweep, all others in the middle of their ranges";
-  for (std::size_t k = 0; k < space.parameters.size(); ++k) {
-    std::vector<double> low = middle_for(space, space.parameters[k]);
-    std::vector<double> high = low;
-    low[k] = 0.0;
-    high[k] = 1.0;
-    if (move_alike(options, models, low, high))
-      lines.push_back(fmt::format(words, fmt::format("/study/parameters/{}", k), space.parameters[k].name));
-  }
-  for (std::size_t c = 0; c < space.choices.size(); ++c) {
-    const studies::Choice& choice = space.choices[c];
-    std::vector<double> first(space.dimension(), 0.5);
-    first[space.parameters.size() + c] = choice.place_of(0);
-    std::vector<double> other = first;
-    bool alike = true;
-    for (std::size_t option = 1; option < choice.options.size() && alike; ++option) {
-      other[space.parameters.size() + c] = choice.place_of(option);
-      alike = move_alike(options, models, first, other);
-    }
-    if (alike) lines.push_back(fmt::format(words, fmt::format("/study/choices/{}", c), choice.name));
-  }
-  return lines;
-}
-
 }  // namespace
 
 void examine_candidates(const studies::ClaimsOptions& options, const studies::CandidateModels& models) {
@@ -86,22 +58,36 @@ void examine_candidates(const studies::ClaimsOptions& options, const studies::Ca
       throw InputError(fmt::format("{}: {}", what, error.what()));
     }
   };
-  for (std::size_t k = 0; k < space.choices.size(); ++k)
+  struct Variable {
+    std::string place, name;
+    std::vector<std::vector<double>> candidates;  // that differ by it alone
+  };
+  std::vector<Variable> variables;
+  for (std::size_t k = 0; k < space.choices.size(); ++k) {
+    Variable& choice = variables.emplace_back(Variable{fmt::format("/study/choices/{}", k), space.choices[k].name, {}});
     for (std::size_t option = 0; option < space.choices[k].options.size(); ++option) {
       std::vector<double> u = middle;
       u[space.parameters.size() + k] = space.choices[k].place_of(option);
-      require(u, fmt::format("/study/choices/{}: with \"{}\"", k, space.choices[k].options[option].name));
+      require(u, fmt::format("{}: with \"{}\"", choice.place, space.choices[k].options[option].name));
+      choice.candidates.push_back(std::move(u));
     }
+  }
   for (std::size_t k = 0; k < space.parameters.size(); ++k) {
     const studies::FreeParameter& p = space.parameters[k];
-    std::vector<double> u = middle_for(space, p);
+    Variable& parameter = variables.emplace_back(Variable{fmt::format("/study/parameters/{}", k), p.name, {}});
     for (const double end : {0.0, 1.0}) {
+      std::vector<double> u = middle_for(space, p);
       u[k] = end;
-      require(u, fmt::format("/study/parameters/{}: with {} = {}", k, p.name, short_text(p.at(end), 6)));
+      require(u, fmt::format("{}: with {} = {}", parameter.place, p.name, short_text(p.at(end), 6)));
+      parameter.candidates.push_back(std::move(u));
     }
   }
   require_models(options, models(middle));
-  for (const std::string& line : idle_variables(options, models)) tell("warning: {}\n", line);
+
+  for (const Variable& v : variables)
+    if (std::all_of(v.candidates.begin() + 1, v.candidates.end(),
+                    [&](const auto& u) { return move_alike(options, models, v.candidates.front(), u); }))
+      tell("warning: {}: {} changes nothing on any sweep, all others in the middle of their ranges\n", v.place, v.name);
 }
 
 input::LoadedInput load_open_claims(const Arguments& arguments) {

@@ -612,9 +612,4 @@ std::vector<std::string> pointer_steps(std::string_view pointer) {
   return steps;
 }
 
-bool pointer_within(std::string_view pointer, std::string_view ancestor) {
-  return pointer.substr(0, ancestor.size()) == ancestor &&
-         (pointer.size() == ancestor.size() || pointer[ancestor.size()] == '/');
-}
-
 }  // namespace epicyclic::input

@@ -22,6 +22,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
+#include "core/json_pointer.hpp"
 
 namespace epicyclic::input {
 
@@ -90,8 +91,5 @@ struct JsonSource {
 
 /// Its keys and indices, from the root.
 [[nodiscard]] std::vector<std::string> pointer_steps(std::string_view pointer);
-
-/// Is `pointer` the same as `ancestor` or below it?
-[[nodiscard]] bool pointer_within(std::string_view pointer, std::string_view ancestor);
 
 }  // namespace epicyclic::input

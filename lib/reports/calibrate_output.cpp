@@ -190,8 +190,10 @@ DrawnFigure draw_determination(const std::filesystem::path& folder, const Calibr
 
 namespace {
 
-/// Says so where the profile came upon a candidate that is better than the result through which it goes.
+/// Says so where the profile came upon a candidate that is better than the result through which it goes; not where
+/// whole sweeps chose the result, and not its cost.
 std::string better_text(const CalibrateOutput& output, const Calibration& calibration) {
+  if (!calibration.confirmed.empty()) return "";
   const studies::ProfilePoint* better = nullptr;
   double least = calibration.best->evaluation.cost;
   for (const studies::ProfilePoint& p : calibration.profile)

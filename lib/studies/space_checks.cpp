@@ -1,9 +1,11 @@
+#include "studies/space_checks.hpp"
+
 #include <algorithm>
 #include <string>
 #include <utility>
 
+#include "core/json_pointer.hpp"
 #include "core/text.hpp"
-#include "studies/space_checks.hpp"
 
 namespace epicyclic::studies {
 
@@ -19,9 +21,7 @@ bool can_be_set(const std::string& pointer) {
 const char* const what_can_be_set = "must begin with /stage, /model or /operation: the rest is no matter of the stage";
 
 /// Is one of them the other, or within it?
-bool overlap(const std::string& a, const std::string& b) {
-  return a == b || a.starts_with(b + "/") || b.starts_with(a + "/");
-}
+bool overlap(const std::string& a, const std::string& b) { return pointer_within(a, b) || pointer_within(b, a); }
 
 bool is_same_option(const ChoiceOption& a, const ChoiceOption& b) {
   return std::ranges::equal(a.sets, b.sets, [](const OptionSet& s, const OptionSet& t) {

@@ -54,6 +54,9 @@ ln -s verdicts.xml link.xml
 rm verdicts.xml
 [ "$(code_of "$epicyclic" assert fine points.json --junit link.xml)" = 0 ] || fail "a link: $(<stderr)"
 [ -L link.xml ] && grep -q '<testsuite' verdicts.xml || fail "the link was replaced"
+ln -s new.json link.json
+[ "$(code_of "$epicyclic" assert fine link.json --record)" = 0 ] || fail "a link to record: $(<stderr)"
+[ -L link.json ] && cmp -s new.json points.json || fail "the link was replaced by what was recorded"
 mkfifo pipe
 for taken in pipe fine; do
   [ "$(code_of "$epicyclic" assert fine points.json --junit "$taken")" = 5 ] || fail "no file: $taken: $(<stderr)"

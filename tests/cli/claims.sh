@@ -47,6 +47,9 @@ grep -q '/study/choices/0/options/0: .* recurrence alone' stderr || fail "it is 
 ! grep -q 'recurrence alone' stderr || fail "a warning without its reason, smooth: $(<stderr)"
 [ "$(code_of "$epicyclic" check claims.json --no-time --set /model/gap_damping=contact_slope)" = 0 ] || fail "damping by contact: $(<stderr)"
 grep -q '/model/gap_damping: .* recurrence alone' stderr || fail "it is not said of the stage as given: $(<stderr)"
+width='[{ "pointer": "/integrator/clearance_smoothing", "factor": 0.001, "times": "r" }]'
+[ "$(code_of "$epicyclic" check claims.json --no-time --set /model/gap_damping=contact_slope --set "/study/parameters/0/targets=$width")" = 0 ] || fail "a width by a parameter: $(<stderr)"
+! grep -q 'recurrence alone' stderr || fail "a warning without its reason, smoothed by a parameter: $(<stderr)"
 for odd in '{ "pointer": "/model", "value": 3 }, { "pointer": "/model/gap_damping", "value": "always" }' '{ "pointer": "/model", "value": [1] }'; do
   [ "$(code_of "$epicyclic" check claims.json --no-time --set "/study/choices/0/options/0/sets=[ $odd ]")" = 2 ] || fail "an option that makes no model: $(<stderr)"
 done
@@ -216,6 +219,9 @@ grep -q 'run `epicyclic reproduce`' stderr || fail "which command it is of: $(<s
 sed 's/"from": 0.5, "to": 20/"from": 3, "to": 20/; s/"candidates": 42/"candidates": 14/; s/"refinement": 10, "profile": 3, "confirmed": 2/"refinement": 0, "profile": 0/' claims.json >moved.json
 [ "$(code_of "$epicyclic" calibrate moved.json -o moved)" = 0 ] || fail "outside the ranges: $(<stderr)"
 grep -q 'the first one has E = 3 in place of 2' stderr || fail "it is not said: $(<stderr)"
+sed 's/"torque_Nm": 400 } } \]/"torque_Nm": 400 } }, { "pointer": "\/model\/gap_damping", "value": "contact_slope" }, { "pointer": "\/integrator\/clearance_smoothing", "value": 0.01 } ]/; s/"candidates": 42/"candidates": 14/; s/"refinement": 10, "profile": 3, "confirmed": 2/"refinement": 0, "profile": 0/' claims.json >moved.json
+[ "$(code_of "$epicyclic" calibrate moved.json -o neither)" = 0 ] || fail "a stage of no option: $(<stderr)"
+grep -q 'the first one has load = "torque", of whose options it has none' stderr || fail "it is not said that no option is the stage's: $(<stderr)"
 [ "$(code_of "$epicyclic" reproduce nobody2021 -o bad)" = 2 ] || fail "no such claims: $(<stderr)"
 
 # The paper's own, as it was recorded: some minutes.

@@ -347,6 +347,13 @@ TEST(Claims, OnQuantitiesBelowZero) {
   EXPECT_FALSE(judge(c, r).holds);
 }
 
+/// Where the options are refused, if once.
+std::string refused_at(const ClaimsOptions& options) {
+  const auto problems = options.problems();
+  if (problems.empty()) return "nowhere";
+  return problems.size() == 1 ? problems.front().first : "in " + std::to_string(problems.size()) + " places";
+}
+
 TEST(ClaimsOptions, RefuseWhatNobodyWouldJudge) {
   ClaimsOptions options;
   ClaimSweep sweep;
@@ -360,8 +367,7 @@ TEST(ClaimsOptions, RefuseWhatNobodyWouldJudge) {
   const auto place_of = [&](auto change) {
     ClaimsOptions wrong = options;
     change(wrong);
-    const auto problems = wrong.problems();
-    return problems.size() == 1 ? problems.front().first : "problems: " + std::to_string(problems.size());
+    return refused_at(wrong);
   };
   const std::string place = "/claims/0/conditions/0";
   EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].sweep = "t"; }), place + "/sweep");
@@ -396,13 +402,6 @@ TEST(ClaimsOptions, RefuseWhatNobodyWouldJudge) {
                                     {"y", "", "", 0.0, 1.0, Spread::linear, {{"/stage/a", 1, 1, ""}}, "", ""}};
             }),
             "/parameters/1/targets/0/pointer");
-}
-
-/// Where the options with one condition are refused, if once.
-std::string refused_at(const ClaimsOptions& options) {
-  const auto problems = options.problems();
-  if (problems.empty()) return "nowhere";
-  return problems.size() == 1 ? problems.front().first : "in " + std::to_string(problems.size()) + " places";
 }
 
 /// A sweep of 29 points, from 0.2 to 3.
