@@ -11,8 +11,10 @@
 #include "claims.hpp"
 #include "commands.hpp"
 #include "core/atomic_file.hpp"
+#include "core/errors.hpp"
 #include "folder.hpp"
 #include "input/claims_input.hpp"
+#include "input/study_model.hpp"
 #include "ranks/ranks.hpp"
 #include "ranks/shared_evaluations.hpp"
 #include "reports/calibrate_output.hpp"
@@ -20,6 +22,8 @@
 #include "stop.hpp"
 #include "streams.hpp"
 #include "studies/calibration.hpp"
+#include "studies/motion.hpp"
+#include "studies/period_one.hpp"
 
 namespace epicyclic::app {
 
@@ -34,10 +38,25 @@ nlohmann::json calibrated_input(const Arguments& arguments, const studies::Param
   return input::with_origins(input::load_input(arguments.input, sets).resolved, values, origin);
 }
 
+/// Can multipliers lead from the stage as it is given? Candidates with readings that have none are refused one by one.
+void require_multipliers(const Arguments& arguments, const studies::ClaimsOptions& options,
+                         const std::vector<double>& given) {
+  if (options.search.led_by != studies::SearchLead::multipliers) return;
+  const studies::CandidateModels models =
+      input::candidate_models(arguments.input, input::parse_assignments(arguments.sets), options);
+  const studies::ClaimSweep& sweep = options.sweeps.front();
+  if (!studies::has_classification(models(given)(sweep, sweep.axis.from)))
+    throw InputError(std::string("/study/search/led_by: there are no multipliers: ") + studies::no_multipliers);
+}
+
 int lead(const Arguments& arguments, SharedEvaluations& shared) {
   stop_on_signals(arguments.ranks->size() > 1 ? patience_of_ranks : patience);
   const input::LoadedInput input = load_open_claims(arguments);
   const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
+
+  std::vector<std::string> moved;
+  const std::vector<double> given = input::given_candidate(input, options.space, &moved);
+  require_multipliers(arguments, options, given);
 
   const std::string identity = identity_of(input, "calibrate");
   shared.gather(identity);
@@ -45,8 +64,6 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
   if (const auto code = session.exit_code()) return *code;
   const store::OutputFolder& folder = session.folder();
 
-  std::vector<std::string> moved;
-  const std::vector<double> given = input::given_candidate(input, options.space, &moved);
   for (const std::string& words : moved)
     tell("the stage as it is given is no candidate; the first one has {}\n", words);
   CandidateJournal journal(session, "calibrate", studies::most_evaluations(options), 0, options.claims.size());

@@ -282,12 +282,18 @@ const Table<Choice>& choice_table() {
 const Table<SearchOptions>& search_options_table() {
   static const auto table = [] {
     Table<SearchOptions> t("claim_search", "A search for the parameters.");
+    using studies::SearchLead;
     using studies::SearchMethod;
     t.choice("method", &SearchOptions::method,
              std::vector<std::pair<std::string, SearchMethod>>{
                  {"differential_evolution", SearchMethod::differential_evolution},
                  {"covariance_adaptation", SearchMethod::covariance_adaptation}},
              "Of the islands: one that looks everywhere, or one that goes on from the stage as it is given.");
+    t.choice("led_by", &SearchOptions::led_by,
+             std::vector<std::pair<std::string, SearchLead>>{{"motions", SearchLead::motions},
+                                                             {"multipliers", SearchLead::multipliers}},
+             "What the cost of a condition on motions that fails goes by: what points of the looks move like, or the "
+             "multipliers of the orbit of period 1, which is followed along the sweeps besides.");
     t.number("spread", &SearchOptions::spread, above_up_to(0, 1),
              "Of the first candidates of a covariance adaptation, in parts of the ranges [-].");
     t.integer("seed", &SearchOptions::seed, between(0, 1e9), "Seed of its random numbers [-].");

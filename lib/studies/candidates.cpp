@@ -1,6 +1,7 @@
 #include "studies/candidates.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <set>
@@ -34,11 +35,26 @@ LookOptions look_of(const ClaimsOptions& options, const BriefLook& brief) {
   return look;
 }
 
+/// Is there a condition on the sweep that multipliers can lead to?
+bool asks_for_motions(const ClaimsOptions& options, const ClaimSweep& sweep) {
+  constexpr std::array<ConditionKind, 5> kinds = {ConditionKind::share, ConditionKind::count, ConditionKind::change,
+                                                  ConditionKind::sequence, ConditionKind::jump};
+  return std::ranges::any_of(options.claims, [&](const Claim& claim) {
+    return std::ranges::any_of(claim.conditions, [&](const Condition& c) {
+      return c.sweep == sweep.name && std::ranges::find(kinds, c.kind) != kinds.end();
+    });
+  });
+}
+
 }  // namespace
 
-Glance search_glance(const ClaimsOptions& options) { return {options.brief, &ClaimSweep::brief_points}; }
+Glance search_glance(const ClaimsOptions& options) {
+  return {options.brief, &ClaimSweep::brief_points, options.search.led_by};
+}
 
-Glance survey_glance(const ClaimsOptions& options) { return {options.survey.look, &ClaimSweep::survey_points}; }
+Glance survey_glance(const ClaimsOptions& options) {
+  return {options.survey.look, &ClaimSweep::survey_points, SearchLead::motions};
+}
 
 void look_briefly(const ClaimsOptions& options, const Glance& glance, const SweepModels& models,
                   const std::vector<const ClaimSweep*>& sweeps, std::size_t thread, const std::atomic<bool>* stop,
@@ -68,6 +84,17 @@ void look_briefly(const ClaimsOptions& options, const Glance& glance, const Swee
   for (std::size_t k = 0; k < cells.size(); ++k) {
     results[k].point.value = cells[k].second;
     record[cells[k].first->name].points.push_back(claim_point(results[k], look));
+  }
+  if (glance.led_by == SearchLead::motions) return;
+  for (const ClaimSweep* sweep : sweeps) {
+    if (!asks_for_motions(options, *sweep)) continue;
+    std::vector<ClaimPoint>& points = record[sweep->name].points;
+    std::vector<double> values;
+    for (const ClaimPoint& p : points) values.push_back(p.value);
+    const ModelAt along = [&](double value) { return models(*sweep, value); };
+    const std::vector<PeriodOne> orbits = follow_period_one(values, along, integrator_of(glance.look), stop);
+    if (stop != nullptr && stop->load()) throw EvaluationStopped();
+    for (std::size_t k = 0; k < points.size(); ++k) points[k].period_one = orbits[k];
   }
 }
 

@@ -37,6 +37,7 @@ struct Evaluation {
 struct Glance {
   BriefLook look;
   int ClaimSweep::*points = &ClaimSweep::brief_points;
+  SearchLead led_by = SearchLead::motions;
 };
 
 /// Of a search, and of a survey.

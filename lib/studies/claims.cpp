@@ -246,12 +246,36 @@ std::string failed_text(std::size_t failed) {
   return "; " + std::to_string(failed) + (failed == 1 ? " point failed" : " points failed");
 }
 
+/// What points lack of a motion by their orbits of period 1.
+/// @returns nothing where none was followed, or tells nothing of it
+std::vector<double> lacks(std::span<const ClaimPoint> part, std::string_view word) {
+  std::vector<double> all;
+  for (const ClaimPoint& p : part)
+    if (const auto lack = p.period_one ? p.period_one->lacks(word) : std::nullopt) all.push_back(*lack);
+  return all;
+}
+
+/// Of the point that lacks least, or nothing.
+std::vector<double> least_lack(std::span<const ClaimPoint> part, std::string_view word) {
+  std::vector<double> all = lacks(part, word);
+  if (!all.empty()) all = {std::ranges::min(all)};
+  return all;
+}
+
+/// The cost of a condition that fails, by the mean of what is lacking.
+void lead(const std::vector<double>& lacking, ConditionOutcome& o) {
+  if (o.holds || lacking.empty()) return;
+  const double mean = std::accumulate(lacking.begin(), lacking.end(), 0.0) / static_cast<double>(lacking.size());
+  o.cost = step_of_failure + (1.0 - step_of_failure) * mean;
+}
+
 void share(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
   const auto n = static_cast<double>(part.size());
   o.measured = static_cast<double>(std::ranges::count_if(part, [&](const auto& p) { return moves(p, c.motion); })) / n;
   o.error = 0.5 / n;
   judge_bounds(c, o, 1.0);
   judge_failed(c, part, 1.0 / n, o);
+  if (c.at_least && o.measured < *c.at_least) lead(lacks(part, c.motion), o);
   o.text = number(o.measured * 100.0) + " % " + c.motion + range_text(part) + ", " + bound_text(c);
 }
 
@@ -261,7 +285,27 @@ void count(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
   judge_failed(c, part, 1.0, o);
   if (!o.holds && c.at_least && o.measured == 0.0)
     o.cost = 1.0 - (1.0 - step_of_failure) * best_likeness(part, c.motion);
+  if (c.at_least && o.measured < *c.at_least) lead(least_lack(part, c.motion), o);
   o.text = number(o.measured) + " points " + c.motion + range_text(part) + ", " + bound_text(c);
+}
+
+/// What is lacking of a change within its bounds: the one motion before them, and the other beyond. Of the first change
+/// the motion has to stay what it is up to it, and what follows only has to begin; of the last it is the other way
+/// round.
+void lead_to_change(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
+  constexpr double beside = 2.0;  // times the bounds' width
+  const double reach = beside * (c.within[1] - c.within[0]);
+  const bool first = c.which.value_or(Which::first) == Which::first;
+  std::vector<ClaimPoint> before;
+  std::vector<ClaimPoint> after;
+  for (const ClaimPoint& p : part) {
+    if (p.value < c.within[0] && (first || p.value >= c.within[0] - reach)) before.push_back(p);
+    if (p.value > c.within[1] && (!first || p.value <= c.within[1] + reach)) after.push_back(p);
+  }
+  std::vector<double> all = lacks(before, c.motion);
+  const std::vector<double> there = lacks(after, c.leads_to.empty() ? c.after : c.leads_to);
+  all.insert(all.end(), there.begin(), there.end());
+  lead(all, o);
 }
 
 void change(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
@@ -284,11 +328,13 @@ void change(const Condition& c, std::span<const ClaimPoint> part, ConditionOutco
   if (std::isnan(o.measured)) {
     o.cost = 1.0;
     o.text = "no change from " + words + range_text(part) + must;
+    lead_to_change(c, part, o);
     return;
   }
   o.cost = cost_within(o.measured, c.within[0], c.within[1], c.within[1] - c.within[0]);
   o.holds = o.cost == 0.0;
   o.text = words + " at " + number(o.measured) + must;
+  lead_to_change(c, part, o);
 }
 
 void sequence(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
@@ -302,6 +348,10 @@ void sequence(const Condition& c, std::span<const ClaimPoint> part, ConditionOut
   o.measured = static_cast<double>(met);
   o.holds = met == c.motions.size();
   o.cost = o.holds ? 0.0 : 1.0 - o.measured / static_cast<double>(c.motions.size());
+  std::vector<double> lacking;
+  for (const std::string& motion : c.motions)
+    for (const double lack : least_lack(part, motion)) lacking.push_back(lack);
+  if (lacking.size() == c.motions.size()) lead(lacking, o);
   o.text = o.holds ? text : text + (text.empty() ? "no " : ", then no ") + c.motions[met];
 }
 
@@ -500,6 +550,11 @@ void jump(const Condition& c, const ClaimSeries& series, std::span<const ClaimPo
   o.measured = largest.size;
   judge_bounds(c, o, 1.0);
   if (!o.holds) o.cost = step_of_failure + (1.0 - step_of_failure) * (1.0 - std::min(1.0, nearest.nearness() / least));
+  std::vector<double> short_of_fold;
+  for (const ClaimPoint& p : part)
+    if (p.period_one && p.period_one->found && (c.motion.empty() || c.motion == "period 1"))
+      short_of_fold.push_back(std::max(0.0, 1.0 - p.period_one->fold));
+  if (!short_of_fold.empty()) lead({std::ranges::min(short_of_fold)}, o);
   const auto told = [&](const Step& one) {
     return number(100.0 * one.size) + " % of " + c.quantity + " at " + number(one.at);
   };

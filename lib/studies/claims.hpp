@@ -6,6 +6,11 @@
 //
 //   cost of a number x that has to be within [a, b]:  0.1 + 0.9 d / (d + w),  d the distance, w = b - a [C-cost]
 //
+// Where orbits of period 1 were followed, a condition on motions that fails costs 0.1 + 0.9 l instead, l what points
+// lack of their motions in the mean [P-lack]: all of them for a share; of a change those from the sweep's (or the
+// condition's) ends to its bounds; for a number of points, or each motion of a sequence, the one that lacks least; for
+// a jump what the largest real multiplier is short of 1.
+//
 // A change between two motions is told halfway between the two points that it lies between, with half their distance as
 // its error. Points that failed count as no motion at all, and against an upper bound. The Poincare range of period 1
 // is 0.
@@ -18,6 +23,7 @@
 #include <vector>
 
 #include "studies/claims_options.hpp"
+#include "studies/period_one.hpp"
 #include "studies/point_source.hpp"
 #include "studies/sweep.hpp"
 
@@ -44,6 +50,7 @@ struct ClaimPoint {
   ClaimMotion motion;
   ClaimMotion by_sun_mesh, by_ring_mesh;  ///< told from the deflection of planet 1's mesh alone
   std::array<double, claim_quantities.size()> quantities{};
+  std::optional<PeriodOne> period_one;  ///< where it was followed
 
   [[nodiscard]] double quantity(std::string_view name) const;
 };

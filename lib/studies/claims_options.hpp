@@ -148,8 +148,15 @@ enum class SearchMethod {
   covariance_adaptation,   ///< goes on from the stage as it is given
 };
 
+/// What the cost of conditions on motions goes by where they fail.
+enum class SearchLead {
+  motions,      ///< how many points move as they should, and where they do
+  multipliers,  ///< those of the orbit of period 1 along the sweeps [studies/period_one.hpp]
+};
+
 struct SearchOptions {
   SearchMethod method = SearchMethod::differential_evolution;
+  SearchLead led_by = SearchLead::motions;
   double spread = 0.15;  ///< covariance adaptation: of its first candidates, in parts of the ranges
   int seed = 1;
   int islands = 4;

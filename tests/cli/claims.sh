@@ -135,6 +135,18 @@ for file in "${files[@]}"; do
   cmp -s "c1/$file" "c2/$file" || fail "$file differs after a stop"
   cmp -s "c1/$file" "c3/$file" || fail "$file differs with three threads"
 done
+# Led by multipliers candidates that fail cost otherwise, but the first one is the same and meets the same.
+led=(--set '/study/claims/0/conditions=[{ "kind": "share", "sweep": "speed", "motion": "chaotic", "at_least": 0.9 }]' --set '/study/search={ "seed": 3, "islands": 2, "population": 7, "candidates": 14, "refinement": 0, "profile": 0 }')
+[ "$(code_of "$epicyclic" calibrate claims.json -o words "${led[@]}")" = 0 ] || fail "led by words: $(<stderr)"
+[ "$(code_of "$epicyclic" calibrate claims.json -o led1 "${led[@]}" --set /study/search/led_by=multipliers --threads 1)" = 0 ] || fail "led by multipliers: $(<stderr)"
+[ "$(code_of "$epicyclic" calibrate claims.json -o led2 "${led[@]}" --set /study/search/led_by=multipliers --threads 2)" = 0 ] || fail "led by multipliers, two threads: $(<stderr)"
+cmp -s led1/candidates.csv led2/candidates.csv || fail "led by multipliers: candidates differ with two threads"
+first() { sed -n 2p "$1/candidates.csv" | cut -d, -f "$2"; }
+[ "$(first words 3)" != "$(first led1 3)" ] || fail "multipliers lead to nothing: $(sed -n 2p words/candidates.csv)"
+[ "$(first words 5-8)" = "$(first led1 5-8)" ] || fail "multipliers decide: $(sed -n 2p words/candidates.csv) $(sed -n 2p led1/candidates.csv)"
+slope='/model/gap_damping=contact_slope'
+[ "$(code_of "$epicyclic" calibrate claims.json -o jumps "${led[@]}" --set /study/search/led_by=multipliers --set $slope)" = 2 ] || fail "multipliers where forces jump: $(<stderr)"
+grep -q 'no tangents' stderr || fail "it is not said that there are no tangents: $(<stderr)"
 [ "$(code_of "$epicyclic" calibrate claims.json -o c1)" = 0 ] || fail "complete: $(<stderr)"
 grep -q 'calibrated: by claims of small, seed 3' c1/stage.json || fail "no origin"
 is_drawn c1/figures/determination
