@@ -122,7 +122,8 @@ std::vector<PeriodOne> follow_period_one(std::span<const double> values, const M
     if (stop != nullptr && stop->load()) break;
     const model::DynamicModel model = model_at(values[k]);
     if (!has_classification(model)) throw InputError(no_multipliers);
-    const auto flow = integrate::make_flow(model, integrator);
+    // Alone: lanes that one motion has to itself move eight times as much.
+    const auto flow = make_flow_of_one_trajectory(model, integrator);
     std::optional<analysis::PeriodicOrbit> orbit;
     const auto seek = [&](const std::vector<double>& from) {
       orbit = analysis::find_periodic_orbit(*flow, from, 1, options);
