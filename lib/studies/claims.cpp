@@ -255,18 +255,20 @@ std::vector<double> lacks(std::span<const ClaimPoint> part, std::string_view wor
   return all;
 }
 
-/// Of the point that lacks least, or nothing.
-std::vector<double> least_lack(std::span<const ClaimPoint> part, std::string_view word) {
+/// Of the points that lack least, as many as that.
+std::vector<double> least_lacks(std::span<const ClaimPoint> part, std::string_view word, std::size_t most) {
   std::vector<double> all = lacks(part, word);
-  if (!all.empty()) all = {std::ranges::min(all)};
+  std::ranges::sort(all);
+  all.resize(std::min(all.size(), most));
   return all;
 }
 
-/// The cost of a condition that fails, by the mean of what is lacking.
+/// The cost of a condition that fails, by what is lacking too. Where multipliers are as wanted and the motion is
+/// another one all the same, the words still lead.
 void lead(const std::vector<double>& lacking, ConditionOutcome& o) {
   if (o.holds || lacking.empty()) return;
   const double mean = std::accumulate(lacking.begin(), lacking.end(), 0.0) / static_cast<double>(lacking.size());
-  o.cost = step_of_failure + (1.0 - step_of_failure) * mean;
+  o.cost = 0.5 * (o.cost + step_of_failure + (1.0 - step_of_failure) * mean);
 }
 
 void share(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
@@ -285,7 +287,8 @@ void count(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
   judge_failed(c, part, 1.0, o);
   if (!o.holds && c.at_least && o.measured == 0.0)
     o.cost = 1.0 - (1.0 - step_of_failure) * best_likeness(part, c.motion);
-  if (c.at_least && o.measured < *c.at_least) lead(least_lack(part, c.motion), o);
+  if (c.at_least && o.measured < *c.at_least)
+    lead(least_lacks(part, c.motion, static_cast<std::size_t>(std::ceil(*c.at_least))), o);
   o.text = number(o.measured) + " points " + c.motion + range_text(part) + ", " + bound_text(c);
 }
 
@@ -296,12 +299,14 @@ void lead_to_change(const Condition& c, std::span<const ClaimPoint> part, Condit
   constexpr double beside = 2.0;  // times the bounds' width
   const double reach = beside * (c.within[1] - c.within[0]);
   const bool first = c.which.value_or(Which::first) == Which::first;
-  std::vector<ClaimPoint> before;
-  std::vector<ClaimPoint> after;
-  for (const ClaimPoint& p : part) {
-    if (p.value < c.within[0] && (first || p.value >= c.within[0] - reach)) before.push_back(p);
-    if (p.value > c.within[1] && (!first || p.value <= c.within[1] + reach)) after.push_back(p);
-  }
+  const auto from = [&](double value) {
+    return std::ranges::lower_bound(part, value, {}, &ClaimPoint::value) - part.begin();
+  };
+  const auto to = [&](double value) {
+    return std::ranges::upper_bound(part, value, {}, &ClaimPoint::value) - part.begin();
+  };
+  const std::span before(part.begin() + (first ? 0 : from(c.within[0] - reach)), part.begin() + from(c.within[0]));
+  const std::span after(part.begin() + to(c.within[1]), first ? part.begin() + to(c.within[1] + reach) : part.end());
   std::vector<double> all = lacks(before, c.motion);
   const std::vector<double> there = lacks(after, c.leads_to.empty() ? c.after : c.leads_to);
   all.insert(all.end(), there.begin(), there.end());
@@ -350,7 +355,7 @@ void sequence(const Condition& c, std::span<const ClaimPoint> part, ConditionOut
   o.cost = o.holds ? 0.0 : 1.0 - o.measured / static_cast<double>(c.motions.size());
   std::vector<double> lacking;
   for (const std::string& motion : c.motions)
-    for (const double lack : least_lack(part, motion)) lacking.push_back(lack);
+    for (const double lack : least_lacks(part, motion, 1)) lacking.push_back(lack);
   if (lacking.size() == c.motions.size()) lead(lacking, o);
   o.text = o.holds ? text : text + (text.empty() ? "no " : ", then no ") + c.motions[met];
 }

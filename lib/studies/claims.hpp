@@ -6,10 +6,10 @@
 //
 //   cost of a number x that has to be within [a, b]:  0.1 + 0.9 d / (d + w),  d the distance, w = b - a [C-cost]
 //
-// Where orbits of period 1 were followed, a condition on motions that fails costs 0.1 + 0.9 l instead, l what points
-// lack of their motions in the mean [P-lack]: all of them for a share; of a change those from the sweep's (or the
-// condition's) ends to its bounds; for a number of points, or each motion of a sequence, the one that lacks least; for
-// a jump what the largest real multiplier is short of 1.
+// Where orbits of period 1 were followed, a condition on motions that fails costs the mean of that and of 0.1 + 0.9 l,
+// l what points lack of their motions in the mean [P-lack]: all of them for a share; of a change those from the sweep's
+// (or the condition's) ends to its bounds; for a number of points as many as there have to be, those that lack least,
+// and one for each motion of a sequence; for a jump what the largest real multiplier is short of 1.
 //
 // A change between two motions is told halfway between the two points that it lies between, with half their distance as
 // its error. Points that failed count as no motion at all, and against an upper bound. The Poincare range of period 1

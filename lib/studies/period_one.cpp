@@ -100,11 +100,12 @@ std::optional<double> PeriodOne::lacks(std::string_view word) const {
   constexpr double unknown = 0.5;
   constexpr std::array<std::string_view, 5> others = {"not period 1", "not periodic", "multi-period", "quasiperiodic",
                                                       "aperiodic"};
-  if (word == "period 1") return found ? beyond(growth) : unknown;
-  if (word == "period 2") return found ? 0.5 * (short_of(flip, width, to_flip) + beyond(rest)) : unknown;
-  if (word == "chaotic") return found ? short_of(growth, of_chaos, to_flip) : unknown;
-  if (std::ranges::find(others, word) != others.end()) return found ? short_of(growth, width, to_flip) : unknown;
-  return std::nullopt;
+  std::optional<double> lack;
+  if (word == "period 1") lack = beyond(growth);
+  if (word == "period 2") lack = 0.5 * (short_of(flip, width, to_flip) + beyond(rest));
+  if (word == "chaotic") lack = short_of(growth, of_chaos, to_flip);
+  if (std::ranges::find(others, word) != others.end()) lack = short_of(growth, width, to_flip);
+  return lack && !found ? unknown : lack;
 }
 
 std::vector<PeriodOne> follow_period_one(std::span<const double> values, const ModelAt& model_at,

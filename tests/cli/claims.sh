@@ -144,8 +144,7 @@ cmp -s led1/candidates.csv led2/candidates.csv || fail "led by multipliers: cand
 first() { sed -n 2p "$1/candidates.csv" | cut -d, -f "$2"; }
 [ "$(first words 3)" != "$(first led1 3)" ] || fail "multipliers lead to nothing: $(sed -n 2p words/candidates.csv)"
 [ "$(first words 5-8)" = "$(first led1 5-8)" ] || fail "multipliers decide: $(sed -n 2p words/candidates.csv) $(sed -n 2p led1/candidates.csv)"
-slope='/model/gap_damping=contact_slope'
-[ "$(code_of "$epicyclic" calibrate claims.json -o jumps "${led[@]}" --set /study/search/led_by=multipliers --set $slope)" = 2 ] || fail "multipliers where forces jump: $(<stderr)"
+[ "$(code_of "$epicyclic" calibrate claims.json -o jumps "${led[@]}" --set /study/search/led_by=multipliers --set /model/gap_damping=contact_slope)" = 2 ] || fail "multipliers where forces jump: $(<stderr)"
 grep -q 'no tangents' stderr || fail "it is not said that there are no tangents: $(<stderr)"
 [ "$(code_of "$epicyclic" calibrate claims.json -o c1)" = 0 ] || fail "complete: $(<stderr)"
 grep -q 'calibrated: by claims of small, seed 3' c1/stage.json || fail "no origin"

@@ -169,6 +169,13 @@ TEST(CostsLedByMultipliers, SeeWhatWordsDoNot) {
     EXPECT_TRUE(judge(c, record("111ccc", far)).holds);
     EXPECT_EQ(judge(c, record("111ccc", far)).cost, 0.0);
   }
+  // Of a number of points all that there have to be count: one alone is not all but met.
+  count.at_least = 3.0;
+  EXPECT_LT(judge(count, record("11111c", {-0.5, -0.5, -0.5, -0.01, -0.01, 0.4})).cost,
+            judge(count, record("11111c", {-0.5, -0.5, -0.5, -0.5, -0.5, 0.4})).cost);
+  // Where multipliers are as wanted, words lead.
+  const std::vector<double> well(6, 0.4);
+  EXPECT_LT(judge(count, record("1111cc", well)).cost, judge(count, record("11111c", well)).cost);
   Condition share;
   share.kind = ConditionKind::share;
   share.sweep = "s";
