@@ -39,13 +39,11 @@ Eigen::MatrixXd newton_step(const Shot& at) {
   return least_norm_solution(a, -at.residual.reshaped()).reshaped(n, count);
 }
 
-/// State, monodromy and error of the orbit from an iteration.
-/// @param residual  that the error is told from
-void take_state(const Eigen::MatrixXd& y, const Shot& at, double residual, PeriodicOrbit& orbit) {
+/// State and monodromy of the orbit from an iteration.
+void take_state(const Eigen::MatrixXd& y, const Shot& at, PeriodicOrbit& orbit) {
   std::copy_n(y.data(), orbit.state.size(), orbit.state.begin());
   orbit.monodromy = at.monodromy();
   orbit.pieces = at.pieces;
-  orbit.error = orbit_error(orbit.monodromy, residual);
 }
 
 }  // namespace
@@ -65,15 +63,23 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
   orbit.state.assign(start.begin(), start.end());
   Eigen::MatrixXd y(static_cast<Eigen::Index>(start.size()), options.pieces);
   y.col(0) = as_vector(start);
+  double best = std::numeric_limits<double>::infinity();
+  // Of the best iteration alone, and where it is asked for: its singular values cost more than the step.
+  const auto tell_error = [&] {
+    if (std::isfinite(best)) orbit.error = orbit_error(orbit.monodromy, std::max(best, options.residual));
+  };
+  const auto is_known = [&] {
+    tell_error();
+    return std::isfinite(best) && orbit.error <= options.known * as_vector(orbit.state).lpNorm<Eigen::Infinity>();
+  };
   const auto not_reached = [&](const integrate::Evolution& e) {
+    tell_error();
     orbit.outcome = OrbitOutcome::not_reached;
     orbit.message = e.message;
     return orbit;
   };
   if (options.pieces > 1)
     if (const integrate::Evolution e = carry_to_pieces(flow, n, y); !e.reached()) return not_reached(e);
-  double best = std::numeric_limits<double>::infinity();
-  const auto is_known = [&] { return orbit.error <= options.known * as_vector(orbit.state).lpNorm<Eigen::Infinity>(); };
   Shot at;
   bool kept = false;
   for (int k = 0; k < options.iterations; ++k) {
@@ -95,9 +101,10 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
     const bool falls = residual < 0.5 * best;
     if (residual < best) {
       best = residual;
-      take_state(y, at, std::max(best, options.residual), orbit);
+      take_state(y, at, orbit);
     }
     if (residual <= options.residual) {
+      tell_error();
       orbit.outcome = OrbitOutcome::converged;
       return orbit;
     }
