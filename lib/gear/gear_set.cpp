@@ -363,7 +363,7 @@ EhlFriction ehl_of(const MeshedPair& mesh, const Lubrication& lubrication) {
   e.roughness_um = lubrication.roughness_um;
   e.table_tolerance = lubrication.table_tolerance;
   e.equivalent_modulus_GPa = equivalent_modulus(mesh.driving.material, mesh.driven.material);
-  e.width_mm = std::min(mesh.driving.tooth.width_mm, mesh.driven.tooth.width_mm);
+  e.width_mm = mesh.face_width_mm();
   e.contact_ratio = mesh.contact_ratio();
   e.path_start_mm = mesh.pair.start_mm;
   e.share_interpolation = Interpolation::smooth;

@@ -30,13 +30,18 @@ void for_pieces(const MeshedPair& mesh, F f) {
 
 }  // namespace
 
+ToothCompliance MeshedPair::compliance(const ToothBody& body, double contact_radius_mm) const {
+  ToothBody in_contact = body;
+  in_contact.tooth.width_mm = face_width_mm();
+  return tooth_compliance(in_contact, contact_radius_mm, options);
+}
+
 double MeshedPair::pair_stiffness(double position) const {
   const double l = arm_mm(position);
-  const double width = std::min(driving.tooth.width_mm, driven.tooth.width_mm);
-  double compliance = options.hertz ? hertz_compliance(driving.material, width) : 0.0;
-  compliance += tooth_compliance(driving, pair.radius_1_mm(l), options).sum();
-  compliance += tooth_compliance(driven, pair.radius_2_mm(l), options).sum();
-  return factor / compliance;
+  double sum = options.hertz ? hertz_compliance(driving.material, face_width_mm()) : 0.0;
+  sum += compliance(driving, pair.radius_1_mm(l)).sum();
+  sum += compliance(driven, pair.radius_2_mm(l)).sum();
+  return factor / sum;
 }
 
 int MeshedPair::pairs_in_contact(double phase) const {
@@ -127,13 +132,13 @@ IsoStiffness iso_stiffness(const MeshedPair& mesh) {
   const double x_2 = mesh.driven.tooth.internal ? 0.0 : mesh.driven.tooth.profile_shift;
   const double q = 0.04723 + 0.15551 * n_1 + 0.25791 * n_2 - 0.00635 * x_1 - 0.11654 * x_1 * n_1 - 0.00193 * x_2 -
                    0.24188 * x_2 * n_2 + 0.00529 * x_1 * x_1 + 0.00182 * x_2 * x_2;
-  const double width_mm = std::min(mesh.driving.tooth.width_mm, mesh.driven.tooth.width_mm);
   constexpr double theory_to_measurement = 0.8;
   constexpr double per_mm_um = 1e6;  // N / (mm um) times mm, in N/m
   constexpr double steel_GPa = 206.0;
   const double e_1 = mesh.driving.material.youngs_modulus_GPa;
   const double e_2 = mesh.driven.material.youngs_modulus_GPa;
-  const double single = theory_to_measurement / q * width_mm * per_mm_um * (2.0 * e_1 * e_2 / (e_1 + e_2) / steel_GPa);
+  const double single =
+      theory_to_measurement / q * mesh.face_width_mm() * per_mm_um * (2.0 * e_1 * e_2 / (e_1 + e_2) / steel_GPa);
   return {single, single * (0.75 * mesh.contact_ratio() + 0.25)};
 }
 

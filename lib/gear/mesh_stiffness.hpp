@@ -1,6 +1,7 @@
 // Stiffness of a mesh over its period, load sharing among the pairs in contact, and its Fourier series.
 //
 //   1/k_pair = 1/k_h + sum over both teeth (1/k_b + 1/k_s + 1/k_a + 1/k_f)                              [G-pairk]
+//   with L the smaller face width of the two gears, as b of ISO 6336-1: the end of the wider one bears nothing
 //   k(phase) = sum over pairs j with phase + j < epsilon of k_pair(phase + j)                           [G-k]
 //   L_j = k_pair,j / k : equal total deformation of the pairs in contact                                [G-L]
 //   k = k_0 + sum_h [ A_h cos 2 pi h phase + B_h sin 2 pi h phase ]                                     [G-4]
@@ -14,6 +15,7 @@
 // fractional part of epsilon, and is analytic between: every integral here is taken piece by piece.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "gear/pair.hpp"
@@ -29,6 +31,12 @@ struct MeshedPair {
   double factor = 1;  ///< on the stiffness [-]
 
   [[nodiscard]] double contact_ratio() const { return pair.contact_ratio(); }
+  /// L of both gears: the smaller face width. What of a tooth overhangs the other one is not counted [mm].
+  [[nodiscard]] double face_width_mm() const { return std::min(driving.tooth.width_mm, driven.tooth.width_mm); }
+  /// Of a tooth of either gear, over the common face width.
+  /// @param body  `driving` or `driven`
+  /// @throws as tooth_compliance() does
+  [[nodiscard]] ToothCompliance compliance(const ToothBody& body, double contact_radius_mm) const;
   /// Distance of the contact from N_1 at a position [base pitches from the start of contact] [mm].
   [[nodiscard]] double arm_mm(double position) const { return pair.start_mm + position * pair.base_pitch_mm; }
 

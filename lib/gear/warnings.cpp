@@ -40,6 +40,10 @@ constexpr double pressure_most_GPa = 1.65 * 1.6;
 constexpr double mass_most = 3.0;            // over that of the drawing
 constexpr double gyration_most = 2.0;        // over the member's radius
 constexpr double stiffness_deviation = 0.3;  // from ISO 6336-1
+constexpr double width_most = 1.5;           // over that of the gear in mesh
+constexpr double density_least = 900.0;      // kg/m^3, of plastics
+constexpr double density_most = 20000.0;     // kg/m^3, of tungsten and gold
+constexpr double cheek_least = 0.02;         // thickness over the planet's face width
 
 const std::string sun_pointer = "/catalogue/sun";
 const std::string planet_pointer = "/catalogue/planet";
@@ -106,6 +110,18 @@ void check_pair(Warnings& out, const Pair& p, const std::string& driving, const 
   };
   form(driving, p.radius_1_mm(p.start_mm), p.driving);
   if (!p.internal()) form(driven, p.radius_2_mm(p.end_mm), p.driven);
+}
+
+/// The wider gear's end bears nothing.
+void check_widths(Warnings& out, const MeshedPair& m, const std::string& driving, const std::string& driven,
+                  const std::string& mesh) {
+  const bool first = m.driving.tooth.width_mm > m.driven.tooth.width_mm;
+  const double wider_mm = (first ? m.driving : m.driven).tooth.width_mm;
+  const double ratio = wider_mm / m.face_width_mm();
+  if (ratio > width_most)
+    out.add(Rank::doubtful, ratio / width_most, (first ? driving : driven) + "/width_mm",
+            "width in the " + mesh + " mesh", "is ", wider_mm, " mm, ", ratio, " times that of the other gear of the ",
+            mesh, " mesh, ", m.face_width_mm(), " mm, which alone bears and yields");
 }
 
 void check_body(Warnings& out, const MeshedPair& m, const ToothBody& b, double bore_mm, const std::string& pointer) {
@@ -286,6 +302,38 @@ void check_pressure(Warnings& out, const EhlFriction& contact, const LineOfActio
                  1e3 * pressure, " MPa: next to no load; gears under load have 300 to 1500 MPa");
 }
 
+void check_density(Warnings& out, double density) {
+  const double beyond = std::max(density_least / density, density / density_most);
+  if (beyond > 1.0)
+    out.add(Rank::doubtful, beyond, "/catalogue/material/density_kg_per_m3", "density", "is ", density,
+            " kg/m^3; plastics have 1000, steel 7850, tungsten 19300");
+}
+
+/// Pins and cheeks that could not hold the planets.
+void check_carrier(Warnings& out, const CarrierBody& b, const GearSet& set) {
+  const auto doubtful = [&](const char* key, double measure, const auto&... words) {
+    out.add(Rank::doubtful, measure, std::string("/catalogue/carrier/body/") + key, "carrier", words...);
+  };
+  const double circle_mm = 2.0 * set.centre_distance_mm;
+  if (b.outer_diameter_mm < circle_mm)
+    doubtful("outer_diameter_mm", circle_mm / b.outer_diameter_mm, "is ", b.outer_diameter_mm,
+             " mm, and the pins' axes lie outside of such cheeks, on a circle of ", circle_mm, " mm");
+  if (b.inner_diameter_mm > circle_mm)
+    doubtful("inner_diameter_mm", b.inner_diameter_mm / circle_mm, "is ", b.inner_diameter_mm,
+             " mm, and the pins' axes lie inside of it, on a circle of ", circle_mm, " mm");
+  const double bore_mm = set.catalogue.planet.bore_mm;
+  if (bore_mm > 0.0 && b.pin_diameter_mm > bore_mm)
+    doubtful("pin_diameter_mm", b.pin_diameter_mm / bore_mm, "is ", b.pin_diameter_mm,
+             " mm, more than the planets' bore of ", bore_mm, " mm");
+  const double width_mm = set.planet.width_mm;
+  if (b.pin_length_mm < width_mm)
+    doubtful("pin_length_mm", width_mm / b.pin_length_mm, "is ", b.pin_length_mm,
+             " mm, less than the planets' face width of ", width_mm, " mm");
+  if (b.cheek_thickness_mm < cheek_least * width_mm)
+    doubtful("cheek_thickness_mm", cheek_least * width_mm / b.cheek_thickness_mm, "is ", b.cheek_thickness_mm,
+             " mm beside planets of ", width_mm, " mm");
+}
+
 }  // namespace
 
 std::vector<Warning> catalogue_warnings(const GearSet& set) {
@@ -301,6 +349,8 @@ std::vector<Warning> catalogue_warnings(const GearSet& set) {
              ", which profile shifts and the centre distance have to make up for";
   check_pair(out, set.sun_planet.pair, sun_pointer, planet_pointer, "sun-planet", remedy);
   check_pair(out, set.ring_planet.pair, planet_pointer, ring_pointer, "ring-planet", remedy);
+  check_widths(out, set.sun_planet, sun_pointer, planet_pointer, "sun-planet");
+  check_widths(out, set.ring_planet, planet_pointer, ring_pointer, "ring-planet");
   if (set.catalogue.ring.base_pitch == BasePitch::of_planet && set.base_pitch_mismatch_mm != 0.0)
     out.add(Rank::note, 1.0, ring_pointer + "/module_mm", "module", "replaced: ", set.catalogue.ring.data.module_mm,
             " mm would give base pitches that differ by ", 1e3 * std::abs(set.base_pitch_mismatch_mm), " um; ",
@@ -308,6 +358,8 @@ std::vector<Warning> catalogue_warnings(const GearSet& set) {
   if (planet_gap_mm(set) < planet_gap_usual * set.planet.module_mm)
     out.add(Rank::note, 1.0, "/planets/count", "gap", "neighbouring planets leave a gap of ", planet_gap_mm(set),
             " mm only");
+  check_density(out, set.catalogue.material.density_kg_per_m3);
+  if (set.catalogue.carrier.body) check_carrier(out, *set.catalogue.carrier.body, set);
   check_body(out, set.sun_planet, set.sun_planet.driving, set.catalogue.sun.bore_mm, sun_pointer);
   check_body(out, set.sun_planet, set.sun_planet.driven, set.catalogue.planet.bore_mm, planet_pointer);
   if (const auto outer = set.catalogue.ring.outer_diameter_mm) {

@@ -18,6 +18,10 @@
 //   mass            3 times that of the body on the drawing, or a radius of gyration of twice the member's radius
 //   stiffness       of a mesh more than 30 % from c_gamma of [G-iso], ISO 6336-1:2006, 9.3: that is how far models of
 //                   this kind differ
+//   width           of a gear 1.5 times that of the one it meshes with: what overhangs bears nothing
+//   density         below 900 or above 20000 kg/m^3: no solid that gears are made of
+//   carrier         pins' axes outside of the cheeks, pins thicker than the planets' bore or shorter than their width,
+//                   cheeks thinner than 0.02 of it
 //   rim             under external teeth thinner than 1.2 tooth heights, under a ring's than 3.5 m, where ISO 6336-3
 //                   begins to count its bending (Y_B); [G-kf], [G-kfr] have no rim
 //

@@ -32,7 +32,9 @@ void add_gear_data(Table<T>& t) {
   t.number("addendum_coefficient", data(&GearData::addendum_coefficient), coefficient, "Addendum coefficient [-].");
   t.number("clearance_coefficient", data(&GearData::clearance_coefficient), coefficient,
            "Tip clearance coefficient of the reference profile [-].");
-  t.number("width_mm", data(&GearData::width_mm), length_bounds, "Face width [mm].").required();
+  t.number("width_mm", data(&GearData::width_mm), length_bounds,
+           "Face width [mm]; of two gears in mesh the smaller one bears and yields.")
+      .required();
   t.number("tip_diameter_mm", data(&GearData::tip_diameter_mm), length_bounds,
            "Diameter of the tip circle [mm]; decides over addendum coefficient and tip shortening.");
   t.number("root_diameter_mm", data(&GearData::root_diameter_mm), length_bounds,

@@ -98,7 +98,7 @@ void add_stiffness(std::vector<Quantity>& all, const gear::MeshedPair& m, const 
             body.root_half_angle.value_or(gear::root_half_angle(body.tooth, m.options.fillet)), "rad",
             "[G-kf], fitted for 0.01 to 0.12");
     }
-    const gear::ToothCompliance c = gear::tooth_compliance(body, radius, m.options);
+    const gear::ToothCompliance c = m.compliance(body, radius);
     g.add(name(member + "_bending_compliance"), "1/k_b", c.bending, "m/N", body.tooth.internal ? "[G-kr]" : "[G-kb]");
     g.add(name(member + "_shear_compliance"), "1/k_s", c.shear, "m/N", body.tooth.internal ? "[G-kr]" : "[G-ks]");
     g.add(name(member + "_axial_compliance"), "1/k_a", c.axial, "m/N", body.tooth.internal ? "[G-kr]" : "[G-ka]");

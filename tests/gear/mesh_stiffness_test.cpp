@@ -284,6 +284,24 @@ TEST(MeshStiffness, PairIsTheSumOfBothTeethInSeries) {
   EXPECT_NEAR(1.0 / mesh.pair_stiffness(position) - 1.0 / rigid.pair_stiffness(position), hertz, 10.0 * rounding / 1e9);
 }
 
+TEST(MeshStiffness, TheSmallerFaceWidthBears) {
+  for (const MeshedPair& mesh : meshes()) {
+    MeshedPair wider_driving = mesh;
+    wider_driving.driving.tooth.width_mm *= 2.0;
+    MeshedPair wider_driven = mesh;
+    wider_driven.driven.tooth.width_mm *= 1.5;
+    MeshedPair narrower = mesh;
+    narrower.driven.tooth.width_mm *= 0.5;
+    for (const double position : {0.1, 0.6}) {
+      EXPECT_EQ(wider_driving.pair_stiffness(position), mesh.pair_stiffness(position));
+      EXPECT_EQ(wider_driven.pair_stiffness(position), mesh.pair_stiffness(position));
+      EXPECT_NEAR(narrower.pair_stiffness(position), 0.5 * mesh.pair_stiffness(position),
+                  rounding * mesh.pair_stiffness(position));
+    }
+    EXPECT_EQ(iso_stiffness(wider_driving).mesh, iso_stiffness(mesh).mesh);
+  }
+}
+
 TEST(MeshStiffness, EqualGearsAreSymmetricAlongThePath) {
   const MeshedPair mesh = problems::yi_pair();
   for (const double position : {0.0, 0.2, 0.7})

@@ -83,11 +83,44 @@ TEST(Warnings, EachOneOnDrawingsIsToldAtItsPlace) {
        [](Stage&, Catalogue& c) { c.ring.outer_diameter_mm = 230; }},
       {"/catalogue/sun", "Sainsot's body compliance", [](Stage&, Catalogue& c) { c.sun.body_radius_ratio = 7.1; }},
       {"/catalogue/sun", "Sainsot's body compliance", [](Stage&, Catalogue& c) { c.sun.body_radius_ratio = 1.2; }},
+      {"/catalogue/sun/width_mm", "2 times that of the other gear of the sun-planet mesh, 60 mm",
+       [](Stage&, Catalogue& c) { c.sun.data.width_mm = 120; }},
+      {"/catalogue/planet/width_mm", "of the ring-planet mesh, 30 mm",
+       [](Stage&, Catalogue& c) { c.ring.data.width_mm = 30; }},
+      {"/catalogue/material/density_kg_per_m3", "is 7.85 kg/m^3",
+       [](Stage&, Catalogue& c) { c.material.density_kg_per_m3 = 7.85; }},
+      {"/catalogue/carrier/body/outer_diameter_mm", "the pins' axes lie outside",
+       [](Stage&, Catalogue& c) { c.carrier.body = {2, 20, 100, 0, 30, 80}; }},
+      {"/catalogue/carrier/body/inner_diameter_mm", "the pins' axes lie inside",
+       [](Stage&, Catalogue& c) { c.carrier.body = {2, 20, 190, 150, 30, 80}; }},
+      {"/catalogue/carrier/body/pin_diameter_mm", "more than the planets' bore of 44 mm",
+       [](Stage&, Catalogue& c) {
+         c.planet.bore_mm = 44;
+         c.carrier.body = {2, 20, 190, 0, 45, 80};
+       }},
+      {"/catalogue/carrier/body/pin_length_mm", "less than the planets' face width of 60 mm",
+       [](Stage&, Catalogue& c) { c.carrier.body = {2, 20, 190, 0, 30, 0.084}; }},
+      {"/catalogue/carrier/body/cheek_thickness_mm", "is 0.018 mm beside planets of 60 mm",
+       [](Stage&, Catalogue& c) { c.carrier.body = {2, 0.018, 190, 0, 30, 80}; }},
   };
   for (const Rule& rule : rules) {
     const auto lines = drawn(make_gear_set(changed(rule.break_it)));
     EXPECT_TRUE(has_line(lines, rule.pointer, rule.words)) << rule.pointer << ": " << rule.words << "\nnot among:\n"
                                                            << joined(lines);
+  }
+}
+
+TEST(Warnings, ACarrierThatHoldsItsPlanetsIsNotWarnedOf) {
+  for (const CarrierBody& body : {CarrierBody{2, 20, 190, 0, 30, 80}, CarrierBody{1, 2, 144, 140, 44, 60}}) {
+    const GearSet set = make_gear_set(changed([&](Stage&, Catalogue& c) {
+      c.planet.bore_mm = 44;
+      c.carrier.body = body;
+      c.sun.data.width_mm = 66;
+    }));
+    for (const std::string& line : drawn(set)) {
+      EXPECT_EQ(line.find("/carrier"), std::string::npos) << line;
+      EXPECT_EQ(line.find("width_mm"), std::string::npos) << line;
+    }
   }
 }
 
