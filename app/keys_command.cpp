@@ -47,8 +47,12 @@ int keys_command(const Arguments& arguments) {
   }
   if (any) return done;
   std::string words;
-  for (const std::string& word : arguments.words) words += (words.empty() ? "'" : ", '") + word + "'";
-  throw InputError("no key speaks of " + words + input::suggestion(arguments.words.front(), known));
+  for (const std::string& word : arguments.words) words += (words.empty() ? "'" : " and '") + word + "'";
+  // Each may be a word, and no key have them all.
+  const auto unknown = [&](const std::string& word) { return std::ranges::find(known, word) == known.end(); };
+  const auto wrong = std::ranges::find_if(arguments.words, unknown);
+  throw InputError("no key speaks of " + words +
+                   (wrong != arguments.words.end() ? input::suggestion(*wrong, known) : "; ask for one of them"));
 }
 
 }  // namespace epicyclic::app

@@ -180,7 +180,11 @@ void add_init_options(CLI::App& command, Arguments& arguments) {
       ->expected(2, 3);
   command.add_option("--module", init.module_mm, "module [mm]; 3 if it is not given");
   command.add_option("--pressure-angle", init.pressure_angle_deg, "pressure angle [deg]; 20 if it is not given");
-  command.add_option("--shifts", init.profile_shifts, "X_SUN,X_PLANET,X_RING, profile shifts [-]; 0,0,0 by default")
+  command
+      .add_option("--shifts", init.profile_shifts,
+                  "X_SUN,X_PLANET,X_RING, profile shifts [-]; 0,0,0 by default; both meshes have one centre distance "
+                  "where X_RING "
+                  "= X_SUN + 2 X_PLANET")
       ->delimiter(',')
       ->expected(3);
   command.add_option("--width", init.width_mm, "face width [mm]; 30 if it is not given");

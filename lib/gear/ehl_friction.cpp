@@ -91,6 +91,13 @@ MeshLoad mean_mesh_load(const Stage& stage, double mesh_frequency) {
           mesh_frequency / *stage.sun.teeth * base_radius_m};
 }
 
+double mean_planet_load(const Stage& stage, double mesh_frequency) {
+  const PressureAngles alpha = pressure_angles(stage);
+  return mean_mesh_load(stage, mesh_frequency).force_N *
+         std::hypot(std::cos(alpha.sun_planet) + std::cos(alpha.ring_planet),
+                    std::sin(alpha.sun_planet) - std::sin(alpha.ring_planet));
+}
+
 LubricatedContact lubricated_contact(const EhlFriction& e, const LineOfAction& line, const MeshLoad& load,
                                      double position, double share) {
   const double h_1 = e.path_start_mm + line.base_pitch_mm * position;

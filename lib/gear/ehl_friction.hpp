@@ -59,6 +59,10 @@ struct MeshLoad {
 /// @param stage  passes problems_for_motion()
 [[nodiscard]] MeshLoad mean_mesh_load(const Stage& stage, double mesh_frequency);
 
+/// What both mean mesh forces load a planet's bearing with [N].
+/// @param stage  passes problems_for_motion()
+[[nodiscard]] double mean_planet_load(const Stage& stage, double mesh_frequency);
+
 /// The contact of the pair at a position [base pitches from the start of contact].
 [[nodiscard]] LubricatedContact lubricated_contact(const EhlFriction& ehl, const LineOfAction& line,
                                                    const MeshLoad& load, double position, double load_share);

@@ -11,6 +11,7 @@
 #include "core/fitted_rows.hpp"
 #include "core/require.hpp"
 #include "core/root_finding.hpp"
+#include "core/text.hpp"
 #include "gear/bearing.hpp"
 #include "gear/messages.hpp"
 
@@ -97,8 +98,9 @@ GearSet geometry_of(const Stage& stage) {
   return set;
 }
 
+/// @param remedy  for what overlaps; empty or from "; " on
 void check_pair(Problems& out, const Pair& pair, const std::string& driving, const std::string& driven,
-                const std::string& mesh) {
+                const std::string& mesh, const std::string& remedy) {
   if (!(pair.contact_ratio() >= 1.0))
     out.add(driven, "the ", mesh, " mesh has a contact ratio of ", pair.contact_ratio(),
             ", below 1: contact would be lost between teeth (path ", pair.start_mm, " to ", pair.end_mm,
@@ -114,16 +116,16 @@ void check_pair(Problems& out, const Pair& pair, const std::string& driving, con
             " mm behind the tangent point of the driven member: involute interference");
   if (pair.tip_clearance_1_mm() < 0.0)
     out.add(driving, "its tip cuts ", -pair.tip_clearance_1_mm(), " mm into the root of the other member of the ", mesh,
-            " mesh");
+            " mesh", remedy);
   if (pair.tip_clearance_2_mm() < 0.0)
     out.add(driven, "its tip cuts ", -pair.tip_clearance_2_mm(), " mm into the root of the other member of the ", mesh,
-            " mesh");
+            " mesh", remedy);
   if (pair.tip_passing_angle() < 0.0)
     out.add(driven, "tips of the ", mesh, " mesh collide outside the path of contact (trochoid interference, ",
             -pair.tip_passing_angle(), " rad)");
   if (pair.backlash_mm() < -overlap_tolerance * pair.driving.module_mm)
     out.add(driven, "teeth of the ", mesh, " mesh overlap by ", -pair.backlash_mm(),
-            " mm on the operating pitch circle at the centre distance of ", pair.centre_distance_mm, " mm");
+            " mm on the operating pitch circle at the centre distance of ", pair.centre_distance_mm, " mm", remedy);
 }
 
 void check_tip(Problems& out, const Tooth& tooth, const std::string& pointer) {
@@ -257,6 +259,18 @@ void check_room(Problems& out, const GearSet& set, bool evenly) {
 
 }  // namespace
 
+std::string ring_misfit(const GearSet& set) {
+  const int reach = set.sun.teeth + 2 * set.planet.teeth;
+  if (reach != set.ring.teeth)
+    return "; z_s + 2 z_p = " + std::to_string(reach) + " is not z_r = " + std::to_string(set.ring.teeth) +
+           ", which profile shifts and the centre distance have to make up for";
+  const double shift = set.sun.profile_shift + 2.0 * set.planet.profile_shift;
+  constexpr double digits = 1e-6;
+  if (std::abs(shift - set.ring.profile_shift) < digits) return {};
+  return "; x_s + 2 x_p = " + short_text(shift) + ", with which both meshes have one centre distance, is not x_r = " +
+         short_text(set.ring.profile_shift);
+}
+
 void StiffnessOptions::validate() const {
   compliance.validate();
   require(harmonics >= 0, "harmonics", harmonics, ">= 0");
@@ -284,8 +298,9 @@ std::vector<std::string> catalogue_problems(const Stage& stage) {
   if (!meshes_at_its_distance(out, stage)) return out.take();
   GearSet set;
   if (!tried(out, ring_pointer, [&] { set = geometry_of(stage); })) return out.take();
-  check_pair(out, set.sun_planet.pair, sun_pointer, planet_pointer, "sun-planet");
-  check_pair(out, set.ring_planet.pair, planet_pointer, ring_pointer, "ring-planet");
+  const std::string remedy = ring_misfit(set);
+  check_pair(out, set.sun_planet.pair, sun_pointer, planet_pointer, "sun-planet", remedy);
+  check_pair(out, set.ring_planet.pair, planet_pointer, ring_pointer, "ring-planet", remedy);
   check_tip(out, set.sun, sun_pointer);
   check_tip(out, set.planet, planet_pointer);
   check_tip(out, set.ring, ring_pointer);

@@ -34,6 +34,11 @@ Torques torques(const Stage& stage, double mesh_frequency) {
   return {drive, 0.0, (1.0 + ratio) * drive};
 }
 
+double planet_centrifugal_force(const Stage& stage, double mesh_frequency) {
+  const double carrier = speeds(stage, mesh_frequency).carrier;
+  return stage.planet.mass_kg * carrier * carrier * stage.centre_distance_mm.value() * 1e-3;
+}
+
 PressureAngles pressure_angles(const Stage& stage) {
   const auto angle = [&](const Mesh& mesh, std::optional<double> base_sum) {
     if (base_sum && stage.centre_distance_mm) return std::acos(*base_sum / *stage.centre_distance_mm);

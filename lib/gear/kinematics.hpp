@@ -3,6 +3,7 @@
 //   fixed ring (and `literal`):  omega_c = omega_s z_s / (z_s + z_r) ,  omega_m = z_s (omega_s - omega_c) = z_r omega_c
 //   star:                        omega_c = 0 ,                          omega_m = z_s omega_s
 //   T_D = P / omega_s or given ;  T_c = (1 + z_r / z_s) T_D ;  T_r = (z_r / z_s) T_D (star)
+//   centrifugal force of a planet  M_p omega_c^2 r_c                                                   [G-cf]
 //   cos alpha_sp = (r_bs + r_bp) / r_c ,  cos alpha_rp = (r_br - r_bp) / r_c                           [G-kin]
 //
 // Source: model.md section 4; any textbook on epicyclic trains. Limits: a stage that passes problems_for_motion().
@@ -33,6 +34,9 @@ struct Torques {
 };
 
 [[nodiscard]] Torques torques(const Stage& stage, double mesh_frequency);
+
+/// Of one planet with the carrier's turning, along its radius [N]: the load on its bearing that needs no torque. [G-cf]
+[[nodiscard]] double planet_centrifugal_force(const Stage& stage, double mesh_frequency);
 
 /// Operating pressure angles [rad]: from radii and centre distance where all are given (they carry more digits than an
 /// angle in degrees), else as given.

@@ -342,11 +342,7 @@ std::vector<Warning> catalogue_warnings(const GearSet& set) {
   check_tooth(out, set.planet, planet_pointer);
   check_tooth(out, set.ring, ring_pointer);
   // Wide meshes mostly come from tooth numbers that no centre distance suits.
-  std::string remedy;
-  const int reach = set.sun.teeth + 2 * set.planet.teeth;
-  if (reach != set.ring.teeth)
-    remedy = "; z_s + 2 z_p = " + std::to_string(reach) + " is not z_r = " + std::to_string(set.ring.teeth) +
-             ", which profile shifts and the centre distance have to make up for";
+  const std::string remedy = ring_misfit(set);
   check_pair(out, set.sun_planet.pair, sun_pointer, planet_pointer, "sun-planet", remedy);
   check_pair(out, set.ring_planet.pair, planet_pointer, ring_pointer, "ring-planet", remedy);
   check_widths(out, set.sun_planet, sun_pointer, planet_pointer, "sun-planet");
@@ -435,10 +431,8 @@ std::vector<Warning> warnings_at(const Stage& s, double mesh_frequency, const Ge
   };
   mesh("sun_planet", s.sun_planet_mesh, sun_planet_line(s), set == nullptr ? nullptr : &set->sun_planet);
   mesh("ring_planet", s.ring_planet_mesh, ring_planet_line(s), set == nullptr ? nullptr : &set->ring_planet);
-  const double on_planet = load.force_N * std::hypot(std::cos(alpha.sun_planet) + std::cos(alpha.ring_planet),
-                                                     std::sin(alpha.sun_planet) - std::sin(alpha.ring_planet));
-  check_deflection(out, "/lumped/planet/bearing_N_per_m", "the planet's bearing", on_planet, s.planet.bearing_N_per_m,
-                   module);
+  check_deflection(out, "/lumped/planet/bearing_N_per_m", "the planet's bearing", mean_planet_load(s, mesh_frequency),
+                   s.planet.bearing_N_per_m, module);
   if (s.boundary == Boundary::fixed_ring && std::isfinite(s.ring.torsional_support_N_per_m))
     check_deflection(out, "/lumped/ring/torsional_support_N_per_m", "the ring's torsional support",
                      s.planet_count * load.force_N, s.ring.torsional_support_N_per_m, module);

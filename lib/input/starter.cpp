@@ -218,6 +218,7 @@ ordered_json starter_sweep(const Drawing& d, const std::string& stage_file) {
       {"note", "Diagram over the speed, up and down; some of its points once more by ARKODE and CVODE."},
       {"stage", stage_file}};
   if (d.speed_rpm) study["operation"] = {{"sun_speed_rpm", *d.speed_rpm}};  // of sweeps over something else
+  study["model"] = {{"centrifugal", "included"}};
   study["integrator"] = {{"method", "lanes-cash-karp"}, {"relative_tolerance", 1e-8}, {"absolute_tolerance", 1e-10}};
   study["study"] = plan;
   return study;
@@ -233,6 +234,7 @@ ordered_json starter_run(const Drawing& d, const std::string& stage_file) {
           {"note", "One speed with everything: regime, forces, spectra, exponents."},
           {"stage", stage_file},
           {"operation", operation},
+          {"model", {{"centrifugal", "included"}}},
           {"study", {{"kind", "run"}, {"transient", "adaptive"}}}};
 }
 

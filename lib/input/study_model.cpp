@@ -17,6 +17,7 @@
 
 #include "core/csv.hpp"
 #include "core/errors.hpp"
+#include "gear/ehl_friction.hpp"
 #include "gear/gear_set.hpp"
 #include "gear/warnings.hpp"
 #include "input/claims_input.hpp"
@@ -240,6 +241,24 @@ double last_value(const studies::Axis& axis) {
   return studies::axis_value(axis, static_cast<std::size_t>(axis.points) - 1);
 }
 
+/// Said where nobody has: printed equations without it are one thing, the bearings of a machine another.
+void warn_of_centrifugal_force(std::vector<gear::Warning>& out, const LoadedInput& input, const gear::Stage& stage,
+                               double mesh_frequency) {
+  const json* origin = input.value_at("/model/origin/centrifugal");
+  if (stage.boundary == gear::Boundary::literal || origin == nullptr || *origin != "default") return;
+  constexpr double negligible = 0.1;
+  if (!gear::problems_for_motion(stage).empty()) return;
+  const double force = gear::planet_centrifugal_force(stage, mesh_frequency);
+  const double load = gear::mean_planet_load(stage, mesh_frequency);
+  if (!(force > negligible * load)) return;
+  gear::Warnings warnings;
+  warnings.add_once(gear::Rank::doubtful, force / (negligible * load), "/model/centrifugal", "centrifugal force",
+                    "the centrifugal force of a planet, ", force, " N, is left out, ", force / load,
+                    " times what the meshes load its bearing with; \"included\" counts it, \"left_out\" says that it "
+                    "is meant");
+  std::ranges::move(warnings.take(), std::back_inserter(out));
+}
+
 /// Warnings at the operating points at the ends of what the study varies, and on parameters that change nothing.
 void warn_of_points(std::vector<gear::Warning>& out, const LoadedInput& input) {
   const model::Scales scales = model::scales_of(input.study.stage);
@@ -252,6 +271,7 @@ void warn_of_points(std::vector<gear::Warning>& out, const LoadedInput& input) {
           {varied[k].axis.name, (corner >> k & 1U) != 0U ? last_value(varied[k].axis) : varied[k].axis.from});
     const model::OperatingPoint point = point_at(input, values);
     warn_of_stage(out, point.stage, point.mesh_frequency_ratio * scales.omega_sn);
+    warn_of_centrifugal_force(out, input, point.stage, point.mesh_frequency_ratio * scales.omega_sn);
   }
   for (const auto& [axis, place] : varied) {
     const double to = last_value(axis);
@@ -321,7 +341,7 @@ std::vector<std::string> warnings(const LoadedInput& input) {
     std::erase_if(
         all, [](const gear::Warning& w) { return w.rank == gear::Rank::note && w.pointer.starts_with("/catalogue"); });
     for (gear::Warning& w : all)
-      if (!w.pointer.starts_with("/study")) w.pointer.insert(0, "/stage");
+      if (!w.pointer.starts_with("/study") && !w.pointer.starts_with("/model")) w.pointer.insert(0, "/stage");
     if (std::holds_alternative<studies::BranchesOptions>(study.plan)) {
       const integrate::IntegratorOptions& own = study.integrator;
       const integrate::IntegratorOptions plain;

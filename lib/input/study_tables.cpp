@@ -447,6 +447,7 @@ const Table<Study>& integrator_table() {
 
 const Table<model::ModelOptions>& model_table() {
   static const auto table = [] {
+    using model::Centrifugal;
     using model::GapDamping;
     using model::Gyroscopic;
     Table<model::ModelOptions> t("model", "Variants of terms of the model.");
@@ -461,6 +462,12 @@ const Table<model::ModelOptions>& model_table() {
                                                              {"carrier_row", Gyroscopic::carrier_row},
                                                              {"invariant", Gyroscopic::invariant}},
              "Form of the terms with the carrier's speed.");
+    t.choice(
+        "centrifugal", &model::ModelOptions::centrifugal,
+        std::vector<std::pair<std::string, Centrifugal>>{{"left_out", Centrifugal::left_out},
+                                                         {"included", Centrifugal::included}},
+        "Whether planets' bearings bear the centrifugal force m_p omega_c^2 r_c of their planets, which the paper's "
+        "equations leave out.");
     return t;
   }();
   return table;

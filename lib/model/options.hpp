@@ -18,11 +18,18 @@ enum class Gyroscopic {
   invariant,    ///< from the Lagrangian in the planets' displacement relative to the carrier's own rotation
 };
 
+/// The centrifugal force of the planets about the stage's axis.
+enum class Centrifugal {
+  left_out,  ///< as in Eq. (18), whose omega_c^2 x_pi is what changes of it alone
+  included,  ///< M_p omega_c^2 r_c along each planet's radius
+};
+
 struct ModelOptions {
   GapDamping gap_damping = GapDamping::always;
   Gyroscopic gyroscopic = Gyroscopic::automatic;
   double clearance_smoothing = 0;  ///< width w of the smooth clearance [b_c]; 0: exact, piecewise linear
   bool halved_tables = false;      ///< computed tables without every second row: for their error, not of the input
+  Centrifugal centrifugal = Centrifugal::left_out;
 
   /// @throws InputError for a negative width
   void validate() const;

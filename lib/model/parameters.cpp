@@ -296,6 +296,9 @@ Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& sc
 
   const GyroscopicForm form = gyroscopic_form(stage.boundary, options.gyroscopic);
   p.carrier_speed = form.on ? gear::speeds(stage, mesh_frequency).carrier / scales.omega_sn : 0.0;
+  p.centrifugal = options.centrifugal == Centrifugal::included
+                      ? scales.force(gear::planet_centrifugal_force(stage, mesh_frequency))
+                      : 0.0;
   p.gyroscopic_relative = form.relative;
   p.gyroscopic_carrier_row = form.carrier_row;
   p.smooth = options.clearance_smoothing > 0.0;

@@ -74,6 +74,7 @@ struct Parameters {
   T drive, ring_drive, carrier_load;  ///< T_D / r_bs, T_r / r_br, T_c / r_c
   MeshParameters<T, N> sun_planet, ring_planet;
   T carrier_speed;                      ///< omega_c / omega_sn; 0 if the gyroscopic terms are off
+  T centrifugal;                        ///< M_p omega_c^2 r_c of each planet [M-cf]; 0 if it is left out
   bool gyroscopic_relative = false;     ///< planets' terms in X_i, Y_i with their reaction on the carrier [M-inv]
   bool gyroscopic_carrier_row = false;  ///< N M_p omega_c^2 u_c added to the carrier row
   bool smooth = false;
@@ -163,6 +164,7 @@ void for_each_constant(P& p, const F& f) {
   mesh(p.sun_planet);
   mesh(p.ring_planet);
   f(p.carrier_speed);
+  f(p.centrifugal);
   f(p.smoothing);
 }
 

@@ -230,9 +230,11 @@ template <class T, class P, std::size_t N, std::size_t G>
     r.frame_u = T(0.0);
   }
 
-  a.x_p = (frame_x - spring_x + sp.force * sin_sp + sp.friction * cos_sp - rp.force * sin_rp - rp.friction * cos_rp) *
+  a.x_p = (frame_x + p.centrifugal * cos_phi - spring_x + sp.force * sin_sp + sp.friction * cos_sp - rp.force * sin_rp -
+           rp.friction * cos_rp) *
           p.inverse_mass_p;
-  a.y_p = (frame_y - spring_y + sp.force * cos_sp - sp.friction * sin_sp + rp.force * cos_rp - rp.friction * sin_rp) *
+  a.y_p = (frame_y + p.centrifugal * sin_phi - spring_y + sp.force * cos_sp - sp.friction * sin_sp + rp.force * cos_rp -
+           rp.friction * sin_rp) *
           p.inverse_mass_p;
   a.w_p = (-sp.force + sp.moment_driven + rp.force - rp.moment_driving) * p.inverse_inertia_p;
 

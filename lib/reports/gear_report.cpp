@@ -278,6 +278,10 @@ std::vector<Quantity> operating_quantities(const gear::Stage& stage, double mesh
   g.add("carrier_load_torque", "T_c", torques.carrier, "N m", "[G-kin], external");
   g.add("ring_load_torque", "T_r", torques.ring, "N m", "[G-kin], external; a support's reaction is not in it");
   g.add("mean_mesh_force", "F", load.force_N, "N", "T_D / (N r_bs)");
+  g.add("mean_planet_load", "F_p", gear::mean_planet_load(stage, mesh_frequency), "N",
+        "both mesh forces on a planet's bearing");
+  g.add("planet_centrifugal_force", "m_p ω_c² r_c", gear::planet_centrifugal_force(stage, mesh_frequency), "N",
+        "[G-cf], counted in motions with /model/centrifugal \"included\"");
   g.add("mean_deflection", "F/k_0", 1e6 * load.force_N / stage.sun_planet_mesh.stiffness_N_per_m, "um",
         "sun-planet mesh");
   return all;

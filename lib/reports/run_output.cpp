@@ -549,8 +549,8 @@ std::string meshes_text(const RunOutput& output, const RunResult& r) {
                                  "sharing of the planets, N mean F / sum of the means over one kind of mesh; drive, "
                                  "loss, back: parts of the time on the driving "
                                  "flank, between the flanks, on the back; losses: times that the driving flank "
-                                 "was left, per mesh period. Over {:g} mesh periods.",
-                                 r.static_force, record_periods(r.history)));
+                                 "was left, per mesh period. Over {:g} mesh periods, at {} phases of each.",
+                                 r.static_force, record_periods(r.history), r.history.phases));
   text += pulls_text(output, r);
   text += "\n" + wrapped(fmt::format("Planets' spread: {:.3g} b_c, the largest difference between their deflections.",
                                      r.point.meshes.planet_spread));

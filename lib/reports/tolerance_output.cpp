@@ -124,14 +124,14 @@ void write_smoothing_table(const std::filesystem::path& folder, const std::vecto
 void write_quantities_table(const std::filesystem::path& folder, const std::vector<TolerancePoint>& points) {
   CsvWriter csv(folder / "quantities.csv",
                 {"point", "direction", "value", "period", "quantity", "study", "reference", "reference_error",
-                 "table_error", "error_bar", "smoothing_extrapolated", "smoothing_exponent"});
+                 "table_error", "error_bar", "between_phases", "smoothing_extrapolated", "smoothing_exponent"});
   for (const TolerancePoint& p : points) {
     if (p.period == 0) continue;
     const studies::Quantities study = study_quantities(p);
     for (std::size_t k = 0; k < quantity_names.size(); ++k) {
       start_row(csv, p);
       csv.cell(p.period).cell(quantity_names[k]).cell(study[k]).cell(p.reference[k]).cell(p.reference_error[k]);
-      csv.cell(p.table_error[k]).cell(error_bar(p, k));
+      csv.cell(p.table_error[k]).cell(error_bar(p, k)).cell(p.between_phases[k]);
       csv.cell(p.extrapolated[k]).cell(p.exponent[k]);
       csv.end_row();
     }
@@ -195,8 +195,12 @@ std::string ladder_text(const ToleranceOutput& output, const std::vector<Toleran
 /// What is reported of each orbit, with its error bars.
 std::string quantities_text(const ToleranceOutput& output, const std::vector<TolerancePoint>& points) {
   std::string text;
-  text += fmt::format("\nReported quantities by {} at relative tolerance {:g}, with error bars [b_c]\n\n",
-                      output.integrator.method, output.integrator.relative_tolerance);
+  text += fmt::format(
+      "\nReported quantities by {} at relative tolerance {:g}, with error bars [b_c]. They are extrema at {} phases a "
+      "mesh "
+      "period; in brackets how much greater they are at {}, which the bars do not hold\n\n",
+      output.integrator.method, output.integrator.relative_tolerance, output.sweep.sweep.look.output_phases,
+      studies::finer_phases * output.sweep.sweep.look.output_phases);
   text += "| point | value | period |";
   for (const char* name : quantity_names) text += fmt::format(" {} |", name);
   text +=
@@ -209,7 +213,7 @@ std::string quantities_text(const ToleranceOutput& output, const std::vector<Tol
     const studies::Quantities study = study_quantities(p);
     text += fmt::format("| {} | {} | {} |", p.point.index, short_text(p.point.value, 12), p.period);
     for (std::size_t k = 0; k < quantity_names.size(); ++k)
-      text += fmt::format(" {} |", with_error(study[k], error_bar(p, k)));
+      text += fmt::format(" {} ({:+.1e}) |", with_error(study[k], error_bar(p, k)), p.between_phases[k]);
     const LadderStep* own = study_step(p, output.integrator);
     text += fmt::format(" {} | {:.1g} | {:.6g} | {:.1g} | {:.1g} |\n",
                         own == nullptr ? "" : fmt::format("{:.1g}", own->orbit_error), p.settled_distance,

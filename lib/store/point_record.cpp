@@ -112,8 +112,8 @@ void pass(A& a, studies::StatisticsStep& s) {
 template <class A>
 void pass(A& a, studies::TolerancePoint& p) {
   pass_all(a, p.point, p.study, p.note, p.period, p.orbit, p.reference_residual, p.settled_distance,
-           p.largest_multiplier, p.reference, p.reference_error, p.table_error, p.table_displacement, p.ladder,
-           p.study_work, p.smoothing, p.extrapolated, p.exponent, p.statistics);
+           p.largest_multiplier, p.reference, p.reference_error, p.table_error, p.table_displacement, p.between_phases,
+           p.ladder, p.study_work, p.smoothing, p.extrapolated, p.exponent, p.statistics);
 }
 
 }  // namespace archive

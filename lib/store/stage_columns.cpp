@@ -126,7 +126,7 @@ std::vector<StageColumn> stage_columns() {
     add(all, std::string("dynamic_factor_") + kind.suffix, "1",
         std::string("largest force of any ") + kind.suffix + " over the static one",
         Number([meshes = kind.meshes](const StageRecord& r) { return r.dynamic_factor(r.*meshes); }));
-  add_force(all, "force_sun_bearing", "the force of the sun's bearing",
+  add_force(all, "force_sun_bearing", "the force of the sun's bearing (damping in the clearance included)",
             [](const StageRecord& r) -> const Course& { return r.sun_bearing; });
   add(all, "static_force", "N", "static force of a sun mesh: torque over base radius and number of planets",
       Number([](const StageRecord& r) { return r.static_force; }));

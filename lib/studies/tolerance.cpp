@@ -176,6 +176,8 @@ class PointStudy {
     out_.orbit = known_.state;
     out_.reference_residual = *std::min_element(known_.residuals.begin(), known_.residuals.end());
     out_.reference = quantities_of(*reference, model_, known_.state, n, look_.output_phases);
+    const Quantities finer = quantities_of(*reference, model_, known_.state, n, finer_phases * look_.output_phases);
+    for (std::size_t k = 0; k < finer.size(); ++k) out_.between_phases[k] = finer[k] - out_.reference[k];
     end_ = known_.state;
     (void)carry(*reference, end_, n);
     const auto second = flow(reference_options(second_method), model_);

@@ -10,6 +10,7 @@
 //   the reported quantities on the study's orbit and on y*: the difference is their error bar, and with it how far they
 //     move with tables that are half as fine (friction and stiffness that are computed from the drawing or from an
 //     oil): the interpolation's own error is some 16 times less, has the same shape, and so the same resonances;
+//   extrema are those at the output phases; how much farther they are at 16 times as many stands beside the error bar;
 //   each width w: the orbit of the smoothed stage by Newton's method, its distance from y*, its quantities, and those
 //     extrapolated to w -> 0 with the exponent that three widths in a row show.
 // Any other point has no orbit to compare: largest exponent, mean and deviation of the Poincare points, each with its
@@ -86,6 +87,7 @@ struct TolerancePoint {
   Quantities reference_error{};   ///< difference to the reference by another method at the same tolerance
   Quantities table_error{};       ///< difference to those on the orbit of tables half as fine; 0 without such tables
   double table_displacement = 0;  ///< of that orbit
+  Quantities between_phases{};    ///< of y*: by how much each extremum is greater at `finer_phases` times the phases
   std::vector<LadderStep> ladder;
   integrate::Work study_work{};  ///< of one orbit with the study's integrator and clearance
   std::vector<SmoothingStep> smoothing;
@@ -94,6 +96,9 @@ struct TolerancePoint {
   // of any other
   std::vector<StatisticsStep> statistics;  ///< the reference first
 };
+
+/// Output phases that an extremum is held against, over those that it is told by.
+inline constexpr int finer_phases = 16;
 
 /// Mesh periods that go before `chaotic_periods`: they turn the tangent vector into its direction.
 inline constexpr int aligning_periods = 100;

@@ -49,6 +49,42 @@ TEST(StageForces, AtRestAreTheStaticOnes) {
   EXPECT_NEAR(f.sun_bearing / f_0, 0.0, of_the_start);
 }
 
+TEST(StageForces, CentrifugalForceLoadsPlanetBearingsAlone) {
+  gear::Stage stage = problems::with_gap(problems::r1());
+  stage.sun_planet_mesh.error_amplitude_um = stage.ring_planet_mesh.error_amplitude_um = {0.0};
+  ModelOptions options;
+  options.gyroscopic = Gyroscopic::off;
+  const Scales scales = scales_of(stage);
+  const DynamicModel without = make_dynamic_model(stage, scales, 1.0, options);
+  options.centrifugal = Centrifugal::included;
+  const DynamicModel with = make_dynamic_model(stage, scales, 1.0, options);
+  StageForces f;
+  with.forces(0.0, with.default_start.data(), f);
+  StageForces f_without;
+  without.forces(0.0, without.default_start.data(), f_without);
+  const double f_0 = with.static_mesh_force;
+  // omega_c = omega_m / z_r; both mesh forces pull the planet along the tangent, what is left of them along the radius.
+  const double omega_c = scales.omega_sn / 81.0;
+  const double centrifugal = stage.planet.mass_kg * omega_c * omega_c * 71.72084e-3 / scales.force_newton(1.0);
+  EXPECT_NEAR(scales.force_newton(centrifugal), gear::planet_centrifugal_force(stage, scales.omega_sn),
+              1e-7 * scales.force_newton(centrifugal));
+  EXPECT_GT(centrifugal, f_0);
+  const double alpha_sp = std::acos((32.17853 + 29.79493) / 71.72084);
+  const double alpha_rp = std::acos((96.53557 - 29.79493) / 71.72084);
+  const double across = f_0 * (std::cos(alpha_sp) + std::cos(alpha_rp));
+  const double outwards = f_0 * (std::sin(alpha_sp) - std::sin(alpha_rp)) + centrifugal;
+  constexpr double digits = 1e-6;  // of R1's radii
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(f.sun_planet[i] / f_without.sun_planet[i], 1.0, of_the_start * centrifugal / f_0) << i;
+    EXPECT_NEAR(f.ring_planet[i] / f_without.ring_planet[i], 1.0, of_the_start * centrifugal / f_0) << i;
+    EXPECT_NEAR(f.planet_bearing[i] / std::hypot(across, outwards), 1.0, digits) << i;
+  }
+  // A star's carrier stands still.
+  const gear::Stage star = problems::star(stage);
+  EXPECT_EQ(make_dynamic_model(star, scales_of(star), 1.0, options).default_start,
+            make_dynamic_model(star, scales_of(star), 1.0, {GapDamping::always, Gyroscopic::off, 0.0}).default_start);
+}
+
 TEST(Pulls, AreTheTensionOfTheForces) {
   // Teeth that lie on each other press; in the open gap and before they part, damping may pull.
   std::mt19937_64 random(5);

@@ -61,6 +61,7 @@ studies::TolerancePoint measured_example() {
   p.reference_error = {1e-12, 2e-12, 3e-12, 4e-12};
   p.table_error = {5e-12, 6e-12, 7e-12, 8e-12};
   p.table_displacement = 9e-12;
+  p.between_phases = {-1e-3, 2e-3, -3e-3, 4e-3};
   studies::LadderStep step;
   step.method = "cvode-bdf";
   step.tolerance = 1e-7;
@@ -91,6 +92,7 @@ TEST(PointRecord, AMeasurementComesBackExactly) {
   EXPECT_EQ(b.reference_error, a.reference_error);
   EXPECT_EQ(b.table_error, a.table_error);
   EXPECT_EQ(b.table_displacement, a.table_displacement);
+  EXPECT_EQ(b.between_phases, a.between_phases);
   EXPECT_TRUE(std::isnan(b.ladder[1].orbit_error));
   EXPECT_EQ(b.ladder[1].work.jacobians, 4);
   EXPECT_TRUE(b.smoothing[0].found);

@@ -68,6 +68,8 @@ class Ledger {
         y_ -= q.u_c * p_.cos_phi[i];
       }
       e -= 0.5 * p_.mass_p * wc2 * square(x, y_);
+      // (r_c + r)^2 / 2 along each planet's radius, the part that is linear in the displacement r.
+      e -= p_.centrifugal * (q.x_p[i] * p_.cos_phi[i] + q.y_p[i] * p_.sin_phi[i]);
       e += 0.5 * p_.bearing_p * square(g.d.carrier_x[i], g.d.carrier_y[i]);
       e += scales_.stiffness(sp_.stiffness(i, s)) * gap_energy(g.sun_planet.delta[i], p_.sun_planet.half_gap);
       e += scales_.stiffness(rp_.stiffness(i, s)) * gap_energy(g.ring_planet.delta[i], p_.ring_planet.half_gap);
@@ -187,6 +189,8 @@ TEST(Energy, WhatTheVibrationGainsIsTheWorkDoneOnIt) {
     model::ModelOptions options;
     bool loss;
   };
+  model::ModelOptions with_centrifugal;
+  with_centrifugal.centrifugal = model::Centrifugal::included;
   const Case cases[] = {
       {"fixed_ring", nonlinear, {}, true},
       {"literal", problems::literal(nonlinear), {}, true},
@@ -195,6 +199,8 @@ TEST(Energy, WhatTheVibrationGainsIsTheWorkDoneOnIt) {
       {"literal closed", problems::literal(closed), {}, false},
       {"fixed_ring without frame terms", nonlinear, {model::GapDamping::always, model::Gyroscopic::off, 0.0}, true},
       {"fixed_ring unequal angles", problems::with_unequal_angles(nonlinear), {}, true},
+      {"fixed_ring with centrifugal force", problems::with_unequal_angles(nonlinear), with_centrifugal, true},
+      {"literal with centrifugal force", problems::literal(nonlinear), with_centrifugal, true},
   };
   double worst = 0.0;
   for (const Case& c : cases) {

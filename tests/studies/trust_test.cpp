@@ -402,14 +402,21 @@ TEST(Tolerance, ErrorsAndErrorBarsAreTheTrueOnes) {
   }
   // The extrema of the study lie within their error bars of the exact ones.
   const problems::ClearanceExact solution(0.85);
-  double most = -10.0;
-  for (int j = 1; j <= 64; ++j)
-    most = std::max(most, solution.evolve(exact, 0.0, 2.0 * 3.14159265358979323846 * j / 64)[0]);
+  const auto largest_at = [&](int phases) {
+    double largest = -10.0;
+    for (int j = 1; j <= phases; ++j)
+      largest = std::max(largest, solution.evolve(exact, 0.0, 2.0 * 3.14159265358979323846 * j / phases)[0]);
+    return largest;
+  };
+  const double most = largest_at(64);
   const double bar = std::abs(p.study.meshes.sun_planet[0].delta.largest - p.reference[1]) + p.reference_error[1];
   EXPECT_LE(std::abs(p.study.meshes.sun_planet[0].delta.largest - most), bar + reference);
   EXPECT_LE(std::abs(p.reference[1] - most), p.reference_error[1] + reference);
   constexpr double times_the_condition = 1e-4;  // tolerance 1e-7, and its dense output between steps
   EXPECT_LT(bar, times_the_condition);
+  // What 64 phases miss.
+  EXPECT_NEAR(p.between_phases[1], largest_at(1024) - most, p.reference_error[1] + reference);
+  EXPECT_GT(p.between_phases[1], 10.0 * p.reference_error[1]);
   // Smoothing's bias falls, and what is extrapolated is nearer to the truth than the least width.
   for (std::size_t k = 1; k < p.smoothing.size(); ++k) EXPECT_LT(p.smoothing[k].distance, p.smoothing[k - 1].distance);
   EXPECT_LT(std::abs(p.extrapolated[1] - p.reference[1]),
