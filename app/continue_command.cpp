@@ -133,14 +133,22 @@ std::vector<studies::FoundMotions> add_found(Session& session, const studies::Br
 }
 
 /// The tree to its end, each step kept in the journal.
-void grow(Session& session, const BranchesOptions& options, analysis::BranchTree& tree) {
+/// @param first  the model where the branches start
+void grow(Session& session, const BranchesOptions& options, const model::DynamicModel& first,
+          analysis::BranchTree& tree) {
+  const auto place = [&](double value) {
+    std::string words = fmt::format(" at {} = {}", options.parameter, short_text(value, 6));
+    if (options.parameter == studies::speed_parameter)
+      words += fmt::format(" (sun {} rpm)", short_text(gear::rpm * first.speeds.sun / first.omega * value, 5));
+    return words;
+  };
   OrderedJournal journal(session, "journal.bin", "step");
   journal.read(any_number, [&](const auto& record) { tree.apply(store::decode_step(record)); });
   Progress progress("continue: orbits", unknown_total, journal.count());
   while (const auto step = tree.advance()) {
     journal.append(store::encode_step(*step));
     std::string words = fmt::format("branch {}", tree.branches().size());
-    if (step->orbit) words += fmt::format(" at {} = {}", options.parameter, short_text(step->orbit->at.value, 6));
+    if (step->orbit) words += place(step->orbit->at.value);
     if (tree.waiting() > 0) words += fmt::format(", {} waiting", tree.waiting());
     progress.update(journal.count(), std::move(words));
     if (stop_requested()) throw Stopped();
@@ -377,7 +385,7 @@ int continue_command(const Arguments& arguments) {
     for (const studies::BranchAttempt& a : traced.attempts)
       if (const std::string words = reports::attempt_text(a); !words.empty()) tell("{}\n", words);
     if (options.search) found = add_found(session, system, options, models, tree);
-    grow(session, options, tree);
+    grow(session, options, first_model, tree);
     traced.branches = tree.branches();
     traced.full = tree.full();
     if (!traced.branches.empty()) tell_rows(traced, models, options.output_phases);
