@@ -15,6 +15,7 @@
 #include "core/errors.hpp"
 #include "core/text.hpp"
 #include "figures/sketch.hpp"
+#include "input/recorded_study.hpp"
 #include "input/stage_completion.hpp"
 #include "store/identity.hpp"
 
@@ -167,6 +168,7 @@ json read_recorded(const std::filesystem::path& file) {
 RecordedDifference unlike_recorded(const Scorecard& card, const input::LoadedInput& study, const json& recorded) {
   RecordedDifference difference;
   json there = recorded["study"];
+  input::add_later_keys(there);
   const json computed = input::computed_values(there);
   difference.study = store::differences({there, computed}, {study.resolved, study.computed});
   std::erase_if(difference.study, is_beside_the_claims);

@@ -12,6 +12,7 @@
 #include "core/text.hpp"
 #include "input/field_table.hpp"
 #include "input/json_source.hpp"
+#include "input/recorded_study.hpp"
 #include "input/stage_completion.hpp"
 #include "store/identity.hpp"
 
@@ -177,6 +178,7 @@ std::string expected_text(const input::LoadedInput& study, const std::vector<Loc
 
 std::vector<std::string> unlike(const ExpectedPoints& expected, const input::LoadedInput& study) {
   json there = expected.study;
+  input::add_later_keys(there);
   const json computed = input::computed_values(there);
   std::vector<std::string> lines;
   for (const store::Difference& d : store::differing_values({there, computed}, {study.resolved, study.computed}))

@@ -18,6 +18,7 @@
 
 #include <gtest/gtest.h>
 
+#include "input/recorded_study.hpp"
 #include "input/stage_completion.hpp"
 #include "input/study_input.hpp"
 #include "input/study_model.hpp"
@@ -375,6 +376,22 @@ TEST_F(IdentityOf, AStudyToldAsAnotherSaysInWhatIsGiven) {
   const auto lines = differences_from(resolved, heavier);
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_EQ(lines[0].rfind("/stage/lumped/sun/mass_kg: 1.65", 0), 0U) << lines[0];
+}
+
+TEST_F(IdentityOf, ARecordOfAnEarlierProgramIsStillOfTheSameStudy) {
+  json earlier = resolved;
+  ASSERT_EQ(earlier["model"].erase("centrifugal"), 1U);
+  input::add_later_keys(earlier);
+  EXPECT_EQ(earlier["model"], resolved["model"]);
+  const input::LoadedInput left_out = load(resolved, {"/model/centrifugal=\"left_out\""});
+  EXPECT_EQ(differences_from(earlier, left_out), std::vector<std::string>{});
+  const input::LoadedInput included = load(resolved, {"/model/centrifugal=\"included\""});
+  EXPECT_EQ(differences_from(earlier, included),
+            std::vector<std::string>{"/model/centrifugal: \"left_out\" there, \"included\" here"});
+  // What is there stays.
+  json other = included.resolved;
+  input::add_later_keys(other);
+  EXPECT_EQ(other, included.resolved);
 }
 
 TEST_F(IdentityOf, AnEmptyObjectSwitchesNothing) {

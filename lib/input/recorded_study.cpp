@@ -1,0 +1,26 @@
+#include "input/recorded_study.hpp"
+
+#include <array>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace epicyclic::input {
+
+namespace {
+
+/// Place of a key, and what was done before it was there.
+constexpr std::array<std::pair<const char*, const char*>, 1> later_keys = {{{"/model/centrifugal", "left_out"}}};
+
+}  // namespace
+
+void add_later_keys(nlohmann::json& resolved) {
+  for (const auto& [pointer, value] : later_keys) {
+    const nlohmann::json::json_pointer place(pointer);
+    const nlohmann::json::json_pointer table = place.parent_pointer();
+    if (resolved.contains(table) && resolved.at(table).is_object() && !resolved.contains(place))
+      resolved[place] = value;
+  }
+}
+
+}  // namespace epicyclic::input
