@@ -22,6 +22,16 @@ DynamicModel model_of(const gear::Stage& stage, double ratio = 0.9) {
   return make_dynamic_model(stage, scales_of(stage), ratio, {});
 }
 
+/// What both meshes load a planet of R1 with, each with the force f.
+struct PlanetLoad {
+  double tangential, radial;
+};
+PlanetLoad load_of_r1(double f) {
+  const double alpha_sp = std::acos((32.17853 + 29.79493) / 71.72084);
+  const double alpha_rp = std::acos((96.53557 - 29.79493) / 71.72084);
+  return {f * (std::cos(alpha_sp) + std::cos(alpha_rp)), f * (std::sin(alpha_sp) - std::sin(alpha_rp))};
+}
+
 TEST(StageForces, AtRestAreTheStaticOnes) {
   // Fixed ring, no error, no friction: each mesh carries T_D / (N r_bs), the planet's bearing both tangential parts.
   gear::Stage stage = problems::with_gap(problems::r1());
@@ -36,15 +46,12 @@ TEST(StageForces, AtRestAreTheStaticOnes) {
   // omega_s = omega_m / z_s (1 + z_s / z_r) with the ring fixed; 400 kW.
   const double omega_s = scales.omega_sn / 27.0 * (1.0 + 27.0 / 81.0);
   EXPECT_NEAR(scales.force_newton(f_0), 400e3 / omega_s / (3.0 * 32.17853e-3), rounding * scales.force_newton(f_0));
-  const double alpha_sp = std::acos((32.17853 + 29.79493) / 71.72084);
-  const double alpha_rp = std::acos((96.53557 - 29.79493) / 71.72084);
-  const double across = f_0 * (std::cos(alpha_sp) + std::cos(alpha_rp));
-  const double along = f_0 * (std::sin(alpha_sp) - std::sin(alpha_rp));
+  const PlanetLoad load = load_of_r1(f_0);
   constexpr double digits = 1e-6;  // of R1's radii, whose ratio is that of the teeth to 2e-7
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(f.sun_planet[i] / f_0, 1.0, digits);
     EXPECT_NEAR(f.ring_planet[i] / f_0, 1.0, digits);
-    EXPECT_NEAR(f.planet_bearing[i] / std::hypot(across, along), 1.0, digits);
+    EXPECT_NEAR(f.planet_bearing[i] / std::hypot(load.tangential, load.radial), 1.0, digits);
   }
   EXPECT_NEAR(f.sun_bearing / f_0, 0.0, of_the_start);
 }
@@ -69,15 +76,12 @@ TEST(StageForces, CentrifugalForceLoadsPlanetBearingsAlone) {
   EXPECT_NEAR(scales.force_newton(centrifugal), gear::planet_centrifugal_force(stage, scales.omega_sn),
               1e-7 * scales.force_newton(centrifugal));
   EXPECT_GT(centrifugal, f_0);
-  const double alpha_sp = std::acos((32.17853 + 29.79493) / 71.72084);
-  const double alpha_rp = std::acos((96.53557 - 29.79493) / 71.72084);
-  const double across = f_0 * (std::cos(alpha_sp) + std::cos(alpha_rp));
-  const double outwards = f_0 * (std::sin(alpha_sp) - std::sin(alpha_rp)) + centrifugal;
+  const PlanetLoad load = load_of_r1(f_0);
   constexpr double digits = 1e-6;  // of R1's radii
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(f.sun_planet[i] / f_without.sun_planet[i], 1.0, of_the_start * centrifugal / f_0) << i;
     EXPECT_NEAR(f.ring_planet[i] / f_without.ring_planet[i], 1.0, of_the_start * centrifugal / f_0) << i;
-    EXPECT_NEAR(f.planet_bearing[i] / std::hypot(across, outwards), 1.0, digits) << i;
+    EXPECT_NEAR(f.planet_bearing[i] / std::hypot(load.tangential, load.radial + centrifugal), 1.0, digits) << i;
   }
   // A star's carrier stands still.
   const gear::Stage star = problems::star(stage);
