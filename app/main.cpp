@@ -183,8 +183,7 @@ void add_init_options(CLI::App& command, Arguments& arguments) {
   command
       .add_option("--shifts", init.profile_shifts,
                   "X_SUN,X_PLANET,X_RING, profile shifts [-]; 0,0,0 by default; both meshes have one centre distance "
-                  "where X_RING "
-                  "= X_SUN + 2 X_PLANET")
+                  "where X_RING = X_SUN + 2 X_PLANET")
       ->delimiter(',')
       ->expected(3);
   command.add_option("--width", init.width_mm, "face width [mm]; 30 if it is not given");

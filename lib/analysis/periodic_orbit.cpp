@@ -64,9 +64,12 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
   Eigen::MatrixXd y(static_cast<Eigen::Index>(start.size()), options.pieces);
   y.col(0) = as_vector(start);
   double best = std::numeric_limits<double>::infinity();
-  // Of the best iteration alone, and where it is asked for: its singular values cost more than the step.
+  // Of the best iteration alone, where it is asked for, and once: its singular values cost more than the step.
+  double told = best;
   const auto tell_error = [&] {
-    if (std::isfinite(best)) orbit.error = orbit_error(orbit.monodromy, std::max(best, options.residual));
+    if (told == best) return;
+    told = best;
+    orbit.error = orbit_error(orbit.monodromy, std::max(best, options.residual));
   };
   const auto is_known = [&] {
     tell_error();

@@ -264,11 +264,14 @@ std::string ring_misfit(const GearSet& set) {
   if (reach != set.ring.teeth)
     return "; z_s + 2 z_p = " + std::to_string(reach) + " is not z_r = " + std::to_string(set.ring.teeth) +
            ", which profile shifts and the centre distance have to make up for";
+  if (set.planet.module_mm != set.ring.module_mm || set.planet.pressure_angle != set.ring.pressure_angle) return {};
   const double shift = set.sun.profile_shift + 2.0 * set.planet.profile_shift;
-  constexpr double digits = 1e-6;
-  if (std::abs(shift - set.ring.profile_shift) < digits) return {};
-  return "; x_s + 2 x_p = " + short_text(shift) + ", with which both meshes have one centre distance, is not x_r = " +
-         short_text(set.ring.profile_shift);
+  constexpr double rounding = 1e-6;
+  if (std::abs(shift - set.ring.profile_shift) < rounding) return {};
+  constexpr int digits = 7;
+  return "; x_s + 2 x_p = " + short_text(shift, digits) +
+         ", with which both meshes have one centre distance, is not x_r = " +
+         short_text(set.ring.profile_shift, digits);
 }
 
 void StiffnessOptions::validate() const {
@@ -298,9 +301,8 @@ std::vector<std::string> catalogue_problems(const Stage& stage) {
   if (!meshes_at_its_distance(out, stage)) return out.take();
   GearSet set;
   if (!tried(out, ring_pointer, [&] { set = geometry_of(stage); })) return out.take();
-  const std::string remedy = ring_misfit(set);
-  check_pair(out, set.sun_planet.pair, sun_pointer, planet_pointer, "sun-planet", remedy);
-  check_pair(out, set.ring_planet.pair, planet_pointer, ring_pointer, "ring-planet", remedy);
+  check_pair(out, set.sun_planet.pair, sun_pointer, planet_pointer, "sun-planet", {});
+  check_pair(out, set.ring_planet.pair, planet_pointer, ring_pointer, "ring-planet", ring_misfit(set));
   check_tip(out, set.sun, sun_pointer);
   check_tip(out, set.planet, planet_pointer);
   check_tip(out, set.ring, ring_pointer);

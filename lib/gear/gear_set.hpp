@@ -49,7 +49,7 @@ struct PlanetPhases {
 [[nodiscard]] std::vector<PlanetPhases> planet_phases(const GearSet& set);
 
 /// What of tooth numbers, or of profile shifts, makes the two meshes ask for unlike centre distances, as the end of a
-/// message, from "; " on; empty where nothing does. For members of one module and pressure angle.
+/// message, from "; " on; empty where nothing does. Shifts are compared of members of one module and pressure angle.
 [[nodiscard]] std::string ring_misfit(const GearSet& set);
 
 /// Least gap between the tip circles of neighbouring planets [mm]; negative where they overlap.

@@ -197,8 +197,7 @@ std::string quantities_text(const ToleranceOutput& output, const std::vector<Tol
   std::string text;
   text += fmt::format(
       "\nReported quantities by {} at relative tolerance {:g}, with error bars [b_c]. They are extrema at {} phases a "
-      "mesh "
-      "period; in brackets how much greater they are at {}, which the bars do not hold\n\n",
+      "mesh period; in brackets how much greater they are at {}, which the bars do not hold\n\n",
       output.integrator.method, output.integrator.relative_tolerance, output.sweep.sweep.look.output_phases,
       studies::finer_phases * output.sweep.sweep.look.output_phases);
   text += "| point | value | period |";

@@ -97,6 +97,26 @@ TEST(GearSet, EachProblemIsToldAtItsPlace) {
   }
 }
 
+TEST(GearSet, ARingThatDoesNotFitIsToldWhatWould) {
+  const auto lines_of_ring = [](int teeth, double shift, double module_mm) {
+    return catalogue_problems(changed([&](Stage& s, Catalogue& c) {
+      s.centre_distance_mm.reset();
+      c.sun.data = {45, 6, 22.5, 0.2, 1, 0.25, 80, {}, {}};
+      c.planet.data = {30, 6, 22.5, 0.3, 1, 0.25, 80, {}, {}};
+      c.ring.data = {teeth, module_mm, 22.5, shift, 1, 0.25, 80, {}, {}};
+      c.ring.base_pitch = BasePitch::as_given;
+      c.ring.outer_diameter_mm.reset();
+      c.sun.bore_mm = c.planet.bore_mm = 0.0;
+    }));
+  };
+  EXPECT_TRUE(has_line(lines_of_ring(105, 0.3, 6.0), "/catalogue/ring", "x_s + 2 x_p = 0.8"));
+  EXPECT_TRUE(has_line(lines_of_ring(104, 0.8, 6.0), "/catalogue/ring", "z_s + 2 z_p = 105 is not z_r = 104"));
+  // With that shift nothing overlaps; between modules shifts are not compared.
+  for (const auto& lines : {lines_of_ring(105, 0.8, 6.0), lines_of_ring(105, 0.3, 5.9)})
+    for (const std::string& line : lines) EXPECT_EQ(line.find("x_s + 2 x_p"), std::string::npos) << line;
+  EXPECT_EQ(joined(lines_of_ring(105, 0.8, 6.0)), "");
+}
+
 TEST(GearSet, ProblemsOfSeveralMembersAreToldTogether) {
   const auto lines = catalogue_problems(changed([](Stage&, Catalogue& c) {
     c.sun.bore_mm = 68.0;

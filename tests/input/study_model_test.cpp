@@ -80,6 +80,18 @@ TEST(StudyWarnings, EndsOfARangeAreLookedAtAndTheWorstOneIsTold) {
   EXPECT_TRUE(has(damped, "/stage/lumped/sun_planet_mesh/damping_ratio: is 1.5")) << joined(damped);
 }
 
+TEST(StudyWarnings, CentrifugalForceIsMissedWhereNobodyChose) {
+  const std::string held = "inputs/tang2020_speed_fixed_ring.json";
+  const std::string words = "warning: /model/centrifugal: the centrifugal force of a planet, ";
+  const auto nobody = told(held, {"/model=null"});
+  EXPECT_EQ(std::ranges::count_if(nobody, [&](const std::string& line) { return line.starts_with(words); }), 1)
+      << joined(nobody);
+  for (const char* chosen : {"\"left_out\"", "\"included\""})
+    EXPECT_FALSE(has(told(held, {std::string("/model/centrifugal=") + chosen}), words)) << chosen;
+  EXPECT_FALSE(has(told(held, {"/model=null", "/study/from=0.01", "/study/to=0.02"}), words));  // too slow to matter
+  EXPECT_FALSE(has(told("inputs/tang2020_speed.json"), words));  // the paper's equations as they are
+}
+
 TEST(StudyWarnings, TheMostImportantComesFirst) {
   const auto lines =
       told("inputs/tang2020_run.json", {"/stage/lumped/sun/support_damping_ratio=0", "/stage/lumped/ring/mass_kg=40",

@@ -22,6 +22,12 @@ DynamicModel model_of(const gear::Stage& stage, double ratio = 0.9) {
   return make_dynamic_model(stage, scales_of(stage), ratio, {});
 }
 
+gear::Stage r1_without_errors() {
+  gear::Stage stage = problems::with_gap(problems::r1());
+  stage.sun_planet_mesh.error_amplitude_um = stage.ring_planet_mesh.error_amplitude_um = {0.0};
+  return stage;
+}
+
 /// What both meshes load a planet of R1 with, each with the force f.
 struct PlanetLoad {
   double tangential, radial;
@@ -34,8 +40,7 @@ PlanetLoad load_of_r1(double f) {
 
 TEST(StageForces, AtRestAreTheStaticOnes) {
   // Fixed ring, no error, no friction: each mesh carries T_D / (N r_bs), the planet's bearing both tangential parts.
-  gear::Stage stage = problems::with_gap(problems::r1());
-  stage.sun_planet_mesh.error_amplitude_um = stage.ring_planet_mesh.error_amplitude_um = {0.0};
+  const gear::Stage stage = r1_without_errors();
   ModelOptions options;
   options.gyroscopic = Gyroscopic::off;
   const Scales scales = scales_of(stage);
@@ -57,8 +62,7 @@ TEST(StageForces, AtRestAreTheStaticOnes) {
 }
 
 TEST(StageForces, CentrifugalForceLoadsPlanetBearingsAlone) {
-  gear::Stage stage = problems::with_gap(problems::r1());
-  stage.sun_planet_mesh.error_amplitude_um = stage.ring_planet_mesh.error_amplitude_um = {0.0};
+  const gear::Stage stage = r1_without_errors();
   ModelOptions options;
   options.gyroscopic = Gyroscopic::off;
   const Scales scales = scales_of(stage);
