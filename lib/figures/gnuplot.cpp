@@ -26,6 +26,7 @@
 #include "core/csv.hpp"
 #include "core/errors.hpp"
 #include "core/placed_files.hpp"
+#include "core/text.hpp"
 
 namespace epicyclic::figures {
 
@@ -392,11 +393,17 @@ double tic_width(const FigureRange& range) {
   return 0.64 * font_height * std::min(characters, 11.0) + 20.0;
 }
 
-/// The frame's right edge, in parts of the canvas: half of the last tic's label has room beside it.
-double right_edge_of(const FigureRange& x, const FigureCanvas& canvas) {
+FigureRange above_of(const SecondAbscissa& above, const FigureRange& x) {
+  return {x.low * above.factor, x.high * above.factor};
+}
+
+/// The frame's right edge, in parts of the canvas: half of the last tic's label has room beside it, below and above.
+double right_edge_of(const FigureText& text, const FigureRange& x, const FigureCanvas& canvas) {
   constexpr double beside = 20.0;  // of tic_width()
   constexpr double least = 8.0;
-  return std::min(right_edge, 1.0 - (0.5 * (tic_width(x) - beside) + least) / canvas.width);
+  double widest = tic_width(x);
+  if (text.above) widest = std::max(widest, tic_width(above_of(*text.above, x)));
+  return std::min(right_edge, 1.0 - (0.5 * (widest - beside) + least) / canvas.width);
 }
 
 /// What stands above the frame.
@@ -435,7 +442,7 @@ FigureCanvas with_room(FigureCanvas canvas, const FigureText& text) {
 /// The abscissa above the frame, if there is one.
 std::string second_abscissa_of(const FigureText& text, const FigureRange& x) {
   if (!text.above) return {};
-  const FigureRange above{x.low * text.above->factor, x.high * text.above->factor};
+  const FigureRange above = above_of(*text.above, x);
   return fmt::format(
       "set xtics nomirror\nset x2range [{}:{}]\nset x2tics\nset mx2tics 5\n{}set x2label {} offset 0,-0.4\n",
       text_of(above.low), text_of(above.high), more_digits("x2", above),
@@ -667,6 +674,38 @@ double text_width(std::string_view text) {
   return width;
 }
 
+std::string logarithmic_axis(std::string_view axis, const FigureRange& range) {
+  const double decades = std::log10(range.high / range.low);
+  const std::string scale = fmt::format("set logscale {0}\nset m{0}tics 10\n", axis);
+  if (decades >= 3.0) return scale + fmt::format("set format {0} '10^{{%T}}'\nset {0}tics autofreq\n", axis);
+  std::string tics;
+  const auto add = [&](double value, const std::string& label, bool named) {
+    tics += fmt::format("{}'{}' {} {}", tics.empty() ? "" : ", ", named ? label : "", text_of(value), named ? 0 : 1);
+  };
+  constexpr double few_digits = 0.5;
+  if (decades < few_digits) {
+    // Too short for powers and their parts: equal steps, as on a linear scale.
+    constexpr double about = 5;
+    const double rough = (range.high - range.low) / about;
+    const double power = std::pow(10.0, std::floor(std::log10(rough)));
+    const double step = (rough < 2.0 * power ? 2.0 : rough < 5.0 * power ? 5.0 : 10.0) * power;
+    for (double k = std::ceil(range.low / step); k * step <= range.high; ++k)
+      add(k * step, short_text(k * step, 9), true);
+    return scale + fmt::format("set {}tics ({})\n", axis, tics);
+  }
+  for (int power = static_cast<int>(std::floor(std::log10(range.low))); std::pow(10.0, power) <= range.high; ++power)
+    for (int digit = 1; digit < 10; ++digit) {
+      const double value = digit * std::pow(10.0, power);
+      if (value < range.low || value > range.high) continue;
+      const bool named = digit == 1 || digit == 2 || digit == 5;
+      const std::string label = power >= -2 && power <= 3 ? short_text(value, 6)
+                                : digit == 1              ? fmt::format("10^{{{}}}", power)
+                                                          : fmt::format("{}·10^{{{}}}", digit, power);
+      add(value, label, named);
+    }
+  return scale + fmt::format("set {}tics ({})\n", axis, tics);
+}
+
 std::string figure_script(std::string_view stem, const FigureText& text, const FigureRange& x, const FigureRange& y,
                           const std::vector<std::string>& legend, const std::vector<FigureMarker>& markers,
                           std::string_view extra, std::string_view plot, const FigureCanvas& given) {
@@ -680,7 +719,7 @@ std::string figure_script(std::string_view stem, const FigureText& text, const F
       "set ylabel {5}\n"
       "set rmargin screen {6}\n",
       text_of(x.low), text_of(x.high), text_of(y.low), text_of(y.high), gnuplot_quoted(portable_text(text.x_label)),
-      gnuplot_quoted(portable_text(text.y_label)), text_of(right_edge_of(x, canvas)));
+      gnuplot_quoted(portable_text(text.y_label)), text_of(right_edge_of(text, x, canvas)));
   script += more_digits("x", x) + more_digits("y", y) + head.settings + second_abscissa_of(text, x);
   if (!markers.empty()) script += "set style textbox opaque noborder fillcolor '#ffffff' margins 0.4,0.4\n";
   for (const FigureMarker& marker : markers) {
@@ -740,21 +779,21 @@ std::string panel_script(std::string_view stem, const FigureText& text, const Fi
     commands += fmt::format("set label {} {} at screen {}, graph 0.5 center rotate by 90\n", label_tag,
                             gnuplot_quoted(portable_text(panel.y_label)), text_of(label_place / canvas.width));
     commands += more_digits("y", panel.y);
-    if (panel.logarithmic) commands += "set logscale y\n";
+    if (panel.logarithmic) commands += logarithmic_axis("y", panel.y);
     if (!panel.names.empty()) commands += "set ytics " + named_tics(panel.names) + "\n";
     if (k == 0) commands += head.title + second_abscissa_of(text, x);
     if (k + 1 == panels.size())
       commands += fmt::format("set format x '%h'\n{}set xlabel {}\n", more_digits("x", x),
                               gnuplot_quoted(portable_text(text.x_label)));
     commands += fmt::format("plot {}\n", panel.plot);
-    if (panel.logarithmic) commands += "unset logscale y\n";
-    if (!panel.names.empty()) commands += "set ytics autofreq\n";
+    if (panel.logarithmic) commands += "unset logscale y\nset mytics 5\n";
+    if (panel.logarithmic || !panel.names.empty()) commands += "set ytics autofreq\n";
     if (k == 0) commands += fmt::format("unset label {}\nunset key\n", title_tag);
     if (k == 0 && text.above) commands += "unset x2tics\nunset x2label\nset xtics mirror\n";
     top += height + apart;
   }
-  return fmt::format("{}set rmargin screen {}\n{}{}{}", opening(stem), text_of(right_edge_of(x, canvas)), head.settings,
-                     extra,
+  return fmt::format("{}set rmargin screen {}\n{}{}{}", opening(stem), text_of(right_edge_of(text, x, canvas)),
+                     head.settings, extra,
                      drawn_to_files(stem, commands + "unset multiplot\nset format x '%h'\nunset xlabel\n", canvas));
 }
 

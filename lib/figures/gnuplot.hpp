@@ -118,6 +118,10 @@ double text_width(std::string_view text);
 /// {/Symbol W} and ~{x}{.6-}, which SVG files show wrongly, replaced by Greek letters and combining macrons.
 std::string portable_text(std::string_view text);
 
+/// Commands for a logarithmic axis, "x" or "y": powers of ten are named; where there would be less than three of them,
+/// twice and five times each; where there is not even one, equal steps.
+std::string logarithmic_axis(std::string_view axis, const FigureRange& range);
+
 /// The script of a figure: encoding, white ground, thin frame, tics, ranges, labels, title, legend under it (or beside
 /// it, where there is room), markers; then `plot`, which is one plot command (without the word) and is drawn twice, to
 /// STEM.png and to STEM.svg, or to the one that the script is called with (`gnuplot -c STEM.gp svg`). It may use the

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "core/csv.hpp"
-#include "core/text.hpp"
 #include "figures/sketch.hpp"
 
 namespace epicyclic::figures {
@@ -37,26 +36,6 @@ struct Axis {
     return logarithmic ? FigureRange{std::pow(10.0, wide.low), std::pow(10.0, wide.high)} : wide;
   }
 };
-
-/// Powers of ten are named, and where there would be less than three of them, twice and five times each.
-std::string logarithmic_axis(char axis, const FigureRange& range) {
-  std::string commands = fmt::format("set logscale {0}\nset m{0}tics 10\nset format {0} '10^{{%T}}'\n", axis);
-  const double decades = std::log10(range.high / range.low);
-  if (decades >= 3.0) return commands;
-  std::string tics;
-  for (int power = static_cast<int>(std::floor(std::log10(range.low))); std::pow(10.0, power) <= range.high; ++power)
-    for (int digit = 1; digit < 10; ++digit) {
-      const double value = digit * std::pow(10.0, power);
-      if (value < range.low || value > range.high) continue;
-      const bool named = digit == 1 || digit == 2 || digit == 5 || decades < 0.5;
-      const std::string label = power >= -2 && power <= 3 ? short_text(value, 6)
-                                : digit == 1              ? fmt::format("10^{{{}}}", power)
-                                                          : fmt::format("{}·10^{{{}}}", digit, power);
-      tics += fmt::format("{}'{}' {} {}", tics.empty() ? "" : ", ", named ? label : "", figure_number(value),
-                          named ? 0 : 1);
-    }
-  return commands + fmt::format("set {}tics ({})\n", axis, tics);
-}
 
 }  // namespace
 
@@ -112,8 +91,8 @@ FigureOutcome line_figure(const std::filesystem::path& folder, std::string_view 
   std::string extra;
   const FigureRange x = x_axis.widened(points ? figure_margin : 0.0);
   const FigureRange y = y_axis.widened(figure_margin);
-  if (axes.log_x) extra += logarithmic_axis('x', x);
-  if (axes.log_y) extra += logarithmic_axis('y', y);
+  if (axes.log_x) extra += logarithmic_axis("x", x);
+  if (axes.log_y) extra += logarithmic_axis("y", y);
   return draw_figure(folder, stem, data, figure_script(stem, text, x, y, legend, markers, extra, plot));
 }
 

@@ -234,7 +234,7 @@ std::vector<DrawnFigure> draw_claim_figures(const std::filesystem::path& folder,
         y.include(delta);
       }
       parameter = sweep->axis.name;
-      const std::string symbol = panel.mesh == studies::MeshSide::sun_planet ? "δ_{sp1} / b_c" : "δ_{rp1} / b_c";
+      const std::string symbol = panel.mesh == studies::MeshSide::sun_planet ? "δ_{sp,1} / b_c" : "δ_{rp,1} / b_c";
       const std::string words = panel.title.empty() ? symbol : figures::literal_text(panel.title) + "    " + symbol;
       // What recurrence does not tell apart shall not look like a spread.
       const double middle = 0.5 * (y.low + y.high);

@@ -534,7 +534,7 @@ DrawnFigure BranchSketch::draw(const std::filesystem::path& folder, const std::s
   const DrawnFigure none{folder / (sketch_.stem() + ".png"), {"there is no orbit to draw"}};
   if (y_.empty()) return none;
   figures::FigurePanel panel{
-      fmt::format("Poincaré points of  δ_{{{}}} / b_c", subscript), y_.widened(figures::figure_margin), {}, 3.0};
+      fmt::format("Poincaré points of  δ_{{{},1}} / b_c", subscript), y_.widened(figures::figure_margin), {}, 3.0};
   sketch_.panel(panel);
   for (std::size_t k = 0; k < points_.size(); ++k)
     sketch_.add(points_[k], point_looks_[k].first, point_looks_[k].second);

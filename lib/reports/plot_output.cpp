@@ -224,6 +224,10 @@ class Plot {
     if (not_positive_ > 0)
       notes_.push_back(
           fmt::format("{}: {} values that are not positive have no place on a logarithmic scale", stem, not_positive_));
+    if (not_settled_ > 0)
+      notes_.push_back(fmt::format(
+          "{}: at {} points the record was still on its way to the motion (settled of points.csv): no line joins them",
+          stem, not_settled_));
     return all;
   }
 
@@ -313,7 +317,9 @@ class Plot {
     const std::string x = abscissa_or("value");
     const std::vector<std::string> names = header_of(folder / "points.csv");
     const bool section = !has(names, options_.quantity);
+    const bool tells_settled = has(names, "settled");  // later than some folders
     std::vector<std::string> wanted{"direction", "status", "regime", x};
+    if (tells_settled) wanted.emplace_back("settled");
     if (!section) wanted.push_back(options_.quantity);
     const Columns points(folder / "points.csv", wanted);
     // First where the points are, then what the section has at each.
@@ -330,9 +336,11 @@ class Plot {
       const bool reached = points.word("status", row) == "ok";
       const Place at = reached ? place(points.number(x, row), points.number(options_.quantity, row)) : gap;
       s.rows.push_back(at);
-      // No line goes through chaos, where such numbers are a matter of chance.
+      // No line goes through chaos, where such numbers are a matter of chance, or through a record on its way.
       const std::string& regime = points.word("regime", row);
-      s.joined.push_back(regime == "periodic" || regime == "quasiperiodic" ? at : gap);
+      const bool settled = !tells_settled || points.number("settled", row) == 1.0;
+      if (reached && !settled) ++not_settled_;
+      s.joined.push_back(settled && (regime == "periodic" || regime == "quasiperiodic") ? at : gap);
     }
     if (section) {
       const Columns rows(folder / "poincare.csv", {"point", options_.quantity});
@@ -493,6 +501,7 @@ class Plot {
   std::vector<Series> series_;
   FigureRange x_, y_;
   std::pair<FigureRange, FigureRange> shown_;  ///< of the axes
+  std::size_t not_settled_ = 0;                ///< points whose record is on its way to their motion
   std::size_t not_positive_ = 0;               ///< values that a logarithmic scale has no place for
 };
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <tuple>
 #include <unordered_set>
 #include <utility>
 
@@ -29,9 +30,9 @@ std::string side_text(const SweepPlace& place) {
   return text;
 }
 
-/// The sweep's points of a column, each cell of a grid finer than the picture once.
+/// The sweep's points of a column along one direction, each cell of a grid finer than the picture once.
 std::vector<std::array<double, 2>> section_points(const ProvedSweep& sweep, const studies::BranchesOptions& range,
-                                                  const char* column) {
+                                                  const char* column, studies::Direction direction) {
   const auto at = static_cast<std::size_t>(
       std::find(sweep.poincare_columns.begin(), sweep.poincare_columns.end(), column) - sweep.poincare_columns.begin());
   constexpr double cells_x = 3000;
@@ -41,6 +42,7 @@ std::vector<std::array<double, 2>> section_points(const ProvedSweep& sweep, cons
   for (std::size_t i = 0; i < sweep.points.count; ++i) {
     const studies::PointResult r = sweep.points.read(i);
     const double x = r.point.value;
+    if (r.point.direction != direction) continue;
     if (x < range.from || x > range.to) continue;
     for (std::size_t k = at; k < r.poincare.size(); k += r.poincare_columns) {
       const double y = r.poincare[k];
@@ -137,8 +139,16 @@ std::vector<DrawnFigure> draw_proof_figures(const std::filesystem::path& folder,
       {{MeshKind::sun_planet, "sp"}, {MeshKind::ring_planet, "rp"}}};
   for (const auto& [mesh, word] : kinds) {
     BranchSketch sketch(fmt::format("proof_delta_{}", word), output, traced, mesh);
-    sketch.add_points(section_points(sweep, output.options, mesh == MeshKind::sun_planet ? "delta_sp_1" : "delta_rp_1"),
-                      figures::dots("#a0a0a0", 0.5), "sweep");
+    const char* column = mesh == MeshKind::sun_planet ? "delta_sp_1" : "delta_rp_1";
+    // A ring about a dot where both directions have the same motion.
+    for (const auto& [direction, colour, size, type] : {std::tuple{studies::Direction::up, "#9a9a9a", 1.0, 7},
+                                                        std::tuple{studies::Direction::down, "#4fa3d1", 1.5, 6}}) {
+      const auto points = section_points(sweep, output.options, column, direction);
+      constexpr std::size_t many = 3000;
+      if (!points.empty())
+        sketch.add_points(points, figures::dots(colour, points.size() > many ? 0.3 * size : size, type),
+                          "sweep " + store::direction_word(direction));
+    }
     drawn.push_back(sketch.draw(folder));
   }
   return drawn;

@@ -113,7 +113,7 @@ const char* column_of(SweepFigure figure) { return figure == SweepFigure::delta_
 figures::FigureText text_of(const SweepOutput& output, const studies::PointSource& points, SweepFigure figure) {
   figures::FigureText text{
       figures::literal_text(output.title), parameter_label(output.sweep.axis.name),
-      fmt::format("Poincaré points of  δ_{{{}}} / b_c", figure == SweepFigure::delta_rp ? "rp" : "sp")};
+      fmt::format("Poincaré points of  δ_{{{},1}} / b_c", figure == SweepFigure::delta_rp ? "rp" : "sp")};
   if (const auto direction = direction_of(figure))
     text.title += ", " + store::direction_word(output.sweep.directions[*direction]);
   text.above = speed_above(output.sweep.axis.name, points);

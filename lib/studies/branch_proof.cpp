@@ -91,6 +91,56 @@ Eigen::MatrixXd rough_states(const std::vector<BranchRow>& rows, std::size_t aft
 
 bool holds(double a, double b, double value) { return value >= std::min(a, b) && value <= std::max(a, b); }
 
+/// The stretches of branches: from one turn in the parameter to the next.
+class Stretches {
+ public:
+  explicit Stretches(const TracedBranches& traced) {
+    for (std::size_t b = 0; b < traced.rows.size(); ++b) {
+      const std::vector<BranchRow>& rows = traced.rows[b];
+      std::vector<std::size_t>& numbers = of_.emplace_back();
+      bool rises = false;
+      for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
+        const double step = rows[k + 1].value - rows[k].value;
+        const bool turns = step != 0.0 && !numbers.empty() && (step > 0.0) != rises;
+        numbers.push_back(numbers.empty() ? 0 : numbers.back() + (turns ? 1 : 0));
+        if (step != 0.0) rises = step > 0.0;
+      }
+      // One that closes begins within a stretch, unless it begins at a turn.
+      if (traced.branches[b].last.end != analysis::BranchEnd::closed || numbers.empty() || numbers.back() % 2 != 0)
+        continue;
+      const std::size_t last = numbers.back();
+      std::ranges::replace(numbers, last, std::size_t{0});
+    }
+  }
+
+  /// Does one that both are on go from one to the other without a turn?
+  [[nodiscard]] bool shared(const SweepPlace& a, const SweepPlace& b) const {
+    return std::ranges::any_of(a.on, [&](const PlaceOnBranch& p) {
+      return std::ranges::any_of(b.on, [&](const PlaceOnBranch& q) {
+        return p.branch == q.branch && of_[p.branch][p.after] == of_[q.branch][q.after];
+      });
+    });
+  }
+
+  /// Is a special point on the stretch of the place, or at an end of it? A fold is at the end of two.
+  [[nodiscard]] bool has(const SweepPlace& place, const SpecialRow& r) const {
+    const std::vector<std::size_t>& numbers = of_[r.branch];
+    return std::ranges::any_of(place.on, [&](const PlaceOnBranch& p) {
+      if (p.branch != r.branch) return false;
+      const std::size_t own = numbers[p.after];
+      const std::size_t least = r.kind == SpecialKind::fold && r.after > 0 ? r.after - 1 : r.after;
+      const std::size_t greatest = r.kind == SpecialKind::fold ? r.after + 1 : r.after;
+      for (std::size_t k = least; k <= std::min(greatest, numbers.size() - 1); ++k)
+        if (numbers[k] == own) return true;
+      // A branch is born at its first special point, or dies at its last one: behind its last orbit.
+      return r.after >= numbers.size() && numbers.back() == own;
+    });
+  }
+
+ private:
+  std::vector<std::vector<std::size_t>> of_;  ///< of each branch, for each orbit but the last
+};
+
 /// Looks for points on branches.
 class Locator {
  public:
@@ -107,6 +157,7 @@ class Locator {
       const std::vector<BranchRow>& rows = traced_.rows[b];
       if (rows.empty() || rows.front().period != n) continue;
       const auto& symmetry = traced_.branches[b].family.symmetry;
+      std::vector<std::pair<PlaceOnBranch, double>> hits;  // of this branch, and how near
       for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
         if (!holds(rows[k].value, rows[k + 1].value, point.point.value) || rows[k].value == rows[k + 1].value) continue;
         const Eigen::MatrixXd rough = rough_states(rows, k, point.point.value, dimension_);
@@ -114,7 +165,7 @@ class Locator {
         const Eigen::MatrixXd& exact = orbits_.states(b, k, point.point.value);
         const double distance = distance_to_orbit(state, exact, symmetry);
         const bool on_it = distance <= options_.same;
-        if (on_it) place.branches.push_back(b);
+        if (on_it) hits.push_back({{b, k}, distance});
         const bool prefers = on_it && preferred == b && place.branch != preferred;
         if (!prefers && (!(distance < place.distance) || (place.branch && place.branch == preferred && preferred != b)))
           continue;
@@ -124,7 +175,16 @@ class Locator {
         place.after = k;
         place.stable = stable_at(b, k, point.point.value);
       }
+      add_nearest(hits, place.on);
     }
+  }
+
+  /// Of one branch the nearest orbit, and what is as near: images of it, where the branch turns at a pitchfork.
+  void add_nearest(const std::vector<std::pair<PlaceOnBranch, double>>& hits, std::vector<PlaceOnBranch>& on) const {
+    double least = infinite;
+    for (const auto& [place, distance] : hits) least = std::min(least, distance);
+    for (const auto& [place, distance] : hits)
+      if (distance <= 2.0 * least + 1e-3 * options_.same) on.push_back(place);
   }
 
   [[nodiscard]] bool stable_at(std::size_t branch, std::size_t after, double value) const {
@@ -148,8 +208,9 @@ class Locator {
 class Explainer {
  public:
   /// @param places  of the direction's points
-  Explainer(const TracedBranches& traced, const Locator& locator, const std::vector<SweepPlace>& places)
-      : traced_(traced), locator_(locator), places_(places) {}
+  Explainer(const TracedBranches& traced, const Stretches& stretches, const Locator& locator,
+            const std::vector<SweepPlace>& places)
+      : traced_(traced), stretches_(stretches), locator_(locator), places_(places) {}
 
   void explain(std::size_t i, SweepChange& change) const {
     const SweepPlace& a = change.before;
@@ -157,9 +218,11 @@ class Explainer {
     low_ = std::min(a.value, b.value);
     step_ = std::max(a.value, b.value) - low_;
     // A birth tells most, then what the motion that is left says.
+    const bool stays = a.branch && stable_within_the_grid(a);
     for (const bool birth_only : {true, false})
       for (const SweepPlace* side : {&a, &b}) {
         const SweepPlace& other = side == &a ? b : a;
+        if (side == &b && !birth_only && stays) continue;
         if (side->branch && by_special_point(*side, other, birth_only, change)) return;
       }
     if (by_cascade(i, change)) return;
@@ -188,7 +251,7 @@ class Explainer {
       const double away = beside(r.value);
       if (away > 1.0 || (best && away >= beside(traced_.special[*best].value))) continue;
       if (!lies_towards(r, side, other)) continue;
-      if (is_birth(r, side, other) || (!birth_only && is_on(side, r.branch) && changes_stability(r))) best = k;
+      if (is_birth(r, side, other) || (!birth_only && stretches_.has(side, r) && changes_stability(r))) best = k;
     }
     if (!best) return false;
     const SpecialRow& r = traced_.special[*best];
@@ -200,7 +263,12 @@ class Explainer {
         to_string(r.kind) + " of branch " + std::to_string(r.branch) + " at " + with_error(r.value, r.error_bound);
     if (birth) return true;
     change.words += &side == &change.before ? "; the motion goes on to " : "; the motion comes from ";
-    change.words += other.branch ? "branch " + std::to_string(*other.branch) : "what is " + other.motion;
+    if (!other.branch) {
+      change.words += "what is " + other.motion;
+    } else {
+      if (*other.branch == r.branch) change.words += "another stretch of ";
+      change.words += "branch " + std::to_string(*other.branch);
+    }
     return true;
   }
 
@@ -211,20 +279,16 @@ class Explainer {
 
   /// Is the other side what is born there from the side's branch?
   [[nodiscard]] bool is_birth(const SpecialRow& r, const SweepPlace& side, const SweepPlace& other) const {
-    if (!is_on(side, r.branch) || !changes_stability(r)) return false;
+    if (!stretches_.has(side, r) || !changes_stability(r)) return false;
     if (r.kind == SpecialKind::neimark_sacker) return other.motion == "quasiperiodic";
     if (r.kind == SpecialKind::flip && other.periodic && other.period == 2 * side.period && !other.branch) return true;
     if (!other.branch) return false;
     const auto from = [&](const analysis::BranchLimit& limit) {
       return limit.place && limit.place->branch == r.branch && limit.place->point == r.point;
     };
-    return std::ranges::any_of(other.branches, [&](std::size_t b) {
-      return from(traced_.branches[b].first) || from(traced_.branches[b].last);
+    return std::ranges::any_of(other.on, [&](const PlaceOnBranch& p) {
+      return from(traced_.branches[p.branch].first) || from(traced_.branches[p.branch].last);
     });
-  }
-
-  static bool is_on(const SweepPlace& place, std::size_t branch) {
-    return std::ranges::find(place.branches, branch) != place.branches.end();
   }
 
   [[nodiscard]] bool changes_stability(const SpecialRow& r) const {
@@ -308,6 +372,7 @@ class Explainer {
   }
 
   const TracedBranches& traced_;
+  const Stretches& stretches_;
   const Locator& locator_;
   const std::vector<SweepPlace>& places_;
   mutable double low_ = 0, step_ = 0;  ///< of the change that is looked at
@@ -352,6 +417,7 @@ BranchProof prove(const TracedBranches& traced, const SweepOptions& sweep, const
                   const std::function<void(std::size_t)>& finished) {
   options.validate();
   BranchProof proof;
+  const Stretches stretches(traced);
   Locator locator(traced, dimension, options);
   const std::size_t each_way = points.count / sweep.directions.size();
   for (std::size_t d = 0; d < sweep.directions.size(); ++d) {
@@ -378,7 +444,7 @@ BranchProof prove(const TracedBranches& traced, const SweepOptions& sweep, const
       places.push_back(std::move(place));
       finished(d * each_way + i + 1);
     }
-    const Explainer explainer(traced, locator, places);
+    const Explainer explainer(traced, stretches, locator, places);
     // Is the undecided side where the branch of the other one is?
     const auto settles_onto = [&](const SweepChange& change) {
       const SweepPlace& side = change.before.branch ? change.before : change.behind;
@@ -391,8 +457,8 @@ BranchProof prove(const TracedBranches& traced, const SweepOptions& sweep, const
     for (std::size_t i = 0; i + 1 < places.size(); ++i) {
       const SweepPlace& a = places[i];
       const SweepPlace& b = places[i + 1];
-      const bool jumps = a.branch && b.branch && *a.branch != *b.branch &&
-                         std::ranges::find(b.branches, *a.branch) == b.branches.end();
+      // Among those on none nothing tells one orbit from another: they are listed.
+      const bool jumps = a.branch || b.branch ? !stretches.shared(a, b) : false;
       if (a.motion == b.motion && !jumps) continue;
       SweepChange change;
       change.before = a;

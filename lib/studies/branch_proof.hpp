@@ -1,14 +1,16 @@
 // A sweep held against branches: is each change of its motion where the branches say that one is?
 //
 // Each periodic point of the sweep is looked for on the branches: on one of its period, the orbit at its very value, by
-// Newton's method, as near as its own state is [A-same]. A change is two neighbours along a direction whose period or
-// regime differ. It is explained by
+// Newton's method, as near as its own state is [A-same]. A branch turns back in the parameter at a fold, so that it may
+// have several orbits at one value: between turns it is a stretch, and those are told apart as branches are. A change
+// is two neighbours along a direction whose period or regime differ, or that share no stretch. It is explained by
 //
-//   bifurcation  a special point within the grid where a branch of one side gains or loses its stability, the other
-//   side
-//                being what is born there: twice the period at a flip, a torus at a Neimark-Sacker point, an orbit
+//   bifurcation  a special point within the grid where the stretch of one side gains or loses its stability, the other
+//                side being what is born there: twice the period at a flip, a torus at a Neimark-Sacker point, an orbit
 //                without the symmetry at a branch point
-//   jump         such a point, and a motion on the other side that is not born there: on a named branch, or on none
+//   jump         such a point, and a motion on the other side that is not born there: on another stretch, a named
+//                branch, or on none; of what comes out of the side behind it only where the one before is not stable
+//                all the way
 //   cascade      an end of period doublings whose last flip is known, all points between it and the change having
 //                periods of the cascade
 //   crisis       a motion that is not periodic ends, and what it falls onto is a branch that is stable on both sides
@@ -38,6 +40,12 @@ enum class Cause { bifurcation, jump, cascade, crisis, undecided, unexplained };
 /// "bifurcation", "jump", "cascade", "crisis", "undecided", "unexplained".
 [[nodiscard]] std::string to_string(Cause cause);
 
+/// An orbit of a branch: between two of its rows.
+struct PlaceOnBranch {
+  std::size_t branch = 0;
+  std::size_t after = 0;  ///< of its orbits the one before
+};
+
 /// Where a point of the sweep is.
 struct SweepPlace {
   std::size_t point = 0;
@@ -46,7 +54,7 @@ struct SweepPlace {
   bool periodic = false;
   int period = 0;                       ///< if periodic
   std::optional<std::size_t> branch{};  ///< that it is on; of several the one of the point before, or the nearest
-  std::vector<std::size_t> branches{};  ///< all that go through it: pieces of one, from several seeds
+  std::vector<PlaceOnBranch> on{};      ///< all that go through it: pieces of one, from several seeds
   std::size_t after = 0;                ///< of its orbits the one before
   bool stable = false;                  ///< the orbit there
   double distance = 0;                  ///< from it [b_c, b_c per tau]; of a periodic point on none not finite

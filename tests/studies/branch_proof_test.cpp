@@ -2,6 +2,7 @@
 
 #include "studies/branch_proof.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -19,16 +20,18 @@ namespace {
 
 constexpr std::size_t dimension = 2;
 
-/// Duffing's branches over its force, of period 1 and what doubles from it up to `largest`; rows as of a gear train's,
-/// whose section is the state alone.
-TracedBranches duffing_branches(int largest) {
-  const auto flows = [](double tolerance) { return problems::flows(problems::duffing(0.3, -1.0, 1.2), tolerance); };
+/// Branches from the motion that is settled at a value, of period 1 and what doubles from it up to `largest`; rows as
+/// of a gear train's, whose section is the state alone.
+TracedBranches branches_of(const FieldFamily& fields, double value, const analysis::ContinuationOptions& continuation,
+                           int largest) {
+  const auto flows = [&fields](double tolerance) { return problems::flows(fields, tolerance); };
   const analysis::OrbitFamily family{flows(1e-9)};
-  analysis::TreeOptions options{.continuation = {.from = 0.2, .to = 0.3}};
+  analysis::TreeOptions options{.continuation = continuation};
   options.special = problems::with_bounds(flows, 1e-9);
   options.largest_period = largest;
   analysis::BranchTree tree(family, options);
-  const analysis::Correction first = first_orbit(family, 0.22, problems::settled(family.flows, 0.22, {1.0, 0.0}, 100));
+  const analysis::Correction first =
+      first_orbit(family, value, problems::settled(family.flows, value, {1.0, 0.0}, 100));
   EXPECT_TRUE(first.found);
   tree.start(first.orbit);
   while (tree.advance()) {
@@ -52,11 +55,15 @@ TracedBranches duffing_branches(int largest) {
   return traced;
 }
 
-/// The motion at a value, settled.
-PointResult motion_at(std::size_t index, double value, Direction direction) {
-  const integrate::FlowFamily flows = problems::flows(problems::duffing(0.3, -1.0, 1.2), 1e-9);
+/// Duffing's, over its force.
+TracedBranches duffing_branches(int largest) {
+  return branches_of(problems::duffing(0.3, -1.0, 1.2), 0.22, {.from = 0.2, .to = 0.3}, largest);
+}
+
+/// The motion at a value that one from `y` settles to, which is carried on.
+PointResult settled_point(const integrate::FlowFamily& flows, std::vector<double>& y, std::size_t index, double value,
+                          Direction direction) {
   const auto flow = flows(value);
-  std::vector<double> y = problems::settled(flows, 0.22, {1.0, 0.0}, 100);
   const auto s = analysis::strobe(
       *flow, y, {600, 32, 1}, [](auto&&...) {}, [] { return true; });
   PointResult r;
@@ -70,6 +77,13 @@ PointResult motion_at(std::size_t index, double value, Direction direction) {
   for (std::size_t k = 0; k < s.section.size(); ++k)
     r.poincare.insert(r.poincare.end(), s.section.point(k).begin(), s.section.point(k).end());
   return r;
+}
+
+/// The motion of Duffing's at a value, settled.
+PointResult motion_at(std::size_t index, double value, Direction direction) {
+  const integrate::FlowFamily flows = problems::flows(problems::duffing(0.3, -1.0, 1.2), 1e-9);
+  std::vector<double> y = problems::settled(flows, 0.22, {1.0, 0.0}, 100);
+  return settled_point(flows, y, index, value, direction);
 }
 
 SweepOptions sweep_of(double from, double to, int points) {
@@ -143,6 +157,87 @@ TEST(BranchProof, WhatIsWrongIsNotExplained) {
   const BranchProof off = proved(traced, sweep, points);
   ASSERT_EQ(off.off.size(), 1U);
   EXPECT_NEAR(off.off[0].distance, 0.02, 1e-4);
+}
+
+/// The resonance of a hardening spring: one branch, turning back at two folds, between which a sweep up is on its upper
+/// and one down on its lower stretch.
+class OfAResonance : public testing::Test {
+ protected:
+  OfAResonance() : traced(branches_of(fields, 1.4, {.from = 1.3, .to = 3.3, .largest_step = 0.05}, 1)) {
+    for (const SpecialRow& r : traced.special)
+      if (r.kind == analysis::SpecialKind::fold) folds.push_back(r.value);
+    std::ranges::sort(folds);
+  }
+
+  [[nodiscard]] std::vector<PointResult> carried(const SweepOptions& sweep) const {
+    const integrate::FlowFamily flows = problems::flows(fields, 1e-9);
+    std::vector<PointResult> points;
+    for (const Direction direction : sweep.directions) {
+      std::vector<double> values = axis_values(sweep.axis);
+      if (direction == Direction::down) std::ranges::reverse(values);
+      std::vector<double> y = problems::settled(flows, values.front(), {1.0, 0.0}, 100);
+      for (const double value : values) points.push_back(settled_point(flows, y, points.size(), value, direction));
+    }
+    return points;
+  }
+
+  FieldFamily fields = problems::duffing_in_frequency(0.1, 1.0, 1.0);
+  TracedBranches traced;
+  std::vector<double> folds;
+};
+
+TEST_F(OfAResonance, JumpsFromOneStretchToAnotherAreChanges) {
+  ASSERT_EQ(traced.branches.size(), 1U);
+  ASSERT_EQ(folds.size(), 2U);
+  SweepOptions sweep = sweep_of(1.35, 3.25, 48);
+  sweep.directions = {Direction::up, Direction::down};
+  const std::vector<PointResult> points = carried(sweep);
+  const BranchProof proof = proved(traced, sweep, points);
+  EXPECT_TRUE(proof.off.empty());
+  ASSERT_EQ(proof.changes.size(), 2U);
+  EXPECT_EQ(proof.unexplained(), 0U);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const SweepChange& c = proof.changes[k];
+    EXPECT_EQ(c.direction, sweep.directions[k]);
+    EXPECT_TRUE(c.counted);
+    EXPECT_EQ(c.cause, Cause::jump) << c.words;
+    EXPECT_NE(c.words.find("another stretch of branch 0"), std::string::npos) << c.words;
+    ASSERT_TRUE(c.special.has_value());
+    EXPECT_EQ(traced.special[*c.special].value, k == 0 ? folds.back() : folds.front());
+  }
+}
+
+TEST_F(OfAResonance, AJumpWhereNeitherStretchEndsIsUnexplained) {
+  // Up to the middle of the stretches, and from there on as a sweep down has it.
+  SweepOptions sweep = sweep_of(1.35, 3.25, 48);
+  sweep.directions = {Direction::up, Direction::down};
+  std::vector<PointResult> points = carried(sweep);
+  const double middle = 0.5 * (folds.front() + folds.back());
+  for (std::size_t i = 0; i < 48; ++i) {
+    if (points[i].point.value < middle) continue;
+    points[i] = points[95 - i];
+    points[i].point.index = i;
+    points[i].point.direction = Direction::up;
+  }
+  const BranchProof proof = proved(traced, sweep, points);
+  ASSERT_EQ(proof.changes.size(), 2U);
+  EXPECT_EQ(proof.changes[0].cause, Cause::unexplained) << proof.changes[0].words;
+  EXPECT_NE(proof.changes[0].words.find("stable"), std::string::npos) << proof.changes[0].words;
+  EXPECT_EQ(proof.changes[1].cause, Cause::jump) << proof.changes[1].words;
+}
+
+TEST_F(OfAResonance, PointsUpToTheFoldAreOnTheBranch) {
+  SweepOptions sweep = sweep_of(folds.back() - 1e-3, folds.back() - 1e-5, 12);
+  const integrate::FlowFamily flows = problems::flows(fields, 1e-9);
+  std::vector<double> y = problems::settled(flows, 1.4, {1.0, 0.0}, 100);
+  for (double w = 1.4; w < sweep.axis.from; w += 0.02) y = problems::settled(flows, w, y, 100);
+  std::vector<PointResult> points;
+  for (const double value : axis_values(sweep.axis))
+    points.push_back(settled_point(flows, y, points.size(), value, Direction::up));
+  const BranchProof proof = proved(traced, sweep, points);
+  EXPECT_EQ(proof.periodic, 12U);
+  EXPECT_TRUE(proof.off.empty()) << proof.off.size() << " of 12";
+  EXPECT_TRUE(proof.changes.empty());
 }
 
 TEST(BranchProof, AFlipFarFromTheChangeExplainsNothing) {
