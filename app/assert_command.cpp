@@ -25,17 +25,18 @@ namespace {
 using nlohmann::json;
 using studies::PointVerdict;
 
-/// Says on stderr in what the study is not the one that the points are expected of.
-/// @returns whether it is
-bool is_alike(const reports::ExpectedPoints& expected, const FinishedBranches& branches, const Arguments& arguments) {
+/// Says in what the study is not the one that the points are expected of.
+int tell_unlike(const std::vector<std::string>& lines, const std::filesystem::path& junit, const Arguments& arguments) {
   constexpr std::size_t most = 5;
-  const auto lines = reports::unlike(expected, branches.input);
-  if (lines.empty()) return true;
+  // What an earlier run has left there would pass for the verdicts of this one.
+  if (!junit.empty()) write_file_atomically(junit, reports::unlike_junit_text(arguments.input.string(), lines));
+  if (arguments.json)
+    print("{}\n", json({{"another_study", lines}}).dump(2, ' ', false, json::error_handler_t::replace));
   tell("{}: is another study than the points of {} are expected of\n", arguments.input.string(),
        arguments.against.string());
   for (std::size_t k = 0; k < std::min(lines.size(), most); ++k) tell("  {}\n", lines[k]);
   if (lines.size() > most) tell("  and {} more\n", lines.size() - most);
-  return false;
+  return other_study;
 }
 
 /// Writes the folder's points as those that are expected from now on.
@@ -57,7 +58,8 @@ int assert_command(const Arguments& arguments) {
   if (arguments.record) return record(arguments, branches);
   const std::filesystem::path junit = arguments.junit.empty() ? arguments.junit : linked_file(arguments.junit);
   const reports::ExpectedPoints expected = reports::read_expected(arguments.against);
-  if (!is_alike(expected, branches, arguments)) return other_study;
+  if (const auto lines = reports::unlike(expected, branches.input); !lines.empty())
+    return tell_unlike(lines, junit, arguments);
   const auto compared = studies::compare_points(expected.points, branches.points, expected.reach());
   const auto failed = static_cast<std::size_t>(
       std::ranges::count_if(compared, [](const auto& c) { return c.verdict != PointVerdict::agrees; }));

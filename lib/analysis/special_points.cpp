@@ -430,8 +430,8 @@ void find_grazings(const OrbitFamily& family, const BranchOrbit& a, const Branch
     const std::vector<double>& before = least ? at_a->least : at_a->greatest;
     const std::vector<double>& behind = least ? at_b->least : at_b->greatest;
     for (std::size_t k = 0; k < before.size(); ++k)
-      if ((before[k] > 0.0) != (behind[k] > 0.0) &&
-          std::ranges::find(options.crossed_freely, k) == options.crossed_freely.end())
+      // Infinite: there is no such surface, at one of them or at both.
+      if ((before[k] > 0.0) != (behind[k] > 0.0) && std::isfinite(before[k]) && std::isfinite(behind[k]))
         found.push_back(Event(family, Grazing{k, least, behind[k] > before[k]}, a, b, options).locate());
   }
 }

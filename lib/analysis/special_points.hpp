@@ -71,7 +71,6 @@ struct SpecialOptions {
   bool branch_counts =
       true;  ///< is the value by the branch's own family one of the v_k? If not, by three others or more
   double safety = 3;
-  std::vector<std::size_t> crossed_freely{};  ///< surfaces where the field is smooth after all: no grazings
 
   /// @throws InputError for a safety factor below 1, or too few others
   void validate() const;

@@ -682,7 +682,7 @@ std::string logarithmic_axis(std::string_view axis, const FigureRange& range) {
   const auto add = [&](double value, const std::string& label, bool named) {
     tics += fmt::format("{}'{}' {} {}", tics.empty() ? "" : ", ", named ? label : "", text_of(value), named ? 0 : 1);
   };
-  constexpr double few_digits = 0.5;
+  constexpr double few_digits = 0.3;
   if (decades < few_digits) {
     // Too short for powers and their parts: equal steps, as on a linear scale.
     constexpr double about = 5;
@@ -697,7 +697,7 @@ std::string logarithmic_axis(std::string_view axis, const FigureRange& range) {
     for (int digit = 1; digit < 10; ++digit) {
       const double value = digit * std::pow(10.0, power);
       if (value < range.low || value > range.high) continue;
-      const bool named = digit == 1 || digit == 2 || digit == 5;
+      const bool named = digit == 1 || digit == 2 || digit == 5 || decades < 1.0;
       const std::string label = power >= -2 && power <= 3 ? short_text(value, 6)
                                 : digit == 1              ? fmt::format("10^{{{}}}", power)
                                                           : fmt::format("{}·10^{{{}}}", digit, power);

@@ -118,8 +118,8 @@ double text_width(std::string_view text);
 /// {/Symbol W} and ~{x}{.6-}, which SVG files show wrongly, replaced by Greek letters and combining macrons.
 std::string portable_text(std::string_view text);
 
-/// Commands for a logarithmic axis, "x" or "y": powers of ten are named; where there would be less than three of them,
-/// twice and five times each; where there is not even one, equal steps.
+/// Commands for a logarithmic axis, "x" or "y": powers of ten are named; over less than three decades twice and five
+/// times each, too; over less than one all digits, and over less than a third equal steps.
 std::string logarithmic_axis(std::string_view axis, const FigureRange& range);
 
 /// The script of a figure: encoding, white ground, thin frame, tics, ranges, labels, title, legend under it (or beside

@@ -20,18 +20,17 @@ namespace epicyclic::model {
 
 std::vector<ContactSurface> contact_surfaces(const DynamicModel& model) {
   std::vector<ContactSurface> all;
-  const auto both = [&](const std::string& part, bool mesh, double half_gap) {
-    for (const bool upper : {true, false}) all.push_back({part, mesh, upper, half_gap > 0.0});
+  const auto both = [&](const std::string& part, bool mesh) {
+    all.push_back({part, mesh, true});
+    all.push_back({part, mesh, false});
   };
-  for (int i = 1; i <= model.planets; ++i) {
-    both("sp_" + std::to_string(i), true, model.sun_planet_half_gap);
-    both("rp_" + std::to_string(i), true, model.ring_planet_half_gap);
-  }
+  for (int i = 1; i <= model.planets; ++i)
+    for (const char* kind : {"sp_", "rp_"}) both(kind + std::to_string(i), true);
   if (all.size() + 1 == model.surfaces.count) {
-    all.push_back({"sun_bearing", false, true, model.sun_bearing_half_gap > 0.0});
+    all.push_back({"sun_bearing", false, true});
   } else {
-    both("sun_bearing_x", false, model.sun_bearing_half_gap);
-    both("sun_bearing_y", false, model.sun_bearing_half_gap);
+    both("sun_bearing_x", false);
+    both("sun_bearing_y", false);
   }
   return all;
 }
@@ -201,7 +200,6 @@ DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& sca
   m.breakpoints = p->breakpoints;
   m.sun_planet_half_gap = p->sun_planet.half_gap;
   m.ring_planet_half_gap = p->ring_planet.half_gap;
-  m.sun_bearing_half_gap = p->sun_half_gap;
   m.omega = mesh_frequency_ratio;
   m.jumps_at_surfaces = p->gap_damping == GapDamping::contact_slope && !p->smooth &&
                         std::max(p->sun_planet.half_gap, p->ring_planet.half_gap) > 0.0;

@@ -51,7 +51,6 @@ struct DynamicModel : VectorField {
   std::vector<std::string> state_names;  ///< x_s, ..., then x_s_rate, ...
   double sun_planet_half_gap = 0;        ///< b_sp [b_c]
   double ring_planet_half_gap = 0;       ///< b_rp [b_c]
-  double sun_bearing_half_gap = 0;       ///< b_s [b_c]
   double omega = 0;                      ///< Omega
   Scales scales;                         ///< that the stage was made dimensionless with
   gear::Speeds speeds{};                 ///< of its members
@@ -96,7 +95,6 @@ struct ContactSurface {
   std::string part;   ///< "sp_1", "rp_2", "sun_bearing_x", "sun_bearing_y"; "sun_bearing" of a radial law
   bool mesh = true;   ///< of a mesh, else of the sun's bearing
   bool upper = true;  ///< the distance is x - b, else x + b
-  bool opens = true;  ///< b is not 0: else nothing is made or lost there, the force goes through it on one line
 };
 
 /// In the order of the surfaces.

@@ -21,6 +21,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <type_traits>
 
 #include "core/scalar.hpp"
@@ -363,7 +364,8 @@ template <class P, std::size_t N>
 }
 
 /// How far each contact is from where its clearance function has a kink: delta - b and delta + b of each planet's sun
-/// mesh and ring mesh, then of the sun's bearing x - b, x + b, y - b, y + b, or r - b of a radial law.
+/// mesh and ring mesh, then of the sun's bearing x - b, x + b, y - b, y + b, or r - b of a radial law. Infinite where
+/// b = 0: what has no gap makes and loses no contact, and its force has no kink.
 ///
 /// @param y          as of right_hand_side()
 /// @param distances  contacts_of(p) numbers [b_c]
@@ -372,9 +374,13 @@ template <class T, class P, std::size_t N>
 void contact_distances(Layout layout, const Parameters<P, N>& p, const Instant<P, N>& now, const T* y, T* distances,
                        T* rates) {
   const P per_phase = 1.0 / p.omega;
+  const auto away = [](const P& half_gap) {
+    return select(half_gap > P(0.0), P(0.0), P(std::numeric_limits<double>::infinity()));
+  };
   const auto flanks = [&](const T& x, const T& rate, const P& half_gap) {
-    *distances++ = x - half_gap;
-    *distances++ = x + half_gap;
+    const P nowhere = away(half_gap);
+    *distances++ = x - half_gap + nowhere;
+    *distances++ = x + half_gap + nowhere;
     const T along = rate * per_phase;
     *rates++ = along;
     *rates++ = along;
@@ -397,7 +403,7 @@ void contact_distances(Layout layout, const Parameters<P, N>& p, const Instant<P
   const T& y_rate = velocities[Slots::y_s];
   if (gear::is_radial(p.sun_law)) {
     const T r = safe_radius(x_s, y_s);
-    *distances = r - p.sun_half_gap;
+    *distances = r - p.sun_half_gap + away(p.sun_half_gap);
     *rates = (x_s * x_rate + y_s * y_rate) / r * per_phase;
   } else {
     flanks(x_s, x_rate, p.sun_half_gap);

@@ -394,18 +394,41 @@ std::string continue_summary(const ContinueOutput& output, const TracedBranches&
 }
 
 /// Places of lines, by whether the orbits are stable; a line goes on to the first orbit of the other kind.
+namespace {
+
+/// Where the stability changes between an orbit and the next: of several points the one beside the stable side.
+std::optional<std::size_t> change_behind(const TracedBranches& traced, std::size_t branch, std::size_t before) {
+  const std::vector<BranchRow>& rows = traced.rows[branch];
+  const double stable = rows[rows[before].stable ? before : before + 1].value;
+  std::optional<std::size_t> nearest;
+  for (std::size_t i = 0; i < traced.special.size(); ++i) {
+    const SpecialRow& r = traced.special[i];
+    if (r.branch != branch || r.after != before || r.kind == SpecialKind::grazing || r.kind == SpecialKind::unresolved)
+      continue;
+    if (!nearest || std::abs(r.value - stable) < std::abs(traced.special[*nearest].value - stable)) nearest = i;
+  }
+  return nearest;
+}
+
+}  // namespace
+
 struct BranchSketch::Lines {
   std::vector<Place> stable, unstable;
 
-  /// @param y_of  ordinate at a row; not a number interrupts
+  /// @param y_of  ordinate of an orbit; not a number interrupts
   template <class F>
-  void add(const std::vector<BranchRow>& rows, F y_of) {
+  void add(const TracedBranches& traced, std::size_t branch, F y_of) {
+    const std::vector<BranchRow>& rows = traced.rows[branch];
     for (std::size_t k = 0; k < rows.size(); ++k) {
       std::vector<Place>& line = rows[k].stable ? stable : unstable;
-      const Place here = {rows[k].value, y_of(k)};
+      const Place here = {rows[k].value, y_of(rows[k])};
       if (k > 0 && rows[k].stable != rows[k - 1].stable) {
-        (rows[k].stable ? unstable : stable).push_back(here);
-        (rows[k].stable ? unstable : stable).push_back({gap, gap});
+        std::vector<Place>& before = rows[k].stable ? unstable : stable;
+        const auto change = change_behind(traced, branch, k - 1);
+        const Place there = change ? Place{traced.special[*change].value, y_of(traced.at_special[*change])} : here;
+        before.push_back(there);
+        before.push_back({gap, gap});
+        if (change) line.push_back(there);
       }
       line.push_back(here);
     }
@@ -433,11 +456,13 @@ void BranchSketch::add_points(const std::vector<Place>& points, std::string_view
 void BranchSketch::add_branches() {
   const std::size_t columns = output_.poincare_columns.size();
   Lines lines;
-  for (const auto& rows : traced_.rows) {
+  for (std::size_t b = 0; b < traced_.rows.size(); ++b) {
+    const std::vector<BranchRow>& rows = traced_.rows[b];
     const auto crossings = static_cast<std::size_t>(rows.empty() ? 0 : rows.front().period);
     for (std::size_t n = 0; n < crossings; ++n)
-      lines.add(rows,
-                [&](std::size_t k) { return rows[k].section.empty() ? gap : rows[k].section[n * columns + column_]; });
+      lines.add(traced_, b, [&, at = n * columns + column_](const BranchRow& row) {
+        return at < row.section.size() ? row.section[at] : gap;
+      });
   }
   sketch_.add(lines.unstable, figures::dashed(figures::ink::red, 1.6, "(14,10)"), "unstable");
   sketch_.add(lines.stable, figures::solid(figures::ink::blue, 2.4), "stable");
@@ -494,11 +519,11 @@ void BranchSketch::add_contacts() {
   for (const Strip& s : strips) panel.names.emplace_back(s.y, s.name);
   sketch_.panel(panel);
   Lines lines;
-  for (const auto& rows : traced_.rows)
+  for (std::size_t b = 0; b < traced_.rows.size(); ++b)
     for (const Strip& s : strips)
-      lines.add(rows, [&](std::size_t k) {
-        if (!rows[k].carried) return gap;
-        const auto& meshes = s.sun ? rows[k].meshes.sun_planet : rows[k].meshes.ring_planet;
+      lines.add(traced_, b, [&](const BranchRow& row) {
+        if (!row.carried) return gap;
+        const auto& meshes = s.sun ? row.meshes.sun_planet : row.meshes.ring_planet;
         return std::ranges::any_of(meshes, [&](const MeshRecord& m) { return s.time(m) > 0.0; }) ? s.y : gap;
       });
   for (auto& [x, y] : lines.unstable) y -= 0.18;
@@ -516,8 +541,8 @@ void BranchSketch::add_multipliers() {
   panel.logarithmic = true;
   sketch_.panel(panel);
   Lines lines;
-  for (const auto& rows : traced_.rows)
-    lines.add(rows, [&](std::size_t k) { return std::max(rows[k].multiplier_max(), range.low); });
+  for (std::size_t b = 0; b < traced_.rows.size(); ++b)
+    lines.add(traced_, b, [&](const BranchRow& row) { return std::max(row.multiplier_max(), range.low); });
   const auto& [from, to] = std::pair(output_.options.from, output_.options.to);
   sketch_.add(std::vector<Place>{{from, 1.0}, {to, 1.0}}, figures::solid(figures::ink::light_grey, 1.2));
   sketch_.add(lines.unstable, figures::dashed(figures::ink::red, 1.6, "(14,10)"));

@@ -204,13 +204,33 @@ json compared_json(const std::vector<PointComparison>& compared) {
   return {{"points", std::move(rows)}};
 }
 
-std::string junit_text(const std::string& name, const std::vector<PointComparison>& compared) {
-  const auto failures =
-      std::ranges::count_if(compared, [](const auto& c) { return c.verdict != PointVerdict::agrees; });
-  std::string text = fmt::format(
+namespace {
+
+std::string junit_suite(const std::string& name, std::size_t tests, std::size_t failures, std::size_t errors,
+                        const std::string& cases) {
+  return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<testsuites>\n<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"0\">\n",
-      xml(name), compared.size(), failures);
+      "<testsuites>\n<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"0\">\n{}"
+      "</testsuite>\n</testsuites>\n",
+      xml(name), tests, failures, errors, cases);
+}
+
+}  // namespace
+
+std::string unlike_junit_text(const std::string& name, const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return junit_suite(name, 1, 0, 1,
+                     fmt::format("<testcase classname=\"special_points\" name=\"the study\">\n<error type=\"another "
+                                 "study\" message=\"another study than the points are expected of\">{}</error>\n"
+                                 "</testcase>\n",
+                                 xml(text)));
+}
+
+std::string junit_text(const std::string& name, const std::vector<PointComparison>& compared) {
+  const auto failures = static_cast<std::size_t>(
+      std::ranges::count_if(compared, [](const auto& c) { return c.verdict != PointVerdict::agrees; }));
+  std::string text;
   for (const PointComparison& c : compared) {
     text += fmt::format("<testcase classname=\"special_points\" name=\"{} at {}\"", xml(name_of(either(c))),
                         short_text(c.value(), 12));
@@ -220,7 +240,7 @@ std::string junit_text(const std::string& name, const std::vector<PointCompariso
       text += fmt::format(">\n<failure type=\"{0}\" message=\"{0}\">{1}</failure>\n</testcase>\n",
                           xml(to_string(c.verdict)), xml(what_is(c)));
   }
-  return text + "</testsuite>\n</testsuites>\n";
+  return junit_suite(name, compared.size(), failures, 0, text);
 }
 
 }  // namespace epicyclic::reports

@@ -52,4 +52,8 @@ struct ExpectedPoints {
 /// @param name  of the suite
 [[nodiscard]] std::string junit_text(const std::string& name, const std::vector<studies::PointComparison>& compared);
 
+/// A JUnit test suite of one error: the study is not the one whose points are expected.
+/// @param lines  in what, of unlike()
+[[nodiscard]] std::string unlike_junit_text(const std::string& name, const std::vector<std::string>& lines);
+
 }  // namespace epicyclic::reports

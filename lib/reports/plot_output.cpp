@@ -565,7 +565,7 @@ PlotOptions sound_options(const std::vector<PlottedStudy>& studies, PlotOptions 
   for (const PlottedStudy& s : studies) {
     const std::string_view other = s.study->kind();
     const auto may_be_beside = [](std::string_view k) { return k == "sweep" || k == "continue"; };
-    if (studies.size() > 1 && !(other == kind && kind == "run") && !(may_be_beside(other) && may_be_beside(kind)))
+    if (&s != &first && !(other == kind && kind == "run") && !(may_be_beside(other) && may_be_beside(kind)))
       throw InputError(fmt::format("plot: {} is a study of kind {}, {} one of kind {}; they do not go into one figure",
                                    first.folder.string(), kind, s.folder.string(), other));
     if (options.abscissa.empty() && parameter_of(*s.study) != parameter_of(*first.study))

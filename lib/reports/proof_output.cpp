@@ -95,10 +95,11 @@ std::string proof_summary(const ContinueOutput& output, const ProvedSweep& sweep
   text += fmt::format("Sweep of identity {}, {} points along {}.\n\n", sweep.identity, sweep.points.count,
                       output.options.parameter);
   text += fmt::format(
-      "{} points are periodic; {} of them lie on {} branches, the furthest {} b_c from its orbit, and {} on none.\n\n",
-      proof.periodic, proof.periodic - proof.off.size(), traced.branches.size(), short_text(proof.largest_distance, 2),
-      proof.off.size());
-  text += fmt::format("{} changes of period or regime count, since one of their sides is periodic: ", proof.counted());
+      "{} points are periodic; {} of them lie on {} branch{}, the furthest {} b_c from its orbit, and {} on none.\n\n",
+      proof.periodic, proof.periodic - proof.off.size(), traced.branches.size(),
+      traced.branches.size() == 1 ? "" : "es", short_text(proof.largest_distance, 2), proof.off.size());
+  text += fmt::format("{} changes of period, regime or orbit count, since one of their sides is periodic: ",
+                      proof.counted());
   std::string list;
   for (const auto& [cause, count] : causes) list += fmt::format("{}{} {}", list.empty() ? "" : ", ", count, cause);
   text += fmt::format("{}. **{} unexplained.** {} changes among motions that are not periodic are listed apart.\n",

@@ -436,19 +436,32 @@ class RunFigures {
     finish(sketch, std::string(time_label), "Mesh", {0.0, w.periods}, {-0.7, static_cast<double>(2 * n) - 0.3});
   }
 
-  /// Whether the columns NAME_1 .. NAME_n are the same in the rows shown.
-  [[nodiscard]] bool planets_coincide(const std::string& name, std::size_t n, const Window& w) const {
-    const std::vector<double> one = h_.column(name + "_1");
+  /// Do two planets have one curve, as far as a picture shows?
+  [[nodiscard]] bool coincide(const std::string& name, std::size_t i, std::size_t j, const Window& w) const {
+    const std::vector<double> one = h_.column(fmt::format("{}_{}", name, i));
+    const std::vector<double> other = h_.column(fmt::format("{}_{}", name, j));
     double size = 0.0;
     double difference = 0.0;
-    for (std::size_t i = 2; i <= n; ++i) {
-      const std::vector<double> other = h_.column(fmt::format("{}_{}", name, i));
-      for (std::size_t k = w.first; k < w.rows; ++k) {
-        size = std::max(size, std::abs(one[k]));
-        difference = std::max(difference, std::abs(one[k] - other[k]));
-      }
+    for (std::size_t k = w.first; k < w.rows; ++k) {
+      size = std::max(size, std::abs(one[k]));
+      difference = std::max(difference, std::abs(one[k] - other[k]));
     }
     return difference <= coincident * size;
+  }
+
+  /// Whether the columns NAME_1 .. NAME_n are the same in the rows shown.
+  [[nodiscard]] bool planets_coincide(const std::string& name, std::size_t n, const Window& w) const {
+    for (std::size_t i = 2; i <= n; ++i)
+      if (!coincide(name, 1, i, w)) return false;
+    return true;
+  }
+
+  /// Of a planet whose curve lies on that of one before it, dashes let that one be seen.
+  [[nodiscard]] std::string look_of(const std::string& name, std::size_t i, const Window& w) const {
+    const std::string_view colour = planet_colours[(i - 1) % planet_colours.size()];
+    for (std::size_t j = 1; j < i; ++j)
+      if (coincide(name, j, i, w)) return figures::dashed(colour, 2.0, "(10,10)");
+    return figures::solid(colour);
   }
 
   void mesh_force() {
@@ -474,10 +487,12 @@ class RunFigures {
       both.include(y.high);
       if (!one) sketch.panel(fmt::format("F_{{{}}} / F_0", mesh), y_range(y));
       for (std::size_t i = 0; i < curves.size(); ++i)
-        sketch.add(curves[i], figures::solid(one && !sun ? red : planet_colours[i % planet_colours.size()]),
-                   one   ? fmt::format("F_{{{}}}, all planets", mesh)
-                   : sun ? fmt::format("planet {}", i + 1)
-                         : std::string());
+        sketch.add(
+            curves[i],
+            one ? figures::solid(sun ? planet_colours[0] : red) : look_of(fmt::format("force_{}", mesh), i + 1, w),
+            one   ? fmt::format("F_{{{}}}, all planets", mesh)
+            : sun ? fmt::format("planet {}", i + 1)
+                  : std::string());
     }
     finish(sketch, std::string(time_label), "Mesh force  F / F_0", {0.0, w.periods}, y_range(both));
   }

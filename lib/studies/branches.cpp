@@ -33,20 +33,6 @@ integrate::FlowFamily flows_of(const ModelAt& models, const integrate::Integrato
 
 }  // namespace
 
-namespace {
-
-/// Contacts whose gap is 0 at both ends of the range: the parameter is not what opens them.
-std::vector<std::size_t> never_opening(const ModelAt& models, const BranchesOptions& options) {
-  const std::vector<model::ContactSurface> at_from = contact_surfaces(models(options.from));
-  const std::vector<model::ContactSurface> at_to = contact_surfaces(models(options.to));
-  std::vector<std::size_t> closed;
-  for (std::size_t k = 0; k < at_from.size(); ++k)
-    if (!at_from[k].opens && !at_to[k].opens) closed.push_back(k);
-  return closed;
-}
-
-}  // namespace
-
 void BranchesOptions::validate() const {
   require(from < to, "to", to, "> from");
   (void)integrate::method_named(method);
@@ -114,7 +100,6 @@ BranchSystem branch_system(const ModelAt& models, const BranchesOptions& options
   const auto fine_flows = at(finer);
   s.options.special.others = {{fine_flows, 1}, {fine_flows, 2}, {at(std::max(0.1 * finer, finest)), 1}};
   s.options.special.branch_counts = false;
-  s.options.special.crossed_freely = never_opening(models, options);
   s.options.largest_period = options.largest_period;
   s.options.branch_points = options.branch_points;
   s.options.branches = static_cast<std::size_t>(options.branches);

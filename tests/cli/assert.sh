@@ -38,7 +38,9 @@ moved 's/"kind":"flip"/"kind":"fold"/'
 
 # Another study, which says in what.
 [ "$(code_of "$epicyclic" "${branches[@]}" --set /study/tolerance=1e-7 --set /stage/load/power_kW=390 -o other)" = 0 ] || fail "continue: $(<stderr)"
-[ "$(code_of "$epicyclic" assert other points.json)" = 3 ] || fail "another load: $(<stdout)"
+[ "$(code_of "$epicyclic" assert other points.json --json --junit verdicts.xml)" = 3 ] || fail "another load: $(<stdout)"
+grep -q 'errors="1"' verdicts.xml && grep -q 'power_kW: 400.* there, 390.* here' verdicts.xml || fail "its XML: $(<verdicts.xml)"
+grep -q '"another_study"' stdout && grep -q 'power_kW: 400.* there, 390.* here' stdout || fail "its JSON: $(<stdout)"
 grep -q '/stage/load/power_kW: 400.* there, 390.* here' stderr || fail "in what: $(<stderr)"
 
 # Bad input; nothing is written.

@@ -457,10 +457,15 @@ TEST(LineFigure, LogarithmicAxesOfLessThanThreeDecadesHaveNamesBetween) {
         line_figure(folder.path(), "a", {"", "x", "y"}, {{"", {low, high}, {1, 2}, false}}, {true, false}).drawn());
     return contents(folder / "a.gp");
   };
-  const std::string narrow = script(150, 1200);
+  const std::string narrow = script(150, 2200);
   for (const char* tic : {"'200' 200 0", "'500' 500 0", "'1000' 1000 0", "'' 300 1"})
     EXPECT_NE(narrow.find(tic), std::string::npos) << tic;
   EXPECT_NE(script(3e-5, 4e-4).find("'2·10^{-4}' 2"), std::string::npos);
+  // Within a decade all digits, within less equal steps.
+  EXPECT_NE(script(150, 1200).find("'300' 300 0"), std::string::npos);
+  const std::string short_axis = script(0.93, 1.11);
+  for (const char* tic : {"'0.95' 0.95", "'1' 1 0", "'1.05' 1.05", "'1.1' 1.1"})
+    EXPECT_NE(short_axis.find(tic), std::string::npos) << tic;
   EXPECT_EQ(script(1e-5, 1e-1).find("set xtics ("), std::string::npos);
   // One value alone, at 1, where its logarithm vanishes.
   EXPECT_NE(script(1, 1).find("'1' 1 0"), std::string::npos);

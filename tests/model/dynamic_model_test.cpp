@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <random>
@@ -262,6 +263,30 @@ TEST(Phases, Of28And80TeethAreTwoThirds) {
       EXPECT_NEAR(d.sun_planet[i], -0.85 * std::sin(own), rounding);
       EXPECT_NEAR(d.ring_planet[i], -0.85 * std::sin(own), rounding);
     }
+  }
+}
+
+TEST(Contacts, WhatHasNoGapIsNowhereMadeOrLost) {
+  for (const gear::BearingLaw law : {gear::BearingLaw::linear_xy, gear::BearingLaw::linear_radial}) {
+    gear::Stage stage = problems::r1_nonlinear();
+    stage.sun_bearing.law = law;
+    stage.sun_bearing.clearance_half_um = 0.0;
+    const auto distances_of = [&] {
+      const DynamicModel m = model_of(stage, 0.7, CoordinateChoice::relative);
+      std::vector<double> y(m.dimension, -0.3);
+      std::vector<double> distances(m.surfaces.count);
+      std::vector<double> rates(m.surfaces.count);
+      m.surfaces.evaluate(1.0, y.data(), distances.data(), rates.data());
+      return distances;
+    };
+    const auto is_nowhere = [](double d) { return d == std::numeric_limits<double>::infinity(); };
+    const std::vector<double> preloaded = distances_of();
+    constexpr std::size_t of_meshes = 12;
+    for (std::size_t k = 0; k < preloaded.size(); ++k) EXPECT_EQ(is_nowhere(preloaded[k]), k >= of_meshes) << k;
+    stage.sun_planet_mesh.backlash_half_um = 0.0;
+    stage.sun_bearing.clearance_half_um = 8.0;
+    const std::vector<double> tight = distances_of();
+    for (std::size_t k = 0; k < tight.size(); ++k) EXPECT_EQ(is_nowhere(tight[k]), k < of_meshes && k % 4 < 2) << k;
   }
 }
 

@@ -98,26 +98,6 @@ TEST(Branches, FlipOfThePapersStageIsWhereMotionsDouble) {
   }
 }
 
-TEST(Branches, WhatHasNoGapIsNotGrazed) {
-  BranchesOptions options;
-  options.from = 2.0;
-  options.to = 3.5;
-  const auto closed = [](double omega) {
-    gear::Stage stage = problems::tang2020();
-    stage.sun_bearing.clearance_half_um = 0.0;
-    return model::make_dynamic_model(stage, model::scales_of(stage), omega, {});
-  };
-  const auto freely = [](const BranchSystem& s) { return s.options.special.crossed_freely; };
-  EXPECT_TRUE(freely(branch_system(model_at, options, model_at(2.0))).empty());
-  const std::vector<std::size_t> of_bearing = freely(branch_system(closed, options, closed(2.0)));
-  const auto surfaces = contact_surfaces(closed(2.0));
-  ASSERT_EQ(of_bearing.size(), surfaces.size() - 12U);
-  for (const std::size_t k : of_bearing) EXPECT_FALSE(surfaces.at(k).mesh);
-  // Where the parameter opens the gap, it is one.
-  const auto opening = [&closed](double value) { return value < 2.5 ? closed(value) : model_at(value); };
-  EXPECT_TRUE(freely(branch_system(opening, options, closed(2.0))).empty());
-}
-
 // Over the whole range the planets' contacts are made and lost together, to rounding: steps onto them are as short.
 TEST(BranchesLong, OfPeriod1GoesThroughTheWholeRange) {
   BranchesOptions options;
