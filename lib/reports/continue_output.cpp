@@ -447,10 +447,10 @@ BranchSketch::BranchSketch(std::string_view stem, const ContinueOutput& output, 
       for (std::size_t k = column_; k < row.section.size(); k += columns.size()) y_.include(row.section[k]);
 }
 
-void BranchSketch::add_points(const std::vector<Place>& points, std::string_view look, std::string_view title) {
+void BranchSketch::add_points(const std::vector<Place>& points, std::string_view look, std::string_view key,
+                              std::string_view title) {
   for (const Place& p : points) y_.include(p[1]);
-  points_.push_back(points);
-  point_looks_.emplace_back(look, title);
+  points_.push_back({points, std::string(look), std::string(key), std::string(title)});
 }
 
 void BranchSketch::add_branches() {
@@ -561,8 +561,10 @@ DrawnFigure BranchSketch::draw(const std::filesystem::path& folder, const std::s
   figures::FigurePanel panel{
       fmt::format("Poincaré points of  δ_{{{},1}} / b_c", subscript), y_.widened(figures::figure_margin), {}, 3.0};
   sketch_.panel(panel);
-  for (std::size_t k = 0; k < points_.size(); ++k)
-    sketch_.add(points_[k], point_looks_[k].first, point_looks_[k].second);
+  for (const Points& p : points_) {
+    sketch_.add(p.places, p.look);
+    sketch_.entry(p.key, p.title);
+  }
   add_branches();
   add_special_points();
   add_contacts();

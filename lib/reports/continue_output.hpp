@@ -68,7 +68,9 @@ class BranchSketch {
                MeshKind mesh);
 
   /// Points under the branches: x and y.
-  void add_points(const std::vector<std::array<double, 2>>& points, std::string_view look, std::string_view title);
+  /// @param key  how they look in the legend
+  void add_points(const std::vector<std::array<double, 2>>& points, std::string_view look, std::string_view key,
+                  std::string_view title);
 
   /// @returns what became of it
   [[nodiscard]] DrawnFigure draw(const std::filesystem::path& folder, const std::string& title_more = {});
@@ -86,8 +88,11 @@ class BranchSketch {
   std::size_t column_ = 0;
   figures::Sketch sketch_;
   figures::FigureRange y_;
-  std::vector<std::vector<std::array<double, 2>>> points_;
-  std::vector<std::pair<std::string, std::string>> point_looks_;
+  struct Points {
+    std::vector<std::array<double, 2>> places;
+    std::string look, key, title;
+  };
+  std::vector<Points> points_;
 };
 
 /// The loci in the plane of both parameters.

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <tuple>
 #include <unordered_set>
 #include <utility>
 
@@ -141,13 +140,16 @@ std::vector<DrawnFigure> draw_proof_figures(const std::filesystem::path& folder,
   for (const auto& [mesh, word] : kinds) {
     BranchSketch sketch(fmt::format("proof_delta_{}", word), output, traced, mesh);
     const char* column = mesh == MeshKind::sun_planet ? "delta_sp_1" : "delta_rp_1";
-    // A ring about a dot where both directions have the same motion.
-    for (const auto& [direction, colour, size, type] : {std::tuple{studies::Direction::up, "#9a9a9a", 1.0, 7},
-                                                        std::tuple{studies::Direction::down, "#4fa3d1", 1.5, 6}}) {
+    for (const studies::Direction direction : {studies::Direction::down, studies::Direction::up}) {
+      const bool up = direction == studies::Direction::up;
       const auto points = section_points(sweep, output.options, column, direction);
+      // Dots in rings where both directions have the same motion; of chaos a pale ground.
       constexpr std::size_t many = 3000;
+      const bool ground = points.size() > many;
+      const std::string_view colour = ground ? (up ? "#b4b4b4" : "#a9cbe3") : (up ? "#9a9a9a" : "#4fa3d1");
+      const std::string key = ground || up ? figures::dots(colour, 1.0) : figures::dots(colour, 1.5, 6);
       if (!points.empty())
-        sketch.add_points(points, figures::dots(colour, points.size() > many ? 0.3 * size : size, type),
+        sketch.add_points(points, ground ? figures::dots(colour, 0.25) : key, key,
                           "sweep " + store::direction_word(direction));
     }
     drawn.push_back(sketch.draw(folder));
