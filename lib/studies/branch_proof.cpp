@@ -122,6 +122,12 @@ class Stretches {
     });
   }
 
+  /// Does the place's stretch reach the first or the last end of its branch?
+  [[nodiscard]] bool ends(const PlaceOnBranch& place, bool first) const {
+    const std::vector<std::size_t>& numbers = of_[place.branch];
+    return numbers[place.after] == (first ? numbers.front() : numbers.back());
+  }
+
   /// Is a special point on the stretch of the place, or at an end of it? A fold is at the end of two.
   [[nodiscard]] bool has(const SweepPlace& place, const SpecialRow& r) const {
     const std::vector<std::size_t>& numbers = of_[r.branch];
@@ -225,6 +231,8 @@ class Explainer {
         if (side == &b && !birth_only && stays) continue;
         if (side->branch && by_special_point(*side, other, birth_only, change)) return;
       }
+    for (const SweepPlace* side : {&a, &b})
+      if (!(side == &b && stays) && by_end(*side, side == &a ? b : a, change)) return;
     if (by_cascade(i, change)) return;
     if (!a.periodic && b.branch && stable_within_the_grid(b)) {
       change.cause = Cause::crisis;
@@ -250,7 +258,7 @@ class Explainer {
       if (r.kind == SpecialKind::grazing || r.kind == SpecialKind::unresolved) continue;
       const double away = beside(r.value);
       if (away > 1.0 || (best && away >= beside(traced_.special[*best].value))) continue;
-      if (!lies_towards(r, side, other)) continue;
+      if (!is_ahead(r.value, side, other)) continue;
       if (is_birth(r, side, other) || (!birth_only && stretches_.has(side, r) && changes_stability(r))) best = k;
     }
     if (!best) return false;
@@ -261,20 +269,46 @@ class Explainer {
     change.cause = birth ? Cause::bifurcation : Cause::jump;
     change.words =
         to_string(r.kind) + " of branch " + std::to_string(r.branch) + " at " + with_error(r.value, r.error_bound);
-    if (birth) return true;
-    change.words += &side == &change.before ? "; the motion goes on to " : "; the motion comes from ";
-    if (!other.branch) {
-      change.words += "what is " + other.motion;
-    } else {
-      if (*other.branch == r.branch) change.words += "another stretch of ";
-      change.words += "branch " + std::to_string(*other.branch);
-    }
+    if (!birth) change.words += whereto(side, other, change);
     return true;
   }
 
+  /// Where a jump leads to, or comes from.
+  static std::string whereto(const SweepPlace& side, const SweepPlace& other, const SweepChange& change) {
+    std::string words = &side == &change.before ? "; the motion goes on to " : "; the motion comes from ";
+    if (!other.branch) {
+      words += "what is " + other.motion;
+      return words;
+    }
+    if (other.branch == side.branch) words += "another stretch of ";
+    words += "branch " + std::to_string(*other.branch);
+    return words;
+  }
+
+  /// An end within the grid where the side's branch is born of an orbit that none follows.
+  bool by_end(const SweepPlace& side, const SweepPlace& other, SweepChange& change) const {
+    for (const PlaceOnBranch& p : side.on) {
+      const analysis::Branch& branch = traced_.branches[p.branch];
+      const std::vector<BranchRow>& rows = traced_.rows[p.branch];
+      for (const analysis::BranchLimit* limit : {&branch.first, &branch.last}) {
+        const bool first = limit == &branch.first;
+        const double end = (first ? rows.front() : rows.back()).value;
+        if (!limit->born || limit->place || beside(end) > 1.0 || !is_ahead(end, side, other) ||
+            !stretches_.ends(p, first))
+          continue;
+        change.cause = Cause::jump;
+        change.beside = beside(end);
+        change.words = "branch " + std::to_string(p.branch) + " ends at " + short_text(end, 9) +
+                       ", born of an orbit that no branch follows" + whereto(side, other, change);
+        return true;
+      }
+    }
+    return false;
+  }
+
   /// Where the orbit is stable, what ends that is ahead, towards the other side.
-  static bool lies_towards(const SpecialRow& r, const SweepPlace& side, const SweepPlace& other) {
-    return !side.stable || (r.value - side.value) * (other.value - side.value) >= 0.0;
+  static bool is_ahead(double value, const SweepPlace& side, const SweepPlace& other) {
+    return !side.stable || (value - side.value) * (other.value - side.value) >= 0.0;
   }
 
   /// Is the other side what is born there from the side's branch?

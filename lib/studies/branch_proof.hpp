@@ -10,7 +10,7 @@
 //                without the symmetry at a branch point
 //   jump         such a point, and a motion on the other side that is not born there: on another stretch, a named
 //                branch, or on none; of what comes out of the side behind it only where the one before is not stable
-//                all the way
+//                all the way. Or an end of the stretch, where its branch is born of an orbit that none follows
 //   cascade      an end of period doublings whose last flip is known, all points between it and the change having
 //                periods of the cascade
 //   crisis       a motion that is not periodic ends, and what it falls onto is a branch that is stable on both sides

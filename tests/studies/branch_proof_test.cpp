@@ -23,9 +23,10 @@ constexpr std::size_t dimension = 2;
 /// Branches from the motion that is settled at a value, of period 1 and what doubles from it up to `largest`; rows as
 /// of a gear train's, whose section is the state alone.
 TracedBranches branches_of(const FieldFamily& fields, double value, const analysis::ContinuationOptions& continuation,
-                           int largest) {
+                           int largest, int period = 1) {
   const auto flows = [&fields](double tolerance) { return problems::flows(fields, tolerance); };
-  const analysis::OrbitFamily family{flows(1e-9)};
+  analysis::OrbitFamily family{flows(1e-9)};
+  family.period = period;
   analysis::TreeOptions options{.continuation = continuation};
   options.special = problems::with_bounds(flows, 1e-9);
   options.largest_period = largest;
@@ -238,6 +239,21 @@ TEST_F(OfAResonance, PointsUpToTheFoldAreOnTheBranch) {
   EXPECT_EQ(proof.periodic, 12U);
   EXPECT_TRUE(proof.off.empty()) << proof.off.size() << " of 12";
   EXPECT_TRUE(proof.changes.empty());
+}
+
+TEST(BranchProof, WhereABranchIsBornOfOneThatIsNotFollowedItEnds) {
+  const TracedBranches doubled = branches_of(problems::duffing(0.3, -1.0, 1.2), 0.28, {.from = 0.2, .to = 0.3}, 2, 2);
+  ASSERT_EQ(doubled.branches.size(), 1U);
+  const SweepOptions sweep = sweep_of(0.261, 0.289, 5);
+  const BranchProof proof = proved(doubled, sweep, swept(sweep));
+  ASSERT_EQ(proof.changes.size(), 2U);
+  EXPECT_EQ(proof.unexplained(), 0U);
+  EXPECT_EQ(proof.changes[0].cause, Cause::jump);
+  EXPECT_FALSE(proof.changes[0].special.has_value());
+  EXPECT_NE(proof.changes[0].words.find("branch 0 ends at 0.2655"), std::string::npos) << proof.changes[0].words;
+  EXPECT_EQ(proof.changes[1].cause, Cause::bifurcation) << proof.changes[1].words;
+  ASSERT_FALSE(proof.off.empty());
+  EXPECT_EQ(proof.off.front().period, 1);
 }
 
 TEST(BranchProof, AFlipFarFromTheChangeExplainsNothing) {
