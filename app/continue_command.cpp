@@ -27,6 +27,7 @@
 #include "session.hpp"
 #include "stop.hpp"
 #include "store/branch_record.hpp"
+#include "store/identity.hpp"
 #include "store/journal.hpp"
 #include "streams.hpp"
 #include "studies/branch_proof.hpp"
@@ -256,8 +257,8 @@ std::size_t count_failures(const TracedBranches& traced, const std::vector<studi
 
 /// A sweep that the branches are to prove.
 /// @throws InputError for one along another parameter, beside the branches' range, or of other equations
-FinishedStudy sweep_to_prove(const Arguments& arguments, const BranchesOptions& options,
-                             const studies::ModelAt& models) {
+FinishedStudy sweep_to_prove(const Arguments& arguments, const input::LoadedInput& input,
+                             const BranchesOptions& options, const studies::ModelAt& models) {
   FinishedStudy sweep(arguments.against);
   const std::string folder = arguments.against.string();
   const auto* plan = std::get_if<studies::SweepOptions>(&sweep.input().study.plan);
@@ -268,8 +269,11 @@ FinishedStudy sweep_to_prove(const Arguments& arguments, const BranchesOptions& 
         fmt::format("{}: is a sweep along {}, the branches go along {}", folder, plan->axis.name, options.parameter));
   const double last = axis_value(plan->axis, static_cast<std::size_t>(plan->axis.points) - 1);
   if (plan->axis.from < options.from || last > options.to)
-    throw InputError(fmt::format("{}: goes from {} to {}, the branches only from {} to {}", folder, plan->axis.from,
-                                 last, options.from, options.to));
+    throw InputError(fmt::format("{}: goes from {}{} to {}{}, the branches only from {}{} to {}{}", folder,
+                                 plan->axis.from, store::given_as(sweep.input().resolved, "/study/from"), last,
+                                 store::given_as(sweep.input().resolved, "/study/to"), options.from,
+                                 store::given_as(input.resolved, "/study/from"), options.to,
+                                 store::given_as(input.resolved, "/study/to")));
   for (const std::size_t point : {std::size_t{0}, sweep.points().count - 1})
     if (!studies::same_motion(sweep.model_at(point), models(sweep.plan().points[point].value)))
       throw InputError(fmt::format("{}: its equations of motion are not those of {}, at {} = {}", folder,
@@ -356,8 +360,9 @@ int continue_command(const Arguments& arguments) {
   const model::DynamicModel first_model = models(options.from);
   (void)models(options.to);
   const studies::BranchSystem system = branch_system(models, options, first_model);
-  const auto sweep =
-      arguments.against.empty() ? nullptr : std::make_unique<FinishedStudy>(sweep_to_prove(arguments, options, models));
+  const auto sweep = arguments.against.empty()
+                         ? nullptr
+                         : std::make_unique<FinishedStudy>(sweep_to_prove(arguments, input, options, models));
   tell_warnings(input);
   for (const std::string& note : notes) tell("{}\n", note);
 

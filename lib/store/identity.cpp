@@ -39,6 +39,20 @@ std::string identity(const ResolvedValues& input, std::string_view command) {
   return sha256_hex(canonical_json(what));
 }
 
+std::string given_as(const nlohmann::json& resolved, const std::string& pointer) {
+  const nlohmann::json::json_pointer at(pointer);
+  if (at.empty()) return {};
+  const nlohmann::json::json_pointer origin = at.parent_pointer() / "origin" / at.back();
+  if (!resolved.contains(origin) || !resolved.at(origin).is_string()) return {};
+  const std::string& text = resolved.at(origin).get_ref<const std::string&>();
+  const std::size_t equals = text.rfind(" = ");
+  if (equals == std::string::npos) return {};
+  // Of speeds alone: words of the user's own may have the sign, too.
+  const std::string_view before = std::string_view(text).substr(0, equals);
+  if (!before.ends_with("_rpm") && !before.ends_with("_Hz")) return {};
+  return fmt::format(" ({})", text.substr(before.find_last_of(' ') + 1));
+}
+
 std::vector<Difference> differing_values(const ResolvedValues& there, const ResolvedValues& here) {
   const nlohmann::json from = identifying_values(there.resolved, there.computed);
   const nlohmann::json to = identifying_values(here.resolved, here.computed);
@@ -46,7 +60,7 @@ std::vector<Difference> differing_values(const ResolvedValues& there, const Reso
     constexpr std::size_t longest = 60;
     if (!values.contains(at)) return std::string("nothing");
     std::string value = values.at(at).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    return value.size() <= longest ? value : std::string("another value");
+    return value.size() <= longest ? value + given_as(values, at.to_string()) : std::string("another value");
   };
   std::vector<Difference> all;
   for (const nlohmann::json& change : nlohmann::json::diff(from, to)) {
