@@ -94,7 +94,7 @@ bool holds(double a, double b, double value) { return value >= std::min(a, b) &&
 /// The stretches of branches: from one turn in the parameter to the next.
 class Stretches {
  public:
-  explicit Stretches(const TracedBranches& traced) {
+  explicit Stretches(const TracedBranches& traced) : traced_(traced) {
     for (std::size_t b = 0; b < traced.rows.size(); ++b) {
       const std::vector<BranchRow>& rows = traced.rows[b];
       std::vector<std::size_t>& numbers = of_.emplace_back();
@@ -134,16 +134,20 @@ class Stretches {
     return std::ranges::any_of(place.on, [&](const PlaceOnBranch& p) {
       if (p.branch != r.branch) return false;
       const std::size_t own = numbers[p.after];
-      const std::size_t least = r.kind == SpecialKind::fold && r.after > 0 ? r.after - 1 : r.after;
-      const std::size_t greatest = r.kind == SpecialKind::fold ? r.after + 1 : r.after;
-      for (std::size_t k = least; k <= std::min(greatest, numbers.size() - 1); ++k)
-        if (numbers[k] == own) return true;
+      if (r.after < numbers.size() && numbers[r.after] == own) return true;
+      if (r.kind == SpecialKind::fold) {
+        const bool closed = traced_.branches[r.branch].last.end == analysis::BranchEnd::closed;
+        const std::size_t n = numbers.size();
+        if (r.after > 0 ? numbers[r.after - 1] == own : closed && numbers.back() == own) return true;
+        if (r.after + 1 < n ? numbers[r.after + 1] == own : closed && numbers.front() == own) return true;
+      }
       // A branch is born at its first special point, or dies at its last one: behind its last orbit.
       return r.after >= numbers.size() && numbers.back() == own;
     });
   }
 
  private:
+  const TracedBranches& traced_;
   std::vector<std::vector<std::size_t>> of_;  ///< of each branch, for each orbit but the last
 };
 
@@ -213,28 +217,35 @@ class Locator {
 /// Finds the causes of the changes along one direction.
 class Explainer {
  public:
-  /// @param places  of the direction's points
+  /// @param directions  places of all points
+  /// @param places      those of the direction whose changes are asked for, one of these
   Explainer(const TracedBranches& traced, const Stretches& stretches, const Locator& locator,
-            const std::vector<SweepPlace>& places)
-      : traced_(traced), stretches_(stretches), locator_(locator), places_(places) {}
+            const std::vector<std::vector<SweepPlace>>& directions, const std::vector<SweepPlace>& places)
+      : traced_(traced), stretches_(stretches), locator_(locator), directions_(directions), places_(places) {}
 
   void explain(std::size_t i, SweepChange& change) const {
     const SweepPlace& a = change.before;
     const SweepPlace& b = change.behind;
-    low_ = std::min(a.value, b.value);
-    step_ = std::max(a.value, b.value) - low_;
-    // A birth tells most, then what the motion that is left says.
-    const bool stays = a.branch && stable_within_the_grid(a);
-    for (const bool birth_only : {true, false})
-      for (const SweepPlace* side : {&a, &b}) {
-        const SweepPlace& other = side == &a ? b : a;
-        if (side == &b && !birth_only && stays) continue;
-        if (side->branch && by_special_point(*side, other, birth_only, change)) return;
-      }
-    for (const SweepPlace* side : {&a, &b})
-      if (!(side == &b && stays) && by_end(*side, side == &a ? b : a, change)) return;
+    from_ = a.value;
+    to_ = b.value;
+    low_ = std::min(from_, to_);
+    step_ = std::max(from_, to_) - low_;
+    // A motion that is stable all the way is left for no reason of the branches'.
+    if (!is_stable_all_the_way(a)) {
+      // What lies between the values tells more than what lies behind, there a birth most, then what the motion that is
+      // left says. Why one that no branch follows is left, what comes next does not tell.
+      const bool unknown = a.periodic && !a.branch;
+      for (const bool between : {true, false})
+        for (const bool birth : {true, false})
+          for (const SweepPlace* side : {&a, &b}) {
+            if (!side->branch || (side == &b && !birth && unknown)) continue;
+            if (by_special_point(*side, side == &a ? b : a, birth, between, change)) return;
+          }
+      for (const SweepPlace* side : {&a, &b})
+        if (!(side == &b && unknown && !may_bear(a, b)) && by_end(*side, side == &a ? b : a, change)) return;
+    }
     if (by_cascade(i, change)) return;
-    if (!a.periodic && b.branch && stable_within_the_grid(b)) {
+    if (!a.periodic && is_stable_all_the_way(b)) {
       change.cause = Cause::crisis;
       change.words = "what was " + a.motion + " ends; it falls onto branch " + std::to_string(*b.branch) +
                      ", which is stable on both sides";
@@ -244,26 +255,39 @@ class Explainer {
   }
 
  private:
+  /// May the orbit be the one that the other, of twice its period, is born of?
+  static bool may_bear(const SweepPlace& orbit, const SweepPlace& other) {
+    return other.periodic && other.period == 2 * orbit.period;
+  }
+
   /// Steps of the grid that a value is outside of the two.
   [[nodiscard]] double beside(double value) const {
     if (value < low_) return (low_ - value) / step_;
     return value > low_ + step_ ? (value - low_ - step_) / step_ : 0.0;
   }
 
-  /// A point of the side's branch within the grid where its stability changes, nearest first.
-  bool by_special_point(const SweepPlace& side, const SweepPlace& other, bool birth_only, SweepChange& change) const {
+  /// Has the motion come past the value, at most a step ago?
+  [[nodiscard]] bool is_within_the_grid(double value) const {
+    return beside(value) <= 1.0 && (value - to_) * (to_ - from_) <= 0.0;
+  }
+
+  /// A point of the side's stretch within the grid where its stability changes; of several the one beside the side.
+  /// @param birth    of the other side, else not
+  /// @param between  the values, else behind them
+  bool by_special_point(const SweepPlace& side, const SweepPlace& other, bool birth, bool between,
+                        SweepChange& change) const {
     std::optional<std::size_t> best;
+    const auto distance = [&](std::size_t k) { return std::abs(traced_.special[k].value - side.value); };
     for (std::size_t k = 0; k < traced_.special.size(); ++k) {
       const SpecialRow& r = traced_.special[k];
       if (r.kind == SpecialKind::grazing || r.kind == SpecialKind::unresolved) continue;
-      const double away = beside(r.value);
-      if (away > 1.0 || (best && away >= beside(traced_.special[*best].value))) continue;
-      if (!is_ahead(r.value, side, other)) continue;
-      if (is_birth(r, side, other) || (!birth_only && stretches_.has(side, r) && changes_stability(r))) best = k;
+      if (!is_within_the_grid(r.value) || (beside(r.value) == 0.0) != between || !is_ahead(r.value, side, other))
+        continue;
+      if (!stretches_.has(side, r) || !changes_stability(r) || is_birth(r, side, other) != birth) continue;
+      if (!best || distance(k) < distance(*best)) best = k;
     }
     if (!best) return false;
     const SpecialRow& r = traced_.special[*best];
-    const bool birth = is_birth(r, side, other);
     change.special = best;
     change.beside = beside(r.value);
     change.cause = birth ? Cause::bifurcation : Cause::jump;
@@ -293,8 +317,8 @@ class Explainer {
       for (const analysis::BranchLimit* limit : {&branch.first, &branch.last}) {
         const bool first = limit == &branch.first;
         const double end = (first ? rows.front() : rows.back()).value;
-        if (!limit->born || limit->place || beside(end) > 1.0 || !is_ahead(end, side, other) ||
-            !stretches_.ends(p, first))
+        if (!limit->born || limit->place || !is_within_the_grid(end) || !is_ahead(end, side, other) ||
+            !stretches_.ends(p, first) || is_stable_all_the_way(p, side.value))
           continue;
         change.cause = Cause::jump;
         change.beside = beside(end);
@@ -311,17 +335,32 @@ class Explainer {
     return !side.stable || (value - side.value) * (other.value - side.value) >= 0.0;
   }
 
-  /// Is the other side what is born there from the side's branch?
+  /// Is the other side what is born there from the side's stretch, of which it is?
   [[nodiscard]] bool is_birth(const SpecialRow& r, const SweepPlace& side, const SweepPlace& other) const {
-    if (!stretches_.has(side, r) || !changes_stability(r)) return false;
-    if (r.kind == SpecialKind::neimark_sacker) return other.motion == "quasiperiodic";
-    if (r.kind == SpecialKind::flip && other.periodic && other.period == 2 * side.period && !other.branch) return true;
-    if (!other.branch) return false;
-    const auto from = [&](const analysis::BranchLimit& limit) {
+    if (r.kind == SpecialKind::neimark_sacker) return other.motion == "quasiperiodic" && !coexists(other, side);
+    const auto is_there = [&](const analysis::BranchLimit& limit) {
       return limit.place && limit.place->branch == r.branch && limit.place->point == r.point;
     };
+    if (r.kind == SpecialKind::flip && other.periodic && other.period == 2 * side.period && !other.branch) {
+      // One of those that are followed, it would be on.
+      const bool followed = std::ranges::any_of(
+          traced_.branches, [&](const analysis::Branch& b) { return is_there(b.first) || is_there(b.last); });
+      return !followed && !coexists(other, side);
+    }
     return std::ranges::any_of(other.on, [&](const PlaceOnBranch& p) {
-      return from(traced_.branches[p.branch].first) || from(traced_.branches[p.branch].last);
+      const analysis::Branch& branch = traced_.branches[p.branch];
+      return (is_there(branch.first) && stretches_.ends(p, true)) ||
+             (is_there(branch.last) && stretches_.ends(p, false));
+    });
+  }
+
+  /// Has another direction such a motion on no branch at the side's own value too? Then it is not born beside it.
+  [[nodiscard]] bool coexists(const SweepPlace& motion, const SweepPlace& side) const {
+    constexpr double same_value = 1e-6;  // steps
+    return std::ranges::any_of(directions_, [&](const std::vector<SweepPlace>& places) {
+      return &places != &places_ && std::ranges::any_of(places, [&](const SweepPlace& p) {
+        return std::abs(p.value - side.value) <= same_value * step_ && p.motion == motion.motion && !p.branch;
+      });
     });
   }
 
@@ -339,22 +378,31 @@ class Explainer {
            }) > 1;
   }
 
-  /// Does the branch run stable from the point's place to the other value?
-  [[nodiscard]] bool stable_within_the_grid(const SweepPlace& place) const {
-    const std::vector<BranchRow>& rows = traced_.rows[*place.branch];
-    if (!place.stable) return false;
-    for (const double to : {low_, low_ + step_}) {
-      if (to == place.value) continue;
+  /// Is the motion on a stretch that is stable from one value to the other?
+  [[nodiscard]] bool is_stable_all_the_way(const SweepPlace& place) const {
+    return std::ranges::any_of(place.on, [&](const PlaceOnBranch& p) { return is_stable_all_the_way(p, place.value); });
+  }
+
+  /// @param value  at the place
+  [[nodiscard]] bool is_stable_all_the_way(const PlaceOnBranch& place, double value) const {
+    const std::vector<BranchRow>& rows = traced_.rows[place.branch];
+    const double slack = 1e-6 * step_;  // ends of ranges are rounded
+    if (!locator_.stable_at(place.branch, place.after, value)) return false;
+    for (const double to : {from_, to_}) {
+      if (std::abs(to - value) <= slack) continue;
       // Along the branch towards that value.
       const bool rising = rows[place.after + 1].value > rows[place.after].value;
+      const bool onwards = (to > value) == rising;
       std::size_t k = place.after;
       while (!holds(rows[k].value, rows[k + 1].value, to)) {
-        const bool onwards = (to > place.value) == rising;
+        const BranchRow& next = rows[onwards ? k + 1 : k];
+        if (!next.stable) return false;
+        if (std::abs(next.value - to) <= slack) break;
         if (onwards ? k + 2 >= rows.size() : k == 0) return false;
         k = onwards ? k + 1 : k - 1;
         if ((rows[k + 1].value > rows[k].value) != rising) return false;
       }
-      if (!locator_.stable_at(*place.branch, k, to)) return false;
+      if (holds(rows[k].value, rows[k + 1].value, to) && !locator_.stable_at(place.branch, k, to)) return false;
     }
     return true;
   }
@@ -408,8 +456,10 @@ class Explainer {
   const TracedBranches& traced_;
   const Stretches& stretches_;
   const Locator& locator_;
+  const std::vector<std::vector<SweepPlace>>& directions_;
   const std::vector<SweepPlace>& places_;
-  mutable double low_ = 0, step_ = 0;  ///< of the change that is looked at
+  mutable double from_ = 0, to_ = 0;   ///< of the change that is looked at, along the direction
+  mutable double low_ = 0, step_ = 0;  ///< the same as a range
 };
 
 }  // namespace
@@ -454,8 +504,9 @@ BranchProof prove(const TracedBranches& traced, const SweepOptions& sweep, const
   const Stretches stretches(traced);
   Locator locator(traced, dimension, options);
   const std::size_t each_way = points.count / sweep.directions.size();
+  std::vector<std::vector<SweepPlace>> directions(sweep.directions.size());
   for (std::size_t d = 0; d < sweep.directions.size(); ++d) {
-    std::vector<SweepPlace> places;
+    std::vector<SweepPlace>& places = directions[d];
     for (std::size_t i = 0; i < each_way; ++i) {
       const PointResult point = points.read(d * each_way + i);
       SweepPlace place;
@@ -478,7 +529,10 @@ BranchProof prove(const TracedBranches& traced, const SweepOptions& sweep, const
       places.push_back(std::move(place));
       finished(d * each_way + i + 1);
     }
-    const Explainer explainer(traced, stretches, locator, places);
+  }
+  for (std::size_t d = 0; d < sweep.directions.size(); ++d) {
+    const std::vector<SweepPlace>& places = directions[d];
+    const Explainer explainer(traced, stretches, locator, directions, places);
     // Is the undecided side where the branch of the other one is?
     const auto settles_onto = [&](const SweepChange& change) {
       const SweepPlace& side = change.before.branch ? change.before : change.behind;

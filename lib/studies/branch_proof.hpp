@@ -15,11 +15,15 @@
 //                periods of the cascade
 //   crisis       a motion that is not periodic ends, and what it falls onto is a branch that is stable on both sides
 //                                                                                                     [S-explained]
-// or it is unexplained. Within the grid means between the two values or one step of the grid beside them: a motion that
-// is carried along follows an orbit that has just lost its stability for a while. A change counts when one of its sides
-// is periodic; those among chaos, torus and undecided rest on finite looks and are listed apart.
+// or it is unexplained, as where the motion before is on a stretch that is stable all the way. Within the grid means
+// between the two values or up to one step of the grid behind them, whence the motion has come: one that is carried
+// along follows an orbit that has just lost its stability for a while. What lies between the values goes first. Why a
+// motion that is on no branch is left, what comes next does not tell. A change counts when one of its sides is
+// periodic; those among chaos, torus and undecided rest on finite looks and are listed apart.
 //
-// Limits: a crisis is told from what is there, not from manifolds that touch.
+// Limits: a crisis is told from what is there, not from manifolds that touch. That a torus, or a doubled motion that no
+// branch follows, is born where it begins is believed unless another direction of the sweep has it at the value before,
+// beside the orbit.
 #pragma once
 
 #include <atomic>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -254,6 +255,48 @@ TEST(BranchProof, WhereABranchIsBornOfOneThatIsNotFollowedItEnds) {
   EXPECT_EQ(proof.changes[1].cause, Cause::bifurcation) << proof.changes[1].words;
   ASSERT_FALSE(proof.off.empty());
   EXPECT_EQ(proof.off.front().period, 1);
+}
+
+/// A parametric oscillator whose rest flips subcritically at 0.1485: the doubled orbits that are born there are
+/// unstable, turn at the fold at 0.1079 and are stable from there on to the flip at 0.3415.
+class OfASubcriticalFlip : public testing::Test {
+ protected:
+  /// Kicked a little at each value, since rest would stay at rest.
+  [[nodiscard]] std::vector<PointResult> carried(const SweepOptions& sweep, Direction direction) const {
+    const integrate::FlowFamily flows = problems::flows(fields, 1e-9);
+    std::vector<double> values = axis_values(sweep.axis);
+    if (direction == Direction::down) std::ranges::reverse(values);
+    std::vector<double> y = problems::settled(flows, values.front(), {0.3, 0.0}, 400);
+    std::vector<PointResult> points;
+    for (const double value : values) {
+      y[0] += 1e-3;
+      points.push_back(settled_point(flows, y, points.size(), value, direction));
+    }
+    return points;
+  }
+
+  FieldFamily fields = integrate::make_field_family(
+      2, 2.0 * std::numbers::pi, [](const auto& p, std::size_t, double s, const auto* y, auto* d) {
+        d[0] = y[1];
+        d[1] = -0.05 * y[1] - 12.0 * y[0] * y[0] * y[1] - (p + 0.2 * std::cos(s)) * y[0] - 3.0 * y[0] * y[0] * y[0];
+      });
+  TracedBranches traced = branches_of(fields, 0.05, {.from = 0.02, .to = 0.5}, 2);
+};
+
+TEST_F(OfASubcriticalFlip, WhatIsBornElsewhereIsJumpedTo) {
+  ASSERT_EQ(traced.branches.size(), 2U);
+  const SweepOptions up = sweep_of(0.115, 0.205, 4);
+  const BranchProof there = proved(traced, up, carried(up, Direction::up));
+  ASSERT_EQ(there.changes.size(), 1U);
+  EXPECT_EQ(there.changes[0].cause, Cause::jump) << there.changes[0].words;
+  EXPECT_NE(there.changes[0].words.find("flip of branch 0 at 0.148"), std::string::npos) << there.changes[0].words;
+  // On the way down the flip is behind the motion, within a step, and the fold between the values.
+  SweepOptions down = sweep_of(0.078, 0.245, 5);
+  down.directions = {Direction::down};
+  const BranchProof back = proved(traced, down, carried(down, Direction::down));
+  ASSERT_EQ(back.changes.size(), 1U);
+  EXPECT_EQ(back.changes[0].cause, Cause::jump) << back.changes[0].words;
+  EXPECT_NE(back.changes[0].words.find("fold of branch 1 at 0.107"), std::string::npos) << back.changes[0].words;
 }
 
 TEST(BranchProof, AFlipFarFromTheChangeExplainsNothing) {
