@@ -354,14 +354,14 @@ class Explainer {
     });
   }
 
-  /// Has another direction such a motion on no branch at the side's own value too? Then it is not born beside it.
+  /// Has another direction such a motion on no branch at the side's own value too, where its orbit is still stable?
   [[nodiscard]] bool coexists(const SweepPlace& motion, const SweepPlace& side) const {
     constexpr double same_value = 1e-6;  // steps
-    return std::ranges::any_of(directions_, [&](const std::vector<SweepPlace>& places) {
-      return &places != &places_ && std::ranges::any_of(places, [&](const SweepPlace& p) {
-        return std::abs(p.value - side.value) <= same_value * step_ && p.motion == motion.motion && !p.branch;
-      });
-    });
+    return side.stable && std::ranges::any_of(directions_, [&](const std::vector<SweepPlace>& places) {
+             return &places != &places_ && std::ranges::any_of(places, [&](const SweepPlace& p) {
+               return std::abs(p.value - side.value) <= same_value * step_ && p.motion == motion.motion && !p.branch;
+             });
+           });
   }
 
   [[nodiscard]] bool changes_stability(const SpecialRow& r) const {
