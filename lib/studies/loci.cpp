@@ -140,9 +140,8 @@ TracedLocus trace_locus(const ModelOverPlane& models, const TracedBranches& trac
   result.kind = point.kind;
   result.period = point.period;
   result.wave = special.wave;
-  const auto [surface, o] =
-      plane_of(models, branch, point.value, {wanted.from, wanted.to, second}, options, wanted.points);
-  const analysis::LocusCorrection start = locus_start(surface, special, second);
+  const auto plane = plane_of(models, branch, point.value, {wanted.from, wanted.to, second}, options, wanted.points);
+  const analysis::LocusCorrection start = locus_start(plane.first, special, second);
   if (!start.found) {
     result.message = start.message;
     return result;
@@ -150,7 +149,7 @@ TracedLocus trace_locus(const ModelOverPlane& models, const TracedBranches& trac
   const analysis::LocusSubject subject = analysis::subject_of(special);
   const auto follow = [&](const LocusPoint& from, std::string& end) {
     std::vector<LocusRow> rows;
-    LocusTrace trace(surface, subject, o, from);
+    LocusTrace trace(plane.first, subject, plane.second, from);
     while (trace.advance()) {
       for (const analysis::LocusMark& mark : trace.marks()) rows.push_back(row_of(mark.point, to_string(mark.kind)));
       rows.push_back(row_of(trace.now(), {}));
