@@ -39,7 +39,9 @@ double busy(std::size_t units, int threads) {
 /// Of each method alone; what explaining differences takes is not known before.
 double seconds_of_crosscheck(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
                              std::size_t& measured) {
-  const auto& [sweep, options] = std::get<input::CrosscheckPlan>(input.study.plan);
+  const auto& asked = std::get<input::CrosscheckPlan>(input.study.plan);
+  const studies::SweepOptions& sweep = asked.sweep;
+  const auto& options = asked.crosscheck;
   const double width = input.study.model.clearance_smoothing;
   const auto variants = studies::crosscheck_variants(options, input.study.integrator, width);
   const auto model_at = input::smoothed_model_at(input);
@@ -127,7 +129,9 @@ double seconds_of_run(const input::LoadedInput& input) {
 /// statistics over fewer periods.
 double seconds_of_tolerance(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
                             std::size_t& measured) {
-  const auto& [sweep, options] = std::get<input::TolerancePlan>(input.study.plan);
+  const auto& asked = std::get<input::TolerancePlan>(input.study.plan);
+  const studies::SweepOptions& sweep = asked.sweep;
+  const auto& options = asked.tolerance;
   constexpr int few = 60;
   studies::ToleranceOptions fewer = options;
   fewer.chaotic_periods = std::min(options.chaotic_periods, few);

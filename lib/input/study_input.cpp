@@ -1038,14 +1038,14 @@ class LoadedInput::Loader {
 
   /// The speeds in rpm and Hz, of the operating point and of axes, as Omega.
   void convert_speeds() {
-    Study& study = input_.study;
-    const bool moves = sound_ && gear::problems_for_motion(study.stage).empty();
+    Study& read = input_.study;
+    const bool moves = sound_ && gear::problems_for_motion(read.stage).empty();
     for (const SpeedAlias& alias : speed_aliases()) {
-      std::optional<double>& given = study.given_speed.*alias.given;
+      std::optional<double>& given = read.given_speed.*alias.given;
       const std::string place = std::string(operation_root) + "/" + std::string(alias.key);
       if (const auto value = std::exchange(given, std::nullopt); value && moves && !is_bad(place))
         if (const auto ratio = ratio_of(alias, *value, place)) {
-          study.mesh_frequency_ratio = *ratio;
+          read.mesh_frequency_ratio = *ratio;
           note_conversion(whole_["operation"], studies::speed_parameter, alias.key, alias, *value);
         }
     }
@@ -1081,10 +1081,10 @@ class LoadedInput::Loader {
         values[k] = axis_ratio_of(*alias, values[k], place + "/" + std::to_string(k)).value_or(1.0);
     };
     const auto axis = [&](studies::Axis& of, const std::string& place) { convert(of.name, of.from, of.to, place); };
-    if (auto* map = std::get_if<studies::MapOptions>(&study.plan)) {
+    if (auto* map = std::get_if<studies::MapOptions>(&read.plan)) {
       axis(map->plane.first, "/study/first");
       axis(map->plane.second, "/study/second");
-    } else if (auto* b = std::get_if<studies::BranchesOptions>(&study.plan)) {
+    } else if (auto* b = std::get_if<studies::BranchesOptions>(&read.plan)) {
       const SpeedAlias* alias = find_speed_alias(b->parameter);
       each(alias, b->starts, "/study/starts");
       each(alias, b->values, "/study/values");
@@ -1098,9 +1098,9 @@ class LoadedInput::Loader {
       }
       convert(b->parameter, b->from, b->to, "/study");
       if (b->loci) convert(b->loci->parameter, b->loci->from, b->loci->to, "/study/loci");
-    } else if (study.has_points() && !std::holds_alternative<RunPlan>(study.plan) &&
-               !std::holds_alternative<studies::BasinsOptions>(study.plan)) {
-      axis(sweep_in(study.plan).axis, "/study");
+    } else if (read.has_points() && !std::holds_alternative<RunPlan>(read.plan) &&
+               !std::holds_alternative<studies::BasinsOptions>(read.plan)) {
+      axis(sweep_in(read.plan).axis, "/study");
     }
   }
 
