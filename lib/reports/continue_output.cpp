@@ -164,9 +164,8 @@ std::vector<Stretch> stable_stretches(const TracedBranches& traced, std::size_t 
   const std::vector<BranchRow>& rows = traced.rows[b];
   // Between an orbit that is stable and one that is not: the point where that changes, if it is known.
   const auto change = [&](std::size_t before) {
-    for (const SpecialRow& r : traced.special)
-      if (r.branch == b && r.after == before && r.kind != SpecialKind::grazing) return r.value;
-    return 0.5 * (rows[before].value + rows[before + 1].value);
+    const auto at = traced.change_behind(b, before);
+    return at ? traced.special[*at].value : 0.5 * (rows[before].value + rows[before + 1].value);
   };
   std::vector<Stretch> all;
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -394,24 +393,6 @@ std::string continue_summary(const ContinueOutput& output, const TracedBranches&
 }
 
 /// Places of lines, by whether the orbits are stable; a line goes on to the first orbit of the other kind.
-namespace {
-
-/// Where the stability changes between an orbit and the next: of several points the one beside the stable side.
-std::optional<std::size_t> change_behind(const TracedBranches& traced, std::size_t branch, std::size_t before) {
-  const std::vector<BranchRow>& rows = traced.rows[branch];
-  const double stable = rows[rows[before].stable ? before : before + 1].value;
-  std::optional<std::size_t> nearest;
-  for (std::size_t i = 0; i < traced.special.size(); ++i) {
-    const SpecialRow& r = traced.special[i];
-    if (r.branch != branch || r.after != before || r.kind == SpecialKind::grazing || r.kind == SpecialKind::unresolved)
-      continue;
-    if (!nearest || std::abs(r.value - stable) < std::abs(traced.special[*nearest].value - stable)) nearest = i;
-  }
-  return nearest;
-}
-
-}  // namespace
-
 struct BranchSketch::Lines {
   std::vector<Place> stable, unstable;
 
@@ -424,7 +405,7 @@ struct BranchSketch::Lines {
       const Place here = {rows[k].value, y_of(rows[k])};
       if (k > 0 && rows[k].stable != rows[k - 1].stable) {
         std::vector<Place>& before = rows[k].stable ? unstable : stable;
-        const auto change = change_behind(traced, branch, k - 1);
+        const auto change = traced.change_behind(branch, k - 1);
         const Place there = change ? Place{traced.special[*change].value, y_of(traced.at_special[*change])} : here;
         before.push_back(there);
         before.push_back({gap, gap});

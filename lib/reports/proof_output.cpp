@@ -29,29 +29,44 @@ std::string side_text(const SweepPlace& place) {
   return text;
 }
 
-/// The sweep's points of a column along one direction, each cell of a grid finer than the picture once.
-std::vector<std::array<double, 2>> section_points(const ProvedSweep& sweep, const studies::BranchesOptions& range,
-                                                  const char* column, studies::Direction direction) {
+using Places = std::vector<std::array<double, 2>>;
+
+/// The sweep's points of a column, up and down, each cell of a grid finer than the picture once.
+std::array<Places, 2> section_points(const ProvedSweep& sweep, const studies::BranchesOptions& range,
+                                     const char* column) {
   const auto at = static_cast<std::size_t>(
       std::find(sweep.poincare_columns.begin(), sweep.poincare_columns.end(), column) - sweep.poincare_columns.begin());
   constexpr double cells_x = 3000;
   constexpr double cells_per_length = 400;  // of b_c
-  std::vector<std::array<double, 2>> points;
-  std::unordered_set<std::int64_t> taken;
+  std::array<Places, 2> points;
+  std::array<std::unordered_set<std::int64_t>, 2> taken;
   for (std::size_t i = 0; i < sweep.points.count; ++i) {
     const studies::PointResult r = sweep.points.read(i);
     const double x = r.point.value;
-    if (r.point.direction != direction) continue;
     if (x < range.from || x > range.to) continue;
+    const std::size_t way = r.point.direction == studies::Direction::up ? 0 : 1;
     for (std::size_t k = at; k < r.poincare.size(); k += r.poincare_columns) {
       const double y = r.poincare[k];
       if (!std::isfinite(y)) continue;
       const auto cell = static_cast<std::int64_t>((x - range.from) / (range.to - range.from) * cells_x) * 100000000 +
                         std::llround(y * cells_per_length);
-      if (taken.insert(cell).second) points.push_back({x, y});
+      if (taken[way].insert(cell).second) points[way].push_back({x, y});
     }
   }
   return points;
+}
+
+/// Dots in rings where both directions have the same motion; of chaos a pale ground.
+void add_sweep(BranchSketch& sketch, const std::array<Places, 2>& points) {
+  constexpr std::size_t many = 6000;
+  const bool ground = points[0].size() + points[1].size() > many;
+  for (const bool up : {false, true}) {
+    const Places& places = points[up ? 0 : 1];
+    if (places.empty()) continue;
+    const std::string_view colour = ground ? (up ? "#b4b4b4" : "#a9cbe3") : (up ? "#9a9a9a" : "#4fa3d1");
+    const std::string key = ground || up ? figures::dots(colour, 1.0) : figures::dots(colour, 1.5, 6);
+    sketch.add_points(places, ground ? figures::dots(colour, 0.25) : key, key, up ? "sweep up" : "sweep down");
+  }
 }
 
 }  // namespace
@@ -139,19 +154,8 @@ std::vector<DrawnFigure> draw_proof_figures(const std::filesystem::path& folder,
       {{MeshKind::sun_planet, "sp"}, {MeshKind::ring_planet, "rp"}}};
   for (const auto& [mesh, word] : kinds) {
     BranchSketch sketch(fmt::format("proof_delta_{}", word), output, traced, mesh);
-    const char* column = mesh == MeshKind::sun_planet ? "delta_sp_1" : "delta_rp_1";
-    for (const studies::Direction direction : {studies::Direction::down, studies::Direction::up}) {
-      const bool up = direction == studies::Direction::up;
-      const auto points = section_points(sweep, output.options, column, direction);
-      // Dots in rings where both directions have the same motion; of chaos a pale ground.
-      constexpr std::size_t many = 3000;
-      const bool ground = points.size() > many;
-      const std::string_view colour = ground ? (up ? "#b4b4b4" : "#a9cbe3") : (up ? "#9a9a9a" : "#4fa3d1");
-      const std::string key = ground || up ? figures::dots(colour, 1.0) : figures::dots(colour, 1.5, 6);
-      if (!points.empty())
-        sketch.add_points(points, ground ? figures::dots(colour, 0.25) : key, key,
-                          "sweep " + store::direction_word(direction));
-    }
+    add_sweep(sketch,
+              section_points(sweep, output.options, mesh == MeshKind::sun_planet ? "delta_sp_1" : "delta_rp_1"));
     drawn.push_back(sketch.draw(folder));
   }
   return drawn;

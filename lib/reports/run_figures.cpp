@@ -299,7 +299,7 @@ class RunFigures {
     const figures::FigureRange y{std::pow(10.0, std::floor(std::log10(smallest) - 0.1)),
                                  std::pow(10.0, std::log10(largest) + 0.09 * std::log10(largest / smallest) + 0.2)};
     figures::Sketch sketch(stem);
-    sketch.command("set logscale y\nset mytics 10\nset format y '10^{%T}'\nset xtics 1");
+    sketch.command(figures::logarithmic_axis("y", y) + "set xtics 1");
     if (lines) {
       const auto impulses = [](std::string_view colour) {
         return fmt::format("impulses linewidth 4 linecolor '{}'", colour);

@@ -182,7 +182,6 @@ class Locator {
         place.distance = distance;
         if (!on_it) continue;
         place.branch = b;
-        place.after = k;
         place.stable = stable_at(b, k, point.point.value);
       }
       add_nearest(hits, place.on);
@@ -201,10 +200,9 @@ class Locator {
     const BranchRow& a = traced_.rows[branch][after];
     const BranchRow& b = traced_.rows[branch][after + 1];
     if (a.stable == b.stable) return a.stable;
-    for (const SpecialRow& r : traced_.special)
-      if (r.branch == branch && r.after == after && r.kind != SpecialKind::grazing)
-        return holds(a.value, r.value, value) ? a.stable : b.stable;
-    return holds(a.value, 0.5 * (a.value + b.value), value) ? a.stable : b.stable;
+    const auto change = traced_.change_behind(branch, after);
+    const double at = change ? traced_.special[*change].value : 0.5 * (a.value + b.value);
+    return holds(a.value, at, value) ? a.stable : b.stable;
   }
 
  private:
@@ -228,8 +226,7 @@ class Explainer {
     const SweepPlace& b = change.behind;
     from_ = a.value;
     to_ = b.value;
-    low_ = std::min(from_, to_);
-    step_ = std::max(from_, to_) - low_;
+    step_ = std::abs(to_ - from_);
     // A motion that is stable all the way is left for no reason of the branches'.
     if (!is_stable_all_the_way(a)) {
       // What lies between the values tells more than what lies behind, there a birth most, then what the motion that is
@@ -262,8 +259,7 @@ class Explainer {
 
   /// Steps of the grid that a value is outside of the two.
   [[nodiscard]] double beside(double value) const {
-    if (value < low_) return (low_ - value) / step_;
-    return value > low_ + step_ ? (value - low_ - step_) / step_ : 0.0;
+    return holds(from_, to_, value) ? 0.0 : std::min(std::abs(value - from_), std::abs(value - to_)) / step_;
   }
 
   /// Has the motion come past the value, at most a step ago?
@@ -458,8 +454,7 @@ class Explainer {
   const Locator& locator_;
   const std::vector<std::vector<SweepPlace>>& directions_;
   const std::vector<SweepPlace>& places_;
-  mutable double from_ = 0, to_ = 0;   ///< of the change that is looked at, along the direction
-  mutable double low_ = 0, step_ = 0;  ///< the same as a range
+  mutable double from_ = 0, to_ = 0, step_ = 0;  ///< of the change that is looked at, along the direction
 };
 
 }  // namespace

@@ -9,8 +9,7 @@
 //                side being what is born there: twice the period at a flip, a torus at a Neimark-Sacker point, an orbit
 //                without the symmetry at a branch point
 //   jump         such a point, and a motion on the other side that is not born there: on another stretch, a named
-//                branch, or on none; of what comes out of the side behind it only where the one before is not stable
-//                all the way. Or an end of the stretch, where its branch is born of an orbit that none follows
+//                branch, or on none. Or an end of the stretch, where its branch is born of an orbit that none follows
 //   cascade      an end of period doublings whose last flip is known, all points between it and the change having
 //                periods of the cascade
 //   crisis       a motion that is not periodic ends, and what it falls onto is a branch that is stable on both sides
@@ -59,7 +58,6 @@ struct SweepPlace {
   int period = 0;                       ///< if periodic
   std::optional<std::size_t> branch{};  ///< that it is on; of several the one of the point before, or the nearest
   std::vector<PlaceOnBranch> on{};      ///< all that go through it: pieces of one, from several seeds
-  std::size_t after = 0;                ///< of its orbits the one before
   bool stable = false;                  ///< the orbit there
   double distance = 0;                  ///< from it [b_c, b_c per tau]; of a periodic point on none not finite
 };

@@ -265,6 +265,22 @@ std::string kind_word(const SpecialRow& row) {
   return row.resonance > 0 ? "resonance_1_" + std::to_string(row.resonance) : to_string(row.kind);
 }
 
+std::optional<std::size_t> TracedBranches::change_behind(std::size_t branch, std::size_t before) const {
+  using analysis::SpecialKind;
+  const BranchRow& a = rows[branch][before];
+  const BranchRow& b = rows[branch][before + 1];
+  if (a.stable == b.stable) return std::nullopt;
+  const auto distance = [&](std::size_t i) { return std::abs(special[i].value - (a.stable ? a : b).value); };
+  std::optional<std::size_t> nearest;
+  for (std::size_t i = 0; i < special.size(); ++i) {
+    const SpecialRow& r = special[i];
+    if (r.branch != branch || r.after != before || r.kind == SpecialKind::grazing || r.kind == SpecialKind::unresolved)
+      continue;
+    if (!nearest || distance(i) < distance(*nearest)) nearest = i;
+  }
+  return nearest;
+}
+
 std::size_t TracedBranches::broken_off() const {
   std::size_t count = 0;
   for (const analysis::Branch& branch : branches)

@@ -125,6 +125,10 @@ struct TracedBranches {
   std::vector<SpecialRow> special;
   std::vector<BranchRow> at_special;  ///< of the orbit at each of these
 
+  /// Row of `special` where the stability changes between an orbit of a branch and the next: of several the one beside
+  /// the stable side; nothing where neither or both are stable, or the point is not known.
+  [[nodiscard]] std::optional<std::size_t> change_behind(std::size_t branch, std::size_t before) const;
+
   /// Ways that ended before an end of the range, where they were born or as many orbits as asked for.
   [[nodiscard]] std::size_t broken_off() const;
 };

@@ -19,12 +19,10 @@
 namespace epicyclic::studies::branch_proof_test {
 namespace {
 
-constexpr std::size_t dimension = 2;
-
 /// Branches from the motion that is settled at a value, of period 1 and what doubles from it up to `largest`; rows as
 /// of a gear train's, whose section is the state alone.
 TracedBranches branches_of(const FieldFamily& fields, double value, const analysis::ContinuationOptions& continuation,
-                           int largest, int period = 1) {
+                           int largest, int period = 1, const std::vector<double>& start = {1.0, 0.0}) {
   const auto flows = [&fields](double tolerance) { return problems::flows(fields, tolerance); };
   analysis::OrbitFamily family{flows(1e-9)};
   family.period = period;
@@ -32,8 +30,7 @@ TracedBranches branches_of(const FieldFamily& fields, double value, const analys
   options.special = problems::with_bounds(flows, 1e-9);
   options.largest_period = largest;
   analysis::BranchTree tree(family, options);
-  const analysis::Correction first =
-      first_orbit(family, value, problems::settled(family.flows, value, {1.0, 0.0}, 100));
+  const analysis::Correction first = first_orbit(family, value, problems::settled(family.flows, value, start, 100));
   EXPECT_TRUE(first.found);
   tree.start(first.orbit);
   while (tree.advance()) {
@@ -75,10 +72,28 @@ PointResult settled_point(const integrate::FlowFamily& flows, std::vector<double
   r.recurrence = analysis::recurrence(s.section, 8, 1e-6);
   r.period = r.recurrence.period;
   r.regime = r.period > 0 ? analysis::Regime::periodic : analysis::Regime::chaotic;
-  r.poincare_columns = dimension;
+  r.poincare_columns = y.size();
   for (std::size_t k = 0; k < s.section.size(); ++k)
     r.poincare.insert(r.poincare.end(), s.section.point(k).begin(), s.section.point(k).end());
   return r;
+}
+
+/// Points carried from one to the next, each way from what the first value has; kicked a little at each, where what is
+/// unstable would stay.
+std::vector<PointResult> carried(const FieldFamily& fields, const SweepOptions& sweep, const std::vector<double>& start,
+                                 double kick) {
+  const integrate::FlowFamily flows = problems::flows(fields, 1e-9);
+  std::vector<PointResult> points;
+  for (const Direction direction : sweep.directions) {
+    std::vector<double> values = axis_values(sweep.axis);
+    if (direction == Direction::down) std::ranges::reverse(values);
+    std::vector<double> y = problems::settled(flows, values.front(), start, 400);
+    for (const double value : values) {
+      y[0] += kick;
+      points.push_back(settled_point(flows, y, points.size(), value, direction));
+    }
+  }
+  return points;
 }
 
 /// The motion of Duffing's at a value, settled.
@@ -101,6 +116,7 @@ std::vector<PointResult> swept(const SweepOptions& sweep) {
 }
 
 BranchProof proved(const TracedBranches& traced, const SweepOptions& sweep, const std::vector<PointResult>& points) {
+  const auto dimension = static_cast<std::size_t>(traced.branches.front().orbits.front().at.states.rows());
   return prove(traced, sweep, points_in_memory(points), dimension, {}, [](std::size_t) {});
 }
 
@@ -171,18 +187,6 @@ class OfAResonance : public testing::Test {
     std::ranges::sort(folds);
   }
 
-  [[nodiscard]] std::vector<PointResult> carried(const SweepOptions& sweep) const {
-    const integrate::FlowFamily flows = problems::flows(fields, 1e-9);
-    std::vector<PointResult> points;
-    for (const Direction direction : sweep.directions) {
-      std::vector<double> values = axis_values(sweep.axis);
-      if (direction == Direction::down) std::ranges::reverse(values);
-      std::vector<double> y = problems::settled(flows, values.front(), {1.0, 0.0}, 100);
-      for (const double value : values) points.push_back(settled_point(flows, y, points.size(), value, direction));
-    }
-    return points;
-  }
-
   FieldFamily fields = problems::duffing_in_frequency(0.1, 1.0, 1.0);
   TracedBranches traced;
   std::vector<double> folds;
@@ -193,7 +197,7 @@ TEST_F(OfAResonance, JumpsFromOneStretchToAnotherAreChanges) {
   ASSERT_EQ(folds.size(), 2U);
   SweepOptions sweep = sweep_of(1.35, 3.25, 48);
   sweep.directions = {Direction::up, Direction::down};
-  const std::vector<PointResult> points = carried(sweep);
+  const std::vector<PointResult> points = carried(fields, sweep, {1.0, 0.0}, 0.0);
   const BranchProof proof = proved(traced, sweep, points);
   EXPECT_TRUE(proof.off.empty());
   ASSERT_EQ(proof.changes.size(), 2U);
@@ -213,7 +217,7 @@ TEST_F(OfAResonance, AJumpWhereNeitherStretchEndsIsUnexplained) {
   // Up to the middle of the stretches, and from there on as a sweep down has it.
   SweepOptions sweep = sweep_of(1.35, 3.25, 48);
   sweep.directions = {Direction::up, Direction::down};
-  std::vector<PointResult> points = carried(sweep);
+  std::vector<PointResult> points = carried(fields, sweep, {1.0, 0.0}, 0.0);
   const double middle = 0.5 * (folds.front() + folds.back());
   for (std::size_t i = 0; i < 48; ++i) {
     if (points[i].point.value < middle) continue;
@@ -261,20 +265,6 @@ TEST(BranchProof, WhereABranchIsBornOfOneThatIsNotFollowedItEnds) {
 /// unstable, turn at the fold at 0.1079 and are stable from there on to the flip at 0.3415.
 class OfASubcriticalFlip : public testing::Test {
  protected:
-  /// Kicked a little at each value, since rest would stay at rest.
-  [[nodiscard]] std::vector<PointResult> carried(const SweepOptions& sweep, Direction direction) const {
-    const integrate::FlowFamily flows = problems::flows(fields, 1e-9);
-    std::vector<double> values = axis_values(sweep.axis);
-    if (direction == Direction::down) std::ranges::reverse(values);
-    std::vector<double> y = problems::settled(flows, values.front(), {0.3, 0.0}, 400);
-    std::vector<PointResult> points;
-    for (const double value : values) {
-      y[0] += 1e-3;
-      points.push_back(settled_point(flows, y, points.size(), value, direction));
-    }
-    return points;
-  }
-
   FieldFamily fields = integrate::make_field_family(
       2, 2.0 * std::numbers::pi, [](const auto& p, std::size_t, double s, const auto* y, auto* d) {
         d[0] = y[1];
@@ -286,17 +276,74 @@ class OfASubcriticalFlip : public testing::Test {
 TEST_F(OfASubcriticalFlip, WhatIsBornElsewhereIsJumpedTo) {
   ASSERT_EQ(traced.branches.size(), 2U);
   const SweepOptions up = sweep_of(0.115, 0.205, 4);
-  const BranchProof there = proved(traced, up, carried(up, Direction::up));
+  const BranchProof there = proved(traced, up, carried(fields, up, {0.3, 0.0}, 1e-3));
   ASSERT_EQ(there.changes.size(), 1U);
   EXPECT_EQ(there.changes[0].cause, Cause::jump) << there.changes[0].words;
   EXPECT_NE(there.changes[0].words.find("flip of branch 0 at 0.148"), std::string::npos) << there.changes[0].words;
   // On the way down the flip is behind the motion, within a step, and the fold between the values.
   SweepOptions down = sweep_of(0.078, 0.245, 5);
   down.directions = {Direction::down};
-  const BranchProof back = proved(traced, down, carried(down, Direction::down));
+  const BranchProof back = proved(traced, down, carried(fields, down, {0.3, 0.0}, 1e-3));
   ASSERT_EQ(back.changes.size(), 1U);
   EXPECT_EQ(back.changes[0].cause, Cause::jump) << back.changes[0].words;
   EXPECT_NE(back.changes[0].words.find("fold of branch 1 at 0.107"), std::string::npos) << back.changes[0].words;
+}
+
+/// A Hopf bifurcation about a forced motion at 0, whose torus is born there, or subcritically, when it is stable from
+/// -1/4 on.
+FieldFamily hopf(bool subcritical) {
+  if (!subcritical) return problems::forced_hopf(0.3);
+  return integrate::make_field_family(2, 2.0 * std::numbers::pi,
+                                      [](const auto& p, std::size_t, double s, const auto* y, auto* d) {
+                                        using T = std::remove_cvref_t<decltype(d[0])>;
+                                        const T a = y[0] - std::cos(s);
+                                        const T b = y[1] - std::sin(s);
+                                        const T r2 = a * a + b * b;
+                                        const T gain = p + r2 - r2 * r2;
+                                        d[0] = gain * a - 0.3 * b - std::sin(s);
+                                        d[1] = 0.3 * a + gain * b + std::cos(s);
+                                      });
+}
+
+TEST(BranchProof, ATorusThatTheOtherWayHasBesideTheOrbitIsNotBornThere) {
+  for (const bool subcritical : {false, true}) {
+    const FieldFamily fields = hopf(subcritical);
+    const TracedBranches traced = branches_of(fields, -0.2, {.from = -0.35, .to = 0.1}, 1);
+    SweepOptions sweep = sweep_of(-0.31, 0.09, 9);
+    sweep.directions = {Direction::up, Direction::down};
+    std::vector<PointResult> points = carried(fields, sweep, {1.0, 0.0}, 1e-3);
+    for (PointResult& r : points)
+      if (r.period == 0) r.regime = analysis::Regime::quasiperiodic;
+    const BranchProof proof = proved(traced, sweep, points);
+    ASSERT_EQ(proof.changes.size(), 2U) << subcritical;
+    EXPECT_EQ(proof.changes[0].cause, subcritical ? Cause::jump : Cause::bifurcation) << proof.changes[0].words;
+    EXPECT_EQ(proof.changes[1].cause, subcritical ? Cause::crisis : Cause::bifurcation) << proof.changes[1].words;
+    ASSERT_TRUE(proof.changes[0].special.has_value());
+    EXPECT_EQ(to_string(traced.special[*proof.changes[0].special].kind), "neimark_sacker");
+  }
+}
+
+TEST(BranchProof, AFoldBesideTheStartOfAClosedBranchEndsTheStretchAcrossIt) {
+  const FieldFamily fields = problems::closed_branch();
+  for (const double start : {0.0, 0.99999}) {
+    const double w = std::sqrt(1.0 - start * start);
+    const TracedBranches traced = branches_of(fields, start, {.from = -1.5, .to = 1.5}, 1, 1, {1.0 + w});
+    ASSERT_EQ(traced.branches.size(), 1U);
+    ASSERT_EQ(traced.branches[0].last.end, analysis::BranchEnd::closed);
+    const SweepOptions sweep = sweep_of(0.95, 1.03, 2);
+    const integrate::FlowFamily flows = problems::flows(fields, 1e-9);
+    std::vector<double> y = {1.3};
+    std::vector<PointResult> points = {settled_point(flows, y, 0, 0.95, Direction::up)};
+    // Beyond the fold there is no orbit.
+    PointResult& beyond = points.emplace_back();
+    beyond.point.index = 1;
+    beyond.point.value = 1.03;
+    beyond.regime = analysis::Regime::chaotic;
+    const BranchProof proof = proved(traced, sweep, points);
+    ASSERT_EQ(proof.changes.size(), 1U) << start;
+    EXPECT_EQ(proof.changes[0].cause, Cause::jump) << start << ": " << proof.changes[0].words;
+    EXPECT_NE(proof.changes[0].words.find("fold of branch 0"), std::string::npos) << proof.changes[0].words;
+  }
 }
 
 TEST(BranchProof, AFlipFarFromTheChangeExplainsNothing) {
