@@ -28,8 +28,12 @@ using studies::PointVerdict;
 /// Says in what the study is not the one that the points are expected of.
 int tell_unlike(const std::vector<std::string>& lines, const std::filesystem::path& junit, const Arguments& arguments) {
   constexpr std::size_t most = 5;
-  // What an earlier run has left there would pass for the verdicts of this one.
-  if (!junit.empty()) write_file_atomically(junit, reports::unlike_junit_text(arguments.input.string(), lines));
+  if (!junit.empty()) {
+    std::string text;
+    for (const std::string& line : lines) text += line + "\n";
+    write_file_atomically(junit, reports::error_junit_text(arguments.input.string(),
+                                                           "another study than the points are expected of", text));
+  }
   if (arguments.json)
     print("{}\n", json({{"another_study", lines}}).dump(2, ' ', false, json::error_handler_t::replace));
   tell("{}: is another study than the points of {} are expected of\n", arguments.input.string(),
@@ -53,10 +57,11 @@ int record(const Arguments& arguments, const FinishedBranches& branches) {
 
 }  // namespace
 
-int assert_command(const Arguments& arguments) {
+namespace {
+
+int compare(const Arguments& arguments, const std::filesystem::path& junit) {
   const FinishedBranches branches = finished_branches(arguments.input);
   if (arguments.record) return record(arguments, branches);
-  const std::filesystem::path junit = arguments.junit.empty() ? arguments.junit : linked_file(arguments.junit);
   const reports::ExpectedPoints expected = reports::read_expected(arguments.against);
   if (const auto lines = reports::unlike(expected, branches.input); !lines.empty())
     return tell_unlike(lines, junit, arguments);
@@ -71,6 +76,21 @@ int assert_command(const Arguments& arguments) {
     print("{} points expected, {} found, {} failed\n", expected.points.size(), branches.points.size(), failed);
   }
   return failed == 0 ? done : done_with_failures;
+}
+
+}  // namespace
+
+int assert_command(const Arguments& arguments) {
+  const std::filesystem::path junit = arguments.junit.empty() ? arguments.junit : linked_file(arguments.junit);
+  try {
+    return compare(arguments, junit);
+  } catch (const InputError& error) {
+    // What an earlier run has left there would pass for the verdicts of this one.
+    if (!junit.empty())
+      write_file_atomically(
+          junit, reports::error_junit_text(arguments.input.string(), "nothing could be compared", error.what()));
+    throw;
+  }
 }
 
 }  // namespace epicyclic::app

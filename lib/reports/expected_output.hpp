@@ -52,8 +52,10 @@ struct ExpectedPoints {
 /// @param name  of the suite
 [[nodiscard]] std::string junit_text(const std::string& name, const std::vector<studies::PointComparison>& compared);
 
-/// A JUnit test suite of one error: the study is not the one whose points are expected.
-/// @param lines  in what, of unlike()
-[[nodiscard]] std::string unlike_junit_text(const std::string& name, const std::vector<std::string>& lines);
+/// A JUnit test suite of one error: nothing was compared.
+/// @param message  why, in a line
+/// @param text     more of it
+[[nodiscard]] std::string error_junit_text(const std::string& name, const std::string& message,
+                                           const std::string& text);
 
 }  // namespace epicyclic::reports

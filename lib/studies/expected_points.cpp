@@ -48,7 +48,7 @@ std::vector<PointComparison> compare_points(std::span<const LocatedPoint> expect
   for (std::size_t e = 0; e < expected.size(); ++e)
     for (std::size_t f = 0; f < found.size(); ++f) {
       const double apart = std::abs(expected[e].value - found[f].value);
-      if (alike(expected[e], found[f]) && apart <= reach) pairs.push_back({apart, e, f});
+      if (alike(expected[e], found[f]) && apart <= std::max(reach, expected[e].bound)) pairs.push_back({apart, e, f});
     }
   std::ranges::sort(pairs, {}, [](const Pair& p) { return std::tie(p.apart, p.expected, p.found); });
   std::vector<bool> of_expected(expected.size()), of_found(found.size());

@@ -43,14 +43,18 @@ grep -q 'errors="1"' verdicts.xml && grep -q 'power_kW: 400.* there, 390.* here'
 grep -q '"another_study"' stdout && grep -q 'power_kW: 400.* there, 390.* here' stdout || fail "its JSON: $(<stdout)"
 grep -q '/stage/load/power_kW: 400.* there, 390.* here' stderr || fail "in what: $(<stderr)"
 
-# Bad input; nothing is written.
+# Bad input.
 [ "$(code_of "$epicyclic" assert fine none.json)" = 2 ] || fail "no such file: $(<stderr)"
 [ "$(code_of "$epicyclic" assert none points.json)" = 2 ] || fail "no such folder: $(<stderr)"
 moved 's/"bound":[^,]*,/"bound":-1,"bounds":1,/'
 [ "$(code_of "$epicyclic" assert fine moved.json --junit none.xml)" = 2 ] || fail "a bound below 0: $(<stdout)"
 grep -q 'moved.json:4: /points/0/bound' stderr || fail "where: $(<stderr)"
 grep -q 'bounds.*did you mean' stderr || fail "an unknown key: $(<stderr)"
-[ ! -e none.xml ] || fail "verdicts of nothing"
+# What an earlier run has left would pass for the verdicts of this one.
+grep -q 'failures="0" errors="1"' none.xml && grep -q 'nothing could be compared.*/points/0/bound' none.xml || fail "its XML: $(<none.xml)"
+mkdir $'od\xffd'
+[ "$(code_of "$epicyclic" assert $'od\xffd' points.json --junit verdicts.xml)" = 2 ] || fail "an empty folder: $(<stderr)"
+grep -q 'errors="1"' verdicts.xml && iconv -f UTF-8 -t UTF-8 verdicts.xml >/dev/null || fail "its XML: $(<verdicts.xml)"
 # A link leads to what is written; what is no file stays what it is.
 ln -s verdicts.xml link.xml
 rm verdicts.xml

@@ -27,6 +27,10 @@ TEST(ExpectedPoints, AgreeWithinTheirOwnBounds) {
   EXPECT_EQ(verdicts({flip(2.0)}, {flip(2.0 - 1.1 * bound, 0.0)}), std::vector{differs});
 }
 
+TEST(ExpectedPoints, MayBeAsFarOffAsTheirBoundsSay) {
+  EXPECT_EQ(verdicts({flip(2.0, 5.0 * reach)}, {flip(2.0 + 4.0 * reach)}), std::vector{agrees});
+}
+
 TEST(ExpectedPoints, ThatAreFarLessCertainSayNothing) {
   EXPECT_EQ(verdicts({flip(2.0)}, {flip(2.0, 9.0 * bound)}), std::vector{agrees});
   EXPECT_EQ(verdicts({flip(2.0)}, {flip(2.0, 11.0 * bound)}), std::vector{too_uncertain});
