@@ -149,16 +149,16 @@ int reproduce_command(const Arguments& given) {
   const std::int64_t undrawn = tell_undrawn(figures);
 
   std::vector<std::string> unlike;
-  bool is_other_study = false;
+  std::vector<std::string> another_study;  // in what the recorded verdicts are of one
   if (arguments.record) {
     write_file_atomically(linked_file(recorded), reports::recorded_text(card, input));
     tell("recorded: {}\n", recorded.string());
   } else if (expected) {
     reports::RecordedDifference difference = reports::unlike_recorded(card, input, *expected);
-    is_other_study = !difference.study.empty();
-    if (is_other_study)
+    another_study = std::move(difference.study);
+    if (!another_study.empty())
       tell("the verdicts in {} are of another study and are not compared: {}\n", recorded.string(),
-           difference.study.front());
+           another_study.front());
     unlike = std::move(difference.verdicts);
     for (const std::string& line : unlike) tell("other than recorded in {}: {}\n", recorded.string(), line);
   }
@@ -168,8 +168,9 @@ int reproduce_command(const Arguments& given) {
                                           {"undrawn", undrawn}});
   if (arguments.json) {
     nlohmann::json told = {{"folder", folder.path().string()}, {"claims", options.claims.size()},
-                           {"holding", card.holding()},        {"holding_whatever_the_stage", card.holding_inert()},
+                           {"holding", card.holding()},        {"holding_where_nothing_changes", card.holding_inert()},
                            {"unlike_recorded", unlike},        {"figures", nlohmann::json::array()}};
+    if (!another_study.empty()) told["another_study"] = another_study;
     for (const auto& figure : figures)
       if (figure.outcome.drawn()) told["figures"].push_back(figure.file.string());
     print("{}\n", told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
@@ -178,7 +179,7 @@ int reproduce_command(const Arguments& given) {
     for (const auto& figure : figures)
       if (figure.outcome.drawn()) print("figure: {}\n", figure.file.string());
   }
-  if (is_named && is_other_study) return other_study;
+  if (is_named && !another_study.empty()) return other_study;
   return unlike.empty() && undrawn == 0 ? worst : static_cast<int>(done_with_failures);
 }
 

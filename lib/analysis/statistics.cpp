@@ -94,9 +94,13 @@ Interval rank_correlation(std::span<const double> x, std::span<const double> y) 
   std::vector<double> work(2 * x.size());
   const double r = gsl_stats_spearman(x.data(), 1, y.data(), 1, x.size(), work.data());
   constexpr double variance = 1.06;  // of ranks, beside that of a normal distribution
-  const double half = two_sided * std::sqrt(variance / (static_cast<double>(x.size()) - 3.0));
-  const double z = std::atanh(std::clamp(r, -1.0, 1.0));
-  return {r, std::tanh(z - half), std::tanh(z + half)};
+  const auto n = static_cast<double>(x.size());
+  const double half = two_sided * std::sqrt(variance / (n - 3.0));
+  // Ranks have no correlation between that of two neighbours exchanged, 1 - 12 / (n^3 - n), and 1: one of 1 may be any
+  // that is nearer to it than to the other. Taken as 1 itself it would leave no interval, however few there are.
+  const double most = 1.0 - 6.0 / (n * n * n - n);
+  const double z = std::atanh(std::clamp(r, -most, most));
+  return {r, std::min(r, std::tanh(z - half)), std::max(r, std::tanh(z + half))};
 }
 
 }  // namespace epicyclic::analysis

@@ -433,9 +433,17 @@ std::string title_expression(const std::string& title) {
       png, rare, gnuplot_quoted(plain), gnuplot_quoted(title));
 }
 
-/// A second abscissa takes nothing from the frame.
+/// Of names on edge below the frame, beyond the height of a number [pixels].
+double room_of_names(const FigureText& text) {
+  double longest = 0.0;
+  for (const auto& [at, name] : text.x_names) longest = std::max(longest, text_width(name));
+  return std::max(0.0, longest - 1.0) * font_height;
+}
+
+/// Neither a second abscissa nor names on edge take anything from the frame.
 FigureCanvas with_room(FigureCanvas canvas, const FigureText& text) {
   if (text.above) canvas.height += second_abscissa_height;
+  canvas.height += static_cast<int>(std::lround(room_of_names(text)));
   return canvas;
 }
 
@@ -750,8 +758,8 @@ std::string panel_script(std::string_view stem, const FigureText& text, const Fi
                          const std::vector<FigurePanel>& panels, const std::vector<std::string>& legend,
                          std::string_view extra, const FigureCanvas& given) {
   const FigureCanvas canvas = with_room(given, text);
-  constexpr double bottom = 130;  // tics and label of the abscissa [pixels]
-  constexpr double apart = 28;    // half a label of a tic on both sides [pixels]
+  const double bottom = 130.0 + room_of_names(text);  // tics and label of the abscissa [pixels]
+  constexpr double apart = 28;                        // half a label of a tic on both sides [pixels]
   constexpr double label_place = 40;
   double left = 0.0;  // one edge for all
   double parts = 0.0;
@@ -770,6 +778,7 @@ std::string panel_script(std::string_view stem, const FigureText& text, const Fi
       "set xrange [{}:{}]\n"
       "set format x ''\n",
       text_of(left / canvas.width), text_of(x.low), text_of(x.high));
+  if (!text.x_names.empty()) commands += "set xtics rotate by 90 right " + named_tics(text.x_names) + "\n";
   double top = head.height;
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const FigurePanel& panel = panels[k];

@@ -61,6 +61,7 @@ struct FigureText {
   std::string x_label;
   std::string y_label;
   std::optional<SecondAbscissa> above{};
+  std::vector<std::pair<double, std::string>> x_names{};  ///< on edge, for numbers on the abscissa of panels
 };
 
 /// A vertical line at an abscissa, with a label; not drawn outside the figure.

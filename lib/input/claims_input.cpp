@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "input/derived_study.hpp"
@@ -88,15 +89,34 @@ std::optional<double> given_parameter(const LoadedInput& input, const studies::P
   return std::isfinite(x) ? std::optional(x) : std::nullopt;
 }
 
+/// Targets that the input has otherwise than what they follow: three errors that one amplitude gives, say.
+/// @param outside  parameters whose targets are others anyway
+void tell_other_targets(const LoadedInput& input, const studies::ParameterSpace& space, std::span<const double> u,
+                        const std::set<std::string>& outside, std::vector<std::string>& moved) {
+  constexpr double rounding = 1e-9;
+  std::set<std::string> known;
+  for (const studies::FreeParameter& p : space.parameters)
+    for (const studies::ParameterTarget& t : p.targets)
+      if (outside.contains(p.name) || outside.contains(t.times)) known.insert(t.pointer);
+  for (const auto& [pointer, value] : space.targets_at(u)) {
+    const std::optional<double> there = number_at(input, pointer);
+    if (there && !known.contains(pointer) && std::abs(value - *there) > rounding * std::abs(*there))
+      moved.push_back(pointer + " = " + number_text(value) + " in place of " + number_text(*there));
+  }
+}
+
 }  // namespace
 
 std::vector<double> given_candidate(const LoadedInput& input, const studies::ParameterSpace& space,
                                     std::vector<std::string>* moved) {
   std::vector<double> u;
+  std::set<std::string> outside;  // parameters that the input has beyond their ranges
   for (const studies::FreeParameter& p : space.parameters) {
     const std::optional<double> x = given_parameter(input, space, p);
     u.push_back(x ? p.place_of(*x) : 0.5);
-    if (moved != nullptr && x && !(*x >= p.from && *x <= p.to))
+    if (!x || (*x >= p.from && *x <= p.to)) continue;
+    outside.insert(p.name);
+    if (moved != nullptr)
       moved->push_back(p.name + " = " + number_text(p.at(u.back())) + " in place of " + number_text(*x));
   }
   for (const studies::Choice& choice : space.choices) {
@@ -108,6 +128,7 @@ std::vector<double> given_candidate(const LoadedInput& input, const studies::Par
     if (moved != nullptr && !is_any)
       moved->push_back(choice.name + " = \"" + choice.options.front().name + "\", of whose options it has none");
   }
+  if (moved != nullptr) tell_other_targets(input, space, u, outside, *moved);
   return u;
 }
 

@@ -14,6 +14,7 @@
 #include "core/csv.hpp"
 #include "core/text.hpp"
 #include "figures/sketch.hpp"
+#include "reports/markdown.hpp"
 #include "reports/variable_words.hpp"
 
 namespace epicyclic::reports {
@@ -89,9 +90,11 @@ AsGood costs_little_more(const CalibrateOutput& output, const Calibration& calib
   double least_weight = std::numeric_limits<double>::infinity();
   for (const studies::Claim& claim : output.options.claims)
     if (claim.weight > 0.0) least_weight = std::min(least_weight, claim.weight);
-  return [bound = calibration.best->evaluation.cost + 0.5 * least_weight](const studies::Evaluation& evaluation) {
-    return evaluation.refused.empty() && evaluation.cost <= bound;
-  };
+  // Costs are sums; one that is half a claim more by rounding alone is not less.
+  constexpr double rounding = 1e-9;
+  const double bound = calibration.best->evaluation.cost + (0.5 - rounding) * least_weight;
+  return
+      [bound](const studies::Evaluation& evaluation) { return evaluation.refused.empty() && evaluation.cost < bound; };
 }
 
 /// Where candidates are as good as the result along one variable through it.
@@ -137,13 +140,14 @@ std::string determined_text(const CalibrateOutput& output, const Calibration& ca
   if (variable < space.parameters.size() &&
       !space.counts(space.parameters[variable], space.options_at(calibration.best->u)))
     return "does not count";
-  if (d.any()) return "any";
   if (variable >= space.parameters.size()) {
+    if (d.any()) return "any";
     std::string options;
     for (std::size_t k = 0; k < d.points.size(); ++k)
       if (d.good[k]) options += (options.empty() ? "" : ", ") + variable_text(space, variable, d.points[k]->u, 0);
     return options;
   }
+  if (d.low == 0.0 && d.high == 1.0) return "any";
   if (d.low == d.high) return "nearer than the profile's values";
   return variable_text(space, variable, d.low, 4) + " to " + variable_text(space, variable, d.high, 4);
 }
@@ -166,9 +170,8 @@ DrawnFigure draw_determination(const std::filesystem::path& folder, const Calibr
     const auto row = static_cast<double>(rows - k);
     const studies::FreeParameter& p = space.parameters[k];
     constexpr std::size_t longest = 46;
-    const std::string words = p.words.empty() ? p.name : p.words;
-    panel.names.emplace_back(
-        row, row_text(fmt::format("{}: {} to {}", words, short_text(p.from, 3), short_text(p.to, 3)), longest));
+    const std::string range = fmt::format(": {} to {}", short_text(p.from, 3), short_text(p.to, 3));
+    panel.names.emplace_back(row, row_text(p.words.empty() ? p.name : p.words, longest - range.size()) + range);
     if (!space.counts(p, options)) continue;
     ranges.insert(ranges.end(), {{0.0, row}, {1.0, row}, {gap, gap}});
     for (const auto& [as_good, stretches] :
@@ -239,7 +242,8 @@ std::string calibrate_summary(const CalibrateOutput& output, const Calibration& 
   text += calibration.confirmed.empty() ? "| claim | what | cost |\n|---|---|---|\n"
                                         : "| claim | what | cost | by whole sweeps |\n|---|---|---|---|\n";
   for (std::size_t k = 0; k < options.claims.size(); ++k) {
-    text += fmt::format("| {} | {} | {} |", options.claims[k].name, options.claims[k].text, told(best.evaluation, k));
+    text += fmt::format("| {} | {} | {} |", markdown_cell(options.claims[k].name),
+                        markdown_cell(options.claims[k].text), told(best.evaluation, k));
     if (!calibration.confirmed.empty()) text += " " + told(calibration.confirmed.front().whole, k) + " |";
     text += "\n";
   }
@@ -271,7 +275,8 @@ std::string calibrate_summary(const CalibrateOutput& output, const Calibration& 
       range = short_text(p.from, 4) + " to " + short_text(p.to, 4);
       if (!p.words.empty()) words += ", " + p.words;
     }
-    text += fmt::format("| {} | {} | {} | {} | {} |\n", words, range, variable_text(options.space, k, best.u[k], 4),
+    text += fmt::format("| {} | {} | {} | {} | {} |\n", markdown_cell(words), range,
+                        markdown_cell(variable_text(options.space, k, best.u[k], 4)),
                         determined_text(output, calibration, k, costs_little_more(output, calibration)),
                         determined_text(output, calibration, k, no_claim_is_lost(calibration)));
   }

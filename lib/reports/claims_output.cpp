@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <map>
 #include <set>
 #include <string_view>
@@ -17,6 +18,7 @@
 #include "figures/sketch.hpp"
 #include "input/recorded_study.hpp"
 #include "input/stage_completion.hpp"
+#include "reports/markdown.hpp"
 #include "store/identity.hpp"
 
 namespace epicyclic::reports {
@@ -29,16 +31,6 @@ namespace {
 std::string start_name(studies::Start start) { return start == studies::Start::cold ? "cold" : "carried"; }
 
 std::string verdict(const ClaimOutcome& outcome) { return outcome.holds ? "holds" : "fails"; }
-
-/// A text as a cell of a table.
-std::string cell(std::string_view text) {
-  std::string cell;
-  for (const char c : text) {
-    if (c == '|') cell += '\\';
-    cell += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  return cell;
-}
 
 /// All conditions' texts in a row.
 std::string measured_text(const ClaimOutcome& outcome) {
@@ -83,8 +75,9 @@ std::string scorecard_summary(const Scorecard& card) {
   std::string text = fmt::format("# Claims held against {}\n\n", card.name);
   text += fmt::format("{} of {} claims hold", card.holding(), card.options.claims.size());
   if (card.holding_inert() > 0)
-    text += fmt::format(", {} of them with sweeps along which nothing changes at all, by symmetry, say",
-                        card.holding_inert());
+    text +=
+        fmt::format(", {} of them with sweeps along which nothing that they speak of changes at all, by symmetry, say",
+                    card.holding_inert());
   text += fmt::format(" (points {}).\n\n", card.scored.front().start == studies::Start::cold
                                                ? "that start cold"
                                                : "carried from one to the next");
@@ -97,12 +90,17 @@ std::string scorecard_summary(const Scorecard& card) {
   text += " measured |\n" + line + "---|\n";
   for (std::size_t k = 0; k < card.options.claims.size(); ++k) {
     const studies::Claim& claim = card.options.claims[k];
-    text += fmt::format("| {} | {} | {} | {} |", cell(claim.name), cell(claim.where), cell(claim.text),
-                        cell(claim.printed));
+    text += fmt::format("| {} | {} | {} | {} |", markdown_cell(claim.name), markdown_cell(claim.where),
+                        markdown_cell(claim.text), markdown_cell(claim.printed));
     for (const ScoredStart& s : card.scored)
       text += fmt::format(" {}{} |", verdict(s.outcomes[k]), s.outcomes[k].inert ? ", nothing changes" : "");
-    text += fmt::format(" {} |\n", measured_text(card.scored.front().outcomes[k]));
+    text += fmt::format(" {} |\n", markdown_cell(measured_text(card.scored.front().outcomes[k])));
   }
+  if (text.find(studies::not_settled) != std::string::npos)
+    text += fmt::format(
+        "\nPoints that are {}: the motion is periodic and the record still on its way to it, so that what is measured "
+        "there is not the orbit's; more transient_periods get to it.\n",
+        studies::not_settled);
   for (std::size_t s = 1; s < card.scored.size(); ++s) {
     std::string other;
     for (std::size_t k = 0; k < card.options.claims.size(); ++k)
@@ -136,9 +134,11 @@ bool is_beside_the_claims(const std::string& line) {
                               "/study/parameters", "/study/choices", "/study/figures"})
     if (line.starts_with(pointer) && !line.starts_with("/integrator/clearance_smoothing")) return true;
   const std::string_view pointer = std::string_view(line).substr(0, line.find(": "));
-  return (line.starts_with("/study/claims/") && pointer.ends_with("/weight")) ||
-         (line.starts_with("/study/sweeps/") &&
-          (pointer.ends_with("/brief_points") || pointer.ends_with("/survey_points") || pointer.ends_with("/round")));
+  const auto ends_with_one_of = [&](std::initializer_list<const char*> keys) {
+    return std::ranges::any_of(keys, [&](const char* key) { return pointer.ends_with(key); });
+  };
+  return (line.starts_with("/study/claims/") && ends_with_one_of({"/weight", "/where", "/text", "/printed"})) ||
+         (line.starts_with("/study/sweeps/") && ends_with_one_of({"/brief_points", "/survey_points", "/round"}));
 }
 
 }  // namespace
@@ -201,13 +201,13 @@ RecordedDifference unlike_recorded(const Scorecard& card, const input::LoadedInp
 
 namespace {
 
-/// Poincare points of planet 1's mesh over the parameter, of the first direction.
-std::vector<std::array<double, 2>> section_dots(const studies::PointSource& points, studies::MeshSide mesh,
-                                                studies::Direction direction) {
+/// Poincare points of planet 1's mesh over the parameter, of the direction that verdicts are on.
+std::vector<std::array<double, 2>> section_dots(const studies::PointSource& points, studies::MeshSide mesh) {
   std::vector<std::array<double, 2>> dots;
+  const studies::Direction judged = studies::judged_direction(points);
   for (std::size_t k = 0; k < points.count; ++k) {
     const studies::PointResult r = points.read(k);
-    if (r.point.direction != direction || r.outcome != integrate::Outcome::reached) continue;
+    if (r.point.direction != judged || r.outcome != integrate::Outcome::reached) continue;
     const std::size_t planets = r.meshes.sun_planet.size();
     const std::size_t column = r.poincare_columns - (mesh == studies::MeshSide::sun_planet ? 2 : 1) * planets;
     for (std::size_t row = 0; row < r.poincare_rows(); ++row)
@@ -227,7 +227,7 @@ std::vector<DrawnFigure> draw_claim_figures(const std::filesystem::path& folder,
     std::string parameter;
     for (const studies::ClaimPanel& panel : figure.panels) {
       const auto sweep = std::ranges::find(card.options.sweeps, panel.sweep, &studies::ClaimSweep::name);
-      const auto dots = section_dots(points(panel.sweep), panel.mesh, sweep->directions.front());
+      const auto dots = section_dots(points(panel.sweep), panel.mesh);
       figures::FigureRange y;
       for (const auto& [value, delta] : dots) {
         x.include(value);

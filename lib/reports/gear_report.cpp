@@ -10,6 +10,7 @@
 #include "core/errors.hpp"
 #include "gear/bearing.hpp"
 #include "gear/kinematics.hpp"
+#include "reports/markdown.hpp"
 
 namespace epicyclic::reports {
 
@@ -129,22 +130,6 @@ std::string shown(double value) {
   return size >= 1e6 || size < 1e-3 ? fmt::format("{:.6e}", value) : fmt::format("{:.7g}", value);
 }
 
-/// A cell of a Markdown table: nothing in it may end the cell or the line, or become HTML.
-std::string cell(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '|')
-      safe += "\\|";
-    else if (c == '<')
-      safe += "&lt;";
-    else if (c == '\n' || c == '\r')
-      safe += ' ';
-    else
-      safe += c;
-  }
-  return safe;
-}
-
 void append_values(std::string& page, const nlohmann::json& value, const std::string& pointer,
                    const std::string& origin, const std::string& key) {
   if (value.is_object()) {
@@ -170,7 +155,8 @@ void append_values(std::string& page, const nlohmann::json& value, const std::st
   } else {
     text = value.is_string() ? value.get<std::string>() : value.dump();
   }
-  page += fmt::format("| `{}` | {} | {} | {} |\n", cell(pointer), cell(text), input::unit_of(key), cell(origin));
+  page += fmt::format("| `{}` | {} | {} | {} |\n", markdown_cell(pointer), markdown_cell(text), input::unit_of(key),
+                      markdown_cell(origin));
 }
 
 /// Which modes are rotational, and what of the mesh frequency excites them: harmonic h of equally spaced, equal planets
@@ -333,11 +319,11 @@ std::string operation_verdict(const gear::Stage& stage, double mesh_frequency_ra
 
 std::string gear_page(const GearPage& page, const input::LoadedInput& input, const std::vector<model::Mode>& modes,
                       const model::Scales& scales) {
-  std::string text = fmt::format("# {}\n\n", cell(page.title));
+  std::string text = fmt::format("# {}\n\n", markdown_cell(page.title));
   for (const std::string& line : page.verdicts) text += "* " + line + "\n";
   if (!page.warnings.empty()) {
     text += "\n## Warnings\n\n";
-    for (const std::string& line : page.warnings) text += "* " + cell(line) + "\n";
+    for (const std::string& line : page.warnings) text += "* " + markdown_cell(line) + "\n";
   }
   if (!page.figures.empty()) {
     text += "\n## Figures\n\n";

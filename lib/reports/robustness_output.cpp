@@ -10,6 +10,7 @@
 #include "core/csv.hpp"
 #include "core/text.hpp"
 #include "figures/sketch.hpp"
+#include "reports/markdown.hpp"
 #include "reports/variable_words.hpp"
 
 namespace epicyclic::reports {
@@ -24,7 +25,7 @@ bool is_told(const Interval& i) { return i.low > 0.0 || i.high < 0.0; }
 
 std::string percent(double part) { return short_text(100.0 * part, 3); }
 
-/// Variables by how much they decide a claim, the most first; those whose intervals hold zero are left out.
+/// Factors by how much they decide a claim, the most first; those whose intervals hold zero are left out.
 std::vector<std::size_t> deciding(const ClaimRobustness& claim) {
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < claim.influences.size(); ++k)
@@ -59,6 +60,7 @@ void write_robustness_tables(const std::filesystem::path& folder, const Robustne
                    "confirmed_neither", "confirmed_look_only", "confirmed_whole_only"});
   CsvWriter influences(folder / "influence.csv",
                        {"claim", "variable", "rank_correlation", "rank_correlation_low", "rank_correlation_high"});
+  const std::vector<studies::Factor> factors = studies::factors(output.options.space);
   for (std::size_t k = 0; k < output.claims.size(); ++k) {
     const ClaimRobustness& claim = output.claims[k];
     const std::string& name = output.options.claims[k].name;
@@ -67,7 +69,7 @@ void write_robustness_tables(const std::filesystem::path& folder, const Robustne
               a.neither, a.glance_only, a.whole_only);
     for (std::size_t v = 0; v < claim.influences.size(); ++v) {
       const Interval& i = claim.influences[v];
-      influences.row(name, variable_name(output.options.space, v), i.value, i.low, i.high);
+      influences.row(name, factor_name(output.options.space, factors[v]), i.value, i.low, i.high);
     }
   }
   parts.commit();
@@ -94,15 +96,15 @@ std::string options_in_words(const RobustnessOutput& output) {
     for (const studies::OptionRobustness& of : output.by_option)
       if (of.choice == c && of.draws > 0) of_choice.push_back(&of);
     if (of_choice.size() < 2) continue;
-    text += fmt::format("\nBy {}, with 95 % intervals:\n\n| claim |", choices[c].name);
+    text += fmt::format("\nBy {}, with 95 % intervals:\n\n| claim |", markdown_cell(choices[c].name));
     std::string rule = "|---|";
     for (const auto* of : of_choice) {
-      text += fmt::format(" {} ({} draws) |", choices[c].options[of->option].name, of->draws);
+      text += fmt::format(" {} ({} draws) |", markdown_cell(choices[c].options[of->option].name), of->draws);
       rule += "---|";
     }
     text += "\n" + rule + "\n";
     for (std::size_t k = 0; k < output.claims.size(); ++k) {
-      text += "| " + output.options.claims[k].name + " |";
+      text += "| " + markdown_cell(output.options.claims[k].name) + " |";
       for (const auto* of : of_choice) {
         const Interval& f = of->fraction[k];
         text += fmt::format(" {} % ({} to {} %) |", percent(f.value), percent(f.low), percent(f.high));
@@ -131,16 +133,17 @@ std::string robustness_summary(const RobustnessOutput& output, const studies::Kn
                       draws.size(), options.survey.seed, refused);
   text += "| claim | what | holds for | 95 % interval | decided by (rank correlation) |\n|---|---|---|---|---|\n";
   constexpr std::size_t told = 4;
+  const std::vector<studies::Factor> factors = studies::factors(options.space);
   for (std::size_t k = 0; k < output.claims.size(); ++k) {
     const ClaimRobustness& claim = output.claims[k];
     std::string words;
     const auto order = deciding(claim);
     for (std::size_t j = 0; j < std::min(told, order.size()); ++j)
-      words += fmt::format("{}{} {}", j == 0 ? "" : ", ", variable_name(options.space, order[j]),
+      words += fmt::format("{}{} {}", j == 0 ? "" : ", ", markdown_cell(factor_name(options.space, factors[order[j]])),
                            short_text(claim.influences[order[j]].value, 2));
-    text +=
-        fmt::format("| {} | {} | {} % | {} to {} % | {} |\n", options.claims[k].name, options.claims[k].text,
-                    percent(claim.fraction.value), percent(claim.fraction.low), percent(claim.fraction.high), words);
+    text += fmt::format("| {} | {} | {} % | {} to {} % | {} |\n", markdown_cell(options.claims[k].name),
+                        markdown_cell(options.claims[k].text), percent(claim.fraction.value),
+                        percent(claim.fraction.low), percent(claim.fraction.high), words);
   }
   text += "\n| claims met together | draws |\n|---|---|\n";
   for (const auto& [number, of] : met) text += fmt::format("| {} | {} |\n", number, of);
@@ -154,7 +157,7 @@ std::string robustness_summary(const RobustnessOutput& output, const studies::Kn
       evaluations.size() - draws.size());
   for (std::size_t k = 0; k < output.claims.size(); ++k) {
     const studies::ClaimAgreement& a = output.agreement[k];
-    text += fmt::format("| {} | {} % | {} | {} | {} | {} |\n", options.claims[k].name,
+    text += fmt::format("| {} | {} % | {} | {} | {} | {} |\n", markdown_cell(options.claims[k].name),
                         percent(output.claims[k].fraction.value), a.both, a.neither, a.glance_only, a.whole_only);
   }
   return text;
@@ -180,26 +183,35 @@ DrawnFigure draw_parts(const std::filesystem::path& folder, const RobustnessOutp
              fmt::format("xerrorbars pointtype 7 pointsize 0.8*mark linewidth 2 linecolor '{}'", figures::ink::blue));
   const std::size_t draws = output.claims.empty() ? 0 : output.claims.front().draws;
   constexpr double margin = 1.5;  // so that marks at both ends are whole
-  return {folder / "robustness.png", sketch.draw(folder,
-                                                 {fmt::format("{} stages drawn from the ranges", draws),
-                                                  "Part that meets the claim [%], interval at 95 %", ""},
-                                                 {-margin, 100.0 + margin}, {}, {}, canvas_of_rows(claims))};
+  return {folder / "robustness.png",
+          sketch.draw(folder,
+                      {fmt::format("{} stages drawn from the ranges, intervals at 95 %", draws),
+                       "Part that meets the claim [%]", ""},
+                      {-margin, 100.0 + margin}, {}, {}, canvas_of_rows(claims))};
 }
 
 DrawnFigure draw_influences(const std::filesystem::path& folder, const RobustnessOutput& output) {
   const studies::ParameterSpace& space = output.options.space;
   const std::size_t claims = output.claims.size();
-  const std::size_t variables = space.dimension();
+  const std::vector<studies::Factor> factors = studies::factors(space);
+  const std::size_t variables = factors.size();
   figures::Sketch sketch("influence");
   figures::FigurePanel panel{"", {0.4, static_cast<double>(variables) + 0.6}, {}};
   for (std::size_t v = 0; v < variables; ++v) {
     constexpr std::size_t longest = 34;
-    panel.names.emplace_back(static_cast<double>(variables - v), row_text(words_without_unit(space, v), longest));
+    panel.names.emplace_back(static_cast<double>(variables - v),
+                             row_text(words_without_unit(space, factors[v]), longest));
   }
   sketch.panel(panel);
-  // The largest circle is as high as a row; radii are in units of the abscissa.
-  constexpr double frame_width = 1050.0;
-  const double largest = 0.48 * row_height * static_cast<double>(claims) / frame_width;
+  // Columns are wide enough for a name on edge; the largest circle is as high as a row, or as wide as a column; radii
+  // are in units of the abscissa.
+  constexpr double frame_width_usual = 1050.0;
+  constexpr double narrowest_column = 34.0;
+  figures::FigureCanvas canvas = canvas_of_rows(variables);
+  const double frame_width = std::max(frame_width_usual, narrowest_column * static_cast<double>(claims));
+  canvas.width += static_cast<int>(frame_width - frame_width_usual);
+  const double column = frame_width / static_cast<double>(claims);
+  const double largest = 0.48 * std::min<double>(row_height, column) / column;
   for (const bool positive : {true, false}) {
     std::vector<std::array<double, 3>> circles;
     for (std::size_t k = 0; k < claims; ++k)
@@ -215,16 +227,13 @@ DrawnFigure draw_influences(const std::filesystem::path& folder, const Robustnes
                              positive ? figures::ink::blue : figures::ink::red),
                  positive ? "rank correlation of parameter and score > 0" : "< 0");
   }
-  std::string tics;
-  for (std::size_t k = 0; k < claims; ++k)
-    tics += fmt::format("{}{} {}", k == 0 ? "" : ", ",
-                        figures::gnuplot_quoted(figures::literal_text(output.options.claims[k].name)), k + 1);
-  sketch.command("set xlabel offset 0,0.15");
-  sketch.command("set xtics rotate by 90 right (" + tics + ")");
   const std::size_t draws = output.claims.empty() ? 0 : output.claims.front().draws;
+  figures::FigureText text{"", fmt::format("Claim ({} draws)", draws), ""};
+  constexpr std::size_t longest_name = 24;
+  for (std::size_t k = 0; k < claims; ++k)
+    text.x_names.emplace_back(static_cast<double>(k + 1), row_text(output.options.claims[k].name, longest_name));
   return {folder / "influence.png",
-          sketch.draw(folder, {"", fmt::format("Claim ({} draws)", draws), ""},
-                      {0.4, static_cast<double>(claims) + 0.6}, {}, {}, canvas_of_rows(variables))};
+          sketch.draw(folder, text, {0.4, static_cast<double>(claims) + 0.6}, {}, {}, canvas)};
 }
 
 }  // namespace

@@ -15,15 +15,25 @@ std::string variable_text(const studies::ParameterSpace& space, std::size_t vari
   return choice.options[choice.at(u)].name;
 }
 
-std::string words_without_unit(const studies::ParameterSpace& space, std::size_t variable) {
-  const bool has_words = variable < space.parameters.size() && !space.parameters[variable].words.empty();
-  const std::string words = has_words ? space.parameters[variable].words : variable_name(space, variable);
+std::string factor_name(const studies::ParameterSpace& space, const studies::Factor& factor) {
+  const std::string name = variable_name(space, factor.variable);
+  if (!factor.option) return name;
+  return name + ": " + space.choices[factor.variable - space.parameters.size()].options[*factor.option].name;
+}
+
+std::string words_without_unit(const studies::ParameterSpace& space, const studies::Factor& factor) {
+  const bool has_words = !factor.option && !space.parameters[factor.variable].words.empty();
+  const std::string words = has_words ? space.parameters[factor.variable].words : factor_name(space, factor);
   return words.substr(0, words.find(" ["));
 }
 
 std::string row_text(const std::string& words, std::size_t longest) {
   if (words.size() <= longest) return figures::literal_text(words);
-  return figures::literal_text(words.substr(0, words.rfind(' ', longest)) + " ...");
+  std::size_t cut = words.rfind(' ', longest);
+  if (cut == std::string::npos) cut = longest;
+  const auto continues = [&](std::size_t k) { return (static_cast<unsigned char>(words[k]) & 0xC0U) == 0x80U; };
+  while (cut > 0 && continues(cut)) --cut;  // between two characters of UTF-8
+  return figures::literal_text(words.substr(0, cut) + " ...");
 }
 
 figures::FigureCanvas canvas_of_rows(std::size_t rows) {

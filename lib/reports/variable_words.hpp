@@ -8,6 +8,7 @@
 #include "core/csv.hpp"
 #include "figures/gnuplot.hpp"
 #include "studies/claims_options.hpp"
+#include "studies/robustness.hpp"
 
 namespace epicyclic::reports {
 
@@ -19,9 +20,12 @@ namespace epicyclic::reports {
                                         int digits);
 
 /// What it is in words, without its unit.
-[[nodiscard]] std::string words_without_unit(const studies::ParameterSpace& space, std::size_t variable);
+[[nodiscard]] std::string words_without_unit(const studies::ParameterSpace& space, const studies::Factor& factor);
 
-/// A text beside a row of a figure, cut at a blank.
+/// What may decide a claim: a parameter, or that a choice takes an option.
+[[nodiscard]] std::string factor_name(const studies::ParameterSpace& space, const studies::Factor& factor);
+
+/// A text beside a row of a figure, cut where it is longer than so many bytes, at a blank if there is one.
 [[nodiscard]] std::string row_text(const std::string& words, std::size_t longest);
 
 inline constexpr int row_height = 42;  ///< [pixels]

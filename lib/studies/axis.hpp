@@ -27,6 +27,14 @@ struct Axis {
 /// Are values of two grids the same but for their rounding?
 [[nodiscard]] bool is_same_value(double a, double b);
 
+/// Is a value above a bound, or the bound itself but for rounding?
+[[nodiscard]] inline bool is_at_least(double value, double bound) {
+  return value >= bound || is_same_value(value, bound);
+}
+[[nodiscard]] inline bool is_at_most(double value, double bound) {
+  return value <= bound || is_same_value(value, bound);
+}
+
 /// All values of an axis.
 [[nodiscard]] std::vector<double> axis_values(const Axis& axis);
 

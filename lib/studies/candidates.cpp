@@ -83,7 +83,7 @@ void look_briefly(const ClaimsOptions& options, const Glance& glance, const Swee
   if (results.size() < cells.size()) throw EvaluationStopped();
   for (std::size_t k = 0; k < cells.size(); ++k) {
     results[k].point.value = cells[k].second;
-    record[cells[k].first->name].points.push_back(claim_point(results[k], look));
+    record[cells[k].first->name].points.push_back(claim_point(results[k], look, Looked::briefly));
   }
   if (glance.led_by == SearchLead::motions) return;
   for (const ClaimSweep* sweep : sweeps) {

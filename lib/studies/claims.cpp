@@ -77,7 +77,7 @@ double ClaimPoint::quantity(std::string_view name) const {
 namespace {
 
 /// A short record may end while a motion is still on its way to a periodic one, next to a bifurcation for very long: it
-/// is told by where it goes. Chaos does not come back to a small part of its extent over a whole record.
+/// is told by where it goes at a glance. Chaos does not come back to a small part of its extent over a whole record.
 bool settles(const PointResult& result, const LookOptions& look) {
   constexpr double small_part = 0.1;
   if (result.classified || result.regime == Regime::periodic || result.regime == Regime::chaotic) return false;
@@ -102,13 +102,15 @@ double largest_share(const StageRecord& record) {
 
 }  // namespace
 
-ClaimPoint claim_point(const PointResult& result, const LookOptions& look) {
+ClaimPoint claim_point(const PointResult& result, const LookOptions& look, Looked looked) {
+  const bool told = looked == Looked::in_full || result.classified;
   ClaimPoint point;
   point.value = result.point.value;
   point.reached = result.outcome == integrate::Outcome::reached;
   if (!point.reached) return point;
-  point.motion = {result.regime, result.period, result.classified};
-  if (settles(result, look)) point.motion = {Regime::periodic, result.recurrence.best_period, false};
+  point.motion = {result.regime, result.period, told};
+  if (!told && settles(result, look)) point.motion = {Regime::periodic, result.recurrence.best_period, false};
+  point.settled = point.motion.regime != Regime::periodic || result.recurrence.period > 0;
   const std::size_t planets = result.meshes.sun_planet.size();
   const std::size_t columns = result.poincare_columns;
   const auto column = [&](std::size_t of) {
@@ -119,10 +121,10 @@ ClaimPoint claim_point(const PointResult& result, const LookOptions& look) {
   };
   const auto alone = [&](const analysis::PoincareSection& section) {
     const analysis::Recurrence r = analysis::recurrence(section, look.period_max, look.recurrence_tolerance);
-    if (r.period > 0) return ClaimMotion{Regime::periodic, r.period, result.classified};
+    if (r.period > 0) return ClaimMotion{Regime::periodic, r.period, told};
     if (analysis::still_settling(r, look.recurrence_tolerance))
-      return ClaimMotion{Regime::periodic, r.best_period, result.classified};
-    return ClaimMotion{result.regime == Regime::periodic ? Regime::undecided : result.regime, 0, result.classified};
+      return ClaimMotion{Regime::periodic, r.best_period, told};
+    return ClaimMotion{result.regime == Regime::periodic ? Regime::undecided : result.regime, 0, told};
   };
   const analysis::PoincareSection sun = column(columns - 2 * planets);
   const analysis::PoincareSection ring = column(columns - planets);
@@ -152,16 +154,22 @@ ClaimPoint claim_point(const PointResult& result, const LookOptions& look) {
   return point;
 }
 
+Direction judged_direction(const PointSource& points) {
+  for (std::size_t k = 0; k < points.count; ++k)
+    if (points.read_brief(k).point.direction == Direction::up) return Direction::up;
+  return Direction::down;
+}
+
 ClaimSeries claim_series(const PointSource& points, const LookOptions& look) {
+  const Direction judged = judged_direction(points);
   ClaimSeries series;
   for (std::size_t k = 0; k < points.count; ++k) {
     const PointResult result = points.read(k);
-    auto& list = result.point.direction == Direction::up ? series.points : series.other;
-    list.push_back(claim_point(result, look));
+    auto& list = result.point.direction == judged ? series.points : series.other;
+    list.push_back(claim_point(result, look, Looked::in_full));
   }
   std::ranges::sort(series.points, {}, &ClaimPoint::value);
   std::ranges::sort(series.other, {}, &ClaimPoint::value);
-  if (series.points.empty()) std::swap(series.points, series.other);
   return series;
 }
 
@@ -170,14 +178,17 @@ namespace {
 /// [C-cost]; 0 within.
 double cost_within(double x, double least, double most, double scale) {
   const double d = std::max({0.0, least - x, x - most});
-  if (!(d > 0.0)) return std::isnan(x) ? 1.0 : 0.0;
+  if (std::isnan(x)) return 1.0;
+  if (!(d > 0.0)) return 0.0;
   return step_of_failure + (1.0 - step_of_failure) * d / (d + scale);
 }
 
-std::string bound_text(const Condition& c) {
-  if (c.at_least && c.at_most) return "must be " + number(*c.at_least) + " to " + number(*c.at_most);
-  if (c.at_least) return "must be at least " + number(*c.at_least);
-  return "must be at most " + number(c.at_most.value_or(0.0));
+/// @param percent  bounds are parts of 1, told as the measured ones are
+std::string bound_text(const Condition& c, bool percent = false) {
+  const auto told = [&](double bound) { return percent ? number(100.0 * bound) + " %" : number(bound); };
+  if (c.at_least && c.at_most) return "must be " + told(*c.at_least) + " to " + told(*c.at_most);
+  if (c.at_least) return "must be at least " + told(*c.at_least);
+  return "must be at most " + told(c.at_most.value_or(0.0));
 }
 
 /// Judges a number by at_least and at_most.
@@ -191,9 +202,19 @@ void judge_bounds(const Condition& c, ConditionOutcome& o, double scale) {
 
 /// The part of the sweep that a condition speaks of.
 std::span<const ClaimPoint> part_of(const std::vector<ClaimPoint>& points, const Condition& c) {
-  const auto first = std::ranges::find_if(points, [&](const ClaimPoint& p) { return !c.from || p.value >= *c.from; });
-  const auto last = std::find_if(first, points.end(), [&](const ClaimPoint& p) { return c.to && p.value > *c.to; });
+  const auto first =
+      std::ranges::find_if(points, [&](const ClaimPoint& p) { return !c.from || is_at_least(p.value, *c.from); });
+  const auto last =
+      std::find_if(first, points.end(), [&](const ClaimPoint& p) { return c.to && !is_at_most(p.value, *c.to); });
   return {first, last};
+}
+
+std::size_t number_of(std::span<const ClaimPoint> part, bool (*is)(const ClaimPoint&)) {
+  return static_cast<std::size_t>(std::ranges::count_if(part, is));
+}
+
+std::size_t failed_in(std::span<const ClaimPoint> part) {
+  return number_of(part, [](const ClaimPoint& p) { return !p.reached; });
 }
 
 bool moves(const ClaimPoint& p, std::string_view word) { return p.reached && p.motion.is(word); }
@@ -223,10 +244,6 @@ double best_likeness(std::span<const ClaimPoint> part, std::string_view word) {
   return best;
 }
 
-std::size_t failed_in(std::span<const ClaimPoint> part) {
-  return static_cast<std::size_t>(std::ranges::count_if(part, [](const ClaimPoint& p) { return !p.reached; }));
-}
-
 /// A condition that holds by the points that are there, but not whatever those that failed would have been.
 void withdraw(ConditionOutcome& o) {
   if (!o.holds) return;
@@ -241,9 +258,27 @@ void judge_failed(const Condition& c, std::span<const ClaimPoint> part, double u
   if (c.at_most && o.measured + more > *c.at_most) withdraw(o);
 }
 
-std::string failed_text(std::size_t failed) {
-  if (failed == 0) return {};
-  return "; " + std::to_string(failed) + (failed == 1 ? " point failed" : " points failed");
+/// "; 3 points failed"; nothing of none.
+std::string points_text(std::size_t points, std::string_view did) {
+  if (points == 0) return {};
+  return "; " + std::to_string(points) + (points == 1 ? " point " : " points ") + std::string(did);
+}
+
+/// What a condition's verdict may have missed: points that failed; undecided ones, where it speaks of motions; where
+/// it reads quantities, those whose records were on their way to an orbit.
+std::string doubts_text(const Condition& c, std::span<const ClaimPoint> part) {
+  using enum ConditionKind;
+  const bool reads_motions = !c.motion.empty() || !c.motions.empty() || c.kind == variation || c.kind == alike;
+  const bool reads_quantities = !c.quantity.empty() || c.kind == variation || c.kind == alike;
+  std::string text = points_text(failed_in(part), "failed");
+  if (reads_motions)
+    text += points_text(
+        number_of(part,
+                  [](const auto& p) { return p.reached && p.motion.told && p.motion.regime == Regime::undecided; }),
+        "undecided");
+  if (reads_quantities)
+    text += points_text(number_of(part, [](const auto& p) { return p.reached && !p.settled; }), not_settled);
+  return text;
 }
 
 /// What points lack of a motion by their orbits of period 1.
@@ -278,7 +313,7 @@ void share(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
   judge_bounds(c, o, 1.0);
   judge_failed(c, part, 1.0 / n, o);
   if (c.at_least && o.measured < *c.at_least) lead(lacks(part, c.motion), o);
-  o.text = number(o.measured * 100.0) + " % " + c.motion + range_text(part) + ", " + bound_text(c);
+  o.text = number(o.measured * 100.0) + " % " + c.motion + range_text(part) + ", " + bound_text(c, true);
 }
 
 void count(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
@@ -289,7 +324,8 @@ void count(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
     o.cost = 1.0 - (1.0 - step_of_failure) * best_likeness(part, c.motion);
   if (c.at_least && o.measured < *c.at_least)
     lead(least_lacks(part, c.motion, static_cast<std::size_t>(std::ceil(*c.at_least))), o);
-  o.text = number(o.measured) + " points " + c.motion + range_text(part) + ", " + bound_text(c);
+  o.text = number(o.measured) + (o.measured == 1.0 ? " point " : " points ") + c.motion + range_text(part) + ", " +
+           bound_text(c);
 }
 
 /// What is lacking of a change within its bounds: the one motion before them, and the other beyond. Of the first change
@@ -336,8 +372,8 @@ void change(const Condition& c, std::span<const ClaimPoint> part, ConditionOutco
     lead_to_change(c, part, o);
     return;
   }
-  o.cost = cost_within(o.measured, c.within[0], c.within[1], c.within[1] - c.within[0]);
-  o.holds = o.cost == 0.0;
+  o.holds = is_at_least(o.measured, c.within[0]) && is_at_most(o.measured, c.within[1]);
+  o.cost = o.holds ? 0.0 : cost_within(o.measured, c.within[0], c.within[1], c.within[1] - c.within[0]);
   o.text = words + " at " + number(o.measured) + must;
   lead_to_change(c, part, o);
 }
@@ -363,7 +399,8 @@ void sequence(const Condition& c, std::span<const ClaimPoint> part, ConditionOut
 void value(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
   std::vector<double> values;
   for (const ClaimPoint& p : part)
-    if (p.reached && (c.motion.empty() || p.motion.is(c.motion))) values.push_back(p.quantity(c.quantity));
+    if (p.reached && (c.motion.empty() || p.motion.is(c.motion)) && !std::isnan(p.quantity(c.quantity)))
+      values.push_back(p.quantity(c.quantity));
   o.measured = none;
   if (!values.empty()) {
     switch (c.statistic.value_or(Statistic::largest)) {
@@ -384,7 +421,9 @@ void value(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
   const bool could_break =
       (c.at_most && statistic != Statistic::least) || (c.at_least && statistic != Statistic::largest);
   if (could_break && failed_in(part) > 0) withdraw(o);
-  o.text = c.quantity + " " + number(o.measured) + range_text(part) + ", " + bound_text(c);
+  const std::string of = range_text(part) + ", " + bound_text(c);
+  o.text = values.empty() ? "no " + c.quantity + " of any point" + (c.motion.empty() ? "" : " " + c.motion) + of
+                          : c.quantity + " " + number(o.measured) + of;
 }
 
 void falls(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
@@ -499,7 +538,8 @@ class Steps {
     std::vector<Step> steps;
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
       const double middle = 0.5 * (points[k].value + points[k + 1].value);
-      if ((c_.from && middle < *c_.from) || (c_.to && middle > *c_.to)) continue;
+      if ((c_.from && !is_at_least(points[k].value, *c_.from)) || (c_.to && !is_at_most(points[k + 1].value, *c_.to)))
+        continue;
       if (!counts(points[k]) || !counts(points[k + 1])) continue;
       std::optional<double> beside;
       if (k > 0 && counts(points[k - 1])) beside = step(points[k - 1], points[k]);
@@ -514,13 +554,17 @@ class Steps {
     return steps;
   }
 
-  /// Between points of both directions at one value. What is not periodic differs from record to record.
+  /// Between points of both directions at one value. What is not periodic differs from record to record, and so do
+  /// two that are on their way to one orbit.
   [[nodiscard]] std::vector<Step> across(std::span<const ClaimPoint> part, const std::vector<ClaimPoint>& other) const {
     std::vector<Step> steps;
-    const auto is_periodic = [&](const ClaimPoint& p) { return counts(p) && p.motion.regime == Regime::periodic; };
+    const auto is_orbit = [&](const ClaimPoint& p) {
+      return counts(p) && p.settled && p.motion.regime == Regime::periodic;
+    };
     for (const ClaimPoint& p : part) {
-      const auto twin = std::ranges::find(other, p.value, &ClaimPoint::value);
-      if (twin != other.end() && is_periodic(p) && is_periodic(*twin))
+      const auto twin =
+          std::ranges::find_if(other, [&](const ClaimPoint& one) { return is_same_value(one.value, p.value); });
+      if (twin != other.end() && is_orbit(p) && is_orbit(*twin))
         steps.push_back({relative(p, *twin), p.value, 0.0, true});
     }
     return steps;
@@ -602,7 +646,7 @@ void variation(const Condition& c, std::span<const ClaimPoint> part, ConditionOu
   if (!o.holds && c.at_least)
     o.cost = step_of_failure + (1.0 - step_of_failure) * (1.0 - std::min(1.0, o.measured / *c.at_least));
   o.text = "largest change between neighbours" + range_text(part) + " is " + number(100.0 * o.measured) + " %" +
-           (std::isnan(at) ? "" : " at " + number(at)) + ", " + bound_text(c);
+           (std::isnan(at) ? "" : " at " + number(at)) + ", " + bound_text(c, true);
 }
 
 void alike(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
@@ -618,14 +662,19 @@ void alike(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
   o.measured = same / static_cast<double>(part.size());
   o.error = 0.5 / static_cast<double>(part.size());
   const double correlation = analysis::correlation(sun, ring);
+  const auto varies = [](const std::vector<double>& ranges) {
+    return std::ranges::any_of(ranges, [&](double range) { return range != ranges.front(); });
+  };
   judge_bounds(c, o, 1.0);
   if (c.correlation) {
     o.holds = o.holds && correlation >= *c.correlation;
     o.cost =
         0.5 * (o.cost + (correlation >= *c.correlation ? 0.0 : cost_within(correlation, *c.correlation, 1.0, 1.0)));
   }
-  o.text = "the same motion by both meshes at " + number(100.0 * o.measured) + " %, ranges correlate by " +
-           number(correlation) + ", " + bound_text(c) +
+  o.text = "the same motion by both meshes at " + number(100.0 * o.measured) + " %, " +
+           (varies(sun) && varies(ring) ? "ranges correlate by " + number(correlation)
+                                        : std::string("ranges that do not vary and so do not correlate")) +
+           ", " + bound_text(c, true) +
            (c.correlation ? " and correlate by at least " + number(*c.correlation) : std::string());
 }
 
@@ -636,6 +685,7 @@ void decreasing(const Condition& c, const ClaimRecord& record, ConditionOutcome&
   std::vector<double> most(parts.size(), -std::numeric_limits<double>::infinity());
   std::size_t seen = 0;
   std::size_t failed = 0;
+  std::size_t unsettled = 0;
   for (const ClaimPoint& first : parts.front()) {
     if (first.reached && !c.motion.empty() && !first.motion.is(c.motion)) continue;
     std::vector<const ClaimPoint*> there;
@@ -648,13 +698,18 @@ void decreasing(const Condition& c, const ClaimRecord& record, ConditionOutcome&
     const auto lost = std::ranges::count_if(there, [](const ClaimPoint* p) { return !p->reached; });
     failed += static_cast<std::size_t>(lost);
     if (lost > 0) continue;
+    unsettled += std::ranges::any_of(there, [](const ClaimPoint* p) { return !p->settled; }) ? 1 : 0;
     ++seen;
     for (std::size_t s = 0; s < parts.size(); ++s) most[s] = std::max(most[s], there[s]->quantity(c.quantity));
   }
   o.measured = 0.0;
   if (seen == 0) {
-    o.text =
-        "no point that all sweeps have " + (c.motion.empty() ? "was computed" : "is " + c.motion) + failed_text(failed);
+    o.text = "no point that all sweeps have " + (c.motion.empty() ? "was computed" : "is " + c.motion) +
+             points_text(failed, "failed");
+    return;
+  }
+  if (!std::ranges::all_of(most, [](double x) { return std::isfinite(x); })) {
+    o.text = "no " + c.quantity + " of any point";
     return;
   }
   const auto pairs = static_cast<double>(most.size() - 1);
@@ -673,7 +728,34 @@ void decreasing(const Condition& c, const ClaimRecord& record, ConditionOutcome&
   if (failed > 0) withdraw(o);
   for (std::size_t s = 0; s < most.size(); ++s) o.text += (s == 0 ? "" : ", ") + number(most[s]);
   o.text = "largest " + c.quantity + " of " + std::to_string(seen) + (seen == 1 ? " value: " : " values: ") + o.text +
-           ", must fall" + failed_text(failed);
+           ", must fall" + points_text(failed, "failed") +
+           points_text(unsettled, std::string(not_settled) + " in one of them");
+}
+
+/// Is nothing of what conditions read along a sweep another at any point, by more than integration leaves?
+bool is_inert(const ClaimSeries& series, const std::set<std::string, std::less<>>& quantities) {
+  constexpr double nothing = 1e-5;  // of a quantity
+  return std::ranges::all_of(series.points, [&](const ClaimPoint& p) {
+    const ClaimPoint& first = series.points.front();
+    if (!first.reached || !p.reached || !p.motion.same(first.motion)) return false;
+    const auto is_the_same = [&](const std::string& name) {
+      const double a = first.quantity(name);
+      const double b = p.quantity(name);
+      return std::abs(a - b) <= nothing * std::max({noise, std::abs(a), std::abs(b)});
+    };
+    return variation_between(first, p) < nothing && std::ranges::all_of(quantities, is_the_same);
+  });
+}
+
+/// Of a claim's conditions, those that are read along one of its sweeps.
+std::set<std::string, std::less<>> quantities_along(const Claim& claim, const std::string& sweep) {
+  std::set<std::string, std::less<>> quantities;
+  for (const Condition& c : claim.conditions) {
+    if (c.sweep != sweep && std::ranges::find(c.sweeps, sweep) == c.sweeps.end()) continue;
+    if (!c.quantity.empty()) quantities.insert(c.quantity);
+    if (c.kind == ConditionKind::alike) quantities.insert({"poincare_sp_range", "poincare_rp_range"});
+  }
+  return quantities;
 }
 
 }  // namespace
@@ -726,7 +808,7 @@ ConditionOutcome judge(const Condition& c, const ClaimRecord& record) {
       break;
   }
   if (o.holds) o.cost = 0.0;
-  o.text += failed_text(failed_in(part));
+  o.text += doubts_text(c, part);
   return o;
 }
 
@@ -740,7 +822,8 @@ ClaimOutcome judge(const Claim& claim, const ClaimRecord& record) {
     outcome.cost += outcome.conditions.back().cost / static_cast<double>(claim.conditions.size());
   }
   const std::vector<std::string> sweeps = sweeps_of(claim);
-  outcome.inert = std::ranges::all_of(sweeps, [&](const std::string& name) { return is_inert(record.at(name)); });
+  outcome.inert = std::ranges::all_of(
+      sweeps, [&](const std::string& name) { return is_inert(record.at(name), quantities_along(claim, name)); });
   return outcome;
 }
 
@@ -751,14 +834,6 @@ std::vector<std::string> sweeps_of(const Claim& claim) {
     names.insert(c.sweeps.begin(), c.sweeps.end());
   }
   return {names.begin(), names.end()};
-}
-
-bool is_inert(const ClaimSeries& series) {
-  constexpr double nothing = 1e-5;  // of a range; integration leaves less
-  return std::ranges::all_of(series.points, [&](const ClaimPoint& p) {
-    const ClaimPoint& first = series.points.front();
-    return first.reached && p.reached && p.motion.same(first.motion) && variation_between(first, p) < nothing;
-  });
 }
 
 }  // namespace epicyclic::studies

@@ -13,13 +13,14 @@
 //
 // A change between two motions is told halfway between the two points that it lies between, with half their distance as
 // its error. Points that failed count as no motion at all, and against an upper bound. The Poincare range of period 1
-// is 0.
+// is 0. Grid values are those bounds that they differ from by rounding alone.
 #pragma once
 
 #include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "studies/claims_options.hpp"
@@ -30,13 +31,17 @@
 namespace epicyclic::studies {
 
 /// Of judge(): it changes when what is judged of the same points may change.
-inline constexpr int judging_version = 2;
+inline constexpr int judging_version = 3;
+
+/// How long points were looked at: by a glance, what does not recur counts as chaotic, and what comes nearer and nearer
+/// to recurring as periodic; in full, what evidence does not decide is of no motion.
+enum class Looked { briefly, in_full };
 
 /// What a point moves like, as conditions see it.
 struct ClaimMotion {
   analysis::Regime regime = analysis::Regime::undecided;
   int period = 0;     ///< if periodic
-  bool told = false;  ///< by more than recurrence; otherwise what does not recur counts as chaotic
+  bool told = false;  ///< by more than a glance; otherwise what does not recur counts as chaotic
 
   /// @param word  of is_motion_word()
   [[nodiscard]] bool is(std::string_view word) const;
@@ -47,6 +52,7 @@ struct ClaimMotion {
 struct ClaimPoint {
   double value = 0;
   bool reached = false;
+  bool settled = true;  ///< false where the motion is periodic and the record is on its way to it: it tells no extrema
   ClaimMotion motion;
   ClaimMotion by_sun_mesh, by_ring_mesh;  ///< told from the deflection of planet 1's mesh alone
   std::array<double, claim_quantities.size()> quantities{};
@@ -56,7 +62,7 @@ struct ClaimPoint {
 };
 
 /// @param result  with its Poincare section
-[[nodiscard]] ClaimPoint claim_point(const PointResult& result, const LookOptions& look);
+[[nodiscard]] ClaimPoint claim_point(const PointResult& result, const LookOptions& look, Looked looked);
 
 /// A sweep's points by rising value.
 struct ClaimSeries {
@@ -64,11 +70,17 @@ struct ClaimSeries {
   std::vector<ClaimPoint> other;  ///< at the same values from elsewhere (the other direction), if there are any
 };
 
-/// A sweep's points, up and beside them those down, if there are any.
+/// The direction that verdicts are on: up, or down where there is no other.
+[[nodiscard]] Direction judged_direction(const PointSource& points);
+
+/// A sweep's points in full, up and beside them those down, if there are any.
 [[nodiscard]] ClaimSeries claim_series(const PointSource& points, const LookOptions& look);
 
 /// By the sweeps' names.
 using ClaimRecord = std::map<std::string, ClaimSeries, std::less<>>;
+
+/// As the texts of outcomes call points that are not `settled`.
+inline constexpr std::string_view not_settled = "not settled";
 
 struct ConditionOutcome {
   bool holds = false;
@@ -85,15 +97,12 @@ struct ClaimOutcome {
   bool holds = false;
   double cost = 1;
   std::vector<ConditionOutcome> conditions;
-  bool inert = false;  ///< along none of its sweeps anything changes at all, by symmetry, say
+  bool inert = false;  ///< along its sweeps nothing changes at all of what it speaks of, by symmetry, say
 };
 
 [[nodiscard]] ClaimOutcome judge(const Claim& claim, const ClaimRecord& record);
 
 /// Names of the sweeps that a claim speaks of.
 [[nodiscard]] std::vector<std::string> sweeps_of(const Claim& claim);
-
-/// Does no point of the series differ from the first by more than recurrence can tell?
-[[nodiscard]] bool is_inert(const ClaimSeries& series);
 
 }  // namespace epicyclic::studies

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -162,7 +163,7 @@ struct PartOfSweep {
       Axis axis = sweep.axis;
       axis.points = std::min(points, axis.points);
       Grid grid{key, axis.points, axis_values(axis)};
-      std::erase_if(grid.values, [&](double v) { return v < from || v > to; });
+      std::erase_if(grid.values, [&](double v) { return !is_at_least(v, from) || !is_at_most(v, to); });
       grids.push_back(std::move(grid));
     }
   }
@@ -207,7 +208,7 @@ void check_grid(ProblemList& problems, const std::string& place, const Condition
     bool any = false;
     for (std::size_t k = 0; k + 1 < there; ++k) {
       const double middle = 0.5 * (grid.values[k] + grid.values[k + 1]);
-      any = any || (middle >= c.within[0] && middle <= c.within[1]);
+      any = any || (is_at_least(middle, c.within[0]) && is_at_most(middle, c.within[1]));
     }
     if (!any) problems.refuse(place + "/within", "has no middle of two points; " + words + ": it would never hold");
   }
@@ -252,6 +253,12 @@ void check_part(ProblemList& problems, const std::string& place, const Condition
   }
 }
 
+/// Does a motion that does not recur have to be told from another one for it?
+bool is_told_by_evidence(std::string_view word) {
+  if (word.starts_with("not ")) word.remove_prefix(std::string_view("not ").size());
+  return word == "quasiperiodic" || word == "chaotic" || word == "aperiodic";
+}
+
 /// What a condition wants of the looks, whatever the sweep.
 void check_looks(ProblemList& problems, const std::string& place, const Condition& c, const ClaimsOptions& options) {
   for (const auto& [key, word] : motion_words(c)) {
@@ -265,6 +272,13 @@ void check_looks(ProblemList& problems, const std::string& place, const Conditio
                                              "\", which takes twice as many recorded_periods to be seen; " +
                                              "brief or survey look at fewer");
   }
+  if (options.look.classification_periods == 0)
+    for (const auto& [key, word] : motion_words(c))
+      if (is_told_by_evidence(word))
+        problems.refuse(place + "/" + key,
+                        "is \"" + word +
+                            "\", which nobody tells with classification_periods = 0: what does not recur "
+                            "is undecided");
   if (c.kind == ConditionKind::change && is_motion_word(c.motion) && is_motion_word(c.after) &&
       can_be_both(c.motion, c.after, options.look.period_max))
     problems.refuse(place + "/after", "is \"" + c.after + "\", which a motion that is \"" + c.motion +

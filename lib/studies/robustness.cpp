@@ -117,6 +117,16 @@ std::size_t meeting(const std::vector<const EvaluatedCandidate*>& draws, std::si
 
 }  // namespace
 
+std::vector<Factor> factors(const ParameterSpace& space) {
+  std::vector<Factor> all;
+  for (std::size_t k = 0; k < space.parameters.size(); ++k) all.push_back({k, {}});
+  for (std::size_t k = 0; k < space.choices.size(); ++k) {
+    const std::size_t options = space.choices[k].options.size();
+    for (std::size_t o = options == 2 ? 1 : 0; o < options; ++o) all.push_back({space.parameters.size() + k, o});
+  }
+  return all;
+}
+
 std::vector<OptionRobustness> robustness_by_option(const ClaimsOptions& options, const KnownEvaluations& evaluations) {
   const std::vector<const EvaluatedCandidate*> valid = valid_draws(evaluations);
   std::vector<OptionRobustness> all;
@@ -144,15 +154,16 @@ std::vector<ClaimRobustness> robustness(const ClaimsOptions& options, const Know
     all[claim].holds = meeting(valid, claim);
     all[claim].fraction = analysis::fraction(all[claim].holds, valid.size());
   }
-  for (std::size_t k = 0; k < space.dimension(); ++k) {
+  for (const Factor& factor : factors(space)) {
     // Its values, of the draws that it counts in.
     std::vector<double> values;
     std::vector<const EvaluatedCandidate*> counted;
     for (const EvaluatedCandidate* c : valid) {
       const std::vector<std::size_t> chosen = space.options_at(c->u);
-      const bool is_parameter = k < space.parameters.size();
-      if (is_parameter && !space.counts(space.parameters[k], chosen)) continue;
-      values.push_back(is_parameter ? c->u[k] : static_cast<double>(chosen[k - space.parameters.size()]));
+      if (!factor.option && !space.counts(space.parameters[factor.variable], chosen)) continue;
+      values.push_back(!factor.option                                                        ? c->u[factor.variable]
+                       : chosen[factor.variable - space.parameters.size()] == *factor.option ? 1.0
+                                                                                             : 0.0);
       counted.push_back(c);
     }
     for (std::size_t claim = 0; claim < all.size(); ++claim) {

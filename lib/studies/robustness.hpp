@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "analysis/statistics.hpp"
@@ -45,7 +46,7 @@ struct ClaimRobustness {
   std::size_t draws = 0;  ///< of valid stages
   std::size_t holds = 0;
   analysis::Interval fraction;                 ///< that it holds for, at 95 %
-  std::vector<analysis::Interval> influences;  ///< of each variable: rank correlation of its value and 1 - cost
+  std::vector<analysis::Interval> influences;  ///< of each of factors(): its rank correlation with 1 - cost
 };
 
 /// Of the draws with one option of one choice.
@@ -56,6 +57,16 @@ struct OptionRobustness {
   std::vector<std::size_t> holds;            ///< of each claim
   std::vector<analysis::Interval> fraction;  ///< of each claim, at 95 %
 };
+
+/// What may decide a claim: the value of a parameter, or whether a choice takes an option.
+struct Factor {
+  std::size_t variable = 0;  ///< of the space
+  std::optional<std::size_t> option;
+};
+
+/// All parameters, then the choices: of two options whether it is the second, of more each by itself, since options
+/// have no order.
+[[nodiscard]] std::vector<Factor> factors(const ParameterSpace& space);
 
 /// Choice by choice, option by option.
 [[nodiscard]] std::vector<OptionRobustness> robustness_by_option(const ClaimsOptions& options,

@@ -109,6 +109,11 @@ void check_space(ProblemList& problems, const ParameterSpace& space) {
       if (!times.empty() && !parameters.contains(times))
         problems.refuse(at, "is \"" + times + "\", which is no parameter of the study");
       if (!times.empty() && times == p.name) problems.refuse(at, "is the parameter itself; \"power\" is for that");
+      const auto factor = std::ranges::find(space.parameters, times, &FreeParameter::name);
+      if (factor != space.parameters.end() && !factor->choice.empty() &&
+          (factor->choice != p.choice || factor->option != p.option))
+        problems.refuse(at, "is \"" + times + "\", which counts where \"" + factor->choice + "\" is \"" +
+                                factor->option + "\" alone: bind \"" + p.name + "\" to that option, too");
     }
     for (std::size_t t = 0; t < p.targets.size(); ++t) {
       const ParameterTarget& target = p.targets[t];

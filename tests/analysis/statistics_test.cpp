@@ -118,6 +118,12 @@ TEST(RankCorrelation, IsOfRanksAlone) {
   EXPECT_NEAR(r.low, std::tanh(std::atanh(0.8) - half), rounding);
   EXPECT_NEAR(r.high, std::tanh(std::atanh(0.8) + half), rounding);
   EXPECT_NEAR(rank_correlation(x, x).value, 1.0, rounding);
+  // The same order by chance: of four 1 in 24, of eight 1 in 40320.
+  const std::vector<double> four = {1, 2, 3, 4};
+  const std::vector<double> eight = {1, 2, 3, 4, 5, 6, 7, 8};
+  EXPECT_LT(rank_correlation(four, four).low, 0.0);
+  EXPECT_GE(rank_correlation(four, four).high, rank_correlation(four, four).value);
+  EXPECT_GT(rank_correlation(eight, eight).low, 0.9);
   EXPECT_TRUE(std::isnan(rank_correlation(x, std::vector<double>(5, 1.0)).value));
   EXPECT_TRUE(std::isnan(rank_correlation(std::vector<double>{1, 2, 3}, std::vector<double>{1, 2, 3}).value));
   EXPECT_THROW((void)rank_correlation(x, std::vector<double>{1.0}), DomainError);

@@ -64,6 +64,10 @@ grep -q '2 claims on 3 sweeps' stderr || fail "check says nothing of claims: $(<
 cp stdout resolved.json
 [ "$(code_of "$epicyclic" check resolved.json)" = 0 ] || fail "the resolved input: $(<stderr)"
 cmp -s stdout resolved.json || fail "the resolved input does not resolve to itself"
+# Whole sweeps would tell no chaos; what multiplies has to count where it does.
+[ "$(code_of "$epicyclic" check claims.json --set /study/classification_periods=0)" = 2 ] || fail "chaos that nobody tells: $(<stderr)"
+grep -q '/study/claims/0/conditions/0/motion.*nobody tells' stderr || fail "it is not said: $(<stderr)"
+[ "$(code_of "$epicyclic" check claims.json --set '/study/parameters/0/targets/1/times="T"')" = 2 ] || fail "multiplied by what counts in one reading alone: $(<stderr)"
 
 # Scorecard and figures; each sweep is a study of its own.
 [ "$(code_of "$epicyclic" reproduce claims.json -o one --threads 1)" = 0 ] || fail "reproduce: $(<stderr)"
@@ -80,11 +84,22 @@ grep -q '"mesh_frequency_ratio": 2.5' one/sweeps/alike.json || fail "the sweep i
 [ "$(code_of "$epicyclic" reproduce claims.json -o two --threads 2)" = 0 ] || fail "two threads: $(<stderr)"
 for file in scorecard.csv sweeps/speed/points.csv figures/fig1.dat; do cmp -s "one/$file" "two/$file" || fail "$file differs with two threads"; done
 
+# Of a sweep down alone that is judged and drawn, carried and from cold starts.
+down=(--set '/study/sweeps/0/directions=["down"]' --set '/study/starts=["cold","carried"]')
+[ "$(code_of "$epicyclic" reproduce claims.json -o down "${down[@]}")" = 0 ] || fail "a sweep down: $(<stderr)"
+is_drawn down/figures/fig1
+
 # What was recorded is expected.
 [ "$(code_of "$epicyclic" reproduce claims.json -o one --record)" = 0 ] || fail "record: $(<stderr)"
 [ "$(code_of "$epicyclic" reproduce claims.json -o one)" = 0 ] || fail "as recorded: $(<stderr)"
 [ "$(code_of "$epicyclic" reproduce claims.json -o tight --set /integrator/relative_tolerance=1e-7)" = 0 ] || fail "at another tolerance: $(<stderr)"
 ! grep -q 'not compared' stderr || fail "another tolerance is no other study: $(<stderr)"
+# A claim's words are no part of what is claimed.
+[ "$(code_of "$epicyclic" reproduce claims.json -o said --set '/study/claims/0/text="little of it is chaotic"' --json)" = 0 ] || fail "other words: $(<stderr)"
+! grep -q 'not compared' stderr || fail "other words are no other study: $(<stderr)"
+! grep -q '"another_study"' stdout || fail "other words are told as another study: $(<stdout)"
+[ "$(code_of "$epicyclic" reproduce claims.json -o bounds --set /study/claims/0/conditions/0/at_most=3 --json)" = 0 ] || fail "another bound: $(<stderr)"
+grep -q '"another_study"' stdout && grep -q 'at_most: 4.* there, 3.* here' stdout || fail "nothing was compared, which --json does not say: $(<stdout)"
 # Verdicts that contradict each other, and of claims that nobody makes, are not as recorded.
 cp claims.scorecard.json sound.json
 sed -i 's/"verdicts": \[/&\n{"claim":"A","carried":"fails"}, {"claim":"Z","carried":"holds"},/' claims.scorecard.json
@@ -160,6 +175,13 @@ for claim in A B; do
 done
 # The first candidate is the stage as it is given, planets with unequal errors too.
 [ "$(sed -n 2p c1/candidates.csv | cut -d, -f6-8)" = 2,1.05,400 ] || fail "the first candidate: $(sed -n 2p c1/candidates.csv)"
+
+# Where further numbers that a parameter gives are others in the stage, the first candidate is not the stage.
+errors=/stage/lumped/sun_planet_mesh/error_amplitude_um
+uneven=(--set "$errors=[2, 2.1, 3]" --set "/study/parameters=[{\"name\": \"E\", \"from\": 1, \"to\": 4, \"targets\": [{\"pointer\": \"$errors/0\"}, {\"pointer\": \"$errors/2\"}]}]"
+  --set '/study/choices=null' --set '/study/search={ "seed": 3, "islands": 1, "population": 7, "candidates": 7, "refinement": 0, "profile": 0 }')
+[ "$(code_of "$epicyclic" calibrate claims.json -o uneven "${uneven[@]}")" = 0 ] || fail "uneven errors: $(<stderr)"
+grep -q "the first one has $errors/2 = 2 in place of 3" stderr || fail "it is not said that the first candidate is another: $(<stderr)"
 
 # The survey of draws: the same bytes for any number of threads.
 [ "$(code_of "$epicyclic" robustness claims.json -o r1 --threads 1)" = 0 ] || fail "robustness: $(<stderr)"

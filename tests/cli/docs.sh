@@ -28,14 +28,15 @@ done | sort -u >commands
 [ "$(wc -l <commands)" -ge 20 ] || fail "only $(wc -l <commands) commands were found: $(cat commands)"
 
 few=(--set /study/transient_periods=2 --set /study/recorded_periods=4 --set /study/classification_periods=0)
+told=("${few[@]:0:4}" --set /study/classification_periods=8)  # where chaos is asked for
 plane=(--set /study/first/points=2 --set /study/second/points=2)
 # A name's sweeps are cut where all of them are.
 claims=(--set /study/sweeps/0/points=5 --set /study/sweeps/1/points=2)
 glance=(--set /study/brief/transient_periods=2 --set /study/brief/recorded_periods=4 --set /study/sweeps/0/survey_points=5 --set /study/sweeps/1/survey_points=2)
 declare -A cut=(
   [sweep]="--set /study/points=3 ${few[*]}"
-  [reproduce]="${claims[*]} ${few[*]}"
-  [calibrate]="${claims[*]} ${few[*]} ${glance[*]} --set /study/search/candidates=16 --set /study/search/refinement=0 --set /study/search/profile=0"
+  [reproduce]="${claims[*]} ${told[*]}"
+  [calibrate]="${claims[*]} ${told[*]} ${glance[*]} --set /study/search/candidates=16 --set /study/search/refinement=0 --set /study/search/profile=0"
   [robustness]="${glance[*]} --set /study/survey/draws=2 --set /study/survey/look/transient_periods=2 --set /study/survey/look/recorded_periods=4"
   [map]="${plane[*]} ${few[*]}"
   [basins]="${plane[*]} ${few[*]} --set /study/transient=fixed"
@@ -57,7 +58,7 @@ while IFS= read -r line; do
   # What is said of its time is measured, for seconds by each thread. Stages have no periods.
   if [ "$command" = check ]; then
     arguments+=(--threads 1)
-    ! grep -q '"study"' "${words[2]}" || arguments+=("${few[@]}")
+    ! grep -q '"study"' "${words[2]}" || arguments+=("${told[@]}")
   fi
   # Claims that have a name have more sweeps.
   if [ "$command ${words[2]:-}" = "reproduce tang2020" ]; then

@@ -116,7 +116,8 @@ TEST(PaperRegimes, AGlanceTellsGrowthFromNone) {
   integrator.absolute_tolerance = 1e-5;
   const auto motion_at = [&](double speed) {
     const studies::GridPoint point{0, studies::Direction::up, speed};
-    return studies::claim_point(studies::compute_point_as_swept(point, at(speed), {}, look, integrator, always), look)
+    return studies::claim_point(studies::compute_point_as_swept(point, at(speed), {}, look, integrator, always), look,
+                                studies::Looked::briefly)
         .motion.text();
   };
   EXPECT_EQ(motion_at(1.3), "undecided");

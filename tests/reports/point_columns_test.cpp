@@ -197,7 +197,7 @@ TEST(PointColumns, QuantitiesOfClaimsAreColumnsOfTheirNames) {
   PointResult r = points(planets)[0];
   r.poincare_columns = 2 + 2 * planets;
   r.poincare.assign(r.poincare_columns, 1.0);
-  const studies::ClaimPoint point = studies::claim_point(r, {});
+  const studies::ClaimPoint point = studies::claim_point(r, {}, studies::Looked::in_full);
   std::map<std::string, double> columns;
   for (const store::PointColumn& c : store::point_columns(planets))
     if (const auto* number = std::get_if<store::PointColumn::Getter<double>>(&c.value)) columns[c.name] = (*number)(r);

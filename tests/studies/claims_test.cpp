@@ -16,6 +16,7 @@ using analysis::Regime;
 constexpr std::size_t delta_sp_range = 0;
 constexpr std::size_t poincare_sp_range = 4;
 constexpr std::size_t poincare_rp_range = 5;
+constexpr std::size_t force_sp_max = 12;
 
 /// "1", "2": a period; "c" chaos; "q" a torus; "u" told by nothing; "x" a point that failed.
 ClaimPoint point(double value, char motion, double range = 1.0) {
@@ -199,8 +200,102 @@ TEST(Claims, OnWhatDoesNotVary) {
   EXPECT_TRUE(judge(c, record("1111", {1.0, 1.001, 1.0, 1.0})).holds);
   EXPECT_FALSE(judge(c, record("1111", {1.0, 1.1, 1.0, 1.0})).holds);
   EXPECT_FALSE(judge(c, record("1121")).holds);
-  EXPECT_TRUE(is_inert(record("1111")["s"]));
-  EXPECT_FALSE(is_inert(record("1111", {1.0, 1.001, 1.0, 1.0})["s"]));
+}
+
+TEST(Claims, AreInertWhereNothingThatTheyReadChanges) {
+  Condition c = condition(ConditionKind::variation);
+  c.at_most = 0.01;
+  const auto is_inert = [&](const ClaimRecord& r) { return judge(Claim{"C", "", "", "", 1.0, {c}}, r).inert; };
+  EXPECT_TRUE(is_inert(record("1111")));
+  EXPECT_FALSE(is_inert(record("1111", {1.0, 1.001, 1.0, 1.0})));
+  EXPECT_FALSE(is_inert(record("xxxx")));
+  // A load that grows, borne by a linear stage, leaves the range as it is and not the force.
+  ClaimRecord r = record("111");
+  for (std::size_t k = 0; k < 3; ++k) r["s"].points[k].quantities[force_sp_max] = 1000.0 * static_cast<double>(k + 1);
+  EXPECT_TRUE(is_inert(r));
+  c = condition(ConditionKind::value);
+  c.quantity = "force_sp_max";
+  c.at_most = 1e4;
+  EXPECT_FALSE(is_inert(r));
+}
+
+TEST(Claims, SayWhichPointsTheyCouldNotTell) {
+  Condition c = condition(ConditionKind::value);
+  c.quantity = "delta_sp_range";
+  c.at_most = 5.0;
+  ClaimRecord r = record("112");
+  r["s"].points[1].settled = false;
+  EXPECT_NE(judge(c, r).text.find("1 point not settled"), std::string::npos) << judge(c, r).text;
+  // Two records that are on their way to one orbit are no two motions side by side.
+  c = condition(ConditionKind::jump);
+  c.quantity = "delta_sp_range";
+  c.at_least = 0.1;
+  ClaimRecord both = record("111", {1.0, 1.1, 1.2});
+  both["s"].other = record("111", {1.0, 1.5, 1.2})["s"].points;
+  EXPECT_TRUE(judge(c, both).holds);
+  both["s"].other[1].settled = false;
+  EXPECT_FALSE(judge(c, both).holds);
+  c = condition(ConditionKind::share);
+  c.motion = "not period 1";
+  c.at_least = 0.3;
+  r = record("11c");
+  r["s"].points[2].motion.regime = Regime::undecided;
+  const ConditionOutcome undecided = judge(c, r);
+  EXPECT_TRUE(undecided.holds);
+  EXPECT_NE(undecided.text.find("1 point undecided"), std::string::npos) << undecided.text;
+  EXPECT_NE(undecided.text.find("at least 30 %"), std::string::npos) << undecided.text;
+  c = condition(ConditionKind::value);
+  c.quantity = "delta_sp_range";
+  c.motion = "chaotic";
+  c.at_most = 5.0;
+  EXPECT_NE(judge(c, record("111")).text.find("no delta_sp_range of any point chaotic"), std::string::npos);
+}
+
+TEST(Claims, InFullTakeNothingUndecidedForChaos) {
+  PointResult r;
+  r.outcome = integrate::Outcome::reached;
+  r.regime = Regime::undecided;
+  r.meshes.sun_planet.resize(1);
+  r.meshes.ring_planet.resize(1);
+  r.poincare_columns = 3;
+  for (int k = 0; k < 12; ++k) r.poincare.push_back(std::sin(static_cast<double>(7 * k * k)));
+  EXPECT_TRUE(claim_point(r, {}, Looked::briefly).motion.is("chaotic"));
+  const ClaimPoint in_full = claim_point(r, {}, Looked::in_full);
+  EXPECT_FALSE(in_full.motion.is("chaotic"));
+  EXPECT_FALSE(in_full.by_sun_mesh.is("chaotic"));
+  // Told periodic by its orbit, on its way to it.
+  r.regime = Regime::periodic;
+  r.period = 1;
+  r.classified = true;
+  EXPECT_FALSE(claim_point(r, {}, Looked::in_full).settled);
+  r.recurrence.period = 1;
+  EXPECT_TRUE(claim_point(r, {}, Looked::in_full).settled);
+}
+
+TEST(Claims, TakeBoundsThatGridsMeetButForRounding) {
+  Condition c = condition(ConditionKind::change);
+  c.motion = "period 1";
+  c.after = "not period 1";
+  c.within = {2.0, 2.53};
+  ClaimRecord r = record("12");
+  r["s"].points[0].value = 2.5;
+  r["s"].points[1].value = 2.56;  // 0.5 (2.5 + 2.56) = 2.5300000000000002
+  EXPECT_TRUE(judge(c, r).holds);
+  c = condition(ConditionKind::count);
+  c.motion = "period 1";
+  c.at_least = 2.0;
+  r = record("112");
+  r["s"].points[1].value = 0.1 + 0.2;
+  c.to = 0.3;
+  EXPECT_TRUE(judge(c, r).holds);
+  // A step counts where both of its points do.
+  c = condition(ConditionKind::jump);
+  c.quantity = "delta_sp_range";
+  c.at_least = 0.1;
+  c.from = 1.4;
+  EXPECT_FALSE(judge(c, record("11111", {1.0, 1.02, 1.5, 1.52, 1.54})).holds);
+  c.from = 1.0;
+  EXPECT_TRUE(judge(c, record("11111", {1.0, 1.02, 1.5, 1.52, 1.54})).holds);
 }
 
 TEST(Claims, OnMeshesThatAreAlike) {
@@ -260,7 +355,6 @@ TEST(Claims, AreNotMetByPointsThatFailed) {
   c.at_most = 0.5;
   EXPECT_FALSE(judge(c, record("xxxx")).holds);
   EXPECT_FALSE(judge(c, record("1")).holds);
-  EXPECT_FALSE(is_inert(record("xxxx")["s"]));
   c = condition(ConditionKind::value);
   c.quantity = "delta_sp_range";
   c.at_most = 5.0;
@@ -471,7 +565,11 @@ TEST(ClaimsOptions, RefuseConditionsThatNeverHold) {
   EXPECT_EQ(refused_at(brief), "nowhere");  // evidence is sought for as long as it takes
   brief.look.classification_periods = 0;
   EXPECT_EQ(refused_at(brief), place + "/motion");
+  // What does not recur is undecided then.
   brief.claims[0].conditions[0].motion = "chaotic";
+  EXPECT_EQ(refused_at(brief), place + "/motion");
+  brief.claims[0].conditions[0].motion = "not periodic";
+  EXPECT_EQ(refused_at(brief), "nowhere");
   brief.look.recorded_periods = 1;
   EXPECT_EQ(refused_at(brief), "/recorded_periods");
 }
@@ -532,6 +630,14 @@ TEST(ClaimsOptions, RefuseChoicesThatDecideNothing) {
   EXPECT_EQ(refused_at(options), "nowhere");
   options.space.parameters[0].targets[0].times = "p";
   EXPECT_EQ(refused_at(options), "/parameters/0/targets/0/times");
+  // What multiplies counts wherever what it multiplies does.
+  FreeParameter multiplied{"q", "", "", 0.0, 1.0, Spread::linear, {{"/stage/y", 1, 1, "p"}}, "", ""};
+  options.space.parameters[0].targets[0].times = "";
+  options.space.parameters.push_back(multiplied);
+  EXPECT_EQ(refused_at(options), "/parameters/1/targets/0/times");
+  options.space.parameters[1].choice = "A";
+  options.space.parameters[1].option = "a";
+  EXPECT_EQ(refused_at(options), "nowhere");
 }
 
 }  // namespace

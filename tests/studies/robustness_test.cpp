@@ -117,6 +117,35 @@ TEST(Robustness, TellsPartsAndWhatDecides) {
   EXPECT_TRUE(std::isnan(claims[1].influences[0].value));  // always the same: nothing decides it
 }
 
+TEST(Robustness, TellsWhichOfSeveralReadingsDecides) {
+  ClaimsOptions options = options_of(300);
+  const auto choice = [](const std::vector<std::string>& names) {
+    Choice c{"reading", "unsaid", {}};
+    for (const std::string& name : names) c.options.push_back({name, 1.0, {}});
+    return c;
+  };
+  options.space.choices = {choice({"low", "mid", "high"})};
+  KnownEvaluations all;
+  for (std::size_t d = 0; d < 300; ++d) {
+    EvaluatedCandidate c{{0, d}, draw(options.space, 5, d), {}};
+    // The one in the middle fails; the order of the three tells nothing of that.
+    const bool holds = options.space.options_at(c.u)[0] != 1;
+    c.evaluation.holds = {static_cast<char>(holds), 1};
+    c.evaluation.claim_costs = {holds ? 0.0 : 1.0, 0.0};
+    all.emplace(c.key, c);
+  }
+  const std::vector<Factor> of = factors(options.space);
+  ASSERT_EQ(of.size(), options.space.parameters.size() + 3);
+  const auto influences = robustness(options, all)[0].influences;
+  const std::size_t first = options.space.parameters.size();
+  EXPECT_GT(influences[first].low, 0.2);
+  EXPECT_LT(influences[first + 1].high, -0.9);
+  EXPECT_GT(influences[first + 2].low, 0.2);
+  options.space.choices = {choice({"one", "other"})};
+  ASSERT_EQ(factors(options.space).size(), first + 1);
+  EXPECT_EQ(factors(options.space).back().option, 1U);
+}
+
 TEST(Robustness, TellsWhichReadingMeetsWhat) {
   ClaimsOptions options = options_of(400);
   options.space.choices = {{"reading", "unsaid", {{"one", 1.0, {}}, {"other", 3.0, {}}}}};
