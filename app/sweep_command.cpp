@@ -16,6 +16,7 @@
 #include "progress.hpp"
 #include "reports/crosscheck_output.hpp"
 #include "reports/sweep_output.hpp"
+#include "reports/sweep_summary.hpp"
 #include "stop.hpp"
 #include "studies/crosscheck.hpp"
 
@@ -68,6 +69,15 @@ WrittenPoints write_points(const ComputedPoints& all) {
   return written;
 }
 
+WrittenPoints write_summary(const ComputedPoints& all) {
+  reports::SweepSummary summary = reports::sweep_summary(output_of(all), all.points);
+  write_file_atomically(all.folder / "sweep.md", summary.text);
+  WrittenPoints written;
+  written.lines = std::move(summary.lines);
+  written.summary = std::move(summary.numbers);
+  return written;
+}
+
 /// In the order in which they are handed out: the longest first, but for figures' data, which their pictures wait for.
 std::vector<ResultsPart> parts_of_sweep() {
   std::vector<ResultsPart> parts = {{write_h5}};
@@ -82,6 +92,7 @@ std::vector<ResultsPart> parts_of_sweep() {
       parts.push_back(
           {[figure = figure, picture](const ComputedPoints& all) { return draw_picture(all, figure, picture); }, part});
   parts.push_back({write_points});
+  parts.push_back({write_summary});
   return parts;
 }
 

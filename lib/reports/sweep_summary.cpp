@@ -1,0 +1,319 @@
+#include "reports/sweep_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/largest_difference.hpp"
+#include "core/text.hpp"
+#include "gear/kinematics.hpp"
+#include "reports/markdown.hpp"
+#include "store/point_columns.hpp"
+
+namespace epicyclic::reports {
+
+namespace {
+
+using studies::Course;
+using studies::PointSummary;
+using studies::StageRecord;
+
+bool reached(const PointSummary& r) { return r.outcome == integrate::Outcome::reached; }
+
+/// Of a value along the axis: as its grid has it.
+std::string place(double value) { return short_text(value, 6); }
+
+std::string range_text(double from, double to, int digits) {
+  return from == to ? short_text(from, digits) : short_text(from, digits) + " to " + short_text(to, digits);
+}
+
+/// What is kept of a point.
+struct Place {
+  double value = 0;
+  std::string motion;  ///< or the status
+  bool periodic = false;
+  bool comparable = false;  ///< reached, and settled where the motion is periodic
+  bool told = false;        ///< whether it is known what the motion is
+  double sun_range = 0;
+  std::vector<double> orbit{};  ///< a state of it at the section, where the motion is periodic by evidence
+  std::size_t index = 0;        ///< of the point
+};
+
+Place place_of(const PointSummary& r) {
+  Place p;
+  p.value = r.point.value;
+  p.motion = reached(r) ? motion_name(r) : store::status_word(r.outcome);
+  p.periodic = reached(r) && r.regime == analysis::Regime::periodic;
+  p.comparable = reached(r) && !r.on_its_way();
+  p.told = reached(r) && r.regime != analysis::Regime::undecided;
+  if (p.comparable) {
+    p.sun_range = r.meshes.sun_planet.front().delta.range();
+  }
+  if (p.periodic) p.orbit = r.orbit;
+  p.index = r.point.index;
+  return p;
+}
+
+/// Neighbours from `first` on, `count` of them.
+struct Run {
+  std::size_t first = 0, count = 0;
+};
+
+/// Stretches whose members are alike.
+/// @param alike  of two neighbours
+std::vector<Run> runs(std::size_t count, const std::function<bool(std::size_t, std::size_t)>& alike) {
+  std::vector<Run> all;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (k > 0 && alike(k - 1, k))
+      ++all.back().count;
+    else
+      all.push_back({k, 1});
+  }
+  return all;
+}
+
+/// A number that a sweep has somewhere.
+struct Largest {
+  std::string what, unit;
+  std::function<double(const PointSummary&)> of;
+  std::optional<double> value{};
+  std::string at{};  ///< in words
+};
+
+std::vector<Largest> largest_of() {
+  const auto greatest = [](const std::vector<studies::MeshRecord>& meshes, auto number) {
+    double most = 0.0;
+    for (const studies::MeshRecord& mesh : meshes) most = std::max(most, number(mesh));
+    return most;
+  };
+  const auto force = [](const Course& c) { return c.largest; };
+  return {
+      // The first two are told in short, too.
+      {"dynamic factor of a sun mesh", "1",
+       [](const PointSummary& r) { return r.meshes.dynamic_factor(r.meshes.sun_planet); }},
+      {"dynamic factor of a ring mesh", "1",
+       [](const PointSummary& r) { return r.meshes.dynamic_factor(r.meshes.ring_planet); }},
+      {"force of a sun mesh", "N",
+       [=](const PointSummary& r) {
+         return greatest(r.meshes.sun_planet, [&](const auto& m) { return force(m.force); });
+       }},
+      {"force of a planet's bearing", "N",
+       [=](const PointSummary& r) {
+         double most = 0.0;
+         for (const Course& c : r.meshes.planet_bearing) most = std::max(most, force(c));
+         return most;
+       }},
+      {"peak to peak of delta_sp_1", "b_c",
+       [](const PointSummary& r) { return r.meshes.sun_planet.front().delta.range(); }},
+      {"RMS of delta_sp_1", "b_c", [](const PointSummary& r) { return r.meshes.sun_planet.front().delta.rms; }},
+      {"peak to peak of delta_rp_1", "b_c",
+       [](const PointSummary& r) { return r.meshes.ring_planet.front().delta.range(); }},
+      {"peak to peak of the transmission error", "b_c",
+       [](const PointSummary& r) { return r.meshes.transmission_error.range(); }},
+      {"time that a sun mesh is out of contact", "1",
+       [=](const PointSummary& r) { return greatest(r.meshes.sun_planet, [](const auto& m) { return m.loss(); }); }},
+      {"share of the mean load that a planet carries on its sun mesh", "1",
+       [](const PointSummary& r) {
+         double most = 0.0;
+         for (std::size_t i = 0; i < r.meshes.sun_planet.size(); ++i)
+           most = std::max(most, StageRecord::share(r.meshes.sun_planet, &Course::mean, i));
+         return most;
+       }},
+  };
+}
+
+/// A sweep as it is told.
+class Summary {
+ public:
+  Summary(const SweepOutput& output, const studies::PointSource& points) : output_(output), points_(points) {
+    const auto& directions = output.sweep.directions;
+    ways_.resize(directions.size());
+    const std::size_t each = directions.empty() ? 0 : points.count / directions.size();
+    for (std::size_t k = 0; k < points.count && each > 0; ++k) {
+      const PointSummary r = points.read_brief(k);
+      const std::size_t way = std::min(k / each, directions.size() - 1);
+      ways_[way].push_back(place_of(r));
+      failed_ += reached(r) ? 0 : 1;
+      if (reached(r) && !r.on_its_way()) see(r);
+    }
+    for (auto& way : ways_) std::ranges::sort(way, {}, &Place::value);
+  }
+
+  SweepSummary told() {
+    SweepSummary s;
+    s.text = fmt::format("# {}: what the sweep shows\n\n", markdown_cell(output_.title));
+    std::size_t points = 0;
+    for (const auto& way : ways_) points += way.size();
+    s.text += fmt::format("{} points along `{}`, {} to {}", points, output_.sweep.axis.name,
+                          place(output_.sweep.axis.from), place(output_.sweep.axis.to));
+    for (std::size_t w = 0; w < ways_.size(); ++w) s.text += (w == 0 ? ", " : " and ") + way_word(w);
+    s.text += failed_ > 0 ? fmt::format("; {} failed.\n", failed_) : std::string(".\n");
+    s.text += windows();
+    add_unlike(s);
+    add_largest(s);
+    return s;
+  }
+
+ private:
+  const SweepOutput& output_;
+  const studies::PointSource& points_;
+  std::vector<std::vector<Place>> ways_;  ///< of each direction, by rising value
+  std::size_t failed_ = 0;
+  std::vector<Largest> largest_ = largest_of();
+
+  [[nodiscard]] std::string way_word(std::size_t way) const {
+    return store::direction_word(output_.sweep.directions[way]);
+  }
+
+  void see(const PointSummary& r) {
+    for (Largest& one : largest_) {
+      const double x = one.of(r);
+      if (std::isnan(x) || (one.value && x <= *one.value)) continue;
+      one.value = x;
+      one.at = place(r.point.value);
+      if (output_.sweep.axis.name == studies::speed_parameter && std::isfinite(r.meshes.speeds.sun))
+        one.at += fmt::format(" (sun {} rpm)", short_text(gear::rpm * r.meshes.speeds.sun, 5));
+      one.at += fmt::format(", {}, {}", store::direction_word(r.point.direction), motion_name(r));
+    }
+  }
+
+  [[nodiscard]] std::string windows() const {
+    constexpr std::size_t fewest = 3;
+    std::string rows;
+    std::size_t between = 0;
+    for (std::size_t w = 0; w < ways_.size(); ++w) {
+      const std::vector<Place>& way = ways_[w];
+      for (const Run& run :
+           runs(way.size(), [&](std::size_t a, std::size_t b) { return way[a].motion == way[b].motion; })) {
+        if (run.count < fewest) {
+          between += run.count;
+          continue;
+        }
+        rows += fmt::format("| {} | {} | {} | {} | {} |\n", way_word(w), way[run.first].motion,
+                            place(way[run.first].value), place(way[run.first + run.count - 1].value), run.count);
+      }
+    }
+    std::string text = "\n## Windows\n\nNeighbours that move alike, three at least";
+    text +=
+        between > 0 ? fmt::format("; {} points lie between them, alone or in pairs.\n", between) : std::string(".\n");
+    if (rows.empty()) return text;
+    return text + "\n| direction | motion | from | to | points |\n|---|---|---|---|---|\n" + rows;
+  }
+
+  /// Are they known to be two motions? One is periodic then; tori and chaos are told apart by records that end.
+  [[nodiscard]] bool are_unlike(const Place& a, const Place& b) const {
+    if (!a.told || !b.told || (!a.periodic && !b.periodic)) return false;
+    if (a.motion != b.motion) return true;
+    // Records may be on their way to one orbit for long: it is as near to the other's orbit then as to its own.
+    constexpr double apart = 1e-3;  // [b_c, b_c per tau]
+    constexpr double times = 10.0;
+    if (a.orbit.empty() || a.orbit.size() != b.orbit.size()) return false;
+    if (largest_difference(a.orbit, b.orbit) <= apart) return false;
+    const studies::PointResult record = points_.read(b.index);
+    return distance(record, a.orbit) > apart + times * distance(record, b.orbit);
+  }
+
+  /// Of an orbit's state from the nearest one of a record.
+  static double distance(const studies::PointResult& record, const std::vector<double>& orbit) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t row = 0; row < record.poincare_rows(); ++row)
+      least =
+          std::min(least, largest_difference(orbit, std::span(record.poincare).subspan(row * record.poincare_columns)));
+    return least;
+  }
+
+  void add_unlike(SweepSummary& s) const {
+    if (ways_.size() != 2 || ways_[0].size() != ways_[1].size()) return;
+    const std::vector<Place>& up = ways_[0];
+    const std::vector<Place>& down = ways_[1];
+    std::size_t values = 0;
+    std::size_t untold = 0;
+    std::string rows;
+    std::vector<std::pair<double, double>> stretches;  // of one pair of motions or several, next to each other
+    std::vector<bool> unlike;
+    for (std::size_t k = 0; k < up.size(); ++k) unlike.push_back(are_unlike(up[k], down[k]));
+    const auto alike = [&](std::size_t a, std::size_t b) {
+      return unlike[a] == unlike[b] &&
+             (!unlike[a] || (up[a].motion == up[b].motion && down[a].motion == down[b].motion));
+    };
+    for (const Run& run : runs(up.size(), alike)) {
+      const std::size_t last = run.first + run.count - 1;
+      if (!unlike[run.first]) {
+        for (std::size_t k = run.first; k <= last; ++k) untold += up[k].periodic && down[k].periodic ? 0 : 1;
+        continue;
+      }
+      values += run.count;
+      if (run.first > 0 && unlike[run.first - 1])
+        stretches.back().second = up[last].value;
+      else
+        stretches.emplace_back(up[run.first].value, up[last].value);
+      const auto extents = [&](const std::vector<Place>& way) {
+        std::vector<double> there;
+        for (std::size_t k = run.first; k <= last; ++k)
+          if (way[k].comparable) there.push_back(way[k].sun_range);
+        if (there.empty()) return std::string("not settled");
+        return range_text(std::ranges::min(there), std::ranges::max(there), 3);
+      };
+      rows += fmt::format("| {} | {} | {} | {} | {} |\n", range_text(up[run.first].value, up[last].value, 6),
+                          up[run.first].motion, down[run.first].motion, extents(up), extents(down));
+    }
+    const std::string first = way_word(0);
+    const std::string second = way_word(1);
+    s.text += fmt::format("\n## {} and {}\n\n", first == "up" ? "Up" : "Down", second);
+    s.numbers["unlike"] = {{"values", values}, {"of", up.size()}};
+    if (values == 0) {
+      s.text += "No value is known to have two motions side by side";
+    } else {
+      s.text += fmt::format("At {} of {} values two motions stand side by side", values, up.size());
+      std::string list;
+      constexpr std::size_t most = 4;
+      for (std::size_t k = 0; k < std::min(most, stretches.size()); ++k)
+        list += (k == 0 ? "" : ", ") + range_text(stretches[k].first, stretches[k].second, 6);
+      if (stretches.size() > most) list += fmt::format(" and {} more", stretches.size() - most);
+      s.lines.push_back(fmt::format("two motions side by side at {} of {} values: {}", values, up.size(), list));
+    }
+    if (untold > 0)
+      s.text += fmt::format("; where neither is periodic, or one is not known ({} of the values), nothing here tells",
+                            untold);
+    s.text += ".\n";
+    if (!rows.empty())
+      s.text +=
+          fmt::format(
+              "\n| value | {0} | {1} | peak to peak of delta_sp_1, {0} [b_c] | {1} [b_c] |\n|---|---|---|---|---|\n",
+              first, second) +
+          rows;
+  }
+
+  void add_largest(SweepSummary& s) const {
+    std::string rows;
+    for (const Largest& one : largest_)
+      if (one.value)
+        rows += fmt::format("| {} | {} | {} | {} |\n", one.what, short_text(*one.value, 4), one.unit, one.at);
+    if (rows.empty()) return;
+    s.text +=
+        "\n## Largest\n\nOf the records at `output_phases` a mesh period; where the motion is chaotic, of that one.\n\n"
+        "| what | value | unit | where |\n|---|---|---|---|\n" +
+        rows;
+    const Largest& sun = largest_[0];
+    const Largest& ring = largest_[1];
+    const Largest& factor = ring.value.value_or(0.0) > sun.value.value_or(0.0) ? ring : sun;
+    if (!factor.value) return;
+    s.lines.push_back(fmt::format("largest {}: {} at {}", factor.what, short_text(*factor.value, 4), factor.at));
+    s.numbers["largest_dynamic_factor"] = *factor.value;
+  }
+};
+
+}  // namespace
+
+SweepSummary sweep_summary(const SweepOutput& output, const studies::PointSource& points) {
+  return Summary(output, points).told();
+}
+
+}  // namespace epicyclic::reports

@@ -1,0 +1,103 @@
+// What sweep.md says of points made by hand.
+
+#include "reports/sweep_summary.hpp"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace epicyclic::reports::sweep_summary_test {
+namespace {
+
+using analysis::Regime;
+using studies::PointResult;
+
+/// A motion of period `period` (0: chaos) whose orbit has its states at x, x + 1, ...
+PointResult point(std::size_t index, bool up, double value, int period, double x) {
+  PointResult p;
+  p.point = {index, up ? studies::Direction::up : studies::Direction::down, value};
+  p.regime = period > 0 ? Regime::periodic : Regime::chaotic;
+  p.period = period;
+  p.classified = true;
+  p.recurrence.period = period;
+  p.meshes.sun_planet.resize(1);
+  p.meshes.ring_planet.resize(1);
+  p.meshes.planet_bearing.resize(1);
+  p.meshes.static_force = 100.0;
+  p.meshes.sun_planet[0].delta = {1.0, 2.0 + 0.1 * x, 1.5, 0.2};
+  p.meshes.sun_planet[0].force = {0.0, 200.0 + 10.0 * value, 100.0, 10.0};
+  p.meshes.ring_planet[0].force = {0.0, 150.0, 100.0, 10.0};
+  p.poincare_columns = 3;
+  for (int k = 0; k < period; ++k) {
+    if (k == 0) p.orbit = {x};
+    p.poincare.insert(p.poincare.end(), {x + k, 0.0, 0.0});
+  }
+  return p;
+}
+
+/// Up at 1, 2, ..., then down; each with its period and place.
+std::vector<PointResult> sweep(const std::vector<std::pair<int, double>>& up,
+                               const std::vector<std::pair<int, double>>& down) {
+  std::vector<PointResult> all;
+  for (std::size_t k = 0; k < up.size(); ++k)
+    all.push_back(point(k, true, static_cast<double>(k + 1), up[k].first, up[k].second));
+  for (std::size_t k = down.size(); k-- > 0;)
+    all.push_back(point(all.size(), false, static_cast<double>(k + 1), down[k].first, down[k].second));
+  return all;
+}
+
+SweepSummary told(const std::vector<PointResult>& points) {
+  SweepOutput output;
+  output.sweep.axis = {"damping_ratio", 1.0, static_cast<double>(points.size() / 2),
+                       static_cast<int>(points.size() / 2)};
+  output.sweep.directions = {studies::Direction::up, studies::Direction::down};
+  output.title = "by hand";
+  return sweep_summary(output, studies::points_in_memory(points));
+}
+
+TEST(SweepSummary, TellsWindows) {
+  const std::string text =
+      told(sweep({{1, 0}, {1, 0}, {1, 0}, {2, 0}, {0, 0}}, {{1, 0}, {1, 0}, {1, 0}, {1, 0}, {0, 0}})).text;
+  EXPECT_NE(text.find("| up | period 1 | 1 | 3 | 3 |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| down | period 1 | 1 | 4 | 4 |"), std::string::npos) << text;
+  EXPECT_NE(text.find("3 points lie between them"), std::string::npos) << text;
+}
+
+TEST(SweepSummary, TellsWhereTwoMotionsStandSideBySide) {
+  // Another period at 2, another orbit at 4 and 5; nothing at 3, where both are chaos.
+  const SweepSummary s =
+      told(sweep({{1, 0}, {1, 0}, {0, 0}, {1, 0}, {1, 0}, {1, 0}}, {{1, 0}, {2, 0}, {0, 5}, {1, 3}, {1, 3}, {1, 0}}));
+  EXPECT_EQ(s.numbers["unlike"]["values"], 3);
+  EXPECT_EQ(s.lines.front(), "two motions side by side at 3 of 6 values: 2, 4 to 5");
+  EXPECT_NE(s.text.find("(1 of the values), nothing here tells"), std::string::npos) << s.text;
+}
+
+TEST(SweepSummary, TakesNoOrbitSeenAtAnotherInstantOrOnItsWayForASecondOne) {
+  std::vector<PointResult> points = sweep({{2, 0}, {1, 0}}, {{2, 0}, {1, 0}});
+  // Down the orbit of period 2 is known by its other state; of that of period 1 the record is a third of b_c off.
+  points[3].orbit = {1.0};
+  points[2].poincare[0] = 0.3;
+  points[2].orbit = {2e-3};
+  EXPECT_EQ(told(points).numbers["unlike"]["values"], 0);
+  points[2].orbit = {0.3};
+  EXPECT_EQ(told(points).numbers["unlike"]["values"], 1);
+}
+
+TEST(SweepSummary, TellsWhereTheLargestForceIs) {
+  std::vector<PointResult> points = sweep({{1, 0}, {1, 0}}, {{1, 0}, {1, 0}});
+  points[0].meshes.ring_planet[0].force.largest = 400.0;
+  SweepSummary s = told(points);
+  EXPECT_EQ(s.numbers["largest_dynamic_factor"], 4.0);
+  EXPECT_EQ(s.lines.back(), "largest dynamic factor of a ring mesh: 4 at 1, up, period 1");
+  // Not what a record on its way to its orbit says, and not of one that failed.
+  points[0].recurrence.period = 0;
+  points[1].outcome = integrate::Outcome::diverged;
+  s = told(points);
+  EXPECT_NEAR(s.numbers["largest_dynamic_factor"].get<double>(), 2.2, 1e-12);
+  EXPECT_EQ(s.lines.back(), "largest dynamic factor of a sun mesh: 2.2 at 2, down, period 1");
+  EXPECT_NE(s.text.find("1 failed"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace epicyclic::reports::sweep_summary_test
