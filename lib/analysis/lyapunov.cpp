@@ -1,6 +1,7 @@
 #include "analysis/lyapunov.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "core/dense.hpp"
 #include "core/errors.hpp"
+#include "core/random_numbers.hpp"
 #include "core/require.hpp"
 
 namespace epicyclic::analysis {
@@ -81,7 +83,12 @@ LyapunovSpectrum lyapunov_spectrum(integrate::Flow& flow, std::span<double> stat
   if (!(interval > 0.0)) throw DomainError("a field without a period is asked for exponents without an interval");
   const auto rows = static_cast<Eigen::Index>(n);
   const auto columns = static_cast<Eigen::Index>(m);
-  Eigen::MatrixXd v = Eigen::MatrixXd::Identity(rows, columns);
+  // Vectors along the axes could lie in a subspace that the motion keeps (planets in step, say) and would leave it by
+  // rounding alone: the exponents would come in another order than by size.
+  Eigen::MatrixXd v(rows, columns);
+  std::uint64_t number = 0;
+  for (double& x : v.reshaped()) x = random_uniform(1, ++number) - 0.5;
+  (void)orthonormalise(v);
   double s = 0.0;
   for (int k = -options.aligning_intervals; k < options.intervals; ++k) {
     if (!go_on()) return result;

@@ -19,9 +19,6 @@ namespace epicyclic::analysis {
 
 namespace {
 
-/// Votes of the 0-1 test. Between them it abstains.
-constexpr double regular_vote = 0.3;
-constexpr double chaotic_vote = 0.5;
 constexpr int least_look = 16;
 /// Periods that an exponent's interval needs; the 0-1 test needs twice as many, and takes the look before along.
 constexpr int growth_look = 128;

@@ -23,4 +23,8 @@ namespace epicyclic::analysis {
 /// @throws DomainError for a shorter series or fewer than one angle
 [[nodiscard]] double zero_one_test(std::span<const double> series, double noise = 0.0, int angles = 100);
 
+/// K up to the first speaks for a regular motion, above the second for chaos; between them it abstains.
+inline constexpr double regular_vote = 0.3;
+inline constexpr double chaotic_vote = 0.5;
+
 }  // namespace epicyclic::analysis

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -224,17 +225,17 @@ class Plot {
     if (not_positive_ > 0)
       notes_.push_back(
           fmt::format("{}: {} values that are not positive have no place on a logarithmic scale", stem, not_positive_));
-    if (not_settled_ > 0)
-      notes_.push_back(fmt::format(
-          "{}: at {} points the record was still on its way to the motion (settled of points.csv): no line joins them",
-          stem, not_settled_));
+    note_points(stem);
     return all;
   }
 
   std::vector<DrawnFigure> draw_map(const std::filesystem::path& folder) {
     const PlottedStudy& of = studies_.front();
     const auto& map = std::get<studies::MapOptions>(of.study->plan);
-    const Columns table(of.folder / "points.csv", {"direction", options_.quantity});
+    std::vector<std::string> wanted{"direction", "status", options_.quantity};
+    const bool tells_settled = has(header_of(of.folder / "points.csv"), "settled");
+    if (tells_settled) wanted.emplace_back("settled");
+    const Columns table(of.folder / "points.csv", wanted);
     const figures::CellGrid grid{axis_values(map.plane.first), axis_values(map.plane.second)};
     const std::size_t cells = grid.x.size() * grid.y.size();
     std::vector<DrawnFigure> all;
@@ -245,7 +246,13 @@ class Plot {
       for (std::size_t k = 0; k < cells && d * cells + k < table.rows(); ++k) {
         const std::size_t step = k % columns;
         const std::size_t column = map.directions[d] == studies::Direction::up ? step : columns - 1 - step;
-        values[k - step + column] = factor_ * table.number(options_.quantity, d * cells + k);
+        const std::size_t row = d * cells + k;
+        if (table.word("status", row) != "ok") {
+          ++failed_;
+          continue;
+        }
+        if (tells_settled && table.number("settled", row) != 1.0) ++not_settled_;
+        values[k - step + column] = factor_ * table.number(options_.quantity, row);
       }
       const std::string way = store::direction_word(map.directions[d]);
       figures::FigureText text{title(), parameter_label(map.plane.first.name), parameter_label(map.plane.second.name),
@@ -258,10 +265,21 @@ class Plot {
                                                     figures::Pictures::none)),
                         std::back_inserter(all));
     }
+    note_points(options_.quantity);
     return all;
   }
 
  private:
+  /// What of the points is not drawn, or not what it seems.
+  void note_points(const std::string& stem) const {
+    if (failed_ > 0) notes_.push_back(fmt::format("{}: {} points that were not reached are left out", stem, failed_));
+    if (not_settled_ > 0)
+      notes_.push_back(fmt::format(
+          "{}: at {} points the record was still on its way to the motion (settled of points.csv): their values are "
+          "not the motion's, and no line joins them",
+          stem, not_settled_));
+  }
+
   struct Series {
     std::size_t study = 0;
     std::string way;            ///< "up", "down"; empty: neither
@@ -332,8 +350,12 @@ class Plot {
     };
     for (std::size_t row = 0; row < points.rows(); ++row) {
       Series& s = series_at(row);
-      if (section) continue;
       const bool reached = points.word("status", row) == "ok";
+      if (!reached) ++failed_;
+      if (section) {
+        if (reached && tells_settled && points.number("settled", row) != 1.0) ++not_settled_;
+        continue;
+      }
       const Place at = reached ? place(points.number(x, row), points.number(options_.quantity, row)) : gap;
       s.rows.push_back(at);
       // No line goes through chaos, where such numbers are a matter of chance, or through a record on its way.
@@ -346,16 +368,31 @@ class Plot {
       const Columns rows(folder / "poincare.csv", {"point", options_.quantity});
       for (std::size_t row = 0; row < rows.rows(); ++row) {
         const auto point = static_cast<std::size_t>(rows.number("point", row));
-        if (point < points.rows())
+        if (point < points.rows() && points.word("status", point) == "ok")
           series_at(point).rows.push_back(place(points.number(x, point), rows.number(options_.quantity, row)));
       }
     }
     std::ranges::move(ways, std::back_inserter(series_));
   }
 
+  /// Where branches gain or lose stability: behind which of their orbits (branch, index), at which value.
+  static std::map<std::pair<std::string, std::string>, double> stability_changes(const std::filesystem::path& folder) {
+    std::map<std::pair<std::string, std::string>, double> changes;
+    const Columns special(folder / "special.csv", {"branch", "kind", "after", "value"});
+    for (std::size_t row = 0; row < special.rows(); ++row)
+      if (std::ranges::count(std::array{"fold", "flip", "neimark_sacker", "branch_point"}, special.word("kind", row)) >
+          0)
+        changes.emplace(std::pair(special.word("branch", row), special.word("after", row)),
+                        special.number("value", row));
+    return changes;
+  }
+
   void read_branches(std::size_t k) {
     const std::string x = abscissa_or("value");
-    const Columns table(studies_[k].folder / "branch.csv", {"branch", "stable", x, options_.quantity});
+    std::vector<std::string> wanted{"branch", "index", "stable", "value", options_.quantity};
+    if (x != "value") wanted.push_back(x);
+    const Columns table(studies_[k].folder / "branch.csv", wanted);
+    const auto changes = stability_changes(studies_[k].folder);
     Series s{k, {}, true, false, {}, {}};
     for (std::size_t row = 0; row < table.rows(); ++row) {
       const bool begins = row == 0 || table.word("branch", row) != table.word("branch", row - 1);
@@ -365,10 +402,20 @@ class Plot {
         s.rows.push_back(gap);
         s.joined.push_back(gap);
       } else if (stable != (table.number("stable", row - 1) == 1.0)) {
-        // A line goes on to the first orbit of the other kind.
+        // Lines change where the branch does, between the two orbits; beyond a fold, which lies beyond both, halfway.
+        const double last = table.number("value", row - 1);
+        const auto change = changes.find({table.word("branch", row), table.word("index", row - 1)});
+        double part = change == changes.end() ? 1.0 : (change->second - last) / (table.number("value", row) - last);
+        const bool is_between = part > 0.0 && part <= 1.0;
+        if (!is_between) part = 0.5;
+        const auto between = [&](const std::string& column) {
+          return (1.0 - part) * table.number(column, row - 1) + part * table.number(column, row);
+        };
+        const Place there = place(is_between || x != "value" ? between(x) : change->second, between(options_.quantity));
         auto& before = stable ? s.joined : s.rows;
-        before.push_back(at);
+        before.push_back(there);
         before.push_back(gap);
+        (stable ? s.rows : s.joined).push_back(there);
       }
       (stable ? s.rows : s.joined).push_back(at);
     }
@@ -502,6 +549,7 @@ class Plot {
   FigureRange x_, y_;
   std::pair<FigureRange, FigureRange> shown_;  ///< of the axes
   std::size_t not_settled_ = 0;                ///< points whose record is on its way to their motion
+  std::size_t failed_ = 0;                     ///< points that were not reached
   std::size_t not_positive_ = 0;               ///< values that a logarithmic scale has no place for
 };
 

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/zero_one_test.hpp"
 #include "core/csv.hpp"
 #include "core/text.hpp"
 #include "model/scales.hpp"
@@ -295,6 +296,8 @@ void write_exponents(store::Hdf5File& h5, const RunResult& r) {
   g.number("sum", e.sum.value * r.omega, "per tau");
   g.number("sum_half_width", e.sum.half_width * r.omega, "per tau");
   g.number("dimension", r.dimension, "-");
+  g.number("dimension_low", r.dimension_low, "-");
+  g.number("dimension_high", r.dimension_high, "-");
   if (!r.checks) return;
   Group checks(h5, "/exponents/checks");
   checks.integer("intervals", r.checks->intervals, "mesh periods");
@@ -441,7 +444,11 @@ std::string regime_sentence(const RunResult& r) {
       return "Quasiperiodic: tangent vectors neither grow nor shrink, as beside a torus, and the 0-1 test says "
              "regular.";
     case Regime::chaotic:
-      return "Chaotic: the largest exponent is positive by its interval, and the 0-1 test agrees.";
+      return std::string("Chaotic: the largest exponent is positive by its interval") +
+             (!p.evidence.zero_one                            ? "."
+              : *p.evidence.zero_one > analysis::chaotic_vote ? ", and the 0-1 test agrees."
+              : *p.evidence.zero_one > analysis::regular_vote ? " and all along; the 0-1 test abstains."
+                                                              : " and all along, though the 0-1 test says regular.");
     case Regime::undecided:
       break;
   }
@@ -590,9 +597,14 @@ std::string exponents_text(const RunResult& r) {
                     with_error(x.value * mesh_period, x.half_width * mesh_period)});
   }
   text += aligned(rows) + "\n";
-  text += bullet(fmt::format("Counted over {:g} mesh periods, {} exponents. Dimension of Kaplan and Yorke: {:.4g}.",
+  const std::string dimension = short_text(r.dimension, 4);
+  const std::string low = short_text(r.dimension_low, 4);
+  const std::string high = short_text(r.dimension_high, 4);
+  // Beside an exponent of zero, a torus', rounding would decide.
+  text += bullet(fmt::format("Counted over {:g} mesh periods, {} exponents. Dimension of Kaplan and Yorke: {}{}.",
                              static_cast<double>(e.growth.size() / e.exponents) * e.interval / mesh_period, e.exponents,
-                             r.dimension));
+                             dimension,
+                             low == high ? "" : fmt::format("; by the exponents' intervals {} to {}", low, high)));
   if (!r.checks) return text;
   text += bullet(fmt::format(
       "Sum of all: {:.10g} per tau; mean divergence of the field along the same motion: {:.10g}; difference "

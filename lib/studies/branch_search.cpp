@@ -1,6 +1,7 @@
 #include "studies/branch_search.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -42,8 +43,9 @@ FoundMotions search_motions(const BranchSystem& system, const model::DynamicMode
   const analysis::OrbitSearch found = search_orbits(family, value, starts, search);
 
   FoundMotions result{value, starts.size(), 0};
-  result.missed = static_cast<std::size_t>(
-      std::ranges::count_if(found.missed, [&](const auto& m) { return m.period == options.largest_period; }));
+  std::set<std::size_t> led;
+  for (const analysis::FoundOrbit& f : found.orbits) led.insert(f.starts.begin(), f.starts.end());
+  result.missed = starts.size() - led.size();
   for (const analysis::FoundOrbit& f : found.orbits)
     result.motions.push_back({f.orbit, f.family.period, f.family.pieces, f.keeps_symmetry(), f.images, f.unstable,
                               f.multiplier_max, f.starts.size()});

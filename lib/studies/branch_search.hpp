@@ -29,7 +29,7 @@ struct FoundMotion {
 struct FoundMotions {
   double value = 0;
   std::size_t starts = 0;  ///< in all
-  std::size_t missed = 0;  ///< that led to none of the longest period sought or its divisors
+  std::size_t missed = 0;  ///< that led to no motion
   std::vector<FoundMotion> motions{};
 };
 

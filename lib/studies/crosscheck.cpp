@@ -52,19 +52,18 @@ class Examiner {
              Comparison& c) const {
     if (!reached(reference) || !reached(c.result)) {
       c.distance = nan;
-      c.verdict = reference.outcome == c.result.outcome ? Verdict::agree : Verdict::not_reached;
+      c.verdict = Verdict::not_reached;
       c.detail = "reference: " + (reached(reference) ? "ok" : reference.message) +
                  "; variant: " + (reached(c.result) ? "ok" : c.result.message);
       return;
     }
     const Pair both{point, variants_[0], reference, variants_[c.variant], c.result};
     c.distance = distance(both);
-    if (same(both)) return;
     if (chaotic(reference) && chaotic(c.result)) {
       c.distance = nan;
       c.detail = "both chaotic, largest exponents " + exponent_of(reference) + " and " + exponent_of(c.result);
-      return;
     }
+    if (same(both)) return;
     explain(both, start, c);
   }
 
@@ -104,8 +103,10 @@ class Examiner {
     return most;
   }
 
-  /// One regime, and state by state one motion.
+  /// One regime, and state by state one motion; where both are chaotic, one growth, to within both intervals.
   [[nodiscard]] bool same(const Pair& both) const {
+    if (chaotic(both.our_motion) && chaotic(both.their_motion))
+      return overlap(both.our_motion.lyapunov_max(), both.their_motion.lyapunov_max());
     return both.our_motion.regime == both.their_motion.regime && both.our_motion.period == both.their_motion.period &&
            distance(both) <= options_.orbit_tolerance;
   }
@@ -180,7 +181,9 @@ class Examiner {
     const PointResult their_tight = compute(point, tight_other, start, look_);
     const Pair tight{point, tight_ours, our_tight, tight_other, their_tight};
     if (reached(our_tight) && reached(their_tight) && same(tight))
-      return done(Verdict::tolerance, "at tolerances 100 times tighter the distance is " + short_text(distance(tight)));
+      return done(Verdict::tolerance, chaotic(our_tight) ? "at tolerances 100 times tighter both grow alike"
+                                                         : "at tolerances 100 times tighter the distance is " +
+                                                               short_text(distance(tight)));
     follow(both, c);
   }
 
@@ -201,7 +204,7 @@ class Examiner {
       followed_for += more;
       const std::string after = "after " + std::to_string(followed_for) + " more periods ";
       const Pair last{point, ours, our_last, other, their_last};
-      if (chaotic(our_last) && chaotic(their_last))
+      if (chaotic(our_last) && chaotic(their_last) && same(last))
         return done(Verdict::chaos, after + "both are chaotic, largest exponents " + exponent_of(our_last) + " and " +
                                         exponent_of(their_last));
       if (torus(our_last) && torus(their_last))
@@ -216,7 +219,7 @@ class Examiner {
         if (const std::string two = two_motions(last); !two.empty()) return done(Verdict::coexisting, after + two);
     }
     const std::string motions = "reference " + motion_text(reference) + "; variant " + motion_text(result);
-    if (chaotic(our_last) || chaotic(their_last))
+    if (chaotic(our_last) != chaotic(their_last))
       return done(Verdict::chaos,
                   "largest exponents " + exponent_of(our_last) + " and " + exponent_of(their_last) + "; " + motions);
     // Growth so slow that one record tells it and the other does not: what is measured agrees.
@@ -226,6 +229,9 @@ class Examiner {
       return done(Verdict::chaos,
                   "one is undecided, and the largest exponents agree by their intervals: " + exponent_of(reference) +
                       " and " + exponent_of(result) + "; " + motions + "; followed, neither is told chaotic");
+    if (chaotic(our_last) && chaotic(their_last))
+      return done(Verdict::unexplained, "both are chaotic and their exponents differ by more than their intervals, " +
+                                            exponent_of(our_last) + " and " + exponent_of(their_last) + "; " + motions);
     done(Verdict::unexplained, "distance " + short_text(c.distance) + "; " + motions);
   }
 

@@ -38,7 +38,8 @@ struct Variant {
                                                        double study_smoothing);
 
 enum class Verdict {
-  agree,        ///< the same regime, and where it is periodic the same period and orbit
+  agree,        ///< the same regime; where it is periodic the same period and orbit, where chaotic the same exponent,
+                ///< to within both intervals
   coexisting,   ///< each method stays on the other's motion: both are motions of the stage
   tolerance,    ///< with tolerances a hundred times tighter they agree
   smoothing,    ///< with the reference's smoothing they agree

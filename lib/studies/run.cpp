@@ -387,10 +387,15 @@ class Run {
     });
     const std::size_t m = r.exponents.exponents;
     if (!go_on_() || !r.exponents.evolution.reached() || intervals == 0) return;
-    std::vector<double> values;
-    for (const analysis::Estimate& e : r.exponents.per_s) values.push_back(e.value);
-    std::sort(values.rbegin(), values.rend());
-    r.dimension = analysis::kaplan_yorke_dimension(values);
+    const auto dimension = [&](auto number) {
+      std::vector<double> values;
+      for (const analysis::Estimate& e : r.exponents.per_s) values.push_back(number(e));
+      std::sort(values.rbegin(), values.rend());
+      return analysis::kaplan_yorke_dimension(values);
+    };
+    r.dimension = dimension([](const analysis::Estimate& e) { return e.value; });
+    r.dimension_low = dimension([](const analysis::Estimate& e) { return e.low(); });
+    r.dimension_high = dimension([](const analysis::Estimate& e) { return e.high(); });
 
     ExponentChecks checks;
     const double time = static_cast<double>(intervals) * period / model_.omega;

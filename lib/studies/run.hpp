@@ -92,6 +92,7 @@ struct RunResult {
   analysis::LyapunovSpectrum exponents;  ///< per unit of s; empty if none were asked for
   std::optional<ExponentChecks> checks{};
   double dimension = 0;                            ///< Kaplan and Yorke's
+  double dimension_low = 0, dimension_high = 0;    ///< the same at both ends of all exponents' intervals
   std::optional<analysis::Estimate> transverse{};  ///< exponent of the synchronous motion's transverse directions,
                                                    ///< per tau; where the stage is symmetric
   std::optional<analysis::PeriodicOrbit> orbit{};  ///< if periodic

@@ -61,9 +61,24 @@ TEST(LyapunovSpectrum, OfRoessler) {
 }
 
 TEST(LyapunovSpectrum, OfDuffing) {
-  const SpectrumOptions options{.aligning_intervals = 100, .intervals = 6000};
+  const SpectrumOptions options{.aligning_intervals = 100, .intervals = 12000};
   const LyapunovSpectrum s = spectrum(problems::duffing(0.25, -1.0, 0.4, 1.0), {1.0, 0.0}, options, 1e-8);
   expect_published(s, {0.1569, -0.4069});
+}
+
+TEST(LyapunovSpectrum, ComesBySizeWhateverSubspacesTheMotionKeeps) {
+  // Of y_1' = -2 y_1, y_2' = -y_2 / 2, y_3' = -y_3 each axis is kept.
+  const VectorField apart = integrate::make_field(3, 0.0, [](std::size_t, double, const auto* y, auto* d) {
+    d[0] = -2.0 * y[0];
+    d[1] = -0.5 * y[1];
+    d[2] = -1.0 * y[2];
+  });
+  const SpectrumOptions options{.aligning_intervals = 60, .intervals = 20, .interval = 1.0};
+  const LyapunovSpectrum s = spectrum(apart, {1.0, 1.0, 1.0}, options, 1e-10);
+  constexpr double tolerance = 1e-8;
+  EXPECT_NEAR(s.per_s[0].value, -0.5, tolerance);
+  EXPECT_NEAR(s.per_s[1].value, -1.0, tolerance);
+  EXPECT_NEAR(s.per_s[2].value, -2.0, tolerance);
 }
 
 TEST(LyapunovSpectrum, AddsUpToTheDivergence) {

@@ -16,7 +16,7 @@ swept two --set /stage/lumped/sun_planet_mesh/damping_ratio=0.08
 "$epicyclic" map "$inputs/tang2020_map.json" -o map --set '/study/directions=["up", "down"]' --set /study/first/points=3 --set /study/second/points=2 "${few[@]}" >/dev/null 2>&1 || fail "the map"
 "$epicyclic" run "$inputs/tang2020_run.json" -o run --set /study/transient=fixed "${few[@]}" --set /study/exponent_periods=0 \
   --set /study/spectrum_periods=16 --set /study/history_periods=2 >/dev/null 2>&1 || fail "the run"
-"$epicyclic" continue "$inputs/tang2020_branches_fixed_ring.json" -o branches --set /study/from=3 --set /study/to=3.2 --set '/study/starts=[3.1]' \
+"$epicyclic" continue "$inputs/tang2020_branches_fixed_ring.json" -o branches --set /study/from=2.1 --set /study/to=2.3 --set '/study/starts=[2.25]' \
   --set /study/largest_period=1 --set /study/tolerance=1e-8 --set /study/branch_points=false >/dev/null 2>&1 || fail "the branches"
 rm one/journal.bin
 cp -r one before
@@ -54,6 +54,26 @@ grep -q 'µm' first/*.gp || fail "no micrometres"
 grep -q 'size 900,600' first/*.gp || fail "another size"
 um=$(column one/points.csv delta_sp_range | head -1)
 awk -v um="$um" 'NF >= 2 && $2 / um > 9.9999999 && $2 / um < 10.0000001 { found = 1 } END { exit !found }' first/*.dat || fail "micrometres"
+
+# Cells and points that were not reached have no place; those on their way are told.
+# spoiled FROM TO AWK: a copy whose points.csv is another, as if the study had left it so.
+spoiled() {
+  cp -r "$1" "$2"
+  awk -F, -v OFS=, "NR == 1 { for (k = 1; k <= NF; ++k) at[\$k] = k } $3 { print }" "$1/points.csv" >"$2/points.csv"
+  local was is
+  was=$(sha256sum <"$1/points.csv") && is=$(sha256sum <"$2/points.csv")
+  sed -i "s/${was%% *}/${is%% *}/; s/\"bytes\": $(stat -c %s "$1/points.csv"),/\"bytes\": $(stat -c %s "$2/points.csv"),/" "$2/run.json"
+}
+spoiled map lost 'NR == 2 { $at["status"] = "step_limit" } NR == 3 { $at["settled"] = 0 }'
+spoiled one lost_points 'NR == 2 { $at["status"] = "step_limit" }'
+[ "$(code_of "$epicyclic" plot lost -o lost_figures --quantity dynamic_factor_sp)" = 0 ] || fail "a map with a cell that was not reached: $(<stderr)"
+grep -q '1 points that were not reached are left out' stderr && grep -q 'at 1 points the record was still on its way' stderr || fail "it is not said: $(<stderr)"
+[ "$(code_of "$epicyclic" plot lost_points -o lost_figures --quantity delta_sp_1)" = 0 ] || fail "a section with a point that was not reached: $(<stderr)"
+[ "$(grep -c '^2 ' lost_figures/delta_sp_1.dat)" -lt "$(grep -c '^2 ' figures/delta_sp_1.dat)" ] || fail "a point that was not reached is drawn"
+# Lines change where the branch does: at the flip, and not at the next orbit.
+"$epicyclic" plot branches -o stability --quantity multiplier_max >/dev/null 2>stderr || fail "multipliers: $(<stderr)"
+flip=$(awk -F, '$2 == "flip" { print $3; exit }' branches/special.csv)
+awk -v flip="$flip" 'NF >= 2 && $1 - flip < 1e-9 && flip - $1 < 1e-9 && $2 > 0.99 && $2 < 1.01 { n++ } END { exit n < 2 }' stability/multiplier_max.dat || fail "no end of both lines at the flip $flip"
 
 # Branches over a sweep, a map, a run; JSON.
 [ "$(code_of "$epicyclic" plot one branches -o figures --quantity delta_rp_rms --json)" = 0 ] || fail "branches: $(<stderr)"

@@ -385,6 +385,25 @@ TEST(RunSummary, TellsAPeriodicMotionWithItsEvidence) {
     EXPECT_TRUE(contains(line, part)) << part << "\n" << text;
 }
 
+TEST(RunSummary, SaysWhatTheZeroOneTestSays) {
+  auto r = result_of();
+  r.point.regime = analysis::Regime::chaotic;
+  for (const auto& [k, words] : {std::pair(0.9, "and the 0-1 test agrees"), std::pair(0.4, "the 0-1 test abstains"),
+                                 std::pair(0.1, "though the 0-1 test says regular")}) {
+    r.point.evidence.zero_one = k;
+    EXPECT_TRUE(contains(on_one_line(run_summary(output(), r)), words)) << k;
+  }
+}
+
+TEST(RunSummary, TellsBetweenWhichDimensionsATorusMayHave) {
+  auto r = result_of();
+  r.dimension = 0.0;
+  r.dimension_low = 0.0;
+  r.dimension_high = 1.02;
+  EXPECT_TRUE(contains(on_one_line(run_summary(output(), r)),
+                       "Dimension of Kaplan and Yorke: 0; by the exponents' intervals 0 to 1.02"));
+}
+
 TEST(RunSummary, TellsWhichTeethPullHowHardHowOftenAndWhy) {
   studies::RunResult r = result_of();
   EXPECT_TRUE(contains(on_one_line(run_summary(output(), r)), "No mesh pulls"));

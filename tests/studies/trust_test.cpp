@@ -260,6 +260,36 @@ TEST(Crosscheck, ADifferenceOfSmoothingIsExplainedAsOne) {
   EXPECT_EQ(all.comparisons[1].verdict, Verdict::agree) << all.comparisons[1].detail;
 }
 
+TEST(Crosscheck, ChaosThatGrowsOtherwiseIsADifference) {
+  // A width that stands for the same motion three times as fast: exponents of 0.157 and 0.47.
+  const auto duffing = [](double, double smoothing) {
+    return smoothing > 0.1 ? played_by(problems::duffing(0.75, -9.0, 10.8, 3.0), 3.0, {3.0, 0.0})
+                           : played_by(problems::duffing(0.25, -1.0, 0.4, 1.0), 1.0, {1.0, 0.0});
+  };
+  SweepOptions sweep = points(1.0, 1.0, 1);
+  sweep.look.recorded_periods = 512;
+  CrosscheckOptions options;
+  options.methods = {"arkode-dopri5"};
+  options.clearance_smoothings = {0.05, 0.2};
+  const Crosscheck all =
+      run_crosscheck(plan_sweep(sweep), sweep.look, options, integrator(1e-8), 0.0, duffing, CrosscheckRun{});
+  ASSERT_EQ(all.comparisons.size(), 2U);
+  EXPECT_EQ(all.comparisons[0].verdict, Verdict::agree) << all.comparisons[0].detail;
+  EXPECT_NE(all.comparisons[0].detail.find("both chaotic"), std::string::npos) << all.comparisons[0].detail;
+  EXPECT_EQ(all.comparisons[1].verdict, Verdict::smoothing) << all.comparisons[1].detail;
+}
+
+TEST(Crosscheck, TwoThatWereNotReachedDoNotAgree) {
+  const SweepOptions sweep = points(0.85, 0.85, 1);
+  CrosscheckOptions options;
+  options.methods = {"arkode-dopri5", "cvode-bdf"};
+  integrate::IntegratorOptions few = integrator(1e-10);
+  few.max_steps_per_period = 10;
+  const Crosscheck all = run_crosscheck(plan_sweep(sweep), sweep.look, options, few, 0.0, oscillator, CrosscheckRun{});
+  ASSERT_EQ(all.comparisons.size(), 1U);
+  EXPECT_EQ(all.comparisons[0].verdict, Verdict::not_reached) << all.comparisons[0].detail;
+}
+
 TEST(Crosscheck, ATorusIsExplainedAsOne) {
   const SweepOptions sweep = points(0.4, 0.4, 1);
   CrosscheckOptions options;
