@@ -18,7 +18,7 @@ WrittenPoints write_results(const ComputedPoints& plane) {
   std::vector<studies::PointSummary> results = studies::all_brief(plane.points);
   const input::Study& study = plane.input.study;
   const reports::BasinsOutput output{std::get<studies::BasinsOptions>(study.plan).plane, plane.first_model.state_names,
-                                     studies::planet_turns(plane.first_model), plane.resolved,
+                                     studies::planet_turns(plane.first_model, study.integrator), plane.resolved,
                                      reports::figure_title(study)};
   const analysis::Attractors attractors = studies::attractors_of(results, output.turns);
   reports::write_basins_csv(plane.folder / "points.csv", results, attractors);

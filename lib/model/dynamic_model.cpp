@@ -256,6 +256,7 @@ DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& sca
       if (mesh->friction) m.friction_table_error = std::max(m.friction_table_error, mesh->friction->error());
   }
   m.static_mesh_force = p->drive / static_cast<double>(N);
+  for (std::size_t i = 0; i < N; ++i) m.planet_phases.push_back(p->sun_planet.turns[i] - p->sun_planet.turns[0]);
   if (planets_alike(*p)) {
     m.remove_synchronous = [layout, p](std::span<double> deviation) { remove_synchronous(layout, *p, deviation); };
   }

@@ -72,6 +72,9 @@ struct DynamicModel : VectorField {
 
   double static_mesh_force = 0;  ///< T_D / (N r_bs) [m_0 omega_sn^2 b_c]
 
+  /// Mesh phase of each planet ahead of that of planet 1, in turns [M-phase]; empty in a model of one's own.
+  std::vector<double> planet_phases;
+
   /// Takes from a state's deviation what keeps the planets synchronous: equal motions of all planets in their own
   /// directions and rotations of the central members. What is left breaks the symmetry, and the flow linearised about a
   /// synchronous motion keeps it so. Empty unless planets are alike: equally spaced, all meshing in phase, equal

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "core/errors.hpp"
 #include "model/layout.hpp"
+#include "studies/motion.hpp"
 
 namespace epicyclic::studies {
 
@@ -55,10 +57,24 @@ std::vector<double> start_in_plane(const model::DynamicModel& model, const Basin
   return start;
 }
 
-std::vector<PlanetTurn> planet_turns(const model::DynamicModel& model) {
+std::vector<PlanetTurn> planet_turns(const model::DynamicModel& model, const integrate::IntegratorOptions& integrator) {
+  constexpr double rounding = 1e-9;  // of a turn
   std::vector<PlanetTurn> turns;
-  for (int steps = 1; steps < model.planets; ++steps)
-    turns.push_back({steps, [model, steps](std::span<const double> state) { return turned(model, steps, state); }});
+  for (int steps = 1; steps < model.planets; ++steps) {
+    const double ahead = model.planet_phases.empty() ? 0.0 : model.planet_phases[static_cast<std::size_t>(steps)];
+    const double part = ahead - std::floor(ahead);
+    if (std::abs(ahead - std::round(ahead)) <= rounding) {
+      turns.push_back({steps, [model, steps](std::span<const double> state) { return turned(model, steps, state); }});
+      continue;
+    }
+    turns.push_back({steps, [model, steps, integrator, until = part * model.period](std::span<const double> state) {
+                       std::vector<double> later(state.begin(), state.end());
+                       // What cannot be carried on has no image.
+                       if (!make_flow_of_one_trajectory(model, integrator)->evolve(later, 0.0, until).reached())
+                         std::ranges::fill(later, std::numeric_limits<double>::infinity());
+                       return turned(model, steps, later);
+                     }});
+  }
   return turns;
 }
 

@@ -25,10 +25,14 @@ struct PlanetTurn {
   analysis::Symmetry map;
 };
 
-/// All of them, for equally spaced planets. Where a turned orbit is one of another attractor, the turn is a symmetry of
-/// these motions, if not of the stage: a clearance with a law along x and y has directions of its own, but only for
-/// motions that reach its edge.
-[[nodiscard]] std::vector<PlanetTurn> planet_turns(const model::DynamicModel& model);
+/// All of them, for equally spaced planets, as maps of the section s = 0. Planets that mesh out of phase see at another
+/// instant what those before them saw: with planet k ahead by t_k turns of the mesh phase, a motion y(s) has the image
+/// T y(s + 2 pi t_k), T the turn, so that y(0) is carried on by that part of a mesh period first. Where a
+/// turned orbit is one of another attractor, the turn is a symmetry of these motions, if not of the stage: a clearance
+/// with a law along x and y has directions of its own, but only for motions that reach its edge.
+/// @param integrator  for planets out of phase
+[[nodiscard]] std::vector<PlanetTurn> planet_turns(const model::DynamicModel& model,
+                                                   const integrate::IntegratorOptions& integrator = {});
 
 /// The attractors that the cells ended on, images by turns of the planets among them.
 /// @param results  of all cells, in order; their records are taken out

@@ -118,6 +118,44 @@ TEST(Plane, EqualPlanetsTurnMotionsIntoMotions) {
   EXPECT_LT(largest_difference(turned, y), rounding);
 }
 
+TEST(Plane, EqualPlanetsOutOfPhaseTurnMotionsIntoMotionsAtAnotherInstant) {
+  gear::Stage s = problems::with_friction(problems::with_moving_stiffness(problems::with_gap(problems::r1())));
+  s.sun_bearing.law = gear::BearingLaw::linear_radial;
+  // One tooth more and one less: mesh phases a part of a turn apart.
+  s.sun.teeth = s.sun.teeth.value() + 1;
+  s.ring.teeth = s.ring.teeth.value() - 1;
+  const model::DynamicModel m = model::make_dynamic_model(s, model::scales_of(s), 1.0, {});
+  ASSERT_FALSE(m.remove_synchronous);
+  integrate::IntegratorOptions tight;
+  tight.relative_tolerance = tight.absolute_tolerance = 1e-11;
+  const auto turns = planet_turns(m, tight);
+  std::vector<double> y = m.default_start;
+  for (std::size_t j = 0; j < y.size(); ++j) y[j] += 0.5 * std::sin(1.0 + static_cast<double>(j));
+  // The image of where a motion comes to in two mesh periods is where the image comes to.
+  const auto flow = make_flow_of_one_trajectory(m, tight);
+  const auto two_periods_on = [&](std::vector<double> state) {
+    for (int k = 0; k < 2; ++k) EXPECT_TRUE(flow->evolve(state, 0.0, m.period).reached());
+    return state;
+  };
+  const std::vector<double> last = two_periods_on(y);
+  constexpr double tolerance = 1e-6;
+  for (const PlanetTurn& turn : turns) {
+    EXPECT_LT(largest_difference(turn.map(last), two_periods_on(turn.map(y))), tolerance) << turn.planets;
+    EXPECT_GT(largest_difference(turn.map(y), y), 0.1);
+  }
+  // A turn by one planet, N times over, is a motion of its own some whole mesh periods later.
+  std::vector<double> turned = y;
+  double ahead = 0.0;
+  for (int k = 0; k < m.planets; ++k) {
+    turned = turns[0].map(turned);
+    ahead += m.planet_phases[1] - std::floor(m.planet_phases[1]);
+  }
+  std::vector<double> later = y;
+  for (int k = 0; k < static_cast<int>(std::lround(ahead)); ++k)
+    ASSERT_TRUE(flow->evolve(later, 0.0, m.period).reached());
+  EXPECT_LT(largest_difference(turned, later), tolerance);
+}
+
 /// A damped oscillator between two wells, x'' + 0.3 x' - x + x^3 = second cos s, that plays the role of a stage.
 model::DynamicModel wells(double drive) {
   model::DynamicModel m;
