@@ -221,7 +221,12 @@ void check_error(Warnings& out, const std::string& pointer, const Mesh& mesh, do
 void check_sag(Warnings& out, const std::string& pointer, double mass, double stiffness, double module) {
   if (!(stiffness > 0.0)) return;
   const double modules = 1e3 * mass * gravity / stiffness / module;
-  if (modules > 1.0)
+  constexpr double beyond_any_machine = 1e9;
+  if (modules > beyond_any_machine)
+    out.add(Rank::doubtful, beyond_any_machine, pointer, "support", "is ", stiffness,
+            " N/m, which its own weight moves by more than ", beyond_any_machine,
+            " modules; a member that floats has 0, bearings 1e6 to 1e9 N/m");
+  else if (modules > 1.0)
     out.add(Rank::doubtful, modules, pointer, "support", "is ", stiffness, " N/m, which its own weight moves by ",
             modules * module, " mm, ", modules, " modules; a member that floats has 0, bearings 1e6 to 1e9 N/m");
 }

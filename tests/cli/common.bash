@@ -151,6 +151,11 @@ killed_until_done() {
     code=0
     timeout -s KILL "$(printf '%d.%03d' $((ms / 1000)) $((ms % 1000)))" "$@" >stdout 2>stderr </dev/null || code=$?
     [ "$code" != 0 ] || break
+    # timeout kills itself, too, and does not wait: what it has killed may still hold its folder.
+    if [ "$code" = 4 ] && grep -q 'in use by another process' stderr; then
+      sleep 0.1
+      continue
+    fi
     [ "$code" = 137 ] || fail "killed, it ended with $code: $(<stderr)"
     kills=$((kills + 1))
   done
