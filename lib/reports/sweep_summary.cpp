@@ -40,7 +40,7 @@ struct Place {
   std::string motion;  ///< or the status
   bool periodic = false;
   bool comparable = false;  ///< reached, and settled where the motion is periodic
-  bool told = false;        ///< whether it is known what the motion is
+  bool told = false;        ///< whether it is known, by more than recurrence, what the motion is
   double sun_range = 0;
   std::vector<double> orbit{};  ///< a state of it at the section, where the motion is periodic by evidence
   std::size_t index = 0;        ///< of the point
@@ -52,7 +52,7 @@ Place place_of(const PointSummary& r) {
   p.motion = reached(r) ? motion_name(r) : store::status_word(r.outcome);
   p.periodic = reached(r) && r.regime == analysis::Regime::periodic;
   p.comparable = reached(r) && !r.on_its_way();
-  p.told = reached(r) && r.regime != analysis::Regime::undecided;
+  p.told = reached(r) && r.classified && r.regime != analysis::Regime::undecided;
   if (p.comparable) {
     p.sun_range = r.meshes.sun_planet.front().delta.range();
   }
@@ -246,7 +246,8 @@ class Summary {
     for (const Run& run : runs(up.size(), alike)) {
       const std::size_t last = run.first + run.count - 1;
       if (!unlike[run.first]) {
-        for (std::size_t k = run.first; k <= last; ++k) untold += up[k].periodic && down[k].periodic ? 0 : 1;
+        for (std::size_t k = run.first; k <= last; ++k)
+          untold += up[k].told && down[k].told && up[k].periodic && down[k].periodic ? 0 : 1;
         continue;
       }
       values += run.count;

@@ -82,6 +82,11 @@ TEST(SweepSummary, TakesNoOrbitSeenAtAnotherInstantOrOnItsWayForASecondOne) {
   EXPECT_EQ(told(points).numbers["unlike"]["values"], 0);
   points[2].orbit = {0.3};
   EXPECT_EQ(told(points).numbers["unlike"]["values"], 1);
+  // By recurrence alone nothing is known.
+  for (PointResult& p : points) p.classified = false;
+  const SweepSummary unknown = told(points);
+  EXPECT_EQ(unknown.numbers["unlike"]["values"], 0);
+  EXPECT_NE(unknown.text.find("(2 of the values), nothing here tells"), std::string::npos) << unknown.text;
 }
 
 TEST(SweepSummary, TellsWhereTheLargestForceIs) {
