@@ -55,10 +55,6 @@ int record(const Arguments& arguments, const FinishedBranches& branches) {
   return points.size() == branches.points.size() ? done : done_with_failures;
 }
 
-}  // namespace
-
-namespace {
-
 int compare(const Arguments& arguments, const std::filesystem::path& junit) {
   const FinishedBranches branches = finished_branches(arguments.input);
   if (arguments.record) return record(arguments, branches);

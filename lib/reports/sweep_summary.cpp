@@ -23,7 +23,6 @@ namespace {
 
 using studies::Course;
 using studies::PointSummary;
-using studies::StageRecord;
 
 bool reached(const PointSummary& r) { return r.outcome == integrate::Outcome::reached; }
 
@@ -119,13 +118,8 @@ std::vector<Largest> largest_of() {
        [](const PointSummary& r) { return r.meshes.transmission_error.range(); }},
       {"time that a sun mesh is out of contact", "1",
        [=](const PointSummary& r) { return greatest(r.meshes.sun_planet, [](const auto& m) { return m.loss(); }); }},
-      {"share of the mean load that a planet carries on its sun mesh", "1",
-       [](const PointSummary& r) {
-         double most = 0.0;
-         for (std::size_t i = 0; i < r.meshes.sun_planet.size(); ++i)
-           most = std::max(most, StageRecord::share(r.meshes.sun_planet, &Course::mean, i));
-         return most;
-       }},
+      {"share of the mean load that a planet carries on a mesh", "1",
+       [](const PointSummary& r) { return r.meshes.largest_share(); }},
   };
 }
 

@@ -41,17 +41,24 @@ int period_in(std::string_view word) {
 
 constexpr std::string_view negation = "not ";
 
-}  // namespace
-
-int motion_period(std::string_view word) {
+std::string_view without_negation(std::string_view word) {
   if (word.starts_with(negation)) word.remove_prefix(negation.size());
-  return period_in(word);
+  return word;
 }
 
+bool is_aperiodic_word(std::string_view word) {
+  return word == "quasiperiodic" || word == "chaotic" || word == "aperiodic";
+}
+
+}  // namespace
+
+int motion_period(std::string_view word) { return period_in(without_negation(word)); }
+
+bool is_told_by_evidence(std::string_view word) { return is_aperiodic_word(without_negation(word)); }
+
 bool is_motion_word(std::string_view word) {
-  if (word.starts_with(negation)) word.remove_prefix(negation.size());
-  return word == "periodic" || word == "multi-period" || word == "quasiperiodic" || word == "chaotic" ||
-         word == "aperiodic" || period_in(word) > 0;
+  word = without_negation(word);
+  return word == "periodic" || word == "multi-period" || is_aperiodic_word(word) || period_in(word) > 0;
 }
 
 bool ClaimMotion::is(std::string_view word) const {
@@ -85,19 +92,6 @@ bool settles(const PointResult& result, const LookOptions& look) {
   if (analysis::still_settling(result.recurrence, look.recurrence_tolerance)) return true;
   const std::size_t dimension = result.poincare_columns - 2 * result.meshes.sun_planet.size();
   return result.recurrence.late_error <= small_part * analysis::extent(section_of(result, dimension));
-}
-
-}  // namespace
-
-namespace {
-
-/// Of the load that a planet carries in the mean, the largest; of the sun's meshes and of the ring's.
-double largest_share(const StageRecord& record) {
-  double most = 0.0;
-  for (const auto* meshes : {&record.sun_planet, &record.ring_planet})
-    for (std::size_t i = 0; i < meshes->size(); ++i)
-      most = std::max(most, StageRecord::share(*meshes, &Course::mean, i));
-  return most;
 }
 
 }  // namespace
@@ -150,7 +144,7 @@ ClaimPoint claim_point(const PointResult& result, const LookOptions& look, Looke
                       rp.force.largest,
                       result.meshes.dynamic_factor(result.meshes.sun_planet),
                       result.meshes.dynamic_factor(result.meshes.ring_planet),
-                      largest_share(result.meshes)};
+                      result.meshes.largest_share()};
   return point;
 }
 
@@ -229,8 +223,7 @@ double likeness(const ClaimPoint& p, std::string_view word) {
   constexpr double near_kind = 0.3;  // of several mesh periods
   if (!p.reached) return 0.0;
   if (p.motion.is(word)) return 1.0;
-  const bool wants_aperiodic = word == "chaotic" || word == "quasiperiodic" || word == "aperiodic";
-  if (wants_aperiodic) {
+  if (is_aperiodic_word(word)) {
     if (p.motion.regime != Regime::periodic) return same_kind;
     return p.motion.period > 1 ? near_kind : 0.0;
   }

@@ -193,4 +193,7 @@ struct ClaimsOptions {
 /// N of "period N", also behind "not "; 0 of other words.
 [[nodiscard]] int motion_period(std::string_view word);
 
+/// Does it, or what it denies, name a motion that recurrence alone does not tell: a torus, chaos?
+[[nodiscard]] bool is_told_by_evidence(std::string_view word);
+
 }  // namespace epicyclic::studies

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -251,12 +250,6 @@ void check_part(ProblemList& problems, const std::string& place, const Condition
                         "is \"" + word + "\", which takes twice as many recorded_periods to be seen; the sweep \"" +
                             sweep.name + "\" has " + std::to_string(recorded) + ", and classification_periods = 0");
   }
-}
-
-/// Does a motion that does not recur have to be told from another one for it?
-bool is_told_by_evidence(std::string_view word) {
-  if (word.starts_with("not ")) word.remove_prefix(std::string_view("not ").size());
-  return word == "quasiperiodic" || word == "chaotic" || word == "aperiodic";
 }
 
 /// What a condition wants of the looks, whatever the sweep.

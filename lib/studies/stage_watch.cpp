@@ -80,6 +80,13 @@ double StageRecord::share(const std::vector<MeshRecord>& meshes, double Course::
   return static_cast<double>(meshes.size()) * meshes[planet].force.*of / sum;
 }
 
+double StageRecord::largest_share() const {
+  double most = 0.0;
+  for (const auto* meshes : {&sun_planet, &ring_planet})
+    for (std::size_t i = 0; i < meshes->size(); ++i) most = std::max(most, share(*meshes, &Course::mean, i));
+  return most;
+}
+
 double StageRecord::dynamic_factor(const std::vector<MeshRecord>& meshes) const {
   return largest(meshes, [](const MeshRecord& r) { return r.force.largest; }) / static_force;
 }

@@ -67,6 +67,8 @@ struct StageRecord {
   /// [S-share] of planets' meshes of one kind, by a number of each.
   /// @returns not a number of forces without a sum
   [[nodiscard]] static double share(const std::vector<MeshRecord>& meshes, double Course::*of, std::size_t planet);
+  /// The largest share of the mean load that a planet carries on any of its meshes.
+  [[nodiscard]] double largest_share() const;
   /// The largest dynamic factor of them [S-force].
   [[nodiscard]] double dynamic_factor(const std::vector<MeshRecord>& meshes) const;
   /// Greatest tension of any of them, and the greatest part of the time that one of them pulls.
