@@ -216,8 +216,13 @@ bool differs(const json& a, const json& b) {
   return a != b;
 }
 
+/// A value of the file that says that it was computed, and is another now.
+struct Ignored {
+  std::string place, origin;
+};
+
 /// Writes what is computed where nothing is given; one kind of value in place of another is.
-void complete(json& object, const json& computed, const std::string& pointer, std::vector<std::string>& notes) {
+void complete(json& object, const json& computed, const std::string& pointer, std::vector<Ignored>& ignored) {
   for (const auto& [key, value] : computed.items()) {
     if (key == "origin") continue;
     const std::string place = pointer + pointer_step(key);
@@ -226,7 +231,7 @@ void complete(json& object, const json& computed, const std::string& pointer, st
       if (there == object.end())
         object[key] = value;
       else if (there->is_object())
-        complete(*there, value, place, notes);
+        complete(*there, value, place, ignored);
       continue;
     }
     if (there != object.end()) {
@@ -234,14 +239,25 @@ void complete(json& object, const json& computed, const std::string& pointer, st
         return (*there.*is)() == (value.*is)();
       };
       if (is_given(object, key) || !same_kind(&json::is_array) || !same_kind(&json::is_string)) continue;
-      if (differs(*there, value))
-        notes.push_back(place + ": the value in the file is ignored and computed anew, since its origin says " +
-                        object["origin"][key].dump() + "; give it another origin to make it stand");
+      if (differs(*there, value)) ignored.push_back({place, object["origin"][key].dump()});
     }
     object[key] = value;
     json& origin = object["origin"];
     if (!origin.is_object()) origin = json::object();
     origin[key] = computed.at("origin").at(key);
+  }
+}
+
+/// A note for each, or, where what they are computed from has changed and many follow it, one for all.
+void note_ignored(const std::vector<Ignored>& ignored, std::vector<std::string>& notes) {
+  constexpr std::size_t most = 4;
+  for (const auto& [place, origin] : ignored) {
+    const bool many = ignored.size() > most;
+    std::string note = place + ": the value in the file is ignored and computed anew";
+    if (many) note += ", like " + std::to_string(ignored.size() - 1) + " others";
+    note += ", since its origin says " + origin + "; give it another origin to make it stand";
+    notes.push_back(std::move(note));
+    if (many) return;
   }
 }
 
@@ -362,7 +378,9 @@ Completion complete_stage(json& stage, const std::string& root, ReadContext& con
     settle_forms(there ? (*lumped)[key] : none, computed["lumped"][key]);
   }
   note_unused(stage, computed, root, context.notes);
-  complete(stage, computed, root, context.notes);
+  std::vector<Ignored> ignored;
+  complete(stage, computed, root, ignored);
+  note_ignored(ignored, context.notes);
   return completion;
 }
 

@@ -81,6 +81,19 @@ TEST(StageCompletion, AnEditedValueThatSaysComputedIsIgnoredAloud) {
   EXPECT_TRUE(loaded().notes.empty());
 }
 
+TEST(StageCompletion, ValuesThatFollowAnEditOfTheCatalogueAreToldInOneNote) {
+  const TemporaryFolder folder;
+  json resolved = loaded().resolved;
+  resolved["catalogue"]["mesh_stiffness"]["sun_planet_factor"] = 1.1;  // three values of the sun's meshes
+  std::ofstream(folder / "stage.json") << resolved.dump();
+  EXPECT_EQ(load_input(folder / "stage.json").notes.size(), 3U);
+  resolved["catalogue"]["sun"]["addendum_coefficient"] = 1.01;  // its body, contact ratio, friction, tolerances, too
+  std::ofstream(folder / "stage.json") << resolved.dump();
+  const LoadedInput input = load_input(folder / "stage.json");
+  ASSERT_EQ(input.notes.size(), 1U);
+  EXPECT_NE(input.notes[0].find(": the value in the file is ignored and computed anew, like "), std::string::npos);
+}
+
 TEST(StageCompletion, WhatNothingComputesStandsWhateverItsOriginSays) {
   const TemporaryFolder folder;
   std::ifstream file(stage_file);
