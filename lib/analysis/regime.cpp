@@ -44,6 +44,11 @@ constexpr double even_part = 0.1;
 constexpr double slow_growth = 4.0 * neutral_growth;
 /// Periods over which e^2 is told from a small exponent.
 constexpr int torus_look = 1024;
+/// A motion is as near to an orbit as it was to within a hundredth: the slowest multipliers move it by less.
+constexpr double as_near = 1.01;
+/// Returns over which a motion is followed until it is, and over which its monodromy is asked where it leads.
+constexpr int most_returns = 16;
+constexpr int foreseen_returns = 256;
 
 void check(const integrate::Flow& flow, const RegimeOptions& o) {
   if (!(flow.field().period > 0.0)) throw DomainError("regimes are told of fields with a period");
@@ -246,7 +251,7 @@ class Classifier {
     const std::optional<Approach> approach = approach_to(orbit, exact, last, n);
     if (!approach) return false;
     const std::string distance = short_text(approach->distance);
-    if (approach->off > 0.1 * approach->distance && approach->off > noise()) {
+    if (!approach->drawn) {
       attracted_ = true;
       seen.note = "not yet drawn to the " + name + " that is " + distance + " away";
       return false;
@@ -270,27 +275,47 @@ class Classifier {
     return multipliers();
   }
 
-  /// The two sides of [A-settled].
+  /// [A-settled]
   struct Approach {
     double distance = 0;  ///< of the motion from the orbit
-    double off = 0;       ///< n periods later, from where the orbit's monodromy takes it
+    bool drawn = false;
   };
 
   /// By the flow that the orbit belongs to: looks may be rougher.
-  /// @returns nothing if it did not carry the motion over n periods
-  static std::optional<Approach> approach_to(const PeriodicOrbit& orbit, integrate::Flow& exact,
-                                             std::span<const double> last, int n) {
-    std::vector<double> onwards(last.begin(), last.end());
+  /// @returns nothing if it did not carry the motion on
+  std::optional<Approach> approach_to(const PeriodicOrbit& orbit, integrate::Flow& exact, std::span<const double> last,
+                                      int n) const {
+    const auto size = static_cast<Eigen::Index>(last.size());
+    const Eigen::Map<const Eigen::VectorXd> on_orbit(orbit.state.data(), size);
+    std::vector<double> state(last.begin(), last.end());
+    const Eigen::Map<const Eigen::VectorXd> now(state.data(), size);
+    Eigen::VectorXd from = now - on_orbit;
+    const double distance = from.lpNorm<Eigen::Infinity>();
+    double farthest = distance;
     exact.forget();
-    for (int k = 0; k < n; ++k)
-      if (!exact.evolve(onwards, 0.0, exact.field().period).reached()) return std::nullopt;
-    Eigen::VectorXd from(static_cast<Eigen::Index>(last.size()));
-    Eigen::VectorXd to(from.size());
-    for (std::size_t i = 0; i < last.size(); ++i) {
-      from(static_cast<Eigen::Index>(i)) = last[i] - orbit.state[i];
-      to(static_cast<Eigen::Index>(i)) = onwards[i] - orbit.state[i];
+    for (int turn = 0; turn < most_returns; ++turn) {
+      for (int k = 0; k < n; ++k)
+        if (!exact.evolve(state, 0.0, exact.field().period).reached()) return std::nullopt;
+      const Eigen::VectorXd to = now - on_orbit;
+      const double off = (to - orbit.monodromy * from).lpNorm<Eigen::Infinity>();
+      if (off > 0.1 * from.lpNorm<Eigen::Infinity>() && off > noise()) return Approach{distance, false};
+      from = to;
+      const double away = from.lpNorm<Eigen::Infinity>();
+      farthest = std::max(farthest, away);
+      const bool followed = away <= std::max(as_near * distance, noise()) || turn + 1 == most_returns;
+      if (followed && stays_within(2.0 * std::max(farthest, noise()), orbit.monodromy, from))
+        return Approach{distance, true};
     }
-    return Approach{from.lpNorm<Eigen::Infinity>(), (to - orbit.monodromy * from).lpNorm<Eigen::Infinity>()};
+    return Approach{distance, false};
+  }
+
+  /// Do the next returns leave a difference within these bounds, if they are as the monodromy has them?
+  static bool stays_within(double bound, const Eigen::MatrixXd& monodromy, Eigen::VectorXd difference) {
+    for (int k = 0; k < foreseen_returns; ++k) {
+      difference = monodromy * difference;
+      if (difference.lpNorm<Eigen::Infinity>() > bound) return false;
+    }
+    return true;
   }
 
   void tell_periodic(PeriodicOrbit orbit, int n, double multiplier, double error) {

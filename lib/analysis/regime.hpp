@@ -5,12 +5,15 @@
 // - periodic: recurrence [A-rec] names candidates n; Newton's method finds an orbit y* of period n [A-orbit] with a
 //   residual far below the recurrence error, of no shorter period to within its error [A-orbit-error]; all its
 //   multipliers are inside the unit circle by more than `neutral` and by more than their error, which is the difference
-//   from those of another tolerance, or of shooting in n + 1 pieces; and the motion is already drawn to it,
+//   from those of another tolerance, or of shooting in n + 1 pieces; and the motion is already drawn to it: followed
+//   from its last point y_0 until it is no farther from the orbit than it was there, or for 16 returns, each of them
+//   is one that the monodromy M has it make,
 //
-//     | (y_n - y*) - M (y_0 - y*) | <= | y_0 - y* | / 10                                              [A-settled]
+//     | (y_(k+1)n - y*) - M (y_kn - y*) | <= | y_kn - y* | / 10,                                       [A-settled]
 //
-//   y_0 the motion's last point and y_n that of n periods later, which is the proof: nothing but time is then between
-//   the motion and the orbit.
+//   and M leads it at no return beyond twice the largest distance that was seen, which is the proof: nothing but time
+//   is then between the motion and the orbit. One return does not do: where M is far from normal a difference grows
+//   tenfold before it shrinks, into a contact that it began too near to the orbit to know of.
 // - chaotic: the largest exponent, of the last three quarters of all looks, is positive by its interval [A-lyap], the
 //   0-1 test agrees, and it lasts for `lasting` periods, through which the motion is carried without tangents;
 //   for the whole budget if Newton's method finds an orbit that attracts from one of the close returns of a look

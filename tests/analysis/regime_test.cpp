@@ -140,6 +140,38 @@ TEST(Regime, LorenzSeenOnceInAWhileIsChaotic) {
   EXPECT_NEAR(c.evidence.exponent.value, 0.9053, 2.0 * c.evidence.exponent.half_width);
 }
 
+TEST(Regime, WhatGrowsIntoAContactBeforeItShrinksIsNotDrawn) {
+  // A forced oscillator, and beside it a shear: a difference v makes u seventeen times as large within a period, and
+  // eighteen times soon after, where a contact at u = 0.01 drives the motion to another orbit, at u = 1.4. The first
+  // return is what the orbit's monodromy has it be.
+  const auto field =
+      integrate::make_field(4, 2.0 * std::numbers::pi, [](std::size_t, double s, const auto* y, auto* d) {
+        d[0] = y[1];
+        d[1] = -0.2 * y[1] - 2.0 * y[0] + std::cos(s);
+        d[2] = -0.1 * y[2] + 5.0 * y[3] - y[2] * y[2] * y[2];
+        if (y[2] > 0.01) d[2] += 2.0 * (y[2] - 0.01);
+        d[3] = -0.1 * y[3];
+      });
+  const double amplitude = 1.0 / 1.04;
+  for (const auto& [v, contact] : {std::pair{1e-4, false}, {5.7e-4, true}}) {
+    PoincareSection seen{.dimension = 4, .states = {}};
+    std::vector<double> y = {amplitude, 0.2 * amplitude, 0.0, 0.0};
+    for (int k = 0; k < 63; ++k) seen.states.insert(seen.states.end(), y.begin(), y.end());
+    y[3] = v;
+    seen.states.insert(seen.states.end(), y.begin(), y.end());
+    integrate::IntegratorOptions o;
+    o.relative_tolerance = o.absolute_tolerance = 1e-10;
+    const auto flow = integrate::make_flow(field, o);
+    const Classification c = classify(*flow, y, {}, always, &seen);
+    ASSERT_EQ(c.regime, Regime::periodic) << c.evidence.note;
+    EXPECT_EQ(c.evidence.periods > 0, contact) << v;  // where there is one the section seen does not tell
+    if (contact)
+      EXPECT_GT(c.orbit->state[2], 1.3);
+    else
+      EXPECT_NEAR(c.orbit->state[2], 0.0, 1e-8);
+  }
+}
+
 TEST(Regime, AMotionThatRepelsIsLeft) {
   // A forced oscillator, and beside it d, which rests at 0 for ever if it begins there and is drawn to +-0.1 if not:
   // vectors grow by e^0.06 a period, slowly enough for a look to see nothing but the orbit.
