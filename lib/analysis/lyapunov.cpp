@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -30,7 +31,8 @@ LargestExponent largest_exponent(integrate::Flow& flow, std::span<double> state,
                                  const integrate::Observer& observer, const std::function<bool()>& go_on) {
   options.validate();
   LargestExponent result;
-  const double period = flow.field().period;
+  result.per_s = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+  const double period = period_of(flow.field());
   // A direction that no symmetry of a system singles out.
   std::vector<double> v(state.size());
   for (std::size_t i = 0; i < v.size(); ++i) v[i] = std::sin(1.0 + static_cast<double>(i) * 1.7);

@@ -197,7 +197,10 @@ FloquetMultipliers floquet_multipliers(const PeriodicOrbit& orbit, const Periodi
   return result;
 }
 
-double largest_multiplier(const PeriodicOrbit& orbit) { return eigenvalues(orbit.monodromy).cwiseAbs().maxCoeff(); }
+double largest_multiplier(const PeriodicOrbit& orbit) {
+  if (orbit.monodromy.size() == 0) throw DomainError("multipliers are asked of an orbit that was not reached");
+  return eigenvalues(orbit.monodromy).cwiseAbs().maxCoeff();
+}
 
 std::vector<double> displaced_orbit(integrate::Flow& flow, const PeriodicOrbit& known, int n, int iterations) {
   std::vector<double> y = known.state;

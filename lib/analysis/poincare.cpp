@@ -59,7 +59,7 @@ void carry(integrate::Flow& flow, std::span<double> state, StrobeProgress& strob
 
 Strobe strobe(integrate::Flow& flow, std::span<double> state, const StrobeOptions& options,
               const integrate::Observer& observer, const std::function<bool()>& go_on) {
-  StrobeProgress progress(flow.field().dimension, flow.field().period, options, observer);
+  StrobeProgress progress(flow.field().dimension, period_of(flow.field()), options, observer);
   carry(flow, state, progress, go_on);
   return std::move(progress.result());
 }
@@ -67,7 +67,7 @@ Strobe strobe(integrate::Flow& flow, std::span<double> state, const StrobeOption
 SurfaceSection surface_section(integrate::Flow& flow, std::span<double> state,
                                const std::function<double(double s, std::span<const double> y)>& surface,
                                SectionCrossing direction, int periods, int phases, const std::function<bool()>& go_on) {
-  const double period = flow.field().period;
+  const double period = period_of(flow.field());
   SurfaceSection result;
   result.section.dimension = state.size();
   const std::vector<double> samples = uniform_phases(period, phases);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -44,6 +45,9 @@ constexpr double even_part = 0.1;
 constexpr double slow_growth = 4.0 * neutral_growth;
 /// Periods over which e^2 is told from a small exponent.
 constexpr int torus_look = 1024;
+/// Of the extent: what closes as well as this after n periods goes round a torus in a thousand of them at most, and may
+/// be on its way to an orbit.
+constexpr double all_but_closed = 1e-3;
 /// A motion is as near to an orbit as it was to within a hundredth: the slowest multipliers move it by less.
 constexpr double as_near = 1.01;
 /// Returns over which a motion is followed until it is, and over which its monodromy is asked where it leads.
@@ -99,6 +103,9 @@ class Classifier {
     result_.regime = Regime::undecided;
     if (seen.note.empty()) seen.note = "nothing is proven";
     seen.note += " after " + std::to_string(seen.periods) + " periods";
+    if (!indistinct_.empty())
+      seen.note += "; not told from an orbit of period " + std::to_string(*indistinct_.begin()) +
+                   ", near a bifurcation of which tighter tolerances tell";
     return std::move(result_);
   }
 
@@ -145,9 +152,8 @@ class Classifier {
   /// @param part  of the section's extent, up to which a recurrence error makes a candidate
   bool is_periodic(double part) {
     const Recurrence& r = result_.evidence.recurrence;
-    // What nearly recurs is tried, and where nothing moves much everything nearly recurs.
     const double wide = extent(section_);
-    const double near = wide <= options_.near * scale_ ? wide : part * wide;
+    const double near = near_enough(part);
     if (r.period == 0 && !(r.error <= near)) return false;
     const auto shortest = [&](double error) {
       int n = 1;
@@ -169,6 +175,13 @@ class Classifier {
     for (int d = 1; d <= std::min(n, affordable); ++d)
       if (n % d == 0 && settles_to_orbit_of(d)) return true;
     return false;
+  }
+
+  /// The recurrence error up to which what nearly recurs is tried, for a part of the section's extent; where nothing
+  /// moves much everything nearly recurs.
+  [[nodiscard]] double near_enough(double part) const {
+    const double wide = extent(section_);
+    return wide <= options_.near * scale_ ? wide : part * wide;
   }
 
   /// What an integrator leaves of a residual.
@@ -213,7 +226,12 @@ class Classifier {
     o.keep_tangents = false;
     o.iterations = 24;
     known.orbit = find_periodic_orbit(exact, known.orbit.state, n, o);
-    if (known.orbit.outcome == OrbitOutcome::not_reached || residual(known.orbit) > rough) return std::nullopt;
+    if (known.orbit.outcome == OrbitOutcome::not_reached || residual(known.orbit) > rough) {
+      result_.evidence.note =
+          "Newton's method nears an orbit of period " + std::to_string(n) + " and does not get there";
+      indistinct_.insert(n);
+      return std::nullopt;
+    }
     known.own_tangents = true;
     known.second = tangents_of_others(known.orbit);
     if (known.second.pieces.empty()) return std::nullopt;
@@ -235,9 +253,14 @@ class Classifier {
       return false;
     }
     PeriodicOrbit& orbit = known->orbit;
+    // Where the motion is to within what is known of the orbit nothing tells it from the orbit, nor from what branches
+    // off it close by.
+    const bool indistinct = largest_difference(last, orbit.state) <= closed_to(orbit);
+    if (!indistinct) indistinct_.erase(n);
     if (const int least = least_period(exact, orbit, n); least < n) {
       if (settles_to_orbit_of(least)) return true;
       if (std::isfinite(in_vain_[least])) vain->second = distance_now;
+      if (indistinct) indistinct_.insert(n);
       return false;
     }
     const auto [multiplier, error] = largest_multiplier_of(*known, exact, n);
@@ -246,6 +269,7 @@ class Classifier {
       seen.note = "the " + name + " near by does not attract (multiplier " + short_text(multiplier) + " +- " +
                   short_text(error) + ")";
       if (multiplier - error > 1.0) vain->second = distance_now;
+      if (indistinct) indistinct_.insert(n);
       return false;
     }
     const std::optional<Approach> approach = approach_to(orbit, exact, last, n);
@@ -259,6 +283,12 @@ class Classifier {
     tell_periodic(std::move(orbit), n, multiplier, error);
     seen.note = "drawn to the " + name + " from " + distance + " away";
     return true;
+  }
+
+  /// An orbit's points may be this far from it: ten times their error, which is a bound of first order.
+  [[nodiscard]] double closed_to(const PeriodicOrbit& orbit) const {
+    constexpr double safety = 10.0;
+    return std::max(noise(), safety * orbit.error);
   }
 
   /// Modulus of an orbit's largest multiplier and its error; the orbit is told with tangents of its own if need be.
@@ -336,8 +366,7 @@ class Classifier {
   /// The least divisor d of n after which an orbit closes, to within its error: one of period 1 is one of period 12,
   /// too.
   int least_period(integrate::Flow& flow, const PeriodicOrbit& orbit, int n) {
-    constexpr double safety = 10.0;  // the error is a bound of first order
-    const double closed = std::max(noise(), safety * orbit.error);
+    const double closed = closed_to(orbit);
     std::vector<double> y = orbit.state;
     flow.forget();
     for (int d = 1; d < n; ++d) {
@@ -509,6 +538,7 @@ class Classifier {
       return;
     for (std::size_t i = 0; i < state_.size(); ++i) state_[i] += push * scale_ * direction_[i];
     in_vain_.clear();
+    indistinct_.clear();
     left_at_ = growth_.size();
   }
 
@@ -520,9 +550,13 @@ class Classifier {
         !settles && seen.zero_one && *seen.zero_one < regular_vote) {
       // Beside a flip of a long orbit all this holds, too, at any price of seeking it so far.
       const Recurrence& r = seen.recurrence;
-      if (r.best_period > 0 && r.error <= options_.near * extent(section_) && settles_to_orbit_of(r.best_period))
-        return true;
-      if (attracted_) return false;
+      if (r.best_period > 0 && r.error <= near_enough(options_.near) && settles_to_orbit_of(r.best_period)) return true;
+      if (attracted_ || indistinct_.count(r.best_period) > 0) return false;
+      if (r.best_period > 0 && r.error <= all_but_closed * extent(section_)) {
+        seen.note = "tangents neither grow nor shrink, and the motion all but closes after " +
+                    std::to_string(r.best_period) + " periods: beside an orbit, where tighter tolerances tell";
+        return false;
+      }
       result_.regime = Regime::quasiperiodic;
       seen.note = "tangents neither grow nor shrink, 0-1 test " + short_text(*seen.zero_one);
       return true;
@@ -546,7 +580,8 @@ class Classifier {
   std::vector<double> growth_;     ///< g_k of all looks
   std::vector<double> series_;     ///< the observable over the look before and this one
   std::vector<double> direction_;  ///< of the tangent vector at the end of the last look
-  bool attracted_ = false;  ///< the orbit that was sought last attracts, though the motion is not yet drawn to it
+  bool attracted_ = false;    ///< the orbit that was sought last attracts, though the motion is not yet drawn to it
+  std::set<int> indistinct_;  ///< periods of orbits that do not attract, and that the motion is not told from
   std::optional<std::size_t> left_at_{};  ///< so many of g_k were known when the motion was pushed off what repels
   std::size_t look_before_ = 0;           ///< how many of them are of the look before
 };

@@ -52,7 +52,7 @@ Shot shoot(integrate::Flow& flow, const Eigen::MatrixXd& y, Eigen::Index periods
   for (Eigen::Index i = 0; i < count; ++i) {
     Eigen::VectorXd end = y.col(i);
     Eigen::MatrixXd m = Eigen::MatrixXd::Identity(n, n + (parameter ? 1 : 0));
-    for (const Span& span : spans(flow.field().period, periods, count, i)) {
+    for (const Span& span : spans(period_of(flow.field()), periods, count, i)) {
       shot.evolution =
           flow.evolve_tangents(span_of(end), {m.data(), static_cast<std::size_t>(m.size())}, span.from, span.to, last);
       if (!shot.evolution.reached()) return shot;
@@ -73,7 +73,7 @@ Shot shoot_states(integrate::Flow& flow, const Eigen::MatrixXd& y, Eigen::Index 
   flow.forget();
   for (Eigen::Index i = 0; i < y.cols(); ++i) {
     Eigen::VectorXd end = y.col(i);
-    for (const Span& span : spans(flow.field().period, periods, y.cols(), i)) {
+    for (const Span& span : spans(period_of(flow.field()), periods, y.cols(), i)) {
       shot.evolution = flow.evolve(span_of(end), span.from, span.to);
       if (!shot.evolution.reached()) return shot;
     }
@@ -87,7 +87,7 @@ std::vector<Stretch> stretches(integrate::Flow& flow, const Eigen::MatrixXd& y, 
   flow.forget();
   for (Eigen::Index i = 0; i < y.cols(); ++i) {
     Eigen::VectorXd state = y.col(i);
-    for (const Span& span : spans(flow.field().period, periods, y.cols(), i)) {
+    for (const Span& span : spans(period_of(flow.field()), periods, y.cols(), i)) {
       all.push_back({span.from, span.to, state});
       if (!flow.evolve(span_of(state), span.from, span.to).reached()) return {};
     }
@@ -100,7 +100,7 @@ integrate::Evolution carry_to_pieces(integrate::Flow& flow, Eigen::Index periods
   integrate::Evolution e;
   flow.forget();
   for (Eigen::Index i = 1; i < y.cols(); ++i) {
-    for (const Span& span : spans(flow.field().period, periods, y.cols(), i - 1)) {
+    for (const Span& span : spans(period_of(flow.field()), periods, y.cols(), i - 1)) {
       e = flow.evolve(span_of(carried), span.from, span.to);
       if (!e.reached()) return e;
     }

@@ -77,13 +77,16 @@ class Transform {
 
 }  // namespace
 
-Spectrum amplitude_spectrum(std::span<const double> x, double dt, Window window) {
+Spectrum amplitude_spectrum(std::span<const double> x, double dt, Window window, double first) {
   Transform transform(x.size(), dt, window);
   Spectrum s;
   s.resolution = transform.resolution();
-  transform.each(x, [&s](std::size_t /*k*/, double re, double im, double scale) {
+  transform.each(x, [&s, first](std::size_t k, double re, double im, double scale) {
     s.amplitude.push_back(scale * std::hypot(re, im));
-    s.phase.push_back(std::atan2(im, re));
+    const double at_first = std::atan2(im, re);
+    s.phase.push_back(first == 0.0 ? at_first
+                                   : std::remainder(at_first - 2.0 * std::numbers::pi * s.frequency(k) * first,
+                                                    2.0 * std::numbers::pi));
   });
   return s;
 }
@@ -116,11 +119,12 @@ std::string Harmonic::label() const {
   return q == 1 ? std::to_string(p) : std::to_string(p) + "/" + std::to_string(q);
 }
 
-std::vector<Harmonic> harmonics(std::span<const double> x, int n) {
+std::vector<Harmonic> harmonics(std::span<const double> x, int n, double first) {
   if (n < 1) throw DomainError("harmonics of period " + std::to_string(n) + " are asked for, must be >= 1");
   if (x.size() < 2 * static_cast<std::size_t>(n))
     throw DomainError(std::to_string(x.size()) + " samples are less than two per period");
-  const Spectrum s = amplitude_spectrum(x, static_cast<double>(n) / static_cast<double>(x.size()), Window::rectangular);
+  const double dt = static_cast<double>(n) / static_cast<double>(x.size());
+  const Spectrum s = amplitude_spectrum(x, dt, Window::rectangular, first);
   std::vector<Harmonic> lines;
   for (std::size_t k = 0; k < s.amplitude.size(); ++k)
     lines.push_back({static_cast<int>(k), n, s.amplitude[k], s.phase[k]});

@@ -28,9 +28,10 @@ struct Spectrum {
   [[nodiscard]] double frequency(std::size_t k) const { return resolution * static_cast<double>(k); }
 };
 
-/// @param dt  from one sample to the next
+/// @param dt     from one sample to the next
+/// @param first  t of the first sample
 /// @throws DomainError for fewer than two samples or dt <= 0
-[[nodiscard]] Spectrum amplitude_spectrum(std::span<const double> x, double dt, Window window);
+[[nodiscard]] Spectrum amplitude_spectrum(std::span<const double> x, double dt, Window window, double first = 0.0);
 
 /// The root of the mean square of A_k over stretches of the signal that overlap by half (Welch, IEEE Trans. Audio
 /// Electroacoust. 15 (1967) 70), the signal's mean taken off and told as A_0. Without phases.
@@ -52,8 +53,9 @@ struct Harmonic {
 };
 
 /// Lines of a signal that is sampled uniformly over exactly n periods of the forcing, p = 0 .. N/2, in order.
+/// @param first  t of the first sample, in periods of the forcing
 /// @throws DomainError for n < 1 or fewer than two samples per period
-[[nodiscard]] std::vector<Harmonic> harmonics(std::span<const double> x, int n);
+[[nodiscard]] std::vector<Harmonic> harmonics(std::span<const double> x, int n, double first = 0.0);
 
 /// A local maximum of a spectrum.
 struct Peak {

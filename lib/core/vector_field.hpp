@@ -12,6 +12,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/errors.hpp"
 #include "core/push_forward.hpp"
 
 namespace epicyclic {
@@ -60,6 +61,13 @@ struct VectorField {
   /// g itself jumps across a surface: tangent vectors would have to jump there, which no Flow does.
   bool jumps_at_surfaces = false;
 };
+
+/// The period of a field that has one.
+/// @throws DomainError when g does not depend on s, so that there is no section to look at
+[[nodiscard]] inline double period_of(const VectorField& field) {
+  if (!(field.period > 0.0)) throw DomainError("a period of the field is needed, and it has none");
+  return field.period;
+}
 
 /// Systems that differ by a parameter: the one at its value.
 using FieldFamily = std::function<VectorField(double value)>;

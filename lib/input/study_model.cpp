@@ -115,10 +115,14 @@ std::function<model::DynamicModel(double first, double second)> model_plane(cons
 
 double given_value(const LoadedInput& input, const std::string& parameter) {
   if (const studies::NamedParameter* named = studies::find_parameter(parameter)) return named->get(point_at(input, {}));
-  const json::json_pointer pointer(parameter);
-  if (!input.resolved.contains(pointer) || !input.resolved[pointer].is_number())
-    throw InputError("/study/parameter: no number '" + parameter + "'");
-  return input.resolved[pointer].get<double>();
+  const InputError none("/study/parameter: no number '" + parameter + "'");
+  try {
+    const json::json_pointer pointer(parameter);
+    if (!input.resolved.contains(pointer) || !input.resolved[pointer].is_number()) throw none;
+    return input.resolved[pointer].get<double>();
+  } catch (const json::exception&) {  // no pointer at all
+    throw none;
+  }
 }
 
 studies::SweepPlan plan_of(const Study& study) {

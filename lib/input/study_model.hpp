@@ -16,6 +16,7 @@ namespace epicyclic::input {
 /// The model at each value of the study's sweep parameter, named or a JSON pointer. Scales are those of the stage as
 /// given. `input` must outlive the result. A call throws InputError when the study is not valid at that value.
 [[nodiscard]] studies::ModelAt model_at(const LoadedInput& input);
+studies::ModelAt model_at(LoadedInput&& input) = delete;
 
 /// The model at each value of any parameter, named or a JSON pointer, with the derivative of its right-hand side by it:
 /// what integrate::make_flow_family() takes. Scales are those of the stage as given. `input` must outlive the result. A
@@ -23,6 +24,7 @@ namespace epicyclic::input {
 /// @param step  h of the difference of constants, as of model::set_parameter_derivative(): about 1e-3 of the range
 /// over which they change; the study has to be valid at value +- 2 h
 [[nodiscard]] studies::ModelAt model_family(const LoadedInput& input, const std::string& parameter, double step);
+studies::ModelAt model_family(LoadedInput&& input, const std::string& parameter, double step) = delete;
 
 /// The same at values of two parameters, with the derivative by the first.
 [[nodiscard]] std::function<model::DynamicModel(double first, double second)> model_plane(
@@ -38,6 +40,7 @@ namespace epicyclic::input {
 /// The model at each point of plan_of(); of basins with the point's own start for the default one. Scales are those of
 /// the stage as given. `input` must outlive the result. A call throws InputError when the study is not valid there.
 [[nodiscard]] studies::ModelAtPoint model_at_point(const LoadedInput& input);
+studies::ModelAtPoint model_at_point(LoadedInput&& input) = delete;
 
 /// The model at a value of the sweep parameter with another width of the smooth clearance.
 [[nodiscard]] std::function<model::DynamicModel(double value, double clearance_smoothing)> smoothed_model_at(
@@ -52,6 +55,7 @@ namespace epicyclic::input {
 
 /// The models of the stage as it is given, for the claims' sweeps. `input` must outlive the result.
 [[nodiscard]] studies::SweepModels claim_models(const LoadedInput& input);
+studies::SweepModels claim_models(LoadedInput&& input) = delete;
 
 /// What is allowed but rarely meant, most important first (gear/warnings.hpp): the stage, the operating points at the
 /// ends of what the study varies, the study itself, values that were ignored. Of a study without the notes on its

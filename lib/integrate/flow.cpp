@@ -2,11 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "core/errors.hpp"
 
 namespace epicyclic::integrate {
+
+void check_interval(double from, double to) {
+  if (!(from <= to) || !std::isfinite(from) || !std::isfinite(to))
+    throw InputError("a motion is carried from " + std::to_string(from) + " to " + std::to_string(to) +
+                     ", which is not a rising interval");
+}
 
 namespace {
 

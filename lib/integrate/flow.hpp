@@ -51,6 +51,9 @@ enum class LastTangent {
   parameter,    ///< the last one is the derivative with respect to the parameter: dg/dp is added to it
 };
 
+/// @throws InputError unless both are numbers, and rise
+void check_interval(double from, double to);
+
 class Flow {
  public:
   Flow() = default;
@@ -65,8 +68,8 @@ class Flow {
   /// @param state    dimension() numbers, replaced
   /// @param samples  rising values of s in (from, to] at which `observer` sees the dense output; their number does not
   ///                 change the state at the end
-  /// @throws SolverError when the library fails for another reason than the problem; whatever the right-hand side
-  /// throws
+  /// @throws InputError for an interval that does not rise; SolverError when the library fails for another reason than
+  /// the problem; whatever the right-hand side throws
   virtual Evolution evolve(std::span<double> state, double from, double to, std::span<const double> samples,
                            const Observer& observer) = 0;
 

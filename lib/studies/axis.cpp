@@ -14,6 +14,7 @@ void Axis::validate() const {
   require(std::isfinite(to) && to >= from, "to", to, "finite and >= from");
   require(points >= 1, "points", points, ">= 1");
   require(points >= 2 || from == to, "points", points, ">= 2 for a range");
+  require(points == 1 || from != to, "points", points, "1 where `from` and `to` are one value");
 }
 
 double grid_value(double from, double to, double share) {

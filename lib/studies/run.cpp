@@ -222,17 +222,17 @@ class Run {
     s.signal = signal.name;
     s.unit = signal.unit;
     s.exact = exact;
-    const double dt = 1.0 / options_.dense_phases;  // in mesh periods
+    const double dt = 1.0 / options_.dense_phases;  // in mesh periods, the first of them at dt [uniform_phases()]
     std::vector<double>& values = signal.values;
     if (!exact) {
       // A window spreads the mean over its neighbours.
       const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
       for (double& x : values) x -= mean;
     }
-    s.spectrum =
-        analysis::amplitude_spectrum(values, dt, exact ? analysis::Window::rectangular : analysis::Window::flat_top);
+    s.spectrum = analysis::amplitude_spectrum(values, dt,
+                                              exact ? analysis::Window::rectangular : analysis::Window::flat_top, dt);
     if (exact) {
-      s.lines = analysis::harmonics(values, n);
+      s.lines = analysis::harmonics(values, n, dt);
     } else {
       constexpr std::size_t most = 20;
       constexpr double floor = 1e-3;

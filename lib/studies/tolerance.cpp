@@ -146,7 +146,13 @@ class PointStudy {
       for (std::size_t k = 0; k < quantity_names.size(); ++k) extrapolate(out_, k);
       return;
     }
+    if (!has_classification(model_)) {
+      out_.note += "; no statistics either: forces jump at contact, and there are no tangents for an exponent";
+      return;
+    }
     out_.note += "; statistics in place of an orbit";
+    if (out_.study.regime == analysis::Regime::undecided)
+      out_.note += ", of a motion that may be settling still: their intervals say how they vary, not where they end";
     gather();
   }
 

@@ -138,6 +138,20 @@ TEST(LyapunovSpectrum, DoesNotDependOnTheIntervalOrOnStepControlOfTangents) {
   }
 }
 
+TEST(LargestExponent, IsNoNumberWhereItWasStoppedOrThereIsNoPeriod) {
+  const auto flow = integrate::make_flow(problems::duffing(0.3, -1.0, 0.5, 1.2), tight(1e-8));
+  std::vector<double> y = {1.0, 0.0};
+  int asked = 0;
+  const LargestExponent stopped =
+      largest_exponent(*flow, y, {.aligning_periods = 2, .periods = 20}, {}, [&] { return ++asked < 10; });
+  EXPECT_TRUE(std::isnan(stopped.per_s.value));
+  const auto autonomous = integrate::make_flow(problems::lorenz(), tight(1e-8));
+  std::vector<double> z = {1.0, 1.0, 20.0};
+  EXPECT_THROW((void)largest_exponent(*autonomous, z, {}, {}, always), DomainError);
+  EXPECT_THROW((void)find_periodic_orbit(*autonomous, z, 1), DomainError);
+  EXPECT_THROW((void)largest_multiplier(PeriodicOrbit{}), DomainError);
+}
+
 TEST(LyapunovSpectrum, HistoryEndsAtTheMean) {
   const LyapunovSpectrum s =
       spectrum(problems::duffing(0.25, -1.0, 0.4, 1.0), {1.0, 0.0}, {.aligning_intervals = 5, .intervals = 64}, 1e-6);

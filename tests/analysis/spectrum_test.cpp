@@ -82,6 +82,17 @@ TEST(Harmonics, OfAPeriodTwoMotionAreLabelled) {
   EXPECT_LT(lines[3].amplitude, rounding);
 }
 
+TEST(Harmonics, PhasesAreThoseAtTheForcingsZeroWhereverSamplesBegin) {
+  const auto signal = [](double t) { return std::cos(turn * t + 0.3) + 0.25 * std::cos(turn * 10.5 * t - 1.2); };
+  for (const std::size_t each : {64UL, 128UL}) {
+    const double dt = 1.0 / static_cast<double>(each);
+    const auto x = sampled(2 * each, dt, [&](double t) { return signal(t + dt); });
+    const auto lines = harmonics(x, 2, dt);
+    EXPECT_NEAR(lines[2].phase, 0.3, of_the_sums);
+    EXPECT_NEAR(lines[21].phase, -1.2, of_the_sums);
+  }
+}
+
 TEST(Peaks, OfAModulatedSineAreTheCarrierAndItsSidebands) {
   // Carrier at twice the forcing's 1 Hz, modulated with 0.0832 Hz.
   const double dt = 1.0 / 32.0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string>
 #include <vector>
@@ -55,6 +56,21 @@ double observed_order(const Method& method) {
     errors.push_back(std::log(error_of_fixed_steps(method, n)));
   }
   return fitted_slope(steps, errors);
+}
+
+TEST(Methods, NoneCarriesAMotionBackwardsOrNowhere) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const char* name : {"arkode-dopri5", "cvode-adams", "lanes-cash-karp"}) {
+    IntegratorOptions options;
+    options.method = name;
+    const auto flow = make_flow(problems::duffing(0.3, -1.0, 0.2, 1.2), options);
+    std::vector<double> y = {1.0, 0.0};
+    EXPECT_THROW((void)flow->evolve(y, 6.0, 3.0), InputError) << name;
+    EXPECT_THROW((void)flow->evolve(y, 0.0, nan), InputError) << name;
+    EXPECT_THROW((void)flow->evolve(y, nan, 1.0), InputError) << name;
+    const std::vector<double> unsorted = {0.9, 0.3, 0.6};
+    EXPECT_ANY_THROW((void)flow->evolve(y, 0.0, 1.0, unsorted, [](auto&&...) {})) << name;
+  }
 }
 
 TEST(Methods, EachConvergesWithItsOrder) {

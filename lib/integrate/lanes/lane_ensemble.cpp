@@ -247,6 +247,9 @@ class LaneEnsemble::Impl {
     if (state.size() != n_)
       throw InputError("a state of " + std::to_string(state.size()) + " numbers for a field of dimension " +
                        std::to_string(n_));
+    check_interval(from, to);
+    if (!std::is_sorted(samples.begin(), samples.end()) || (!samples.empty() && !(samples.front() >= from)))
+      throw InputError("samples have to rise from where the motion begins");
     for (std::size_t i = 0; i < n_; ++i) y_[i * w_ + lane] = state[i];
     l.samples = samples;
     l.observer = observer ? &observer : nullptr;

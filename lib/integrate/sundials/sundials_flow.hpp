@@ -97,6 +97,7 @@ class Integration {
     system_.message.clear();
     if (options.locate_contacts) find_sides(from);
 
+    check_interval(from, to);
     double s = from;
     double target = to;
     bool crossing_ahead = false;
