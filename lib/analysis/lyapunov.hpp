@@ -30,7 +30,7 @@ struct LyapunovOptions {
 
 struct LargestExponent {
   integrate::Evolution evolution;  ///< how it ended; growth holds the periods until then
-  Estimate per_s;                  ///< lambda [1 / unit of s]; of no meaning unless reached
+  Estimate per_s;                  ///< lambda [1 / unit of s]; not a number unless all periods were carried
   std::vector<double> growth;      ///< g_k, one per counted period
   std::vector<double> direction;   ///< v at the end, of length 1
 };

@@ -160,8 +160,17 @@ bool FloquetMultipliers::stable() const {
   return true;
 }
 
+namespace {
+
+void check_reached(const PeriodicOrbit& orbit) {
+  if (orbit.monodromy.size() == 0) throw DomainError("multipliers are asked of an orbit that was not reached");
+}
+
+}  // namespace
+
 FloquetMultipliers floquet_multipliers(const PeriodicOrbit& orbit, const PeriodicOrbit& second) {
-  const auto sorted = [](const Eigen::MatrixXd& m) {
+  const auto sorted = [](const Eigen::MatrixXd& m) -> std::vector<std::complex<double>> {
+    if (m.size() == 0) return {};
     const Eigen::VectorXcd e = eigenvalues(m);
     std::vector<std::complex<double>> values(e.begin(), e.end());
     std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) {
@@ -169,6 +178,7 @@ FloquetMultipliers floquet_multipliers(const PeriodicOrbit& orbit, const Periodi
     });
     return values;
   };
+  check_reached(orbit);
   FloquetMultipliers result;
   result.values = sorted(orbit.monodromy);
   std::vector<std::complex<double>> others = sorted(second.monodromy);
@@ -198,7 +208,7 @@ FloquetMultipliers floquet_multipliers(const PeriodicOrbit& orbit, const Periodi
 }
 
 double largest_multiplier(const PeriodicOrbit& orbit) {
-  if (orbit.monodromy.size() == 0) throw DomainError("multipliers are asked of an orbit that was not reached");
+  check_reached(orbit);
   return eigenvalues(orbit.monodromy).cwiseAbs().maxCoeff();
 }
 

@@ -45,9 +45,6 @@ constexpr double even_part = 0.1;
 constexpr double slow_growth = 4.0 * neutral_growth;
 /// Periods over which e^2 is told from a small exponent.
 constexpr int torus_look = 1024;
-/// Of the extent: what closes as well as this after n periods goes round a torus in a thousand of them at most, and may
-/// be on its way to an orbit.
-constexpr double all_but_closed = 1e-3;
 /// A motion is as near to an orbit as it was to within a hundredth: the slowest multipliers move it by less.
 constexpr double as_near = 1.01;
 /// Returns over which a motion is followed until it is, and over which its monodromy is asked where it leads.
@@ -55,7 +52,7 @@ constexpr int most_returns = 16;
 constexpr int foreseen_returns = 256;
 
 void check(const integrate::Flow& flow, const RegimeOptions& o) {
-  if (!(flow.field().period > 0.0)) throw DomainError("regimes are told of fields with a period");
+  (void)period_of(flow.field());
   o.validate();
   require(o.observable < flow.field().dimension, "observable", static_cast<double>(o.observable),
           "a component of the state");
@@ -227,9 +224,7 @@ class Classifier {
     o.iterations = 24;
     known.orbit = find_periodic_orbit(exact, known.orbit.state, n, o);
     if (known.orbit.outcome == OrbitOutcome::not_reached || residual(known.orbit) > rough) {
-      result_.evidence.note =
-          "Newton's method nears an orbit of period " + std::to_string(n) + " and does not get there";
-      indistinct_.insert(n);
+      indistinct_.insert(n);  // nothing that is no orbit is neared so
       return std::nullopt;
     }
     known.own_tangents = true;
@@ -552,11 +547,6 @@ class Classifier {
       const Recurrence& r = seen.recurrence;
       if (r.best_period > 0 && r.error <= near_enough(options_.near) && settles_to_orbit_of(r.best_period)) return true;
       if (attracted_ || indistinct_.count(r.best_period) > 0) return false;
-      if (r.best_period > 0 && r.error <= all_but_closed * extent(section_)) {
-        seen.note = "tangents neither grow nor shrink, and the motion all but closes after " +
-                    std::to_string(r.best_period) + " periods: beside an orbit, where tighter tolerances tell";
-        return false;
-      }
       result_.regime = Regime::quasiperiodic;
       seen.note = "tangents neither grow nor shrink, 0-1 test " + short_text(*seen.zero_one);
       return true;

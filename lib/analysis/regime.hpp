@@ -24,7 +24,9 @@
 //   not mind.
 // - quasiperiodic: over the last half of all looks, long ones, tangent vectors neither grow nor shrink by more than
 //   e^2, as beside a torus, the exponent is not negative by three half intervals, the 0-1 test says regular, and what
-//   the motion all but comes back to after n periods is no orbit.
+//   the motion all but comes back to after n periods is no orbit, nor is the motion where an orbit of n periods may be
+//   by ten times its error [A-orbit-error], nor does Newton's method near one that it does not reach: next to a flip
+//   neither the orbit that is left nor the doubled one is told from what is between them.
 //
 // If none of these holds the transient was too short or the look was: the next look is twice as long. When the budget
 // is spent the motion is undecided, and the evidence says what was seen. So a transient ends when the motion has

@@ -83,10 +83,8 @@ Spectrum amplitude_spectrum(std::span<const double> x, double dt, Window window,
   s.resolution = transform.resolution();
   transform.each(x, [&s, first](std::size_t k, double re, double im, double scale) {
     s.amplitude.push_back(scale * std::hypot(re, im));
-    const double at_first = std::atan2(im, re);
-    s.phase.push_back(first == 0.0 ? at_first
-                                   : std::remainder(at_first - 2.0 * std::numbers::pi * s.frequency(k) * first,
-                                                    2.0 * std::numbers::pi));
+    constexpr double turn = 2.0 * std::numbers::pi;
+    s.phase.push_back(std::remainder(std::atan2(im, re) - turn * s.frequency(k) * first, turn));
   });
   return s;
 }

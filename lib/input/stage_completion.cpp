@@ -251,14 +251,11 @@ void complete(json& object, const json& computed, const std::string& pointer, st
 /// A note for each, or, where what they are computed from has changed and many follow it, one for all.
 void note_ignored(const std::vector<Ignored>& ignored, std::vector<std::string>& notes) {
   constexpr std::size_t most = 4;
-  for (const auto& [place, origin] : ignored) {
-    const bool many = ignored.size() > most;
-    std::string note = place + ": the value in the file is ignored and computed anew";
-    if (many) note += ", like " + std::to_string(ignored.size() - 1) + " others";
-    note += ", since its origin says " + origin + "; give it another origin to make it stand";
-    notes.push_back(std::move(note));
-    if (many) return;
-  }
+  const bool many = ignored.size() > most;
+  const std::string others = many ? ", like " + std::to_string(ignored.size() - 1) + " others" : "";
+  for (const auto& [place, origin] : std::span(ignored).first(many ? 1 : ignored.size()))
+    notes.push_back(place + ": the value in the file is ignored and computed anew" + others +
+                    ", since its origin says " + origin + "; give it another origin to make it stand");
 }
 
 /// Of the forms of computed friction that of lubricated contact alone, or none.

@@ -29,6 +29,10 @@ studies::ModelAt model_family(LoadedInput&& input, const std::string& parameter,
 /// The same at values of two parameters, with the derivative by the first.
 [[nodiscard]] std::function<model::DynamicModel(double first, double second)> model_plane(
     const LoadedInput& input, const std::string& first_parameter, const std::string& second_parameter, double step);
+std::function<model::DynamicModel(double first, double second)> model_plane(LoadedInput&& input,
+                                                                            const std::string& first_parameter,
+                                                                            const std::string& second_parameter,
+                                                                            double step) = delete;
 
 /// What a parameter, named or a JSON pointer, is in the study as given.
 /// @throws InputError where the input has no such number
@@ -42,9 +46,12 @@ studies::ModelAt model_family(LoadedInput&& input, const std::string& parameter,
 [[nodiscard]] studies::ModelAtPoint model_at_point(const LoadedInput& input);
 studies::ModelAtPoint model_at_point(LoadedInput&& input) = delete;
 
-/// The model at a value of the sweep parameter with another width of the smooth clearance.
+/// The model at a value of the sweep parameter with another width of the smooth clearance. `input` must outlive the
+/// result.
 [[nodiscard]] std::function<model::DynamicModel(double value, double clearance_smoothing)> smoothed_model_at(
     const LoadedInput& input);
+std::function<model::DynamicModel(double value, double clearance_smoothing)> smoothed_model_at(LoadedInput&& input) =
+    delete;
 
 /// The models of candidates for what a study of claims leaves open. An input is loaded once for each set of options
 /// that is asked for. Scales are each candidate's own: it stands for the stage, as a stage of its own would.

@@ -150,6 +150,7 @@ TEST(LargestExponent, IsNoNumberWhereItWasStoppedOrThereIsNoPeriod) {
   EXPECT_THROW((void)largest_exponent(*autonomous, z, {}, {}, always), DomainError);
   EXPECT_THROW((void)find_periodic_orbit(*autonomous, z, 1), DomainError);
   EXPECT_THROW((void)largest_multiplier(PeriodicOrbit{}), DomainError);
+  EXPECT_THROW((void)floquet_multipliers(PeriodicOrbit{}, PeriodicOrbit{}), DomainError);
 }
 
 TEST(LyapunovSpectrum, HistoryEndsAtTheMean) {

@@ -166,9 +166,9 @@ TEST(Regime, WhatGrowsIntoAContactBeforeItShrinksIsNotDrawn) {
     ASSERT_EQ(c.regime, Regime::periodic) << c.evidence.note;
     EXPECT_EQ(c.evidence.periods > 0, contact) << v;  // where there is one the section seen does not tell
     if (contact)
-      EXPECT_GT(c.orbit->state[2], 1.3);
+      EXPECT_NEAR(c.orbit->state[2], 1.37, 0.01);  // 1.9 u = 0.02 + u^3
     else
-      EXPECT_NEAR(c.orbit->state[2], 0.0, 1e-8);
+      EXPECT_NEAR(c.orbit->state[2], 0.0, 1e-8);  // tolerance 1e-10, held up by the shear
   }
 }
 

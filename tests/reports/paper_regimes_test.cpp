@@ -48,7 +48,8 @@ TEST(PaperRegimes, NextToAFlipNoTorusIsTold) {
       integrator.method = method;
       const studies::PointResult r = studies::compute_point_as_swept({0, studies::Direction::up, speed}, at(speed), {},
                                                                      input.study.look(), integrator, always);
-      if (r.regime != analysis::Regime::undecided) {
+      constexpr double told_by_all = 2.1486;
+      if (speed <= told_by_all || r.regime != analysis::Regime::undecided) {
         EXPECT_EQ(r.regime, analysis::Regime::periodic) << method << " at " << speed << ": " << r.evidence.note;
         EXPECT_EQ(r.period, 2) << method << " at " << speed;
       }

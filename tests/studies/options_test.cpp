@@ -30,7 +30,7 @@ TEST(Options, AnAxisHasEndsThatRiseAndPointsBetweenThem) {
   expect_refused<Axis>({"x", 0, 1, 2},
                        {W{"from", [](Axis& o) { o.from = nan; }}, W{"to", [](Axis& o) { o.to = infinity; }},
                         W{"to", [](Axis& o) { o.to = -1; }}, W{"points", [](Axis& o) { o.points = 0; }},
-                        W{"points", [](Axis& o) { o.points = 1; }}});
+                        W{"points", [](Axis& o) { o.points = 1; }}, W{"points", [](Axis& o) { o.to = o.from; }}});
   EXPECT_NO_THROW((Axis{"x", 1, 1, 1}.validate()));
 }
 

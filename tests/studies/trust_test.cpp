@@ -412,6 +412,24 @@ TolerancePoint study(double w, const ToleranceOptions& options, double tolerance
                                  nullptr);
 }
 
+TEST(Tolerance, WhereForcesJumpThereAreNoStatistics) {
+  const auto jumping = [](double value, double smoothing) {
+    model::DynamicModel m = oscillator(value, smoothing);
+    m.jumps_at_surfaces = true;
+    return m;
+  };
+  SweepOptions sweep = points(0.85, 0.85, 1);
+  auto motion = run_sweep_in_memory(plan_sweep(sweep), sweep.look, integrator(1e-7),
+                                    [&](double value) { return jumping(value, 0.0); }, {});
+  for (const auto regime : {analysis::Regime::undecided, analysis::Regime::chaotic}) {
+    motion.front().regime = regime;
+    const TolerancePoint p =
+        compute_tolerance_point(motion.front(), sweep.look, {}, integrator(1e-7), 0.0, jumping, 1, nullptr);
+    EXPECT_TRUE(p.statistics.empty());
+    EXPECT_NE(p.note.find("no statistics either"), std::string::npos) << p.note;
+  }
+}
+
 TEST(Tolerance, ErrorsAndErrorBarsAreTheTrueOnes) {
   ToleranceOptions options;
   options.methods = {"arkode-dopri5", "cvode-adams"};

@@ -62,6 +62,7 @@ class Integration {
   /// @param next_step  length of the first step, replaced by that of the next one
   Evolution evolve(double from, double to, std::span<const double> samples, const Observer& observer,
                    double& next_step) {
+    check_interval(from, to);
     const VectorField& field = *system_.field;
     std::vector<double> stops = breakpoints_between(field, from, to);
     stops.push_back(to);
@@ -97,7 +98,6 @@ class Integration {
     system_.message.clear();
     if (options.locate_contacts) find_sides(from);
 
-    check_interval(from, to);
     double s = from;
     double target = to;
     bool crossing_ahead = false;
