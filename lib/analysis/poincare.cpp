@@ -1,6 +1,7 @@
 #include "analysis/poincare.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -120,6 +121,7 @@ Recurrence recurrence(const PoincareSection& section, int longest, double tolera
   const std::size_t most = std::min(static_cast<std::size_t>(longest), section.size() / 2);
   Recurrence best;
   best.error = std::numeric_limits<double>::infinity();
+  if (!std::ranges::all_of(section.states, [](double y) { return std::isfinite(y); })) return best;
   for (std::size_t n = 1; n <= most; ++n) {
     const double error = recurrence_error(section, n, 0);
     const bool recurs = error <= tolerance && error <= best.error / separation;

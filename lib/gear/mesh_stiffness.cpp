@@ -18,6 +18,9 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double phase_resolution = 1e-9;
 constexpr int panels = 4;
 
+/// The phase of the same contact in [0, 1).
+double in_period(double phase) { return phase - std::floor(phase); }
+
 /// Calls f(from, to, inside) for each smooth piece of a period.
 template <class F>
 void for_pieces(const MeshedPair& mesh, F f) {
@@ -45,13 +48,18 @@ double MeshedPair::pair_stiffness(double position) const {
 }
 
 int MeshedPair::pairs_in_contact(double phase) const {
-  return std::max(0, static_cast<int>(std::ceil(contact_ratio() - phase)));
+  return std::max(0, static_cast<int>(std::ceil(contact_ratio() - in_period(phase))));
 }
 
 std::vector<double> MeshedPair::breakpoints() const {
   const double rest = contact_ratio() - std::floor(contact_ratio());
   if (rest < phase_resolution || rest > 1.0 - phase_resolution) return {0.0};
   return {0.0, rest};
+}
+
+double MeshedPair::stiffness(double phase) const {
+  const double within = in_period(phase);
+  return stiffness(within, within);
 }
 
 double MeshedPair::stiffness(double phase, double inside) const {
@@ -126,10 +134,14 @@ StiffnessRange stiffness_range(const MeshedPair& mesh) {
 IsoStiffness iso_stiffness(const MeshedPair& mesh) {
   // A rack in place of the internal gear: infinitely many teeth, no shift.
   const auto inverse_teeth = [](const Tooth& t) { return t.internal ? 0.0 : 1.0 / t.teeth; };
-  const double n_1 = inverse_teeth(mesh.driving.tooth);
-  const double n_2 = inverse_teeth(mesh.driven.tooth);
-  const double x_1 = mesh.driving.tooth.profile_shift;
-  const double x_2 = mesh.driven.tooth.internal ? 0.0 : mesh.driven.tooth.profile_shift;
+  // 1 is the pinion, whichever drives.
+  const bool driving_is_pinion = inverse_teeth(mesh.driving.tooth) >= inverse_teeth(mesh.driven.tooth);
+  const Tooth& pinion = (driving_is_pinion ? mesh.driving : mesh.driven).tooth;
+  const Tooth& wheel = (driving_is_pinion ? mesh.driven : mesh.driving).tooth;
+  const double n_1 = inverse_teeth(pinion);
+  const double n_2 = inverse_teeth(wheel);
+  const double x_1 = pinion.profile_shift;
+  const double x_2 = wheel.internal ? 0.0 : wheel.profile_shift;
   const double q = 0.04723 + 0.15551 * n_1 + 0.25791 * n_2 - 0.00635 * x_1 - 0.11654 * x_1 * n_1 - 0.00193 * x_2 -
                    0.24188 * x_2 * n_2 + 0.00529 * x_1 * x_1 + 0.00182 * x_2 * x_2;
   constexpr double theory_to_measurement = 0.8;

@@ -43,15 +43,16 @@ struct MeshedPair {
   /// k_pair at a position in [0, epsilon] [N/m].
   [[nodiscard]] double pair_stiffness(double position) const;
 
-  /// Pairs in contact at a phase in [0, 1).
+  /// Pairs in contact at a phase.
   [[nodiscard]] int pairs_in_contact(double phase) const;
 
   /// Phases in [0, 1) where a pair enters or leaves, rising; the first is 0.
   [[nodiscard]] std::vector<double> breakpoints() const;
 
-  /// k at a phase, as it is within the piece that holds `inside` [N/m].
+  /// k at a phase [N/m].
+  [[nodiscard]] double stiffness(double phase) const;
+  /// k at a phase in [0, 1], as it is within the piece that holds `inside` in (0, 1) [N/m].
   [[nodiscard]] double stiffness(double phase, double inside) const;
-  [[nodiscard]] double stiffness(double phase) const { return stiffness(phase, phase); }
 
   /// Share of the load that the pair at a position carries; at a jump, `inside` tells the side [-].
   [[nodiscard]] double load_share(double position, double inside) const;
@@ -77,8 +78,8 @@ struct StiffnessRange {
 [[nodiscard]] StiffnessRange stiffness_range(const MeshedPair& mesh);
 
 /// The estimate of ISO 6336-1:2006, 9.3, method B, for solid discs; the factor of the reference profile, C_B,
-/// is taken as 1 (20 degrees, dedendum 1.2), as in the numbers that it is compared with.
-/// An internal gear counts as one of infinitely many teeth.
+/// is taken as 1 (20 degrees, dedendum 1.2), as in the numbers that it is compared with. The pinion is the gear of
+/// fewer teeth, whichever drives. An internal gear counts as one of infinitely many teeth.
 struct IsoStiffness {
   double single;  ///< c' b [N/m]
   double mesh;    ///< c_gamma-alpha b [N/m]

@@ -165,6 +165,8 @@ struct PointerValue {
 
 class LoadedInput {
  public:
+  /// As loaded. What is varied by a JSON pointer is read from `resolved` anew, without what has been changed here:
+  /// values are set by load_input().
   Study study;
   nlohmann::json resolved;            ///< a valid input that resolves to itself
   RawFile study_file;                 ///< the file that was named: a study, or a stage alone

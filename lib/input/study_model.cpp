@@ -83,8 +83,11 @@ model::DynamicModel started(model::DynamicModel model, const Study& study) {
 
 }  // namespace
 
-studies::ModelAt model_at(const LoadedInput& input) {
-  return [&input, parameter = parameter_of(input.study), scales = model::scales_of(input.study.stage)](double value) {
+studies::ModelAt model_at(const LoadedInput& input) { return model_at(input, parameter_of(input.study)); }
+
+studies::ModelAt model_at(const LoadedInput& input, const std::string& parameter) {
+  (void)given_value(input, parameter);
+  return [&input, parameter, scales = model::scales_of(input.study.stage)](double value) {
     return started(model_of(point_at(input, std::array{PointerValue{parameter, value}}), scales), input.study);
   };
 }

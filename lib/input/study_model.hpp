@@ -18,6 +18,11 @@ namespace epicyclic::input {
 [[nodiscard]] studies::ModelAt model_at(const LoadedInput& input);
 studies::ModelAt model_at(LoadedInput&& input) = delete;
 
+/// The same of any parameter, named or a JSON pointer: of a sweep whose axis is not the study's.
+/// @throws InputError where the input has no such number
+[[nodiscard]] studies::ModelAt model_at(const LoadedInput& input, const std::string& parameter);
+studies::ModelAt model_at(LoadedInput&& input, const std::string& parameter) = delete;
+
 /// The model at each value of any parameter, named or a JSON pointer, with the derivative of its right-hand side by it:
 /// what integrate::make_flow_family() takes. Scales are those of the stage as given. `input` must outlive the result. A
 /// call throws InputError when the study is not valid at that value, or there is no derivative.

@@ -156,6 +156,7 @@ class Run {
           std::async(control_.threads > 1 ? std::launch::async : std::launch::deferred, [&] { find_exponents(r); });
     at("histories, spectra");
     summarise(r, record(r));
+    if (go_on_()) find_spectra(r);
     if (go_on_()) cross(r);
     if (exponents.valid()) exponents.get();
     if (options_.exponent_periods > 0 && !model_.jumps_at_surfaces && go_on_() && model_.remove_synchronous &&
@@ -213,16 +214,18 @@ class Run {
   struct Signal {
     const char* name;
     const char* unit;
-    std::vector<double> values;  ///< dense_phases in each mesh period
+    std::vector<double> values;  ///< phases in each mesh period
   };
 
-  /// @param exact  the signal is that of an orbit of period n: its harmonics are exact
-  [[nodiscard]] SignalSpectrum spectrum_of(Signal signal, bool exact, int n) const {
+  /// @param phases  of the signal in a mesh period
+  /// @param exact  the signal is that of an orbit of period n: its harmonics are exact, and those beyond half of
+  /// dense_phases, which only keep others from folding back, are left out
+  [[nodiscard]] SignalSpectrum spectrum_of(Signal signal, int phases, bool exact, int n) const {
     SignalSpectrum s;
     s.signal = signal.name;
     s.unit = signal.unit;
     s.exact = exact;
-    const double dt = 1.0 / options_.dense_phases;  // in mesh periods, the first of them at dt [uniform_phases()]
+    const double dt = 1.0 / phases;  // in mesh periods, the first of them at dt [uniform_phases()]
     std::vector<double>& values = signal.values;
     if (!exact) {
       // A window spreads the mean over its neighbours.
@@ -233,6 +236,10 @@ class Run {
                                               exact ? analysis::Window::rectangular : analysis::Window::flat_top, dt);
     if (exact) {
       s.lines = analysis::harmonics(values, n, dt);
+      const auto told = static_cast<std::size_t>(n * options_.dense_phases / 2 + 1);
+      s.lines.resize(told);
+      s.spectrum.amplitude.resize(told);
+      s.spectrum.phase.resize(told);
     } else {
       constexpr std::size_t most = 20;
       constexpr double floor = 1e-3;
@@ -241,26 +248,57 @@ class Run {
     return s;
   }
 
-  /// Histories, and the signals of the spectra, which are longer.
+  /// Lines of a motion with contact that is made and lost fall with the cube of their order: of samples as dense as the
+  /// history's, what folds back would be seen.
+  void find_spectra(RunResult& r) const {
+    const bool exact = r.orbit.has_value();
+    const int n = exact ? r.point.period : options_.spectrum_periods;
+    const int phases = options_.dense_phases * (exact ? oversampling(n) : 1);
+    const auto carried = flow();
+    const std::vector<double> samples = analysis::uniform_phases(carried->field().period, phases);
+    model::MeshDeflections d;
+    model::StageForces f;
+    std::vector<Signal> signals = {
+        {"delta_sp_1", "um", {}}, {"delta_rp_1", "um", {}}, {"force_sp_1", "N", {}}, {"force_rp_1", "N", {}}};
+    std::vector<double> y = state_;
+    for (int k = 0; k < n; ++k) {
+      if (!go_on_()) return;
+      const integrate::Evolution e = carried->evolve(
+          y, 0.0, carried->field().period, samples, [&](std::size_t, double s, std::span<const double> now) {
+            model_.deflections(s, now.data(), d);
+            model_.forces(s, now.data(), f);
+            signals[0].values.push_back(scales_.displacement_um(d.sun_planet[0]));
+            signals[1].values.push_back(scales_.displacement_um(d.ring_planet[0]));
+            signals[2].values.push_back(scales_.force_newton(f.sun_planet[0]));
+            signals[3].values.push_back(scales_.force_newton(f.ring_planet[0]));
+          });
+      if (!e.reached()) return;
+    }
+    for (Signal& signal : signals) r.spectra.push_back(spectrum_of(std::move(signal), phases, exact, n));
+  }
+
+  /// How many times as many samples as those of the history an orbit's lines are taken of.
+  [[nodiscard]] int oversampling(int periods) const {
+    constexpr int wanted = 4096;     // in a mesh period
+    constexpr int most = 64 * 4096;  // in all
+    const int affordable = std::min(wanted, most / periods);
+    return std::max(1, (affordable + options_.dense_phases - 1) / options_.dense_phases);
+  }
+
   /// @returns Recorder::pulls()
   [[nodiscard]] std::vector<double> record(RunResult& r) const {
     const auto carried = flow();
     const std::vector<double> samples = analysis::uniform_phases(carried->field().period, options_.dense_phases);
     r.history.phases = options_.dense_phases;
     Recorder recorder(model_, scales_, r.history);
-    const bool exact = r.orbit.has_value();
-    const int n = exact ? r.point.period : options_.spectrum_periods;
-    std::vector<Signal> signals = {
-        {"delta_sp_1", "um", {}}, {"delta_rp_1", "um", {}}, {"force_sp_1", "N", {}}, {"force_rp_1", "N", {}}};
     std::vector<double> y = state_;
-    const int periods = std::max(n, options_.history_periods);
-    const int shown = exact ? std::max(n, options_.shown_periods) : portrait_periods;
+    const int shown = r.orbit.has_value() ? std::max(r.point.period, options_.shown_periods) : portrait_periods;
     const auto detail = static_cast<std::size_t>(portrait_detail(model_, options_, shown));
     const std::vector<double> fine = finer(samples, static_cast<int>(detail));
     r.portrait.phases = options_.dense_phases * static_cast<int>(detail);
-    for (int k = 0; k < periods; ++k) {
-      if (!go_on_()) return recorder.pulls();
-      const bool drawn = k < options_.history_periods && k >= options_.history_periods - shown;
+    for (int k = 0; k < options_.history_periods; ++k) {
+      if (!go_on_()) break;
+      const bool drawn = k >= options_.history_periods - shown;
       const integrate::Evolution e =
           carried->evolve(y, 0.0, carried->field().period, drawn ? fine : samples,
                           [&](std::size_t j, double s, std::span<const double> now) {
@@ -270,16 +308,10 @@ class Run {
                               r.portrait.rate.push_back(recorder.deflections().sun_planet_rate[0]);
                               if ((j + 1) % detail != 0) return;
                             }
-                            if (k < options_.history_periods) recorder.keep(static_cast<std::size_t>(k), s, now);
-                            if (k >= n) return;
-                            signals[0].values.push_back(scales_.displacement_um(recorder.deflections().sun_planet[0]));
-                            signals[1].values.push_back(scales_.displacement_um(recorder.deflections().ring_planet[0]));
-                            signals[2].values.push_back(scales_.force_newton(recorder.forces().sun_planet[0]));
-                            signals[3].values.push_back(scales_.force_newton(recorder.forces().ring_planet[0]));
+                            recorder.keep(static_cast<std::size_t>(k), s, now);
                           });
-      if (!e.reached()) return recorder.pulls();
+      if (!e.reached()) break;
     }
-    for (Signal& signal : signals) r.spectra.push_back(spectrum_of(std::move(signal), exact, n));
     return recorder.pulls();
   }
 

@@ -391,6 +391,8 @@ std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const LookOp
   std::map<std::size_t, std::vector<double>> ends;
   run.done.assign(plan.points.size(), false);
   for (const auto& [index, result] : done) {
+    if (!(index < plan.points.size() && result.point == plan.points[index]))
+      throw InputError("point " + std::to_string(index) + " of an earlier run is none of this sweep");
     run.done[index] = true;
     ends.emplace(index, result.end_state);
   }

@@ -30,7 +30,7 @@
 namespace epicyclic::studies {
 
 /// Raised when a change makes the same input give other numbers: results of two versions are never mixed in one folder.
-inline constexpr int numerics_version = 20;
+inline constexpr int numerics_version = 21;
 
 /// Mesh periods of a stretch of the spectra of points, and up to how many times the mesh frequency they are kept.
 inline constexpr int spectrum_periods = 32;
@@ -176,7 +176,7 @@ struct SweepRun {
                                     const SweepRun& run);
 
 /// Runs a sweep of few points, which are kept in memory.
-/// @throws the first exception of a point or of a function of `run`
+/// @throws the first exception of a point or of a function of `run`; InputError if one of `done` is not of this plan
 /// @param done  points of an earlier run
 /// @returns points in order of their index; incomplete only if stopped
 [[nodiscard]] std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const LookOptions& look,

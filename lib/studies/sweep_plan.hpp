@@ -21,6 +21,8 @@ struct GridPoint {
   Direction direction = Direction::up;
   double value = 0;
   double second_value = 0;  ///< along the second axis of a plane [studies/plane.hpp]
+
+  bool operator==(const GridPoint&) const = default;
 };
 
 /// What has a size and an element for each index, without holding them.

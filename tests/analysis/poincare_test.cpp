@@ -3,6 +3,7 @@
 #include "analysis/poincare.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -65,6 +66,14 @@ TEST(Recurrence, ComparesTheWholeStateOverTheWholeRecord) {
   // A slip of half of what tells period 2 from period 1 leaves no period.
   section.states[18] = 1.5;
   EXPECT_EQ(recurrence(section, 5, 0.6).period, 0);
+}
+
+TEST(Recurrence, WhatIsNoNumberDoesNotRecur) {
+  PoincareSection section{1, std::vector<double>(10, 1.0)};
+  ASSERT_EQ(recurrence(section, 5, 1e-6).period, 1);
+  section.states[3] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(recurrence(section, 5, 1e-6).period, 0);
+  EXPECT_FALSE(still_settling(recurrence(section, 5, 1e-6), 1e-6));
 }
 
 TEST(Recurrence, CreepTowardsAShortPeriodIsNotALongPeriod) {

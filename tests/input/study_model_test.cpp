@@ -20,6 +20,13 @@ std::vector<std::string> told(const std::string& file, const std::vector<std::st
   return warnings(load_input(file, parse_assignments(sets)));
 }
 
+/// The right-hand side at the default start.
+std::vector<double> rates_of(const model::DynamicModel& model) {
+  std::vector<double> rates(model.dimension);
+  model.right_hand_side(model::segment_at(model.breakpoints, 0.0), 0.0, model.default_start.data(), rates.data());
+  return rates;
+}
+
 bool has(const std::vector<std::string>& lines, const std::string& part) {
   return joined(lines).find(part) != std::string::npos;
 }
@@ -39,6 +46,19 @@ TEST(StudyWarnings, TheProjectsOwnInputsHaveNone) {
     EXPECT_EQ(joined(lines), "") << entry.path();
   }
   EXPECT_GT(looked_at, 15);
+}
+
+TEST(ModelAt, IsOfTheParameterThatIsAskedFor) {
+  const LoadedInput input = load_input("inputs/tang2020_speed.json");
+  const double speed = input.study.mesh_frequency_ratio;
+  const studies::ModelAt by_damping = model_at(input, "damping_ratio");
+  EXPECT_EQ(by_damping(0.07).omega, speed);
+  EXPECT_NE(rates_of(by_damping(0.07)), rates_of(by_damping(0.05)));
+  const std::string pointer = "/stage/lumped/sun_planet_mesh/damping_ratio";
+  EXPECT_NE(rates_of(model_at(input, pointer)(0.07)), rates_of(by_damping(0.05)));
+  EXPECT_EQ(model_at(input)(2.1).omega, model_at(input, "mesh_frequency_ratio")(2.1).omega);
+  EXPECT_THROW((void)model_at(input, "damping"), InputError);
+  EXPECT_THROW((void)model_at(input, "/stage/lumped/sun"), InputError);
 }
 
 TEST(StudyWarnings, AParameterWithoutEffectIsTold) {

@@ -30,8 +30,9 @@ studies::PointResult point_at(const model::DynamicModel& m, const studies::LookO
 
 /// The run of inputs/tang2020_run.json at another speed, with few periods of history and exponents.
 std::optional<studies::RunResult> run_at(const input::LoadedInput& input, const model::DynamicModel& m,
-                                         int exponent_periods) {
+                                         int exponent_periods, int dense_phases = 0) {
   studies::RunOptions options = std::get<input::RunPlan>(input.study.plan).run;
+  if (dense_phases > 0) options.dense_phases = dense_phases;
   options.exponent_periods = exponent_periods;
   options.history_periods = 4;
   return studies::run_operating_point(m, input.study.look(), options, input.study.integrator);
@@ -211,6 +212,26 @@ TEST(PaperRegimes, ARunChecksItsExponents) {
   // A run of one period of record has its lines on whole multiples of the mesh frequency.
   ASSERT_FALSE(r->spectra.empty());
   EXPECT_TRUE(r->spectra[0].exact);
+}
+
+TEST(PaperRegimes, ExactLinesAreThoseOfAnySampling) {
+  // Contact is lost once a period: of 64 samples, 1.2 % and more of a line would be folded back from others.
+  const input::LoadedInput input = input::load_input("inputs/tang2020_run.json");
+  const model::DynamicModel m = input::model_at(input)(2.4);
+  const auto coarse = run_at(input, m, 0, 64);
+  const auto dense = run_at(input, m, 0, 8192);
+  ASSERT_TRUE(coarse.has_value() && dense.has_value());
+  ASSERT_EQ(coarse->spectra.size(), 4U);
+  for (std::size_t k = 0; k < coarse->spectra.size(); ++k) {
+    const auto& lines = coarse->spectra[k].lines;
+    ASSERT_TRUE(coarse->spectra[k].exact);
+    ASSERT_EQ(lines.size(), 33U);  // up to half of the samples that were asked for
+    ASSERT_EQ(coarse->spectra[k].spectrum.amplitude.size(), lines.size());
+    ASSERT_EQ(dense->spectra[k].lines.size(), 4097U);
+    constexpr double folded = 2e-3;  // of the line, which may be one of the weakest
+    for (std::size_t p = 0; p < lines.size(); ++p)
+      EXPECT_NEAR(lines[p].amplitude / dense->spectra[k].lines[p].amplitude, 1.0, folded) << k << ' ' << p;
+  }
 }
 
 TEST(PaperRegimes, ExponentsOfChaosInLanesAddUpToTheDivergence) {

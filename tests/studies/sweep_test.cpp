@@ -212,6 +212,16 @@ TEST(Sweep, ThreadsAndResumptionLeaveEachNumberUnchanged) {
   }
 }
 
+TEST(Sweep, PointsOfAnotherSweepAreRefused) {
+  const SweepOptions o = few_points();
+  const auto one = run_sweep_in_memory(plan_sweep(o), o.look, {}, oscillator, {});
+  SweepOptions other = o;
+  other.axis.to += 1.0;
+  EXPECT_THROW((void)run_sweep_in_memory(plan_sweep(other), o.look, {}, oscillator, {}, {{2, one[2]}}), InputError);
+  EXPECT_THROW((void)run_sweep_in_memory(plan_sweep(o), o.look, {}, oscillator, {}, {{1, one[2]}}), InputError);
+  EXPECT_THROW((void)run_sweep_in_memory(plan_sweep(o), o.look, {}, oscillator, {}, {{900, one[2]}}), InputError);
+}
+
 TEST(Sweep, CarriedStartIsTheEndOfThePointBefore) {
   SweepOptions o = few_points();
   o.look.transient_periods = 0;
