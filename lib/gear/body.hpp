@@ -32,7 +32,7 @@ struct CarrierBody {
   double outer_diameter_mm = 0;
   double inner_diameter_mm = 0;
   double pin_diameter_mm = 0;
-  double pin_length_mm = 0;
+  double pin_length_mm = 0;  ///< between the cheeks: what of a pin is within them counts as theirs
 };
 
 /// @param planets  one pin each, on the centre distance

@@ -135,6 +135,21 @@ void check_tip(Problems& out, const Tooth& tooth, const std::string& pointer) {
             " mm");
 }
 
+/// What no tool leaves standing: a rack whose flanks meet before it is as deep as the root, spaces of a ring that do.
+void check_root(Problems& out, const Tooth& tooth, const GearData& data, const std::string& pointer) {
+  if (tooth.internal) {
+    const double space_mm =
+        2.0 * tooth.root_radius_mm * (std::numbers::pi / tooth.teeth - tooth.half_angle_at(tooth.root_radius_mm));
+    if (space_mm <= 0.0)
+      out.add(pointer, "its teeth meet before the root radius of ", tooth.root_radius_mm, " mm: the space there is ",
+              space_mm, " mm wide");
+  } else if (!data.root_diameter_mm && tooth.rack_tip_width() <= 0.0) {
+    out.add(pointer, "the rack that cuts it is pointed before its depth of ", tooth.rack_depth(), " modules: at ",
+            data.pressure_angle_deg, " degrees its flanks meet at ",
+            0.25 * std::numbers::pi / std::tan(tooth.pressure_angle));
+  }
+}
+
 /// A DomainError of `make` as a problem of the pointer.
 bool tried(Problems& out, const std::string& pointer, const std::function<void()>& make) {
   try {
@@ -306,6 +321,9 @@ std::vector<std::string> catalogue_problems(const Stage& stage) {
   check_tip(out, set.sun, sun_pointer);
   check_tip(out, set.planet, planet_pointer);
   check_tip(out, set.ring, ring_pointer);
+  check_root(out, set.sun, set.catalogue.sun.data, sun_pointer);
+  check_root(out, set.planet, set.catalogue.planet.data, planet_pointer);
+  check_root(out, set.ring, set.catalogue.ring.data, ring_pointer);
   check_room(out, set, stage.angles_deg.empty());
   lines = out.take();
   if (!lines.empty()) return lines;
@@ -431,6 +449,10 @@ MemberTolerances member_tolerances(const GearSet& set) {
           of(c.ring.accuracy_grade, set.ring, set.ring_planet.contact_ratio())};
 }
 
+double addendum_of(const Tooth& ring) {
+  return (ring.reference_radius_mm - ring.tip_radius_mm) / ring.module_mm + ring.profile_shift;
+}
+
 double ring_addendum_bound(const Stage& stage) {
   const auto distance = [&](double addendum) {
     Stage changed = stage;
@@ -440,8 +462,7 @@ double ring_addendum_bound(const Stage& stage) {
     return set.ring_planet.pair.start_mm - set.ring_planet.pair.pitch_arm_mm;
   };
   // Tips on or below the base circle make no tooth: the search stays above it.
-  constexpr double least = 0.1;
-  constexpr double greatest = 3.0;
+  const auto [least, greatest] = ring_addenda_searched;
   double high = greatest;
   constexpr double step = 0.05;
   while (high > least) {

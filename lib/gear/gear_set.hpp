@@ -76,9 +76,15 @@ struct MemberTolerances {
 };
 [[nodiscard]] MemberTolerances member_tolerances(const GearSet& set);
 
+/// The addendum coefficient that the tip radius of an internal tooth stands for [-].
+[[nodiscard]] double addendum_of(const Tooth& ring);
+
+/// Addendum coefficients of the ring that ring_addendum_bound() looks at [-].
+inline constexpr std::pair<double, double> ring_addenda_searched = {0.1, 3.0};
+
 /// Greatest addendum coefficient of the ring with which the ring-planet mesh lies wholly beyond its pitch point, found
 /// by search on the set itself [-].
-/// @throws DomainError when there is none between 0.1 and 3
+/// @throws DomainError when there is none among ring_addenda_searched
 [[nodiscard]] double ring_addendum_bound(const Stage& stage);
 
 }  // namespace epicyclic::gear

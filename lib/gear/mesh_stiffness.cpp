@@ -138,6 +138,11 @@ IsoStiffness iso_stiffness(const MeshedPair& mesh) {
   const bool driving_is_pinion = inverse_teeth(mesh.driving.tooth) >= inverse_teeth(mesh.driven.tooth);
   const Tooth& pinion = (driving_is_pinion ? mesh.driving : mesh.driven).tooth;
   const Tooth& wheel = (driving_is_pinion ? mesh.driven : mesh.driving).tooth;
+  const auto profile = [](const Tooth& t) {
+    const double depth = std::abs(t.rack_depth());
+    constexpr double degree = std::numbers::pi / 180.0;
+    return (1.0 + 0.5 * (1.2 - depth)) * (1.0 - 0.02 * (20.0 - t.pressure_angle / degree));
+  };
   const double n_1 = inverse_teeth(pinion);
   const double n_2 = inverse_teeth(wheel);
   const double x_1 = pinion.profile_shift;
@@ -149,8 +154,8 @@ IsoStiffness iso_stiffness(const MeshedPair& mesh) {
   constexpr double steel_GPa = 206.0;
   const double e_1 = mesh.driving.material.youngs_modulus_GPa;
   const double e_2 = mesh.driven.material.youngs_modulus_GPa;
-  const double single =
-      theory_to_measurement / q * mesh.face_width_mm() * per_mm_um * (2.0 * e_1 * e_2 / (e_1 + e_2) / steel_GPa);
+  const double single = theory_to_measurement * 0.5 * (profile(pinion) + profile(wheel)) / q * mesh.face_width_mm() *
+                        per_mm_um * (2.0 * e_1 * e_2 / (e_1 + e_2) / steel_GPa);
   return {single, single * (0.75 * mesh.contact_ratio() + 0.25)};
 }
 

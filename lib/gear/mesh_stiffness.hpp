@@ -6,7 +6,8 @@
 //   L_j = k_pair,j / k : equal total deformation of the pairs in contact                                [G-L]
 //   k = k_0 + sum_h [ A_h cos 2 pi h phase + B_h sin 2 pi h phase ]                                     [G-4]
 //   ISO 6336-1:2006, 9.3, method B, c'_th from the teeth and shifts:                                     [G-iso]
-//   c' = 0.8 c'_th E / E_St ,  c_gamma = c' (0.75 eps + 0.25) ,  E = 2 E_1 E_2 / (E_1 + E_2) ,  E_St = 206 GPa
+//   c' = 0.8 c'_th C_B E / E_St ,  c_gamma = c' (0.75 eps + 0.25) ,  E = 2 E_1 E_2 / (E_1 + E_2) ,  E_St = 206 GPa ,
+//   C_B = mean of both gears' (1 + 0.5 (1.2 - h_fP/m)) (1 - 0.02 (20 - alpha_0/deg))
 //
 // phase = s / 2 pi of the mesh's own period, 0 where a pair enters; position = phase + j of a pair in base pitches from
 // the start of contact. Source: Tang et al. 2020, section 1.3 and Eq. (4) (with the time shift inside the angle);
@@ -77,9 +78,10 @@ struct StiffnessRange {
 };
 [[nodiscard]] StiffnessRange stiffness_range(const MeshedPair& mesh);
 
-/// The estimate of ISO 6336-1:2006, 9.3, method B, for solid discs; the factor of the reference profile, C_B,
-/// is taken as 1 (20 degrees, dedendum 1.2), as in the numbers that it is compared with. The pinion is the gear of
-/// fewer teeth, whichever drives. An internal gear counts as one of infinitely many teeth.
+/// The estimate of ISO 6336-1:2006, 9.3, method B, for solid discs under 100 N per mm of face width and more (under
+/// less it has softer teeth; this model's do not depend on the load). The pinion is the gear of fewer teeth, whichever
+/// drives; an internal gear counts as one of infinitely many teeth, without shift. Fitted by the standard for
+/// x_1 >= x_2 and -0.5 <= x_1 + x_2 <= 2.
 struct IsoStiffness {
   double single;  ///< c' b [N/m]
   double mesh;    ///< c_gamma-alpha b [N/m]

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/errors.hpp"
+#include "core/root_finding.hpp"
 
 namespace epicyclic::gear {
 
@@ -75,9 +76,24 @@ double Tooth::half_angle_at(double radius_mm) const {
 
 double Tooth::form_radius_mm() const {
   if (internal) return root_radius_mm;
+  if (profile_shift < undercut_limit()) return undercut_radius_mm();
   const double sine = std::sin(pressure_angle);
   const double length = reference_radius_mm * sine - module_mm * (flank_depth() - profile_shift) / sine;
   return std::hypot(base_radius_mm, length);
+}
+
+double Tooth::undercut_radius_mm() const {
+  const auto radius = [this](double gamma) { return std::hypot(fillet(gamma).x, fillet(gamma).y); };
+  // From its foot, which is below the base circle, the fillet rises to the far branch of the involute.
+  const double at_base =
+      find_root([&](double gamma) { return radius(gamma) - base_radius_mm; }, pressure_angle, 0.5 * pi);
+  const auto outside_of_the_involute = [&](double gamma) {
+    const ProfilePoint p = fillet(gamma);
+    return std::atan2(p.x, p.y) - half_angle_at(std::hypot(p.x, p.y));
+  };
+  // Next to the limit rounding decides between what is hardly undercut and what is not.
+  if (!(outside_of_the_involute(at_base) < 0.0 && outside_of_the_involute(pressure_angle) > 0.0)) return base_radius_mm;
+  return radius(find_root(outside_of_the_involute, pressure_angle, at_base));
 }
 
 double Tooth::undercut_limit() const {
@@ -87,8 +103,10 @@ double Tooth::undercut_limit() const {
 
 double Tooth::rack_depth() const { return (reference_radius_mm - root_radius_mm) / module_mm + profile_shift; }
 
+double Tooth::rack_tip_width() const { return 0.5 * pi - 2.0 * rack_depth() * std::tan(pressure_angle); }
+
 double Tooth::rounding_clearance() const {
-  const double full_tip = (0.25 * pi - rack_depth() * std::tan(pressure_angle)) * std::cos(pressure_angle);
+  const double full_tip = 0.5 * rack_tip_width() * std::cos(pressure_angle);
   return std::max(0.0, std::min(clearance_coefficient, full_tip));
 }
 

@@ -6,7 +6,8 @@
 //   internal  r_a = r - m (h_a - x - k) ,  r_f = r + m (h_a + c + x) ,
 //             alpha_2 = (pi/2 - 2 x tan alpha_0) / z - inv alpha_0  (may be negative)                   [G-tooth]
 //   half tooth angle at radius R, pressure angle a:  external alpha_2 - inv a ,  internal alpha_2 + inv a
-//   involute begins at  r_F^2 = r_b^2 + (r sin alpha_0 - m (h_F - x) / sin alpha_0)^2  (rack-cut, no undercut) [G-form]
+//   involute begins at  r_F^2 = r_b^2 + (r sin alpha_0 - m (h_F - x) / sin alpha_0)^2  (rack-cut)          [G-form]
+//     of an undercut tooth, x < h_F - z sin^2 alpha_0 / 2, where the fillet crosses the involute
 //   rack-cut fillet, rounding rho = c' m / (1 - sin alpha_0), pi/2 >= gamma >= alpha_0:                   [G-fillet]
 //     phi = (a_1 / tan gamma + b_1) / r ,  a_1 = m (h_F + c' - x) - rho ,  b_1 = pi m / 4 + h_F m tan alpha_0
 //           + rho cos alpha_0
@@ -66,12 +67,15 @@ struct Tooth {
   /// Tooth thickness on the arc of a radius [mm].
   [[nodiscard]] double thickness_at(double radius_mm) const { return 2.0 * radius_mm * half_angle_at(radius_mm); }
 
-  /// Radius at which a rack-cut involute begins [mm]; external teeth, else the root radius.
+  /// Radius at which a rack-cut involute begins, of an undercut tooth what is left of it [mm]; external teeth, else the
+  /// root radius.
   [[nodiscard]] double form_radius_mm() const;
   /// Least profile shift without undercut, h_F - z sin^2 alpha_0 / 2 [-]; external teeth.
   [[nodiscard]] double undercut_limit() const;
   /// Depth of the rack's tip below its reference line, h_a + c unless a root circle is given [modules].
   [[nodiscard]] double rack_depth() const;
+  /// How much of its pitch the rack is wide at its tip; negative where its flanks meet before it [modules].
+  [[nodiscard]] double rack_tip_width() const;
   /// Clearance c' that the rack's rounding takes: c, or less where a full tip radius is all that fits [modules].
   [[nodiscard]] double rounding_clearance() const;
   /// Depth of the rack's straight flank, h_F [modules].
@@ -89,6 +93,7 @@ struct Tooth {
     double a_1, b_1, rho;
   };
   [[nodiscard]] RackTip rack_tip() const;
+  [[nodiscard]] double undercut_radius_mm() const;
 };
 
 /// @throws DomainError when the data make no tooth (tip below root, module not positive, ...)

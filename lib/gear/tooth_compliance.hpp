@@ -25,9 +25,9 @@
 //   (1+nu)/(n-1)]
 // which is 2.70, 2.38, 2.17, 2.01 at theta 0.03, 0.05, 0.07, 0.09, where Sainsot's P* at h = 1.4, the lower end of its
 // fit, is 2.90, 2.55, 2.35, 2.22 and without the wind-up left there 2.70, 2.36, 2.15, 2.02. So h = 1.4 is the default
-// for every gear. With it the mean stiffness of 13 pairs of 17 to 100 teeth is 0.90 to 1.21 of c_gamma of [G-iso],
-// which holds for solid discs; with h = 7 it is 0.42 to 0.48, with Cornell's half plane 1.19 to 1.47 (near 1 / 0.8:
-// the theory that ISO takes 0.8 of).
+// for every gear. With it the mean stiffness of 13 pairs of 17 to 100 teeth is 0.92 to 1.14 of c_gamma of [G-iso],
+// which holds for solid discs; with h = 7 it is 0.43 to 0.49, with Cornell's half plane a fifth to a third more (near
+// 1 / 0.8: the theory that ISO takes 0.8 of).
 //
 // Source: mesh-stiffness.md sections 1 to 3, derived there; Yang and Lin 1987, Tian 2004, Liang et al. 2014, Ma et al.
 // 2014 use the same energies. Limits: spur teeth, plane stress cantilever; Sainsot's fit holds for 1.4 <= h <= 7 and

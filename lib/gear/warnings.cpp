@@ -101,12 +101,19 @@ void check_pair(Warnings& out, const Pair& p, const std::string& driving, const 
     out.add(Rank::note, 1.0, driven, "overlap", "nominal teeth of the ", mesh, " mesh overlap by ", -p.backlash_mm(),
             " mm; thinning must make up for it");
   check_backlash(out, driven, mesh, p.normal_backlash_mm(), p.centre_distance_mm, module, remedy);
+  // Contact counts as long as the tips reach, also where there is no involute to meet.
   const auto form = [&](const std::string& pointer, double lowest_mm, const Tooth& tooth) {
-    const double below_mm = tooth.form_radius_mm() - lowest_mm;
-    if (below_mm > 0.0)
-      out.add(below_mm > form_overrun * module ? Rank::doubtful : Rank::note, 1.0, pointer,
-              "form of the " + mesh + " mesh", "contact of the ", mesh, " mesh reaches down to radius ", lowest_mm,
-              " mm, below the end of the rack-cut involute at ", tooth.form_radius_mm(), " mm");
+    const double form_mm = tooth.form_radius_mm();
+    const double below_mm = form_mm - lowest_mm;
+    if (!(below_mm > 0.0)) return;
+    const auto curvature_mm = [&](double radius_mm) {
+      return std::sqrt(std::max(0.0, (radius_mm - tooth.base_radius_mm) * (radius_mm + tooth.base_radius_mm)));
+    };
+    const double lost = (curvature_mm(form_mm) - curvature_mm(lowest_mm)) / p.base_pitch_mm;
+    out.add(below_mm > form_overrun * module ? Rank::doubtful : Rank::note, 1.0, pointer,
+            "form of the " + mesh + " mesh", "contact of the ", mesh, " mesh reaches down to radius ", lowest_mm,
+            " mm, below the end of the rack-cut involute at ", form_mm, " mm; it is counted: contact ratio ",
+            p.contact_ratio(), ", without it ", p.contact_ratio() - lost);
   };
   form(driving, p.radius_1_mm(p.start_mm), p.driving);
   if (!p.internal()) form(driven, p.radius_2_mm(p.end_mm), p.driven);
@@ -167,6 +174,25 @@ void check_iso(Warnings& out, const std::string& pointer, double stiffness, cons
     out.add(Rank::doubtful, std::abs(ratio - 1.0) / stiffness_deviation, pointer + "/stiffness_N_per_m", "ISO", "is ",
             stiffness, " N/m, ", ratio, " times c_gamma b of ISO 6336-1:2006, 9.3, method B, ", iso,
             " N/m; models of this kind differ by ", 100.0 * stiffness_deviation, " %");
+}
+
+/// Harmonics that were computed with another mean keep their amplitudes.
+void check_mean(Warnings& out, const std::string& pointer, const Mesh& mesh, const FourierSeries& computed,
+                const std::string& factor) {
+  const auto as_computed = [](const std::vector<double>& a, const std::vector<double>& b) {
+    constexpr double rounding = 1e-9;
+    return std::ranges::equal(a, b, [](double x, double y) { return std::abs(x - y) <= rounding * std::abs(y); });
+  };
+  if (mesh.stiffness_cos_N_per_m.empty() || !as_computed(mesh.stiffness_cos_N_per_m, computed.cosine) ||
+      !as_computed(mesh.stiffness_sin_N_per_m, computed.sine))
+    return;
+  const double ratio = mesh.stiffness_N_per_m / computed.mean;
+  constexpr double unlike = 0.01;
+  if (std::abs(ratio - 1.0) > unlike)
+    out.add(Rank::doubtful, std::abs(ratio - 1.0) / unlike, pointer + "/stiffness_N_per_m", "mean", "is ",
+            mesh.stiffness_N_per_m, " N/m, but its harmonics are those of the computed mean of ", computed.mean,
+            " N/m: relative to the mean they are ", 1.0 / ratio, " times as large; ", factor,
+            " in /catalogue/mesh_stiffness scales both");
 }
 
 /// Teeth fit both meshes only where (z_s + z_r)(phi_i - phi_1) / 2 pi is whole.
@@ -378,6 +404,8 @@ std::vector<Warning> catalogue_warnings(const GearSet& set, const Stage& stage) 
   Warnings out;
   check_iso(out, "/lumped/sun_planet_mesh", stage.sun_planet_mesh.stiffness_N_per_m, set.sun_planet);
   check_iso(out, "/lumped/ring_planet_mesh", stage.ring_planet_mesh.stiffness_N_per_m, set.ring_planet);
+  check_mean(out, "/lumped/sun_planet_mesh", stage.sun_planet_mesh, set.sun_planet_stiffness, "sun_planet_factor");
+  check_mean(out, "/lumped/ring_planet_mesh", stage.ring_planet_mesh, set.ring_planet_stiffness, "ring_planet_factor");
   const Bodies of_drawings = bodies(set);
   const auto member = [&](const std::string& name, const auto& m, double radius_mm,
                           const std::optional<MassAndInertia>& body) {

@@ -7,7 +7,9 @@
 //   error           amplitude > m / 10; 0.03 m in the coarsest grade of ISO 1328
 //   support         yields to the member's own weight by more than m
 //   friction        another kind in one mesh than in the other
-//   form            contact more than 0.1 m below the end of the rack-cut involute; less is a note
+//   form            contact more than 0.1 m below the end of the rack-cut involute; less is a note. It is counted in
+//   the
+//                   path of contact and all that follows from it
 //   speed           rho v^2 > 1000 MPa, the hoop stress of a thin ring at the base circle's speed (or at that of the
 //                   planets' axes): the tensile strength of quenched and tempered gear steels
 //   force           Hertz's pressure of the mean mesh force, load shared, > 2.64 GPa: sigma_H,lim 1650 MPa of the best
@@ -18,6 +20,7 @@
 //   mass            3 times that of the body on the drawing, or a radius of gyration of twice the member's radius
 //   stiffness       of a mesh more than 30 % from c_gamma of [G-iso], ISO 6336-1:2006, 9.3: that is how far models of
 //                   this kind differ
+//   mean            stiffness of a mesh more than 1 % from the one that its harmonics were computed with
 //   width           of a gear 1.5 times that of the one it meshes with: what overhangs bears nothing
 //   density         below 900 or above 20000 kg/m^3: no solid that gears are made of
 //   carrier         pins' axes outside of the cheeks, pins thicker than the planets' bore or shorter than their width,

@@ -120,7 +120,9 @@ const Table<gear::CarrierBody>& body_table() {
     t.number("inner_diameter_mm", &CarrierBody::inner_diameter_mm, between(0, length_max_mm),
              "Inner diameter of a cheek [mm].");
     t.number("pin_diameter_mm", &CarrierBody::pin_diameter_mm, length_bounds, "Diameter of a pin [mm].").required();
-    t.number("pin_length_mm", &CarrierBody::pin_length_mm, length_bounds, "Length of a pin [mm].").required();
+    t.number("pin_length_mm", &CarrierBody::pin_length_mm, length_bounds,
+             "Length of a pin between the cheeks, which count as solid discs [mm].")
+        .required();
     return t;
   }();
   return table;

@@ -144,7 +144,7 @@ ordered_json starter_stage(const Drawing& d) {
           {"outer_diameter_mm", neat(2.0 * centre + 1.8 * pin)},
           {"inner_diameter_mm", neat(std::max(sun_root, 2.0 * centre - 2.2 * pin))},
           {"pin_diameter_mm", pin},
-          {"pin_length_mm", neat(1.4 * d.width_mm)},
+          {"pin_length_mm", neat(1.1 * d.width_mm)},
           {"origin", "estimate: two cheeks about the pins, pins of 0.6 of the planets' bores"}}}}},
       {"lubrication",
        {{"viscosity_mPas", 15}, {"origin", "estimate: ISO VG 150 at 85 degrees Celsius; 5 to 50 in service"}}}};

@@ -33,10 +33,12 @@ class Group {
   std::string name_;
 };
 
-void add_tooth(std::vector<Quantity>& all, const gear::Tooth& t, const std::string& member, const std::string& index) {
+/// @param module_formula  where the module comes from
+void add_tooth(std::vector<Quantity>& all, const gear::Tooth& t, const std::string& member, const std::string& index,
+               const std::string& module_formula) {
   Group g(all, "Teeth of the " + member);
   const auto name = [&](const char* what) { return member + "_" + what; };
-  g.add(name("module"), "m_" + index, t.module_mm, "mm", t.internal ? "[G-mr]" : "given");
+  g.add(name("module"), "m_" + index, t.module_mm, "mm", module_formula);
   g.add(name("reference_radius"), "r_" + index, t.reference_radius_mm, "mm", "[G-inv]");
   g.add(name("base_radius"), "r_b" + index, t.base_radius_mm, "mm", "[G-inv]");
   g.add(name("tip_radius"), "r_a" + index, t.tip_radius_mm, "mm", "[G-tooth]");
@@ -72,7 +74,7 @@ void add_pair(std::vector<Quantity>& all, const gear::Pair& p, const std::string
   g.add(name("tip_clearance_driving"), "c_1", p.tip_clearance_1_mm(), "mm", "[G-pair]");
   g.add(name("tip_clearance_driven"), "c_2", p.tip_clearance_2_mm(), "mm", "[G-pair]");
   g.add(name("active_radius_driving"), "r_A1", p.radius_1_mm(p.start_mm), "mm", "[G-path]");
-  g.add(name("active_radius_driven"), "r_A2", p.radius_2_mm(p.internal() ? p.start_mm : p.end_mm), "mm", "[G-path]");
+  g.add(name("active_radius_driven"), "r_A2", p.radius_2_mm(p.end_mm), "mm", "[G-path]");
 }
 
 void add_stiffness(std::vector<Quantity>& all, const gear::MeshedPair& m, const gear::FourierSeries& series,
@@ -121,7 +123,7 @@ void add_tolerances(std::vector<Quantity>& all, const std::optional<gear::Tolera
   g.add(name("profile_form_deviation"), "f_fα", t->profile_form, "um", "[G-1328]");
   g.add(name("profile_slope_deviation"), "f_Hα", t->profile_slope, "um", "[G-1328]");
   g.add(name("helix_deviation"), "F_β", t->helix, "um", "[G-1328]");
-  g.add(name("single_flank_deviation"), "f_i'", t->single_flank, "um", "[G-1328]");
+  g.add(name("single_flank_deviation"), "f_i'", t->single_flank, "um", "[G-1328], from memory of the standard");
 }
 
 std::string shown(double value) {
@@ -168,7 +170,9 @@ std::string rotational_modes(const gear::Stage& stage, const std::vector<model::
     if (mode.type == model::ModeType::rotational && mode.frequency_ratio > 0.0)
       list += fmt::format("{}{:.3f}", list.empty() ? "" : ", ", mode.frequency_ratio);
   if (list.empty())
-    return "None of these modes is rotational: only planets that are equally spaced can all move alike.";
+    return "None of these modes is rotational: planets move all alike only where the sums of cos φ_i and of sin φ_i "
+           "are "
+           "0, as they are of equally spaced planets.";
   std::string text =
       "Rotational modes, in which all planets move alike in their own directions, stand at ω/ω_sn = " + list + ".";
   const std::vector<double> angles = stage.planet_angles_deg();
@@ -178,6 +182,8 @@ std::string rotational_modes(const gear::Stage& stage, const std::vector<model::
         angle_rounding_deg)
       return text;
   if (!stage.sun.teeth) return text;
+  // Planets that cannot be assembled have phases of their own in the ring mesh.
+  if (stage.ring.teeth && (*stage.sun.teeth + *stage.ring.teeth) % stage.planet_count != 0) return text;
   const int common = std::gcd(*stage.sun.teeth, stage.planet_count);
   if (common == stage.planet_count)
     return text + fmt::format(" The planets mesh in phase (z_s/N = {} is whole): equal planets excite these alone.",
@@ -189,13 +195,23 @@ std::string rotational_modes(const gear::Stage& stage, const std::vector<model::
              *stage.sun.teeth, stage.planet_count, stage.planet_count / common, 2 * stage.planet_count / common);
 }
 
+/// Is the centre distance that of sun and planet without backlash?
+bool is_tight(const gear::GearSet& set) {
+  constexpr double rounding_mm = 1e-9;
+  try {
+    return std::abs(set.centre_distance_mm - tight_centre_distance_mm(set.sun, set.planet)) < rounding_mm;
+  } catch (const DomainError&) {
+    return false;  // there is none
+  }
+}
+
 }  // namespace
 
 std::vector<Quantity> gear_quantities(const gear::GearSet& set, const gear::Stage& stage) {
   std::vector<Quantity> all;
   {
     Group g(all, "Stage");
-    g.add("centre_distance", "a", set.centre_distance_mm, "mm", "[G-a0]");
+    g.add("centre_distance", "a", set.centre_distance_mm, "mm", is_tight(set) ? "[G-a0]" : "given");
     g.add("tip_shortening", "k", set.tip_shortening, "-", "[G-k-tip]");
     g.add("base_pitch_mismatch", "Δp_b", 1e3 * set.base_pitch_mismatch_mm, "um", "planet minus ring as given");
     g.add("ring_module_as_given", "m_r", set.catalogue.ring.data.module_mm, "mm", "given");
@@ -217,9 +233,10 @@ std::vector<Quantity> gear_quantities(const gear::GearSet& set, const gear::Stag
       // No addendum puts the whole path beyond the pitch point: there is no bound to tell.
     }
   }
-  add_tooth(all, set.sun, "sun", "s");
-  add_tooth(all, set.planet, "planet", "p");
-  add_tooth(all, set.ring, "ring", "r");
+  const bool given_module = set.ring.module_mm == set.catalogue.ring.data.module_mm;
+  add_tooth(all, set.sun, "sun", "s", "given");
+  add_tooth(all, set.planet, "planet", "p", "given");
+  add_tooth(all, set.ring, "ring", "r", given_module ? "given" : "[G-mr]");
   add_pair(all, set.sun_planet.pair, "sun_planet", "sp", "sun and planet");
   add_pair(all, set.ring_planet.pair, "ring_planet", "rp", "planet and ring");
   add_stiffness(all, set.sun_planet, set.sun_planet_stiffness, "sun_planet", "the sun-planet mesh");
@@ -292,12 +309,19 @@ std::vector<std::string> contact_verdicts(const gear::GearSet& set, const gear::
   std::vector<std::string> lines = {verdict(set.sun_planet.pair, "sun-planet"),
                                     verdict(set.ring_planet.pair, "ring-planet")};
   try {
+    const gear::GearData& ring = set.catalogue.ring.data;
+    const std::string now = ring.tip_diameter_mm
+                                ? fmt::format("the tip diameter given stands for {:.4f}", gear::addendum_of(set.ring))
+                                : fmt::format("it is {}", ring.addendum_coefficient);
     lines.push_back(fmt::format(
-        "The ring-planet mesh would lie wholly beyond its pitch point for each addendum coefficient of the ring below "
-        "{:.4f}; it is {}.",
-        gear::ring_addendum_bound(stage), set.catalogue.ring.data.addendum_coefficient));
+        "The ring-planet mesh lies wholly beyond its pitch point with addendum coefficients of the ring below {:.4f} "
+        "({}), as far down as its contact ratio allows.",
+        gear::ring_addendum_bound(stage), now));
   } catch (const DomainError&) {
-    lines.emplace_back("No addendum of the ring puts the whole ring-planet mesh beyond its pitch point.");
+    lines.push_back(fmt::format(
+        "No addendum coefficient of the ring from {} to {} puts the whole ring-planet mesh beyond its pitch "
+        "point.",
+        gear::ring_addenda_searched.first, gear::ring_addenda_searched.second));
   }
   return lines;
 }

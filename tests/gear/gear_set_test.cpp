@@ -44,6 +44,14 @@ struct Rule {
 
 TEST(GearSet, Table1HasNoProblems) { EXPECT_EQ(joined(catalogue_problems(as_it_is())), ""); }
 
+/// Standard teeth of module 2.
+void in_one_profile(Catalogue& c, int sun, int planet, int ring, double angle_deg) {
+  c.sun.data = {sun, 2, angle_deg, 0, 1, 0.25, 25, {}, {}};
+  c.planet.data = {planet, 2, angle_deg, 0, 1, 0.25, 25, {}, {}};
+  c.ring.data = {ring, 2, angle_deg, 0, 1, 0.25, 25, {}, {}};
+  c.sun.bore_mm = c.planet.bore_mm = 10;
+}
+
 TEST(GearSet, EachProblemIsToldAtItsPlace) {
   const std::vector<Rule> rules = {
       {"/catalogue/ring/module_mm", "base pitches of planet and ring differ by 18.2",
@@ -56,6 +64,12 @@ TEST(GearSet, EachProblemIsToldAtItsPlace) {
        [](Stage&, Catalogue& c) { c.ring.data.addendum_coefficient = 0.75; }},
       {"/catalogue/sun", "the tooth is pointed", [](Stage&, Catalogue& c) { c.sun.data.tip_diameter_mm = 83.0; }},
       {"/catalogue/planet", "the tooth is pointed", [](Stage&, Catalogue& c) { c.planet.data.tip_diameter_mm = 78.0; }},
+      {"/catalogue/sun", "the rack that cuts it is pointed before its depth of 1.25 modules",
+       [](Stage&, Catalogue& c) { in_one_profile(c, 24, 30, 84, 35); }},
+      {"/catalogue/ring", "its teeth meet before the root radius",
+       [](Stage&, Catalogue& c) { in_one_profile(c, 24, 30, 84, 35); }},
+      {"/catalogue/ring", "its teeth meet before the root radius",
+       [](Stage&, Catalogue& c) { in_one_profile(c, 40, 50, 140, 33); }},
       {"/planets/count", "neighbouring planets overlap by", [](Stage& s, Catalogue&) { s.planet_count = 6; }},
       {"/planets/angles_deg", "neighbouring planets overlap by",
        [](Stage& s, Catalogue&) {

@@ -321,6 +321,27 @@ TEST(Undercut, AtTheLimitTheInvoluteBeginsAtTheBaseCircle) {
   EXPECT_NEAR(t.form_radius_mm(), t.base_radius_mm, rounding_mm);
 }
 
+TEST(Undercut, TheInvoluteEndsWhereTheFilletCrossesIt) {
+  // By an independent intersection of the rack's fillet with the involute, module 1 but for the first.
+  constexpr double digits = 1e-4;
+  EXPECT_NEAR(external_tooth({15, 2, 20, 0, 1, 0.25, 1, {}, {}}).form_radius_mm(), 14.09957, digits);
+  EXPECT_NEAR(external_tooth({14, 1, 20, 0, 1, 0.25, 1, {}, {}}).form_radius_mm(), 6.5825, digits);
+  EXPECT_NEAR(external_tooth({12, 1, 20, 0, 1, 0.25, 1, {}, {}}).form_radius_mm(), 5.6514, digits);
+  EXPECT_NEAR(external_tooth({12, 1, 20, -0.2, 1, 0.25, 1, {}, {}}).form_radius_mm(), 5.6706, digits);
+  EXPECT_NEAR(external_tooth({24, 1, 20, -0.6, 1, 0.25, 1, {}, {}}).form_radius_mm(), 11.2797, digits);
+  // From the limit on it rises from the base circle, without a jump.
+  double before = 0.0;
+  for (const double below : {1e-6, 1e-4, 1e-2, 0.1, 0.3}) {
+    GearData d{12, 3, 20, 0, 1, 0.25, 10, {}, {}};
+    d.profile_shift = external_tooth(d).undercut_limit() - below;
+    const Tooth t = external_tooth(d);
+    const double above_mm = t.form_radius_mm() - t.base_radius_mm;
+    EXPECT_GE(above_mm, before) << below;
+    EXPECT_LT(above_mm, 3.0 * below) << below;
+    before = above_mm;
+  }
+}
+
 TEST(Tooth, WhatMakesNoToothIsADomainError) {
   const GearData good = problems::table1_sun();
   const auto broken = [&](auto change) {

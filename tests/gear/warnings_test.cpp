@@ -130,6 +130,15 @@ TEST(Warnings, ContactBelowTheRackCutInvoluteIsAWarning) {
   deep.sun_planet.pair.start_mm =
       0.9 * std::sqrt(std::pow(usual.sun.form_radius_mm(), 2) - std::pow(usual.sun.base_radius_mm, 2));
   EXPECT_TRUE(has_line(drawn(deep), "/catalogue/sun", "below the end of the rack-cut involute"));
+  // Standard gears without shift: the planet's flank ends before the ring's tips do, and the path counts it.
+  const auto standard = drawn(make_gear_set(changed([](Stage&, Catalogue& c) {
+    c.sun.data = {24, 2, 20, 0, 1, 0.25, 25, {}, {}};
+    c.planet.data = {30, 2, 20, 0, 1, 0.25, 25, {}, {}};
+    c.ring.data = {84, 2, 20, 0, 1, 0.25, 25, {}, {}};
+    c.sun.bore_mm = c.planet.bore_mm = 10;
+  })));
+  EXPECT_TRUE(has_line(standard, "/catalogue/planet", "it is counted: contact ratio 1.93057, without it 1.81716"))
+      << joined(standard);
 }
 
 /// 21, 28 and 78 teeth of module 3 without shift: 21 + 2 x 28 = 77.
@@ -164,7 +173,7 @@ TEST(Warnings, ToothNumbersThatDoNotFitLeaveWideMeshes) {
 }
 
 TEST(Warnings, GivenValuesAreHeldAgainstTheDrawings) {
-  const GearSet set = make_gear_set(as_it_is());
+  const GearSet set = make_gear_set(changed([](Stage&, Catalogue& c) { c.stiffness.harmonics = 2; }));
   const auto lines = [&](const std::function<void(Stage&)>& change) {
     Stage s = as_it_is();
     // As the drawings have them.
@@ -183,6 +192,21 @@ TEST(Warnings, GivenValuesAreHeldAgainstTheDrawings) {
                        "/lumped/sun_planet_mesh/stiffness_N_per_m", "times c_gamma b of ISO 6336-1:2006, 9.3"));
   EXPECT_TRUE(has_line(lines([](Stage& s) { s.ring_planet_mesh.stiffness_N_per_m *= 0.5; }),
                        "/lumped/ring_planet_mesh/stiffness_N_per_m", "times c_gamma b"));
+  // Harmonics of another mean: told where they are the computed ones, and not where they are given, too.
+  const auto softer = [&](double times, double harmonics) {
+    return lines([&](Stage& s) {
+      Mesh& mesh = s.sun_planet_mesh;
+      mesh.stiffness_N_per_m *= times;
+      mesh.stiffness_cos_N_per_m = set.sun_planet_stiffness.cosine;
+      mesh.stiffness_sin_N_per_m = set.sun_planet_stiffness.sine;
+      for (double& a : mesh.stiffness_cos_N_per_m) a *= harmonics;
+    });
+  };
+  const std::string words = "relative to the mean they are 1.25 times as large";
+  EXPECT_TRUE(has_line(softer(0.8, 1.0), "/lumped/sun_planet_mesh/stiffness_N_per_m", words))
+      << joined(softer(0.8, 1.0));
+  EXPECT_FALSE(has_line(softer(0.8, 0.8), "/lumped/sun_planet_mesh/stiffness_N_per_m", "harmonics"));
+  EXPECT_FALSE(has_line(softer(0.995, 1.0), "/lumped/sun_planet_mesh/stiffness_N_per_m", "harmonics"));
 }
 
 TEST(Warnings, EachOneOnTheMotionIsToldAtItsPlace) {

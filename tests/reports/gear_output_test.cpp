@@ -201,6 +201,23 @@ TEST(GearOutput, SaysWhichHarmonicsExciteRotationalModes) {
   const std::string uneven = page_of(file, {"/lumped/sun/teeth=27", "/planets/angles_deg=[0,117,243]"});
   EXPECT_FALSE(contains(uneven, "stand at"));
   EXPECT_TRUE(contains(uneven, "None of these modes is rotational"));
+  // Unevenly spaced, but with sums of cosines and sines of 0: rotational modes, and nothing is said of harmonics.
+  const std::string opposite =
+      page_of("inputs/lin_parker_1999_n4.json", {"/lumped/sun/teeth=26", "/planets/angles_deg=[0,80,180,260]"});
+  EXPECT_TRUE(contains(opposite, stand));
+  EXPECT_FALSE(contains(opposite, "harmonics"));
+}
+
+TEST(GearOutput, TellsFromWhatAddendumOnTheRingMeshCrossesItsPitchPoint) {
+  const std::string bound = "with addendum coefficients of the ring below 1.2328 (";
+  EXPECT_TRUE(contains(page_of("inputs/tang2020.json", {}), bound + "it is 1)"));
+  EXPECT_TRUE(contains(page_of("inputs/tang2020.json", {"/catalogue/ring/tip_diameter_mm=207"}),
+                       bound + "the tip diameter given stands for 1.3256)"));
+}
+
+TEST(GearOutput, TheActiveFlankOfTheRingReachesWhereThePlanetsTipsDo) {
+  // hypot(r_br, N_1 N_2 + end) = hypot(96.5354, 26.2599 + 22.2857), and the ring's tips are at 104.339.
+  EXPECT_TRUE(contains(page_of("inputs/tang2020.json", {}), "| ring_planet_active_radius_driven | r_A2 | 108.05"));
 }
 
 TEST(GearOutput, TellsTheBodyUnderTheTeethAndWhatIsoSays) {
