@@ -29,15 +29,6 @@ namespace epicyclic::app {
 
 namespace {
 
-/// The input with a candidate's values in place, each with its origin.
-nlohmann::json calibrated_input(const Arguments& arguments, const studies::ParameterSpace& space,
-                                std::span<const double> u, const std::string& origin) {
-  std::vector<input::Assignment> sets = input::parse_assignments(arguments.sets);
-  const std::vector<input::Assignment> values = input::candidate_assignments(space, u);
-  sets.insert(sets.end(), values.begin(), values.end());
-  return input::with_origins(input::load_input(arguments.input, sets).resolved, values, origin);
-}
-
 /// Can multipliers lead from the stage as it is given? Candidates with readings that have none are refused one by one.
 void require_multipliers(const Arguments& arguments, const studies::ClaimsOptions& options,
                          const std::vector<double>& given) {
@@ -87,7 +78,8 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
   if (found.best) {
     const std::string origin =
         fmt::format("calibrated: by claims of {}, seed {}", input.study.name, options.search.seed);
-    nlohmann::json best_input = calibrated_input(arguments, options.space, found.best->u, origin);
+    const nlohmann::json best_input = input::candidate_input(arguments.input, input::parse_assignments(arguments.sets),
+                                                             options.space, found.best->u, origin);
     write_file_atomically(folder.file("best.json"), best_input.dump(2) + "\n");
     nlohmann::json stage = best_input["stage"];
     write_file_atomically(folder.file("stage.json"), stage.dump(2) + "\n");

@@ -20,8 +20,11 @@ std::optional<double> number_at(const LoadedInput& input, const std::string& poi
   return there != nullptr && there->is_number() ? std::optional(there->get<double>()) : std::nullopt;
 }
 
-/// Does the input have what an option sets? Of an object the same keys, whose numbers may be others.
-bool is_set(const LoadedInput& input, const studies::OptionSet& set) {
+enum class Numbers { the_same, any };
+
+/// Does the input have what an option sets? Of an object the same keys.
+/// @param numbers  of an object: those that the option has, or any
+bool is_set(const LoadedInput& input, const studies::OptionSet& set, Numbers numbers) {
   const json* at = input.value_at(set.pointer);
   const json value = json::parse(set.value);
   if (at == nullptr) return value.is_null();
@@ -29,8 +32,19 @@ bool is_set(const LoadedInput& input, const studies::OptionSet& set) {
   if (!at->is_object()) return false;
   return std::ranges::all_of(value.items(), [&](const auto& item) {
     const auto there = at->find(item.key());
-    return there != at->end() && (item.value() == *there || (item.value().is_number() && there->is_number()));
+    return there != at->end() &&
+           (item.value() == *there || (numbers == Numbers::any && item.value().is_number() && there->is_number()));
   });
+}
+
+/// The option that the input has: one with its numbers, or else one whose numbers alone are others.
+std::optional<std::size_t> option_of(const LoadedInput& input, const studies::Choice& choice) {
+  for (const Numbers numbers : {Numbers::the_same, Numbers::any})
+    for (std::size_t k = 0; k < choice.options.size(); ++k)
+      if (std::ranges::all_of(choice.options[k].sets,
+                              [&](const studies::OptionSet& set) { return is_set(input, set, numbers); }))
+        return k;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -89,20 +103,29 @@ std::optional<double> given_parameter(const LoadedInput& input, const studies::P
   return std::isfinite(x) ? std::optional(x) : std::nullopt;
 }
 
-/// Targets that the input has otherwise than what they follow: three errors that one amplitude gives, say.
-/// @param outside  parameters whose targets are others anyway
+/// Numbers that the input has otherwise than the candidate: three errors that one amplitude gives, say, or what an
+/// option sets.
+/// @param outside  parameters that count and whose targets are others anyway
 void tell_other_targets(const LoadedInput& input, const studies::ParameterSpace& space, std::span<const double> u,
                         const std::set<std::string>& outside, std::vector<std::string>& moved) {
   constexpr double rounding = 1e-9;
   std::set<std::string> known;
+  const auto tell = [&](const std::string& pointer, double value) {
+    const std::optional<double> there = number_at(input, pointer);
+    if (there && known.insert(pointer).second && std::abs(value - *there) > rounding * std::abs(*there))
+      moved.push_back(pointer + " = " + number_text(value) + " in place of " + number_text(*there));
+  };
+  const std::vector<std::size_t> options = space.options_at(u);
   for (const studies::FreeParameter& p : space.parameters)
     for (const studies::ParameterTarget& t : p.targets)
-      if (outside.contains(p.name) || outside.contains(t.times)) known.insert(t.pointer);
-  for (const auto& [pointer, value] : space.targets_at(u)) {
-    const std::optional<double> there = number_at(input, pointer);
-    if (there && !known.contains(pointer) && std::abs(value - *there) > rounding * std::abs(*there))
-      moved.push_back(pointer + " = " + number_text(value) + " in place of " + number_text(*there));
-  }
+      if (space.counts(p, options) && (outside.contains(p.name) || outside.contains(t.times))) known.insert(t.pointer);
+  for (const auto& [pointer, value] : space.targets_at(u)) tell(pointer, value);
+  // Of what an option sets, that which no parameter gives.
+  for (std::size_t k = 0; k < options.size(); ++k)
+    for (const studies::OptionSet& set : space.choices[k].options[options[k]].sets)
+      if (const json value = json::parse(set.value); value.is_object())
+        for (const auto& [key, item] : value.items())
+          if (item.is_number()) tell(set.pointer + "/" + key, item.get<double>());
 }
 
 }  // namespace
@@ -110,25 +133,29 @@ void tell_other_targets(const LoadedInput& input, const studies::ParameterSpace&
 std::vector<double> given_candidate(const LoadedInput& input, const studies::ParameterSpace& space,
                                     std::vector<std::string>* moved) {
   std::vector<double> u;
-  std::set<std::string> outside;  // parameters that the input has beyond their ranges
+  std::vector<std::optional<double>> given;
   for (const studies::FreeParameter& p : space.parameters) {
     const std::optional<double> x = given_parameter(input, space, p);
     u.push_back(x ? p.place_of(*x) : 0.5);
-    if (!x || (*x >= p.from && *x <= p.to)) continue;
-    outside.insert(p.name);
-    if (moved != nullptr)
-      moved->push_back(p.name + " = " + number_text(p.at(u.back())) + " in place of " + number_text(*x));
+    given.push_back(x);
   }
   for (const studies::Choice& choice : space.choices) {
-    const auto chosen = std::ranges::find_if(choice.options, [&](const studies::ChoiceOption& option) {
-      return std::ranges::all_of(option.sets, [&](const studies::OptionSet& set) { return is_set(input, set); });
-    });
-    const bool is_any = chosen != choice.options.end();
-    u.push_back(choice.place_of(is_any ? static_cast<std::size_t>(chosen - choice.options.begin()) : 0));
-    if (moved != nullptr && !is_any)
+    const std::optional<std::size_t> chosen = option_of(input, choice);
+    u.push_back(choice.place_of(chosen.value_or(0)));
+    if (moved != nullptr && !chosen)
       moved->push_back(choice.name + " = \"" + choice.options.front().name + "\", of whose options it has none");
   }
-  if (moved != nullptr) tell_other_targets(input, space, u, outside, *moved);
+  if (moved == nullptr) return u;
+  std::set<std::string> outside;  // parameters that count, and that the input has beyond their ranges
+  const std::vector<std::size_t> options = space.options_at(u);
+  for (std::size_t k = 0; k < space.parameters.size(); ++k) {
+    const studies::FreeParameter& p = space.parameters[k];
+    const std::optional<double>& x = given[k];
+    if (!space.counts(p, options) || !x || (*x >= p.from && *x <= p.to)) continue;
+    outside.insert(p.name);
+    moved->push_back(p.name + " = " + number_text(p.at(u[k])) + " in place of " + number_text(*x));
+  }
+  tell_other_targets(input, space, u, outside, *moved);
   return u;
 }
 

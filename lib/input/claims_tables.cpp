@@ -299,7 +299,8 @@ const Table<SearchOptions>& search_options_table() {
     t.integer("seed", &SearchOptions::seed, between(0, 1e9), "Seed of its random numbers [-].");
     t.integer("islands", &SearchOptions::islands, between(1, 1000), "Populations side by side [-].");
     t.integer("population", &SearchOptions::population, between(7, 10000), "Candidates of each [-].");
-    t.integer("candidates", &SearchOptions::candidates, between(7, 1e8), "Candidates that they try in all [-].");
+    t.integer("candidates", &SearchOptions::candidates, between(7, 1e8),
+              "Candidates that they try in all, in whole generations of all islands, two at least [-].");
     t.integer("exchange", &SearchOptions::exchange, between(1, 1e6), "Generations between exchanges of the best [-].");
     t.integer("refinement", &SearchOptions::refinement, between(0, 1e6), "Candidates of the local refinement [-].");
     t.integer(

@@ -1045,6 +1045,7 @@ class LoadedInput::Loader {
       const std::string place = std::string(operation_root) + "/" + std::string(alias.key);
       if (const auto value = std::exchange(given, std::nullopt); value && moves && !is_bad(place))
         if (const auto ratio = ratio_of(alias, *value, place)) {
+          input_.given_speed.*alias.given = value;
           read.mesh_frequency_ratio = *ratio;
           note_conversion(whole_["operation"], studies::speed_parameter, alias.key, alias, *value);
         }
@@ -1265,6 +1266,20 @@ class LoadedInput::Loader {
       for (std::size_t j = 0; j < sweep.at.size(); ++j) {
         const studies::SetValue& set = sweep.at[j];
         const std::string at = place + "/at/" + std::to_string(j);
+        // It is taken of the input as it is given, once for the whole sweep.
+        const auto is_of = [&set](const std::string& parameter) {
+          const studies::NamedParameter* named = studies::find_parameter(parameter);
+          const std::vector<std::string> pointers = named != nullptr ? named->pointers : std::vector{parameter};
+          return !set.as.empty() && std::ranges::any_of(pointers, [&set](const std::string& pointer) {
+            return pointer_within(set.as, pointer) || pointer_within(pointer, set.as);
+          });
+        };
+        if (is_of(sweep.axis.name))
+          refuse(at + "/as", "is \"" + set.as + "\", which the sweep varies: it is not followed along it");
+        for (std::size_t other = 0; other < sweep.at.size(); ++other)
+          if (other != j && is_of(sweep.at[other].parameter))
+            refuse(at + "/as", "is \"" + set.as + "\", which /at/" + std::to_string(other) +
+                                   " sets: it would be as it is in the input; set it to that value, too");
         // Of a candidate it would be another number than that of the stage as it is given.
         if (!set.as.empty() && find_at(input_.computed, set.as) != nullptr)
           refuse(at + "/as", "is \"" + set.as + "\", which is computed from other numbers: it cannot be followed");
@@ -1463,6 +1478,14 @@ std::vector<Problem> LoadedInput::check_with(const Base& base, std::span<const P
 
 Study LoadedInput::with_value(std::string_view pointer, double value) const {
   return with_values(std::array{PointerValue{std::string(pointer), value}});
+}
+
+json LoadedInput::resolved_with(std::span<const PointerValue> values) const {
+  Study unused;
+  json completed;
+  if (auto problems = check_with({resolved, &study}, values, unused, &completed); !problems.empty())
+    throw InputProblems(std::move(problems));
+  return completed;
 }
 
 Study LoadedInput::with_values(std::span<const PointerValue> values) const {

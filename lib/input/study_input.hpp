@@ -171,6 +171,7 @@ class LoadedInput {
   nlohmann::json resolved;            ///< a valid input that resolves to itself
   RawFile study_file;                 ///< the file that was named: a study, or a stage alone
   std::optional<RawFile> stage_file;  ///< if the study names one
+  GivenSpeed given_speed;             ///< of the operating point, where it is given otherwise than as Omega
   nlohmann::json computed;            ///< what catalogue data give at this load, at the places of `resolved`; or null
   std::vector<std::string> notes;     ///< values that were ignored, and why
 
@@ -181,6 +182,10 @@ class LoadedInput {
   /// file.
   /// @throws InputProblems when a pointer is not one of a number, or the study is not valid with these values
   [[nodiscard]] Study with_values(std::span<const PointerValue> values) const;
+
+  /// The resolved input of that study.
+  /// @throws as with_values()
+  [[nodiscard]] nlohmann::json resolved_with(std::span<const PointerValue> values) const;
 
   /// Pointers of all numbers that with_value() takes.
   [[nodiscard]] std::vector<std::string> number_pointers() const;

@@ -38,7 +38,8 @@ std::string measured_text(const ClaimOutcome& outcome) {
   for (const ConditionOutcome& c : outcome.conditions) {
     if (!text.empty()) text += "; ";
     text += c.text;
-    if (c.error > 0.0 && std::isfinite(c.measured)) text += " (± " + short_text(c.error, 2) + ")";
+    if (c.error > 0.0 && std::isfinite(c.measured))
+      text += c.part_of_one ? " (± " + short_text(100.0 * c.error, 2) + " %)" : " (± " + short_text(c.error, 2) + ")";
     if (!c.holds) text += " [fails]";
   }
   return text;

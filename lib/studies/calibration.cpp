@@ -243,6 +243,8 @@ std::optional<std::vector<Confirmed>> confirm(Search& search) {
     confirmed[k] = {*chosen[k], search.evaluate({search.whole_phase(), k}, chosen[k]->u, whole).evaluation};
   });
   if (!all) return std::nullopt;
+  // A stage that is none at a value of a whole sweep has no verdicts.
+  std::erase_if(confirmed, [](const Confirmed& c) { return !c.whole.refused.empty(); });
   const auto rank = [](const Confirmed& c) {
     return std::pair(-std::ranges::count(c.whole.holds, 1), c.candidate.evaluation.cost);
   };

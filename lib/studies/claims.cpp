@@ -118,7 +118,9 @@ ClaimPoint claim_point(const PointResult& result, const LookOptions& look, Looke
     if (r.period > 0) return ClaimMotion{Regime::periodic, r.period, told};
     if (analysis::still_settling(r, look.recurrence_tolerance))
       return ClaimMotion{Regime::periodic, r.best_period, told};
-    return ClaimMotion{result.regime == Regime::periodic ? Regime::undecided : result.regime, 0, told};
+    // The record is on its way to an orbit, whose period the mesh has, too.
+    if (result.regime == Regime::periodic) return ClaimMotion{Regime::periodic, result.period, told};
+    return ClaimMotion{result.regime, 0, told};
   };
   const analysis::PoincareSection sun = column(columns - 2 * planets);
   const analysis::PoincareSection ring = column(columns - planets);
@@ -207,6 +209,9 @@ std::size_t number_of(std::span<const ClaimPoint> part, bool (*is)(const ClaimPo
   return static_cast<std::size_t>(std::ranges::count_if(part, is));
 }
 
+/// Looked at in full, and of no motion all the same.
+bool is_undecided(const ClaimPoint& p) { return p.reached && p.motion.told && p.motion.regime == Regime::undecided; }
+
 std::size_t failed_in(std::span<const ClaimPoint> part) {
   return number_of(part, [](const ClaimPoint& p) { return !p.reached; });
 }
@@ -264,11 +269,7 @@ std::string doubts_text(const Condition& c, std::span<const ClaimPoint> part) {
   const bool reads_motions = !c.motion.empty() || !c.motions.empty() || c.kind == variation || c.kind == alike;
   const bool reads_quantities = !c.quantity.empty() || c.kind == variation || c.kind == alike;
   std::string text = points_text(failed_in(part), "failed");
-  if (reads_motions)
-    text += points_text(
-        number_of(part,
-                  [](const auto& p) { return p.reached && p.motion.told && p.motion.regime == Regime::undecided; }),
-        "undecided");
+  if (reads_motions) text += points_text(number_of(part, is_undecided), "undecided");
   if (reads_quantities)
     text += points_text(number_of(part, [](const auto& p) { return p.reached && !p.settled; }), not_settled);
   return text;
@@ -303,6 +304,7 @@ void share(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
   const auto n = static_cast<double>(part.size());
   o.measured = static_cast<double>(std::ranges::count_if(part, [&](const auto& p) { return moves(p, c.motion); })) / n;
   o.error = 0.5 / n;
+  o.part_of_one = true;
   judge_bounds(c, o, 1.0);
   judge_failed(c, part, 1.0 / n, o);
   if (c.at_least && o.measured < *c.at_least) lead(lacks(part, c.motion), o);
@@ -342,8 +344,27 @@ void lead_to_change(const Condition& c, std::span<const ClaimPoint> part, Condit
   lead(all, o);
 }
 
+/// May a point that failed have been where an earlier change is, of the last a later one, outside of the bounds? Or,
+/// beyond the change, where its motion came back before what it leads to was met?
+/// @param k  the change is from this point to the next
+bool may_be_another_change(const Condition& c, std::span<const ClaimPoint> part, std::size_t k) {
+  const auto is_outside = [&](std::size_t a, std::size_t b) {
+    const double middle = 0.5 * (part[a].value + part[b].value);
+    return !is_at_least(middle, c.within[0]) || !is_at_most(middle, c.within[1]);
+  };
+  const bool first = c.which.value_or(Which::first) == Which::first;
+  for (std::size_t j = first ? 0 : k + 2; j < (first ? k : part.size()); ++j)
+    if (!part[j].reached && ((j > 0 && is_outside(j - 1, j)) || (j + 1 < part.size() && is_outside(j, j + 1))))
+      return true;
+  if (c.leads_to.empty()) return false;
+  const std::span<const ClaimPoint> beyond = part.subspan(k + 1);
+  const auto met = std::ranges::find_if(beyond, [&](const ClaimPoint& p) { return moves(p, c.leads_to); });
+  return std::any_of(beyond.begin(), met, [](const ClaimPoint& p) { return !p.reached; });
+}
+
 void change(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
   o.measured = none;
+  std::size_t change_at = 0;
   // Of those within the bounds' neighbourhood a search is led by the nearest; the verdict is on the first or the last.
   for (std::size_t k = 0; k + 1 < part.size(); ++k) {
     if (!moves(part[k], c.motion) || !moves(part[k + 1], c.after)) continue;
@@ -355,6 +376,7 @@ void change(const Condition& c, std::span<const ClaimPoint> part, ConditionOutco
     }
     o.measured = 0.5 * (part[k].value + part[k + 1].value);
     o.error = 0.5 * (part[k + 1].value - part[k].value);
+    change_at = k;
     if (c.which.value_or(Which::first) == Which::first) break;
   }
   const std::string words = c.motion + " to " + c.after + (c.leads_to.empty() ? "" : " that leads to " + c.leads_to);
@@ -367,6 +389,7 @@ void change(const Condition& c, std::span<const ClaimPoint> part, ConditionOutco
   }
   o.holds = is_at_least(o.measured, c.within[0]) && is_at_most(o.measured, c.within[1]);
   o.cost = o.holds ? 0.0 : cost_within(o.measured, c.within[0], c.within[1], c.within[1] - c.within[0]);
+  if (o.holds && may_be_another_change(c, part, change_at)) withdraw(o);
   o.text = words + " at " + number(o.measured) + must;
   lead_to_change(c, part, o);
 }
@@ -648,12 +671,15 @@ void alike(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
   std::vector<double> ring;
   for (const ClaimPoint& p : part) {
     if (!p.reached) continue;
-    same += p.by_sun_mesh.same(p.by_ring_mesh) ? 1.0 : 0.0;
+    // Of no motion are both, and so not of the same one.
+    const bool is_known = p.by_sun_mesh.regime != Regime::undecided || !p.by_sun_mesh.told;
+    same += is_known && p.by_sun_mesh.same(p.by_ring_mesh) ? 1.0 : 0.0;
     sun.push_back(p.quantity("poincare_sp_range"));
     ring.push_back(p.quantity("poincare_rp_range"));
   }
   o.measured = same / static_cast<double>(part.size());
   o.error = 0.5 / static_cast<double>(part.size());
+  o.part_of_one = true;
   const double correlation = analysis::correlation(sun, ring);
   const auto varies = [](const std::vector<double>& ranges) {
     return std::ranges::any_of(ranges, [&](double range) { return range != ranges.front(); });
@@ -679,7 +705,9 @@ void decreasing(const Condition& c, const ClaimRecord& record, ConditionOutcome&
   std::size_t seen = 0;
   std::size_t failed = 0;
   std::size_t unsettled = 0;
+  std::size_t undecided = 0;
   for (const ClaimPoint& first : parts.front()) {
+    undecided += !c.motion.empty() && is_undecided(first) ? 1 : 0;
     if (first.reached && !c.motion.empty() && !first.motion.is(c.motion)) continue;
     std::vector<const ClaimPoint*> there;
     for (const auto& part : parts) {
@@ -698,7 +726,7 @@ void decreasing(const Condition& c, const ClaimRecord& record, ConditionOutcome&
   o.measured = 0.0;
   if (seen == 0) {
     o.text = "no point that all sweeps have " + (c.motion.empty() ? "was computed" : "is " + c.motion) +
-             points_text(failed, "failed");
+             points_text(failed, "failed") + points_text(undecided, "undecided");
     return;
   }
   if (!std::ranges::all_of(most, [](double x) { return std::isfinite(x); })) {
@@ -721,15 +749,16 @@ void decreasing(const Condition& c, const ClaimRecord& record, ConditionOutcome&
   if (failed > 0) withdraw(o);
   for (std::size_t s = 0; s < most.size(); ++s) o.text += (s == 0 ? "" : ", ") + number(most[s]);
   o.text = "largest " + c.quantity + " of " + std::to_string(seen) + (seen == 1 ? " value: " : " values: ") + o.text +
-           ", must fall" + points_text(failed, "failed") +
+           ", must fall" + points_text(failed, "failed") + points_text(undecided, "undecided") +
            points_text(unsettled, std::string(not_settled) + " in one of them");
 }
 
-/// Is nothing of what conditions read along a sweep another at any point, by more than integration leaves?
-bool is_inert(const ClaimSeries& series, const std::set<std::string, std::less<>>& quantities) {
+/// Is nothing of what conditions read another at any of these points than at the first, by more than integration
+/// leaves?
+bool is_inert(const ClaimPoint& first, const std::vector<ClaimPoint>& points,
+              const std::set<std::string, std::less<>>& quantities) {
   constexpr double nothing = 1e-5;  // of a quantity
-  return std::ranges::all_of(series.points, [&](const ClaimPoint& p) {
-    const ClaimPoint& first = series.points.front();
+  return std::ranges::all_of(points, [&](const ClaimPoint& p) {
     if (!first.reached || !p.reached || !p.motion.same(first.motion)) return false;
     const auto is_the_same = [&](const std::string& name) {
       const double a = first.quantity(name);
@@ -749,6 +778,13 @@ std::set<std::string, std::less<>> quantities_along(const Claim& claim, const st
     if (c.kind == ConditionKind::alike) quantities.insert({"poincare_sp_range", "poincare_rp_range"});
   }
   return quantities;
+}
+
+/// Sweeps that a claim's conditions compare with each other.
+std::vector<std::string> compared_with_others(const Claim& claim) {
+  std::vector<std::string> names;
+  for (const Condition& c : claim.conditions) names.insert(names.end(), c.sweeps.begin(), c.sweeps.end());
+  return names;
 }
 
 }  // namespace
@@ -815,8 +851,14 @@ ClaimOutcome judge(const Claim& claim, const ClaimRecord& record) {
     outcome.cost += outcome.conditions.back().cost / static_cast<double>(claim.conditions.size());
   }
   const std::vector<std::string> sweeps = sweeps_of(claim);
-  outcome.inert = std::ranges::all_of(
-      sweeps, [&](const std::string& name) { return is_inert(record.at(name), quantities_along(claim, name)); });
+  const std::vector<std::string> compared = compared_with_others(claim);
+  outcome.inert = std::ranges::all_of(sweeps, [&](const std::string& name) {
+    const ClaimSeries& series = record.at(name);
+    const bool is_compared = std::ranges::find(compared, name) != compared.end();
+    const ClaimPoint& first = record.at(is_compared ? compared.front() : name).points.front();
+    const auto quantities = quantities_along(claim, name);
+    return is_inert(first, series.points, quantities) && is_inert(first, series.other, quantities);
+  });
   return outcome;
 }
 

@@ -31,7 +31,7 @@
 namespace epicyclic::studies {
 
 /// Of judge(): it changes when what is judged of the same points may change.
-inline constexpr int judging_version = 3;
+inline constexpr int judging_version = 4;
 
 /// How long points were looked at: by a glance, what does not recur counts as chaotic, and what comes nearer and nearer
 /// to recurring as periodic; in full, what evidence does not decide is of no motion.
@@ -86,6 +86,7 @@ struct ConditionOutcome {
   bool holds = false;
   double measured = 0;  ///< not a number where there is nothing to measure
   double error = 0;
+  bool part_of_one = false;  ///< the text tells it, and so is the error to be told, in percent
   double cost = 1;
   std::string text;  ///< "chaotic from 0.6025 on, must be within 0.57 to 0.63"
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -33,13 +34,23 @@ std::vector<std::pair<std::string, std::string>> motion_words(const Condition& c
   return words;
 }
 
-/// Is there a motion that both words call so?
-bool can_be_both(const std::string& a, const std::string& b, int period_max) {
+/// All that can be told of a motion in full.
+std::vector<ClaimMotion> all_motions(int period_max) {
   std::vector<ClaimMotion> motions;
   for (int period = 1; period <= period_max; ++period) motions.push_back({analysis::Regime::periodic, period, true});
   for (const auto regime : {analysis::Regime::quasiperiodic, analysis::Regime::chaotic, analysis::Regime::undecided})
     motions.push_back({regime, 0, true});
-  return std::ranges::any_of(motions, [&](const ClaimMotion& m) { return m.is(a) && m.is(b); });
+  return motions;
+}
+
+/// Is there a motion that both words call so?
+bool can_be_both(const std::string& a, const std::string& b, int period_max) {
+  return std::ranges::any_of(all_motions(period_max), [&](const ClaimMotion& m) { return m.is(a) && m.is(b); });
+}
+
+/// Is each motion of the one word of the other, too?
+bool is_always(const std::string& a, const std::string& b, int period_max) {
+  return std::ranges::all_of(all_motions(period_max), [&](const ClaimMotion& m) { return !m.is(a) || m.is(b); });
 }
 
 }  // namespace
@@ -104,8 +115,11 @@ void check_condition(ProblemList& problems, const std::string& place, const Cond
   }
   if (c.prominence && !(*c.prominence > 0.0))
     problems.refuse(place + "/prominence", "is 0, must be > 0: any point has it");
-  if (!c.leads_to.empty() && c.leads_to == c.motion)
-    problems.refuse(place + "/leads_to", "is the motion that is left, which is not met before it comes back");
+  if (c.correlation && !(*c.correlation > 0.0))
+    problems.refuse(place + "/correlation", "is " + short_text(*c.correlation, 17) + ", must be > 0");
+  if (c.kind == count && c.at_least && c.at_most && std::ceil(*c.at_least) > std::floor(*c.at_most))
+    problems.refuse(place + "/at_most", "is " + short_text(*c.at_most, 17) + ": no number of points is from " +
+                                            short_text(*c.at_least, 17) + " to that");
   if (c.kind == falls && c.at_least && !(*c.at_least > 1.0)) problems.refuse(place + "/at_least", "must be > 1");
   if (c.kind == value && is_never_negative(c.quantity)) {
     if (c.at_least && !c.at_most && !(*c.at_least > 0.0))
@@ -176,7 +190,10 @@ std::size_t points_needed(const Condition& c) {
   switch (c.kind) {
     case change:
     case variation:
+    case falls:
       return 2;
+    case alike:
+      return c.correlation ? 3 : 1;  // two ranges correlate by 1 or -1, whatever they are
     case peaks:
     case jump:
       return 3;
@@ -220,6 +237,25 @@ void check_grid(ProblemList& problems, const std::string& place, const Condition
   }
 }
 
+/// A number of points is a bound on one grid: of another one it would be another claim.
+void check_counted(ProblemList& problems, const std::string& place, const Condition& c, const std::string& sweep,
+                   const std::vector<Grid>& grids) {
+  if (c.kind != ConditionKind::count) return;
+  for (const Grid& grid : grids) {
+    if (grid.values.size() == grids.front().values.size()) continue;
+    for (const auto& [key, bound, harmless] :
+         {std::tuple("at_least", c.at_least, 1.0), std::tuple("at_most", c.at_most, 0.0)})
+      if (bound && *bound > harmless)
+        problems.refuse(place + "/" + key, "is " + short_text(*bound, 17) + " of the " +
+                                               std::to_string(grids.front().values.size()) + " points that \"" + sweep +
+                                               "\" has there; by " + grid.points_key + " it has " +
+                                               std::to_string(grid.values.size()) +
+                                               ", of which the bound would be another one: a \"share\" is the same of "
+                                               "both");
+    return;
+  }
+}
+
 /// What a condition wants of one of its sweeps.
 void check_part(ProblemList& problems, const std::string& place, const Condition& c, const ClaimSweep& sweep,
                 const ClaimsOptions& options) {
@@ -240,6 +276,7 @@ void check_part(ProblemList& problems, const std::string& place, const Condition
     if (!(c.places[k] >= part.from && c.places[k] <= part.to && c.places[k] > 0.0))
       problems.refuse(place + "/places/" + std::to_string(k),
                       "is " + short_text(c.places[k], 17) + ", must be > 0 and within " + part.text());
+  check_counted(problems, place, c, sweep.name, part.grids);
   for (const Grid& grid : part.grids)
     if (problems.count() == before) check_grid(problems, place, c, sweep.name, part.text(), grid);
   if (options.look.classification_periods == 0) {
@@ -276,6 +313,10 @@ void check_looks(ProblemList& problems, const std::string& place, const Conditio
       can_be_both(c.motion, c.after, options.look.period_max))
     problems.refuse(place + "/after", "is \"" + c.after + "\", which a motion that is \"" + c.motion +
                                           "\" can be, too: nothing would have to change");
+  if (c.kind == ConditionKind::change && is_motion_word(c.motion) && is_motion_word(c.leads_to) &&
+      is_always(c.leads_to, c.motion, options.look.period_max))
+    problems.refuse(place + "/leads_to", "is \"" + c.leads_to + "\", which a motion is that is \"" + c.motion +
+                                             "\", too: it is not met before that comes back");
   if (c.quantity != "lyapunov_max") return;
   const std::string nobody = "is \"lyapunov_max\", which nobody computes with ";
   if (options.look.classification_periods == 0)

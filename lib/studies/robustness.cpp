@@ -91,6 +91,7 @@ std::vector<ClaimAgreement> agreement(const ClaimsOptions& options, const KnownE
   std::vector<ClaimAgreement> all(options.claims.size());
   for (const auto& [key, whole] : evaluations) {
     if (key.phase != by_whole_sweeps) continue;
+    if (!whole.evaluation.refused.empty()) continue;  // no stage at a value that the look has not: there is no verdict
     const Evaluation& glance = evaluations.at({by_glance, key.number}).evaluation;
     for (std::size_t k = 0; k < all.size(); ++k) {
       const bool at_a_glance = glance.holds[k] == 1;

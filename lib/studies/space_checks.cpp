@@ -50,8 +50,9 @@ void check_choices(ProblemList& problems, const ParameterSpace& space) {
                                           space.choices[other].name + "\" sets: the one would undo the other");
         // A parameter of another option, or of this one alone, does not undo what the others set.
         for (const FreeParameter& p : space.parameters)
-          if (p.choice != choice.name &&
-              std::ranges::any_of(p.targets, [&](const ParameterTarget& target) { return target.pointer == pointer; }))
+          if (p.choice != choice.name && std::ranges::any_of(p.targets, [&](const ParameterTarget& target) {
+                return overlap(target.pointer, pointer);
+              }))
             problems.refuse(set_at,
                             "is \"" + pointer + "\", which the parameter \"" + p.name + "\" gives whatever is chosen");
       }

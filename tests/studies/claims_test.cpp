@@ -251,6 +251,54 @@ TEST(Claims, SayWhichPointsTheyCouldNotTell) {
   EXPECT_NE(judge(c, record("111")).text.find("no delta_sp_range of any point chaotic"), std::string::npos);
 }
 
+TEST(Claims, OfAMotionThatFallsSayWhatIsUndecided) {
+  Condition c = condition(ConditionKind::decreasing);
+  c.sweep = "";
+  c.sweeps = {"s", "t"};
+  c.motion = "not period 1";
+  c.quantity = "delta_sp_range";
+  ClaimRecord r = record("c1c", {2.0, 1.0, 2.0});
+  r["t"] = record("c1c", {1.0, 1.0, 1.0})["s"];
+  EXPECT_EQ(judge(c, r).text.find("undecided"), std::string::npos);
+  r["s"].points[2].motion = {Regime::undecided, 0, true};
+  EXPECT_NE(judge(c, r).text.find("1 point undecided"), std::string::npos) << judge(c, r).text;
+  EXPECT_FALSE(judge(Claim{"C", "", "", "", 1.0, {c}}, r).inert);
+}
+
+TEST(Claims, AreNotInertWhereSweepsThatAreComparedDiffer) {
+  Condition c = condition(ConditionKind::decreasing);
+  c.sweep = "";
+  c.sweeps = {"s", "t"};
+  c.quantity = "delta_sp_range";
+  ClaimRecord r = record("111", {2.0, 2.0, 2.0});
+  r["t"] = record("111", {2.0, 2.0, 2.0})["s"];
+  EXPECT_TRUE(judge(Claim{"C", "", "", "", 1.0, {c}}, r).inert);
+  r["t"] = record("111", {1.0, 1.0, 1.0})["s"];
+  EXPECT_FALSE(judge(Claim{"C", "", "", "", 1.0, {c}}, r).inert);
+  // And where the other direction moves otherwise.
+  c = condition(ConditionKind::jump);
+  c.quantity = "delta_sp_range";
+  c.at_least = 0.1;
+  EXPECT_TRUE(judge(Claim{"C", "", "", "", 1.0, {c}}, r).inert);
+  r["s"].other = record("111", {3.0, 3.0, 3.0})["s"].points;
+  EXPECT_FALSE(judge(Claim{"C", "", "", "", 1.0, {c}}, r).inert);
+}
+
+TEST(Claims, OfMeshesThatAreAlikeTakeNothingUndecidedForTheSame) {
+  Condition c = condition(ConditionKind::alike);
+  c.at_least = 0.9;
+  ClaimRecord r = record("1c1");
+  EXPECT_TRUE(judge(c, r).holds);
+  r["s"].points[1].by_sun_mesh = r["s"].points[1].by_ring_mesh = {Regime::undecided, 0, true};
+  const ConditionOutcome two = judge(c, r);
+  EXPECT_FALSE(two.holds);
+  EXPECT_NEAR(two.measured, 2.0 / 3.0, 1e-15);
+  EXPECT_TRUE(two.part_of_one);
+  // By a glance what does not recur is chaos.
+  r["s"].points[1].by_sun_mesh.told = r["s"].points[1].by_ring_mesh.told = false;
+  EXPECT_TRUE(judge(c, r).holds);
+}
+
 TEST(Claims, InFullTakeNothingUndecidedForChaos) {
   PointResult r;
   r.outcome = integrate::Outcome::reached;
@@ -379,6 +427,32 @@ TEST(Claims, OnChangesTakeNoPointThatFailedForOne) {
   c.at_least.reset();
   c.at_most = 0.5;
   EXPECT_FALSE(judge(c, record("111x")).holds);
+}
+
+TEST(Claims, OnTheFirstChangeAreNotMetWhereAnEarlierOneMayHaveFailed) {
+  Condition c = condition(ConditionKind::change);
+  c.motion = "period 1";
+  c.after = "not period 1";
+  c.within = {4.0, 5.0};
+  EXPECT_TRUE(judge(c, record("11111cc")).holds);
+  EXPECT_FALSE(judge(c, record("11x11cc")).holds);
+  EXPECT_TRUE(judge(c, record("11111cx")).holds);  // behind it
+  EXPECT_TRUE(judge(c, record("111111c", {})).measured > c.within[1]);
+  // A change that may have been next to it, and within the bounds as well.
+  c.within = {3.0, 5.5};
+  EXPECT_TRUE(judge(c, record("1111x1c")).measured == 5.5);
+  EXPECT_TRUE(judge(c, record("1111x1c")).holds);
+  c.which = Which::last;
+  c.within = {0.0, 1.0};
+  EXPECT_TRUE(judge(c, record("x1ccccc")).measured == 1.5);
+  c.within = {1.0, 2.0};
+  EXPECT_TRUE(judge(c, record("x1ccccc")).holds);
+  EXPECT_FALSE(judge(c, record("x1cc1xc")).holds);
+  // What it leads to may have been met after the motion came back.
+  c.which = Which::first;
+  c.leads_to = "chaotic";
+  EXPECT_TRUE(judge(c, record("112c1")).holds == judge(c, record("1122c")).holds);
+  EXPECT_FALSE(judge(c, record("112xc")).holds);
 }
 
 TEST(Claims, OnPeaksTakeNoPointThatFailedForAValley) {
@@ -519,6 +593,19 @@ TEST(ClaimsOptions, RefuseConditionsThatAlwaysHold) {
   EXPECT_EQ(refused_at(options_with(c)), "nowhere");
   c.at_most = 29.0;
   EXPECT_EQ(refused_at(options_with(c)), place + "/at_most");
+  // A number of points is another claim on another grid, but for none and any.
+  ClaimsOptions coarse = options_with(c);
+  coarse.sweeps[0].brief_points = coarse.sweeps[0].survey_points = 10;
+  coarse.claims[0].conditions[0].at_most = 5.0;
+  EXPECT_EQ(refused_at(coarse), "nowhere");  // there is nothing to search for
+  coarse.space.parameters = {one_parameter()};
+  EXPECT_EQ(refused_at(coarse), place + "/at_most");
+  coarse.claims[0].conditions[0].at_most = 0.0;
+  EXPECT_EQ(refused_at(coarse), "nowhere");
+  c = condition(ConditionKind::alike);
+  c.at_least = 0.9;
+  c.correlation = 0.0;
+  EXPECT_EQ(refused_at(options_with(c)), place + "/correlation");
   c = condition(ConditionKind::value);
   c.quantity = "delta_sp_range";
   c.at_least = -1.0;
@@ -552,6 +639,30 @@ TEST(ClaimsOptions, RefuseConditionsThatNeverHold) {
   EXPECT_EQ(refused_at(coarse), "nowhere");  // there is nothing to search for
   coarse.space.parameters = {one_parameter()};
   EXPECT_EQ(refused_at(coarse), place + "/within");
+  c.leads_to = "period 1";
+  EXPECT_EQ(refused_at(options_with(c)), place + "/leads_to");
+  c.motion = "periodic";
+  c.after = "not periodic";
+  c.leads_to = "period 2";
+  EXPECT_EQ(refused_at(options_with(c)), place + "/leads_to");
+  c.leads_to = "chaotic";
+  EXPECT_EQ(refused_at(options_with(c)), "nowhere");
+  c = condition(ConditionKind::falls);
+  c.quantity = "delta_sp_range";
+  c.at_least = 2.0;
+  c.from = c.to = 1.0;
+  EXPECT_EQ(refused_at(options_with(c)), place);
+  c = condition(ConditionKind::alike);
+  c.at_least = 0.9;
+  c.from = c.to = 1.0;
+  EXPECT_EQ(refused_at(options_with(c)), "nowhere");
+  c.correlation = 0.5;
+  EXPECT_EQ(refused_at(options_with(c)), place);
+  c = condition(ConditionKind::count);
+  c.motion = "chaotic";
+  c.at_least = 1.2;
+  c.at_most = 1.8;
+  EXPECT_EQ(refused_at(options_with(c)), place + "/at_most");
   c = condition(ConditionKind::peaks);
   c.quantity = "delta_sp_range";
   c.places = {0.95};
@@ -624,7 +735,10 @@ TEST(ClaimsOptions, RefuseChoicesThatDecideNothing) {
   EXPECT_EQ(refused_at(options), "in 2 places");  // by both options of A
   options.space.choices = {choice};
   options.space.parameters = {{"p", "", "", 0.0, 1.0, Spread::linear, {{"/stage/x", 1, 1, ""}}, "", ""}};
-  EXPECT_EQ(refused_at(options), "in 2 places");  // both options of A
+  EXPECT_EQ(refused_at(options), "in 2 places");                  // both options of A
+  options.space.parameters[0].targets[0].pointer = "/stage/x/y";  // a part of it
+  EXPECT_EQ(refused_at(options), "in 2 places");
+  options.space.parameters[0].targets[0].pointer = "/stage/x";
   options.space.parameters[0].choice = "A";
   options.space.parameters[0].option = "a";
   EXPECT_EQ(refused_at(options), "nowhere");
