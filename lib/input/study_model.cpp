@@ -212,23 +212,19 @@ class OptionInputs {
   std::map<std::vector<std::size_t>, std::shared_ptr<const LoadedInput>> loaded_;
 };
 
-/// Omega of a stage in place of the one that a speed in rpm or Hz was given for; nothing where Omega is given.
-std::optional<double> given_ratio(const LoadedInput& input, const gear::Stage& stage) {
-  for (const SpeedAlias& alias : speed_aliases())
-    if (const std::optional<double>& given = input.given_speed.*alias.given)
-      if (const auto ratio = ratio_per_unit(alias, stage)) return *given * *ratio;
-  return std::nullopt;
-}
-
 /// What a candidate has in place of the input's numbers. A speed that is given in rpm or Hz stays what it is.
 std::vector<PointerValue> candidate_values(const LoadedInput& input, const studies::ParameterSpace& space,
                                            std::span<const double> u) {
-  const std::string speed = std::string("/operation/") + studies::speed_parameter;
+  const std::string speed = studies::find_parameter(studies::speed_parameter)->pointers.front();
   std::vector<PointerValue> values;
   for (const auto& [pointer, value] : space.targets_at(u)) values.push_back({pointer, value});
-  const bool is_set = std::ranges::any_of(values, [&](const PointerValue& v) { return v.pointer == speed; });
-  if (is_set || values.empty()) return values;
-  if (const auto ratio = given_ratio(input, input.with_values(values).stage)) values.push_back({speed, *ratio});
+  if (std::ranges::any_of(values, [&](const PointerValue& v) { return v.pointer == speed; })) return values;
+  for (const SpeedAlias& alias : speed_aliases())
+    if (const std::optional<double>& given = input.given_speed.*alias.given)
+      if (const auto ratio = ratio_per_unit(alias, input.with_values(values).stage)) {
+        values.push_back({speed, *given * *ratio});
+        break;
+      }
   return values;
 }
 

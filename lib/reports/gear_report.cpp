@@ -170,8 +170,7 @@ std::string rotational_modes(const gear::Stage& stage, const std::vector<model::
     if (mode.type == model::ModeType::rotational && mode.frequency_ratio > 0.0)
       list += fmt::format("{}{:.3f}", list.empty() ? "" : ", ", mode.frequency_ratio);
   if (list.empty())
-    return "None of these modes is rotational: planets move all alike only where the sums of cos φ_i and of sin φ_i "
-           "are "
+    return "None of these modes is rotational: planets move all alike only where the sums of cos φ_i and sin φ_i are "
            "0, as they are of equally spaced planets.";
   std::string text =
       "Rotational modes, in which all planets move alike in their own directions, stand at ω/ω_sn = " + list + ".";
