@@ -188,12 +188,22 @@ std::optional<double> number_to_set(const LoadedInput& input, std::span<const Po
   return number_at(input, set.as);
 }
 
+std::vector<PointerValue> set_along(const LoadedInput& input, std::span<const PointerValue> values,
+                                    const studies::ClaimSweep& sweep) {
+  std::vector<PointerValue> set;
+  for (const studies::SetValue& s : sweep.at) set.push_back({s.parameter, number_to_set(input, values, s).value()});
+  std::vector<PointerValue> all(values.begin(), values.end());
+  all.insert(all.end(), set.begin(), set.end());
+  if (sweep.axis.name != studies::speed_parameter && !all.empty())
+    if (const auto ratio = ratio_at_given_speed(input, all)) set.push_back({studies::speed_parameter, *ratio});
+  return set;
+}
+
 json sweep_input(const LoadedInput& input, const studies::ClaimSweep& sweep, studies::Start start) {
   const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
   Study study = input.study;
   study.plan = options.whole_sweep(sweep, start);
-  std::vector<PointerValue> set;
-  for (const studies::SetValue& s : sweep.at) set.push_back({s.parameter, number_to_set(input, {}, s).value()});
+  const std::vector<PointerValue> set = set_along(input, {}, sweep);
   const std::vector<Assignment> values = written_values(study, set);
   json changed = input.resolved;
   for (const Assignment& value : values) changed[json::json_pointer(value.pointer)] = value.value;

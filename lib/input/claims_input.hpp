@@ -37,6 +37,11 @@ namespace epicyclic::input {
 [[nodiscard]] std::optional<double> number_to_set(const LoadedInput& input, std::span<const PointerValue> values,
                                                   const studies::SetValue& set);
 
+/// What differs along a sweep of the claims: what its `at` sets, and Omega where a speed given in rpm or Hz is to stay
+/// what it is with that and the candidate's `values`.
+[[nodiscard]] std::vector<PointerValue> set_along(const LoadedInput& input, std::span<const PointerValue> values,
+                                                  const studies::ClaimSweep& sweep);
+
 /// A sweep of the claims as a study of its own: the resolved input with what the sweep sets in place.
 [[nodiscard]] nlohmann::json sweep_input(const LoadedInput& input, const studies::ClaimSweep& sweep,
                                          studies::Start start);

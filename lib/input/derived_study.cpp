@@ -34,6 +34,37 @@ std::vector<Assignment> written_values(Study& study, std::span<const PointerValu
   return written;
 }
 
+void set_named(model::OperatingPoint& point, std::span<const PointerValue> values) {
+  for (const PointerValue& v : values)
+    if (v.pointer.rfind('/', 0) != 0) {
+      const studies::NamedParameter* parameter = studies::find_parameter(v.pointer);
+      if (parameter == nullptr) throw InputError("/study/parameter: no sweep parameter '" + v.pointer + "'");
+      parameter->set(point, v.value);
+    }
+}
+
+model::OperatingPoint point_at(const LoadedInput& input, std::span<const PointerValue> values) {
+  std::vector<PointerValue> pointers;
+  for (const PointerValue& v : values)
+    if (v.pointer.rfind('/', 0) == 0) pointers.push_back(v);
+  const Study study = pointers.empty() ? input.study : input.with_values(pointers);
+  model::OperatingPoint point{study.stage, study.mesh_frequency_ratio, study.model};
+  set_named(point, values);
+  return point;
+}
+
+std::optional<double> ratio_at_given_speed(const LoadedInput& input, std::span<const PointerValue> values) {
+  const studies::NamedParameter& speed = *studies::find_parameter(studies::speed_parameter);
+  if (std::ranges::any_of(values, [&](const PointerValue& v) {
+        return v.pointer == speed.name || v.pointer == speed.pointers.front();
+      }))
+    return std::nullopt;
+  for (const SpeedAlias& alias : speed_aliases())
+    if (const std::optional<double>& given = input.given_speed.*alias.given)
+      if (const auto ratio = ratio_per_unit(alias, point_at(input, values).stage)) return *given * *ratio;
+  return std::nullopt;
+}
+
 std::vector<Assignment> point_as_study(const LoadedInput& input, const studies::GridPoint& point,
                                        std::string_view kind) {
   Study study = input.study;

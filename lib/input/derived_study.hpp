@@ -2,6 +2,7 @@
 // as a study of its own.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,19 @@ namespace epicyclic::input {
 /// stand for several of them, in another unit.
 /// @param study  of the input, with or without changes; is changed on
 [[nodiscard]] std::vector<Assignment> written_values(Study& study, std::span<const PointerValue> values);
+
+/// Sets those of the values that have names.
+/// @throws InputError when there is no parameter of such a name
+void set_named(model::OperatingPoint& point, std::span<const PointerValue> values);
+
+/// The operating point at values of parameters, by names or pointers.
+/// @throws InputError when the study is not valid there, or there is no such parameter
+[[nodiscard]] model::OperatingPoint point_at(const LoadedInput& input, std::span<const PointerValue> values);
+
+/// Omega at these values where the input gives the speed in rpm or Hz, which is to stay what it is while they change
+/// the time scale; nothing where it gives Omega, or one of the values is it.
+[[nodiscard]] std::optional<double> ratio_at_given_speed(const LoadedInput& input,
+                                                         std::span<const PointerValue> values);
 
 /// One point of a finished study as a study of its own: what the study varies is set there, its points are looked at as
 /// they were, and its scales are those of the stage that stands in it then, so that its Omega may be another number for

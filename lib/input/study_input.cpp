@@ -1050,7 +1050,12 @@ class LoadedInput::Loader {
           note_conversion(whole_["operation"], studies::speed_parameter, alias.key, alias, *value);
         }
     }
+    // By its pointer it is the same parameter, and is to be told as that.
+    const auto by_name = [](std::string& name) {
+      if (name == studies::find_parameter(studies::speed_parameter)->pointers.front()) name = studies::speed_parameter;
+    };
     const auto convert = [&](std::string& name, double& from, double& to, const std::string& place) {
+      by_name(name);
       const SpeedAlias* alias = find_speed_alias(name);
       if (alias == nullptr) return;
       name = studies::speed_parameter;
@@ -1099,6 +1104,8 @@ class LoadedInput::Loader {
       }
       convert(b->parameter, b->from, b->to, "/study");
       if (b->loci) convert(b->loci->parameter, b->loci->from, b->loci->to, "/study/loci");
+    } else if (auto* claims = std::get_if<studies::ClaimsOptions>(&read.plan)) {
+      for (studies::ClaimSweep& sweep : claims->sweeps) by_name(sweep.axis.name);
     } else if (read.has_points() && !std::holds_alternative<RunPlan>(read.plan) &&
                !std::holds_alternative<studies::BasinsOptions>(read.plan)) {
       axis(sweep_in(read.plan).axis, "/study");

@@ -21,6 +21,7 @@
 #include "gear/gear_set.hpp"
 #include "gear/warnings.hpp"
 #include "input/claims_input.hpp"
+#include "input/derived_study.hpp"
 #include "integrate/methods.hpp"
 #include "studies/named_parameters.hpp"
 #include "studies/plane.hpp"
@@ -31,27 +32,6 @@ namespace epicyclic::input {
 using nlohmann::json;
 
 namespace {
-
-/// Sets those values that have names.
-void set_named(model::OperatingPoint& point, std::span<const PointerValue> values) {
-  for (const PointerValue& v : values)
-    if (v.pointer.rfind('/', 0) != 0) {
-      const studies::NamedParameter* parameter = studies::find_parameter(v.pointer);
-      if (parameter == nullptr) throw InputError("/study/parameter: no sweep parameter '" + v.pointer + "'");
-      parameter->set(point, v.value);
-    }
-}
-
-/// The operating point at values of parameters, by names or pointers.
-model::OperatingPoint point_at(const LoadedInput& input, std::span<const PointerValue> values) {
-  std::vector<PointerValue> pointers;
-  for (const PointerValue& v : values)
-    if (v.pointer.rfind('/', 0) == 0) pointers.push_back(v);
-  const Study study = pointers.empty() ? input.study : input.with_values(pointers);
-  model::OperatingPoint point{study.stage, study.mesh_frequency_ratio, study.model};
-  set_named(point, values);
-  return point;
-}
 
 model::DynamicModel model_of(const model::OperatingPoint& point, const model::Scales& scales) {
   model::DynamicModel model = model::make_dynamic_model(point.stage, scales, point.mesh_frequency_ratio, point.options);
@@ -180,8 +160,7 @@ studies::SweepModels sweep_models(std::shared_ptr<const LoadedInput> input, std:
       set_named(point, set);
       return point;
     };
-    std::vector<PointerValue> set;
-    for (const studies::SetValue& v : sweep.at) set.push_back({v.parameter, number_to_set(*input, values, v).value()});
+    std::vector<PointerValue> set = set_along(*input, values, sweep);
     const model::Scales scales = model::scales_of(with(set).stage);
     set.push_back({sweep.axis.name, value});
     return model_of(with(set), scales);
@@ -212,19 +191,10 @@ class OptionInputs {
   std::map<std::vector<std::size_t>, std::shared_ptr<const LoadedInput>> loaded_;
 };
 
-/// What a candidate has in place of the input's numbers. A speed that is given in rpm or Hz stays what it is.
-std::vector<PointerValue> candidate_values(const LoadedInput& input, const studies::ParameterSpace& space,
-                                           std::span<const double> u) {
-  const std::string speed = studies::find_parameter(studies::speed_parameter)->pointers.front();
+/// What a candidate has in place of the input's numbers.
+std::vector<PointerValue> candidate_values(const studies::ParameterSpace& space, std::span<const double> u) {
   std::vector<PointerValue> values;
   for (const auto& [pointer, value] : space.targets_at(u)) values.push_back({pointer, value});
-  if (std::ranges::any_of(values, [&](const PointerValue& v) { return v.pointer == speed; })) return values;
-  for (const SpeedAlias& alias : speed_aliases())
-    if (const std::optional<double>& given = input.given_speed.*alias.given)
-      if (const auto ratio = ratio_per_unit(alias, input.with_values(values).stage)) {
-        values.push_back({speed, *given * *ratio});
-        break;
-      }
   return values;
 }
 
@@ -234,16 +204,17 @@ json candidate_input(const std::filesystem::path& path, std::span<const Assignme
                      const studies::ParameterSpace& space, std::span<const double> u, const std::string& origin) {
   OptionInputs inputs(path, std::vector<Assignment>(sets.begin(), sets.end()));
   const std::shared_ptr<const LoadedInput> input = inputs.of(space, space.options_at(u));
-  return with_origins(input->resolved_with(candidate_values(*input, space, u)), candidate_assignments(space, u),
-                      origin);
+  std::vector<PointerValue> values = candidate_values(space, u);
+  if (const auto ratio = ratio_at_given_speed(*input, values))
+    values.push_back({studies::find_parameter(studies::speed_parameter)->pointers.front(), *ratio});
+  return with_origins(input->resolved_with(values), candidate_assignments(space, u), origin);
 }
 
 studies::CandidateModels candidate_models(const std::filesystem::path& path, std::span<const Assignment> sets,
                                           const studies::ClaimsOptions& options) {
   auto inputs = std::make_shared<OptionInputs>(path, std::vector<Assignment>(sets.begin(), sets.end()));
   return [inputs, space = options.space](std::span<const double> u) {
-    const std::shared_ptr<const LoadedInput> input = inputs->of(space, space.options_at(u));
-    return sweep_models(input, candidate_values(*input, space, u));
+    return sweep_models(inputs->of(space, space.options_at(u)), candidate_values(space, u));
   };
 }
 

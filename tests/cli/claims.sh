@@ -201,6 +201,12 @@ for target in /stage/lumped/sun/inertia_over_r2_kg /stage/lumped/sun_planet_mesh
   grep -q "^B,$said," rpm_best/scorecard.csv || fail "$target: B $said by whole sweeps of the search, but not by reproduce"
 done
 
+# Nor does what a sweep sets of the stage change it.
+heavy='[{"parameter": "/stage/lumped/sun/inertia_over_r2_kg", "value": 4}]'
+[ "$(code_of "$epicyclic" reproduce claims.json -o rpm_at --set /operation/mesh_frequency_ratio=null --set /operation/sun_speed_rpm=12000 --set "/study/sweeps/1/at=$heavy" --set /study/choices=null --set /study/parameters=null --set '/study/starts=["cold"]')" = 0 ] || fail "a speed in rpm along a sweep of another stage: $(<stderr)"
+speeds=$(awk -F, 'NR == 1 { for (c = 1; c <= NF; ++c) if ($c == "sun_speed_rpm") at = c } NR > 1 { printf "%.6f\n", $at }' rpm_at/sweeps/damping_cold/points.csv | sort -u)
+[ "$speeds" = 12000.000000 ] || fail "the sweep of a heavier sun runs at $speeds rpm"
+
 # Of options that differ in numbers alone the stage has the one with its own; a parameter of another option says nothing.
 torques='[{"name": "load", "options": [ {"name": "low", "sets": [{"pointer": "/stage/load", "value": {"torque_Nm": 150}}]}, {"name": "high", "sets": [{"pointer": "/stage/load", "value": {"torque_Nm": 400}}]} ]}]'
 of_low='[{"name": "E", "from": 0.5, "to": 20, "targets": [{"pointer": "/stage/lumped/sun_planet_mesh/error_amplitude_um/0"}]}, {"name": "T", "from": 10, "to": 100, "choice": "load", "option": "low", "targets": [{"pointer": "/stage/load/torque_Nm"}]}]'

@@ -362,6 +362,13 @@ TEST_F(StudyInput, TakesAxesInRpmAndHertz) {
   EXPECT_EQ(sweep.resolved["study"]["origin"]["from"], "set: command line, sun_speed_rpm = 3000");
   EXPECT_EQ(reload(sweep.resolved).resolved, sweep.resolved);
 
+  // By its pointer the speed is the same parameter.
+  const auto pointed = load(
+      {R"(/study={"kind": "sweep", "parameter": "/operation/mesh_frequency_ratio", "from": 0.5, "to": 0.6, "points": 3})"});
+  EXPECT_EQ(std::get<studies::SweepOptions>(pointed.study.plan).axis.name, studies::speed_parameter);
+  EXPECT_EQ(pointed.resolved["study"]["parameter"], studies::speed_parameter);
+  EXPECT_EQ(reload(pointed.resolved).resolved, pointed.resolved);
+
   const auto map =
       load({R"(/study={"kind": "map", "first": {"parameter": "damping_ratio", "from": 0.1, "to": 0.2}, "second": )" +
             axis + "}"});
