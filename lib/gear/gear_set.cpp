@@ -146,7 +146,7 @@ void check_root(Problems& out, const Tooth& tooth, const GearData& data, const s
   } else if (!data.root_diameter_mm && tooth.rack_tip_width() <= 0.0) {
     out.add(pointer, "the rack that cuts it is pointed before its depth of ", tooth.rack_depth(), " modules: at ",
             data.pressure_angle_deg, " degrees its flanks meet at ",
-            0.25 * std::numbers::pi / std::tan(tooth.pressure_angle));
+            0.25 * std::numbers::pi / std::tan(tooth.pressure_angle), " modules");
   }
 }
 

@@ -192,10 +192,12 @@ std::vector<PointerValue> set_along(const LoadedInput& input, std::span<const Po
                                     const studies::ClaimSweep& sweep) {
   std::vector<PointerValue> set;
   for (const studies::SetValue& s : sweep.at) set.push_back({s.parameter, number_to_set(input, values, s).value()});
+  // What has a name changes no time scale.
+  const bool by_pointer = std::ranges::any_of(set, [](const PointerValue& v) { return v.pointer.starts_with('/'); });
+  if (!by_pointer || sweep.axis.name == studies::speed_parameter) return set;
   std::vector<PointerValue> all(values.begin(), values.end());
   all.insert(all.end(), set.begin(), set.end());
-  if (sweep.axis.name != studies::speed_parameter && !all.empty())
-    if (const auto ratio = ratio_at_given_speed(input, all)) set.push_back({studies::speed_parameter, *ratio});
+  if (const auto ratio = ratio_at_given_speed(input, all)) set.push_back({studies::speed_parameter, *ratio});
   return set;
 }
 

@@ -37,8 +37,8 @@ namespace epicyclic::input {
 [[nodiscard]] std::optional<double> number_to_set(const LoadedInput& input, std::span<const PointerValue> values,
                                                   const studies::SetValue& set);
 
-/// What differs along a sweep of the claims: what its `at` sets, and Omega where a speed given in rpm or Hz is to stay
-/// what it is with that and the candidate's `values`.
+/// What differs along a sweep of the claims: what its `at` sets, and Omega where that changes the stage and a speed
+/// given in rpm or Hz is to stay what it is, with the candidate's `values`.
 [[nodiscard]] std::vector<PointerValue> set_along(const LoadedInput& input, std::span<const PointerValue> values,
                                                   const studies::ClaimSweep& sweep);
 

@@ -36,7 +36,7 @@ std::vector<Assignment> written_values(Study& study, std::span<const PointerValu
 
 void set_named(model::OperatingPoint& point, std::span<const PointerValue> values) {
   for (const PointerValue& v : values)
-    if (v.pointer.rfind('/', 0) != 0) {
+    if (!v.pointer.starts_with('/')) {
       const studies::NamedParameter* parameter = studies::find_parameter(v.pointer);
       if (parameter == nullptr) throw InputError("/study/parameter: no sweep parameter '" + v.pointer + "'");
       parameter->set(point, v.value);
@@ -46,7 +46,7 @@ void set_named(model::OperatingPoint& point, std::span<const PointerValue> value
 model::OperatingPoint point_at(const LoadedInput& input, std::span<const PointerValue> values) {
   std::vector<PointerValue> pointers;
   for (const PointerValue& v : values)
-    if (v.pointer.rfind('/', 0) == 0) pointers.push_back(v);
+    if (v.pointer.starts_with('/')) pointers.push_back(v);
   const Study study = pointers.empty() ? input.study : input.with_values(pointers);
   model::OperatingPoint point{study.stage, study.mesh_frequency_ratio, study.model};
   set_named(point, values);
@@ -63,6 +63,12 @@ std::optional<double> ratio_at_given_speed(const LoadedInput& input, std::span<c
     if (const std::optional<double>& given = input.given_speed.*alias.given)
       if (const auto ratio = ratio_per_unit(alias, point_at(input, values).stage)) return *given * *ratio;
   return std::nullopt;
+}
+
+std::vector<PointerValue> at_given_speed(const LoadedInput& input, std::vector<PointerValue> values) {
+  if (const auto ratio = ratio_at_given_speed(input, values))
+    values.push_back({studies::find_parameter(studies::speed_parameter)->pointers.front(), *ratio});
+  return values;
 }
 
 std::vector<Assignment> point_as_study(const LoadedInput& input, const studies::GridPoint& point,

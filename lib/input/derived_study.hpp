@@ -31,6 +31,9 @@ void set_named(model::OperatingPoint& point, std::span<const PointerValue> value
 [[nodiscard]] std::optional<double> ratio_at_given_speed(const LoadedInput& input,
                                                          std::span<const PointerValue> values);
 
+/// The values, and behind them, by its pointer, that Omega.
+[[nodiscard]] std::vector<PointerValue> at_given_speed(const LoadedInput& input, std::vector<PointerValue> values);
+
 /// One point of a finished study as a study of its own: what the study varies is set there, its points are looked at as
 /// they were, and its scales are those of the stage that stands in it then, so that its Omega may be another number for
 /// the same speed. A cross-check and a tolerance study are of that one point.

@@ -147,12 +147,13 @@ namespace {
 /// The models of a study for the sweeps of claims, each sweep as the study of its own that sweep_input() makes of it:
 /// with the scales of the stage that its `at` has set.
 studies::SweepModels sweep_models(std::shared_ptr<const LoadedInput> input, std::vector<PointerValue> values) {
-  const Study study = values.empty() ? input->study : input->with_values(values);
-  const model::OperatingPoint given{study.stage, study.mesh_frequency_ratio, study.model};
-  return [input = std::move(input), values = std::move(values), given](const studies::ClaimSweep& sweep, double value) {
+  const std::vector<PointerValue> fixed = values.empty() ? values : at_given_speed(*input, values);
+  const model::OperatingPoint given = point_at(*input, fixed);
+  return [input = std::move(input), values = std::move(values), fixed, given](const studies::ClaimSweep& sweep,
+                                                                              double value) {
     const auto with = [&](const std::vector<PointerValue>& set) {
       if (std::ranges::any_of(set, [](const PointerValue& v) { return v.pointer.starts_with('/'); })) {
-        std::vector<PointerValue> all = values;
+        std::vector<PointerValue> all = fixed;
         all.insert(all.end(), set.begin(), set.end());
         return point_at(*input, all);
       }
@@ -204,10 +205,8 @@ json candidate_input(const std::filesystem::path& path, std::span<const Assignme
                      const studies::ParameterSpace& space, std::span<const double> u, const std::string& origin) {
   OptionInputs inputs(path, std::vector<Assignment>(sets.begin(), sets.end()));
   const std::shared_ptr<const LoadedInput> input = inputs.of(space, space.options_at(u));
-  std::vector<PointerValue> values = candidate_values(space, u);
-  if (const auto ratio = ratio_at_given_speed(*input, values))
-    values.push_back({studies::find_parameter(studies::speed_parameter)->pointers.front(), *ratio});
-  return with_origins(input->resolved_with(values), candidate_assignments(space, u), origin);
+  return with_origins(input->resolved_with(at_given_speed(*input, candidate_values(space, u))),
+                      candidate_assignments(space, u), origin);
 }
 
 studies::CandidateModels candidate_models(const std::filesystem::path& path, std::span<const Assignment> sets,

@@ -196,7 +196,7 @@ namespace {
 /// Says so where the profile came upon a candidate that is better than the result through which it goes; not where
 /// whole sweeps chose the result, and not its cost.
 std::string better_text(const CalibrateOutput& output, const Calibration& calibration) {
-  if (!calibration.confirmed.empty()) return "";
+  if (calibration.whole() != nullptr) return "";
   const studies::ProfilePoint* better = nullptr;
   double least = calibration.best->evaluation.cost;
   for (const studies::ProfilePoint& p : calibration.profile)
@@ -230,21 +230,21 @@ std::string calibrate_summary(const CalibrateOutput& output, const Calibration& 
       calibration.evaluations.size(), given_up, refused, options.search.seed, options.search.islands,
       options.search.population);
   if (!calibration.complete) text += "Stopped before its end.\n\n";
-  const std::string whole = calibration.confirmed.empty()
-                                ? ""
-                                : fmt::format("{} by whole sweeps, ", claims_met(calibration.confirmed.front().whole));
+  const studies::Evaluation* whole_of_best = calibration.whole();
+  const std::string whole =
+      whole_of_best == nullptr ? "" : fmt::format("{} by whole sweeps, ", claims_met(*whole_of_best));
   text += fmt::format("Best: {}{} of {} claims by the brief look, cost {}; found by {}, candidate {}.\n\n", whole,
                       claims_met(best.evaluation), options.claims.size(), short_text(best.evaluation.cost, 5),
                       phase_name(options, best.key.phase), best.key.number);
   const auto told = [&](const studies::Evaluation& e, std::size_t k) {
     return e.holds[k] == 1 ? std::string("holds") : short_text(e.claim_costs[k], 3);
   };
-  text += calibration.confirmed.empty() ? "| claim | what | cost |\n|---|---|---|\n"
-                                        : "| claim | what | cost | by whole sweeps |\n|---|---|---|---|\n";
+  text += whole_of_best == nullptr ? "| claim | what | cost |\n|---|---|---|\n"
+                                   : "| claim | what | cost | by whole sweeps |\n|---|---|---|---|\n";
   for (std::size_t k = 0; k < options.claims.size(); ++k) {
     text += fmt::format("| {} | {} | {} |", markdown_cell(options.claims[k].name),
                         markdown_cell(options.claims[k].text), told(best.evaluation, k));
-    if (!calibration.confirmed.empty()) text += " " + told(calibration.confirmed.front().whole, k) + " |";
+    if (whole_of_best != nullptr) text += " " + told(*whole_of_best, k) + " |";
     text += "\n";
   }
   if (!calibration.confirmed.empty()) {
@@ -255,6 +255,7 @@ std::string calibrate_summary(const CalibrateOutput& output, const Calibration& 
       std::string which;
       for (std::size_t k = 0; k < options.claims.size(); ++k)
         if (c.whole.holds[k] == 1) which += (which.empty() ? "" : ", ") + options.claims[k].name;
+      if (!c.whole.refused.empty()) which = markdown_cell("no valid stage all along: " + c.whole.refused);
       text += fmt::format("| {}, {} | {} | {} | {} | {} |\n", phase_name(options, c.candidate.key.phase),
                           c.candidate.key.number, short_text(c.candidate.evaluation.cost, 5),
                           claims_met(c.candidate.evaluation), claims_met(c.whole), which);

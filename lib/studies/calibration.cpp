@@ -8,6 +8,7 @@
 #include <mutex>
 #include <span>
 #include <string>
+#include <tuple>
 
 #include <pagmo/algorithm.hpp>
 #include <pagmo/algorithms/cmaes.hpp>
@@ -243,10 +244,9 @@ std::optional<std::vector<Confirmed>> confirm(Search& search) {
     confirmed[k] = {*chosen[k], search.evaluate({search.whole_phase(), k}, chosen[k]->u, whole).evaluation};
   });
   if (!all) return std::nullopt;
-  // A stage that is none at a value of a whole sweep has no verdicts.
-  std::erase_if(confirmed, [](const Confirmed& c) { return !c.whole.refused.empty(); });
+  // One that is no valid stage at a value of a whole sweep has no verdicts, and comes last.
   const auto rank = [](const Confirmed& c) {
-    return std::pair(-std::ranges::count(c.whole.holds, 1), c.candidate.evaluation.cost);
+    return std::tuple(!c.whole.refused.empty(), -std::ranges::count(c.whole.holds, 1), c.candidate.evaluation.cost);
   };
   std::ranges::stable_sort(confirmed, {}, rank);
   return confirmed;
@@ -285,7 +285,7 @@ Calibration calibrate(const ClaimsOptions& options, const Evaluator& evaluate,
   Search search(options, evaluate, std::move(run));
   Calibration result;
   const auto keep_best = [&] {
-    if (!result.confirmed.empty())
+    if (result.whole() != nullptr)
       result.best = result.confirmed.front().candidate;
     else if (const EvaluatedCandidate* best = search.best())
       result.best = *best;

@@ -68,7 +68,12 @@ struct Calibration {
   KnownEvaluations evaluations;            ///< all of them
   std::optional<EvaluatedCandidate> best;  ///< so far, if it was stopped; nothing before the first
   std::vector<ProfilePoint> profile;       ///< by variable, then u; of a complete search
-  std::vector<Confirmed> confirmed;        ///< the first is the result
+  std::vector<Confirmed> confirmed;        ///< the first is the result, unless none is a valid stage all along
+
+  /// Of the result by whole sweeps; null where none were asked for, or none of them is a valid stage all along.
+  [[nodiscard]] const Evaluation* whole() const {
+    return confirmed.empty() || !confirmed.front().whole.refused.empty() ? nullptr : &confirmed.front().whole;
+  }
 };
 
 /// How many evaluations there are at the most.

@@ -855,9 +855,10 @@ ClaimOutcome judge(const Claim& claim, const ClaimRecord& record) {
   outcome.inert = std::ranges::all_of(sweeps, [&](const std::string& name) {
     const ClaimSeries& series = record.at(name);
     const bool is_compared = std::ranges::find(compared, name) != compared.end();
-    const ClaimPoint& first = record.at(is_compared ? compared.front() : name).points.front();
+    const std::vector<ClaimPoint>& beside = record.at(is_compared ? compared.front() : name).points;
     const auto quantities = quantities_along(claim, name);
-    return is_inert(first, series.points, quantities) && is_inert(first, series.other, quantities);
+    return !beside.empty() && is_inert(beside.front(), series.points, quantities) &&
+           is_inert(beside.front(), series.other, quantities);
   });
   return outcome;
 }

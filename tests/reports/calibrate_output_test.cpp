@@ -53,6 +53,11 @@ TEST(CalibrateSummary, TellsOfABetterCandidateOfTheProfile) {
   // Whole sweeps chose the result, not its cost.
   search.found.confirmed = {{*search.found.best, evaluation(0.0, {1, 1})}};
   EXPECT_EQ(search.summary().find("Not the least cost"), std::string::npos) << search.summary();
+  // One that is no stage all along chose nothing, and has no verdicts.
+  search.found.confirmed.front().whole.refused = "pointed teeth";
+  const std::string none = search.summary();
+  EXPECT_NE(none.find("no valid stage all along: pointed teeth"), std::string::npos) << none;
+  EXPECT_EQ(none.find("by whole sweeps, "), std::string::npos) << none;
 }
 
 }  // namespace

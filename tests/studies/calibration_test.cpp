@@ -153,6 +153,28 @@ TEST(Calibration, TakesOfItsBestTheOneThatMeetsMostByWholeSweeps) {
     }
 }
 
+TEST(Calibration, TakesNoneThatIsNoStageAllAlong) {
+  ClaimsOptions options = options_of(3);
+  options.search.candidates = 300;
+  options.search.confirmed = 3;
+  options.search.profile = 0;
+  // The least cost is no valid stage at some value of a whole sweep; or none of them is.
+  for (const bool all : {false, true}) {
+    const auto evaluate = [all](const Question& q) {
+      Evaluation e = rippled(q.u, q.give_up_at);
+      if (q.whole && (all || q.u[0] < 0.21)) e.refused = "pointed teeth";
+      return e;
+    };
+    const Calibration found = calibrate(options, evaluate, {}, {});
+    ASSERT_TRUE(found.complete);
+    ASSERT_EQ(found.confirmed.size(), 3U);
+    EXPECT_EQ(found.whole() == nullptr, all);
+    EXPECT_FALSE(found.confirmed.back().whole.refused.empty());
+    ASSERT_TRUE(found.best.has_value());
+    EXPECT_TRUE(all || found.best->u[0] >= 0.21);
+  }
+}
+
 TEST(Calibration, RefusesEvaluationsOfAnotherSearch) {
   ClaimsOptions options = options_of(3);
   options.search.candidates = 60;

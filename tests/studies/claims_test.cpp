@@ -49,6 +49,15 @@ Condition condition(ConditionKind kind) {
   return c;
 }
 
+/// The largest range falls from "s" to "t".
+Condition falling_range() {
+  Condition c = condition(ConditionKind::decreasing);
+  c.sweep = "";
+  c.sweeps = {"s", "t"};
+  c.quantity = "delta_sp_range";
+  return c;
+}
+
 TEST(ClaimMotions, AreCalledByWords) {
   for (const char* word : {"period 1", "period 12", "periodic", "multi-period", "chaotic", "not period 1", "aperiodic"})
     EXPECT_TRUE(is_motion_word(word)) << word;
@@ -252,11 +261,8 @@ TEST(Claims, SayWhichPointsTheyCouldNotTell) {
 }
 
 TEST(Claims, OfAMotionThatFallsSayWhatIsUndecided) {
-  Condition c = condition(ConditionKind::decreasing);
-  c.sweep = "";
-  c.sweeps = {"s", "t"};
+  Condition c = falling_range();
   c.motion = "not period 1";
-  c.quantity = "delta_sp_range";
   ClaimRecord r = record("c1c", {2.0, 1.0, 2.0});
   r["t"] = record("c1c", {1.0, 1.0, 1.0})["s"];
   EXPECT_EQ(judge(c, r).text.find("undecided"), std::string::npos);
@@ -266,10 +272,7 @@ TEST(Claims, OfAMotionThatFallsSayWhatIsUndecided) {
 }
 
 TEST(Claims, AreNotInertWhereSweepsThatAreComparedDiffer) {
-  Condition c = condition(ConditionKind::decreasing);
-  c.sweep = "";
-  c.sweeps = {"s", "t"};
-  c.quantity = "delta_sp_range";
+  Condition c = falling_range();
   ClaimRecord r = record("111", {2.0, 2.0, 2.0});
   r["t"] = record("111", {2.0, 2.0, 2.0})["s"];
   EXPECT_TRUE(judge(Claim{"C", "", "", "", 1.0, {c}}, r).inert);
@@ -281,6 +284,8 @@ TEST(Claims, AreNotInertWhereSweepsThatAreComparedDiffer) {
   c.at_least = 0.1;
   EXPECT_TRUE(judge(Claim{"C", "", "", "", 1.0, {c}}, r).inert);
   r["s"].other = record("111", {3.0, 3.0, 3.0})["s"].points;
+  EXPECT_FALSE(judge(Claim{"C", "", "", "", 1.0, {c}}, r).inert);
+  r["s"].points.clear();  // stopped before the first
   EXPECT_FALSE(judge(Claim{"C", "", "", "", 1.0, {c}}, r).inert);
 }
 
@@ -362,11 +367,8 @@ TEST(Claims, OnMeshesThatAreAlike) {
 }
 
 TEST(Claims, OnSweepsThatFallCompareCommonValues) {
-  Condition c = condition(ConditionKind::decreasing);
-  c.sweep = "";
-  c.sweeps = {"s", "t"};
+  Condition c = falling_range();
   c.motion = "chaotic";
-  c.quantity = "delta_sp_range";
   ClaimRecord r = record("1c1c", {9.0, 5.0, 9.0, 7.0});
   r["t"].points = {point(1.0, '1', 4.0), point(2.0, '1', 9.0), point(3.0, 'c', 6.0)};
   EXPECT_TRUE(judge(c, r).holds);
@@ -437,21 +439,19 @@ TEST(Claims, OnTheFirstChangeAreNotMetWhereAnEarlierOneMayHaveFailed) {
   EXPECT_TRUE(judge(c, record("11111cc")).holds);
   EXPECT_FALSE(judge(c, record("11x11cc")).holds);
   EXPECT_TRUE(judge(c, record("11111cx")).holds);  // behind it
-  EXPECT_TRUE(judge(c, record("111111c", {})).measured > c.within[1]);
   // A change that may have been next to it, and within the bounds as well.
   c.within = {3.0, 5.5};
-  EXPECT_TRUE(judge(c, record("1111x1c")).measured == 5.5);
+  EXPECT_EQ(judge(c, record("1111x1c")).measured, 5.5);
   EXPECT_TRUE(judge(c, record("1111x1c")).holds);
   c.which = Which::last;
-  c.within = {0.0, 1.0};
-  EXPECT_TRUE(judge(c, record("x1ccccc")).measured == 1.5);
   c.within = {1.0, 2.0};
   EXPECT_TRUE(judge(c, record("x1ccccc")).holds);
   EXPECT_FALSE(judge(c, record("x1cc1xc")).holds);
   // What it leads to may have been met after the motion came back.
   c.which = Which::first;
   c.leads_to = "chaotic";
-  EXPECT_TRUE(judge(c, record("112c1")).holds == judge(c, record("1122c")).holds);
+  EXPECT_TRUE(judge(c, record("112c1")).holds);
+  EXPECT_TRUE(judge(c, record("1122c")).holds);
   EXPECT_FALSE(judge(c, record("112xc")).holds);
 }
 
@@ -468,10 +468,7 @@ TEST(Claims, OnPeaksTakeNoPointThatFailedForAValley) {
 }
 
 TEST(Claims, OnSweepsThatFallAreNotMetWherePointsFailed) {
-  Condition c = condition(ConditionKind::decreasing);
-  c.sweep = "";
-  c.sweeps = {"s", "t"};
-  c.quantity = "delta_sp_range";
+  Condition c = falling_range();
   ClaimRecord r = record("11", {2.0, 3.0});
   r["t"] = record("11", {1.0, 1.0})["s"];
   EXPECT_TRUE(judge(c, r).holds);
@@ -492,10 +489,7 @@ TEST(Claims, AreNotMetByRounding) {
   c.at_least = 5.0;
   EXPECT_FALSE(judge(c, record("11", {1e-13, 1e-14})).holds);
   EXPECT_TRUE(judge(c, record("111", {10.0, 10.0 + 1e-9, 1.0})).holds);
-  c = condition(ConditionKind::decreasing);
-  c.sweep = "";
-  c.sweeps = {"s", "t"};
-  c.quantity = "delta_sp_range";
+  c = falling_range();
   for (const double rounding : {-1e-9, 0.0, 1e-9}) {
     ClaimRecord r = record("11", {1.0, 2.0});
     r["t"] = record("11", {1.0, 2.0 + rounding})["s"];
@@ -504,10 +498,7 @@ TEST(Claims, AreNotMetByRounding) {
 }
 
 TEST(Claims, OnQuantitiesBelowZero) {
-  Condition c = condition(ConditionKind::decreasing);
-  c.sweep = "";
-  c.sweeps = {"s", "t"};
-  c.quantity = "delta_sp_range";
+  Condition c = falling_range();
   ClaimRecord r = record("11", {-1.0, -2.0});
   r["t"] = record("11", {-3.0, -4.0})["s"];
   EXPECT_TRUE(judge(c, r).holds);
@@ -698,10 +689,7 @@ TEST(ClaimsOptions, RefuseExponentsThatSearchesDoNotCompute) {
 }
 
 TEST(ClaimsOptions, RefuseSweepsThatShareNoValues) {
-  Condition c = condition(ConditionKind::decreasing);
-  c.sweep = "";
-  c.sweeps = {"s", "t"};
-  c.quantity = "delta_sp_range";
+  Condition c = falling_range();
   ClaimsOptions options = options_with(c);
   options.space.parameters = {one_parameter()};
   options.sweeps.push_back(options.sweeps.front());
