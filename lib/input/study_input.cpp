@@ -17,6 +17,7 @@
 #include "integrate/methods.hpp"
 #include "model/dynamic_model.hpp"
 #include "studies/named_parameters.hpp"
+#include "studies/speed_note.hpp"
 #include "studies/units.hpp"
 
 namespace epicyclic::input {
@@ -1027,13 +1028,37 @@ class LoadedInput::Loader {
     const std::string from(moved.empty() ? std::string_view(key) : moved);
     std::string text =
         origin.contains(from) && origin[from].is_string() ? origin[from].get<std::string>() : std::string("choice");
-    text += (text.find(": ") == std::string::npos ? ": " : ", ") + std::string(alias.key) + " = " + number_text(given);
     if (!moved.empty()) {
       object.erase(from);
       if (origin.is_object()) origin.erase(from);
       object[key] = 0.0;  // stands there: no default
     }
-    origin[key] = std::move(text);
+    origin[key] = studies::with_speed_note(std::move(text), alias.key, number_text(given));
+  }
+
+  /// The number at a key whose origin notes that it was another speed, as in a resolved input: of this stage that is
+  /// still so, or what the origin says is told and does not stand.
+  /// @returns the note, where it is so
+  std::optional<studies::SpeedNote> speed_noted_at(const std::string& place, const std::string& key, double value) {
+    json* object = find_at(whole_, place);
+    if (object == nullptr || !object->is_object() || !object->contains("origin")) return std::nullopt;
+    json& origin = (*object)["origin"];
+    json* text = origin.is_object() && origin.contains(key) ? &origin[key] : nullptr;
+    if (text == nullptr || !text->is_string()) return std::nullopt;
+    std::optional<studies::SpeedNote> note = studies::find_speed_note(text->get_ref<const std::string&>());
+    const SpeedAlias* alias = note ? find_speed_alias(note->key) : nullptr;
+    if (alias == nullptr) return std::nullopt;
+    constexpr double same = 1e-9;  // relative; computed data of another machine may differ in their last digits
+    const std::optional<double> per_unit = ratio_per_unit(*alias, input_.study.stage);
+    if (per_unit && std::abs(value - note->value * *per_unit) <= same * std::abs(value)) return note;
+    const auto here = [&] {
+      return note->key + " = " + number_text(studies::grid_value(0, 2 * value / *per_unit, 0.5));
+    };
+    context_.notes.push_back(place + pointer_step(key) + ": stays " + number_text(value) + ", which is " +
+                             (per_unit ? here() : "no speed of that member") + " in this stage and not " + note->text +
+                             ", as its origin notes of another stage; give " + note->key + " to keep that speed");
+    *text = note->before;
+    return std::nullopt;
   }
 
   /// The speeds in rpm and Hz, of the operating point and of axes, as Omega.
@@ -1050,6 +1075,10 @@ class LoadedInput::Loader {
           note_conversion(whole_["operation"], studies::speed_parameter, alias.key, alias, *value);
         }
     }
+    if (moves)
+      if (const auto note =
+              speed_noted_at(std::string(operation_root), studies::speed_parameter, read.mesh_frequency_ratio))
+        input_.given_speed.*find_speed_alias(note->key)->given = note->value;
     // By its pointer it is the same parameter, and is to be told as that.
     const auto by_name = [](std::string& name) {
       if (name == studies::find_parameter(studies::speed_parameter)->pointers.front()) name = studies::speed_parameter;
@@ -1057,7 +1086,12 @@ class LoadedInput::Loader {
     const auto convert = [&](std::string& name, double& from, double& to, const std::string& place) {
       by_name(name);
       const SpeedAlias* alias = find_speed_alias(name);
-      if (alias == nullptr) return;
+      if (alias == nullptr) {
+        if (moves && name == studies::speed_parameter)
+          for (const auto& [key, value] : {std::pair("from", from), {"to", to}})
+            (void)speed_noted_at(place, key, value);
+        return;
+      }
       name = studies::speed_parameter;
       json& object = *find_at(whole_, place);
       const studies::Axis standard = studies::SweepOptions{}.axis;

@@ -22,6 +22,7 @@
 #include "gear/warnings.hpp"
 #include "input/claims_input.hpp"
 #include "input/derived_study.hpp"
+#include "input/speed_aliases.hpp"
 #include "integrate/methods.hpp"
 #include "studies/named_parameters.hpp"
 #include "studies/plane.hpp"
@@ -181,11 +182,25 @@ class OptionInputs {
       std::vector<Assignment> sets = sets_;
       std::ranges::move(option_assignments(space, options), std::back_inserter(sets));
       input = std::make_shared<const LoadedInput>(load_input(path_, sets));
+      if (!options.empty()) keep_noted_speed(sets, input);
     }
     return input;
   }
 
  private:
+  /// A resolved input notes its speed in rpm as that of the stage that it has: of another option's it is still given.
+  void keep_noted_speed(std::vector<Assignment> sets, std::shared_ptr<const LoadedInput>& input) const {
+    const GivenSpeed given = load_input(path_, sets_).given_speed;
+    for (const SpeedAlias& alias : speed_aliases()) {
+      const std::optional<double>& value = given.*alias.given;
+      if (!value || input->given_speed.*alias.given) continue;
+      // First, so that an option's own speed counts.
+      sets.insert(sets.begin() + static_cast<std::ptrdiff_t>(sets_.size()),
+                  Assignment{"/operation/" + std::string(alias.key), *value, {}});
+      input = std::make_shared<const LoadedInput>(load_input(path_, sets));
+    }
+  }
+
   std::filesystem::path path_;
   std::vector<Assignment> sets_;
   std::mutex mutex_;

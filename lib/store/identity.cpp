@@ -1,6 +1,7 @@
 #include "store/identity.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "store/digest.hpp"
 #include "store/journal.hpp"
 #include "studies/claims.hpp"
+#include "studies/speed_note.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::store {
@@ -27,11 +29,32 @@ nlohmann::json identifying_values(nlohmann::json value, const nlohmann::json& co
   return value;
 }
 
+/// A speed that is noted in the origin of the number at a place.
+std::optional<studies::SpeedNote> speed_noted_at(const nlohmann::json& resolved,
+                                                 const nlohmann::json::json_pointer& at) {
+  if (at.empty()) return std::nullopt;
+  const nlohmann::json::json_pointer origin = at.parent_pointer() / "origin" / at.back();
+  if (!resolved.contains(origin) || !resolved.at(origin).is_string()) return std::nullopt;
+  return studies::find_speed_note(resolved.at(origin).get_ref<const std::string&>());
+}
+
+/// What decides in a study: its values, and of claims, which keep a speed as it was given where a sweep or a candidate
+/// changes the stage, that speed.
+nlohmann::json identifying_study(const ResolvedValues& input) {
+  nlohmann::json values = identifying_values(input.resolved, input.computed);
+  static const nlohmann::json::json_pointer kind("/study/kind");
+  static const nlohmann::json::json_pointer operation("/operation");
+  if (!values.contains(kind) || values.at(kind) != "claims") return values;
+  if (const auto noted = speed_noted_at(input.resolved, operation / studies::speed_parameter))
+    values[operation / noted->key] = noted->value;
+  return values;
+}
+
 }  // namespace
 
 std::string identity(const ResolvedValues& input, std::string_view command) {
   nlohmann::json what = {{"command", command},
-                         {"input", identifying_values(input.resolved, input.computed)},
+                         {"input", identifying_study(input)},
                          {"journal_format", journal_format_version},
                          {"numerics", studies::numerics_version}};
   // What these keep of a candidate is how it was judged.
@@ -40,34 +63,29 @@ std::string identity(const ResolvedValues& input, std::string_view command) {
 }
 
 std::string given_as(const nlohmann::json& resolved, const std::string& pointer) {
-  const nlohmann::json::json_pointer at(pointer);
-  if (at.empty()) return {};
-  const nlohmann::json::json_pointer origin = at.parent_pointer() / "origin" / at.back();
-  if (!resolved.contains(origin) || !resolved.at(origin).is_string()) return {};
-  const std::string& text = resolved.at(origin).get_ref<const std::string&>();
-  const std::size_t equals = text.rfind(" = ");
-  if (equals == std::string::npos) return {};
-  // Of speeds alone: words of the user's own may have the sign, too.
-  const std::string_view before = std::string_view(text).substr(0, equals);
-  if (!before.ends_with("_rpm") && !before.ends_with("_Hz")) return {};
-  return fmt::format(" ({})", text.substr(before.find_last_of(' ') + 1));
+  const auto noted = speed_noted_at(resolved, nlohmann::json::json_pointer(pointer));
+  return noted ? fmt::format(" ({})", noted->text) : std::string();
 }
 
 std::vector<Difference> differing_values(const ResolvedValues& there, const ResolvedValues& here) {
-  const nlohmann::json from = identifying_values(there.resolved, there.computed);
-  const nlohmann::json to = identifying_values(here.resolved, here.computed);
-  const auto text = [](const nlohmann::json& values, const nlohmann::json::json_pointer& at) {
+  const nlohmann::json from = identifying_study(there);
+  const nlohmann::json to = identifying_study(here);
+  const auto text = [](const nlohmann::json& values, const nlohmann::json& resolved,
+                       const nlohmann::json::json_pointer& at) {
     constexpr std::size_t longest = 60;
-    if (!values.contains(at)) return std::string("nothing");
-    std::string value = values.at(at).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    return value.size() <= longest ? value + given_as(values, at.to_string()) : std::string("another value");
+    const nlohmann::json* value = resolved.contains(at) ? &resolved.at(at)
+                                  : values.contains(at) ? &values.at(at)
+                                                        : nullptr;
+    if (value == nullptr) return std::string("nothing");
+    std::string shown = value->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return shown.size() <= longest ? shown + given_as(resolved, at.to_string()) : std::string("another value");
   };
   std::vector<Difference> all;
   for (const nlohmann::json& change : nlohmann::json::diff(from, to)) {
     const std::string pointer = change.at("path");
     const nlohmann::json::json_pointer at(pointer);
-    all.push_back(
-        {pointer, fmt::format("{}: {} there, {} here", pointer, text(there.resolved, at), text(here.resolved, at))});
+    all.push_back({pointer, fmt::format("{}: {} there, {} here", pointer, text(from, there.resolved, at),
+                                        text(to, here.resolved, at))});
   }
   return all;
 }

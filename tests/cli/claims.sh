@@ -207,10 +207,25 @@ heavy='[{"parameter": "/stage/lumped/sun/inertia_over_r2_kg", "value": 4}]'
 speeds=$(awk -F, 'NR == 1 { for (c = 1; c <= NF; ++c) if ($c == "sun_speed_rpm") at = c } NR > 1 { printf "%.6f\n", $at }' rpm_at/sweeps/damping_cold/points.csv | sort -u)
 [ "$speeds" = 12000.000000 ] || fail "the sweep of a heavier sun runs at $speeds rpm"
 
+# A resolved input is the same study; the same ratio, given as that, is another one.
+[ "$(code_of "$epicyclic" reproduce rpm_at/input.resolved.json -o rpm_again)" = 0 ] || fail "a resolved speed in rpm: $(<stderr)"
+cmp rpm_at/sweeps/damping_cold/points.csv rpm_again/sweeps/damping_cold/points.csv || fail "a resolved input has not kept its speed in rpm"
+ratio=$(grep -o '"mesh_frequency_ratio": [0-9.]*' rpm_at/input.resolved.json | head -n 1)
+[ "$(code_of "$epicyclic" reproduce rpm_at/input.resolved.json -o rpm_at --set "/operation/mesh_frequency_ratio=${ratio#* }")" = 3 ] || fail "the ratio went on where the speed in rpm was: $(<stderr)"
+grep -q '/operation/sun_speed_rpm: 12000.* there, nothing here' stderr || fail "it is not said what differs: $(<stderr)"
+
+# So it is with the stages of options: one with a heavier sun is at the same speed, from the resolved input too.
+suns='[{"name": "sun", "options": [ {"name": "light", "sets": [{"pointer": "/stage/lumped/sun/inertia_over_r2_kg", "value": 1}]}, {"name": "heavy", "sets": [{"pointer": "/stage/lumped/sun/inertia_over_r2_kg", "value": 4}]} ]}]'
+error='[{"name": "E", "from": 0.5, "to": 20, "targets": [{"pointer": "/stage/lumped/sun_planet_mesh/error_amplitude_um/0"}]}]'
+few=(--set '/study/search={ "seed": 3, "islands": 1, "population": 7, "candidates": 14, "refinement": 0, "profile": 0 }')
+[ "$(code_of "$epicyclic" calibrate claims.json -o suns --set /study/sweeps/1/at=null --set /operation/mesh_frequency_ratio=null --set /operation/sun_speed_rpm=12000 --set "/study/choices=$suns" --set "/study/parameters=$error" "${few[@]}")" = 0 ] || fail "options of suns: $(<stderr)"
+[ "$(cut -d, -f7 suns/candidates.csv | grep -c 'light\|heavy')" = 14 ] || fail "no sun in: $(sed -n 1,2p suns/candidates.csv)"
+[ "$(code_of "$epicyclic" calibrate suns/input.resolved.json -o suns_again)" = 0 ] || fail "options of suns, resolved: $(<stderr)"
+cmp suns/candidates.csv suns_again/candidates.csv || fail "of options the resolved input has not kept its speed in rpm"
+
 # Of options that differ in numbers alone the stage has the one with its own; a parameter of another option says nothing.
 torques='[{"name": "load", "options": [ {"name": "low", "sets": [{"pointer": "/stage/load", "value": {"torque_Nm": 150}}]}, {"name": "high", "sets": [{"pointer": "/stage/load", "value": {"torque_Nm": 400}}]} ]}]'
 of_low='[{"name": "E", "from": 0.5, "to": 20, "targets": [{"pointer": "/stage/lumped/sun_planet_mesh/error_amplitude_um/0"}]}, {"name": "T", "from": 10, "to": 100, "choice": "load", "option": "low", "targets": [{"pointer": "/stage/load/torque_Nm"}]}]'
-few=(--set '/study/search={ "seed": 3, "islands": 1, "population": 7, "candidates": 14, "refinement": 0, "profile": 0 }')
 [ "$(code_of "$epicyclic" calibrate claims.json -o torques --set "/study/choices=$torques" --set "/study/parameters=$of_low" "${few[@]}")" = 0 ] || fail "options of numbers: $(<stderr)"
 ! grep -q 'as it is given is no candidate' stderr || fail "the first candidate is the stage: $(<stderr)"
 [ "$(sed -n 2p torques/candidates.csv | cut -d, -f8)" = high ] || fail "the first candidate has another load: $(sed -n 1,2p torques/candidates.csv)"

@@ -1,5 +1,6 @@
 #include "input/study_input.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -342,6 +343,40 @@ TEST_F(StudyInput, TakesSpeedsInRpmAndHertz) {
   EXPECT_EQ(load({"/operation/carrier_speed_rpm=1", "/operation/sun_speed_rpm=6000"}).study.mesh_frequency_ratio,
             input.study.mesh_frequency_ratio);
   EXPECT_EQ(load({"/operation/sun_speed_rpm=6000", "/operation/mesh_frequency_ratio=2"}).study.mesh_frequency_ratio, 2);
+}
+
+TEST_F(StudyInput, OfAResolvedInputASpeedIsStillGivenInRpm) {
+  const auto input = load({"/operation/sun_speed_rpm=6000"});
+  const auto again = reload(input.resolved);
+  EXPECT_EQ(again.given_speed.sun_speed_rpm, std::optional(6000.0));
+  EXPECT_EQ(again.study.mesh_frequency_ratio, input.study.mesh_frequency_ratio);
+  EXPECT_TRUE(again.notes.empty());
+  EXPECT_FALSE(load({"/operation/sun_speed_rpm=6000", "/operation/mesh_frequency_ratio=2"}).given_speed.sun_speed_rpm);
+}
+
+TEST_F(StudyInput, TellsThatASpeedIsNotTheOneThatItsOriginNotes) {
+  json changed = load({"/operation/sun_speed_rpm=6000"}).resolved;
+  const double ratio = changed["operation"]["mesh_frequency_ratio"];
+  changed["stage"]["lumped"]["sun"]["inertia_over_r2_kg"] =
+      2.0 * changed["stage"]["lumped"]["sun"]["inertia_over_r2_kg"].get<double>();
+  const auto other = reload(changed);
+  EXPECT_EQ(other.study.mesh_frequency_ratio, ratio);
+  EXPECT_FALSE(other.given_speed.sun_speed_rpm);
+  const double rpm = ratio / ratio_at_rpm(other.study.stage, 1);
+  EXPECT_GT(std::abs(rpm - 6000), 100);
+  EXPECT_TRUE(std::ranges::any_of(other.notes, [&](const std::string& note) {
+    return note.starts_with("/operation/mesh_frequency_ratio: stays ") &&
+           note.find("sun_speed_rpm = " + std::to_string(rpm).substr(0, 6)) != std::string::npos &&
+           note.find("not sun_speed_rpm = 6000,") != std::string::npos;
+  })) << json(other.notes);
+  EXPECT_EQ(other.resolved["operation"]["origin"]["mesh_frequency_ratio"], "set: command line");
+  EXPECT_EQ(reload(other.resolved).resolved, other.resolved);
+
+  json along = load({"/study/parameter=sun_speed_rpm", "/study/from=3000", "/study/to=9000"}).resolved;
+  along["stage"]["lumped"]["sun"]["inertia_over_r2_kg"] = changed["stage"]["lumped"]["sun"]["inertia_over_r2_kg"];
+  const auto sweep = reload(along);
+  EXPECT_EQ(std::ranges::count_if(sweep.notes, [](const std::string& n) { return n.starts_with("/study/"); }), 2);
+  EXPECT_EQ(sweep.resolved["study"]["origin"]["to"], "set: command line");
 }
 
 TEST_F(StudyInput, TakesAxesInRpmAndHertz) {

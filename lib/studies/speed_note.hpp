@@ -1,0 +1,24 @@
+// How an origin notes that the mesh frequency ratio was given as another speed: "choice: run-up, sun_speed_rpm = 4000".
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace epicyclic::studies {
+
+struct SpeedNote {
+  std::string key;  ///< of a speed [rpm] or a frequency [Hz], by its ending
+  double value;
+  std::string text;    ///< "sun_speed_rpm = 4000"
+  std::string before;  ///< the origin without it: "choice: run-up"
+};
+
+/// @returns nothing of an origin that notes no speed
+[[nodiscard]] std::optional<SpeedNote> find_speed_note(std::string_view origin);
+
+/// The origin with a note.
+/// @param number  of the speed, as it is to be read again
+[[nodiscard]] std::string with_speed_note(std::string origin, std::string_view key, std::string_view number);
+
+}  // namespace epicyclic::studies
