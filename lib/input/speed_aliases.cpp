@@ -5,17 +5,18 @@
 
 #include "gear/kinematics.hpp"
 #include "model/scales.hpp"
+#include "studies/speed_note.hpp"
 
 namespace epicyclic::input {
 
 const std::array<SpeedAlias, 3>& speed_aliases() {
   using gear::Stage;
   static const std::array<SpeedAlias, 3> all = {{
-      {"sun_speed_rpm", &GivenSpeed::sun_speed_rpm,
+      {studies::speed_keys[0], &GivenSpeed::sun_speed_rpm,
        [](const Stage& stage) { return gear::rpm * gear::speeds(stage, 1.0).sun; }},
-      {"carrier_speed_rpm", &GivenSpeed::carrier_speed_rpm,
+      {studies::speed_keys[1], &GivenSpeed::carrier_speed_rpm,
        [](const Stage& stage) { return gear::rpm * gear::speeds(stage, 1.0).carrier; }},
-      {"mesh_frequency_Hz", &GivenSpeed::mesh_frequency_Hz,
+      {studies::speed_keys[2], &GivenSpeed::mesh_frequency_Hz,
        [](const Stage& /*stage*/) { return 0.5 / std::numbers::pi; }},
   }};
   return all;

@@ -1070,7 +1070,6 @@ class LoadedInput::Loader {
       const std::string place = std::string(operation_root) + "/" + std::string(alias.key);
       if (const auto value = std::exchange(given, std::nullopt); value && moves && !is_bad(place))
         if (const auto ratio = ratio_of(alias, *value, place)) {
-          input_.given_speed.*alias.given = value;
           read.mesh_frequency_ratio = *ratio;
           note_conversion(whole_["operation"], studies::speed_parameter, alias.key, alias, *value);
         }

@@ -189,10 +189,10 @@ class OptionInputs {
 
  private:
   /// A resolved input notes its speed in rpm as that of the stage that it has: of another option's it is still given.
-  void keep_noted_speed(std::vector<Assignment> sets, std::shared_ptr<const LoadedInput>& input) const {
-    const GivenSpeed given = load_input(path_, sets_).given_speed;
+  void keep_noted_speed(std::vector<Assignment> sets, std::shared_ptr<const LoadedInput>& input) {
+    if (!given_) given_ = load_input(path_, sets_).given_speed;
     for (const SpeedAlias& alias : speed_aliases()) {
-      const std::optional<double>& value = given.*alias.given;
+      const std::optional<double>& value = *given_.*alias.given;
       if (!value || input->given_speed.*alias.given) continue;
       // First, so that an option's own speed counts.
       sets.insert(sets.begin() + static_cast<std::ptrdiff_t>(sets_.size()),
@@ -204,6 +204,7 @@ class OptionInputs {
   std::filesystem::path path_;
   std::vector<Assignment> sets_;
   std::mutex mutex_;
+  std::optional<GivenSpeed> given_;  ///< without an option
   std::map<std::vector<std::size_t>, std::shared_ptr<const LoadedInput>> loaded_;
 };
 

@@ -1,5 +1,6 @@
 #include "studies/speed_note.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
 #include <system_error>
@@ -20,7 +21,7 @@ std::optional<SpeedNote> find_speed_note(std::string_view origin) {
   const std::size_t start = space == std::string_view::npos ? 0 : space + 1;
   const std::string_view key = origin.substr(start, sign - start);
   // Of speeds alone: words of the user's own may have the sign, too.
-  if (!key.ends_with("_rpm") && !key.ends_with("_Hz")) return std::nullopt;
+  if (std::ranges::find(speed_keys, key) == speed_keys.end()) return std::nullopt;
   const std::string_view number = origin.substr(sign + equals.size());
   double value = 0;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);

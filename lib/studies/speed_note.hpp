@@ -1,14 +1,19 @@
 // How an origin notes that the mesh frequency ratio was given as another speed: "choice: run-up, sun_speed_rpm = 4000".
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace epicyclic::studies {
 
+/// Speeds that may be given in place of the mesh frequency ratio [rpm, rpm, Hz].
+inline constexpr std::array<std::string_view, 3> speed_keys = {"sun_speed_rpm", "carrier_speed_rpm",
+                                                               "mesh_frequency_Hz"};
+
 struct SpeedNote {
-  std::string key;  ///< of a speed [rpm] or a frequency [Hz], by its ending
+  std::string key;  ///< one of speed_keys
   double value;
   std::string text;    ///< "sun_speed_rpm = 4000"
   std::string before;  ///< the origin without it: "choice: run-up"

@@ -382,7 +382,10 @@ TEST(GivenAs, IsASpeedOfTheOriginAndNothingElse) {
   const json study = {{"from", 0.85},
                       {"to", 1.0},
                       {"points", 3},
-                      {"origin", {{"from", "choice: run-up, sun_speed_rpm = 19600"}, {"to", "choice: E = 3 um"}}}};
+                      {"origin",
+                       {{"from", "choice: run-up, sun_speed_rpm = 19600"},
+                        {"to", "choice: E = 3 um"},
+                        {"points", "choice: pump_rpm = 3"}}}};
   const json resolved = {{"study", study}};
   EXPECT_EQ(store::given_as(resolved, "/study/from"), " (sun_speed_rpm = 19600)");
   for (const char* place : {"/study/to", "/study/points", "/study/none", "/none/from", "/study", ""})
