@@ -42,7 +42,11 @@ using ParameterFunction = std::function<void(std::size_t segment, double s, cons
 struct VectorField {
   std::size_t dimension = 0;
   double period = 0;                ///< of g in s; 0 if g does not depend on s
-  std::vector<double> breakpoints;  ///< where g may jump in s, in [0, period), rising
+  std::vector<double> breakpoints;  ///< where g may jump in s, in [0, period), rising; steps end there
+
+  /// Greatest distance in s between two evaluations of g within a step, one for each segment: g has features that are
+  /// at least twice as wide. Infinite, or empty: no such bound.
+  std::vector<double> sampling_interval;
 
   /// dy/ds at s, one-sided: segment k is that after breakpoint k (the last one wraps); 0 if there are no breakpoints.
   std::function<void(std::size_t segment, double s, const double* y, double* dyds)> right_hand_side;

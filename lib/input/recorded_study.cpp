@@ -9,8 +9,9 @@ namespace epicyclic::input {
 
 namespace {
 
-/// Place of a key, and what was done before it was there.
-constexpr std::array<std::pair<const char*, const char*>, 1> later_keys = {{{"/model/centrifugal", "left_out"}}};
+/// Place of a key, and what was done before it was there, as JSON.
+constexpr std::array<std::pair<const char*, const char*>, 2> later_keys = {
+    {{"/model/centrifugal", "\"left_out\""}, {"/integrator/max_step_periods", "0.0"}}};
 
 }  // namespace
 
@@ -19,7 +20,7 @@ void add_later_keys(nlohmann::json& resolved) {
     const nlohmann::json::json_pointer place(pointer);
     const nlohmann::json::json_pointer table = place.parent_pointer();
     if (resolved.contains(table) && resolved.at(table).is_object() && !resolved.contains(place))
-      resolved[place] = value;
+      resolved[place] = nlohmann::json::parse(value);
   }
 }
 

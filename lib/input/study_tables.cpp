@@ -430,6 +430,8 @@ const Table<Study>& integrator_table() {
              "Absolute tolerance of a step, in the units of the state.");
     t.integer("max_steps_per_period", of([](auto& i) -> auto& { return i.max_steps_per_period; }), between(1, 1e9),
               "Steps attempted in one mesh period before a point is given up [-].");
+    t.number("max_step_periods", of([](auto& i) -> auto& { return i.max_step_periods; }), between(0, 1),
+             "Longest step, in mesh periods [-]; 0: as long as the tolerance and the rows of tables allow.");
     t.number("escape_bound", of([](auto& i) -> auto& { return i.escape_bound; }), between(10, 1e15),
              "A state component beyond this counts as diverged, in the units of the state.");
     t.integer("max_order", of([](auto& i) -> auto& { return i.max_order; }), between(0, 12),

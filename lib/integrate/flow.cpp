@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,22 @@ std::vector<double> breakpoints_between(const VectorField& field, double from, d
       if (s > from + near && s < to - near) between.push_back(s);
     }
   return between;
+}
+
+double longest_step(const VectorField& field, const IntegratorOptions& options, std::size_t segment, double gap) {
+  double longest = std::numeric_limits<double>::infinity();
+  if (options.max_step_periods > 0.0) longest = options.max_step_periods * (field.period > 0.0 ? field.period : 1.0);
+  if (!field.sampling_interval.empty()) longest = std::min(longest, field.sampling_interval.at(segment) / gap);
+  return longest;
+}
+
+double widest_gap(std::span<const double> nodes) {
+  std::vector<double> sorted{0.0, 1.0};
+  sorted.insert(sorted.end(), nodes.begin(), nodes.end());
+  std::sort(sorted.begin(), sorted.end());
+  double widest = 0.0;
+  for (std::size_t k = 1; k < sorted.size(); ++k) widest = std::max(widest, sorted[k] - sorted[k - 1]);
+  return widest;
 }
 
 void check_tangents(const VectorField& field, std::span<const double> tangents, LastTangent last) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/vector_field.hpp"
+#include "integrate/options.hpp"
 
 namespace epicyclic::integrate {
 
@@ -111,6 +112,14 @@ class Flow {
 
 /// Breakpoints strictly inside (from, to), in order, all periods.
 [[nodiscard]] std::vector<double> breakpoints_between(const VectorField& field, double from, double to);
+
+/// The longest step in a segment by [I-sample]; infinite without a bound.
+/// @param gap  widest distance of two neighbouring nodes of the method [steps]
+[[nodiscard]] double longest_step(const VectorField& field, const IntegratorOptions& options, std::size_t segment,
+                                  double gap);
+
+/// Widest distance of two neighbouring nodes of a Runge-Kutta method, the ends of the step among them [steps].
+[[nodiscard]] double widest_gap(std::span<const double> nodes);
 
 /// What every evolve_tangents() asks of its arguments.
 /// @throws InputError as documented there

@@ -11,6 +11,7 @@ void IntegratorOptions::validate() const {
   require(relative_tolerance > 0.0, "relative_tolerance", relative_tolerance, "> 0");
   require(absolute_tolerance > 0.0, "absolute_tolerance", absolute_tolerance, "> 0");
   require(max_steps_per_period >= 1, "max_steps_per_period", static_cast<double>(max_steps_per_period), ">= 1");
+  require(max_step_periods >= 0.0, "max_step_periods", max_step_periods, ">= 0");
   require(escape_bound > 0.0, "escape_bound", escape_bound, "> 0");
   require(max_order >= 0, "max_order", max_order, ">= 0");
   if (locate_contacts && !m.locates_contacts())

@@ -2,6 +2,11 @@
 //
 // A step of length h from y is accepted when  sqrt( mean_i [ e_i / (rtol |y_i| + atol) ]^2 ) <= 1,  e the difference of
 // the embedded pair, or a multistep method's estimate of its local error (the weighted root mean square of SUNDIALS).
+//
+// The estimate knows g only where the method evaluates it. A feature of g that lies between two evaluations is stepped
+// over at every tolerance. So a step has a greatest length [I-sample]:
+//
+//   h <= h_max ,   g h <= d     d the field's sampling interval, g the method's widest gap between nodes, in steps
 #pragma once
 
 #include <string>
@@ -13,6 +18,7 @@ struct IntegratorOptions {
   double relative_tolerance = 1e-8;      ///< rtol [-]
   double absolute_tolerance = 1e-10;     ///< atol, in the units of the state [b_c, b_c per tau]
   long max_steps_per_period = 20000;     ///< attempted steps in one mesh period; more is the outcome step_limit
+  double max_step_periods = 0;           ///< longest step, in periods of the field (units of s without one); 0: none
   double escape_bound = 1e6;             ///< |y_i| beyond this is the outcome diverged [b_c, b_c per tau]
 
   int max_order = 0;  ///< highest order of a multistep method [-]; 0: the method's own. Others have one order

@@ -198,6 +198,7 @@ DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& sca
   m.state_names = coordinate_names(layout, static_cast<int>(N));
   for (std::size_t k = 0, n = m.state_names.size(); k < n; ++k) m.state_names.push_back(m.state_names[k] + "_rate");
   m.breakpoints = p->breakpoints;
+  m.sampling_interval = p->sampling_interval;
   m.sun_planet_half_gap = p->sun_planet.half_gap;
   m.ring_planet_half_gap = p->ring_planet.half_gap;
   m.omega = mesh_frequency_ratio;

@@ -26,7 +26,8 @@ PeriodicTrack<1> stiffness_track(const gear::StiffnessCurve& curve, double unit)
   std::vector<TrackRow<1>> rows;
   for (std::size_t k = 0; k < curve.phase.size(); ++k)
     rows.push_back({curve.phase[k], {curve.stiffness_N_per_m[k] / unit}});
-  return {rows, curve.breakpoints, 0.0, curve.interpolation};
+  const bool known = curve.interpolation == Interpolation::smooth && curve.error.has_value();
+  return {rows, curve.breakpoints, 0.0, curve.interpolation, {}, known ? rows_per_feature(*curve.error) : 1.0};
 }
 
 }  // namespace epicyclic::model

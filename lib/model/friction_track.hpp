@@ -54,6 +54,8 @@ class FrictionTrack {
   /// force, moment_driving and moment_driven, for callers that find the interval: PeriodicTrack::at().
   [[nodiscard]] const PeriodicTrack<3>& track() const { return track_; }
 
+  [[nodiscard]] const RowSpacing& spacing() const { return track_.spacing(); }
+
   /// What the rows of each piece stand on, if they are computed ones.
   [[nodiscard]] const std::vector<IntervalGrid>& grids() const { return grids_; }
   /// Greatest error of a ratio between the rows, where they are those of something known [-].

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -124,8 +125,25 @@ void append_breakpoints(const MeshParameters<double, N>& mesh, std::vector<doubl
     for (std::size_t i = 0; i < N; ++i)
       for (const double own : own_phases) phases.push_back(wrapped(own - mesh.turns[i]));
   };
-  if (mesh.friction) append(mesh.friction->breakpoints());
-  if (mesh.stiffness_curve) append(mesh.stiffness_curve->breakpoints());
+  const auto append_of = [&](const auto& track) {
+    append(track.breakpoints());
+    append(track.spacing().stops());
+  };
+  if (mesh.friction) append_of(*mesh.friction);
+  if (mesh.stiffness_curve) append_of(*mesh.stiffness_curve);
+}
+
+/// d of [M-rows] of one kind of mesh at a common phase, in s. The highest of H harmonics is sampled twice a wave.
+template <std::size_t N>
+double sampling_interval(const MeshParameters<double, N>& mesh, double common_phase) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < N; ++i) {
+    const double own = common_phase + mesh.turns[i];
+    if (mesh.friction) least = std::min(least, mesh.friction->spacing().at(own));
+    if (mesh.stiffness_curve) least = std::min(least, mesh.stiffness_curve->spacing().at(own));
+  }
+  if (mesh.harmonics > 0) least = std::min(least, 0.5 / static_cast<double>(mesh.harmonics));
+  return two_pi * least;
 }
 
 template <std::size_t N>
@@ -151,6 +169,8 @@ void make_segments(Parameters<double, N>& p) {
   std::sort(phases.begin(), phases.end());
   const auto add_segment = [&](double inside) {
     p.segments.push_back({places(p.sun_planet, inside), places(p.ring_planet, inside)});
+    p.sampling_interval.push_back(
+        std::min(sampling_interval(p.sun_planet, inside), sampling_interval(p.ring_planet, inside)));
   };
   for (std::size_t k = 0; k < phases.size(); ++k) {
     p.breakpoints.push_back(two_pi * phases[k]);

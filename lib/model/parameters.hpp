@@ -80,8 +80,9 @@ struct Parameters {
   bool smooth = false;
   T smoothing;  ///< w
   GapDamping gap_damping = GapDamping::always;
-  std::vector<double> breakpoints;   ///< of the common s, in [0, 2 pi), rising
-  std::vector<Segment<N>> segments;  ///< segment k follows breakpoint k (the last one wraps); one if no breakpoint
+  std::vector<double> breakpoints;        ///< of the common s, in [0, 2 pi), rising
+  std::vector<Segment<N>> segments;       ///< segment k follows breakpoint k (the last one wraps); one if no breakpoint
+  std::vector<double> sampling_interval;  ///< of g in each segment [M-rows]
 };
 
 /// Sines and cosines only: what deflections() of model/right_hand_side.hpp needs.
@@ -190,6 +191,7 @@ template <class T, std::size_t N>
   r.gap_damping = p.gap_damping;
   r.breakpoints = p.breakpoints;
   r.segments = p.segments;
+  r.sampling_interval = p.sampling_interval;
   std::vector<double> constants;
   for_each_constant(p, [&](double x) { constants.push_back(x); });
   auto next = constants.begin();

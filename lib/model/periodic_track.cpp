@@ -17,10 +17,15 @@ double wrapped(double phase) { return phase - std::floor(phase); }
 template <std::size_t K>
 PeriodicTrack<K>::PeriodicTrack(const std::vector<TrackRow<K>>& given_rows,
                                 const std::vector<double>& given_breakpoints, double lead, Interpolation interpolation,
-                                std::span<const IntervalGrid> grids) {
+                                std::span<const IntervalGrid> grids, double rows_per_feature) {
   using Row = TrackRow<K>;
   std::vector<Row> rows = given_rows;
   for (Row& r : rows) r.phase += lead;
+  if (grids.empty()) {
+    std::vector<double> phases;
+    for (const Row& r : rows) phases.push_back(r.phase);
+    spacing_ = RowSpacing(phases, rows_per_feature);
+  }
 
   const auto shifted = [](Row r, double turns) {
     r.phase += turns;

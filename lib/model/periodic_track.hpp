@@ -22,6 +22,7 @@
 #include "core/interval_grid.hpp"
 #include "core/row.hpp"
 #include "core/scalar.hpp"
+#include "model/row_spacing.hpp"
 
 namespace epicyclic::model {
 
@@ -63,10 +64,13 @@ class PeriodicTrack {
   /// @param given_rows   phases rising, a jump as two rows of one phase
   /// @param given_breakpoints  phases of the rows where the functions jump or kink
   /// @param lead         added to all phases
-  /// @param grids        what the rows of each piece stand on, in the order of the breakpoints; empty: found out
+  /// @param grids        what the rows of each piece stand on, in the order of the breakpoints; empty: found out. Rows
+  ///                     on grids are those of functions that are smooth between the breakpoints
+  /// @param rows_per_feature  c of [M-rows] for rows that are on no grids
   /// @throws InputError when a piece has no rows at its ends, or rows cannot be told apart
   PeriodicTrack(const std::vector<TrackRow<K>>& given_rows, const std::vector<double>& given_breakpoints, double lead,
-                Interpolation interpolation = Interpolation::monotone, std::span<const IntervalGrid> grids = {});
+                Interpolation interpolation = Interpolation::monotone, std::span<const IntervalGrid> grids = {},
+                double rows_per_feature = 1.0);
 
   /// These functions with their derivative with respect to a parameter, which they carry at a dual number, in its first
   /// direction.
@@ -77,6 +81,9 @@ class PeriodicTrack {
 
   /// Breakpoints on the mesh's own phase, rising, in [0, 1).
   [[nodiscard]] const std::vector<double>& breakpoints() const { return breakpoints_; }
+
+  /// Of the rows, on the mesh's own phase.
+  [[nodiscard]] const RowSpacing& spacing() const { return spacing_; }
 
   [[nodiscard]] TrackPlace place(double phase) const;
 
@@ -135,6 +142,7 @@ class PeriodicTrack {
   std::vector<Cubics<K>> parameter_cubics_;  ///< their derivatives with respect to a parameter; empty without one
   std::vector<TrackPiece> pieces_;
   std::vector<double> breakpoints_;
+  RowSpacing spacing_;
 };
 
 extern template class PeriodicTrack<1>;

@@ -176,6 +176,7 @@ class Run {
     integrate::IntegratorOptions o;
     o.relative_tolerance = o.absolute_tolerance = tolerance;
     o.escape_bound = integrator_.escape_bound;
+    o.max_step_periods = integrator_.max_step_periods;
     o.max_steps_per_period = std::max(o.max_steps_per_period, integrator_.max_steps_per_period) * 20;
     return o;
   }

@@ -196,6 +196,7 @@ class LaneEnsemble::Impl {
         options_(options),
         pair_(pair_of(options.method)),
         places_(pair_.places()),
+        gap_(widest_gap({pair_.nodes.data(), pair_.stages})),
         kernels_(kernels),
         w_(kernels.width),
         n_(field_.dimension),
@@ -338,7 +339,9 @@ class LaneEnsemble::Impl {
 
   void enter_segment(std::size_t lane) {
     Lane& l = lanes_[lane];
-    field_.set_segment(lane, segment_after(*l.system, steps_.s[lane]));
+    const std::size_t segment = segment_after(*l.system, steps_.s[lane]);
+    field_.set_segment(lane, segment);
+    steps_.longest[lane] = longest_step(*l.system, options_, segment, gap_);
     l.fresh = true;
     ++fresh_;
   }
@@ -588,6 +591,7 @@ class LaneEnsemble::Impl {
   // Copies: two cores share no more of what each step reads than they have to, see kernel_copies.
   const Pair pair_;
   const Pair::Places places_;
+  const double gap_;
   const StepLoops kernels_;
   std::size_t w_;
   std::size_t n_;

@@ -27,6 +27,7 @@ struct Extended {
     all.dimension = n * (1 + m);
     all.period = field.period;
     all.breakpoints = field.breakpoints;
+    all.sampling_interval = field.sampling_interval;
     all.surfaces = field.surfaces;
     all.right_hand_side = [&field, n, m, with_parameter, dgdp = std::vector<double>(n)](
                               std::size_t segment, double s, const double* y, double* f) mutable {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 
 namespace epicyclic::integrate {
 
@@ -16,11 +17,17 @@ inline constexpr std::size_t most_lanes = 8;
 struct alignas(64) LaneSteps {
   template <class T>
   using Each = std::array<T, most_lanes>;
+  static constexpr Each<double> no_limit() {
+    Each<double> each{};
+    each.fill(std::numeric_limits<double>::infinity());
+    return each;
+  }
 
-  alignas(64) Each<double> s{};            ///< where a lane is
-  alignas(64) Each<double> stop{};         ///< where it has to stop next, a breakpoint or the end
-  alignas(64) Each<double> sample{};       ///< the next place at which a sample is wanted; infinite if none is
-  alignas(64) Each<double> proposed{};     ///< length of the next step; 0 if not known
+  alignas(64) Each<double> s{};                   ///< where a lane is
+  alignas(64) Each<double> stop{};                ///< where it has to stop next, a breakpoint or the end
+  alignas(64) Each<double> sample{};              ///< the next place at which a sample is wanted; infinite if none is
+  alignas(64) Each<double> proposed{};            ///< length of the next step; 0 if not known
+  alignas(64) Each<double> longest = no_limit();  ///< limit of that length; infinite without one
   alignas(64) Each<double> hop{};          ///< length of the step over a surface that follows a landing; 0: none does
   alignas(64) Each<double> h{};            ///< length of this one
   alignas(64) Each<double> end{};          ///< where it ends: on a stop to the last bit

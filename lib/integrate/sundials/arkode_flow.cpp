@@ -1,6 +1,7 @@
 #include "integrate/sundials/arkode_flow.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -70,6 +71,11 @@ Table make_explicit_table(const Method& method) {
   return table;
 }
 
+double gap_of(const Table& table) { return widest_gap({table->c, static_cast<std::size_t>(table->stages)}); }
+
+/// As SUNDIALS takes it: 0 for no limit.
+double limit_of(double longest_step) { return std::isfinite(longest_step) ? longest_step : 0.0; }
+
 /// What a flag of ARKODE's evolve means; negative flags that are not about the problem itself are thrown.
 Step step_of(const SundialsSystem& system, const char* call, int flag) {
   switch (flag) {
@@ -102,6 +108,7 @@ class ErkStepper {
     system.check("ERKStepSetErrHandlerFn", ERKStepSetErrHandlerFn(m, &SundialsSystem::keep_message, &system));
     system.check("ERKStepSetUserData", ERKStepSetUserData(m, &system));
     const Table table = make_explicit_table(method);
+    gap_ = gap_of(table);
     system.check("ERKStepSetTable", ERKStepSetTable(m, table.get()));
     system.check("ERKStepSetInterpolantDegree", ERKStepSetInterpolantDegree(m, interpolant_degree(method)));
     // Steps are counted by the flow, per evolution; ARKODE counts per call and is called for one step at a time.
@@ -124,6 +131,10 @@ class ErkStepper {
     system_.check("ERKStepReInit", ERKStepReInit(m, &SundialsSystem::right_hand_side, s, y));
     if (adaptive_) system_.check("ERKStepSetInitStep", ERKStepSetInitStep(m, first_step));
   }
+  void limit_step(double longest) {
+    system_.check("ERKStepSetMaxStep", ERKStepSetMaxStep(memory_.get(), limit_of(longest)));
+  }
+  [[nodiscard]] double gap() const { return gap_; }
   void stop_at(double s) { system_.check("ERKStepSetStopTime", ERKStepSetStopTime(memory_.get(), s)); }
   Step step(double to, N_Vector y, double& reached) {
     return step_of(system_, "ERKStepEvolve", ERKStepEvolve(memory_.get(), to, y, &reached, ARK_ONE_STEP));
@@ -146,6 +157,7 @@ class ErkStepper {
   };
   SundialsSystem& system_;
   std::unique_ptr<void, Deleter> memory_;
+  double gap_ = 1.0;
   bool adaptive_ = false;
 };
 
@@ -163,6 +175,7 @@ class DirkStepper {
     system.check("ARKStepSetUserData", ARKStepSetUserData(m, &system));
     const Table table(ARKodeButcherTable_LoadDIRKByName(std::string(method.table).c_str()));
     if (!table) throw SolverError("ARKodeButcherTable_LoadDIRKByName", -1, 0.0, std::string(method.table));
+    gap_ = gap_of(table);
     system.check("ARKStepSetTables", ARKStepSetTables(m, table->q, table->p, table.get(), nullptr));
     system.check("ARKStepSetInterpolantDegree", ARKStepSetInterpolantDegree(m, interpolant_degree(method)));
     system.check("ARKStepSetLinearSolver", ARKStepSetLinearSolver(m, solver_.get(), matrix_.get()));
@@ -189,6 +202,10 @@ class DirkStepper {
     system_.check("ARKStepReInit", ARKStepReInit(m, nullptr, &SundialsSystem::right_hand_side, s, y));
     if (adaptive_) system_.check("ARKStepSetInitStep", ARKStepSetInitStep(m, first_step));
   }
+  void limit_step(double longest) {
+    system_.check("ARKStepSetMaxStep", ARKStepSetMaxStep(memory_.get(), limit_of(longest)));
+  }
+  [[nodiscard]] double gap() const { return gap_; }
   void stop_at(double s) { system_.check("ARKStepSetStopTime", ARKStepSetStopTime(memory_.get(), s)); }
   Step step(double to, N_Vector y, double& reached) {
     return step_of(system_, "ARKStepEvolve", ARKStepEvolve(memory_.get(), to, y, &reached, ARK_ONE_STEP));
@@ -213,6 +230,7 @@ class DirkStepper {
   Matrix matrix_;
   LinearSolver solver_;
   std::unique_ptr<void, Deleter> memory_;
+  double gap_ = 1.0;
   bool adaptive_ = false;
 };
 

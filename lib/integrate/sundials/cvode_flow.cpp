@@ -1,5 +1,6 @@
 #include "integrate/sundials/cvode_flow.hpp"
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -60,6 +61,10 @@ class CvodeStepper {
   void start(double s, N_Vector y, double /*first_step*/) {
     system_.check("CVodeReInit", CVodeReInit(memory_.get(), s, y));
   }
+  void limit_step(double longest) {
+    system_.check("CVodeSetMaxStep", CVodeSetMaxStep(memory_.get(), std::isfinite(longest) ? longest : 0.0));
+  }
+  [[nodiscard]] static double gap() { return 1.0; }
   void stop_at(double s) { system_.check("CVodeSetStopTime", CVodeSetStopTime(memory_.get(), s)); }
 
   Step step(double to, N_Vector y, double& reached) {

@@ -6,6 +6,8 @@
 //
 //   Stepper(SundialsSystem&, N_Vector, SUNContext, const Method&, const IntegratorOptions&, double fixed_step)
 //   void start(double s, N_Vector y, double first_step)      restart; 0 lets the solver choose the step
+//   void limit_step(double longest)                          infinite: no limit
+//   double gap()                                             [I-sample]
 //   void stop_at(double s)
 //   Step step(double to, N_Vector y, double& reached)
 //   void dense(double s, N_Vector y)                         within the last step
@@ -95,6 +97,7 @@ class Integration {
     const bool only_column = shape().columns == 1;
     const double bound = std::min(options.escape_bound, std::numeric_limits<double>::max());
     system_.segment = segment_after(*system_.field, from);
+    if (!fixed_) stepper_.limit_step(longest_step(*system_.field, options, system_.segment, stepper_.gap()));
     system_.message.clear();
     if (options.locate_contacts) find_sides(from);
 
