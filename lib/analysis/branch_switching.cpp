@@ -18,21 +18,29 @@ namespace {
 
 /// Real directions of y_0 in which orbits may leave.
 std::vector<Eigen::VectorXd> directions(const OrbitFamily& family, const SpecialPoint& point, int angles) {
-  const Eigen::MatrixXd& m = point.orbit.monodromy;
+  const MatrixProduct& m = point.orbit.monodromy;
   const auto blocks = invariant_blocks(static_cast<std::size_t>(m.rows()), family.kept());
   const InvariantBlock* block = nullptr;
   for (const InvariantBlock& b : blocks)
     if (b.wave == point.wave) block = &b;
   if (block == nullptr) return {};
   const double at = point.kind == SpecialKind::flip ? -1.0 : 1.0;
-  const Eigen::MatrixXcd b = block->basis.adjoint() * m * block->basis;
-  const Eigen::VectorXcd v = block->basis * right_null_vector(b - at * Eigen::MatrixXcd::Identity(b.rows(), b.cols()));
+  std::vector<Eigen::VectorXd> all;
+  if (point.nullity == 2 && block->real) {
+    const MatrixProduct b = real_block_of(*block, m);
+    const Eigen::MatrixXd plane = block->basis.real() * singular_values(b.cyclic(at)).v.rightCols(2).topRows(b.rows());
+    for (int k = 0; k < angles; ++k) {
+      const double angle = std::numbers::pi * k / angles;
+      all.push_back((plane * Eigen::Vector2d(std::cos(angle), std::sin(angle))).normalized());
+    }
+    return all;
+  }
+  const Eigen::VectorXcd v = block->basis * right_null_vector(block_of(*block, m).cyclic(at)).head(block->basis.cols());
   // Of a real block v is real but for a factor of modulus 1.
   Eigen::Index largest = 0;
   v.cwiseAbs().maxCoeff(&largest);
   const std::complex<double> turn = std::conj(v(largest)) / std::abs(v(largest));
   if (block->real) return {(turn * v).real()};
-  std::vector<Eigen::VectorXd> all;
   for (int k = 0; k < angles; ++k) all.emplace_back((std::polar(1.0, std::numbers::pi * k / angles) * turn * v).real());
   return all;
 }
@@ -144,6 +152,15 @@ std::vector<Departure> departures(const OrbitFamily& family, const SpecialPoint&
         c = std::move(nearer);
       }
       if (!c.found) continue;
+      // A branch that leaves in another direction of the plane is seen from several of those tried. Each is taken at
+      // the same distance along its own direction, so that it is known again.
+      constexpr int times = 3;
+      for (int k = 0; k < times && point.nullity > 1 && c.found; ++k) {
+        const CurvePoint own = c.orbit.at - *base;
+        const CurvePoint direction = (1.0 / length(other, own)) * own;
+        c = correct(other, *base + options.distance * direction, direction);
+      }
+      if (!c.found) continue;
       const Eigen::MatrixXd states = period_states(other, c.orbit.at);
       const double difference = options.same * options.distance * family.state_scale;
       bool known = states.cols() == 0;
@@ -155,8 +172,10 @@ std::vector<Departure> departures(const OrbitFamily& family, const SpecialPoint&
       }
       if (known) continue;
       seen.push_back(states);
-      const Eigen::MatrixXd& once = point.orbit.monodromy;
-      found.push_back({other, {*base, normal, flip ? Eigen::MatrixXd(once * once) : once, 0.0}, std::move(c.orbit)});
+      MatrixProduct monodromy = point.orbit.monodromy;
+      if (flip)
+        for (const Eigen::MatrixXd& again : point.orbit.monodromy.factors) monodromy.factors.push_back(again);
+      found.push_back({other, {*base, normal, std::move(monodromy), 0.0}, std::move(c.orbit)});
     }
   }
   return found;

@@ -45,8 +45,7 @@ double multiplier_change(const std::vector<std::complex<double>>& a, const std::
   return most;
 }
 
-double multiplier_change(const std::vector<InvariantBlock>& blocks, const Eigen::MatrixXd& a,
-                         const Eigen::MatrixXd& b) {
+double multiplier_change(const std::vector<InvariantBlock>& blocks, const MatrixProduct& a, const MatrixProduct& b) {
   double moved = 0.0;
   for (const InvariantBlock& block : blocks)
     moved = std::max(moved, multiplier_change(multipliers_of(block, a), multipliers_of(block, b)));

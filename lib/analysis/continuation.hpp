@@ -112,7 +112,7 @@ struct StepVerdict {
                                        const std::vector<std::complex<double>>& b);
 
 /// That of all blocks.
-[[nodiscard]] double multiplier_change(const std::vector<InvariantBlock>& blocks, const Eigen::MatrixXd& a,
-                                       const Eigen::MatrixXd& b);
+[[nodiscard]] double multiplier_change(const std::vector<InvariantBlock>& blocks, const MatrixProduct& a,
+                                       const MatrixProduct& b);
 
 }  // namespace epicyclic::analysis

@@ -122,19 +122,26 @@ std::vector<InvariantBlock> invariant_blocks(std::size_t dimension, const Cyclic
   return blocks;
 }
 
-std::vector<std::complex<double>> multipliers_of(const InvariantBlock& block, const Eigen::MatrixXd& monodromy) {
-  Eigen::VectorXcd e;
-  if (block.real) {
-    const Eigen::MatrixXd v = block.basis.real();
-    e = eigenvalues(Eigen::MatrixXd(v.transpose() * monodromy * v));
-  } else {
-    e = complex_eigenvalues(Eigen::MatrixXcd(block.basis.adjoint() * monodromy * block.basis));
-  }
-  std::vector<std::complex<double>> values(e.begin(), e.end());
-  std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) {
-    return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag();
-  });
-  return values;
+MatrixProduct real_block_of(const InvariantBlock& block, const MatrixProduct& monodromy) {
+  const Eigen::MatrixXd v = block.basis.real();
+  MatrixProduct b;
+  for (const Eigen::MatrixXd& m : monodromy.factors) b.factors.emplace_back(v.transpose() * m * v);
+  return b;
+}
+
+ComplexMatrixProduct block_of(const InvariantBlock& block, const MatrixProduct& monodromy) {
+  ComplexMatrixProduct b;
+  for (const Eigen::MatrixXd& m : monodromy.factors) b.factors.emplace_back(block.basis.adjoint() * m * block.basis);
+  return b;
+}
+
+std::vector<std::complex<double>> multipliers_of(const InvariantBlock& block, const MatrixProduct& monodromy) {
+  return block.real ? eigenvalues(real_block_of(block, monodromy)) : eigenvalues(block_of(block, monodromy));
+}
+
+std::vector<double> multiplier_errors(const InvariantBlock& block, const MatrixProduct& monodromy) {
+  return block.real ? eigenvalue_errors(real_block_of(block, monodromy))
+                    : eigenvalue_errors(block_of(block, monodromy));
 }
 
 std::string block_name(const InvariantBlock& block, int order) {

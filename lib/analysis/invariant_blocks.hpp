@@ -29,6 +29,8 @@
 
 #include <Eigen/Core>
 
+#include "core/matrix_product.hpp"
+
 namespace epicyclic::analysis {
 
 struct InvariantBlock {
@@ -54,9 +56,16 @@ struct CyclicSymmetry {
 /// none.
 [[nodiscard]] std::vector<InvariantBlock> invariant_blocks(std::size_t dimension, const CyclicSymmetry& symmetry);
 
+/// B_j, with factors as M has them: a symmetry that commutes with the flow at each phase keeps the block in each piece.
+[[nodiscard]] MatrixProduct real_block_of(const InvariantBlock& block, const MatrixProduct& monodromy);
+[[nodiscard]] ComplexMatrixProduct block_of(const InvariantBlock& block, const MatrixProduct& monodromy);
+
 /// Eigenvalues of B_j, by falling modulus.
 [[nodiscard]] std::vector<std::complex<double>> multipliers_of(const InvariantBlock& block,
-                                                               const Eigen::MatrixXd& monodromy);
+                                                               const MatrixProduct& monodromy);
+
+/// How far rounding may have moved each of them [A-schur].
+[[nodiscard]] std::vector<double> multiplier_errors(const InvariantBlock& block, const MatrixProduct& monodromy);
 
 /// "synchronous", "wave 1 of 3".
 [[nodiscard]] std::string block_name(const InvariantBlock& block, int order);

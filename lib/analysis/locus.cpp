@@ -89,7 +89,7 @@ class Locus {
         result.message = std::move(newton.message);
         return result;
       }
-      Eigen::MatrixXd monodromy = newton.last.shot.monodromy();
+      MatrixProduct monodromy = newton.last.shot.monodromy();
       const std::optional<double> g = function(near, newton.at, monodromy);
       if (!g) {
         result.message = "the function of the locus has no value here";
@@ -214,16 +214,16 @@ class Locus {
     return f;
   }
 
-  [[nodiscard]] Eigen::MatrixXd shifted(const Eigen::MatrixXd& monodromy) const {
-    const Eigen::MatrixXd v = block_->basis.real();
-    return v.transpose() * monodromy * v - at_ * Eigen::MatrixXd::Identity(v.cols(), v.cols());
+  /// Singular where the block's M - at I is.
+  [[nodiscard]] Eigen::MatrixXd shifted(const MatrixProduct& monodromy) const {
+    return real_block_of(*block_, monodromy).cyclic(at_);
   }
 
   /// g.
   /// @param near  whose multipliers and bordering vectors it goes by
   /// @returns nothing where it has no value
   [[nodiscard]] std::optional<double> function(const LocusPoint& near, const OrbitPlace& z,
-                                               const Eigen::MatrixXd& monodromy) const {
+                                               const MatrixProduct& monodromy) const {
     std::optional<double> g;
     switch (form_) {
       case Form::bordered: {

@@ -104,7 +104,7 @@ struct LocusPoint {
   OrbitPlace direction;                                           ///< t, of length 1
   OrbitPlace across;                                              ///< of length 1: on the surface, normal to t
   double slope = 0;                                               ///< of g that way
-  Eigen::MatrixXd monodromy;                                      ///< M
+  MatrixProduct monodromy;                                        ///< M
   std::complex<double> multiplier;                                ///< on the unit circle
   std::complex<double> partner;                                   ///< of the pair, if it is one
   Eigen::VectorXd left, right;                                    ///< u, v; empty if there are none

@@ -102,7 +102,7 @@ void check_neutral(const OrbitFamily& family, double value, std::span<const doub
   }
 }
 
-std::vector<std::complex<double>> multipliers_of(const OrbitFamily& family, const Eigen::MatrixXd& monodromy) {
+std::vector<std::complex<double>> multipliers_of(const OrbitFamily& family, const MatrixProduct& monodromy) {
   CyclicSymmetry none;
   none.neutral = family.neutral;
   const auto blocks = invariant_blocks(static_cast<std::size_t>(monodromy.rows()), none);

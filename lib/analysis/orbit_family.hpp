@@ -72,7 +72,7 @@ void check_neutral(const OrbitFamily& family, double value, std::span<const doub
 
 /// Multipliers of an orbit of the family by falling modulus, without the ones of neutral directions.
 [[nodiscard]] std::vector<std::complex<double>> multipliers_of(const OrbitFamily& family,
-                                                               const Eigen::MatrixXd& monodromy);
+                                                               const MatrixProduct& monodromy);
 
 /// The states without their parts in neutral directions.
 [[nodiscard]] Eigen::MatrixXd without_shift(const OrbitFamily& family, const Eigen::MatrixXd& states);
@@ -98,9 +98,9 @@ struct CurvePoint {
 /// An orbit of the family.
 struct BranchOrbit {
   CurvePoint at;
-  CurvePoint direction;       ///< of length 1
-  Eigen::MatrixXd monodromy;  ///< M
-  double residual = 0;        ///< max |F| before the last step
+  CurvePoint direction;     ///< of length 1
+  MatrixProduct monodromy;  ///< M
+  double residual = 0;      ///< max |F| before the last step
 };
 
 /// What Newton's method came to.

@@ -281,7 +281,7 @@ std::optional<Candidate> candidate(const OrbitFamily& family, const BranchOrbit&
   Candidate c{family, orbit, period_states(family, orbit.at), 0.0, 0};
   if (c.states.cols() == 0) return std::nullopt;
   const double largest = c.states.lpNorm<Eigen::Infinity>();
-  c.error = orbit_error(orbit.monodromy, std::max(orbit.residual, map_error * largest));
+  c.error = orbit_error(orbit.monodromy.product(), std::max(orbit.residual, map_error * largest));
   return c;
 }
 

@@ -42,7 +42,7 @@ Eigen::MatrixXd newton_step(const Shot& at) {
 /// State and monodromy of the orbit from an iteration.
 void take_state(const Eigen::MatrixXd& y, const Shot& at, PeriodicOrbit& orbit) {
   std::copy_n(y.data(), orbit.state.size(), orbit.state.begin());
-  orbit.monodromy = at.monodromy();
+  orbit.monodromy = at.monodromy().product();
   orbit.pieces = at.pieces;
 }
 
@@ -162,6 +162,12 @@ bool FloquetMultipliers::stable() const {
 
 namespace {
 
+/// M as it was found, piece by piece.
+MatrixProduct factors_of(const PeriodicOrbit& orbit) {
+  if (!orbit.pieces.empty()) return {orbit.pieces};
+  return orbit.monodromy.size() == 0 ? MatrixProduct{} : MatrixProduct{{orbit.monodromy}};
+}
+
 void check_reached(const PeriodicOrbit& orbit) {
   if (orbit.monodromy.size() == 0) throw DomainError("multipliers are asked of an orbit that was not reached");
 }
@@ -169,26 +175,20 @@ void check_reached(const PeriodicOrbit& orbit) {
 }  // namespace
 
 FloquetMultipliers floquet_multipliers(const PeriodicOrbit& orbit, const PeriodicOrbit& second) {
-  const auto sorted = [](const Eigen::MatrixXd& m) -> std::vector<std::complex<double>> {
-    if (m.size() == 0) return {};
-    const Eigen::VectorXcd e = eigenvalues(m);
-    std::vector<std::complex<double>> values(e.begin(), e.end());
-    std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) {
-      return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag();
-    });
-    return values;
-  };
   check_reached(orbit);
+  const MatrixProduct factors = factors_of(orbit);
   FloquetMultipliers result;
-  result.values = sorted(orbit.monodromy);
-  std::vector<std::complex<double>> others = sorted(second.monodromy);
-  for (const auto& value : result.values) {
+  result.values = eigenvalues(factors);
+  const std::vector<double> rounding_errors = eigenvalue_errors(factors);
+  std::vector<std::complex<double>> others = eigenvalues(factors_of(second));
+  for (std::size_t k = 0; k < result.values.size(); ++k) {
+    const std::complex<double> value = result.values[k];
     // Each of the second estimate answers for one of the first.
     const auto nearest = std::min_element(others.begin(), others.end(), [&](const auto& a, const auto& b) {
       return std::abs(a - value) < std::abs(b - value);
     });
     result.errors.push_back(nearest == others.end() ? std::numeric_limits<double>::infinity()
-                                                    : std::abs(*nearest - value));
+                                                    : std::max(std::abs(*nearest - value), rounding_errors[k]));
     if (nearest != others.end()) others.erase(nearest);
   }
   // Equal ones are split by the rounding of the eigenvalue solver at the least.
@@ -209,7 +209,7 @@ FloquetMultipliers floquet_multipliers(const PeriodicOrbit& orbit, const Periodi
 
 double largest_multiplier(const PeriodicOrbit& orbit) {
   check_reached(orbit);
-  return eigenvalues(orbit.monodromy).cwiseAbs().maxCoeff();
+  return std::abs(eigenvalues(factors_of(orbit)).front());
 }
 
 std::vector<double> displaced_orbit(integrate::Flow& flow, const PeriodicOrbit& known, int n, int iterations) {

@@ -29,6 +29,7 @@
 
 #include <Eigen/Core>
 
+#include "core/matrix_product.hpp"
 #include "integrate/flow.hpp"
 
 namespace epicyclic::analysis {
@@ -91,10 +92,13 @@ struct PeriodicOrbit {
 /// Floquet multipliers, by falling modulus, with what is known of their errors.
 struct FloquetMultipliers {
   std::vector<std::complex<double>> values;
-  std::vector<double> errors;     ///< distance from the nearest one of a second estimate, one each
+  std::vector<double> errors;     ///< distance from the nearest one of a second estimate, or what rounding leaves if
+                                  ///< that is more [A-schur]; one each
   std::vector<int> multiplicity;  ///< of each: those that its error cannot tell from it, itself included
   std::size_t critical = 0;       ///< the one nearest to the unit circle
 
+  /// Whether its error leaves open on which side of the unit circle it is.
+  [[nodiscard]] bool side_is_known(std::size_t i) const { return errors[i] < std::abs(1.0 - std::abs(values[i])); }
   /// Of the critical one from the unit circle; positive inside.
   [[nodiscard]] double margin() const { return 1.0 - std::abs(values[critical]); }
   /// All inside the unit circle by more than their errors.

@@ -35,12 +35,6 @@ std::span<double> span_of(Eigen::Ref<Eigen::VectorXd> v) { return {v.data(), sta
 
 }  // namespace
 
-Eigen::MatrixXd Shot::monodromy() const {
-  Eigen::MatrixXd m = pieces.at(0);
-  for (std::size_t i = 1; i < pieces.size(); ++i) m = pieces[i] * m;
-  return m;
-}
-
 Shot shoot(integrate::Flow& flow, const Eigen::MatrixXd& y, Eigen::Index periods, integrate::LastTangent last) {
   const Eigen::Index n = y.rows();
   const Eigen::Index count = y.cols();

@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 
+#include "core/matrix_product.hpp"
 #include "integrate/flow.hpp"
 
 namespace epicyclic::analysis {
@@ -25,7 +26,7 @@ struct Shot {
   integrate::Evolution evolution;       ///< of the piece that was not reached, and then all else is of no meaning
 
   /// M_p-1 ... M_0: how a small change of y_0 comes back.
-  [[nodiscard]] Eigen::MatrixXd monodromy() const;
+  [[nodiscard]] MatrixProduct monodromy() const { return {pieces}; }
 };
 
 /// Residuals and their derivatives.

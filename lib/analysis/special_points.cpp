@@ -10,6 +10,7 @@
 
 #include "analysis/contact_extrema.hpp"
 #include "analysis/crossings.hpp"
+#include "core/dense.hpp"
 #include "core/errors.hpp"
 #include "core/require.hpp"
 #include "core/root_finding.hpp"
@@ -106,6 +107,7 @@ class Event {
       place = find(family_);
       if (!place) return unresolved("no orbit beside it");
       values_ = {place->value};
+      rounding_ = place->rounding;
       angles_ = {std::abs(std::arg(place->multiplier))};
       spread_ = place->spread;
       for (const Refinement& other : options_.others) {
@@ -116,6 +118,7 @@ class Event {
           values_.push_back(finer->value);
           angles_.push_back(std::abs(std::arg(finer->multiplier)));
           spread_ = std::max(spread_, finer->spread);
+          rounding_ = finer->rounding;
         } else {
           point.note = "one of the finer families found no orbit";
         }
@@ -124,6 +127,9 @@ class Event {
       return unresolved(e.what());
     }
     point.value = values_.back();
+    point.kind = kind_;
+    point.nullity = nullity_;
+    if (nullity_ > 1) point.note = "two multipliers with two eigenvectors cross together: parts that are alike";
     point.orbit = std::move(place->orbit);
     point.multiplier = place->multiplier;
     point.error_bound = bound();
@@ -143,7 +149,8 @@ class Event {
     double value = 0;
     BranchOrbit orbit;
     std::complex<double> multiplier;
-    double spread = 0;  ///< of the value by fewer orbits, where it is interpolated
+    double spread = 0;    ///< of the value by fewer orbits, where it is interpolated
+    double rounding = 0;  ///< what rounding of the multiplier leaves of the value
   };
 
   [[nodiscard]] SpecialPoint unresolved(const std::string& note) const {
@@ -154,9 +161,11 @@ class Event {
   [[nodiscard]] double sign_function(const BranchOrbit& orbit) const {
     if (kind_ == SpecialKind::grazing) return nearest_to_the_surface(family_, orbit);
     if (turns_) return orbit.direction.value;
-    const Crossing crossing = kind_ == SpecialKind::branch_point ? Crossing::plus
-                              : kind_ == SpecialKind::flip       ? Crossing::minus
-                                                                 : Crossing::pair;
+    // Of two that cross together no parity changes.
+    const Crossing crossing = nullity_ > 1                         ? Crossing::pair
+                              : kind_ == SpecialKind::branch_point ? Crossing::plus
+                              : kind_ == SpecialKind::flip         ? Crossing::minus
+                                                                   : Crossing::pair;
     return analysis::sign_function(*block_, crossing, multipliers_of(*block_, orbit.monodromy), inside_);
   }
 
@@ -192,6 +201,22 @@ class Event {
     if (block_ == nullptr) return;
     const Multipliers values = multipliers_of(*block_, near_.monodromy);
     expected_ = kind_ == SpecialKind::neimark_sacker ? values.at(inside_) : critical(kind_, values, 0.0);
+    if (kind_ == SpecialKind::neimark_sacker && block_->real) tell_double();
+  }
+
+  /// Is it a pair, or are it two real ones of parts that are alike?
+  void tell_double() {
+    // Of the way from a to b they are a thousandth away, and so is what the null space of two is known by. A pair that
+    // meets at +1 or -1 has one eigenvector there: the second singular value is of the order of 1.
+    constexpr double near = 1e-2;
+    for (const double at : {1.0, -1.0}) {
+      if (!(std::abs(expected_ - at) < near)) continue;
+      const Eigen::VectorXd s = singular_values(real_block_of(*block_, near_.monodromy).cyclic(at)).s;
+      if (s.size() < 2 || !(s(s.size() - 2) < near)) continue;
+      kind_ = at > 0.0 ? SpecialKind::branch_point : SpecialKind::flip;
+      nullity_ = 2;
+      crosses_here_ = at > 0.0 && block_->wave == 0;
+    }
   }
 
   [[nodiscard]] std::optional<Place> find(const OrbitFamily& family) const {
@@ -212,7 +237,32 @@ class Event {
     };
     const double span = length(family_, b_.at - a_.at);
     if (!secant_root(at, 1e-3 * span, span)) return std::nullopt;
-    return Place{last.orbit.at.value, last.orbit, critical_of(last.orbit)};
+    Place place{last.orbit.at.value, last.orbit, critical_of(last.orbit)};
+    if (turns_) return place;
+    // The root is resolved to 1e-11 of f, which leaves the same error to each family: by the slope to what f resolves.
+    const double here = smooth_function(family, place.orbit);
+    const Correction beside = correct(family, place.orbit.at + (1e-3 * span) * normal, normal);
+    if (!beside.found) return place;
+    const double slope = (beside.orbit.at.value - place.value) / (smooth_function(family, beside.orbit) - here);
+    if (!std::isfinite(slope)) return place;
+    place.value -= here * slope;
+    place.rounding = rounding_of(place, slope);
+    return place;
+  }
+
+  /// What rounding leaves of the value.
+  /// @param slope  dv / df
+  [[nodiscard]] double rounding_of(const Place& place, double slope) const {
+    if (block_ == nullptr) {
+      // Of the state's sums over some hundred steps.
+      constexpr double of_the_state = 1e-14;
+      return of_the_state * place.orbit.at.states.lpNorm<Eigen::Infinity>() * std::abs(slope);
+    }
+    const Multipliers values = multipliers_of(*block_, place.orbit.monodromy);
+    const std::vector<double> errors = multiplier_errors(*block_, place.orbit.monodromy);
+    const auto at = std::find(values.begin(), values.end(), nearest(values, place.multiplier));
+    const double rounding = errors[static_cast<std::size_t>(at - values.begin())] * std::abs(slope);
+    return std::isfinite(rounding) ? rounding : 0.0;
   }
 
   /// An orbit by another subdivision, whose direction at the new cuts is that between two orbits.
@@ -253,6 +303,7 @@ class Event {
         Place place = interpolated(orbits, lagrange(beside, step));
         for (const bool inner : {true, false})
           place.spread = std::max(place.spread, std::abs(by_four(orbits, f, inner) - place.value));
+        if (!turns_) place.rounding = rounding_of(place, (orbits[5].at.value - orbits[0].at.value) / (f[5] - f[0]));
         return place;
       }
       root += step;
@@ -290,11 +341,12 @@ class Event {
     BranchOrbit o = orbits[0];
     o.at = 0.0 * o.at;
     o.direction = 0.0 * o.direction;
-    o.monodromy.setZero();
+    for (Eigen::MatrixXd& m : o.monodromy.factors) m.setZero();
     for (std::size_t i = 0; i < orbits.size(); ++i) {
       o.at = o.at + weights[i] * orbits[i].at;
       o.direction = o.direction + weights[i] * orbits[i].direction;
-      o.monodromy += weights[i] * orbits[i].monodromy;
+      for (std::size_t k = 0; k < o.monodromy.factors.size(); ++k)
+        o.monodromy.factors[k] += weights[i] * orbits[i].monodromy.factors[k];
       o.residual = std::max(o.residual, orbits[i].residual);
     }
     return {o.at.value, o, critical_of(o)};
@@ -328,7 +380,7 @@ class Event {
     const std::size_t first = options_.branch_counts || values_.size() < enough ? 0 : 1;
     for (std::size_t k = first; k < values_.size(); ++k) most = std::max(most, std::abs(values_[k] - values_.back()));
     constexpr double rounding = 1e-14;
-    return options_.safety * (most + spread_) + rounding * std::abs(values_.back());
+    return options_.safety * (most + spread_ + rounding_) + rounding * std::abs(values_.back());
   }
 
   const OrbitFamily& family_;
@@ -345,7 +397,8 @@ class Event {
   BranchOrbit near_;
   std::complex<double> expected_;
   std::vector<double> values_, angles_;  ///< of the family and finer ones; angles without sign
-  double spread_ = 0;
+  double spread_ = 0, rounding_ = 0;
+  int nullity_ = 1;
 };
 
 /// Is a turn of the parameter without a crossing a pitchfork, seen from the branch that is born there? The multiplier
@@ -392,12 +445,33 @@ bool cross_both_ways(const InvariantBlock& block, const BranchOrbit& a, const Br
   return p.outwards > 0 && p.inwards > 0;
 }
 
+/// Is a pair that seems to cross the unit circle on it at both neighbours, to within what a finer family changes of it?
+bool stays_on_the_circle(const OrbitFamily& family, const InvariantBlock& block, const BranchOrbit& a,
+                         const BranchOrbit& b, const SpecialOptions& options) {
+  const std::size_t inside = std::min(signs_of(block, a).outside, signs_of(block, b).outside);
+  for (const BranchOrbit* orbit : {&a, &b}) {
+    const Multipliers values = multipliers_of(block, orbit->monodromy);
+    const std::complex<double> x = values.at(inside);
+    double error = multiplier_errors(block, orbit->monodromy)[inside];
+    for (const Refinement& other : options.others) {
+      OrbitFamily finer = family;
+      finer.flows = other.flows;
+      // By the same pieces: as the states stand.
+      if (const Correction c = correct(finer, orbit->at, orbit->direction); c.found)
+        error = std::max(error, std::abs(nearest(multipliers_of(block, c.orbit.monodromy), x) - x));
+    }
+    if (!(std::abs(std::abs(x) - 1.0) <= options.safety * error)) return false;
+  }
+  return true;
+}
+
 /// All events in one block, the part halved until each is alone.
 void find_events(const OrbitFamily& family, const InvariantBlock& block, const BranchOrbit& a, const BranchOrbit& b,
                  const SpecialOptions& options, int halvings, std::vector<SpecialPoint>& found) {
   std::optional<SpecialKind> kind = event_between(block, signs_of(block, a), signs_of(block, b));
   const bool both_ways = cross_both_ways(block, a, b);
   if (!kind && !both_ways) return;
+  if (kind == SpecialKind::neimark_sacker && !both_ways && stays_on_the_circle(family, block, a, b, options)) return;
   if (kind && turns_at_a_pitchfork(family, block, a, b)) kind = SpecialKind::branch_point;
   std::optional<SpecialPoint> one;
   if (kind && *kind != SpecialKind::unresolved && !both_ways) {

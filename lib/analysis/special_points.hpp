@@ -14,9 +14,14 @@
 // halved. The place is the root of a
 // function of the arc length that is smooth there: the direction's part, lambda - 1, lambda + 1, log |lambda|.
 //
-// The place is found again by other tolerances and subdivisions. With v the finest of the values v_k,
+// The place is found again by other tolerances and subdivisions. With v the finest of the values v_k, f the function
+// whose root it is and e what rounding leaves of f there [A-schur],
 //
-//   bound = safety max |v_k - v| + rounding                                                               [A-bound]
+//   bound = safety (max |v_k - v| + e |dv / df|) + rounding of v                                          [A-bound]
+//
+// Two multipliers of parts that are alike cross +1 or -1 together where no symmetry was declared. M -+ I then has a
+// null space of two: a branch point or a flip of nullity 2, and no Neimark-Sacker point. A pair whose moduli are 1 to
+// within their errors at both neighbours crosses nothing: those of a conservative system stay on the circle.
 //
 // A Neimark-Sacker point whose multiplier is a k-th root of 1, k = 1 ... 4, has no torus of the usual kind. With a the
 // finest of the angles a_k of the multiplier, it is told as a strong resonance where the angle could be that one:
@@ -56,6 +61,7 @@ struct SpecialPoint {
   std::size_t surface = 0;          ///< that is grazed
   bool least = false;               ///< where its value is least, else where it is greatest
   bool rising = false;              ///< that value rises along the branch
+  int nullity = 1;                  ///< multipliers that cross +1 or -1 together, with as many eigenvectors
   int resonance = 0;                ///< k of 1 ... 4: a strong resonance 1:k [A-resonance]; 0: none, or not told
   std::string note{};               ///< what was not as usual
 };

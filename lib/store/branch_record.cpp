@@ -19,6 +19,10 @@ void pass(A& a, Eigen::MatrixXd& m) {
                                         rows == 0 ? 0 : static_cast<Eigen::Index>(numbers.size()) / height);
 }
 template <class A>
+void pass(A& a, MatrixProduct& m) {
+  pass_all(a, m.factors);
+}
+template <class A>
 void pass(A& a, std::complex<double>& x) {
   double parts[] = {x.real(), x.imag()};
   pass_all(a, parts[0], parts[1]);
@@ -51,7 +55,7 @@ void pass(A& a, analysis::SpecialPlace& p) {
 template <class A>
 void pass(A& a, analysis::SpecialPoint& p) {
   pass_all(a, p.kind, p.value, p.error_bound, p.orbit, p.wave, p.multiplier, p.outwards, p.surface, p.least, p.rising,
-           p.resonance, p.note);
+           p.nullity, p.resonance, p.note);
 }
 /// Whether it is there, and it.
 template <class A, class T>

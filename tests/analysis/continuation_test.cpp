@@ -152,13 +152,20 @@ TEST(Continuation, FindsToriThatComeAndGoBetweenNeighbours) {
 
 TEST(Continuation, TellsStrongResonancesOfNeimarkSackerPoints) {
   for (const auto& [turns, resonance] :
-       {std::pair{0.5, 2}, {1.0 / 3.0, 3}, {2.0 / 3.0, 3}, {0.25, 4}, {0.2, 0}, {0.3, 0}, {0.25 + 1e-6, 0}}) {
+       {std::pair{1.0 / 3.0, 3}, {2.0 / 3.0, 3}, {0.25, 4}, {0.2, 0}, {0.3, 0}, {0.25 + 1e-6, 0}}) {
     const FieldFamily fields = problems::forced_hopf(turns);
     const Traced t = trace({flows(fields, tolerance)}, fields, {.from = -0.1, .to = 0.1}, -0.1, {1.0, 0.0}, 1);
     ASSERT_EQ(t.special.size(), 1U) << turns;
     expect_at(t.special[0], SpecialKind::neimark_sacker, 0.0, 0.0);
     EXPECT_EQ(t.special[0].resonance, resonance) << turns;
   }
+  // Half a turn is -1 twice with two eigenvectors, and each orbit that leaves has the period 2: no torus.
+  const FieldFamily half = problems::forced_hopf(0.5);
+  const Traced flip = trace({flows(half, tolerance)}, half, {.from = -0.1, .to = 0.1}, -0.1, {1.0, 0.0}, 1);
+  ASSERT_EQ(flip.special.size(), 1U);
+  EXPECT_EQ(to_string(flip.special[0].kind), "flip");
+  EXPECT_LE(std::abs(flip.special[0].value), flip.special[0].error_bound);
+  EXPECT_EQ(flip.special[0].nullity, 2);
   // Without anything to compare with the angle is not known to be one.
   const Traced alone =
       problems::trace({flows(problems::forced_hopf(0.25), tolerance)}, {.from = -0.1, .to = 0.1}, {},

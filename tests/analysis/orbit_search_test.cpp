@@ -42,8 +42,7 @@ int degree(const std::vector<FoundOrbit>& orbits, int n) {
     if (n % f.family.period != 0) continue;
     double det = 1.0;
     std::complex<double> product = 1.0;
-    for (const auto& x : Eigen::VectorXcd(eigenvalues(f.orbit.monodromy)))
-      product *= 1.0 - std::pow(x, n / f.family.period);
+    for (const auto& x : eigenvalues(f.orbit.monodromy)) product *= 1.0 - std::pow(x, n / f.family.period);
     det = product.real();
     sum += f.family.period * f.images * (det > 0.0 ? 1 : -1);
   }

@@ -32,7 +32,7 @@ void expect_equal(const analysis::SpecialPoint& a, const analysis::SpecialPoint&
   EXPECT_EQ(a.outwards, b.outwards);
   EXPECT_EQ(a.resonance, b.resonance);
   EXPECT_EQ(a.orbit.at.states, b.orbit.at.states);
-  EXPECT_EQ(a.orbit.monodromy, b.orbit.monodromy);
+  EXPECT_EQ(a.orbit.monodromy.factors, b.orbit.monodromy.factors);
 }
 
 TEST(BranchRecord, ATreeOfReadStepsIsTheSame) {
@@ -53,7 +53,7 @@ TEST(BranchRecord, ATreeOfReadStepsIsTheSame) {
     for (std::size_t k = 0; k < branch.orbits.size(); ++k) {
       EXPECT_EQ(branch.orbits[k].at.value, expected.orbits[k].at.value);
       EXPECT_EQ(branch.orbits[k].direction.states, expected.orbits[k].direction.states);
-      EXPECT_EQ(branch.orbits[k].monodromy, expected.orbits[k].monodromy);
+      EXPECT_EQ(branch.orbits[k].monodromy.factors, expected.orbits[k].monodromy.factors);
     }
     ASSERT_EQ(branch.special.size(), expected.special.size());
     for (std::size_t k = 0; k < branch.special.size(); ++k) expect_equal(branch.special[k], expected.special[k]);
