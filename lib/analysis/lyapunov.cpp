@@ -1,5 +1,6 @@
 #include "analysis/lyapunov.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -15,6 +16,14 @@
 #include "core/require.hpp"
 
 namespace epicyclic::analysis {
+
+namespace {
+
+/// Of a spectrum's vectors within a part of an interval: log of the largest stretch over the smallest.
+const double most_apart = std::log(1e6);
+constexpr int most_parts = 65536;
+
+}  // namespace
 
 void LyapunovOptions::validate() const {
   require(aligning_periods >= 0, "aligning_periods", aligning_periods, ">= 0");
@@ -92,17 +101,40 @@ LyapunovSpectrum lyapunov_spectrum(integrate::Flow& flow, std::span<double> stat
   for (double& x : v.reshaped()) x = random_uniform(1, ++number) - 0.5;
   (void)orthonormalise(v);
   double s = 0.0;
+  int parts = 1;  // of an interval; as the last one needed them
   for (int k = -options.aligning_intervals; k < options.intervals; ++k) {
     if (!go_on()) return result;
     // s stays small where it is a phase, and goes on where it is not.
     if (flow.field().period > 0.0) s = std::fmod(s, flow.field().period);
     if (k >= 0 && options.begins) options.begins(s, state);
-    result.evolution = flow.evolve_tangents(state, {v.data(), n * m}, s, s + interval);
-    if (!result.evolution.reached()) return result;
+    Eigen::VectorXd growth = Eigen::VectorXd::Zero(columns);
+    double widest = 0.0;
+    for (int part = 0; part < parts;) {
+      const std::vector<double> state_before(state.begin(), state.end());
+      const Eigen::MatrixXd v_before = v;
+      const double step_before = flow.next_step();
+      const double from = s + interval * part / parts;
+      const double to = part + 1 == parts ? s + interval : s + interval * (part + 1) / parts;
+      result.evolution = flow.evolve_tangents(state, {v.data(), n * m}, from, to);
+      if (!result.evolution.reached()) return result;
+      const Eigen::VectorXd logs = orthonormalise(v).cwiseAbs().array().log();
+      const double apart = logs.maxCoeff() - logs.minCoeff();
+      if (!(apart <= most_apart) && parts < most_parts) {
+        std::copy(state_before.begin(), state_before.end(), state.begin());
+        v = v_before;
+        flow.set_next_step(step_before);
+        parts *= 2;
+        part *= 2;
+        continue;
+      }
+      growth += logs;
+      widest = std::max(widest, apart);
+      ++part;
+    }
     s += interval;
-    const Eigen::VectorXd stretched = orthonormalise(v);
+    if (parts > 1 && widest < 0.4 * most_apart) parts /= 2;
     if (k < 0) continue;
-    for (Eigen::Index i = 0; i < columns; ++i) result.growth.push_back(std::log(std::abs(stretched(i))));
+    for (const double g : growth) result.growth.push_back(g);
   }
   std::vector<double> sums(result.growth.size() / m, 0.0);
   std::vector<double> series(sums.size());

@@ -55,9 +55,12 @@ inline constexpr double neutral_growth = 2.0;
 ///   V(s_k + T) = Q_k R_k ,   V <- Q_k ,   g_ik = log | R_ii |
 ///   lambda_i = mean(g_i) / T  per unit of s ,   sum over all = mean divergence of the field [A-spectrum]
 ///
+/// Within an interval V is orthonormalised as often as needed: R_ii of a contracting direction is what is left after
+/// the faster ones are subtracted, so an error e of V leaves e max_j |R_jj| / |R_ii| of it. Parts of the interval are
+/// halved until that ratio is at most 1e6 in each of them, and g_ik is the sum over the parts.
+///
 /// Source: Benettin et al., Meccanica 15 (1980) 9 and 21; Kaplan and Yorke, LNM 730 (1979) 204. QR by Householder
-/// reflections (Eigen). Limits: within one interval vectors may not part by more than the rounding holds, so that
-/// a strongly contracting direction needs a shorter interval.
+/// reflections (Eigen). Limits: contractions by more than that within a 65536th of an interval.
 struct SpectrumOptions {
   std::size_t exponents = 0;    ///< m; 0 for all
   int aligning_intervals = 50;  ///< before growth is counted

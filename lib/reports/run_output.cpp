@@ -611,6 +611,9 @@ std::string exponents_text(const RunResult& r) {
       "{:.2g}. Over the first {} of them.",
       r.checks->sum, r.checks->divergence, std::abs(r.checks->sum - r.checks->divergence),
       mesh_periods(r.checks->intervals)));
+  constexpr double agreed = 1e-3;  // of the divergence
+  if (!(std::abs(r.checks->sum - r.checks->divergence) <= agreed * std::abs(r.checks->divergence) + agreed))
+    text += bullet("**Sum and divergence disagree: the exponents above are not those of the motion.**");
   if (r.checks->multipliers)
     text += bullet(fmt::format(
         "Against log |multiplier| over the period: {} of {} within their intervals, largest difference {:.2g} "

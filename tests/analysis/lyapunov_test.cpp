@@ -14,6 +14,7 @@
 #include "analysis/periodic_orbit.hpp"
 #include "core/dense.hpp"
 #include "core/errors.hpp"
+#include "core/random_numbers.hpp"
 #include "integrate/make_flow.hpp"
 #include "problems/known_systems.hpp"
 
@@ -79,6 +80,53 @@ TEST(LyapunovSpectrum, ComesBySizeWhateverSubspacesTheMotionKeeps) {
   EXPECT_NEAR(s.per_s[0].value, -0.5, tolerance);
   EXPECT_NEAR(s.per_s[1].value, -1.0, tolerance);
   EXPECT_NEAR(s.per_s[2].value, -2.0, tolerance);
+}
+
+/// Rates of dx_i/ds = -rate_i x_i + (a rotation of the axes), known exactly.
+void expect_rates(const std::vector<double>& rates, double interval) {
+  const std::size_t n = rates.size();
+  const VectorField field = integrate::make_field(n, 0.0, [rates](std::size_t, double, const auto* y, auto* d) {
+    for (std::size_t i = 0; i < rates.size(); ++i) {
+      d[i] = rates[i] * y[i];
+      // Each direction drives the slower ones: no axis but the first is kept.
+      for (std::size_t j = i + 1; j < rates.size(); ++j) d[i] += 0.3 * y[j];
+    }
+  });
+  const SpectrumOptions options{.aligning_intervals = 40, .intervals = 10, .interval = interval};
+  const LyapunovSpectrum s = spectrum(field, std::vector<double>(n, 0.0), options, 1e-10);
+  ASSERT_TRUE(s.evolution.reached());
+  std::vector<double> falling = rates;
+  std::sort(falling.rbegin(), falling.rend());
+  // [A-spectrum]: an error of 1e-10 in parts that are 1e6 apart, over parts of some length.
+  constexpr double tolerance = 1e-3;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    sum += falling[i];
+    EXPECT_NEAR(s.per_s[i].value, falling[i], tolerance * std::max(1.0, std::abs(falling[i]))) << i;
+  }
+  EXPECT_NEAR(s.sum.value, sum, tolerance * std::abs(sum));
+}
+
+TEST(LyapunovSpectrum, OfAStrongContractionIsNotThatOfRounding) {
+  expect_rates({-50.0, -1.0}, 1.0);
+  expect_rates({0.1, -0.2, -30.0, -31.0}, 6.0);
+}
+
+TEST(LyapunovSpectrumLong, OfAThousandRandomContractionsNoneIsWrong) {
+  for (std::uint64_t k = 0; k < 1000; ++k) {
+    std::vector<double> rates;
+    const auto draw = [&](std::uint64_t n) { return random_uniform(17, 16 * k + n); };
+    const auto count = 2 + static_cast<std::size_t>(4.0 * draw(0));
+    double rate = 0.5 - draw(1);
+    for (std::size_t i = 0; i < count; ++i) {
+      rates.push_back(rate);
+      // Far enough apart to align within the intervals before the counted ones.
+      rate -= 0.5 + std::pow(10.0, 2.0 * draw(2 + i)) - 1.0;
+    }
+    std::reverse(rates.begin(), rates.end());
+    ASSERT_NO_FATAL_FAILURE(expect_rates(rates, 0.5 + 2.0 * draw(9))) << k;
+    ASSERT_FALSE(testing::Test::HasFailure()) << k;
+  }
 }
 
 TEST(LyapunovSpectrum, AddsUpToTheDivergence) {
