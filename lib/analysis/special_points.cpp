@@ -380,7 +380,7 @@ class Event {
     const std::size_t first = options_.branch_counts || values_.size() < enough ? 0 : 1;
     for (std::size_t k = first; k < values_.size(); ++k) most = std::max(most, std::abs(values_[k] - values_.back()));
     constexpr double rounding = 1e-14;
-    return options_.safety * (most + spread_ + rounding_) + rounding * std::abs(values_.back());
+    return options_.safety * (most + spread_) + rounding_ + rounding * std::abs(values_.back());
   }
 
   const OrbitFamily& family_;

@@ -17,7 +17,7 @@
 // The place is found again by other tolerances and subdivisions. With v the finest of the values v_k, f the function
 // whose root it is and e what rounding leaves of f there [A-schur],
 //
-//   bound = safety (max |v_k - v| + e |dv / df|) + rounding of v                                          [A-bound]
+//   bound = safety max |v_k - v| + e |dv / df| + rounding of v                                            [A-bound]
 //
 // Two multipliers of parts that are alike cross +1 or -1 together where no symmetry was declared. M -+ I then has a
 // null space of two: a branch point or a flip of nullity 2, and no Neimark-Sacker point. A pair whose moduli are 1 to
