@@ -58,7 +58,7 @@ void tell_cut_tail(const std::filesystem::path& journal, std::size_t bytes);
 [[nodiscard]] std::string resolved_text(const input::LoadedInput& input);
 
 /// Says on stderr which figures were not drawn.
-/// @returns how many, for run.json: a study without one of its figures does not end with `done`
+/// @returns how many of them failed, for run.json: such a study does not end with `done`
 [[nodiscard]] std::int64_t tell_undrawn(const std::vector<reports::DrawnFigure>& figures);
 
 /// input.json, the stage file as input.stage.json, input.resolved.json.

@@ -162,7 +162,7 @@ FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::strin
       for (const double y : point->section) y_range.include(y);
     }
   }
-  if (x_range.empty() || y_range.empty()) return {"there is no finite point to draw"};
+  if (x_range.empty() || y_range.empty()) return nothing_to_draw("there is no finite point to draw");
   x_range = x_range.widened(grid_margin(series.front().count));
   y_range = y_range.widened(figure_margin);
 
@@ -215,7 +215,7 @@ FigureOutcome class_bifurcation_figure(const std::filesystem::path& folder, std:
     p.section = {};
     points.emplace_back(i, std::move(p));
   }
-  if (x.empty() || y.empty()) return {"there is no finite point to draw"};
+  if (x.empty() || y.empty()) return nothing_to_draw("there is no finite point to draw");
   x = x.widened(grid_margin(count));
   y = y.widened(figure_margin);
   value_range.include(0.0);

@@ -169,7 +169,7 @@ FigureOutcome value_figure(const std::filesystem::path& folder, std::string_view
                            const std::vector<double>& cells) {
   check(grid, cells.size());
   const FigureRange range = value_range(cells);
-  if (range.empty()) return {"there is no finite value to draw"};
+  if (range.empty()) return nothing_to_draw("there is no finite value to draw");
   const bool grey = std::any_of(cells.begin(), cells.end(), [](double v) { return !std::isfinite(v); });
   const auto alike = [&](std::size_t a, std::size_t b) {
     return cells[a] == cells[b] || (!std::isfinite(cells[a]) && !std::isfinite(cells[b]));
@@ -273,7 +273,7 @@ FigureOutcome decade_figure(const std::filesystem::path& folder, std::string_vie
     steps.of[k] = std::floor(in_a_decade * std::log10(cells[k])) - lowest;
     highest = std::max(highest, steps.of[k]);
   }
-  if (!std::isfinite(highest)) return {"there is no value to draw above " + number(floor)};
+  if (!std::isfinite(highest)) return nothing_to_draw("there is no value to draw above " + number(floor));
   steps.count = static_cast<int>(highest) + 1;
   for (const double step : steps.of) steps.written.push_back(steps.first + (step + 0.5) * steps.width);
   return stepped_figure(folder, stem, text, grid, bar_label, steps, {}, which);
@@ -285,7 +285,7 @@ FigureOutcome scale_figure(const std::filesystem::path& folder, std::string_view
   check(grid, cells.size());
   FigureRange all;
   for (const double v : cells) all.include(v);
-  if (all.empty()) return {"there is no finite value to draw"};
+  if (all.empty()) return nothing_to_draw("there is no finite value to draw");
   constexpr int count = 20;
   const FigureRange range = all.low < all.high ? all : all.widened(0.0);
   Steps steps{

@@ -28,8 +28,13 @@ namespace epicyclic::figures {
 /// What became of a figure. `message` is empty if it was drawn, else it says in one line why not.
 struct FigureOutcome {
   std::string message;
+  bool empty = false;  ///< the data have nothing to draw, as a motion without vibration has no spectrum: no failure
   [[nodiscard]] bool drawn() const { return message.empty(); }
+  [[nodiscard]] bool failed() const { return !drawn() && !empty; }
 };
+
+/// @param why  "there is no finite point to draw"
+[[nodiscard]] inline FigureOutcome nothing_to_draw(std::string why) { return {std::move(why), true}; }
 
 /// An interval of values that grows with what it is shown.
 struct FigureRange {

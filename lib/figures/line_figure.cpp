@@ -86,7 +86,7 @@ FigureOutcome line_figure(const std::filesystem::path& folder, std::string_view 
     plot += fmt::format("{}'{}.dat' index {} using 1:2 with {} {}", k > 0 ? ", \\\n  " : "", stem, k, look,
                         curve.label.empty() ? "notitle" : "title " + gnuplot_quoted(portable_text(curve.label)));
   }
-  if (x_axis.range.empty()) return {"there is no finite point to draw"};
+  if (x_axis.range.empty()) return nothing_to_draw("there is no finite point to draw");
 
   std::string extra;
   const FigureRange x = x_axis.widened(points ? figure_margin : 0.0);

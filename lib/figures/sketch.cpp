@@ -30,7 +30,7 @@ FigureOutcome Sketch::draw(const std::filesystem::path& folder, const FigureText
   if (!panels_.empty()) {
     std::vector<FigurePanel> panels = panels_;
     std::erase_if(panels, [](const FigurePanel& panel) { return panel.plot.empty(); });
-    if (panels.empty()) return {"there is nothing to draw"};
+    if (panels.empty()) return nothing_to_draw("there is nothing to draw");
     return draw_figure(folder, stem_, data_, panel_script(stem_, text, x, panels, legend_, commands_, canvas), which);
   }
   return draw_figure(folder, stem_, data_, figure_script(stem_, text, x, y, legend_, markers, commands_, plot_, canvas),

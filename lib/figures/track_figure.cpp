@@ -96,7 +96,7 @@ FigureOutcome track_figure(const std::filesystem::path& folder, std::string_view
     }
     frames.push_back({panels[p].y_label, y[p].widened(figure_margin), std::move(plot)});
   }
-  if (x.empty() || frames.empty()) return {"there is no finite point to draw"};
+  if (x.empty() || frames.empty()) return nothing_to_draw("there is no finite point to draw");
   return draw_figure(
       folder, stem, [&](AtomicFile& file) { write_rows(file, series); },
       panel_script(stem, text, x.widened(0.0), frames, legend, ""), which);

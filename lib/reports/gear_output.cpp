@@ -212,7 +212,7 @@ void note_figures(GearOutput& out, const std::vector<GearFigure>& figures) {
   for (const GearFigure& figure : figures) {
     if (figure.outcome.drawn())
       out.figures.push_back(figure.stem);
-    else
+    else if (figure.outcome.failed())
       out.undrawn.push_back(figure.stem + ": " + figure.outcome.message);
   }
 }

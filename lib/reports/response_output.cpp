@@ -144,7 +144,7 @@ figures::FigureOutcome write_waterfall_figure(const std::filesystem::path& folde
     shared.resize(std::max(shared.size(), p.spectrum.size()), 0.0);
     for (std::size_t j = 0; j < p.spectrum.size(); ++j) shared[j] = std::max(shared[j], p.spectrum[j]);
   }
-  if (orders < 2) return {"there is no spectrum to draw"};
+  if (orders < 2) return figures::nothing_to_draw("there is no spectrum to draw");
   std::sort(columns.begin(), columns.end(), [](const Column& a, const Column& b) { return a.x < b.x; });
   figures::CellGrid grid;
   for (const Column& column : columns) grid.x.push_back(column.x);
