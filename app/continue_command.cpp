@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <exception>
 #include <iterator>
 #include <limits>
 #include <memory>
@@ -41,13 +40,10 @@ namespace {
 using studies::BranchesOptions;
 using studies::TracedBranches;
 
-/// A signal has come: whatever is under way is given up.
-class Stopped : public std::exception {};
-
 /// The models of the family, until a stop is asked for.
 studies::ModelAt stoppable(studies::ModelAt models) {
   return [models = std::move(models)](double value) {
-    if (stop_requested()) throw Stopped();
+    give_up_if_stopped();
     return models(value);
   };
 }
@@ -104,7 +100,7 @@ class OrderedJournal {
 studies::ModelOverPlane stoppable_plane(const input::LoadedInput& input, const BranchesOptions& options,
                                         const std::string& second) {
   return [plane = input::model_plane(input, options.parameter, second, family_step(options))](double x, double y) {
-    if (stop_requested()) throw Stopped();
+    give_up_if_stopped();
     return plane(x, y);
   };
 }
@@ -152,7 +148,7 @@ void grow(Session& session, const BranchesOptions& options, const model::Dynamic
     if (step->orbit) words += place(step->orbit->at.value);
     if (tree.waiting() > 0) words += fmt::format(", {} waiting", tree.waiting());
     progress.update(journal.count(), std::move(words));
-    if (stop_requested()) throw Stopped();
+    give_up_if_stopped();
   }
   journal.close();
   progress.finish();
@@ -297,7 +293,7 @@ Proved prove_sweep(const FinishedStudy& sweep, const store::OutputFolder& folder
     Progress progress("continue: against the sweep", points.count);
     proved.proof = prove(traced, plan, points, dimension, {}, [&](std::size_t done) {
       progress.update(done, 0);
-      if (stop_requested()) throw Stopped();
+      give_up_if_stopped();
     });
   }
   const input::Study& study = sweep.input().study;
@@ -348,7 +344,6 @@ void tell_result(const Arguments& arguments, const TracedBranches& traced, const
 }  // namespace
 
 int continue_command(const Arguments& arguments) {
-  stop_on_signals();
   std::vector<std::string> notes;
   const input::LoadedInput input =
       with_seeds(arguments.input, input::parse_assignments(arguments.sets), arguments.from, notes);

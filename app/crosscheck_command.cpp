@@ -73,7 +73,6 @@ void tell_result(const Arguments& arguments, const store::OutputFolder& folder, 
 }  // namespace
 
 int crosscheck_command(const Arguments& arguments) {
-  stop_on_signals();
   const input::LoadedInput input = with_start(arguments, "crosscheck");
   const auto [sweep, options] = plan_with_points<input::CrosscheckPlan>(input, arguments, "crosscheck");
   const studies::SweepPlan plan = studies::plan_sweep(sweep);

@@ -17,7 +17,16 @@ class Failure : public std::runtime_error {
   int exit_code_;
 };
 
+/// A lack of the machine, as is a full disk.
+inline constexpr const char* out_of_memory =
+    "out of memory or threads; what was written before is kept: make room or use fewer --threads, and repeat the "
+    "command";
+
 /// Exit code (architecture section 5) and message of any exception.
 [[nodiscard]] Failure failure_of(const std::exception_ptr& error);
+
+/// For std::set_terminate(): memory can end where nothing may be thrown, as in the start of a thread. That ends the
+/// program as anywhere else; whatever else nobody has caught aborts it.
+[[noreturn]] void end_uncaught();
 
 }  // namespace epicyclic::app

@@ -19,6 +19,7 @@
 #include "input/starter.hpp"
 #include "input/study_input.hpp"
 #include "input/study_model.hpp"
+#include "stop.hpp"
 #include "streams.hpp"
 
 namespace epicyclic::app {
@@ -86,9 +87,11 @@ int init_command(const Arguments& arguments) {
     for (const auto& [name, content] : files)
       write_file_atomically(folder / name,
                             content.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
-    for (const char* name : {sweep_name, run_name})
+    for (const char* name : {sweep_name, run_name}) {
+      give_up_if_stopped();  // none of them is kept, since the same command would not write over them
       for (const std::string& warning : input::warnings(input::load_input(folder / name)))
         if (name == sweep_name) tell("{}\n", warning);
+    }
   } catch (const input::InputProblems& found) {
     take_back();
     std::vector<input::Problem> problems = found.problems();

@@ -15,6 +15,7 @@
 #include "core/instruction_set.hpp"
 #include "core/version.hpp"
 #include "failure.hpp"
+#include "input/field_table.hpp"
 #include "input/study_input.hpp"
 #include "ranks/ranks.hpp"
 #include "stop.hpp"
@@ -51,12 +52,40 @@ int own_cores() {
   return ::sched_getaffinity(0, sizeof cores, &cores) == 0 ? std::max(1, CPU_COUNT(&cores)) : 1;
 }
 
+/// What was probably meant by a command or an option that is not known; empty if all are.
+std::string probably_meant(const CLI::App& cli, const CLI::ParseError& asked) {
+  // What is left over: of the command if one is known, else the first is its name.
+  if (dynamic_cast<const CLI::ExtrasError*>(&asked) == nullptr &&
+      dynamic_cast<const CLI::RequiredError*>(&asked) == nullptr)
+    return {};
+  const std::vector<CLI::App*> parsed = cli.get_subcommands();
+  const CLI::App& of = parsed.empty() ? cli : *parsed.front();
+  std::vector<std::string> names, options;
+  if (parsed.empty())
+    for (const CLI::App* sub : cli.get_subcommands([](const CLI::App*) { return true; }))
+      names.push_back(sub->get_name());
+  for (const CLI::Option* option : of.get_options())
+    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  std::string text;
+  for (const std::string& word : of.remaining()) {
+    const bool is_option = word.starts_with('-');
+    const std::string name = is_option ? word.substr(0, word.find('=')) : word;
+    if (!is_option && (names.empty() || !text.empty())) continue;
+    text += fmt::format("unknown {} '{}'{}\n", is_option ? "option" : "command", name,
+                        input::suggestion(name, is_option ? options : names));
+  }
+  return text;
+}
+
 /// --help, --version and what is wrong with the command line; once, whatever the number of ranks.
 int answer(const CLI::App& cli, const CLI::ParseError& asked, const Ranks& ranks) {
   std::ostringstream data, words;
   const int code = cli.exit(asked, data, words) == 0 ? done : bad_input;
   if (ranks.rank() == 0) {
-    write_words(words.str());
+    const std::string meant = probably_meant(cli, asked);
+    // That a subcommand is required is not what is wrong with one that is not known.
+    const bool known = meant.empty() || !cli.get_subcommands().empty();
+    write_words(meant + (known ? words.str() : "Run with --help for more information.\n"));
     write_data(data.str());
   }
   return code;
@@ -68,7 +97,7 @@ int print_schema(const Arguments& /*arguments*/) {
 }
 
 /// What a subcommand takes, from a stage or study file on; or a folder that is finished.
-enum class Takes { nothing, finished, input, output, threads };
+enum class Takes { nothing, finished, input, output };
 
 struct Subcommand {
   const char* name;
@@ -77,6 +106,9 @@ struct Subcommand {
   Takes takes;                  ///< and all that stands before it
   bool shares_work = false;     ///< runs on several processes
   CLI::App* command = nullptr;  ///< on the command line
+
+  /// Leaves files behind.
+  [[nodiscard]] bool writes() const { return takes != Takes::nothing && takes != Takes::input; }
 };
 
 std::array<Subcommand, 17> subcommands() {
@@ -84,20 +116,19 @@ std::array<Subcommand, 17> subcommands() {
       {"init", "a stage of your own and its studies to begin with, from a drawing's numbers", init_command,
        Takes::finished},
       {"gear", "teeth, contact, stiffness, friction, bearings and modes of the stage", gear_command, Takes::output},
-      {"run", "one operating point: regime, forces, spectra, exponents, orbit, figures", run_command, Takes::threads},
-      {"sweep", "bifurcation diagram along one parameter, up, down or both", sweep_command, Takes::threads, true},
+      {"run", "one operating point: regime, forces, spectra, exponents, orbit, figures", run_command, Takes::output},
+      {"sweep", "bifurcation diagram along one parameter, up, down or both", sweep_command, Takes::output, true},
       {"continue", "branches of periodic motions with their bifurcations, and a sweep proved by them", continue_command,
        Takes::output},
-      {"map", "regimes over two parameters", map_command, Takes::threads, true},
-      {"basins", "coexisting attractors over a plane of initial conditions", basins_command, Takes::threads, true},
+      {"map", "regimes over two parameters", map_command, Takes::output, true},
+      {"basins", "coexisting attractors over a plane of initial conditions", basins_command, Takes::output, true},
       {"tolerance", "answers against tolerance, clearance smoothing and method, with error bars", tolerance_command,
-       Takes::threads},
-      {"crosscheck", "the same points by several methods, compared", crosscheck_command, Takes::threads},
-      {"reproduce", "claims of a publication held against a stage, with its figures", reproduce_command,
-       Takes::threads},
-      {"calibrate", "what is not published of a stage, from what is claimed of it", calibrate_command, Takes::threads,
+       Takes::output},
+      {"crosscheck", "the same points by several methods, compared", crosscheck_command, Takes::output},
+      {"reproduce", "claims of a publication held against a stage, with its figures", reproduce_command, Takes::output},
+      {"calibrate", "what is not published of a stage, from what is claimed of it", calibrate_command, Takes::output,
        true},
-      {"robustness", "for which part of what is not published each claim holds", robustness_command, Takes::threads,
+      {"robustness", "for which part of what is not published each claim holds", robustness_command, Takes::output,
        true},
       {"assert", "special points of finished branches against expected ones", assert_command, Takes::finished},
       {"plot", "figures of what finished studies left, of several over each other; computes nothing", plot_command,
@@ -127,8 +158,8 @@ void add_to(CLI::App& cli, Subcommand& sub, Arguments& arguments) {
   if (sub.takes >= Takes::output) {
     sub.command->add_option("-o,--output", arguments.output, "folder for the results")->required();
     sub.command->add_flag("--json", arguments.json, "print the summary as JSON");
+    add_threads(*sub.command, arguments, "threads; the results do not depend on it");
   }
-  if (sub.takes >= Takes::threads) add_threads(*sub.command, arguments, "threads; the results do not depend on it");
 }
 
 void add_check_options(CLI::App& command, Arguments& arguments) {
@@ -273,7 +304,9 @@ int run(int argc, char** argv) {
         std::find_if(commands.begin(), commands.end(), [](const Subcommand& sub) { return sub.command->parsed(); });
     if (ranks.size() > 1 && (asked == commands.end() || !asked->shares_work))
       throw InputError("only sweep, map, basins, calibrate and robustness run on several processes");
-    return asked == commands.end() ? static_cast<int>(done) : asked->run(arguments);
+    if (asked == commands.end()) return static_cast<int>(done);
+    if (asked->writes()) stop_on_signals(ranks.size() > 1 ? patience_of_ranks : patience);
+    return asked->run(arguments);
   });
   if (ranks.size() > 1) leave_ranks(code);
   return code;
@@ -284,6 +317,7 @@ int run(int argc, char** argv) {
 }  // namespace epicyclic::app
 
 int main(int argc, char** argv) {
+  std::set_terminate(epicyclic::app::end_uncaught);
   epicyclic::app::secure_streams();
   return epicyclic::app::run(argc, argv);
 }

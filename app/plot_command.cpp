@@ -96,7 +96,6 @@ void make_folder(const std::filesystem::path& folder) {
 }  // namespace
 
 int plot_command(const Arguments& arguments) {
-  stop_on_signals();
   const PlotArguments& given = arguments.plot;
   reports::PlotOptions options;
   options.abscissa = given.abscissa;
@@ -133,10 +132,10 @@ int plot_command(const Arguments& arguments) {
   std::vector<std::string> notes;
   for (const reports::PlotOptions& plot : plots) {
     std::ranges::move(reports::draw_plot(arguments.output, studies, plot, notes), std::back_inserter(figures));
-    if (stop_requested()) return stopped_early;
+    give_up_if_stopped();
   }
   for (const std::string& note : notes) tell("{}\n", note);
-  const std::int64_t undrawn = tell_undrawn(figures);
+  (void)tell_undrawn(figures);
   nlohmann::json told = {{"figures", nlohmann::json::array()}};
   for (const reports::DrawnFigure& figure : figures)
     if (figure.outcome.drawn()) told["figures"].push_back(figure.file.string());
@@ -144,7 +143,9 @@ int plot_command(const Arguments& arguments) {
     print("{}\n", told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   else
     for (const auto& figure : told["figures"]) print("figure: {}\n", figure.get<std::string>());
-  return undrawn == 0 ? done : done_with_failures;
+  // A figure that is asked for by name is missed, too, where there is nothing to draw.
+  return std::ranges::all_of(figures, [](const auto& figure) { return figure.outcome.drawn(); }) ? done
+                                                                                                 : done_with_failures;
 }
 
 }  // namespace epicyclic::app

@@ -179,7 +179,6 @@ void tell_result(const Arguments& arguments, std::string_view noun, const Comput
 
 int lead(const Arguments& arguments, std::string_view command, std::string_view noun,
          const std::vector<ResultsPart>& parts, const AfterPoints& after, SweepLeader* leader) {
-  stop_on_signals(leader != nullptr ? patience_of_ranks : patience);
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
   require_kind(input, arguments, command);
   const studies::SweepPlan plan = input::plan_of(input.study);

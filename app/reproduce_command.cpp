@@ -89,7 +89,6 @@ std::filesystem::path recorded_verdicts(const Arguments& arguments) {
 }  // namespace
 
 int reproduce_command(const Arguments& given) {
-  stop_on_signals();
   Arguments arguments = given;
   arguments.input = claims_file(given.input);
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));

@@ -24,7 +24,6 @@ namespace epicyclic::app {
 namespace {
 
 int lead(const Arguments& arguments, SharedEvaluations& shared) {
-  stop_on_signals(arguments.ranks->size() > 1 ? patience_of_ranks : patience);
   const input::LoadedInput input = load_open_claims(arguments);
   const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
 

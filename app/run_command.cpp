@@ -37,7 +37,6 @@ std::optional<studies::RunResult> compute(int threads, const model::DynamicModel
 }  // namespace
 
 int run_command(const Arguments& arguments) {
-  stop_on_signals();
   std::vector<std::string> start;
   const input::LoadedInput input = with_start(arguments, "run", &start);
   require_kind(input, arguments, "run");

@@ -39,6 +39,7 @@ itimerspec patience_left{};
 
 void end_at_once(int /*signal*/) {
   if (const char* words = words_at_the_end) write_without_waiting(STDERR_FILENO, words);
+  remove_unfinished_files();
   // What _exit() is in the C library; with ThreadSanitizer's _exit() threads that nobody waited for would be an error,
   // and here it is meant that nobody waits.
   ::syscall(SYS_exit_group, code_at_the_end.load());
@@ -53,6 +54,10 @@ void request(int /*signal*/) {
 
 const std::atomic<bool>& stop_requested() { return requested; }
 
+void give_up_if_stopped() {
+  if (requested) throw Stopped();
+}
+
 void stop_on_signals(std::chrono::milliseconds until_the_end) {
   patience_left = once_after(until_the_end);
   sigevent alarm{};
@@ -63,6 +68,7 @@ void stop_on_signals(std::chrono::milliseconds until_the_end) {
   std::signal(SIGALRM, end_at_once);
   std::signal(SIGINT, request);
   std::signal(SIGTERM, request);
+  if (std::signal(SIGHUP, request) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }
 
 void stop_soon(int exit_code, const char* last_words) {

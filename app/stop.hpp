@@ -1,9 +1,13 @@
-// SIGINT and SIGTERM: stop soon, resumable.
+// SIGINT, SIGTERM and SIGHUP: stop soon, resumable.
 //
 // The first of them raises a flag, at which a study gives up the points under way, leaves its folder in order and ends
 // with code 75, commonly within milliseconds. What does not look at the flag for a second (a mesh period that takes
 // minutes, the writing of large results) is ended there with the same code: a folder is sound at any moment, as after
-// kill -9, so that this costs nothing but the state "stopped" in run.json.
+// kill -9, so that this costs nothing but the state "stopped" in run.json. Temporary files of this process are removed:
+// those of `plot` and `assert` stand in folders that no later session tidies.
+//
+// main() installs the handlers for each command that writes, before it begins. A command that writes nothing is ended by
+// the signal itself.
 //
 // Ranks have one second for all of it: Open MPI's mpirun passes a SIGTERM or SIGINT on after a second, answers none of
 // them any more, so that MPI's own end waits for nothing, and kills them a second later.
@@ -11,11 +15,22 @@
 
 #include <atomic>
 #include <chrono>
+#include <exception>
 
 namespace epicyclic::app {
 
-/// Set by the first SIGINT or SIGTERM after stop_on_signals().
+/// Set by the first SIGINT, SIGTERM or SIGHUP after stop_on_signals().
 [[nodiscard]] const std::atomic<bool>& stop_requested();
+
+/// What is under way was given up because of stop_requested(). Whoever has a folder open catches it and leaves the folder
+/// in order; anywhere else it ends the command with code 75 [failure_of()].
+class Stopped : public std::exception {
+ public:
+  [[nodiscard]] const char* what() const noexcept override { return "stopped; the same command goes on"; }
+};
+
+/// @throws Stopped if a stop is requested
+void give_up_if_stopped();
 
 /// Half of the two seconds within which the program promises to end; what ranks have to put the folder in order, and
 /// then for MPI's end.
@@ -23,7 +38,7 @@ constexpr std::chrono::milliseconds patience{1000};
 constexpr std::chrono::milliseconds patience_of_ranks{650};
 constexpr std::chrono::milliseconds patience_for_mpi{300};
 
-/// To be called once, before anything is written.
+/// To be called once, before anything is written. SIGHUP stays ignored where it is, as under nohup.
 void stop_on_signals(std::chrono::milliseconds until_the_end = patience);
 
 /// As by a signal, but if the program has to be ended, then with these words and this code.

@@ -143,7 +143,6 @@ void tell_result(const Arguments& arguments, const store::OutputFolder& folder, 
 }  // namespace
 
 int tolerance_command(const Arguments& arguments) {
-  stop_on_signals();
   const input::LoadedInput input = with_start(arguments, "tolerance");
   const auto tolerance = plan_with_points<input::TolerancePlan>(input, arguments, "tolerance");
   const auto& [sweep, options] = tolerance;

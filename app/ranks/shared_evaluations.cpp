@@ -277,7 +277,6 @@ class Follower {
 
 int follow(const Arguments& arguments, std::string_view command, const MakeEvaluator& make) {
   Ranks& ranks = *arguments.ranks;
-  stop_on_signals(patience_of_ranks);
   std::atomic<bool> stop{false};
   std::optional<input::LoadedInput> input;
   studies::Evaluator evaluate;

@@ -491,7 +491,6 @@ class PartWriter {
 
 int follow(const Arguments& arguments, std::string_view command, const std::vector<ResultsPart>& parts) {
   Ranks& ranks = *arguments.ranks;
-  stop_on_signals(patience_of_ranks);
   std::optional<input::LoadedInput> input;
   std::optional<PartWriter> writer;
   std::string identity;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <new>
 #include <numbers>
 #include <numeric>
 
@@ -46,7 +47,7 @@ class Transform {
     for (const double w : window_) weight_ += w;
     table_.reset(gsl_fft_real_wavetable_alloc(n));
     work_.reset(gsl_fft_real_workspace_alloc(n));
-    if (!table_ || !work_) throw SolverError("gsl_fft_real_wavetable_alloc", -1, 0.0, "no memory");
+    if (!table_ || !work_) throw std::bad_alloc();
   }
 
   /// @param of  (k, Re X_k, Im X_k, what makes A_k of |X_k|): called for k = 0 .. n/2

@@ -1,7 +1,10 @@
 #include "core/atomic_file.hpp"
 
+#include <array>
 #include <atomic>
 #include <cerrno>
+#include <climits>
+#include <cstring>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -177,6 +180,51 @@ void create_folder(const std::filesystem::path& folder, bool parents) {
 
 bool is_temporary_name(std::string_view file_name) { return file_name.starts_with('.') && file_name.ends_with(".tmp"); }
 
+namespace {
+
+/// Names of temporary files, where a signal handler can read them at any moment: a place is never freed, and changes
+/// only while it is neither taken nor being removed.
+struct ListPlace {
+  enum State : int { free, written, taken, removed };
+  std::atomic<int> state{free};
+  std::array<char, PATH_MAX> name{};
+
+  bool change(int from, int to) noexcept { return state.compare_exchange_strong(from, to); }
+};
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+
+/// Enough for all threads that write at a time. Beyond, a file is not listed and would stay after a signal.
+std::array<ListPlace, 64> unfinished;
+
+}  // namespace
+
+void remove_unfinished_files() noexcept {
+  for (ListPlace& place : unfinished)
+    if (place.change(ListPlace::taken, ListPlace::removed)) ::unlink(place.name.data());
+}
+
+AtomicFile::Listed::Listed(const std::filesystem::path& file) noexcept {
+  const std::string& name = file.native();
+  if (name.size() >= PATH_MAX) return;
+  for (std::size_t k = 0; k < unfinished.size() && place_ < 0; ++k)
+    if (unfinished[k].change(ListPlace::free, ListPlace::written)) place_ = static_cast<int>(k);
+  if (place_ < 0) return;
+  ListPlace& place = unfinished[static_cast<std::size_t>(place_)];
+  std::memcpy(place.name.data(), name.c_str(), name.size() + 1);
+  place.state = ListPlace::taken;
+}
+
+AtomicFile::Listed::Listed(Listed&& other) noexcept : place_(std::exchange(other.place_, -1)) {}
+
+AtomicFile::Listed& AtomicFile::Listed::operator=(Listed&& other) noexcept {
+  std::swap(place_, other.place_);
+  return *this;
+}
+
+AtomicFile::Listed::~Listed() {
+  if (place_ >= 0) unfinished[static_cast<std::size_t>(place_)].change(ListPlace::taken, ListPlace::free);
+}
+
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
   // The process number alone would not do: threads share it, and on a shared disk so may two hosts; O_EXCL decides.
   static std::atomic<unsigned> counter{0};
@@ -186,6 +234,7 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
     descriptor_ = open_descriptor(temporary_, O_WRONLY | O_CREAT | O_EXCL);
   } while (!descriptor_.is_open() && errno == EEXIST);
   if (!descriptor_.is_open()) throw_output_error(path_, "create the file", errno);
+  listed_ = Listed(temporary_);
 }
 
 AtomicFile::~AtomicFile() { discard(); }
@@ -211,6 +260,7 @@ void AtomicFile::commit() {
     throw;
   }
   temporary_.clear();
+  listed_ = Listed();
   sync_folder(folder_of(path_));
   tell_placed(path_);
 }
@@ -220,6 +270,7 @@ void AtomicFile::discard() noexcept {
   // A moved-from or committed file has no temporary name left.
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
   temporary_.clear();
+  listed_ = Listed();
 }
 
 std::filesystem::path linked_file(const std::filesystem::path& path) {

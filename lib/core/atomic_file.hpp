@@ -86,6 +86,10 @@ void create_folder(const std::filesystem::path& folder, bool parents);
 /// True of a name that AtomicFile gives to a file in the making.
 bool is_temporary_name(std::string_view file_name);
 
+/// Removes the temporary files of all AtomicFiles of this process, for a signal handler that ends it. They are not
+/// committed any more. Async-signal-safe.
+void remove_unfinished_files() noexcept;
+
 /// A file that appears under its name only when it is complete. Without commit() nothing appears.
 class AtomicFile {
  public:
@@ -117,6 +121,20 @@ class AtomicFile {
   std::filesystem::path path_;
   std::filesystem::path temporary_;
   FileDescriptor descriptor_;
+
+  /// Its place in the list for remove_unfinished_files().
+  class Listed {
+   public:
+    Listed() = default;
+    explicit Listed(const std::filesystem::path& file) noexcept;
+    Listed(Listed&& other) noexcept;
+    Listed& operator=(Listed&& other) noexcept;
+    ~Listed();
+
+   private:
+    int place_ = -1;
+  };
+  Listed listed_;
 };
 
 /// The file that a name stands for, so that a link leads to what is written as it does to what is read.

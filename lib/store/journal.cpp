@@ -145,7 +145,32 @@ void check_header(std::string_view header, std::string_view expected, const std:
                                 header.substr(file_magic.size() + 4, identity_size)));
 }
 
+std::string_view words_of(std::filesystem::file_type type) {
+  switch (type) {
+    case std::filesystem::file_type::directory:
+      return "a folder";
+    case std::filesystem::file_type::fifo:
+      return "a FIFO (named pipe)";
+    case std::filesystem::file_type::socket:
+      return "a socket";
+    case std::filesystem::file_type::block:
+    case std::filesystem::file_type::character:
+      return "a device";
+    default:
+      return "of an unknown kind";
+  }
+}
+
 }  // namespace
+
+FileDescriptor open_data_file(const std::filesystem::path& path, int flags) {
+  std::error_code error;
+  const std::filesystem::file_status there = std::filesystem::status(path, error);
+  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
+    throw DamagedData(fmt::format("{}: is {}, not a file; remove it, or restore the file from a copy", path.string(),
+                                  words_of(there.type())));
+  return open_descriptor(path, flags | O_NONBLOCK);
+}
 
 Journal::Journal(std::filesystem::path path, std::string_view identity, Use use)
     : path_(std::move(path)), released_(use == Use::read) {
@@ -153,7 +178,7 @@ Journal::Journal(std::filesystem::path path, std::string_view identity, Use use)
     throw std::invalid_argument(fmt::format("Journal: an identity of {} characters, not 64", identity.size()));
   }
   const std::string header = header_bytes(identity);
-  descriptor_ = open_descriptor(path_, released_ ? O_RDONLY : O_RDWR);
+  descriptor_ = open_data_file(path_, released_ ? O_RDONLY : O_RDWR);
   if (!descriptor_.is_open() && (released_ || errno != ENOENT)) throw_output_error(path_, "open the journal", errno);
 
   std::optional<FileWindow> file;

@@ -44,6 +44,10 @@ class DamagedData : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// open_descriptor() of a file that this program has written. Never waits: a FIFO of that name would do so for ever.
+/// @throws DamagedData for what is there and no plain file, with what it is
+[[nodiscard]] FileDescriptor open_data_file(const std::filesystem::path& path, int flags);
+
 /// Another process writes to the journal.
 class JournalInUse : public std::runtime_error {
  public:

@@ -14,6 +14,7 @@
 #include <sys/stat.h>
 
 #include "core/errors.hpp"
+#include "store/journal.hpp"
 
 namespace epicyclic::store {
 
@@ -194,7 +195,7 @@ void OutputFolder::require_there() const {
 
 /// run.json as it is; null if there is none or it is not JSON (then it is not ours: ours is written atomically).
 nlohmann::json OutputFolder::read_run() const {
-  const FileDescriptor descriptor = open_descriptor(file(run_name), O_RDONLY);
+  const FileDescriptor descriptor = open_data_file(file(run_name), O_RDONLY);
   if (!descriptor.is_open()) {
     if (errno != ENOENT) throw_output_error(file(run_name), "open", errno);
     return nullptr;

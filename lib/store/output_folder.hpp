@@ -55,7 +55,8 @@ class OutputFolder {
   /// Of a complete study all files are read; what is not as it was left is set aside, as NAME.changed.
   /// @param identity   SHA-256 of the study (64 hexadecimal digits)
   /// @param can_draw   a picture that could not be drawn before is one that is missing
-  /// @throws OutputError when it cannot be created, read or written, or the file system knows no locks
+  /// @throws OutputError when it cannot be created, read or written, or the file system knows no locks; DamagedData
+  /// when run.json is no plain file
   OutputFolder(std::filesystem::path path, std::string identity, bool can_draw = false);
 
   [[nodiscard]] FolderOutcome outcome() const { return outcome_; }

@@ -103,6 +103,22 @@ for out in file file/below /proc/nowhere/out; do
   grep -qF -e "$out" "$work/stderr" || fail "stderr does not name $out"
 done
 
+# What was probably meant by a command or an option that is not known.
+meant() {
+  code=0
+  name="$*"
+  count=$((count + 1))
+  "$epicyclic" "${@:2}" >"$work/stdout" 2>"$work/stderr" </dev/null || code=$?
+  [ $code -eq 2 ] || fail "exit code $code, must be 2"
+  grep -qF -e "$1" "$work/stderr" || fail "not said: $1; but: $(<"$work/stderr")"
+}
+meant "unknown command 'swep'; did you mean 'sweep'?" swep study.json -o out
+meant "unknown command 'contine'; did you mean 'continue'?" contine
+meant "unknown command 'xyz'" xyz
+meant "unknown option '--thread'; did you mean '--threads'?" sweep study.json -o out --thread 1
+meant "unknown option '--outptu'; did you mean '--output'?" gear study.json --outptu=out
+meant "unknown option '--versoin'; did you mean '--version'?" --versoin
+
 name="good input"
 code=0
 (cd "$folder" && exec "$epicyclic" sweep study.json -o out) >"$work/stdout" 2>"$work/stderr" </dev/null || code=$?

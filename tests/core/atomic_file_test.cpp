@@ -6,6 +6,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -57,6 +58,25 @@ TEST(AtomicFile, VanishesWithoutCommit) {
     moved.write("more");
   }
   EXPECT_EQ(entries(folder.path()), 0U);
+}
+
+TEST(AtomicFile, UnfinishedFilesAreGoneAfterASignalHandlerHasRemovedThem) {
+  const TemporaryFolder folder;
+  write_file_atomically(folder / "a.txt", "old");
+  AtomicFile first(folder / "a.txt");
+  AtomicFile second(folder / "b.txt");
+  AtomicFile moved(std::move(second));
+  AtomicFile done(folder / "c.txt");
+  done.commit();
+  remove_unfinished_files();
+  EXPECT_EQ(entries(folder.path()), 2U);
+  EXPECT_EQ(contents(folder / "a.txt"), "old");
+  EXPECT_THROW(first.commit(), OutputError);
+  // More at a time than are listed: all are written.
+  std::vector<AtomicFile> many;
+  for (int k = 0; k < 200; ++k) many.emplace_back(folder / std::to_string(k));
+  for (AtomicFile& file : many) file.commit();
+  EXPECT_EQ(entries(folder.path()), 202U);
 }
 
 TEST(AtomicFile, FullDiskLeavesTheOldFileAndNoTemporary) {

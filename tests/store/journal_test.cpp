@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -455,7 +456,19 @@ TEST(Journal, IsReadBesideItsWriterAndChangedByNoReader) {
 TEST(Journal, UnusablePathIsAnOutputError) {
   const TemporaryFolder folder;
   EXPECT_THROW(Journal(folder / "no/such/journal.bin", identity), OutputError);
-  EXPECT_THROW(Journal(folder.path(), identity), OutputError);
+}
+
+TEST(Journal, WhatIsNoFileIsRefusedWithoutWaitingAndLeftThere) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);
+  const auto words = [](const std::filesystem::path& path, Journal::Use use) {
+    return test::message_of<DamagedData>([&] { Journal(path, identity, use); });
+  };
+  for (const Journal::Use use : {Journal::Use::append, Journal::Use::read}) {
+    EXPECT_NE(words(folder / "fifo", use).find("is a FIFO"), std::string::npos);
+    EXPECT_NE(words(folder.path(), use).find("is a folder"), std::string::npos);
+  }
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "fifo"));
 }
 
 TEST(Journal, AppendAfterCloseIsALogicError) {

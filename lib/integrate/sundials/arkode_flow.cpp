@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -57,7 +58,7 @@ Table make_explicit_table(const Method& method) {
   const bool same_as_last = std::equal(given->b, given->b + s, given->A[s - 1]);
   const bool extended = given->c[s - 1] == 1.0 && !same_as_last;
   Table table(ARKodeButcherTable_Alloc(extended ? s + 1 : s, SUNTRUE));
-  if (!table) throw SolverError("ARKodeButcherTable_Alloc", -1, 0.0, "no memory");
+  if (!table) throw std::bad_alloc();
   table->q = given->q;
   table->p = given->p;
   std::copy(given->b, given->b + s, table->b);
@@ -103,7 +104,7 @@ class ErkStepper {
   ErkStepper(SundialsSystem& system, N_Vector y, SUNContext context, const Method& method,
              const IntegratorOptions& /*options*/, double fixed_step)
       : system_(system), memory_(ERKStepCreate(&SundialsSystem::right_hand_side, 0.0, y, context)) {
-    if (!memory_) throw SolverError("ERKStepCreate", -1, 0.0, "no memory");
+    if (!memory_) throw std::bad_alloc();
     void* const m = memory_.get();
     system.check("ERKStepSetErrHandlerFn", ERKStepSetErrHandlerFn(m, &SundialsSystem::keep_message, &system));
     system.check("ERKStepSetUserData", ERKStepSetUserData(m, &system));
@@ -169,7 +170,7 @@ class DirkStepper {
         matrix_(make_dense_matrix(system.field->dimension, context)),
         solver_(make_dense_solver(system.field->dimension, context)),
         memory_(ARKStepCreate(nullptr, &SundialsSystem::right_hand_side, 0.0, y, context)) {
-    if (!memory_) throw SolverError("ARKStepCreate", -1, 0.0, "no memory");
+    if (!memory_) throw std::bad_alloc();
     void* const m = memory_.get();
     system.check("ARKStepSetErrHandlerFn", ARKStepSetErrHandlerFn(m, &SundialsSystem::keep_message, &system));
     system.check("ARKStepSetUserData", ARKStepSetUserData(m, &system));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <new>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -36,10 +37,10 @@ class CvodeStepper {
       solver_ = make_dense_solver(system.field->dimension, context);
     } else {
       iteration_.reset(SUNNonlinSol_FixedPoint(y, 0, context));
-      if (!iteration_) throw SolverError("SUNNonlinSol_FixedPoint", -1, 0.0, "no memory");
+      if (!iteration_) throw std::bad_alloc();
     }
     memory_.reset(CVodeCreate(bdf ? CV_BDF : CV_ADAMS, context));
-    if (!memory_) throw SolverError("CVodeCreate", -1, 0.0, "no memory");
+    if (!memory_) throw std::bad_alloc();
     void* const m = memory_.get();
     system.check("CVodeSetErrHandlerFn", CVodeSetErrHandlerFn(m, &SundialsSystem::keep_message, &system));
     system.check("CVodeInit", CVodeInit(m, &SundialsSystem::right_hand_side, 0.0, y));

@@ -6,7 +6,6 @@
 #include <Eigen/LU>
 #include <sunmatrix/sunmatrix_dense.h>
 
-#include "core/errors.hpp"
 #include "integrate/sundials/state_vector.hpp"
 
 namespace epicyclic::integrate {
@@ -55,7 +54,7 @@ int destroy(SUNLinearSolver s) {
 Matrix make_dense_matrix(std::size_t dimension, SUNContext context) {
   const auto n = static_cast<sunindextype>(dimension);
   Matrix m(SUNDenseMatrix(n, n, context));
-  if (!m) throw SolverError("SUNDenseMatrix", -1, 0.0, "no memory");
+  if (!m) throw std::bad_alloc();
   SUNMatZero(m.get());
   return m;
 }
@@ -64,7 +63,7 @@ double* data_of(SUNMatrix m) { return SUNDenseMatrix_Data(m); }
 
 LinearSolver make_dense_solver(std::size_t dimension, SUNContext context) {
   LinearSolver s(SUNLinSolNewEmpty(context));
-  if (!s) throw SolverError("SUNLinSolNewEmpty", -1, 0.0, "no memory");
+  if (!s) throw std::bad_alloc();
   s->ops->gettype = &type;
   s->ops->getid = &identity;
   s->ops->initialize = &initialize;

@@ -5,9 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <new>
-#include <string>
-
-#include "core/errors.hpp"
 
 namespace epicyclic::integrate {
 
@@ -85,6 +82,17 @@ N_Vector clone(N_Vector like) {
   if (content.data != nullptr) return v;
   destroy(v);
   return nullptr;
+}
+
+[[noreturn]] void throw_bad_alloc() { throw std::bad_alloc(); }
+
+/// SUNDIALS 6 uses the clone before it looks whether there is one [N_VClone()]: a lack of memory ends the program here,
+/// by std::terminate() with std::bad_alloc, and not by a null pointer.
+template <N_Vector (*make)(N_Vector)>
+N_Vector whole(N_Vector like) noexcept {
+  N_Vector v = make(like);
+  if (v == nullptr) throw_bad_alloc();
+  return v;
 }
 
 N_Vector_ID identity(N_Vector /*v*/) { return SUNDIALS_NVEC_CUSTOM; }
@@ -227,8 +235,8 @@ int constant_array(int count, realtype c, N_Vector* z) {
 
 void set_operations(N_Vector_Ops ops) {
   ops->nvgetvectorid = &identity;
-  ops->nvclone = &clone;
-  ops->nvcloneempty = &clone_empty;
+  ops->nvclone = &whole<clone>;
+  ops->nvcloneempty = &whole<clone_empty>;
   ops->nvdestroy = &destroy;
   ops->nvspace = &space;
   ops->nvgetarraypointer = &array_pointer;
@@ -273,19 +281,15 @@ void set_operations(N_Vector_Ops ops) {
 }  // namespace
 
 Vector make_state_vector(const VectorShape& shape, SUNContext context, const VectorKernels& kernels_to_use) {
-  const auto no_memory = [&] {
-    return SolverError("make_state_vector", -1, 0.0,
-                       "no memory for " + std::to_string(shape.length * shape.columns) + " numbers");
-  };
   Vector v(N_VNewEmpty(context));
-  if (!v) throw no_memory();
+  if (!v) throw std::bad_alloc();
   set_operations(v->ops);
   const std::size_t stride = (shape.length + vector_block - 1) / vector_block * vector_block;
   auto content =
       std::make_unique<StateVectorContent>(StateVectorContent{shape, stride, &kernels_to_use, nullptr, true});
   content->data = allocate(stride * shape.columns);
   v->content = content.release();
-  if (content_of(v.get()).data == nullptr) throw no_memory();
+  if (content_of(v.get()).data == nullptr) throw std::bad_alloc();
   return v;
 }
 

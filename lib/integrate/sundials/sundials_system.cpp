@@ -1,6 +1,7 @@
 #include "integrate/sundials/sundials_system.hpp"
 
 #include <algorithm>
+#include <new>
 #include <utility>
 
 #include <sundials/sundials_version.h>
@@ -15,11 +16,13 @@ static_assert(SUNDIALS_VERSION_MAJOR == 6, "restart and stop rules of ARKODE and
 
 Context make_context() {
   SUNContext c = nullptr;
-  if (SUNContext_Create(nullptr, &c) != 0) throw SolverError("SUNContext_Create", -1, 0.0, "no context");
+  if (SUNContext_Create(nullptr, &c) != 0) throw std::bad_alloc();
   return Context(c);
 }
 
 void SundialsSystem::check(const char* call, int flag) const {
+  constexpr int no_memory = -20;  // ARK_MEM_FAIL and CV_MEM_FAIL
+  if (flag == no_memory) throw std::bad_alloc();
   if (flag < 0) throw SolverError(call, flag, phase, message);
 }
 
