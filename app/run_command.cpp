@@ -1,7 +1,16 @@
 // epicyclic run: one operating point with everything that analysis can say of it.
 
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <mutex>
 #include <optional>
+#include <span>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -16,6 +25,8 @@
 #include "reports/sweep_output.hpp"
 #include "session.hpp"
 #include "stop.hpp"
+#include "store/journal.hpp"
+#include "store/point_record.hpp"
 #include "streams.hpp"
 #include "studies/run.hpp"
 
@@ -23,15 +34,109 @@ namespace epicyclic::app {
 
 namespace {
 
-std::optional<studies::RunResult> compute(int threads, const model::DynamicModel& model, const input::Study& study) {
+/// What a run has computed, in the order of computing: the point, then results of the flows that exponents take. They
+/// are of use until the run is complete.
+class RunJournal {
+ public:
+  RunJournal(Session& session) : file_(session.folder().file("journal.bin")), journal_(file_, session.identity()) {
+    tell_cut_tail(file_, journal_.cut_bytes());
+    for (const store::JournalEntry& entry : journal_.entries()) {
+      if (entry.point == of_point)
+        point_ = store::decode_point(journal_.read(entry));
+      else
+        known_[entry.point].push_back(entry);
+    }
+  }
+
+  [[nodiscard]] studies::RunMemory memory() {
+    return {point_,
+            [this](const studies::PointResult& point) { journal_.append(of_point, store::encode_point(point)); },
+            [this](studies::RunPart part) { return memory_of(static_cast<std::uint64_t>(part)); }};
+  }
+
+  /// Mesh periods of exponents that are known.
+  [[nodiscard]] std::size_t exponent_intervals() const {
+    const auto of = known_.find(static_cast<std::uint64_t>(studies::RunPart::exponents));
+    return of == known_.end() ? 0 : of->second.size();
+  }
+  [[nodiscard]] bool knows_point() const { return point_.has_value(); }
+
+  void close() { journal_.close(); }
+
+  /// Of a complete run: its tables hold all that follows from it.
+  void remove() {
+    std::error_code error;
+    std::filesystem::remove(file_, error);
+  }
+
+ private:
+  static constexpr std::uint64_t of_point = 0;
+
+  [[nodiscard]] studies::FlowMemory memory_of(std::uint64_t part) {
+    const auto known = known_.find(part);
+    std::vector<store::JournalEntry> entries =
+        known == known_.end() ? std::vector<store::JournalEntry>() : known->second;
+    return {[this, entries = std::move(entries),
+             next = std::size_t{0}](std::size_t numbers) mutable -> std::optional<std::vector<double>> {
+              if (next == entries.size()) return std::nullopt;
+              return store::decode_numbers(journal_.read(entries[next++]), numbers);
+            },
+            [this, part](std::span<const double> result) { journal_.append(part, store::encode_numbers(result)); }};
+  }
+
+  std::filesystem::path file_;
+  store::Journal journal_;
+  std::optional<studies::PointResult> point_;
+  std::map<std::uint64_t, std::vector<store::JournalEntry>> known_;
+};
+
+/// Shows how far a run is. How long its exponents take is said as soon as some of them are there.
+class RunProgress {
+ public:
+  RunProgress(const studies::RunOptions& options, std::size_t known)
+      : total_(static_cast<std::size_t>(exponent_intervals(options))),
+        known_(known),
+        progress_("run", total_ > 0 ? total_ : unknown_total, known) {}
+
+  void see(const char* what, std::size_t interval) {
+    progress_.update(interval, what);
+    const std::scoped_lock lock(mutex_);
+    if (said_ || interval < known_ || total_ == 0 || interval == 0) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (interval <= std::max<std::size_t>(known_, 1)) {
+      begun_ = now;
+      first_ = interval;
+      return;
+    }
+    const std::chrono::duration<double> spent = now - begun_;
+    if (spent < measured_for) return;
+    said_ = true;
+    const double left = spent.count() / static_cast<double>(interval - first_) * static_cast<double>(total_ - interval);
+    tell(
+        "Lyapunov exponents over {} mesh periods take about {} more; /study/exponent_periods says how many, and a run "
+        "that is stopped goes on\n",
+        total_, duration_text(left));
+  }
+
+ private:
+  static constexpr std::chrono::seconds measured_for{2};
+  std::size_t total_, known_;
+  Progress progress_;
+  std::mutex mutex_;
+  bool said_ = false;
+  std::size_t first_ = 0;
+  std::chrono::steady_clock::time_point begun_;
+};
+
+std::optional<studies::RunResult> compute(int threads, const model::DynamicModel& model, const input::Study& study,
+                                          RunJournal& journal) {
   const auto& [look, options] = std::get<input::RunPlan>(study.plan);
-  // Exponents are most of the work.
-  const int periods_of_exponents = options.exponent_periods;
-  Progress progress("run", periods_of_exponents > 0 ? static_cast<std::size_t>(periods_of_exponents) : unknown_total);
+  RunProgress progress(options, journal.exponent_intervals());
   return studies::run_operating_point(
       model, look, options, study.integrator,
       {threads, [] { return !stop_requested().load(); },
-       [&](const char* what, int periods) { progress.update(static_cast<std::size_t>(periods), what); }});
+       [&](const char* what, int interval) { progress.see(what, static_cast<std::size_t>(interval)); },
+       journal.memory()});
 }
 
 }  // namespace
@@ -49,11 +154,15 @@ int run_command(const Arguments& arguments) {
   if (const auto code = session.exit_code()) return *code;
   const store::OutputFolder& folder = session.folder();
 
-  // A minute at most: what is stopped begins anew.
-  const auto result = compute(arguments.threads, model, study);
+  RunJournal journal(session);
+  if (journal.knows_point())
+    tell("{}: the point and {} of {} mesh periods of exponents were there already\n", folder.path().string(),
+         journal.exponent_intervals(), exponent_intervals(options));
+  const auto result = compute(arguments.threads, model, study, journal);
+  journal.close();
   if (!result) {
     session.end(store::RunState::stopped, {});
-    tell("stopped; the same command begins anew\n");
+    tell("stopped; the same command goes on\n");
     return stopped_early;
   }
 
@@ -73,6 +182,7 @@ int run_command(const Arguments& arguments) {
   const auto figures = reports::draw_run_figures(folder.file("figures"), output, *result);
   const std::int64_t undrawn = tell_undrawn(figures);
   session.end(store::RunState::complete, {{"points", 1}, {"failed", computed ? 0 : 1}, {"undrawn", undrawn}});
+  journal.remove();
 
   nlohmann::json told = {{"folder", folder.path().string()},
                          {"status", store::status_word(result->point.outcome)},

@@ -142,4 +142,15 @@ studies::TolerancePoint decode_tolerance_point(std::span<const std::byte> record
   return archive::decode<studies::TolerancePoint>(record);
 }
 
+std::vector<std::byte> encode_numbers(std::span<const double> numbers) {
+  return archive::encode(std::vector<double>(numbers.begin(), numbers.end()));
+}
+
+std::vector<double> decode_numbers(std::span<const std::byte> record, std::size_t count) {
+  auto numbers = archive::decode<std::vector<double>>(record);
+  if (numbers.size() != count)
+    throw DamagedData(fmt::format("a journal record holds {} numbers where {} are due", numbers.size(), count));
+  return numbers;
+}
+
 }  // namespace epicyclic::store

@@ -26,4 +26,10 @@ namespace epicyclic::store {
 /// @throws DamagedData when the record is not one of encode_tolerance_point()
 [[nodiscard]] studies::TolerancePoint decode_tolerance_point(std::span<const std::byte> record);
 
+/// Numbers of whoever keeps them.
+[[nodiscard]] std::vector<std::byte> encode_numbers(std::span<const double> numbers);
+
+/// @throws DamagedData when the record is not one of encode_numbers() of so many
+[[nodiscard]] std::vector<double> decode_numbers(std::span<const std::byte> record, std::size_t count);
+
 }  // namespace epicyclic::store

@@ -8,11 +8,13 @@
 #include <memory>
 #include <numbers>
 #include <numeric>
+#include <system_error>
 #include <utility>
 
 #include "analysis/regime_flows.hpp"
 #include "core/largest_difference.hpp"
 #include "integrate/make_flow.hpp"
+#include "integrate/methods.hpp"
 #include "studies/pulls.hpp"
 #include "studies/stage_lanes.hpp"
 
@@ -143,8 +145,13 @@ class Run {
     r.omega = model_.omega;
     r.static_force = scales_.force_newton(model_.static_mesh_force);
     at("settling, regime");
-    r.point = compute_point({0, Direction::up, model_.omega}, model_, {}, look_, integrator_, go_on_);
-    if (!go_on_()) return false;
+    if (control_.memory.point) {
+      r.point = *control_.memory.point;
+    } else {
+      r.point = compute_point({0, Direction::up, model_.omega}, model_, {}, look_, integrator_, go_on_);
+      if (!go_on_()) return false;
+      if (control_.memory.keep) control_.memory.keep(r.point);
+    }
     if (r.point.outcome != integrate::Outcome::reached) return true;
     state_ = r.point.end_state;
     at("orbit");
@@ -152,8 +159,7 @@ class Run {
     // Exponents read what is there by now, the record writes other parts of the result.
     std::future<void> exponents;
     if (options_.exponent_periods > 0 && !model_.jumps_at_surfaces && go_on_())
-      exponents =
-          std::async(control_.threads > 1 ? std::launch::async : std::launch::deferred, [&] { find_exponents(r); });
+      exponents = begun([&] { find_exponents(r); });
     at("histories, spectra");
     summarise(r, record(r));
     if (go_on_()) find_spectra(r);
@@ -166,8 +172,22 @@ class Run {
   }
 
  private:
-  void at(const char* what, int exponent_periods = 0) const {
-    if (control_.at) control_.at(what, exponent_periods);
+  void at(const char* what, int exponent_interval = 0) const {
+    if (control_.at) control_.at(what, exponent_interval);
+  }
+
+  /// Work by a thread of its own if one is wanted, and the system gives it; else when its end is waited for.
+  template <class Work>
+  [[nodiscard]] std::future<void> begun(Work work) const {
+    try {
+      return std::async(control_.threads > 1 ? std::launch::async : std::launch::deferred, work);
+    } catch (const std::system_error&) {
+      return std::async(std::launch::deferred, work);
+    }
+  }
+
+  [[nodiscard]] std::unique_ptr<Flow> kept(std::unique_ptr<Flow> flow, RunPart part) const {
+    return control_.memory.of ? remembered(std::move(flow), control_.memory.of(part)) : std::move(flow);
   }
 
   [[nodiscard]] std::unique_ptr<Flow> flow() const { return integrate::make_flow(model_, integrator_); }
@@ -393,8 +413,8 @@ class Run {
 
   void find_exponents(RunResult& r, const TangentFlow& tangent_flow) {
     const double period = 2.0 * std::numbers::pi;
-    const auto tangents = tangent_flow(true);
-    const auto divergence = exact_flow(options_.check_tolerance, true, true);
+    const auto tangents = kept(tangent_flow(true), RunPart::exponents);
+    const auto divergence = kept(exact_flow(options_.check_tolerance, true, true), RunPart::divergence);
     // The divergence is taken along the very motion: from the state at the beginning of each interval over it.
     constexpr std::size_t checked = 32;
     double along = 0.0;
@@ -413,9 +433,9 @@ class Run {
       ++intervals;
     };
     std::vector<double> y = state_;
-    int counted = -o.aligning_intervals;
+    int interval = 0;
     r.exponents = analysis::lyapunov_spectrum(*tangents, y, o, [&] {
-      at("Lyapunov exponents", std::max(0, ++counted));
+      at("Lyapunov exponents", interval++);
       return go_on_();
     });
     const std::size_t m = r.exponents.exponents;
@@ -445,7 +465,7 @@ class Run {
     o.intervals = few;
     std::vector<double> a = first;
     std::vector<double> b = first;
-    const auto free_flow = tangent_flow(false);
+    const auto free_flow = kept(tangent_flow(false), RunPart::step_control);
     tangents->forget();
     const auto with = analysis::lyapunov_spectrum(*tangents, a, o, go_on_);
     const auto without = analysis::lyapunov_spectrum(*free_flow, b, o, go_on_);
@@ -479,7 +499,12 @@ class Run {
   }
 
   void find_transverse(RunResult& r) const {
-    const auto carried = flow();
+    at("Lyapunov exponent of planets that part", exponent_intervals(options_));
+    // Only of these methods another flow goes on with the same bits.
+    using integrate::Family;
+    const Family family = integrate::method_named(integrator_.method).family;
+    const bool resumable = family == Family::erk || family == Family::lanes;
+    const auto carried = resumable ? kept(flow(), RunPart::transverse) : flow();
     std::vector<double> y = state_;
     analysis::LyapunovOptions o;
     o.periods = options_.exponent_periods;
@@ -511,6 +536,10 @@ std::vector<double> History::column(const std::string& name) const {
   if (k == columns.size()) return values_of;
   for (std::size_t row = 0; row < rows(); ++row) values_of.push_back(values[row * columns.size() + k]);
   return values_of;
+}
+
+int exponent_intervals(const RunOptions& options) {
+  return options.exponent_periods > 0 ? analysis::SpectrumOptions{}.aligning_intervals + options.exponent_periods : 0;
 }
 
 std::optional<RunResult> run_operating_point(const model::DynamicModel& model, const LookOptions& look,

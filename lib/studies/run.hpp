@@ -18,6 +18,7 @@
 #include "analysis/lyapunov.hpp"
 #include "analysis/periodic_orbit.hpp"
 #include "analysis/spectrum.hpp"
+#include "studies/remembered_flow.hpp"
 #include "studies/run_options.hpp"
 #include "studies/sweep.hpp"
 
@@ -104,13 +105,29 @@ struct RunResult {
   double omega = 0;                                           ///< Omega: exponents per s times Omega are per tau
 };
 
+/// Flows of a run whose results can be kept: all that take long, once the point is known.
+enum class RunPart : std::size_t { exponents = 1, divergence, step_control, transverse };
+
+/// Where a run keeps what it has computed, for a session that goes on from there. Called by several threads, each with
+/// parts of its own.
+struct RunMemory {
+  std::optional<PointResult> point{};                      ///< of an earlier session
+  std::function<void(const PointResult&)> keep = nullptr;  ///< the point of this one
+  std::function<FlowMemory(RunPart)> of = nullptr;         ///< each part is asked for once
+};
+
 /// How a run is computed; none of it changes a result.
 struct RunControl {
   int threads = 1;                        ///< more than 2 are of no use
   std::function<bool()> go_on = nullptr;  ///< asked now and then, by all threads; false ends the run
-  /// Told what is begun, and of how many mesh periods the exponents are counted by now; by all threads.
-  std::function<void(const char* what, int exponent_periods)> at = nullptr;
+  /// Sees what is begun, and which mesh period of exponent_intervals() it is; by all threads.
+  std::function<void(const char* what, int exponent_interval)> at = nullptr;
+  RunMemory memory{};  ///< without functions: nothing is kept
 };
+
+/// Mesh periods that all Lyapunov exponents are computed over: those that align the vectors, and those that are
+/// counted.
+[[nodiscard]] int exponent_intervals(const RunOptions& options);
 
 /// @returns nothing if ended; of a point that is not reached, the point alone
 [[nodiscard]] std::optional<RunResult> run_operating_point(const model::DynamicModel& model, const LookOptions& look,

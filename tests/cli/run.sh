@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# run.sh PROGRAM SOURCE: epicyclic run as a user meets it: what it leaves, the same bytes twice, stopped and begun anew,
+# run.sh PROGRAM SOURCE: epicyclic run as a user meets it: what it leaves, the same bytes twice, stopped and resumed,
 # refused input.
 set -uo pipefail
 program=$1
@@ -39,7 +39,7 @@ kill -TERM $!
 wait $!
 expect "a signal ends it with 75" "[ $? = 75 ]"
 "$program" run inputs/tang2020_run.json -o "$work/b" "${short[@]}" --json > "$work/b.out" 2> /dev/null
-expect "begun anew it ends with 0" "[ $? = 0 ]"
+expect "resumed it ends with 0" "[ $? = 0 ]"
 expect "as JSON" "grep -q '\"regime\": \"periodic\"' '$work/b.out'"
 for file in points.csv poincare.csv results.h5 summary.md history.csv multipliers.csv figures/spectrum.png; do
   expect "$file has the same bytes" "cmp -s '$work/a/$file' '$work/b/$file'"
