@@ -13,12 +13,16 @@
 
 namespace epicyclic::studies {
 
+std::int64_t mesh_periods_of(const SweepPlan& plan, const LookOptions& look) {
+  return static_cast<std::int64_t>(plan.points.size()) * (look.transient_periods + look.recorded_periods);
+}
+
 Cost estimate_cost(const SweepPlan& plan, const LookOptions& look, const integrate::IntegratorOptions& integrator,
-                   const ModelAtPoint& model_at) {
+                   const ModelAtPoint& model_at, const std::function<bool()>& go_on) {
   Cost cost;
   cost.points = plan.points.size();
   cost.chains = plan.chains.size();
-  cost.mesh_periods = static_cast<std::int64_t>(plan.points.size()) * (look.transient_periods + look.recorded_periods);
+  cost.mesh_periods = mesh_periods_of(plan, look);
   constexpr int probed_periods = 4;
   LookOptions probe = by_recurrence_alone(look);
   probe.transient_periods = 0;
@@ -28,7 +32,7 @@ Cost estimate_cost(const SweepPlan& plan, const LookOptions& look, const integra
   for (const GridPoint& point : probed) {
     const model::DynamicModel model = model_at(point);
     cost.dimension = model.dimension;
-    const PointResult result = compute_point(point, model, {}, probe, integrator, [] { return true; });
+    const PointResult result = compute_point(point, model, {}, probe, integrator, go_on);
     calls += static_cast<double>(result.rhs_evaluations);
   }
   cost.rhs_per_period = calls / static_cast<double>(probed_periods * probed.size());
@@ -88,15 +92,18 @@ double processor_seconds_of(const SweepPlan& plan, const Measured& miniature, in
 }
 
 Measured measure_miniatures(const SweepPlan& plan, std::size_t first, double seconds, int threads,
-                            const std::function<void(const SweepPlan&, LaneUse&)>& compute) {
+                            const std::function<std::size_t(const SweepPlan&, LaneUse&)>& compute) {
   constexpr std::size_t times = 4;
+  std::optional<Measured> before;
   for (std::size_t points = first;; points *= times) {
     const SweepPlan miniature = in_miniature(plan, points);
     const double begun = processor_seconds();
     LaneUse lanes;
-    compute(miniature, lanes);
+    const std::size_t finished = compute(miniature, lanes);
     const double spent = processor_seconds() - begun;
-    const Measured last{miniature.points.size(), spent, lanes.occupancy(), miniature.chains.size()};
+    const Measured last{miniature.points.size(), spent, lanes.occupancy(), miniature.chains.size(), finished};
+    if (finished < last.points) return before.value_or(last);
+    before = last;
     if (miniature.points.size() == plan.points.size() || static_cast<double>(times) * spent >= seconds * threads)
       return last;
   }

@@ -20,9 +20,14 @@ struct Cost {
   [[nodiscard]] double rhs_evaluations() const { return rhs_per_period * static_cast<double>(mesh_periods); }
 };
 
+/// Transients and records of all points.
+[[nodiscard]] std::int64_t mesh_periods_of(const SweepPlan& plan, const LookOptions& look);
+
 /// Counts, and probes the first point, the last and the one between from the default start.
-[[nodiscard]] Cost estimate_cost(const SweepPlan& plan, const LookOptions& look,
-                                 const integrate::IntegratorOptions& integrator, const ModelAtPoint& model_at);
+/// @param go_on  asked now and then; once it says false, the right-hand sides are those that were counted by then
+[[nodiscard]] Cost estimate_cost(
+    const SweepPlan& plan, const LookOptions& look, const integrate::IntegratorOptions& integrator,
+    const ModelAtPoint& model_at, const std::function<bool()>& go_on = [] { return true; });
 
 /// The same ranges with fewer values, each in the middle of its part, in as many chains as that allows.
 /// @param points  about as many are left, never more than there were
@@ -37,6 +42,7 @@ struct Measured {
   double processor_seconds = 0;       ///< of all threads together
   std::optional<double> occupancy{};  ///< of lanes, if there were any
   std::size_t chains = 0;
+  std::size_t finished = 0;  ///< of the points; fewer than all where it was stopped
 };
 
 /// Processor time of all points, by what a miniature of theirs took. Where the plan has more chains for its lanes than
@@ -49,10 +55,11 @@ struct Measured {
 /// Computes miniatures, each with four times the points of the one before, while the next one is likely to be done
 /// within `seconds` of processor time for each thread.
 /// @param first    points of the first of them
-/// @param compute  the points of a miniature, and what lanes did
-/// @returns the last of them
+/// @param compute  the points of a miniature, and what lanes did; returns how many points it finished, which are fewer
+///                 than all only where it was stopped from outside: then no more is computed
+/// @returns the last of them that was finished; if none was, the first
 [[nodiscard]] Measured measure_miniatures(const SweepPlan& plan, std::size_t first, double seconds, int threads,
-                                          const std::function<void(const SweepPlan&, LaneUse&)>& compute);
+                                          const std::function<std::size_t(const SweepPlan&, LaneUse&)>& compute);
 
 /// Do two models answer alike, wherever the state is? Looked at states of all sizes, so that gaps of any width are
 /// crossed.

@@ -113,11 +113,11 @@ code=0
 
 # The other commands.
 [ "$(code_of "$epicyclic" check "${speeds[@]}" "${small[@]}" --threads 2)" = 0 ] || fail "check: $(<stderr)"
-grep -q '^time: about .* on 2 threads of this machine, by what [0-9]* of its points took$' stderr || fail "check tells no time: $(<stderr)"
+grep -q '^time: .* on 2 threads of this machine, by what [0-9]* of ' stderr || fail "check tells no time: $(<stderr)"
 [ "$(code_of "$epicyclic" check "$inputs/tang2020_run.json" --set /study/transient_periods=20 --set /study/exponent_periods=200)" = 0 ] || fail "check of a run: $(<stderr)"
-grep -q '^time: about .* on 1 thread of this machine, and its figures$' stderr || fail "check tells no time of a run: $(<stderr)"
+grep -q '^time: about .* on 1 thread of this machine, and its figures, by [0-9a-z]' stderr || fail "check tells no time of a run: $(<stderr)"
 [ "$(code_of "$epicyclic" check "$inputs/tang2020_tolerance.json" --threads 2 --set '/study/methods=["arkode-dopri5"]' --set '/study/tolerances=[1e-6, 1e-7, 1e-8]' --set /study/reference_tolerance=1e-12)" = 0 ] || fail "check of a ladder: $(<stderr)"
-grep -q '^time: about .* on 2 threads of this machine, by what 2 of its points took$' stderr || fail "check tells no time of a ladder: $(<stderr)"
+grep -q '^time: .* on 2 threads of this machine, by what ' stderr || fail "check tells no time of a ladder: $(<stderr)"
 for study in "$inputs"/*.json; do
   [ "$(code_of "$epicyclic" check --no-time "$study")" = 0 ] || fail "check $study: $(<stderr)"
 done

@@ -2,6 +2,8 @@
 
 #include "studies/probes.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace epicyclic::studies::probes_test {
@@ -50,12 +52,30 @@ TEST(Miniature, GrowsWhileThereIsTime) {
   SweepOptions sweep;
   sweep.axis = {speed_parameter, 0.2, 3.5, 661};
   std::vector<std::size_t> sizes;
-  const auto compute = [&](const SweepPlan& miniature, LaneUse&) { sizes.push_back(miniature.points.size()); };
+  const auto compute = [&](const SweepPlan& miniature, LaneUse&) {
+    sizes.push_back(miniature.points.size());
+    return sizes.back();
+  };
   const Measured all = measure_miniatures(plan_sweep(sweep), 2, 1e3, 1, compute);
   EXPECT_EQ(sizes, (std::vector<std::size_t>{2, 8, 32, 128, 512, 661}));
   EXPECT_EQ(all.points, 661U);
   sizes.clear();
   EXPECT_EQ(measure_miniatures(plan_sweep(sweep), 2, 0.0, 1, compute).points, 2U);
+}
+
+TEST(Miniature, ThatIsStoppedLeavesTheOneBefore) {
+  SweepOptions sweep;
+  sweep.axis = {speed_parameter, 0.2, 3.5, 661};
+  const auto finishing = [](std::size_t most) {
+    return [most](const SweepPlan& miniature, LaneUse&) { return std::min(most, miniature.points.size()); };
+  };
+  const Measured second = measure_miniatures(plan_sweep(sweep), 2, 1e3, 1, finishing(20));
+  EXPECT_EQ(second.points, 8U);
+  EXPECT_EQ(second.finished, 8U);
+  // Of the first one what there is.
+  const Measured first = measure_miniatures(plan_sweep(sweep), 2, 1e3, 1, finishing(1));
+  EXPECT_EQ(first.points, 2U);
+  EXPECT_EQ(first.finished, 1U);
 }
 
 TEST(Miniature, TellsWhatAllPointsTake) {
