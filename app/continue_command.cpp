@@ -1,10 +1,13 @@
 // epicyclic continue: branches of periodic motions along one parameter, with the points where they change.
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -53,10 +56,12 @@ std::vector<studies::BranchAttempt> add_starts(const studies::BranchSystem& syst
                                                const studies::ModelAt& models, analysis::BranchTree& tree) {
   std::vector<studies::BranchAttempt> attempts;
   constexpr double anywhere = std::numeric_limits<double>::infinity();
+  Progress progress("continue: starts", options.all_starts().size() + options.seeds.size());
   const auto add = [&](double value, int period, bool seed, double reach, studies::BranchOrigin origin) {
     const bool found = origin.orbit.has_value();
     if (found) tree.start(*std::move(origin.orbit), origin.keeps_symmetry, origin.period, origin.pieces, reach);
     attempts.push_back({value, period, seed, found, origin.distance, std::move(origin.message)});
+    progress.update(attempts.size(), 0);
   };
   for (const double value : options.all_starts())
     add(value, options.period, false, anywhere, settled_start(system, models(value), value, options.settle_periods));
@@ -129,42 +134,35 @@ std::vector<studies::FoundMotions> add_found(Session& session, const studies::Br
   return all;
 }
 
-/// The tree to its end, each step kept in the journal.
-/// @param first  the model where the branches start
-void grow(Session& session, const BranchesOptions& options, const model::DynamicModel& first,
-          analysis::BranchTree& tree) {
-  const auto place = [&](double value) {
-    std::string words = fmt::format(" at {} = {}", options.parameter, short_text(value, 6));
-    if (options.parameter == studies::speed_parameter)
-      words += fmt::format(" (sun {} rpm)", short_text(gear::rpm * first.speeds.sun / first.omega * value, 5));
-    return words;
-  };
-  OrderedJournal journal(session, "journal.bin", "step");
-  journal.read(any_number, [&](const auto& record) { tree.apply(store::decode_step(record)); });
-  Progress progress("continue: orbits", unknown_total, journal.count());
-  while (const auto step = tree.advance()) {
-    journal.append(store::encode_step(*step));
-    std::string words = fmt::format("branch {}", tree.branches().size());
-    if (step->orbit) words += place(step->orbit->at.value);
-    if (tree.waiting() > 0) words += fmt::format(", {} waiting", tree.waiting());
-    progress.update(journal.count(), std::move(words));
-    give_up_if_stopped();
-  }
-  journal.close();
-  progress.finish();
-}
+/// Rows of orbits, each computed once: those of partial tables are those of the last ones.
+class OrbitRows {
+ public:
+  OrbitRows(const studies::ModelAt& models, int phases) : models_(models), phases_(phases) {}
 
-/// Rows of all orbits and special points.
-void tell_rows(TracedBranches& traced, const studies::ModelAt& models, int phases) {
-  const model::DynamicModel first = models(traced.branches.front().orbits.front().at.value);
+  const studies::BranchRow& of(const analysis::Branch& branch, const analysis::BranchOrbit& orbit) {
+    std::vector<double> key = {static_cast<double>(branch.family.period), orbit.at.value};
+    key.insert(key.end(), orbit.at.states.reshaped().begin(), orbit.at.states.reshaped().end());
+    auto known = rows_.find(key);
+    if (known == rows_.end())
+      known = rows_.emplace(std::move(key), studies::branch_row(branch.family, orbit, models_(orbit.at.value), phases_))
+                  .first;
+    return known->second;
+  }
+
+ private:
+  const studies::ModelAt& models_;
+  int phases_;
+  std::map<std::vector<double>, studies::BranchRow> rows_;
+};
+
+/// Rows of all orbits and special points of the branches.
+/// @param finished  called for each of them
+void add_rows(TracedBranches& traced, OrbitRows& known, const model::DynamicModel& first,
+              const std::function<void()>& finished) {
   traced.special = studies::special_rows(traced.branches, contact_surfaces(first));
-  std::size_t total = traced.special.size();
-  for (const analysis::Branch& branch : traced.branches) total += branch.orbits.size();
-  Progress progress("continue: rows", total);
-  std::size_t finished = 0;
   const auto row = [&](const analysis::Branch& branch, const analysis::BranchOrbit& orbit) {
-    progress.update(++finished, 0);
-    return studies::branch_row(branch.family, orbit, models(orbit.at.value), phases);
+    finished();
+    return known.of(branch, orbit);
   };
   for (const analysis::Branch& branch : traced.branches) {
     std::vector<studies::BranchRow>& rows = traced.rows.emplace_back();
@@ -177,6 +175,144 @@ void tell_rows(TracedBranches& traced, const studies::ModelAt& models, int phase
     r.mesh_frequency = traced.at_special.back().meshes.mesh_frequency;
     r.speeds = traced.at_special.back().meshes.speeds;
   }
+}
+
+/// Writes the tables of what is there by now, now and then: branches may take hours.
+class PartialTables {
+ public:
+  PartialTables(const store::OutputFolder& folder, const reports::ContinueOutput& output, OrbitRows& rows,
+                const model::DynamicModel& first)
+      : folder_(folder), output_(output), rows_(rows), first_(first) {}
+
+  void see(const analysis::BranchTree& tree) {
+    const Clock::time_point begun = Clock::now();
+    if (begun < due_) return;
+    TracedBranches traced;
+    traced.branches = tree.branches();
+    if (auto branch = tree.under_way()) {
+      branch->last.message = "is still being followed";
+      traced.branches.push_back(*std::move(branch));
+    }
+    if (!traced.branches.empty()) {
+      add_rows(traced, rows_, first_, give_up_if_stopped);
+      folder_.require_there();
+      reports::write_branch_tables(folder_.path(), output_, traced);
+    }
+    // A small part of the time, however many orbits there are.
+    constexpr int part = 20;
+    due_ = Clock::now() + std::max<Clock::duration>(interval, part * (Clock::now() - begun));
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::seconds interval{10};
+  const store::OutputFolder& folder_;
+  const reports::ContinueOutput& output_;
+  OrbitRows& rows_;
+  const model::DynamicModel& first_;
+  Clock::time_point due_ = Clock::now() + interval / 2;
+};
+
+/// How long branches will take, by how much of the range the one under way has covered in which time.
+class Pace {
+ public:
+  explicit Pace(const BranchesOptions& options) : range_(options.to - options.from) {}
+
+  /// @param computed  in this session
+  void see(const analysis::TreeStep& step, bool computed) {
+    using Kind = analysis::TreeStep::Kind;
+    if (step.kind == Kind::begun) {
+      if (computed) end_branch();
+      low_ = std::numeric_limits<double>::infinity();
+      high_ = -low_;
+      begun_ = Clock::now();
+      known_ = 0.0;
+    }
+    if (step.orbit) {
+      low_ = std::min(low_, step.orbit->at.value);
+      high_ = std::max(high_, step.orbit->at.value);
+    }
+    if (!computed) {
+      begun_ = Clock::now();
+      known_ = covered();
+    }
+  }
+
+  /// In words; empty while nothing is known.
+  [[nodiscard]] std::string left(std::size_t waiting) const {
+    constexpr double enough = 0.01;  // of the range
+    const double spent = seconds();
+    const double new_part = covered() - known_;
+    if (!(new_part > enough) && branches_ == 0) return {};
+    const double whole = branches_ > 0 ? branch_seconds_ / branches_ : spent / new_part;
+    const double here = new_part > enough ? spent / new_part * (1.0 - covered()) : std::max(0.0, whole - spent);
+    return fmt::format("about {} left if no more branches are met",
+                       duration_text(here + whole * static_cast<double>(waiting)));
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
+  /// Part of the range; a branch that turns back covers it again.
+  [[nodiscard]] double covered() const { return high_ > low_ ? std::min(1.0, (high_ - low_) / range_) : 0.0; }
+  void end_branch() {
+    if (!(high_ >= low_)) return;  // there was none
+    branch_seconds_ += seconds();
+    ++branches_;
+  }
+
+  double range_;
+  double low_ = std::numeric_limits<double>::infinity();
+  double high_ = -std::numeric_limits<double>::infinity();
+  double known_ = 0;  ///< part that earlier sessions covered
+  Clock::time_point begun_ = Clock::now();
+  double branch_seconds_ = 0;
+  int branches_ = 0;
+};
+
+/// The tree to its end, each step kept in the journal.
+/// @param first  the model where the branches start
+void grow(Session& session, const BranchesOptions& options, const model::DynamicModel& first, PartialTables& tables,
+          analysis::BranchTree& tree) {
+  const auto place = [&](double value) {
+    std::string words = fmt::format(" at {} = {}", options.parameter, short_text(value, 6));
+    if (options.parameter == studies::speed_parameter)
+      words += fmt::format(" (sun {} rpm)", short_text(gear::rpm * first.speeds.sun / first.omega * value, 5));
+    return words;
+  };
+  OrderedJournal journal(session, "journal.bin", "step");
+  Pace pace(options);
+  journal.read(any_number, [&](const auto& record) {
+    analysis::TreeStep step = store::decode_step(record);
+    pace.see(step, /*computed=*/false);
+    tree.apply(std::move(step));
+  });
+  Progress progress("continue: orbits", unknown_total, journal.count());
+  while (const auto step = tree.advance()) {
+    journal.append(store::encode_step(*step));
+    pace.see(*step, /*computed=*/true);
+    std::string words = fmt::format("branch {}", tree.branches().size());
+    if (step->orbit) words += place(step->orbit->at.value);
+    if (tree.waiting() > 0) words += fmt::format(", {} waiting", tree.waiting());
+    if (const std::string left = pace.left(tree.waiting()); !left.empty()) words += "; " + left;
+    progress.update(journal.count(), std::move(words));
+    give_up_if_stopped();
+    tables.see(tree);
+  }
+  journal.close();
+  progress.finish();
+}
+
+/// Rows of all orbits and special points.
+void tell_rows(TracedBranches& traced, OrbitRows& rows, const studies::ModelAt& models) {
+  std::size_t total = 0;
+  for (const analysis::Branch& branch : traced.branches) total += branch.orbits.size() + branch.special.size();
+  Progress progress("continue: rows", total);
+  std::size_t finished = 0;
+  add_rows(traced, rows, models(traced.branches.front().orbits.front().at.value), [&] {
+    give_up_if_stopped();
+    progress.update(++finished, 0);
+  });
 }
 
 void add_note(studies::SpecialRow& row, const std::string& note) {
@@ -365,6 +501,9 @@ int continue_command(const Arguments& arguments) {
   if (const auto code = session.exit_code()) return *code;
   const store::OutputFolder& folder = session.folder();
 
+  const reports::ContinueOutput output{options, studies::poincare_columns(first_model),
+                                       static_cast<std::size_t>(first_model.planets), session.resolved(),
+                                       reports::figure_title(input.study)};
   TracedBranches traced;
   std::vector<studies::FoundMotions> found;
   std::vector<studies::TracedLocus> loci;
@@ -385,10 +524,12 @@ int continue_command(const Arguments& arguments) {
     for (const studies::BranchAttempt& a : traced.attempts)
       if (const std::string words = reports::attempt_text(a); !words.empty()) tell("{}\n", words);
     if (options.search) found = add_found(session, system, options, models, tree);
-    grow(session, options, first_model, tree);
+    OrbitRows rows(models, options.output_phases);
+    PartialTables tables(folder, output, rows, first_model);
+    grow(session, options, first_model, tables, tree);
     traced.branches = tree.branches();
     traced.full = tree.full();
-    if (!traced.branches.empty()) tell_rows(traced, models, options.output_phases);
+    if (!traced.branches.empty()) tell_rows(traced, rows, models);
     if (input.study.model.clearance_smoothing > 0.0 && options.parameter != "/integrator/clearance_smoothing")
       tell_exact_values(session, input, options, traced);
     if (options.loci) loci = trace_loci(session, input, options, traced);
@@ -400,9 +541,6 @@ int continue_command(const Arguments& arguments) {
   failed = count_failures(traced, loci);
 
   folder.require_there();
-  const reports::ContinueOutput output{options, studies::poincare_columns(first_model),
-                                       static_cast<std::size_t>(first_model.planets), session.resolved(),
-                                       reports::figure_title(input.study)};
   const std::string summary = reports::continue_summary(output, traced, loci) + reports::found_text(output, found);
   if (options.search) reports::write_found_csv(folder.file("orbits.csv"), found);
   reports::write_continue_tables(folder.path(), output, traced, loci);

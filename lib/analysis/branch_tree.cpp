@@ -175,14 +175,14 @@ void BranchTree::end_way(const BranchLimit& limit) {
   }
 }
 
-void BranchTree::finish_branch() {
-  Branch branch{family_, {}, {}, {}, std::move(same_as_), {}, {}};
-  Way& forward = ways_.front();
+Branch BranchTree::joined(std::vector<Way> ways) const {
+  Branch branch{family_, {}, {}, {}, same_as_, {}, {}};
+  Way& forward = ways.front();
   branch.last = forward.limit;
   branch.first = forward.limit.end == BranchEnd::closed ? forward.limit : BranchLimit{};
   std::size_t before = 0;
-  if (ways_.size() == 2) {
-    const Way& backward = ways_.back();
+  if (ways.size() == 2) {
+    const Way& backward = ways.back();
     branch.first = backward.limit;
     before = backward.orbits.size() - 1;
     for (std::size_t k = before; k > 0; --k) branch.orbits.push_back(reversed(backward.orbits[k]));
@@ -196,8 +196,8 @@ void BranchTree::finish_branch() {
     branch.special.push_back(std::move(forward.special[k]));
     branch.after.push_back(forward.after[k] + before);
   }
-  if (ways_.size() == 2) {
-    Way& backward = ways_.back();
+  if (ways.size() == 2) {
+    Way& backward = ways.back();
     for (std::size_t k = 0; k < backward.special.size(); ++k) {
       SpecialPoint& point = backward.special[k];
       point.outwards = !point.outwards;
@@ -209,7 +209,14 @@ void BranchTree::finish_branch() {
   }
   branch.least = current_.least;
   branch.greatest = current_.greatest;
-  branches_.push_back(std::move(branch));
+  return branch;
+}
+
+void BranchTree::finish_branch() { branches_.push_back(joined(std::move(ways_))); }
+
+std::optional<Branch> BranchTree::under_way() const {
+  if (!trace_) return std::nullopt;
+  return joined(ways_);
 }
 
 bool BranchTree::loses_itself(const SpecialPoint& point) const {

@@ -117,6 +117,8 @@ class BranchTree {
 
   /// Those that are traced to both ends.
   [[nodiscard]] const std::vector<Branch>& branches() const { return branches_; }
+  /// The one under way as far as it is traced, with no end where it still goes on; nothing between two branches.
+  [[nodiscard]] std::optional<Branch> under_way() const;
   [[nodiscard]] std::size_t waiting() const { return starts_.size(); }  ///< starts of branches to come
   [[nodiscard]] bool full() const { return full_; }                     ///< more branches were there than asked for
 
@@ -137,6 +139,7 @@ class BranchTree {
   void begin_way(const BranchOrbit& from);
   [[nodiscard]] ContinuationOptions range_of(const BranchStart& start) const;
   void end_way(const BranchLimit& limit);
+  [[nodiscard]] Branch joined(std::vector<Way> ways) const;
   void finish_branch();
   [[nodiscard]] bool loses_itself(const SpecialPoint& point) const;
   [[nodiscard]] bool has_fallen_onto_another() const;

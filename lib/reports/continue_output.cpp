@@ -311,14 +311,19 @@ SpecialLetters letters_of(SpecialKind kind) {
   return {"??", "unresolved"};
 }
 
-void write_continue_tables(const std::filesystem::path& folder, const ContinueOutput& output,
-                           const TracedBranches& traced, const std::vector<studies::TracedLocus>& loci) {
+void write_branch_tables(const std::filesystem::path& folder, const ContinueOutput& output,
+                         const TracedBranches& traced) {
   const Flat flat(traced);
   write_table_csv(folder / "branch.csv", store::branch_columns(output.planets), flat.places.size(),
                   [&](std::size_t i) { return place_of(traced, flat.places[i]); });
   write_table_csv(folder / "special.csv", store::special_columns(), traced.special.size(),
                   [&](std::size_t i) -> const SpecialRow& { return traced.special[i]; });
   write_branches_csv(folder / "branches.csv", traced);
+}
+
+void write_continue_tables(const std::filesystem::path& folder, const ContinueOutput& output,
+                           const TracedBranches& traced, const std::vector<studies::TracedLocus>& loci) {
+  write_branch_tables(folder, output, traced);
   write_section_csv(folder / "poincare.csv", output, traced);
   if (output.options.loci) {
     const auto places = locus_places(loci);

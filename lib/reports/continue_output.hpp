@@ -37,6 +37,11 @@ struct ContinueOutput {
 void write_continue_tables(const std::filesystem::path& folder, const ContinueOutput& output,
                            const studies::TracedBranches& traced, const std::vector<studies::TracedLocus>& loci);
 
+/// branch.csv, special.csv and branches.csv alone, of branches that are still being followed, say.
+/// @throws OutputError
+void write_branch_tables(const std::filesystem::path& folder, const ContinueOutput& output,
+                         const studies::TracedBranches& traced);
+
 /// What was not as expected of a start: that there is no orbit near it, or only far from it. Empty: nothing.
 [[nodiscard]] std::string attempt_text(const studies::BranchAttempt& attempt);
 

@@ -29,7 +29,7 @@ awk -F, '$1 == 1 && $2 == 3 { stable = $5 } END { exit !stable }' whole/branch.c
 awk -F, '$1 == 0 && $3 == 2.2 && $5 == 1 { found = 1 } END { exit !found }' whole/branch.csv || fail "no orbit at the end"
 
 # Complete; another study.
-[ "$(code_of branches -o whole)" = 0 ] || fail "a complete folder must give exit 0"
+[ "$(code_of branches -o whole --threads 1)" = 0 ] || fail "a complete folder must give exit 0: $(<stderr)"
 grep -q 'complete already' stderr || fail "a complete folder is said to be so: $(<stderr)"
 [ "$(code_of branches -o whole --set /study/largest_period=1)" = 3 ] || fail "another study must give exit 3"
 
@@ -42,6 +42,28 @@ grep -q '"kind": "flip"' stdout || fail "the summary as JSON: $(<stdout)"
 cmp -s whole/input.resolved.json resolved/input.json || fail "the resolved input is not the one that was given"
 cp whole/input.json resolved
 same_results whole resolved
+
+# A stage that takes longer: its tables are there while it runs, with rows that stay, and are said to be partial; how long it
+# will take is said.
+"$epicyclic" init slow >/dev/null 2>&1
+cat >slow/branches.json <<END
+{ "stage": "stage.json", "study": { "kind": "continue", "parameter": "mesh_frequency_ratio", "from": 0.08, "to": 0.16,
+  "starts": [0.15], "largest_period": 1 } }
+END
+"$epicyclic" continue slow/branches.json -o growing >stdout 2>stderr &
+pid=$!
+until [ -s growing/branches.csv ] || ! kill -0 $pid 2>/dev/null; do sleep 0.05; done
+cp growing/branch.csv growing/branches.csv growing/run.json .
+kill -TERM $pid 2>/dev/null || true
+code=0
+wait $pid || code=$?
+[ "$code" = 75 ] || fail "stopped with tables: $code $(<stderr)"
+grep -q '"state": "running"' run.json || fail "tables are no sooner there than all is done"
+grep -q 'is still being followed$' branches.csv || fail "not said that they are partial: $(<branches.csv)"
+[ "$(wc -l <branch.csv)" -gt 3 ] || fail "partial tables of nothing: $(<branch.csv)"
+grep -q 'about .* left if no more branches are met' stderr || fail "how long it takes is not said: $(<stderr)"
+[ "$(code_of "$epicyclic" continue slow/branches.json -o growing)" = 0 ] || fail "resumed: $(<stderr)"
+[ -z "$(comm -23 <(cut -d, -f3- branch.csv | sort) <(cut -d, -f3- growing/branch.csv | sort))" ] || fail "rows of the partial table are not in the last one"
 
 # A sweep over the flip, its proof by branches that are killed again and again, a little later each time, and seeds of it.
 sweep=(--set /study/from=2.1 --set /study/to=2.2 --set /study/points=6 --set /study/transient_periods=400)
