@@ -14,7 +14,6 @@
 #include <vector>
 
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "claims.hpp"
 #include "commands.hpp"
@@ -23,6 +22,7 @@
 #include "progress.hpp"
 #include "reports/speed_words.hpp"
 #include "session.hpp"
+#include "stop.hpp"
 #include "streams.hpp"
 #include "studies/calibration.hpp"
 #include "studies/crosscheck.hpp"
@@ -82,7 +82,7 @@ class TimeLimit {
 
   /// Ends the program at once if work was left behind, which still uses what main() would destroy.
   void leave() const {
-    if (left_behind_) ::_exit(done);
+    if (left_behind_) leave_at_once(done);
   }
 
  private:
@@ -204,7 +204,7 @@ Expected time_of_points(const input::LoadedInput& input, const studies::SweepPla
   if (const auto check = seconds_of_check(input, *last, points, threads, limit))
     expected.seconds += *check;
   else
-    expected.measured += ", and its cross-check";
+    expected.measured += ", without its cross-check";
   return expected;
 }
 

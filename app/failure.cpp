@@ -46,8 +46,7 @@ void end_uncaught() {
     if (std::current_exception()) throw;
   } catch (const std::bad_alloc&) {
     for (const char* words : {out_of_memory, "\n"}) write_without_waiting(STDERR_FILENO, words);
-    remove_unfinished_files();
-    ::_exit(output_failed);
+    leave_at_once(output_failed);
   } catch (...) {
     // A bug: its trace is worth more than words.
   }

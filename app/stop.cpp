@@ -39,10 +39,7 @@ itimerspec patience_left{};
 
 void end_at_once(int /*signal*/) {
   if (const char* words = words_at_the_end) write_without_waiting(STDERR_FILENO, words);
-  remove_unfinished_files();
-  // What _exit() is in the C library; with ThreadSanitizer's _exit() threads that nobody waited for would be an error,
-  // and here it is meant that nobody waits.
-  ::syscall(SYS_exit_group, code_at_the_end.load());
+  leave_at_once(code_at_the_end);
 }
 
 void request(int /*signal*/) {
@@ -53,6 +50,14 @@ void request(int /*signal*/) {
 }  // namespace
 
 const std::atomic<bool>& stop_requested() { return requested; }
+
+void leave_at_once(int exit_code) noexcept {
+  remove_unfinished_files();
+  // What _exit() is in the C library; with ThreadSanitizer's _exit() threads that nobody waited for would be an error,
+  // and here it is meant that nobody waits.
+  ::syscall(SYS_exit_group, exit_code);
+  __builtin_unreachable();
+}
 
 void give_up_if_stopped() {
   if (requested) throw Stopped();

@@ -6,8 +6,8 @@
 // kill -9, so that this costs nothing but the state "stopped" in run.json. Temporary files of this process are removed:
 // those of `plot` and `assert` stand in folders that no later session tidies.
 //
-// main() installs the handlers for each command that writes, before it begins. A command that writes nothing is ended by
-// the signal itself.
+// main() installs the handlers for each command that writes, before it begins. A command that writes nothing is ended
+// by the signal itself.
 //
 // Ranks have one second for all of it: Open MPI's mpirun passes a SIGTERM or SIGINT on after a second, answers none of
 // them any more, so that MPI's own end waits for nothing, and kills them a second later.
@@ -22,8 +22,8 @@ namespace epicyclic::app {
 /// Set by the first SIGINT, SIGTERM or SIGHUP after stop_on_signals().
 [[nodiscard]] const std::atomic<bool>& stop_requested();
 
-/// What is under way was given up because of stop_requested(). Whoever has a folder open catches it and leaves the folder
-/// in order; anywhere else it ends the command with code 75 [failure_of()].
+/// What is under way was given up because of stop_requested(). Whoever has a folder open catches it and leaves the
+/// folder in order; anywhere else it ends the command with code 75 [failure_of()].
 class Stopped : public std::exception {
  public:
   [[nodiscard]] const char* what() const noexcept override { return "stopped; the same command goes on"; }
@@ -37,6 +37,9 @@ void give_up_if_stopped();
 constexpr std::chrono::milliseconds patience{1000};
 constexpr std::chrono::milliseconds patience_of_ranks{650};
 constexpr std::chrono::milliseconds patience_for_mpi{300};
+
+/// Ends the program without waiting for its threads; removes its temporary files. Async-signal-safe.
+[[noreturn]] void leave_at_once(int exit_code) noexcept;
 
 /// To be called once, before anything is written. SIGHUP stays ignored where it is, as under nohup.
 void stop_on_signals(std::chrono::milliseconds until_the_end = patience);

@@ -49,7 +49,7 @@ commands=(init gear run sweep continue map basins tolerance crosscheck reproduce
 signals=(INT TERM HUP)
 numbers=(2 15 1)
 
-clean() { rm -rf out out.json verdicts.xml; }
+clean() { rm -rf out out.json verdicts.xml .*.tmp; }
 is_any_there() { [ -e out ] || [ -e out.json ] || [ -e verdicts.xml ]; }
 
 # Starts what follows, sends it a signal after so many milliseconds, and sets code. Jobs in the background would ignore SIGINT.
