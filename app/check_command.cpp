@@ -20,6 +20,7 @@
 #include "core/text.hpp"
 #include "input/study_model.hpp"
 #include "progress.hpp"
+#include "reports/gear_report.hpp"
 #include "reports/speed_words.hpp"
 #include "session.hpp"
 #include "stop.hpp"
@@ -313,6 +314,12 @@ void tell_speeds(const input::LoadedInput& input) {
   };
   tell("speed: {}\n", words(from));
   if (to != from) tell("    to {}\n", words(to));
+  // The load may go with the speed.
+  const std::string error = reports::error_words(input.study.stage, from);
+  tell("{}\n", error);
+  if (const std::string other = reports::error_words(input.study.stage, to); other != error)
+    tell("    at the last speed: {}\n", other);
+  for (const std::string& line : input::stiffness_notes(input)) tell("mesh stiffness: {}\n", line);
 }
 
 }  // namespace

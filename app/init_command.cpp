@@ -57,8 +57,7 @@ input::Drawing drawing_of(const Arguments& arguments) {
   d.angles_deg = given.angles_deg;
   const int of_angles = d.angles_deg.empty() ? d.planets : static_cast<int>(d.angles_deg.size());
   d.planets = given.planets.value_or(of_angles);
-  d.torque_is_given = given.torque_Nm.has_value();
-  d.torque_Nm = given.torque_Nm.value_or(d.torque_Nm);
+  d.torque_Nm = given.torque_Nm;
   d.speed_rpm = given.speed_rpm;
   return d;
 }
@@ -119,7 +118,9 @@ int init_command(const Arguments& arguments) {
     print("{} + {} teeth of sun and ring are no multiple of {} planets: these stand at {} degrees, not evenly\n",
           drawing.sun_teeth, drawing.ring(), drawing.planets, at);
   }
-  if (!drawing.torque_is_given) print("no --torque: {:g} N m on the sun\n", drawing.torque_Nm);
+  if (!drawing.torque_Nm)
+    print("no --torque: {:g} N m on the sun, 60 N/mm2 times module and face width on each mesh\n",
+          input::torque_Nm(drawing));
   if (!drawing.speed_rpm)
     print("no --speed: the diagram goes over 0.2 to 2 of the mesh frequency ratio; `epicyclic check` says in rpm\n");
   print(

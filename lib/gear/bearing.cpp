@@ -53,6 +53,12 @@ double palmgren_force(double coefficient, double approach_m) {
   return 2.0 / 3.0 * palmgren_stiffness(coefficient, approach_m) * approach_m;
 }
 
+double roller_stiffness(double load_N, int rollers, double length_mm) {
+  constexpr double newton_per_mm = 3400.0;
+  constexpr double mm_per_m = 1e3;
+  return mm_per_m * newton_per_mm * std::pow(rollers, 0.9) * std::pow(length_mm, 0.8) * std::pow(load_N, 0.1);
+}
+
 std::span<const BearingType> bearing_types() { return types; }
 
 std::optional<BearingData> bearing_data(const SupportBearing& bearing) {

@@ -2,6 +2,10 @@
 //
 //   k(d) = 32900 Z (D_w d cos^5 alpha)^(1/2)  [N/mm], lengths in mm: the tangent stiffness                [G-11]
 //   F(d) = (2/3) k(d) d                       [N]: its integral
+//   k(F) = 3400 Z^0.9 l^0.8 F^0.1             [N/mm], F in N, l in mm: rollers, tangent stiffness         [G-roller]
+//
+// Of rollers: Palmgren's line contact, 7.68e-5 mm Q^0.9 / l^0.8 for both contacts of the roller under the greatest load
+// Q = 5 F / Z; Gargiulo, Machine Design 52 (1980) has the same as 0.3e6 lb/in. Without clearance, rings stiff.
 //
 // Source: Tang et al. 2020, Eq. (11), Table 3, from Palmgren's point contact (parameters.md section 5; 32953 when the
 // constants are carried to all digits, 32900 as printed). Limits: d >= 0 is the elastic approach beyond the clearance.
@@ -27,6 +31,9 @@ namespace epicyclic::gear {
 [[nodiscard]] double palmgren_stiffness(double coefficient, double approach_m);
 /// F = k d at an approach d >= 0 [m] [N].
 [[nodiscard]] double palmgren_force(double coefficient, double approach_m);
+
+/// k of Z cylindrical rollers or needles of a length under a radial load, by [G-roller] [N/m].
+[[nodiscard]] double roller_stiffness(double load_N, int rollers, double length_mm);
 
 /// A deep groove ball bearing with what [G-11] needs.
 struct BearingType {

@@ -78,6 +78,12 @@ struct StiffnessOptions {
   void validate() const;
 };
 
+/// Which tolerance of ISO 1328-1 the amplitude of the transmission error at mesh frequency follows from. [G-error]
+enum class ErrorAmplitude {
+  profile_form,  ///< half of the profile form deviation f_f alpha
+  single_pitch,  ///< the single pitch deviation f_pt, a habit of the literature
+};
+
 /// What lubricates the teeth; without it there is no tooth friction.
 struct Lubrication {
   double viscosity_mPas = 5;      ///< nu_0 at the oil's inlet
@@ -94,6 +100,7 @@ struct Catalogue {
   CarrierData carrier;
   StiffnessOptions stiffness;
   std::optional<Lubrication> lubrication;
+  ErrorAmplitude error_amplitude = ErrorAmplitude::profile_form;
 };
 
 }  // namespace epicyclic::gear

@@ -91,6 +91,10 @@ MeshLoad mean_mesh_load(const Stage& stage, double mesh_frequency) {
           mesh_frequency / *stage.sun.teeth * base_radius_m};
 }
 
+double static_deflection_um(const Mesh& mesh, const MeshLoad& load) {
+  return 1e6 * load.force_N / mesh.stiffness_N_per_m;
+}
+
 double mean_planet_load(const Stage& stage, double mesh_frequency) {
   const PressureAngles alpha = pressure_angles(stage);
   return mean_mesh_load(stage, mesh_frequency).force_N *

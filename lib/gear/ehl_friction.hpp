@@ -59,6 +59,9 @@ struct MeshLoad {
 /// @param stage  passes problems_for_motion()
 [[nodiscard]] MeshLoad mean_mesh_load(const Stage& stage, double mesh_frequency);
 
+/// F / k_0: by what a mesh yields to the mean force [um].
+[[nodiscard]] double static_deflection_um(const Mesh& mesh, const MeshLoad& load);
+
 /// What both mean mesh forces load a planet's bearing with [N].
 /// @param stage  passes problems_for_motion()
 [[nodiscard]] double mean_planet_load(const Stage& stage, double mesh_frequency);

@@ -274,7 +274,27 @@ void check_room(Problems& out, const GearSet& set, bool evenly) {
 
 }  // namespace
 
+bool ring_shift_has_other_sign(const GearSet& set) {
+  const double fits_mm = overlap_tolerance * set.planet.module_mm;
+  if (!(std::abs(set.ring_planet.pair.backlash_mm()) > fits_mm)) return false;
+  GearData other = set.catalogue.ring.data;
+  if (set.catalogue.ring.base_pitch == BasePitch::of_planet)
+    other = of_planet_base_pitch(other, set.catalogue.planet.data);
+  other.profile_shift = -other.profile_shift;
+  try {
+    const Pair pair = make_pair(set.planet, internal_tooth(other), set.centre_distance_mm);
+    return std::abs(pair.backlash_mm()) <= fits_mm && pair.tip_clearance_1_mm() >= 0.0 &&
+           pair.tip_clearance_2_mm() >= 0.0;
+  } catch (const DomainError&) {
+    return false;  // no tooth, or no mesh
+  }
+}
+
 std::string ring_misfit(const GearSet& set) {
+  constexpr int digits = 7;
+  if (ring_shift_has_other_sign(set))
+    return "; with profile_shift = " + short_text(-set.ring.profile_shift, digits) +
+           " both meshes fit: here positive makes the spaces of a ring wider, and some drawings have the other sign";
   const int reach = set.sun.teeth + 2 * set.planet.teeth;
   if (reach != set.ring.teeth)
     return "; z_s + 2 z_p = " + std::to_string(reach) + " is not z_r = " + std::to_string(set.ring.teeth) +
@@ -283,7 +303,6 @@ std::string ring_misfit(const GearSet& set) {
   const double shift = set.sun.profile_shift + 2.0 * set.planet.profile_shift;
   constexpr double rounding = 1e-6;
   if (std::abs(shift - set.ring.profile_shift) < rounding) return {};
-  constexpr int digits = 7;
   return "; x_s + 2 x_p = " + short_text(shift, digits) +
          ", with which both meshes have one centre distance, is not x_r = " +
          short_text(set.ring.profile_shift, digits);
@@ -447,6 +466,16 @@ MemberTolerances member_tolerances(const GearSet& set) {
   return {of(c.sun.accuracy_grade, set.sun, set.sun_planet.contact_ratio()),
           of(c.planet.accuracy_grade, set.planet, set.sun_planet.contact_ratio()),
           of(c.ring.accuracy_grade, set.ring, set.ring_planet.contact_ratio())};
+}
+
+std::optional<double> error_amplitude_um(ErrorAmplitude from, const std::optional<Tolerances>& first,
+                                         const std::optional<Tolerances>& second) {
+  std::optional<double> larger;
+  for (const auto* member : {&first, &second})
+    if (*member)
+      larger = std::max(larger.value_or(0.0),
+                        from == ErrorAmplitude::profile_form ? 0.5 * (*member)->profile_form : (*member)->single_pitch);
+  return larger;
 }
 
 double addendum_of(const Tooth& ring) {

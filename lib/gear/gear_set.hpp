@@ -11,6 +11,7 @@
 // here; it is Eq. (1)'s dec(F'_2 B_r2 / p_b) of Tang et al. 2020 in terms of the pairs' own lengths.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,6 +50,10 @@ struct PlanetPhases {
 };
 [[nodiscard]] std::vector<PlanetPhases> planet_phases(const GearSet& set);
 
+/// Do both meshes fit, by a hundredth of the module, with the opposite sign of the ring's profile shift, and do not as
+/// it stands? Then its drawing has the other convention.
+[[nodiscard]] bool ring_shift_has_other_sign(const GearSet& set);
+
 /// What of tooth numbers, or of profile shifts, makes the two meshes ask for unlike centre distances, as the end of a
 /// message, from "; " on; empty where nothing does. Shifts are compared of members of one module and pressure angle.
 [[nodiscard]] std::string ring_misfit(const GearSet& set);
@@ -76,6 +81,17 @@ struct MemberTolerances {
   std::optional<Tolerances> sun, planet, ring;
 };
 [[nodiscard]] MemberTolerances member_tolerances(const GearSet& set);
+
+/// Amplitude of a mesh's transmission error [um], from the larger tolerance of its two members; none without a grade.
+///
+///   E = f_f alpha / 2 (profile_form) ,  E = f_pt (single_pitch)                                        [G-error]
+///
+/// What all teeth of a gear have in common is periodic with the mesh, the rest with the shaft (Mark, J. Acoust. Soc.
+/// Am. 63 (1978) 1409). Pitch deviations add up to 0 around a gear: their mean excites nothing at mesh frequency
+/// (Welbourn, Proc. IMechE 184 (1970) 131). The form deviation is the width of the band that holds the trace of a
+/// flank, the peak to peak of a wave in it. The larger of both members counts, as for the dynamic factor of ISO 6336-1.
+[[nodiscard]] std::optional<double> error_amplitude_um(ErrorAmplitude from, const std::optional<Tolerances>& first,
+                                                       const std::optional<Tolerances>& second);
 
 /// The addendum coefficient that the tip radius of an internal tooth stands for [-].
 [[nodiscard]] double addendum_of(const Tooth& ring);

@@ -131,6 +131,17 @@ StiffnessRange stiffness_range(const MeshedPair& mesh) {
   return range;
 }
 
+StiffnessRange stiffness_range(const FourierSeries& series) {
+  const int samples = 64 * static_cast<int>(series.cosine.size() + 1);
+  StiffnessRange range{series.mean, series.mean};
+  for (int k = 0; k < samples; ++k) {
+    const double value = series.at(static_cast<double>(k) / samples);
+    range.least = std::min(range.least, value);
+    range.greatest = std::max(range.greatest, value);
+  }
+  return range;
+}
+
 IsoStiffness iso_stiffness(const MeshedPair& mesh) {
   // A rack in place of the internal gear: infinitely many teeth, no shift.
   const auto inverse_teeth = [](const Tooth& t) { return t.internal ? 0.0 : 1.0 / t.teeth; };

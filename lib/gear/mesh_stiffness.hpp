@@ -77,6 +77,7 @@ struct StiffnessRange {
   double least, greatest;
 };
 [[nodiscard]] StiffnessRange stiffness_range(const MeshedPair& mesh);
+[[nodiscard]] StiffnessRange stiffness_range(const FourierSeries& series);
 
 /// The estimate of ISO 6336-1:2006, 9.3, method B, for solid discs under 100 N per mm of face width and more (under
 /// less it has softer teeth; this model's do not depend on the load). The pinion is the gear of fewer teeth, whichever

@@ -249,6 +249,22 @@ std::vector<double> Stage::planet_angles_deg() const {
   return angles;
 }
 
+double assembly_angle_deg(int sun_and_ring_teeth, double first_deg, double angle_deg) {
+  return first_deg + 360.0 * std::round(sun_and_ring_teeth * (angle_deg - first_deg) / 360.0) / sun_and_ring_teeth;
+}
+
+std::vector<Misfit> assembly_misfits(const Stage& stage) {
+  if (!stage.sun.teeth || !stage.ring.teeth) return {};
+  constexpr double angle_digits_deg = 1e-3;
+  const std::vector<double> angles = stage.planet_angles_deg();
+  std::vector<Misfit> misfits;
+  for (std::size_t i = 1; i < angles.size(); ++i) {
+    const double nearest = assembly_angle_deg(*stage.sun.teeth + *stage.ring.teeth, angles[0], angles[i]);
+    if (std::abs(angles[i] - nearest) > angle_digits_deg) misfits.push_back({i, angles[i], nearest});
+  }
+  return misfits;
+}
+
 std::vector<std::string> problems_for_modes(const Stage& s) {
   Problems out;
   if (s.planet_count < planets_min || s.planet_count > planets_max)

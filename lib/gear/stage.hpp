@@ -190,6 +190,20 @@ struct Stage {
   [[nodiscard]] std::vector<double> planet_angles_deg() const;
 };
 
+/// The angle next to `angle_deg` at which a planet fits the teeth of sun and ring, if one fits them at `first_deg`:
+/// (z_s + z_r)(phi - phi_1) / 360 deg is whole [deg].
+[[nodiscard]] double assembly_angle_deg(int sun_and_ring_teeth, double first_deg, double angle_deg);
+
+/// A planet whose teeth do not fit both meshes.
+struct Misfit {
+  std::size_t planet;  ///< 0 .. N-1
+  double angle_deg;    ///< where it is
+  double nearest_deg;  ///< where it could be
+};
+
+/// Planets that cannot be assembled by more than a thousandth of a degree; none where teeth are not given.
+[[nodiscard]] std::vector<Misfit> assembly_misfits(const Stage& stage);
+
 /// What must hold for the linear model: signs, counts, at least one way to the pressure angles, ... (any support free,
 /// finite or rigid).
 /// @returns one line per rule broken, "pointer: message", pointer relative to the stage; empty if all is well

@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/errors.hpp"
+#include "gear/accuracy.hpp"
 #include "gear/ehl_friction.hpp"
 #include "gear/friction_path.hpp"
 #include "gear/kinematics.hpp"
@@ -31,15 +33,17 @@ constexpr double backlash_most = 4.0;
 constexpr double backlash_least = 0.01;
 constexpr double half_clearance_most = 0.5;   // in modules
 constexpr double form_overrun = 0.1;          // in modules; standard tips of rings overrun by half of it
-constexpr double error_most = 0.1;            // in modules
+constexpr double error_most = 0.1;            // in modules, where ISO 1328-1 has no tolerances
 constexpr double mesh_damping_least = 0.003;  // over critical
 constexpr double gravity = 9.80665;           // m/s^2
 constexpr double pressure_least_GPa = 0.02;
 constexpr double strength_Pa = 1e9;
 constexpr double pressure_most_GPa = 1.65 * 1.6;
-constexpr double mass_most = 3.0;            // over that of the drawing
+constexpr double mass_most = 3.0;            // over that of the drawing, or below it
 constexpr double gyration_most = 2.0;        // over the member's radius
+constexpr double inertia_least = 0.1;        // I / r^2 over the mass; a solid disc has 0.5
 constexpr double stiffness_deviation = 0.3;  // from ISO 6336-1
+constexpr double truncation_most = 0.05;     // of the variation
 constexpr double width_most = 1.5;           // over that of the gear in mesh
 constexpr double density_least = 900.0;      // kg/m^3, of plastics
 constexpr double density_most = 20000.0;     // kg/m^3, of tungsten and gold
@@ -154,17 +158,22 @@ void check_member(Warnings& out, const std::string& member, double mass, double 
     out.add(Rank::doubtful, gyration / gyration_most, pointer + "/inertia_over_r2_kg", "gyration", "is ",
             inertia_over_r2, " kg with a mass of ", mass, " kg: a radius of gyration of ", gyration,
             " times the member's own radius of reference; is a rotor counted in, or the unit another one?");
+  if (const double ratio = inertia_over_r2 / mass; ratio < inertia_least)
+    out.add(Rank::doubtful, inertia_least / ratio, pointer + "/inertia_over_r2_kg", "gyration", "is ", inertia_over_r2,
+            " kg with a mass of ", mass, " kg, ", ratio,
+            " of it; a solid disc has about half. The key takes the inertia over the radius squared, in kg; is it the "
+            "inertia itself, or the unit another one?");
   if (!body) return;
-  const double heavier = mass / body->mass_kg;
-  if (heavier > mass_most)
-    out.add(Rank::doubtful, heavier / mass_most, pointer + "/mass_kg", "mass", "is ", mass, " kg, ", heavier,
-            " times the ", body->mass_kg, " kg of the body that the catalogue data describe");
   const double radius_m = radius_mm * 1e-3;
-  const double inertia = body->inertia_kg_m2 / (radius_m * radius_m);
-  const double slower = inertia_over_r2 / inertia;
-  if (slower > mass_most)
-    out.add(Rank::doubtful, slower / mass_most, pointer + "/inertia_over_r2_kg", "gyration", "is ", inertia_over_r2,
-            " kg, ", slower, " times the ", inertia, " kg of the body that the catalogue data describe");
+  const auto against = [&](const char* key, const char* subject, double given, double drawn) {
+    const double times = given / drawn;
+    const double excess = std::max(times, 1.0 / times) / mass_most;
+    if (excess > 1.0)
+      out.add(Rank::doubtful, excess, pointer + key, subject, "is ", given, " kg, ", times, " times the ", drawn,
+              " kg of the body that the catalogue data describe");
+  };
+  against("/mass_kg", "mass", mass, body->mass_kg);
+  against("/inertia_over_r2_kg", "gyration", inertia_over_r2, body->inertia_kg_m2 / (radius_m * radius_m));
 }
 
 void check_iso(Warnings& out, const std::string& pointer, double stiffness, const MeshedPair& mesh) {
@@ -176,16 +185,19 @@ void check_iso(Warnings& out, const std::string& pointer, double stiffness, cons
             " N/m; models of this kind differ by ", 100.0 * stiffness_deviation, " %");
 }
 
-/// Harmonics that were computed with another mean keep their amplitudes.
-void check_mean(Warnings& out, const std::string& pointer, const Mesh& mesh, const FourierSeries& computed,
-                const std::string& factor) {
+bool has_harmonics_of(const Mesh& mesh, const FourierSeries& computed) {
   const auto as_computed = [](const std::vector<double>& a, const std::vector<double>& b) {
     constexpr double rounding = 1e-9;
     return std::ranges::equal(a, b, [](double x, double y) { return std::abs(x - y) <= rounding * std::abs(y); });
   };
-  if (mesh.stiffness_cos_N_per_m.empty() || !as_computed(mesh.stiffness_cos_N_per_m, computed.cosine) ||
-      !as_computed(mesh.stiffness_sin_N_per_m, computed.sine))
-    return;
+  return !mesh.stiffness_cos_N_per_m.empty() && as_computed(mesh.stiffness_cos_N_per_m, computed.cosine) &&
+         as_computed(mesh.stiffness_sin_N_per_m, computed.sine);
+}
+
+/// Harmonics that were computed with another mean keep their amplitudes.
+void check_mean(Warnings& out, const std::string& pointer, const Mesh& mesh, const FourierSeries& computed,
+                const std::string& factor) {
+  if (!has_harmonics_of(mesh, computed)) return;
   const double ratio = mesh.stiffness_N_per_m / computed.mean;
   constexpr double unlike = 0.01;
   if (std::abs(ratio - 1.0) > unlike)
@@ -195,20 +207,14 @@ void check_mean(Warnings& out, const std::string& pointer, const Mesh& mesh, con
             " in /catalogue/mesh_stiffness scales both");
 }
 
-/// Teeth fit both meshes only where (z_s + z_r)(phi_i - phi_1) / 2 pi is whole.
 void check_assembly(Warnings& out, const Stage& s) {
-  if (!s.sun.teeth || !s.ring.teeth) return;
-  const std::vector<double> angles = s.planet_angles_deg();
-  constexpr double angle_digits_deg = 1e-3;
-  const double teeth = *s.sun.teeth + *s.ring.teeth;
-  for (std::size_t i = 1; i < angles.size(); ++i) {
-    const double turns = teeth * (angles[i] - angles[0]) / 360.0;
-    if (std::abs(turns - std::round(turns)) > teeth * angle_digits_deg / 360.0)
-      out.add(Rank::impossible, 1.0,
-              s.angles_deg.empty() ? "/planets/count" : "/planets/angles_deg/" + std::to_string(i),
-              "assembly of planet " + std::to_string(i + 1), "planet ", static_cast<double>(i + 1), " at ", angles[i],
-              " deg cannot be assembled: (z_s + z_r)(phi_i - phi_1) / 360 deg = ", turns, " is not whole; it could at ",
-              std::fmod(angles[0] + 360.0 * std::round(turns) / teeth, 360.0), " deg");
+  for (const Misfit& m : assembly_misfits(s)) {
+    const double turns = (*s.sun.teeth + *s.ring.teeth) * (m.angle_deg - s.planet_angles_deg()[0]) / 360.0;
+    out.add(Rank::impossible, 1.0,
+            s.angles_deg.empty() ? "/planets/count" : "/planets/angles_deg/" + std::to_string(m.planet),
+            "assembly of planet " + std::to_string(m.planet + 1), "planet ", static_cast<double>(m.planet + 1), " at ",
+            m.angle_deg, " deg cannot be assembled: (z_s + z_r)(phi_i - phi_1) / 360 deg = ", turns,
+            " is not whole; it could at ", std::fmod(m.nearest_deg, 360.0), " deg");
   }
 }
 
@@ -234,13 +240,24 @@ void check_mesh_damping(Warnings& out, const std::string& pointer, const Mesh& m
             ": motions may never settle; meshes have 0.03 to 0.17");
 }
 
-/// Error amplitudes are a few hundredths of a module in the coarsest grade of ISO 1328.
-void check_error(Warnings& out, const std::string& pointer, const Mesh& mesh, double module) {
+/// Largest error of a gear by ISO 1328-1: the total pitch deviation of its coarsest grade [um].
+double coarsest_error_um(double module, int teeth) {
+  constexpr int coarsest_grade = 12;
+  constexpr double any_width_mm = 20.0;  // no matter
+  try {
+    return tolerances(coarsest_grade, module, module * teeth, any_width_mm, 1.0).cumulative_pitch;
+  } catch (const DomainError&) {  // beyond the sizes of the standard
+    return 1e3 * error_most * module;
+  }
+}
+
+void check_error(Warnings& out, const std::string& pointer, const Mesh& mesh, double module, int teeth) {
   const double largest_um = std::ranges::max(mesh.error_amplitude_um);
-  const double modules = 1e-3 * largest_um / module;
-  if (modules > error_most)
-    out.add(Rank::doubtful, modules / error_most, pointer + "/error_amplitude_um", "error", "is ", largest_um, " um, ",
-            modules, " modules; the coarsest grade of ISO 1328 has some 0.03");
+  const double most_um = coarsest_error_um(module, teeth);
+  if (largest_um > most_um)
+    out.add(Rank::doubtful, largest_um / most_um, pointer + "/error_amplitude_um", "error", "is ", largest_um, " um, ",
+            1e-3 * largest_um / module, " modules; the total pitch deviation of the coarsest grade of ISO 1328 is ",
+            most_um, " um");
 }
 
 /// A member whose support yields to its own weight by more than a module.
@@ -291,8 +308,8 @@ void check_gaps(Warnings& out, const Stage& s) {
     out.add(Rank::doubtful, modules / half_clearance_most, "/lumped/sun/bearing_clearance_half_um", "clearance", "is ",
             s.sun_bearing.clearance_half_um, " um, ", modules,
             " modules: the sun may move out of its meshes before its bearing holds it");
-  check_error(out, "/lumped/sun_planet_mesh", s.sun_planet_mesh, module);
-  check_error(out, "/lumped/ring_planet_mesh", s.ring_planet_mesh, module);
+  check_error(out, "/lumped/sun_planet_mesh", s.sun_planet_mesh, module, *s.planet.teeth);
+  check_error(out, "/lumped/ring_planet_mesh", s.ring_planet_mesh, module, *s.planet.teeth);
   check_sag(out, "/lumped/sun/support_N_per_m", s.sun.mass_kg, s.sun.support_N_per_m, module);
   check_sag(out, "/lumped/ring/support_N_per_m", s.ring.mass_kg, s.ring.support_N_per_m, module);
   check_sag(out, "/lumped/carrier/support_N_per_m", s.carrier.mass_kg, s.carrier.support_N_per_m, module);
@@ -376,6 +393,9 @@ std::vector<Warning> catalogue_warnings(const GearSet& set) {
   const std::string remedy = ring_misfit(set);
   check_pair(out, set.sun_planet.pair, sun_pointer, planet_pointer, "sun-planet", remedy);
   check_pair(out, set.ring_planet.pair, planet_pointer, ring_pointer, "ring-planet", remedy);
+  if (ring_shift_has_other_sign(set))
+    out.add(Rank::doubtful, 1.0, ring_pointer + "/profile_shift", "sign", "is ", set.ring.profile_shift, " and leaves ",
+            set.ring_planet.pair.backlash_mm(), " mm of backlash in the ring-planet mesh", remedy);
   check_widths(out, set.sun_planet, sun_pointer, planet_pointer, "sun-planet");
   check_widths(out, set.ring_planet, planet_pointer, ring_pointer, "ring-planet");
   if (set.catalogue.ring.base_pitch == BasePitch::of_planet && set.base_pitch_mismatch_mm != 0.0)
@@ -420,6 +440,37 @@ std::vector<Warning> catalogue_warnings(const GearSet& set, const Stage& stage) 
   return all;
 }
 
+std::vector<Warning> mass_warnings(const Stage& s) {
+  Warnings out;
+  if (!s.catalogue)
+    for (const auto& [name, mass, inertia] : {std::tuple("sun", s.sun.mass_kg, s.sun.inertia_over_r2_kg),
+                                              std::tuple("planet", s.planet.mass_kg, s.planet.inertia_over_r2_kg),
+                                              std::tuple("ring", s.ring.mass_kg, s.ring.inertia_over_r2_kg),
+                                              std::tuple("carrier", s.carrier.mass_kg, s.carrier.inertia_over_r2_kg)})
+      check_member(out, name, mass, inertia, 0.0, std::nullopt);
+  return out.take();
+}
+
+std::vector<Warning> truncation_warnings(const GearSet& set, const Stage& stage) {
+  Warnings out;
+  const auto check = [&](const std::string& words, const Mesh& mesh, const MeshedPair& pair,
+                         const FourierSeries& series) {
+    if (mesh.stiffness_curve || !has_harmonics_of(mesh, series)) return;
+    const auto variation = [](const StiffnessRange& range) { return range.greatest - range.least; };
+    const double of_series = variation(stiffness_range(series));
+    const double of_curve = variation(stiffness_range(pair));
+    const double off = std::abs(of_series / of_curve - 1.0);
+    if (off > truncation_most)
+      out.add(Rank::doubtful, off / truncation_most, "/catalogue/mesh_stiffness/form", words,
+              static_cast<double>(series.cosine.size()), " harmonics of the stiffness of the ", words, " mesh vary by ",
+              of_series, " N/m from peak to peak, in place of ", of_curve, " N/m of the whole curve, ",
+              std::round(100.0 * (of_series / of_curve - 1.0)), " %; \"form\": \"curve\" takes all of it");
+  };
+  check("sun-planet", stage.sun_planet_mesh, set.sun_planet, set.sun_planet_stiffness);
+  check("ring-planet", stage.ring_planet_mesh, set.ring_planet, set.ring_planet_stiffness);
+  return out.take();
+}
+
 std::vector<Warning> warnings_for_motion(const Stage& s) {
   Warnings out;
   check_assembly(out, s);
@@ -431,12 +482,6 @@ std::vector<Warning> warnings_for_motion(const Stage& s) {
   check_mesh_damping(out, "/lumped/ring_planet_mesh", s.ring_planet_mesh);
   check_gaps(out, s);
   check_friction(out, s);
-  if (!s.catalogue)
-    for (const auto& [name, mass, inertia] : {std::tuple("sun", s.sun.mass_kg, s.sun.inertia_over_r2_kg),
-                                              std::tuple("planet", s.planet.mass_kg, s.planet.inertia_over_r2_kg),
-                                              std::tuple("ring", s.ring.mass_kg, s.ring.inertia_over_r2_kg),
-                                              std::tuple("carrier", s.carrier.mass_kg, s.carrier.inertia_over_r2_kg)})
-      check_member(out, name, mass, inertia, 0.0, std::nullopt);
   return out.take();
 }
 

@@ -4,7 +4,7 @@
 //                   recommends; or some, but below a hundredth of it
 //   tip clearance   outside 0.1 to 0.6 m
 //   sun's bearing   half clearance > m / 2: the sun may leave the mesh
-//   error           amplitude > m / 10; 0.03 m in the coarsest grade of ISO 1328
+//   error           amplitude > F_p of the coarsest grade of ISO 1328-1, its total pitch deviation
 //   support         yields to the member's own weight by more than m
 //   friction        another kind in one mesh than in the other
 //   form            contact more than 0.1 m below the end of the rack-cut involute; less is a note. It is counted in
@@ -17,10 +17,14 @@
 //                   which is no load
 //   deflection      of a mesh, a planet's bearing or a torsional support under the static load, > m
 //   damping         at or above critical: zeta >= 1, c >= 2 sqrt(k m); of a mesh below 0.003, of a support none
-//   mass            3 times that of the body on the drawing, or a radius of gyration of twice the member's radius
+//   mass            3 times that of the body on the drawing, or a third of it; a radius of gyration of twice the
+//                   member's radius; I / r^2 below a tenth of the mass, where a solid disc has half of it
+//   sign            of the ring's profile shift: with the opposite one both meshes fit, as it stands they do not
+//   assembly        (z_s + z_r)(phi_i - phi_1) / 2 pi not whole: a planet's teeth fit one mesh alone
 //   stiffness       of a mesh more than 30 % from c_gamma of [G-iso], ISO 6336-1:2006, 9.3: that is how far models of
 //                   this kind differ
 //   mean            stiffness of a mesh more than 1 % from the one that its harmonics were computed with
+//   truncation      harmonics whose variation is more than 5 % off that of the curve that they stand for
 //   width           of a gear 1.5 times that of the one it meshes with: what overhangs bears nothing
 //   density         below 900 or above 20000 kg/m^3: no solid that gears are made of
 //   carrier         pins' axes outside of the cheeks, pins thicker than the planets' bore or shorter than their width,
@@ -46,6 +50,13 @@ namespace epicyclic::gear {
 
 /// What of the stage does not go with its drawings: masses, mesh stiffness.
 [[nodiscard]] std::vector<Warning> catalogue_warnings(const GearSet& set, const Stage& stage);
+
+/// Masses and inertias of a stage without drawings against each other, whether it moves or is for modes alone.
+[[nodiscard]] std::vector<Warning> mass_warnings(const Stage& stage);
+
+/// What the computed harmonics lose of the variation of the mesh stiffness, where that is more than 5 % of it, peak to
+/// peak; none where the stage has harmonics or a curve of its own.
+[[nodiscard]] std::vector<Warning> truncation_warnings(const GearSet& set, const Stage& stage);
 
 /// What is allowed but rarely meant in time integration: planets that cannot be assembled, supports without damping or
 /// with more than critical, wide gaps. Of a stage for modes alone what its values let one see.

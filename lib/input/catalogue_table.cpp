@@ -221,6 +221,12 @@ const Table<Catalogue>& catalogue_table() {
         std::vector<std::pair<std::string, gear::Tips>>{{"shortened", gear::Tips::shortened},
                                                         {"full", gear::Tips::full}},
         "Whether the tips of sun and planet are shortened to keep their clearance at the working centre distance.");
+    t.choice(
+        "error_amplitude", &Catalogue::error_amplitude,
+        std::vector<std::pair<std::string, gear::ErrorAmplitude>>{{"profile_form", gear::ErrorAmplitude::profile_form},
+                                                                  {"single_pitch", gear::ErrorAmplitude::single_pitch}},
+        "Tolerance of ISO 1328-1 that gives the amplitude of the transmission error at mesh frequency: half of "
+        "the profile form deviation, or the single pitch deviation.");
     t.object("sun", &Catalogue::sun, external_table("sun")).required();
     t.object("sun_bearing", present(&Catalogue::sun_bearing), bearing_table());
     t.object("planet", &Catalogue::planet, external_table("planet")).required();

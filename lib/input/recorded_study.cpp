@@ -10,8 +10,10 @@ namespace epicyclic::input {
 namespace {
 
 /// Place of a key, and what was done before it was there, as JSON.
-constexpr std::array<std::pair<const char*, const char*>, 2> later_keys = {
-    {{"/model/centrifugal", "\"left_out\""}, {"/integrator/max_step_periods", "0.0"}}};
+constexpr std::array<std::pair<const char*, const char*>, 3> later_keys = {
+    {{"/model/centrifugal", "\"left_out\""},
+     {"/integrator/max_step_periods", "0.0"},
+     {"/stage/catalogue/error_amplitude", "\"single_pitch\""}}};
 
 }  // namespace
 

@@ -131,9 +131,11 @@ void fill_mesh(Filler mesh, const gear::MeshedPair& pair, const gear::FourierSer
   }
   mesh.fill("backlash_half_um", 500.0 * std::max(0.0, pair.pair.normal_backlash_mm()),
             "[G-j] half of the nominal normal backlash at the centre distance");
-  if (first || second)
-    mesh.fill("error_amplitude_um", std::max(first ? first->single_pitch : 0.0, second ? second->single_pitch : 0.0),
-              "[G-1328] single pitch deviation of the accuracy grade, the larger of the two members");
+  if (const auto amplitude = gear::error_amplitude_um(catalogue.error_amplitude, first, second))
+    mesh.fill("error_amplitude_um", *amplitude,
+              catalogue.error_amplitude == gear::ErrorAmplitude::profile_form
+                  ? "[G-error] half of the profile form deviation of the accuracy grade, the larger of the two members"
+                  : "[G-1328] single pitch deviation of the accuracy grade, the larger of the two members");
   Filler coulomb = mesh.below("friction");
   coulomb.fill("contact_ratio", pair.pair.contact_ratio(), "[G-path]");
   coulomb.fill("path_start_mm", pair.pair.start_mm, "[G-path]");

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
 #include "core/text.hpp"
+#include "gear/bearing.hpp"
 #include "gear/stage.hpp"
 
 namespace epicyclic::input {
@@ -30,6 +32,26 @@ double root_mm(const Drawing& d, int teeth, double shift) {
   return d.module_mm * (teeth - 2.0 * (addendum + clearance - shift));
 }
 
+/// Planets at the angles of the drawing, where their teeth have to fit both meshes.
+void check_assembly(const Drawing& d) {
+  gear::Stage stage;
+  stage.sun.teeth = d.sun_teeth;
+  stage.ring.teeth = d.ring();
+  stage.angles_deg = d.angles_deg;
+  if (d.angles_deg.empty() || gear::assembly_misfits(stage).empty()) return;
+  constexpr int digits = 9;
+  std::string given, nearest;
+  for (const double angle : d.angles_deg) {
+    given += (given.empty() ? "" : ",") + short_text(angle, digits);
+    const double at = gear::assembly_angle_deg(d.sun_teeth + d.ring(), d.angles_deg[0], angle);
+    nearest += (nearest.empty() ? "" : ",") + short_text(at, digits);
+  }
+  throw InputError(fmt::format(
+      "init: planets at {} degrees cannot be assembled: with {} + {} teeth of sun and ring they stand in steps of "
+      "360 / {} degrees from the first one; the nearest such angles are {}",
+      given, d.sun_teeth, d.ring(), d.sun_teeth + d.ring(), nearest));
+}
+
 void check(const Drawing& d) {
   const auto refuse = [](const std::string& what) { throw InputError("init: " + what); };
   for (const int z : {d.sun_teeth, d.planet_teeth, d.ring()})
@@ -38,17 +60,35 @@ void check(const Drawing& d) {
     refuse(fmt::format("{} angles of {} planets", d.angles_deg.size(), d.planets));
   if (d.planets < gear::planets_min || d.planets > gear::planets_max)
     refuse(fmt::format("{} planets; from {} to {}", d.planets, gear::planets_min, gear::planets_max));
+  check_assembly(d);
   const auto positive = [&](const char* what, double x, double most) {
     if (!(x > 0.0 && x <= most)) refuse(fmt::format("{} of {}; must be above 0, at most {}", what, x, most));
   };
   positive("a module", d.module_mm, 100);
   positive("a width", d.width_mm, 2000);
-  positive("a torque", d.torque_Nm, 1e8);
+  if (d.torque_Nm) positive("a torque", *d.torque_Nm, 1e8);
   if (d.speed_rpm) positive("a speed", *d.speed_rpm, 1e6);
   for (const double shift : d.profile_shift)
     if (!(std::abs(shift) <= 2.0)) refuse(fmt::format("a profile shift of {}; from -2 to 2", shift));
   if (!(d.pressure_angle_deg >= 10 && d.pressure_angle_deg <= 35))
     refuse(fmt::format("a pressure angle of {}; from 10 to 35 degrees", d.pressure_angle_deg));
+}
+
+/// r_b of the sun.
+double sun_base_radius_mm(const Drawing& d) {
+  return 0.5 * d.module_mm * d.sun_teeth * std::cos(d.pressure_angle_deg * std::numbers::pi / 180.0);
+}
+
+/// A value with the range that machines have, both as parts and times of it, and the reason; the origin's form is that
+/// of input/estimates.hpp.
+struct Estimate {
+  double value;
+  std::string origin;
+};
+Estimate estimate(double value, double least, double most, const std::string& reason) {
+  constexpr int digits = 2;
+  return {neat(value), fmt::format("estimate: {} to {}, {}", short_text(least * value, digits),
+                                   short_text(most * value, digits), reason)};
 }
 
 ordered_json gear_of(const Drawing& d, int teeth, double shift) {
@@ -72,14 +112,17 @@ ordered_json origins_of_gear(const Drawing& d, const char* more_key, const std::
 
 }  // namespace
 
+double torque_Nm(const Drawing& d) {
+  constexpr double load_N_per_mm2 = 60;
+  const double mesh_force_N = load_N_per_mm2 * d.module_mm * d.width_mm;
+  return d.torque_Nm ? *d.torque_Nm : neat(mesh_force_N * d.planets * sun_base_radius_mm(d) * 1e-3);
+}
+
 std::vector<double> assembly_angles(const Drawing& d) {
   const int sum = d.sun_teeth + d.ring();
   if (sum % d.planets == 0 || !d.angles_deg.empty()) return {};
   std::vector<double> all;
-  for (int i = 0; i < d.planets; ++i) {
-    const double step = std::round(static_cast<double>(i) * sum / d.planets);
-    all.push_back(360.0 * step / sum);
-  }
+  for (int i = 0; i < d.planets; ++i) all.push_back(gear::assembly_angle_deg(sum, 0.0, 360.0 * i / d.planets));
   return all;
 }
 
@@ -132,8 +175,10 @@ ordered_json starter_stage(const Drawing& d) {
       "machines have, with the reason and the range; replace what you know. `epicyclic keys WORD` explains a key.";
   stage["boundary"] = "fixed_ring";
   stage["planets"] = planets;
-  stage["load"] = {{"torque_Nm", d.torque_Nm},
-                   {"origin", d.torque_is_given ? "source: rating, on the sun" : "estimate: on the sun; give yours"}};
+  stage["load"] = {
+      {"torque_Nm", torque_Nm(d)},
+      {"origin", d.torque_Nm ? "source: rating, on the sun"
+                             : "estimate: on the sun, 60 N/mm2 times module and face width on each mesh; give yours"}};
   stage["catalogue"] = {
       {"sun", sun},
       {"planet", planet},
@@ -146,56 +191,75 @@ ordered_json starter_stage(const Drawing& d) {
           {"pin_diameter_mm", pin},
           {"pin_length_mm", neat(1.1 * d.width_mm)},
           {"origin", "estimate: two cheeks about the pins, pins of 0.6 of the planets' bores"}}}}},
+      {"mesh_stiffness", {{"form", "curve"}, {"origin", "choice: the whole curve; a few harmonics lose of its jumps"}}},
       {"lubrication",
        {{"viscosity_mPas", 15}, {"origin", "estimate: ISO VG 150 at 85 degrees Celsius; 5 to 50 in service"}}}};
   const auto damping = [](const char* of) {
-    return std::string("estimate: usual for ") + of + ", 0.02 to 0.1; no drawing has it, and motions depend on it";
+    return std::string("estimate: 0.02 to 0.1, usual for ") + of + "; no drawing has it, and motions depend on it";
   };
-  const char* stiffness = "estimate: as in the benchmark of Lin and Parker 1999";
-  stage["lumped"] = {{"sun",
-                      {{"support_N_per_m", 2e7},
-                       {"support_damping_ratio", 0.05},
-                       {"bearing_clearance_half_um", 10},
-                       {"origin",
-                        {{"support_N_per_m",
-                          "estimate: shaft and bearings of a sun that is held, 1e7 to 4e8; some 1e6 of one that "
-                          "floats; take this key out where /stage/catalogue/sun_bearing is to give it"},
-                         {"support_damping_ratio", damping("rolling bearings")},
-                         {"bearing_clearance_half_um",
-                          "estimate: half the radial clearance of a ball bearing, group CN of ISO 5753-1, "
-                          "3 to 14; 0 of one that is preloaded"}}}}},
-                     {"ring",
-                      {{"support_N_per_m", 1e8},
-                       {"torsional_support_N_per_m", 1e9},
-                       {"support_damping_ratio", 0.05},
-                       {"origin",
-                        {{"support_N_per_m", std::string(stiffness) + ", 1e8 to 3e9; some 1e6 of a ring that floats"},
-                         {"torsional_support_N_per_m", std::string(stiffness)},
-                         {"support_damping_ratio", damping("mounted rings")}}}}},
-                     {"carrier",
-                      {{"support_N_per_m", 1e8},
-                       {"torsional_support_N_per_m", 0},
-                       {"support_damping_ratio", 0.05},
-                       {"origin",
-                        {{"support_N_per_m",
-                          std::string(stiffness) +
-                              ", 5e7 to 1e9; take this key out where /stage/catalogue/carrier/bearing is to give it"},
-                         {"torsional_support_N_per_m", "choice: the carrier is the free output"},
-                         {"support_damping_ratio", damping("rolling bearings")}}}}},
-                     {"planet",
-                      {{"bearing_N_per_m", 1e8},
-                       {"support_damping_ratio", 0.05},
-                       {"origin",
-                        {{"bearing_N_per_m", std::string(stiffness) + ", 5e7 to 3e9 of needle and roller bearings"},
-                         {"support_damping_ratio", damping("rolling bearings")}}}}},
-                     {"sun_planet_mesh",
-                      {{"damping_ratio", 0.05},
-                       {"backlash_half_um", backlash_um},
-                       {"origin", {{"damping_ratio", damping("steel gears")}, {"backlash_half_um", backlash}}}}},
-                     {"ring_planet_mesh",
-                      {{"damping_ratio", 0.05},
-                       {"backlash_half_um", backlash_um},
-                       {"origin", {{"damping_ratio", damping("steel gears")}, {"backlash_half_um", backlash}}}}}};
+  // Supports as parts of the mesh stiffness, so that the modes of small and large stages are alike.
+  constexpr double mesh_N_per_m_per_mm = 2e7;
+  const double mesh = mesh_N_per_m_per_mm * d.width_mm;
+  const std::string benchmark =
+      "the mesh stiffness, 20 N/(mm um) of width (ISO 6336-1), as in the benchmark of Lin and Parker 1999";
+  const Estimate sun_support =
+      estimate(mesh / 30.0, 0.5, 20.0,
+               "shaft and bearings of a sun that is held, a thirtieth of the mesh stiffness; a "
+               "tenth of it or less of one that floats; take this key out where "
+               "/stage/catalogue/sun_bearing is to give it");
+  const Estimate ring_support =
+      estimate(0.2 * mesh, 0.8, 25.0, "0.2 of " + benchmark + "; some hundredths of it of a ring that floats");
+  const Estimate ring_torsion = estimate(2.0 * mesh, 0.3, 5.0, "twice " + benchmark);
+  const Estimate carrier_support =
+      estimate(0.2 * mesh, 0.5, 10.0,
+               "0.2 of " + benchmark + "; take this key out where /stage/catalogue/carrier/bearing is to give it");
+  constexpr int rollers = 11;  // of a fifth of the bore, nine tenths of the pitch circle full of them
+  const double planet_load = 2.0 * 1e3 * torque_Nm(d) / (d.planets * 0.5 * d.module_mm * d.sun_teeth);
+  const Estimate planet_bearing = estimate(
+      gear::roller_stiffness(planet_load, rollers, 0.8 * d.width_mm), 1.0 / 3.0, 3.0,
+      fmt::format("[G-roller] {} rollers of a fifth of the bore, 0.8 of the width long, under {:.3g} N of both "
+                  "meshes; less with clearance and a pin that yields, more of full rows of needles",
+                  rollers, planet_load));
+  stage["lumped"] = {
+      {"sun",
+       {{"support_N_per_m", sun_support.value},
+        {"support_damping_ratio", 0.05},
+        {"bearing_clearance_half_um", 10},
+        {"origin",
+         {{"support_N_per_m", sun_support.origin},
+          {"support_damping_ratio", damping("rolling bearings")},
+          {"bearing_clearance_half_um",
+           "estimate: 3 to 14, half the radial clearance of a ball bearing, group CN of ISO 5753-1; 0 of "
+           "one that is preloaded"}}}}},
+      {"ring",
+       {{"support_N_per_m", ring_support.value},
+        {"torsional_support_N_per_m", ring_torsion.value},
+        {"support_damping_ratio", 0.05},
+        {"origin",
+         {{"support_N_per_m", ring_support.origin},
+          {"torsional_support_N_per_m", ring_torsion.origin},
+          {"support_damping_ratio", damping("mounted rings")}}}}},
+      {"carrier",
+       {{"support_N_per_m", carrier_support.value},
+        {"torsional_support_N_per_m", 0},
+        {"support_damping_ratio", 0.05},
+        {"origin",
+         {{"support_N_per_m", carrier_support.origin},
+          {"torsional_support_N_per_m", "choice: the carrier is the free output"},
+          {"support_damping_ratio", damping("rolling bearings")}}}}},
+      {"planet",
+       {{"bearing_N_per_m", planet_bearing.value},
+        {"support_damping_ratio", 0.05},
+        {"origin",
+         {{"bearing_N_per_m", planet_bearing.origin}, {"support_damping_ratio", damping("rolling bearings")}}}}},
+      {"sun_planet_mesh",
+       {{"damping_ratio", 0.05},
+        {"backlash_half_um", backlash_um},
+        {"origin", {{"damping_ratio", damping("steel gears")}, {"backlash_half_um", backlash}}}}},
+      {"ring_planet_mesh",
+       {{"damping_ratio", 0.05},
+        {"backlash_half_um", backlash_um},
+        {"origin", {{"damping_ratio", damping("steel gears")}, {"backlash_half_um", backlash}}}}}};
   return stage;
 }
 

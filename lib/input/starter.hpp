@@ -2,6 +2,11 @@
 // with its reason and the range that it comes from in its origin.
 //
 //   rims      planet 3 m (ISO 6336-3 counts a rim of 1.2 tooth depths, 2.7 m, as solid), ring 4 m (1.75 depths, 3.9 m)
+//   supports  as parts of the mesh stiffness, 20 N/(mm um) of face width (ISO 6336-1): of ring and carrier those of the
+//             benchmark of Lin and Parker, 0.2 and 2 in torsion
+//   planets'  bearings  [G-roller] under the load of both meshes: rollers of a fifth of the bore on a pin of 0.6 of it,
+//             0.8 of the width long
+//   torque    60 N/mm2 times module and face width on each mesh, some 1 GPa on the flanks of case-hardened gears
 //   backlash  j_bn = 2/3 (60 um + 0.5 um/mm a + 30 um/mm m), the least that ISO/TR 10064-2 recommends
 #pragma once
 
@@ -26,13 +31,15 @@ struct Drawing {
   double width_mm = 30;
   int planets = 3;
   std::vector<double> angles_deg{};   ///< of the planets; none: as even as can be
-  double torque_Nm = 100;             ///< on the sun
+  std::optional<double> torque_Nm{};  ///< on the sun; none: by the size
   std::optional<double> speed_rpm{};  ///< rated, of the sun; none: studies are in Omega
-  bool torque_is_given = false;       ///< else it is a starter, too
   std::set<std::string> assumed{};  ///< keys of gears and planets that stand at the values above, which no drawing gave
 
   [[nodiscard]] int ring() const { return ring_teeth.value_or(sun_teeth + 2 * planet_teeth); }
 };
+
+/// On the sun: as given, or one that loads teeth of that size as usual [N m].
+[[nodiscard]] double torque_Nm(const Drawing& drawing);
 
 /// Angles at which the teeth fit, as near to even spacing as there are any [deg]; none where even spacing fits or
 /// others are given.

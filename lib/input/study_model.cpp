@@ -17,12 +17,14 @@
 
 #include "core/csv.hpp"
 #include "core/errors.hpp"
+#include "core/text.hpp"
 #include "gear/ehl_friction.hpp"
 #include "gear/gear_set.hpp"
 #include "gear/warnings.hpp"
 #include "input/claims_input.hpp"
 #include "input/derived_study.hpp"
 #include "input/speed_aliases.hpp"
+#include "input/stage_completion.hpp"
 #include "integrate/methods.hpp"
 #include "studies/named_parameters.hpp"
 #include "studies/plane.hpp"
@@ -248,6 +250,7 @@ void warn_of_stage(std::vector<gear::Warning>& out, const gear::Stage& stage, do
     set = gear::make_gear_set(stage);
     append(gear::catalogue_warnings(*set, stage));
   }
+  append(gear::mass_warnings(stage));
   if (!gear::problems_for_motion(stage).empty()) return;
   append(gear::warnings_for_motion(stage));
   append(gear::warnings_at(stage, mesh_frequency, set ? &*set : nullptr));
@@ -275,6 +278,75 @@ void warn_of_centrifugal_force(std::vector<gear::Warning>& out, const LoadedInpu
   std::ranges::move(warnings.take(), std::back_inserter(out));
 }
 
+/// Pointer of the stage in the resolved input.
+std::string place_of_stage(const LoadedInput& input) { return input.resolved.contains("stage") ? "/stage" : ""; }
+
+/// Of the mesh stiffness: whether nobody chose how many harmonics it has, nor that it has any.
+bool harmonics_by_default(const LoadedInput& input, const std::string& root) {
+  return std::ranges::all_of(std::array{"form", "harmonics"}, [&](const char* key) {
+    const json* origin = input.value_at(root + "/catalogue/mesh_stiffness/origin/" + key);
+    return origin != nullptr && *origin == "default";
+  });
+}
+
+/// Said where nobody has: an amplitude that is an estimate, or follows from an accuracy grade by the default rule.
+/// @param root  of the stage in the resolved input
+void warn_of_estimated_error(std::vector<gear::Warning>& out, const LoadedInput& input, const std::string& root,
+                             const gear::Stage& stage, double mesh_frequency) {
+  if (!gear::problems_for_motion(stage).empty()) return;
+  const auto origin_is = [&](const std::string& pointer, const auto& is) {
+    const json* origin = input.value_at(root + pointer);
+    return origin != nullptr && origin->is_string() && is(origin->get_ref<const std::string&>());
+  };
+  const bool by_default =
+      origin_is("/catalogue/origin/error_amplitude", [](const std::string& o) { return gives_way(o); });
+  const gear::MeshLoad load = gear::mean_mesh_load(stage, mesh_frequency);
+  gear::Warnings warnings;
+  for (const auto& [key, mesh] :
+       {std::pair("sun_planet_mesh", &stage.sun_planet_mesh), std::pair("ring_planet_mesh", &stage.ring_planet_mesh)}) {
+    const std::string place = std::string("/lumped/") + key;
+    const bool estimated = origin_is(place + "/origin/error_amplitude_um", [&](const std::string& o) {
+      return o.starts_with("estimate") || (by_default && is_computed(o));
+    });
+    const double amplitude = std::ranges::max(mesh->error_amplitude_um);
+    const double deflection = gear::static_deflection_um(*mesh, load);
+    const bool varied = std::ranges::any_of(varied_parameters(input.study), [&](const VariedParameter& v) {
+      return v.axis.name.starts_with(root + place + "/error_amplitude_um");
+    });
+    if (estimated && !varied && amplitude > deflection)
+      warnings.add_once(gear::Rank::doubtful, amplitude / deflection, place + "/error_amplitude_um", "estimated error",
+                        "is ", amplitude, " um, an estimate, and ", amplitude / deflection,
+                        " times the static deflection of the mesh, ", deflection,
+                        " um: the estimate decides the regime. Give the amplitude that was measured, or say by "
+                        "/catalogue/error_amplitude which tolerance is meant");
+  }
+  std::ranges::move(warnings.take(), std::back_inserter(out));
+}
+
+/// Said where nobody has: harmonics of the default that lose of the stiffness.
+void warn_of_truncation(std::vector<gear::Warning>& out, const LoadedInput& input, const std::string& root,
+                        const gear::Stage& stage) {
+  if (stage.catalogue && harmonics_by_default(input, root))
+    std::ranges::move(gear::truncation_warnings(gear::make_gear_set(stage), stage), std::back_inserter(out));
+}
+
+/// On values of an angle at which planets cannot be assembled: the ends alone do not tell of those between.
+void warn_of_assembly(std::vector<gear::Warning>& out, const LoadedInput& input) {
+  for (const auto& [axis, place] : varied_parameters(input.study)) {
+    if (!axis.name.starts_with("/stage/planets/")) continue;
+    const std::vector<double> values = studies::axis_values(axis);
+    const auto misfits = std::ranges::count_if(values, [&, &name = axis.name](double value) {
+      return !gear::assembly_misfits(point_at(input, std::array{PointerValue{name, value}}).stage).empty();
+    });
+    if (misfits == 0) continue;
+    const int teeth = *input.study.stage.sun.teeth + *input.study.stage.ring.teeth;
+    out.push_back({gear::Rank::impossible, static_cast<double>(misfits), place + "/parameter", "assembly",
+                   fmt::format("at {} of {} values of {} the planets cannot be assembled; one fits every {} degrees, "
+                               "360 over the {} teeth of sun and ring",
+                               misfits, values.size(), axis.name, short_text(360.0 / teeth, 6), teeth)});
+  }
+}
+
 /// Warnings at the operating points at the ends of what the study varies, and on parameters that change nothing.
 void warn_of_points(std::vector<gear::Warning>& out, const LoadedInput& input) {
   const model::Scales scales = model::scales_of(input.study.stage);
@@ -288,7 +360,10 @@ void warn_of_points(std::vector<gear::Warning>& out, const LoadedInput& input) {
     const model::OperatingPoint point = point_at(input, values);
     warn_of_stage(out, point.stage, point.mesh_frequency_ratio * scales.omega_sn);
     warn_of_centrifugal_force(out, input, point.stage, point.mesh_frequency_ratio * scales.omega_sn);
+    warn_of_estimated_error(out, input, "/stage", point.stage, point.mesh_frequency_ratio * scales.omega_sn);
+    warn_of_truncation(out, input, "/stage", point.stage);
   }
+  warn_of_assembly(out, input);
   for (const auto& [axis, place] : varied) {
     const double to = last_value(axis);
     if (axis.from == to) continue;
@@ -395,7 +470,10 @@ std::vector<std::string> warnings(const LoadedInput& input) {
 std::vector<std::string> gear_warnings(const LoadedInput& input) {
   const gear::Stage& stage = input.study.stage;
   std::vector<gear::Warning> all;
-  warn_of_stage(all, stage, input.study.mesh_frequency_ratio * model::scales_of(stage).omega_sn);
+  const double mesh_frequency = input.study.mesh_frequency_ratio * model::scales_of(stage).omega_sn;
+  warn_of_stage(all, stage, mesh_frequency);
+  warn_of_estimated_error(all, input, place_of_stage(input), stage, mesh_frequency);
+  warn_of_truncation(all, input, place_of_stage(input), stage);
   if (stage.catalogue && stage.catalogue->carrier.shaft && stage.boundary == gear::Boundary::fixed_ring)
     all.push_back({gear::Rank::note, 1.0, "/catalogue/carrier/shaft", "shaft",
                    "not used; with boundary fixed_ring the carrier turns freely"});
@@ -405,6 +483,15 @@ std::vector<std::string> gear_warnings(const LoadedInput& input) {
     for (const std::string& line : gear::problems_for_motion(stage))
       lines.push_back("no motion in time, no operating point: " + line);
   lines.insert(lines.end(), input.notes.begin(), input.notes.end());
+  return lines;
+}
+
+std::vector<std::string> stiffness_notes(const LoadedInput& input) {
+  const gear::Stage& stage = input.study.stage;
+  if (!stage.catalogue || harmonics_by_default(input, place_of_stage(input))) return {};  // a warning
+  std::vector<std::string> lines;
+  for (const gear::Warning& w : gear::truncation_warnings(gear::make_gear_set(stage), stage))
+    lines.push_back(w.message);
   return lines;
 }
 

@@ -85,4 +85,7 @@ studies::SweepModels claim_models(LoadedInput&& input) = delete;
 /// first, with the notes on its drawings, and why it cannot be moved in time.
 [[nodiscard]] std::vector<std::string> gear_warnings(const LoadedInput& input);
 
+/// What chosen harmonics of the mesh stiffness lose of it, a line for each mesh; what nobody chose is a warning.
+[[nodiscard]] std::vector<std::string> stiffness_notes(const LoadedInput& input);
+
 }  // namespace epicyclic::input

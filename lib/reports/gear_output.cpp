@@ -23,12 +23,14 @@ namespace {
 
 constexpr int harmonics_shown = 3;
 
-std::string modes_csv(const gear::Stage& stage, const std::vector<model::Mode>& modes, const model::Scales& scales) {
+std::string modes_csv(const gear::Stage& stage, const std::vector<model::Mode>& modes, const model::Scales& scales,
+                      const std::vector<ModeRange>& ranges) {
   std::vector<std::string> columns = {"mode", "frequency_Hz", "frequency_ratio", "type", "multiplicity"};
   for (std::size_t k = 0; k < model::element_count; ++k)
     columns.push_back("elastic_" + std::string(model::to_string(static_cast<model::Element>(k))));
   for (std::size_t k = 0; k < model::motion_count; ++k)
     columns.push_back("kinetic_" + std::string(model::to_string(static_cast<model::Motion>(k))));
+  if (!ranges.empty()) columns.insert(columns.end(), {"frequency_low_Hz", "frequency_high_Hz"});
   const model::LinearStage linear = model::linear_stage(stage, scales);
   CsvWriter csv(columns);
   int number = 1;
@@ -41,6 +43,10 @@ std::string modes_csv(const gear::Stage& stage, const std::vector<model::Mode>& 
         .cell(mode.multiplicity);
     for (const double share : e.elastic) csv.cell(share);
     for (const double share : e.kinetic) csv.cell(share);
+    if (!ranges.empty()) {
+      const ModeRange& range = ranges[static_cast<std::size_t>(number - 2)];
+      csv.cell(range.from).cell(range.to);
+    }
     csv.end_row();
   }
   return csv.text();
@@ -256,7 +262,8 @@ GearOutput write_gear_output(const std::filesystem::path& path, const input::Loa
   GearPage page;
   page.title = stage.name.empty() ? "Planetary stage" : "Planetary stage " + stage.name;
 
-  out.modes = modes_csv(stage, modes, scales);
+  page.mode_ranges = mode_ranges(input, modes);
+  out.modes = modes_csv(stage, modes, scales, page.mode_ranges);
   folder.write("modes.csv", out.modes);
   folder.write("mode_shapes.csv", mode_shapes_csv(stage, modes));
   folder.write("campbell.csv", campbell_csv(modes));
@@ -264,7 +271,12 @@ GearOutput write_gear_output(const std::filesystem::path& path, const input::Loa
     const gear::GearSet set = gear::make_gear_set(stage);
     page.quantities = gear_quantities(set, stage);
     out.verdicts = contact_verdicts(set, stage);
-    if (moves) out.verdicts.insert(out.verdicts.begin(), operation_verdict(stage, input.study.mesh_frequency_ratio));
+    if (moves) {
+      const double ratio = input.study.mesh_frequency_ratio;
+      out.verdicts.insert(out.verdicts.begin(), {operation_verdict(stage, ratio),
+                                                 fmt::format("At that speed the {}.", error_words(stage, ratio))});
+    }
+    for (const std::string& line : input::stiffness_notes(input)) out.verdicts.push_back(line + ".");
     const auto both = meshes(set, stage);
     folder.write("stiffness.csv", stiffness_csv(set));
     folder.write("load_sharing.csv", load_sharing_csv(both, set.catalogue.lubrication.value_or(gear::Lubrication{})));
@@ -283,6 +295,7 @@ GearOutput write_gear_output(const std::filesystem::path& path, const input::Loa
   folder.write("geometry.csv", quantities_csv(page.quantities));
   note_figures(out, draw_mode_figures(figures, stage));
 
+  if (!page.mode_ranges.empty()) out.verdicts.push_back(range_words(page.mode_ranges));
   page.verdicts = out.verdicts;
   page.warnings = out.warnings;
   page.figures = out.figures;

@@ -1,8 +1,12 @@
 #include "reports/gear_report.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -10,6 +14,7 @@
 #include "core/errors.hpp"
 #include "gear/bearing.hpp"
 #include "gear/kinematics.hpp"
+#include "input/estimates.hpp"
 #include "reports/markdown.hpp"
 
 namespace epicyclic::reports {
@@ -204,6 +209,24 @@ bool is_tight(const gear::GearSet& set) {
   }
 }
 
+/// Frequencies of each type, rising, as often as their multiplicity [Hz]; all in one where types are not told apart.
+using Frequencies = std::map<std::optional<model::ModeType>, std::vector<double>>;
+
+Frequencies frequencies(const gear::Stage& stage, const std::vector<model::Mode>& modes, bool by_type) {
+  const double hertz = model::scales_of(stage).omega_sn / (2.0 * std::numbers::pi);
+  Frequencies all;
+  for (const model::Mode& mode : modes) {
+    auto& of_type = all[by_type ? std::optional(mode.type) : std::nullopt];
+    of_type.insert(of_type.end(), static_cast<std::size_t>(mode.multiplicity), mode.frequency_ratio * hertz);
+  }
+  return all;
+}
+
+bool are_alike(const Frequencies& a, const Frequencies& b) {
+  return std::ranges::equal(
+      a, b, [](const auto& x, const auto& y) { return x.first == y.first && x.second.size() == y.second.size(); });
+}
+
 }  // namespace
 
 std::vector<Quantity> gear_quantities(const gear::GearSet& set, const gear::Stage& stage) {
@@ -284,8 +307,17 @@ std::vector<Quantity> operating_quantities(const gear::Stage& stage, double mesh
         "both mesh forces on a planet's bearing");
   g.add("planet_centrifugal_force", "m_p ω_c² r_c", gear::planet_centrifugal_force(stage, mesh_frequency), "N",
         "[G-cf], counted in motions with /model/centrifugal \"included\"");
-  g.add("mean_deflection", "F/k_0", 1e6 * load.force_N / stage.sun_planet_mesh.stiffness_N_per_m, "um",
-        "sun-planet mesh");
+  g.add("mean_deflection", "F/k_0", gear::static_deflection_um(stage.sun_planet_mesh, load), "um", "sun-planet mesh");
+  g.add("mean_deflection_ring_planet", "F/k_0", gear::static_deflection_um(stage.ring_planet_mesh, load), "um",
+        "ring-planet mesh");
+  const auto error = [&](const std::string& name, const gear::Mesh& mesh) {
+    const double amplitude = std::ranges::max(mesh.error_amplitude_um);
+    g.add(name + "_error_amplitude", "E", amplitude, "um", "[G-error], or as given; the largest of the planets");
+    g.add(name + "_error_over_deflection", "E k_0/F", amplitude / gear::static_deflection_um(mesh, load), "-",
+          "above 1 the error moves the mesh further than the load does");
+  };
+  error("sun_planet", stage.sun_planet_mesh);
+  error("ring_planet", stage.ring_planet_mesh);
   return all;
 }
 
@@ -340,6 +372,61 @@ std::string operation_verdict(const gear::Stage& stage, double mesh_frequency_ra
       stage.sun_planet_mesh.stiffness_N_per_m / giga, stage.ring_planet_mesh.stiffness_N_per_m / giga);
 }
 
+std::string error_words(const gear::Stage& stage, double mesh_frequency_ratio) {
+  const gear::MeshLoad load = gear::mean_mesh_load(stage, mesh_frequency_ratio * model::scales_of(stage).omega_sn);
+  const auto of = [&](const char* name, const gear::Mesh& mesh) {
+    const double amplitude = std::ranges::max(mesh.error_amplitude_um);
+    const double deflection = gear::static_deflection_um(mesh, load);
+    return fmt::format("{} {:.3g} um on a static deflection of {:.3g} um ({:.3g} times)", name, amplitude, deflection,
+                       amplitude / deflection);
+  };
+  return fmt::format("amplitude of the transmission error: {}, {}", of("sun-planet", stage.sun_planet_mesh),
+                     of("ring-planet", stage.ring_planet_mesh));
+}
+
+std::vector<ModeRange> mode_ranges(const input::LoadedInput& input, const std::vector<model::Mode>& modes) {
+  std::vector<input::PointerValue> soft, stiff;
+  for (const auto& [pointer, range] : input::estimated_values(input)) {
+    const bool is_mass = pointer.ends_with("_kg");
+    if (!is_mass && !pointer.ends_with("_N_per_m")) continue;
+    soft.push_back({pointer, is_mass ? range.to : range.from});
+    stiff.push_back({pointer, is_mass ? range.from : range.to});
+  }
+  if (soft.empty()) return {};
+  const gear::Stage& given = input.study.stage;
+  const gear::Stage low = input.with_values(soft).stage;
+  const gear::Stage high = input.with_values(stiff).stage;
+  const auto low_modes = model::modes(low, model::scales_of(low));
+  const auto high_modes = model::modes(high, model::scales_of(high));
+  const auto told = [&](bool by_type) {
+    return std::array{frequencies(given, modes, by_type), frequencies(low, low_modes, by_type),
+                      frequencies(high, high_modes, by_type)};
+  };
+  auto all = told(true);
+  const bool by_type = are_alike(all[0], all[1]) && are_alike(all[0], all[2]);
+  if (!by_type) all = told(false);
+  std::map<std::optional<model::ModeType>, std::size_t> place;
+  std::vector<ModeRange> ranges;
+  for (const model::Mode& mode : modes) {
+    const auto type = by_type ? std::optional(mode.type) : std::nullopt;
+    std::size_t& k = place[type];
+    // Of a multiple one all places: the least of the first, the greatest of the last.
+    const std::size_t last = k + static_cast<std::size_t>(mode.multiplicity) - 1;
+    ranges.push_back({all[1].at(type)[k], all[2].at(type)[last]});
+    k = last + 1;
+  }
+  return ranges;
+}
+
+std::string range_words(const std::vector<ModeRange>& ranges) {
+  const auto times = [](const ModeRange& r) { return r.from > 0.0 ? r.to / r.from : 0.0; };
+  const auto widest = std::ranges::max_element(ranges, {}, times);
+  return fmt::format(
+      "Over the ranges of the estimated stiffnesses each natural frequency has a range of its own; the widest is that "
+      "of mode {}, {:.0f} to {:.0f} Hz.",
+      widest - ranges.begin() + 1, widest->from, widest->to);
+}
+
 std::string gear_page(const GearPage& page, const input::LoadedInput& input, const std::vector<model::Mode>& modes,
                       const model::Scales& scales) {
   std::string text = fmt::format("# {}\n\n", markdown_cell(page.title));
@@ -362,11 +449,18 @@ std::string gear_page(const GearPage& page, const input::LoadedInput& input, con
     text += fmt::format("| {} | {} | {} | {} | {} |\n", q.name, q.symbol, shown(q.value), q.unit, q.formula);
   }
 
-  text +=
-      "\n## Modes\n\nLinear stage at mean stiffness, gaps closed, no rotation [M-K]. Shares of the elastic energy.\n\n"
-      "| mode | frequency Hz | ω/ω_sn | type | multiplicity | most elastic energy in |\n|---|---|---|---|---|---|\n";
+  const bool ranged = !page.mode_ranges.empty();
+  text += fmt::format(
+      "\n## Modes\n\nLinear stage at mean stiffness, gaps closed, no rotation [M-K]. Shares of the elastic "
+      "energy.{}\n\n"
+      "| mode | frequency Hz | ω/ω_sn | type | multiplicity | most elastic energy in "
+      "|{}\n|---|---|---|---|---|---|{}\n",
+      ranged ? " The range of a frequency is that of the softest and the stiffest stage within the ranges that the "
+               "origins of estimated values state."
+             : "",
+      ranged ? " range Hz |" : "", ranged ? "---|" : "");
   const model::LinearStage linear = model::linear_stage(input.study.stage, scales);
-  int number = 1;
+  std::size_t number = 1;
   for (const model::Mode& mode : modes) {
     const model::ModalEnergies energies = model::modal_energies(linear, mode, input.study.stage.planet_count);
     std::size_t most = 0;
@@ -376,9 +470,12 @@ std::string gear_page(const GearPage& page, const input::LoadedInput& input, con
                                   ? fmt::format("{} {:.0f} %", model::to_string(static_cast<model::Element>(most)),
                                                 100.0 * energies.elastic[most])
                                   : std::string("rigid motion");
-    text += fmt::format("| {} | {:.1f} | {:.4f} | {} | {} | {} |\n", number++,
+    const std::string range =
+        ranged ? fmt::format(" {:.1f} to {:.1f} |", page.mode_ranges[number - 1].from, page.mode_ranges[number - 1].to)
+               : std::string();
+    text += fmt::format("| {} | {:.1f} | {:.4f} | {} | {} | {} |{}\n", number++,
                         mode.frequency_ratio * scales.omega_sn / (2.0 * std::numbers::pi), mode.frequency_ratio,
-                        model::to_string(mode.type), mode.multiplicity, where);
+                        model::to_string(mode.type), mode.multiplicity, where, range);
   }
   text += fmt::format(
       "\nThe scale ω_sn = {:.1f} rad/s [M-23] is that of one sun-planet pair alone and none of these modes. {}",

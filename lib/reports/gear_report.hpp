@@ -32,14 +32,28 @@ struct Quantity {
 /// name,value,unit,symbol,formula,group
 [[nodiscard]] std::string quantities_csv(const std::vector<Quantity>& quantities);
 
+/// A natural frequency over the ranges that the origins of estimated values state [Hz].
+struct ModeRange {
+  double from, to;
+};
+
+/// One for each of the modes of the input's stage; empty where no value of the modes has a range.
+///
+/// Each frequency rises with every stiffness and falls with every mass (Courant and Fischer), so that its least value
+/// is that of the softest and heaviest stage, its greatest that of the stiffest and lightest. Of equally spaced, alike
+/// planets each type of modes is a problem of its own: the k-th mode of its type is followed, else the k-th of all.
+[[nodiscard]] std::vector<ModeRange> mode_ranges(const input::LoadedInput& input,
+                                                 const std::vector<model::Mode>& modes);
+
 /// What the page says besides its numbers.
 struct GearPage {
   std::string title;
   std::vector<std::string> verdicts;  ///< plain sentences, e.g. where the paths of contact lie
   std::vector<std::string> warnings;
   std::vector<Quantity> quantities;
-  std::vector<std::string> figures;  ///< stems in the folder figures
-  std::vector<std::string> files;    ///< data files beside the page
+  std::vector<std::string> figures;      ///< stems in the folder figures
+  std::vector<std::string> files;        ///< data files beside the page
+  std::vector<ModeRange> mode_ranges{};  ///< of each mode; empty where no estimated value has a range
 };
 
 /// The page: verdicts, warnings, quantities, modes, all values of the resolved input with their origins, figures.
@@ -49,6 +63,14 @@ struct GearPage {
 /// One sentence on teeth, speeds, torque and mesh stiffness at an operating point.
 /// @param stage  passes gear::problems_for_motion()
 [[nodiscard]] std::string operation_verdict(const gear::Stage& stage, double mesh_frequency_ratio);
+
+/// Amplitudes of the transmission error against the static deflection of both meshes at an operating point.
+/// @param stage  passes gear::problems_for_motion()
+[[nodiscard]] std::string error_words(const gear::Stage& stage, double mesh_frequency_ratio);
+
+/// The mode whose frequency is least known, in a sentence.
+/// @param ranges  of the modes; one at least
+[[nodiscard]] std::string range_words(const std::vector<ModeRange>& ranges);
 
 /// Sentences on where the paths of contact lie relative to their pitch points.
 [[nodiscard]] std::vector<std::string> contact_verdicts(const gear::GearSet& set, const gear::Stage& stage);

@@ -25,17 +25,28 @@ cp -r mine before
 diff -r mine before >/dev/null || fail "init wrote over what was there"
 
 # Drawings: three and five planets, even and uneven spacing, given shifts, a rated speed.
+# A light load is what it is warned of, once: then the estimated error decides the regime.
+warnings=0
 drawing() {
   rm -rf set
   [ "$(code_of "$epicyclic" init set "$@")" = 0 ] || fail "init $*: $(<stderr)"
-  [ -z "$(<stderr)" ] || fail "init $* warns: $(<stderr)"
+  [ "$(wc -l <stderr)" = $warnings ] || fail "init $* warns: $(<stderr)"
   for name in speed point; do
     [ "$(code_of "$epicyclic" check "set/$name.json" --no-time)" = 0 ] || fail "check of init $*: $(<stderr)"
-    grep -q '^warning' stderr && fail "init $*: $(<stderr)"
+    [ "$(grep -c '^warning' stderr)" = $warnings ] || fail "init $*: $(<stderr)"
+    [ "$(grep -c '^warning.* um: the estimate decides the regime' stderr)" = $warnings ] || fail "init $*: $(<stderr)"
+    grep -q '^amplitude of the transmission error: sun-planet [0-9.]* um on a static deflection of [0-9.]* um' stderr ||
+      fail "no error against the deflection: $(<stderr)"
   done
   [ "$(code_of "$epicyclic" gear set/stage.json -o set/gear)" = 0 ] || fail "gear of init $*: $(<stderr)"
 }
+warnings=1
 drawing --teeth 21,28,77 --module 3 --width 30 --torque 120 --speed 3000
+warnings=0
+drawing --teeth 21,28,77 --module 3 --width 30 --torque 480 --speed 3000
+# The whole curve of the stiffness, and ranges of what no drawing gives, which the modes follow.
+grep -q '"form": "curve"' set/stage.json || fail "harmonics in place of the curve"
+grep -q '^mode,.*,frequency_low_Hz,frequency_high_Hz$' set/gear/modes.csv || fail "modes without ranges: $(head -1 set/gear/modes.csv)"
 grep -q '"angles_deg"' set/stage.json || fail "98 teeth and three planets, but no angles"
 # Of a drawing is what was given, and nothing else.
 [ "$(grep -c '"module_mm": "source: drawing"' set/stage.json)" = 3 ] || fail "the origin of a module that was given"
@@ -44,9 +55,16 @@ grep -q '"angles_deg"' set/stage.json || fail "98 teeth and three planets, but n
 grep -q '"sun_speed_rpm"' set/speed.json || fail "no speeds in rpm"
 drawing --teeth 20,25,70 --module 2 --planets 3
 grep -q '"angles_deg"' set/stage.json && fail "90 teeth and three planets, but angles"
-drawing --teeth 28,20,68 --module 3 --planets 5
+drawing --teeth 28,20,68 --module 3 --planets 5 --shifts 0,0.3,0.6
 drawing --teeth 30,21 --module 1.5 --planets 4 --pressure-angle 25
 drawing --teeth 24,30,84 --module 4 --shifts 0.3,0.1,0.5 --torque 2000 --width 80
+
+# Values that no drawing gives go with the size: stages that are alike have modes in the same places.
+for module in 1.5 6; do
+  drawing --teeth 30,21,72 --module $module --width "$(awk "BEGIN { print 10 * $module }")"
+  tail -n +3 set/gear/modes.csv | cut -d, -f3 >"modes.$module"
+done
+paste modes.1.5 modes.6 | awk '{ if ($1 / $2 > 1.1 || $1 / $2 < 0.9) exit 1 }' || fail "modes of module 1.5 and 6: $(paste modes.1.5 modes.6)"
 
 # Planets where the drawing has them.
 drawing --teeth 21,28,77 --angles 0,117.551020408,238.775510204
@@ -64,8 +82,13 @@ refused init refused --teeth 3,28,77
 refused init refused --teeth 21,28,90
 grep -q '^init: /stage/catalogue/ring' stderr || fail "told of a file that is not kept: $(<stderr)"
 refused init refused --angles 0,90,180 --planets 4
-refused init refused --angles 0,40,180
+refused init refused --angles 0,40.4081633,180
 grep -q 'angles_deg: neighbouring planets overlap' stderr || fail "overlap of given angles: $(<stderr)"
+# Planets that cannot be assembled: the nearest angles, which can.
+refused init refused --teeth 21,28,77 --angles 0,120,240
+nearest=$(sed -n 's/^.*the nearest such angles are //p' stderr)
+[ -n "$nearest" ] || fail "no nearest angles: $(<stderr)"
+drawing --teeth 21,28,77 --angles "$nearest"
 refused init refused --module 0
 refused init refused --planets 9
 refused init refused --torque -3

@@ -114,5 +114,19 @@ TEST(Accuracy, OutsideItsRangesThereIsNoStandard) {
   EXPECT_NO_THROW((void)tolerances(12, 70, 10000, 1000, 1.5));
 }
 
+TEST(ErrorAmplitude, IsHalfOfTheFormDeviationOfTheWorseMember) {
+  // Grade 6 of Table 1: f_f alpha 8.5 and 9.5, f_pt 8.5 and 9 um.
+  Stage s = problems::table1();
+  s.catalogue->stiffness.harmonics = 0;
+  const MemberTolerances m = member_tolerances(make_gear_set(s));
+  EXPECT_NEAR(error_amplitude_um(ErrorAmplitude::profile_form, m.sun, m.planet).value(), 4.25, rounding);
+  EXPECT_NEAR(error_amplitude_um(ErrorAmplitude::profile_form, m.planet, m.ring).value(), 4.75, rounding);
+  EXPECT_NEAR(error_amplitude_um(ErrorAmplitude::profile_form, m.ring, m.planet).value(), 4.75, rounding);
+  EXPECT_NEAR(error_amplitude_um(ErrorAmplitude::single_pitch, m.planet, m.ring).value(), 9.0, rounding);
+  // Of one member alone, and of none.
+  EXPECT_NEAR(error_amplitude_um(ErrorAmplitude::profile_form, std::nullopt, m.ring).value(), 4.75, rounding);
+  EXPECT_FALSE(error_amplitude_um(ErrorAmplitude::profile_form, std::nullopt, std::nullopt).has_value());
+}
+
 }  // namespace
 }  // namespace epicyclic::gear::accuracy_test

@@ -104,5 +104,26 @@ TEST(BearingCatalogue, EveryEntryIsABearingThatCanBeMade) {
   EXPECT_GE(seen.size(), 2U);
 }
 
+TEST(RollerBearing, StiffnessIsTheSlopeOfPalmgrensLineContact) {
+  // 7.68e-5 mm Q^0.9 / l^0.8 at Q = 5 F / Z; the coefficient 3400 has two digits.
+  constexpr int rollers = 11;
+  constexpr double length_mm = 24.0;
+  const auto yields_mm = [&](double load_N) {
+    return 7.68e-5 * std::pow(5.0 * load_N / rollers, 0.9) / std::pow(length_mm, 0.8);
+  };
+  constexpr double printed_digits = 5e-3;
+  for (const double load_N : {300.0, 3000.0, 30000.0}) {
+    const double step = 1e-4 * load_N;
+    const double slope = 2.0 * step / (yields_mm(load_N + step) - yields_mm(load_N - step));
+    EXPECT_NEAR(1e-3 * roller_stiffness(load_N, rollers, length_mm) / slope, 1.0, printed_digits) << load_N;
+  }
+  // Gargiulo's 0.3e6 lb/in with lb and in.
+  constexpr double newton_per_lb = 4.4482216;
+  constexpr double mm_per_in = 25.4;
+  const double gargiulo = 0.3e6 * newton_per_lb / mm_per_in * std::pow(3000.0 / newton_per_lb, 0.1) *
+                          std::pow(rollers, 0.9) * std::pow(length_mm / mm_per_in, 0.8);
+  EXPECT_NEAR(1e-3 * roller_stiffness(3000.0, rollers, length_mm) / gargiulo, 1.0, printed_digits);
+}
+
 }  // namespace
 }  // namespace epicyclic::gear::bearing_test

@@ -212,5 +212,22 @@ TEST(Stage, FrictionTablesNameEachRuleThatIsBroken) {
       problems_for_motion);
 }
 
+TEST(Assembly, ThePlacesOfAPlanetAreWholeTeethOfSunAndRingApart) {
+  EXPECT_NEAR(assembly_angle_deg(98, 0.0, 100.0), 360.0 * 27 / 98, 1e-12);
+  EXPECT_NEAR(assembly_angle_deg(98, 10.0, 100.0), 10.0 + 360.0 * 25 / 98, 1e-12);  // 24.5 is rounded up
+  Stage s = problems::with_gap(problems::r1());
+  EXPECT_TRUE(assembly_misfits(s).empty());
+  const int teeth = *s.sun.teeth + *s.ring.teeth;
+  s.angles_deg = {5.0, 125.0, 5.0 + 360.0 * 73 / teeth};
+  const std::vector<Misfit> misfits = assembly_misfits(s);
+  EXPECT_TRUE(misfits.empty());
+  s.angles_deg[1] = 126.0;
+  ASSERT_EQ(assembly_misfits(s).size(), 1U);
+  EXPECT_EQ(assembly_misfits(s)[0].planet, 1U);
+  EXPECT_NEAR(assembly_misfits(s)[0].nearest_deg, assembly_angle_deg(teeth, 5.0, 126.0), 1e-12);
+  s.ring.teeth.reset();
+  EXPECT_TRUE(assembly_misfits(s).empty());
+}
+
 }  // namespace
 }  // namespace epicyclic::gear::stage_test

@@ -185,6 +185,8 @@ TEST(Warnings, GivenValuesAreHeldAgainstTheDrawings) {
   EXPECT_EQ(lines([](Stage&) {}).size(), 1U) << joined(lines([](Stage&) {}));
   EXPECT_TRUE(has_line(lines([](Stage& s) { s.sun.mass_kg = 6.0; }), "/lumped/sun/mass_kg", "is 6 kg, 3.6"));
   EXPECT_TRUE(has_line(lines([](Stage& s) { s.carrier.mass_kg = 24.0; }), "/lumped/carrier/mass_kg", "times the 7.5"));
+  EXPECT_TRUE(has_line(lines([](Stage& s) { s.sun.mass_kg = 0.5; }), "/lumped/sun/mass_kg", "is 0.5 kg, 0.3"));
+  EXPECT_FALSE(has_line(lines([](Stage& s) { s.sun.mass_kg = 0.6; }), "/lumped/sun/mass_kg", "is 0.6 kg"));
   EXPECT_TRUE(
       has_line(lines([](Stage& s) { s.planet.inertia_over_r2_kg = 3.2; }), "/lumped/planet/inertia_over_r2_kg", "3.2"));
   // 1.7 times by a factor, 0.58 by the bodies that a bore of 0 stood for.
@@ -234,7 +236,8 @@ TEST(Warnings, EachOneOnTheMotionIsToldAtItsPlace) {
        [](Stage& s) { s.sun_planet_mesh.damping_ratio = 0.0; }},
       {"/lumped/sun_planet_mesh/backlash_half_um", "has 0.124 um of backlash",
        [](Stage& s) { s.sun_planet_mesh.backlash_half_um = 0.062; }},
-      {"/lumped/sun_planet_mesh/error_amplitude_um", "is 850 um",
+      {"/lumped/sun_planet_mesh/error_amplitude_um",
+       "the total pitch deviation of the coarsest grade of ISO 1328 is 214 um",
        [](Stage& s) {
          s.sun_planet_mesh.error_amplitude_um = {8.5, 850.0, 8.5};
        }},
@@ -245,8 +248,6 @@ TEST(Warnings, EachOneOnTheMotionIsToldAtItsPlace) {
          s.ring_planet_mesh.friction = {};
          s.sun_planet_mesh.friction.coefficient = CoulombFriction{.coefficient = 0.05, .path_start_mm = {}};
        }},
-      {"/lumped/ring/inertia_over_r2_kg", "a radius of gyration of 3.4",
-       [](Stage& s) { s.ring.inertia_over_r2_kg = 50.0; }},
   };
   for (const auto& rule : rules) {
     Stage s = usual;
@@ -255,6 +256,67 @@ TEST(Warnings, EachOneOnTheMotionIsToldAtItsPlace) {
     EXPECT_TRUE(has_line(lines, rule.pointer, rule.words)) << rule.pointer << ": " << rule.words << "\nnot among:\n"
                                                            << joined(lines);
   }
+}
+
+TEST(Warnings, AnInertiaIsHeldAgainstTheMass) {
+  const auto lines = [](double times) {
+    Stage s = problems::r1();
+    s.planet.inertia_over_r2_kg = times * s.planet.mass_kg;
+    return lines_of(mass_warnings(s));
+  };
+  // A disc has half, a ring all of it; a rotor that is counted in may have more.
+  for (const double usual : {0.11, 0.5, 1.0, 3.9}) EXPECT_EQ(joined(lines(usual)), "") << usual;
+  EXPECT_TRUE(has_line(lines(0.034), "/lumped/planet/inertia_over_r2_kg", "0.034 of it; a solid disc has about half"))
+      << joined(lines(0.034));
+  EXPECT_TRUE(has_line(lines(11.6), "/lumped/planet/inertia_over_r2_kg", "a radius of gyration of 3.4"));
+}
+
+/// 20, 25 and 70 teeth of module 3 whose meshes fit with x_r = -0.117.
+GearSet with_ring_shift(double shift) {
+  return make_gear_set(changed([&](Stage&, Catalogue& c) {
+    c.sun.data = {20, 3, 20, 0.1, 1, 0.25, 30, {}, {}};
+    c.planet.data = {25, 3, 20, -0.1085, 1, 0.25, 30, {}, {}};
+    c.ring.data = {70, 3, 20, shift, 1, 0.25, 30, {}, {}};
+    c.ring.base_pitch = BasePitch::as_given;
+    c.ring.outer_diameter_mm = 250;
+  }));
+}
+
+TEST(Warnings, ARingShiftOfTheOtherSignConventionIsNamed) {
+  EXPECT_TRUE(ring_shift_has_other_sign(with_ring_shift(0.117)));
+  EXPECT_TRUE(has_line(drawn(with_ring_shift(0.117)), "/catalogue/ring/profile_shift",
+                       "with profile_shift = -0.117 both meshes fit"))
+      << joined(drawn(with_ring_shift(0.117)));
+  // As it should be, with room for backlash, and where neither sign fits.
+  for (const double shift : {-0.117, -0.07, 0.0, 0.3}) {
+    EXPECT_FALSE(ring_shift_has_other_sign(with_ring_shift(shift))) << shift;
+    EXPECT_FALSE(has_line(drawn(with_ring_shift(shift)), "/catalogue/ring/profile_shift", "")) << shift;
+  }
+}
+
+TEST(Warnings, HarmonicsThatLoseOfTheStiffnessAreNamedWithWhatTheyLose) {
+  const auto lines = [](int harmonics, bool given = false) {
+    Stage s = changed([&](Stage&, Catalogue& c) { c.stiffness.harmonics = harmonics; });
+    const GearSet set = make_gear_set(s);
+    s.sun_planet_mesh.stiffness_cos_N_per_m = set.sun_planet_stiffness.cosine;
+    s.sun_planet_mesh.stiffness_sin_N_per_m = set.sun_planet_stiffness.sine;
+    if (given) s.sun_planet_mesh.stiffness_sin_N_per_m[0] *= 1.01;
+    return lines_of(truncation_warnings(set, s));
+  };
+  // Peak to peak of the series by its own samples, of the curve between one pair and two: 1.82 and 0.998 10^9 N/m.
+  ASSERT_EQ(lines(2).size(), 1U);
+  EXPECT_TRUE(
+      has_line(lines(2), "/catalogue/mesh_stiffness/form", "2 harmonics of the stiffness of the sun-planet mesh"));
+  EXPECT_TRUE(has_line(lines(1), "/catalogue/mesh_stiffness/form", "1 harmonics"));
+  EXPECT_TRUE(lines(2, true).empty());  // of the user's own
+}
+
+TEST(Warnings, ASeriesLosesWhatItsPeakToPeakLacks) {
+  // Of A cos + B sin the variation is 2 sqrt(A^2 + B^2).
+  const StiffnessRange one = stiffness_range(FourierSeries{10.0, {3.0}, {4.0}});
+  constexpr double of_samples = 1e-2;  // 128 a period: 1 - cos(pi / 128) at most
+  EXPECT_NEAR(one.greatest - one.least, 10.0, of_samples);
+  EXPECT_NEAR(one.greatest, 15.0, of_samples);
 }
 
 TEST(Warnings, AStageForModesAloneIsLookedAtAsFarAsItGoes) {

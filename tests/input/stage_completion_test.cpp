@@ -313,5 +313,15 @@ TEST(StageCompletion, WhatNoDrawingGivesIsMissing) {
   EXPECT_TRUE(any_has(messages({"/lumped/ring/support_N_per_m=null"}), "/lumped/ring/support_N_per_m: is missing"));
 }
 
+TEST(StageCompletion, TheErrorFollowsFromTheFormDeviationUnlessTheStageSaysOtherwise) {
+  const auto mesh = [](const LoadedInput& input) { return input.resolved["lumped"]["ring_planet_mesh"]; };
+  EXPECT_EQ(mesh(loaded())["error_amplitude_um"], 9.0);  // the paper's stage states the single pitch deviation
+  const json usual = mesh(loaded({"/catalogue/error_amplitude=null"}));
+  EXPECT_EQ(usual["error_amplitude_um"], 4.75);
+  EXPECT_EQ(
+      usual["origin"]["error_amplitude_um"],
+      "computed: [G-error] half of the profile form deviation of the accuracy grade, the larger of the two members");
+}
+
 }  // namespace
 }  // namespace epicyclic::input::stage_completion_test

@@ -157,5 +157,60 @@ TEST(ModelFamily, HasTheDerivativeByAnyNumberOfTheInput) {
   EXPECT_THROW((void)model_family(input, "/stage/lumped/planets", 1e-3)(1.0), InputError);
 }
 
+TEST(StudyWarnings, AnEstimatedErrorThatExceedsTheDeflectionIsTold) {
+  const std::string study = "inputs/tang2020_run.json";
+  const std::string words = "um: the estimate decides the regime";
+  const std::string by_rule = "/stage/catalogue/error_amplitude=null";  // the default
+  const auto light = told(study, {by_rule});
+  EXPECT_EQ(std::ranges::count_if(light, [&](const std::string& l) { return l.ends_with("is meant"); }), 1)
+      << joined(light);
+  EXPECT_TRUE(has(light, "/stage/lumped/ring_planet_mesh/error_amplitude_um: is 4.75 um, an estimate"))
+      << joined(light);
+  // Under a load that yields more than the error there is nothing to say.
+  EXPECT_FALSE(has(told(study, {by_rule, "/stage/load/power_kW=3000"}), words));
+  // What somebody states is no estimate: the rule, the amplitude, or what the study varies.
+  for (const char* rule : {"single_pitch", "profile_form"})
+    EXPECT_FALSE(has(told(study, {std::string("/stage/catalogue/error_amplitude=") + rule}), words)) << rule;
+  const std::string sun = "/stage/lumped/sun_planet_mesh/error_amplitude_um";
+  const std::string ring = "/stage/lumped/ring_planet_mesh/error_amplitude_um";
+  EXPECT_FALSE(has(told(study, {by_rule, sun + "=20", ring + "=20"}), words));
+  EXPECT_TRUE(has(told(study, {by_rule, sun + "=20"}), words));
+  EXPECT_FALSE(has(told("inputs/tang2020_damping_1.21.json",
+                        {by_rule, ring + "=1", "/study/parameter=" + sun, "/study/from=1", "/study/to=20"}),
+                   words));
+  // An origin that says estimate is one.
+  const std::string estimated = R"(={"error_amplitude_um": 20, "damping_ratio": 0.05, "origin": "estimate: grade 8"})";
+  EXPECT_TRUE(has(told(study, {"/stage/lumped/sun_planet_mesh" + estimated}), words));
+}
+
+TEST(StudyWarnings, AnglesBetweenPlacesThatFitAreTold) {
+  const std::string study = "inputs/tang2020_damping_1.21.json";
+  const auto swept = [&](const std::string& to, const std::string& points) {
+    return told(study, {"/stage/planets/angles_deg=[0, 120, 240]", "/study/parameter=/stage/planets/angles_deg/1",
+                        "/study/from=120", "/study/to=" + to, "/study/points=" + points});
+  };
+  // 108 teeth: each 10/3 degrees. Both ends fit, and of 11 values every fifth.
+  EXPECT_TRUE(has(swept("126.6666667", "11"),
+                  "warning: /study/parameter: at 8 of 11 values of "
+                  "/stage/planets/angles_deg/1 the planets cannot be assembled; one fits "
+                  "every 3.33333 degrees"))
+      << joined(swept("126.6666667", "11"));
+  EXPECT_EQ(joined(swept("126.6666667", "3")), "");
+}
+
+TEST(StudyWarnings, HarmonicsThatNobodyChoseAreToldWithWhatTheyLose) {
+  const std::string study = "inputs/tang2020_run.json";
+  const std::string words = "2 harmonics of the stiffness of the sun-planet mesh vary by 7.09";
+  const std::vector<std::string> nobody = {"/stage/catalogue/mesh_stiffness=null"};
+  EXPECT_TRUE(has(told(study, nobody), "warning: /stage/catalogue/mesh_stiffness/form: 2 harmonics of"))
+      << joined(told(study, nobody));
+  EXPECT_TRUE(stiffness_notes(load_input(study, parse_assignments(nobody))).empty());
+  // Chosen, they are a line of gear and check.
+  EXPECT_EQ(joined(told(study)), "");
+  EXPECT_TRUE(has(stiffness_notes(load_input(study)), words)) << joined(stiffness_notes(load_input(study)));
+  const auto curve = parse_assignments(std::vector<std::string>{"/stage/catalogue/mesh_stiffness/form=curve"});
+  EXPECT_TRUE(stiffness_notes(load_input(study, curve)).empty());
+}
+
 }  // namespace
 }  // namespace epicyclic::input::study_model_test

@@ -1,10 +1,13 @@
 // What `epicyclic gear` writes: files, columns, and numbers that must agree with one another.
 #include "reports/gear_output.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
 #include <map>
+#include <numbers>
+#include <random>
 #include <set>
 #include <sstream>
 #include <string>
@@ -14,6 +17,8 @@
 
 #include "gnuplot_guard.hpp"
 #include "input/study_input.hpp"
+#include "model/modes.hpp"
+#include "reports/gear_report.hpp"
 #include "temporary_folder.hpp"
 
 namespace epicyclic::reports::gear_output_test {
@@ -90,10 +95,13 @@ TEST_F(GearOutputOfTheStage, GeometryIsThatOfTable1) {
 }
 
 TEST_F(GearOutputOfTheStage, SaysThatTheRingMeshLiesBeyondItsPitchPoint) {
-  ASSERT_EQ(output->verdicts.size(), 4U);
+  ASSERT_EQ(output->verdicts.size(), 7U);  // with the error and what two harmonics lose of each mesh
   EXPECT_EQ(output->verdicts[0].rfind("27/25/81 teeth, 3 planets: ω_m = 20.25 ω_s; at Ω = 1", 0), 0U);
-  EXPECT_NE(output->verdicts[1].find("sun-planet mesh lies across"), std::string::npos);
-  EXPECT_NE(output->verdicts[2].find("ring-planet mesh lies wholly beyond"), std::string::npos);
+  EXPECT_EQ(
+      output->verdicts[1].rfind("At that speed the amplitude of the transmission error: sun-planet 8.5 um on a", 0),
+      0U);
+  EXPECT_NE(output->verdicts[2].find("sun-planet mesh lies across"), std::string::npos);
+  EXPECT_NE(output->verdicts[3].find("ring-planet mesh lies wholly beyond"), std::string::npos);
 }
 
 TEST_F(GearOutputOfTheStage, StiffnessHasBothSidesOfEachJumpAndTheMeanOfItsSeries) {
@@ -237,6 +245,56 @@ TEST(GearOutput, AMeshWithoutBacklashHasNone) {
                                                           std::string("/catalogue/sun/profile_shift=") + shift}));
     EXPECT_EQ(input.study.stage.sun_planet_mesh.backlash_half_um, 0.0) << shift;
   }
+}
+
+TEST(ModeRanges, HoldTheFrequenciesOfEachStageWithinTheRanges) {
+  std::ifstream file("inputs/lin_parker_1999_n4.json");
+  nlohmann::json stated = nlohmann::json::parse(file);
+  stated["lumped"]["planet"]["origin"] = {{"bearing_N_per_m", "estimate: 2e7 to 9e8, rollers"},
+                                          {"mass_kg", "estimate: 0.5 to 0.9, by the rim"}};
+  stated["lumped"]["ring"]["origin"] = {{"torsional_support_N_per_m", "estimate: 1e8 to 4e9, housing"}};
+  const TemporaryFolder folder;
+  std::ofstream(folder / "stage.json") << stated.dump();
+  const input::LoadedInput input = input::load_input(folder / "stage.json");
+  const auto modes_of = [](const gear::Stage& stage) { return model::modes(stage, model::scales_of(stage)); };
+  const std::vector<model::Mode> modes = modes_of(input.study.stage);
+  const std::vector<ModeRange> ranges = mode_ranges(input, modes);
+  ASSERT_EQ(ranges.size(), modes.size());
+  // Frequencies by type, rising: each is followed by its place.
+  const auto by_type = [&](const gear::Stage& stage, const std::vector<model::Mode>& of) {
+    std::map<model::ModeType, std::vector<double>> all;
+    for (const model::Mode& m : of)
+      all[m.type].insert(all[m.type].end(), static_cast<std::size_t>(m.multiplicity),
+                         m.frequency_ratio * model::scales_of(stage).omega_sn / (2.0 * std::numbers::pi));
+    return all;
+  };
+  constexpr double rounding = 1e-6;
+  double widest = 1.0;
+  std::mt19937 random(62);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  const auto between = [&](double from, double to) { return from * std::pow(to / from, u(random)); };
+  for (int draw = 0; draw < 200; ++draw) {
+    const gear::Stage stage = input
+                                  .with_values(std::vector<input::PointerValue>{
+                                      {"/lumped/planet/bearing_N_per_m", between(2e7, 9e8)},
+                                      {"/lumped/planet/mass_kg", between(0.5, 0.9)},
+                                      {"/lumped/ring/torsional_support_N_per_m", between(1e8, 4e9)}})
+                                  .stage;
+    const auto drawn = by_type(stage, modes_of(stage));
+    std::map<model::ModeType, std::size_t> place;
+    for (std::size_t k = 0; k < modes.size(); ++k) {
+      for (int copy = 0; copy < modes[k].multiplicity; ++copy) {
+        const double f = drawn.at(modes[k].type).at(place[modes[k].type]++);
+        EXPECT_GE(f, ranges[k].from * (1.0 - rounding)) << "mode " << k + 1 << " of draw " << draw;
+        EXPECT_LE(f, ranges[k].to * (1.0 + rounding)) << "mode " << k + 1 << " of draw " << draw;
+      }
+      if (ranges[k].from > 0.0) widest = std::max(widest, ranges[k].to / ranges[k].from);
+    }
+  }
+  EXPECT_GT(widest, 2.0);  // or nothing was tried
+  // Without ranges there are none.
+  const input::LoadedInput bare = input::load_input("inputs/lin_parker_1999_n4.json");
+  EXPECT_TRUE(mode_ranges(bare, modes_of(bare.study.stage)).empty());
 }
 
 }  // namespace

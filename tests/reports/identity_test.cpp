@@ -402,6 +402,11 @@ TEST_F(IdentityOf, ARecordOfAnEarlierProgramIsStillOfTheSameStudy) {
   const input::LoadedInput included = load(resolved, {"/model/centrifugal=\"included\""});
   EXPECT_EQ(differences_from(earlier, included),
             std::vector<std::string>{"/model/centrifugal: \"left_out\" there, \"included\" here"});
+  // Of a stage with drawings, whose errors were single pitch deviations then.
+  ASSERT_EQ(earlier["stage"]["catalogue"].erase("error_amplitude"), 1U);
+  input::add_later_keys(earlier);
+  EXPECT_EQ(earlier["stage"]["catalogue"]["error_amplitude"], "single_pitch");
+  EXPECT_EQ(differences_from(earlier, left_out), std::vector<std::string>{});
   // What is there stays.
   json other = included.resolved;
   input::add_later_keys(other);
