@@ -299,8 +299,8 @@ std::string time_of(const input::LoadedInput& input, const studies::SweepPlan& p
                      kind == "run" ? ", and its figures" : "", expected.measured);
 }
 
-/// The speeds of the study's points as people know them.
-void tell_speeds(const input::LoadedInput& input) {
+/// The speeds of the study's points as people know them, and what of the stage decides how much is excited there.
+void tell_operation(const input::LoadedInput& input) {
   double from = input.study.mesh_frequency_ratio;
   double to = from;
   for (const auto& [axis, place] : input::varied_parameters(input.study))
@@ -340,12 +340,14 @@ int check_command(const Arguments& arguments) {
     print("{}\n", input.resolved.dump(2));
     tell("{}: valid\ncost: {} claims on {} sweeps; a search tries up to {} candidates\n", arguments.input.string(),
          claims->claims.size(), claims->sweeps.size(), studies::most_evaluations(*claims));
+    tell_operation(input);
     return done;
   }
   if (!input.study.has_points()) {
     print("{}\n", input.resolved.dump(2));
     tell("{}: valid\ncost: that of branches is not known before they are followed; `orbits` and `branches` bound it\n",
          arguments.input.string());
+    tell_operation(input);
     return done;
   }
   const studies::SweepPlan plan = input::plan_of(input.study);
@@ -363,7 +365,7 @@ int check_command(const Arguments& arguments) {
                                            cost->rhs_evaluations())
                              : "; few mesh periods take longer than this waits for",
        look.classification_periods > 0 ? " and what it takes to tell the regimes" : "");
-  tell_speeds(input);
+  tell_operation(input);
   if (!arguments.no_time && cost) {
     const auto time = limit.in_time([&] { return time_of(input, plan, arguments.threads, limit); });
     tell("time: {}\n", time.value_or("not known: nothing that was tried came to an end in time"));

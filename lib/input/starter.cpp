@@ -1,6 +1,7 @@
 #include "input/starter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -77,6 +78,31 @@ void check(const Drawing& d) {
 /// r_b of the sun.
 double sun_base_radius_mm(const Drawing& d) {
   return 0.5 * d.module_mm * d.sun_teeth * std::cos(d.pressure_angle_deg * std::numbers::pi / 180.0);
+}
+
+/// Radial clearance of deep groove ball bearings up to a bore [um].
+struct RadialClearance {
+  double bore_mm;
+  double least, greatest;
+};
+
+/// Group N of ISO 5753-1; of larger bores that of the largest one.
+RadialClearance radial_clearance(double bore_mm) {
+  constexpr std::array<RadialClearance, 13> rows = {{{10, 2, 13},
+                                                     {18, 3, 18},
+                                                     {30, 5, 20},
+                                                     {40, 6, 20},
+                                                     {50, 6, 23},
+                                                     {65, 8, 28},
+                                                     {80, 10, 30},
+                                                     {100, 12, 36},
+                                                     {120, 15, 41},
+                                                     {140, 18, 48},
+                                                     {160, 18, 53},
+                                                     {180, 20, 61},
+                                                     {200, 25, 71}}};
+  const auto* row = std::ranges::find_if(rows, [&](const RadialClearance& r) { return bore_mm <= r.bore_mm; });
+  return row == rows.end() ? rows.back() : *row;
 }
 
 /// A value with the range that machines have, both as parts and times of it, and the reason; the origin's form is that
@@ -213,6 +239,7 @@ ordered_json starter_stage(const Drawing& d) {
   const Estimate carrier_support =
       estimate(0.2 * mesh, 0.5, 10.0,
                "0.2 of " + benchmark + "; take this key out where /stage/catalogue/carrier/bearing is to give it");
+  const RadialClearance clearance_um = radial_clearance(sun_root);
   constexpr int rollers = 11;  // of a fifth of the bore, nine tenths of the pitch circle full of them
   const double planet_load = 2.0 * 1e3 * torque_Nm(d) / (d.planets * 0.5 * d.module_mm * d.sun_teeth);
   const Estimate planet_bearing = estimate(
@@ -224,13 +251,14 @@ ordered_json starter_stage(const Drawing& d) {
       {"sun",
        {{"support_N_per_m", sun_support.value},
         {"support_damping_ratio", 0.05},
-        {"bearing_clearance_half_um", 10},
+        {"bearing_clearance_half_um", neat(0.25 * (clearance_um.least + clearance_um.greatest))},
         {"origin",
          {{"support_N_per_m", sun_support.origin},
           {"support_damping_ratio", damping("rolling bearings")},
           {"bearing_clearance_half_um",
-           "estimate: 3 to 14, half the radial clearance of a ball bearing, group CN of ISO 5753-1; 0 of "
-           "one that is preloaded"}}}}},
+           fmt::format("estimate: {} to {}, half the radial clearance of a ball bearing, group N of ISO "
+                       "5753-1, on a shaft as thick as the sun's root circle; 0 of one that is preloaded",
+                       0.5 * clearance_um.least, 0.5 * clearance_um.greatest)}}}}},
       {"ring",
        {{"support_N_per_m", ring_support.value},
         {"torsional_support_N_per_m", ring_torsion.value},

@@ -6,6 +6,7 @@
 //             benchmark of Lin and Parker, 0.2 and 2 in torsion
 //   planets'  bearings  [G-roller] under the load of both meshes: rollers of a fifth of the bore on a pin of 0.6 of it,
 //             0.8 of the width long
+//   clearance group N of ISO 5753-1, of a ball bearing on a shaft as thick as the sun's root circle
 //   torque    60 N/mm2 times module and face width on each mesh, some 1 GPa on the flanks of case-hardened gears
 //   backlash  j_bn = 2/3 (60 um + 0.5 um/mm a + 30 um/mm m), the least that ISO/TR 10064-2 recommends
 #pragma once

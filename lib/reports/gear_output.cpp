@@ -271,11 +271,7 @@ GearOutput write_gear_output(const std::filesystem::path& path, const input::Loa
     const gear::GearSet set = gear::make_gear_set(stage);
     page.quantities = gear_quantities(set, stage);
     out.verdicts = contact_verdicts(set, stage);
-    if (moves) {
-      const double ratio = input.study.mesh_frequency_ratio;
-      out.verdicts.insert(out.verdicts.begin(), {operation_verdict(stage, ratio),
-                                                 fmt::format("At that speed the {}.", error_words(stage, ratio))});
-    }
+    if (moves) out.verdicts.insert(out.verdicts.begin(), operation_verdict(stage, input.study.mesh_frequency_ratio));
     for (const std::string& line : input::stiffness_notes(input)) out.verdicts.push_back(line + ".");
     const auto both = meshes(set, stage);
     folder.write("stiffness.csv", stiffness_csv(set));
@@ -295,6 +291,7 @@ GearOutput write_gear_output(const std::filesystem::path& path, const input::Loa
   folder.write("geometry.csv", quantities_csv(page.quantities));
   note_figures(out, draw_mode_figures(figures, stage));
 
+  if (moves) out.verdicts.push_back("The " + error_words(stage, input.study.mesh_frequency_ratio) + ".");
   if (!page.mode_ranges.empty()) out.verdicts.push_back(range_words(page.mode_ranges));
   page.verdicts = out.verdicts;
   page.warnings = out.warnings;

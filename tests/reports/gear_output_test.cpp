@@ -97,11 +97,10 @@ TEST_F(GearOutputOfTheStage, GeometryIsThatOfTable1) {
 TEST_F(GearOutputOfTheStage, SaysThatTheRingMeshLiesBeyondItsPitchPoint) {
   ASSERT_EQ(output->verdicts.size(), 7U);  // with the error and what two harmonics lose of each mesh
   EXPECT_EQ(output->verdicts[0].rfind("27/25/81 teeth, 3 planets: ω_m = 20.25 ω_s; at Ω = 1", 0), 0U);
-  EXPECT_EQ(
-      output->verdicts[1].rfind("At that speed the amplitude of the transmission error: sun-planet 8.5 um on a", 0),
-      0U);
-  EXPECT_NE(output->verdicts[2].find("sun-planet mesh lies across"), std::string::npos);
-  EXPECT_NE(output->verdicts[3].find("ring-planet mesh lies wholly beyond"), std::string::npos);
+  EXPECT_NE(output->verdicts[1].find("sun-planet mesh lies across"), std::string::npos);
+  EXPECT_NE(output->verdicts[2].find("ring-planet mesh lies wholly beyond"), std::string::npos);
+  EXPECT_NE(output->verdicts[4].find("2 harmonics of the stiffness of the sun-planet mesh vary by"), std::string::npos);
+  EXPECT_EQ(output->verdicts[6].rfind("The amplitude of the transmission error: sun-planet 8.5 um on a static", 0), 0U);
 }
 
 TEST_F(GearOutputOfTheStage, StiffnessHasBothSidesOfEachJumpAndTheMeanOfItsSeries) {
