@@ -332,18 +332,23 @@ void warn_of_truncation(std::vector<gear::Warning>& out, const LoadedInput& inpu
 
 /// On values of an angle at which planets cannot be assembled: the ends alone do not tell of those between.
 void warn_of_assembly(std::vector<gear::Warning>& out, const LoadedInput& input) {
+  constexpr std::string_view angles = "/stage/planets/angles_deg/";
   for (const auto& [axis, place] : varied_parameters(input.study)) {
-    if (!axis.name.starts_with("/stage/planets/")) continue;
+    if (!axis.name.starts_with(angles)) continue;
+    gear::Stage stage = input.study.stage;
+    double& angle = stage.angles_deg.at(std::stoul(axis.name.substr(angles.size())));
     const std::vector<double> values = studies::axis_values(axis);
-    const auto misfits = std::ranges::count_if(values, [&, &name = axis.name](double value) {
-      return !gear::assembly_misfits(point_at(input, std::array{PointerValue{name, value}}).stage).empty();
+    const auto misfits = std::ranges::count_if(values, [&](double value) {
+      angle = value;
+      return !gear::assembly_misfits(stage).empty();
     });
     if (misfits == 0) continue;
-    const int teeth = *input.study.stage.sun.teeth + *input.study.stage.ring.teeth;
+    const int teeth = *stage.sun.teeth + *stage.ring.teeth;
+    constexpr int digits = 6;
     out.push_back({gear::Rank::impossible, static_cast<double>(misfits), place + "/parameter", "assembly",
                    fmt::format("at {} of {} values of {} the planets cannot be assembled; one fits every {} degrees, "
                                "360 over the {} teeth of sun and ring",
-                               misfits, values.size(), axis.name, short_text(360.0 / teeth, 6), teeth)});
+                               misfits, values.size(), axis.name, short_text(360.0 / teeth, digits), teeth)});
   }
 }
 
