@@ -50,18 +50,20 @@ class Search {
     return run_.known.insert_or_assign(key, std::move(fresh)).first->second;
   }
 
-  /// Those of islands and refinement that were looked at in all rounds, by rising cost, then in the order of keys.
-  [[nodiscard]] std::vector<const EvaluatedCandidate*> ranked() const {
+  /// Candidates of the phases before `phase` that were evaluated in full, by rising cost, then in the order of keys. A
+  /// resumed search knows evaluations of its later phases, too; a phase that used them would ask for others than
+  /// before.
+  [[nodiscard]] std::vector<const EvaluatedCandidate*> ranked_before(std::size_t phase) const {
     std::vector<const EvaluatedCandidate*> all;
     for (const auto& [key, candidate] : run_.known)
-      if (key.phase < profile_phase() && !candidate.evaluation.given_up && candidate.evaluation.refused.empty())
+      if (key.phase < phase && !candidate.evaluation.given_up && candidate.evaluation.refused.empty())
         all.push_back(&candidate);
     std::ranges::stable_sort(all, {}, [](const EvaluatedCandidate* c) { return c->evaluation.cost; });
     return all;
   }
 
-  [[nodiscard]] const EvaluatedCandidate* best() const {
-    const auto all = ranked();
+  [[nodiscard]] const EvaluatedCandidate* best_before(std::size_t phase) const {
+    const auto all = ranked_before(phase);
     return all.empty() ? nullptr : all.front();
   }
 
@@ -206,7 +208,7 @@ bool run_islands(Search& search, const std::vector<std::vector<double>>& first) 
 
 void refine(Search& search) {
   const SearchOptions& options = search.options().search;
-  const EvaluatedCandidate* best = search.best();
+  const EvaluatedCandidate* best = search.best_before(search.refinement_phase());
   if (options.refinement == 0 || best == nullptr) return;
   constexpr double first_step = 0.05;  // of a range
   constexpr double last_step = 0.002;
@@ -226,7 +228,7 @@ std::optional<std::vector<Confirmed>> confirm(Search& search) {
   const auto wanted = static_cast<std::size_t>(search.options().search.confirmed);
   const ParameterSpace& space = search.options().space;
   std::vector<const EvaluatedCandidate*> chosen;
-  for (const EvaluatedCandidate* c : search.ranked()) {
+  for (const EvaluatedCandidate* c : search.ranked_before(search.profile_phase())) {
     if (chosen.size() == wanted) break;
     const std::vector<std::size_t> options = space.options_at(c->u);
     const auto is_near = [&](const EvaluatedCandidate* other) {
@@ -287,13 +289,13 @@ Calibration calibrate(const ClaimsOptions& options, const Evaluator& evaluate,
   const auto keep_best = [&] {
     if (result.whole() != nullptr)
       result.best = result.confirmed.front().candidate;
-    else if (const EvaluatedCandidate* best = search.best())
+    else if (const EvaluatedCandidate* best = search.best_before(search.profile_phase()))
       result.best = *best;
   };
   const auto run_all = [&] {
     if (!run_islands(search, first)) return false;
     refine(search);
-    if (search.best() == nullptr) throw InputError("no candidate is a valid stage");
+    if (search.best_before(search.profile_phase()) == nullptr) throw InputError("no candidate is a valid stage");
     auto confirmed = confirm(search);
     if (!confirmed) return false;
     result.confirmed = *std::move(confirmed);

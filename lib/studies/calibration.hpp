@@ -5,7 +5,8 @@
 //
 // Everything is a function of the options: an island draws its random numbers from its own seed and evaluates its
 // candidates one after another, islands exchange their best after fixed numbers of generations, and a candidate is
-// given up only by what is known on its own island. So threads do not count, and a search that was stopped goes on from
+// given up only by what is known on its own island. The refinement and the whole sweeps begin with what the phases
+// before them found, and with nothing else. So threads do not count, and a search that was stopped goes on from
 // the evaluations that were kept: it is run again, and asks for those instead of computing them.
 #pragma once
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -112,6 +113,36 @@ TEST(Calibration, GoesOnFromWhatWasKept) {
   const Calibration resumed = search(options, 2, kept);
   EXPECT_TRUE(same(whole.evaluations, resumed.evaluations));
   EXPECT_EQ(whole.best->u, resumed.best->u);
+}
+
+TEST(Calibration, GoesOnFromAnyNumberOfItsEvaluations) {
+  for (const SearchMethod method : {SearchMethod::differential_evolution, SearchMethod::covariance_adaptation}) {
+    ClaimsOptions options = options_of(3);
+    options.search.method = method;
+    options.search.candidates = 60;
+    options.search.refinement = 30;
+    options.search.profile = 2;
+    options.search.confirmed = 2;
+    std::vector<EvaluatedCandidate> in_order;
+    CalibrationRun run;
+    run.evaluated = [&](const EvaluatedCandidate& c) { in_order.push_back(c); };
+    const auto evaluate = [](const Question& q) { return rippled(q.u, q.give_up_at); };
+    const Calibration whole = calibrate(options, evaluate, {}, run);
+    ASSERT_TRUE(whole.complete);
+    ASSERT_EQ(in_order.size(), whole.evaluations.size());
+    // Every phase asks for evaluations, and the refinement finds the best: what it begins with is then not the best.
+    std::set<std::size_t> phases;
+    for (const EvaluatedCandidate& c : in_order) phases.insert(c.key.phase);
+    ASSERT_EQ(phases.size(), 6U);
+    ASSERT_EQ(whole.best->key.phase, 3U);
+    KnownEvaluations kept;
+    for (std::size_t n = 0; n <= in_order.size(); ++n) {
+      const Calibration resumed = search(options, 1 + static_cast<int>(n % 3), kept);
+      EXPECT_TRUE(same(whole.evaluations, resumed.evaluations)) << n;
+      EXPECT_EQ(whole.best->key, resumed.best->key) << n;
+      if (n < in_order.size()) kept.emplace(in_order[n].key, in_order[n]);
+    }
+  }
 }
 
 TEST(Calibration, TakesOfItsBestTheOneThatMeetsMostByWholeSweeps) {
