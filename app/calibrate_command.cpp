@@ -30,11 +30,10 @@ namespace epicyclic::app {
 namespace {
 
 /// Can multipliers lead from the stage as it is given? Candidates with readings that have none are refused one by one.
-void require_multipliers(const Arguments& arguments, const studies::ClaimsOptions& options,
-                         const std::vector<double>& given) {
+void require_multipliers(const input::LoadedInput& input, const std::vector<double>& given) {
+  const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
   if (options.search.led_by != studies::SearchLead::multipliers) return;
-  const studies::CandidateModels models =
-      input::candidate_models(arguments.input, input::parse_assignments(arguments.sets), options);
+  const studies::CandidateModels models = input::candidate_models(input);
   const studies::ClaimSweep& sweep = options.sweeps.front();
   if (!studies::has_classification(models(given)(sweep, sweep.axis.from)))
     throw InputError(std::string("/study/search/led_by: there are no multipliers: ") + studies::no_multipliers);
@@ -46,7 +45,7 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
 
   std::vector<std::string> moved;
   const std::vector<double> given = input::given_candidate(input, options.space, &moved);
-  require_multipliers(arguments, options, given);
+  require_multipliers(input, given);
 
   const std::string identity = identity_of(input, "calibrate");
   shared.gather(identity);
@@ -58,7 +57,7 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
     tell("the stage as it is given is no candidate; the first one has {}\n", words);
   CandidateJournal journal(session, "calibrate", studies::most_evaluations(options), 0, options.claims.size());
   studies::Calibration found;
-  shared.run(evaluator_by(studies::search_glance)(input, arguments, shared.stop()),
+  shared.run(evaluator_by(studies::search_glance)(input, shared.stop()),
              [&](const studies::Evaluator& evaluate, int threads) {
                found = studies::calibrate(options, evaluate, {given}, journal.run(threads, shared.stop()));
              });
@@ -77,8 +76,7 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
   if (found.best) {
     const std::string origin =
         fmt::format("calibrated: by claims of {}, seed {}", input.study.name, options.search.seed);
-    const nlohmann::json best_input = input::candidate_input(arguments.input, input::parse_assignments(arguments.sets),
-                                                             options.space, found.best->u, origin);
+    const nlohmann::json best_input = input::candidate_input(input, options.space, found.best->u, origin);
     write_file_atomically(folder.file("best.json"), best_input.dump(2) + "\n");
     nlohmann::json stage = best_input["stage"];
     write_file_atomically(folder.file("stage.json"), stage.dump(2) + "\n");

@@ -334,9 +334,7 @@ int check_command(const Arguments& arguments) {
   }
   if (const auto* claims = std::get_if<studies::ClaimsOptions>(&input.study.plan)) {
     require_models(*claims, input::claim_models(input));
-    if (claims->space.dimension() > 0)
-      examine_candidates(*claims,
-                         input::candidate_models(arguments.input, input::parse_assignments(arguments.sets), *claims));
+    if (claims->space.dimension() > 0) examine_candidates(*claims, input::candidate_models(input));
     print("{}\n", input.resolved.dump(2));
     tell("{}: valid\ncost: {} claims on {} sweeps; a search tries up to {} candidates\n", arguments.input.string(),
          claims->claims.size(), claims->sweeps.size(), studies::most_evaluations(*claims));

@@ -91,23 +91,21 @@ void examine_candidates(const studies::ClaimsOptions& options, const studies::Ca
 }
 
 input::LoadedInput load_open_claims(const Arguments& arguments) {
-  const std::vector<input::Assignment> sets = input::parse_assignments(arguments.sets);
-  input::LoadedInput input = input::load_input(arguments.input, sets);
+  input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
   require_kind(input, arguments, "claims");
   const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
   if (options.space.dimension() == 0)
     throw InputError("/study/parameters: is empty; there is nothing to search for or to draw");
-  examine_candidates(options, input::candidate_models(arguments.input, sets, options));
+  examine_candidates(options, input::candidate_models(input));
   tell_warnings(input);
   return input;
 }
 
 MakeEvaluator evaluator_by(studies::Glance (*glance)(const studies::ClaimsOptions&)) {
-  return [glance](const input::LoadedInput& input, const Arguments& arguments, const std::atomic<bool>& stop) {
+  return [glance](const input::LoadedInput& input, const std::atomic<bool>& stop) {
     const auto& options = std::get<studies::ClaimsOptions>(input.study.plan);
-    const std::vector<input::Assignment> sets = input::parse_assignments(arguments.sets);
-    return studies::evaluator_of(options, glance(options), input.study.integrator,
-                                 input::candidate_models(arguments.input, sets, options), &stop);
+    return studies::evaluator_of(options, glance(options), input.study.integrator, input::candidate_models(input),
+                                 &stop);
   };
 }
 

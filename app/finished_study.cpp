@@ -1,18 +1,21 @@
 #include "finished_study.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <system_error>
 #include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/poincare.hpp"
+#include "core/atomic_file.hpp"
 #include "core/csv.hpp"
 #include "core/errors.hpp"
 #include "core/text.hpp"
@@ -35,7 +38,7 @@ using nlohmann::json;
 /// run.json of a complete study.
 json complete_run(const std::filesystem::path& folder) {
   const input::JsonSource run = input::read_json_file(folder / "run.json");
-  if (!run.complete || !run.value.is_object() || !run.value.contains("identity"))
+  if (!run.complete || !run.value.is_object() || !run.value.value("identity", json()).is_string())
     throw InputError(folder.string() + ": holds no study of this program (no run.json that says so)");
   if (run.value.value("state", json()) != "complete")
     throw InputError(folder.string() + ": the study in it is not complete; let its command end first");
@@ -56,9 +59,9 @@ void require_unchanged(const std::filesystem::path& folder, const json& run, con
 }
 
 CsvTable read_table(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  auto table = parse_csv(text);
+  const FileDescriptor descriptor = open_descriptor(file, O_RDONLY);
+  if (!descriptor.is_open()) throw_output_error(file, "open the file", errno);
+  auto table = parse_csv(read_all(descriptor.get(), file));
   if (!table) throw store::DamagedData(file.string() + ": is not a table that this program writes");
   return *std::move(table);
 }
@@ -113,13 +116,22 @@ void FinishedStudy::read_run() {
   studies::PointResult result;
   result.point = plan_->points[0];
   result.period = static_cast<int>(number_of(cell("period")));
-  result.outcome = cell("status") == "ok" ? integrate::Outcome::reached : integrate::Outcome::failed;
+  result.outcome = integrate::Outcome::failed;
+  for (const auto outcome : {integrate::Outcome::reached, integrate::Outcome::diverged, integrate::Outcome::step_limit})
+    if (cell("status") == store::status_word(outcome)) result.outcome = outcome;
   for (const auto regime : {analysis::Regime::periodic, analysis::Regime::quasiperiodic, analysis::Regime::chaotic})
     if (cell("regime") == to_string(regime)) result.regime = regime;
   constexpr std::size_t keys = 2;  // point, index
-  result.poincare_columns = section.columns.size() - keys;
+  result.poincare_columns = section.columns.size() - std::min(section.columns.size(), keys);
   for (const auto& row : section.rows)
     for (std::size_t j = keys; j < row.size(); ++j) result.poincare.push_back(number_of(row[j]));
+  const studies::LookOptions& look = input_.study.look();
+  const model::DynamicModel model = input::model_at(input_)(input_.study.mesh_frequency_ratio);
+  if (result.poincare_columns < model.dimension)
+    throw store::DamagedData((folder_ / "poincare.csv").string() + ": is not a table of states of its study");
+  result.classified = look.classification_periods > 0 && studies::has_classification(model);
+  result.recurrence =
+      analysis::recurrence(studies::section_of(result, model.dimension), look.period_max, look.recurrence_tolerance);
   run_.push_back(std::move(result));
 }
 
@@ -288,29 +300,27 @@ input::LoadedInput with_start(const Arguments& arguments, std::string_view kind,
   std::vector<std::string> lines = other_motions(from, index, there);
   lines.insert(lines.begin(), point_words(from, r));
 
-  std::vector<input::Assignment> all;
-  std::filesystem::path path = arguments.input;
-  if (path.empty()) {
-    path = from.folder() / "input.resolved.json";
-    all = input::point_as_study(from.input(), from.plan().points[index], kind);
-  }
-  all.insert(all.end(), sets.begin(), sets.end());
-  const input::LoadedInput stage = input::load_input(path, all);
+  std::vector<input::Assignment> of_point;
+  if (arguments.input.empty()) of_point = input::point_as_study(from.input(), from.plan().points[index], kind);
+  of_point.insert(of_point.end(), sets.begin(), sets.end());
+  const input::LoadedInput stage =
+      arguments.input.empty() ? from.input().with_further(of_point) : input::load_input(arguments.input, sets);
   if (!stage.study.has_points()) return stage;  // refused for its kind
   const bool plans = std::ranges::any_of(sets, [](const auto& set) {
     return set.pointer == "/study" || set.pointer == "/study/parameter" || set.pointer == "/study/from" ||
            set.pointer == "/study/to";
   });
+  std::vector<input::Assignment> further;
   if (arguments.input.empty() && kind != "run" && !plans) {
     // At the speed that is set, if one is.
     for (const char* end : {"/study/from", "/study/to"})
-      all.push_back({end, stage.study.mesh_frequency_ratio, std::string(end) + ", by --from"});
+      further.push_back({end, stage.study.mesh_frequency_ratio, std::string(end) + ", by --from"});
   }
   // Rates are per tau = omega_sn t, and omega_sn is the stage's own.
   const double slower = input::time_scale(from.input()) / input::time_scale(stage);
   for (std::size_t k = state.size() / 2; k < state.size(); ++k) state[k] *= slower;
-  all.push_back({"/study/initial_state", state, "/study/initial_state, by --from"});
-  input::LoadedInput input = input::load_input(path, all);
+  further.push_back({"/study/initial_state", state, "/study/initial_state, by --from"});
+  input::LoadedInput input = stage.with_further(further);
   if (!input::moves_like(input, from.input(), there))
     lines.emplace_back("its equations of motion are not those of this study; its state is a start like any other");
   for (const std::string& line : lines) tell("--from {}: {}\n", donor.text, line);
@@ -440,12 +450,10 @@ input::LoadedInput with_seeds(const std::filesystem::path& study, const std::vec
   if (donors.empty() || !std::holds_alternative<studies::BranchesOptions>(input.study.plan)) return input;
   Sower sower(input, notes);
   for (const std::string& donor : donors) sower.take(parse_donor(donor));
-  std::vector<input::Assignment> all = sets;
   // As it is resolved: seeds are in the unit that its parameter has there.
   json resolved = input.resolved.at("study");
   resolved["seeds"] = sower.seeds();
-  all.push_back({"/study", std::move(resolved), "/study, by --from"});
-  return input::load_input(study, all);
+  return input.with_further(std::array{input::Assignment{"/study", std::move(resolved), "/study, by --from"}});
 }
 
 }  // namespace epicyclic::app

@@ -36,7 +36,7 @@ int lead(const Arguments& arguments, SharedEvaluations& shared) {
   CandidateJournal journal(session, "robustness", draws, static_cast<std::size_t>(options.survey.confirmed),
                            options.claims.size());
   studies::KnownEvaluations evaluations;
-  shared.run(evaluator_by(studies::survey_glance)(input, arguments, shared.stop()),
+  shared.run(evaluator_by(studies::survey_glance)(input, shared.stop()),
              [&](const studies::Evaluator& evaluate, int threads) {
                evaluations = studies::survey(options, evaluate, journal.run(threads, shared.stop()));
              });

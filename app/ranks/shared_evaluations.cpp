@@ -285,7 +285,7 @@ int follow(const Arguments& arguments, std::string_view command, const MakeEvalu
   try {
     input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
     identity = identity_of(*input, command);
-    if (std::holds_alternative<studies::ClaimsOptions>(input->study.plan)) evaluate = make(*input, arguments, stop);
+    if (std::holds_alternative<studies::ClaimsOptions>(input->study.plan)) evaluate = make(*input, stop);
   } catch (...) {
     error = std::current_exception();
   }

@@ -40,8 +40,7 @@ class SharedEvaluations {
 };
 
 /// How a rank evaluates candidates of an input: `stop` ends it.
-using MakeEvaluator = std::function<studies::Evaluator(const input::LoadedInput& input, const Arguments& arguments,
-                                                       const std::atomic<bool>& stop)>;
+using MakeEvaluator = std::function<studies::Evaluator(const input::LoadedInput& input, const std::atomic<bool>& stop)>;
 
 /// A command whose evaluations are shared.
 /// @param lead  the command, on the first rank

@@ -3,7 +3,7 @@
 //   InputError   what the user wrote is wrong: a value out of range, supports that do not fit the boundary
 //   DomainError  a formula was asked outside its domain: a negative approach, a contact off the path
 //   SolverError  a call into an external library failed: carries call, flag and mesh phase
-//   OutputError  a file could not be written; what was written before stays valid
+//   OutputError  the machine could not write or read a file; what was written before stays valid
 #pragma once
 
 #include <stdexcept>
@@ -23,7 +23,7 @@ class DomainError : public std::domain_error {
   using std::domain_error::domain_error;
 };
 
-/// An output file or folder could not be written [path and reason in the message].
+/// The machine could not write or read a file or folder: no room, no descriptor left [path and reason in the message].
 class OutputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

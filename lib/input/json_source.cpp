@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <optional>
 #include <system_error>
 #include <utility>
+
+#include <fcntl.h>
+
+#include "core/atomic_file.hpp"
 
 namespace epicyclic::input {
 
@@ -517,16 +521,24 @@ JsonSource read_json_file(const std::filesystem::path& path, std::string name) {
   }
   if (std::filesystem::is_directory(status)) return refuse("is a directory, not a JSON file");
   if (!std::filesystem::is_regular_file(status)) return refuse("is not a regular file");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return refuse("cannot be opened for reading");
+  const FileDescriptor file = open_descriptor(path, O_RDONLY);
+  if (!file.is_open()) {
+    if (errno != EACCES && errno != EPERM && errno != ENOENT) throw_output_error(path, "open the file", errno);
+    return refuse("cannot be opened for reading");
+  }
   std::string bytes;
   std::vector<char> block(std::size_t{1} << 16);
-  while (bytes.size() <= json_bytes_max &&
-         (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)) {
-    bytes.append(block.data(), static_cast<std::size_t>(file.gcount()));
+  for (std::size_t count = block.size(); count == block.size() && bytes.size() <= json_bytes_max;) {
+    count = read_at(file.get(), path, bytes.size(), block.data(), block.size());
+    bytes.append(block.data(), count);
   }
-  if (file.bad()) return refuse("a read error occurred");
   return parse_json(std::move(bytes), std::move(name));
+}
+
+const JsonSource& JsonFiles::read(const std::filesystem::path& path) {
+  const std::scoped_lock lock(mutex_);
+  if (const auto known = files_.find(path); known != files_.end()) return known->second;
+  return files_.emplace(path, read_json_file(path)).first->second;
 }
 
 std::string misspelt_number(std::string_view text) {

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <mutex>
 #include <set>
 #include <string>
 #include <string_view>
@@ -67,8 +68,22 @@ struct JsonSource {
 /// Reads a text. Never throws for what the text holds: see `problems`.
 [[nodiscard]] JsonSource parse_json(std::string bytes, std::string name);
 
-/// Reads a file; a file that cannot be read is a problem too. `name` is what messages call it (default: the path).
+/// Reads a file; one that is not there, is no file or may not be read is a problem too. `name` is what messages call it
+/// (default: the path).
+/// @throws OutputError when it is the machine that fails: no descriptor is left, or the disk has an error
 [[nodiscard]] JsonSource read_json_file(const std::filesystem::path& path, std::string name = {});
+
+/// Files of an input, each read once: whatever is made of them later is made of one state of theirs. May be asked by
+/// several threads at once.
+class JsonFiles {
+ public:
+  /// @throws as read_json_file()
+  [[nodiscard]] const JsonSource& read(const std::filesystem::path& path);
+
+ private:
+  std::mutex mutex_;
+  std::map<std::filesystem::path, JsonSource> files_;
+};
 
 /// Which byte keeps a text from being one in UTF-8 (RFC 3629), without NUL; empty if none does.
 [[nodiscard]] std::string not_text(std::string_view text);

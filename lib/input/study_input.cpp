@@ -392,6 +392,8 @@ std::vector<Assignment> parse_assignments(std::span<const std::string> texts) {
 
 /// The texts that an input was made of, and which of them a pointer of the whole leads to.
 struct LoadedInput::Sources {
+  std::filesystem::path path;
+  std::shared_ptr<JsonFiles> files;  ///< shared by all inputs that are made of one
   JsonSource study;
   std::optional<JsonSource> stage;
   bool bare = false;  ///< the file is a stage alone
@@ -915,7 +917,10 @@ class Problems {
 /// Reads an input step by step: its texts into one, that into values, and the values that a study varies.
 class LoadedInput::Loader {
  public:
-  explicit Loader(const std::filesystem::path& path) : path_(path) {}
+  Loader(const std::filesystem::path& path, std::shared_ptr<JsonFiles> files) {
+    sources_->path = path;
+    sources_->files = std::move(files);
+  }
 
   /// @throws InputProblems with all that is wrong
   LoadedInput load(std::span<const Assignment> sets) {
@@ -953,7 +958,7 @@ class LoadedInput::Loader {
 
   void read_study_file(std::span<const Assignment> sets) {
     JsonSource& file = sources_->study;
-    file = read_json_file(path_);
+    file = sources_->files->read(sources_->path);
     problems_.add(file);
     for (const Assignment& set : sets) {
       if (set.problems.empty()) sources_->sets.push_back(set);
@@ -1148,8 +1153,8 @@ class LoadedInput::Loader {
   /// Puts the stage that the study names in the place of its name.
   void read_stage_file() {
     const auto named = whole_["stage"].get<std::string>();
-    const std::filesystem::path stage_path = path_.parent_path() / named;
-    JsonSource stage = read_json_file(stage_path);
+    const std::filesystem::path stage_path = sources_->path.parent_path() / named;
+    JsonSource stage = sources_->files->read(stage_path);
     whole_.erase("stage");
     if (whole_.contains("origin") && whole_["origin"].is_object()) whole_["origin"].erase("stage");
     if (stage.bytes.empty() && !stage.problems.empty()) {  // not readable at all: say who named it
@@ -1236,7 +1241,7 @@ class LoadedInput::Loader {
     fill_origins(input_.resolved, whole_);
     note_uncomputed(input_.resolved, input_.computed, context_.notes);
     note_undone();
-    input_.study_file = {path_.filename().string(), sources_->study.bytes};
+    input_.study_file = {sources_->path.filename().string(), sources_->study.bytes};
     input_.sources_ = sources_;
     input_.notes = std::move(context_.notes);
     for (const auto& finding : context_.findings) {
@@ -1435,7 +1440,6 @@ class LoadedInput::Loader {
     }
   }
 
-  std::filesystem::path path_;
   std::shared_ptr<Sources> sources_ = std::make_shared<Sources>();
   Problems problems_;
   json whole_;                  ///< all texts in one
@@ -1448,7 +1452,13 @@ class LoadedInput::Loader {
 };
 
 LoadedInput load_input(const std::filesystem::path& path, std::span<const Assignment> sets) {
-  return LoadedInput::Loader(path).load(sets);
+  return LoadedInput::Loader(path, std::make_shared<JsonFiles>()).load(sets);
+}
+
+LoadedInput LoadedInput::with_further(std::span<const Assignment> sets) const {
+  std::vector<Assignment> all = sources_->sets;
+  all.insert(all.end(), sets.begin(), sets.end());
+  return Loader(sources_->path, sources_->files).load(all);
 }
 
 const json* LoadedInput::value_at(std::string_view pointer) const {

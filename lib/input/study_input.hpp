@@ -190,6 +190,11 @@ class LoadedInput {
   /// Pointers of all numbers that with_value() takes.
   [[nodiscard]] std::vector<std::string> number_pointers() const;
 
+  /// The input with further assignments behind its own. Its files are those that it was loaded from, as they were then;
+  /// one that an assignment names first is read once, too.
+  /// @throws as load_input()
+  [[nodiscard]] LoadedInput with_further(std::span<const Assignment> sets) const;
+
   /// What the resolved input has at a JSON pointer; null where it has nothing, or that is no pointer.
   [[nodiscard]] const nlohmann::json* value_at(std::string_view pointer) const;
 
@@ -208,7 +213,7 @@ class LoadedInput {
 };
 
 /// Reads a study file, or a stage file (one with "lumped" or "catalogue" at its top level).
-/// @throws InputProblems with all that is wrong
+/// @throws InputProblems with all that is wrong, OutputError when the machine cannot read a file
 [[nodiscard]] LoadedInput load_input(const std::filesystem::path& path, std::span<const Assignment> sets = {});
 
 /// The tables; keys of the study, and of the stage alone.

@@ -171,20 +171,18 @@ studies::SweepModels sweep_models(std::shared_ptr<const LoadedInput> input, std:
   };
 }
 
-/// Inputs with the options of choices in place, loaded when they are first asked for.
+/// Inputs with the options of choices in place, made when they are first asked for.
 class OptionInputs {
  public:
-  OptionInputs(std::filesystem::path path, std::vector<Assignment> sets)
-      : path_(std::move(path)), sets_(std::move(sets)) {}
+  explicit OptionInputs(LoadedInput given) : given_(std::move(given)) {}
 
   std::shared_ptr<const LoadedInput> of(const studies::ParameterSpace& space, const std::vector<std::size_t>& options) {
     const std::scoped_lock lock(mutex_);
-    std::shared_ptr<const LoadedInput>& input = loaded_[options];
+    std::shared_ptr<const LoadedInput>& input = made_[options];
     if (input == nullptr) {
-      std::vector<Assignment> sets = sets_;
-      std::ranges::move(option_assignments(space, options), std::back_inserter(sets));
-      input = std::make_shared<const LoadedInput>(load_input(path_, sets));
-      if (!options.empty()) keep_noted_speed(sets, input);
+      std::vector<Assignment> sets = option_assignments(space, options);
+      input = std::make_shared<const LoadedInput>(given_.with_further(sets));
+      if (!options.empty()) keep_noted_speed(std::move(sets), input);
     }
     return input;
   }
@@ -192,22 +190,18 @@ class OptionInputs {
  private:
   /// A resolved input notes its speed in rpm as that of the stage that it has: of another option's it is still given.
   void keep_noted_speed(std::vector<Assignment> sets, std::shared_ptr<const LoadedInput>& input) {
-    if (!given_) given_ = load_input(path_, sets_).given_speed;
     for (const SpeedAlias& alias : speed_aliases()) {
-      const std::optional<double>& value = *given_.*alias.given;
+      const std::optional<double>& value = given_.given_speed.*alias.given;
       if (!value || input->given_speed.*alias.given) continue;
       // First, so that an option's own speed counts.
-      sets.insert(sets.begin() + static_cast<std::ptrdiff_t>(sets_.size()),
-                  Assignment{"/operation/" + std::string(alias.key), *value, {}});
-      input = std::make_shared<const LoadedInput>(load_input(path_, sets));
+      sets.insert(sets.begin(), Assignment{"/operation/" + std::string(alias.key), *value, {}});
+      input = std::make_shared<const LoadedInput>(given_.with_further(sets));
     }
   }
 
-  std::filesystem::path path_;
-  std::vector<Assignment> sets_;
+  LoadedInput given_;  ///< without an option
   std::mutex mutex_;
-  std::optional<GivenSpeed> given_;  ///< without an option
-  std::map<std::vector<std::size_t>, std::shared_ptr<const LoadedInput>> loaded_;
+  std::map<std::vector<std::size_t>, std::shared_ptr<const LoadedInput>> made_;
 };
 
 /// What a candidate has in place of the input's numbers.
@@ -219,18 +213,17 @@ std::vector<PointerValue> candidate_values(const studies::ParameterSpace& space,
 
 }  // namespace
 
-json candidate_input(const std::filesystem::path& path, std::span<const Assignment> sets,
-                     const studies::ParameterSpace& space, std::span<const double> u, const std::string& origin) {
-  OptionInputs inputs(path, std::vector<Assignment>(sets.begin(), sets.end()));
+json candidate_input(const LoadedInput& given, const studies::ParameterSpace& space, std::span<const double> u,
+                     const std::string& origin) {
+  OptionInputs inputs(given);
   const std::shared_ptr<const LoadedInput> input = inputs.of(space, space.options_at(u));
   return with_origins(input->resolved_with(at_given_speed(*input, candidate_values(space, u))),
                       candidate_assignments(space, u), origin);
 }
 
-studies::CandidateModels candidate_models(const std::filesystem::path& path, std::span<const Assignment> sets,
-                                          const studies::ClaimsOptions& options) {
-  auto inputs = std::make_shared<OptionInputs>(path, std::vector<Assignment>(sets.begin(), sets.end()));
-  return [inputs, space = options.space](std::span<const double> u) {
+studies::CandidateModels candidate_models(const LoadedInput& given) {
+  auto inputs = std::make_shared<OptionInputs>(given);
+  return [inputs, space = std::get<studies::ClaimsOptions>(given.study.plan).space](std::span<const double> u) {
     return sweep_models(inputs->of(space, space.options_at(u)), candidate_values(space, u));
   };
 }

@@ -1,7 +1,6 @@
 // From the input to models: what a sweep asks at each value of its parameter.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
@@ -58,19 +57,16 @@ studies::ModelAtPoint model_at_point(LoadedInput&& input) = delete;
 std::function<model::DynamicModel(double value, double clearance_smoothing)> smoothed_model_at(LoadedInput&& input) =
     delete;
 
-/// The models of candidates for what a study of claims leaves open. An input is loaded once for each set of options
-/// that is asked for. Scales are each candidate's own: it stands for the stage, as a stage of its own would, and runs
-/// at the speed that the input gives, be it Omega, rpm or Hz.
-/// @param path, sets  that the study was loaded from
-[[nodiscard]] studies::CandidateModels candidate_models(const std::filesystem::path& path,
-                                                        std::span<const Assignment> sets,
-                                                        const studies::ClaimsOptions& options);
+/// The models of candidates for what a study of claims leaves open. An input is made once for each set of options that
+/// is asked for, of the files as they were read for the given one. Scales are each candidate's own: it stands for the
+/// stage, as a stage of its own would, and runs at the speed that the input gives, be it Omega, rpm or Hz.
+/// @param given  a study of claims
+[[nodiscard]] studies::CandidateModels candidate_models(const LoadedInput& given);
 
 /// The input of a candidate as candidate_models() has it, resolved, each of its values with that origin.
 /// @throws InputProblems when the numbers do not go together
-[[nodiscard]] nlohmann::json candidate_input(const std::filesystem::path& path, std::span<const Assignment> sets,
-                                             const studies::ParameterSpace& space, std::span<const double> u,
-                                             const std::string& origin);
+[[nodiscard]] nlohmann::json candidate_input(const LoadedInput& given, const studies::ParameterSpace& space,
+                                             std::span<const double> u, const std::string& origin);
 
 /// The models of the stage as it is given, for the claims' sweeps. `input` must outlive the result.
 [[nodiscard]] studies::SweepModels claim_models(const LoadedInput& input);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -12,8 +12,10 @@
 #include <string_view>
 #include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
+#include "core/atomic_file.hpp"
 #include "core/csv.hpp"
 #include "core/errors.hpp"
 #include "figures/cell_figure.hpp"
@@ -36,9 +38,13 @@ constexpr Place gap{nan, nan};
 
 // ---- tables -----------------------------------------------------------------------------------------------------
 
+/// Nothing of a file that is not there.
+/// @throws OutputError when it cannot be read
 std::string text_of_file(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const FileDescriptor descriptor = open_descriptor(file, O_RDONLY);
+  if (!descriptor.is_open() && errno == ENOENT) return {};
+  if (!descriptor.is_open()) throw_output_error(file, "open the file", errno);
+  return read_all(descriptor.get(), file);
 }
 
 /// Some columns of a table that may have more than fit into memory.
@@ -82,9 +88,8 @@ class Columns {
 };
 
 std::vector<std::string> header_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string line;
-  std::getline(stream, line);
+  const std::string text = text_of_file(file);
+  const std::string line = text.substr(0, text.find('\n'));
   std::vector<std::string> names;
   (void)scan_csv(line + "\n", [&names](std::vector<std::string>& cells) { names = cells; });
   return names;

@@ -16,7 +16,8 @@ analysis::AttractorRecord record_of(PointResult& r, const model::DynamicModel& m
   const std::size_t dimension = model.dimension;
   if (r.attractor.dimension > 0) return std::move(r.attractor);
   if (r.outcome != integrate::Outcome::reached || r.poincare_rows() == 0) return {};
-  if (r.on_its_way()) {
+  // Its record does not recur: it is on its way to the orbit, or no orbit is kept.
+  if (r.regime == analysis::Regime::periodic && r.recurrence.period == 0) {
     if (r.orbit.empty()) return {};
     const auto flow = make_flow_of_one_trajectory(model, integrator);
     const analysis::PeriodicOrbit orbit = analysis::find_periodic_orbit(*flow, r.orbit, r.period);

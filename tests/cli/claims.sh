@@ -150,6 +150,62 @@ for file in "${files[@]}"; do
   cmp -s "c1/$file" "c2/$file" || fail "$file differs after a stop"
   cmp -s "c1/$file" "c3/$file" || fail "$file differs with three threads"
 done
+# A search goes on from any number of its records, in each of its phases, by either method; and however often it is killed.
+in_phase() { grep -c "^$1" "$2/candidates.csv"; }
+for method in differential_evolution covariance_adaptation; do
+  by=(calibrate claims.json --threads 1 --set "/study/search/method=$method")
+  whole=whole_$method
+  [ "$(code_of "$epicyclic" "${by[@]}" -o "$whole")" = 0 ] || fail "$method: $(<stderr)"
+  mapfile -t ends < <(journal_records "$whole/journal.bin" | cut -d ' ' -f 1)
+  islands=$(in_phase island "$whole")
+  refined=$((islands + $(in_phase refinement "$whole")))
+  confirmed=$((refined + $(in_phase 'whole sweeps' "$whole")))
+  [ ${#ends[@]} = $((confirmed + $(in_phase profile "$whole"))) ] || fail "$method: ${#ends[@]} records of other phases"
+  for records in 0 $((islands / 2)) $islands $((islands + 1)) $((refined - 1)) "$refined" $((refined + 1)) "$confirmed" $((confirmed + 3)) ${#ends[@]}; do
+    rm -rf cut && mkdir cut
+    cp "$whole"/{.lock,input.json,input.resolved.json,run.json} cut
+    sed -i 's/"state": "complete"/"state": "running"/' cut/run.json
+    [ "$records" = 0 ] || head -c "${ends[records - 1]}" "$whole/journal.bin" >cut/journal.bin
+    [ "$(code_of "$epicyclic" "${by[@]}" -o cut)" = 0 ] || fail "$method after $records records: $(<stderr)"
+    same_folder "$whole" cut
+  done
+  rm "$whole/profile.csv" && cp -r "$whole" cut_output
+  [ "$(code_of "$epicyclic" "${by[@]}" -o cut_output)" = 0 ] || fail "$method, a missing table: $(<stderr)"
+  cmp -s cut/profile.csv cut_output/profile.csv || fail "$method: a missing table is made otherwise"
+  rm -r cut_output
+  killed_until_done "$(or_if_slow 300 3000)" "$epicyclic" "${by[@]}" -o "killed_$method"
+  same_folder cut "killed_$method"
+done
+
+# Inputs are read once, before anything is computed: what is written over them afterwards changes nothing. A descriptor that is
+# missing is the machine's trouble, not the input's.
+mkdir files
+sed "s#$inputs/tang2020.json#stage.json#" claims.json >claims.kept
+for command in calibrate robustness; do
+  for folder in read_once read_over; do
+    cp claims.kept files/claims.json && cp "$inputs/tang2020.json" files/stage.json
+    "$epicyclic" $command files/claims.json -o "$folder" --threads 2 >stdout 2>stderr &
+    if [ $folder = read_over ]; then
+      until [ -e read_over/journal.bin ] || ! kill -0 $! 2>/dev/null; do sleep 0.01; done
+      echo '{}' >files/stage.json && echo '{}' >files/claims.json
+    fi
+    code=0 && wait $! || code=$?
+    [ $code = 0 ] || fail "$command, $folder: $code $(<stderr)"
+  done
+  same_folder read_once read_over
+  rm -r read_once read_over
+  cp claims.kept files/claims.json && cp "$inputs/tang2020.json" files/stage.json
+  grep -qaE '__(asan|tsan)_init' "$epicyclic" && continue # they want to be loaded first
+  with_shim=(env "FAULT_UNDER=$work/files" "LD_PRELOAD=$3")
+  [ "$(code_of "${with_shim[@]}" "FAULT_COUNT=$work/counts" "$epicyclic" $command "$work/files/claims.json" -o counted)" = 0 ] || fail "$command, counted: $(<stderr)"
+  grep -qx 'open 2' counts || fail "$command does not open each of its two files once: $(grep open counts)"
+  rm -r counted
+  for file in 1 2; do
+    [ "$(code_of "${with_shim[@]}" "FAULT=open:$file:EMFILE" "$epicyclic" $command "$work/files/claims.json" -o none)" = 5 ] || fail "$command without a descriptor: $(<stderr)"
+    grep -q 'json: cannot open the file: Too many open files' stderr || fail "$command without a descriptor: $(<stderr)"
+    [ ! -e none ] || fail "$command without a descriptor left a folder"
+  done
+done
 # Led by multipliers candidates that fail cost otherwise, but the first one is the same and meets the same.
 led=(--set '/study/claims/0/conditions=[{ "kind": "share", "sweep": "speed", "motion": "chaotic", "at_least": 0.9 }]' --set '/study/search={ "seed": 3, "islands": 2, "population": 7, "candidates": 14, "refinement": 0, "profile": 0 }')
 [ "$(code_of "$epicyclic" calibrate claims.json -o words "${led[@]}")" = 0 ] || fail "led by words: $(<stderr)"
