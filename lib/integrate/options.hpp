@@ -15,8 +15,8 @@ namespace epicyclic::integrate {
 
 struct IntegratorOptions {
   std::string method = "arkode-dopri5";  ///< one of method_names()
-  double relative_tolerance = 1e-8;      ///< rtol [-]
-  double absolute_tolerance = 1e-10;     ///< atol, in the units of the state [b_c, b_c per tau]
+  double relative_tolerance = 1e-8;      ///< rtol [-], 1e-100 to 1
+  double absolute_tolerance = 1e-10;     ///< atol, in the units of the state [b_c, b_c per tau], 1e-100 to 1e100
   long max_steps_per_period = 20000;     ///< attempted steps in one mesh period; more is the outcome step_limit
   double max_step_periods = 0;           ///< longest step, in periods of the field (units of s without one); 0: none
   double escape_bound = 1e6;             ///< |y_i| beyond this is the outcome diverged [b_c, b_c per tau]

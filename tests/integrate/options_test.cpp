@@ -2,8 +2,12 @@
 
 #include "integrate/options.hpp"
 
+#include <functional>
 #include <limits>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -29,6 +33,10 @@ TEST(IntegratorOptions, HaveAMethodTolerancesAndCaps) {
                                {"method", [](O& o) { o.method = "dopri5"; }},
                                {"relative_tolerance", [](O& o) { o.relative_tolerance = 0; }},
                                {"relative_tolerance", [](O& o) { o.relative_tolerance = nan; }},
+                               {"relative_tolerance", [](O& o) { o.relative_tolerance = 1e-300; }},
+                               {"relative_tolerance", [](O& o) { o.relative_tolerance = 1e300; }},
+                               {"absolute_tolerance", [](O& o) { o.absolute_tolerance = 1e-300; }},
+                               {"absolute_tolerance", [](O& o) { o.absolute_tolerance = 1e300; }},
                                {"absolute_tolerance", [](O& o) { o.absolute_tolerance = -1e-8; }},
                                {"absolute_tolerance", [](O& o) { o.absolute_tolerance = nan; }},
                                {"max_steps_per_period", [](O& o) { o.max_steps_per_period = 0; }},
@@ -60,6 +68,44 @@ TEST(IntegratorOptions, AnUnknownMethodIsToldWhichThereAre) {
     ADD_FAILURE() << "was found";
   } catch (const InputError& e) {
     for (const std::string& name : method_names()) EXPECT_NE(std::string(e.what()).find(name), std::string::npos);
+  }
+}
+
+TEST(Flows, OfEachMethodRefuseAFieldThatIsNone) {
+  const VectorField sound = problems::smooth_nonlinear();
+  const std::vector<std::pair<std::string, std::function<void(VectorField&)>>> wrong = {
+      {"right_hand_side", [](VectorField& f) { f.right_hand_side = {}; }},
+      {"dimension", [](VectorField& f) { f.dimension = 0; }},
+      {"period", [](VectorField& f) { f.period = -1.0; }},
+      {"period", [](VectorField& f) { f.period = nan; }},
+      {"breakpoint",
+       [](VectorField& f) {
+         f.breakpoints = {0.2, 0.1};
+       }},
+      {"breakpoint", [](VectorField& f) { f.breakpoints = {f.period}; }}};
+  for (const Method& method : methods())
+    for (const auto& [word, set] : wrong) {
+      VectorField field = sound;
+      set(field);
+      try {
+        (void)make_flow(field, {.method = std::string(method.name)});
+        ADD_FAILURE() << method.name << " takes a field whose " << word << " is wrong";
+      } catch (const InputError& e) {
+        EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
+      }
+    }
+}
+
+TEST(Flows, OfEachMethodRefuseSamplesThatDoNotRise) {
+  for (const Method& method : methods()) {
+    const auto flow = make_flow(problems::smooth_nonlinear(), {.method = std::string(method.name)});
+    for (const std::vector<double>& samples :
+         {std::vector{0.4, 0.2}, std::vector{-0.1, 0.2}, std::vector{0.1, nan}, std::vector{nan, 0.1}}) {
+      std::vector<double> state(flow->field().dimension, 0.5);
+      EXPECT_THROW((void)flow->evolve(state, 0.0, 1.0, samples, [](std::size_t, double, std::span<const double>) {}),
+                   InputError)
+          << method.name;
+    }
   }
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "integrate/checks.hpp"
 
 namespace epicyclic::integrate {
 
@@ -235,6 +236,7 @@ class LaneEnsemble::Impl {
   }
 
   void load(std::size_t lane, const VectorField& system) {
+    check_field(system);
     field_.load(lane, system);
     Lane& l = lanes_[lane];
     l = {};
@@ -249,8 +251,7 @@ class LaneEnsemble::Impl {
       throw InputError("a state of " + std::to_string(state.size()) + " numbers for a field of dimension " +
                        std::to_string(n_));
     check_interval(from, to);
-    if (!std::is_sorted(samples.begin(), samples.end()) || (!samples.empty() && !(samples.front() >= from)))
-      throw InputError("samples have to rise from where the motion begins");
+    check_samples(from, samples);
     for (std::size_t i = 0; i < n_; ++i) y_[i * w_ + lane] = state[i];
     l.samples = samples;
     l.observer = observer ? &observer : nullptr;

@@ -14,6 +14,7 @@
 
 #include "core/errors.hpp"
 #include "core/fiber.hpp"
+#include "integrate/checks.hpp"
 #include "integrate/lanes/lane_ensemble.hpp"
 #include "integrate/make_flow.hpp"
 #include "integrate/methods.hpp"
@@ -470,6 +471,7 @@ LanePool::~LanePool() = default;
 std::size_t LanePool::width() const { return impl_->width(); }
 std::unique_ptr<Flow> LanePool::make_flow(VectorField field, const IntegratorOptions& options) {
   options.validate();
+  check_field(field);
   if (method_named(options.method).family != Family::lanes) return flow_alone(std::move(field), options);
   return std::make_unique<PooledFlow>(*impl_, std::move(field), options);
 }

@@ -30,6 +30,7 @@
 
 #include "core/errors.hpp"
 #include "core/root_finding.hpp"
+#include "integrate/checks.hpp"
 #include "integrate/flow.hpp"
 #include "integrate/methods.hpp"
 #include "integrate/options.hpp"
@@ -65,6 +66,7 @@ class Integration {
   Evolution evolve(double from, double to, std::span<const double> samples, const Observer& observer,
                    double& next_step) {
     check_interval(from, to);
+    check_samples(from, samples);
     const VectorField& field = *system_.field;
     std::vector<double> stops = breakpoints_between(field, from, to);
     stops.push_back(to);
@@ -372,6 +374,7 @@ class SundialsFlow final : public Flow {
   SundialsFlow(VectorField field, const IntegratorOptions& options, const Method& method, double fixed_step)
       : field_(std::move(field)), options_(options), method_(method), fixed_step_(fixed_step) {
     options.validate();
+    check_field(field_);
     if (method.implicit() && !field_.tangents)
       throw InputError("the implicit method '" + std::string(method.name) + "' needs a field with tangents");
     state_ = make({field_.dimension, 1, 1}, false);

@@ -1,0 +1,17 @@
+// What every Flow asks of its field and of the samples of an evolution.
+#pragma once
+
+#include <span>
+
+#include "core/vector_field.hpp"
+
+namespace epicyclic::integrate {
+
+/// @throws InputError without a state or a right-hand side, for a period that is no number >= 0, and for breakpoints
+/// that do not rise or lie outside [0, period)
+void check_field(const VectorField& field);
+
+/// @throws InputError unless the samples rise from where the motion begins
+void check_samples(double from, std::span<const double> samples);
+
+}  // namespace epicyclic::integrate
