@@ -2,6 +2,8 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
+#include <string>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -10,6 +12,29 @@
 #include "core/atomic_file.hpp"
 
 namespace epicyclic::app {
+
+namespace {
+
+/// Control characters but line feeds and tabs, of ASCII and of Latin-1 in UTF-8, are written as \u001b. In a string of
+/// JSON that stands for the same.
+std::string printable(std::string_view text) {
+  std::string safe;
+  safe.reserve(text.size());
+  const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
+  const auto escape = [&safe](unsigned c) { safe += fmt::format("\\u{:04x}", c); };
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const unsigned c = byte(k);
+    if ((c < 0x20 && c != '\n' && c != '\t') || c == 0x7F)
+      escape(c);
+    else if (c == 0xC2 && byte(k + 1) >= 0x80 && byte(k + 1) < 0xA0)  // U+0080 to U+009F
+      escape(byte(++k));
+    else
+      safe += text[k];
+  }
+  return safe;
+}
+
+}  // namespace
 
 void secure_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
@@ -21,11 +46,11 @@ void secure_streams() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-void write_data(std::string_view text) { write_all(STDOUT_FILENO, text, "standard output"); }
+void write_data(std::string_view text) { write_all(STDOUT_FILENO, printable(text), "standard output"); }
 
 void write_words(std::string_view text) noexcept {
   try {
-    write_all(STDERR_FILENO, text, "standard error");
+    write_all(STDERR_FILENO, printable(text), "standard error");
   } catch (...) {
     // There is nobody to tell.
   }

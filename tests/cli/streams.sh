@@ -94,6 +94,22 @@ code=0
 "$epicyclic" schema 2>stderr | head -n 1 >stdout || code=${PIPESTATUS[0]}
 [ "$code" = 5 ] || [ "$code" = 0 ] || fail "schema, of which one line is read: exit code $code"
 
+# A terminal obeys no text of an input or of a name: control characters are shown, and JSON keeps them.
+control=$'[\x01-\x08\x0b-\x1f\x7f]|\xc2[\x80-\x9f]'
+study_of() {
+  printf '{ "stage": "%s", "name": "a\\u001b]0;b\\u0007\\u009bc\\u007f\\u000d\\u0001", %s "study": { "kind": "sweep" } }' "$inputs/tang2020.json" "$1" >control.json
+}
+study_of '"na\u001b[2Jme": 1,'
+[ "$(code_of "$epicyclic" check control.json)" = 2 ] || fail "an unknown key: $(<stderr)"
+! LC_ALL=C grep -qP "$control" stderr || fail "control characters of a key reach the terminal: $(<stderr)"
+grep -qF 'na\u001b[2Jme' stderr || fail "the key is not shown: $(<stderr)"
+study_of ''
+[ "$(code_of "$epicyclic" check control.json --no-time)" = 0 ] || fail "a name with control characters: $(<stderr)"
+! LC_ALL=C grep -qP "$control" stdout || fail "control characters of a name reach the terminal: $(LC_ALL=C grep -P "$control" stdout)"
+grep -qF '"name": "a\u001b]0;b\u0007\u009bc\u007f\r\u0001"' stdout || fail "the name is another one: $(grep '"name"' stdout)"
+[ "$(code_of "$epicyclic" check $'no\e[31mfile.json')" = 2 ] || fail "a name of a file: $(<stderr)"
+! LC_ALL=C grep -qP "$control" stderr || fail "control characters of a name of a file reach the terminal: $(<stderr)"
+
 # Stopped, with words that nobody takes.
 long=("${sweep[@]}" --set /study/transient_periods=100000)
 for err in closed full gone grown still; do
