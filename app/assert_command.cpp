@@ -49,6 +49,11 @@ int record(const Arguments& arguments, const FinishedBranches& branches) {
     throw InputError(arguments.against.string() + ": is there already; remove it to record its points anew");
   const std::vector<studies::LocatedPoint> points =
       reports::expected_of(branches.points, std::get<studies::BranchesOptions>(branches.input.study.plan));
+  if (points.empty())
+    throw InputError(
+        fmt::format("{}: has no special point with a place and a bound, of {} in all; a file of none would "
+                    "be no gate, and none is written",
+                    arguments.input.string(), branches.points.size()));
   write_file_atomically(linked_file(arguments.against), reports::expected_text(branches.input, points));
   tell("{} of {} points are expected from now on: {}\n", points.size(), branches.points.size(),
        arguments.against.string());

@@ -84,6 +84,9 @@ std::vector<Difference> differing_values(const ResolvedValues& there, const Reso
   for (const nlohmann::json& change : nlohmann::json::diff(from, to)) {
     const std::string pointer = change.at("path");
     const nlohmann::json::json_pointer at(pointer);
+    // A number that only one of the catalogues gives, and the other input as well: it is what gives it that differs.
+    if (there.resolved.contains(at) && here.resolved.contains(at) && there.resolved.at(at) == here.resolved.at(at))
+      continue;
     all.push_back({pointer, fmt::format("{}: {} there, {} here", pointer, text(from, there.resolved, at),
                                         text(to, here.resolved, at))});
   }

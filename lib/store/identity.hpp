@@ -33,6 +33,7 @@ struct Difference {
   std::string text;  ///< a line: the pointer and both values
 };
 
+/// What is the same in both inputs is not among them, whatever it follows from.
 [[nodiscard]] std::vector<Difference> differing_values(const ResolvedValues& there, const ResolvedValues& here);
 
 /// Their texts.

@@ -43,6 +43,10 @@ grep -q 'errors="1"' verdicts.xml && grep -q 'power_kW: 400.* there, 390.* here'
 grep -q '"another_study"' stdout && grep -q 'power_kW: 400.* there, 390.* here' stdout || fail "its JSON: $(<stdout)"
 grep -q '/stage/load/power_kW: 400.* there, 390.* here' stderr || fail "in what: $(<stderr)"
 
+moved 's/"base_pitch":"of_planet"/"base_pitch":"as_given"/'
+[ "$(code_of "$epicyclic" assert fine moved.json)" = 3 ] || fail "another flag: $(<stdout)"
+[ "$(grep -c ' there, .* here' stderr)" = 1 ] && grep -q 'base_pitch: "as_given" there' stderr || fail "more than the flag is listed: $(<stderr)"
+
 # Bad input.
 [ "$(code_of "$epicyclic" assert fine none.json)" = 2 ] || fail "no such file: $(<stderr)"
 [ "$(code_of "$epicyclic" assert none points.json)" = 2 ] || fail "no such folder: $(<stderr)"

@@ -368,6 +368,19 @@ TEST_F(IdentityOf, AStudyIsTheSameWhereLastDigitsOfWhatIsComputedAreOthers) {
   EXPECT_NE(identity_of(load(resolved, {"/stage/catalogue/sun/width_mm=61"}), "sweep"), before);
 }
 
+TEST_F(IdentityOf, StudiesThatDifferInAFlagDifferInNoNumberThatIsTheSame) {
+  const input::LoadedInput here = load(resolved);
+  // With the flags, other numbers are computed, or none at all: the numbers there are then given ones.
+  json as_given = here.resolved;
+  as_given["stage"]["catalogue"]["ring"]["base_pitch"] = "as_given";
+  EXPECT_EQ(differences_from(as_given, here),
+            std::vector<std::string>{"/stage/catalogue/ring/base_pitch: \"as_given\" there, \"of_planet\" here"});
+  json fixed_ring = here.resolved;
+  fixed_ring["stage"]["boundary"] = "fixed_ring";
+  EXPECT_EQ(differences_from(fixed_ring, here),
+            std::vector<std::string>{"/stage/boundary: \"fixed_ring\" there, \"literal\" here"});
+}
+
 TEST_F(IdentityOf, AStudyToldAsAnotherSaysInWhatIsGiven) {
   const input::LoadedInput wider = load(resolved, {"/stage/catalogue/sun/width_mm=61"});
   EXPECT_EQ(differences_from(resolved, wider),
