@@ -128,6 +128,19 @@ TEST_F(StudyInput, ResolvedInputResolvesToItself) {
   EXPECT_EQ(once.dump(), twice.dump());
 }
 
+TEST_F(StudyInput, FurtherAssignmentsAreMadeInTheFilesAsTheyWereRead) {
+  const auto given = load({"/stage/lumped/sun/mass_kg=2"});
+  put_file(folder / "study.json", "{");
+  put_file(folder / "stage.json", "{}");
+  EXPECT_EQ(given.with_further({}).resolved, given.resolved);
+  const auto further = given.with_further(sets({"/integrator/relative_tolerance=1e-9"}));
+  EXPECT_EQ(further.study.stage.sun.mass_kg, 2.0);
+  EXPECT_EQ(further.study.integrator.relative_tolerance, 1e-9);
+  EXPECT_EQ(further.study_file.bytes, text_of(bad_inputs / "study.json"));
+  EXPECT_EQ(further.stage_file->bytes, text_of(bad_inputs / "stage.json"));
+  EXPECT_THROW((void)load(), InputError);
+}
+
 TEST_F(StudyInput, AssignmentsComeAfterThePatch) {
   EXPECT_EQ(load({"/stage/lumped/ring/support_N_per_m=3e8"}).study.stage.ring.support_N_per_m, 3e8);
   EXPECT_EQ(load({"/stage_patch/lumped/ring/support_N_per_m=4e8"}).study.stage.ring.support_N_per_m, 4e8);
