@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# claims.sh EPICYCLIC SOURCE_DIR
+# claims.sh EPICYCLIC SOURCE_DIR SHIM
 #
 # `reproduce`, `calibrate` and `robustness` of a small study of claims: scorecard, figures, what is recorded; the same
-# bytes for any number of threads and ranks, and after a stop; the result as an input; bad input. With WHOLE=yes the paper too.
+# bytes for any number of threads and ranks, and after a stop or kills in each phase; inputs that change or cannot be read; the
+# result as an input; bad input. With WHOLE=yes the paper too.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 without_drawing

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# donors.sh EPICYCLIC SOURCE_DIR
+# donors.sh EPICYCLIC SOURCE_DIR SHIM
 #
 # Each kind of finished folder, at each regime, given to each command that takes one: --from of `run`, `crosscheck`,
-# `tolerance` and `continue`, --grow, --against, `assert` and `plot`. A command takes it, or refuses it with 2 and a reason;
-# and a run.json that was changed is refused, too.
+# `tolerance` and `continue`, --grow, --against, `assert` and `plot`. A command takes it, or refuses it with 2 and a reason.
+# A run.json that was changed is refused, too. What the machine cannot read is no verdict (tests/faults/shim.cpp).
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 without_drawing
@@ -93,6 +93,21 @@ for kind in crosscheck tolerance continue gear reproduce robustness run_one swee
   [ ! -e points.json ] || fail "assert --record of $kind wrote a file"
 done
 grep -q 'no special point' <("$epicyclic" assert continue points.json --record 2>&1) || fail "it is not said that there is no special point"
+
+# Whichever file of a donor the machine cannot open or read: that is no verdict on the donor. Sanitizers want to be loaded first.
+for donor in run_one sweep_one; do
+  ! grep -qaE '__(asan|tsan)_init' "$epicyclic" || break
+  from=("$epicyclic" run --from "$work/$donor:0" "${brief[@]}")
+  with_shim=(env "FAULT_UNDER=$work/$donor" "LD_PRELOAD=$3")
+  takes 0 "${with_shim[@]}" "FAULT_COUNT=$work/counts" "${from[@]}"
+  opens=$(sed -n 's/^open //p' counts)
+  [ "$opens" -gt 4 ] || fail "$donor is read by $opens opens"
+  for ((k = 1; k <= opens; ++k)); do
+    takes 5 "${with_shim[@]}" "FAULT=open:$k:EMFILE" "${from[@]}"
+    takes 5 "${with_shim[@]}" "FAULT=read:$k:EIO" "${from[@]}"
+    [ ! -e taken ] || fail "$donor could not be read, and a folder was left"
+  done
+done
 
 # A run.json that was changed. The command of a study refuses its folder then, or makes its files again.
 cp sweep_one/run.json run.json
