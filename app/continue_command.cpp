@@ -271,12 +271,13 @@ class Pace {
 };
 
 /// The tree to its end, each step kept in the journal.
+/// @param axis   the parameter in words
 /// @param first  the model where the branches start
-void grow(Session& session, const BranchesOptions& options, const model::DynamicModel& first, PartialTables& tables,
-          analysis::BranchTree& tree) {
+void grow(Session& session, const BranchesOptions& options, const reports::AxisWords& axis,
+          const model::DynamicModel& first, PartialTables& tables, analysis::BranchTree& tree) {
   const auto place = [&](double value) {
-    std::string words = fmt::format(" at {} = {}", options.parameter, short_text(value, 6));
-    if (options.parameter == studies::speed_parameter)
+    std::string words = fmt::format(" at {} = {}", axis.name, axis.text(value, 6));
+    if (axis.name == studies::speed_parameter)
       words += fmt::format(" (sun {} rpm)", short_text(gear::rpm * first.speeds.sun / first.omega * value, 5));
     return words;
   };
@@ -485,6 +486,7 @@ int continue_command(const Arguments& arguments) {
       with_seeds(arguments.input, input::parse_assignments(arguments.sets), arguments.from, notes);
   require_kind(input, arguments, "continue");
   const auto& options = std::get<BranchesOptions>(input.study.plan);
+  const reports::AxisWords axis = reports::axis_words(options.parameter, input.study.axis_speed);
   const studies::ModelAt models = stoppable(input::model_family(input, options.parameter, family_step(options)));
   // Options and models that do not fit show here, before anything is written.
   if (options.loci) require_given_within(input, *options.loci);
@@ -501,9 +503,12 @@ int continue_command(const Arguments& arguments) {
   if (const auto code = session.exit_code()) return *code;
   const store::OutputFolder& folder = session.folder();
 
-  const reports::ContinueOutput output{options, studies::poincare_columns(first_model),
-                                       static_cast<std::size_t>(first_model.planets), session.resolved(),
-                                       reports::figure_title(input.study)};
+  const reports::ContinueOutput output{options,
+                                       studies::poincare_columns(first_model),
+                                       static_cast<std::size_t>(first_model.planets),
+                                       session.resolved(),
+                                       reports::figure_title(input.study),
+                                       input.study.axis_speed};
   TracedBranches traced;
   std::vector<studies::FoundMotions> found;
   std::vector<studies::TracedLocus> loci;
@@ -522,11 +527,11 @@ int continue_command(const Arguments& arguments) {
     analysis::BranchTree tree(system.system, system.options);
     traced.attempts = add_starts(system, options, models, tree);
     for (const studies::BranchAttempt& a : traced.attempts)
-      if (const std::string words = reports::attempt_text(a); !words.empty()) tell("{}\n", words);
+      if (const std::string words = reports::attempt_text(axis, a); !words.empty()) tell("{}\n", words);
     if (options.search) found = add_found(session, system, options, models, tree);
     OrbitRows rows(models, options.output_phases);
     PartialTables tables(folder, output, rows, first_model);
-    grow(session, options, first_model, tables, tree);
+    grow(session, options, axis, first_model, tables, tree);
     traced.branches = tree.branches();
     traced.full = tree.full();
     if (!traced.branches.empty()) tell_rows(traced, rows, models);

@@ -49,7 +49,7 @@ Written write_results(const store::OutputFolder& folder, const reports::SweepOut
   reports::write_points_csv(folder.file("points.csv"), reference);
   reports::write_poincare_csv(folder.file("poincare.csv"), output, reference);
   reports::write_crosscheck_csv(folder.file("crosscheck.csv"), all);
-  std::string summary = reports::crosscheck_summary(all);
+  std::string summary = reports::crosscheck_summary(reports::axis_words(output.sweep.axis.name, output.speed), all);
   write_file_atomically(folder.file("crosscheck.md"), summary);
   return {std::move(summary), reports::draw_crosscheck_figure(folder.file("figures"), output, all, orbit_tolerance)};
 }
@@ -123,7 +123,7 @@ int crosscheck_command(const Arguments& arguments) {
 
   folder.require_there();
   const reports::SweepOutput output{sweep, studies::poincare_columns(first_model), session.resolved(),
-                                    reports::figure_title(input.study)};
+                                    reports::figure_title(input.study), input.study.axis_speed};
   const Written written = write_results(folder, output, all, options.orbit_tolerance);
   undrawn = tell_undrawn({written.figure});
   close_run(store::RunState::complete);

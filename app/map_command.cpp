@@ -14,7 +14,7 @@ namespace {
 WrittenPoints write_results(const ComputedPoints& plane) {
   const input::Study& study = plane.input.study;
   const reports::MapOutput output{std::get<studies::MapOptions>(study.plan), plane.resolved,
-                                  reports::figure_title(study)};
+                                  reports::figure_title(study), study.axis_speed};
   reports::write_map_csv(plane.folder / "points.csv", plane.points);
   reports::write_map_h5(plane.folder / "results.h5", output, plane.points);
   WrittenPoints written;

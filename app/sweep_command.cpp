@@ -26,7 +26,7 @@ namespace {
 
 reports::SweepOutput output_of(const ComputedPoints& all) {
   return {all.input.study.sweep(), studies::poincare_columns(all.first_model), all.resolved,
-          reports::figure_title(all.input.study)};
+          reports::figure_title(all.input.study), all.input.study.axis_speed};
 }
 
 WrittenPoints write_section(const ComputedPoints& all) {
@@ -118,7 +118,8 @@ std::optional<WrittenPoints> cross_check(const Arguments& arguments, const Compu
   progress.finish();
   if (!checked.complete(points)) return std::nullopt;
   reports::write_crosscheck_csv(all.folder / "crosscheck.csv", checked);
-  const std::string summary = reports::crosscheck_summary(checked);
+  const std::string summary = reports::crosscheck_summary(
+      reports::axis_words(all.input.study.sweep().axis.name, all.input.study.axis_speed), checked);
   write_file_atomically(all.folder / "crosscheck.md", summary);
   written.unexplained = reports::unexplained(checked);
   written.summary["crosscheck"] = {{"points", points},

@@ -171,11 +171,11 @@ int tolerance_command(const Arguments& arguments) {
   }
 
   folder.require_there();
-  const reports::ToleranceOutput output{
-      {sweep, studies::poincare_columns(first_model), session.resolved(), reports::figure_title(input.study)},
-      options,
-      input.study.integrator,
-      first_model.dimension};
+  const reports::ToleranceOutput output{{sweep, studies::poincare_columns(first_model), session.resolved(),
+                                         reports::figure_title(input.study), input.study.axis_speed},
+                                        options,
+                                        input.study.integrator,
+                                        first_model.dimension};
   reports::write_points_csv(folder.file("points.csv"), studies::points_in_memory(studied));
   const std::string summary = reports::write_tolerance_tables(folder.path(), output, points);
   const auto figures = reports::draw_tolerance_figures(folder.file("figures"), output, points);

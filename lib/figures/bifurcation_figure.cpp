@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/csv.hpp"
+#include "figures/sketch.hpp"
 
 namespace epicyclic::figures {
 
@@ -148,17 +149,19 @@ ClassPlots plots_of(std::string_view stem, const std::vector<PointClass>& classe
 
 FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
                                  const std::vector<BifurcationSeries>& series, const std::vector<FigureMarker>& markers,
-                                 Pictures which) {
+                                 Pictures which, const std::string& apart) {
   if (series.empty() || series.size() > colours.size()) {
     throw std::invalid_argument(fmt::format("bifurcation_figure: {} series, not 1 or 2", series.size()));
   }
   FigureRange x_range;
   FigureRange y_range;
+  std::size_t points_apart = 0;
   for (const BifurcationSeries& each : series) {
     for (std::size_t i = 0; i < each.count; ++i) {
       const auto point = each.at(i);
       if (!point) continue;
       x_range.include(point->x);
+      points_apart += point->apart ? 1 : 0;
       for (const double y : point->section) y_range.include(y);
     }
   }
@@ -168,11 +171,21 @@ FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::strin
 
   const auto write_data = [&](AtomicFile& file) {
     DataWriter data(file);
+    const auto write = [&](const BifurcationSeries& each, CellWriter& cells, bool of_apart) {
+      for (std::size_t i = 0; i < each.count; ++i)
+        if (const auto point = each.at(i); point && point->apart == of_apart)
+          cells.append(data, point->x, point->section);
+    };
     for (const BifurcationSeries& each : series) {
       data.comment(gnuplot_quoted(each.label));
       CellWriter cells(x_range, y_range);
-      for (std::size_t i = 0; i < each.count; ++i)
-        if (const auto point = each.at(i)) cells.append(data, point->x, point->section);
+      write(each, cells, false);
+      data.end_data_set("NaN NaN\n");
+    }
+    if (points_apart > 0) {
+      data.comment("drawn apart");
+      CellWriter cells(x_range, y_range);
+      for (const BifurcationSeries& each : series) write(each, cells, true);
       data.end_data_set("NaN NaN\n");
     }
     data.flush();
@@ -187,6 +200,11 @@ FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::strin
   for (std::size_t i = 0; series.size() > 1 && i < series.size(); ++i) {
     plot += legend_entry(colours[i], series[i].label);
     legend.push_back(series[i].label);
+  }
+  if (points_apart > 0) {
+    plot += ", \\\n  " + plot_dots(stem, series.size(), ink::ochre, series.front().count);
+    legend.push_back(fmt::format("{} ({})", apart, points_apart));
+    plot += legend_entry(ink::ochre, legend.back());
   }
   return draw_figure(folder, stem, write_data,
                      figure_script(stem, text, x_range, y_range, legend, markers, dot_settings(x_range), plot), which);

@@ -21,6 +21,7 @@ namespace epicyclic::figures {
 struct SectionPoint {
   double x = 0;
   std::vector<double> section;  ///< empty where there are none
+  bool apart = false;           ///< its values are not what the others are, and look otherwise
 };
 
 /// The points of one sweep, in one direction, in any order.
@@ -35,12 +36,14 @@ struct BifurcationSeries {
 /// STEM.dat with the script STEM.gp. A legend appears when there are two. The abscissa spans exactly the parameter's
 /// range; the ordinate has a margin of 4 %.
 /// @param which  pictures; none: data and script are written, and draw_pictures follows
+/// @param apart  what points that are drawn apart are, for the legend
 /// @returns what became of the figure; not drawn, too, when there is no finite point
 /// @throws OutputError           when data or script cannot be written
 /// @throws std::invalid_argument when there is no series or more than two, or when the stem is not a plain file name
 FigureOutcome bifurcation_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
                                  const std::vector<BifurcationSeries>& series,
-                                 const std::vector<FigureMarker>& markers = {}, Pictures which = Pictures::both);
+                                 const std::vector<FigureMarker>& markers = {}, Pictures which = Pictures::both,
+                                 const std::string& apart = {});
 
 /// What a point belongs to, with its place in the legend.
 struct PointClass {

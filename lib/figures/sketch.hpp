@@ -38,6 +38,9 @@ inline constexpr std::string_view light_grey = "#b0b0b0";
 [[nodiscard]] std::string dashed(std::string_view colour, double width, std::string_view dash);
 [[nodiscard]] std::string dots(std::string_view colour, double size, int type = 7);
 
+/// Of values that are not what the others of a figure are.
+[[nodiscard]] inline std::string apart_dots(double size) { return dots(ink::ochre, 2.0 * size, 2); }
+
 /// The data sets of one figure, and the plot command that shows them in the order in which they were added.
 class Sketch {
  public:

@@ -20,6 +20,7 @@ struct TrackRow {
   double x = 0;
   bool joined = true;     ///< lines go through its dots
   std::vector<double> y;  ///< one that is not finite is not drawn, and interrupts
+  bool apart = false;     ///< its dots are not what the others are: no line goes through them, and they look otherwise
 };
 
 /// Rows in the order of the parameter, up or down.
@@ -39,11 +40,13 @@ struct TrackPanel {
 /// by series (dark blue over muted red); of several, by number, the second series dashed.
 /// @param series  one or two
 /// @param names   of the numbers of a frame, for the legend; empty: each frame has one
+/// @param apart   what rows that are drawn apart are, for the legend
 /// @param which   none: draw_pictures follows
 /// @returns what became of the figure; not drawn, too, when there is no finite point
 /// @throws OutputError when data or script cannot be written
 FigureOutcome track_figure(const std::filesystem::path& folder, std::string_view stem, const FigureText& text,
                            const std::vector<TrackSeries>& series, const std::vector<TrackPanel>& panels,
-                           const std::vector<std::string>& names = {}, Pictures which = Pictures::both);
+                           const std::vector<std::string>& names = {}, Pictures which = Pictures::both,
+                           const std::string& apart = {});
 
 }  // namespace epicyclic::figures

@@ -1066,6 +1066,11 @@ class LoadedInput::Loader {
     return std::nullopt;
   }
 
+  void keep_axis_speed(const SpeedAlias& alias) {
+    if (const auto per_unit = ratio_per_unit(alias, input_.study.stage))
+      input_.study.axis_speed = studies::SpeedUnit{std::string(alias.key), 1.0 / *per_unit};
+  }
+
   /// The speeds in rpm and Hz, of the operating point and of axes, as Omega.
   void convert_speeds() {
     Study& read = input_.study;
@@ -1093,10 +1098,11 @@ class LoadedInput::Loader {
       if (alias == nullptr) {
         if (moves && name == studies::speed_parameter)
           for (const auto& [key, value] : {std::pair("from", from), {"to", to}})
-            (void)speed_noted_at(place, key, value);
+            if (const auto note = speed_noted_at(place, key, value)) keep_axis_speed(*find_speed_alias(note->key));
         return;
       }
       name = studies::speed_parameter;
+      if (moves) keep_axis_speed(*alias);
       json& object = *find_at(whole_, place);
       const studies::Axis standard = studies::SweepOptions{}.axis;
       if (object.contains("from") && object.contains("to") && !is_bad(place + "/from") && !is_bad(place + "/to") &&

@@ -35,6 +35,7 @@
 #include "studies/crosscheck_options.hpp"
 #include "studies/plane_options.hpp"
 #include "studies/run_options.hpp"
+#include "studies/speed_note.hpp"
 #include "studies/sweep_options.hpp"
 #include "studies/tolerance_options.hpp"
 
@@ -104,6 +105,8 @@ struct Study {
   gear::Stage stage;
   double mesh_frequency_ratio = 1;  ///< Omega = omega_m / omega_sn where no sweep varies it [-]
   GivenSpeed given_speed{};         ///< in place of it, until the input is loaded
+  /// What the study gives the speeds along an axis in; none: the mesh frequency ratio. They are kept as ratios.
+  std::optional<studies::SpeedUnit> axis_speed{};
   model::ModelOptions model;
   integrate::IntegratorOptions integrator;
   Plan plan;

@@ -7,13 +7,13 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "core/dense.hpp"
 #include "core/errors.hpp"
 #include "model/dispatch.hpp"
 #include "model/folded_constants.hpp"
 #include "model/kernels/lane_kernel.hpp"
 #include "model/kernels/stage_kernel.hpp"
 #include "model/right_hand_side.hpp"
+#include "model/static_equilibrium.hpp"
 #include "model/tangents.hpp"
 
 namespace epicyclic::model {
@@ -43,51 +43,6 @@ std::size_t segment_at(const std::vector<double>& breakpoints, double s) {
 }
 
 namespace {
-
-/// Equilibrium of the linearised stage at s = 0: mean stiffness, gaps closed on the drive flank, no friction, no
-/// frame terms, errors frozen. From the kernel itself: with b = 0 its accelerations are linear in the displacements.
-template <std::size_t N>
-std::vector<double> static_equilibrium(Layout layout, Parameters<double, N> p) {
-  const std::size_t n = degrees_of_freedom(layout, N);
-  // delta = b + F/k on the drive flank is the stage without gaps whose errors are larger by b.
-  const auto linear = [](MeshParameters<double, N>& mesh) {
-    mesh.harmonics = 0;
-    mesh.stiffness_curve = nullptr;
-    mesh.friction = nullptr;
-    for (double& e : mesh.error_cos) e += mesh.half_gap;
-    mesh.error_sin.fill(0.0);
-    mesh.half_gap = 0.0;
-  };
-  linear(p.sun_planet);
-  linear(p.ring_planet);
-  p.smooth = false;
-  p.sun_law = gear::BearingLaw::linear_xy;
-  p.sun_half_gap = 0.0;
-  p.carrier_speed = 0.0;
-  std::vector<double> state(2 * n);
-  std::vector<double> slope(2 * n);
-  const StageKernel<N> right_hand_side = stage_kernel<N>(layout);
-  right_hand_side(layout, p, 0, 0.0, state.data(), slope.data());
-  Eigen::VectorXd load(n);
-  for (std::size_t r = 0; r < n; ++r) load(static_cast<Eigen::Index>(r)) = -slope[n + r];
-
-  p.drive = p.ring_drive = p.carrier_load = p.centrifugal = 0.0;
-  p.sun_planet.error_cos.fill(0.0);
-  p.ring_planet.error_cos.fill(0.0);
-  Eigen::MatrixXd stiffness(n, n);
-  for (std::size_t c = 0; c < n; ++c) {
-    state[c] = 1.0;
-    right_hand_side(layout, p, 0, 0.0, state.data(), slope.data());
-    state[c] = 0.0;
-    for (std::size_t r = 0; r < n; ++r)
-      stiffness(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) = slope[n + r];
-  }
-  // Least norm where the stage floats (a sun without support, the rigid rotation in full coordinates).
-  const Eigen::VectorXd q = least_norm_solution(stiffness, load);
-  std::vector<double> start(2 * n, 0.0);
-  std::copy(q.begin(), q.end(), start.begin());
-  return start;
-}
 
 /// Is turning by one planet a symmetry without a shift in time?
 template <std::size_t N>
@@ -261,7 +216,10 @@ DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& sca
   if (planets_alike(*p)) {
     m.remove_synchronous = [layout, p](std::span<double> deviation) { remove_synchronous(layout, *p, deviation); };
   }
-  m.default_start = static_equilibrium(layout, *p);
+  m.default_start = linear_equilibrium(layout, *p);
+  m.quasi_static_states = [layout, p, start = m.default_start](std::span<const double> phases) {
+    return quasi_static_states(layout, *p, start, phases);
+  };
   return m;
 }
 

@@ -86,6 +86,10 @@ struct DynamicModel : VectorField {
   /// accelerates).
   std::vector<double> default_start;
 
+  /// Equilibria at mesh phases in [0, 2 pi], a state for each [model/static_equilibrium.hpp]; none where one was not
+  /// found. Their elastic forces are the quasi-static ones. Empty in a model of one's own.
+  std::function<std::vector<std::vector<double>>(std::span<const double> phases)> quasi_static_states;
+
   /// Side of the teeth that a deflection is on.
   [[nodiscard]] static Contact contact(double delta, double half_gap) {
     if (delta > half_gap) return Contact::drive;

@@ -180,7 +180,7 @@ std::vector<Stretch> stable_stretches(const TracedBranches& traced, std::size_t 
 }
 
 std::string end_text(const ContinueOutput& output, const BranchLimit& limit, double value) {
-  const std::string at = short_text(value, 6);
+  const std::string at = output.words().text(value, 6);
   if (limit.born)
     return limit.place ? fmt::format("at {} on branch {}", at, limit.place->branch)
                        : fmt::format("at {}, at a flip or branch point of a branch that was not followed", at);
@@ -199,14 +199,14 @@ std::string end_text(const ContinueOutput& output, const BranchLimit& limit, dou
   return "at " + at;
 }
 
-std::string what_text(const SpecialRow& r) {
+std::string what_text(const ContinueOutput& output, const SpecialRow& r) {
   std::string text = r.contact;
   if (!r.broken_symmetry.empty()) text = "breaks the planets' symmetry: " + r.broken_symmetry;
   if (r.same_as)
     text += fmt::format("{}point {} of branch {}", text.empty() ? "" : ", ", r.same_as->point, r.same_as->branch);
   if (r.exact)
     text += fmt::format("{}with the exact clearance {}", text.empty() ? "" : ", ",
-                        with_error(r.exact->value, r.exact->bound));
+                        output.words().with_error(r.exact->value, r.exact->bound));
   if (!r.note.empty()) text += (text.empty() ? "" : ", ") + r.note;
   return text;
 }
@@ -221,12 +221,13 @@ std::string branch_text(const ContinueOutput& output, const TracedBranches& trac
   text += fmt::format("{} orbits; it begins {} and ends {}.\n", branch.orbits.size(),
                       end_text(output, branch.first, branch.orbits.front().at.value),
                       end_text(output, branch.last, branch.orbits.back().at.value));
+  const AxisWords words = output.words();
   const std::vector<Stretch> stable = stable_stretches(traced, b);
   if (stable.empty()) text += "No orbit of it is stable.\n";
   for (std::size_t k = 0; k < stable.size(); ++k)
-    text += fmt::format("{}{} to {}{}", k == 0 ? "Stable along it from " : ", from ", short_text(stable[k].from, 9),
-                        short_text(stable[k].to, 9), k + 1 == stable.size() ? ".\n" : "");
-  const bool of_speed = output.options.parameter == studies::speed_parameter;
+    text += fmt::format("{}{} to {}{}", k == 0 ? "Stable along it from " : ", from ", words.text(stable[k].from, 9),
+                        words.text(stable[k].to, 9), k + 1 == stable.size() ? ".\n" : "");
+  const bool of_speed = words.name == studies::speed_parameter;
   bool any = false;
   for (const SpecialRow& r : traced.special) {
     if (r.branch != b) continue;
@@ -238,8 +239,8 @@ std::string branch_text(const ContinueOutput& output, const TracedBranches& trac
     for (const auto& m : r.multipliers)
       multipliers += fmt::format("{}{:.4g}{:+.4g}i", multipliers.empty() ? "" : ", ", m.real(), m.imag());
     const std::string speed = r.mesh_frequency > 0.0 ? short_text(gear::rpm * r.speeds.sun, 6) : std::string();
-    text += fmt::format("| {} | {} |{} {} | {} |\n", letters_of(r.kind).words, with_error(r.value, r.error_bound),
-                        of_speed ? " " + speed + " |" : "", multipliers, what_text(r));
+    text += fmt::format("| {} | {} |{} {} | {} |\n", letters_of(r.kind).words, words.with_error(r.value, r.error_bound),
+                        of_speed ? " " + speed + " |" : "", multipliers, what_text(output, r));
   }
   return text;
 }
@@ -247,26 +248,28 @@ std::string branch_text(const ContinueOutput& output, const TracedBranches& trac
 std::string loci_text(const ContinueOutput& output, const TracedBranches& traced,
                       const std::vector<studies::TracedLocus>& loci) {
   const studies::LociOptions& options = *output.options.loci;
-  std::string text = fmt::format("\n## Loci over {} and {}\n\n", output.options.parameter, options.parameter);
+  const AxisWords words = output.words();
+  const AxisWords locus_words = axis_words(options.parameter, output.speed);
+  std::string text = fmt::format("\n## Loci over {} and {}\n\n", words.name, locus_words.name);
   if (loci.empty()) text += "No special point of the kinds that were asked for has a locus.\n";
   for (std::size_t l = 0; l < loci.size(); ++l) {
     const studies::TracedLocus& locus = loci[l];
     const double value = traced.branches[locus.branch].special[locus.point].value;
     text += fmt::format("- Locus {}: {} of period {}, from the point of branch {} at {}", l,
-                        letters_of(locus.kind).words, locus.period, locus.branch, short_text(value, 9));
+                        letters_of(locus.kind).words, locus.period, locus.branch, words.text(value, 9));
     if (locus.rows.empty()) {
       text += fmt::format(": **not begun: {}**\n", locus.message);
       continue;
     }
-    text +=
-        fmt::format("; {} points, {} at ({}, {}) to {} at ({}, {})", locus.rows.size(), locus.first_end,
-                    short_text(locus.rows.front().first, 6), short_text(locus.rows.front().second, 6), locus.last_end,
-                    short_text(locus.rows.back().first, 6), short_text(locus.rows.back().second, 6));
+    text += fmt::format("; {} points, {} at ({}, {}) to {} at ({}, {})", locus.rows.size(), locus.first_end,
+                        words.text(locus.rows.front().first, 6), locus_words.text(locus.rows.front().second, 6),
+                        locus.last_end, words.text(locus.rows.back().first, 6),
+                        locus_words.text(locus.rows.back().second, 6));
     if (!locus.message.empty()) text += fmt::format(": **{}**", locus.message);
     for (const studies::LocusRow& row : locus.rows)
       if (!row.marked.empty())
-        text += fmt::format("\n  - {} at {}, {}", row.marked, with_error(row.first, row.first_bound),
-                            with_error(row.second, row.second_bound));
+        text += fmt::format("\n  - {} at {}, {}", row.marked, words.with_error(row.first, row.first_bound),
+                            locus_words.with_error(row.second, row.second_bound));
     text += "\n";
   }
   return text;
@@ -333,8 +336,8 @@ void write_continue_tables(const std::filesystem::path& folder, const ContinueOu
   write_h5(folder / "results.h5", output, traced, loci);
 }
 
-std::string attempt_text(const studies::BranchAttempt& a) {
-  const std::string at = fmt::format("{} at {}: ", a.seed ? "seed" : "start", short_text(a.value, 9));
+std::string attempt_text(const AxisWords& words, const studies::BranchAttempt& a) {
+  const std::string at = fmt::format("{} at {}: ", a.seed ? "seed" : "start", words.text(a.value, 9));
   if (!a.found) return at + a.message;
   if (!a.seed || a.distance <= studies::far_from_its_start) return {};
   return at + fmt::format("the orbit of period {} that was found is {} b_c away from it, and may be another one",
@@ -361,7 +364,7 @@ std::string found_text(const ContinueOutput& output, const std::vector<studies::
         "\n## Motions at {} = {}\n\n{} periodic motions up to period {} from {} starts, {} of them stable; {} starts "
         "led to "
         "none. No number of starts proves that there are no others.\n",
-        output.options.parameter, short_text(at.value, 9), at.motions.size(),
+        output.words().name, output.words().text(at.value, 9), at.motions.size(),
         output.options.search ? output.options.search->largest_period : 1, at.starts, stable, at.missed);
     if (at.motions.empty()) continue;
     text +=
@@ -378,12 +381,12 @@ std::string continue_summary(const ContinueOutput& output, const TracedBranches&
                              const std::vector<studies::TracedLocus>& loci) {
   std::size_t orbits = 0;
   for (const Branch& branch : traced.branches) orbits += branch.orbits.size();
-  std::string text = fmt::format("# Branches of periodic motions along {}\n\n", output.options.parameter);
+  std::string text = fmt::format("# Branches of periodic motions along {}\n\n", output.words().name);
   text += fmt::format(
       "{} branches, {} orbits, {} special points between {} and {}; tolerance {}. Each value has an error bound from "
       "other tolerances and subdivisions; stable means that no Floquet multiplier is beyond the unit circle.\n",
-      traced.branches.size(), orbits, traced.special.size(), short_text(output.options.from, 9),
-      short_text(output.options.to, 9), short_text(output.options.tolerance));
+      traced.branches.size(), orbits, traced.special.size(), output.words().text(output.options.from, 9),
+      output.words().text(output.options.to, 9), short_text(output.options.tolerance));
   if (traced.full)
     text += fmt::format("\n**There are more branches than `branches` = {}: the rest was not followed.**\n",
                         output.options.branches);
@@ -391,7 +394,8 @@ std::string continue_summary(const ContinueOutput& output, const TracedBranches&
     text += fmt::format("\n**{} {} off before an end of the range.**\n", broken,
                         broken == 1 ? "way along a branch was broken" : "ways along branches were broken");
   for (const studies::BranchAttempt& a : traced.attempts)
-    if (const std::string words = attempt_text(a); !words.empty()) text += fmt::format("\n- {}.\n", words);
+    if (const std::string words = attempt_text(output.words(), a); !words.empty())
+      text += fmt::format("\n- {}.\n", words);
   for (std::size_t b = 0; b < traced.branches.size(); ++b) text += branch_text(output, traced, b);
   if (output.options.loci) text += loci_text(output, traced, loci);
   return text;
@@ -541,7 +545,8 @@ DrawnFigure BranchSketch::draw(const std::filesystem::path& folder, const std::s
                            parameter_label(output_.options.parameter), ""};
   for (const auto& rows : traced_.rows)
     for (const studies::BranchRow& row : rows)
-      if (!text.above && row.carried) text.above = speed_above(output_.options.parameter, row.omega, row.meshes);
+      if (!text.above && row.carried)
+        text.above = speed_above(output_.options.parameter, output_.speed, row.omega, row.meshes);
   const DrawnFigure none{folder / (sketch_.stem() + ".png"), {"there is no orbit to draw"}};
   if (y_.empty()) return none;
   figures::FigurePanel panel{

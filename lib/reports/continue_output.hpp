@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "figures/sketch.hpp"
+#include "reports/axis_words.hpp"
 #include "reports/sweep_output.hpp"
 #include "studies/branch_search.hpp"
 #include "studies/branches.hpp"
@@ -28,8 +29,12 @@ struct ContinueOutput {
   studies::BranchesOptions options;
   std::vector<std::string> poincare_columns;
   std::size_t planets = 0;
-  std::string resolved_input;  ///< text of input.resolved.json, kept in results.h5 too
-  std::string title;           ///< of the figures
+  std::string resolved_input;                 ///< text of input.resolved.json, kept in results.h5 too
+  std::string title;                          ///< of the figures
+  std::optional<studies::SpeedUnit> speed{};  ///< what the study gives speeds along the axis in; none: Omega
+
+  /// The parameter of the branches, in words.
+  [[nodiscard]] AxisWords words() const { return axis_words(options.parameter, speed); }
 };
 
 /// The tables and results.h5.
@@ -43,7 +48,7 @@ void write_branch_tables(const std::filesystem::path& folder, const ContinueOutp
                          const studies::TracedBranches& traced);
 
 /// What was not as expected of a start: that there is no orbit near it, or only far from it. Empty: nothing.
-[[nodiscard]] std::string attempt_text(const studies::BranchAttempt& attempt);
+[[nodiscard]] std::string attempt_text(const AxisWords& words, const studies::BranchAttempt& attempt);
 
 /// orbits.csv.
 /// @throws OutputError

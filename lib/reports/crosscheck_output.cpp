@@ -50,7 +50,7 @@ std::size_t unexplained(const studies::Crosscheck& all) {
       [](const Comparison& c) { return c.verdict == Verdict::unexplained || c.verdict == Verdict::not_reached; }));
 }
 
-std::string crosscheck_summary(const studies::Crosscheck& all) {
+std::string crosscheck_summary(const AxisWords& words, const studies::Crosscheck& all) {
   std::string text = fmt::format("reference: {}, relative tolerance {:g}, {} points\n\n", all.variants[0].label,
                                  all.variants[0].integrator.relative_tolerance, all.reference.size());
   std::map<std::string, int> motions;
@@ -92,8 +92,11 @@ std::string crosscheck_summary(const studies::Crosscheck& all) {
     first = false;
     const studies::PointResult& r = all.reference[c.point];
     std::string value;
-    append_number(value, r.point.value);
-    if (const double sun = r.meshes.speeds.sun; sun != 0.0) value += fmt::format(", sun {:.6g} rpm", gear::rpm * sun);
+    append_number(value, words.factor * r.point.value);
+    if (words.name != studies::speed_parameter && words.factor != 1.0)
+      value += " " + words.name;
+    else if (const double sun = r.meshes.speeds.sun; sun != 0.0)
+      value += fmt::format(", sun {:.6g} rpm", gear::rpm * sun);
     text += fmt::format("- point {} ({}, {}), {}: {}; {}\n", r.point.index, store::direction_word(r.point.direction),
                         value, all.variants[c.variant].label, to_string(c.verdict), c.detail);
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/axis_words.hpp"
 #include "reports/sweep_output.hpp"
 #include "studies/crosscheck.hpp"
 
@@ -16,7 +17,7 @@ namespace epicyclic::reports {
 void write_crosscheck_csv(const std::filesystem::path& file, const studies::Crosscheck& all);
 
 /// Per variant: points, agreements, largest distance of two orbits, differences by explanation. Plain text table.
-[[nodiscard]] std::string crosscheck_summary(const studies::Crosscheck& all);
+[[nodiscard]] std::string crosscheck_summary(const AxisWords& words, const studies::Crosscheck& all);
 
 /// Distance of the orbits over the parameter, one colour per variant.
 [[nodiscard]] DrawnFigure draw_crosscheck_figure(const std::filesystem::path& folder, const SweepOutput& output,

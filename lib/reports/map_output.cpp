@@ -106,7 +106,7 @@ std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, c
     const figures::FigureText text{
         figures::literal_text(output.title) + (output.map.directions.size() > 1 ? ", " + word : ""),
         parameter_label(output.map.plane.first.name), parameter_label(output.map.plane.second.name),
-        speed_above(output.map.plane.first.name, points)};
+        speed_above(output.map.plane.first.name, output.speed, points)};
     const std::string regimes = "regimes_" + word;
     figures.push_back(
         {folder / (regimes + ".png"), figures::class_figure(folder, regimes, text, grid, classes(),

@@ -18,8 +18,9 @@ namespace epicyclic::reports {
 
 struct MapOutput {
   studies::MapOptions map;
-  std::string resolved_input;  ///< text of input.resolved.json, kept in results.h5 too
-  std::string title;           ///< of the figures
+  std::string resolved_input;                 ///< text of input.resolved.json, kept in results.h5 too
+  std::string title;                          ///< of the figures
+  std::optional<studies::SpeedUnit> speed{};  ///< what the study gives speeds along an axis in; none: Omega
 };
 
 /// @throws OutputError

@@ -119,9 +119,18 @@ std::string symbol_of(std::string_view signal) {
        {"planet_spread", "the spread of the planets' deflections"}}};
   for (const auto& [name, text] : words)
     if (signal == name) return std::string(text);
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> symbols = {
-      {{"delta_", "δ"}, {"force_", "F"}, {"dynamic_factor_", "K"}, {"load_sharing_", "L"}}};
-  for (const auto& [name, symbol] : symbols) {
+  // "dynamic_factor_" and others of all planets' meshes have no planet's number.
+  struct Symbol {
+    std::string_view name, symbol, before;
+    bool of_all;
+  };
+  constexpr std::array<Symbol, 6> symbols = {{{"delta_", "δ", "", false},
+                                              {"force_", "F", "", false},
+                                              {"dynamic_factor_", "K", "", true},
+                                              {"kv_", "K", "v,", true},
+                                              {"k_gamma_", "K", "γ,", true},
+                                              {"load_sharing_", "L", "", false}}};
+  for (const auto& [name, symbol, before, of_all] : symbols) {
     if (!signal.starts_with(name)) continue;
     std::string index(signal.substr(name.size()));
     const bool planet = index.size() == 4 && index[2] == '_' && index[3] >= '1' && index[3] <= '9';
@@ -129,9 +138,9 @@ std::string symbol_of(std::string_view signal) {
     if ((mesh != "sp" && mesh != "rp") || !(index.size() == 2 || planet)) continue;
     if (planet)
       index[2] = ',';
-    else if (symbol != "K")
+    else if (!of_all)
       index += ",1";
-    return fmt::format("{}_{{{}}}", symbol, index);
+    return fmt::format("{}_{{{}{}}}", symbol, before, index);
   }
   return {};
 }
@@ -153,6 +162,9 @@ Described described(const std::string& column) {
   if (found != listed_columns.end()) return found->second;
   if (column == "periods") return {"Mesh periods", "1"};
   if (column == "tau") return {"τ", "1"};
+  if (column == "time_s") return {"Time", "s"};
+  for (const auto& [ending, unit] : {std::pair("_um", "um"), std::pair("_m_per_s", "m/s")})
+    if (column.ends_with(ending)) return {column.substr(0, column.size() - std::string_view(ending).size()), unit};
   if (column.ends_with("_rate")) return {"Rate of " + column.substr(0, column.size() - 5), "b_c per tau"};
   if (column.starts_with("force_") || column.starts_with("bearing_")) return {column, "N"};
   if (column.starts_with("load_sharing_")) return {column, "1"};
@@ -281,17 +293,18 @@ class Plot {
     if (not_settled_ > 0)
       notes_.push_back(fmt::format(
           "{}: at {} points the record was still on its way to the motion (settled of points.csv): their values are "
-          "not the motion's, and no line joins them",
+          "not the motion's; sweeps draw them apart",
           stem, not_settled_));
   }
 
   struct Series {
     std::size_t study = 0;
-    std::string way;            ///< "up", "down"; empty: neither
-    bool lines = false;         ///< alone, without dots
-    bool section = false;       ///< many values over each abscissa
-    std::vector<Place> rows;    ///< dots, or stable orbits
-    std::vector<Place> joined;  ///< a line through those that belong together, or unstable orbits
+    std::string way;             ///< "up", "down"; empty: neither
+    bool lines = false;          ///< alone, without dots
+    bool section = false;        ///< many values over each abscissa
+    std::vector<Place> rows;     ///< dots, or stable orbits
+    std::vector<Place> joined;   ///< a line through those that belong together, or unstable orbits
+    std::vector<Place> apart{};  ///< dots of records that are on their way to the motion
   };
 
   void read_all() {
@@ -305,7 +318,7 @@ class Plot {
         read_sweep(k);
     }
     for (const Series& s : series_)
-      for (const auto* rows : {&s.rows, &s.joined})
+      for (const auto* rows : {&s.rows, &s.joined, &s.apart})
         for (const auto& [x, y] : *rows) {
           if (!std::isfinite(x) || !std::isfinite(y) || (options_.x && (x < options_.x->low || x > options_.x->high)))
             continue;
@@ -362,19 +375,21 @@ class Plot {
         continue;
       }
       const Place at = reached ? place(points.number(x, row), points.number(options_.quantity, row)) : gap;
-      s.rows.push_back(at);
       // No line goes through chaos, where such numbers are a matter of chance, or through a record on its way.
       const std::string& regime = points.word("regime", row);
       const bool settled = !tells_settled || points.number("settled", row) == 1.0;
       if (reached && !settled) ++not_settled_;
+      (settled ? s.rows : s.apart).push_back(at);
       s.joined.push_back(settled && (regime == "periodic" || regime == "quasiperiodic") ? at : gap);
     }
     if (section) {
       const Columns rows(folder / "poincare.csv", {"point", options_.quantity});
       for (std::size_t row = 0; row < rows.rows(); ++row) {
         const auto point = static_cast<std::size_t>(rows.number("point", row));
-        if (point < points.rows() && points.word("status", point) == "ok")
-          series_at(point).rows.push_back(place(points.number(x, point), rows.number(options_.quantity, row)));
+        if (point >= points.rows() || points.word("status", point) != "ok") continue;
+        Series& s = series_at(point);
+        const bool settled = !tells_settled || points.number("settled", point) == 1.0;
+        (settled ? s.rows : s.apart).push_back(place(points.number(x, point), rows.number(options_.quantity, row)));
       }
     }
     std::ranges::move(ways, std::back_inserter(series_));
@@ -449,12 +464,16 @@ class Plot {
     if (s.section) {
       const std::vector<Place> dots = thinned(s.rows);
       constexpr std::size_t many = 2000;
-      sketch.add(dots, figures::dots(colour, dots.size() > many ? 0.15 : 0.4));
+      const double size = dots.size() > many ? 0.15 : 0.4;
+      sketch.add(dots, figures::dots(colour, size));
+      sketch.add(thinned(s.apart), figures::apart_dots(size));
       return;
     }
     sketch.add(s.joined, down ? figures::dashed(colour, 0.8, "(8,6)") : figures::solid(colour, 0.8));
     constexpr std::size_t many = 300;
-    sketch.add(dots_of(s.rows), figures::dots(colour, s.rows.size() > many ? 0.3 : 0.6, down ? 6 : 7));
+    const double size = s.rows.size() > many ? 0.3 : 0.6;
+    sketch.add(dots_of(s.rows), figures::dots(colour, size, down ? 6 : 7));
+    sketch.add(dots_of(s.apart), figures::apart_dots(size));
   }
 
   /// Without the gaps, which would part them.
@@ -493,6 +512,8 @@ class Plot {
       for (const bool down : {false, true})
         sketch.entry(figures::dots(alone() ? colour_of(down ? 1 : 0) : figures::ink::dark_grey, 0.8, down ? 6 : 7),
                      down ? "down" : "up");
+    if (std::ranges::any_of(series_, [](const Series& s) { return !s.apart.empty(); }))
+      sketch.entry(figures::apart_dots(1.0), on_its_way_words);
     if (std::ranges::any_of(studies_, [](const PlottedStudy& s) { return s.study->kind() == "continue"; }))
       sketch.entry(figures::dashed(alone() ? colour_of(0) : figures::ink::dark_grey, 1.6, "(8,6)"), "unstable");
   }
@@ -594,11 +615,14 @@ std::vector<std::string> plotted_tables(std::string_view kind) { return kind_of_
 std::string quantity_label(const std::string& column, bool micrometres) {
   const Described d = described(column);
   const std::string unit = unit_text(d.unit, micrometres);
-  if (column == "sun_speed_rpm") return "Sun speed  n_s  [rpm]";
-  if (column == "carrier_speed_rpm") return "Carrier speed  n_c  [rpm]";
+  if (std::string label = speed_label(column); !label.empty()) return label;
   if (column == "value") return "Parameter";
   if (const std::string symbol = symbol_of(column); !symbol.empty())
-    return (symbol.starts_with("K") ? "Dynamic factor  " : "") + symbol + unit;
+    return (column.starts_with("kv_")        ? "Dynamic factor  "
+            : column.starts_with("k_gamma_") ? "Mesh load factor  "
+            : symbol.starts_with("K")        ? "Largest force over the static one  "
+                                             : "") +
+           symbol + unit;
   for (const auto& [ending, words] : statistics)
     if (column.ends_with(ending))
       if (const std::string symbol = symbol_of(std::string_view(column).substr(0, column.size() - ending.size()));

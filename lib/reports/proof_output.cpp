@@ -102,12 +102,12 @@ void write_proof_csv(const std::filesystem::path& file, const studies::TracedBra
 
 std::string proof_summary(const ContinueOutput& output, const ProvedSweep& sweep, const studies::TracedBranches& traced,
                           const studies::BranchProof& proof) {
+  const AxisWords words = output.words();
   std::map<std::string, std::size_t> causes;
   for (const SweepChange& c : proof.changes)
     if (c.counted) ++causes[to_string(c.cause)];
   std::string text = fmt::format("# The sweep {} held against the branches\n\n", sweep.name);
-  text += fmt::format("Sweep of identity {}, {} points along {}.\n\n", sweep.identity, sweep.points.count,
-                      output.options.parameter);
+  text += fmt::format("Sweep of identity {}, {} points along {}.\n\n", sweep.identity, sweep.points.count, words.name);
   text += fmt::format(
       "{} points are periodic; {} of them lie on {} branch{}, the furthest {} b_c from its orbit, and {} on none.\n\n",
       proof.periodic, proof.periodic - proof.off.size(), traced.branches.size(),
@@ -129,8 +129,8 @@ std::string proof_summary(const ContinueOutput& output, const ProvedSweep& sweep
         any = true;
       }
       text +=
-          fmt::format("| {} | {} and {} | {} | {} |", store::direction_word(c.direction), short_text(c.before.value, 6),
-                      short_text(c.behind.value, 6), side_text(c.before), side_text(c.behind));
+          fmt::format("| {} | {} and {} | {} | {} |", store::direction_word(c.direction), words.text(c.before.value, 6),
+                      words.text(c.behind.value, 6), side_text(c.before), side_text(c.behind));
       if (counted)
         text += fmt::format(" {} | {}{} |", c.cause == Cause::unexplained ? "**unexplained**" : to_string(c.cause),
                             c.words, c.beside > 0.0 ? fmt::format(", {:.2g} steps of the grid beside", c.beside) : "");
@@ -141,7 +141,7 @@ std::string proof_summary(const ContinueOutput& output, const ProvedSweep& sweep
     text += "\n## Periodic points on no branch\n\n";
     for (const SweepPlace& p : proof.off)
       text += fmt::format(
-          "- point {} at {}: {}{}\n", p.point, short_text(p.value, 6), p.motion,
+          "- point {} at {}: {}{}\n", p.point, words.text(p.value, 6), p.motion,
           std::isfinite(p.distance) ? fmt::format(", {:.2g} b_c from the nearest branch", p.distance) : std::string());
   }
   return text;

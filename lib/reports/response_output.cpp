@@ -12,6 +12,7 @@
 
 #include "figures/cell_figure.hpp"
 #include "figures/track_figure.hpp"
+#include "reports/sweep_output.hpp"
 #include "store/point_columns.hpp"
 
 namespace epicyclic::reports {
@@ -44,7 +45,7 @@ std::vector<figures::TrackSeries> series_of(const ResponseInput& input,
     all.push_back({store::direction_word(input.sweep.directions[d]), count,
                    [&input, values, first = d * count](std::size_t i) -> std::optional<figures::TrackRow> {
                      const PointSummary r = input.points.read_brief(first + i);
-                     figures::TrackRow row{r.point.value, regular(r), values(r.meshes)};
+                     figures::TrackRow row{r.point.value, regular(r), values(r.meshes), r.on_its_way()};
                      if (!ok(r)) std::fill(row.y.begin(), row.y.end(), std::numeric_limits<double>::quiet_NaN());
                      return row;
                    }});
@@ -65,18 +66,38 @@ figures::FigureOutcome write_response_figure(const std::filesystem::path& folder
                   return std::vector{delta.rms, delta.range()};
                 }),
       {{fmt::format("RMS of {}", symbol), {0}}, {fmt::format("Peak to peak of {}", symbol), {1}}}, {},
-      figures::Pictures::none);
+      figures::Pictures::none, on_its_way_words);
 }
 
-figures::FigureOutcome write_dynamic_factor_figure(const std::filesystem::path& folder, const std::string& stem,
-                                                   const ResponseInput& input) {
+figures::FigureOutcome write_largest_force_figure(const std::filesystem::path& folder, const std::string& stem,
+                                                  const ResponseInput& input) {
   return figures::track_figure(
       folder, stem, input.text,
       series_of(input,
                 [](const StageRecord& r) {
                   return std::vector{r.dynamic_factor(r.sun_planet), r.dynamic_factor(r.ring_planet)};
                 }),
-      {{"Dynamic factor  K_{sp}", {0}}, {"Dynamic factor  K_{rp}", {1}}}, {}, figures::Pictures::none);
+      {{"Largest  F_{sp} / F_0", {0}}, {"Largest  F_{rp} / F_0", {1}}}, {}, figures::Pictures::none, on_its_way_words);
+}
+
+bool has_quasi_static(const studies::PointSource& points) {
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const PointSummary r = points.read_brief(i);
+    if (ok(r) && std::isfinite(StageRecord::kv(r.meshes.sun_planet))) return true;
+  }
+  return false;
+}
+
+figures::FigureOutcome write_kv_figure(const std::filesystem::path& folder, const std::string& stem,
+                                       const ResponseInput& input) {
+  return figures::track_figure(
+      folder, stem, input.text,
+      series_of(input,
+                [](const StageRecord& r) {
+                  return std::vector{StageRecord::kv(r.sun_planet), StageRecord::kv(r.ring_planet)};
+                }),
+      {{"Dynamic factor  K_{v,sp}", {0}}, {"Dynamic factor  K_{v,rp}", {1}}}, {}, figures::Pictures::none,
+      on_its_way_words);
 }
 
 bool loads_differ(const studies::PointSource& points) {
@@ -110,7 +131,7 @@ figures::FigureOutcome write_load_sharing_figure(const std::filesystem::path& fo
                     for (std::size_t i = 0; i < planets; ++i) shares.push_back(StageRecord::share(*meshes, course, i));
                   return shares;
                 }),
-      {sun, ring}, names, figures::Pictures::none);
+      {sun, ring}, names, figures::Pictures::none, on_its_way_words);
 }
 
 figures::FigureOutcome write_waterfall_figure(const std::filesystem::path& folder, const std::string& stem,

@@ -1,5 +1,5 @@
-// What a sweep's records say of vibration and load along the parameter: response curves, dynamic factor, load sharing
-// of the planets, and the spectrum as a map.
+// What a sweep's records say of vibration and load along the parameter: response curves, largest forces, dynamic
+// factor, load sharing of the planets, and the spectrum as a map.
 #pragma once
 
 #include <filesystem>
@@ -23,8 +23,15 @@ struct ResponseInput {
                                                            const ResponseInput& input, bool sun_planet);
 
 /// Largest force of any mesh over the static one, of both kinds.
-[[nodiscard]] figures::FigureOutcome write_dynamic_factor_figure(const std::filesystem::path& folder,
-                                                                 const std::string& stem, const ResponseInput& input);
+[[nodiscard]] figures::FigureOutcome write_largest_force_figure(const std::filesystem::path& folder,
+                                                                const std::string& stem, const ResponseInput& input);
+
+/// Is the quasi-static solution known anywhere?
+[[nodiscard]] bool has_quasi_static(const studies::PointSource& points);
+
+/// Dynamic factor K_v of both kinds of mesh [S-kv].
+[[nodiscard]] figures::FigureOutcome write_kv_figure(const std::filesystem::path& folder, const std::string& stem,
+                                                     const ResponseInput& input);
 
 /// Do planets carry unlike loads anywhere?
 [[nodiscard]] bool loads_differ(const studies::PointSource& points);

@@ -49,11 +49,43 @@ std::vector<std::string> state_names(const RunOutput& output, std::size_t dimens
 // ---------------------------------------------------------------------------------------------------------------------
 // Tables
 
-void write_history_csv(const std::filesystem::path& file, const History& h, int periods) {
-  CsvWriter csv(file, h.columns);
-  const std::size_t width = h.columns.size();
-  for (std::size_t row = first_row(h, periods); row < h.rows(); ++row) {
-    for (std::size_t j = 0; j < width; ++j) csv.cell(h.values[row * width + j]);
+/// A history with its dimensionless columns once more behind the others: in s, um and m/s.
+struct HistoryTable {
+  explicit HistoryTable(const RunResult& r) : history(r.history), columns(history.columns), units(history.units) {
+    const auto add = [&](std::size_t column, const std::string& name, const char* unit, double factor) {
+      columns.push_back(name);
+      units.emplace_back(unit);
+      scaled.push_back({column, factor});
+    };
+    const double um = 1e6 * model::length_scale_m;
+    for (std::size_t j = 0; j < history.columns.size(); ++j) {
+      const std::string& name = history.columns[j];
+      if (name == "tau") add(j, "time_s", "s", 1.0 / r.omega_sn);
+      if (history.units[j] == "b_c") add(j, name + "_um", "um", um);
+      if (history.units[j] == "b_c per tau") add(j, name + "_m_per_s", "m/s", model::length_scale_m * r.omega_sn);
+    }
+  }
+
+  /// @param values  columns.size() numbers
+  void fill(std::size_t row, std::span<double> values) const {
+    const std::size_t width = history.columns.size();
+    const auto from = std::span(history.values).subspan(row * width, width);
+    auto to = std::ranges::copy(from, values.begin()).out;
+    for (const auto& [column, factor] : scaled) *to++ = factor * from[column];
+  }
+
+  const History& history;
+  std::vector<std::string> columns, units;
+  std::vector<std::pair<std::size_t, double>> scaled{};  ///< column, factor
+};
+
+void write_history_csv(const std::filesystem::path& file, const RunResult& r, int periods) {
+  const HistoryTable table(r);
+  CsvWriter csv(file, table.columns);
+  std::vector<double> values(table.columns.size());
+  for (std::size_t row = first_row(r.history, periods); row < r.history.rows(); ++row) {
+    table.fill(row, values);
+    for (const double x : values) csv.cell(x);
     csv.end_row();
   }
   csv.commit();
@@ -267,6 +299,12 @@ void write_meshes(store::Hdf5File& h5, const std::vector<MeshSummary>& meshes) {
       "force_max", meshes, [](const MeshSummary& m) { return m.force_max; }, "N");
   g.column(
       "force_ratio_max", meshes, [](const MeshSummary& m) { return m.force_ratio_max; }, "-");
+  g.column(
+      "quasi_static_max", meshes, [](const MeshSummary& m) { return m.quasi_static.largest; }, "N");
+  g.column(
+      "quasi_static_mean", meshes, [](const MeshSummary& m) { return m.quasi_static.mean; }, "N");
+  g.column(
+      "kv", meshes, [](const MeshSummary& m) { return m.kv; }, "-");
   g.column(
       "load_sharing", meshes, [](const MeshSummary& m) { return m.load_sharing; }, "-");
   g.column(
@@ -542,22 +580,24 @@ std::string pulls_text(const RunOutput& output, const RunResult& r) {
 std::string meshes_text(const RunOutput& output, const RunResult& r) {
   std::string text = "\n## Meshes\n\n";
   std::vector<std::vector<std::string>> rows{
-      {"mesh", "mean F [N]", "min [N]", "max [N]", "max F/F_0", "sharing", "drive", "loss", "back", "losses"}};
+      {"mesh", "mean F [N]", "min [N]", "max [N]", "max F/F_0", "K_v", "sharing", "drive", "loss", "back", "losses"}};
   const double periods = std::max(1.0, record_periods(r.history));
   const auto percent = [](double part) { return fmt::format("{:.1f} %", 100.0 * part); };
   for (const MeshSummary& m : r.meshes)
     rows.push_back({m.name, fmt::format("{:.5g}", m.force_mean), fmt::format("{:.5g}", m.force_min),
                     fmt::format("{:.5g}", m.force_max), fmt::format("{:.3f}", m.force_ratio_max),
+                    std::isnan(m.kv) ? std::string("-") : fmt::format("{:.3f}", m.kv),
                     fmt::format("{:.4f}", m.load_sharing), percent(m.drive), percent(m.loss), percent(m.back),
                     fmt::format("{:.3g}", m.contact_losses / periods)});
   text += aligned(rows);
-  text +=
-      "\n" + wrapped(fmt::format("F: normal force; F_0 = {:.1f} N, the static one of a sun-planet mesh; sharing: load "
-                                 "sharing of the planets, N mean F / sum of the means over one kind of mesh; drive, "
-                                 "loss, back: parts of the time on the driving "
-                                 "flank, between the flanks, on the back; losses: times that the driving flank "
-                                 "was left, per mesh period. Over {:g} mesh periods, at {} phases of each.",
-                                 r.static_force, record_periods(r.history), r.history.phases));
+  text += "\n" +
+          wrapped(fmt::format("F: normal force; F_0 = {:.1f} N, the static one of a sun-planet mesh; K_v: max F over "
+                              "the largest quasi-static force of the same mesh; sharing: load "
+                              "sharing of the planets, N mean F / sum of the means over one kind of mesh; drive, "
+                              "loss, back: parts of the time on the driving "
+                              "flank, between the flanks, on the back; losses: times that the driving flank "
+                              "was left, per mesh period. Over {:g} mesh periods, at {} phases of each.",
+                              r.static_force, record_periods(r.history), r.history.phases));
   text += pulls_text(output, r);
   text += "\n" + wrapped(fmt::format("Planets' spread: {:.3g} b_c, the largest difference between their deflections.",
                                      r.point.meshes.planet_spread));
@@ -693,7 +733,7 @@ std::vector<SpectralLine> strongest_lines(const SignalSpectrum& signal, std::siz
 }
 
 void write_run_tables(const std::filesystem::path& folder, const RunOutput& output, const RunResult& result) {
-  if (has_history(result)) write_history_csv(folder / "history.csv", result.history, output.options.shown_periods);
+  if (has_history(result)) write_history_csv(folder / "history.csv", result, output.options.shown_periods);
   if (!result.spectra.empty()) write_spectrum_csv(folder / "spectrum.csv", result.spectra);
   if (has_exponents(result)) write_exponents_csv(folder / "exponents.csv", result);
   if (has_multipliers(result)) write_multipliers_csv(folder / "multipliers.csv", result);
@@ -710,9 +750,11 @@ void write_run_h5(const std::filesystem::path& file, const RunOutput& output, co
     const History& h = result.history;
     Group g(h5, "/history");
     h5.set_attribute("/history", "phases", static_cast<std::int64_t>(h.phases));
-    g.texts("columns", h.columns);
-    g.texts("units", h.units);
-    h5.write("/history/values", std::span<const double>(h.values), h.rows(), h.columns.size());
+    const HistoryTable table(result);
+    g.texts("columns", table.columns);
+    g.texts("units", table.units);
+    h5.write("/history/values", h.rows(), table.columns.size(),
+             [&](std::size_t row, std::span<double> values) { table.fill(row, values); });
   }
   if (!result.meshes.empty()) write_meshes(h5, result.meshes);
   for (const SignalSpectrum& s : result.spectra) write_spectrum(h5, s);

@@ -15,6 +15,7 @@
 #include "core/csv.hpp"
 #include "core/text.hpp"
 #include "figures/bifurcation_figure.hpp"
+#include "figures/sketch.hpp"
 #include "gear/kinematics.hpp"
 #include "reports/quantity_words.hpp"
 #include "reports/response_output.hpp"
@@ -96,6 +97,8 @@ std::optional<std::string> stem_of(const SweepOutput& output, SweepFigure figure
       return "response_delta_rp";
     case SweepFigure::dynamic_factor:
       return "dynamic_factor";
+    case SweepFigure::kv:
+      return "kv";
     case SweepFigure::load_sharing:
       return "load_sharing";
     case SweepFigure::load_sharing_max:
@@ -116,7 +119,7 @@ figures::FigureText text_of(const SweepOutput& output, const studies::PointSourc
       fmt::format("Poincaré points of  δ_{{{},1}} / b_c", figure == SweepFigure::delta_rp ? "rp" : "sp")};
   if (const auto direction = direction_of(figure))
     text.title += ", " + store::direction_word(output.sweep.directions[*direction]);
-  text.above = speed_above(output.sweep.axis.name, points);
+  text.above = speed_above(output.sweep.axis.name, output.speed, points);
   return text;
 }
 
@@ -128,15 +131,15 @@ std::size_t points_each_way(const SweepOutput& output, const studies::PointSourc
 /// Distinct in print, in grey and for colour-blind eyes (after Okabe and Ito). A multiplier's logarithm has intervals
 /// far wider than what is looked at where it is next to nothing.
 const std::vector<figures::PointClass>& classes() {
-  static const std::vector<figures::PointClass> all = {{"period 1", "#12285c", false},
-                                                       {"period 2 and more", "#3f8fd0", false},
-                                                       {"quasiperiodic", "#1b8a6b"},
-                                                       {"chaotic", "#c8553d"},
-                                                       {"undecided", "#8a8a8a"}};
+  static const std::vector<figures::PointClass> all = {
+      {"period 1", "#12285c", false}, {"period 2 and more", "#3f8fd0", false},
+      {"quasiperiodic", "#1b8a6b"},   {"chaotic", "#c8553d"},
+      {"undecided", "#8a8a8a"},       {on_its_way_words, std::string(figures::ink::ochre), false}};
   return all;
 }
 
 std::size_t class_of(const PointSummary& r) {
+  if (r.on_its_way()) return 5;
   switch (r.regime) {
     case analysis::Regime::periodic:
       return r.period <= 1 ? 0 : 1;
@@ -160,7 +163,7 @@ auto section(const SweepOutput& output, const studies::PointSource& points, std:
     const PointResult r = points.read(first + i);
     if (!ok(r)) return std::nullopt;
     const analysis::Estimate exponent = r.lyapunov_max();
-    figures::ClassPoint p{{r.point.value, {}}, class_of(r), exponent.value, exponent.half_width};
+    figures::ClassPoint p{{r.point.value, {}, r.on_its_way()}, class_of(r), exponent.value, exponent.half_width};
     for (std::size_t k = 0; k < r.poincare_rows(); ++k)
       p.section.push_back(r.poincare[k * r.poincare_columns + column]);
     return p;
@@ -181,16 +184,28 @@ std::string parameter_symbol(const std::string& parameter) {
   return named == nullptr ? figures::literal_text(quantity_words(parameter).words) : named->symbol;
 }
 
-std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter, double omega,
-                                                   const studies::StageRecord& record) {
-  if (parameter != studies::speed_parameter || !(omega > 0.0) || !(record.speeds.sun > 0.0)) return std::nullopt;
-  return figures::SecondAbscissa{"Sun speed  n_s  [rpm]", gear::rpm * record.speeds.sun / omega};
+std::string speed_label(std::string_view key) {
+  if (key == "sun_speed_rpm") return "Sun speed  n_s  [rpm]";
+  if (key == "carrier_speed_rpm") return "Carrier speed  n_c  [rpm]";
+  if (key == "mesh_frequency_Hz") return "Mesh frequency  f_m  [Hz]";
+  return {};
 }
 
-std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter, const studies::PointSource& points) {
+std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter,
+                                                   const std::optional<studies::SpeedUnit>& given, double omega,
+                                                   const studies::StageRecord& record) {
+  if (parameter != studies::speed_parameter) return std::nullopt;
+  if (given) return figures::SecondAbscissa{speed_label(given->key), given->per_ratio};
+  if (!(omega > 0.0) || !(record.speeds.sun > 0.0)) return std::nullopt;
+  return figures::SecondAbscissa{speed_label("sun_speed_rpm"), gear::rpm * record.speeds.sun / omega};
+}
+
+std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter,
+                                                   const std::optional<studies::SpeedUnit>& given,
+                                                   const studies::PointSource& points) {
   if (points.count == 0) return std::nullopt;
   const PointSummary first = points.read_brief(0);
-  return speed_above(parameter, first.omega, first.meshes);
+  return speed_above(parameter, given, first.omega, first.meshes);
 }
 
 std::string figure_title(const input::Study& study) {
@@ -319,7 +334,7 @@ std::optional<DrawnFigure> write_sweep_figure(const std::filesystem::path& folde
       for (std::size_t d = 0; d < output.sweep.directions.size(); ++d)
         series.push_back({store::direction_word(output.sweep.directions[d]), points_each_way(output, points),
                           section(output, points, d, figure)});
-      outcome = figures::bifurcation_figure(folder, *stem, text, series, {}, figures::Pictures::none);
+      outcome = figures::bifurcation_figure(folder, *stem, text, series, {}, figures::Pictures::none, on_its_way_words);
       break;
     }
     case SweepFigure::response_sp:
@@ -327,7 +342,11 @@ std::optional<DrawnFigure> write_sweep_figure(const std::filesystem::path& folde
       outcome = write_response_figure(folder, *stem, response, figure == SweepFigure::response_sp);
       break;
     case SweepFigure::dynamic_factor:
-      outcome = write_dynamic_factor_figure(folder, *stem, response);
+      outcome = write_largest_force_figure(folder, *stem, response);
+      break;
+    case SweepFigure::kv:
+      if (!has_quasi_static(points)) return std::nullopt;
+      outcome = write_kv_figure(folder, *stem, response);
       break;
     case SweepFigure::load_sharing:
     case SweepFigure::load_sharing_max:

@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "figures/gnuplot.hpp"
@@ -25,12 +26,21 @@ namespace epicyclic::reports {
 [[nodiscard]] std::string parameter_label(const std::string& parameter);
 [[nodiscard]] std::string parameter_symbol(const std::string& parameter);
 
-/// The sun's speed in rpm, over an abscissa that is the mesh frequency ratio; nothing over any other.
+/// What points are whose record is still on its way to their motion, for legends of figures that draw them apart.
+inline constexpr const char* on_its_way_words = "record on its way to the orbit";
+
+/// Axis label of a speed by its key, as "sun_speed_rpm"; empty of any other.
+[[nodiscard]] std::string speed_label(std::string_view key);
+
+/// What the study gives speeds in, else the sun's speed in rpm, over an abscissa that is the mesh frequency ratio;
+/// nothing over any other.
 /// @param points  of which one was seen
 [[nodiscard]] std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter,
+                                                                 const std::optional<studies::SpeedUnit>& given,
                                                                  const studies::PointSource& points);
-[[nodiscard]] std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter, double omega,
-                                                                 const studies::StageRecord& record);
+[[nodiscard]] std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter,
+                                                                 const std::optional<studies::SpeedUnit>& given,
+                                                                 double omega, const studies::StageRecord& record);
 
 /// Name of study or stage with the boundary and, unless it is swept, the speed: for figures.
 [[nodiscard]] std::string figure_title(const input::Study& study);
@@ -39,8 +49,9 @@ namespace epicyclic::reports {
 struct SweepOutput {
   studies::SweepOptions sweep;
   std::vector<std::string> poincare_columns;
-  std::string resolved_input;  ///< text of input.resolved.json, kept in results.h5 too
-  std::string title;           ///< of the figures
+  std::string resolved_input;                 ///< text of input.resolved.json, kept in results.h5 too
+  std::string title;                          ///< of the figures
+  std::optional<studies::SpeedUnit> speed{};  ///< what the study gives speeds along the axis in; none: Omega
 };
 
 /// @throws OutputError, and what reading points throws
@@ -60,8 +71,9 @@ struct DrawnFigure {
 };
 
 /// The figures of a sweep: bifurcation diagrams of the meshes of planet 1; that of its sun mesh coloured by regime, one
-/// for each direction, because the colours are needed for the regimes; response curves of both meshes, dynamic factor,
-/// load sharing where planets differ [reports/response_output.hpp]; spectra over the parameter, one for each direction.
+/// for each direction, because the colours are needed for the regimes; response curves of both meshes, largest force,
+/// K_v, load sharing where planets differ [reports/response_output.hpp]; spectra over the parameter, one for each
+/// direction.
 enum class SweepFigure {
   delta_sp,
   delta_rp,
@@ -70,16 +82,18 @@ enum class SweepFigure {
   response_sp,
   response_rp,
   dynamic_factor,
+  kv,
   load_sharing,
   load_sharing_max,
   waterfall_first,
   waterfall_second,
 };
-inline constexpr std::array all_sweep_figures{
-    SweepFigure::delta_sp,        SweepFigure::delta_rp,        SweepFigure::regimes_first,
-    SweepFigure::regimes_second,  SweepFigure::response_sp,     SweepFigure::response_rp,
-    SweepFigure::dynamic_factor,  SweepFigure::load_sharing,    SweepFigure::load_sharing_max,
-    SweepFigure::waterfall_first, SweepFigure::waterfall_second};
+inline constexpr std::array all_sweep_figures{SweepFigure::delta_sp,        SweepFigure::delta_rp,
+                                              SweepFigure::regimes_first,   SweepFigure::regimes_second,
+                                              SweepFigure::response_sp,     SweepFigure::response_rp,
+                                              SweepFigure::dynamic_factor,  SweepFigure::kv,
+                                              SweepFigure::load_sharing,    SweepFigure::load_sharing_max,
+                                              SweepFigure::waterfall_first, SweepFigure::waterfall_second};
 
 /// Data and script of a figure in `folder`, for draw_sweep_picture.
 /// @returns nothing, or why there is nothing to draw; that the study has no such figure (one direction, regimes not

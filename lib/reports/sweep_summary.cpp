@@ -14,6 +14,7 @@
 #include "core/largest_difference.hpp"
 #include "core/text.hpp"
 #include "gear/kinematics.hpp"
+#include "reports/axis_words.hpp"
 #include "reports/markdown.hpp"
 #include "store/point_columns.hpp"
 
@@ -26,11 +27,10 @@ using studies::PointSummary;
 
 bool reached(const PointSummary& r) { return r.outcome == integrate::Outcome::reached; }
 
-/// Of a value along the axis: as its grid has it.
-std::string place(double value) { return short_text(value, 6); }
+constexpr int place_digits = 6;  // of a value along the axis
 
-std::string range_text(double from, double to, int digits) {
-  return from == to ? short_text(from, digits) : short_text(from, digits) + " to " + short_text(to, digits);
+std::string range_text(double from, double to, int digits, const AxisWords& words = {}) {
+  return from == to ? words.text(from, digits) : words.text(from, digits) + " to " + words.text(to, digits);
 }
 
 /// What is kept of a point.
@@ -94,11 +94,19 @@ std::vector<Largest> largest_of() {
   };
   const auto force = [](const Course& c) { return c.largest; };
   return {
-      // The first two are told in short, too.
-      {"dynamic factor of a sun mesh", "1",
+      // The first four stand in the short lines, too.
+      {"dynamic factor K_v of a sun mesh", "1",
+       [](const PointSummary& r) { return studies::StageRecord::kv(r.meshes.sun_planet); }},
+      {"dynamic factor K_v of a ring mesh", "1",
+       [](const PointSummary& r) { return studies::StageRecord::kv(r.meshes.ring_planet); }},
+      {"force of a sun mesh over the static one", "1",
        [](const PointSummary& r) { return r.meshes.dynamic_factor(r.meshes.sun_planet); }},
-      {"dynamic factor of a ring mesh", "1",
+      {"force of a ring mesh over the static one", "1",
        [](const PointSummary& r) { return r.meshes.dynamic_factor(r.meshes.ring_planet); }},
+      {"mesh load factor K_gamma of the sun meshes", "1",
+       [](const PointSummary& r) { return studies::StageRecord::k_gamma(r.meshes.sun_planet); }},
+      {"mesh load factor K_gamma of the ring meshes", "1",
+       [](const PointSummary& r) { return studies::StageRecord::k_gamma(r.meshes.ring_planet); }},
       {"force of a sun mesh", "N",
        [=](const PointSummary& r) {
          return greatest(r.meshes.sun_planet, [&](const auto& m) { return force(m.force); });
@@ -126,7 +134,8 @@ std::vector<Largest> largest_of() {
 /// A sweep as it is told.
 class Summary {
  public:
-  Summary(const SweepOutput& output, const studies::PointSource& points) : output_(output), points_(points) {
+  Summary(const SweepOutput& output, const studies::PointSource& points)
+      : output_(output), words_(axis_words(output.sweep.axis.name, output.speed)), points_(points) {
     const auto& directions = output.sweep.directions;
     ways_.resize(directions.size());
     const std::size_t each = directions.empty() ? 0 : points.count / directions.size();
@@ -145,8 +154,11 @@ class Summary {
     s.text = fmt::format("# {}: what the sweep shows\n\n", markdown_cell(output_.title));
     std::size_t points = 0;
     for (const auto& way : ways_) points += way.size();
-    s.text += fmt::format("{} points along `{}`, {} to {}", points, output_.sweep.axis.name,
-                          place(output_.sweep.axis.from), place(output_.sweep.axis.to));
+    const studies::Axis& axis = output_.sweep.axis;
+    s.text += fmt::format("{} points along `{}`, {} to {}", points, words_.name, place(axis.from), place(axis.to));
+    if (words_.name != axis.name)
+      s.text += fmt::format(" (`{}` {} to {})", axis.name, short_text(axis.from, place_digits),
+                            short_text(axis.to, place_digits));
     for (std::size_t w = 0; w < ways_.size(); ++w) s.text += (w == 0 ? ", " : " and ") + way_word(w);
     s.text += failed_ > 0 ? fmt::format("; {} failed.\n", failed_) : std::string(".\n");
     s.text += windows();
@@ -157,10 +169,13 @@ class Summary {
 
  private:
   const SweepOutput& output_;
+  AxisWords words_;
   const studies::PointSource& points_;
   std::vector<std::vector<Place>> ways_;  ///< of each direction, by rising value
   std::size_t failed_ = 0;
   std::vector<Largest> largest_ = largest_of();
+
+  [[nodiscard]] std::string place(double value) const { return words_.text(value, place_digits); }
 
   [[nodiscard]] std::string way_word(std::size_t way) const {
     return store::direction_word(output_.sweep.directions[way]);
@@ -172,7 +187,9 @@ class Summary {
       if (std::isnan(x) || (one.value && x <= *one.value)) continue;
       one.value = x;
       one.at = place(r.point.value);
-      if (output_.sweep.axis.name == studies::speed_parameter && std::isfinite(r.meshes.speeds.sun))
+      if (words_.name != output_.sweep.axis.name)
+        one.at += fmt::format(" ({})", words_.name);
+      else if (words_.name == studies::speed_parameter && std::isfinite(r.meshes.speeds.sun))
         one.at += fmt::format(" (sun {} rpm)", short_text(gear::rpm * r.meshes.speeds.sun, 5));
       one.at += fmt::format(", {}, {}", store::direction_word(r.point.direction), motion_name(r));
     }
@@ -256,8 +273,9 @@ class Summary {
         if (there.empty()) return std::string("not settled");
         return range_text(std::ranges::min(there), std::ranges::max(there), 3);
       };
-      rows += fmt::format("| {} | {} | {} | {} | {} |\n", range_text(up[run.first].value, up[last].value, 6),
-                          up[run.first].motion, down[run.first].motion, extents(up), extents(down));
+      rows += fmt::format("| {} | {} | {} | {} | {} |\n",
+                          range_text(up[run.first].value, up[last].value, place_digits, words_), up[run.first].motion,
+                          down[run.first].motion, extents(up), extents(down));
     }
     const std::string first = way_word(0);
     const std::string second = way_word(1);
@@ -270,7 +288,7 @@ class Summary {
       std::string list;
       constexpr std::size_t most = 4;
       for (std::size_t k = 0; k < std::min(most, stretches.size()); ++k)
-        list += (k == 0 ? "" : ", ") + range_text(stretches[k].first, stretches[k].second, 6);
+        list += (k == 0 ? "" : ", ") + range_text(stretches[k].first, stretches[k].second, place_digits, words_);
       if (stretches.size() > most) list += fmt::format(" and {} more", stretches.size() - most);
       s.lines.push_back(fmt::format("two motions side by side at {} of {} values: {}", values, up.size(), list));
     }
@@ -296,12 +314,14 @@ class Summary {
         "\n## Largest\n\nOf the records at `output_phases` a mesh period; where the motion is chaotic, of that one.\n\n"
         "| what | value | unit | where |\n|---|---|---|---|\n" +
         rows;
-    const Largest& sun = largest_[0];
-    const Largest& ring = largest_[1];
-    const Largest& factor = ring.value.value_or(0.0) > sun.value.value_or(0.0) ? ring : sun;
-    if (!factor.value) return;
-    s.lines.push_back(fmt::format("largest {}: {} at {}", factor.what, short_text(*factor.value, 4), factor.at));
-    s.numbers["largest_dynamic_factor"] = *factor.value;
+    const auto add_line = [&](const Largest& sun, const Largest& ring, const char* number) {
+      const Largest& more = ring.value.value_or(0.0) > sun.value.value_or(0.0) ? ring : sun;
+      if (!more.value) return;
+      s.lines.push_back(fmt::format("largest {}: {} at {}", more.what, short_text(*more.value, 4), more.at));
+      s.numbers[number] = *more.value;
+    };
+    add_line(largest_[0], largest_[1], "largest_kv");
+    add_line(largest_[2], largest_[3], "largest_dynamic_factor");
   }
 };
 

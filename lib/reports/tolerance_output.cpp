@@ -12,6 +12,7 @@
 #include "core/csv.hpp"
 #include "core/text.hpp"
 #include "figures/line_figure.hpp"
+#include "reports/axis_words.hpp"
 
 namespace epicyclic::reports {
 
@@ -200,6 +201,7 @@ std::string quantities_text(const ToleranceOutput& output, const std::vector<Tol
       "mesh period; in brackets how much greater they are at {}, which the bars do not hold\n\n",
       output.integrator.method, output.integrator.relative_tolerance, output.sweep.sweep.look.output_phases,
       studies::finer_phases * output.sweep.sweep.look.output_phases);
+  const AxisWords words = axis_words(output.sweep.sweep.axis.name, output.sweep.speed);
   text += "| point | value | period |";
   for (const char* name : quantity_names) text += fmt::format(" {} |", name);
   text +=
@@ -210,7 +212,7 @@ std::string quantities_text(const ToleranceOutput& output, const std::vector<Tol
   for (const TolerancePoint& p : points) {
     if (p.period == 0) continue;
     const studies::Quantities study = study_quantities(p);
-    text += fmt::format("| {} | {} | {} |", p.point.index, short_text(p.point.value, 12), p.period);
+    text += fmt::format("| {} | {} | {} |", p.point.index, words.text(p.point.value, 12), p.period);
     for (std::size_t k = 0; k < quantity_names.size(); ++k)
       text += fmt::format(" {} ({:+.1e}) |", with_error(study[k], error_bar(p, k)), p.between_phases[k]);
     const LadderStep* own = study_step(p, output.integrator);
@@ -300,7 +302,8 @@ std::string write_tolerance_tables(const std::filesystem::path& folder, const To
     text += ladder_text(output, points) + quantities_text(output, points);
   for (const TolerancePoint& p : points) {
     if (!p.note.empty())
-      text += fmt::format("\nPoint {} ({}): {}\n", p.point.index, short_text(p.point.value, 12), p.note);
+      text += fmt::format("\nPoint {} ({}): {}\n", p.point.index,
+                          axis_words(output.sweep.sweep.axis.name, output.sweep.speed).text(p.point.value, 12), p.note);
     if (!p.statistics.empty()) text += statistics_text(p);
   }
   if (std::any_of(points.begin(), points.end(), [](const TolerancePoint& p) { return !p.statistics.empty(); }))

@@ -59,7 +59,7 @@ void pass(A& a, studies::Course& c) {
 }
 template <class A>
 void pass(A& a, studies::MeshRecord& m) {
-  pass_all(a, m.delta, m.force, m.drive, m.back, m.pull, m.pull_time);
+  pass_all(a, m.delta, m.force, m.drive, m.back, m.pull, m.pull_time, m.quasi_static);
 }
 template <class A>
 void pass(A& a, studies::StageRecord& r) {

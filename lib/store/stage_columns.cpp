@@ -124,8 +124,17 @@ std::vector<StageColumn> stage_columns() {
               course_of(kind, 0, &MeshRecord::force));
   for (const Kind& kind : kinds)
     add(all, std::string("dynamic_factor_") + kind.suffix, "1",
-        std::string("largest force of any ") + kind.suffix + " over the static one",
+        std::string("largest force of any ") + kind.suffix + " over the static one: dynamics and load sharing in one",
         Number([meshes = kind.meshes](const StageRecord& r) { return r.dynamic_factor(r.*meshes); }));
+  for (const Kind& kind : kinds)
+    add(all, std::string("kv_") + kind.suffix, "1",
+        std::string("dynamic factor K_v of the ") + kind.suffix + " with the largest force",
+        Number([meshes = kind.meshes](const StageRecord& r) { return StageRecord::kv(r.*meshes); }));
+  for (const Kind& kind : kinds)
+    add(all, std::string("k_gamma_") + kind.suffix, "1",
+        std::string("mesh load factor K_γ of the ") + kind.suffix +
+            ": largest quasi-static force of any over the mean of all",
+        Number([meshes = kind.meshes](const StageRecord& r) { return StageRecord::k_gamma(r.*meshes); }));
   add_force(all, "force_sun_bearing", "the force of the sun's bearing (damping in the clearance included)",
             [](const StageRecord& r) -> const Course& { return r.sun_bearing; });
   add(all, "static_force", "N", "static force of a sun mesh: torque over base radius and number of planets",
@@ -158,13 +167,19 @@ std::vector<StageColumn> planet_columns(std::size_t planets) {
       };
       share("load_sharing_", "time mean of the force of ", &Course::mean);
       share("load_sharing_max_", "largest force of ", &Course::largest);
-      const auto time = [&](const char* name, const char* where, const std::function<double(const MeshRecord&)>& part) {
-        add(all, name + suffix, "part of the time", "how long " + mesh + where,
-            Number([meshes = kind.meshes, i, part](const StageRecord& r) { return part((r.*meshes)[i]); }));
+      const auto of_mesh = [&](const std::string& name, const char* unit, const std::string& meaning,
+                               const std::function<double(const MeshRecord&)>& number) {
+        add(all, name, unit, meaning,
+            Number([meshes = kind.meshes, i, number](const StageRecord& r) { return number((r.*meshes)[i]); }));
       };
-      time("drive_time_", " is in contact on its driving flank", &MeshRecord::drive);
-      time("loss_time_", " is out of contact", &MeshRecord::loss);
-      time("back_time_", " is in contact on its back", &MeshRecord::back);
+      of_mesh("force_" + suffix + "_quasi_static_max", "N", "largest quasi-static force of " + mesh,
+              [](const MeshRecord& r) { return r.quasi_static.largest; });
+      of_mesh("kv_" + suffix, "1", "dynamic factor K_v of " + mesh, &MeshRecord::kv);
+      of_mesh("drive_time_" + suffix, "part of the time", "how long " + mesh + " is in contact on its driving flank",
+              &MeshRecord::drive);
+      of_mesh("loss_time_" + suffix, "part of the time", "how long " + mesh + " is out of contact", &MeshRecord::loss);
+      of_mesh("back_time_" + suffix, "part of the time", "how long " + mesh + " is in contact on its back",
+              &MeshRecord::back);
     }
   for (std::size_t i = 0; i < planets; ++i)
     add_force(all, "force_bearing_" + std::to_string(i + 1), "the bearing force of planet " + std::to_string(i + 1),

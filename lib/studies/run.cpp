@@ -143,6 +143,7 @@ class Run {
   /// @returns false if ended
   bool all(RunResult& r) {
     r.omega = model_.omega;
+    r.omega_sn = scales_.omega_sn;
     r.static_force = scales_.force_newton(model_.static_mesh_force);
     at("settling, regime");
     if (control_.memory.point) {
@@ -339,6 +340,7 @@ class Run {
   void summarise(RunResult& r, const std::vector<double>& pulls) const {
     const auto planets = static_cast<std::size_t>(model_.planets);
     if (r.history.rows() == 0) return;
+    const std::vector<Course> quasi_static = quasi_static_forces(model_, options_.dense_phases);
     for (const char* kind : {"sp", "rp"}) {
       const double gap = kind[0] == 's' ? model_.sun_planet_half_gap : model_.ring_planet_half_gap;
       double sum = 0.0;
@@ -353,6 +355,8 @@ class Run {
         m.force_max = *std::max_element(force.begin(), force.end());
         m.force_mean = std::accumulate(force.begin(), force.end(), 0.0) / static_cast<double>(force.size());
         m.force_ratio_max = m.force_max / r.static_force;
+        if (!quasi_static.empty()) m.quasi_static = quasi_static[column];
+        m.kv = dynamic_factor(m.force_max, m.quasi_static);
         sum += m.force_mean;
         const double part = 1.0 / static_cast<double>(delta.size());
         bool drives = model::DynamicModel::contact(delta.front(), gap) == model::Contact::drive;

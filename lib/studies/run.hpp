@@ -52,6 +52,8 @@ struct MeshSummary {
   std::string name;                                     ///< "sp_1", "rp_3"
   double force_mean = 0, force_min = 0, force_max = 0;  ///< F [N]
   double force_ratio_max = 0;                           ///< max F / F_0 [-]
+  Course quasi_static;                                  ///< F of the quasi-static solution [N]
+  double kv = 0;                                        ///< K_v [S-kv] [-]; not a number where it is not known
   double load_sharing = 0;                              ///< of the means [S-share] [-]
   double drive = 0, loss = 0, back = 0;                 ///< parts of the time [-]
   double pull_max = 0;                                  ///< greatest tension [model::DynamicModel::pull()] [N]
@@ -103,6 +105,7 @@ struct RunResult {
   double friction_table_error = 0;  ///< of friction over normal force between the rows of its tables [-]
   std::optional<analysis::FloquetMultipliers> multipliers{};  ///< if periodic
   double omega = 0;                                           ///< Omega: exponents per s times Omega are per tau
+  double omega_sn = 0;                                        ///< of the scale of time [rad/s]
 };
 
 /// Flows of a run whose results can be kept: all that take long, once the point is known.

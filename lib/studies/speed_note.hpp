@@ -19,6 +19,12 @@ struct SpeedNote {
   std::string before;  ///< the origin without it: "choice: run-up"
 };
 
+/// What speeds are given in, in place of the mesh frequency ratio.
+struct SpeedUnit {
+  std::string key;       ///< one of speed_keys
+  double per_ratio = 1;  ///< how many of it a ratio of 1 is [rpm, rpm, Hz]
+};
+
 /// @returns nothing of an origin that notes no speed
 [[nodiscard]] std::optional<SpeedNote> find_speed_note(std::string_view origin);
 

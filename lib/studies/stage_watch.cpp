@@ -4,7 +4,9 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <iterator>
 #include <numbers>
+#include <numeric>
 
 #include "analysis/poincare.hpp"
 #include "studies/pulls.hpp"
@@ -33,6 +35,19 @@ template <class F>
 double largest(const std::vector<MeshRecord>& meshes, const F& number) {
   if (meshes.empty()) return 0.0;
   return std::invoke(number, *std::ranges::max_element(meshes, {}, number));
+}
+
+/// Of some numbers.
+Course course_of(const std::vector<double>& x) {
+  Course c;
+  c.least = *std::ranges::min_element(x);
+  c.largest = *std::ranges::max_element(x);
+  const auto count = static_cast<double>(x.size());
+  c.mean = std::accumulate(x.begin(), x.end(), 0.0) / count;
+  double squares = 0.0;
+  for (const double value : x) squares += (value - c.mean) * (value - c.mean);
+  c.rms = std::sqrt(squares / count);
+  return c;
 }
 
 /// What a model of one's own, without looks, tells of its meshes: deflections.
@@ -74,6 +89,8 @@ std::string MeshRecord::contact() const {
   return text;
 }
 
+double MeshRecord::kv() const { return studies::dynamic_factor(force.largest, quasi_static); }
+
 double StageRecord::share(const std::vector<MeshRecord>& meshes, double Course::*of, std::size_t planet) {
   double sum = 0.0;
   for (const MeshRecord& r : meshes) sum += r.force.*of;
@@ -89,6 +106,34 @@ double StageRecord::largest_share() const {
 
 double StageRecord::dynamic_factor(const std::vector<MeshRecord>& meshes) const {
   return largest(meshes, [](const MeshRecord& r) { return r.force.largest; }) / static_force;
+}
+
+double StageRecord::kv(const std::vector<MeshRecord>& meshes) {
+  if (meshes.empty()) return std::numeric_limits<double>::quiet_NaN();
+  return std::ranges::max_element(meshes, {}, [](const MeshRecord& r) { return r.force.largest; })->kv();
+}
+
+double StageRecord::k_gamma(const std::vector<MeshRecord>& meshes) {
+  double mean = 0.0;
+  for (const MeshRecord& r : meshes) mean += r.quasi_static.mean / static_cast<double>(meshes.size());
+  return largest(meshes, [](const MeshRecord& r) { return r.quasi_static.largest; }) / mean;
+}
+
+std::vector<Course> quasi_static_forces(const model::DynamicModel& model, int phases) {
+  if (!(model.static_mesh_force > 0.0) || !model.quasi_static_states) return {};
+  const std::vector<double> at = analysis::uniform_phases(model.period, phases);
+  const std::vector<std::vector<double>> states = model.quasi_static_states(at);
+  std::vector<std::vector<double>> forces(2 * static_cast<std::size_t>(model.planets));
+  model::StageForces f;
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    model.forces(at[k], states[k].data(), f);
+    auto mesh = forces.begin();
+    for (const auto* list : {&f.sun_planet_elastic, &f.ring_planet_elastic})
+      for (const double force : *list) (mesh++)->push_back(model.scales.force_newton(force));
+  }
+  std::vector<Course> all;
+  if (!states.empty()) std::ranges::transform(forces, std::back_inserter(all), course_of);
+  return all;
 }
 
 double StageRecord::pull(const std::vector<MeshRecord>& meshes) { return largest(meshes, &MeshRecord::pull); }
@@ -193,6 +238,10 @@ StageRecord StageWatch::finish() {
   all.static_force = newton * model_.static_mesh_force;
   all.mesh_frequency = model_.omega * model_.scales.omega_sn;
   all.speeds = model_.speeds;
+  if (seen_ == 0) return all;
+  const std::vector<Course> forces = quasi_static_forces(model_, static_cast<int>(phases_));
+  for (std::size_t k = 0; k < forces.size(); ++k)
+    (k < rows_.planets ? all.sun_planet[k] : all.ring_planet[k - rows_.planets]).quasi_static = forces[k];
   return all;
 }
 

@@ -3,8 +3,13 @@
 //
 //   mean and RMS   x_m = mean x ,  x_rms = sqrt( mean (x - x_m)^2 ) , about the mean                        [S-rms]
 //   load sharing   L_i = N x_i / sum_j x_j  of the time means of F_i and of the largest F_i                   [S-share]
-//   dynamic factor K_i = max F_i / F_0 ,  F_0 = T_D / (N r_bs)                                                [S-force]
-//   harmonics      x_h = 2 | mean x(s) e^(-i h s) | ,  h = 1, 2, 3, over whole periods                        [S-harm]
+//   largest force  max F_i / F_0 ,  F_0 = T_D / (N r_bs): all effects in one number                           [S-force]
+//   dynamic factor K_v,i = max F_i / max F_qs,i                                                               [S-kv]
+//   mesh load factor  K_gamma = N max_i max_s F_qs,i / sum_j mean_s F_qs,j [S-kgamma] harmonics      x_h = 2 | mean
+//   x(s) e^(-i h s) | ,  h = 1, 2, 3, over whole periods                        [S-harm]
+//
+// F_qs,i(s) is the force of the same mesh in the quasi-static solution [model/static_equilibrium.hpp], at the phases of
+// the record.
 //
 // All from samples at even phases. Limits: what happens between two of them is not seen; the extrema of a force with
 // friction jump there.
@@ -40,6 +45,10 @@ struct MeshRecord {
   double back = drive;
   double pull = 0;       ///< greatest tension [model::pull()], over the static force of a sun mesh [-]
   double pull_time = 0;  ///< part of the time that there is tension [-]
+  Course quasi_static;   ///< force over a mesh period of the quasi-static solution [N]
+
+  /// dynamic_factor() of it.
+  [[nodiscard]] double kv() const;
 
   /// Part of the time out of contact: what the flanks leave [-].
   [[nodiscard]] double loss() const;
@@ -50,6 +59,12 @@ struct MeshRecord {
 
 /// Amplitudes of the first harmonics of the mesh frequency [b_c].
 using MeshHarmonics = std::array<double, 3>;
+
+/// K_v [S-kv] of a mesh.
+/// @returns not a number where it carries nothing in the quasi-static solution, or there is none
+[[nodiscard]] inline double dynamic_factor(double largest_force, const Course& quasi_static) {
+  return quasi_static.largest > 0.0 ? largest_force / quasi_static.largest : std::numeric_limits<double>::quiet_NaN();
+}
 
 struct StageRecord {
   std::vector<MeshRecord> sun_planet;   ///< one per planet
@@ -69,12 +84,21 @@ struct StageRecord {
   [[nodiscard]] static double share(const std::vector<MeshRecord>& meshes, double Course::*of, std::size_t planet);
   /// The largest share of the mean load that a planet carries on any of its meshes.
   [[nodiscard]] double largest_share() const;
-  /// The largest dynamic factor of them [S-force].
+  /// The largest force of any of them over the static one [S-force].
   [[nodiscard]] double dynamic_factor(const std::vector<MeshRecord>& meshes) const;
+  /// K_v of the one with the largest force [S-kv].
+  [[nodiscard]] static double kv(const std::vector<MeshRecord>& meshes);
+  /// K_gamma [S-kgamma].
+  [[nodiscard]] static double k_gamma(const std::vector<MeshRecord>& meshes);
   /// Greatest tension of any of them, and the greatest part of the time that one of them pulls.
   [[nodiscard]] static double pull(const std::vector<MeshRecord>& meshes);
   [[nodiscard]] static double pull_time(const std::vector<MeshRecord>& meshes);
 };
+
+/// Forces of the sun meshes, then of the ring meshes, over a mesh period of the quasi-static solution [N].
+/// @param phases  how many of it
+/// @returns nothing where there is no such solution, or no load
+[[nodiscard]] std::vector<Course> quasi_static_forces(const model::DynamicModel& model, int phases);
 
 /// Sees a motion at even phases of its dense output.
 class StageWatch {

@@ -49,6 +49,8 @@ std::vector<PointResult> points(std::size_t planets) {
       m.back = number();
       m.pull = number();
       m.pull_time = number();
+      course(m.quasi_static);
+      m.quasi_static.largest *= 3.0;
     }
   };
   const auto fill_stage = [&](studies::StageRecord& stage) {
@@ -162,7 +164,8 @@ void expect_documented(const std::vector<store::Column<Row>>& columns, const std
 }
 
 TEST(PointColumns, AreEachOfANumberOfItsOwn) {
-  // Two columns that read the same place would be the same in each row, but for planet 1's, which stand twice.
+  // Two columns that read the same place would be the same in each row, but for planet 1's, which stand twice, and K_v
+  // of the mesh with the largest force, which is planet 2's here.
   constexpr std::size_t planets = 2;
   const std::vector<PointResult> all = points(planets);
   std::map<std::pair<double, double>, std::string> seen;
@@ -174,7 +177,7 @@ TEST(PointColumns, AreEachOfANumberOfItsOwn) {
     if (std::isnan(values.first) || std::isnan(values.second)) continue;
     ++numbers;
     const auto [known, is_new] = seen.emplace(values, column.name);
-    if (is_new) continue;
+    if (is_new || (known->second.starts_with("kv_") && column.name == known->second + "_2")) continue;
     const std::string of_planet_1 =
         known->second.substr(0, known->second.rfind('_')) + "_1" + known->second.substr(known->second.rfind('_'));
     EXPECT_EQ(column.name, of_planet_1);

@@ -71,25 +71,83 @@ TEST(ResponseOutput, CurvesAreOfEachDirectionAndOfReachedPointsAlone) {
   EXPECT_NE(script.find("Mesh frequency ratio"), std::string::npos) << script.substr(0, 2000);
   EXPECT_FALSE(write_sweep_figure(folder.path(), output(), source, SweepFigure::dynamic_factor));
   EXPECT_NE(contents(folder / "dynamic_factor.dat").find("1 1 2.5 2.5\n"), std::string::npos);
+  EXPECT_FALSE(write_sweep_figure(folder.path(), output(), source, SweepFigure::kv));
+  EXPECT_FALSE(std::filesystem::exists(folder / "kv.dat")) << "no quasi-static force is known";
+}
+
+TEST(ResponseOutput, DynamicFactorIsOverTheQuasiStaticForce) {
+  const TemporaryFolder folder;
+  std::vector<PointResult> all = points();
+  for (PointResult& p : all)
+    for (auto* meshes : {&p.meshes.sun_planet, &p.meshes.ring_planet})
+      for (studies::MeshRecord& m : *meshes) m.quasi_static = {100.0, 200.0, 150.0, 20.0};
+  EXPECT_FALSE(write_sweep_figure(folder.path(), output(), studies::points_in_memory(all), SweepFigure::kv));
+  EXPECT_NE(contents(folder / "kv.dat").find("1 1 1.25 1.25\n"), std::string::npos);
+  EXPECT_NE(contents(folder / "kv.gp").find("Dynamic factor  K_{v,sp}"), std::string::npos);
 }
 
 TEST(ResponseOutput, SpeedsInRpmStandAboveTheFrame) {
   const TemporaryFolder folder;
   std::vector<PointResult> all = points();
-  EXPECT_FALSE(speed_above("mesh_frequency_ratio", studies::points_in_memory(all))) << "no speed is known";
+  EXPECT_FALSE(speed_above("mesh_frequency_ratio", {}, studies::points_in_memory(all))) << "no speed is known";
   for (PointResult& p : all) {
     p.omega = p.point.value;
     p.meshes.speeds.sun = 2.0 * std::numbers::pi * 10.0 * p.omega;  // 600 rpm at Omega = 1
   }
-  const auto above = speed_above("mesh_frequency_ratio", studies::points_in_memory(all));
+  const auto above = speed_above("mesh_frequency_ratio", {}, studies::points_in_memory(all));
   ASSERT_TRUE(above);
   EXPECT_NEAR(above->factor, 600.0, 1e-10);
-  EXPECT_FALSE(speed_above("damping_ratio", studies::points_in_memory(all)));
+  EXPECT_FALSE(speed_above("damping_ratio", {}, studies::points_in_memory(all)));
   EXPECT_FALSE(write_sweep_figure(folder.path(), output(), studies::points_in_memory(all), SweepFigure::response_sp));
   const std::string script = contents(folder / "response_delta_sp.gp");
   EXPECT_NE(script.find("set x2range [600:1800]"), std::string::npos) << script;
   EXPECT_NE(script.find("set x2label 'Sun speed  n_s  [rpm]'"), std::string::npos);
   EXPECT_NE(script.find("unset x2tics"), std::string::npos) << "the lower frame has none";
+}
+
+TEST(ResponseOutput, TheSpeedThatTheStudyGivesStandsAboveTheFrame) {
+  const TemporaryFolder folder;
+  const std::vector<PointResult> all = points();
+  SweepOutput of_carrier = output();
+  of_carrier.speed = studies::SpeedUnit{"carrier_speed_rpm", 150.0};
+  EXPECT_FALSE(write_sweep_figure(folder.path(), of_carrier, studies::points_in_memory(all), SweepFigure::response_sp));
+  const std::string script = contents(folder / "response_delta_sp.gp");
+  EXPECT_NE(script.find("set x2range [150:450]"), std::string::npos) << script;
+  EXPECT_NE(script.find("set x2label 'Carrier speed  n_c  [rpm]'"), std::string::npos);
+}
+
+/// The second point up: periodic by its orbit, and its record is not on it yet.
+std::vector<PointResult> with_one_on_its_way() {
+  std::vector<PointResult> all = points();
+  all[1].outcome = integrate::Outcome::reached;
+  all[1].classified = true;
+  for (PointResult& p : all) {
+    p.recurrence.period = 1;
+    p.poincare_columns = 1;
+    p.poincare = {p.point.value};
+  }
+  all[1].recurrence.period = 0;
+  return all;
+}
+
+TEST(ResponseOutput, RecordsOnTheirWayAreDrawnApart) {
+  const TemporaryFolder folder;
+  const std::vector<PointResult> all = with_one_on_its_way();
+  EXPECT_FALSE(write_sweep_figure(folder.path(), output(), studies::points_in_memory(all), SweepFigure::response_sp));
+  EXPECT_EQ(contents(folder / "response_delta_sp.dat"),
+            "# 'up': x, joined, values\n1 1 0.5 2\n2 NaN NaN NaN\n3 1 2.5 4\n\n\n"
+            "# 'down': x, joined, values\n3 1 3.5 5\n2 1 4.5 6\n1 1 5.5 7\n\n\n"
+            "# drawn apart: x, joined, values\n2 NaN 1.5 3\n");
+  EXPECT_NE(contents(folder / "response_delta_sp.gp").find(on_its_way_words), std::string::npos);
+  EXPECT_FALSE(write_sweep_figure(folder.path(), output(), studies::points_in_memory(all), SweepFigure::delta_sp));
+  EXPECT_EQ(contents(folder / "bifurcation_delta_sp.dat"),
+            "# 'up'\n1 1\n3 3\n\n\n# 'down'\n3 3\n2 2\n1 1\n\n\n"
+            "# drawn apart\n2 2\n\n\n");
+  EXPECT_NE(contents(folder / "bifurcation_delta_sp.gp").find(std::string(on_its_way_words) + " (1)"),
+            std::string::npos);
+  EXPECT_FALSE(write_sweep_figure(folder.path(), output(), studies::points_in_memory(all), SweepFigure::regimes_first));
+  EXPECT_NE(contents(folder / "regimes_delta_sp_up.gp").find(std::string(on_its_way_words) + " (1)"),
+            std::string::npos);
 }
 
 TEST(ResponseOutput, NoLineGoesThroughChaos) {

@@ -80,6 +80,7 @@ studies::RunResult result_of(double lag = 0.0) {
       m.force_mean = 401.5;
       m.force_max = 1187.25;
       m.force_ratio_max = 1.484;
+      m.kv = 1.25;
       m.load_sharing = 1.0;
       m.drive = 0.5;
       m.loss = 0.5;
@@ -203,10 +204,32 @@ TEST(RunTables, HistoryIsTheLastPeriodsOfTheRecord) {
   write_run_tables(folder.path(), output(), r);
   const auto rows = cells(contents(folder / "history.csv"));
   ASSERT_EQ(rows.size(), 1 + at(3 * phases));
-  EXPECT_EQ(rows[0], r.history.columns);
+  const std::size_t width = r.history.columns.size();
+  ASSERT_GT(rows[0].size(), width);
+  EXPECT_EQ(std::vector(rows[0].begin(), rows[0].begin() + static_cast<std::ptrdiff_t>(width)), r.history.columns);
   EXPECT_EQ(std::stod(rows[1][0]), 9.0 + 1.0 / phases);
   EXPECT_EQ(std::stod(rows.back()[0]), 12.0);
   EXPECT_EQ(std::stod(rows[1][4]), deflection(2.0 * pi * (9 * phases + 1) / phases));
+}
+
+TEST(RunTables, HistoryIsInSecondsMicrometresAndMetresPerSecondToo) {
+  const TemporaryFolder folder;
+  studies::RunResult r = result_of();
+  r.omega_sn = 2000.0;
+  write_run_tables(folder.path(), output(), r);
+  const auto rows = cells(contents(folder / "history.csv"));
+  const auto number = [&](const std::string& column) {
+    const auto found = std::find(rows[0].begin(), rows[0].end(), column);
+    EXPECT_NE(found, rows[0].end()) << column;
+    return found == rows[0].end() ? 0.0 : std::stod(rows[5][static_cast<std::size_t>(found - rows[0].begin())]);
+  };
+  constexpr double of_one_product = 1e-14;
+  EXPECT_NEAR(number("time_s") * 2000.0 / number("tau"), 1.0, of_one_product);
+  for (const char* of_length : {"x_s", "delta_sp_1", "delta_rp_1"})
+    EXPECT_NEAR(number(of_length + std::string("_um")) / (10.0 * number(of_length)), 1.0, of_one_product) << of_length;
+  // b_c omega_sn = 1e-5 m * 2000 / s.
+  for (const char* of_rate : {"x_s_rate", "delta_sp_1_rate"})
+    EXPECT_NEAR(number(of_rate + std::string("_m_per_s")) / (0.02 * number(of_rate)), 1.0, of_one_product) << of_rate;
 }
 
 TEST(RunTables, FirstRowIsZeroForAShortRecord) {
@@ -305,10 +328,21 @@ TEST(RunH5, HoldsTheWholeRecordAndTheOrbit) {
   write_run_h5(file, output(), r);
   EXPECT_EQ(store::read_hdf5_attribute(file, "/", "input_resolved"), "{\"stage\": {}}");
   const store::Hdf5Dataset history = store::read_hdf5(file, "/history/values");
-  EXPECT_EQ(history.shape, (std::vector<std::size_t>{at(periods * phases), r.history.columns.size()}));
-  EXPECT_EQ(history.values, r.history.values);
-  EXPECT_EQ(store::read_hdf5_texts(file, "/history/columns"), r.history.columns);
-  EXPECT_EQ(store::read_hdf5_texts(file, "/history/units"), r.history.units);
+  const std::size_t width = r.history.columns.size();
+  ASSERT_EQ(history.shape.size(), 2U);
+  EXPECT_EQ(history.shape[0], at(periods * phases));
+  const std::size_t columns = history.shape[1];
+  for (std::size_t row = 0; row < history.shape[0]; ++row)
+    for (std::size_t j = 0; j < width; ++j)
+      ASSERT_EQ(history.values[row * columns + j], r.history.values[row * width + j]) << row << ' ' << j;
+  const std::vector<std::string> names = store::read_hdf5_texts(file, "/history/columns");
+  const std::vector<std::string> units = store::read_hdf5_texts(file, "/history/units");
+  ASSERT_EQ(names.size(), columns);
+  ASSERT_EQ(units.size(), columns);
+  for (std::size_t j = 0; j < width; ++j) {
+    EXPECT_EQ(names[j], r.history.columns[j]);
+    EXPECT_EQ(units[j], r.history.units[j]);
+  }
   // Row by row.
   EXPECT_EQ(store::read_hdf5(file, "/orbit/monodromy").values, (std::vector<double>{0.6, -0.1, 0.2, 0.5}));
   EXPECT_EQ(store::read_hdf5(file, "/orbit/state").values, (std::vector<double>{0.0, 1.25}));
@@ -378,7 +412,7 @@ TEST(RunSummary, TellsAPeriodicMotionWithItsEvidence) {
        {"Periodic: the motion repeats after 2 mesh periods", "F_0 = 800.0 N", "closes to 6e-12",
         "0.3 + 0.4i, modulus 0.500000000 ± 1.0e-08, one of 2", "The orbit is stable",
         "-0.0689486250 ± 2.0e-09 per tau (-0.346573590 ± 1.0e-08 per mesh period)", "Looked at: 192 mesh periods",
-        "| sp_1 | 401.5 | 0 | 1187.2 | 1.484 | 1.0000 | 50.0 % | 50.0 % | 0.0 % | 0.5 |",
+        "| sp_1 | 401.5 | 0 | 1187.2 | 1.484 | 1.250 | 1.0000 | 50.0 % | 50.0 % | 0.0 % | 0.5 |",
         "| delta_sp_1 | um | 1: 10 | 1/2: 2.5 |", "difference 3e-09", "2 of 2 within their intervals",
         "largest difference 5e-08 per tau", "0.0310 ± 0.0040 per tau", "do not stay synchronous",
         "Work: 424242 right-hand sides", "`history.csv`", "last 3 mesh periods", "`multipliers.csv`"})

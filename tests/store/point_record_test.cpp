@@ -26,6 +26,7 @@ studies::PointResult example() {
   mesh.back = 0.25;
   mesh.pull = 1.25;
   mesh.pull_time = 0.0625;
+  mesh.quasi_static = {0.5, 0.625, 0.5625, 0.03125};
   r.meshes.sun_planet = {mesh, mesh, {}};
   r.meshes.ring_planet = {mesh};
   r.meshes.planet_spread = 0.3;
@@ -116,6 +117,8 @@ TEST(PointRecord, ComesBackExactly) {
   EXPECT_EQ(b.meshes.sun_planet[0].contact(), "loss+back");
   EXPECT_EQ(studies::StageRecord::pull(b.meshes.ring_planet), 1.25);
   EXPECT_EQ(studies::StageRecord::pull_time(b.meshes.ring_planet), 0.0625);
+  EXPECT_EQ(b.meshes.sun_planet[1].quasi_static.largest, 0.625);
+  EXPECT_EQ(b.meshes.sun_planet[1].quasi_static.mean, 0.5625);
   EXPECT_TRUE(b.pulls());
   EXPECT_EQ(b.meshes.sun_planet[1].delta.largest, 5e-324);
   EXPECT_EQ(b.meshes.planet_bearing[0].rms, 4.0);

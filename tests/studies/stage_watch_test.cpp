@@ -13,6 +13,7 @@
 
 #include "model/dynamic_model.hpp"
 #include "problems/r1.hpp"
+#include "studies/sweep.hpp"
 
 namespace epicyclic::studies::stage_watch_test {
 namespace {
@@ -188,6 +189,89 @@ TEST(StageWatch, TellsTheForcesOfAStageOneByOne) {
   EXPECT_NEAR(largest_shares, 3.0, rounding * 10.0);
   EXPECT_NEAR(StageRecord::share(r.sun_planet, &Course::mean, 1) / StageRecord::share(r.sun_planet, &Course::mean, 0),
               r.sun_planet[1].force.mean / r.sun_planet[0].force.mean, rounding * 1e3);
+}
+
+/// A stage at a torque that does not depend on speed, and its record after its motion has settled.
+gear::Stage loaded(gear::Stage stage, double torque_Nm) {
+  stage.load = {};
+  stage.load.torque_Nm = torque_Nm;
+  return stage;
+}
+/// Supports and bearings so stiff that planets cannot give way to each other.
+gear::Stage stiffly_held(gear::Stage stage) {
+  for (double* support : {&stage.sun.support_N_per_m, &stage.ring.support_N_per_m, &stage.carrier.support_N_per_m,
+                          &stage.planet.bearing_N_per_m})
+    *support = 1e10;
+  return stage;
+}
+
+StageRecord record_at(const gear::Stage& stage, double ratio, int transient_periods) {
+  const model::DynamicModel m = model::make_dynamic_model(stage, model::scales_of(stage), ratio, {});
+  LookOptions look;
+  look.classification_periods = 0;
+  look.transient_periods = transient_periods;
+  look.recorded_periods = 2;
+  look.period_max = 1;
+  return compute_point({}, m, {}, look, {}, [] { return true; }).meshes;
+}
+
+TEST(DynamicFactor, IsOneAtNoSpeedWhateverPlanetsCarry) {
+  // Errors that differ share the load unevenly: that is K_gamma, and no dynamics.
+  gear::Stage stage = stiffly_held(loaded(problems::with_moving_stiffness(problems::with_gap(problems::r1())), 900.0));
+  stage.sun_planet_mesh.error_amplitude_um = {40.0, 10.0, 8.0};
+  std::vector<double> beyond;
+  for (const double ratio : {0.02, 0.01}) {
+    const StageRecord r = record_at(stage, ratio, 3);
+    const double kv = std::max(StageRecord::kv(r.sun_planet), StageRecord::kv(r.ring_planet));
+    EXPECT_GT(r.dynamic_factor(r.sun_planet), 1.3) << "uneven sharing";
+    EXPECT_NEAR(StageRecord::k_gamma(r.sun_planet) / r.dynamic_factor(r.sun_planet), 1.0, 0.02);
+    for (const auto* meshes : {&r.sun_planet, &r.ring_planet})
+      for (const MeshRecord& mesh : *meshes) beyond.push_back(std::abs(mesh.kv() - 1.0));
+    EXPECT_NEAR(kv, 1.0, 0.02) << ratio;
+  }
+  const auto half = static_cast<std::ptrdiff_t>(beyond.size() / 2);
+  EXPECT_LT(*std::max_element(beyond.begin() + half, beyond.end()),
+            0.75 * *std::max_element(beyond.begin(), beyond.begin() + half))
+      << "it falls with the speed";
+}
+
+TEST(DynamicFactor, IsTheLargestForceOverTheStaticOneOfEqualPlanetsInPhase) {
+  // Without friction each planet carries F_0 at rest, at each phase.
+  for (const gear::Stage& stage :
+       {problems::with_gap(problems::r1()), problems::star(problems::with_gap(problems::r1())),
+        problems::with_moving_stiffness(problems::with_gap(problems::r1()))}) {
+    const StageRecord r = record_at(loaded(stage, 900.0), 0.7, 10);
+    constexpr double digits = 1e-6;  // of R1's radii, whose ratio is that of the teeth to 2e-7
+    EXPECT_GT(r.dynamic_factor(r.sun_planet), 1.05);
+    EXPECT_NEAR(StageRecord::kv(r.sun_planet), r.dynamic_factor(r.sun_planet), digits);
+    EXPECT_NEAR(StageRecord::kv(r.ring_planet), r.dynamic_factor(r.ring_planet), digits);
+    EXPECT_NEAR(StageRecord::k_gamma(r.sun_planet), 1.0, digits);
+    EXPECT_NEAR(StageRecord::k_gamma(r.ring_planet), 1.0, digits);
+  }
+}
+
+TEST(DynamicFactor, TimesMeshLoadFactorBoundsTheLargestForce) {
+  const StageRecord r = record_at(loaded(problems::r1_nonlinear(), 900.0), 0.9, 50);
+  for (const auto* meshes : {&r.sun_planet, &r.ring_planet}) {
+    double mean = 0.0;
+    double largest = 0.0;
+    for (const MeshRecord& mesh : *meshes) {
+      mean += mesh.quasi_static.mean / 3.0;
+      largest = std::max(largest, mesh.force.largest);
+    }
+    EXPECT_GT(StageRecord::k_gamma(*meshes), 1.01);
+    EXPECT_GE(StageRecord::kv(*meshes) * StageRecord::k_gamma(*meshes) * mean, largest * (1.0 - rounding));
+  }
+}
+
+TEST(DynamicFactor, IsNoneWithoutLoadOrQuasiStaticSolution) {
+  const StageRecord r = record_of([](double s) { return std::cos(s); }, 64, 2);
+  EXPECT_TRUE(std::isnan(StageRecord::kv(r.sun_planet)));
+  EXPECT_TRUE(std::isnan(StageRecord::k_gamma(r.sun_planet)));
+  MeshRecord idle;
+  idle.force.largest = 5.0;
+  idle.quasi_static = {0.0, 0.0, 0.0, 0.0};
+  EXPECT_TRUE(std::isnan(idle.kv()));
 }
 
 }  // namespace
