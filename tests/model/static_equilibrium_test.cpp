@@ -16,7 +16,7 @@
 namespace epicyclic::model::static_equilibrium_test {
 namespace {
 
-constexpr double solved = 1e-9;  // of an equilibrium, whose accelerations fall to 1e-10 of the load's
+constexpr double solved = 1e-6;  // of an equilibrium, whose accelerations fall to 1e-7 of the load's
 constexpr double digits = 1e-6;  // of R1's radii, whose ratio is that of the teeth to 2e-7
 
 std::vector<double> phases() {
