@@ -21,6 +21,7 @@
 #include "figures/cell_figure.hpp"
 #include "figures/sketch.hpp"
 #include "input/field_table.hpp"
+#include "input/speed_aliases.hpp"
 #include "model/scales.hpp"
 #include "reports/quantity_words.hpp"
 #include "store/branch_columns.hpp"
@@ -536,21 +537,26 @@ class Plot {
     return canvas;
   }
 
-  /// Omega below and the sun's speed above, or the other way round; of stages with one scale of time.
+  /// Omega below and above the speed that the studies give, or the sun's, or the other way round; of stages with one
+  /// scale of time.
   [[nodiscard]] std::optional<figures::SecondAbscissa> above() const {
-    const bool of_rpm = options_.abscissa == "sun_speed_rpm";
-    if (!(options_.abscissa.empty() || of_rpm)) return std::nullopt;
-    std::optional<double> rpm_per_ratio;
+    const auto& given = studies_.front().study->axis_speed;
+    const std::string key = given ? given->key : "sun_speed_rpm";
+    const bool of_speed = options_.abscissa == key;
+    if (!(options_.abscissa.empty() || of_speed)) return std::nullopt;
+    std::optional<double> per_ratio;
     for (const PlottedStudy& s : studies_) {
       const gear::Stage& stage = s.study->stage;
       if (parameter_of(*s.study) != studies::speed_parameter) return std::nullopt;
-      const double here = gear::rpm * gear::speeds(stage, model::scales_of(stage).omega_sn).sun;
+      const std::optional<double> ratio = input::ratio_per_unit(*input::find_speed_alias(key), stage);
+      if (!ratio) return std::nullopt;
+      const double here = 1.0 / *ratio;
       constexpr double rounding = 1e-9;
-      if (rpm_per_ratio && std::abs(here / *rpm_per_ratio - 1.0) > rounding) return std::nullopt;
-      rpm_per_ratio = here;
+      if (per_ratio && std::abs(here / *per_ratio - 1.0) > rounding) return std::nullopt;
+      per_ratio = here;
     }
-    if (of_rpm) return figures::SecondAbscissa{parameter_label(studies::speed_parameter), 1.0 / *rpm_per_ratio};
-    return figures::SecondAbscissa{quantity_label("sun_speed_rpm", false), *rpm_per_ratio};
+    if (of_speed) return figures::SecondAbscissa{parameter_label(studies::speed_parameter), 1.0 / *per_ratio};
+    return figures::SecondAbscissa{speed_label(key), *per_ratio};
   }
 
   [[nodiscard]] std::vector<DrawnFigure> drawn(const std::filesystem::path& folder, const std::string& stem,

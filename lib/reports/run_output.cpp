@@ -580,7 +580,7 @@ std::string pulls_text(const RunOutput& output, const RunResult& r) {
 std::string meshes_text(const RunOutput& output, const RunResult& r) {
   std::string text = "\n## Meshes\n\n";
   std::vector<std::vector<std::string>> rows{
-      {"mesh", "mean [N]", "min [N]", "max [N]", "max/F_0", "K_v", "sharing", "drive", "loss", "back", "losses"}};
+      {"mesh", "mean [N]", "min [N]", "max [N]", "F/F_0", "K_v", "share", "drive", "loss", "back", "losses"}};
   const double periods = std::max(1.0, record_periods(r.history));
   const auto percent = [](double part) { return fmt::format("{:.1f} %", 100.0 * part); };
   for (const MeshSummary& m : r.meshes)
@@ -590,15 +590,16 @@ std::string meshes_text(const RunOutput& output, const RunResult& r) {
                     fmt::format("{:.4f}", m.load_sharing), percent(m.drive), percent(m.loss), percent(m.back),
                     fmt::format("{:.3g}", m.contact_losses / periods)});
   text += aligned(rows);
-  text +=
-      "\n" + wrapped(fmt::format("Normal force F, its mean, least and largest value; F_0 = {:.1f} N, the static one of "
-                                 "a sun-planet mesh; K_v: max F over "
-                                 "the largest quasi-static force of the same mesh; sharing: load "
-                                 "sharing of the planets, N mean F / sum of the means over one kind of mesh; drive, "
-                                 "loss, back: parts of the time on the driving "
-                                 "flank, between the flanks, on the back; losses: times that the driving flank "
-                                 "was left, per mesh period. Over {:g} mesh periods, at {} phases of each.",
-                                 r.static_force, record_periods(r.history), r.history.phases));
+  text += "\n" +
+          wrapped(fmt::format(
+              "Normal force F, its mean, least and largest value; F/F_0: max F over F_0 = {:.1f} N, the static one of "
+              "a sun-planet mesh; K_v: max F over "
+              "the largest quasi-static force of the same mesh; share: load "
+              "sharing of the planets, N mean F / sum of the means over one kind of mesh; drive, "
+              "loss, back: parts of the time on the driving "
+              "flank, between the flanks, on the back; losses: times that the driving flank "
+              "was left, per mesh period. Over {:g} mesh periods, at {} phases of each.",
+              r.static_force, record_periods(r.history), r.history.phases));
   text += pulls_text(output, r);
   text += "\n" + wrapped(fmt::format("Planets' spread: {:.3g} b_c, the largest difference between their deflections.",
                                      r.point.meshes.planet_spread));

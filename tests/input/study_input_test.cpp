@@ -409,6 +409,13 @@ TEST_F(StudyInput, TakesAxesInRpmAndHertz) {
   EXPECT_EQ(sweep.resolved["study"]["parameter"], studies::speed_parameter);
   EXPECT_EQ(sweep.resolved["study"]["origin"]["from"], "set: command line, sun_speed_rpm = 3000");
   EXPECT_EQ(reload(sweep.resolved).resolved, sweep.resolved);
+  // What it was given in is known, of a resolved input by its origin.
+  for (const auto& axis_speed : {sweep.study.axis_speed, reload(sweep.resolved).study.axis_speed}) {
+    ASSERT_TRUE(axis_speed);
+    EXPECT_EQ(axis_speed->key, "sun_speed_rpm");
+    EXPECT_NEAR(axis_speed->per_ratio * along.to, 9000.0, 1e-8);
+  }
+  EXPECT_FALSE(load({"/study/from=0.5", "/study/to=1.5"}).study.axis_speed);
 
   // By its pointer the speed is the same parameter.
   const auto pointed = load(
