@@ -21,6 +21,7 @@
 #include "input/derived_study.hpp"
 #include "input/json_source.hpp"
 #include "input/study_model.hpp"
+#include "reports/axis_words.hpp"
 #include "session.hpp"
 #include "store/manifest.hpp"
 #include "store/point_columns.hpp"
@@ -230,9 +231,10 @@ std::size_t point_of(const Donor& donor, const FinishedStudy& from) {
     if (p.direction == *donor.direction && (!nearest || std::abs(p.value - value) < std::abs(nearest->value - value)))
       nearest = p;
   if (!nearest) throw InputError(fmt::format("--from {}: the sweep does not go that way", donor.text));
+  const reports::AxisWords words = reports::axis_words(axis.name, from.input().study.axis_speed);
   if (std::abs(nearest->value - value) > half_step * rounding)
-    throw InputError(fmt::format("--from {}: {} goes from {} to {} there{}", donor.text, axis.name,
-                                 short_text(axis.from, 9), short_text(axis.to, 9),
+    throw InputError(fmt::format("--from {}: {} goes from {} to {} there{}", donor.text, words.name,
+                                 words.text(axis.from, 9), words.text(axis.to, 9),
                                  axis.name == studies::speed_parameter && donor.unit.empty()
                                      ? "; a speed in rpm or Hz is given as up=3000rpm"
                                      : ""));
