@@ -1,6 +1,8 @@
 #include "integrate/checks.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 
 #include "core/errors.hpp"
@@ -18,6 +20,12 @@ void check_field(const VectorField& field) {
       throw InputError("a field has a breakpoint at " + std::to_string(b) + "; breakpoints must rise in [0, period)");
     before = b;
   }
+  const std::size_t segments = std::max<std::size_t>(1, field.breakpoints.size());
+  if (!field.sampling_interval.empty() && field.sampling_interval.size() != segments)
+    throw InputError("a field has " + std::to_string(field.sampling_interval.size()) + " sampling intervals for " +
+                     std::to_string(segments) + " segments; give one for each, or none");
+  for (const double d : field.sampling_interval)
+    if (!(d > 0.0)) throw InputError("a field has a sampling_interval of " + std::to_string(d) + ", must be > 0");
 }
 
 void check_samples(double from, std::span<const double> samples) {

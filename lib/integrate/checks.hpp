@@ -8,7 +8,7 @@
 namespace epicyclic::integrate {
 
 /// @throws InputError without a state or a right-hand side, for a period that is no number >= 0, and for breakpoints
-/// that do not rise or lie outside [0, period)
+/// that do not rise or lie outside [0, period); for sampling intervals that are not positive, one for each segment
 void check_field(const VectorField& field);
 
 /// @throws InputError unless the samples rise from where the motion begins

@@ -5,8 +5,8 @@
 //   load sharing   L_i = N x_i / sum_j x_j  of the time means of F_i and of the largest F_i                   [S-share]
 //   largest force  max F_i / F_0 ,  F_0 = T_D / (N r_bs): all effects in one number                           [S-force]
 //   dynamic factor K_v,i = max F_i / max F_qs,i                                                               [S-kv]
-//   mesh load factor  K_gamma = N max_i max_s F_qs,i / sum_j mean_s F_qs,j [S-kgamma] harmonics      x_h = 2 | mean
-//   x(s) e^(-i h s) | ,  h = 1, 2, 3, over whole periods                        [S-harm]
+//   load factor    K_gamma = N max_i max_s F_qs,i / sum_j mean_s F_qs,j                                     [S-kgamma]
+//   harmonics      x_h = 2 | mean x(s) e^(-i h s) | ,  h = 1, 2, 3, over whole periods                        [S-harm]
 //
 // F_qs,i(s) is the force of the same mesh in the quasi-static solution [model/static_equilibrium.hpp], at the phases of
 // the record.

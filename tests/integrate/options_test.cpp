@@ -82,7 +82,11 @@ TEST(Flows, OfEachMethodRefuseAFieldThatIsNone) {
        [](VectorField& f) {
          f.breakpoints = {0.2, 0.1};
        }},
-      {"breakpoint", [](VectorField& f) { f.breakpoints = {f.period}; }}};
+      {"breakpoint", [](VectorField& f) { f.breakpoints = {f.period}; }},
+      {"sampling_interval", [](VectorField& f) { f.sampling_interval = {0.0}; }},
+      {"sampling", [](VectorField& f) {
+         f.sampling_interval = {1.0, 1.0};
+       }}};
   for (const Method& method : methods())
     for (const auto& [word, set] : wrong) {
       VectorField field = sound;
