@@ -1,6 +1,7 @@
 #include "analysis/regime.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -45,6 +46,16 @@ constexpr double even_part = 0.1;
 constexpr double slow_growth = 4.0 * neutral_growth;
 /// Periods over which e^2 is told from a small exponent.
 constexpr int torus_look = 1024;
+/// Periods of looks at one tolerance before a tighter one is asked, where vectors do not grow.
+constexpr int look_at_one_tolerance = 1024;
+/// Periods from which on growth and the 0-1 test contradict each other: over fewer the test abstains or errs.
+constexpr std::size_t contradiction_look = 512;
+/// No flow tells more of an orbit than this, in parts of its largest component.
+constexpr double least_residual = 1e-9;
+/// A return error that falls by this factor from one half of a record to the other is that of a motion that settles.
+constexpr double falling = 0.5;
+/// A torus is turned along at no point of it slower than this part of the fastest.
+constexpr double least_turning = 0.01;
 /// A motion is as near to an orbit as it was to within a hundredth: the slowest multipliers move it by less.
 constexpr double as_near = 1.01;
 /// Returns over which a motion is followed until it is, and over which its monodromy is asked where it leads.
@@ -62,10 +73,18 @@ class Classifier {
  public:
   Classifier(integrate::Flow& flow, std::span<double> state, const RegimeOptions& options,
              const std::function<bool()>& go_on)
-      : flow_(flow), state_(state), options_(options), go_on_(go_on) {}
+      : options_(options),
+        go_on_(go_on),
+        state_(state),
+        flow_(&flow),
+        exact_(options.exact == nullptr ? &flow : options.exact),
+        coarser_(options.coarser == nullptr ? exact_ : options.coarser),
+        loose_(&flow),
+        tight_(options.tight == nullptr ? &flow : options.tight),
+        residual_(options.residual) {}
 
   Classification run(const PoincareSection* before) {
-    check(flow_, options_);
+    check(*flow_, options_);
     Evidence& seen = result_.evidence;
     int first = options_.look;
     if (before != nullptr && before->size() > 0) {
@@ -78,11 +97,20 @@ class Classifier {
       if (is_periodic(settled)) return std::move(result_);
       // As long a look as growth can be told from.
       first = std::max(first, growth_look);
+    } else {
+      look_tightly();
     }
-    for (int look = first;; look *= 2) {
+    for (int look = first;;) {
       look = std::min(look, options_.budget - seen.periods);
       if (look < least_look) break;
+      const std::vector<double> start(state_.begin(), state_.end());
       if (!record(look)) return std::move(result_);
+      contradicts_ = false;
+      if (!grows() && look_tightly()) {
+        // What does not grow remembers where it began, and a loose look may have led it to another attractor.
+        std::copy(start.begin(), start.end(), state_.begin());
+        continue;
+      }
       // A long look may have ended on an orbit that it began far from.
       if (is_periodic(settled)) return std::move(result_);
       if (is_chaotic()) {
@@ -93,9 +121,17 @@ class Classifier {
       if (!go_on_()) break;
       if (is_torus()) return std::move(result_);
       leave_what_repels();
+      if (contradicts_ && growth_.size() >= contradiction_look) {
+        look_tightly();
+        returned_ = true;
+      } else if (seen.late_growth > 4.0 * neutral_growth) {
+        look_loosely();
+      }
+      if ((contradicts_ || !grows()) && level_periods_ >= look_at_one_tolerance) tighten();
+      look *= 2;
       // Where vectors neither grow nor shrink, no look tells anything that is not long.
       if (std::abs(seen.late_growth) <= neutral_growth && growth_.size() >= growth_look)
-        look = std::max(look, (torus_look - static_cast<int>(growth_.size())) / 2);
+        look = std::max(look, torus_look - static_cast<int>(growth_.size()));
     }
     result_.regime = Regime::undecided;
     if (seen.note.empty()) seen.note = "nothing is proven";
@@ -107,6 +143,52 @@ class Classifier {
   }
 
  private:
+  /// Did tangent vectors grow over the last look? Then where a motion goes is a matter of chance in the end, and a
+  /// looser tolerance is as good.
+  [[nodiscard]] bool grows() const { return result_.evidence.late_growth > neutral_growth; }
+
+  /// Looks are at the tolerance of orbits from here on.
+  /// @returns false if they are already
+  bool look_tightly() {
+    if (flow_ == tight_) return false;
+    flow_ = tight_;
+    forget_looks();
+    return true;
+  }
+
+  /// Looks of a motion that grows are at the looser tolerance, once: what returns from there stays at the tighter one.
+  void look_loosely() {
+    if (flow_ == loose_ || returned_) return;
+    returned_ = true;
+    flow_ = loose_;
+    forget_looks();
+  }
+
+  /// The next tighter tolerance for all, if there is one.
+  void tighten() {
+    if (!options_.tighter) return;
+    const std::optional<FlowsOfTolerance> next = options_.tighter();
+    if (!next) return;
+    constexpr double by = 0.01;
+    flow_ = tight_ = next->looks;
+    exact_ = next->exact;
+    coarser_ = next->coarser;
+    residual_ = std::max(by * residual_, std::min(residual_, least_residual));
+    returned_ = true;
+    in_vain_.clear();
+    indistinct_.clear();
+    level_periods_ = 0;
+  }
+
+  /// Growth and section of another flow are none of this one.
+  void forget_looks() {
+    growth_.clear();
+    series_.clear();
+    look_before_ = 0;
+    level_periods_ = 0;
+    if (left_at_) left_at_ = 0;
+  }
+
   /// One look: the state, a tangent vector and the section.
   bool record(int periods) {
     section_ = {};
@@ -114,12 +196,13 @@ class Classifier {
     // The look before goes along: it is of the same motion.
     series_.erase(series_.begin(), series_.begin() + static_cast<std::ptrdiff_t>(look_before_));
     look_before_ = series_.size();
+    if (flow_ == exact_) flow_->forget();  // orbits have been sought with it since
     result_.evidence.note.clear();
     LyapunovOptions options;
     options.aligning_periods = 0;
     options.periods = periods;
     LargestExponent e = largest_exponent(
-        flow_, state_, options,
+        *flow_, state_, options,
         [&](std::size_t, double, std::span<const double> y) {
           section_.states.insert(section_.states.end(), y.begin(), y.end());
           series_.push_back(y[options_.observable]);
@@ -127,10 +210,12 @@ class Classifier {
         go_on_);
     result_.evolution = e.evolution;
     result_.evidence.periods += static_cast<int>(e.growth.size());
+    level_periods_ += static_cast<int>(e.growth.size());
     growth_.insert(growth_.end(), e.growth.begin(), e.growth.end());
     result_.evidence.late_growth = late_growth(e.growth);
     direction_ = std::move(e.direction);
     if (!result_.evolution.reached() || e.growth.size() < static_cast<std::size_t>(periods)) return false;
+    whole_look_ = section_;
     // Orbits are told from where the motion is now, not from where a long look began.
     section_.keep_last(growth_look);
     find_recurrence();
@@ -140,11 +225,11 @@ class Classifier {
   void find_recurrence() {
     scale_ = std::numeric_limits<double>::min();
     for (const double x : section_.states) scale_ = std::max(scale_, std::abs(x));
-    result_.evidence.recurrence = recurrence(section_, options_.longest_period, options_.residual * scale_);
+    result_.evidence.recurrence = recurrence(section_, options_.longest_period, residual_ * scale_);
   }
 
   /// What an integrator may leave of an orbit.
-  [[nodiscard]] double noise() const { return 1e3 * options_.residual * scale_; }
+  [[nodiscard]] double noise() const { return 1e3 * residual_ * scale_; }
 
   /// @param part  of the section's extent, up to which a recurrence error makes a candidate
   bool is_periodic(double part) {
@@ -165,8 +250,13 @@ class Classifier {
     if (r.error <= settled * wide) {
       const int closed = shortest(settled * wide);
       const int early = shortest(options_.near * wide);
-      return (early < closed && early <= affordable && settles_to_orbit_of(early)) || settles_to_orbit_of(closed) ||
-             (n > closed && settles_to_orbit_of(n));
+      if ((early < closed && early <= affordable && settles_to_orbit_of(early)) || settles_to_orbit_of(closed) ||
+          (n > closed && settles_to_orbit_of(n)))
+        return true;
+      // About an orbit that is next to a flip the motion comes and goes: it recurs after twice the orbit's period.
+      for (int d = n / 2; d >= 1; --d)
+        if (n % d == 0 && settles_to_orbit_of(d)) return true;
+      return false;
     }
     // Shorter ones come first: an orbit of period 1 recurs after 2.
     for (int d = 1; d <= std::min(n, affordable); ++d)
@@ -182,7 +272,7 @@ class Classifier {
   }
 
   /// What an integrator leaves of a residual.
-  [[nodiscard]] double map_residual() const { return options_.residual * scale_; }
+  [[nodiscard]] double map_residual() const { return residual_ * scale_; }
 
   struct KnownOrbit {
     PeriodicOrbit orbit;
@@ -193,10 +283,10 @@ class Classifier {
   /// An orbit of period n near the motion's last point, with its error [A-orbit-error].
   /// @param distance_now  the motion's recurrence error after n periods
   std::optional<KnownOrbit> seek(std::span<const double> last, int n, double distance_now) {
-    integrate::Flow& exact = options_.exact == nullptr ? flow_ : *options_.exact;
+    integrate::Flow& exact = *exact_;
     // n + 1 pieces end within periods: other steps of the integrator all along.
-    integrate::Flow& other = options_.coarser == nullptr ? exact : *options_.coarser;
-    const int pieces = options_.coarser == nullptr ? n + 1 : 1;
+    integrate::Flow& other = *coarser_;
+    const int pieces = coarser_ == exact_ ? n + 1 : 1;
     const auto tangents_of_others = [&](const PeriodicOrbit& orbit) {
       return find_periodic_orbit(other, orbit.state, n,
                                  {.iterations = 1, .residual = map_residual(), .pieces = pieces});
@@ -240,9 +330,9 @@ class Classifier {
     const double distance_now = recurrence_error(section_, static_cast<std::size_t>(n));
     if (distance_now > nearer * vain->second) return false;
     const auto last = section_.point(section_.size() - 1);
-    integrate::Flow& exact = options_.exact == nullptr ? flow_ : *options_.exact;
+    integrate::Flow& exact = *exact_;
     std::optional<KnownOrbit> known = seek(last, n, distance_now);
-    flow_.forget();
+    flow_->forget();
     if (!known) {
       vain->second = distance_now;
       return false;
@@ -352,21 +442,30 @@ class Classifier {
     seen.largest_multiplier = multiplier;
     seen.multiplier_error = error;
     // Of a multiplier that is nothing but error, the logarithm says no more than that.
-    const double time = n * flow_.field().period;
+    const double time = n * flow_->field().period;
     seen.exponent = {std::log(multiplier) / time, std::log1p(error / multiplier) / time};
     seen.zero_one.reset();
     result_.orbit = std::move(orbit);
   }
 
-  /// The least divisor d of n after which an orbit closes, to within its error: one of period 1 is one of period 12,
-  /// too.
+  /// The least divisor d of n of which an orbit is, too: it closes after d periods to within its error, or Newton's
+  /// method, begun where it nearly closes, finds an orbit of period d that is the same to within the errors of both.
   int least_period(integrate::Flow& flow, const PeriodicOrbit& orbit, int n) {
     const double closed = closed_to(orbit);
+    std::vector<int> nearly;
     std::vector<double> y = orbit.state;
     flow.forget();
     for (int d = 1; d < n; ++d) {
       if (!flow.evolve(y, 0.0, flow.field().period).reached()) break;
-      if (n % d == 0 && largest_difference(y, orbit.state) <= closed) return d;
+      if (n % d != 0) continue;
+      const double open = largest_difference(y, orbit.state);
+      if (open <= closed) return d;
+      if (open <= settled * scale_) nearly.push_back(d);
+    }
+    for (const int d : nearly) {
+      const PeriodicOrbit shorter = find_periodic_orbit(flow, orbit.state, d, {.residual = map_residual()});
+      if (shorter.found() && largest_difference(shorter.state, orbit.state) <= std::max(closed, closed_to(shorter)))
+        return d;
     }
     return n;
   }
@@ -375,26 +474,49 @@ class Classifier {
     Evidence& seen = result_.evidence;
     // The first quarter is left to the vector's turning and to what is left of the transient.
     const std::span<const double> counted = std::span(growth_).subspan(growth_.size() / 4);
-    seen.exponent = series_mean(counted) / flow_.field().period;
+    seen.exponent = series_mean(counted) / flow_->field().period;
     seen.zero_one.reset();
     if (series_.size() < 2 * static_cast<std::size_t>(growth_look)) return false;
-    const double k = zero_one_test(series_, noise());
-    seen.zero_one = k;
+    seen.zero_one = zero_one_test(series_, noise());
     if (!(seen.exponent.low() > 0.0 && seen.late_growth > neutral_growth)) return false;
+    const double k = *(seen.zero_one = vote(*seen.zero_one));
     if (!left_at_ && grows_evenly()) return false;
     // On its way off, which e^7 and more lead out of a push of 1e-3, it spirals: to the 0-1 test that is chaos.
     if (left_at_ && growth_since_left() < -std::log(push) + 4.0 * neutral_growth) return false;
     if (k > chaotic_vote) return true;
-    const double late = late_growth(growth_);
-    // Beside what only repels vectors grow, too, for as long as the motion stays there.
-    return k > regular_vote ? late > 4.0 * neutral_growth : left_at_ && late > 8.0 * neutral_growth;
+    if (k > regular_vote) return late_growth(growth_) > 4.0 * neutral_growth;
+    // One of the two is mistaken. Growth is, where a loose tolerance passes kinks unseen: it is measured again.
+    seen.note = "vectors grow, and the 0-1 test says regular (" + short_text(k) + ")";
+    contradicts_ = true;
+    return false;
+  }
+
+  /// The 0-1 test of a motion whose vectors grow. In chaos of several bands, which the motion goes through in turn, the
+  /// turn drowns what is irregular: where the section all but recurs after n periods each n-th point is taken about
+  /// their own mean, too.
+  /// @param plain  the test without that
+  [[nodiscard]] double vote(double plain) const {
+    const Recurrence& r = result_.evidence.recurrence;
+    if (plain > chaotic_vote || r.best_period < 2 || !(r.error <= near_enough(options_.near))) return plain;
+    const auto bands = static_cast<std::size_t>(r.best_period);
+    std::vector<double> about(series_);
+    for (std::size_t band = 0; band < bands; ++band) {
+      double sum = 0.0;
+      double count = 0.0;
+      for (std::size_t k = band; k < series_.size(); k += bands) {
+        sum += series_[k];
+        count += 1.0;
+      }
+      for (std::size_t k = band; k < series_.size(); k += bands) about[k] -= sum / count;
+    }
+    return std::max(plain, zero_one_test(about, noise()));
   }
 
   /// Whether vectors grow as they do beside something that repels: slowly, and by the same factor all the time. What
   /// settles to it meanwhile the 0-1 test takes for chaos.
   [[nodiscard]] bool grows_evenly() const {
     const auto& e = result_.evidence.exponent;
-    return e.half_width < even_part * e.value && e.value * flow_.field().period * 2 * growth_look < slow_growth;
+    return e.half_width < even_part * e.value && e.value * flow_->field().period * 2 * growth_look < slow_growth;
   }
 
   [[nodiscard]] double growth_since_left() const {
@@ -407,8 +529,7 @@ class Classifier {
   bool outlasts() {
     Evidence& seen = result_.evidence;
     const auto lasted = [&] { return first_ + seen.periods; };
-    // Against the 0-1 test's word growth has to last for all of it: a torus is often come to slowly.
-    const int lasting = *seen.zero_one > regular_vote ? std::min(options_.lasting, options_.budget) : options_.budget;
+    const int lasting = std::min(options_.lasting, options_.budget);
     const auto last_until = [&](int end) {
       while (lasted() < end)
         if (!carry_on(std::min(lasted(), end - lasted())) || is_periodic(settled)) return false;
@@ -423,7 +544,7 @@ class Classifier {
         if (!last_until(first_ + options_.budget)) return true;
         beside = ", beside an orbit of period " + std::to_string(n) + " that attracts";
       }
-      seen.zero_one = zero_one_test(series_, noise());
+      seen.zero_one = vote(zero_one_test(series_, noise()));
       if (*seen.zero_one <= chaotic_vote) {
         // Another motion than the one whose growth is known.
         growth_.clear();
@@ -431,10 +552,29 @@ class Classifier {
         return false;
       }
     }
+    // Errors of loose looks keep a motion off an orbit that attracts from near by alone, where growth is weak.
+    const double weak = 8.0 * neutral_growth;
+    if (seen.exponent.value * flow_->field().period * growth_look < weak && look_tightly()) {
+      returned_ = true;
+      const int until = lasted() + lasting;
+      if (!last_until(until - growth_look) || !last_until(until)) return true;
+      seen.zero_one = vote(zero_one_test(series_, noise()));
+      if (*seen.zero_one <= chaotic_vote || !still_grows()) return false;
+    }
     result_.regime = Regime::chaotic;
     seen.note = "exponent positive by its interval, 0-1 test " + short_text(*seen.zero_one) + ", for " +
                 std::to_string(lasted()) + " periods" + beside;
     return true;
+  }
+
+  /// Does a vector grow over the next periods?
+  bool still_grows() {
+    std::vector<double> onwards(state_.begin(), state_.end());
+    flow_->forget();
+    constexpr int aligning = 16;
+    const LargestExponent e =
+        largest_exponent(*flow_, onwards, {.aligning_periods = aligning, .periods = growth_look}, {}, go_on_);
+    return e.growth.size() == growth_look && std::accumulate(e.growth.begin(), e.growth.end(), 0.0) > neutral_growth;
   }
 
   /// A state that the motion all but comes back to after n periods, without having grown apart meanwhile.
@@ -487,19 +627,19 @@ class Classifier {
       o.iterations = 1;
       left -= r.n;
       if (left < 0.0) break;
-      PeriodicOrbit orbit = find_periodic_orbit(flow_, r.state, r.n, o);
+      PeriodicOrbit orbit = find_periodic_orbit(*flow_, r.state, r.n, o);
       // An orbit that attracts has no neighbours that part this fast.
       constexpr double fast = 5.0;
       if (orbit.pieces.empty() || largest_multiplier(orbit) > fast) continue;
       o.iterations = std::min(8, static_cast<int>(left) / r.n);
       if (o.iterations < 2) continue;
-      orbit = find_periodic_orbit(flow_, r.state, r.n, o);
+      orbit = find_periodic_orbit(*flow_, r.state, r.n, o);
       left -= static_cast<double>(orbit.residuals.size()) * r.n;
       if (!orbit.found() || largest_multiplier(orbit) >= 1.0) continue;
       found = r.n;
       break;
     }
-    flow_.forget();
+    flow_->forget();
     return found;
   }
 
@@ -511,7 +651,7 @@ class Classifier {
     o.transient_periods = periods - o.recorded_periods;
     o.phases = 1;
     Strobe s = strobe(
-        flow_, state_, o, [](std::size_t, double, std::span<const double>) {}, go_on_);
+        *flow_, state_, o, [](std::size_t, double, std::span<const double>) {}, go_on_);
     result_.evolution = s.evolution;
     if (s.section.size() < static_cast<std::size_t>(o.recorded_periods)) return false;
     result_.evidence.periods += periods;
@@ -537,9 +677,68 @@ class Classifier {
     left_at_ = growth_.size();
   }
 
+  /// What excludes a torus whatever exponents say; empty if nothing does.
+  std::string against_torus() {
+    if (shrinks_areas())
+      return "no torus: the map of one period shrinks all areas in the plane, and an invariant curve keeps its own";
+    const std::size_t half = whole_look_.size() / 2;
+    PoincareSection early = whole_look_;
+    PoincareSection late = whole_look_;
+    early.states.resize(half * early.dimension);
+    late.keep_last(half);
+    std::size_t best = 1;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t n = 1; 2 * n <= half; ++n) {
+      const double after = recurrence_error(late, n);
+      if (after <= std::max(noise(), falling * recurrence_error(early, n)) && after <= near_enough(options_.near))
+        return "no torus: the motion comes back after " + std::to_string(n) + " periods, ever nearer";
+      if (after < least) {
+        least = after;
+        best = n;
+      }
+    }
+    double slowest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k + best < late.size(); ++k)
+      slowest = std::min(slowest, largest_difference(late.point(k), late.point(k + best)));
+    if (slowest < least_turning * least)
+      return "no torus: the motion all but stands still at a point of a cycle of " + std::to_string(best) + " periods";
+    return {};
+  }
+
+  /// In one dimension, or in two where the map of one period shrinks all areas about the motion: there an attracting
+  /// invariant curve would have to keep the area that it holds. Tried on a grid over the section.
+  bool shrinks_areas() {
+    const std::size_t dimension = state_.size();
+    if (dimension == 1) return true;
+    if (dimension > 2) return false;
+    std::array<double, 2> low{};
+    std::array<double, 2> high{};
+    for (std::size_t j = 0; j < 2; ++j) {
+      low[j] = high[j] = whole_look_.point(0)[j];
+      for (std::size_t k = 1; k < whole_look_.size(); ++k) {
+        low[j] = std::min(low[j], whole_look_.point(k)[j]);
+        high[j] = std::max(high[j], whole_look_.point(k)[j]);
+      }
+    }
+    constexpr int across = 5;
+    bool all = true;
+    for (int i = 0; i < across && all; ++i)
+      for (int j = 0; j < across && all; ++j) {
+        std::array<double, 2> y = {low[0] + (high[0] - low[0]) * i / (across - 1),
+                                   low[1] + (high[1] - low[1]) * j / (across - 1)};
+        std::array<double, 4> v = {1.0, 0.0, 0.0, 1.0};
+        exact_->forget();
+        all = exact_->evolve_tangents(y, v, 0.0, exact_->field().period).reached() &&
+              v[0] * v[3] - v[1] * v[2] < 1.0 - options_.neutral;
+      }
+    exact_->forget();
+    return all;
+  }
+
   bool is_torus() {
     Evidence& seen = result_.evidence;
-    // What is drawn to an orbit slowly shrinks for long before it recurs.
+    // What is drawn to an orbit slowly shrinks for long before it recurs. Beside a torus that shears, vectors grow as
+    // time does, so that a small positive exponent is none.
     const bool settles = seen.exponent.value + 3.0 * seen.exponent.half_width < 0.0;
     if (growth_.size() >= static_cast<std::size_t>(torus_look) && std::abs(late_growth(growth_)) <= neutral_growth &&
         !settles && seen.zero_one && *seen.zero_one < regular_vote) {
@@ -547,8 +746,12 @@ class Classifier {
       const Recurrence& r = seen.recurrence;
       if (r.best_period > 0 && r.error <= near_enough(options_.near) && settles_to_orbit_of(r.best_period)) return true;
       if (attracted_ || indistinct_.count(r.best_period) > 0) return false;
+      if (const std::string against = against_torus(); !against.empty()) {
+        seen.note = against;
+        return false;
+      }
       result_.regime = Regime::quasiperiodic;
-      seen.note = "tangents neither grow nor shrink, 0-1 test " + short_text(*seen.zero_one);
+      seen.note = "tangents neither grow nor shrink, 0-1 test " + short_text(*seen.zero_one) + ", turns without return";
       return true;
     }
     if (seen.note.empty())
@@ -558,10 +761,19 @@ class Classifier {
     return false;
   }
 
-  integrate::Flow& flow_;
-  std::span<double> state_;
   const RegimeOptions& options_;
   const std::function<bool()>& go_on_;
+  std::span<double> state_;
+  integrate::Flow* flow_;     ///< of looks
+  integrate::Flow* exact_;    ///< of orbits
+  integrate::Flow* coarser_;  ///< of their multipliers' errors
+  integrate::Flow* loose_;    ///< of looks at what grows
+  integrate::Flow* tight_;    ///< of looks at what does not
+  double residual_;           ///< of an orbit, in parts of its largest component
+  bool contradicts_ = false;  ///< growth and the 0-1 test of the last look contradict each other
+  bool returned_ = false;     ///< looks have been loose, or a tighter tolerance was asked
+  int level_periods_ = 0;     ///< looked at by this flow
+  PoincareSection whole_look_;
   Classification result_;
   PoincareSection section_;
   int first_ = 0;                  ///< periods of the section that was seen before

@@ -17,20 +17,32 @@
 // - chaotic: the largest exponent, of the last three quarters of all looks, is positive by its interval [A-lyap], the
 //   0-1 test agrees, and it lasts for `lasting` periods, through which the motion is carried without tangents;
 //   for the whole budget if Newton's method finds an orbit that attracts from one of the close returns of a look
-//   without growth, which is how a motion comes to an orbit in the end, or if the 0-1 test says regular. Where it
-//   abstains vectors have to grow by e^8 in the last half of all looks, by e^16 where it says regular, as it does of
-//   chaos in narrow bands: no regular motion does that, unless it repels, as one with a symmetry may. Where the test
-//   says regular and vectors grow the motion is therefore pushed a little in their direction, once: an attractor does
-//   not mind.
+//   without growth, which is how a motion comes to an orbit in the end. Where the test abstains vectors have to grow by
+//   e^8 in the last half of all looks. Where it says regular, it is asked again without the turn through the bands, if
+//   the motion all but recurs after n periods; where it still does the two contradict each other, and the motion is not
+//   chaotic: it is looked at for longer, at tighter tolerances, and is undecided in the end. Vectors grow beside what
+//   repels, too: the motion is therefore pushed a little in their direction, once: an attractor does not mind. Growth
+//   below e^16 in 128 periods has to last at the tolerance of orbits, too: errors of a looser one alone keep a motion
+//   off an orbit that attracts from near by.
 // - quasiperiodic: over the last half of all looks, long ones, tangent vectors neither grow nor shrink by more than
 //   e^2, as beside a torus, the exponent is not negative by three half intervals, the 0-1 test says regular, and what
 //   the motion all but comes back to after n periods is no orbit, nor is the motion where an orbit of n periods may be
-//   by ten times its error [A-orbit-error], nor does Newton's method near one that it does not reach: next to a flip
-//   neither the orbit that is left nor the doubled one is told from what is between them.
+//   by ten times its error [A-orbit-error], nor does Newton's method near one that it does not reach. Beside that a
+//   torus needs evidence of its own, from the last look [A-torus]:
+//
+//     no n up to a quarter of the look has a return error r_n [A-rec] that falls by half from its first to its second
+//     half; after the n of the least error the motion has moved everywhere by a hundredth of the farthest at least;
+//     in two dimensions the map of one period does not shrink areas at all points of a grid over the section, since an
+//     invariant curve would have to keep the area that it holds. In one dimension there is none.
 //
 // If none of these holds the transient was too short or the look was: the next look is twice as long. When the budget
 // is spent the motion is undecided, and the evidence says what was seen. So a transient ends when the motion has
 // settled, not after a number of periods that somebody thought of.
+//
+// Looks may be at a looser tolerance than the orbits', but only while vectors grow, where the place of a motion is
+// forgotten anyhow. A loose look without growth does not count: the motion goes on from where that look began, at the
+// tolerance of the orbits, so that it stays in the basin that it began in. What is not told after 1024 periods without
+// growth is looked at with a tolerance that is tighter by a hundredth, and again.
 //
 // Limits: a chaotic transient that outlives `lasting` is called chaotic unless that search finds its end, one that
 // outlives the budget always; a periodic orbit that loses its stability at
@@ -55,6 +67,13 @@ namespace epicyclic::analysis {
 enum class Regime { periodic, quasiperiodic, chaotic, undecided };
 [[nodiscard]] std::string to_string(Regime regime);
 
+/// Flows of one system at one tolerance.
+struct FlowsOfTolerance {
+  integrate::Flow* looks = nullptr;    ///< tangents without error control
+  integrate::Flow* exact = nullptr;    ///< with it
+  integrate::Flow* coarser = nullptr;  ///< the same at ten times the tolerance
+};
+
 struct RegimeOptions {
   int look = 64;            ///< periods of the first look
   int budget = 8192;        ///< periods of all looks together
@@ -73,6 +92,12 @@ struct RegimeOptions {
   /// sequence of steps changes is less than what the tolerance does. Null: from another subdivision, which knows of the
   /// steps alone.
   integrate::Flow* coarser = nullptr;
+  /// The same system at the tolerance of `exact` for looks at what does not grow, which a looser flow could lead to
+  /// another attractor than its own. Null: the flow itself.
+  integrate::Flow* tight = nullptr;
+  /// All three at a hundredth of the last tolerance, for what the last ones did not tell; nothing if there are none
+  /// that tell more. May be empty.
+  std::function<std::optional<FlowsOfTolerance>()> tighter{};
 
   /// @throws InputError for looks shorter than anything is told from, a budget shorter than the first of them, or a
   /// number of periods or a bound out of range

@@ -1,4 +1,4 @@
-// The three flows that classify() wants of one system [analysis/regime.hpp].
+// The flows that classify() wants of one system [analysis/regime.hpp].
 #pragma once
 
 #include <memory>
@@ -14,13 +14,17 @@ namespace epicyclic::analysis {
 /// this kinks pass unseen, and growth is off by more than a torus's interval.
 inline constexpr double statistical_tolerance = 1e-6;
 
-/// Looks, whose growth is a matter of statistics, at the tolerance above, or one up to a hundred times looser; orbits
-/// at the one asked for, tangents under error control; and once more at ten times that, for what multipliers are known
-/// to.
+/// Looks at what grows, where growth is a matter of statistics, at the tolerance above, or one up to a hundred times
+/// looser, at what does not grow at the one asked for; orbits at that one, tangents under error control; and once more
+/// at ten times that, for what multipliers are known to. Tighter ones by hundredths down to 1e-12 are made when they
+/// are asked for.
 struct RegimeFlows {
-  std::unique_ptr<integrate::Flow> looks, exact, coarser;
+  struct Tighter;
 
-  /// Options `o` with `exact` and `coarser` set to these flows, which must live longer.
+  std::unique_ptr<integrate::Flow> looks, tight, exact, coarser;
+  std::shared_ptr<Tighter> tighter;
+
+  /// Options `o` with `exact`, `coarser`, `tight` and `tighter` set to these flows, which must live longer.
   [[nodiscard]] RegimeOptions options(RegimeOptions o = {}) const;
 
   [[nodiscard]] long right_hand_side_calls() const;

@@ -29,6 +29,37 @@ double periodogram(std::span<const double> series, double mean, std::size_t j) {
   return (re * re + im * im) / static_cast<double>(n);
 }
 
+/// Waves from 2 q on to 6 q tell how the spectrum rises towards those that count.
+constexpr std::size_t steep = 6;
+constexpr std::size_t from_wave = 2;
+
+/// Of the half width from the slower half of the waves: the larger of both then holds as often as it should where
+/// nothing is correlated.
+constexpr double of_fewer = 0.85;
+
+/// (I_first + ... + I_last) / their number.
+double mean_power(std::span<const double> power, std::size_t first, std::size_t last) {
+  double sum = 0.0;
+  for (std::size_t j = first; j <= last; ++j) sum += power[j];
+  return sum / static_cast<double>(last - first + 1);
+}
+
+/// S(0) over the mean of the first waves, by [A-rise].
+/// @param of  waves that are taken for S(0)
+/// @param q   waves of the estimate: 2 q + 1 ... 6 q are set against these
+double rise_to_zero(std::span<const double> power, std::size_t of, std::size_t q) {
+  if (power.size() <= steep * q) return 1.0;
+  const auto centre = [](std::size_t first, std::size_t last) { return 0.5 * static_cast<double>(first + last); };
+  const double near = centre(1, of);
+  const double far = centre(from_wave * q + 1, steep * q);
+  const double ratio = mean_power(power, 1, of) / mean_power(power, from_wave * q + 1, steep * q);
+  if (!(ratio > 1.0)) return 1.0;
+  const double divisor = far * far - ratio * near * near;
+  // A record that is shorter than 2 pi correlation times does not say how much longer they are.
+  const double square = divisor > 0.0 ? std::min((ratio - 1.0) / divisor, 1.0) : 1.0;
+  return 1.0 + near * near * square;
+}
+
 }  // namespace
 
 bool overlap(const Estimate& a, const Estimate& b) { return a.low() <= b.high() && b.low() <= a.high(); }
@@ -40,12 +71,19 @@ Estimate series_mean(std::span<const double> series, int waves, double confidenc
     throw DomainError("confidence = " + std::to_string(confidence) + ", must be in (0, 1)");
   const std::size_t n = series.size();
   Estimate e{gsl_stats_mean(series.data(), 1, n), std::numeric_limits<double>::infinity()};
-  const std::size_t q = std::min(static_cast<std::size_t>(waves), (n - 1) / 2);
+  const std::size_t all = (n - 1) / 2;
+  const std::size_t q = std::min(static_cast<std::size_t>(waves), all);
   if (q == 0) return e;
-  double sum = 0.0;
-  for (std::size_t j = 1; j <= q; ++j) sum += periodogram(series, e.value, j);
-  const double t = gsl_cdf_tdist_Pinv(0.5 * (1.0 + confidence), 2.0 * static_cast<double>(q));
-  e.half_width = t * std::sqrt(sum / static_cast<double>(q * n));
+  std::vector<double> power = {0.0};
+  const std::size_t needed = steep * q <= all ? steep * q : q;
+  for (std::size_t j = 1; j <= needed; ++j) power.push_back(periodogram(series, e.value, j));
+  const std::size_t slow = (q + 1) / 2;
+  const double tail = 0.5 * (1.0 + confidence);
+  const auto half_width = [&](std::size_t of) {
+    const double t = gsl_cdf_tdist_Pinv(tail, 2.0 * static_cast<double>(of));
+    return t * std::sqrt(mean_power(power, 1, of) * rise_to_zero(power, of, q) / static_cast<double>(n));
+  };
+  e.half_width = std::max(half_width(q), of_fewer * half_width(slow));
   return e;
 }
 

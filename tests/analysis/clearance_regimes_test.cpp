@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <iostream>
 #include <memory>
 #include <numbers>
@@ -23,6 +24,7 @@
 #include "problems/clearance_exact.hpp"
 #include "problems/clearance_points.hpp"
 #include "problems/known_systems.hpp"
+#include "problems/told_regimes.hpp"
 
 namespace epicyclic::analysis::clearance_regimes_test {
 namespace {
@@ -232,6 +234,65 @@ TEST(ClearanceRegimesLong, TwoHundredPointsNearFlipsFoldsAndWithTransients) {
   EXPECT_EQ(flips.points + transients.points, 200);
   EXPECT_LE(100 * (flips.wrong + transients.wrong), flips.points + transients.points);
   EXPECT_LE(100 * (flips.undecided + transients.undecided), 3 * (flips.points + transients.points));
+}
+
+/// Of drawn points: how many are told otherwise than the exact solver has it.
+Score score_of(std::span<const problems::HardPoint> points, double tolerance) {
+  Score s;
+  for (const problems::HardPoint& p : points) {
+    const Classification c = problems::told_regime(p.at, p.start, tolerance).result;
+    const problems::Verdict verdict = problems::verdict(p, c);
+    ++s.points;
+    if (verdict == problems::Verdict::right) continue;
+    (verdict == problems::Verdict::undecided ? s.undecided : s.wrong) += 1;
+    std::cout << tolerance << ", " << to_string(p.kind) << ", " << text(p.at) << " x " << p.start[0] << " v "
+              << p.start[1] << ": period " << p.truth.period << " (multiplier " << p.truth.multiplier << ") told "
+              << text(c) << "\n";
+  }
+  return s;
+}
+
+/// The seed of all drawn points, of the short test and of the long one.
+constexpr std::uint64_t seed = 6262;
+
+std::vector<problems::HardPoint> drawn(std::size_t count) {
+  std::vector<problems::HardPoint> points;
+  for (std::size_t n = 0; n < count; ++n) points.push_back(problems::hard_point(seed, n));
+  return points;
+}
+
+TEST(ClearanceHardPoints, AnAttackFromOutsideFindsTheOrbitsOfTheExactSolver) {
+  // Next to flips and folds, where a torus, chaos, twice the period or nothing at all was told.
+  constexpr double z = 0.06;
+  std::vector<problems::HardPoint> points;
+  for (const auto& [at, start] : {std::pair{ClearancePoint{z, 0.12, 0.25, 1.046536849}, State{0.830963, 0.059196}},
+                                  {ClearancePoint{0.025, 0.08, 0.15, 0.615898296}, State{1.038710, 0.0795}},
+                                  {ClearancePoint{0.025, 0.08, 0.15, 0.596659890}, State{1.0120, 0.0882}},
+                                  {ClearancePoint{z, 0.12, 0.25, 0.858845355}, State{0.1817, 0.2073}},
+                                  {ClearancePoint{0.04, 0.15, 0.12, 1.033463179}, State{0.5168, 0.3422}}}) {
+    points.push_back({.at = at, .start = start, .truth = problems::hard_points::truth_of(at, start)});
+    EXPECT_GT(points.back().truth.period, 0);
+  }
+  for (const double tolerance : {1e-8, 1e-10}) {
+    const Score s = score_of(points, tolerance);
+    EXPECT_EQ(s.wrong + s.undecided, 0) << tolerance;
+  }
+}
+
+TEST(ClearanceHardPoints, DrawnOnesAreToldAsTheExactSolverHasThem) {
+  const Score s = score_of(drawn(10), 1e-8);
+  EXPECT_EQ(s.wrong + s.undecided, 0);
+}
+
+// The rule of validation/regimes/README.md: at most 1 % wrong, at most 3 % undecided, at each tolerance.
+TEST(ClearanceHardPointsLong, ThreeHundredDrawnOnesAtThreeTolerances) {
+  const std::vector<problems::HardPoint> points = drawn(300);
+  for (const double tolerance : {1e-8, 1e-10, 1e-12}) {
+    const Score s = score_of(points, tolerance);
+    std::cout << tolerance << ": " << s.points << " points, " << s.wrong << " wrong, " << s.undecided << " undecided\n";
+    EXPECT_LE(100 * s.wrong, s.points) << tolerance;
+    EXPECT_LE(100 * s.undecided, 3 * s.points) << tolerance;
+  }
 }
 
 }  // namespace

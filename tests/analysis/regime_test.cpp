@@ -125,6 +125,36 @@ TEST(Regime, ForcedVanDerPolIsATorusOrLocked) {
   }
 }
 
+TEST(Regime, WhatReturnsAfterMorePeriodsThanAreTriedIsNoTorus) {
+  // On the limit cycle of a Hopf normal form that turns by a part of a turn per period: by 5/24 each motion returns
+  // after 24 periods, by 0.2083... nearly so and never.
+  for (const auto& [turn, returns] : {std::pair{5.0 / 24.0, true}, {5.0 / 24.0 + 0.0031, false}}) {
+    RegimeOptions options;
+    options.budget = 4096;
+    const Classification c = regime_of(problems::forced_hopf(turn)(0.05), {1.2, 0.1}, options);
+    EXPECT_EQ(c.regime, returns ? Regime::undecided : Regime::quasiperiodic) << turn << ": " << c.evidence.note;
+  }
+}
+
+TEST(Regime, ThereIsNoTorusWhereTheMapShrinksAllAreas) {
+  // A motion that comes to an orbit of period 16, more than are tried, within thousands of periods.
+  VectorField field = problems::clearance_oscillator(1.046536849, 0.0, {0.06, 0.12, 0.25});
+  RegimeOptions options;
+  options.longest_period = 4;
+  options.budget = 1024;
+  const Classification c = regime_of(field, {0.830963, 0.059196}, options);
+  EXPECT_EQ(c.regime, Regime::undecided) << c.evidence.note;
+  EXPECT_NE(c.evidence.note.find("shrinks all areas"), std::string::npos) << c.evidence.note;
+}
+
+TEST(Regime, ChaosInBandsIsChaos) {
+  // Duffing's attractor of several bands, through which the motion goes in turn: the 0-1 test of the plain section says
+  // regular, and vectors grow by e^100 and more.
+  const Classification c = regime_of(problems::duffing(0.3, -1.0, 0.34493670886075951, 1.2), {1.0, 0.0}, {}, 1e-9);
+  EXPECT_EQ(c.regime, Regime::chaotic) << c.evidence.note;
+  EXPECT_GT(c.evidence.exponent.low(), 0.0);
+}
+
 TEST(Regime, TheClearanceOscillatorIsPeriodic) {
   for (const double w : {0.5, 0.7, 0.85, 1.0, 1.3}) {
     const Classification c = regime_of(problems::clearance_oscillator(w), {1.1, 0.0});

@@ -17,13 +17,14 @@
 
 namespace epicyclic::problems {
 
-/// @tparam Real  what it is exact in
-template <class Real>
+/// @tparam Real    what it is exact in
+/// @tparam Stored  what states are between two calls
+template <class Real, class Stored = double>
 class BasicClearanceExact {
  public:
-  using State = std::array<double, 2>;
+  using State = std::array<Stored, 2>;
   /// d state(end) / d state(start), row by row.
-  using Matrix = std::array<double, 4>;
+  using Matrix = std::array<Stored, 4>;
 
   explicit BasicClearanceExact(double w, double z = 0.05, double mean = 0.1, double e = 0.05)
       : w_(Real(w)), z_(Real(z)), mean_(Real(mean)), amplitude_(Real(e) * w_ * w_) {}
@@ -57,7 +58,7 @@ class BasicClearanceExact {
       if (crossing >= next) ++k;
     }
     if (tangents != nullptr) piece.carry(end, *tangents);
-    return {static_cast<double>(there[0]), static_cast<double>(there[1])};
+    return {static_cast<Stored>(there[0]), static_cast<Stored>(there[1])};
   }
 
   /// Number of forcing periods in [from, to] is not limited; used from a start until transients are gone.
@@ -113,7 +114,7 @@ class BasicClearanceExact {
       const Matrix v = tangents;
       for (std::size_t i = 0; i < 2; ++i)
         for (std::size_t j = 0; j < 2; ++j)
-          tangents[2 * i + j] = static_cast<double>(m[2 * i] * Real(v[j]) + m[2 * i + 1] * Real(v[2 + j]));
+          tangents[2 * i + j] = static_cast<Stored>(m[2 * i] * Real(v[j]) + m[2 * i + 1] * Real(v[2 + j]));
     }
 
     [[nodiscard]] std::array<Real, 4> homogeneous(Real dt) const {
