@@ -52,8 +52,8 @@ constexpr int look_at_one_tolerance = 1024;
 constexpr std::size_t contradiction_look = 512;
 /// No flow tells more of an orbit than this, in parts of its largest component.
 constexpr double least_residual = 1e-9;
-/// A return error that falls by this factor from one half of a record to the other is that of a motion that settles.
-constexpr double falling = 0.5;
+/// A return error that falls by this factor from each quarter of a look to the next is that of a motion that settles.
+constexpr double falling = 0.75;
 /// A torus is turned along at no point of it slower than this part of the fastest.
 constexpr double least_turning = 0.01;
 /// A motion is as near to an orbit as it was to within a hundredth: the slowest multipliers move it by less.
@@ -121,7 +121,7 @@ class Classifier {
       if (!go_on_()) break;
       if (is_torus()) return std::move(result_);
       leave_what_repels();
-      if (contradicts_ && growth_.size() >= contradiction_look) {
+      if (contradicts_ && growth_.size() >= contradiction_look && grows_weakly()) {
         look_tightly();
         returned_ = true;
       } else if (seen.late_growth > 4.0 * neutral_growth) {
@@ -553,8 +553,7 @@ class Classifier {
       }
     }
     // Errors of loose looks keep a motion off an orbit that attracts from near by alone, where growth is weak.
-    const double weak = 8.0 * neutral_growth;
-    if (seen.exponent.value * flow_->field().period * growth_look < weak && look_tightly()) {
+    if (grows_weakly() && look_tightly()) {
       returned_ = true;
       const int until = lasted() + lasting;
       if (!last_until(until - growth_look) || !last_until(until)) return true;
@@ -565,6 +564,11 @@ class Classifier {
     seen.note = "exponent positive by its interval, 0-1 test " + short_text(*seen.zero_one) + ", for " +
                 std::to_string(lasted()) + " periods" + beside;
     return true;
+  }
+
+  /// By less than e^8 in 128 periods: errors of tangents at kinks are as large.
+  [[nodiscard]] bool grows_weakly() const {
+    return result_.evidence.exponent.value * flow_->field().period * growth_look < 4.0 * neutral_growth;
   }
 
   /// Does a vector grow over the next periods?
@@ -681,19 +685,26 @@ class Classifier {
   std::string against_torus() {
     if (shrinks_areas())
       return "no torus: the map of one period shrinks all areas in the plane, and an invariant curve keeps its own";
-    const std::size_t half = whole_look_.size() / 2;
-    PoincareSection early = whole_look_;
-    PoincareSection late = whole_look_;
-    early.states.resize(half * early.dimension);
-    late.keep_last(half);
+    constexpr std::size_t parts = 4;
+    const std::size_t length = whole_look_.size() / parts;
+    const std::size_t dimension = whole_look_.dimension;
+    std::array<PoincareSection, parts> part;
+    for (std::size_t i = 0; i < parts; ++i) {
+      const auto begin = whole_look_.states.begin() + static_cast<std::ptrdiff_t>(i * length * dimension);
+      part[i] = {dimension, {begin, begin + static_cast<std::ptrdiff_t>(length * dimension)}};
+    }
+    const PoincareSection& late = part.back();
     std::size_t best = 1;
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t n = 1; 2 * n <= half; ++n) {
-      const double after = recurrence_error(late, n);
-      if (after <= std::max(noise(), falling * recurrence_error(early, n)) && after <= near_enough(options_.near))
+    for (std::size_t n = 1; 2 * n <= length; ++n) {
+      const double error = recurrence_error(late, n);
+      bool nearer_by_each = true;
+      for (std::size_t i = 0; i + 1 < parts && nearer_by_each; ++i)
+        nearer_by_each = recurrence_error(part[i + 1], n) <= falling * recurrence_error(part[i], n);
+      if (error <= noise() || (nearer_by_each && error <= near_enough(options_.near)))
         return "no torus: the motion comes back after " + std::to_string(n) + " periods, ever nearer";
-      if (after < least) {
-        least = after;
+      if (error < least) {
+        least = error;
         best = n;
       }
     }

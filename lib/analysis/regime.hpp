@@ -20,19 +20,19 @@
 //   without growth, which is how a motion comes to an orbit in the end. Where the test abstains vectors have to grow by
 //   e^8 in the last half of all looks. Where it says regular, it is asked again without the turn through the bands, if
 //   the motion all but recurs after n periods; where it still does the two contradict each other, and the motion is not
-//   chaotic: it is looked at for longer, at tighter tolerances, and is undecided in the end. Vectors grow beside what
-//   repels, too: the motion is therefore pushed a little in their direction, once: an attractor does not mind. Growth
-//   below e^16 in 128 periods has to last at the tolerance of orbits, too: errors of a looser one alone keep a motion
-//   off an orbit that attracts from near by.
+//   chaotic: it is looked at for longer, at tighter tolerances if growth is weak, and is undecided in the end. Vectors
+//   grow beside what repels, too: the motion is therefore pushed a little in their direction, once: an attractor does
+//   not mind. Growth below e^8 in 128 periods has to last at the tolerance of orbits, too: errors of a looser one alone
+//   keep a motion off an orbit that attracts from near by.
 // - quasiperiodic: over the last half of all looks, long ones, tangent vectors neither grow nor shrink by more than
 //   e^2, as beside a torus, the exponent is not negative by three half intervals, the 0-1 test says regular, and what
 //   the motion all but comes back to after n periods is no orbit, nor is the motion where an orbit of n periods may be
 //   by ten times its error [A-orbit-error], nor does Newton's method near one that it does not reach. Beside that a
 //   torus needs evidence of its own, from the last look [A-torus]:
 //
-//     no n up to a quarter of the look has a return error r_n [A-rec] that falls by half from its first to its second
-//     half; after the n of the least error the motion has moved everywhere by a hundredth of the farthest at least;
-//     in two dimensions the map of one period does not shrink areas at all points of a grid over the section, since an
+//     no n up to an eighth of the look has a return error r_n [A-rec] that falls to 3/4 from each quarter to the next;
+//     after the n of the least error the motion has moved everywhere by a hundredth of the farthest at least; in two
+//     dimensions the map of one period does not shrink areas at all points of a grid over the section, since an
 //     invariant curve would have to keep the area that it holds. In one dimension there is none.
 //
 // If none of these holds the transient was too short or the look was: the next look is twice as long. When the budget

@@ -35,7 +35,7 @@ constexpr std::size_t from_wave = 2;
 
 /// Of the half width from the slower half of the waves: the larger of both then holds as often as it should where
 /// nothing is correlated.
-constexpr double of_fewer = 0.85;
+constexpr double of_fewer = 0.8;
 
 /// (I_first + ... + I_last) / their number.
 double mean_power(std::span<const double> power, std::size_t first, std::size_t last) {

@@ -1,7 +1,7 @@
 // Means of correlated series with confidence intervals, from the slowest waves in the series.
 //
 //   I_j = | sum_t (x_t - mean) exp(-2 pi i j t / N) |^2 / N ,   S_m = ( I_1 + ... + I_m ) / m
-//   mean(x) +- max( h_q , 0.85 h_q/2 ) ,   h_m = t_2m sqrt( r_m S_m / N )                                   [A-mean]
+//   mean(x) +- max( h_q , 0.8 h_q/2 ) ,   h_m = t_2m sqrt( r_m S_m / N )                                   [A-mean]
 //
 // N times the variance of the mean is what I_j would be at j = 0, were the truth subtracted and not the mean; its
 // nearest neighbours stand in for it. They see the ends of the series with the weight that the mean gives them. So what
@@ -18,7 +18,7 @@
 // j_m and j_F the middles of both. In a series shorter than 12 q values r is 1.
 //
 // Source: Heidelberger and Welch, Comm. ACM 24 (1981) 233; with equal weights and Student's t of 2q degrees of freedom:
-// Lazarus et al., J. Bus. Econ. Stat. 36 (2018) 541. The larger of two, its 0.85 and [A-rise] are this project's own.
+// Lazarus et al., J. Bus. Econ. Stat. 36 (2018) 541. The larger of two, its 0.8 and [A-rise] are this project's own.
 // Student's t by GSL. Limits: correlations have to decay by e within N / 25 values (then 94 of 100 intervals of 95 %
 // hold the truth; 91 at N / 15), and oscillations to come round some ten times. Rare events that a record has not seen
 // no interval knows of. See tests/analysis/coverage_test.cpp.

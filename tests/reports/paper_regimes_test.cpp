@@ -4,6 +4,7 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -266,6 +267,34 @@ TEST(PaperRegimes, ExponentsOfChaosInLanesAddUpToTheDivergence) {
     outside += std::abs(a.value - b.value) > a.half_width + b.half_width ? 1 : 0;
   }
   EXPECT_LE(outside, 3) << "of 34 with intervals of 95 %";
+}
+
+TEST(PaperRegimesLong, IntervalsOfAChaoticExponentHoldTheTruth) {
+  // 1000 looks one after another at the tolerance of looks; the truth is the mean of all.
+  const input::LoadedInput input = input::load_input("inputs/tang2020_speed.json");
+  const model::DynamicModel m = input::model_at(input)(1.2725);
+  integrate::IntegratorOptions o = input.study.integrator;
+  o.method = "arkode-dopri5";
+  o.relative_tolerance = 1e-6;
+  o.absolute_tolerance = 1e-8;
+  const auto flow = integrate::make_flow(m, o);
+  std::vector<double> y = m.default_start;
+  constexpr int settling = 500;
+  for (int k = 0; k < settling; ++k) ASSERT_TRUE(flow->evolve(y, 0.0, m.period).reached());
+  constexpr std::size_t looks = 1000;
+  constexpr std::size_t periods = 250;
+  const analysis::LargestExponent e =
+      analysis::largest_exponent(*flow, y, {.aligning_periods = 200, .periods = looks * periods}, {}, always);
+  ASSERT_EQ(e.growth.size(), looks * periods);
+  const double truth = std::accumulate(e.growth.begin(), e.growth.end(), 0.0) / static_cast<double>(looks * periods);
+  int held = 0;
+  for (std::size_t k = 0; k < looks; ++k) {
+    const analysis::Estimate look = analysis::series_mean(std::span(e.growth).subspan(k * periods, periods));
+    held += look.low() <= truth && truth <= look.high() ? 1 : 0;
+  }
+  EXPECT_GE(held, 930);
+  EXPECT_LE(held, 970);
+  RecordProperty("held_of_1000", held);
 }
 
 TEST(PaperRegimesLong, ExponentsOfPeriodicPointsAreThoseOfTheirMultipliers) {
