@@ -68,7 +68,7 @@ std::string by_brute_force(const VectorField& field, std::vector<double> y) {
     std::vector<double> other = y;
     constexpr double hair = 1e-7;
     other[0] += hair;
-    constexpr int periods = 60;
+    constexpr int periods = 240;  // an exponent of 0.012 parts them by e^15
     if (!carry(y, periods) || !carry(other, periods)) return "escape";
     parted += largest_difference(y, other) > 1e3 * hair ? 1 : 0;
   }
