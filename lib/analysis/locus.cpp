@@ -227,11 +227,14 @@ class Locus {
     std::optional<double> g;
     switch (form_) {
       case Form::bordered: {
-        const Eigen::Index n = near.right.size();
+        // Bordered where orbits begin and end: what that says of M - at I does not depend on the pieces.
+        const Eigen::MatrixXd cyclic = shifted(monodromy);
+        const Eigen::Index n = cyclic.rows();
+        const Eigen::Index size = near.right.size();
         Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n + 1, n + 1);
-        a.topLeftCorner(n, n) = shifted(monodromy);
-        a.col(n).head(n) = near.left;
-        a.row(n).head(n) = near.right.transpose();
+        a.topLeftCorner(n, n) = cyclic;
+        a.col(n).segment(n - size, size) = near.left;
+        a.row(n).head(size) = near.right.transpose();
         g = solution(a, Eigen::VectorXd::Unit(n + 1, n))(n);
         break;
       }
@@ -293,8 +296,9 @@ class Locus {
       point.multiplier = nearest(values, at_);
       const SingularValues s = singular_values(shifted(point.monodromy));
       const Eigen::Index last = s.s.size() - 1;
-      point.left = s.u.col(last);
-      point.right = s.v.col(last);
+      const Eigen::Index size = block_->basis.cols();
+      point.left = s.u.col(last).tail(size).normalized();
+      point.right = s.v.col(last).head(size).normalized();
       return;
     }
     point.multiplier = take_nearest(values, near.multiplier);

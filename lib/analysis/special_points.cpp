@@ -239,13 +239,14 @@ class Event {
     if (!secant_root(at, 1e-3 * span, span)) return std::nullopt;
     Place place{last.orbit.at.value, last.orbit, critical_of(last.orbit)};
     if (turns_) return place;
-    // The root is resolved to 1e-11 of f, which leaves the same error to each family: by the slope to what f resolves.
+    // A root that is resolved to 1e-11 of f leaves the same error to each family: by the slope to what f resolves.
+    constexpr double resolved = 1e-11;
     const double here = smooth_function(family, place.orbit);
     const Correction beside = correct(family, place.orbit.at + (1e-3 * span) * normal, normal);
     if (!beside.found) return place;
     const double slope = (beside.orbit.at.value - place.value) / (smooth_function(family, beside.orbit) - here);
     if (!std::isfinite(slope)) return place;
-    place.value -= here * slope;
+    if (std::abs(here) < resolved) place.value -= here * slope;
     place.rounding = rounding_of(place, slope);
     return place;
   }

@@ -19,9 +19,9 @@
 //
 // Source: Heidelberger and Welch, Comm. ACM 24 (1981) 233; with equal weights and Student's t of 2q degrees of freedom:
 // Lazarus et al., J. Bus. Econ. Stat. 36 (2018) 541. The larger of two, its 0.8 and [A-rise] are this project's own.
-// Student's t by GSL. Limits: correlations have to decay by e within N / 25 values (then 94 of 100 intervals of 95 %
-// hold the truth; 91 at N / 15), and oscillations to come round some ten times. Rare events that a record has not seen
-// no interval knows of. See tests/analysis/coverage_test.cpp.
+// Student's t by GSL. Limits: correlations have to decay by e within N / 25 values (then 93 of 100 intervals of 95 %
+// hold the truth, or more), and oscillations to come round some ten times. No interval knows of rare events that a
+// record has not seen. See tests/analysis/coverage_test.cpp.
 #pragma once
 
 #include <cstddef>

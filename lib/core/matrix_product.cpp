@@ -200,13 +200,14 @@ std::vector<Complex> of_factors(const std::vector<Matrix>& factors) {
   return {e.begin(), e.end()};
 }
 
-/// M with each factor changed at random by `part` of its norm.
+/// M with each factor changed at random by `part` of its norm, both of Frobenius.
 template <class Matrix>
 FactorsOf<Matrix> perturbed(const FactorsOf<Matrix>& m, double part, int draw) {
   FactorsOf<Matrix> changed = m;
   std::uint64_t number = 0;
   for (Matrix& f : changed.factors) {
-    const double size = part * f.norm();
+    // Of uniform entries in (-a, a) the norm is a n / sqrt(3).
+    const double size = part * f.norm() * std::sqrt(3.0) / static_cast<double>(f.rows());
     for (auto& x : f.reshaped()) x += size * (2.0 * random_uniform(static_cast<std::uint64_t>(draw), ++number) - 1.0);
   }
   return changed;
@@ -247,10 +248,11 @@ namespace {
 
 template <class Matrix>
 std::vector<double> errors_of(const FactorsOf<Matrix>& m) {
-  // Several times what rotations change a factor by, so that three draws are enough. Not scaled down from a larger
-  // perturbation: of eigenvalues that nearly coincide the change goes with its root.
+  // Some times what rotations change a factor by. Not scaled down from a larger perturbation: of eigenvalues that
+  // nearly coincide the change goes with its root. Fewer draws may all miss the direction that an eigenvalue is
+  // sensitive to.
   constexpr double several = 16.0;
-  constexpr int draws = 3;
+  constexpr int draws = 10;
   const double size = several * static_cast<double>(m.rows()) * epsilon;
   const std::vector<Complex> values = eigenvalues(m);
   std::vector<double> errors(values.size(), 0.0);
