@@ -10,6 +10,8 @@
 #include <type_traits>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "store/record_archive.hpp"
 
 namespace epicyclic::store {

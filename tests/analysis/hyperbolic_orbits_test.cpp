@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/branch_switching.hpp"
+#include "analysis/shooting.hpp"
 #include "core/random_numbers.hpp"
 #include "core/root_finding.hpp"
 #include "integrate/make_field.hpp"
