@@ -97,7 +97,7 @@ struct FloquetMultipliers {
   std::vector<int> multiplicity;  ///< of each: those that its error cannot tell from it, itself included
   std::size_t critical = 0;       ///< the one nearest to the unit circle
 
-  /// Whether its error leaves open on which side of the unit circle it is.
+  /// Is its error less than its distance from the unit circle?
   [[nodiscard]] bool side_is_known(std::size_t i) const { return errors[i] < std::abs(1.0 - std::abs(values[i])); }
   /// Of the critical one from the unit circle; positive inside.
   [[nodiscard]] double margin() const { return 1.0 - std::abs(values[critical]); }

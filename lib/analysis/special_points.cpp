@@ -263,7 +263,7 @@ class Event {
     const std::vector<double> errors = multiplier_errors(*block_, place.orbit.monodromy);
     const auto at = std::find(values.begin(), values.end(), nearest(values, place.multiplier));
     const double rounding = errors[static_cast<std::size_t>(at - values.begin())] * std::abs(slope);
-    return std::isfinite(rounding) ? rounding : 0.0;
+    return std::isnan(rounding) ? std::numeric_limits<double>::infinity() : rounding;
   }
 
   /// An orbit by another subdivision, whose direction at the new cuts is that between two orbits.

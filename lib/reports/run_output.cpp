@@ -464,6 +464,7 @@ std::string multiplier_text(const analysis::FloquetMultipliers& m, std::size_t k
   std::string text =
       fmt::format("{}, modulus {}", complex_text(m.values[k]), with_error(std::abs(m.values[k]), m.errors[k]));
   if (m.multiplicity[k] > 1) text += fmt::format(", one of {} that its error cannot tell apart", m.multiplicity[k]);
+  if (!m.side_is_known(k)) text += ", on which side of the unit circle is not known";
   return text;
 }
 
