@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -69,12 +70,16 @@ template <std::size_t K>
 }  // namespace detail
 
 /// @param tolerance  of the greatest error
+/// @param features   intervals of equal width that the piece needs at least, so that no feature is between the rows
 template <std::size_t K, class F>
-[[nodiscard]] FittedRows<K> fit_rows(const F& f, double tolerance, SingularEnd singular = SingularEnd::none) {
+[[nodiscard]] FittedRows<K> fit_rows(const F& f, double tolerance, SingularEnd singular = SingularEnd::none,
+                                     double features = 0.0) {
   const bool graded = singular != SingularEnd::none;
-  const std::size_t most = graded ? 128 : 2048;
+  constexpr double at_most = 1 << 17;
+  const auto at_least = std::bit_ceil(static_cast<std::size_t>(std::ceil(std::min(features, at_most))));
+  const std::size_t most = std::max<std::size_t>(graded ? 128 : 2048, at_least);
   constexpr int most_octaves = 32;  // the shortest intervals are then 1e-11 of the piece
-  std::size_t intervals = graded ? 8 : 16;
+  std::size_t intervals = std::max<std::size_t>(graded ? 8 : 16, at_least);
   int octaves = 8;
   FittedRows<K> r;
   for (;;) {

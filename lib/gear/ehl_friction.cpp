@@ -53,6 +53,31 @@ class LoadShare {
   std::vector<Piece> pieces_;
 };
 
+/// Positions of rows where the share jumps or its slope changes.
+std::vector<double> kinks_of_share(const EhlFriction& e) {
+  std::vector<double> kinks;
+  if (e.share_interpolation != Interpolation::straight) return kinks;
+  constexpr double rounding = 1e-12;
+  const auto& x = e.share_position;
+  const auto& y = e.share;
+  for (std::size_t k = 1; k + 1 < x.size(); ++k) {
+    const double way = (x[k] - x[k - 1]) / (x[k + 1] - x[k - 1]);
+    if (x[k] == x[k - 1] || x[k] == x[k + 1] || std::abs(y[k - 1] + way * (y[k + 1] - y[k - 1]) - y[k]) > rounding)
+      kinks.push_back(x[k]);
+  }
+  return kinks;
+}
+
+/// Narrowest interval of the share's rows of unknown origin; infinite without such rows [base pitches].
+double narrowest_share_interval(const EhlFriction& e) {
+  double narrowest = std::numeric_limits<double>::infinity();
+  if (e.share_interpolation == Interpolation::straight || e.share_error) return narrowest;
+  for (std::size_t k = 1; k < e.share_position.size(); ++k)
+    if (const double width = e.share_position[k] - e.share_position[k - 1]; width > 0.0)
+      narrowest = std::min(narrowest, width);
+  return narrowest;
+}
+
 }  // namespace
 
 double xu_friction_coefficient(const LubricatedContact& c) {
@@ -135,7 +160,7 @@ LubricationRange lubrication_range(const EhlFriction& e, const LineOfAction& lin
 
 FrictionTable friction_table(const EhlFriction& e, const LineOfAction& line, const MeshLoad& load,
                              std::span<const IntervalGrid> grids) {
-  const PathPieces pieces = path_pieces(e.contact_ratio, e.path_start_mm, line);
+  const PathPieces pieces = path_pieces(e.contact_ratio, e.path_start_mm, line, kinks_of_share(e));
   if (!grids.empty() && grids.size() != pieces.size())
     throw DomainError("a friction table of " + std::to_string(pieces.size()) + " pieces on grids of " +
                       std::to_string(grids.size()));
@@ -147,6 +172,7 @@ FrictionTable friction_table(const EhlFriction& e, const LineOfAction& line, con
     return std::abs(position - std::round(position)) <= resolution && pitch >= -resolution &&
            pitch <= e.contact_ratio + resolution;
   };
+  const double narrowest = narrowest_share_interval(e);
   std::size_t piece = 0;
   double greatest = 0.0;
   FrictionTable table = tabulate(pieces, [&](double from, double to) {
@@ -173,7 +199,8 @@ FrictionTable friction_table(const EhlFriction& e, const LineOfAction& line, con
                                  : is_pitch_point(to) ? SingularEnd::end
                                                       : SingularEnd::none;
     FittedRows<3> fitted =
-        grids.empty() ? fit_rows<3>(ratios, e.table_tolerance, singular) : rows_on<3>(grids[piece], ratios);
+        grids.empty() ? fit_rows<3>(ratios, e.table_tolerance, singular, (to - from) / narrowest)
+                      : rows_on<3>(grids[piece], ratios);
     ++piece;
     for (auto& row : fitted.rows) {
       row[1] *= line.base_radius_1_mm;

@@ -40,8 +40,10 @@ double path_start_mm(const CoulombFriction& friction, const LineOfAction& line) 
   return friction.path_start_mm.value_or(line.pitch_arm_mm - 0.5 * friction.contact_ratio * line.base_pitch_mm);
 }
 
-PathPieces path_pieces(double contact_ratio, double path_start_mm, const LineOfAction& line) {
+PathPieces path_pieces(double contact_ratio, double path_start_mm, const LineOfAction& line,
+                       std::span<const double> kinks) {
   PathPieces pieces = {0.0};
+  for (const double position : kinks) pieces.push_back(position - std::floor(position));
   for (int j = 0; j < static_cast<int>(std::ceil(contact_ratio)); ++j) {
     pieces.push_back(contact_ratio - j);
     pieces.push_back((line.pitch_arm_mm - path_start_mm) / line.base_pitch_mm - j);

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/fitted_rows.hpp"
@@ -45,9 +46,11 @@ struct LineOfAction {
 [[nodiscard]] LineOfAction sun_planet_line(const Stage& stage);
 [[nodiscard]] LineOfAction ring_planet_line(const Stage& stage);
 
-/// Phases in [0, 1), rising, where a pair enters, leaves or passes the pitch point; the first is 0.
+/// Phases in [0, 1), rising, where a pair enters, leaves or passes the pitch point or one of the kinks; the first is 0.
 using PathPieces = std::vector<double>;
-[[nodiscard]] PathPieces path_pieces(double contact_ratio, double path_start_mm, const LineOfAction& line);
+/// @param kinks  positions along the path [base pitches]
+[[nodiscard]] PathPieces path_pieces(double contact_ratio, double path_start_mm, const LineOfAction& line,
+                                     std::span<const double> kinks = {});
 
 /// Both sides of each breakpoint.
 ///

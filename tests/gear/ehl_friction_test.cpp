@@ -278,6 +278,30 @@ TEST(EhlFriction, LoadSharesAreThoseOfTheStiffness) {
   EXPECT_EQ(jumps, 4U);
 }
 
+TEST(EhlFriction, NarrowFeaturesOfTheShareAreInTheTable) {
+  // A dip to 60 % over 1 % and 0.1 % of a base pitch, where one pair carries the load alone.
+  for (const Case& c : cases())
+    for (const Interpolation interpolation : {Interpolation::straight, Interpolation::smooth})
+      for (const double width : {1e-2, 1e-3}) {
+        const double middle = 0.837;
+        EhlFriction dip = c.ehl;
+        dip.share_error.reset();
+        dip.share_interpolation = interpolation;
+        dip.share_position = {0.0, middle - 0.5 * width, middle, middle + 0.5 * width, dip.contact_ratio};
+        dip.share = {1.0, 1.0, 0.6, 1.0, 1.0};
+        const FrictionTable t = friction_table(dip, c.line, load_at_10000_rpm());
+        const auto above = std::upper_bound(t.phase.begin(), t.phase.end(), middle);
+        ASSERT_NE(above, t.phase.end());
+        const auto k = static_cast<std::size_t>(above - t.phase.begin());
+        EXPECT_LE(t.phase[k] - middle, 0.5 * width) << c.name;
+        const LubricatedContact contact = lubricated_contact(dip, c.line, load_at_10000_rpm(), middle, 0.6);
+        const double force = 0.6 * xu_friction_coefficient(contact);
+        const double between = (middle - t.phase[k - 1]) / (t.phase[k] - t.phase[k - 1]);
+        const double at_dip = t.force_ratio[k - 1] + between * (t.force_ratio[k] - t.force_ratio[k - 1]);
+        EXPECT_NEAR(std::abs(at_dip), force, 0.05 * force) << c.name << ", width " << width;
+      }
+}
+
 TEST(EhlFriction, WithoutShareTableThePairsShareEqually) {
   Case sun = cases()[0];
   sun.ehl.share_position.clear();
