@@ -7,8 +7,13 @@ inputs=$2/inputs
 speeds=("$inputs/tang2020_speed.json" --set /integrator/method=arkode-dopri5 --set /study/crosscheck/points=0)
 failed=0
 work=$(mktemp -d)
-# A figure that was being drawn when its program was killed may still come: then once more.
-trap 'rm -rf "$work" 2>/dev/null || { sleep 1; rm -rf "$work"; }' EXIT
+# A figure that was being drawn when its program was killed may still come: then once more. A signal between the fork and
+# the start of a program finds this trap in the child, too.
+remove_work() {
+  [ "$BASHPID" = $$ ] || return 0
+  rm -rf "$work" 2>/dev/null || { sleep 1; rm -rf "$work"; }
+}
+trap remove_work EXIT
 cd "$work"
 
 # $1, or $2 in a build with sanitizers, which is tens of times slower.
