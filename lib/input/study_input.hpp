@@ -25,6 +25,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gear/stage.hpp"
+#include "input/assignments.hpp"
 #include "input/field_table.hpp"
 #include "input/json_source.hpp"
 #include "input/speed_aliases.hpp"
@@ -40,11 +41,6 @@
 #include "studies/tolerance_options.hpp"
 
 namespace epicyclic::input {
-
-/// First words of an "origin", optionally followed by ": " and a text.
-inline constexpr std::array<std::string_view, 11> origin_words = {"source",   "table",       "standard", "catalogue",
-                                                                  "estimate", "calibrated",  "choice",   "default",
-                                                                  "set",      "stage_patch", "computed"};
 
 /// Nothing is to be computed: a stage file alone.
 struct StageAlone {};
@@ -138,21 +134,6 @@ struct VariedParameter {
 
 /// In this order; none of a run, of basins and of a stage alone.
 [[nodiscard]] std::vector<VariedParameter> varied_parameters(const Study& study);
-
-/// "--set /json/pointer=value": pointers address the study as written, and /stage/... the resolved stage.
-struct Assignment {
-  std::string pointer;
-  nlohmann::json value;
-  std::string text;                     ///< as given
-  std::vector<std::string> problems{};  ///< what is wrong with it as such; load_input() tells it with all else
-};
-
-/// The value is JSON, or a bare word that stands for a string.
-[[nodiscard]] std::vector<Assignment> parse_assignments(std::span<const std::string> texts);
-
-/// Writes the value at its pointer, as `--set` does: objects are made on the way, null removes, origins say where from.
-/// @returns what is wrong, or nothing
-[[nodiscard]] std::string assign(nlohmann::json& root, std::string_view pointer, const nlohmann::json& value);
 
 /// A file exactly as stored.
 struct RawFile {

@@ -7,6 +7,7 @@
 
 #include "input/catalogue_table.hpp"
 #include "input/claims_tables.hpp"
+#include "input/origins.hpp"
 #include "input/study_input.hpp"
 #include "integrate/methods.hpp"
 #include "studies/named_parameters.hpp"

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "input/origins.hpp"
 #include "integrate/methods.hpp"
 #include "model/layout.hpp"
 #include "model/scales.hpp"
