@@ -1,4 +1,4 @@
-// The subcommands. Each returns the exit code of architecture section 5.
+// The subcommands. Each returns an ExitCode.
 #pragma once
 
 #include <filesystem>

@@ -22,7 +22,7 @@ inline constexpr const char* out_of_memory =
     "out of memory or threads; what was written before is kept: make room or use fewer --threads, and repeat the "
     "command";
 
-/// Exit code (architecture section 5) and message of any exception.
+/// ExitCode of app/commands.hpp and message of any exception.
 [[nodiscard]] Failure failure_of(const std::exception_ptr& error);
 
 /// For std::set_terminate(): memory can end where nothing may be thrown, as in the start of a thread. That ends the

@@ -8,8 +8,9 @@
 //   f_i' = K (9 + 0.3 m + 3.2 sqrt m + 0.34 sqrt d) , K = 0.2 (eps + 4) / eps for eps < 4, else 0.4
 //
 // Rounded as the standard's section 5.2.3 has it: above 10 um to whole, from 5 to 10 to half micrometres, below 5 to
-// tenths. Source: the formulas as implemented in published code (parameters.md section 4); f_i' is from memory of the
-// standard and marked so where it is shown. Limits: grades 0 to 12, m 0.5 to 70, d 5 to 10000, b 4 to 1000 mm.
+// tenths. Source: the formulas as implemented in published code (docs/theory/parameters.md, section 4); f_i' is from
+// memory of the standard and marked so where it is shown. Limits: grades 0 to 12, m 0.5 to 70, d 5 to 10000, b 4 to
+// 1000 mm.
 #pragma once
 
 namespace epicyclic::gear {

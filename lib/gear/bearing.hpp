@@ -7,9 +7,9 @@
 // Of rollers: Palmgren's line contact, 7.68e-5 mm Q^0.9 / l^0.8 for both contacts of the roller under the greatest load
 // Q = 5 F / Z; Gargiulo, Machine Design 52 (1980) has the same as 0.3e6 lb/in. Without clearance, rings stiff.
 //
-// Source: Tang et al. 2020, Eq. (11), Table 3, from Palmgren's point contact (parameters.md section 5; 32953 when the
-// constants are carried to all digits, 32900 as printed). Limits: d >= 0 is the elastic approach beyond the clearance.
-// Smoothness: k is C0 at d = 0 with infinite slope there, F is C1.
+// Source: Tang et al. 2020, Eq. (11), Table 3, from Palmgren's point contact (docs/theory/parameters.md, section 5;
+// 32953 when the constants are carried to all digits, 32900 as printed). Limits: d >= 0 is the elastic approach beyond
+// the clearance. Smoothness: k is C0 at d = 0 with infinite slope there, F is C1.
 #pragma once
 
 #include <optional>

@@ -7,10 +7,10 @@
 //   A = sum_j L_j f_j ,  B = sum_j L_j f_j h_j ,  L_j = 1 / (pairs in contact)
 //
 // Member 1 drives: the sun of the external mesh, the planet of the internal one. Source: Tang et al. 2020, Eqs. (2),
-// (3) with the corrections of model.md section 6; the signs are those of dissipation (model.md section 2), which the
-// paper leaves out. Limits: equal load sharing and a constant mu are idealisations; 1 <= epsilon <= 3. Smoothness: A
-// jumps and B jumps where a pair enters (s = 0), leaves (s/2pi = epsilon - j) or passes the pitch point; between, A is
-// constant and B linear in s.
+// (3) with the corrections of docs/theory/model.md, section 6; the signs are those of dissipation
+// (docs/theory/model.md, section 2), which the paper leaves out. Limits: equal load sharing and a constant mu are
+// idealisations; 1 <= epsilon <= 3. Smoothness: A jumps and B jumps where a pair enters (s = 0), leaves
+// (s/2pi = epsilon - j) or passes the pitch point; between, A is constant and B linear in s.
 #pragma once
 
 #include <algorithm>

@@ -6,7 +6,8 @@
 //   centrifugal force of a planet  M_p omega_c^2 r_c                                                   [G-cf]
 //   cos alpha_sp = (r_bs + r_bp) / r_c ,  cos alpha_rp = (r_br - r_bp) / r_c                           [G-kin]
 //
-// Source: model.md section 4; any textbook on epicyclic trains. Limits: a stage that passes problems_for_motion().
+// Source: docs/theory/model.md, section 4; any textbook on epicyclic trains. Limits: a stage that passes
+// problems_for_motion().
 #pragma once
 
 #include <numbers>

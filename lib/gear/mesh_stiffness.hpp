@@ -11,7 +11,7 @@
 //
 // phase = s / 2 pi of the mesh's own period, 0 where a pair enters; position = phase + j of a pair in base pitches from
 // the start of contact. Source: Tang et al. 2020, section 1.3 and Eq. (4) (with the time shift inside the angle);
-// mesh-stiffness.md section 4. Limits: two pairs in contact are added as if each had a body of its own, which
+// docs/theory/gears.md, section 6. Limits: two pairs in contact are added as if each had a body of its own, which
 // over-estimates the stiffness in double contact (Xie et al. 2018). Smoothness: k jumps at phase 0 and at the
 // fractional part of epsilon, and is analytic between: every integral here is taken piece by piece.
 #pragma once

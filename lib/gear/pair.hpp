@@ -13,8 +13,8 @@
 //   V_1 = omega_1 h_1 , V_2 = omega_2 h_2 , relative to the carrier; sliding V_1 - V_2, rolling (V_1 + V_2) / 2 [G-9]
 //
 // Member 1 is external and drives. Both must have one base pitch. Lengths in mm. Source: DIN 3960, Tang et al. 2020,
-// Eqs. (2), (3), (9) with the corrections of model.md section 6; [G-j], [G-a0] hold for two different reference
-// profiles, which the usual formula in x_1 + x_2 does not.
+// Eqs. (2), (3), (9) with the corrections of docs/theory/model.md, section 6; [G-j], [G-a0] hold for two different
+// reference profiles, which the usual formula in x_1 + x_2 does not.
 #pragma once
 
 #include "gear/tooth.hpp"

@@ -197,7 +197,7 @@ void check_finite_support(Problems& out, const std::string& pointer, double stif
   if (!std::isfinite(stiffness)) out.add(pointer, "\"rigid\" is for modes only; time integration needs a number");
 }
 
-/// Which torsional supports each boundary allows (model.md section 4).
+/// Which torsional supports each boundary allows (docs/theory/model.md, section 4).
 void check_torsion(Problems& out, const Stage& s) {
   const std::string key = "/torsional_support_N_per_m";
   const double k_su = s.sun.torsional_support_N_per_m;

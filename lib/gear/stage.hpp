@@ -32,7 +32,7 @@ inline constexpr std::size_t harmonics_max = 64;
 /// The stiffness of a support that does not yield.
 inline constexpr double rigid = std::numeric_limits<double>::infinity();
 
-/// Who is held, who drives, who is driven (model.md section 4).
+/// Who is held, who drives, who is driven (docs/theory/model.md, section 4).
 enum class Boundary {
   literal,  ///< the paper as printed: ring free and without torque, carrier grounded through k_cu, T_c on the carrier
   fixed_ring,  ///< ring grounded through k_ru, carrier is the free output
@@ -63,7 +63,7 @@ struct CentralMember {
   std::optional<double> base_radius_mm;  ///< none for the carrier
 };
 
-/// How the sun's bearing answers the sun's displacement (model.md section 2).
+/// How the sun's bearing answers the sun's displacement (docs/theory/model.md, section 2).
 enum class BearingLaw {
   linear_xy,        ///< k f(x, b), k f(y, b): the paper's, constant k; a square clearance
   palmgren_xy,      ///< k(d) d with k from Eq. (11) at the approach d = f(x, b), and likewise in y; over-counts by 3/2

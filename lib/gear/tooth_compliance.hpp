@@ -29,10 +29,10 @@
 // which holds for solid discs; with h = 7 it is 0.43 to 0.49, with Cornell's half plane a fifth to a third more (near
 // 1 / 0.8: the theory that ISO takes 0.8 of).
 //
-// Source: mesh-stiffness.md sections 1 to 3, derived there; Yang and Lin 1987, Tian 2004, Liang et al. 2014, Ma et al.
-// 2014 use the same energies. Limits: spur teeth, plane stress cantilever; Sainsot's fit holds for 1.4 <= h <= 7 and
-// 0.01 <= theta_f <= 0.12 rad; expect +-30 % between models of this kind and plane-strain finite elements. Smoothness:
-// analytic in the contact radius.
+// Source: docs/theory/gears.md, sections 3 to 5, derived there; Yang and Lin 1987, Tian 2004, Liang et al. 2014, Ma et
+// al. 2014 use the same energies. Limits: spur teeth, plane stress cantilever; Sainsot's fit holds for 1.4 <= h <= 7
+// and 0.01 <= theta_f <= 0.12 rad; expect +-30 % between models of this kind and plane-strain finite elements.
+// Smoothness: analytic in the contact radius.
 #pragma once
 
 #include <optional>

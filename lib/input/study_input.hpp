@@ -1,4 +1,4 @@
-// The typed study and how it is loaded from JSON (architecture section 6).
+// The typed study and how it is loaded from JSON.
 //
 // A study names its stage file, or holds the stage itself, and may override any of it by a JSON merge patch (RFC 7386)
 // in "stage_patch"; `--set /pointer=value` overrides a value once more. Everything is checked by the tables of

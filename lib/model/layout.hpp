@@ -8,9 +8,9 @@
 //             X_i = x_pi + u_c sin phi_i ,  Y_i = y_pi - u_c cos phi_i               `fixed_ring`: 3N + 8
 //   carrier, ring rigid in rotation (u_r = 0)                                        `fixed_ring`: 3N + 7
 //
-// Source: model.md section 4; Eqs. (21)-(22) eliminate the same rotation by differentiating e twice, which this avoids.
-// Written once: every layout is read into the same Coordinates, in which the rotation of the reference member is 0, so
-// that deflections have one formula. Linear maps: smooth everywhere. The layout is a value: it decides
+// Source: docs/theory/model.md, section 4; Eqs. (21)-(22) eliminate the same rotation by differentiating e twice, which
+// this avoids. Written once: every layout is read into the same Coordinates, in which the rotation of the reference
+// member is 0, so that deflections have one formula. Linear maps: smooth everywhere. The layout is a value: it decides
 // which of the last slots are there and what accelerations of rotations are combined to [make_relative()].
 #pragma once
 

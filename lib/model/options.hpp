@@ -3,13 +3,13 @@
 
 namespace epicyclic::model {
 
-/// Damping of a mesh when its gap is open (model.md section 2).
+/// Damping of a mesh when its gap is open (docs/theory/model.md, section 2).
 enum class GapDamping {
   always,         ///< c delta': Eq. (27) as printed; acts through the open gap and can pull
   contact_slope,  ///< c f_w'(delta) delta': weighted by the slope of the smooth clearance
 };
 
-/// Terms with omega_c of the frame that turns with the carrier (model.md section 3).
+/// Terms with omega_c of the frame that turns with the carrier (docs/theory/model.md, section 3).
 enum class Gyroscopic {
   automatic,    ///< printed for `literal`, invariant where the carrier is free
   off,          ///< none

@@ -7,9 +7,9 @@
 //   k_i(s) = k_0 + sum_h [ C_hi cos h s + S_hi sin h s ]  or a table over s_i                            [M-4]
 //   e_i(s) = a_i cos s + b_i sin s   from   E_i sin(s_i + phi_0i)                                        [M-e]
 //
-// Units: displacements in b_c, time in tau, masses in m_0 (model/scales.hpp). Source: model.md section 5; Eq. (4) with
-// a time shift inside the cosine, Eq. (1) with opposite signs. T is the scalar of the kernel: one lane, one parameter
-// point.
+// Units: displacements in b_c, time in tau, masses in m_0 (model/scales.hpp). Source: docs/theory/model.md, section 5;
+// Eq. (4) with a time shift inside the cosine, Eq. (1) with opposite signs. T is the scalar of the kernel: one lane,
+// one parameter point.
 #pragma once
 
 #include <array>

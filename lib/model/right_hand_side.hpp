@@ -8,9 +8,9 @@
 //   planets' rotating-frame terms: printed, or invariant in X_i = x_pi + u_c sin phi_i, Y_i = ...        [M-inv]
 //
 // all dimensionless (model/scales.hpp), the prime d/d tau; the state is advanced in the mesh phase s = Omega tau, so
-// dy/ds = (dy/d tau) / Omega. Source: Tang et al. 2020, Eqs. (13)-(20), (27), in the consistent form of model.md.
-// Limits: isotropic planet bearings (k_pix = k_piy = k_picu), one half gap per kind of mesh; the back flank keeps the
-// line of action of the drive flank, as Eq. (27) does.
+// dy/ds = (dy/d tau) / Omega. Source: Tang et al. 2020, Eqs. (13)-(20), (27), in the consistent form of
+// docs/theory/model.md. Limits: isotropic planet bearings (k_pix = k_piy = k_picu), one half gap per kind of mesh; the
+// back flank keeps the line of action of the drive flank, as Eq. (27) does.
 // T is the scalar of the state, P that of the parameters and of the phase: the same, or dual numbers and plain ones, so
 // that tangents do not carry the derivatives of constants along.
 // Smoothness: C0 in the state with kinks at delta = +-b (analytic for w > 0); with contact-slope damping and w = 0 it

@@ -6,7 +6,7 @@
 //   damping by m_0 omega_sn, forces by m_0 omega_sn^2 b_c
 //
 // Source: Tang et al. 2020, Eqs. (23)-(25); b_c is printed as 1e-5 mm, but Fig. 16's thresholds and Table 4's 40 um = 4
-// need 1e-5 m (model.md section 5). Limits: k_sp > 0.
+// need 1e-5 m (docs/theory/model.md, section 5). Limits: k_sp > 0.
 #pragma once
 
 #include "gear/stage.hpp"

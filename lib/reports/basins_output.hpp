@@ -1,7 +1,7 @@
 // What basins leave in their folder: points.csv, attractors.csv, results.h5, a figure. There is no poincare.csv: of a
 // cell's motion only what its attractor is told from is kept, and that in the journal.
 //
-// All of it follows from the points alone and is the same, byte for byte, for the same study (architecture section 7).
+// All of it follows from the points alone and is the same, byte for byte, for the same study.
 #pragma once
 
 #include <filesystem>

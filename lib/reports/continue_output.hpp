@@ -8,8 +8,7 @@
 //   continue.md     in words: branches, where they are stable, where they change
 //   figures/        branches over the parameter, their contacts and largest multipliers
 //
-// All of it follows from the branches alone and is the same, byte for byte, for the same study (architecture section
-// 7).
+// All of it follows from the branches alone and is the same, byte for byte, for the same study.
 #pragma once
 
 #include <filesystem>

@@ -3,7 +3,7 @@
 //
 // Cells are read where they are, one after the other; a matrix and the cells of a figure take eight bytes each.
 //
-// All of it follows from the points alone and is the same, byte for byte, for the same study (architecture section 7).
+// All of it follows from the points alone and is the same, byte for byte, for the same study.
 #pragma once
 
 #include <filesystem>

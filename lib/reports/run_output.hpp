@@ -12,7 +12,7 @@
 //                    multipliers, contact, mesh_force
 //
 // What there is nothing to say of has no table and no figure. All of it follows from the result alone and is the same,
-// byte for byte, for the same study (architecture section 7).
+// byte for byte, for the same study.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // What a sweep leaves in its folder: points.csv, poincare.csv, results.h5, figures.
 //
-// All of it follows from the points alone and is the same, byte for byte, for the same study (architecture section 7).
+// All of it follows from the points alone and is the same, byte for byte, for the same study.
 #pragma once
 
 #include <array>

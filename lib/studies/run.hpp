@@ -6,7 +6,7 @@
 //   load sharing               L_i = N F_i / sum_j F_j , as means over time: N mean(F_i) / sum_j mean(F_j)  [S-share]
 //
 // F_i is the normal force of a mesh with its damping [M-27], F_0 the static one of the sun-planet meshes. Where a train
-// accelerates (boundary `literal`) the mean forces are shares of inertia, not F_0 (model.md section 4).
+// accelerates (boundary `literal`) the mean forces are shares of inertia, not F_0 (docs/theory/model.md, section 4).
 #pragma once
 
 #include <cstddef>

@@ -73,7 +73,7 @@ TEST(Continuation, FindsDuffingsFoldsWhereHarmonicBalanceHasThem) {
   const OrbitFamily family{flows(fields, tolerance)};
   const Traced t = trace(family, fields, {.from = 0.5, .to = 2.5}, 0.6, {1.0, 0.0}, 100);
   ASSERT_EQ(t.special.size(), 2U);
-  constexpr double printed[] = {1.77972, 1.32424};  // validation.md section 4
+  constexpr double printed[] = {1.77972, 1.32424};  // docs/theory/published_results.md, section 4
   constexpr double fifth_decimal = 0.5e-5;
   const problems::HarmonicBalance balance(0.1, 0.3);
   for (std::size_t k = 0; k < 2; ++k) {

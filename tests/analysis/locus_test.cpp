@@ -229,7 +229,8 @@ TEST(Loci, FlipsPassOneToTwoWhereNeimarkSackerPointsEnd) {
   expect_at(t.marks[2], CodimTwo::resonance_1_2, 0.0, 0.0);
 }
 
-// Characteristic values of Mathieu's equation at q = 1, as validation.md has them to eight decimals.
+// Characteristic values of Mathieu's equation at q = 1, as docs/theory/published_results.md, section 4, has them to
+// eight decimals.
 constexpr double mathieu_a0 = -0.45513860;
 constexpr double mathieu_b1 = -0.11024882;
 constexpr double mathieu_a1 = 1.85910807;

@@ -1,4 +1,5 @@
-// Lyapunov spectra of systems whose exponents are published (validation.md section 3), and what exponents must obey.
+// Lyapunov spectra of systems whose exponents are published (docs/theory/published_results.md, section 3), and what
+// exponents must obey.
 
 #include "analysis/lyapunov.hpp"
 

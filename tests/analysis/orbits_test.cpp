@@ -211,7 +211,7 @@ TEST(Multipliers, EqualOnesAreCountedTogether) {
 }
 
 TEST(LargestExponent, OfChaoticDuffingIsThePublishedOne) {
-  // validation.md section 3: 0.1569 per unit of t, within 0.002 or its own interval.
+  // docs/theory/published_results.md, section 3: 0.1569 per unit of t, within 0.002 or its own interval.
   const auto flow = integrate::make_flow(problems::duffing(0.25, -1.0, 0.4, 1.0), tight(1e-8));
   std::vector<double> y = {1.0, 0.0};
   const LargestExponent e = largest_exponent(*flow, y, {100, 6000}, {}, always);

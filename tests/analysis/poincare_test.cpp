@@ -16,7 +16,7 @@
 namespace epicyclic::analysis::poincare_test {
 namespace {
 
-/// Duffing x'' + 0.3 x' - x + x^3 = g cos 1.2 t (validation.md section 4).
+/// Duffing x'' + 0.3 x' - x + x^3 = g cos 1.2 t (docs/theory/published_results.md, section 4).
 VectorField duffing(double g) { return problems::duffing(0.3, -1.0, g, 1.2); }
 
 bool always() { return true; }

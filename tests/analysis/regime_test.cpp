@@ -30,8 +30,8 @@ Classification regime_of(const VectorField& field, std::vector<double> y, const 
 }
 
 TEST(Regime, DuffingsCascade) {
-  // The flips of validation.md section 4 are at 0.26558, 0.28541, 0.28967: between them periods 1, 2, 4, and chaos at
-  // 0.5.
+  // The flips of docs/theory/published_results.md, section 4, are at 0.26558, 0.28541, 0.28967: between them periods 1,
+  // 2, 4, and chaos at 0.5.
   for (const auto& [g, period] :
        {std::pair{0.20, 1}, {0.26, 1}, {0.27, 2}, {0.28, 2}, {0.29, 4}, {0.37, 5}, {0.65, 2}}) {
     const Classification c = regime_of(problems::duffing(0.3, -1.0, g, 1.2), {1.0, 0.0});

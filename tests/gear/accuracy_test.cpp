@@ -26,7 +26,7 @@ void expect_tolerances(const Tolerances& t, const Tolerances& expected, const st
 }
 
 TEST(Accuracy, GradeSixOfTable1IsAsPrinted) {
-  // parameters.md section 4.
+  // docs/theory/parameters.md, section 4.
   const Tolerances external{8.5, 27, 11, 8.5, 7.0, 14, 22};
   const Tolerances ring{9.0, 35, 13, 9.5, 8.0, 15, 24};
   expect_tolerances(tolerances(6, 2.63, 71.01, 60, 1.2), external, "sun");

@@ -19,7 +19,7 @@ double coefficient_of(const std::string& designation) {
 }
 
 TEST(BearingCatalogue, StiffnessAndForceOfBothBearingsOfTable3) {
-  // parameters.md section 5: k_tan to four digits, F of the 6213 to 0.1 N.
+  // docs/theory/parameters.md, section 5: k_tan to four digits, F of the 6213 to 0.1 N.
   struct Row {
     const char* designation;
     double approach_um, stiffness, force;

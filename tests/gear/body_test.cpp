@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double rounding = 1e-14;
-// Half a unit of the last digit that parameters.md prints.
+// Half a unit of the last digit of docs/theory/parameters.md, section 2.
 constexpr double second_digit = 0.5e-2;
 constexpr double third_digit = 0.5e-3;
 constexpr double steel = 7850.0;
@@ -46,7 +46,7 @@ TEST(Body, HollowIsFullLessItsCore) {
 }
 
 TEST(Body, MassesOfTable1AreAsPrinted) {
-  // parameters.md section 2, each to half a unit of its last digit.
+  // docs/theory/parameters.md, section 2, each to half a unit of its last digit.
   const GearSet g = table1();
   const Bodies b = bodies(g);
   EXPECT_NEAR(body_radius_mm(g.sun), 36.65, second_digit);
@@ -67,7 +67,7 @@ TEST(Body, MassesOfTable1AreAsPrinted) {
 }
 
 TEST(Body, CarriersInertiaIsThePrintedOneAndItsPinsAboutTheirOwnAxes) {
-  // parameters.md takes the pins as points, 3.990e-2 kg m^2 or 7.757 kg on r_c.
+  // docs/theory/parameters.md, section 2, takes the pins as points, 3.990e-2 kg m^2 or 7.757 kg on r_c.
   const GearSet g = table1();
   const MassAndInertia c = bodies(g).carrier.value();
   const double pin_mass = steel * 0.09 * pi * 0.015 * 0.015;
@@ -89,7 +89,7 @@ TEST(Body, CarrierIsCheeksAndPins) {
 }
 
 TEST(Body, OutputShaftOfTable1) {
-  // parameters.md section 3: 60 mm by 150 mm of steel give 6.7e5 N m/rad, 1.3e8 N/m on r_c.
+  // docs/theory/parameters.md, section 3: 60 mm by 150 mm of steel give 6.7e5 N m/rad, 1.3e8 N/m on r_c.
   const Material material;
   const double k = shaft_torsion(60, 0, 150, material.shear_modulus());
   constexpr double first_digit = 0.5e-1;  // half a unit of it

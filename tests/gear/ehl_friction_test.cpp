@@ -53,7 +53,7 @@ LubricatedContact contact_at(const Case& c, double position, double inside) {
 }
 
 TEST(XuFriction, UnitNumbersToTheirDigits) {
-  // parameters.md section 7, full coefficients.
+  // docs/theory/friction.md, section 6, full coefficients.
   struct Row {
     double slip, pressure, viscosity, roughness, rolling, radius, mu;
   };
@@ -131,8 +131,8 @@ TEST(EhlFriction, LoadOfAMeshIsItsShareOfTheTorque) {
 }
 
 TEST(EhlFriction, CoefficientsAlongThePathsAreAsPrinted) {
-  // parameters.md section 7: sp 0.0138 -> 0 -> 0.0124, rp 0.0014 -> 0.0043 -> 0.0031 at 10000 rpm and 400 kW. One unit
-  // of the last digit: 0.01235 and 0.00436 here.
+  // docs/theory/friction.md, section 6: sp 0.0138 -> 0 -> 0.0124, rp 0.0014 -> 0.0043 -> 0.0031 at 10000 rpm and 400
+  // kW. One unit of the last digit: 0.01235 and 0.00436 here.
   constexpr double digit = 1e-4;
   const std::vector<Case> all = cases();
   const auto mu = [](const Case& c, double position, double inside) {
@@ -154,8 +154,8 @@ TEST(EhlFriction, CoefficientsAlongThePathsAreAsPrinted) {
 }
 
 TEST(EhlFriction, PressuresAreAsPrinted) {
-  // parameters.md section 7: P_h 0.35-0.52 and 0.16-0.31 GPa. The last is 0.3205 at the start of single contact, where
-  // F / b = 65.95 N/mm meet on R = 23.13 mm.
+  // docs/theory/friction.md, section 6: P_h 0.35-0.52 and 0.16-0.32 GPa. The last is 0.3205 at the start of single
+  // contact, where F / b = 65.95 N/mm meet on R = 23.13 mm.
   constexpr double digit = 0.005001;
   for (const Case& c : cases()) {
     double least = 1e9;

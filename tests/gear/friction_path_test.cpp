@@ -65,7 +65,7 @@ std::vector<Mesh2> meshes() {
 }
 
 TEST(FrictionPath, LinesOfActionAreThoseOfTable1) {
-  // parameters.md, "Geometry of Table 1": 36.100 mm, pitch point at l_p 11.723 mm, base pitch 7.488267 mm.
+  // docs/theory/gears.md, section 8: 36.100 mm, pitch point at l_p 11.723 mm, base pitch 7.488267 mm.
   constexpr double printed_mm = 6e-4;
   constexpr double pitch_digits_mm = 1e-6;
   const Stage s = problems::tang2020();

@@ -67,7 +67,8 @@ TEST(Kinematics, GivenTorqueDoesNotDependOnSpeed) {
 }
 
 TEST(Kinematics, SpeedsAndLoadsAreThoseOfTheTable) {
-  // parameters.md section 1; each tolerance is one unit of the last printed digit (its inputs are rounded too).
+  // docs/theory/parameters.md, section 1; each tolerance is one unit of the last printed digit (its inputs are rounded
+  // too).
   struct Row {
     double omega, sun_rpm, torque, force, deflection_um, carrier_ratio;
     double torque_digit, force_digit;
@@ -97,7 +98,7 @@ TEST(Kinematics, SpeedsAndLoadsAreThoseOfTheTable) {
 }
 
 TEST(Kinematics, PressureAnglesAreThoseOfTable1) {
-  // 30.2209 deg and 21.4778 deg of parameters.md, printed to four digits.
+  // 30.22094 and 21.47781 degrees of docs/theory/gears.md, section 8, to four digits.
   constexpr double digits_deg = 1e-4;
   const PressureAngles a = pressure_angles(problems::tang2020());
   EXPECT_NEAR(a.sun_planet * 180.0 / std::numbers::pi, 30.22094, digits_deg);
@@ -124,7 +125,7 @@ TEST(Kinematics, MissingTeethAreADomainError) {
 }
 
 TEST(Bearing, TangentStiffnessAndForceAreThoseOfTheTable) {
-  // parameters.md section 5: k_tan printed to four digits, F to 0.1 N.
+  // docs/theory/parameters.md, section 5: k_tan printed to four digits, F to 0.1 N.
   struct Row {
     int balls;
     double diameter_mm, approach_um, stiffness, force;

@@ -54,7 +54,8 @@ double trapezoid(const MeshedPair& mesh, const std::function<double(double)>& we
 }
 
 TEST(MeshStiffness, RegressionCasesOfTwoPublishedPairs) {
-  // mesh-stiffness.md 5.2: middle of single and of double contact, without and with the teeth's bodies, h_f = 2.
+  // docs/theory/gears.md, section 9.2: middle of single and of double contact, without and with the teeth's bodies,
+  // h_f = 2.
   struct Row {
     MeshedPair mesh;
     double contact_ratio, single, twice, single_body, double_body;
@@ -91,8 +92,8 @@ TEST(MeshStiffness, OrderOfThatOfAPublishedSimulation) {
 }
 
 TEST(MeshStiffness, FourierCoefficientsOfTable1AreAsPrinted) {
-  // parameters.md section 3, Eq. (4) with its origin at the start of double contact; printed for h_f = 1.44 of the
-  // planet. Units of the last digit: the page's radii and angles are rounded too.
+  // docs/theory/parameters.md, section 3, Eq. (4) with its origin at the start of double contact; printed for
+  // h_f = 1.44 of the planet. Units of the last digit: the page's radii and angles are rounded too.
   constexpr double units = 2.5;
   const auto tolerance = [](double printed, int n) { return 2.0 * units * digits(printed, n); };
   Stage stage = problems::table1();
@@ -371,7 +372,7 @@ TEST(MeshStiffness, RepeatsFromPeriodToPeriod) {
 TEST(IsoStiffness, SingleStiffnessOfTable1IsThatOfThePinionAndTheWheel) {
   // By hand from the standard's sum, the planet of 25 teeth as the pinion: c' 15.513 N/(mm um), 16.634 with the ring,
   // times C_B = (1 + 0.5 (1.2 - 1.25)) (1 + 0.02 (25 - 20)) = 1.0725 and, with the ring's 22.3 degrees, 1.046175.
-  // mesh-stiffness.md 5.3 takes the sun of 27 teeth, which drives, for the pinion, and C_B as 1: 15.74.
+  // docs/theory/gears.md, section 9.3.
   const IsoStiffness sp = iso_stiffness(table1().sun_planet);
   const IsoStiffness rp = iso_stiffness(table1().ring_planet);
   constexpr double third_digit = 0.5001e-3;
@@ -388,7 +389,7 @@ TEST(IsoStiffness, WhichGearDrivesDoesNotCount) {
 }
 
 TEST(IsoStiffness, EnergyMethodIsWithinTwoPercentOfIt) {
-  // mesh-stiffness.md 5.3: single pair 0.998e9 and 1.027e9 N/m; c' b as above 0.9983e9 and 1.0441e9.
+  // docs/theory/gears.md, section 7: single pair 0.998e9 and 1.027e9 N/m; c' b as above 0.9983e9 and 1.0441e9.
   const auto above = [](const MeshedPair& mesh) {
     return (stiffness_range(mesh).least / iso_stiffness(mesh).single - 1.0) * 100.0;
   };

@@ -39,7 +39,7 @@ GearSet geometry(Tips tips = Tips::shortened, double addendum = 1.0, double ring
 }
 
 TEST(PairOfTable1, AnglesRadiiAndPitchesAreAsPrinted) {
-  // parameters.md, "Geometry of Table 1" and section 1.
+  // docs/theory/gears.md, section 8, and docs/theory/parameters.md, section 1.
   const GearSet g = geometry();
   const double reference = 0.5 * 2.63 * 52;
   EXPECT_NEAR(reference, 68.380, digits(3));
@@ -191,7 +191,7 @@ TEST(PairOfTable1, RingMeshIsBeyondThePitchPointExactlyWhereTheTipIsBeyondThePit
 }
 
 TEST(PairOfTable1, SlidingSpeedsAtTenThousandTurnsOfTheSun) {
-  // parameters.md section 7 and "Geometry of Table 1", fixed ring: the sun turns at 0.75 omega_s relative to the
+  // docs/theory/friction.md, section 6, fixed ring: the sun turns at 0.75 omega_s relative to the
   // carrier.
   const GearSet g = geometry();
   const double sun = 1e4 * 2.0 * pi / 60.0;

@@ -196,8 +196,8 @@ TEST(ToothCompliance, IsThatOfABruteForceCantileverForTheRing) {
 }
 
 TEST(ToothCompliance, TeethOfTable1AreAsPrinted) {
-  // mesh-stiffness.md 5.5, to five digits (the sixth of the two shears printed with six is not one of theirs); mm/N
-  // there. The planet's foundation is printed for h_f = 1.44, its bore of 44 mm gives 1.4375.
+  // docs/theory/gears.md, section 9.5, to five digits; mm/N there. The planet's foundation is printed for h_f = 1.44,
+  // its bore of 44 mm gives 1.4375.
   struct Row {
     ToothBody body;
     double radius, bending, shear, axial, foundation;
@@ -355,7 +355,7 @@ TEST(ToothCompliance, ContactMayBeWhereTheInvoluteBegins) {
 }
 
 TEST(Foundation, SainsotsCoefficientsAreAsPublishedCodeHasThem) {
-  // mesh-stiffness.md 5.1: 62 teeth, module 2 mm, 20 deg, bore 35 mm; petrobras/ross prints the same four.
+  // docs/theory/gears.md, section 9.1: 62 teeth, module 2 mm, 20 deg, bore 35 mm; petrobras/ross prints the same four.
   const double alpha = 0.349066;
   const double rounding_rack = 0.25 / (1.0 - std::sin(alpha));
   const double theta =
@@ -383,7 +383,7 @@ TEST(Foundation, RootAngleOfARackCutToothIsThatOfTheRoundingsCentre) {
 }
 
 TEST(Foundation, CoefficientsAreThePolynomialsOfTheTable) {
-  // Sainsot, Velex, Duverger 2004, Table 1, as mesh-stiffness.md section 3 has it, typed once more.
+  // Sainsot, Velex, Duverger 2004, Table 1, as docs/theory/gears.md, section 5, has it, typed once more.
   struct Row {
     double a, b, c, d, e, f;
     [[nodiscard]] double at(double theta, double h) const {

@@ -333,7 +333,7 @@ TEST_F(StudyInput, SweepOverAPointerLoads) {
   EXPECT_EQ(input.study.sweep().axis.name, "/stage/lumped/planet/bearing_N_per_m");
 }
 
-/// Omega of a sun's speed, by model.md section 4: omega_m = z_s z_r / (z_s + z_r) omega_s of a fixed ring.
+/// Omega of a sun's speed, by docs/theory/model.md, section 4: omega_m = z_s z_r / (z_s + z_r) omega_s of a fixed ring.
 double ratio_at_rpm(const gear::Stage& stage, double rpm) {
   const double z_s = *stage.sun.teeth;
   const double z_r = *stage.ring.teeth;

@@ -348,8 +348,8 @@ TEST_F(ArkodeOutcome, AToleranceBelowRoundingIsAResultOrIsMet) {
 // ---- the smallest gear --------------------------------------------------------------------------------------------
 
 TEST(ClearanceOscillator, PoincarePointsAreThePublishedOnes) {
-  // validation.md section 4, twelve decimals from closed-form pieces. Integrator tolerance 1e-13 a step times some
-  // hundred steps of memory (damping 0.05).
+  // docs/theory/published_results.md, section 4, twelve decimals from closed-form pieces. Integrator tolerance 1e-13 a
+  // step times some hundred steps of memory (damping 0.05).
   constexpr double accuracy = 1e-10;
   struct Row {
     double w, x, v;

@@ -66,7 +66,7 @@ TEST(Tangents, InLanesGoOverKinksWithoutAnErrorOfFirstOrder) {
 }
 
 TEST(Tangents, DuffingFlipsWithThePublishedMultipliers) {
-  // validation.md section 4; its digits.
+  // docs/theory/published_results.md, section 4; its digits.
   const auto flow = make_flow(problems::duffing(0.3, -1.0, 0.2655817861, 1.2), options("arkode-dopri5", 1e-13));
   std::array<double, 2> y = {0.4075754662, 0.3226140050};
   const Matrix2 m = monodromy(*flow, y, 1);

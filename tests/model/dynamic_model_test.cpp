@@ -117,7 +117,7 @@ TEST(DefaultStart, HasEachMeshAtTheGapPlusTheStaticDeflection) {
 }
 
 TEST(DefaultStart, LiteralMeshForcesAre88And59Percent) {
-  // model.md section 4, printed to the percent.
+  // docs/theory/model.md, section 4, printed to the percent.
   constexpr double percent = 0.005;
   const Shares share = shares(problems::literal(problems::r1()));
   EXPECT_NEAR(share.sun_planet, 0.88, percent);
@@ -249,8 +249,8 @@ TEST(Phases, TurningByOnePlanetIsAShiftOfTheMeshPhase) {
 }
 
 TEST(Phases, Of28And80TeethAreTwoThirds) {
-  // model.md section 5: both meshes of planet 2 are 2/3 of a period on; Eq. (1) as printed gives 1/3 and 2/3. Seen in
-  // the errors of planets 2 and 3 at rest.
+  // docs/theory/model.md, section 5: both meshes of planet 2 are 2/3 of a period on; Eq. (1) as printed gives 1/3 and
+  // 2/3. Seen in the errors of planets 2 and 3 at rest.
   gear::Stage s = problems::with_teeth(problems::r1(), 28, 26, 80, 3);
   const DynamicModel m = model_of(s);
   const std::vector<double> rest(m.dimension, 0.0);

@@ -1,4 +1,5 @@
-// The kernel's forces against a potential, an identity and the balance laws, all written here from model.md.
+// The kernel's forces against a potential, an identity and the balance laws, all written here from
+// docs/theory/model.md.
 
 #include <algorithm>
 #include <array>
@@ -526,7 +527,8 @@ Parameters<double, planets> bearing_parameters(gear::BearingLaw law, double half
 }
 
 TEST(SunBearing, IntegralOfTheTangentStiffnessIsThePalmgrenForce) {
-  // parameters.md section 5: k of 6213 at 10 um is 1.343e8 N/m, F is 895.5 N; radial law (2/3) k d, literal law k d.
+  // docs/theory/parameters.md, section 5: k of 6213 at 10 um is 1.343e8 N/m, F is 895.5 N; radial law (2/3) k d,
+  // literal law k d.
   constexpr double um = 1e-6;
   constexpr double digit_N = 0.06;
   const Scales scales = scales_of(problems::r1());

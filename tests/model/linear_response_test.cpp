@@ -124,7 +124,7 @@ std::array<double, 2> balanced_means(const gear::Stage& s, const Scales& scales,
 }
 
 TEST(LinearResponse, IsThatOfTheTableToAllItsDigits) {
-  // validation.md section 5, printed to 1e-8 um.
+  // docs/theory/published_results.md, section 5, printed to 1e-8 um.
   constexpr double digits_um = 0.5e-8 * 1.01;
   // What 1.6e-7 of unbalanced load moves the means of the accelerating train by, relative.
   constexpr double unbalance = 1.6e-7;
@@ -179,7 +179,7 @@ double growth(Gyroscopic terms, double omega) {
   return std::exp(2.0 * pi * eigenvalues.real().maxCoeff());
 }
 
-// Growth rates of model.md section 3 have four decimals.
+// Growth rates of docs/theory/model.md, section 3, have four decimals.
 constexpr double growth_digits = 0.5e-4;
 
 TEST(Gyroscopic, PrintedTermsMakeTheFreeTrainDiverge) {

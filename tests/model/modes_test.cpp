@@ -26,7 +26,7 @@ struct Published {
   double tolerance;  // the source's digits
 };
 
-constexpr double to_tenths = 0.1;  // validation.md section 1
+constexpr double to_tenths = 0.1;  // docs/theory/published_results.md, section 1
 constexpr double to_hertz = 0.5;   // printed to the hertz
 
 void expect_published(int planets, const std::vector<Published>& published) {

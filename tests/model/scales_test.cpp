@@ -13,7 +13,7 @@ namespace {
 constexpr double rounding = 1e-14;
 
 TEST(Scales, NaturalFrequencyOfR1IsThatOfItsDigits) {
-  // validation.md section 5: 47914.909944 rad/s, six decimals.
+  // docs/theory/published_results.md, section 5: 47914.909944 rad/s, six decimals.
   constexpr double digits = 0.5e-6;
   EXPECT_NEAR(scales_of(problems::r1()).omega_sn, 47914.909944, digits);
 }

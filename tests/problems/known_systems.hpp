@@ -100,7 +100,7 @@ struct ClearanceConstants {
   double e = 0.05;
 };
 
-/// The gear clearance oscillator of validation.md section 4,
+/// The gear clearance oscillator of docs/theory/published_results.md, section 4,
 ///   x'' + 2 z x' + f(x) = F_m + E W^2 sin W t , half gap 1, f exact or of width `smoothing`,
 /// in s = W t. State x, dx/dt. Its parameter is W.
 inline VectorField clearance_oscillator(double w, double smoothing = 0.0, const ClearanceConstants& constants = {}) {
@@ -129,8 +129,8 @@ inline VectorField clearance_oscillator(double w, double smoothing = 0.0, const 
   return field;
 }
 
-/// Duffing x'' + damping x' + alpha x + x^3 = g cos W t (validation.md sections 3 and 4) in t, period 2 pi / W. State
-/// x, dx/dt. Its parameter is g.
+/// Duffing x'' + damping x' + alpha x + x^3 = g cos W t (docs/theory/published_results.md, sections 3 and 4) in t,
+/// period 2 pi / W. State x, dx/dt. Its parameter is g.
 inline FieldFamily duffing(double damping, double alpha, double w) {
   return integrate::make_field_family(
       2, 2.0 * std::numbers::pi / w, [damping, alpha, w](const auto& g, std::size_t, double t, const auto* y, auto* d) {

@@ -1,5 +1,5 @@
-// Stages with known answers: the completed set R1 of validation.md section 5, its variants, and the train of Tang et
-// al. 2020. Numbers are written here once more, apart from inputs/, so that neither can drift unseen.
+// Stages with known answers: the completed set R1 of docs/theory/published_results.md, section 5, its variants, and the
+// train of Tang et al. 2020. Numbers are written here once more, apart from inputs/, so that neither can drift unseen.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,8 @@ inline double over_r2(double inertia_kg_m2, double radius_mm) {
   return inertia_kg_m2 / (radius_mm * 1e-3 * radius_mm * 1e-3);
 }
 
-/// R1 as in validation.md section 5: `fixed_ring`, constant mean stiffness, no gap, no friction, E = 8.5 um, 400 kW.
+/// R1 as in docs/theory/published_results.md, section 5: `fixed_ring`, constant mean stiffness, no gap, no friction,
+/// E = 8.5 um, 400 kW.
 inline gear::Stage r1() {
   constexpr double r_bs = 32.17853;
   constexpr double r_bp = 29.79493;
@@ -83,7 +84,7 @@ inline gear::Stage with_stiffness_curve(gear::Stage s) {
   return s;
 }
 
-/// Fourier stiffness of parameters.md section 3, with its means.
+/// Fourier stiffness of docs/theory/parameters.md, section 3, with its means.
 inline gear::Stage with_moving_stiffness(gear::Stage s) {
   s.sun_planet_mesh.stiffness_N_per_m = 1.2589e9;
   s.sun_planet_mesh.stiffness_cos_N_per_m = {1.6636e8, 7.143e7};
@@ -95,7 +96,7 @@ inline gear::Stage with_moving_stiffness(gear::Stage s) {
   return s;
 }
 
-/// Coulomb friction on the contact paths of parameters.md, "Geometry of Table 1". The coefficients are larger than
+/// Coulomb friction on the contact paths of docs/theory/gears.md, section 8. The coefficients are larger than
 /// those of Table 1's gears so that friction weighs in tests.
 inline gear::Stage with_friction(gear::Stage s, double mu = 0.08) {
   s.sun_planet_mesh.friction.coefficient = {mu, 1.200, 13.814};

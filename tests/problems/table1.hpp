@@ -1,5 +1,5 @@
-// The gears of Table 1 of Tang et al. 2020 as a catalogue, completed as in parameters.md sections 1 to 3. Numbers are
-// written here once more, apart from inputs/, so that neither can drift unseen.
+// The gears of Table 1 of Tang et al. 2020 as a catalogue, completed as in docs/theory/parameters.md, sections 1 to 3.
+// Numbers are written here once more, apart from inputs/, so that neither can drift unseen.
 #pragma once
 
 #include <cmath>

@@ -85,7 +85,7 @@ TEST_F(GearOutputOfTheStage, HasEachFileAndFigure) {
 }
 
 TEST_F(GearOutputOfTheStage, GeometryIsThatOfTable1) {
-  // Half a unit of the last of the digits of parameters.md, "Geometry of Table 1".
+  // Half a unit of the last of the digits of docs/theory/gears.md, section 8.
   const auto digits = [](int decimals) { return 0.5 * std::pow(10.0, -decimals); };
   EXPECT_NEAR(quantity("centre_distance"), 71.720839, digits(6));
   EXPECT_NEAR(quantity("ring_module"), 2.57627, digits(5));

@@ -1,4 +1,4 @@
-// Energy balance of model.md section 2: what the vibration gains is the work done on it.
+// Energy balance of docs/theory/model.md, section 2: what the vibration gains is the work done on it.
 
 #include <algorithm>
 #include <array>

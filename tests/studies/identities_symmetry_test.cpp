@@ -24,8 +24,8 @@ using model::Slots;
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
 TEST(Motion, OfTheLinearStageIsThatOfTheTable) {
-  // validation.md section 5. The means differ by the 1.6e-7 by which the loads of R1's rounded radii miss balance (see
-  // tests/model/linear_response_test.cpp); the rest is integrator tolerance.
+  // docs/theory/published_results.md, section 5. The means differ by the 1.6e-7 by which the loads of R1's rounded
+  // radii miss balance (see tests/model/linear_response_test.cpp); the rest is integrator tolerance.
   constexpr double integrator_um = 1e-8;
   constexpr double unbalance = 1.6e-7;
   struct Row {
@@ -147,7 +147,7 @@ Symmetry symmetry(const gear::Stage& stage, double omega, int periods) {
 constexpr double centre_um = 1e-10;
 
 TEST(Motion, OfEqualPlanetsInPhaseLeavesTheCentralMembersInTheCentre) {
-  // model.md section 7.
+  // docs/theory/model.md, section 7.
   struct Case {
     const char* name;
     gear::Stage stage;

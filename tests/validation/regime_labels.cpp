@@ -88,7 +88,7 @@ std::vector<Case> cases() {
     const auto field = problems::duffing(0.3, -1.0, g, 1.2);
     all.push_back({"duffing", g, field, {1.0, 0.0}, by_brute_force(field, {1.0, 0.0})});
   }
-  // Period 1 over this range (validation.md section 4).
+  // Period 1 over this range (docs/theory/published_results.md, section 4).
   for (const double w : grid(0.2, 2.2, 60))
     all.push_back({"clearance", w, problems::clearance_oscillator(w), {1.1, 0.0}, "periodic"});
   // Mathieu, q = 1, undamped: bounded and never repeating between its characteristic values, else growing.
