@@ -401,12 +401,13 @@ FinishedStudy sweep_to_prove(const Arguments& arguments, const input::LoadedInpu
     throw InputError(
         fmt::format("{}: is a sweep along {}, the branches go along {}", folder, plan->axis.name, options.parameter));
   const double last = axis_value(plan->axis, static_cast<std::size_t>(plan->axis.points) - 1);
-  if (plan->axis.from < options.from || last > options.to)
-    throw InputError(fmt::format("{}: goes from {}{} to {}{}, the branches only from {}{} to {}{}", folder,
-                                 plan->axis.from, store::given_as(sweep.input().resolved, "/study/from"), last,
-                                 store::given_as(sweep.input().resolved, "/study/to"), options.from,
-                                 store::given_as(input.resolved, "/study/from"), options.to,
-                                 store::given_as(input.resolved, "/study/to")));
+  if (plan->axis.from < options.from || last > options.to) {
+    constexpr int digits = 9;
+    const reports::AxisWords words = reports::axis_words(options.parameter, input.study.axis_speed);
+    const auto text = [&](double value) { return words.text(value, digits); };
+    throw InputError(fmt::format("{}: {} goes from {} to {}, of the branches only from {} to {}", folder, words.name,
+                                 text(plan->axis.from), text(last), text(options.from), text(options.to)));
+  }
   for (const std::size_t point : {std::size_t{0}, sweep.points().count - 1})
     if (!studies::same_motion(sweep.model_at(point), models(sweep.plan().points[point].value)))
       throw InputError(fmt::format("{}: its equations of motion are not those of {}, at {} = {}", folder,

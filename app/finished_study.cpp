@@ -302,7 +302,10 @@ input::LoadedInput with_start(const Arguments& arguments, std::string_view kind,
   lines.insert(lines.begin(), point_words(from, r));
 
   std::vector<input::Assignment> of_point;
-  if (arguments.input.empty()) of_point = input::point_as_study(from.input(), from.plan().points[index], kind);
+  const bool stage_changes =
+      std::ranges::any_of(sets, [](const auto& set) { return set.pointer.starts_with("/stage"); });
+  if (arguments.input.empty())
+    of_point = input::point_as_study(from.input(), from.plan().points[index], kind, stage_changes);
   of_point.insert(of_point.end(), sets.begin(), sets.end());
   const input::LoadedInput stage =
       arguments.input.empty() ? from.input().with_further(of_point) : input::load_input(arguments.input, sets);
@@ -451,9 +454,13 @@ input::LoadedInput with_seeds(const std::filesystem::path& study, const std::vec
   if (donors.empty() || !std::holds_alternative<studies::BranchesOptions>(input.study.plan)) return input;
   Sower sower(input, notes);
   for (const std::string& donor : donors) sower.take(parse_donor(donor));
-  // As it is resolved: seeds are in the unit that its parameter has there.
   json resolved = input.resolved.at("study");
   resolved["seeds"] = sower.seeds();
+  // In the unit of its parameter.
+  if (const auto& speed = input.study.axis_speed)
+    for (json& seed : resolved["seeds"])
+      for (const char* key : {"value", "reach"})
+        if (seed.contains(key)) seed[key] = seed[key].get<double>() * speed->per_ratio;
   return input.with_further(std::array{input::Assignment{"/study", std::move(resolved), "/study, by --from"}});
 }
 

@@ -42,7 +42,7 @@ GrownStudy::GrownStudy(const std::filesystem::path& folder, const input::LoadedI
   std::string reasons;
   for (const store::Difference& d :
        store::differing_values({from_.input().resolved, from_.input().computed}, {input.resolved, input.computed}))
-    if (!may_grow(d.pointer) && !(d.pointer == "/operation/mesh_frequency_ratio" && speed_is_varied))
+    if (!may_grow(d.pointer) && !(d.pointer.starts_with("/operation") && speed_is_varied))
       reasons += "\n  " + d.text;
   if (!reasons.empty())
     throw InputError(

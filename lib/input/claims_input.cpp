@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "input/derived_study.hpp"
+#include "input/given_speeds.hpp"
 
 namespace epicyclic::input {
 
@@ -16,6 +17,7 @@ namespace {
 
 /// The number at a pointer, if there is one.
 std::optional<double> number_at(const LoadedInput& input, const std::string& pointer) {
+  if (pointer == speed_pointer) return input.study.mesh_frequency_ratio;  // of another speed, if one is given
   const json* there = input.value_at(pointer);
   return there != nullptr && there->is_number() ? std::optional(there->get<double>()) : std::nullopt;
 }
@@ -208,7 +210,10 @@ json sweep_input(const LoadedInput& input, const studies::ClaimSweep& sweep, stu
   const std::vector<PointerValue> set = set_along(input, {}, sweep);
   const std::vector<Assignment> values = written_values(study, set);
   json changed = input.resolved;
-  for (const Assignment& value : values) changed[json::json_pointer(value.pointer)] = value.value;
+  for (const Assignment& value : values) {
+    if (value.pointer == speed_pointer) drop_other_speeds(changed, studies::speed_parameter);
+    changed[json::json_pointer(value.pointer)] = value.value;
+  }
   changed["name"] = (study.name.empty() ? std::string() : study.name + "_") + sweep.name;
   changed["study"] = study_table().write(study).at("study");
   return with_origins(std::move(changed), values, "set: by the sweep " + sweep.name);

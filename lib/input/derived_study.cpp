@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "input/given_speeds.hpp"
+#include "input/pointers.hpp"
 #include "input/study_model.hpp"
 #include "model/scales.hpp"
 #include "studies/named_parameters.hpp"
@@ -59,9 +61,13 @@ std::optional<double> ratio_at_given_speed(const LoadedInput& input, std::span<c
         return v.pointer == speed.name || v.pointer == speed.pointers.front();
       }))
     return std::nullopt;
-  for (const SpeedAlias& alias : speed_aliases())
-    if (const std::optional<double>& given = input.given_speed.*alias.given)
-      if (const auto ratio = ratio_per_unit(alias, point_at(input, values).stage)) return *given * *ratio;
+  for (const SpeedAlias& alias : speed_aliases()) {
+    std::optional<double> given = input.given_speed.*alias.given;
+    for (const PointerValue& v : values)
+      if (v.pointer == std::string(operation_root) + "/" + std::string(alias.key)) given = v.value;
+    if (!given) continue;
+    if (const auto ratio = ratio_per_unit(alias, point_at(input, values).stage)) return *given * *ratio;
+  }
   return std::nullopt;
 }
 
@@ -71,8 +77,20 @@ std::vector<PointerValue> at_given_speed(const LoadedInput& input, std::vector<P
   return values;
 }
 
-std::vector<Assignment> point_as_study(const LoadedInput& input, const studies::GridPoint& point,
-                                       std::string_view kind) {
+namespace {
+
+/// What the study gives a speed in, of its axis or of its operating point; null: Omega.
+const SpeedAlias* speed_given_in(const LoadedInput& input) {
+  if (input.study.axis_speed) return find_speed_alias(input.study.axis_speed->key);
+  for (const SpeedAlias& alias : speed_aliases())
+    if (input.given_speed.*alias.given) return &alias;
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<Assignment> point_as_study(const LoadedInput& input, const studies::GridPoint& point, std::string_view kind,
+                                       bool stage_changes) {
   Study study = input.study;
   const std::vector<VariedParameter> varied = varied_parameters(study);
   std::vector<PointerValue> values;
@@ -85,11 +103,14 @@ std::vector<Assignment> point_as_study(const LoadedInput& input, const studies::
   if (!pointers.empty()) {
     // The speed stays what it was, in rad/s.
     const Study changed = input.with_values(pointers);
-    const bool by_pointer = std::ranges::any_of(
-        pointers, [](const PointerValue& v) { return v.pointer == "/operation/mesh_frequency_ratio"; });
-    const double ratio = by_pointer ? changed.mesh_frequency_ratio : study.mesh_frequency_ratio;
-    study.mesh_frequency_ratio = ratio * time_scale(input) / model::scales_of(changed.stage).omega_sn;
-    sets.push_back({"/operation/mesh_frequency_ratio", study.mesh_frequency_ratio, {}});
+    study.mesh_frequency_ratio *= time_scale(input) / model::scales_of(changed.stage).omega_sn;
+    study.stage = changed.stage;
+    sets.push_back({speed_pointer, study.mesh_frequency_ratio, {}});
+  }
+  if (const SpeedAlias* alias = stage_changes ? speed_given_in(input) : nullptr) {
+    // With the time scale of another stage Omega would be another speed.
+    const double speed = study.mesh_frequency_ratio / ratio_per_unit(*alias, study.stage).value();
+    sets.push_back({std::string(operation_root) + "/" + std::string(alias->key), speed, {}});
   }
   json plan = {{"kind", kind}};
   for (const char* key : {"transient", "transient_periods", "recorded_periods", "output_phases", "period_max",

@@ -38,9 +38,10 @@ void set_named(model::OperatingPoint& point, std::span<const PointerValue> value
 /// they were, and its scales are those of the stage that stands in it then, so that its Omega may be another number for
 /// the same speed. A cross-check and a tolerance study are of that one point.
 /// @param kind  "run", "crosscheck" or "tolerance"
+/// @param stage_changes  the stage is changed afterwards: a speed that is given in rpm or Hz is set as such, and stays
 /// @returns what is to be set in the resolved input
 [[nodiscard]] std::vector<Assignment> point_as_study(const LoadedInput& input, const studies::GridPoint& point,
-                                                     std::string_view kind);
+                                                     std::string_view kind, bool stage_changes = false);
 
 /// omega_sn of the stage as it is given, which a study's Omega and rates are in [rad/s].
 [[nodiscard]] double time_scale(const LoadedInput& input);

@@ -5,7 +5,7 @@
 
 #include "gear/kinematics.hpp"
 #include "model/scales.hpp"
-#include "studies/speed_note.hpp"
+#include "studies/speed_unit.hpp"
 
 namespace epicyclic::input {
 

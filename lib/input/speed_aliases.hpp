@@ -1,5 +1,4 @@
-// Speeds as people know them, in place of the mesh frequency ratio: of the operating point and along an axis. They are
-// converted when the input is loaded, by the stage as it is given: what is resolved has Omega alone.
+// Speeds in rpm and Hz, in place of the mesh frequency ratio: of the operating point and along an axis.
 //
 //   n_s, n_c = 30 / pi omega_s, omega_c [rpm] ,   f_m = omega_m / (2 pi) [Hz] ,   omega_m = Omega omega_sn     [G-kin],
 //   [M-23]
@@ -16,6 +15,8 @@ namespace epicyclic::input {
 /// An operating point's speed as it is given; none of it: Omega.
 struct GivenSpeed {
   std::optional<double> sun_speed_rpm{}, carrier_speed_rpm{}, mesh_frequency_Hz{};
+
+  [[nodiscard]] bool any() const { return sun_speed_rpm || carrier_speed_rpm || mesh_frequency_Hz; }
 };
 
 struct SpeedAlias {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "input/claims_input.hpp"
+#include "input/given_speeds.hpp"
 #include "input/input_sources.hpp"
 #include "input/origins.hpp"
 #include "input/plan_checks.hpp"
@@ -19,7 +20,6 @@
 #include "input/read_study.hpp"
 #include "integrate/methods.hpp"
 #include "studies/named_parameters.hpp"
-#include "studies/speed_note.hpp"
 #include "studies/units.hpp"
 
 namespace epicyclic::input {
@@ -143,180 +143,26 @@ class LoadedInput::Loader {
   void make(const Assignment& set) {
     std::string pointer = set.pointer;
     if (sources_->bare && pointer_within(pointer, stage_root)) pointer.erase(0, stage_root.size());
-    if (pointer_parent(pointer) == operation_root && !set.value.is_null()) drop_other_speeds(pointer_leaf(pointer));
+    if (pointer_parent(pointer) == operation_root && !set.value.is_null())
+      drop_other_speeds(whole_, pointer_leaf(pointer));
     if (auto message = assign(whole_, pointer, set.value); !message.empty())
       problems_.add({set.shown(), 0, set.pointer, std::move(message)});
   }
 
-  /// A speed that is set takes the place of one that was given otherwise.
-  void drop_other_speeds(const std::string& key) {
-    const auto is_speed = [](std::string_view k) {
-      return k == studies::speed_parameter || find_speed_alias(k) != nullptr;
-    };
-    const auto operation = whole_.find("operation");
-    if (!is_speed(key) || operation == whole_.end() || !operation->is_object()) return;
-    std::vector<std::string> others;
-    for (const auto& [other, value] : operation->items())
-      if (is_speed(other) && other != key) others.push_back(other);
-    for (const std::string& other : others) (void)assign(whole_, std::string(operation_root) + "/" + other, nullptr);
-  }
-
-  /// Omega at a speed that stands at a pointer; nothing where it is out of range, which is told.
-  std::optional<double> ratio_of(const SpeedAlias& alias, double value, const std::string& pointer) {
-    const std::optional<double> per_unit = ratio_per_unit(alias, input_.study.stage);
-    const studies::NamedParameter& speed = *studies::find_parameter(studies::speed_parameter);
-    const Bounds bounds = between(speed.least, speed.most);
-    std::string why;
-    if (!per_unit)
-      why = "is a speed of a member that stands still in this stage";
-    else if (!bounds.contains(value * *per_unit))
-      why = "is " + number_text(value) + ", with which the mesh frequency ratio is " + number_text(value * *per_unit) +
-            ", must be " + bounds.text();
-    if (why.empty()) return value * *per_unit;
-    context_.add(Finding::Kind::range, pointer, std::move(why));
-    found_.insert(pointer);
-    return std::nullopt;
-  }
-
-  /// The same along an axis: to as many digits as the values between its ends have, so that a longer range has the same
-  /// values and an end is one of them.
-  std::optional<double> axis_ratio_of(const SpeedAlias& alias, double value, const std::string& pointer) {
-    const std::optional<double> ratio = ratio_of(alias, value, pointer);
-    constexpr double between_ends = 0.5;
-    return ratio ? std::optional(studies::grid_value(*ratio, *ratio, between_ends)) : std::nullopt;
-  }
-
-  /// Where the number at a key comes from: as before, with the speed that it was.
-  /// @param moved  key that the speed stood at, if that is another one
-  static void note_conversion(json& object, const std::string& key, std::string_view moved, const SpeedAlias& alias,
-                              double given) {
-    if (object.contains("origin") && object["origin"].is_string()) spread_origins(object);
-    json& origin = object["origin"];
-    if (!origin.is_null() && !origin.is_object()) return;  // told of the file
-    const std::string from(moved.empty() ? std::string_view(key) : moved);
-    std::string text =
-        origin.contains(from) && origin[from].is_string() ? origin[from].get<std::string>() : std::string("choice");
-    if (!moved.empty()) {
-      object.erase(from);
-      if (origin.is_object()) origin.erase(from);
-      object[key] = 0.0;  // stands there: no default
-    }
-    origin[key] = studies::with_speed_note(std::move(text), alias.key, number_text(given));
-  }
-
-  /// The number at a key whose origin notes that it was another speed, as in a resolved input: of this stage that is
-  /// still so, or what the origin says is told and does not stand.
-  /// @returns the note, where it is so
-  std::optional<studies::SpeedNote> speed_noted_at(const std::string& place, const std::string& key, double value) {
-    json* object = find_at(whole_, place);
-    if (object == nullptr || !object->is_object() || !object->contains("origin")) return std::nullopt;
-    json& origin = (*object)["origin"];
-    json* text = origin.is_object() && origin.contains(key) ? &origin[key] : nullptr;
-    if (text == nullptr || !text->is_string()) return std::nullopt;
-    std::optional<studies::SpeedNote> note = studies::find_speed_note(text->get_ref<const std::string&>());
-    const SpeedAlias* alias = note ? find_speed_alias(note->key) : nullptr;
-    if (alias == nullptr) return std::nullopt;
-    constexpr double same = 1e-9;  // relative; computed data of another machine may differ in their last digits
-    const std::optional<double> per_unit = ratio_per_unit(*alias, input_.study.stage);
-    if (per_unit && std::abs(value - note->value * *per_unit) <= same * std::abs(value)) return note;
-    const auto here = [&] {
-      return note->key + " = " + number_text(studies::grid_value(0, 2 * value / *per_unit, 0.5));
-    };
-    context_.notes.push_back(place + pointer_step(key) + ": stays " + number_text(value) + ", which is " +
-                             (per_unit ? here() : "no speed of that member") + " in this stage and not " + note->text +
-                             ", as its origin notes of another stage; give " + note->key + " to keep that speed");
-    *text = note->before;
-    return std::nullopt;
-  }
-
-  void keep_axis_speed(const SpeedAlias& alias) {
-    if (const auto per_unit = ratio_per_unit(alias, input_.study.stage))
-      input_.study.axis_speed = studies::SpeedUnit{std::string(alias.key), 1.0 / *per_unit};
-  }
-
-  /// The speeds in rpm and Hz, of the operating point and of axes, as Omega.
-  void convert_speeds() {
-    Study& read = input_.study;
-    const bool moves = sound_ && gear::problems_for_motion(read.stage).empty();
-    for (const SpeedAlias& alias : speed_aliases()) {
-      std::optional<double>& given = read.given_speed.*alias.given;
-      const std::string place = std::string(operation_root) + "/" + std::string(alias.key);
-      if (const auto value = std::exchange(given, std::nullopt); value && moves && !is_bad(place))
-        if (const auto ratio = ratio_of(alias, *value, place)) {
-          read.mesh_frequency_ratio = *ratio;
-          note_conversion(whole_["operation"], studies::speed_parameter, alias.key, alias, *value);
-        }
-    }
-    if (moves)
-      if (const auto note =
-              speed_noted_at(std::string(operation_root), studies::speed_parameter, read.mesh_frequency_ratio))
-        input_.given_speed.*find_speed_alias(note->key)->given = note->value;
-    // By its pointer it is the same parameter, and is to be told as that.
-    const auto by_name = [](std::string& name) {
-      if (name == studies::find_parameter(studies::speed_parameter)->pointers.front()) name = studies::speed_parameter;
-    };
-    const auto convert = [&](std::string& name, double& from, double& to, const std::string& place) {
-      by_name(name);
-      const SpeedAlias* alias = find_speed_alias(name);
-      if (alias == nullptr) {
-        if (moves && name == studies::speed_parameter)
-          for (const auto& [key, value] : {std::pair("from", from), {"to", to}})
-            if (const auto note = speed_noted_at(place, key, value)) keep_axis_speed(*find_speed_alias(note->key));
-        return;
-      }
-      name = studies::speed_parameter;
-      if (moves) keep_axis_speed(*alias);
-      json& object = *find_at(whole_, place);
-      const studies::Axis standard = studies::SweepOptions{}.axis;
-      if (object.contains("from") && object.contains("to") && !is_bad(place + "/from") && !is_bad(place + "/to") &&
-          from > to) {
-        context_.add(Finding::Kind::rule, place + "/from",
-                     "is " + number_text(from) + ", must be <= to = " + number_text(to));
-        found_.insert(place + "/from");
-      }
-      for (const auto& [key, value, otherwise] : {std::tuple("from", &from, standard.from), {"to", &to, standard.to}}) {
-        const double given = std::exchange(*value, otherwise);
-        const std::string at = place + "/" + key;
-        if (!object.contains(key)) {
-          if (place == "/study")  // else its table has told
-            context_.add(Finding::Kind::missing_key, at,
-                         "is missing; " + std::string(alias->key) + " needs a range of its own");
-          found_.insert(at);
-        } else if (moves && !is_bad(at)) {
-          *value = axis_ratio_of(*alias, given, at).value_or(otherwise);
-          note_conversion(object, key, {}, *alias, given);
-        }
-      }
-    };
-    const auto each = [&](const SpeedAlias* alias, std::vector<double>& values, const std::string& place) {
-      if (alias == nullptr || !moves) return;
-      for (std::size_t k = 0; k < values.size(); ++k)
-        values[k] = axis_ratio_of(*alias, values[k], place + "/" + std::to_string(k)).value_or(1.0);
-    };
-    const auto axis = [&](studies::Axis& of, const std::string& place) { convert(of.name, of.from, of.to, place); };
-    if (auto* map = std::get_if<studies::MapOptions>(&read.plan)) {
-      axis(map->plane.first, "/study/first");
-      axis(map->plane.second, "/study/second");
-    } else if (auto* b = std::get_if<studies::BranchesOptions>(&read.plan)) {
-      const SpeedAlias* alias = find_speed_alias(b->parameter);
-      each(alias, b->starts, "/study/starts");
-      each(alias, b->values, "/study/values");
-      if (b->search) each(alias, b->search->values, "/study/search/values");
-      if (b->loci) each(alias, b->loci->near, "/study/loci/near");
-      for (std::size_t k = 0; k < b->seeds.size() && alias != nullptr && moves; ++k) {
-        studies::BranchSeed& seed = b->seeds[k];
-        const std::string place = "/study/seeds/" + std::to_string(k);
-        seed.value = axis_ratio_of(*alias, seed.value, place + "/value").value_or(1.0);
-        if (seed.reach) seed.reach = axis_ratio_of(*alias, *seed.reach, place + "/reach").value_or(1.0);
-      }
-      convert(b->parameter, b->from, b->to, "/study");
-      if (b->loci) convert(b->loci->parameter, b->loci->from, b->loci->to, "/study/loci");
-    } else if (auto* claims = std::get_if<studies::ClaimsOptions>(&read.plan)) {
-      for (studies::ClaimSweep& sweep : claims->sweeps) by_name(sweep.axis.name);
-    } else if (read.has_points() && !std::holds_alternative<RunPlan>(read.plan) &&
-               !std::holds_alternative<studies::BasinsOptions>(read.plan)) {
-      axis(sweep_in(read.plan).axis, "/study");
-    }
+  /// The speeds in rpm and Hz as Omega.
+  /// @returns the study as it is given
+  Study convert_speeds() {
+    name_speeds(input_.study);
+    Study given = input_.study;
+    input_.given_speed = given.given_speed;
+    input::convert_speeds(
+        input_.study, whole_, sound_ && gear::problems_for_motion(given.stage).empty(),
+        [this](const std::string& pointer) { return is_bad(pointer); },
+        [this](Finding::Kind kind, const std::string& pointer, std::string message) {
+          if (!message.empty()) context_.add(kind, pointer, std::move(message));
+          found_.insert(pointer);
+        });
+    return given;
   }
 
   /// Puts the stage that the study names in the place of its name.
@@ -397,12 +243,13 @@ class LoadedInput::Loader {
   void read_values() {
     std::tie(input_.study, sound_) = read_study(whole_, sources_->bare, context_, &input_.computed);
     for (const auto& finding : context_.findings) found_.insert(finding.pointer);
-    convert_speeds();
+    Study given = convert_speeds();
     check_integrator();
     const auto bad = [this](const std::string& pointer) { return is_bad(pointer); };
     check_plan(input_.study, bad, context_);
-    if (auto* sweep = std::get_if<studies::SweepOptions>(&input_.study.plan)) sweep->segments = segments_of(*sweep);
-    input_.resolved = sources_->bare ? stage_table().write(input_.study.stage) : study_table().write(input_.study);
+    if (auto* sweep = std::get_if<studies::SweepOptions>(&input_.study.plan))
+      std::get<studies::SweepOptions>(given.plan).segments = sweep->segments = segments_of(*sweep);
+    input_.resolved = sources_->bare ? stage_table().write(given.stage) : study_table().write(given);
     fill_origins(input_.resolved, whole_);
     note_uncomputed(input_.resolved, input_.computed, context_.notes);
     note_undone();
@@ -648,6 +495,9 @@ std::vector<Problem> LoadedInput::check_with(const Base& base, std::span<const P
       return std::vector<Problem>{sources_->locate(pointer, std::move(message))};
     };
     const json* there = place.empty() || place[0] != '/' ? nullptr : find_at(resolved, place);
+    // In place of the speed that is given.
+    static const json omega = 1.0;
+    if (there == nullptr && place == speed_pointer && given_speed.any()) there = &omega;
     if (pointer_within(place, "/study"))
       return refuse("\"" + place + "\" is part of the plan, which a study cannot vary");
     if (there == nullptr) {
@@ -677,13 +527,19 @@ std::vector<Problem> LoadedInput::check_with(const Base& base, std::span<const P
     context = {};
     json whole = base.resolved;
     for (const auto& [place, value] : places) {
-      *find_at(whole, place) = value;
+      if (place == speed_pointer) drop_other_speeds(whole, studies::speed_parameter);
+      whole[json::json_pointer(place)] = value;
       keep_from_computing(whole, place);
     }
     json unused;
     read = read_study(whole, sources_->bare, context, is_completed ? nullptr : &unused).first;
+    read->plan = study.plan;
+    read->axis_speed = study.axis_speed;
     if (completed != nullptr) *completed = std::move(whole);
   }
+  for (const SpeedAlias& alias : speed_aliases())
+    if (const auto value = std::exchange(read->given_speed.*alias.given, std::nullopt))
+      read->mesh_frequency_ratio = *value * ratio_per_unit(alias, study.stage).value_or(1.0);
   changed = std::move(*read);
   std::vector<Problem> problems;
   for (auto& finding : context.findings)

@@ -36,7 +36,7 @@
 #include "studies/crosscheck_options.hpp"
 #include "studies/plane_options.hpp"
 #include "studies/run_options.hpp"
-#include "studies/speed_note.hpp"
+#include "studies/speed_unit.hpp"
 #include "studies/sweep_options.hpp"
 #include "studies/tolerance_options.hpp"
 

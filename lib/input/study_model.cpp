@@ -23,7 +23,6 @@
 #include "gear/warnings.hpp"
 #include "input/claims_input.hpp"
 #include "input/derived_study.hpp"
-#include "input/speed_aliases.hpp"
 #include "input/stage_completion.hpp"
 #include "integrate/methods.hpp"
 #include "studies/named_parameters.hpp"
@@ -180,25 +179,12 @@ class OptionInputs {
     const std::scoped_lock lock(mutex_);
     std::shared_ptr<const LoadedInput>& input = made_[options];
     if (input == nullptr) {
-      std::vector<Assignment> sets = option_assignments(space, options);
-      input = std::make_shared<const LoadedInput>(given_.with_further(sets));
-      if (!options.empty()) keep_noted_speed(std::move(sets), input);
+      input = std::make_shared<const LoadedInput>(given_.with_further(option_assignments(space, options)));
     }
     return input;
   }
 
  private:
-  /// A resolved input notes its speed in rpm as that of the stage that it has: of another option's it is still given.
-  void keep_noted_speed(std::vector<Assignment> sets, std::shared_ptr<const LoadedInput>& input) {
-    for (const SpeedAlias& alias : speed_aliases()) {
-      const std::optional<double>& value = given_.given_speed.*alias.given;
-      if (!value || input->given_speed.*alias.given) continue;
-      // First, so that an option's own speed counts.
-      sets.insert(sets.begin(), Assignment{"/operation/" + std::string(alias.key), *value, {}});
-      input = std::make_shared<const LoadedInput>(given_.with_further(sets));
-    }
-  }
-
   LoadedInput given_;  ///< without an option
   std::mutex mutex_;
   std::map<std::vector<std::size_t>, std::shared_ptr<const LoadedInput>> made_;
@@ -217,8 +203,7 @@ json candidate_input(const LoadedInput& given, const studies::ParameterSpace& sp
                      const std::string& origin) {
   OptionInputs inputs(given);
   const std::shared_ptr<const LoadedInput> input = inputs.of(space, space.options_at(u));
-  return with_origins(input->resolved_with(at_given_speed(*input, candidate_values(space, u))),
-                      candidate_assignments(space, u), origin);
+  return with_origins(input->resolved_with(candidate_values(space, u)), candidate_assignments(space, u), origin);
 }
 
 studies::CandidateModels candidate_models(const LoadedInput& given) {

@@ -64,8 +64,8 @@ const Bounds smoothing_width = between(0, 10);
 const Bounds component_value = between(-1e6, 1e6);  // below it a motion has diverged
 
 const std::string parameter_words =
-    "Name of the parameter, or a JSON pointer to a number of the input; values of sun_speed_rpm, carrier_speed_rpm and "
-    "mesh_frequency_Hz become those of mesh_frequency_ratio.";
+    "Name of the parameter, or a JSON pointer to a number of the input; sun_speed_rpm, carrier_speed_rpm and "
+    "mesh_frequency_Hz are the mesh frequency ratio, with values in rpm and Hz.";
 
 constexpr auto itself = [](auto& t) -> auto& { return t; };
 
@@ -399,7 +399,11 @@ const Table<gear::Load>& load_table() {
 const Table<Study>& operation_table() {
   static const auto table = [] {
     Table<Study> t("operation", "The operating point.");
-    t.number("mesh_frequency_ratio", &Study::mesh_frequency_ratio, frequency_ratio,
+    // Not beside a speed that is given in its place.
+    const table_detail::Access<Study, double> omega = {
+        [](Study& s) -> double& { return s.mesh_frequency_ratio; },
+        [](const Study& s) { return s.given_speed.any() ? nullptr : &s.mesh_frequency_ratio; }};
+    t.number("mesh_frequency_ratio", omega, frequency_ratio,
              "Mesh frequency over the reference frequency omega_sn [-], where no sweep varies it.");
     const auto speed = [&](const char* key, std::optional<double> GivenSpeed::*member, const char* description) {
       t.number(

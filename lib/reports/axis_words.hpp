@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/text.hpp"
-#include "studies/speed_note.hpp"
+#include "studies/speed_unit.hpp"
 #include "studies/sweep_options.hpp"
 
 namespace epicyclic::reports {

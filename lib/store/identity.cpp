@@ -1,7 +1,6 @@
 #include "store/identity.hpp"
 
 #include <cstddef>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,7 +9,6 @@
 #include "store/digest.hpp"
 #include "store/journal.hpp"
 #include "studies/claims.hpp"
-#include "studies/speed_note.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::store {
@@ -29,32 +27,11 @@ nlohmann::json identifying_values(nlohmann::json value, const nlohmann::json& co
   return value;
 }
 
-/// A speed that is noted in the origin of the number at a place.
-std::optional<studies::SpeedNote> speed_noted_at(const nlohmann::json& resolved,
-                                                 const nlohmann::json::json_pointer& at) {
-  if (at.empty()) return std::nullopt;
-  const nlohmann::json::json_pointer origin = at.parent_pointer() / "origin" / at.back();
-  if (!resolved.contains(origin) || !resolved.at(origin).is_string()) return std::nullopt;
-  return studies::find_speed_note(resolved.at(origin).get_ref<const std::string&>());
-}
-
-/// What decides in a study: its values, and of claims, which keep a speed as it was given where a sweep or a candidate
-/// changes the stage, that speed.
-nlohmann::json identifying_study(const ResolvedValues& input) {
-  nlohmann::json values = identifying_values(input.resolved, input.computed);
-  static const nlohmann::json::json_pointer kind("/study/kind");
-  static const nlohmann::json::json_pointer operation("/operation");
-  if (!values.contains(kind) || values.at(kind) != "claims") return values;
-  if (const auto noted = speed_noted_at(input.resolved, operation / studies::speed_parameter))
-    values[operation / noted->key] = noted->value;
-  return values;
-}
-
 }  // namespace
 
 std::string identity(const ResolvedValues& input, std::string_view command) {
   nlohmann::json what = {{"command", command},
-                         {"input", identifying_study(input)},
+                         {"input", identifying_values(input.resolved, input.computed)},
                          {"journal_format", journal_format_version},
                          {"numerics", studies::numerics_version}};
   // What these keep of a candidate is how it was judged.
@@ -62,14 +39,9 @@ std::string identity(const ResolvedValues& input, std::string_view command) {
   return sha256_hex(canonical_json(what));
 }
 
-std::string given_as(const nlohmann::json& resolved, const std::string& pointer) {
-  const auto noted = speed_noted_at(resolved, nlohmann::json::json_pointer(pointer));
-  return noted ? fmt::format(" ({})", noted->text) : std::string();
-}
-
 std::vector<Difference> differing_values(const ResolvedValues& there, const ResolvedValues& here) {
-  const nlohmann::json from = identifying_study(there);
-  const nlohmann::json to = identifying_study(here);
+  const nlohmann::json from = identifying_values(there.resolved, there.computed);
+  const nlohmann::json to = identifying_values(here.resolved, here.computed);
   const auto text = [](const nlohmann::json& values, const nlohmann::json& resolved,
                        const nlohmann::json::json_pointer& at) {
     constexpr std::size_t longest = 60;
@@ -78,7 +50,7 @@ std::vector<Difference> differing_values(const ResolvedValues& there, const Reso
                                                         : nullptr;
     if (value == nullptr) return std::string("nothing");
     std::string shown = value->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    return shown.size() <= longest ? shown + given_as(resolved, at.to_string()) : std::string("another value");
+    return shown.size() <= longest ? shown : std::string("another value");
   };
   std::vector<Difference> all;
   for (const nlohmann::json& change : nlohmann::json::diff(from, to)) {

@@ -23,10 +23,6 @@ struct ResolvedValues {
 /// SHA-256 (64 hexadecimal digits) of what decides, with the command and the versions of journal and numerics.
 [[nodiscard]] std::string identity(const ResolvedValues& input, std::string_view command);
 
-/// The number at a place of a resolved input as it was given where that was another quantity, " (sun_speed_rpm =
-/// 4000)", by its origin; else nothing.
-[[nodiscard]] std::string given_as(const nlohmann::json& resolved, const std::string& pointer);
-
 /// Where two studies differ in what identifies them.
 struct Difference {
   std::string pointer;

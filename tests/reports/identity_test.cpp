@@ -391,20 +391,6 @@ TEST_F(IdentityOf, AStudyToldAsAnotherSaysInWhatIsGiven) {
   EXPECT_EQ(lines[0].rfind("/stage/lumped/sun/mass_kg: 1.65", 0), 0U) << lines[0];
 }
 
-TEST(GivenAs, IsASpeedOfTheOriginAndNothingElse) {
-  const json study = {{"from", 0.85},
-                      {"to", 1.0},
-                      {"points", 3},
-                      {"origin",
-                       {{"from", "choice: run-up, sun_speed_rpm = 19600"},
-                        {"to", "choice: E = 3 um"},
-                        {"points", "choice: pump_rpm = 3"}}}};
-  const json resolved = {{"study", study}};
-  EXPECT_EQ(store::given_as(resolved, "/study/from"), " (sun_speed_rpm = 19600)");
-  for (const char* place : {"/study/to", "/study/points", "/study/none", "/none/from", "/study", ""})
-    EXPECT_EQ(store::given_as(resolved, place), "") << place;
-}
-
 TEST_F(IdentityOf, ARecordOfAnEarlierProgramIsStillOfTheSameStudy) {
   json earlier = resolved;
   ASSERT_EQ(earlier["model"].erase("centrifugal"), 1U);
