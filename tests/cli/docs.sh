@@ -4,14 +4,14 @@
 # What README.md and docs/ tell readers to type, works: each `app/run ...` of a table and of a block marked sh, with the
 # files of blocks that stand behind "<!-- file: NAME -->". Studies are cut to a few points and periods, and drawn once for
 # each command; that each key is known, each file there and each command ends with 0 stays true. Links and pictures of the
-# pages lead to files.
+# pages lead to files. Blocks marked bash are those of the tutorials, whose commands need each other: tutorials.sh.
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 source_dir=$2
 
-pages=("$source_dir/README.md" "$source_dir"/docs/*.md)
-[ ${#pages[@]} -gt 5 ] || fail "docs/ is missing"
+pages=("$source_dir/README.md" "$source_dir"/docs/*.md "$source_dir"/docs/*/*.md)
+[ ${#pages[@]} -gt 20 ] || fail "docs/ is missing"
 cp -r "$inputs" inputs
 
 # Files that the pages give, under the names that they give them.
