@@ -115,7 +115,7 @@ struct Pulls {
     return fmt::format(
         "teeth pull at {} {}, with up to {:.3g} times the static mesh force and for up to {:.1f} % of the time "
         "(pull_sp, pull_rp, pull_time_sp and pull_time_rp of points.csv): it is the damping that pulls; "
-        "docs/regimes.md says what /model/gap_damping has to do with it",
+        "docs/reference/model_options.md says what /model/gap_damping has to do with it",
         points, noun, force, 100.0 * time);
   }
 };

@@ -665,8 +665,8 @@ PlotOptions sound_options(const std::vector<PlottedStudy>& studies, PlotOptions 
     }
     if (!has(known, options.quantity) && has(known, options.quantity + "_1")) options.quantity += "_1";
     if (!has(known, options.quantity))
-      throw InputError(fmt::format("plot: {} has no quantity '{}'{}; docs/output.md lists them", s.folder.string(),
-                                   options.quantity, input::suggestion(options.quantity, known)));
+      throw InputError(fmt::format("plot: {} has no quantity '{}'{}; docs/reference/columns.md lists them",
+                                   s.folder.string(), options.quantity, input::suggestion(options.quantity, known)));
   }
   for (const std::string& column : {options.quantity, options.abscissa})
     if (is_of_words(column)) throw InputError("plot: '" + column + "' is a column of words, which no axis has");

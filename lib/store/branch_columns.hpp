@@ -1,5 +1,5 @@
 // The columns of orbits on branches and of special points: one list each behind branch.csv and special.csv, the groups
-// /branches and /special of results.h5, and docs/output.md. What a sweep has too has its name and unit.
+// /branches and /special of results.h5, and docs/reference/columns.md. What a sweep has too has its name and unit.
 #pragma once
 
 #include <complex>

@@ -1,4 +1,5 @@
-// A column of a table of rows: one list of them is behind a CSV file, a group of results.h5 and docs/output.md.
+// A column of a table of rows: one list of them is behind a CSV file, a group of results.h5 and
+// docs/reference/columns.md.
 #pragma once
 
 #include <cstdint>

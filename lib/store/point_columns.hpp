@@ -1,4 +1,5 @@
-// The columns of a study's points: one list behind points.csv, the group /points of results.h5 and docs/output.md.
+// The columns of a study's points: one list behind points.csv, the group /points of results.h5 and
+// docs/reference/columns.md.
 #pragma once
 
 #include <cstddef>

@@ -186,7 +186,7 @@ TEST(PointColumns, AreEachOfANumberOfItsOwn) {
 }
 
 TEST(PointColumns, StandInTheDocumentation) {
-  const std::string page = contents("docs/output.md");
+  const std::string page = contents("docs/reference/columns.md");
   std::size_t from = 0;
   expect_documented(store::point_columns(0), page, from);
   expect_documented(store::branch_columns(0), page, from);
