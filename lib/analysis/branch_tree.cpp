@@ -145,8 +145,10 @@ void BranchTree::apply(TreeStep step) {
   std::move(step.same_as.begin(), step.same_as.end(), std::back_inserter(same_as_));
   // Before starts of others, which may be on what leaves here.
   const auto others = std::find_if(starts_.begin(), starts_.end(), [](const BranchStart& s) { return !s.from; });
-  starts_.insert(others, std::make_move_iterator(step.departures.begin()),
-                 std::make_move_iterator(step.departures.end()));
+  // Of no elements libstdc++'s deque moves those before the place onto themselves, which empties their vectors.
+  if (!step.departures.empty())
+    starts_.insert(others, std::make_move_iterator(step.departures.begin()),
+                   std::make_move_iterator(step.departures.end()));
   if (step.orbit) way.orbits.push_back(*std::move(step.orbit));
   trace_->restore(std::move(step.trace));
   if (step.limit) end_way(*step.limit);

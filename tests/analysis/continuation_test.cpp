@@ -556,6 +556,23 @@ TEST(Tree, AStartOnAKnownBranchIsNotFollowedAgain) {
   EXPECT_EQ(tree.branches().size(), 1U);
 }
 
+TEST(Tree, OrbitsThatLeaveStayWholeWhileOtherStartsWait) {
+  const FieldFamily fields = problems::duffing(0.3, -1.0, 1.2);
+  const OrbitFamily family{flows(fields, 1e-8)};
+  BranchTree tree(family, {.continuation = {.from = 0.1, .to = 0.3}, .special = with_bounds(fields)});
+  for (const double g : {0.2, 0.15, 0.14, 0.13, 0.12}) {
+    const Correction first = first_orbit(family, g, settled(family.flows, g, {1.0, 0.0}, 100));
+    ASSERT_TRUE(first.found);
+    tree.start(first.orbit);
+  }
+  while (tree.advance()) {
+  }
+  ASSERT_EQ(tree.branches().size(), 2U);
+  for (const Branch& branch : tree.branches())
+    for (const BranchOrbit& orbit : branch.orbits)
+      EXPECT_EQ(orbit.monodromy.factors.size(), static_cast<std::size_t>(branch.family.pieces)) << orbit.at.value;
+}
+
 TEST(Tree, GoesOnFromItsStepsWithTheSameBits) {
   const FieldFamily fields = problems::duffing(0.3, -1.0, 1.2);
   const OrbitFamily family{flows(fields, 1e-8)};
