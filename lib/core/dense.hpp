@@ -11,12 +11,12 @@ namespace epicyclic {
 /// x with A x = b, A regular (LU with partial pivoting). Of a singular A it is not finite or has no meaning.
 [[nodiscard]] Eigen::VectorXd solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
-/// Eigenvalues of a general matrix, in no particular order.
+/// Eigenvalues of a general matrix, in no particular order; not numbers if the iteration does not converge.
 [[nodiscard]] Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& a);
 /// Those of a complex one.
 [[nodiscard]] Eigen::VectorXcd complex_eigenvalues(const Eigen::MatrixXcd& a);
 
-/// A = U diag(s) V^T, singular values falling.
+/// A = U diag(s) V^T of a square A, singular values falling.
 struct SingularValues {
   Eigen::MatrixXd u;
   Eigen::VectorXd s;
@@ -24,10 +24,10 @@ struct SingularValues {
 };
 [[nodiscard]] SingularValues singular_values(const Eigen::MatrixXd& a);
 
-/// v of length 1 with |A v| least.
+/// v of length 1 with |A v| least, A square.
 [[nodiscard]] Eigen::VectorXcd right_null_vector(const Eigen::MatrixXcd& a);
 
-/// U alone, of a complex matrix.
+/// U alone, of a complex square matrix.
 [[nodiscard]] Eigen::MatrixXcd left_singular_vectors(const Eigen::MatrixXcd& a);
 
 /// Eigenvalues, rising, and eigenvectors as columns.
