@@ -108,16 +108,19 @@ bool has_computed_tables(const gear::Stage& stage) {
 template <std::size_t N, std::size_t W>
 StageLooks stage_looks(Layout layout, const std::shared_ptr<const Parameters<double, N>>& p,
                        const LookKernel<N, W>& kernel) {
+  using Instants = Instant<Lanes<W>, N>;
   struct Looks {
+    Looks(const std::shared_ptr<const Parameters<double, N>>& all, std::size_t size)
+        : lanes(all), count(size), instants(std::make_unique<Instants[]>(size)) {}
     LaneParameters<N, W> lanes;
-    std::vector<Instant<Lanes<W>, N>> instants;
+    std::size_t count;
+    std::unique_ptr<Instants[]> instants;
   };
   return [layout, p, kernel](std::span<const double> phases) -> StageLook {
-    const auto looks = std::make_shared<Looks>(Looks{LaneParameters<N, W>(p), {}});
     const std::size_t groups = (phases.size() + looks_together - 1) / looks_together;
-    looks->instants.resize(groups * looks_together / W);
+    const auto looks = std::make_shared<Looks>(p, groups * looks_together / W);
     alignas(sizeof(double) * W) std::array<double, W> s;
-    for (std::size_t k = 0; k < looks->instants.size(); ++k) {
+    for (std::size_t k = 0; k < looks->count; ++k) {
       for (std::size_t lane = 0; lane < W; ++lane) {
         s[lane] = phases[std::min(k * W + lane, phases.size() - 1)];
         looks->lanes.set_segment(lane, segment_at(p->breakpoints, s[lane]));

@@ -1,7 +1,7 @@
 #include "model/lane_field.hpp"
 
+#include <cstddef>
 #include <memory>
-#include <vector>
 
 #include "core/errors.hpp"
 #include "model/dispatch.hpp"
@@ -20,19 +20,25 @@ LaneField lanes_of(const DynamicModel& like, LaneKernel<N, W> kernel, std::size_
       throw InputError("a system that is no stage of the lanes' structure cannot run beside them");
     return constants;
   };
+  using Instants = Instant<Lanes<W>, N>;
   struct State {
+    explicit State(const std::shared_ptr<const Parameters<double, N>>& p) : lanes(p) {}
     LaneParameters<N, W> lanes;
-    std::vector<Instant<Lanes<W>, N>> instants;
+    std::size_t places = 0;
+    std::unique_ptr<Instants[]> instants;
   };
-  const auto state = std::make_shared<State>(State{LaneParameters<N, W>(point(like)), {}});
+  const auto state = std::make_shared<State>(point(like));
   LaneField f;
   f.width = W;
   f.dimension = like.dimension * (1 + vectors);
   f.load = [state, point](std::size_t lane, const VectorField& field) { state->lanes.load(lane, point(field)); };
   f.set_segment = [state](std::size_t lane, std::size_t segment) { state->lanes.set_segment(lane, segment); };
   f.set_places = [state, kernel](std::size_t count, const double* s) {
-    if (state->instants.size() < count) state->instants.resize(count);
-    kernel.prepare(state->lanes, count, s, state->instants.data());
+    if (state->places < count) {
+      state->instants = std::make_unique<Instants[]>(count);
+      state->places = count;
+    }
+    kernel.prepare(state->lanes, count, s, state->instants.get());
   };
   f.right_hand_side = [state, kernel](std::size_t place, const double* y, double* dyds) {
     kernel.evaluate(state->lanes, state->instants[place], y, dyds);

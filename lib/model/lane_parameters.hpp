@@ -13,6 +13,7 @@
 
 #include "core/errors.hpp"
 #include "core/lanes.hpp"
+#include "model/layout.hpp"
 #include "model/parameters.hpp"
 
 namespace epicyclic::model {
@@ -106,49 +107,68 @@ class LaneParameters {
   using Point = std::shared_ptr<const Parameters<double, N>>;
 
   /// All lanes at one point.
-  explicit LaneParameters(const Point& first) : constants_(convert<Lanes<W>>(*first)) {
-    for (std::size_t lane = 0; lane < W; ++lane) load(lane, first);
-  }
+  explicit LaneParameters(const Point& first);
 
   /// @throws InputError when the point does not have the structure of the first one
-  void load(std::size_t lane, const Point& point) {
-    check(*point);
-    std::vector<double> values;
-    for_each_constant(*point, [&](double x) { values.push_back(x); });
-    auto next = values.begin();
-    for_each_constant(constants_, [&](Lanes<W>& x) { x.set(lane, *next++); });
-    points_[lane] = point;
-    set_segment(lane, 0);
-  }
+  void load(std::size_t lane, const Point& point);
 
-  void set_segment(std::size_t lane, std::size_t segment) {
-    const Parameters<double, N>& p = *points_[lane];
-    segment_.sun_planet.set(lane, p.sun_planet, p.segments[segment].sun_planet);
-    segment_.ring_planet.set(lane, p.ring_planet, p.segments[segment].ring_planet);
-  }
+  void set_segment(std::size_t lane, std::size_t segment);
 
   [[nodiscard]] const Parameters<Lanes<W>, N>& constants() const { return constants_; }
   [[nodiscard]] const LaneSegment<N, W>& segment() const { return segment_; }
 
  private:
-  void check(const Parameters<double, N>& p) const {
-    const auto& own = constants_;
-    const auto mesh_fits = [](const MeshParameters<double, N>& m, const MeshParameters<Lanes<W>, N>& to) {
-      bool alike = m.harmonics == to.harmonics && (m.friction != nullptr) == (to.friction != nullptr) &&
-                   (m.stiffness_curve != nullptr) == (to.stiffness_curve != nullptr);
-      for (std::size_t i = 0; i < N; ++i) alike = alike && m.turns[i] == to.turns[i];
-      return alike;
-    };
-    if (!mesh_fits(p.sun_planet, own.sun_planet) || !mesh_fits(p.ring_planet, own.ring_planet) ||
-        p.sun_law != own.sun_law || p.gyroscopic_relative != own.gyroscopic_relative ||
-        p.gyroscopic_carrier_row != own.gyroscopic_carrier_row || p.smooth != own.smooth ||
-        p.gap_damping != own.gap_damping)
-      throw InputError("operating points of different structure cannot run side by side");
-  }
+  void check(const Parameters<double, N>& p) const;
 
   Parameters<Lanes<W>, N> constants_;
   LaneSegment<N, W> segment_;
   std::array<Point, W> points_;
 };
+
+template <std::size_t N, std::size_t W>
+LaneParameters<N, W>::LaneParameters(const Point& first) : constants_(without_constants<Lanes<W>>(*first)) {
+  for (std::size_t lane = 0; lane < W; ++lane) load(lane, first);
+}
+
+template <std::size_t N, std::size_t W>
+void LaneParameters<N, W>::load(std::size_t lane, const Point& point) {
+  check(*point);
+  const std::vector<double> values = constant_values(*point);
+  auto next = values.begin();
+  for_each_constant(constants_, [&](Lanes<W>& x) { x.set(lane, *next++); });
+  points_[lane] = point;
+  set_segment(lane, 0);
+}
+
+template <std::size_t N, std::size_t W>
+void LaneParameters<N, W>::set_segment(std::size_t lane, std::size_t segment) {
+  const Parameters<double, N>& p = *points_[lane];
+  segment_.sun_planet.set(lane, p.sun_planet, p.segments[segment].sun_planet);
+  segment_.ring_planet.set(lane, p.ring_planet, p.segments[segment].ring_planet);
+}
+
+template <std::size_t N, std::size_t W>
+void LaneParameters<N, W>::check(const Parameters<double, N>& p) const {
+  const auto& own = constants_;
+  const auto mesh_fits = [](const MeshParameters<double, N>& m, const MeshParameters<Lanes<W>, N>& to) {
+    bool alike = m.harmonics == to.harmonics && (m.friction != nullptr) == (to.friction != nullptr) &&
+                 (m.stiffness_curve != nullptr) == (to.stiffness_curve != nullptr);
+    for (std::size_t i = 0; i < N; ++i) alike = alike && m.turns[i] == to.turns[i];
+    return alike;
+  };
+  if (!mesh_fits(p.sun_planet, own.sun_planet) || !mesh_fits(p.ring_planet, own.ring_planet) ||
+      p.sun_law != own.sun_law || p.gyroscopic_relative != own.gyroscopic_relative ||
+      p.gyroscopic_carrier_row != own.gyroscopic_carrier_row || p.smooth != own.smooth ||
+      p.gap_damping != own.gap_damping)
+    throw InputError("operating points of different structure cannot run side by side");
+}
+
+// Compiled once, in lane_parameters.cpp.
+#define EPICYCLIC_LANES_OF(N)                 \
+  extern template class LaneParameters<N, 2>; \
+  extern template class LaneParameters<N, 4>; \
+  extern template class LaneParameters<N, 8>;
+EPICYCLIC_FOR_PLANETS(EPICYCLIC_LANES_OF)
+#undef EPICYCLIC_LANES_OF
 
 }  // namespace epicyclic::model

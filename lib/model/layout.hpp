@@ -128,3 +128,17 @@ void pack(Layout layout, const Coordinates<T, N>& c, T* q) {
 [[nodiscard]] std::vector<std::string> coordinate_names(Layout layout, int planets);
 
 }  // namespace epicyclic::model
+
+/// EPICYCLIC_FOR_PLANETS(X) for each number of planets: X(planets).
+#define EPICYCLIC_FOR_PLANETS(X) X(2) X(3) X(4) X(5) X(6)
+/// EPICYCLIC_FOR_LAYOUTS(X): X(layout, planets) for each that is integrated.
+#define EPICYCLIC_FOR_LAYOUTS_OF(X, N) \
+  X(Layout::relative_to_ring, N)       \
+  X(Layout::relative_to_carrier, N)    \
+  X(Layout::relative_to_carrier_rigid_ring, N)
+#define EPICYCLIC_FOR_LAYOUTS(X) \
+  EPICYCLIC_FOR_LAYOUTS_OF(X, 2) \
+  EPICYCLIC_FOR_LAYOUTS_OF(X, 3) \
+  EPICYCLIC_FOR_LAYOUTS_OF(X, 4) \
+  EPICYCLIC_FOR_LAYOUTS_OF(X, 5) \
+  EPICYCLIC_FOR_LAYOUTS_OF(X, 6)

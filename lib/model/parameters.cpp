@@ -327,7 +327,15 @@ Parameters<double, N> make_parameters(const gear::Stage& stage, const Scales& sc
   return p;
 }
 
+template <std::size_t N>
+std::vector<double> constant_values(const Parameters<double, N>& p) {
+  std::vector<double> values;
+  for_each_constant(p, [&](double x) { values.push_back(x); });
+  return values;
+}
+
 #define EPICYCLIC_INSTANTIATE(N)                                                                                    \
+  template std::vector<double> constant_values<N>(const Parameters<double, N>&);                                    \
   template Parameters<double, N> make_geometry<N>(const gear::Stage&);                                              \
   template Parameters<double, N> make_parameters<N>(const gear::Stage&, const Scales&, double, const ModelOptions&, \
                                                     const Parameters<double, N>*);

@@ -169,9 +169,13 @@ void for_each_constant(P& p, const F& f) {
   f(p.smoothing);
 }
 
-/// Constants of doubles in another scalar type; tables as they are.
+/// All of them in that order.
+template <std::size_t N>
+[[nodiscard]] std::vector<double> constant_values(const Parameters<double, N>& p);
+
+/// All but the constants, which are of another scalar type and not set to anything; tables as they are.
 template <class T, std::size_t N>
-[[nodiscard]] Parameters<T, N> convert(const Parameters<double, N>& p) {
+[[nodiscard]] Parameters<T, N> without_constants(const Parameters<double, N>& p) {
   Parameters<T, N> r;
   const auto mesh = [](const MeshParameters<double, N>& from, MeshParameters<T, N>& to) {
     to.harmonics = from.harmonics;
@@ -192,8 +196,14 @@ template <class T, std::size_t N>
   r.breakpoints = p.breakpoints;
   r.segments = p.segments;
   r.sampling_interval = p.sampling_interval;
-  std::vector<double> constants;
-  for_each_constant(p, [&](double x) { constants.push_back(x); });
+  return r;
+}
+
+/// Constants of doubles in another scalar type; tables as they are.
+template <class T, std::size_t N>
+[[nodiscard]] Parameters<T, N> convert(const Parameters<double, N>& p) {
+  auto r = without_constants<T>(p);
+  const std::vector<double> constants = constant_values(p);
   auto next = constants.begin();
   for_each_constant(r, [&](T& x) { x = T(*next++); });
   return r;

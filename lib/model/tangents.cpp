@@ -57,7 +57,7 @@ ParameterFunction make_parameter_derivative(Layout layout, const Parameters<doub
   for (std::size_t k = 0; k < 4; ++k) {
     if (near[k].breakpoints != p.breakpoints)
       throw InputError("the parameter moves a breakpoint in the mesh phase; there is no derivative");
-    for_each_constant(near[k], [&](double x) { constants[k].push_back(x); });
+    constants[k] = constant_values(near[k]);
   }
   auto dual = std::make_shared<Parameters<D, N>>(convert<D>(p));
   std::size_t at = 0;

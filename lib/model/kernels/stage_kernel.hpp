@@ -45,17 +45,3 @@ template <std::size_t N, std::size_t M>
 [[nodiscard]] TangentKernel<N, M> tangent_kernel(const char* name);
 
 }  // namespace epicyclic::model
-
-/// EPICYCLIC_FOR_PLANETS(X) for each number of planets: X(planets).
-#define EPICYCLIC_FOR_PLANETS(X) X(2) X(3) X(4) X(5) X(6)
-/// EPICYCLIC_FOR_LAYOUTS(X): X(layout, planets) for each that is integrated.
-#define EPICYCLIC_FOR_LAYOUTS_OF(X, N) \
-  X(Layout::relative_to_ring, N)       \
-  X(Layout::relative_to_carrier, N)    \
-  X(Layout::relative_to_carrier_rigid_ring, N)
-#define EPICYCLIC_FOR_LAYOUTS(X) \
-  EPICYCLIC_FOR_LAYOUTS_OF(X, 2) \
-  EPICYCLIC_FOR_LAYOUTS_OF(X, 3) \
-  EPICYCLIC_FOR_LAYOUTS_OF(X, 4) \
-  EPICYCLIC_FOR_LAYOUTS_OF(X, 5) \
-  EPICYCLIC_FOR_LAYOUTS_OF(X, 6)
