@@ -568,7 +568,7 @@ ordered_json object_schema(const std::string& title, const std::string& descript
 
 }  // namespace table_detail
 
-AnyField& AnyTable::add_leaf(std::string_view key, table_detail::AnyAccess at, table_detail::AnyFormat format,
+AnyField& AnyTable::add_leaf(std::string_view key, const table_detail::AnyAccess& at, table_detail::AnyFormat format,
                              std::string_view description) {
   AnyField& field = fields_.emplace_back();
   field.key = key;
@@ -577,15 +577,13 @@ AnyField& AnyTable::add_leaf(std::string_view key, table_detail::AnyAccess at, t
     const void* found = find(object);
     return found == nullptr ? json() : write(found);
   };
-  field.read = [at = std::move(at), read = std::move(format.read)](const json& value, const std::string& pointer,
-                                                                   void* object, ReadContext& context) {
-    read(value, pointer, at, object, context);
-  };
+  field.read = [at, read = std::move(format.read)](const json& value, const std::string& pointer, void* object,
+                                                   ReadContext& context) { read(value, pointer, at, object, context); };
   field.schema = std::move(format.schema);
   return field;
 }
 
-AnyField& AnyTable::add_object(std::string_view key, table_detail::AnyAccess at, const AnyTable& table) {
+AnyField& AnyTable::add_object(std::string_view key, const table_detail::AnyAccess& at, const AnyTable& table) {
   AnyField& field = fields_.emplace_back();
   field.key = key;
   field.description = table.description();
@@ -602,27 +600,27 @@ AnyField& AnyTable::add_object(std::string_view key, table_detail::AnyAccess at,
   field.collect = [&table](const std::string& pointer, std::vector<KeyPlace>& places) {
     table.collect(pointer, places);
   };
-  field.change = [at = std::move(at), &table](std::string_view rest, double number, const std::string& pointer,
-                                              void* object, ReadContext& context) {
+  field.change = [at, &table](std::string_view rest, double number, const std::string& pointer, void* object,
+                              ReadContext& context) {
     return at.find(object) != nullptr && table.change_any(rest, number, pointer, at.make(object), context);
   };
   return field;
 }
 
-AnyField& AnyTable::add_objects(std::string_view key, table_detail::AnyAccess at, table_detail::AnyList list,
+AnyField& AnyTable::add_objects(std::string_view key, const table_detail::AnyAccess& at, table_detail::AnyList list,
                                 const AnyTable& table, std::size_t most, std::string_view description) {
   AnyField& field = fields_.emplace_back();
   field.key = key;
   field.description = description;
-  field.read = [make = std::move(at.make), list, &table, most](const json& value, const std::string& pointer,
-                                                               void* object, ReadContext& context) {
+  field.read = [make = at.make, list, &table, most](const json& value, const std::string& pointer, void* object,
+                                                    ReadContext& context) {
     if (!table_detail::check_list(value, pointer, most, context)) return;
     void* elements = make(object);
     list.clear(elements);
     for (std::size_t k = 0; k < value.size(); ++k)
       table.read_any(value[k], pointer + "/" + std::to_string(k), list.append(elements), context);
   };
-  field.write = [find = std::move(at.find), list, &table](const void* object) {
+  field.write = [find = at.find, list, &table](const void* object) {
     json written = json::array();
     if (const void* found = find(object))
       for (std::size_t k = 0; k < list.size(found); ++k) written.push_back(table.write_any(list.element(found, k)));

@@ -17,9 +17,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -133,19 +135,63 @@ struct Plain<std::optional<V>> {
 /// Is it a list of at most so many objects? If not, says so.
 bool check_list(const json& value, const std::string& pointer, std::size_t most, ReadContext& context);
 
-/// Reaches a member of an object, by their addresses: to write (making what is absent) and to read (null if absent).
-struct AnyAccess {
-  std::function<void*(void*)> make;
-  std::function<const void*(const void*)> find;
+/// A function from address to address, with what it captures. std::function takes any signature and any capture, and a
+/// compiler several times as long for each of 300 members.
+template <class Void>
+class Reach {
+ public:
+  template <class F>
+  Reach(Void* (*call)(const void* captured, Void* object), const F& captured) : call_(call) {
+    static_assert(std::is_trivially_copyable_v<F> && sizeof(F) <= room && alignof(F) <= alignof(void*));
+    std::memcpy(captured_.data(), &captured, sizeof(F));
+  }
+
+  Void* operator()(Void* object) const { return call_(captured_.data(), object); }
+
+ private:
+  static constexpr std::size_t room = 32;
+  Void* (*call_)(const void*, Void*);
+  alignas(void*) std::array<std::byte, room> captured_{};
 };
 
-/// The same of a member V of a T, from [](T&) -> V& and [](const T&) -> const V*.
+/// Reaches a member of an object, by their addresses: to write (making what is absent) and to read (null if absent).
+struct AnyAccess {
+  Reach<void> make;
+  Reach<const void> find;
+};
+
+/// The same of a member V of a T.
 template <class T, class V>
 struct Access : AnyAccess {
+  /// From [](T&) -> V& and [](const T&) -> const V*.
   template <class Make, class Find>
   Access(Make make_member, Find find_member)
-      : AnyAccess{[=](void* t) -> void* { return &make_member(*static_cast<T*>(t)); },
-                  [=](const void* t) -> const void* { return find_member(*static_cast<const T*>(t)); }} {}
+      : AnyAccess{{[](const void* f, void* t) -> void* { return &(*static_cast<const Make*>(f))(*static_cast<T*>(t)); },
+                   make_member},
+                  {[](const void* f, const void* t) -> const void* {
+                     return (*static_cast<const Find*>(f))(*static_cast<const T*>(t));
+                   },
+                   find_member}} {}
+
+  /// From a member's pointer or [](auto& t) -> auto&.
+  template <class F>
+  explicit Access(F member)
+      : AnyAccess{{[](const void* f, void* t) -> void* { return &of(*static_cast<const F*>(f), *static_cast<T*>(t)); },
+                   member},
+                  {[](const void* f, const void* t) -> const void* {
+                     return &of(*static_cast<const F*>(f), *static_cast<const T*>(t));
+                   },
+                   member}} {}
+
+ private:
+  template <class F, class Object>
+  static auto& of(const F& member, Object& object) {
+    if constexpr (std::is_member_object_pointer_v<F>) {
+      return object.*member;
+    } else {
+      return member(object);
+    }
+  }
 };
 
 template <class T, class F>
@@ -153,9 +199,7 @@ auto access(F member) {
   if constexpr (std::derived_from<F, AnyAccess>) {
     return member;
   } else {
-    using V = std::remove_reference_t<std::invoke_result_t<F, T&>>;
-    return Access<T, V>{[member](T& t) -> V& { return std::invoke(member, t); },
-                        [member](const T& t) -> const V* { return &std::invoke(member, t); }};
+    return Access<T, std::remove_reference_t<std::invoke_result_t<F, T&>>>(member);
   }
 }
 
@@ -391,10 +435,10 @@ class AnyTable {
       : name_(name), description_(description), make_plain_(std::move(make_plain)) {}
 
   AnyField& add(AnyField field) { return fields_.emplace_back(std::move(field)); }
-  AnyField& add_leaf(std::string_view key, table_detail::AnyAccess at, table_detail::AnyFormat format,
+  AnyField& add_leaf(std::string_view key, const table_detail::AnyAccess& at, table_detail::AnyFormat format,
                      std::string_view description);
-  AnyField& add_object(std::string_view key, table_detail::AnyAccess at, const AnyTable& table);
-  AnyField& add_objects(std::string_view key, table_detail::AnyAccess at, table_detail::AnyList list,
+  AnyField& add_object(std::string_view key, const table_detail::AnyAccess& at, const AnyTable& table);
+  AnyField& add_objects(std::string_view key, const table_detail::AnyAccess& at, table_detail::AnyList list,
                         const AnyTable& table, std::size_t most, std::string_view description);
 
   void read_any(const json& value, const std::string& pointer, void* object, ReadContext& context) const;
