@@ -15,9 +15,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "claims.hpp"
 #include "commands.hpp"
 #include "core/text.hpp"
+#include "input/added_kind.hpp"
 #include "input/study_model.hpp"
 #include "progress.hpp"
 #include "reports/gear_report.hpp"
@@ -25,7 +25,6 @@
 #include "session.hpp"
 #include "stop.hpp"
 #include "streams.hpp"
-#include "studies/calibration.hpp"
 #include "studies/crosscheck.hpp"
 #include "studies/probes.hpp"
 #include "studies/run.hpp"
@@ -332,12 +331,10 @@ int check_command(const Arguments& arguments) {
     tell("{}: valid; a stage alone, for `epicyclic gear`\n", arguments.input.string());
     return done;
   }
-  if (const auto* claims = std::get_if<studies::ClaimsOptions>(&input.study.plan)) {
-    require_models(*claims, input::claim_models(input));
-    if (claims->space.dimension() > 0) examine_candidates(*claims, input::candidate_models(input));
+  if (const auto* added = std::get_if<input::AddedPlan>(&input.study.plan)) {
+    const std::string cost = added->kind->cost(input);
     print("{}\n", input.resolved.dump(2));
-    tell("{}: valid\ncost: {} claims on {} sweeps; a search tries up to {} candidates\n", arguments.input.string(),
-         claims->claims.size(), claims->sweeps.size(), studies::most_evaluations(*claims));
+    tell("{}: valid\ncost: {}\n", arguments.input.string(), cost);
     tell_operation(input);
     return done;
   }

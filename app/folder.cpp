@@ -10,6 +10,7 @@
 #include "core/atomic_file.hpp"
 #include "core/errors.hpp"
 #include "core/version.hpp"
+#include "input/added_kind.hpp"
 #include "input/json_source.hpp"
 #include "input/stage_completion.hpp"
 #include "store/identity.hpp"
@@ -88,10 +89,11 @@ void require_kind(const input::LoadedInput& input, const Arguments& arguments, s
     throw InputError(file + ": is a stage without a study; " + name + " needs a file such as {\"stage\": \"" +
                      arguments.input.filename().string() + "\", \"study\": {\"kind\": \"" + name +
                      "\", ...}}; `epicyclic keys study` lists its keys");
-  if (const std::string own(input.study.kind()); own != kind)
-    throw InputError(
-        file + ": is a study of kind " + own + "; run " +
-        (own == "claims" ? "`epicyclic reproduce`, `calibrate` or `robustness`" : "`epicyclic " + own + "`"));
+  if (const std::string own(input.study.kind()); own != kind) {
+    const auto* added = std::get_if<input::AddedPlan>(&input.study.plan);
+    throw InputError(file + ": is a study of kind " + own + "; run " +
+                     (added != nullptr ? std::string(added->kind->commands) : "`epicyclic " + own + "`"));
+  }
 }
 
 std::int64_t tell_undrawn(const std::vector<reports::DrawnFigure>& figures) {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <sched.h>
 
+#include "claims/claims_commands.hpp"
 #include "commands.hpp"
 #include "core/errors.hpp"
 #include "core/instruction_set.hpp"
@@ -268,6 +269,7 @@ int run(int argc, char** argv) {
   CLI::App cli("Nonlinear dynamics of planetary gear trains, with proof.", "epicyclic");
   cli.set_version_flag("--version", version_text);
   cli.require_subcommand(1);
+  add_claims_kind();
   Arguments arguments;
   arguments.threads = own_cores();
   arguments.ranks = &ranks;

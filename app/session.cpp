@@ -10,8 +10,8 @@
 
 namespace epicyclic::app {
 
-std::string identity_of(const input::LoadedInput& input, std::string_view command) {
-  return store::identity({input.resolved, input.computed}, command);
+std::string identity_of(const input::LoadedInput& input, std::string_view command, std::optional<int> judging) {
+  return store::identity({input.resolved, input.computed}, command, judging);
 }
 
 void tell_warnings(const input::LoadedInput& input) {

@@ -17,7 +17,9 @@
 namespace epicyclic::app {
 
 /// SHA-256 of the study that a command makes of an input.
-[[nodiscard]] std::string identity_of(const input::LoadedInput& input, std::string_view command);
+/// @param judging  version of how its records were judged, if that is what they keep
+[[nodiscard]] std::string identity_of(const input::LoadedInput& input, std::string_view command,
+                                      std::optional<int> judging = {});
 
 /// Says on stderr what is allowed in the input, but rarely meant.
 void tell_warnings(const input::LoadedInput& input);

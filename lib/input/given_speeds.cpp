@@ -3,6 +3,7 @@
 #include <tuple>
 #include <utility>
 
+#include "input/added_kind.hpp"
 #include "input/pointers.hpp"
 #include "studies/named_parameters.hpp"
 
@@ -12,12 +13,6 @@ namespace {
 
 using nlohmann::json;
 using Refuse = std::function<void(Finding::Kind, const std::string&, std::string)>;
-
-void name_speed(std::string& parameter) {
-  if (!parameter.starts_with(operation_root) || parameter.size() <= operation_root.size()) return;
-  const std::string key = pointer_leaf(parameter);
-  if (key == studies::speed_parameter || find_speed_alias(key) != nullptr) parameter = key;
-}
 
 class Conversion {
  public:
@@ -142,6 +137,12 @@ void drop_other_speeds(json& whole, const std::string& key) {
   for (const std::string& other : others) (void)assign(whole, std::string(operation_root) + "/" + other, nullptr);
 }
 
+void name_speed(std::string& parameter) {
+  if (!parameter.starts_with(operation_root) || parameter.size() <= operation_root.size()) return;
+  const std::string key = pointer_leaf(parameter);
+  if (key == studies::speed_parameter || find_speed_alias(key) != nullptr) parameter = key;
+}
+
 void name_speeds(Study& study) {
   if (auto* map = std::get_if<studies::MapOptions>(&study.plan)) {
     name_speed(map->plane.first.name);
@@ -149,8 +150,8 @@ void name_speeds(Study& study) {
   } else if (auto* branches = std::get_if<studies::BranchesOptions>(&study.plan)) {
     name_speed(branches->parameter);
     if (branches->loci) name_speed(branches->loci->parameter);
-  } else if (auto* claims = std::get_if<studies::ClaimsOptions>(&study.plan)) {
-    for (studies::ClaimSweep& sweep : claims->sweeps) name_speed(sweep.axis.name);
+  } else if (const auto* added = std::get_if<AddedPlan>(&study.plan)) {
+    added->kind->name_speeds(study);
   } else if (study.has_points() && !std::holds_alternative<RunPlan>(study.plan) &&
              !std::holds_alternative<studies::BasinsOptions>(study.plan)) {
     name_speed(sweep_in(study.plan).axis.name);

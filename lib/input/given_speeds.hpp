@@ -22,6 +22,7 @@ inline const std::string speed_pointer = "/operation/mesh_frequency_ratio";
 void drop_other_speeds(nlohmann::json& whole, const std::string& key);
 
 /// A parameter that is the pointer of a speed gets the speed's name.
+void name_speed(std::string& parameter);
 void name_speeds(Study& study);
 
 /// The speeds of the operating point and along axes.

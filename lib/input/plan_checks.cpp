@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "input/added_kind.hpp"
 #include "input/pointers.hpp"
 #include "input/speed_aliases.hpp"
 #include "model/dynamic_model.hpp"
@@ -17,6 +18,53 @@ std::string why_no_parameter(const std::string& pointer) {
     return "a component of the start is no parameter of the motion; `epicyclic basins` varies two of them";
   if (pointer == "/stage/planets/count") return "the number of planets changes the state itself and cannot be swept";
   return {};
+}
+
+void check_named_parameter(const studies::Axis& axis, const std::string& place, const IsBad& is_bad,
+                           ReadContext& context, bool other_speeds) {
+  if (axis.name.rfind('/', 0) == 0) return;
+  const studies::NamedParameter* const parameter = studies::find_parameter(axis.name);
+  if (parameter == nullptr) {
+    std::vector<std::string> names;
+    for (const auto& p : studies::named_parameters()) names.push_back(p.name);
+    if (other_speeds)
+      for (const SpeedAlias& alias : speed_aliases()) names.emplace_back(alias.key);
+    context.add(Finding::Kind::range, place + "/parameter",
+                "is \"" + axis.name + "\", must be one of: " + listed(names) +
+                    ", or a JSON pointer to a number, such as /stage/lumped/planet/bearing_N_per_m" +
+                    (nearest(axis.name, names).empty() ? suggested(meant_pointers(axis.name, context.places))
+                                                       : suggestion(axis.name, names)));
+    return;
+  }
+  const Bounds bounds = between(parameter->least, parameter->most);
+  for (const auto& [key, value] : {std::pair("/from", axis.from), std::pair("/to", axis.to)}) {
+    if (!bounds.contains(value) && !is_bad(place + key)) {
+      context.add(Finding::Kind::range, place + key,
+                  "is " + number_text(value) + ", must be " + bounds.text() + " for " + parameter->name + ", " +
+                      parameter->description);
+    }
+  }
+}
+
+namespace {
+
+/// Pointers of the input that a parameter stands for.
+std::vector<std::string> values_set_by(const std::string& parameter) {
+  const studies::NamedParameter* named = studies::find_parameter(parameter);
+  return named == nullptr ? std::vector{parameter} : named->pointers;
+}
+
+}  // namespace
+
+void check_different(const std::string& first_name, const std::string& second_name, const std::string& place,
+                     ReadContext& context) {
+  const auto first = values_set_by(first_name);
+  for (const auto& pointer : values_set_by(second_name))
+    if (std::find(first.begin(), first.end(), pointer) != first.end()) {
+      context.add(Finding::Kind::rule, place,
+                  "is \"" + second_name + "\", which the first axis varies already, by \"" + first_name + "\"");
+      return;
+    }
 }
 
 namespace {
@@ -37,51 +85,6 @@ void check_range(const studies::Axis& axis, const std::string& place, const IsBa
     context.add(Finding::Kind::rule, place + "/points",
                 "is 1, must be >= 2 for the range from " + number_text(axis.from) + " to " + number_text(axis.to));
   }
-}
-
-/// A parameter with a name, and its values. Pointers are checked with the values in place.
-void check_named_parameter(const studies::Axis& axis, const std::string& place, const IsBad& is_bad,
-                           ReadContext& context) {
-  if (axis.name.rfind('/', 0) == 0) return;
-  const studies::NamedParameter* const parameter = studies::find_parameter(axis.name);
-  if (parameter == nullptr) {
-    std::vector<std::string> names;
-    for (const auto& p : studies::named_parameters()) names.push_back(p.name);
-    if (!place.starts_with("/study/sweeps"))  // of claims, whose values are in Omega
-      for (const SpeedAlias& alias : speed_aliases()) names.emplace_back(alias.key);
-    context.add(Finding::Kind::range, place + "/parameter",
-                "is \"" + axis.name + "\", must be one of: " + listed(names) +
-                    ", or a JSON pointer to a number, such as /stage/lumped/planet/bearing_N_per_m" +
-                    (nearest(axis.name, names).empty() ? suggested(meant_pointers(axis.name, context.places))
-                                                       : suggestion(axis.name, names)));
-    return;
-  }
-  const Bounds bounds = between(parameter->least, parameter->most);
-  for (const auto& [key, value] : {std::pair("/from", axis.from), std::pair("/to", axis.to)}) {
-    if (!bounds.contains(value) && !is_bad(place + key)) {
-      context.add(Finding::Kind::range, place + key,
-                  "is " + number_text(value) + ", must be " + bounds.text() + " for " + parameter->name + ", " +
-                      parameter->description);
-    }
-  }
-}
-
-/// Pointers of the input that a parameter stands for.
-std::vector<std::string> values_set_by(const std::string& parameter) {
-  const studies::NamedParameter* named = studies::find_parameter(parameter);
-  return named == nullptr ? std::vector{parameter} : named->pointers;
-}
-
-/// Two parameters that are varied at once set different numbers.
-void check_different(const std::string& first_name, const std::string& second_name, const std::string& place,
-                     ReadContext& context) {
-  const auto first = values_set_by(first_name);
-  for (const auto& pointer : values_set_by(second_name))
-    if (std::find(first.begin(), first.end(), pointer) != first.end()) {
-      context.add(Finding::Kind::rule, place,
-                  "is \"" + second_name + "\", which the first axis varies already, by \"" + first_name + "\"");
-      return;
-    }
 }
 
 /// Rules of the two parameters of a map.
@@ -214,41 +217,12 @@ void check_points(const Study& study, const IsBad& is_bad, ReadContext& context)
   if (!is_bad("/study/parameter")) check_named_parameter(sweep.axis, "/study", is_bad, context);
 }
 
-/// Rules of claims: those of the options themselves, and names of parameters.
-void check_claims(const studies::ClaimsOptions& claims, const IsBad& is_bad, ReadContext& context) {
-  if (is_bad("/study")) return;
-  for (auto& [place, message] : claims.problems())
-    if (!is_bad("/study" + place)) context.add(Finding::Kind::rule, "/study" + place, std::move(message));
-  const studies::LookOptions& look = claims.look;
-  if (look.transient == studies::Transient::adaptive && look.classification_periods == 0)
-    context.add(Finding::Kind::rule, "/study/classification_periods", "is 0, must be >= 1 for an adaptive transient");
-  for (std::size_t k = 0; k < claims.sweeps.size(); ++k) {
-    const studies::ClaimSweep& sweep = claims.sweeps[k];
-    const std::string place = "/study/sweeps/" + std::to_string(k);
-    if (!is_bad(place + "/parameter")) check_named_parameter(sweep.axis, place, is_bad, context);
-    if (std::string why = why_no_parameter(sweep.axis.name); !why.empty())
-      context.add(Finding::Kind::rule, place + "/parameter", std::move(why));
-    for (std::size_t j = 0; j < sweep.at.size(); ++j) {
-      const studies::SetValue& set = sweep.at[j];
-      const std::string at = place + "/at/" + std::to_string(j);
-      if (!is_bad(at + "/parameter") && set.value)
-        check_named_parameter(studies::Axis{set.parameter, *set.value, *set.value, 1}, at, is_bad, context);
-      if (set.value.has_value() != set.as.empty())
-        context.add(Finding::Kind::rule, at, "must have \"value\" or \"as\", and not both");
-      check_different(sweep.axis.name, set.parameter, at + "/parameter", context);
-      for (std::size_t before = 0; before < j; ++before)
-        check_different(sweep.at[before].parameter, set.parameter, at + "/parameter", context);
-      if (std::string why = why_no_parameter(set.parameter); !why.empty())
-        context.add(Finding::Kind::rule, at + "/parameter", std::move(why));
-    }
-  }
-}
-
 }  // namespace
 
 void check_plan(const Study& study, const IsBad& is_bad, ReadContext& context) {
   if (study.has_points()) check_points(study, is_bad, context);
-  if (const auto* claims = std::get_if<studies::ClaimsOptions>(&study.plan)) check_claims(*claims, is_bad, context);
+  if (const auto* added = std::get_if<AddedPlan>(&study.plan); added != nullptr && !is_bad("/study"))
+    added->kind->check(study, is_bad, context);
   if (const auto* branches = std::get_if<studies::BranchesOptions>(&study.plan))
     check_branches(*branches, study.stage, is_bad, context);
 }

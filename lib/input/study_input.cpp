@@ -11,7 +11,7 @@
 #include <tuple>
 #include <utility>
 
-#include "input/claims_input.hpp"
+#include "input/added_kind.hpp"
 #include "input/given_speeds.hpp"
 #include "input/input_sources.hpp"
 #include "input/origins.hpp"
@@ -302,61 +302,9 @@ class LoadedInput::Loader {
     if (ends_are_sound_ && have_values && varied.size() == 1)
       check_values(varied[0].axis, varied[0].place, as_given(), {}, "");
     if (problems_.empty() && varied.size() == 2) check_edges(varied);
-    if (const auto* claims = std::get_if<studies::ClaimsOptions>(&input_.study.plan); claims && problems_.empty())
-      check_claimed_values(*claims);
-  }
-
-  /// Numbers that sweeps and parameters of claims write at pointers, each alone with the rest of the input.
-  void check_claimed_values(const studies::ClaimsOptions& claims) {
-    const auto check = [&](const std::string& pointer, double value, const std::string& place) {
-      if (pointer.empty() || pointer.front() != '/') return;
-      Study unused;
-      for (const auto& problem : input_.check_with(as_given(), std::array{PointerValue{pointer, value}}, unused))
-        refuse(place, "takes the value " + number_text(value) + " at " + pointer + ", with which " + problem.pointer +
-                          " " + problem.message);
-    };
-    for (std::size_t k = 0; k < claims.sweeps.size(); ++k) {
-      const studies::ClaimSweep& sweep = claims.sweeps[k];
-      const std::string place = "/study/sweeps/" + std::to_string(k);
-      check(sweep.axis.name, sweep.axis.from, place + "/from");
-      check(sweep.axis.name, sweep.axis.to, place + "/to");
-      for (std::size_t j = 0; j < sweep.at.size(); ++j) {
-        const studies::SetValue& set = sweep.at[j];
-        const std::string at = place + "/at/" + std::to_string(j);
-        // It is taken of the input as it is given, once for the whole sweep.
-        const auto is_of = [&set](const std::string& parameter) {
-          const studies::NamedParameter* named = studies::find_parameter(parameter);
-          const std::vector<std::string> pointers = named != nullptr ? named->pointers : std::vector{parameter};
-          return !set.as.empty() && std::ranges::any_of(pointers, [&set](const std::string& pointer) {
-            return pointer_within(set.as, pointer) || pointer_within(pointer, set.as);
-          });
-        };
-        if (is_of(sweep.axis.name))
-          refuse(at + "/as", "is \"" + set.as + "\", which the sweep varies: it is not followed along it");
-        for (std::size_t other = 0; other < sweep.at.size(); ++other)
-          if (other != j && is_of(sweep.at[other].parameter))
-            refuse(at + "/as", "is \"" + set.as + "\", which /at/" + std::to_string(other) +
-                                   " sets: it would be as it is in the input; set it to that value, too");
-        // Of a candidate it would be another number than that of the stage as it is given.
-        if (!set.as.empty() && find_at(input_.computed, set.as) != nullptr)
-          refuse(at + "/as", "is \"" + set.as + "\", which is computed from other numbers: it cannot be followed");
-        else if (const auto value = number_to_set(input_, {}, set))
-          check(set.parameter, *value, at + (set.value ? "/value" : "/as"));
-        else
-          refuse(at + "/as", "is \"" + set.as + "\", which is no number of the resolved input");
-      }
-    }
-    for (std::size_t k = 0; k < claims.space.parameters.size(); ++k) {
-      const studies::FreeParameter& p = claims.space.parameters[k];
-      if (!p.choice.empty()) continue;  // with that option in place: looked at when candidates are made
-      for (std::size_t t = 0; t < p.targets.size(); ++t) {
-        const studies::ParameterTarget& target = p.targets[t];
-        const std::string place = "/study/parameters/" + std::to_string(k) + "/targets/" + std::to_string(t);
-        if (!target.times.empty()) continue;
-        for (const double x : {p.from, p.to})
-          check(target.pointer, target.factor * std::pow(x, target.power), place + "/pointer");
-      }
-    }
+    if (const auto* added = std::get_if<AddedPlan>(&input_.study.plan); added != nullptr && problems_.empty())
+      added->kind->check_values(
+          input_, [this](const std::string& pointer, std::string message) { refuse(pointer, std::move(message)); });
   }
 
   /// Whether the one parameter of a sweep has the default range, which is one of speeds, and is none.

@@ -10,6 +10,7 @@
 // its values come from. It is a valid input itself and resolves to itself.
 #pragma once
 
+#include <any>
 #include <array>
 #include <concepts>
 #include <filesystem>
@@ -32,7 +33,6 @@
 #include "integrate/options.hpp"
 #include "model/options.hpp"
 #include "studies/branches_options.hpp"
-#include "studies/claims_options.hpp"
 #include "studies/crosscheck_options.hpp"
 #include "studies/plane_options.hpp"
 #include "studies/run_options.hpp"
@@ -60,9 +60,21 @@ struct TolerancePlan {
   studies::ToleranceOptions tolerance;
 };
 
+struct AddedKind;
+
+/// The plan of a kind that a component above this one adds [added_kind.hpp].
+struct AddedPlan {
+  const AddedKind* kind = nullptr;
+  std::any options;  ///< of the type that the kind says
+
+  [[nodiscard]] std::string_view name() const;
+  [[nodiscard]] studies::LookOptions& points_look();
+  [[nodiscard]] const studies::LookOptions& points_look() const;
+};
+
 /// What is computed, by kind of study.
 using Plan = std::variant<StageAlone, studies::SweepOptions, studies::MapOptions, studies::BasinsOptions, RunPlan,
-                          CrosscheckPlan, TolerancePlan, studies::BranchesOptions, studies::ClaimsOptions>;
+                          CrosscheckPlan, TolerancePlan, studies::BranchesOptions, AddedPlan>;
 
 /// How the points of a plan are looked at; of any kind that has points.
 /// @throws std::bad_variant_access of a stage alone and of branches
@@ -76,6 +88,8 @@ requires std::same_as<std::remove_const_t<P>, Plan>
           return of.look;
         else if constexpr (requires { of.sweep; })
           return of.sweep.look;
+        else if constexpr (requires { of.points_look(); })
+          return of.points_look();
         else
           throw std::bad_variant_access();
       },
@@ -92,9 +106,14 @@ requires std::same_as<std::remove_const_t<P>, Plan>
   return std::get<studies::SweepOptions>(plan);
 }
 
-/// Names of the kinds, in the order of Plan.
-inline constexpr std::array<std::string_view, std::variant_size_v<Plan>> plan_kinds = {
-    "stage", "sweep", "map", "basins", "run", "crosscheck", "tolerance", "continue", "claims"};
+/// Names of the kinds, in the order of Plan; those that are added have names of their own.
+inline constexpr std::array<std::string_view, std::variant_size_v<Plan> - 1> plan_kinds = {
+    "stage", "sweep", "map", "basins", "run", "crosscheck", "tolerance", "continue"};
+
+[[nodiscard]] inline std::string_view kind_of(const Plan& plan) {
+  const auto* added = std::get_if<AddedPlan>(&plan);
+  return added != nullptr ? added->name() : plan_kinds[plan.index()];
+}
 
 struct Study {
   std::string name;
@@ -108,13 +127,13 @@ struct Study {
   Plan plan;
   std::vector<double> initial_state;  ///< in place of the default start [b_c, b_c per tau]; empty: that one
 
-  [[nodiscard]] std::string_view kind() const { return plan_kinds[plan.index()]; }
+  [[nodiscard]] std::string_view kind() const { return kind_of(plan); }
   /// Is anything to be computed?
   [[nodiscard]] bool has_motion() const { return !std::holds_alternative<StageAlone>(plan); }
   /// Are its motions looked at point by point?
   [[nodiscard]] bool has_points() const {
     return has_motion() && !std::holds_alternative<studies::BranchesOptions>(plan) &&
-           !std::holds_alternative<studies::ClaimsOptions>(plan);
+           !std::holds_alternative<AddedPlan>(plan);
   }
 
   /// How its points are looked at.

@@ -21,8 +21,9 @@
 #include "gear/ehl_friction.hpp"
 #include "gear/gear_set.hpp"
 #include "gear/warnings.hpp"
-#include "input/claims_input.hpp"
+#include "input/added_kind.hpp"
 #include "input/derived_study.hpp"
+#include "input/pointers.hpp"
 #include "input/stage_completion.hpp"
 #include "integrate/methods.hpp"
 #include "studies/named_parameters.hpp"
@@ -32,8 +33,6 @@
 namespace epicyclic::input {
 
 using nlohmann::json;
-
-namespace {
 
 model::DynamicModel model_of(const model::OperatingPoint& point, const model::Scales& scales) {
   model::DynamicModel model = model::make_dynamic_model(point.stage, scales, point.mesh_frequency_ratio, point.options);
@@ -46,8 +45,6 @@ model::DynamicModel model_of(const model::OperatingPoint& point, const model::Sc
                      number_text(point.mesh_frequency_ratio) + " the equations of motion are not finite");
   return model;
 }
-
-}  // namespace
 
 namespace {
 
@@ -142,80 +139,6 @@ std::function<model::DynamicModel(double value, double clearance_smoothing)> smo
     point.options.clearance_smoothing = clearance_smoothing;
     return started(model_of(point, scales), input.study);
   };
-}
-
-namespace {
-
-/// The models of a study for the sweeps of claims, each sweep as the study of its own that sweep_input() makes of it:
-/// with the scales of the stage that its `at` has set.
-studies::SweepModels sweep_models(std::shared_ptr<const LoadedInput> input, std::vector<PointerValue> values) {
-  const std::vector<PointerValue> fixed = values.empty() ? values : at_given_speed(*input, values);
-  const model::OperatingPoint given = point_at(*input, fixed);
-  return [input = std::move(input), values = std::move(values), fixed, given](const studies::ClaimSweep& sweep,
-                                                                              double value) {
-    const auto with = [&](const std::vector<PointerValue>& set) {
-      if (std::ranges::any_of(set, [](const PointerValue& v) { return v.pointer.starts_with('/'); })) {
-        std::vector<PointerValue> all = fixed;
-        all.insert(all.end(), set.begin(), set.end());
-        return point_at(*input, all);
-      }
-      model::OperatingPoint point = given;
-      set_named(point, set);
-      return point;
-    };
-    std::vector<PointerValue> set = set_along(*input, values, sweep);
-    const model::Scales scales = model::scales_of(with(set).stage);
-    set.push_back({sweep.axis.name, value});
-    return model_of(with(set), scales);
-  };
-}
-
-/// Inputs with the options of choices in place, made when they are first asked for.
-class OptionInputs {
- public:
-  explicit OptionInputs(LoadedInput given) : given_(std::move(given)) {}
-
-  std::shared_ptr<const LoadedInput> of(const studies::ParameterSpace& space, const std::vector<std::size_t>& options) {
-    const std::scoped_lock lock(mutex_);
-    std::shared_ptr<const LoadedInput>& input = made_[options];
-    if (input == nullptr) {
-      input = std::make_shared<const LoadedInput>(given_.with_further(option_assignments(space, options)));
-    }
-    return input;
-  }
-
- private:
-  LoadedInput given_;  ///< without an option
-  std::mutex mutex_;
-  std::map<std::vector<std::size_t>, std::shared_ptr<const LoadedInput>> made_;
-};
-
-/// What a candidate has in place of the input's numbers.
-std::vector<PointerValue> candidate_values(const studies::ParameterSpace& space, std::span<const double> u) {
-  std::vector<PointerValue> values;
-  for (const auto& [pointer, value] : space.targets_at(u)) values.push_back({pointer, value});
-  return values;
-}
-
-}  // namespace
-
-json candidate_input(const LoadedInput& given, const studies::ParameterSpace& space, std::span<const double> u,
-                     const std::string& origin) {
-  OptionInputs inputs(given);
-  const std::shared_ptr<const LoadedInput> input = inputs.of(space, space.options_at(u));
-  return with_origins(input->resolved_with(candidate_values(space, u)), candidate_assignments(space, u), origin);
-}
-
-studies::CandidateModels candidate_models(const LoadedInput& given) {
-  auto inputs = std::make_shared<OptionInputs>(given);
-  return [inputs, space = std::get<studies::ClaimsOptions>(given.study.plan).space](std::span<const double> u) {
-    return sweep_models(inputs->of(space, space.options_at(u)), candidate_values(space, u));
-  };
-}
-
-studies::SweepModels claim_models(const LoadedInput& input) {
-  // Not owned: the caller's.
-  return sweep_models(std::shared_ptr<const LoadedInput>(&input, [](const LoadedInput*) {}), {});
 }
 
 namespace {
@@ -360,10 +283,11 @@ void warn_of_points(std::vector<gear::Warning>& out, const LoadedInput& input) {
   }
 }
 
-/// By what the resolved input says; what it does not say is the default.
-bool damping_jumps(const LoadedInput& input) {
-  const json* damping = input.value_at("/model/gap_damping");
-  const json* width = input.value_at("/integrator/clearance_smoothing");
+}  // namespace
+
+bool damping_jumps(const json& resolved) {
+  const json* damping = find_at(resolved, "/model/gap_damping");
+  const json* width = find_at(resolved, "/integrator/clearance_smoothing");
   return damping != nullptr && *damping == "contact_slope" && (width == nullptr || *width == 0.0);
 }
 
@@ -373,27 +297,7 @@ gear::Warning without_tangents(std::string pointer) {
           "recurrence alone, unless /integrator/clearance_smoothing > 0"};
 }
 
-/// Do candidates have a width of the clearance of their own?
-bool smoothed_by_a_parameter(const studies::ParameterSpace& space) {
-  return std::ranges::any_of(space.parameters, [](const studies::FreeParameter& p) {
-    return p.choice.empty() && std::ranges::any_of(p.targets, [](const studies::ParameterTarget& target) {
-             return target.pointer == "/integrator/clearance_smoothing";
-           });
-  });
-}
-
-/// On options of choices that make damping jump where the input does not: no candidate with one can be told chaotic.
-void warn_of_options(std::vector<gear::Warning>& out, const LoadedInput& input, const studies::ParameterSpace& space) {
-  for (std::size_t c = 0; c < space.choices.size(); ++c)
-    for (std::size_t o = 0; o < space.choices[c].options.size(); ++o) {
-      LoadedInput changed;
-      changed.resolved = {{"model", input.resolved.at("model")}, {"integrator", input.resolved.at("integrator")}};
-      for (const studies::OptionSet& set : space.choices[c].options[o].sets)
-        (void)assign(changed.resolved, set.pointer, json::parse(set.value));  // what is wrong is refused elsewhere
-      if (damping_jumps(changed))
-        out.push_back(without_tangents("/study/choices/" + std::to_string(c) + "/options/" + std::to_string(o)));
-    }
-}
+namespace {
 
 std::vector<std::string> texts(std::vector<gear::Warning> warnings) {
   gear::put_in_order(warnings);
@@ -433,16 +337,12 @@ std::vector<std::string> warnings(const LoadedInput& input) {
       all.push_back({gear::Rank::doubtful, 1.0, branches != nullptr ? "/study/method" : "/integrator/method", "kinks",
                      "the error estimate of \"" + std::string(method->name) +
                          "\" misses the kinks of the exact clearance; its errors are far above its tolerance"});
-    const auto* claims = std::get_if<studies::ClaimsOptions>(&study.plan);
-    const bool smoothed = claims != nullptr && smoothed_by_a_parameter(claims->space);
-    if (!smoothed &&
-        (claims != nullptr ||
-         (study.has_points() && study.look().classification_periods > 0 &&
-          !std::holds_alternative<CrosscheckPlan>(study.plan) && !std::holds_alternative<TolerancePlan>(study.plan))) &&
-        damping_jumps(input))
+    if (const auto* added = std::get_if<AddedPlan>(&study.plan))
+      added->kind->warn(all, input);
+    else if (study.has_points() && study.look().classification_periods > 0 &&
+             !std::holds_alternative<CrosscheckPlan>(study.plan) &&
+             !std::holds_alternative<TolerancePlan>(study.plan) && damping_jumps(input.resolved))
       all.push_back(without_tangents("/model/gap_damping"));
-    else if (claims != nullptr && !smoothed)
-      warn_of_options(all, input, claims->space);
     lines = texts(std::move(all));
     lines.insert(lines.end(), input.notes.begin(), input.notes.end());
   }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "gear/warnings.hpp"
 #include "input/study_input.hpp"
-#include "studies/candidates.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::input {
@@ -57,20 +57,9 @@ studies::ModelAtPoint model_at_point(LoadedInput&& input) = delete;
 std::function<model::DynamicModel(double value, double clearance_smoothing)> smoothed_model_at(LoadedInput&& input) =
     delete;
 
-/// The models of candidates for what a study of claims leaves open. An input is made once for each set of options that
-/// is asked for, of the files as they were read for the given one. Scales are each candidate's own: it stands for the
-/// stage, as a stage of its own would, and runs at the speed that the input gives, be it Omega, rpm or Hz.
-/// @param given  a study of claims
-[[nodiscard]] studies::CandidateModels candidate_models(const LoadedInput& given);
-
-/// The input of a candidate as candidate_models() has it, resolved, each of its values with that origin.
-/// @throws InputProblems when the numbers do not go together
-[[nodiscard]] nlohmann::json candidate_input(const LoadedInput& given, const studies::ParameterSpace& space,
-                                             std::span<const double> u, const std::string& origin);
-
-/// The models of the stage as it is given, for the claims' sweeps. `input` must outlive the result.
-[[nodiscard]] studies::SweepModels claim_models(const LoadedInput& input);
-studies::SweepModels claim_models(LoadedInput&& input) = delete;
+/// The model of an operating point.
+/// @throws InputError where its numbers do not go together
+[[nodiscard]] model::DynamicModel model_of(const model::OperatingPoint& point, const model::Scales& scales);
 
 /// What is allowed but rarely meant, most important first (gear/warnings.hpp): the stage, the operating points at the
 /// ends of what the study varies, the study itself, values that were ignored. Of a study without the notes on its
@@ -83,5 +72,11 @@ studies::SweepModels claim_models(LoadedInput&& input) = delete;
 
 /// What chosen harmonics of the mesh stiffness lose of it, a line for each mesh; what nobody chose is a warning.
 [[nodiscard]] std::vector<std::string> stiffness_notes(const LoadedInput& input);
+
+/// Does mesh damping jump at contact? By what the resolved input says; what it does not say is the default.
+[[nodiscard]] bool damping_jumps(const nlohmann::json& resolved);
+
+/// That regimes of such an input are told without tangents; at a pointer.
+[[nodiscard]] gear::Warning without_tangents(std::string pointer);
 
 }  // namespace epicyclic::input

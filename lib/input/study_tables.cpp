@@ -5,9 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "input/added_kind.hpp"
 #include "input/catalogue_table.hpp"
-#include "input/claims_tables.hpp"
 #include "input/origins.hpp"
+#include "input/plan_tables.hpp"
 #include "input/study_input.hpp"
 #include "integrate/methods.hpp"
 #include "studies/named_parameters.hpp"
@@ -28,7 +29,6 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 using studies::BasinsOptions;
 using studies::BranchesOptions;
-using studies::ClaimsOptions;
 using studies::LookOptions;
 using studies::MapOptions;
 using studies::SweepOptions;
@@ -515,9 +515,9 @@ table_detail::Access<Study, V> in_plan(U Options::*outer, V U::*member) {
           [=](const Study& s) -> const V* { return &(Part::in(s.plan).*outer.*member); }};
 }
 
-/// Which kind of study it is.
-void add_kind(Table<Study>& t, const Plan& plan) {
-  const std::string name(plan_kinds[plan.index()]);
+}  // namespace
+
+void add_kind_key(Table<Study>& t, std::string_view name) {
   Field<Study> kind;
   kind.key = "kind";
   kind.description = "What is computed.";
@@ -527,15 +527,28 @@ void add_kind(Table<Study>& t, const Plan& plan) {
   t.custom(std::move(kind)).required();
 }
 
-const std::vector<std::pair<std::string, studies::Start>> start_choices = {{"carried", studies::Start::carried},
-                                                                           {"cold", studies::Start::cold}};
+const std::vector<std::pair<std::string, studies::Direction>>& direction_choices() {
+  static const std::vector<std::pair<std::string, studies::Direction>> all = {{"up", studies::Direction::up},
+                                                                              {"down", studies::Direction::down}};
+  return all;
+}
+
+const std::vector<std::pair<std::string, studies::Start>>& start_choices() {
+  static const std::vector<std::pair<std::string, studies::Start>> all = {{"carried", studies::Start::carried},
+                                                                          {"cold", studies::Start::cold}};
+  return all;
+}
+
+namespace {
+
+void add_kind(Table<Study>& t, const Plan& plan) { add_kind_key(t, kind_of(plan)); }
 
 /// Directions and start, for sweeps and maps.
 template <class Part, class Options>
 void add_course(Table<Study>& t) {
   t.choices("directions", in_plan<Part>(&Options::directions), direction_choices(),
             "Directions, numbered one after the other; each is a chain of its own from the default start.");
-  t.choice("start", in_plan<Part>(&Options::start), start_choices,
+  t.choice("start", in_plan<Part>(&Options::start), start_choices(),
            "Where a point starts: from the end of the one before in its chain, or from the default start.");
 }
 
@@ -554,7 +567,8 @@ void add_grid(Table<Study>& t) {
             "Mesh periods of each point in the pass along the range that says where segments start [-].");
 }
 
-/// How long each point is looked at.
+}  // namespace
+
 void add_look(Table<Study>& t) {
   const auto of = [](auto member) { return in_plan<Look>(member); };
   t.integer("transient_periods", of(&LookOptions::transient_periods), between(0, 1e7),
@@ -568,14 +582,6 @@ void add_look(Table<Study>& t) {
            "Two states recur if no component differs by more, in the units of the state.");
 }
 
-/// Where motions start that are not carried on from another point.
-void add_initial_state(Table<Study>& t) {
-  t.numbers("initial_state", &Study::initial_state, component_value, 1, 1000,
-            "Start in place of the default one, at the mesh phase 0, in the order of poincare.csv [b_c, b_c per tau]; "
-            "`--from` writes it.");
-}
-
-/// The keys of studies that tell their points' regimes.
 void add_classification(Table<Study>& t) {
   const auto of = [](auto member) { return in_plan<Look>(member); };
   t.choice("transient", of(&LookOptions::transient),
@@ -585,6 +591,15 @@ void add_classification(Table<Study>& t) {
   t.integer("classification_periods", of(&LookOptions::classification_periods), between(0, 1e7),
             "Mesh periods beyond the record in which the regime may be looked for [-]; 0: it is told from recurrence "
             "alone.");
+}
+
+namespace {
+
+/// Where motions start that are not carried on from another point.
+void add_initial_state(Table<Study>& t) {
+  t.numbers("initial_state", &Study::initial_state, component_value, 1, 1000,
+            "Start in place of the default one, at the mesh phase 0, in the order of poincare.csv [b_c, b_c per tau]; "
+            "`--from` writes it.");
 }
 
 /// Methods by name, the first one counts.
@@ -901,49 +916,22 @@ const Table<Study>& continue_table() {
   return table;
 }
 
-template <class V>
-table_detail::Access<Study, V> of_space(V studies::ParameterSpace::*member) {
-  return {[=](Study& s) -> V& { return std::get<ClaimsOptions>(s.plan).space.*member; },
-          [=](const Study& s) -> const V* { return &(std::get<ClaimsOptions>(s.plan).space.*member); }};
-}
-
-const Table<Study>& claims_table() {
-  static const auto table = [] {
-    Table<Study> t("claims",
-                   "What is published of a stage, as claims on sweeps, and what it leaves unsaid, as ranges.");
-    add_kind(t, ClaimsOptions{});
-    const auto of = [](auto member) { return in_plan<Kind<ClaimsOptions>>(member); };
-    t.choices("starts", of(&ClaimsOptions::starts), start_choices,
-              "Where points of sweeps start; the first gives the verdict, the other stands beside it.");
-    add_look(t);
-    add_classification(t);
-    t.objects("sweeps", of(&ClaimsOptions::sweeps), claim_sweep_table(), 1000, "Sweeps that the claims speak of.")
-        .required();
-    t.objects("claims", of(&ClaimsOptions::claims), claim_table(), 1000, "What is claimed.").required();
-    t.objects("figures", of(&ClaimsOptions::figures), claim_figure_table(), 100, "Figures as they are published.");
-    t.object("brief", of(&ClaimsOptions::brief), brief_look_table());
-    t.objects("parameters", of_space(&studies::ParameterSpace::parameters), free_parameter_table(), 1000,
-              "Numbers of the input that are not published, with their ranges.");
-    t.objects("choices", of_space(&studies::ParameterSpace::choices), choice_table(), 100,
-              "Readings between which what is published does not decide.");
-    t.object("search", of(&ClaimsOptions::search), search_options_table());
-    t.object("survey", of(&ClaimsOptions::survey), survey_options_table());
-    return t;
-  }();
-  return table;
-}
-
 /// The tables of kinds of study, in the order of Plan; a stage alone has none.
 struct PlanKind {
   const Table<Study>& (*table)();
   Plan plan;  ///< what reading starts from: the defaults
-  [[nodiscard]] std::string_view name() const { return plan_kinds[plan.index()]; }
+  [[nodiscard]] std::string_view name() const { return kind_of(plan); }
 };
 const std::vector<PlanKind>& kinds() {
-  static const std::vector<PlanKind> all = {{&sweep_table, SweepOptions{}},        {&map_table, MapOptions{}},
-                                            {&basins_table, BasinsOptions{}},      {&run_table, RunPlan{}},
-                                            {&crosscheck_table, CrosscheckPlan{}}, {&tolerance_table, TolerancePlan{}},
-                                            {&continue_table, BranchesOptions{}},  {&claims_table, ClaimsOptions{}}};
+  static const std::vector<PlanKind> all = [] {
+    std::vector<PlanKind> known = {{&sweep_table, SweepOptions{}},        {&map_table, MapOptions{}},
+                                   {&basins_table, BasinsOptions{}},      {&run_table, RunPlan{}},
+                                   {&crosscheck_table, CrosscheckPlan{}}, {&tolerance_table, TolerancePlan{}},
+                                   {&continue_table, BranchesOptions{}}};
+    for (const AddedKind* kind : added_kinds())
+      if (kind->missing.empty()) known.push_back({kind->table, AddedPlan{kind, kind->defaults}});
+    return known;
+  }();
   return all;
 }
 
@@ -979,6 +967,10 @@ void read_plan(const json& value, const std::string& pointer, Study& study, Read
   if (kind != value.end() && kind->is_string()) {
     const auto& name = kind->get_ref<const std::string&>();
     read_as = find_kind(name);
+    for (const AddedKind* added : added_kinds())
+      if (added->name == name && !added->missing.empty())
+        return context.add(Finding::Kind::range, pointer + "/kind",
+                           "is \"" + name + "\": " + std::string(added->missing));
     if (read_as == nullptr)
       context.add(Finding::Kind::range, pointer + "/kind",
                   "is \"" + name + "\", must be one of: " + listed(names) + suggestion(name, names));

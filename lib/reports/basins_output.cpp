@@ -83,8 +83,9 @@ std::vector<Row> rows_of(const BasinsOutput& output, const std::vector<PointSumm
 }
 
 /// After Okabe and Ito, with brighter and darker ones between.
-constexpr std::array<const char*, 12> colours = {"#12285c", "#c8553d", "#1b8a6b", "#e8b12a", "#3f8fd0", "#7a4a8c",
-                                                 "#9bd7f2", "#d98cb3", "#6b4f2a", "#a5c96a", "#f3dcb0", "#404a52"};
+constexpr std::array<const char*, 12> attractor_colours = {"#12285c", "#c8553d", "#1b8a6b", "#e8b12a",
+                                                           "#3f8fd0", "#7a4a8c", "#9bd7f2", "#d98cb3",
+                                                           "#6b4f2a", "#a5c96a", "#f3dcb0", "#404a52"};
 
 std::string share_text(double share) {
   const double percent = 100.0 * share;
@@ -195,7 +196,7 @@ std::vector<DrawnFigure> draw_basins_figure(const std::filesystem::path& folder,
   std::stable_sort(coloured.begin(), coloured.end(), [&](std::size_t a, std::size_t b) {
     return attractors.all[a].members.size() > attractors.all[b].members.size();
   });
-  coloured.resize(std::min(coloured.size(), colours.size()));
+  coloured.resize(std::min(coloured.size(), attractor_colours.size()));
   std::sort(coloured.begin(), coloured.end());
 
   const auto total = static_cast<double>(results.size());
@@ -209,7 +210,7 @@ std::vector<DrawnFigure> draw_basins_figure(const std::filesystem::path& folder,
     rest -= a.members.size();
     classes.push_back({fmt::format("{}: {}, {}", k + 1, attractor_word(a.record),
                                    share_text(static_cast<double>(a.members.size()) / total)),
-                       colours[classes.size()]});
+                       attractor_colours[classes.size()]});
   }
   classes.push_back({fmt::format("{} others, {}", attractors.all.size() - coloured.size(),
                                  share_text(static_cast<double>(rest) / total)),

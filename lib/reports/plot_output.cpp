@@ -190,11 +190,11 @@ std::string parameter_of(const input::Study& study) {
 
 // ---- figures ----------------------------------------------------------------------------------------------------
 
-constexpr std::array<std::string_view, 10> colours{
+constexpr std::array<std::string_view, 10> study_colours{
     figures::ink::blue,      figures::ink::red, figures::ink::green, figures::ink::ochre, figures::ink::purple,
     figures::ink::dark_grey, "#3f8fd0",         "#e08fb0",           "#6fb25a",           "#8a5a2b"};
 
-std::string_view colour_of(std::size_t k) { return colours[k % colours.size()]; }
+std::string_view colour_of(std::size_t k) { return study_colours[k % study_colours.size()]; }
 
 /// One figure, put together study by study.
 class Plot {
@@ -670,9 +670,9 @@ PlotOptions sound_options(const std::vector<PlottedStudy>& studies, PlotOptions 
   }
   for (const std::string& column : {options.quantity, options.abscissa})
     if (is_of_words(column)) throw InputError("plot: '" + column + "' is a column of words, which no axis has");
-  if (studies.size() > colours.size())
+  if (studies.size() > study_colours.size())
     throw InputError(
-        fmt::format("plot: {} studies in one figure; there are colours for {}", studies.size(), colours.size()));
+        fmt::format("plot: {} studies in one figure; there are colours for {}", studies.size(), study_colours.size()));
   if (kind == "map" && (options.x || options.y || options.logarithmic || !options.abscissa.empty()))
     throw InputError(
         "plot: a map is drawn over its plane, on a linear scale; --x, --x-range, --y-range and --log are not for it");

@@ -24,7 +24,7 @@ using studies::PointSummary;
 using studies::StageRecord;
 
 /// Shares that differ by less are the same.
-constexpr double alike = 1e-6;
+constexpr double even_share = 1e-6;
 
 bool ok(const PointSummary& r) { return r.outcome == integrate::Outcome::reached; }
 
@@ -106,7 +106,7 @@ bool loads_differ(const studies::PointSource& points) {
     if (!ok(r)) continue;
     for (const auto* meshes : {&r.meshes.sun_planet, &r.meshes.ring_planet})
       for (std::size_t p = 0; p < meshes->size(); ++p)
-        if (std::abs(StageRecord::share(*meshes, &Course::mean, p) - 1.0) > alike) return true;
+        if (std::abs(StageRecord::share(*meshes, &Course::mean, p) - 1.0) > even_share) return true;
   }
   return false;
 }

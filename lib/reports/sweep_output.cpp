@@ -31,8 +31,6 @@ using studies::Direction;
 using studies::PointResult;
 using studies::PointSummary;
 
-bool ok(const PointSummary& r) { return r.outcome == integrate::Outcome::reached; }
-
 /// The rows of all Poincare sections one after another.
 class SectionRows {
  public:
@@ -161,7 +159,7 @@ auto section(const SweepOutput& output, const studies::PointSource& points, std:
   return [&points, column,
           first = direction * points_each_way(output, points)](std::size_t i) -> std::optional<figures::ClassPoint> {
     const PointResult r = points.read(first + i);
-    if (!ok(r)) return std::nullopt;
+    if (r.outcome != integrate::Outcome::reached) return std::nullopt;
     const analysis::Estimate exponent = r.lyapunov_max();
     figures::ClassPoint p{{r.point.value, {}, r.on_its_way()}, class_of(r), exponent.value, exponent.half_width};
     for (std::size_t k = 0; k < r.poincare_rows(); ++k)
@@ -212,7 +210,7 @@ std::string figure_title(const input::Study& study) {
   const gear::Boundary b = study.stage.boundary;
   const char* boundary = b == gear::Boundary::literal ? "literal" : b == gear::Boundary::star ? "star" : "fixed ring";
   std::string title = (study.name.empty() ? study.stage.name : study.name) + ", boundary " + boundary;
-  const bool speed_is_given = study.has_motion() && !std::holds_alternative<studies::ClaimsOptions>(study.plan) &&
+  const bool speed_is_given = study.has_motion() && !std::holds_alternative<input::AddedPlan>(study.plan) &&
                               std::ranges::none_of(input::varied_parameters(study), [](const auto& varied) {
                                 return varied.axis.name == studies::speed_parameter;
                               });

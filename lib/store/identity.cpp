@@ -8,7 +8,6 @@
 
 #include "store/digest.hpp"
 #include "store/journal.hpp"
-#include "studies/claims.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::store {
@@ -29,13 +28,12 @@ nlohmann::json identifying_values(nlohmann::json value, const nlohmann::json& co
 
 }  // namespace
 
-std::string identity(const ResolvedValues& input, std::string_view command) {
+std::string identity(const ResolvedValues& input, std::string_view command, std::optional<int> judging) {
   nlohmann::json what = {{"command", command},
                          {"input", identifying_values(input.resolved, input.computed)},
                          {"journal_format", journal_format_version},
                          {"numerics", studies::numerics_version}};
-  // What these keep of a candidate is how it was judged.
-  if (command == "calibrate" || command == "robustness") what["judging"] = studies::judging_version;
+  if (judging) what["judging"] = *judging;
   return sha256_hex(canonical_json(what));
 }
 

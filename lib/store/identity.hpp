@@ -6,6 +6,7 @@
 // another machine an input keeps its identity, although last digits of what is computed from catalogue data may differ.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,7 +22,9 @@ struct ResolvedValues {
 };
 
 /// SHA-256 (64 hexadecimal digits) of what decides, with the command and the versions of journal and numerics.
-[[nodiscard]] std::string identity(const ResolvedValues& input, std::string_view command);
+/// @param judging  version of how the journal's records were judged, if that is what they keep
+[[nodiscard]] std::string identity(const ResolvedValues& input, std::string_view command,
+                                   std::optional<int> judging = {});
 
 /// Where two studies differ in what identifies them.
 struct Difference {

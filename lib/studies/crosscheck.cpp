@@ -330,11 +330,11 @@ class Examiner {
   /// infinite.
   [[nodiscard]] double one_orbit(const Pair& both) const {
     const auto& [point, ours, a, other, b] = both;
-    constexpr double infinite = std::numeric_limits<double>::infinity();
-    if (!periodic(a) || !periodic(b)) return infinite;
+    constexpr double unlike = std::numeric_limits<double>::infinity();
+    if (!periodic(a) || !periodic(b)) return unlike;
     const double d = orbits_apart(both);
     if (d <= options_.orbit_tolerance) return d;
-    if (d > clearly * options_.orbit_tolerance) return infinite;
+    if (d > clearly * options_.orbit_tolerance) return unlike;
     return orbits_apart({point, tightened(ours), a, tightened(other), b});
   }
 

@@ -8,6 +8,8 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 without_drawing
 
+has_claims || skip "the program was built without claims"
+
 cat >claims.json <<END
 { "name": "small", "operation": { "mesh_frequency_ratio": 2.5 }, "stage": "$inputs/tang2020.json",
   "stage_patch": { "load": { "power_kW": null, "torque_Nm": 400 },

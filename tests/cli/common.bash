@@ -37,6 +37,9 @@ finish() {
   [ "$failed" = 0 ]
 }
 
+# Whether the program was built with `reproduce`, `calibrate` and `robustness`.
+has_claims() { [ "$("$epicyclic" schema | grep -c '"claims"')" != 0 ]; }
+
 # ctest's SKIP_RETURN_CODE.
 skip() {
   echo "skipped: $1"

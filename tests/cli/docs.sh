@@ -53,6 +53,7 @@ while IFS= read -r line; do
   [ "${words[0]}" = app/run ] || { fail "not a command of ours: $line"; continue; }
   count=$((count + 1))
   command=${words[1]:-}
+  case $line in *" reproduce "* | *" calibrate "* | *" robustness "* | *claims.json*) has_claims || continue ;; esac
   read -r -a more <<<"${cut[$command]:-}"
   arguments=("${words[@]:1}" "${more[@]}")
   # What is said of its time is measured, for seconds by each thread. Stages have no periods.

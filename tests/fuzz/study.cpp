@@ -20,6 +20,9 @@
 #include <string>
 #include <vector>
 
+#ifdef EPICYCLIC_HAS_CLAIMS
+#include "claims/kind.hpp"
+#endif
 #include "core/errors.hpp"
 #include "fuzz.hpp"
 #include "input/study_input.hpp"
@@ -33,6 +36,10 @@ namespace {
 
 using fuzz::require;
 using nlohmann::json;
+
+#ifdef EPICYCLIC_HAS_CLAIMS
+[[maybe_unused]] const bool has_claims = (input::add_kind(claims::claims_kind()), true);
+#endif
 
 const fuzz::Folder& folder() {
   static const fuzz::Folder the_folder;

@@ -961,7 +961,7 @@ TEST_F(SchemaAndReader, AgreeThatBasinsLetCellsSettle) {
     study_table().read(other, "", study, context);
     EXPECT_EQ(study_table().write(study)["study"]["transient"], transient) << kind;
   }
-  EXPECT_EQ(kinds, 8);
+  EXPECT_EQ(kinds, 7);
 }
 
 TEST_F(SchemaAndReader, AgreeOnMethodsAndOrigins) {

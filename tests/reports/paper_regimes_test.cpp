@@ -14,7 +14,6 @@
 #include "input/study_model.hpp"
 #include "integrate/lanes/lane_pool.hpp"
 #include "integrate/make_flow.hpp"
-#include "studies/claims.hpp"
 #include "studies/run.hpp"
 #include "studies/stage_lanes.hpp"
 #include "studies/sweep.hpp"
@@ -123,30 +122,6 @@ TEST(PaperRegimes, AVectorOnATorusNeitherGrowsNorShrinksInLanes) {
       EXPECT_NEAR(grown(*lane, y, v, counted) / (counted * period) * model.omega, 0.0, none) << method;
     });
   }
-}
-
-TEST(PaperRegimes, AGlanceTellsGrowthFromNone) {
-  const input::LoadedInput input = input::load_input("inputs/tang2020_speed.json");
-  const studies::ModelAt at = input::model_at(input);
-  studies::LookOptions look = studies::by_recurrence_alone(input.study.look());
-  look.transient_periods = 300;
-  look.recorded_periods = 32;
-  look.period_max = 16;
-  integrate::IntegratorOptions integrator = input.study.integrator;
-  integrator.relative_tolerance = 1e-5;
-  integrator.absolute_tolerance = 1e-5;
-  const auto motion_at = [&](double speed) {
-    const studies::GridPoint point{0, studies::Direction::up, speed};
-    return studies::claim_point(studies::compute_point_as_swept(point, at(speed), {}, look, integrator, always), look,
-                                studies::Looked::briefly)
-        .motion.text();
-  };
-  EXPECT_EQ(motion_at(1.3), "undecided");
-  look.growth_periods = 64;
-  EXPECT_EQ(motion_at(1.3), "chaotic");
-  EXPECT_EQ(motion_at(2.05), "quasiperiodic");
-  // It loses 0.4 % a period of what it is away from its orbit, and is told by where it goes.
-  EXPECT_EQ(motion_at(3.0), "period 1");
 }
 
 TEST(PaperRegimes, DampingInContactOnlyPullsForAShortTime) {

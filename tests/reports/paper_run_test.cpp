@@ -85,7 +85,8 @@ TEST(PaperRun, ErrorsOfMultipliersHoldThatOfTheTables) {
       for (std::size_t k = 0; k < rough.values.size(); ++k) {
         std::size_t nearest = 0;
         for (std::size_t i = 0; i < fine.values.size(); ++i)
-          if (std::abs(fine.values[i] - rough.values[k]) < std::abs(fine.values[nearest] - rough.values[k])) nearest = i;
+          if (std::abs(fine.values[i] - rough.values[k]) < std::abs(fine.values[nearest] - rough.values[k]))
+            nearest = i;
         EXPECT_LE(std::abs(fine.values[nearest] - rough.values[k]), rough.errors[k] + fine.errors[nearest])
             << tolerance << (curve ? ", curve, " : ", harmonics, ") << k;
       }

@@ -17,10 +17,10 @@
 
 #include <gtest/gtest.h>
 
+#include "problems/numbered_points.hpp"
 #include "reports/sweep_output.hpp"
 #include "store/branch_columns.hpp"
 #include "store/hdf5_file.hpp"
-#include "studies/claims.hpp"
 #include "studies/point_source.hpp"
 #include "temporary_folder.hpp"
 
@@ -29,74 +29,8 @@ namespace {
 
 using studies::PointResult;
 using test::contents;
+using test::numbered_points;
 using test::TemporaryFolder;
-
-/// Points with a number of its own in each place: what is written of one column cannot pass for another.
-std::vector<PointResult> points(std::size_t planets) {
-  double next = 0.5;
-  const auto number = [&next] { return next += 1.0; };
-  const auto course = [&number](studies::Course& c) {
-    c.least = -number();
-    c.largest = number();
-    c.mean = number();
-    c.rms = number();
-  };
-  const auto fill = [&](std::vector<studies::MeshRecord>& meshes) {
-    for (studies::MeshRecord& m : meshes) {
-      course(m.delta);
-      course(m.force);
-      m.drive = number();
-      m.back = number();
-      m.pull = number();
-      m.pull_time = number();
-      course(m.quasi_static);
-      m.quasi_static.largest *= 3.0;
-    }
-  };
-  const auto fill_stage = [&](studies::StageRecord& stage) {
-    stage.sun_planet.resize(planets);
-    stage.ring_planet.resize(planets);
-    stage.planet_bearing.resize(planets);
-    fill(stage.sun_planet);
-    fill(stage.ring_planet);
-    for (studies::Course& bearing : stage.planet_bearing) course(bearing);
-    course(stage.sun_bearing);
-    course(stage.transmission_error);
-    for (auto* harmonics :
-         {&stage.sun_planet_harmonics, &stage.ring_planet_harmonics, &stage.transmission_error_harmonics})
-      for (double& x : *harmonics) x = number();
-    stage.planet_spread = number();
-    stage.static_force = number();
-    stage.mesh_frequency = number();
-    stage.speeds = {number(), number()};
-  };
-  std::vector<PointResult> all(3);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    PointResult& r = all[i];
-    r.point.index = i;
-    r.point.value = number();
-    fill_stage(r.meshes);
-    r.period = static_cast<int>(number());
-    r.rhs_evaluations = static_cast<long>(number());
-    r.recurrence.error = number();
-    r.recurrence.late_error = number();
-    r.omega = number();
-    r.classified = true;
-    r.regime = i == 0 ? analysis::Regime::periodic : analysis::Regime::chaotic;
-    analysis::Evidence& e = r.evidence;
-    e.periods = static_cast<int>(number());
-    e.residual = number();
-    e.orbit_error = number();
-    e.largest_multiplier = number();
-    e.multiplier_error = number();
-    e.exponent = {number(), number()};
-    e.note = "note " + std::to_string(i);
-    if (i > 0) e.zero_one = number();
-  }
-  all[2].outcome = integrate::Outcome::diverged;
-  all[2].message = "message";
-  return all;
-}
 
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
@@ -108,7 +42,7 @@ std::vector<std::string> cells_of(const std::string& line) {
 TEST(PointColumns, AreTheSameInTablesAndInHdf5) {
   constexpr std::size_t planets = 2;
   const TemporaryFolder folder;
-  const std::vector<PointResult> all = points(planets);
+  const std::vector<PointResult> all = numbered_points(planets);
   const studies::PointSource source = studies::points_in_memory(all);
   write_points_csv(folder / "points.csv", source);
   {
@@ -167,7 +101,7 @@ TEST(PointColumns, AreEachOfANumberOfItsOwn) {
   // Two columns that read the same place would be the same in each row, but for planet 1's, which stand twice, and K_v
   // of the mesh with the largest force, which is planet 2's here.
   constexpr std::size_t planets = 2;
-  const std::vector<PointResult> all = points(planets);
+  const std::vector<PointResult> all = numbered_points(planets);
   std::map<std::pair<double, double>, std::string> seen;
   std::size_t numbers = 0;
   for (const store::PointColumn& column : store::point_columns(planets)) {
@@ -192,34 +126,6 @@ TEST(PointColumns, StandInTheDocumentation) {
   expect_documented(store::branch_columns(0), page, from);
   expect_documented(store::special_columns(), page, from);
   expect_documented(store::locus_columns(), page, from);
-}
-
-/// A claim asks for what points.csv has under the same name.
-TEST(PointColumns, QuantitiesOfClaimsAreColumnsOfTheirNames) {
-  constexpr std::size_t planets = 3;
-  PointResult r = points(planets)[0];
-  r.poincare_columns = 2 + 2 * planets;
-  r.poincare.assign(r.poincare_columns, 1.0);
-  const studies::ClaimPoint point = studies::claim_point(r, {}, studies::Looked::in_full);
-  std::map<std::string, double> columns;
-  for (const store::PointColumn& c : store::point_columns(planets))
-    if (const auto* number = std::get_if<store::PointColumn::Getter<double>>(&c.value)) columns[c.name] = (*number)(r);
-  std::size_t compared = 0;
-  for (const std::string_view name : studies::claim_quantities) {
-    const auto column = columns.find(std::string(name));
-    if (column == columns.end()) {
-      EXPECT_TRUE(name.starts_with("poincare_") || name == "load_sharing_max") << name;
-      continue;
-    }
-    EXPECT_EQ(point.quantity(name), column->second) << name;
-    ++compared;
-  }
-  EXPECT_EQ(compared, studies::claim_quantities.size() - 3);
-  double most = 0.0;
-  for (std::size_t i = 1; i <= planets; ++i)
-    for (const char* mesh : {"sp_", "rp_"})
-      most = std::max(most, columns.at("load_sharing_" + (mesh + std::to_string(i))));
-  EXPECT_EQ(point.quantity("load_sharing_max"), most);
 }
 
 }  // namespace

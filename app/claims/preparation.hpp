@@ -1,0 +1,28 @@
+// What the commands on studies of claims do alike before they compute.
+#pragma once
+
+#include "claims/candidates.hpp"
+#include "commands.hpp"
+#include "input/study_input.hpp"
+#include "shared_evaluations.hpp"
+
+namespace epicyclic::app {
+
+/// Asks for models at both ends of each sweep of claims, so that what does not fit shows before anything is written.
+/// @throws InputError
+void require_models(const claims::ClaimsOptions& options, const claims::SweepModels& models);
+
+/// Asks for models at both ends of each parameter's range and with each option of each choice, all others in the middle
+/// of theirs, and warns of what changes nothing: nothing could determine it, and what a table says of it would be
+/// chance.
+/// @throws InputError that names the parameter
+void examine_candidates(const claims::ClaimsOptions& options, const claims::CandidateModels& models);
+
+/// The study of claims whose parameters a command searches or draws, checked, its warnings told.
+/// @throws InputError where it has none, and for what does not fit
+[[nodiscard]] input::LoadedInput load_open_claims(const Arguments& arguments);
+
+/// Candidates of a study by glances of one kind, or by whole sweeps, as ranks share them.
+[[nodiscard]] MakeEvaluator evaluator_by(claims::Glance (*glance)(const claims::ClaimsOptions&));
+
+}  // namespace epicyclic::app

@@ -1,0 +1,379 @@
+// Whether conditions could hold, and could fail: what neither can be judged by is refused.
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "claims/judging.hpp"
+#include "claims/option_checks.hpp"
+#include "core/text.hpp"
+
+namespace epicyclic::claims {
+
+using namespace studies;
+
+namespace {
+
+std::string kind_name(ConditionKind kind) {
+  for (const auto& [name, one] : condition_kinds)
+    if (one == kind) return std::string(name);
+  return {};
+}
+
+bool is_never_negative(const std::string& quantity) {
+  return quantity.ends_with("_range") || quantity.ends_with("_rms") || quantity == "planet_spread" ||
+         quantity.starts_with("dynamic_factor") || quantity == "load_sharing_max";
+}
+
+/// The motions that a condition names, each with its key.
+std::vector<std::pair<std::string, std::string>> motion_words(const Condition& c) {
+  std::vector<std::pair<std::string, std::string>> words = {
+      {"motion", c.motion}, {"after", c.after}, {"leads_to", c.leads_to}};
+  std::erase_if(words, [](const auto& word) { return word.second.empty(); });
+  for (std::size_t k = 0; k < c.motions.size(); ++k) words.emplace_back("motions/" + std::to_string(k), c.motions[k]);
+  return words;
+}
+
+/// All that can be told of a motion in full.
+std::vector<ClaimMotion> all_motions(int period_max) {
+  std::vector<ClaimMotion> motions;
+  for (int period = 1; period <= period_max; ++period) motions.push_back({analysis::Regime::periodic, period, true});
+  for (const auto regime : {analysis::Regime::quasiperiodic, analysis::Regime::chaotic, analysis::Regime::undecided})
+    motions.push_back({regime, 0, true});
+  return motions;
+}
+
+/// Is there a motion that both words call so?
+bool can_be_both(const std::string& a, const std::string& b, int period_max) {
+  return std::ranges::any_of(all_motions(period_max), [&](const ClaimMotion& m) { return m.is(a) && m.is(b); });
+}
+
+/// Is each motion of the one word of the other, too?
+bool is_always(const std::string& a, const std::string& b, int period_max) {
+  return std::ranges::all_of(all_motions(period_max), [&](const ClaimMotion& m) { return !m.is(a) || m.is(b); });
+}
+
+}  // namespace
+
+void check_sweep_name(ProblemList& problems, const std::string& place, const std::string& name, const Names& sweeps) {
+  if (!sweeps.contains(name)) problems.refuse(place, "is \"" + name + "\", which is no sweep of the study");
+}
+
+void check_condition(ProblemList& problems, const std::string& place, const Condition& c, const Names& sweeps) {
+  using enum ConditionKind;
+  const std::string kind = kind_name(c.kind);
+  const auto of = [&](std::initializer_list<ConditionKind> kinds) {
+    return std::ranges::find(kinds, c.kind) != kinds.end();
+  };
+  // A key that the kind does not read would be a condition that its writer believes in and nobody judges.
+  const auto wants = [&](bool given, bool needed, bool allowed, const char* key) {
+    if (needed && !given)
+      problems.refuse(place + "/" + key, "is missing; a condition of kind \"" + kind + "\" needs it");
+    if (given && !allowed) problems.refuse(place + "/" + key, "is not read by a condition of kind \"" + kind + "\"");
+  };
+  if (c.kind == decreasing) {
+    wants(!c.sweep.empty(), false, false, "sweep");
+    if (c.sweeps.size() < 2) problems.refuse(place + "/sweeps", "must name two sweeps at least");
+    for (std::size_t k = 0; k < c.sweeps.size(); ++k)
+      check_sweep_name(problems, place + "/sweeps/" + std::to_string(k), c.sweeps[k], sweeps);
+  } else {
+    wants(!c.sweeps.empty(), false, false, "sweeps");
+    check_sweep_name(problems, place + "/sweep", c.sweep, sweeps);
+  }
+  wants(!c.motion.empty(), of({share, count, change}), of({share, count, change, value, jump, decreasing}), "motion");
+  wants(!c.after.empty(), c.kind == change, c.kind == change, "after");
+  wants(!c.leads_to.empty(), false, c.kind == change, "leads_to");
+  wants(!c.motions.empty(), c.kind == sequence, c.kind == sequence, "motions");
+  wants(!c.within.empty(), c.kind == change, c.kind == change, "within");
+  wants(!c.quantity.empty(), of({value, falls, peaks, jump, decreasing}), of({value, falls, peaks, jump, decreasing}),
+        "quantity");
+  wants(!c.places.empty(), c.kind == peaks, c.kind == peaks, "places");
+  wants(c.correlation.has_value(), false, c.kind == alike, "correlation");
+  wants(c.which.has_value(), false, c.kind == change, "which");
+  wants(c.statistic.has_value(), false, c.kind == value, "statistic");
+  wants(c.place_tolerance.has_value(), false, c.kind == peaks, "place_tolerance");
+  wants(c.prominence.has_value(), false, c.kind == peaks, "prominence");
+  const bool bounded = of({share, count, value, variation});
+  wants(c.at_least.has_value(), of({falls, jump, alike}), bounded || of({falls, jump, alike}), "at_least");
+  wants(c.at_most.has_value(), false, bounded, "at_most");
+  if (bounded && !c.at_least && !c.at_most)
+    problems.refuse(place, "needs \"at_least\" or \"at_most\": it bounds nothing");
+  if (c.at_least && c.at_most && !(*c.at_least <= *c.at_most))
+    problems.refuse(place + "/at_least", "is " + short_text(*c.at_least, 17) + ", must be <= at_most");
+  // Parts of 1; beyond them a condition would never hold, or always.
+  if (of({share, alike, variation, jump})) {
+    if (c.at_least && !(*c.at_least > 0.0 && *c.at_least <= 1.0))
+      problems.refuse(place + "/at_least", "is " + short_text(*c.at_least, 17) + ", must be > 0 and <= 1: a part of 1");
+    if (c.at_most && !(*c.at_most >= 0.0 && *c.at_most < 1.0))
+      problems.refuse(place + "/at_most", "is " + short_text(*c.at_most, 17) + ", must be >= 0 and < 1: a part of 1");
+  }
+  if (c.kind == count) {
+    if (c.at_least && !(*c.at_least > 0.0))
+      problems.refuse(place + "/at_least", "is " + short_text(*c.at_least, 17) + ", must be > 0");
+    if (c.at_most && !(*c.at_most >= 0.0))
+      problems.refuse(place + "/at_most", "is " + short_text(*c.at_most, 17) + ", must be >= 0");
+  }
+  if (c.prominence && !(*c.prominence > 0.0))
+    problems.refuse(place + "/prominence", "is 0, must be > 0: any point has it");
+  if (c.correlation && !(*c.correlation > 0.0))
+    problems.refuse(place + "/correlation", "is " + short_text(*c.correlation, 17) + ", must be > 0");
+  if (c.kind == count && c.at_least && c.at_most && std::ceil(*c.at_least) > std::floor(*c.at_most))
+    problems.refuse(place + "/at_most", "is " + short_text(*c.at_most, 17) + ": no number of points is from " +
+                                            short_text(*c.at_least, 17) + " to that");
+  if (c.kind == falls && c.at_least && !(*c.at_least > 1.0)) problems.refuse(place + "/at_least", "must be > 1");
+  if (c.kind == value && is_never_negative(c.quantity)) {
+    if (c.at_least && !c.at_most && !(*c.at_least > 0.0))
+      problems.refuse(place + "/at_least",
+                      "is " + short_text(*c.at_least, 17) + ", must be > 0: " + c.quantity + " is never below 0");
+    if (c.at_most && *c.at_most < 0.0)
+      problems.refuse(place + "/at_most",
+                      "is " + short_text(*c.at_most, 17) + ", must be >= 0: " + c.quantity + " is never below 0");
+  }
+  if (c.from && c.to && !(*c.from <= *c.to))
+    problems.refuse(place + "/from", "is " + short_text(*c.from, 17) + ", must be <= to = " + short_text(*c.to, 17));
+  if (!c.within.empty() && (c.within.size() != 2 || !(c.within[0] < c.within[1])))
+    problems.refuse(place + "/within", "must be two values, the first below the second");
+  for (const auto& [key, word] : motion_words(c))
+    if (!is_motion_word(word))
+      problems.refuse(place + "/" + key,
+                      "is \"" + word +
+                          "\", must be \"period N\", periodic, multi-period, quasiperiodic, chaotic, "
+                          "aperiodic, or \"not \" and one of these");
+  for (std::size_t k = 0; k + 1 < c.places.size(); ++k) {
+    const double tolerance = c.place_tolerance.value_or(default_place_tolerance);
+    if (!(c.places[k] * (1.0 + tolerance) < c.places[k + 1] * (1.0 - tolerance)))
+      problems.refuse(place + "/places/" + std::to_string(k + 1),
+                      "is " + short_text(c.places[k + 1], 17) +
+                          ", must lie above the one before it by more than place_tolerance = " +
+                          short_text(tolerance, 17) + " of both: one maximum would be counted twice");
+  }
+}
+
+namespace {
+
+/// A sweep's grid as one of the looks takes it.
+struct Grid {
+  const char* points_key;
+  int points;
+  std::vector<double> values;  ///< within the part that a condition speaks of
+};
+
+/// Is anything searched or drawn, so that claims are judged by brief looks, too?
+bool has_brief_looks(const ClaimsOptions& options) { return options.space.dimension() > 0; }
+
+/// The part of a sweep that a condition speaks of, by each look.
+struct PartOfSweep {
+  double from, to;
+  std::vector<Grid> grids;
+
+  PartOfSweep(const Condition& c, const ClaimSweep& sweep, const ClaimsOptions& options)
+      : from(std::max(sweep.axis.from, c.from.value_or(sweep.axis.from))),
+        to(std::min(sweep.axis.to, c.to.value_or(sweep.axis.to))) {
+    for (const auto& [points, key] :
+         {std::pair(sweep.axis.points, "points"), std::pair(sweep.brief_points, "brief_points"),
+          std::pair(sweep.survey_points, "survey_points")}) {
+      if (!grids.empty() && !has_brief_looks(options)) break;
+      Axis axis = sweep.axis;
+      axis.points = std::min(points, axis.points);
+      Grid grid{key, axis.points, axis_values(axis)};
+      std::erase_if(grid.values, [&](double v) { return !is_at_least(v, from) || !is_at_most(v, to); });
+      grids.push_back(std::move(grid));
+    }
+  }
+
+  [[nodiscard]] std::string text() const { return short_text(from, 6) + " to " + short_text(to, 6); }
+};
+
+/// Points that a condition has to find in its part, so that it can hold.
+std::size_t points_needed(const Condition& c) {
+  using enum ConditionKind;
+  switch (c.kind) {
+    case change:
+    case variation:
+    case falls:
+      return 2;
+    case alike:
+      return c.correlation ? 3 : 1;  // two ranges correlate by 1 or -1, whatever they are
+    case peaks:
+    case jump:
+      return 3;
+    case sequence:
+      return c.motions.size();
+    case count:
+      return static_cast<std::size_t>(std::max(1.0, std::ceil(c.at_least.value_or(1.0))));
+    default:
+      return 1;
+  }
+}
+
+/// What a condition wants of one grid: points in its part, and places and bounds among them.
+void check_grid(ProblemList& problems, const std::string& place, const Condition& c, const std::string& sweep,
+                const std::string& range, const Grid& grid) {
+  const std::string words =
+      "\"" + sweep + "\" with its grid of " + std::to_string(grid.points) + " (" + grid.points_key + ")";
+  const std::size_t there = grid.values.size();
+  if (there < points_needed(c)) {
+    problems.refuse(place, "needs " + std::to_string(points_needed(c)) + " points within " + range + "; " + words +
+                               " has " + std::to_string(there));
+    return;
+  }
+  if (c.kind == ConditionKind::count && c.at_most && *c.at_most >= static_cast<double>(there))
+    problems.refuse(place + "/at_most", "is " + short_text(*c.at_most, 17) + "; " + words + " has " +
+                                            std::to_string(there) + " points there: it would always hold");
+  if (c.within.size() == 2) {
+    bool any = false;
+    for (std::size_t k = 0; k + 1 < there; ++k) {
+      const double middle = 0.5 * (grid.values[k] + grid.values[k + 1]);
+      any = any || (is_at_least(middle, c.within[0]) && is_at_most(middle, c.within[1]));
+    }
+    if (!any) problems.refuse(place + "/within", "has no middle of two points; " + words + ": it would never hold");
+  }
+  const double tolerance = c.place_tolerance.value_or(default_place_tolerance);
+  for (std::size_t k = 0; k < c.places.size(); ++k) {
+    const auto near = [&](double v) { return std::abs(v - c.places[k]) <= tolerance * c.places[k]; };
+    if (there < 3 || std::none_of(grid.values.begin() + 1, grid.values.end() - 1, near))
+      problems.refuse(place + "/places/" + std::to_string(k), "is " + short_text(c.places[k], 17) + ", near which " +
+                                                                  words + " has no point that could be a maximum");
+  }
+}
+
+/// A number of points is a bound on one grid: of another one it would be another claim.
+void check_counted(ProblemList& problems, const std::string& place, const Condition& c, const std::string& sweep,
+                   const std::vector<Grid>& grids) {
+  if (c.kind != ConditionKind::count) return;
+  for (const Grid& grid : grids) {
+    if (grid.values.size() == grids.front().values.size()) continue;
+    for (const auto& [key, bound, harmless] :
+         {std::tuple("at_least", c.at_least, 1.0), std::tuple("at_most", c.at_most, 0.0)})
+      if (bound && *bound > harmless)
+        problems.refuse(place + "/" + key, "is " + short_text(*bound, 17) + " of the " +
+                                               std::to_string(grids.front().values.size()) + " points that \"" + sweep +
+                                               "\" has there; by " + grid.points_key + " it has " +
+                                               std::to_string(grid.values.size()) +
+                                               ", of which the bound would be another one: a \"share\" is the same of "
+                                               "both");
+    return;
+  }
+}
+
+/// What a condition wants of one of its sweeps.
+void check_part(ProblemList& problems, const std::string& place, const Condition& c, const ClaimSweep& sweep,
+                const ClaimsOptions& options) {
+  const Axis& axis = sweep.axis;
+  if (!(axis.from < axis.to)) return;
+  const PartOfSweep part(c, sweep, options);
+  if (part.from > part.to) {
+    problems.refuse(place, "looks where \"" + sweep.name + "\" has no point: it goes from " + short_text(axis.from, 6) +
+                               " to " + short_text(axis.to, 6));
+    return;
+  }
+  if (c.within.size() == 2 && (c.within[1] < part.from || c.within[0] > part.to)) {
+    problems.refuse(place + "/within", "lies outside the part that is looked at, " + part.text());
+    return;
+  }
+  const std::size_t before = problems.count();
+  for (std::size_t k = 0; k < c.places.size(); ++k)
+    if (!(c.places[k] >= part.from && c.places[k] <= part.to && c.places[k] > 0.0))
+      problems.refuse(place + "/places/" + std::to_string(k),
+                      "is " + short_text(c.places[k], 17) + ", must be > 0 and within " + part.text());
+  check_counted(problems, place, c, sweep.name, part.grids);
+  for (const Grid& grid : part.grids)
+    if (problems.count() == before) check_grid(problems, place, c, sweep.name, part.text(), grid);
+  if (options.look.classification_periods == 0) {
+    const int recorded = sweep.recorded_periods.value_or(options.look.recorded_periods);
+    for (const auto& [key, word] : motion_words(c))
+      if (2 * motion_period(word) > recorded)
+        problems.refuse(place + "/" + key,
+                        "is \"" + word + "\", which takes twice as many recorded_periods to be seen; the sweep \"" +
+                            sweep.name + "\" has " + std::to_string(recorded) + ", and classification_periods = 0");
+  }
+}
+
+/// What a condition wants of the looks, whatever the sweep.
+void check_looks(ProblemList& problems, const std::string& place, const Condition& c, const ClaimsOptions& options) {
+  for (const auto& [key, word] : motion_words(c)) {
+    const int period = motion_period(word);
+    if (period > options.look.period_max)
+      problems.refuse(place + "/" + key, "is \"" + word + "\", longer than period_max = " +
+                                             std::to_string(options.look.period_max) + ": it is not looked for");
+    else if (has_brief_looks(options) &&
+             2 * period > std::min(options.brief.recorded_periods, options.survey.look.recorded_periods))
+      problems.refuse(place + "/" + key, "is \"" + word +
+                                             "\", which takes twice as many recorded_periods to be seen; " +
+                                             "brief or survey look at fewer");
+  }
+  if (options.look.classification_periods == 0)
+    for (const auto& [key, word] : motion_words(c))
+      if (is_told_by_evidence(word))
+        problems.refuse(place + "/" + key,
+                        "is \"" + word +
+                            "\", which nobody tells with classification_periods = 0: what does not recur "
+                            "is undecided");
+  if (c.kind == ConditionKind::change && is_motion_word(c.motion) && is_motion_word(c.after) &&
+      can_be_both(c.motion, c.after, options.look.period_max))
+    problems.refuse(place + "/after", "is \"" + c.after + "\", which a motion that is \"" + c.motion +
+                                          "\" can be, too: nothing would have to change");
+  if (c.kind == ConditionKind::change && is_motion_word(c.motion) && is_motion_word(c.leads_to) &&
+      is_always(c.leads_to, c.motion, options.look.period_max))
+    problems.refuse(place + "/leads_to", "is \"" + c.leads_to + "\", which a motion is that is \"" + c.motion +
+                                             "\", too: it is not met before that comes back");
+  if (c.quantity != "lyapunov_max") return;
+  const std::string nobody = "is \"lyapunov_max\", which nobody computes with ";
+  if (options.look.classification_periods == 0)
+    problems.refuse(place + "/quantity", nobody + "classification_periods = 0");
+  else if (!has_brief_looks(options))
+    return;
+  else if (options.brief.classification_periods == 0)
+    problems.refuse(place + "/quantity", nobody + "brief/classification_periods = 0, its default");
+  else if (options.survey.look.classification_periods == 0)
+    problems.refuse(place + "/quantity", nobody + "survey/look/classification_periods = 0, its default");
+}
+
+/// Sweeps are compared at the values that all of them have: by each look half of those of the coarsest at least.
+void check_common_values(ProblemList& problems, const std::string& place, const Condition& c,
+                         const std::vector<const ClaimSweep*>& sweeps, const ClaimsOptions& options) {
+  std::vector<PartOfSweep> parts;
+  for (const ClaimSweep* sweep : sweeps) parts.emplace_back(c, *sweep, options);
+  for (std::size_t g = 0; g < parts.front().grids.size(); ++g) {
+    std::size_t fewest = parts.front().grids[g].values.size();
+    for (const PartOfSweep& part : parts) fewest = std::min(fewest, part.grids[g].values.size());
+    const auto is_common = [&](double v) {
+      return std::ranges::all_of(parts, [&](const PartOfSweep& part) {
+        const std::vector<double>& values = part.grids[g].values;  // rise
+        const auto above = std::ranges::lower_bound(values, v);
+        return (above != values.end() && is_same_value(v, *above)) ||
+               (above != values.begin() && is_same_value(v, *std::prev(above)));
+      });
+    };
+    const auto common = static_cast<std::size_t>(std::ranges::count_if(parts.front().grids[g].values, is_common));
+    if (common == 0 || 2 * common < fewest)
+      problems.refuse(place + "/sweeps", "are compared at the values that all of them have; by " +
+                                             std::string(parts.front().grids[g].points_key) + " that is " +
+                                             std::to_string(common) + " of " + std::to_string(fewest) +
+                                             " that the coarsest has there");
+  }
+}
+
+}  // namespace
+
+void check_grids(ProblemList& problems, const std::string& place, const Condition& c, const ClaimsOptions& options) {
+  std::vector<const ClaimSweep*> sweeps;
+  const std::vector<std::string> names = c.kind == ConditionKind::decreasing ? c.sweeps : std::vector{c.sweep};
+  for (const std::string& name : names) {
+    const auto sweep = std::ranges::find(options.sweeps, name, &ClaimSweep::name);
+    if (sweep == options.sweeps.end()) return;
+    sweeps.push_back(&*sweep);
+  }
+  check_looks(problems, place, c, options);
+  for (const ClaimSweep* sweep : sweeps) {
+    const std::size_t before = problems.count();
+    check_part(problems, place, c, *sweep, options);
+    if (problems.count() > before) return;
+  }
+  if (sweeps.size() > 1) check_common_values(problems, place, c, sweeps, options);
+}
+
+}  // namespace epicyclic::claims

@@ -1,0 +1,124 @@
+#include "claims/options.hpp"
+
+#include <algorithm>
+
+#include "claims/option_checks.hpp"
+#include "core/text.hpp"
+
+namespace epicyclic::claims {
+
+using namespace studies;
+
+namespace {
+
+/// Files and folders are called so.
+bool is_file_name(const std::string& name) {
+  constexpr std::size_t longest = 64;
+  return !name.empty() && name.size() <= longest && name.front() != '.' && std::ranges::all_of(name, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+           c == '.';
+  });
+}
+
+}  // namespace
+
+SweepOptions ClaimsOptions::whole_sweep(const ClaimSweep& sweep, Start start) const {
+  SweepOptions plan;
+  plan.axis = sweep.axis;
+  plan.directions = start == Start::cold ? std::vector{Direction::up} : sweep.directions;
+  plan.start = start;
+  plan.look = look;
+  plan.look.keep = Keep::section;
+  plan.look.recorded_periods = sweep.recorded_periods.value_or(look.recorded_periods);
+  plan.segments = segments_of(plan);
+  return plan;
+}
+
+std::vector<std::pair<std::string, std::string>> ClaimsOptions::problems() const {
+  ProblemList problems;
+  const Names names = problems.names(sweeps, "/sweeps");
+  if (sweeps.empty()) problems.refuse("/sweeps", "is empty: there is nothing to judge claims by");
+  if (claims.empty()) problems.refuse("/claims", "is empty: there is nothing to judge");
+  (void)problems.names(claims, "/claims");
+  (void)problems.names(figures, "/figures");
+  for (std::size_t k = 0; k < sweeps.size(); ++k)
+    if (sweeps[k].name.ends_with(".json"))
+      problems.refuse("/sweeps/" + std::to_string(k) + "/name", "ends with .json, as inputs do");
+  if (search.candidates < search.islands * search.population)
+    problems.refuse("/search/candidates",
+                    "is " + std::to_string(search.candidates) +
+                        ", must be >= islands x population = " + std::to_string(search.islands * search.population));
+  for (std::size_t k = 0; k < sweeps.size(); ++k)
+    if (!(sweeps[k].axis.from < sweeps[k].axis.to))
+      problems.refuse("/sweeps/" + std::to_string(k) + "/from",
+                      "is " + short_text(sweeps[k].axis.from, 17) + ", must be < to = " +
+                          short_text(sweeps[k].axis.to, 17) + "; to go downwards give \"directions\": [\"down\"]");
+  for (std::size_t k = 0; k < sweeps.size(); ++k)
+    if (!sweeps[k].name.empty() && !is_file_name(sweeps[k].name))
+      problems.refuse(
+          "/sweeps/" + std::to_string(k) + "/name",
+          "is \"" + sweeps[k].name + "\", must be of letters, digits, '_', '-' and '.': a folder is called so");
+  // Of cold starts a sweep's folder has its name with an ending.
+  for (std::size_t k = 0; k < sweeps.size(); ++k)
+    if (names.contains(sweeps[k].name + "_cold"))
+      problems.refuse(
+          "/sweeps/" + std::to_string(k) + "/name",
+          "is \"" + sweeps[k].name + "\", and another \"" + sweeps[k].name + "_cold\", as its cold starts are called");
+  for (std::size_t k = 0; k < claims.size(); ++k) {
+    const std::string place = "/claims/" + std::to_string(k) + "/conditions";
+    if (claims[k].conditions.empty()) problems.refuse(place, "is empty: the claim would always hold");
+    for (std::size_t c = 0; c < claims[k].conditions.size(); ++c) {
+      const Condition& condition = claims[k].conditions[c];
+      const std::string at = place + "/" + std::to_string(c);
+      check_condition(problems, at, condition, names);
+      std::string parameter;
+      for (std::size_t j = 0; j < condition.sweeps.size(); ++j) {
+        const auto sweep = std::ranges::find(sweeps, condition.sweeps[j], &ClaimSweep::name);
+        if (sweep == sweeps.end()) continue;
+        if (std::ranges::count(condition.sweeps, condition.sweeps[j]) > 1)
+          problems.refuse(at + "/sweeps/" + std::to_string(j),
+                          "is there twice: it does not fall from itself to itself");
+        if (!parameter.empty() && sweep->axis.name != parameter)
+          problems.refuse(at + "/sweeps/" + std::to_string(j), "is a sweep of another parameter than the first");
+        if (parameter.empty()) parameter = sweep->axis.name;
+      }
+      check_grids(problems, at, condition, *this);
+    }
+  }
+  for (std::size_t k = 0; k < figures.size(); ++k) {
+    const std::string place = "/figures/" + std::to_string(k);
+    if (!figures[k].name.empty() && !is_file_name(figures[k].name))
+      problems.refuse(place + "/name", "is \"" + figures[k].name + "\", must be of letters, digits, '_', '-' and '.'");
+    if (figures[k].panels.empty()) problems.refuse(place + "/panels", "is empty");
+    std::string parameter;
+    for (std::size_t s = 0; s < figures[k].panels.size(); ++s) {
+      const std::string at = place + "/panels/" + std::to_string(s) + "/sweep";
+      const std::string& sweep = figures[k].panels[s].sweep;
+      check_sweep_name(problems, at, sweep, names);
+      const auto found = std::ranges::find(sweeps, sweep, &ClaimSweep::name);
+      if (found == sweeps.end()) continue;
+      if (!parameter.empty() && parameter != found->axis.name)
+        problems.refuse(at, "is \"" + sweep + "\", a sweep of another parameter than that of the panel above");
+      parameter = found->axis.name;
+    }
+  }
+  if (starts.empty()) problems.refuse("/starts", "is empty");
+  const auto check_recorded = [&](int recorded, int classified, const std::string& place) {
+    if (recorded < 2 && classified == 0)
+      problems.refuse(place,
+                      "is 1, must be >= 2 with classification_periods = 0: of one Poincare point nothing comes back");
+  };
+  check_recorded(look.recorded_periods, look.classification_periods, "/recorded_periods");
+  if (space.dimension() > 0) {
+    check_recorded(brief.recorded_periods, brief.classification_periods, "/brief/recorded_periods");
+    check_recorded(survey.look.recorded_periods, survey.look.classification_periods, "/survey/look/recorded_periods");
+  }
+  for (std::size_t k = 0; k < sweeps.size(); ++k)
+    if (sweeps[k].recorded_periods)
+      check_recorded(*sweeps[k].recorded_periods, look.classification_periods,
+                     "/sweeps/" + std::to_string(k) + "/recorded_periods");
+  check_space(problems, space);
+  return std::move(problems).found();
+}
+
+}  // namespace epicyclic::claims

@@ -1,0 +1,262 @@
+#include "claims/scorecard.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <map>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/csv.hpp"
+#include "core/errors.hpp"
+#include "core/text.hpp"
+#include "figures/sketch.hpp"
+#include "input/recorded_study.hpp"
+#include "input/stage_completion.hpp"
+#include "reports/markdown.hpp"
+#include "store/identity.hpp"
+
+namespace epicyclic::claims {
+
+using reports::DrawnFigure;
+using reports::markdown_cell;
+using reports::parameter_label;
+
+namespace {
+
+std::string start_name(studies::Start start) { return start == studies::Start::cold ? "cold" : "carried"; }
+
+std::string verdict(const ClaimOutcome& outcome) { return outcome.holds ? "holds" : "fails"; }
+
+/// All conditions' texts in a row.
+std::string measured_text(const ClaimOutcome& outcome) {
+  std::string text;
+  for (const ConditionOutcome& c : outcome.conditions) {
+    if (!text.empty()) text += "; ";
+    text += c.text;
+    if (c.error > 0.0 && std::isfinite(c.measured))
+      text += c.part_of_one ? " (± " + short_text(100.0 * c.error, 2) + " %)" : " (± " + short_text(c.error, 2) + ")";
+    if (!c.holds) text += " [fails]";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::size_t Scorecard::holding() const {
+  return static_cast<std::size_t>(std::ranges::count_if(scored.front().outcomes, &ClaimOutcome::holds));
+}
+
+std::size_t Scorecard::holding_inert() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(scored.front().outcomes, [](const ClaimOutcome& o) { return o.holds && o.inert; }));
+}
+
+std::string scorecard_csv(const Scorecard& card) {
+  std::vector<std::string> columns = {"claim"};
+  for (const ScoredStart& s : card.scored) columns.push_back(start_name(s.start));
+  columns.emplace_back("nothing_changes");
+  for (const ScoredStart& s : card.scored) columns.push_back("measured_" + start_name(s.start));
+  CsvWriter csv(columns);
+  for (std::size_t k = 0; k < card.options.claims.size(); ++k) {
+    csv.cell(card.options.claims[k].name);
+    for (const ScoredStart& s : card.scored) csv.cell(verdict(s.outcomes[k]));
+    csv.cell(card.scored.front().outcomes[k].inert ? 1 : 0);
+    for (const ScoredStart& s : card.scored) csv.cell(measured_text(s.outcomes[k]));
+    csv.end_row();
+  }
+  return csv.text();
+}
+
+std::string scorecard_summary(const Scorecard& card) {
+  std::string text = fmt::format("# Claims held against {}\n\n", card.name);
+  text += fmt::format("{} of {} claims hold", card.holding(), card.options.claims.size());
+  if (card.holding_inert() > 0)
+    text +=
+        fmt::format(", {} of them with sweeps along which nothing that they speak of changes at all, by symmetry, say",
+                    card.holding_inert());
+  text += fmt::format(" (points {}).\n\n", card.scored.front().start == studies::Start::cold
+                                               ? "that start cold"
+                                               : "carried from one to the next");
+  text += "| claim | where | what | printed |";
+  std::string line = "|---|---|---|---|";
+  for (const ScoredStart& s : card.scored) {
+    text += fmt::format(" {} |", start_name(s.start));
+    line += "---|";
+  }
+  text += " measured |\n" + line + "---|\n";
+  for (std::size_t k = 0; k < card.options.claims.size(); ++k) {
+    const Claim& claim = card.options.claims[k];
+    text += fmt::format("| {} | {} | {} | {} |", markdown_cell(claim.name), markdown_cell(claim.where),
+                        markdown_cell(claim.text), markdown_cell(claim.printed));
+    for (const ScoredStart& s : card.scored)
+      text += fmt::format(" {}{} |", verdict(s.outcomes[k]), s.outcomes[k].inert ? ", nothing changes" : "");
+    text += fmt::format(" {} |\n", markdown_cell(measured_text(card.scored.front().outcomes[k])));
+  }
+  if (text.find(not_settled) != std::string::npos)
+    text += fmt::format(
+        "\nPoints that are {}: the motion is periodic and the record still on its way to it, so that what is measured "
+        "there is not the orbit's; more transient_periods get to it.\n",
+        not_settled);
+  for (std::size_t s = 1; s < card.scored.size(); ++s) {
+    std::string other;
+    for (std::size_t k = 0; k < card.options.claims.size(); ++k)
+      if (card.scored[s].outcomes[k].holds != card.scored.front().outcomes[k].holds)
+        other += fmt::format("- {}, {}: {}\n", card.options.claims[k].name, start_name(card.scored[s].start),
+                             measured_text(card.scored[s].outcomes[k]));
+    if (!other.empty()) text += "\nWhere another start gives another verdict:\n\n" + other;
+  }
+  return text;
+}
+
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* recorded_format = "epicyclic scorecard 1";
+
+json verdicts_of(const Scorecard& card) {
+  json list = json::array();
+  for (std::size_t k = 0; k < card.options.claims.size(); ++k) {
+    json one = {{"claim", card.options.claims[k].name}};
+    for (const ScoredStart& s : card.scored) one[start_name(s.start)] = verdict(s.outcomes[k]);
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
+/// How the sweeps are integrated, and what a search would do, is no part of what is claimed.
+bool is_beside_the_claims(const std::string& line) {
+  for (const char* pointer : {"/name:", "/integrator/", "/study/brief/", "/study/search/", "/study/survey/",
+                              "/study/parameters", "/study/choices", "/study/figures"})
+    if (line.starts_with(pointer) && !line.starts_with("/integrator/clearance_smoothing")) return true;
+  const std::string_view pointer = std::string_view(line).substr(0, line.find(": "));
+  const auto ends_with_one_of = [&](std::initializer_list<const char*> keys) {
+    return std::ranges::any_of(keys, [&](const char* key) { return pointer.ends_with(key); });
+  };
+  return (line.starts_with("/study/claims/") && ends_with_one_of({"/weight", "/where", "/text", "/printed"})) ||
+         (line.starts_with("/study/sweeps/") && ends_with_one_of({"/brief_points", "/survey_points", "/round"}));
+}
+
+}  // namespace
+
+std::string recorded_text(const Scorecard& card, const input::LoadedInput& study) {
+  std::string text = fmt::format("{{\n\"format\": \"{}\",\n\"verdicts\": [", recorded_format);
+  const json verdicts = verdicts_of(card);
+  for (std::size_t k = 0; k < verdicts.size(); ++k) text += (k == 0 ? "\n" : ",\n") + verdicts[k].dump();
+  return text + "\n],\n\"study\": " + study.resolved.dump() + "\n}\n";
+}
+
+json read_recorded(const std::filesystem::path& file) {
+  const input::JsonSource source = input::read_json_file(file);
+  if (!source.problems.empty()) throw input::InputProblems(source.problems);
+  const json& recorded = source.value;
+  const auto is_list_of_objects = [](const json& list) {
+    return list.is_array() && std::ranges::all_of(list, [](const json& one) {
+             return one.is_object() && one.contains("claim") && one["claim"].is_string();
+           });
+  };
+  if (!recorded.is_object() || recorded.value("format", json()) != recorded_format ||
+      !is_list_of_objects(recorded.value("verdicts", json())) || !recorded.value("study", json()).is_object())
+    throw InputError(file.string() + ": holds no recorded verdicts");
+  return recorded;
+}
+
+RecordedDifference unlike_recorded(const Scorecard& card, const input::LoadedInput& study, const json& recorded) {
+  RecordedDifference difference;
+  json there = recorded["study"];
+  input::add_later_keys(there);
+  const json computed = input::computed_values(there);
+  difference.study = store::differences({there, computed}, {study.resolved, study.computed});
+  std::erase_if(difference.study, is_beside_the_claims);
+  if (!difference.study.empty()) return difference;
+  // Claim and start by verdict; of a claim that is recorded twice all that is recorded.
+  using Verdicts = std::map<std::pair<std::string, std::string>, std::set<std::string>>;
+  const auto by_place = [](const json& list) {
+    Verdicts verdicts;
+    for (const json& one : list)
+      for (const auto& [start, verdict] : one.items())
+        if (start != "claim")
+          verdicts[{one["claim"].get<std::string>(), start}].insert(verdict.is_string() ? verdict.get<std::string>()
+                                                                                        : verdict.dump());
+    return verdicts;
+  };
+  const Verdicts was = by_place(recorded["verdicts"]);
+  const Verdicts now = by_place(verdicts_of(card));
+  const auto told = [](const Verdicts& verdicts, const Verdicts::key_type& place) {
+    const auto found = verdicts.find(place);
+    return found == verdicts.end() ? std::string("nothing") : fmt::format("{}", fmt::join(found->second, " and "));
+  };
+  Verdicts all = now;
+  all.insert(was.begin(), was.end());
+  for (const auto& [place, unused] : all)
+    if (const std::string is = told(now, place), before = told(was, place); is != before)
+      difference.verdicts.push_back(
+          fmt::format("{} ({}): {}, was recorded: {}", place.first, place.second, is, before));
+  return difference;
+}
+
+namespace {
+
+/// Poincare points of planet 1's mesh over the parameter, of the direction that verdicts are on.
+std::vector<std::array<double, 2>> section_dots(const studies::PointSource& points, MeshSide mesh) {
+  std::vector<std::array<double, 2>> dots;
+  const studies::Direction judged = judged_direction(points);
+  for (std::size_t k = 0; k < points.count; ++k) {
+    const studies::PointResult r = points.read(k);
+    if (r.point.direction != judged || r.outcome != integrate::Outcome::reached) continue;
+    const std::size_t planets = r.meshes.sun_planet.size();
+    const std::size_t column = r.poincare_columns - (mesh == MeshSide::sun_planet ? 2 : 1) * planets;
+    for (std::size_t row = 0; row < r.poincare_rows(); ++row)
+      dots.push_back({r.point.value, r.poincare[row * r.poincare_columns + column]});
+  }
+  return dots;
+}
+
+}  // namespace
+
+std::vector<DrawnFigure> draw_claim_figures(const std::filesystem::path& folder, const Scorecard& card,
+                                            const std::string& title, const SweepPoints& points) {
+  std::vector<DrawnFigure> drawn;
+  for (const ClaimFigure& figure : card.options.figures) {
+    figures::Sketch sketch(figure.name);
+    figures::FigureRange x;
+    std::string parameter;
+    for (const ClaimPanel& panel : figure.panels) {
+      const auto sweep = std::ranges::find(card.options.sweeps, panel.sweep, &ClaimSweep::name);
+      const auto dots = section_dots(points(panel.sweep), panel.mesh);
+      figures::FigureRange y;
+      for (const auto& [value, delta] : dots) {
+        x.include(value);
+        y.include(delta);
+      }
+      parameter = sweep->axis.name;
+      const std::string symbol = panel.mesh == MeshSide::sun_planet ? "δ_{sp,1} / b_c" : "δ_{rp,1} / b_c";
+      const std::string words = panel.title.empty() ? symbol : figures::literal_text(panel.title) + "    " + symbol;
+      // What recurrence does not tell apart shall not look like a spread.
+      const double middle = 0.5 * (y.low + y.high);
+      const double least = 10.0 * card.options.look.recurrence_tolerance;
+      if (y.high - y.low < least)
+        for (const double side : {-0.5, 0.5}) y.include(middle + side * least);
+      sketch.panel(words, y.widened(figures::figure_margin));
+      constexpr double dot = 0.25;
+      sketch.add(dots, figures::dots(figures::ink::blue, dot));
+    }
+    constexpr double edge = 0.01;  // the frame would hide half of the first dots and of the last
+    constexpr int height_alone = 1100;
+    constexpr int height_each = 620;
+    const figures::FigureCanvas canvas{
+        1800, figure.panels.size() == 1 ? height_alone : height_each * static_cast<int>(figure.panels.size())};
+    const std::string words = figure.title.empty() ? title : figures::literal_text(figure.title) + ": " + title;
+    drawn.push_back({folder / (figure.name + ".png"),
+                     sketch.draw(folder, {words, parameter_label(parameter), ""}, x.widened(edge), {}, {}, canvas)});
+  }
+  return drawn;
+}
+
+}  // namespace epicyclic::claims

@@ -1,0 +1,68 @@
+// What is left of claims that were held against sweeps: the scorecard, and the figures as they are published.
+//
+//   scorecard.csv   a row per claim: its verdict for each start, whether it holds whatever the stage, what was measured
+//   scorecard.md    the same in words
+//   figures/        bifurcation diagrams, in panels
+//
+// All of it follows from the sweeps' points alone and is the same, byte for byte, for the same study.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "claims/judging.hpp"
+#include "reports/sweep_output.hpp"
+#include "studies/point_source.hpp"
+
+namespace epicyclic::claims {
+
+/// What became of the claims where points start so.
+struct ScoredStart {
+  studies::Start start = studies::Start::carried;
+  std::vector<ClaimOutcome> outcomes;  ///< of each claim, in order
+};
+
+struct Scorecard {
+  std::string name;  ///< of the study
+  ClaimsOptions options;
+  std::vector<ScoredStart> scored;  ///< in the order of the options' starts
+
+  /// Claims that hold where points start as first asked for, and how many of them whatever the stage.
+  [[nodiscard]] std::size_t holding() const;
+  [[nodiscard]] std::size_t holding_inert() const;
+};
+
+[[nodiscard]] std::string scorecard_csv(const Scorecard& card);
+[[nodiscard]] std::string scorecard_summary(const Scorecard& card);
+
+/// Verdicts that were recorded of a study:
+///
+///   { "format": "epicyclic scorecard 1", "verdicts": [ { "claim": "C01", "carried": "holds", "cold": "fails" }, ... ],
+///     "study": the resolved input }
+[[nodiscard]] std::string recorded_text(const Scorecard& card, const input::LoadedInput& study);
+
+struct RecordedDifference {
+  std::vector<std::string> study;     ///< in what the study is not the recorded one; how it is integrated may differ
+  std::vector<std::string> verdicts;  ///< that are not the recorded ones, of the same study
+};
+
+/// @throws InputError when the file is none of recorded_text()
+[[nodiscard]] nlohmann::json read_recorded(const std::filesystem::path& file);
+
+/// @param recorded  of read_recorded()
+[[nodiscard]] RecordedDifference unlike_recorded(const Scorecard& card, const input::LoadedInput& study,
+                                                 const nlohmann::json& recorded);
+
+/// The points of a sweep by its name.
+using SweepPoints = std::function<studies::PointSource(const std::string& sweep)>;
+
+/// @throws OutputError, and what reading points throws
+[[nodiscard]] std::vector<reports::DrawnFigure> draw_claim_figures(const std::filesystem::path& folder,
+                                                                   const Scorecard& card, const std::string& title,
+                                                                   const SweepPoints& points);
+
+}  // namespace epicyclic::claims

@@ -1,0 +1,343 @@
+// The tables of a study of claims (options.hpp): keys, units, bounds, meaning.
+
+#include "claims/kind.hpp"
+#include "input/plan_tables.hpp"
+
+namespace epicyclic::claims {
+
+using input::above_up_to;
+using input::between;
+using input::Bounds;
+using input::Field;
+using input::ReadContext;
+using input::Study;
+using input::Table;
+namespace table_detail = input::table_detail;
+
+namespace {
+
+const Bounds any_value = between(-1e300, 1e300);
+constexpr std::size_t list_most = 1000;
+
+/// Enumerators by their names.
+template <class E, class Names>
+std::vector<std::pair<std::string, E>> named(const Names& names) {
+  std::vector<std::pair<std::string, E>> all;
+  for (const auto& [name, value] : names) all.emplace_back(std::string(name), value);
+  return all;
+}
+
+const Table<SetValue>& set_value_table() {
+  static const auto table = [] {
+    Table<SetValue> t("set_value", "A value in place of the study's.");
+    t.text("parameter", &SetValue::parameter, "Name of the parameter, or a JSON pointer to a number of the input.")
+        .required();
+    t.number("value", &SetValue::value, any_value, "Its value, in its unit.");
+    t.text("as", &SetValue::as, "Instead of a value: JSON pointer to a number of the input that it is to be like.");
+    return t;
+  }();
+  return table;
+}
+
+const Table<Condition>& condition_table() {
+  static const auto table = [] {
+    Table<Condition> t("condition", "A condition on a sweep.");
+    t.choice("kind", &Condition::kind, named<ConditionKind>(condition_kinds),
+             "What is measured: share or count of points that move so, the value of a change, motions met in sequence, "
+             "a statistic of a quantity, by how much it falls, its peaks, a jump of it, the largest variation between "
+             "neighbours, how alike both kinds of mesh are, whether it is decreasing from sweep to sweep.")
+        .required();
+    t.text("sweep", &Condition::sweep, "The sweep, by its name.");
+    t.texts("sweeps", &Condition::sweeps, list_most, "Sweeps one after the other, for decreasing.");
+    t.number("from", &Condition::from, any_value, "Least value of the sweep's parameter that counts; from its start.");
+    t.number("to", &Condition::to, any_value, "Greatest value of the sweep's parameter that counts; to its end.");
+    t.text("motion", &Condition::motion,
+           "period N, periodic, multi-period, quasiperiodic, chaotic, aperiodic, or not and one of these.");
+    t.text("after", &Condition::after, "The motion after a change.");
+    t.text("leads_to", &Condition::leads_to, "A motion met after a change, before the one before it comes back.");
+    t.texts("motions", &Condition::motions, list_most, "Motions of a sequence.");
+    t.choice("which", &Condition::which,
+             std::vector<std::pair<std::string, Which>>{{"first", Which::first}, {"last", Which::last}},
+             "Of several changes, along the rising parameter.");
+    t.numbers("within", &Condition::within, any_value, 1, 2, "Least and greatest value of a change.");
+    t.number("at_least", &Condition::at_least, any_value, "Least that is measured.");
+    t.number("at_most", &Condition::at_most, any_value, "Most that is measured.");
+    std::vector<std::string> quantities;
+    for (const auto name : claim_quantities) quantities.emplace_back(name);
+    t.choice("quantity", &Condition::quantity, quantities,
+             "Of planet 1: range and maximum of the deflections in time, range of their Poincare points; spread of the "
+             "planets [b_c]; largest Lyapunov exponent [per tau].");
+    t.choice("statistic", &Condition::statistic,
+             std::vector<std::pair<std::string, Statistic>>{
+                 {"least", Statistic::least}, {"mean", Statistic::mean}, {"largest", Statistic::largest}},
+             "Of the quantity over the points.");
+    t.numbers("places", &Condition::places, any_value, 1, list_most, "Values where peaks are claimed.");
+    t.number("place_tolerance", &Condition::place_tolerance, between(0, 1),
+             "Relative distance of a peak from one [-].");
+    t.number("prominence", &Condition::prominence, between(0, 1), "Of a peak, in parts of the largest value [-].");
+    t.number("correlation", &Condition::correlation, between(-1, 1), "Least correlation of both ranges [-].");
+    return t;
+  }();
+  return table;
+}
+
+const Table<ParameterTarget>& target_table() {
+  static const auto table = [] {
+    Table<ParameterTarget> t("target", "A number of the input that a parameter gives: factor x^power.");
+    t.text("pointer", &ParameterTarget::pointer, "JSON pointer to the number.").required();
+    t.number("factor", &ParameterTarget::factor, any_value, "Factor [-].");
+    t.number("power", &ParameterTarget::power, between(-10, 10), "Power [-].");
+    t.text("times", &ParameterTarget::times, "Name of another parameter that it is multiplied with.");
+    return t;
+  }();
+  return table;
+}
+
+const Table<ClaimPanel>& panel_table() {
+  static const auto table = [] {
+    Table<ClaimPanel> t("claim_panel", "A bifurcation diagram of the deflection of planet 1's mesh.");
+    t.text("sweep", &ClaimPanel::sweep, "The sweep, by its name.").required();
+    t.choice("mesh", &ClaimPanel::mesh,
+             std::vector<std::pair<std::string, MeshSide>>{{"sun_planet", MeshSide::sun_planet},
+                                                           {"ring_planet", MeshSide::ring_planet}},
+             "Which mesh.");
+    t.text("title", &ClaimPanel::title, "What it shows.");
+    return t;
+  }();
+  return table;
+}
+
+/// Any JSON value, kept as its text.
+Field<OptionSet> value_field() {
+  Field<OptionSet> field;
+  field.key = "value";
+  field.description = "What stands there instead.";
+  field.read = [](const nlohmann::json& value, const std::string&, OptionSet& set, ReadContext&) {
+    set.value = value.dump();
+  };
+  field.write = [](const OptionSet& set) { return nlohmann::json::parse(set.value, nullptr, false); };
+  field.schema = [] { return nlohmann::ordered_json::object(); };
+  return field;
+}
+
+const Table<OptionSet>& option_set_table() {
+  static const auto table = [] {
+    Table<OptionSet> t("option_set", "A value of the input that an option replaces.");
+    t.text("pointer", &OptionSet::pointer, "JSON pointer to it.").required();
+    t.custom(value_field()).required();
+    return t;
+  }();
+  return table;
+}
+
+const Table<ChoiceOption>& option_table() {
+  static const auto table = [] {
+    Table<ChoiceOption> t("option", "One of the readings.");
+    t.text("name", &ChoiceOption::name, "Name of the option.").required();
+    t.number("odds", &ChoiceOption::odds, above_up_to(0, 1e6), "How likely it is, beside the others' odds [-].");
+    t.objects("sets", &ChoiceOption::sets, option_set_table(), list_most, "What it replaces in the input.");
+    return t;
+  }();
+  return table;
+}
+
+}  // namespace
+
+const Table<ClaimSweep>& claim_sweep_table() {
+  static const auto table = [] {
+    using studies::Axis;
+    Table<ClaimSweep> t("claim_sweep", "A sweep that claims speak of.");
+    const auto of = [](auto member) {
+      return [member](auto& sweep) -> auto& { return sweep.axis.*member; };
+    };
+    t.text("name", &ClaimSweep::name, "Its name; its folder is called so.").required();
+    t.text("parameter", of(&Axis::name), "Name of the parameter, or a JSON pointer to a number of the input.")
+        .required();
+    t.number("from", of(&Axis::from), any_value, "First value, in its unit.").required();
+    t.number("to", of(&Axis::to), any_value, "Last value, in its unit.").required();
+    t.integer("points", of(&Axis::points), between(2, 100000), "Number of points, evenly spaced, ends included [-].");
+    t.objects("at", &ClaimSweep::at, set_value_table(), list_most, "What differs from the study besides.");
+    t.choices("directions", &ClaimSweep::directions, input::direction_choices(), "Directions of the carried sweep.");
+    t.integer("recorded_periods", &ClaimSweep::recorded_periods, between(1, 1e5),
+              "Mesh periods recorded of each point [-]; as the study if it is not given. Extrema of chaos take long "
+              "records.");
+    t.integer("brief_points", &ClaimSweep::brief_points, between(2, 100000), "Points of a brief look [-].");
+    t.integer("survey_points", &ClaimSweep::survey_points, between(2, 100000), "Points of a survey's look [-].");
+    t.integer("round", &ClaimSweep::round, between(0, 1000),
+              "A brief look takes sweeps of a round if those of earlier rounds leave hope [-].");
+    return t;
+  }();
+  return table;
+}
+
+const Table<Claim>& claim_table() {
+  static const auto table = [] {
+    Table<Claim> t("claim", "A claim: it holds where all its conditions do.");
+    t.text("name", &Claim::name, "Its name.").required();
+    t.text("text", &Claim::text, "What is claimed.");
+    t.text("where", &Claim::where, "Where it is published.");
+    t.text("printed", &Claim::printed, "The value that is published.");
+    t.number("weight", &Claim::weight, between(0, 1e6), "Weight of its cost in a search [-].");
+    t.objects("conditions", &Claim::conditions, condition_table(), list_most, "Its conditions.").required();
+    return t;
+  }();
+  return table;
+}
+
+const Table<ClaimFigure>& claim_figure_table() {
+  static const auto table = [] {
+    Table<ClaimFigure> t("claim_figure", "A figure of panels under each other that have one parameter.");
+    t.text("name", &ClaimFigure::name, "Of its file.").required();
+    t.text("title", &ClaimFigure::title, "What it shows.");
+    t.objects("panels", &ClaimFigure::panels, panel_table(), 20, "Its panels, from above.").required();
+    return t;
+  }();
+  return table;
+}
+
+namespace {
+
+Table<BriefLook> look_table(const char* name, const char* description) {
+  Table<BriefLook> t(name, description);
+  t.integer("transient_periods", &BriefLook::transient_periods, between(0, 1e6), "Mesh periods before the record [-].");
+  t.integer("recorded_periods", &BriefLook::recorded_periods, between(4, 1e5), "Mesh periods recorded [-].");
+  t.integer("classification_periods", &BriefLook::classification_periods, between(0, 1e7),
+            "Mesh periods in which the regime may be looked for beyond the record [-]; 0: it is told by a glance.");
+  t.integer("growth_periods", &BriefLook::growth_periods, between(0, 1e6),
+            "Mesh periods in which a glance tells chaos from what does not recur but does not grow either [-]; 0: all "
+            "that does not recur counts as chaotic.");
+  t.number("relative_tolerance", &BriefLook::relative_tolerance, between(1e-12, 1e-2),
+           "Relative and absolute tolerance [-].");
+  return t;
+}
+
+const Table<BriefLook>& survey_look_table() {
+  static const auto table = look_table("survey_look", "How draws are looked at, from cold starts in lanes.");
+  return table;
+}
+
+}  // namespace
+
+const Table<BriefLook>& brief_look_table() {
+  static const auto table = look_table("brief", "How candidates of a search are looked at, from cold starts in lanes.");
+  return table;
+}
+
+const Table<SurveyOptions>& survey_options_table() {
+  static const auto table = [] {
+    Table<SurveyOptions> t("survey", "Draws from the ranges of the parameters.");
+    t.integer("draws", &SurveyOptions::draws, between(1, 1e7), "Completions that are drawn [-].");
+    t.integer("seed", &SurveyOptions::seed, between(0, 1e9), "Seed of their random numbers [-].");
+    t.integer("confirmed", &SurveyOptions::confirmed, between(0, 1e6),
+              "Draws, the first ones, that are held against whole sweeps too, to see what their looks are worth [-].");
+    t.object("look", &SurveyOptions::look, survey_look_table());
+    return t;
+  }();
+  return table;
+}
+
+const Table<FreeParameter>& free_parameter_table() {
+  static const auto table = [] {
+    Table<FreeParameter> t("free_parameter", "A parameter that is not published, with its range.");
+    t.text("name", &FreeParameter::name, "Its name.").required();
+    t.text("words", &FreeParameter::words, "What it is, with its unit.");
+    t.text("reason", &FreeParameter::reason, "Why it has this range.");
+    t.number("from", &FreeParameter::from, any_value, "Least value.").required();
+    t.number("to", &FreeParameter::to, any_value, "Greatest value.").required();
+    t.choice(
+        "spread", &FreeParameter::spread,
+        std::vector<std::pair<std::string, Spread>>{{"linear", Spread::linear}, {"logarithmic", Spread::logarithmic}},
+        "Whether the value or its logarithm is spread evenly over the range.");
+    t.objects("targets", &FreeParameter::targets, target_table(), list_most, "Numbers of the input that it gives.");
+    t.text("choice", &FreeParameter::choice, "It counts only where this choice ...");
+    t.text("option", &FreeParameter::option, "... takes this option.");
+    return t;
+  }();
+  return table;
+}
+
+const Table<Choice>& choice_table() {
+  static const auto table = [] {
+    Table<Choice> t("choice", "Readings between which what is published does not decide.");
+    t.text("name", &Choice::name, "Its name.").required();
+    t.text("reason", &Choice::reason, "Why there is a choice.");
+    t.objects("options", &Choice::options, option_table(), 100, "The readings.").required();
+    return t;
+  }();
+  return table;
+}
+
+const Table<SearchOptions>& search_options_table() {
+  static const auto table = [] {
+    Table<SearchOptions> t("claim_search", "A search for the parameters.");
+    t.choice("method", &SearchOptions::method,
+             std::vector<std::pair<std::string, SearchMethod>>{
+                 {"differential_evolution", SearchMethod::differential_evolution},
+                 {"covariance_adaptation", SearchMethod::covariance_adaptation}},
+             "Of the islands: one that looks everywhere, or one that goes on from the stage as it is given.");
+    t.choice("led_by", &SearchOptions::led_by,
+             std::vector<std::pair<std::string, SearchLead>>{{"motions", SearchLead::motions},
+                                                             {"multipliers", SearchLead::multipliers}},
+             "What the cost of a condition on motions that fails goes by: what points of the looks move like, or the "
+             "multipliers of the orbit of period 1, which is followed along the sweeps besides.");
+    t.number("spread", &SearchOptions::spread, above_up_to(0, 1),
+             "Of the first candidates of a covariance adaptation, in parts of the ranges [-].");
+    t.integer("seed", &SearchOptions::seed, between(0, 1e9), "Seed of its random numbers [-].");
+    t.integer("islands", &SearchOptions::islands, between(1, 1000), "Populations side by side [-].");
+    t.integer("population", &SearchOptions::population, between(7, 10000), "Candidates of each [-].");
+    t.integer("candidates", &SearchOptions::candidates, between(7, 1e8),
+              "Candidates that they try in all, in whole generations of all islands, two at least [-].");
+    t.integer("exchange", &SearchOptions::exchange, between(1, 1e6), "Generations between exchanges of the best [-].");
+    t.integer("refinement", &SearchOptions::refinement, between(0, 1e6), "Candidates of the local refinement [-].");
+    t.integer(
+        "confirmed", &SearchOptions::confirmed, between(0, 10000),
+        "Of the best candidates: held against whole sweeps, and the one that meets most claims is the result [-].");
+    t.integer("profile", &SearchOptions::profile, between(0, 1000),
+              "Values of each parameter in the profile of the cost through the result [-].");
+    return t;
+  }();
+  return table;
+}
+
+namespace {
+
+template <class V>
+table_detail::Access<Study, V> of(V ClaimsOptions::*member) {
+  return {[=](Study& s) -> V& { return claims_in(s).*member; },
+          [=](const Study& s) -> const V* { return &(claims_in(s).*member); }};
+}
+
+template <class V>
+table_detail::Access<Study, V> of(V ParameterSpace::*member) {
+  return {[=](Study& s) -> V& { return claims_in(s).space.*member; },
+          [=](const Study& s) -> const V* { return &(claims_in(s).space.*member); }};
+}
+
+}  // namespace
+
+const Table<Study>& claims_table() {
+  static const auto table = [] {
+    Table<Study> t("claims",
+                   "What is published of a stage, as claims on sweeps, and what it leaves unsaid, as ranges.");
+    input::add_kind_key(t, claims_kind().name);
+    t.choices("starts", of(&ClaimsOptions::starts), input::start_choices(),
+              "Where points of sweeps start; the first gives the verdict, the other stands beside it.");
+    input::add_look(t);
+    input::add_classification(t);
+    t.objects("sweeps", of(&ClaimsOptions::sweeps), claim_sweep_table(), 1000, "Sweeps that the claims speak of.")
+        .required();
+    t.objects("claims", of(&ClaimsOptions::claims), claim_table(), 1000, "What is claimed.").required();
+    t.objects("figures", of(&ClaimsOptions::figures), claim_figure_table(), 100, "Figures as they are published.");
+    t.object("brief", of(&ClaimsOptions::brief), brief_look_table());
+    t.objects("parameters", of(&ParameterSpace::parameters), free_parameter_table(), 1000,
+              "Numbers of the input that are not published, with their ranges.");
+    t.objects("choices", of(&ParameterSpace::choices), choice_table(), 100,
+              "Readings between which what is published does not decide.");
+    t.object("search", of(&ClaimsOptions::search), search_options_table());
+    t.object("survey", of(&ClaimsOptions::survey), survey_options_table());
+    return t;
+  }();
+  return table;
+}
+
+}  // namespace epicyclic::claims
