@@ -16,6 +16,7 @@ code=$(code_of "$source_dir/docs/generate" "$epicyclic" "$PWD/pages")
 for page in keys.md commands.md columns.md; do
   # Without h5dump (3) the columns are left to test_reports.
   [ "$page $code" != "columns.md 3" ] || continue
+  [ $page != keys.md ] || has_claims || continue
   diff "$reference/$page" "pages/$page" >difference ||
     fail "docs/reference/$page is stale: run docs/generate; first differences: $(head -n 6 difference)"
 done

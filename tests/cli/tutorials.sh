@@ -37,6 +37,7 @@ for tutorial in "${tutorials[@]}"; do
     [ "${words[0]}" = app/run ] || { fail "$name: not a command of ours: $line"; continue; }
     total=$((total + 1))
     read -r -a more <<<"${cut[${words[1]}]:-}"
+    [ "${words[1]}" != reproduce ] || has_claims || continue
     [ "${words[1]}" != reproduce ] || more=("${claims[@]}")
     code=$(cd "${name%.md}" && code_of "$epicyclic" "${words[@]:1}" "${more[@]}")
     case $code:${words[1]}:$line in
