@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "claims/calibration.hpp"
-#include "claims/kind.hpp"
 #include "claims/inputs.hpp"
+#include "claims/kind.hpp"
 #include "claims_commands.hpp"
 #include "core/errors.hpp"
 #include "core/text.hpp"
@@ -48,8 +48,10 @@ bool move_alike(const claims::ClaimsOptions& options, const claims::CandidateMod
   });
 }
 
-}  // namespace
-
+/// Asks for models at both ends of each parameter's range and with each option of each choice, all others in the middle
+/// of theirs, and warns of what changes nothing: nothing could determine it, and what a table says of it would be
+/// chance.
+/// @throws InputError that names the parameter
 void examine_candidates(const claims::ClaimsOptions& options, const claims::CandidateModels& models) {
   const claims::ParameterSpace& space = options.space;
   const std::vector<double> middle(space.dimension(), 0.5);
@@ -92,6 +94,8 @@ void examine_candidates(const claims::ClaimsOptions& options, const claims::Cand
                     [&](const auto& u) { return move_alike(options, models, v.candidates.front(), u); }))
       tell("warning: {}: {} changes nothing on any sweep, all others in the middle of their ranges\n", v.place, v.name);
 }
+
+}  // namespace
 
 void add_claims_kind() {
   static const input::AddedKind kind = [] {

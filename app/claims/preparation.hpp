@@ -12,12 +12,6 @@ namespace epicyclic::app {
 /// @throws InputError
 void require_models(const claims::ClaimsOptions& options, const claims::SweepModels& models);
 
-/// Asks for models at both ends of each parameter's range and with each option of each choice, all others in the middle
-/// of theirs, and warns of what changes nothing: nothing could determine it, and what a table says of it would be
-/// chance.
-/// @throws InputError that names the parameter
-void examine_candidates(const claims::ClaimsOptions& options, const claims::CandidateModels& models);
-
 /// The study of claims whose parameters a command searches or draws, checked, its warnings told.
 /// @throws InputError where it has none, and for what does not fit
 [[nodiscard]] input::LoadedInput load_open_claims(const Arguments& arguments);
