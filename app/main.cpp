@@ -97,70 +97,8 @@ int print_schema(const Arguments& /*arguments*/) {
   return done;
 }
 
-/// What a subcommand takes, from a stage or study file on; or a folder that is finished.
-enum class Takes { nothing, finished, input, output };
-
-struct Subcommand {
-  const char* name;
-  const char* meaning;
-  int (*run)(const Arguments&);
-  Takes takes;                  ///< and all that stands before it
-  bool shares_work = false;     ///< runs on several processes
-  CLI::App* command = nullptr;  ///< on the command line
-
-  /// Leaves files behind.
-  [[nodiscard]] bool writes() const { return takes != Takes::nothing && takes != Takes::input; }
-};
-
-std::array<Subcommand, 17> subcommands() {
-  return {{
-      {"init", "a stage of your own and its studies to begin with, from a drawing's numbers", init_command,
-       Takes::finished},
-      {"gear", "teeth, contact, stiffness, friction, bearings and modes of the stage", gear_command, Takes::output},
-      {"run", "one operating point: regime, forces, spectra, exponents, orbit, figures", run_command, Takes::output},
-      {"sweep", "bifurcation diagram along one parameter, up, down or both", sweep_command, Takes::output, true},
-      {"continue", "branches of periodic motions with their bifurcations, and a sweep proved by them", continue_command,
-       Takes::output},
-      {"map", "regimes over two parameters", map_command, Takes::output, true},
-      {"basins", "coexisting attractors over a plane of initial conditions", basins_command, Takes::output, true},
-      {"tolerance", "answers against tolerance, clearance smoothing and method, with error bars", tolerance_command,
-       Takes::output},
-      {"crosscheck", "the same points by several methods, compared", crosscheck_command, Takes::output},
-      {"reproduce", "claims of a publication held against a stage, with its figures", reproduce_command, Takes::output},
-      {"calibrate", "what is not published of a stage, from what is claimed of it", calibrate_command, Takes::output,
-       true},
-      {"robustness", "for which part of what is not published each claim holds", robustness_command, Takes::output,
-       true},
-      {"assert", "special points of finished branches against expected ones", assert_command, Takes::finished},
-      {"plot", "figures of what finished studies left, of several over each other; computes nothing", plot_command,
-       Takes::finished},
-      {"check", "validates, prints the resolved input, its cost and how long it takes; writes nothing", check_command,
-       Takes::input},
-      {"keys", "the keys of the input with unit, default, bounds and meaning; those that speak of WORD", keys_command,
-       Takes::nothing},
-      {"schema", "the JSON Schema of the input", print_schema, Takes::nothing},
-  }};
-}
-
 void add_threads(CLI::App& command, Arguments& arguments, const char* meaning) {
   command.add_option("--threads", arguments.threads, meaning)->check(CLI::Range(1, 4096))->capture_default_str();
-}
-
-/// @param arguments  takes what is parsed; must live longer
-void add_to(CLI::App& cli, Subcommand& sub, Arguments& arguments) {
-  sub.command = cli.add_subcommand(sub.name, sub.meaning);
-  if (sub.takes >= Takes::input) {
-    sub.command->add_option("INPUT", arguments.input, "study or stage file (JSON)")->required();
-    sub.command->add_option("--set", arguments.sets, "/json/pointer=value, overrides one value; may be repeated")
-        ->take_all()
-        ->expected(1)
-        ->allow_extra_args(false);
-  }
-  if (sub.takes >= Takes::output) {
-    sub.command->add_option("-o,--output", arguments.output, "folder for the results")->required();
-    sub.command->add_flag("--json", arguments.json, "print the summary as JSON");
-    add_threads(*sub.command, arguments, "threads; the results do not depend on it");
-  }
 }
 
 void add_check_options(CLI::App& command, Arguments& arguments) {
@@ -230,7 +168,8 @@ void add_init_options(CLI::App& command, Arguments& arguments) {
                      "the mesh frequency ratio");
 }
 
-void add_plot_options(CLI::App& command, PlotArguments& plot, Arguments& arguments) {
+void add_plot_options(CLI::App& command, Arguments& arguments) {
+  PlotArguments& plot = arguments.plot;
   command.add_option("FOLDER", plot.folders, "of finished sweeps, branches, maps or runs; several in one figure")
       ->required();
   command.add_option("-o,--output", arguments.output, "folder for the figures")->required();
@@ -264,6 +203,87 @@ void add_reproduce_options(CLI::App& command, Arguments& arguments) {
       "file of the verdicts that are expected, of another stage say (default: NAME.scorecard.json beside the input)");
 }
 
+void add_grow_option(CLI::App& command, Arguments& arguments) {
+  command.add_option("--grow", arguments.grow,
+                     "folder of a finished smaller study: its points are taken where a fresh computation would "
+                     "give the same bytes");
+}
+
+void add_word_option(CLI::App& command, Arguments& arguments) {
+  command.add_option("WORD", arguments.words, "in its name or meaning; several: all");
+}
+
+/// What a subcommand takes, from a stage or study file on; or a folder that is finished.
+enum class Takes { nothing, finished, input, output };
+
+void no_options(CLI::App& /*command*/, Arguments& /*arguments*/) {}
+
+struct Subcommand {
+  const char* name;
+  const char* meaning;
+  int (*run)(const Arguments&);
+  Takes takes;                                          ///< and all that stands before it
+  void (*options)(CLI::App&, Arguments&) = no_options;  ///< adds those of its own
+  bool shares_work = false;                             ///< runs on several processes
+  CLI::App* command = nullptr;                          ///< on the command line
+
+  /// Leaves files behind.
+  [[nodiscard]] bool writes() const { return takes != Takes::nothing && takes != Takes::input; }
+};
+
+std::array<Subcommand, 17> subcommands() {
+  return {{
+      {"init", "a stage of your own and its studies to begin with, from a drawing's numbers", init_command,
+       Takes::finished, add_init_options},
+      {"gear", "teeth, contact, stiffness, friction, bearings and modes of the stage", gear_command, Takes::output},
+      {"run", "one operating point: regime, forces, spectra, exponents, orbit, figures", run_command, Takes::output,
+       add_start_option},
+      {"sweep", "bifurcation diagram along one parameter, up, down or both", sweep_command, Takes::output,
+       add_grow_option, true},
+      {"continue", "branches of periodic motions with their bifurcations, and a sweep proved by them", continue_command,
+       Takes::output, add_continue_options},
+      {"map", "regimes over two parameters", map_command, Takes::output, add_grow_option, true},
+      {"basins", "coexisting attractors over a plane of initial conditions", basins_command, Takes::output,
+       add_grow_option, true},
+      {"tolerance", "answers against tolerance, clearance smoothing and method, with error bars", tolerance_command,
+       Takes::output, add_start_option},
+      {"crosscheck", "the same points by several methods, compared", crosscheck_command, Takes::output,
+       add_start_option},
+      {"reproduce", "claims of a publication held against a stage, with its figures", reproduce_command, Takes::output,
+       add_reproduce_options},
+      {"calibrate", "what is not published of a stage, from what is claimed of it", calibrate_command, Takes::output,
+       no_options, true},
+      {"robustness", "for which part of what is not published each claim holds", robustness_command, Takes::output,
+       no_options, true},
+      {"assert", "special points of finished branches against expected ones", assert_command, Takes::finished,
+       add_assert_options},
+      {"plot", "figures of what finished studies left, of several over each other; computes nothing", plot_command,
+       Takes::finished, add_plot_options},
+      {"check", "validates, prints the resolved input, its cost and how long it takes; writes nothing", check_command,
+       Takes::input, add_check_options},
+      {"keys", "the keys of the input with unit, default, bounds and meaning; those that speak of WORD", keys_command,
+       Takes::nothing, add_word_option},
+      {"schema", "the JSON Schema of the input", print_schema, Takes::nothing},
+  }};
+}
+
+/// @param arguments  takes what is parsed; must live longer
+void add_to(CLI::App& cli, Subcommand& sub, Arguments& arguments) {
+  sub.command = cli.add_subcommand(sub.name, sub.meaning);
+  if (sub.takes >= Takes::input) {
+    sub.command->add_option("INPUT", arguments.input, "study or stage file (JSON)")->required();
+    sub.command->add_option("--set", arguments.sets, "/json/pointer=value, overrides one value; may be repeated")
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);
+  }
+  if (sub.takes >= Takes::output) {
+    sub.command->add_option("-o,--output", arguments.output, "folder for the results")->required();
+    sub.command->add_flag("--json", arguments.json, "print the summary as JSON");
+    add_threads(*sub.command, arguments, "threads; the results do not depend on it");
+  }
+}
+
 int run(int argc, char** argv) {
   Ranks ranks;
   CLI::App cli("Nonlinear dynamics of planetary gear trains, with proof.", "epicyclic");
@@ -277,21 +297,7 @@ int run(int argc, char** argv) {
   auto commands = subcommands();
   for (Subcommand& sub : commands) {
     add_to(cli, sub, arguments);
-    if (sub.run == continue_command) add_continue_options(*sub.command, arguments);
-    if (sub.run == run_command || sub.run == crosscheck_command || sub.run == tolerance_command)
-      add_start_option(*sub.command, arguments);
-    if (sub.run == keys_command)
-      sub.command->add_option("WORD", arguments.words, "in its name or meaning; several: all");
-    if (sub.run == sweep_command || sub.run == map_command || sub.run == basins_command)
-      sub.command->add_option(
-          "--grow", arguments.grow,
-          "folder of a finished smaller study: its points are taken where a fresh computation would "
-          "give the same bytes");
-    if (sub.run == init_command) add_init_options(*sub.command, arguments);
-    if (sub.run == plot_command) add_plot_options(*sub.command, arguments.plot, arguments);
-    if (sub.run == assert_command) add_assert_options(*sub.command, arguments);
-    if (sub.run == reproduce_command) add_reproduce_options(*sub.command, arguments);
-    if (sub.run == check_command) add_check_options(*sub.command, arguments);
+    sub.options(*sub.command, arguments);
   }
   const int code = guarded(ranks, [&] {
     try {
