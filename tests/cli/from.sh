@@ -63,6 +63,15 @@ rpm=$(value sun_speed_rpm sweep 4)
 [ "$(code_of "$epicyclic" run --from "sweep:down=${rpm}rpm" -o by_rpm "${brief[@]}")" = 0 ] || fail "by rpm: $(<stderr)"
 grep -q 'point 4 (down' stderr || fail "by rpm: $(<stderr)"
 
+# With another stage a study in rpm stays at its speed, from a point and from a resolved input.
+heavier=(--set /stage/lumped/sun/inertia_over_r2_kg=3)
+"$epicyclic" sweep "$inputs/tang2020_calibrated_speed.json" -o in_rpm --set /study/parameter=sun_speed_rpm --set /study/from=20000 \
+  --set /study/to=21000 --set /study/points=2 --set /study/crosscheck/points=0 --set /study/transient_periods=20 \
+  --set /study/recorded_periods=16 --set /study/classification_periods=0 >out 2>&1 || fail "a sweep in rpm: $(<out)"
+[ "$(code_of "$epicyclic" run --from in_rpm:1 -o heavier "${brief[@]}" "${heavier[@]}")" = 0 ] || fail "a heavier sun: $(<stderr)"
+[ "$(code_of "$epicyclic" run heavier/input.resolved.json -o lighter --set /stage/lumped/sun/inertia_over_r2_kg=2)" = 0 ] || fail "a lighter sun: $(<stderr)"
+for run in heavier lighter; do near "$(value sun_speed_rpm $run)" 21000 1e-9 || fail "$run: $(value sun_speed_rpm $run) rpm"; done
+
 # Points whose record has not settled, or is shorter than the motion's period.
 "$epicyclic" sweep "$inputs/tang2020_calibrated_speed.json" -o unsettled --set /study/from=0.3 --set /study/to=0.9 --set /study/points=3 \
   --set /study/crosscheck/points=0 --set /study/transient_periods=40 --set /study/recorded_periods=16 >out 2>&1 || fail "the unsettled sweep"
