@@ -42,8 +42,7 @@ GrownStudy::GrownStudy(const std::filesystem::path& folder, const input::LoadedI
   std::string reasons;
   for (const store::Difference& d :
        store::differing_values({from_.input().resolved, from_.input().computed}, {input.resolved, input.computed}))
-    if (!may_grow(d.pointer) && !(d.pointer.starts_with("/operation") && speed_is_varied))
-      reasons += "\n  " + d.text;
+    if (!may_grow(d.pointer) && !(d.pointer.starts_with("/operation") && speed_is_varied)) reasons += "\n  " + d.text;
   if (!reasons.empty())
     throw InputError(
         where + "its points are not this study's; a study grows in its range, points, directions and segments alone:" +

@@ -198,9 +198,8 @@ FrictionTable friction_table(const EhlFriction& e, const LineOfAction& line, con
     const SingularEnd singular = is_pitch_point(from) ? SingularEnd::start
                                  : is_pitch_point(to) ? SingularEnd::end
                                                       : SingularEnd::none;
-    FittedRows<3> fitted =
-        grids.empty() ? fit_rows<3>(ratios, e.table_tolerance, singular, (to - from) / narrowest)
-                      : rows_on<3>(grids[piece], ratios);
+    FittedRows<3> fitted = grids.empty() ? fit_rows<3>(ratios, e.table_tolerance, singular, (to - from) / narrowest)
+                                         : rows_on<3>(grids[piece], ratios);
     ++piece;
     for (auto& row : fitted.rows) {
       row[1] *= line.base_radius_1_mm;

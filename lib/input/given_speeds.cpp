@@ -14,6 +14,22 @@ namespace {
 using nlohmann::json;
 using Refuse = std::function<void(Finding::Kind, const std::string&, std::string)>;
 
+/// The name, the ends and the place of each axis that a study has.
+template <class F>
+void for_each_axis(Study& study, F each) {
+  if (auto* map = std::get_if<studies::MapOptions>(&study.plan)) {
+    each(map->plane.first.name, map->plane.first.from, map->plane.first.to, "/study/first");
+    each(map->plane.second.name, map->plane.second.from, map->plane.second.to, "/study/second");
+  } else if (auto* branches = std::get_if<studies::BranchesOptions>(&study.plan)) {
+    each(branches->parameter, branches->from, branches->to, "/study");
+    if (auto& loci = branches->loci) each(loci->parameter, loci->from, loci->to, "/study/loci");
+  } else if (study.has_points() && !std::holds_alternative<RunPlan>(study.plan) &&
+             !std::holds_alternative<studies::BasinsOptions>(study.plan)) {
+    studies::Axis& axis = sweep_in(study.plan).axis;
+    each(axis.name, axis.from, axis.to, "/study");
+  }
+}
+
 class Conversion {
  public:
   Conversion(Study& study, const json& whole, bool moves, const IsBad& is_bad, const Refuse& refuse)
@@ -21,15 +37,10 @@ class Conversion {
 
   void all() {
     operating_point();
-    if (auto* map = std::get_if<studies::MapOptions>(&study_.plan)) {
-      axis(map->plane.first, "/study/first");
-      axis(map->plane.second, "/study/second");
-    } else if (auto* branches = std::get_if<studies::BranchesOptions>(&study_.plan)) {
-      of_branches(*branches);
-    } else if (study_.has_points() && !std::holds_alternative<RunPlan>(study_.plan) &&
-               !std::holds_alternative<studies::BasinsOptions>(study_.plan)) {
-      axis(sweep_in(study_.plan).axis, "/study");
-    }
+    if (auto* branches = std::get_if<studies::BranchesOptions>(&study_.plan)) lists_of(*branches);
+    for_each_axis(study_, [this](std::string& name, double& from, double& to, const std::string& place) {
+      range(name, from, to, place);
+    });
   }
 
  private:
@@ -42,9 +53,8 @@ class Conversion {
     }
   }
 
-  void axis(studies::Axis& of, const std::string& place) { range(of.name, of.from, of.to, place); }
-
-  void of_branches(studies::BranchesOptions& b) {
+  /// Before its axis, whose parameter is renamed.
+  void lists_of(studies::BranchesOptions& b) {
     const SpeedAlias* alias = find_speed_alias(b.parameter);
     each(alias, b.starts, "/study/starts");
     each(alias, b.values, "/study/values");
@@ -56,8 +66,6 @@ class Conversion {
       seed.value = axis_ratio_of(*alias, seed.value, place + "/value").value_or(1.0);
       if (seed.reach) seed.reach = axis_ratio_of(*alias, *seed.reach, place + "/reach").value_or(1.0);
     }
-    range(b.parameter, b.from, b.to, "/study");
-    if (b.loci) range(b.loci->parameter, b.loci->from, b.loci->to, "/study/loci");
   }
 
   void each(const SpeedAlias* alias, std::vector<double>& values, const std::string& place) {
@@ -138,24 +146,15 @@ void drop_other_speeds(json& whole, const std::string& key) {
 }
 
 void name_speed(std::string& parameter) {
-  if (!parameter.starts_with(operation_root) || parameter.size() <= operation_root.size()) return;
+  if (pointer_parent(parameter) != operation_root) return;
   const std::string key = pointer_leaf(parameter);
   if (key == studies::speed_parameter || find_speed_alias(key) != nullptr) parameter = key;
 }
 
 void name_speeds(Study& study) {
-  if (auto* map = std::get_if<studies::MapOptions>(&study.plan)) {
-    name_speed(map->plane.first.name);
-    name_speed(map->plane.second.name);
-  } else if (auto* branches = std::get_if<studies::BranchesOptions>(&study.plan)) {
-    name_speed(branches->parameter);
-    if (branches->loci) name_speed(branches->loci->parameter);
-  } else if (const auto* added = std::get_if<AddedPlan>(&study.plan)) {
-    added->kind->name_speeds(study);
-  } else if (study.has_points() && !std::holds_alternative<RunPlan>(study.plan) &&
-             !std::holds_alternative<studies::BasinsOptions>(study.plan)) {
-    name_speed(sweep_in(study.plan).axis.name);
-  }
+  for_each_axis(study,
+                [](std::string& name, double& /*from*/, double& /*to*/, const char* /*place*/) { name_speed(name); });
+  if (const auto* added = std::get_if<AddedPlan>(&study.plan)) added->kind->name_speeds(study);
 }
 
 void convert_speeds(Study& study, const json& whole, bool moves, const IsBad& is_bad, const Refuse& refuse) {

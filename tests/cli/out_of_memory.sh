@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # out_of_memory.sh EPICYCLIC SOURCE_DIR
 #
-# With ever less memory (ulimit -v) a command ends as with enough, or with 5 and says that memory is short, or with 1 and
-# says that a figure is not drawn since memory is short; never with 70 nor by a signal, and the same command with enough memory goes on to the same end. Skipped with sanitizers, which take terabytes.
+# With ever less memory (ulimit -v) a command ends as with enough. Or it ends with 5 and says that memory is short, or with 1
+# and says that memory is short for a figure. It never ends with 70 nor by a signal, and the same command with enough
+# memory goes on to the same end. Skipped with sanitizers, which take terabytes.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 ! grep -qaE '__(asan|tsan)_init' "$epicyclic" || skip "sanitizers take memory of their own"
