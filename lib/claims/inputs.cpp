@@ -14,6 +14,7 @@
 #include "input/derived_study.hpp"
 #include "input/given_speeds.hpp"
 #include "input/study_model.hpp"
+#include "kinds/list.hpp"
 #include "studies/named_parameters.hpp"
 
 namespace epicyclic::claims {
@@ -223,7 +224,7 @@ std::vector<PointerValue> set_along(const LoadedInput& input, std::span<const Po
 json sweep_input(const LoadedInput& input, const ClaimSweep& sweep, studies::Start start) {
   const auto& options = claims_in(input.study);
   input::Study study = input.study;
-  study.plan = options.whole_sweep(sweep, start);
+  study.plan = input::Plan(kinds::sweep_kind(), options.whole_sweep(sweep, start));
   const std::vector<PointerValue> set = set_along(input, {}, sweep);
   const std::vector<Assignment> values = input::written_values(study, set);
   json changed = input.resolved;

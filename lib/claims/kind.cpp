@@ -20,13 +20,9 @@ namespace epicyclic::claims {
 
 using input::LoadedInput;
 
-const ClaimsOptions& claims_in(const input::Study& study) {
-  return std::any_cast<const ClaimsOptions&>(std::get<input::AddedPlan>(study.plan).options);
-}
+const ClaimsOptions& claims_in(const input::Study& study) { return study.plan.as<ClaimsOptions>(); }
 
-ClaimsOptions& claims_in(input::Study& study) {
-  return std::any_cast<ClaimsOptions&>(std::get<input::AddedPlan>(study.plan).options);
-}
+ClaimsOptions& claims_in(input::Study& study) { return study.plan.as<ClaimsOptions>(); }
 
 namespace {
 
@@ -37,6 +33,7 @@ void name_speeds(input::Study& study) {
 /// Rules of the options themselves, and names of parameters.
 void check(const input::Study& study, const input::IsBad& is_bad, input::ReadContext& context) {
   using input::Finding;
+  if (is_bad("/study")) return;
   const ClaimsOptions& claims = claims_in(study);
   for (auto& [place, message] : claims.problems())
     if (!is_bad("/study" + place)) context.add(Finding::Kind::rule, "/study" + place, std::move(message));
@@ -156,14 +153,15 @@ void warn(std::vector<gear::Warning>& out, const LoadedInput& input) {
 
 }  // namespace
 
-const input::AddedKind& claims_kind() {
-  static const input::AddedKind kind = {
+const input::StudyKind& claims_kind() {
+  static const input::StudyKind kind = {
       .name = "claims",
       .commands = "`epicyclic reproduce`, `calibrate` or `robustness`",
       .table = &claims_table,
       .defaults = ClaimsOptions{},
       .look = [](std::any& options) -> studies::LookOptions& { return std::any_cast<ClaimsOptions&>(options).look; },
       .name_speeds = &name_speeds,
+      .at_given_speed = false,
       .check = &check,
       .check_values = &check_values,
       .warn = &warn,

@@ -3,8 +3,8 @@
 #include <tuple>
 #include <utility>
 
-#include "input/added_kind.hpp"
 #include "input/pointers.hpp"
+#include "input/study_kind.hpp"
 #include "studies/named_parameters.hpp"
 
 namespace epicyclic::input {
@@ -14,22 +14,6 @@ namespace {
 using nlohmann::json;
 using Refuse = std::function<void(Finding::Kind, const std::string&, std::string)>;
 
-/// The name, the ends and the place of each axis that a study has.
-template <class F>
-void for_each_axis(Study& study, F each) {
-  if (auto* map = std::get_if<studies::MapOptions>(&study.plan)) {
-    each(map->plane.first.name, map->plane.first.from, map->plane.first.to, "/study/first");
-    each(map->plane.second.name, map->plane.second.from, map->plane.second.to, "/study/second");
-  } else if (auto* branches = std::get_if<studies::BranchesOptions>(&study.plan)) {
-    each(branches->parameter, branches->from, branches->to, "/study");
-    if (auto& loci = branches->loci) each(loci->parameter, loci->from, loci->to, "/study/loci");
-  } else if (study.has_points() && !std::holds_alternative<RunPlan>(study.plan) &&
-             !std::holds_alternative<studies::BasinsOptions>(study.plan)) {
-    studies::Axis& axis = sweep_in(study.plan).axis;
-    each(axis.name, axis.from, axis.to, "/study");
-  }
-}
-
 class Conversion {
  public:
   Conversion(Study& study, const json& whole, bool moves, const IsBad& is_bad, const Refuse& refuse)
@@ -37,10 +21,8 @@ class Conversion {
 
   void all() {
     operating_point();
-    if (auto* branches = std::get_if<studies::BranchesOptions>(&study_.plan)) lists_of(*branches);
-    for_each_axis(study_, [this](std::string& name, double& from, double& to, const std::string& place) {
-      range(name, from, to, place);
-    });
+    values();
+    for (const PlanAxis& axis : axes_of(study_.plan)) range(*axis.name, *axis.from, *axis.to, axis.place);
   }
 
  private:
@@ -53,25 +35,14 @@ class Conversion {
     }
   }
 
-  /// Before its axis, whose parameter is renamed.
-  void lists_of(studies::BranchesOptions& b) {
-    const SpeedAlias* alias = find_speed_alias(b.parameter);
-    each(alias, b.starts, "/study/starts");
-    each(alias, b.values, "/study/values");
-    if (b.search) each(alias, b.search->values, "/study/search/values");
-    if (b.loci) each(alias, b.loci->near, "/study/loci/near");
-    for (std::size_t k = 0; k < b.seeds.size() && alias != nullptr && moves_; ++k) {
-      studies::BranchSeed& seed = b.seeds[k];
-      const std::string place = "/study/seeds/" + std::to_string(k);
-      seed.value = axis_ratio_of(*alias, seed.value, place + "/value").value_or(1.0);
-      if (seed.reach) seed.reach = axis_ratio_of(*alias, *seed.reach, place + "/reach").value_or(1.0);
-    }
-  }
-
-  void each(const SpeedAlias* alias, std::vector<double>& values, const std::string& place) {
-    if (alias == nullptr || !moves_) return;
-    for (std::size_t k = 0; k < values.size(); ++k)
-      values[k] = axis_ratio_of(*alias, values[k], place + "/" + std::to_string(k)).value_or(1.0);
+  /// Before the axes, whose parameter is renamed.
+  void values() {
+    const StudyKind* kind = study_.plan.kind();
+    if (kind == nullptr || kind->values == nullptr || !moves_) return;
+    const SpeedAlias* alias = find_speed_alias(*axes_of(study_.plan).front().name);
+    if (alias == nullptr) return;
+    for (const PlacedNumber& number : kind->values(study_.plan.options()))
+      *number.value = axis_ratio_of(*alias, *number.value, number.place).value_or(1.0);
   }
 
   void range(std::string& name, double& from, double& to, const std::string& place) {
@@ -152,9 +123,9 @@ void name_speed(std::string& parameter) {
 }
 
 void name_speeds(Study& study) {
-  for_each_axis(study,
-                [](std::string& name, double& /*from*/, double& /*to*/, const char* /*place*/) { name_speed(name); });
-  if (const auto* added = std::get_if<AddedPlan>(&study.plan)) added->kind->name_speeds(study);
+  for (const PlanAxis& axis : axes_of(study.plan)) name_speed(*axis.name);
+  if (const StudyKind* kind = study.plan.kind(); kind != nullptr && kind->name_speeds != nullptr)
+    kind->name_speeds(study);
 }
 
 void convert_speeds(Study& study, const json& whole, bool moves, const IsBad& is_bad, const Refuse& refuse) {

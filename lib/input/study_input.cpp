@@ -11,13 +11,13 @@
 #include <tuple>
 #include <utility>
 
-#include "input/added_kind.hpp"
 #include "input/given_speeds.hpp"
 #include "input/input_sources.hpp"
 #include "input/origins.hpp"
 #include "input/plan_checks.hpp"
 #include "input/pointers.hpp"
 #include "input/read_study.hpp"
+#include "input/study_kind.hpp"
 #include "integrate/methods.hpp"
 #include "studies/named_parameters.hpp"
 #include "studies/units.hpp"
@@ -26,26 +26,12 @@ namespace epicyclic::input {
 
 using nlohmann::json;
 
-studies::SweepOptions Study::sweep() const {
-  if (const auto* run = std::get_if<RunPlan>(&plan)) return studies::sweep_of_one(mesh_frequency_ratio, run->look);
-  return sweep_in(plan);
-}
-
 std::vector<VariedParameter> varied_parameters(const Study& study) {
-  if (const auto* map = std::get_if<studies::MapOptions>(&study.plan))
-    return {{map->plane.first, "/study/first"}, {map->plane.second, "/study/second"}};
-  if (const auto* branches = std::get_if<studies::BranchesOptions>(&study.plan)) {
-    // So many values of the range are tried before anything is begun.
-    constexpr int tried = 33;
-    std::vector<VariedParameter> varied = {{{branches->parameter, branches->from, branches->to, tried}, "/study"}};
-    if (const auto& loci = branches->loci)
-      varied.push_back({{loci->parameter, loci->from, loci->to, tried}, "/study/loci"});
-    return varied;
-  }
-  const bool given = std::holds_alternative<RunPlan>(study.plan) ||
-                     std::holds_alternative<studies::BasinsOptions>(study.plan) || !study.has_points();
-  if (given) return {};
-  return {{study.sweep().axis, "/study"}};
+  Plan plan = study.plan;
+  std::vector<VariedParameter> varied;
+  for (const PlanAxis& axis : axes_of(plan))
+    varied.push_back({{*axis.name, *axis.from, *axis.to, axis.points}, axis.place});
+  return varied;
 }
 
 namespace {
@@ -247,8 +233,10 @@ class LoadedInput::Loader {
     check_integrator();
     const auto bad = [this](const std::string& pointer) { return is_bad(pointer); };
     check_plan(input_.study, bad, context_);
-    if (auto* sweep = std::get_if<studies::SweepOptions>(&input_.study.plan))
-      std::get<studies::SweepOptions>(given.plan).segments = sweep->segments = segments_of(*sweep);
+    if (const StudyKind* kind = input_.study.plan.kind(); kind != nullptr && kind->complete != nullptr) {
+      kind->complete(input_.study.plan.options());
+      kind->complete(given.plan.options());
+    }
     input_.resolved = sources_->bare ? stage_table().write(given.stage) : study_table().write(given);
     fill_origins(input_.resolved, whole_);
     note_uncomputed(input_.resolved, input_.computed, context_.notes);
@@ -302,8 +290,9 @@ class LoadedInput::Loader {
     if (ends_are_sound_ && have_values && varied.size() == 1)
       check_values(varied[0].axis, varied[0].place, as_given(), {}, "");
     if (problems_.empty() && varied.size() == 2) check_edges(varied);
-    if (const auto* added = std::get_if<AddedPlan>(&input_.study.plan); added != nullptr && problems_.empty())
-      added->kind->check_values(
+    const StudyKind* kind = input_.study.plan.kind();
+    if (kind != nullptr && kind->check_values != nullptr && problems_.empty())
+      kind->check_values(
           input_, [this](const std::string& pointer, std::string message) { refuse(pointer, std::move(message)); });
   }
 

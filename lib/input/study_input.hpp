@@ -11,16 +11,13 @@
 #pragma once
 
 #include <any>
-#include <array>
-#include <concepts>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
-#include <variant>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -32,88 +29,54 @@
 #include "input/speed_aliases.hpp"
 #include "integrate/options.hpp"
 #include "model/options.hpp"
-#include "studies/branches_options.hpp"
-#include "studies/crosscheck_options.hpp"
-#include "studies/plane_options.hpp"
-#include "studies/run_options.hpp"
 #include "studies/speed_unit.hpp"
 #include "studies/sweep_options.hpp"
-#include "studies/tolerance_options.hpp"
 
 namespace epicyclic::input {
 
-/// Nothing is to be computed: a stage file alone.
-struct StageAlone {};
+struct StudyKind;
 
-struct RunPlan {
-  studies::LookOptions look;
-  studies::RunOptions run;
+/// What is computed: a kind of study with its options [study_kind.hpp]. A stage alone has no kind: nothing is computed.
+class Plan {
+ public:
+  Plan() = default;
+  /// With the kind's defaults.
+  explicit Plan(const StudyKind& kind);
+  Plan(const StudyKind& kind, std::any options) : kind_(&kind), options_(std::move(options)) {}
+
+  [[nodiscard]] const StudyKind* kind() const { return kind_; }  ///< null of a stage alone
+  [[nodiscard]] std::string_view name() const;                   ///< of its kind; "stage" of a stage alone
+  [[nodiscard]] std::any& options() { return options_; }
+
+  /// The options of a kind, by their type; null of another kind.
+  template <class Options>
+  [[nodiscard]] const Options* get_if() const {
+    return std::any_cast<Options>(&options_);
+  }
+  /// @throws std::bad_any_cast of another kind
+  template <class Options>
+  [[nodiscard]] const Options& as() const {
+    return std::any_cast<const Options&>(options_);
+  }
+  template <class Options>
+  [[nodiscard]] Options& as() {
+    return std::any_cast<Options&>(options_);
+  }
+
+  /// How each point is recorded.
+  /// @throws std::logic_error of a kind without points
+  [[nodiscard]] studies::LookOptions& look();
+  [[nodiscard]] const studies::LookOptions& look() const { return const_cast<Plan*>(this)->look(); }
+
+  /// The sweep that the options hold: of a sweep, a cross-check and a tolerance study.
+  /// @throws std::logic_error of other kinds
+  [[nodiscard]] studies::SweepOptions& sweep();
+  [[nodiscard]] const studies::SweepOptions& sweep() const { return const_cast<Plan*>(this)->sweep(); }
+
+ private:
+  const StudyKind* kind_ = nullptr;
+  std::any options_;
 };
-
-struct CrosscheckPlan {
-  studies::SweepOptions sweep;
-  studies::CrosscheckOptions crosscheck;
-};
-
-struct TolerancePlan {
-  studies::SweepOptions sweep;
-  studies::ToleranceOptions tolerance;
-};
-
-struct AddedKind;
-
-/// The plan of a kind that a component above this one adds [added_kind.hpp].
-struct AddedPlan {
-  const AddedKind* kind = nullptr;
-  std::any options;  ///< of the type that the kind says
-
-  [[nodiscard]] std::string_view name() const;
-  [[nodiscard]] studies::LookOptions& points_look();
-  [[nodiscard]] const studies::LookOptions& points_look() const;
-};
-
-/// What is computed, by kind of study.
-using Plan = std::variant<StageAlone, studies::SweepOptions, studies::MapOptions, studies::BasinsOptions, RunPlan,
-                          CrosscheckPlan, TolerancePlan, studies::BranchesOptions, AddedPlan>;
-
-/// How the points of a plan are looked at; of any kind that has points.
-/// @throws std::bad_variant_access of a stage alone and of branches
-template <class P>
-requires std::same_as<std::remove_const_t<P>, Plan>
-[[nodiscard]] auto& look_in(P& plan) {
-  using Look = std::conditional_t<std::is_const_v<P>, const studies::LookOptions, studies::LookOptions>;
-  return std::visit(
-      [](auto& of) -> Look& {
-        if constexpr (requires { of.look; })
-          return of.look;
-        else if constexpr (requires { of.sweep; })
-          return of.sweep.look;
-        else if constexpr (requires { of.points_look(); })
-          return of.points_look();
-        else
-          throw std::bad_variant_access();
-      },
-      plan);
-}
-
-/// The sweep of a plan: of a sweep, of a cross-check and of a tolerance study.
-/// @throws std::bad_variant_access of other kinds
-template <class P>
-requires std::same_as<std::remove_const_t<P>, Plan>
-[[nodiscard]] auto& sweep_in(P& plan) {
-  if (auto* crosscheck = std::get_if<CrosscheckPlan>(&plan)) return crosscheck->sweep;
-  if (auto* tolerance = std::get_if<TolerancePlan>(&plan)) return tolerance->sweep;
-  return std::get<studies::SweepOptions>(plan);
-}
-
-/// Names of the kinds, in the order of Plan; those that are added have names of their own.
-inline constexpr std::array<std::string_view, std::variant_size_v<Plan> - 1> plan_kinds = {
-    "stage", "sweep", "map", "basins", "run", "crosscheck", "tolerance", "continue"};
-
-[[nodiscard]] inline std::string_view kind_of(const Plan& plan) {
-  const auto* added = std::get_if<AddedPlan>(&plan);
-  return added != nullptr ? added->name() : plan_kinds[plan.index()];
-}
 
 struct Study {
   std::string name;
@@ -127,21 +90,18 @@ struct Study {
   Plan plan;
   std::vector<double> initial_state;  ///< in place of the default start [b_c, b_c per tau]; empty: that one
 
-  [[nodiscard]] std::string_view kind() const { return kind_of(plan); }
+  [[nodiscard]] std::string_view kind() const { return plan.name(); }
   /// Is anything to be computed?
-  [[nodiscard]] bool has_motion() const { return !std::holds_alternative<StageAlone>(plan); }
-  /// Are its motions looked at point by point?
-  [[nodiscard]] bool has_points() const {
-    return has_motion() && !std::holds_alternative<studies::BranchesOptions>(plan) &&
-           !std::holds_alternative<AddedPlan>(plan);
-  }
+  [[nodiscard]] bool has_motion() const { return plan.kind() != nullptr; }
+  /// Is it computed point by point?
+  [[nodiscard]] bool has_points() const;
 
-  /// How its points are looked at.
-  /// @throws std::bad_variant_access unless it has points
-  [[nodiscard]] const studies::LookOptions& look() const { return look_in(plan); }
+  /// How its points are recorded.
+  /// @throws std::logic_error unless it has points
+  [[nodiscard]] const studies::LookOptions& look() const { return plan.look(); }
 
   /// The sweep that its points are; a run is one of one point.
-  /// @throws std::bad_variant_access of a map, of basins, of branches and of a stage alone
+  /// @throws std::logic_error of other kinds
   [[nodiscard]] studies::SweepOptions sweep() const;
 };
 

@@ -10,7 +10,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -21,13 +20,12 @@
 #include "gear/ehl_friction.hpp"
 #include "gear/gear_set.hpp"
 #include "gear/warnings.hpp"
-#include "input/added_kind.hpp"
 #include "input/derived_study.hpp"
 #include "input/pointers.hpp"
 #include "input/stage_completion.hpp"
+#include "input/study_kind.hpp"
 #include "integrate/methods.hpp"
 #include "studies/named_parameters.hpp"
-#include "studies/plane.hpp"
 #include "studies/probes.hpp"
 
 namespace epicyclic::input {
@@ -54,13 +52,12 @@ std::string parameter_of(const Study& study) {
   return varied.empty() ? studies::speed_parameter : varied.front().axis.name;
 }
 
-/// The model with the start that the study gives.
+}  // namespace
+
 model::DynamicModel started(model::DynamicModel model, const Study& study) {
   if (!study.initial_state.empty()) model.default_start = study.initial_state;
   return model;
 }
-
-}  // namespace
 
 studies::ModelAt model_at(const LoadedInput& input) { return model_at(input, parameter_of(input.study)); }
 
@@ -107,27 +104,11 @@ double given_value(const LoadedInput& input, const std::string& parameter) {
   }
 }
 
-studies::SweepPlan plan_of(const Study& study) {
-  if (const auto* map = std::get_if<studies::MapOptions>(&study.plan)) return studies::plan_map(*map);
-  if (const auto* basins = std::get_if<studies::BasinsOptions>(&study.plan)) return studies::plan_basins(*basins);
-  return studies::plan_sweep(study.sweep());
-}
+studies::SweepPlan plan_of(const Study& study) { return study.plan.kind()->plan(study); }
 
 studies::ModelAtPoint model_at_point(const LoadedInput& input) {
-  const Study& study = input.study;
-  if (const auto* map = std::get_if<studies::MapOptions>(&study.plan))
-    return [&input, &plane = map->plane, scales = model::scales_of(study.stage)](const studies::GridPoint& p) {
-      return started(model_of(point_at(input, std::array{PointerValue{plane.first.name, p.value},
-                                                         PointerValue{plane.second.name, p.second_value}}),
-                              scales),
-                     input.study);
-    };
-  if (const auto* basins = std::get_if<studies::BasinsOptions>(&study.plan))
-    return [basins, model = model_at(input)(study.mesh_frequency_ratio)](const studies::GridPoint& p) {
-      model::DynamicModel started = model;
-      started.default_start = studies::start_in_plane(model, *basins, p);
-      return started;
-    };
+  if (const StudyKind& kind = *input.study.plan.kind(); kind.model_at_point != nullptr)
+    return kind.model_at_point(input);
   return [at = model_at(input)](const studies::GridPoint& p) { return at(p.value); };
 }
 
@@ -297,6 +278,11 @@ gear::Warning without_tangents(std::string pointer) {
           "recurrence alone, unless /integrator/clearance_smoothing > 0"};
 }
 
+void warn_without_tangents(std::vector<gear::Warning>& out, const LoadedInput& input) {
+  if (input.study.look().classification_periods > 0 && damping_jumps(input.resolved))
+    out.push_back(without_tangents("/model/gap_damping"));
+}
+
 namespace {
 
 std::vector<std::string> texts(std::vector<gear::Warning> warnings) {
@@ -320,29 +306,17 @@ std::vector<std::string> warnings(const LoadedInput& input) {
         all, [](const gear::Warning& w) { return w.rank == gear::Rank::note && w.pointer.starts_with("/catalogue"); });
     for (gear::Warning& w : all)
       if (!w.pointer.starts_with("/study") && !w.pointer.starts_with("/model")) w.pointer.insert(0, "/stage");
-    if (std::holds_alternative<studies::BranchesOptions>(study.plan)) {
-      const integrate::IntegratorOptions& own = study.integrator;
-      const integrate::IntegratorOptions plain;
-      if (own.method != plain.method || own.relative_tolerance != plain.relative_tolerance ||
-          own.absolute_tolerance != plain.absolute_tolerance || own.locate_contacts != plain.locate_contacts)
-        all.push_back(
-            {gear::Rank::doubtful, 1.0, "/integrator", "branches",
-             "method and tolerances are not used: branches are integrated by /study/method at /study/tolerance"});
-    }
-    const auto* branches = std::get_if<studies::BranchesOptions>(&study.plan);
-    const auto* method = integrate::find_method(branches != nullptr ? branches->method : study.integrator.method);
+    const StudyKind& kind = *study.plan.kind();
+    if (kind.warn != nullptr) kind.warn(all, input);
+    const bool own_method = kind.method != nullptr;
+    Plan plan = study.plan;
+    const auto* method = integrate::find_method(own_method ? kind.method(plan.options()) : study.integrator.method);
     const bool located =
-        method != nullptr && (branches != nullptr ? method->locates_contacts() : study.integrator.locate_contacts);
+        method != nullptr && (own_method ? method->locates_contacts() : study.integrator.locate_contacts);
     if (method != nullptr && method->misses_kinks && study.model.clearance_smoothing == 0.0 && !located)
-      all.push_back({gear::Rank::doubtful, 1.0, branches != nullptr ? "/study/method" : "/integrator/method", "kinks",
+      all.push_back({gear::Rank::doubtful, 1.0, own_method ? "/study/method" : "/integrator/method", "kinks",
                      "the error estimate of \"" + std::string(method->name) +
                          "\" misses the kinks of the exact clearance; its errors are far above its tolerance"});
-    if (const auto* added = std::get_if<AddedPlan>(&study.plan))
-      added->kind->warn(all, input);
-    else if (study.has_points() && study.look().classification_periods > 0 &&
-             !std::holds_alternative<CrosscheckPlan>(study.plan) &&
-             !std::holds_alternative<TolerancePlan>(study.plan) && damping_jumps(input.resolved))
-      all.push_back(without_tangents("/model/gap_damping"));
     lines = texts(std::move(all));
     lines.insert(lines.end(), input.notes.begin(), input.notes.end());
   }

@@ -42,7 +42,7 @@ std::function<model::DynamicModel(double first, double second)> model_plane(Load
 /// @throws InputError where the input has no such number
 [[nodiscard]] double given_value(const LoadedInput& input, const std::string& parameter);
 
-/// Points and chains of the study, a sweep's, a map's or those of basins.
+/// Points and chains of a study that has points.
 [[nodiscard]] studies::SweepPlan plan_of(const Study& study);
 
 /// The model at each point of plan_of(); of basins with the point's own start for the default one. Scales are those of
@@ -56,6 +56,9 @@ studies::ModelAtPoint model_at_point(LoadedInput&& input) = delete;
     const LoadedInput& input);
 std::function<model::DynamicModel(double value, double clearance_smoothing)> smoothed_model_at(LoadedInput&& input) =
     delete;
+
+/// The model with the start that the study gives.
+[[nodiscard]] model::DynamicModel started(model::DynamicModel model, const Study& study);
 
 /// The model of an operating point.
 /// @throws InputError where its numbers do not go together
@@ -78,5 +81,7 @@ std::function<model::DynamicModel(double value, double clearance_smoothing)> smo
 
 /// That regimes of such an input are told without tangents; at a pointer.
 [[nodiscard]] gear::Warning without_tangents(std::string pointer);
+/// The same for a study that classifies the regimes of its points.
+void warn_without_tangents(std::vector<gear::Warning>& out, const LoadedInput& input);
 
 }  // namespace epicyclic::input

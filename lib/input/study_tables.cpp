@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "input/added_kind.hpp"
 #include "input/catalogue_table.hpp"
 #include "input/origins.hpp"
 #include "input/plan_tables.hpp"
 #include "input/study_input.hpp"
+#include "input/study_kind.hpp"
 #include "integrate/methods.hpp"
 #include "studies/named_parameters.hpp"
 
@@ -27,11 +27,6 @@ using gear::Planet;
 using gear::Stage;
 using nlohmann::json;
 using nlohmann::ordered_json;
-using studies::BasinsOptions;
-using studies::BranchesOptions;
-using studies::LookOptions;
-using studies::MapOptions;
-using studies::SweepOptions;
 
 // Far beyond any gear, on both sides; they catch a wrong unit and keep sums, squares and quotients finite.
 constexpr double mass_min = 1e-9;
@@ -40,9 +35,6 @@ constexpr double stiffness_min = 1e-3;
 constexpr double stiffness_max = 1e18;
 constexpr double gap_max_um = 1e5;
 constexpr double turns_deg = 3600;
-constexpr double tolerance_min = 1e-30;
-constexpr double period_most = 1024;
-constexpr std::size_t seeds_most = 10000;
 
 /// Of a parameter with a name.
 Bounds bounds_of(const char* parameter) {
@@ -61,11 +53,6 @@ const Bounds frequency_ratio = bounds_of("mesh_frequency_ratio");
 const Bounds integrator_tolerance = between(1e-15, 0.1);
 const Bounds table_error = between(0, 1);
 const Bounds smoothing_width = between(0, 10);
-const Bounds component_value = between(-1e6, 1e6);  // below it a motion has diverged
-
-const std::string parameter_words =
-    "Name of the parameter, or a JSON pointer to a number of the input; sun_speed_rpm, carrier_speed_rpm and "
-    "mesh_frequency_Hz are the mesh frequency ratio, with values in rpm and Hz.";
 
 constexpr auto itself = [](auto& t) -> auto& { return t; };
 
@@ -480,480 +467,25 @@ const Table<model::ModelOptions>& model_table() {
   return table;
 }
 
-/// Parts of the plan; its kind is decided before its table reads.
-template <class Options>
-struct Kind {
-  static auto& in(auto& plan) { return std::get<Options>(plan); }
-};
-struct Sweep {
-  static auto& in(auto& plan) { return sweep_in(plan); }
-};
-struct Look {
-  static auto& in(auto& plan) { return look_in(plan); }
-};
-struct Run {
-  static auto& in(auto& plan) { return std::get<RunPlan>(plan).run; }
-};
-struct Crosscheck {
-  static auto& in(auto& plan) { return std::get<CrosscheckPlan>(plan).crosscheck; }
-};
-struct Tolerance {
-  static auto& in(auto& plan) { return std::get<TolerancePlan>(plan).tolerance; }
-};
-
-/// The member of a part of the plan.
-template <class Part, class Options, class V>
-table_detail::Access<Study, V> in_plan(V Options::*member) {
-  return {[=](Study& s) -> V& { return Part::in(s.plan).*member; },
-          [=](const Study& s) -> const V* { return &(Part::in(s.plan).*member); }};
-}
-
-/// Of an axis or a plane of that part.
-template <class Part, class Options, class U, class V>
-table_detail::Access<Study, V> in_plan(U Options::*outer, V U::*member) {
-  return {[=](Study& s) -> V& { return Part::in(s.plan).*outer.*member; },
-          [=](const Study& s) -> const V* { return &(Part::in(s.plan).*outer.*member); }};
-}
-
-}  // namespace
-
-void add_kind_key(Table<Study>& t, std::string_view name) {
-  Field<Study> kind;
-  kind.key = "kind";
-  kind.description = "What is computed.";
-  kind.read = [](const json&, const std::string&, Study&, ReadContext&) {};  // decided which table reads
-  kind.write = [name](const Study&) { return json(name); };
-  kind.schema = [name] { return ordered_json{{"const", name}}; };
-  t.custom(std::move(kind)).required();
-}
-
-const std::vector<std::pair<std::string, studies::Direction>>& direction_choices() {
-  static const std::vector<std::pair<std::string, studies::Direction>> all = {{"up", studies::Direction::up},
-                                                                              {"down", studies::Direction::down}};
-  return all;
-}
-
-const std::vector<std::pair<std::string, studies::Start>>& start_choices() {
-  static const std::vector<std::pair<std::string, studies::Start>> all = {{"carried", studies::Start::carried},
-                                                                          {"cold", studies::Start::cold}};
-  return all;
-}
-
-namespace {
-
-void add_kind(Table<Study>& t, const Plan& plan) { add_kind_key(t, kind_of(plan)); }
-
-/// Directions and start, for sweeps and maps.
-template <class Part, class Options>
-void add_course(Table<Study>& t) {
-  t.choices("directions", in_plan<Part>(&Options::directions), direction_choices(),
-            "Directions, numbered one after the other; each is a chain of its own from the default start.");
-  t.choice("start", in_plan<Part>(&Options::start), start_choices(),
-           "Where a point starts: from the end of the one before in its chain, or from the default start.");
-}
-
-/// Points along one parameter.
-void add_grid(Table<Study>& t) {
-  using studies::Axis;
-  const auto of = [](auto member) { return in_plan<Sweep>(&SweepOptions::axis, member); };
-  t.text("parameter", of(&Axis::name), parameter_words);
-  t.number("from", of(&Axis::from), between(-1e300, 1e300), "First value of the parameter, in its unit.");
-  t.number("to", of(&Axis::to), between(-1e300, 1e300), "Last value of the parameter, in its unit.");
-  t.integer("points", of(&Axis::points), between(1, 100000), "Number of points, evenly spaced, ends included [-].");
-  add_course<Sweep, SweepOptions>(t);
-  t.integer_or_auto("segments", in_plan<Sweep>(&SweepOptions::segments), between(1, 100000),
-                    "Chains per direction of a carried sweep [-], or \"auto\": by the number of points.");
-  t.integer("coarse_periods", in_plan<Sweep>(&SweepOptions::coarse_periods), between(1, 1e6),
-            "Mesh periods of each point in the pass along the range that says where segments start [-].");
-}
-
-}  // namespace
-
-void add_look(Table<Study>& t) {
-  const auto of = [](auto member) { return in_plan<Look>(member); };
-  t.integer("transient_periods", of(&LookOptions::transient_periods), between(0, 1e7),
-            "Mesh periods before the record, if the transient is fixed [-].");
-  t.integer("recorded_periods", of(&LookOptions::recorded_periods), between(1, 1e5), "Mesh periods recorded [-].");
-  t.integer("output_phases", of(&LookOptions::output_phases), between(1, 10000),
-            "Output points per recorded mesh period [-].");
-  t.integer("period_max", of(&LookOptions::period_max), between(1, 10000),
-            "Longest period of the motion that is looked for, in mesh periods [-].");
-  t.number("recurrence_tolerance", of(&LookOptions::recurrence_tolerance), between(tolerance_min, 1),
-           "Two states recur if no component differs by more, in the units of the state.");
-}
-
-void add_classification(Table<Study>& t) {
-  const auto of = [](auto member) { return in_plan<Look>(member); };
-  t.choice("transient", of(&LookOptions::transient),
-           std::vector<std::pair<std::string, studies::Transient>>{{"fixed", studies::Transient::fixed},
-                                                                   {"adaptive", studies::Transient::adaptive}},
-           "How long the motion is let settle: transient_periods, or until its regime is told.");
-  t.integer("classification_periods", of(&LookOptions::classification_periods), between(0, 1e7),
-            "Mesh periods beyond the record in which the regime may be looked for [-]; 0: it is told from recurrence "
-            "alone.");
-}
-
-namespace {
-
-/// Where motions start that are not carried on from another point.
-void add_initial_state(Table<Study>& t) {
-  t.numbers("initial_state", &Study::initial_state, component_value, 1, 1000,
-            "Start in place of the default one, at the mesh phase 0, in the order of poincare.csv [b_c, b_c per tau]; "
-            "`--from` writes it.");
-}
-
-/// Methods by name, the first one counts.
-std::vector<std::pair<std::string, std::string>> method_choices() {
-  std::vector<std::pair<std::string, std::string>> same;
-  for (const auto& name : integrate::method_names()) same.emplace_back(name, name);
-  return same;
-}
-
-const Table<studies::SweepCheck>& check_table() {
-  static const auto table = [] {
-    using studies::SweepCheck;
-    Table<SweepCheck> t("sweep_check", "Points of the finished sweep by other methods, compared.");
-    t.integer("points", &SweepCheck::points, between(0, 10000),
-              "Points at most [-], shared out among the regimes; 0: none.");
-    t.choices("methods", &SweepCheck::methods, method_choices(), "Methods that the sweep's own is compared with.");
-    t.number("orbit_tolerance", &SweepCheck::orbit_tolerance, between(tolerance_min, 1),
-             "Two orbits are the same if no component differs by more, in the units of the state.");
-    return t;
-  }();
-  return table;
-}
-
-const Table<Study>& sweep_table() {
-  static const auto table = [] {
-    Table<Study> t("sweep", "A sweep along one parameter.");
-    add_kind(t, SweepOptions{});
-    add_grid(t);
-    add_look(t);
-    add_classification(t);
-    add_initial_state(t);
-    t.object("crosscheck", in_plan<Kind<SweepOptions>>(&SweepOptions::check), check_table());
-    return t;
-  }();
-  return table;
-}
-
-void add_axis_range(Table<studies::Axis>& t) {
-  using studies::Axis;
-  t.number("from", &Axis::from, between(-1e300, 1e300), "First value, in its unit.").required();
-  t.number("to", &Axis::to, between(-1e300, 1e300), "Last value, in its unit.").required();
-  t.integer("points", &Axis::points, between(1, 10000), "Number of values, evenly spaced, ends included [-].");
-}
-
-const Table<studies::Axis>& parameter_axis_table() {
-  static const auto table = [] {
-    Table<studies::Axis> t("parameter_axis", "A parameter and its values.");
-    t.text("parameter", &studies::Axis::name, parameter_words).required();
-    add_axis_range(t);
-    return t;
-  }();
-  return table;
-}
-
-const Table<studies::Axis>& component_axis_table() {
-  static const auto table = [] {
-    Table<studies::Axis> t("component_axis", "A component of the state and its values at the start.");
-    t.text("component", &studies::Axis::name,
-           "Name of the component, as in poincare.csv: x_s, ... [b_c], x_s_rate, ... [b_c per tau].")
-        .required();
-    add_axis_range(t);
-    return t;
-  }();
-  return table;
-}
-
-const Table<Study>& map_table() {
-  static const auto table = [] {
-    using studies::Plane;
-    Table<Study> t("map", "Regimes over two parameters.");
-    add_kind(t, MapOptions{});
-    t.object("first", in_plan<Kind<MapOptions>>(&MapOptions::plane, &Plane::first), parameter_axis_table()).required();
-    t.object("second", in_plan<Kind<MapOptions>>(&MapOptions::plane, &Plane::second), parameter_axis_table())
-        .required();
-    add_course<Kind<MapOptions>, MapOptions>(t);
-    add_look(t);
-    add_classification(t);
-    add_initial_state(t);
-    return t;
-  }();
-  return table;
-}
-
-/// Values by the names of the state's components, which the stage decides: names are checked when it is known.
-Field<Study> base_field() {
-  Field<Study> base;
-  base.key = "base";
-  base.description = "Start of the components that are on no axis, where it is not the default start.";
-  const Bounds bounds = component_value;
-  base.read = [bounds](const json& value, const std::string& pointer, Study& study, ReadContext& context) {
-    if (!table_detail::check_object(value, pointer, context)) return;
-    table_detail::check_note(value, pointer, context);
-    for (const auto& [key, number] : value.items()) {
-      if (key == "origin" || key == "note") continue;
-      const auto read = table_detail::read_number(number, pointer + pointer_step(key), "base", bounds, context);
-      // Kept if it is none, for its name to be checked.
-      std::get<BasinsOptions>(study.plan).base[key] = read.value_or(0.0);
-    }
-  };
-  base.write = [](const Study& study) {
-    json object;
-    for (const auto& [name, value] : std::get<BasinsOptions>(study.plan).base) object[name] = value;
-    return object;
-  };
-  base.schema = [bounds] {
-    return ordered_json{{"type", "object"}, {"additionalProperties", table_detail::number_schema(bounds)}};
-  };
-  return base;
-}
-
-const Table<Study>& basins_table() {
-  static const auto table = [] {
-    using studies::Plane;
-    Table<Study> t("basins", "The attractors that motions from a plane of starts end on, at one operating point.");
-    add_kind(t, BasinsOptions{});
-    t.object("first", in_plan<Kind<BasinsOptions>>(&BasinsOptions::plane, &Plane::first), component_axis_table())
-        .required();
-    t.object("second", in_plan<Kind<BasinsOptions>>(&BasinsOptions::plane, &Plane::second), component_axis_table())
-        .required();
-    t.custom(base_field());
-    add_look(t);
-    add_classification(t);
-    return t;
-  }();
-  return table;
-}
-
-const Table<Study>& run_table() {
-  static const auto table = [] {
-    using studies::RunOptions;
-    Table<Study> t("run", "One operating point, at the speed that \"operation\" gives.");
-    add_kind(t, RunPlan{});
-    add_look(t);
-    add_classification(t);
-    add_initial_state(t);
-    const auto of = [](auto member) { return in_plan<Run>(member); };
-    t.integer("exponent_periods", of(&RunOptions::exponent_periods), between(0, 1e6),
-              "Mesh periods that the Lyapunov exponents are counted over [-]; 0: none are computed.");
-    t.integer("dense_phases", of(&RunOptions::dense_phases), between(8, 10000),
-              "Samples per mesh period of histories and spectra [-].");
-    t.integer("history_periods", of(&RunOptions::history_periods), between(1, 10000),
-              "Mesh periods that are kept of histories, and that summaries are taken over [-].");
-    t.integer("spectrum_periods", of(&RunOptions::spectrum_periods), between(1, 100000),
-              "Mesh periods that spectra are taken over [-]; of a periodic motion, its own period.");
-    t.integer("shown_periods", of(&RunOptions::shown_periods), between(1, 10000),
-              "Mesh periods in history.csv and in the figures of histories [-].");
-    t.number("check_tolerance", of(&RunOptions::check_tolerance), between(1e-14, 1e-6),
-             "Relative and absolute tolerance of the orbit's multipliers and of the exponents' checks [-].");
-    return t;
-  }();
-  return table;
-}
-
-const Table<Study>& crosscheck_table() {
-  static const auto table = [] {
-    using studies::CrosscheckOptions;
-    Table<Study> t("crosscheck", "The same points by several methods, compared.");
-    add_kind(t, CrosscheckPlan{});
-    add_grid(t);
-    add_look(t);
-    add_classification(t);
-    add_initial_state(t);
-    const auto of = [](auto member) { return in_plan<Crosscheck>(member); };
-    t.choices("methods", of(&CrosscheckOptions::methods), method_choices(),
-              "Methods; the first is the reference of the others.");
-    t.numbers("clearance_smoothings", of(&CrosscheckOptions::clearance_smoothings), smoothing_width, 1, 100,
-              "Widths of the smooth clearance that the reference method is repeated with, in b_c [-].");
-    t.number("orbit_tolerance", of(&CrosscheckOptions::orbit_tolerance), between(tolerance_min, 1),
-             "Two orbits are the same if no component differs by more, in the units of the state.");
-    t.integer("continued_periods", of(&CrosscheckOptions::continued_periods), between(1, 1e6),
-              "Mesh periods that one answer is continued with the other method to explain a difference [-].");
-    return t;
-  }();
-  return table;
-}
-
-const Table<Study>& tolerance_table() {
-  static const auto table = [] {
-    using studies::ToleranceOptions;
-    Table<Study> t("tolerance", "The points' answers against tolerance, method and clearance smoothing.");
-    add_kind(t, TolerancePlan{});
-    add_grid(t);
-    add_look(t);
-    add_classification(t);
-    add_initial_state(t);
-    const auto of = [](auto member) { return in_plan<Tolerance>(member); };
-    t.choices("methods", of(&ToleranceOptions::methods), method_choices(), "Methods of the ladder.");
-    t.numbers("tolerances", of(&ToleranceOptions::tolerances), integrator_tolerance, 1, 100,
-              "Relative tolerances of the ladder [-]; the absolute ones keep the ratio of the study's integrator.");
-    t.numbers("clearance_smoothings", of(&ToleranceOptions::clearance_smoothings), between(tolerance_min, 10), 1, 100,
-              "Widths of the smooth clearance, in b_c [-].");
-    t.number("reference_tolerance", of(&ToleranceOptions::reference_tolerance), between(1e-15, 1e-6),
-             "Relative and absolute tolerance of the reference orbits [-].");
-    t.number("target_error", of(&ToleranceOptions::target_error), between(tolerance_min, 1),
-             "Error of an orbit that the recommendation has to meet, in the units of the state.");
-    t.integer("chaotic_periods", of(&ToleranceOptions::chaotic_periods), between(64, 1e7),
-              "Mesh periods of the statistics where the motion is not periodic [-].");
-    return t;
-  }();
-  return table;
-}
-
-const Table<studies::BranchSeed>& seed_table() {
-  static const auto table = [] {
-    using studies::BranchSeed;
-    Table<BranchSeed> t("seed", "A state on or near a periodic motion.");
-    t.number("value", &BranchSeed::value, between(-1e300, 1e300), "Value of the parameter, in its unit.").required();
-    t.integer("period", &BranchSeed::period, between(1, period_most), "Period of the motion, in mesh periods [-].");
-    t.numbers("state", &BranchSeed::state, component_value, 1, 1000,
-              "The state at the mesh phase 0, in the order of poincare.csv [b_c, b_c per tau].")
-        .required();
-    t.number(
-        "reach", &BranchSeed::reach, between(1e-300, 1e300),
-        "How far from the value its branches are followed, in the parameter's unit; to the ends of the range if it "
-        "is not given.");
-    return t;
-  }();
-  return table;
-}
-
-const Table<studies::BranchSearchOptions>& search_table() {
-  static const auto table = [] {
-    using studies::BranchSearchOptions;
-    Table<BranchSearchOptions> t("search", "A search for motions that exist side by side, stable or not.");
-    t.numbers("values", &BranchSearchOptions::values, between(-1e300, 1e300), 1, 1000,
-              "Values of the parameter at which it is made.")
-        .required();
-    t.integer("starts", &BranchSearchOptions::starts, between(1, 1e6),
-              "Starts of Newton's method: half of them on a settled motion, half random ones about it [-].");
-    t.number("spread", &BranchSearchOptions::spread, between(0, 1e6),
-             "Half width of the box of the random starts, in b_c and b_c per tau.");
-    t.integer("largest_period", &BranchSearchOptions::largest_period, between(1, period_most),
-              "Longest period that is sought, in mesh periods [-].");
-    return t;
-  }();
-  return table;
-}
-
-/// A part of branches that there may be.
-template <class U>
-table_detail::Access<Study, U> in_branches(std::optional<U> BranchesOptions::*member) {
-  return {[=](Study& s) -> U& {
-            auto& held = std::get<BranchesOptions>(s.plan).*member;
-            return held ? *held : held.emplace();
-          },
-          [=](const Study& s) -> const U* {
-            const auto& held = std::get<BranchesOptions>(s.plan).*member;
-            return held ? &*held : nullptr;
-          }};
-}
-
-const Table<studies::LociOptions>& loci_table() {
-  static const auto table = [] {
-    using analysis::SpecialKind;
-    using studies::LociOptions;
-    Table<LociOptions> t("loci", "Loci of the special points over a second parameter.");
-    t.text("parameter", &LociOptions::parameter,
-           "Name of the second parameter, or a JSON pointer to a number of the input.")
-        .required();
-    t.number("from", &LociOptions::from, between(-1e300, 1e300), "Its least value, in its unit.").required();
-    t.number("to", &LociOptions::to, between(-1e300, 1e300), "Its greatest value, in its unit.").required();
-    std::vector<std::pair<std::string, SpecialKind>> kinds;
-    for (const auto kind : {SpecialKind::fold, SpecialKind::flip, SpecialKind::neimark_sacker,
-                            SpecialKind::branch_point, SpecialKind::grazing})
-      kinds.emplace_back(to_string(kind), kind);
-    t.choices("kinds", &LociOptions::kinds, kinds, "Kinds of points whose loci are followed.");
-    t.numbers("near", &LociOptions::near, between(-1e300, 1e300), 0, 1000,
-              "Values of the first parameter: loci of the points nearest to them alone; of all, if none is given.");
-    t.integer("points", &LociOptions::points, between(1, 1e6), "Most points on a locus, each way [-].");
-    return t;
-  }();
-  return table;
-}
-
-const Table<Study>& continue_table() {
-  static const auto table = [] {
-    Table<Study> t("continue", "Branches of periodic motions along one parameter, with the points where they change.");
-    add_kind(t, BranchesOptions{});
-    const auto of = [](auto member) { return in_plan<Kind<BranchesOptions>>(member); };
-    t.text("parameter", of(&BranchesOptions::parameter), parameter_words);
-    t.number("from", of(&BranchesOptions::from), between(-1e300, 1e300), "Least value of the parameter, in its unit.");
-    t.number("to", of(&BranchesOptions::to), between(-1e300, 1e300), "Greatest value of the parameter, in its unit.");
-    t.numbers("starts", of(&BranchesOptions::starts), between(-1e300, 1e300), 0, 1000,
-              "Values at which a motion settles from the default start, and is followed both ways; without seeds the "
-              "ends of the range and its middle, if none is given.");
-    t.integer("settle_periods", of(&BranchesOptions::settle_periods), between(0, 1e7),
-              "Mesh periods that these motions are given to settle [-].");
-    t.integer("period", of(&BranchesOptions::period), between(1, period_most),
-              "Period of these motions, in mesh periods [-].");
-    t.objects("seeds", of(&BranchesOptions::seeds), seed_table(), seeds_most,
-              "States that branches are started from besides; `--from FOLDER` writes them.");
-    t.numbers("values", of(&BranchesOptions::values), between(-1e300, 1e300), 1, 100000,
-              "Values at which orbits are wanted exactly.");
-    t.integer("largest_period", of(&BranchesOptions::largest_period), between(1, period_most),
-              "Longest period that branches are followed to at period doublings, in mesh periods [-].");
-    t.boolean("branch_points", of(&BranchesOptions::branch_points),
-              "Whether the branches are followed that cross at branch points.");
-    t.integer("pieces", of(&BranchesOptions::pieces), between(1, 1000),
-              "Pieces that an orbit of `period` is cut into for multiple shooting [-].");
-    t.integer("orbits", of(&BranchesOptions::orbits), between(1, 1e6), "Most orbits on a branch, each way [-].");
-    t.integer("branches", of(&BranchesOptions::branches), between(1, 10000), "Most branches [-].");
-    t.choice("method", of(&BranchesOptions::method), integrate::method_names(),
-             "Method of integration; one that can ends its steps where contact is made or lost.");
-    t.number("tolerance", of(&BranchesOptions::tolerance), between(1e-13, 1e-6),
-             "Relative and absolute tolerance of the orbits [-]; error bounds are from a tenth of it.");
-    t.number("largest_step", of(&BranchesOptions::largest_step), between(1e-6, 10),
-             "Longest step along a branch, in units of the parameter and of b_c together [-].");
-    t.integer("output_phases", of(&BranchesOptions::output_phases), between(1, 10000),
-              "Output points per mesh period, among which extrema are looked for [-].");
-    t.object("search", in_branches(&BranchesOptions::search), search_table());
-    t.object("loci", in_branches(&BranchesOptions::loci), loci_table());
-    return t;
-  }();
-  return table;
-}
-
-/// The tables of kinds of study, in the order of Plan; a stage alone has none.
-struct PlanKind {
-  const Table<Study>& (*table)();
-  Plan plan;  ///< what reading starts from: the defaults
-  [[nodiscard]] std::string_view name() const { return kind_of(plan); }
-};
-const std::vector<PlanKind>& kinds() {
-  static const std::vector<PlanKind> all = [] {
-    std::vector<PlanKind> known = {{&sweep_table, SweepOptions{}},        {&map_table, MapOptions{}},
-                                   {&basins_table, BasinsOptions{}},      {&run_table, RunPlan{}},
-                                   {&crosscheck_table, CrosscheckPlan{}}, {&tolerance_table, TolerancePlan{}},
-                                   {&continue_table, BranchesOptions{}}};
-    for (const AddedKind* kind : added_kinds())
-      if (kind->missing.empty()) known.push_back({kind->table, AddedPlan{kind, kind->defaults}});
-    return known;
-  }();
-  return all;
-}
-
-/// @returns nullptr if there is none of that name
-const PlanKind* find_kind(std::string_view name) {
-  for (const PlanKind& kind : kinds())
-    if (kind.name() == name) return &kind;
-  return nullptr;
+/// Kinds that this program can compute.
+std::vector<const StudyKind*> kinds() {
+  std::vector<const StudyKind*> able = study_kinds();
+  std::erase_if(able, [](const StudyKind* kind) { return !kind->missing.empty(); });
+  return able;
 }
 
 /// The kind that has least to find fault with.
-const PlanKind& likely_kind(const json& plan, const std::string& pointer) {
-  const PlanKind* likely = nullptr;
+const StudyKind& likely_kind(const json& plan, const std::string& pointer) {
+  const StudyKind* likely = nullptr;
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
-  for (const PlanKind& kind : kinds()) {
+  for (const StudyKind* kind : kinds()) {
     Study study;
-    study.plan = kind.plan;
+    study.plan = Plan(*kind);
     ReadContext context;
-    kind.table().read(plan, pointer, study, context);
+    kind->table().read(plan, pointer, study, context);
     if (context.findings.size() >= fewest) continue;
     fewest = context.findings.size();
-    likely = &kind;
+    likely = kind;
   }
   return *likely;
 }
@@ -961,25 +493,24 @@ const PlanKind& likely_kind(const json& plan, const std::string& pointer) {
 void read_plan(const json& value, const std::string& pointer, Study& study, ReadContext& context) {
   if (!table_detail::check_object(value, pointer, context)) return;
   std::vector<std::string> names;
-  for (const PlanKind& k : kinds()) names.emplace_back(k.name());
-  const PlanKind* read_as = nullptr;
+  for (const StudyKind* kind : kinds()) names.emplace_back(kind->name);
+  const StudyKind* read_as = nullptr;
   const auto kind = value.find("kind");
   if (kind != value.end() && kind->is_string()) {
     const auto& name = kind->get_ref<const std::string&>();
     read_as = find_kind(name);
-    for (const AddedKind* added : added_kinds())
-      if (added->name == name && !added->missing.empty())
-        return context.add(Finding::Kind::range, pointer + "/kind",
-                           "is \"" + name + "\": " + std::string(added->missing));
     if (read_as == nullptr)
       context.add(Finding::Kind::range, pointer + "/kind",
                   "is \"" + name + "\", must be one of: " + listed(names) + suggestion(name, names));
+    else if (!read_as->missing.empty())
+      return context.add(Finding::Kind::range, pointer + "/kind",
+                         "is \"" + name + "\": " + std::string(read_as->missing));
   } else if (kind != value.end()) {
     context.add(Finding::Kind::type, pointer + "/kind",
                 "is " + described(*kind) + ", must be one of: " + listed(names));
   }
   if (read_as == nullptr) read_as = &likely_kind(value, pointer);
-  study.plan = read_as->plan;
+  study.plan = Plan(*read_as);
   read_as->table().read(value, pointer, study, context);
 }
 
@@ -1025,20 +556,19 @@ const Table<Study>& study_table() {
     plan.description = "What is computed.";
     plan.read = read_plan;
     plan.write = [](const Study& study) {
-      const PlanKind* kind = find_kind(study.kind());
-      return kind == nullptr ? json() : kind->table().write(study);
+      return study.has_motion() ? study.plan.kind()->table().write(study) : json();
     };
     plan.schema = [] {
       ordered_json any = ordered_json::array();
-      for (const PlanKind& kind : kinds()) {
+      for (const StudyKind* kind : kinds()) {
         Study plain;
-        plain.plan = kind.plan;
-        any.push_back(kind.table().schema(plain));
+        plain.plan = Plan(*kind);
+        any.push_back(kind->table().schema(plain));
       }
       return ordered_json{{"anyOf", any}};
     };
     plan.collect = [](const std::string& pointer, std::vector<KeyPlace>& places) {
-      for (const PlanKind& kind : kinds()) kind.table().collect(pointer, places);
+      for (const StudyKind* kind : kinds()) kind->table().collect(pointer, places);
     };
     t.custom(std::move(plan)).required();
     return t;

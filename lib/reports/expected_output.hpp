@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "input/study_input.hpp"
+#include "studies/branches_options.hpp"
 #include "studies/expected_points.hpp"
 
 namespace epicyclic::reports {

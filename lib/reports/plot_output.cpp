@@ -22,14 +22,26 @@
 #include "figures/sketch.hpp"
 #include "input/field_table.hpp"
 #include "input/speed_aliases.hpp"
+#include "input/study_kind.hpp"
 #include "model/scales.hpp"
 #include "reports/quantity_words.hpp"
 #include "store/branch_columns.hpp"
 #include "store/point_columns.hpp"
+#include "studies/plane_options.hpp"
 
 namespace epicyclic::reports {
 
 namespace {
+
+using input::PlotForm;
+
+const input::PlotSource& plot_source(const input::Study& study) {
+  if (!study.has_motion() || study.plan.kind()->plot.form == PlotForm::none)
+    throw InputError(fmt::format("plot draws sweeps, maps, branches and runs, not a study of kind {}", study.kind()));
+  return study.plan.kind()->plot;
+}
+
+bool draws_curves(const PlottedStudy& s) { return plot_source(*s.study).form == PlotForm::curves; }
 
 using figures::FigureRange;
 using Place = std::array<double, 2>;
@@ -249,7 +261,7 @@ class Plot {
 
   std::vector<DrawnFigure> draw_map(const std::filesystem::path& folder) {
     const PlottedStudy& of = studies_.front();
-    const auto& map = std::get<studies::MapOptions>(of.study->plan);
+    const auto& map = of.study->plan.as<studies::MapOptions>();
     std::vector<std::string> wanted{"direction", "status", options_.quantity};
     const bool tells_settled = has(header_of(of.folder / "points.csv"), "settled");
     if (tells_settled) wanted.emplace_back("settled");
@@ -310,10 +322,10 @@ class Plot {
 
   void read_all() {
     for (std::size_t k = 0; k < studies_.size(); ++k) {
-      const std::string_view kind = studies_[k].study->kind();
-      if (kind == "run")
+      const PlotForm form = plot_source(*studies_[k].study).form;
+      if (form == PlotForm::histories)
         read_run(k);
-      else if (kind == "continue")
+      else if (form == PlotForm::curves)
         read_branches(k);
       else
         read_sweep(k);
@@ -515,7 +527,7 @@ class Plot {
                      down ? "down" : "up");
     if (std::ranges::any_of(series_, [](const Series& s) { return !s.apart.empty(); }))
       sketch.entry(figures::apart_dots(1.0), on_its_way_words);
-    if (std::ranges::any_of(studies_, [](const PlottedStudy& s) { return s.study->kind() == "continue"; }))
+    if (std::ranges::any_of(studies_, draws_curves))
       sketch.entry(figures::dashed(alone() ? colour_of(0) : figures::ink::dark_grey, 1.6, "(8,6)"), "unstable");
   }
 
@@ -585,28 +597,6 @@ class Plot {
   std::size_t not_positive_ = 0;               ///< values that a logarithmic scale has no place for
 };
 
-/// The tables that columns are looked for in, of a kind of study.
-struct KindOfPlot {
-  std::string_view kind;
-  std::vector<std::string> tables;
-  std::string quantity;  ///< that it is best known by
-};
-
-const std::vector<KindOfPlot>& kinds_of_plot() {
-  static const std::vector<KindOfPlot> all = {{"sweep", {"points.csv", "poincare.csv"}, "delta_sp_1"},
-                                              {"map", {"points.csv"}, "delta_sp_rms"},
-                                              {"continue", {"branch.csv"}, "delta_sp_rms"},
-                                              {"run", {"history.csv"}, "delta_sp_1"}};
-  return all;
-}
-
-const KindOfPlot& kind_of_plot(std::string_view kind) {
-  const auto found = std::ranges::find(kinds_of_plot(), kind, &KindOfPlot::kind);
-  if (found == kinds_of_plot().end())
-    throw InputError(fmt::format("plot draws sweeps, maps, branches and runs, not a study of kind {}", kind));
-  return *found;
-}
-
 /// Columns that are words have no place on an axis.
 bool is_of_words(const std::string& column) {
   for (const auto& c : store::point_columns(0))
@@ -616,7 +606,7 @@ bool is_of_words(const std::string& column) {
 
 }  // namespace
 
-std::vector<std::string> plotted_tables(std::string_view kind) { return kind_of_plot(kind).tables; }
+std::vector<std::string> plotted_tables(const input::Study& study) { return plot_source(study).tables; }
 
 std::string quantity_label(const std::string& column, bool micrometres) {
   const Described d = described(column);
@@ -641,24 +631,25 @@ std::string quantity_label(const std::string& column, bool micrometres) {
 
 PlotOptions sound_options(const std::vector<PlottedStudy>& studies, PlotOptions options) {
   const PlottedStudy& first = studies.front();
-  const std::string_view kind = first.study->kind();
-  const bool of_branches =
-      std::ranges::any_of(studies, [](const PlottedStudy& s) { return s.study->kind() == "continue"; });
-  if (options.quantity.empty()) options.quantity = kind_of_plot(of_branches ? "continue" : kind).quantity;
+  const PlotForm form = plot_source(*first.study).form;
+  const auto curves = std::ranges::find_if(studies, draws_curves);
+  if (options.quantity.empty())
+    options.quantity = plot_source(*(curves == studies.end() ? first : *curves).study).quantity;
   for (const PlottedStudy& s : studies) {
-    const std::string_view other = s.study->kind();
-    const auto may_be_beside = [](std::string_view k) { return k == "sweep" || k == "continue"; };
-    if (&s != &first && !(other == kind && kind == "run") && !(may_be_beside(other) && may_be_beside(kind)))
+    const input::PlotSource& source = plot_source(*s.study);
+    const auto over_parameter = [](PlotForm f) { return f == PlotForm::points || f == PlotForm::curves; };
+    if (&s != &first && !(source.form == form && form == PlotForm::histories) &&
+        !(over_parameter(source.form) && over_parameter(form)))
       throw InputError(fmt::format("plot: {} is a study of kind {}, {} one of kind {}; they do not go into one figure",
-                                   first.folder.string(), kind, s.folder.string(), other));
+                                   first.folder.string(), first.study->kind(), s.folder.string(), s.study->kind()));
     if (options.abscissa.empty() && parameter_of(*s.study) != parameter_of(*first.study))
       throw InputError(fmt::format("plot: {} goes along {}, {} along {}; give an abscissa that both have, by --x",
                                    first.folder.string(), parameter_of(*first.study), s.folder.string(),
                                    parameter_of(*s.study)));
     std::vector<std::string> known;
-    for (const std::string& table : kind_of_plot(other).tables) {
+    for (const std::string& table : source.tables) {
       std::vector<std::string> names = header_of(s.folder / table);
-      if (table == kind_of_plot(other).tables.front() && !options.abscissa.empty() && !has(names, options.abscissa))
+      if (table == source.tables.front() && !options.abscissa.empty() && !has(names, options.abscissa))
         throw InputError(fmt::format("plot: {} has no column '{}' for the abscissa{}", (s.folder / table).string(),
                                      options.abscissa, input::suggestion(options.abscissa, names)));
       std::ranges::move(names, std::back_inserter(known));
@@ -673,7 +664,7 @@ PlotOptions sound_options(const std::vector<PlottedStudy>& studies, PlotOptions 
   if (studies.size() > study_colours.size())
     throw InputError(
         fmt::format("plot: {} studies in one figure; there are colours for {}", studies.size(), study_colours.size()));
-  if (kind == "map" && (options.x || options.y || options.logarithmic || !options.abscissa.empty()))
+  if (form == PlotForm::cells && (options.x || options.y || options.logarithmic || !options.abscissa.empty()))
     throw InputError(
         "plot: a map is drawn over its plane, on a linear scale; --x, --x-range, --y-range and --log are not for it");
   return options;
@@ -682,7 +673,7 @@ PlotOptions sound_options(const std::vector<PlottedStudy>& studies, PlotOptions 
 std::vector<DrawnFigure> draw_plot(const std::filesystem::path& folder, const std::vector<PlottedStudy>& studies,
                                    const PlotOptions& options, std::vector<std::string>& notes) {
   Plot plot(studies, options, notes);
-  return studies.front().study->kind() == "map" ? plot.draw_map(folder) : plot.draw(folder);
+  return plot_source(*studies.front().study).form == PlotForm::cells ? plot.draw_map(folder) : plot.draw(folder);
 }
 
 }  // namespace epicyclic::reports

@@ -35,8 +35,9 @@ struct PlotOptions {
   std::vector<figures::Pictures> pictures = {figures::Pictures::png, figures::Pictures::svg};
 };
 
-/// The files of a kind of study that plots read.
-[[nodiscard]] std::vector<std::string> plotted_tables(std::string_view kind);
+/// The files of a study that plots read.
+/// @throws InputError for a kind that is not drawn
+[[nodiscard]] std::vector<std::string> plotted_tables(const input::Study& study);
 
 /// A column as the label of an axis: "RMS of δ_{sp,1} / b_c".
 [[nodiscard]] std::string quantity_label(const std::string& column, bool micrometres);

@@ -17,6 +17,7 @@
 #include "figures/bifurcation_figure.hpp"
 #include "figures/sketch.hpp"
 #include "gear/kinematics.hpp"
+#include "input/study_kind.hpp"
 #include "reports/quantity_words.hpp"
 #include "reports/response_output.hpp"
 #include "reports/table_output.hpp"
@@ -210,7 +211,7 @@ std::string figure_title(const input::Study& study) {
   const gear::Boundary b = study.stage.boundary;
   const char* boundary = b == gear::Boundary::literal ? "literal" : b == gear::Boundary::star ? "star" : "fixed ring";
   std::string title = (study.name.empty() ? study.stage.name : study.name) + ", boundary " + boundary;
-  const bool speed_is_given = study.has_motion() && !std::holds_alternative<input::AddedPlan>(study.plan) &&
+  const bool speed_is_given = study.has_motion() && study.plan.kind()->at_given_speed &&
                               std::ranges::none_of(input::varied_parameters(study), [](const auto& varied) {
                                 return varied.axis.name == studies::speed_parameter;
                               });

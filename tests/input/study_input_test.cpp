@@ -14,6 +14,8 @@
 #include "integrate/methods.hpp"
 #include "model/layout.hpp"
 #include "model/scales.hpp"
+#include "studies/branches_options.hpp"
+#include "studies/plane_options.hpp"
 #include "temporary_folder.hpp"
 
 namespace epicyclic::input::study_input_test {
@@ -406,7 +408,7 @@ TEST_F(StudyInput, TakesAxesInRpmAndHertz) {
     EXPECT_NEAR(from, slow, twelve_digits);
     EXPECT_NEAR(to, fast, twelve_digits);
   };
-  const studies::Axis& along = std::get<studies::SweepOptions>(sweep.study.plan).axis;
+  const studies::Axis& along = sweep.study.plan.as<studies::SweepOptions>().axis;
   is_converted(along.name, along.from, along.to);
   EXPECT_EQ(sweep.resolved["study"]["parameter"], "sun_speed_rpm");
   EXPECT_EQ(sweep.resolved["study"]["from"], 3000);
@@ -422,14 +424,14 @@ TEST_F(StudyInput, TakesAxesInRpmAndHertz) {
   // By its pointer the speed is the same parameter.
   const auto pointed = load(
       {R"(/study={"kind": "sweep", "parameter": "/operation/mesh_frequency_ratio", "from": 0.5, "to": 0.6, "points": 3})"});
-  EXPECT_EQ(std::get<studies::SweepOptions>(pointed.study.plan).axis.name, studies::speed_parameter);
+  EXPECT_EQ(pointed.study.plan.as<studies::SweepOptions>().axis.name, studies::speed_parameter);
   EXPECT_EQ(pointed.resolved["study"]["parameter"], studies::speed_parameter);
   EXPECT_EQ(reload(pointed.resolved).resolved, pointed.resolved);
 
   const auto map =
       load({R"(/study={"kind": "map", "first": {"parameter": "damping_ratio", "from": 0.1, "to": 0.2}, "second": )" +
             axis + "}"});
-  const studies::Axis& second = std::get<studies::MapOptions>(map.study.plan).plane.second;
+  const studies::Axis& second = map.study.plan.as<studies::MapOptions>().plane.second;
   is_converted(second.name, second.from, second.to);
 
   const std::size_t components =
@@ -445,7 +447,7 @@ TEST_F(StudyInput, TakesAxesInRpmAndHertz) {
          return zeros;
        }() +
        "]}]}"});
-  const auto& b = std::get<studies::BranchesOptions>(branches.study.plan);
+  const auto& b = branches.study.plan.as<studies::BranchesOptions>();
   is_converted(b.parameter, b.from, b.to);
   is_converted(studies::speed_parameter, b.starts[0], b.starts[1]);
   is_converted(studies::speed_parameter, b.values[0], b.search->values[0]);

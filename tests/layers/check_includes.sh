@@ -9,7 +9,7 @@ set -euo pipefail
 source_dir=$1
 layer=$2
 
-layers=(core gear model integrate analysis studies figures store input reports claims)
+layers=(core gear model integrate analysis studies figures store input reports kinds claims)
 case $layer in
   core) allowed=(core) ;;
   gear) allowed=(gear core) ;;
@@ -21,8 +21,9 @@ case $layer in
   store) allowed=(store studies model gear analysis integrate core) ;;
   input) allowed=(input studies model gear analysis integrate core) ;;
   reports) allowed=(reports input store figures studies model gear analysis integrate core) ;;
-  claims) allowed=(claims reports input store figures studies model gear analysis integrate core) ;;
-  app) allowed=(reports input store figures studies core) ;; # no numerics in the command
+  kinds) allowed=(kinds reports input store figures studies model gear analysis integrate core) ;;
+  claims) allowed=(claims kinds reports input store figures studies model gear analysis integrate core) ;;
+  app) allowed=(kinds reports input store figures studies core) ;; # no numerics in the command
   *)
     echo "no such layer: $layer" >&2
     exit 2
@@ -74,7 +75,7 @@ while IFS= read -r hit; do
   elif [[ $path != */* ]] || { [ "$style" = '"' ] && [ -e "$folder/$path" ]; }; then
     : # a standard header or one of the own folder
   elif contains "$first" "${layers[@]}"; then
-    contains "$first" "${allowed[@]}" || [[ $first = claims && $place = "$source_dir"/app/claims/* ]] || offence "$place" "$layer must not include $first: $included"
+    contains "$first" "${allowed[@]}" || [[ $first = claims && $place = "$source_dir"/app/command/claims/* ]] || offence "$place" "$layer must not include $first: $included"
   elif [ "$style" = '"' ] && [ "$first" != "$layer" ]; then
     offence "$place" "no such layer: $included"
   fi

@@ -14,6 +14,7 @@
 #include "input/study_model.hpp"
 #include "integrate/lanes/lane_pool.hpp"
 #include "integrate/make_flow.hpp"
+#include "kinds/run/plan.hpp"
 #include "studies/run.hpp"
 #include "studies/stage_lanes.hpp"
 #include "studies/sweep.hpp"
@@ -31,7 +32,7 @@ studies::PointResult point_at(const model::DynamicModel& m, const studies::LookO
 /// The run of inputs/tang2020_run.json at another speed, with few periods of history and exponents.
 std::optional<studies::RunResult> run_at(const input::LoadedInput& input, const model::DynamicModel& m,
                                          int exponent_periods, int dense_phases = 0) {
-  studies::RunOptions options = std::get<input::RunPlan>(input.study.plan).run;
+  studies::RunOptions options = input.study.plan.as<kinds::RunPlan>().run;
   if (dense_phases > 0) options.dense_phases = dense_phases;
   options.exponent_periods = exponent_periods;
   options.history_periods = 4;

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "input/study_model.hpp"
+#include "kinds/run/plan.hpp"
 #include "studies/run.hpp"
 
 namespace epicyclic::reports::paper_run_test {
@@ -25,7 +26,7 @@ struct Case {
   explicit Case(const std::vector<std::string>& changes)
       : input(input::load_input("inputs/tang2020_run.json", input::parse_assignments(changes))),
         look(input.study.look()),
-        options(std::get<input::RunPlan>(input.study.plan).run),
+        options(input.study.plan.as<kinds::RunPlan>().run),
         model(input::model_at(input)(input.study.mesh_frequency_ratio)) {
     look.transient_periods = 200;
     look.recorded_periods = 32;

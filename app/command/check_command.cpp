@@ -1,0 +1,102 @@
+// epicyclic check: validates, prints the resolved input on stdout and its cost on stderr; writes nothing. How long it
+// takes on this machine is measured: points spread over its ranges are computed as the study would compute them.
+
+#include <string>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "core/text.hpp"
+#include "expected_time.hpp"
+#include "input/study_kind.hpp"
+#include "input/study_model.hpp"
+#include "kind_commands.hpp"
+#include "progress.hpp"
+#include "reports/gear_report.hpp"
+#include "reports/speed_words.hpp"
+#include "session.hpp"
+#include "streams.hpp"
+#include "studies/probes.hpp"
+
+namespace epicyclic::app {
+
+namespace {
+
+/// How long it takes, in words.
+std::string time_of(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
+                    const TimeLimit& limit) {
+  const Expected expected = command_of(input.study.kind()).expected(input, plan, threads, limit);
+  std::string text;
+  if (expected.at_least > 0.0) text = "more than " + duration_text(expected.at_least);
+  if (expected.seconds > 0.0) text += (text.empty() ? "about " : ", perhaps ") + duration_text(expected.seconds);
+  const int used = expected.one_thread ? 1 : threads;
+  return fmt::format("{} on {} of this machine{}, {}", text, used == 1 ? "1 thread" : fmt::format("{} threads", used),
+                     expected.besides, expected.measured);
+}
+
+/// The speeds of the study's points as people know them, and what of the stage decides how much is excited there.
+void tell_operation(const input::LoadedInput& input) {
+  double from = input.study.mesh_frequency_ratio;
+  double to = from;
+  for (const auto& [axis, place] : input::varied_parameters(input.study))
+    if (axis.name == studies::speed_parameter) {
+      from = axis.from;
+      to = axis.to;
+    }
+  const auto words = [&](double ratio) {
+    return fmt::format("mesh frequency ratio {}: {}", short_text(ratio, 6),
+                       reports::speed_words(input.study.stage, ratio));
+  };
+  tell("speed: {}\n", words(from));
+  if (to != from) tell("    to {}\n", words(to));
+  // The load may go with the speed.
+  const std::string error = reports::error_words(input.study.stage, from);
+  tell("{}\n", error);
+  if (const std::string other = reports::error_words(input.study.stage, to); other != error)
+    tell("    at the last speed: {}\n", other);
+  for (const std::string& line : input::stiffness_notes(input)) tell("mesh stiffness: {}\n", line);
+}
+
+}  // namespace
+
+int check_command(const Arguments& arguments) {
+  const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
+  tell_warnings(input);
+  if (!input.study.has_motion()) {
+    print("{}\n", input.resolved.dump(2));
+    tell("{}: valid; a stage alone, for `epicyclic gear`\n", arguments.input.string());
+    return done;
+  }
+  if (const auto cost_of = input.study.plan.kind()->cost) {
+    const std::string cost = cost_of(input);
+    print("{}\n", input.resolved.dump(2));
+    tell("{}: valid\ncost: {}\n", arguments.input.string(), cost);
+    tell_operation(input);
+    return done;
+  }
+  const studies::SweepPlan plan = input::plan_of(input.study);
+  print("{}\n", input.resolved.dump(2));
+  tell("{}: valid\n", arguments.input.string());
+  TimeLimit limit;
+  const studies::LookOptions& look = input.study.look();
+  const auto cost = limit.in_time([&] {
+    return studies::estimate_cost(plan, look, input.study.integrator, input::model_at_point(input),
+                                  [&] { return !limit.over(); });
+  });
+  tell("cost: {} points in {} chains, {} mesh periods{}{}\n", plan.points.size(), plan.chains.size(),
+       studies::mesh_periods_of(plan, look),
+       cost && !limit.over() ? fmt::format(", {} state variables, about {:.2g} right-hand sides", cost->dimension,
+                                           cost->rhs_evaluations())
+                             : "; few mesh periods take longer than this waits for",
+       look.classification_periods > 0 ? " and what it takes to tell the regimes" : "");
+  tell_operation(input);
+  if (!arguments.no_time && cost) {
+    const auto time = limit.in_time([&] { return time_of(input, plan, arguments.threads, limit); });
+    tell("time: {}\n", time.value_or("not known: nothing that was tried came to an end in time"));
+  }
+  limit.leave();
+  return done;
+}
+
+}  // namespace epicyclic::app

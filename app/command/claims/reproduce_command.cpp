@@ -1,0 +1,187 @@
+// epicyclic reproduce: the claims of a publication held against a stage: each sweep that they speak of as a study of
+// its own in a folder of its own, the scorecard, the figures as they are published.
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "claims/inputs.hpp"
+#include "claims/kind.hpp"
+#include "claims/scorecard.hpp"
+#include "claims_commands.hpp"
+#include "core/atomic_file.hpp"
+#include "core/errors.hpp"
+#include "finished_study.hpp"
+#include "folder.hpp"
+#include "kind_commands.hpp"
+#include "preparation.hpp"
+#include "session.hpp"
+#include "stop.hpp"
+#include "streams.hpp"
+
+namespace epicyclic::app {
+
+namespace {
+
+/// The claims of a name stand in validation/NAME: here, or beside the program, or where it is installed.
+std::filesystem::path claims_file(const std::filesystem::path& named) {
+  std::error_code none;
+  if (std::filesystem::is_directory(named, none)) return named / "claims.json";
+  if (std::filesystem::exists(named, none) || named.has_parent_path() || named.has_extension()) return named;
+  const auto below = [&](const std::filesystem::path& root) { return root / "validation" / named / "claims.json"; };
+  if (std::filesystem::exists(below("."), none)) return below(".");
+  std::filesystem::path at = std::filesystem::read_symlink("/proc/self/exe", none);
+  while (at.has_relative_path()) {
+    at = at.parent_path();
+    for (const auto& root : {at, at / "share" / "epicyclic"})
+      if (std::filesystem::exists(below(root), none)) return below(root);
+  }
+  throw InputError(named.string() + ": neither a file, nor a folder of validation/ here or above the program");
+}
+
+std::string folder_name(const claims::ClaimSweep& sweep, studies::Start start) {
+  return start == studies::Start::cold ? sweep.name + "_cold" : sweep.name;
+}
+
+/// A command of its own in a folder of its own.
+/// @param input  its text, which is put beside the folder
+int run_part(const Arguments& arguments, const std::filesystem::path& folder, const std::string& name,
+             const std::string& input, int (*command)(const Arguments&)) {
+  Arguments part = arguments;
+  part.input = folder / (name + ".json");
+  part.output = folder / name;
+  part.sets.clear();
+  part.quiet = true;
+  write_file_atomically(part.input, input);
+  return command(part);
+}
+
+/// Where each sweep was computed.
+using Finished = std::map<std::string, std::unique_ptr<FinishedStudy>, std::less<>>;
+
+claims::Scorecard score(const input::LoadedInput& input, const claims::ClaimsOptions& options,
+                        const Finished& finished) {
+  claims::Scorecard card{input.study.name, options, {}};
+  for (const studies::Start start : options.starts) {
+    claims::ClaimRecord record;
+    for (const claims::ClaimSweep& sweep : options.sweeps)
+      record[sweep.name] =
+          claims::claim_series(finished.find(folder_name(sweep, start))->second->points(), options.look);
+    claims::ScoredStart scored{start, {}};
+    for (const claims::Claim& claim : options.claims) scored.outcomes.push_back(claims::judge(claim, record));
+    card.scored.push_back(std::move(scored));
+  }
+  return card;
+}
+
+std::filesystem::path recorded_verdicts(const Arguments& arguments) {
+  if (!arguments.expected.empty()) return arguments.expected;
+  std::filesystem::path beside = arguments.input;
+  return beside.replace_extension(".scorecard.json");
+}
+
+}  // namespace
+
+int reproduce_command(const Arguments& given) {
+  Arguments arguments = given;
+  arguments.input = claims_file(given.input);
+  const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
+  require_kind(input, arguments, "claims");
+  const auto& options = claims::claims_in(input.study);
+  require_models(options, claims::claim_models(input));
+  const std::filesystem::path recorded = recorded_verdicts(arguments);
+  std::error_code none;
+  std::optional<nlohmann::json> expected;
+  // A file that is named has to be there, and only recorded verdicts are written over.
+  const bool is_named = !arguments.expected.empty();
+  if ((is_named && !arguments.record) || std::filesystem::exists(recorded, none))
+    expected = claims::read_recorded(recorded);
+  tell_warnings(input);
+
+  Session session(arguments, input, identity_of(input, "reproduce"), arguments.threads, 1, true);
+  if (const auto code = session.exit_code()) return *code;
+  const store::OutputFolder& folder = session.folder();
+
+  int worst = done;
+  const std::filesystem::path sweeps = folder.file("sweeps");
+  create_folder(sweeps, /*parents=*/false);
+  const auto compute = [&](const std::filesystem::path& place, const std::string& name, const nlohmann::json& text,
+                           int (*command)(const Arguments&)) {
+    const int code = run_part(arguments, place, name, text.dump(2) + "\n", command);
+    if (code != done && code != done_with_failures) return code;
+    worst = std::max(worst, code);
+    return static_cast<int>(done);
+  };
+  int code = compute(folder.path(), "gear", input.resolved["stage"], gear_command);
+  for (const studies::Start start : options.starts)
+    for (const claims::ClaimSweep& sweep : options.sweeps)
+      if (code == done)
+        code =
+            compute(sweeps, folder_name(sweep, start), claims::sweep_input(input, sweep, start), sweep_command().run);
+  if (code != done) {
+    session.end(store::RunState::stopped, {});
+    return code;
+  }
+
+  Finished finished;
+  for (const studies::Start start : options.starts)
+    for (const claims::ClaimSweep& sweep : options.sweeps) {
+      const std::string name = folder_name(sweep, start);
+      finished[name] = std::make_unique<FinishedStudy>(sweeps / name);
+    }
+  const claims::Scorecard card = score(input, options, finished);
+  const std::string summary = claims::scorecard_summary(card);
+  write_file_atomically(folder.file("scorecard.csv"), claims::scorecard_csv(card));
+  write_file_atomically(folder.file("scorecard.md"), summary);
+  const auto figures = claims::draw_claim_figures(
+      folder.file("figures"), card, reports::figure_title(input.study), [&](const std::string& sweep) {
+        return finished
+            .find(folder_name(*std::ranges::find(options.sweeps, sweep, &claims::ClaimSweep::name),
+                              options.starts.front()))
+            ->second->points();
+      });
+  const std::int64_t undrawn = tell_undrawn(figures);
+
+  std::vector<std::string> unlike;
+  std::vector<std::string> another_study;  // in what the recorded verdicts are of one
+  if (arguments.record) {
+    write_file_atomically(linked_file(recorded), claims::recorded_text(card, input));
+    tell("recorded: {}\n", recorded.string());
+  } else if (expected) {
+    claims::RecordedDifference difference = claims::unlike_recorded(card, input, *expected);
+    another_study = std::move(difference.study);
+    if (!another_study.empty())
+      tell("the verdicts in {} are of another study and are not compared: {}\n", recorded.string(),
+           another_study.front());
+    unlike = std::move(difference.verdicts);
+    for (const std::string& line : unlike) tell("other than recorded in {}: {}\n", recorded.string(), line);
+  }
+  session.end(store::RunState::complete, {{"claims", static_cast<std::int64_t>(options.claims.size())},
+                                          {"holding", static_cast<std::int64_t>(card.holding())},
+                                          {"unlike", static_cast<std::int64_t>(unlike.size())},
+                                          {"undrawn", undrawn}});
+  if (arguments.json) {
+    nlohmann::json told = {{"folder", folder.path().string()}, {"claims", options.claims.size()},
+                           {"holding", card.holding()},        {"holding_where_nothing_changes", card.holding_inert()},
+                           {"unlike_recorded", unlike},        {"figures", nlohmann::json::array()}};
+    if (!another_study.empty()) told["another_study"] = another_study;
+    for (const auto& figure : figures)
+      if (figure.outcome.drawn()) told["figures"].push_back(figure.file.string());
+    print("{}\n", told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else {
+    print("{}\n", summary);
+    for (const auto& figure : figures)
+      if (figure.outcome.drawn()) print("figure: {}\n", figure.file.string());
+  }
+  if (is_named && !another_study.empty()) return other_study;
+  return unlike.empty() && undrawn == 0 ? worst : static_cast<int>(done_with_failures);
+}
+
+}  // namespace epicyclic::app

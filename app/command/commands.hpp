@@ -1,0 +1,77 @@
+// What the command line gives to commands, and the commands that are no kind of study. Each returns an ExitCode.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace epicyclic::app {
+
+class Ranks;
+
+enum ExitCode : int {
+  done = 0,
+  done_with_failures = 1,
+  bad_input = 2,
+  other_study = 3,
+  folder_in_use = 4,
+  output_failed = 5,
+  damaged_data = 7,
+  bug = 70,
+  stopped_early = 75,
+};
+
+/// What the command line gives to `plot`.
+struct PlotArguments {
+  std::vector<std::filesystem::path> folders;
+  std::vector<std::string> quantities, labels, formats;
+  std::string abscissa, x_range, y_range, size, title;
+  double font = 24;
+  bool micrometres = false;
+  bool logarithmic = false;
+};
+
+/// What the command line gives to `init`, of a drawing.
+struct InitArguments {
+  std::vector<int> teeth;              ///< sun, planet, ring
+  std::vector<double> profile_shifts;  ///< likewise
+  std::optional<double> module_mm{}, pressure_angle_deg{}, width_mm{};
+  std::optional<int> planets{};
+  std::vector<double> angles_deg{};
+  std::optional<double> torque_Nm{}, speed_rpm{};
+};
+
+/// What the command line gives to a subcommand.
+struct Arguments {
+  std::filesystem::path input;
+  std::filesystem::path output;
+  std::vector<std::string> sets;
+  int threads = 1;
+  bool json = false;
+  std::vector<std::string> from;   ///< points to start from, of finished studies [finished_study.hpp]
+  std::filesystem::path grow;      ///< of sweep, map and basins: a finished study whose points are taken; empty: none
+  std::filesystem::path against;   ///< of continue: a sweep's folder; empty: none. Of assert: the expected points' file
+  int unexplained = 0;             ///< of continue: changes that may stay so
+  std::filesystem::path expected;  ///< of reproduce: file of the verdicts that are expected; empty: beside the input
+  std::filesystem::path junit;     ///< of assert: file of the verdicts; empty: none
+  bool record = false;             ///< of assert and reproduce: what was found becomes what is expected
+  bool no_time = false;            ///< of check: time is not measured
+  bool quiet = false;              ///< part of another command: nothing on stdout
+  std::vector<std::string> words;  ///< of keys: what is looked for
+  PlotArguments plot{};
+  InitArguments init{};
+  Ranks* ranks = nullptr;
+};
+
+int assert_command(const Arguments& arguments);
+int plot_command(const Arguments& arguments);
+int keys_command(const Arguments& arguments);
+int init_command(const Arguments& arguments);
+int gear_command(const Arguments& arguments);
+int check_command(const Arguments& arguments);
+
+/// version, commit, dependencies, SIMD in use
+[[nodiscard]] std::string version_text();
+
+}  // namespace epicyclic::app

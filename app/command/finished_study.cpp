@@ -1,0 +1,472 @@
+#include "finished_study.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/atomic_file.hpp"
+#include "core/csv.hpp"
+#include "core/errors.hpp"
+#include "core/text.hpp"
+#include "input/derived_study.hpp"
+#include "input/json_source.hpp"
+#include "input/study_kind.hpp"
+#include "input/study_model.hpp"
+#include "reports/axis_words.hpp"
+#include "session.hpp"
+#include "store/manifest.hpp"
+#include "store/point_columns.hpp"
+#include "streams.hpp"
+#include "studies/branches_options.hpp"
+#include "studies/known_motions.hpp"
+#include "studies/plane_options.hpp"
+#include "studies/probes.hpp"
+
+namespace epicyclic::app {
+
+namespace {
+
+using nlohmann::json;
+
+/// run.json of a complete study.
+json complete_run(const std::filesystem::path& folder) {
+  const input::JsonSource run = input::read_json_file(folder / "run.json");
+  if (!run.complete || !run.value.is_object() || !run.value.value("identity", json()).is_string())
+    throw InputError(folder.string() + ": holds no study of this program (no run.json that says so)");
+  if (run.value.value("state", json()) != "complete")
+    throw InputError(folder.string() + ": the study in it is not complete; let its command end first");
+  return run.value;
+}
+
+/// The files of the manifest as they were left.
+/// @throws DamagedData
+void require_unchanged(const std::filesystem::path& folder, const json& run, const std::vector<std::string>& names) {
+  const auto manifest = store::manifest_from(run.value("files", json()));
+  if (!manifest) throw store::DamagedData(folder.string() + ": run.json does not say which files it has");
+  store::Manifest needed;
+  for (const std::string& name : names)
+    if (const auto file = manifest->find(name); file != manifest->end()) needed.insert(*file);
+  for (const store::ChangedFile& file : store::changed_files(folder, needed))
+    throw store::DamagedData(
+        fmt::format("{}: {} is not as the study left it; its own command makes it again", folder.string(), file.name));
+}
+
+CsvTable read_table(const std::filesystem::path& file) {
+  const FileDescriptor descriptor = open_descriptor(file, O_RDONLY);
+  if (!descriptor.is_open()) throw_output_error(file, "open the file", errno);
+  auto table = parse_csv(read_all(descriptor.get(), file));
+  if (!table) throw store::DamagedData(file.string() + ": is not a table that this program writes");
+  return *std::move(table);
+}
+
+double number_of(const std::string& cell) {
+  double value = 0.0;
+  std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  return value;
+}
+
+input::LoadedInput load_resolved(const std::filesystem::path& folder, const json& run) {
+  require_unchanged(folder, run, {"input.resolved.json", "points.csv", "poincare.csv"});
+  return input::load_input(folder / "input.resolved.json");
+}
+
+}  // namespace
+
+FinishedStudy::FinishedStudy(const std::filesystem::path& folder) : FinishedStudy(folder, complete_run(folder)) {}
+
+FinishedStudy::FinishedStudy(const std::filesystem::path& folder, const json& run)
+    : folder_(folder), input_(load_resolved(folder, run)), identity_(run.at("identity")) {
+  const std::string kind(input_.study.kind());
+  const input::StudyKind* own = input_.study.plan.kind();
+  const input::PointsKept kept = own == nullptr ? input::PointsKept::none : own->points_kept;
+  if (kept == input::PointsKept::none)
+    throw InputError(fmt::format("{}: is a study of kind {}; points are taken from a sweep, a map, basins or a run",
+                                 folder.string(), kind));
+  if (identity_ != identity_of(input_, kind))
+    throw InputError(folder.string() + ": was computed by another version of the numerics, or by another command");
+  plan_ = std::make_unique<studies::SweepPlan>(input::plan_of(input_.study));
+  if (kept == input::PointsKept::tables) {
+    read_run();
+    return;
+  }
+  if (std::error_code error; !std::filesystem::exists(folder_ / "journal.bin", error))
+    throw store::DamagedData(folder_.string() +
+                             ": its journal is not there; its own command computes its points again");
+  store_ = std::make_unique<store::PointStore>(folder_, identity_, plan_->points.size(), store::Journal::Use::read);
+  if (store_->size() != plan_->points.size())
+    throw store::DamagedData(folder_.string() +
+                             ": its journal does not hold all points; its own command makes them again");
+}
+
+void FinishedStudy::read_run() {
+  const CsvTable points = read_table(folder_ / "points.csv");
+  const CsvTable section = read_table(folder_ / "poincare.csv");
+  const auto cell = [&](const char* column) -> const std::string& {
+    const std::size_t index = points.index_of(column);
+    if (points.rows.size() != 1 || index == points.columns.size())
+      throw store::DamagedData((folder_ / "points.csv").string() + ": is not the table of one point");
+    return points.rows.front()[index];
+  };
+  studies::PointResult result;
+  result.point = plan_->points[0];
+  result.period = static_cast<int>(number_of(cell("period")));
+  result.outcome = integrate::Outcome::failed;
+  for (const auto outcome : {integrate::Outcome::reached, integrate::Outcome::diverged, integrate::Outcome::step_limit})
+    if (cell("status") == store::status_word(outcome)) result.outcome = outcome;
+  for (const auto regime : {analysis::Regime::periodic, analysis::Regime::quasiperiodic, analysis::Regime::chaotic})
+    if (cell("regime") == to_string(regime)) result.regime = regime;
+  constexpr std::size_t keys = 2;  // point, index
+  result.poincare_columns = section.columns.size() - std::min(section.columns.size(), keys);
+  for (const auto& row : section.rows)
+    for (std::size_t j = keys; j < row.size(); ++j) result.poincare.push_back(number_of(row[j]));
+  const studies::LookOptions& look = input_.study.look();
+  const model::DynamicModel model = input::model_at(input_)(input_.study.mesh_frequency_ratio);
+  if (result.poincare_columns < model.dimension)
+    throw store::DamagedData((folder_ / "poincare.csv").string() + ": is not a table of states of its study");
+  result.classified = look.classification_periods > 0 && studies::has_classification(model);
+  result.recurrence =
+      analysis::recurrence(studies::section_of(result, model.dimension), look.period_max, look.recurrence_tolerance);
+  run_.push_back(std::move(result));
+}
+
+studies::PointSource FinishedStudy::points() const {
+  return store_ ? store_->source() : studies::points_in_memory(run_);
+}
+
+model::DynamicModel FinishedStudy::model_at(std::size_t point) const {
+  if (!store_) return input::model_at(input_)(input_.study.mesh_frequency_ratio);
+  return input::model_at_point(input_)(plan_->points[point]);
+}
+
+FinishedTables finished_tables(const std::filesystem::path& folder,
+                               const std::function<std::vector<std::string>(const input::Study&)>& tables) {
+  const json run = complete_run(folder);
+  require_unchanged(folder, run, {"input.resolved.json"});
+  FinishedTables finished{folder, input::load_input(folder / "input.resolved.json")};
+  require_unchanged(folder, run, tables(finished.input.study));
+  return finished;
+}
+
+FinishedBranches finished_branches(const std::filesystem::path& folder) {
+  const auto tables = [](const input::Study& study) {
+    return study.plan.get_if<studies::BranchesOptions>() != nullptr ? std::vector<std::string>{"special.csv"}
+                                                                    : std::vector<std::string>{};
+  };
+  FinishedBranches branches{finished_tables(folder, tables).input, {}};
+  if (branches.input.study.plan.get_if<studies::BranchesOptions>() == nullptr)
+    throw InputError(fmt::format("{}: is a study of kind {}; special points are those of a continue", folder.string(),
+                                 branches.input.study.kind()));
+  const CsvTable table = read_table(folder / "special.csv");
+  const auto column = [&](const char* name) {
+    const std::size_t index = table.index_of(name);
+    if (index == table.columns.size())
+      throw store::DamagedData((folder / "special.csv").string() + ": has no column " + name);
+    return index;
+  };
+  const auto kind = column("kind"), period = column("period"), value = column("value"), bound = column("error_bound"),
+             contact = column("contact"), symmetry = column("broken_symmetry"), same = column("same_as");
+  for (const auto& row : table.rows)
+    if (row[same].empty())
+      branches.points.push_back({row[kind], static_cast<int>(number_of(row[period])), number_of(row[value]),
+                                 row[bound].empty() ? std::numeric_limits<double>::quiet_NaN() : number_of(row[bound]),
+                                 row[contact], row[symmetry]});
+  return branches;
+}
+
+Donor parse_donor(const std::string& text) {
+  Donor donor{text, text};
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos || colon + 1 == text.size()) return donor;
+  const std::string_view which = std::string_view(text).substr(colon + 1);
+  const char* const end = which.data() + which.size();
+  if (std::ranges::all_of(which, [](char c) { return c >= '0' && c <= '9'; })) {
+    std::size_t point = 0;
+    if (std::from_chars(which.data(), end, point).ec != std::errc())
+      throw InputError("--from " + text + ": there is no such point");
+    donor.point = point;
+  } else {
+    for (const auto direction : {studies::Direction::up, studies::Direction::down})
+      if (which.starts_with(store::direction_word(direction) + "=")) donor.direction = direction;
+    if (!donor.direction) return donor;
+    const auto read = std::from_chars(which.data() + which.find('=') + 1, end, donor.value);
+    donor.unit = std::string(read.ptr, end);
+    if (read.ec != std::errc() || !(donor.unit.empty() || donor.unit == "rpm" || donor.unit == "Hz") ||
+        !std::isfinite(donor.value))
+      throw InputError("--from " + text + ": behind = there must be a number, or one with rpm or Hz");
+  }
+  donor.folder = text.substr(0, colon);
+  return donor;
+}
+
+std::size_t point_of(const Donor& donor, const FinishedStudy& from) {
+  const studies::SweepPlan& plan = from.plan();
+  if (donor.point) {
+    if (*donor.point >= plan.points.size())
+      throw InputError(fmt::format("--from {}: there is no point {}, the last one is {}", donor.text, *donor.point,
+                                   plan.points.size() - 1));
+    return *donor.point;
+  }
+  const std::string kind(from.input().study.kind());
+  if (donor.all() || kind != "sweep")
+    throw InputError(fmt::format("--from {}: must name one point, as FOLDER:INDEX{}", donor.text,
+                                 kind == "sweep" ? ", FOLDER:up=VALUE or FOLDER:down=VALUE" : ""));
+  const studies::Axis& axis = plan.grid.first;
+  const double half_step = axis.points > 1 ? 0.5 * std::abs(axis.to - axis.from) / (axis.points - 1) : 0.0;
+  constexpr double rounding = 1.0 + 1e-9;
+  double value = donor.value;
+  if (!donor.unit.empty()) {
+    if (axis.name != studies::speed_parameter)
+      throw InputError(fmt::format("--from {}: the sweep goes along {}, not along the speed", donor.text, axis.name));
+    value *= input::ratio_per_unit(*input::find_speed_alias(donor.unit == "Hz" ? "mesh_frequency_Hz" : "sun_speed_rpm"),
+                                   from.input().study.stage)
+                 .value();
+  }
+  std::optional<studies::GridPoint> nearest;
+  for (const studies::GridPoint& p : plan.points)
+    if (p.direction == *donor.direction && (!nearest || std::abs(p.value - value) < std::abs(nearest->value - value)))
+      nearest = p;
+  if (!nearest) throw InputError(fmt::format("--from {}: the sweep does not go that way", donor.text));
+  const reports::AxisWords words = reports::axis_words(axis.name, from.input().study.axis_speed);
+  if (std::abs(nearest->value - value) > half_step * rounding)
+    throw InputError(fmt::format("--from {}: {} goes from {} to {} there{}", donor.text, words.name,
+                                 words.text(axis.from, 9), words.text(axis.to, 9),
+                                 axis.name == studies::speed_parameter && donor.unit.empty()
+                                     ? "; a speed in rpm or Hz is given as up=3000rpm"
+                                     : ""));
+  return nearest->index;
+}
+
+namespace {
+
+/// A point in words: "point 137 (up, mesh_frequency_ratio = 0.885), period 1".
+std::string point_words(const FinishedStudy& from, const studies::PointSummary& r) {
+  std::string words = fmt::format("point {}", r.point.index);
+  const auto varied = input::varied_parameters(from.input().study);
+  for (std::size_t k = 0; k < varied.size(); ++k)
+    words += fmt::format("{}{} = {}", k == 0 ? fmt::format(" ({}, ", store::direction_word(r.point.direction)) : ", ",
+                         varied[k].axis.name, short_text(k == 0 ? r.point.value : r.point.second_value, 9));
+  if (!varied.empty()) words += ")";
+  return words + ", " +
+         (r.outcome == integrate::Outcome::reached ? studies::motion_name(r) : store::status_word(r.outcome));
+}
+
+/// What else the study knows at the values of a point, a line each.
+std::vector<std::string> other_motions(const FinishedStudy& from, std::size_t point, const model::DynamicModel& model) {
+  const bool basins = from.input().study.plan.get_if<studies::BasinsOptions>() != nullptr;
+  const studies::PointSource points = from.points();
+  const studies::KnownMotions known =
+      studies::motions_known_at(from.plan(), points, point, basins, model, from.input().study.integrator);
+  std::vector<std::string> lines;
+  for (std::size_t k = 0; k < known.all.size(); ++k) {
+    const studies::KnownMotion& motion = known.all[k];
+    if (k + 1 == known.here) continue;
+    std::string line = basins ? fmt::format("known there too: {}, {} of {} cells, the first of them point {}",
+                                            motion.motion, motion.points, known.looked_at, motion.point)
+                              : fmt::format("known there too: {}", point_words(from, points.read_brief(motion.point)));
+    const auto root = [&](std::size_t of) {
+      return of > 0 && known.all[of - 1].image_of > 0 ? known.all[of - 1].image_of : of;
+    };
+    if (known.here > 0 && root(k + 1) == root(known.here))
+      line += "; it is this motion with the planets moved on";
+    else if (motion.image_of > 0)
+      line += "; it is another one of these with the planets moved on";
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+}  // namespace
+
+input::LoadedInput with_start(const Arguments& arguments, std::string_view kind, std::vector<std::string>* notes) {
+  const std::vector<input::Assignment> sets = input::parse_assignments(arguments.sets);
+  if (arguments.from.empty()) {
+    if (arguments.input.empty())
+      throw InputError(fmt::format("{} needs INPUT, or --from FOLDER:INDEX of a finished study", kind));
+    return input::load_input(arguments.input, sets);
+  }
+  if (arguments.from.size() > 1) throw InputError("--from: there can be one start only");
+  const Donor donor = parse_donor(arguments.from.front());
+  const FinishedStudy from(donor.folder);
+  const std::size_t index = point_of(donor, from);
+  const studies::PointResult r = from.points().read(index);
+  const model::DynamicModel there = from.model_at(index);
+  std::vector<double> state = studies::state_on(r, there.dimension);
+  if (r.outcome != integrate::Outcome::reached || state.empty())
+    throw InputError(fmt::format("--from {}: {}: has no state that was kept", donor.text, point_words(from, r)));
+  std::vector<std::string> lines = other_motions(from, index, there);
+  lines.insert(lines.begin(), point_words(from, r));
+
+  std::vector<input::Assignment> of_point;
+  const bool stage_changes =
+      std::ranges::any_of(sets, [](const auto& set) { return set.pointer.starts_with("/stage"); });
+  if (arguments.input.empty())
+    of_point = input::point_as_study(from.input(), from.plan().points[index], kind, stage_changes);
+  of_point.insert(of_point.end(), sets.begin(), sets.end());
+  const input::LoadedInput stage =
+      arguments.input.empty() ? from.input().with_further(of_point) : input::load_input(arguments.input, sets);
+  if (!stage.study.has_points()) return stage;  // refused for its kind
+  const bool plans = std::ranges::any_of(sets, [](const auto& set) {
+    return set.pointer == "/study" || set.pointer == "/study/parameter" || set.pointer == "/study/from" ||
+           set.pointer == "/study/to";
+  });
+  std::vector<input::Assignment> further;
+  if (arguments.input.empty() && kind != "run" && !plans) {
+    // At the speed that is set, if one is.
+    for (const char* end : {"/study/from", "/study/to"})
+      further.push_back({end, stage.study.mesh_frequency_ratio, std::string(end) + ", by --from"});
+  }
+  // Rates are per tau = omega_sn t, and omega_sn is the stage's own.
+  const double slower = input::time_scale(from.input()) / input::time_scale(stage);
+  for (std::size_t k = state.size() / 2; k < state.size(); ++k) state[k] *= slower;
+  further.push_back({"/study/initial_state", state, "/study/initial_state, by --from"});
+  input::LoadedInput input = stage.with_further(further);
+  if (!input::moves_like(input, from.input(), there))
+    lines.emplace_back("its equations of motion are not those of this study; its state is a start like any other");
+  for (const std::string& line : lines) tell("--from {}: {}\n", donor.text, line);
+  if (notes != nullptr) *notes = std::move(lines);
+  return input;
+}
+
+namespace {
+
+/// Takes seeds from donors for one study.
+class Sower {
+ public:
+  Sower(const input::LoadedInput& study, std::vector<std::string>& notes)
+      : study_(study),
+        options_(study.study.plan.as<studies::BranchesOptions>()),
+        notes_(notes),
+        seeds_(study.resolved.at("study").value("seeds", json::array())) {}
+
+  void take(const Donor& donor) {
+    const FinishedStudy from(donor.folder);
+    const studies::PointSource points = from.points();
+    if (!donor.all()) {
+      take_point(donor, from, point_of(donor, from));
+      return;
+    }
+    if (from.input().study.plan.get_if<studies::BasinsOptions>() != nullptr) (void)point_of(donor, from);
+    const std::size_t before = seeds_.size();
+    // The middle of each stretch of points of one period.
+    std::size_t first = 0;
+    while (first < points.count) {
+      const studies::PointSummary begun = points.read_brief(first);
+      std::size_t last = first;
+      const auto goes_on = [&](const studies::PointSummary& r) {
+        return is_periodic(r) && r.period == begun.period && r.point.direction == begun.point.direction &&
+               r.point.second_value == begun.point.second_value;
+      };
+      if (is_periodic(begun)) {
+        while (last + 1 < points.count && goes_on(points.read_brief(last + 1))) ++last;
+        const std::size_t middle = first + (last - first) / 2;
+        const double value = value_of(from, middle);
+        if (value >= options_.from && value <= options_.to) {
+          take_point(donor, from, middle);
+          if (const double reach = reach_of(from, first, middle, last); reach > 0.0) seeds_.back()["reach"] = reach;
+        }
+      }
+      first = last + 1;
+    }
+    if (seeds_.size() == before)
+      throw InputError(fmt::format("--from {}: none of its points is periodic, with a value from {} to {}", donor.text,
+                                   options_.from, options_.to));
+    notes_.push_back(
+        fmt::format("--from {}: {} seeds, one of each periodic stretch", donor.text, seeds_.size() - before));
+  }
+
+  [[nodiscard]] json seeds() const { return seeds_; }
+
+ private:
+  static bool is_periodic(const studies::PointSummary& r) {
+    return r.outcome == integrate::Outcome::reached && r.regime == analysis::Regime::periodic;
+  }
+
+  /// What rates and Omega of the donor are to be multiplied by: they are in the scale of time of its stage.
+  [[nodiscard]] double slower(const FinishedStudy& from) const {
+    return input::time_scale(from.input()) / input::time_scale(study_);
+  }
+
+  /// Of the parameter in the donor, which may vary it.
+  [[nodiscard]] double value_of(const FinishedStudy& from, std::size_t point) const {
+    const auto varied = input::varied_parameters(from.input().study);
+    const studies::GridPoint at = from.plan().points[point];
+    const double scale = options_.parameter == studies::speed_parameter ? slower(from) : 1.0;
+    for (std::size_t k = 0; k < varied.size(); ++k)
+      if (varied[k].axis.name == options_.parameter) return scale * (k == 0 ? at.value : at.second_value);
+    return scale * input::given_value(from.input(), options_.parameter);
+  }
+
+  /// From the middle of a stretch to two steps of the grid beyond its ends; 0 where the donor varies something else.
+  [[nodiscard]] double reach_of(const FinishedStudy& from, std::size_t first, std::size_t middle,
+                                std::size_t last) const {
+    const double here = value_of(from, middle);
+    const studies::SweepPlan& plan = from.plan();
+    double step = 0.0;
+    for (const std::size_t other :
+         {middle > 0 ? middle - 1 : middle, middle + 1 < plan.points.size() ? middle + 1 : middle}) {
+      const double apart = std::abs(value_of(from, other) - here);
+      if (apart > 0.0 && (step == 0.0 || apart < step)) step = apart;
+    }
+    constexpr double beyond = 2.0;
+    return std::max(std::abs(value_of(from, first) - here), std::abs(value_of(from, last) - here)) + beyond * step;
+  }
+
+  void take_point(const Donor& donor, const FinishedStudy& from, std::size_t point) {
+    const studies::PointResult r = from.points().read(point);
+    const std::string which = fmt::format("--from {}: point {}", donor.text, point);
+    if (r.outcome != integrate::Outcome::reached) throw InputError(which + " was not reached: it has no state");
+    const model::DynamicModel there = from.model_at(point);
+    std::vector<double> state = studies::state_on(r, there.dimension);
+    for (std::size_t k = state.size() / 2; k < state.size(); ++k) state[k] *= slower(from);
+    if (state.empty()) throw InputError(which + " has no state that was kept");
+    const double value = value_of(from, point);
+    const model::DynamicModel here = input::model_family(study_, options_.parameter, family_step(options_))(value);
+    if (here.dimension != there.dimension)
+      throw InputError(
+          fmt::format("{} has a state of {} numbers, this study one of {}", which, there.dimension, here.dimension));
+    if (!studies::same_motion(here, there))
+      notes_.push_back(
+          fmt::format("{}: its equations of motion are not those of this study at {} = {}; its state is a "
+                      "guess only",
+                      which, options_.parameter, short_text(value, 9)));
+    if (!is_periodic(r))
+      notes_.push_back(fmt::format("{}: is {}; an orbit of period {} is looked for near it", which,
+                                   studies::motion_name(r), options_.period));
+    seeds_.push_back({{"value", value}, {"period", is_periodic(r) ? r.period : options_.period}, {"state", state}});
+  }
+
+  const input::LoadedInput& study_;
+  const studies::BranchesOptions& options_;
+  std::vector<std::string>& notes_;
+  json seeds_;
+};
+
+}  // namespace
+
+input::LoadedInput with_seeds(const std::filesystem::path& study, const std::vector<input::Assignment>& sets,
+                              const std::vector<std::string>& donors, std::vector<std::string>& notes) {
+  input::LoadedInput input = input::load_input(study, sets);
+  if (donors.empty() || input.study.plan.get_if<studies::BranchesOptions>() == nullptr) return input;
+  Sower sower(input, notes);
+  for (const std::string& donor : donors) sower.take(parse_donor(donor));
+  json resolved = input.resolved.at("study");
+  resolved["seeds"] = sower.seeds();
+  // In the unit of its parameter.
+  if (const auto& speed = input.study.axis_speed)
+    for (json& seed : resolved["seeds"])
+      for (const char* key : {"value", "reach"})
+        if (seed.contains(key)) seed[key] = seed[key].get<double>() * speed->per_ratio;
+  return input.with_further(std::array{input::Assignment{"/study", std::move(resolved), "/study, by --from"}});
+}
+
+}  // namespace epicyclic::app

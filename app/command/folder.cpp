@@ -1,0 +1,160 @@
+#include "folder.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/atomic_file.hpp"
+#include "core/errors.hpp"
+#include "core/version.hpp"
+#include "input/json_source.hpp"
+#include "input/stage_completion.hpp"
+#include "input/study_kind.hpp"
+#include "store/identity.hpp"
+#include "store/point_record.hpp"
+#include "store/versions.hpp"
+#include "streams.hpp"
+
+namespace epicyclic::app {
+
+namespace {
+
+/// Of a complete study, from its run.json: failed points, say.
+std::int64_t counted(const store::OutputFolder& folder, const char* what) {
+  const nlohmann::json& run = folder.previous_run();
+  const auto counts = run.find("counts");
+  if (counts == run.end() || !counts->is_object() || !counts->contains(what)) return 0;
+  const nlohmann::json& number = (*counts)[what];
+  return number.is_number_integer() ? number.get<std::int64_t>() : 0;
+}
+
+void tell_differences(const store::OutputFolder& folder, const input::LoadedInput& input) {
+  constexpr std::size_t most = 5;
+  input::JsonSource other = input::read_json_file(folder.file("input.resolved.json"));
+  // That the study is another one is known from run.json.
+  if (!other.complete || !other.value.is_object()) return;
+  const nlohmann::json computed = input::computed_values(other.value);
+  const std::vector<std::string> lines = store::differences({other.value, computed}, {input.resolved, input.computed});
+  if (lines.empty()) tell("  the inputs are alike: another command, or another version of its numerics\n");
+  for (std::size_t k = 0; k < std::min(lines.size(), most); ++k) tell("  {}\n", lines[k]);
+  if (lines.size() > most) tell("  and {} more\n", lines.size() - most);
+}
+
+void tell_changes(const store::OutputFolder& folder) {
+  constexpr std::size_t most = 10;
+  const std::vector<store::ChangedFile>& changed = folder.changed();
+  tell("{}: this study is complete, but {}; all are made again\n", folder.path().string(),
+       changed.empty() ? "its run.json does not say which files it has" : "not all of its files are as it left them");
+  for (std::size_t k = 0; k < std::min(changed.size(), most); ++k) {
+    const store::ChangedFile& file = changed[k];
+    if (!file.bytes)
+      tell("  {}: {}\n", file.name, file.expected ? "missing" : "was not drawn");
+    else if (*file.bytes < file.expected->bytes)
+      tell("  {}: {} bytes, not {}; kept as {}.changed if they are not its first ones\n", file.name, *file.bytes,
+           file.expected->bytes, file.name);
+    else
+      tell("  {}: changed since; kept as {}.changed\n", file.name, file.name);
+  }
+  if (changed.size() > most) tell("  and {} more\n", changed.size() - most);
+}
+
+}  // namespace
+
+void tell_cut_tail(const std::filesystem::path& journal, std::size_t bytes) {
+  if (bytes > 0)
+    tell("{}: cut off the last {} bytes, of a record that is not whole; its point is computed again\n",
+         journal.string(), bytes);
+}
+
+std::map<std::size_t, studies::PointResult> known_points(const store::Journal& journal,
+                                                         std::span<const store::JournalEntry> entries,
+                                                         const studies::SweepPlan& plan) {
+  std::map<std::size_t, studies::PointResult> known;
+  for (const store::JournalEntry& entry : entries) {
+    studies::PointResult result = store::decode_point(journal.read(entry));
+    if (result.point.index >= plan.points.size() || result.point.index != entry.point)
+      throw store::DamagedData("the journal holds point " + std::to_string(entry.point) + ", which the study has not");
+    known.insert_or_assign(result.point.index, std::move(result));
+  }
+  return known;
+}
+
+void require_kind(const input::LoadedInput& input, const Arguments& arguments, std::string_view kind) {
+  const std::string file = arguments.input.empty() ? std::string("the study") : arguments.input.string();
+  const std::string name(kind);
+  if (!input.study.has_motion())
+    throw InputError(file + ": is a stage without a study; " + name + " needs a file such as {\"stage\": \"" +
+                     arguments.input.filename().string() + "\", \"study\": {\"kind\": \"" + name +
+                     "\", ...}}; `epicyclic keys study` lists its keys");
+  if (const std::string own(input.study.kind()); own != kind) {
+    const std::string_view commands = input.study.plan.kind()->commands;
+    throw InputError(file + ": is a study of kind " + own + "; run " +
+                     (commands.empty() ? "`epicyclic " + own + "`" : std::string(commands)));
+  }
+}
+
+std::int64_t tell_undrawn(const std::vector<reports::DrawnFigure>& figures) {
+  std::int64_t count = 0;
+  for (const reports::DrawnFigure& figure : figures) {
+    if (figure.outcome.drawn()) continue;
+    tell("{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
+    if (figure.outcome.failed()) ++count;
+  }
+  return count;
+}
+
+store::Provenance provenance(int threads, const input::LoadedInput& input) {
+  store::Provenance p = store::begin_provenance();
+  p.library_version = EPICYCLIC_VERSION;
+  p.commit = EPICYCLIC_COMMIT;
+  p.dependencies = store::dependency_versions();
+  p.simd_level = store::simd_level();
+  p.threads = threads;
+  p.input_files["input.json"] = input.study_file.name;
+  if (input.stage_file) p.input_files["input.stage.json"] = input.stage_file->name;
+  return p;
+}
+
+std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const input::LoadedInput& input, bool quiet) {
+  const std::string where = folder.path().string();
+  switch (folder.outcome()) {
+    case store::FolderOutcome::complete:
+      if (!quiet) tell("{}: this study is complete already; nothing to compute\n", where);
+      for (const char* const count : {"failed", "undrawn", "differences", "unexplained"})
+        if (counted(folder, count) > 0) return done_with_failures;
+      return done;
+    case store::FolderOutcome::damaged:
+      tell_changes(folder);
+      return std::nullopt;
+    case store::FolderOutcome::other_study:
+      tell("{}: holds another study; choose another -o\n", where);
+      tell_differences(folder, input);
+      return other_study;
+    case store::FolderOutcome::foreign:
+      tell("{}: holds files that are not a study's; choose an empty or new folder for -o\n", where);
+      return other_study;
+    case store::FolderOutcome::in_use:
+      tell("{}: is in use by another process\n", where);
+      return folder_in_use;
+    case store::FolderOutcome::fresh:
+    case store::FolderOutcome::resumable:
+      return std::nullopt;
+  }
+  return bug;
+}
+
+std::string resolved_text(const input::LoadedInput& input) { return input.resolved.dump(2) + "\n"; }
+
+std::string write_inputs(const store::OutputFolder& folder, const input::LoadedInput& input) {
+  std::string resolved = resolved_text(input);
+  write_file_atomically(folder.file("input.json"), input.study_file.bytes);
+  // Names of ours alone: by the user's, a copy could take the place of any other file here. run.json has those.
+  if (input.stage_file) write_file_atomically(folder.file("input.stage.json"), input.stage_file->bytes);
+  write_file_atomically(folder.file("input.resolved.json"), resolved);
+  return resolved;
+}
+
+}  // namespace epicyclic::app

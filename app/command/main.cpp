@@ -1,0 +1,273 @@
+// The command line: arguments, exit codes, nothing else.
+
+#include <algorithm>
+#include <exception>
+#include <functional>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <sched.h>
+
+#include "claims/claims_commands.hpp"
+#include "commands.hpp"
+#include "core/errors.hpp"
+#include "core/instruction_set.hpp"
+#include "core/version.hpp"
+#include "failure.hpp"
+#include "input/field_table.hpp"
+#include "input/study_input.hpp"
+#include "kind_commands.hpp"
+#include "ranks/ranks.hpp"
+#include "stop.hpp"
+#include "store/versions.hpp"
+#include "streams.hpp"
+
+namespace epicyclic::app {
+
+std::string version_text() {
+  std::string text =
+      fmt::format("epicyclic {}\ncommit {}\nSIMD {}\n", EPICYCLIC_VERSION, EPICYCLIC_COMMIT, store::simd_level());
+  if (const std::string mpi = mpi_version(); !mpi.empty()) text += fmt::format("MPI {}\n", mpi);
+  for (const auto& [name, version] : store::dependency_versions()) text += fmt::format("{} {}\n", name, version);
+  return text;
+}
+
+namespace {
+
+/// Runs a subcommand; every exception becomes an exit code and one message, whatever the number of ranks.
+int guarded(const Ranks& ranks, const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (...) {
+    const Failure failure = failure_of(std::current_exception());
+    if (ranks.rank() == 0) tell("{}\n", failure.what());
+    return failure.exit_code();
+  }
+}
+
+/// Cores that this process may run on: a launcher may have bound each rank to some.
+int own_cores() {
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  return ::sched_getaffinity(0, sizeof cores, &cores) == 0 ? std::max(1, CPU_COUNT(&cores)) : 1;
+}
+
+/// What was probably meant by a command or an option that is not known; empty if all are.
+std::string probably_meant(const CLI::App& cli, const CLI::ParseError& asked) {
+  // What is left over: of the command if one is known, else the first is its name.
+  if (dynamic_cast<const CLI::ExtrasError*>(&asked) == nullptr &&
+      dynamic_cast<const CLI::RequiredError*>(&asked) == nullptr)
+    return {};
+  const std::vector<CLI::App*> parsed = cli.get_subcommands();
+  const CLI::App& of = parsed.empty() ? cli : *parsed.front();
+  std::vector<std::string> names, options;
+  if (parsed.empty())
+    for (const CLI::App* sub : cli.get_subcommands([](const CLI::App*) { return true; }))
+      names.push_back(sub->get_name());
+  for (const CLI::Option* option : of.get_options())
+    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  std::string text;
+  for (const std::string& word : of.remaining()) {
+    const bool is_option = word.starts_with('-');
+    const std::string name = is_option ? word.substr(0, word.find('=')) : word;
+    if (!is_option && (names.empty() || !text.empty())) continue;
+    text += fmt::format("unknown {} '{}'{}\n", is_option ? "option" : "command", name,
+                        input::suggestion(name, is_option ? options : names));
+  }
+  return text;
+}
+
+/// --help, --version and what is wrong with the command line; once, whatever the number of ranks.
+int answer(const CLI::App& cli, const CLI::ParseError& asked, const Ranks& ranks) {
+  std::ostringstream data, words;
+  const int code = cli.exit(asked, data, words) == 0 ? done : bad_input;
+  if (ranks.rank() == 0) {
+    const std::string meant = probably_meant(cli, asked);
+    // That a subcommand is required is not what is wrong with one that is not known.
+    const bool known = meant.empty() || !cli.get_subcommands().empty();
+    write_words(meant + (known ? words.str() : "Run with --help for more information.\n"));
+    write_data(data.str());
+  }
+  return code;
+}
+
+int print_schema(const Arguments& /*arguments*/) {
+  print("{}\n", input::schema_text());
+  return done;
+}
+
+void add_threads(CLI::App& command, Arguments& arguments, const char* meaning) {
+  command.add_option("--threads", arguments.threads, meaning)->check(CLI::Range(1, 4096))->capture_default_str();
+}
+
+void add_check_options(CLI::App& command, Arguments& arguments) {
+  command.add_flag("--no-time", arguments.no_time, "do not measure how long it takes on this machine");
+  add_threads(command, arguments, "threads that it would be computed by");
+}
+
+void add_assert_options(CLI::App& command, Arguments& arguments) {
+  command.add_option("FOLDER", arguments.input, "of a finished `continue`")->required();
+  command.add_option("EXPECTED", arguments.against, "file of the points that are expected of it (JSON)")->required();
+  command.add_option("--junit", arguments.junit, "write the verdicts to this file as JUnit XML");
+  command.add_flag("--json", arguments.json, "print the verdicts as JSON");
+  command.add_flag("--record", arguments.record, "write the points of FOLDER to EXPECTED, with twice their bounds");
+}
+
+void add_init_options(CLI::App& command, Arguments& arguments) {
+  InitArguments& init = arguments.init;
+  command.add_option("FOLDER", arguments.output, "takes stage.json, speed.json and point.json")->required();
+  command
+      .add_option("--teeth", init.teeth, "Z_SUN,Z_PLANET[,Z_RING]; 21,28,77 by default, Z_RING = Z_SUN + 2 Z_PLANET")
+      ->delimiter(',')
+      ->expected(2, 3);
+  command.add_option("--module", init.module_mm, "module [mm]; 3 if it is not given");
+  command.add_option("--pressure-angle", init.pressure_angle_deg, "pressure angle [deg]; 20 if it is not given");
+  command
+      .add_option("--shifts", init.profile_shifts,
+                  "X_SUN,X_PLANET,X_RING, profile shifts [-]; 0,0,0 by default; both meshes have one centre distance "
+                  "where X_RING = X_SUN + 2 X_PLANET")
+      ->delimiter(',')
+      ->expected(3);
+  command.add_option("--width", init.width_mm, "face width [mm]; 30 if it is not given");
+  command.add_option("--planets", init.planets, "number of planets; 3 if neither it nor --angles is given");
+  command
+      .add_option("--angles", init.angles_deg,
+                  "of the planets [deg], such as 0,71.25,146.25; as even as can be put together by default")
+      ->delimiter(',');
+  command.add_option("--torque", init.torque_Nm, "torque on the sun [N m]; 100 if it is not given");
+  command.add_option("--speed", init.speed_rpm,
+                     "rated speed of the sun [rpm]; the sweep goes from 0.2 to 1.5 of it, without it over 0.2 to 2 of "
+                     "the mesh frequency ratio");
+}
+
+void add_plot_options(CLI::App& command, Arguments& arguments) {
+  PlotArguments& plot = arguments.plot;
+  command.add_option("FOLDER", plot.folders, "of finished sweeps, branches, maps or runs; several in one figure")
+      ->required();
+  command.add_option("-o,--output", arguments.output, "folder for the figures")->required();
+  const auto several = [&](const char* name, std::vector<std::string>& values, const char* meaning) {
+    return command.add_option(name, values, meaning)->take_all()->expected(1)->allow_extra_args(false);
+  };
+  several("--quantity", plot.quantities,
+          "column of points.csv, poincare.csv, branch.csv or history.csv; may be repeated");
+  several("--label", plot.labels, "of the folders, in their order, for the legend; may be repeated");
+  several("--format", plot.formats, "png, svg or pdf; may be repeated; png and svg by default")
+      ->check(CLI::IsMember({"png", "svg", "pdf"}));
+  command.add_option("--x", plot.abscissa, "column for the abscissa, as sun_speed_rpm; the parameter by default");
+  command.add_option("--x-range", plot.x_range, "FROM:TO");
+  command.add_option("--y-range", plot.y_range, "FROM:TO");
+  command.add_option("--size", plot.size, "WIDTHxHEIGHT in pixels; 1800x1100 by default");
+  command.add_option("--font", plot.font, "size of the texts, which lines and points go with")
+      ->check(CLI::Range(6.0, 96.0))
+      ->capture_default_str();
+  command.add_option("--title", plot.title, "of the figure");
+  command.add_flag("--um", plot.micrometres, "lengths in micrometres instead of b_c");
+  command.add_flag("--log", plot.logarithmic, "logarithmic ordinate");
+  command.add_flag("--json", arguments.json, "print the figures' names as JSON");
+}
+
+void add_reproduce_options(CLI::App& command, Arguments& arguments) {
+  command.get_option("INPUT")->description(
+      "claims of a publication: a name in validation/, its folder, or a file (JSON)");
+  command.add_flag("--record", arguments.record, "the verdicts are those that are expected from now on");
+  command.add_option(
+      "--expected", arguments.expected,
+      "file of the verdicts that are expected, of another stage say (default: NAME.scorecard.json beside the input)");
+}
+
+void add_word_option(CLI::App& command, Arguments& arguments) {
+  command.add_option("WORD", arguments.words, "in its name or meaning; several: all");
+}
+
+/// All commands, in the order of --help.
+std::vector<Command> all_commands() {
+  std::vector<Command> all = {
+      {"init", "a stage of your own and its studies to begin with, from a drawing's numbers", init_command,
+       Takes::finished, add_init_options},
+      {"gear", "teeth, contact, stiffness, friction, bearings and modes of the stage", gear_command, Takes::output},
+  };
+  std::ranges::transform(kind_commands(), std::back_inserter(all), [](const Command* command) { return *command; });
+  const std::vector<Command> others = {
+      {"reproduce", "claims of a publication held against a stage, with its figures", reproduce_command, Takes::output,
+       add_reproduce_options},
+      {"calibrate", "what is not published of a stage, from what is claimed of it", calibrate_command, Takes::output,
+       no_options, true},
+      {"robustness", "for which part of what is not published each claim holds", robustness_command, Takes::output,
+       no_options, true},
+      {"assert", "special points of finished branches against expected ones", assert_command, Takes::finished,
+       add_assert_options},
+      {"plot", "figures of what finished studies left, of several over each other; computes nothing", plot_command,
+       Takes::finished, add_plot_options},
+      {"check", "validates, prints the resolved input, its cost and how long it takes; writes nothing", check_command,
+       Takes::input, add_check_options},
+      {"keys", "the keys of the input with unit, default, bounds and meaning; those that speak of WORD", keys_command,
+       Takes::nothing, add_word_option},
+      {"schema", "the JSON Schema of the input", print_schema, Takes::nothing},
+  };
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
+}
+
+/// @param arguments  takes what is parsed; must live longer
+/// @returns the command on the command line
+CLI::App* add_to(CLI::App& cli, const Command& command, Arguments& arguments) {
+  CLI::App* sub = cli.add_subcommand(command.name, command.meaning);
+  if (command.takes >= Takes::input) {
+    sub->add_option("INPUT", arguments.input, "study or stage file (JSON)")->required();
+    sub->add_option("--set", arguments.sets, "/json/pointer=value, overrides one value; may be repeated")
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);
+  }
+  if (command.takes >= Takes::output) {
+    sub->add_option("-o,--output", arguments.output, "folder for the results")->required();
+    sub->add_flag("--json", arguments.json, "print the summary as JSON");
+    add_threads(*sub, arguments, "threads; the results do not depend on it");
+  }
+  command.options(*sub, arguments);
+  return sub;
+}
+
+int run(int argc, char** argv) {
+  Ranks ranks;
+  CLI::App cli("Nonlinear dynamics of planetary gear trains, with proof.", "epicyclic");
+  cli.set_version_flag("--version", version_text);
+  cli.require_subcommand(1);
+  add_claims_kind();
+  Arguments arguments;
+  arguments.threads = own_cores();
+  arguments.ranks = &ranks;
+
+  const std::vector<Command> commands = all_commands();
+  std::vector<CLI::App*> parsers;
+  for (const Command& command : commands) parsers.push_back(add_to(cli, command, arguments));
+  const int code = guarded(ranks, [&] {
+    try {
+      cli.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+      return answer(cli, e, ranks);
+    }
+    check_instruction_set_limit();
+    if (ranks.size() > 1 && !ranks.connected())
+      throw InputError("several processes cannot share the work: this program was built without MPI");
+    const auto parsed = std::ranges::find_if(parsers, &CLI::App::parsed) - parsers.begin();
+    const Command& asked = commands.at(static_cast<std::size_t>(parsed));
+    if (ranks.size() > 1 && !asked.shares_work)
+      throw InputError("only sweep, map, basins, calibrate and robustness run on several processes");
+    if (asked.writes()) stop_on_signals(ranks.size() > 1 ? patience_of_ranks : patience);
+    return asked.run(arguments);
+  });
+  if (ranks.size() > 1) leave_ranks(code);
+  return code;
+}
+
+}  // namespace
+
+}  // namespace epicyclic::app
+
+int main(int argc, char** argv) {
+  std::set_terminate(epicyclic::app::end_uncaught);
+  epicyclic::app::secure_streams();
+  return epicyclic::app::run(argc, argv);
+}

@@ -1,0 +1,98 @@
+#include "input/plan_tables.hpp"
+
+#include "integrate/methods.hpp"
+
+namespace epicyclic::input {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+using studies::LookOptions;
+using studies::SweepOptions;
+
+void add_kind_key(Table<Study>& t, std::string_view name) {
+  Field<Study> kind;
+  kind.key = "kind";
+  kind.description = "What is computed.";
+  kind.read = [](const json&, const std::string&, Study&, ReadContext&) {};  // decided which table reads
+  kind.write = [name](const Study&) { return json(name); };
+  kind.schema = [name] { return ordered_json{{"const", name}}; };
+  t.custom(std::move(kind)).required();
+}
+
+const std::vector<std::pair<std::string, studies::Direction>>& direction_choices() {
+  static const std::vector<std::pair<std::string, studies::Direction>> all = {{"up", studies::Direction::up},
+                                                                              {"down", studies::Direction::down}};
+  return all;
+}
+
+const std::vector<std::pair<std::string, studies::Start>>& start_choices() {
+  static const std::vector<std::pair<std::string, studies::Start>> all = {{"carried", studies::Start::carried},
+                                                                          {"cold", studies::Start::cold}};
+  return all;
+}
+
+void add_grid(Table<Study>& t) {
+  using studies::Axis;
+  constexpr auto sweep = [](auto& plan) -> auto& { return plan.sweep(); };
+  const auto of = [=](auto member) { return in_plan(sweep, &SweepOptions::axis, member); };
+  t.text("parameter", of(&Axis::name), parameter_words);
+  t.number("from", of(&Axis::from), any_value, "First value of the parameter, in its unit.");
+  t.number("to", of(&Axis::to), any_value, "Last value of the parameter, in its unit.");
+  t.integer("points", of(&Axis::points), between(1, 100000), "Number of points, evenly spaced, ends included [-].");
+  add_course(t, sweep, &SweepOptions::directions, &SweepOptions::start);
+  t.integer_or_auto("segments", in_plan(sweep, &SweepOptions::segments), between(1, 100000),
+                    "Chains per direction of a carried sweep [-], or \"auto\": by the number of points.");
+  t.integer("coarse_periods", in_plan(sweep, &SweepOptions::coarse_periods), between(1, 1e6),
+            "Mesh periods of each point in the pass along the range that says where segments start [-].");
+}
+
+namespace {
+
+constexpr auto recording = [](auto& plan) -> auto& { return plan.look(); };
+
+}  // namespace
+
+void add_look(Table<Study>& t) {
+  const auto of = [](auto member) { return in_plan(recording, member); };
+  t.integer("transient_periods", of(&LookOptions::transient_periods), between(0, 1e7),
+            "Mesh periods before the record, if the transient is fixed [-].");
+  t.integer("recorded_periods", of(&LookOptions::recorded_periods), between(1, 1e5), "Mesh periods recorded [-].");
+  t.integer("output_phases", of(&LookOptions::output_phases), between(1, 10000),
+            "Output points per recorded mesh period [-].");
+  t.integer("period_max", of(&LookOptions::period_max), between(1, 10000),
+            "Longest period of the motion that is looked for, in mesh periods [-].");
+  t.number("recurrence_tolerance", of(&LookOptions::recurrence_tolerance), between(tolerance_min, 1),
+           "Two states recur if no component differs by more, in the units of the state.");
+}
+
+void add_classification(Table<Study>& t) {
+  const auto of = [](auto member) { return in_plan(recording, member); };
+  t.choice("transient", of(&LookOptions::transient),
+           std::vector<std::pair<std::string, studies::Transient>>{{"fixed", studies::Transient::fixed},
+                                                                   {"adaptive", studies::Transient::adaptive}},
+           "How long the motion is let settle: transient_periods, or until its regime is told.");
+  t.integer("classification_periods", of(&LookOptions::classification_periods), between(0, 1e7),
+            "Mesh periods beyond the record in which the regime may be looked for [-]; 0: it is told from recurrence "
+            "alone.");
+}
+
+void add_initial_state(Table<Study>& t) {
+  t.numbers("initial_state", &Study::initial_state, component_value, 1, 1000,
+            "Start in place of the default one, at the mesh phase 0, in the order of poincare.csv [b_c, b_c per tau]; "
+            "`--from` writes it.");
+}
+
+std::vector<std::pair<std::string, std::string>> method_choices() {
+  std::vector<std::pair<std::string, std::string>> same;
+  for (const auto& name : integrate::method_names()) same.emplace_back(name, name);
+  return same;
+}
+
+void add_axis_range(Table<studies::Axis>& t) {
+  using studies::Axis;
+  t.number("from", &Axis::from, any_value, "First value, in its unit.").required();
+  t.number("to", &Axis::to, any_value, "Last value, in its unit.").required();
+  t.integer("points", &Axis::points, between(1, 10000), "Number of values, evenly spaced, ends included [-].");
+}
+
+}  // namespace epicyclic::input

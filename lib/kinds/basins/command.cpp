@@ -1,0 +1,72 @@
+// epicyclic basins: the attractors that motions from a plane of starts end on.
+
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "expected_time.hpp"
+#include "input/study_model.hpp"
+#include "kind_commands.hpp"
+#include "points.hpp"
+#include "reports/basins_output.hpp"
+#include "studies/plane.hpp"
+
+namespace epicyclic::app {
+
+namespace {
+
+WrittenPoints write_basins(const ComputedPoints& plane) {
+  std::vector<studies::PointSummary> results = studies::all_brief(plane.points);
+  const input::Study& study = plane.input.study;
+  const reports::BasinsOutput output{study.plan.as<studies::BasinsOptions>().plane, plane.first_model.state_names,
+                                     studies::planet_turns(plane.first_model, study.integrator), plane.resolved,
+                                     reports::figure_title(study)};
+  const analysis::Attractors attractors = studies::attractors_of(results, output.turns);
+  reports::write_basins_csv(plane.folder / "points.csv", results, attractors);
+  reports::write_attractors_csv(plane.folder / "attractors.csv", output, results, attractors);
+  reports::write_basins_h5(plane.folder / "results.h5", output, results, attractors);
+  WrittenPoints written;
+  written.figures = reports::draw_basins_figure(plane.folder / "figures", output, results, attractors);
+  written.summary["attractors"] = nlohmann::json::array();
+  std::size_t told = 0;
+  for (std::size_t k = 0; k < attractors.all.size(); ++k) {
+    const analysis::Attractor& a = attractors.all[k];
+    told += a.members.size();
+    nlohmann::json one = {{"attractor", k + 1},
+                          {"regime", to_string(a.record.regime)},
+                          {"period", a.record.period()},
+                          {"cells", a.members.size()}};
+    std::string line =
+        fmt::format("attractor {}: {}, {} cells", k + 1, reports::attractor_word(a.record), a.members.size());
+    if (a.image_of > 0) {
+      one["image_of"] = a.image_of;
+      line +=
+          fmt::format(", attractor {} with each planet moved on by {}", a.image_of, output.turns[a.image_by].planets);
+    }
+    written.summary["attractors"].push_back(std::move(one));
+    written.lines.push_back(std::move(line));
+  }
+  if (told < results.size()) written.lines.push_back(fmt::format("no attractor told: {} cells", results.size() - told));
+  return written;
+}
+
+int run_basins(const Arguments& arguments) { return points_command(arguments, "basins", "cells", {{write_basins}}); }
+
+}  // namespace
+
+const Command& basins_command() {
+  static const Command command = {
+      .name = "basins",
+      .meaning = "coexisting attractors over a plane of initial conditions",
+      .run = &run_basins,
+      .takes = Takes::output,
+      .options = &add_grow_option,
+      .shares_work = true,
+      .expected = [](const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
+                     const TimeLimit& limit) { return time_of_points(input, plan, threads, limit); },
+  };
+  return command;
+}
+
+}  // namespace epicyclic::app

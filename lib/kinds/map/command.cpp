@@ -1,0 +1,45 @@
+// epicyclic map: regimes over two parameters.
+
+#include <vector>
+
+#include "commands.hpp"
+#include "expected_time.hpp"
+#include "input/study_model.hpp"
+#include "kind_commands.hpp"
+#include "points.hpp"
+#include "reports/map_output.hpp"
+
+namespace epicyclic::app {
+
+namespace {
+
+WrittenPoints write_map(const ComputedPoints& plane) {
+  const input::Study& study = plane.input.study;
+  const reports::MapOutput output{study.plan.as<studies::MapOptions>(), plane.resolved, reports::figure_title(study),
+                                  study.axis_speed};
+  reports::write_map_csv(plane.folder / "points.csv", plane.points);
+  reports::write_map_h5(plane.folder / "results.h5", output, plane.points);
+  WrittenPoints written;
+  written.figures = reports::draw_map_figures(plane.folder / "figures", output, plane.points);
+  return written;
+}
+
+int run_map(const Arguments& arguments) { return points_command(arguments, "map", "cells", {{write_map}}); }
+
+}  // namespace
+
+const Command& map_command() {
+  static const Command command = {
+      .name = "map",
+      .meaning = "regimes over two parameters",
+      .run = &run_map,
+      .takes = Takes::output,
+      .options = &add_grow_option,
+      .shares_work = true,
+      .expected = [](const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
+                     const TimeLimit& limit) { return time_of_points(input, plan, threads, limit); },
+  };
+  return command;
+}
+
+}  // namespace epicyclic::app
