@@ -6,7 +6,7 @@ set -euo pipefail
 check=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/check_includes.sh
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
-mkdir -p "$tree"/lib/{core,gear,model,integrate,analysis,studies,figures,store,input,reports,claims} "$tree/app/claims" "$tree/lib/integrate/sundials"
+mkdir -p "$tree"/lib/{core,gear,model,integrate,analysis,studies,figures,store,input,reports,kinds,claims} "$tree/app/command/claims" "$tree/lib/integrate/sundials"
 
 failures=0
 # expect VERDICT LAYER LINE [FOLDER]: the check of LAYER says VERDICT (0 clean, 1 offence) when one of its files, in this
@@ -24,7 +24,7 @@ expect() {
   rm "$folder/scratch.hpp"
 }
 
-columns=(core gear model integrate analysis studies figures store input reports claims)
+columns=(core gear model integrate analysis studies figures store input reports kinds claims)
 while read -r layer verdicts; do
   read -r -a verdicts <<<"$verdicts"
   for i in "${!columns[@]}"; do
@@ -32,28 +32,29 @@ while read -r layer verdicts; do
     expect "${verdicts[i]}" "$layer" "#include <epicyclic/${columns[i]}/x.hpp>"
   done
 done <<'TABLE'
-core      0 1 1 1 1 1 1 1 1 1 1
-gear      0 0 1 1 1 1 1 1 1 1 1
-model     0 0 0 1 1 1 1 1 1 1 1
-integrate 0 1 1 0 1 1 1 1 1 1 1
-analysis  0 1 1 0 0 1 1 1 1 1 1
-studies   0 0 0 0 0 0 1 1 1 1 1
-figures   0 1 1 1 1 1 0 1 1 1 1
-store     0 0 0 0 0 0 1 0 1 1 1
-input     0 0 0 0 0 0 1 1 0 1 1
-reports   0 0 0 0 0 0 0 0 0 0 1
-claims    0 0 0 0 0 0 0 0 0 0 0
-app       0 1 1 1 1 0 0 0 0 0 1
+core      0 1 1 1 1 1 1 1 1 1 1 1
+gear      0 0 1 1 1 1 1 1 1 1 1 1
+model     0 0 0 1 1 1 1 1 1 1 1 1
+integrate 0 1 1 0 1 1 1 1 1 1 1 1
+analysis  0 1 1 0 0 1 1 1 1 1 1 1
+studies   0 0 0 0 0 0 1 1 1 1 1 1
+figures   0 1 1 1 1 1 0 1 1 1 1 1
+store     0 0 0 0 0 0 1 0 1 1 1 1
+input     0 0 0 0 0 0 1 1 0 1 1 1
+reports   0 0 0 0 0 0 0 0 0 0 1 1
+kinds     0 0 0 0 0 0 0 0 0 0 0 1
+claims    0 0 0 0 0 0 0 0 0 0 0 0
+app       0 1 1 1 1 0 0 0 0 0 0 1
 TABLE
 
-for layer in core gear model integrate analysis studies figures store input reports claims app; do
+for layer in core gear model integrate analysis studies figures store input reports kinds claims app; do
   expect 1 "$layer" '#include <arkode/arkode_erkstep.h>'
   expect 1 "$layer" '#include <sunmatrix/sunmatrix_dense.h>'
 done
 expect 0 integrate '#include <arkode/arkode_erkstep.h>' sundials
 expect 0 integrate '#include <nvector/nvector_serial.h>' sundials
 
-expect 0 app '#include "claims/x.hpp"' claims
+expect 0 app '#include "claims/x.hpp"' command/claims
 
 expect 1 core '  #  include   "store/x.hpp"'
 expect 1 core '#include "../store/x.hpp"'

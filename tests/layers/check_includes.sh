@@ -72,7 +72,7 @@ while IFS= read -r hit; do
       offence "$place" "SUNDIALS belongs to integrate/sundials: $included"
   elif [[ /$included/ == */../* ]]; then
     offence "$place" "a path with ..: $included"
-  elif [[ $path != */* ]] || { [ "$style" = '"' ] && [ -e "$folder/$path" ]; }; then
+  elif [[ $path != */* ]] || { [ "$style" = '"' ] && { [ -e "$folder/$path" ] || [ -e "$folder/command/$path" ]; }; }; then
     : # a standard header or one of the own folder
   elif contains "$first" "${layers[@]}"; then
     contains "$first" "${allowed[@]}" || [[ $first = claims && $place = "$source_dir"/app/command/claims/* ]] || offence "$place" "$layer must not include $first: $included"

@@ -8,8 +8,8 @@
 #include "expected_time.hpp"
 #include "input/study_model.hpp"
 #include "kind_commands.hpp"
+#include "kinds/basins/output.hpp"
 #include "points.hpp"
-#include "reports/basins_output.hpp"
 #include "studies/plane.hpp"
 
 namespace epicyclic::app {
@@ -19,15 +19,15 @@ namespace {
 WrittenPoints write_basins(const ComputedPoints& plane) {
   std::vector<studies::PointSummary> results = studies::all_brief(plane.points);
   const input::Study& study = plane.input.study;
-  const reports::BasinsOutput output{study.plan.as<studies::BasinsOptions>().plane, plane.first_model.state_names,
-                                     studies::planet_turns(plane.first_model, study.integrator), plane.resolved,
-                                     reports::figure_title(study)};
+  const kinds::BasinsOutput output{study.plan.as<studies::BasinsOptions>().plane, plane.first_model.state_names,
+                                   studies::planet_turns(plane.first_model, study.integrator), plane.resolved,
+                                   reports::figure_title(study)};
   const analysis::Attractors attractors = studies::attractors_of(results, output.turns);
-  reports::write_basins_csv(plane.folder / "points.csv", results, attractors);
-  reports::write_attractors_csv(plane.folder / "attractors.csv", output, results, attractors);
-  reports::write_basins_h5(plane.folder / "results.h5", output, results, attractors);
+  kinds::write_basins_csv(plane.folder / "points.csv", results, attractors);
+  kinds::write_attractors_csv(plane.folder / "attractors.csv", output, results, attractors);
+  kinds::write_basins_h5(plane.folder / "results.h5", output, results, attractors);
   WrittenPoints written;
-  written.figures = reports::draw_basins_figure(plane.folder / "figures", output, results, attractors);
+  written.figures = kinds::draw_basins_figure(plane.folder / "figures", output, results, attractors);
   written.summary["attractors"] = nlohmann::json::array();
   std::size_t told = 0;
   for (std::size_t k = 0; k < attractors.all.size(); ++k) {
@@ -38,7 +38,7 @@ WrittenPoints write_basins(const ComputedPoints& plane) {
                           {"period", a.record.period()},
                           {"cells", a.members.size()}};
     std::string line =
-        fmt::format("attractor {}: {}, {} cells", k + 1, reports::attractor_word(a.record), a.members.size());
+        fmt::format("attractor {}: {}, {} cells", k + 1, kinds::attractor_word(a.record), a.members.size());
     if (a.image_of > 0) {
       one["image_of"] = a.image_of;
       line +=

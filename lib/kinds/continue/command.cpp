@@ -25,9 +25,9 @@
 #include "folder.hpp"
 #include "input/study_model.hpp"
 #include "kind_commands.hpp"
+#include "kinds/continue/output.hpp"
+#include "kinds/continue/proof_output.hpp"
 #include "progress.hpp"
-#include "reports/continue_output.hpp"
-#include "reports/proof_output.hpp"
 #include "session.hpp"
 #include "stop.hpp"
 #include "store/branch_record.hpp"
@@ -182,7 +182,7 @@ void add_rows(TracedBranches& traced, OrbitRows& known, const model::DynamicMode
 /// Writes the tables of what is there by now, now and then: branches may take hours.
 class PartialTables {
  public:
-  PartialTables(const store::OutputFolder& folder, const reports::ContinueOutput& output, OrbitRows& rows,
+  PartialTables(const store::OutputFolder& folder, const kinds::ContinueOutput& output, OrbitRows& rows,
                 const model::DynamicModel& first)
       : folder_(folder), output_(output), rows_(rows), first_(first) {}
 
@@ -198,7 +198,7 @@ class PartialTables {
     if (!traced.branches.empty()) {
       add_rows(traced, rows_, first_, give_up_if_stopped);
       folder_.require_there();
-      reports::write_branch_tables(folder_.path(), output_, traced);
+      kinds::write_branch_tables(folder_.path(), output_, traced);
     }
     // A small part of the time, however many orbits there are.
     constexpr int part = 20;
@@ -209,7 +209,7 @@ class PartialTables {
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::seconds interval{10};
   const store::OutputFolder& folder_;
-  const reports::ContinueOutput& output_;
+  const kinds::ContinueOutput& output_;
   OrbitRows& rows_;
   const model::DynamicModel& first_;
   Clock::time_point due_ = Clock::now() + interval / 2;
@@ -424,7 +424,7 @@ struct Proved {
   std::vector<reports::DrawnFigure> figures;
 };
 
-Proved prove_sweep(const FinishedStudy& sweep, const store::OutputFolder& folder, const reports::ContinueOutput& output,
+Proved prove_sweep(const FinishedStudy& sweep, const store::OutputFolder& folder, const kinds::ContinueOutput& output,
                    const TracedBranches& traced, std::size_t dimension) {
   const studies::PointSource points = sweep.points();
   const auto& plan = sweep.input().study.plan.as<studies::SweepOptions>();
@@ -437,13 +437,13 @@ Proved prove_sweep(const FinishedStudy& sweep, const store::OutputFolder& folder
     });
   }
   const input::Study& study = sweep.input().study;
-  const reports::ProvedSweep told{study.name.empty() ? sweep.folder().string() : study.name, sweep.identity(),
-                                  output.poincare_columns, points};
+  const kinds::ProvedSweep told{study.name.empty() ? sweep.folder().string() : study.name, sweep.identity(),
+                                output.poincare_columns, points};
   folder.require_there();
-  proved.summary = reports::proof_summary(output, told, traced, proved.proof);
-  reports::write_proof_csv(folder.file("proof.csv"), traced, proved.proof);
+  proved.summary = kinds::proof_summary(output, told, traced, proved.proof);
+  kinds::write_proof_csv(folder.file("proof.csv"), traced, proved.proof);
   write_file_atomically(folder.file("proof.md"), proved.summary);
-  proved.figures = reports::draw_proof_figures(folder.file("figures"), output, told, traced);
+  proved.figures = kinds::draw_proof_figures(folder.file("figures"), output, told, traced);
   return proved;
 }
 
@@ -521,12 +521,12 @@ int run_continue(const Arguments& arguments) {
   if (const auto code = session.exit_code()) return *code;
   const store::OutputFolder& folder = session.folder();
 
-  const reports::ContinueOutput output{options,
-                                       studies::poincare_columns(first_model),
-                                       static_cast<std::size_t>(first_model.planets),
-                                       session.resolved(),
-                                       reports::figure_title(input.study),
-                                       input.study.axis_speed};
+  const kinds::ContinueOutput output{options,
+                                     studies::poincare_columns(first_model),
+                                     static_cast<std::size_t>(first_model.planets),
+                                     session.resolved(),
+                                     reports::figure_title(input.study),
+                                     input.study.axis_speed};
   TracedBranches traced;
   std::vector<studies::FoundMotions> found;
   std::vector<studies::TracedLocus> loci;
@@ -545,7 +545,7 @@ int run_continue(const Arguments& arguments) {
     analysis::BranchTree tree(system.system, system.options);
     traced.attempts = add_starts(system, options, models, tree);
     for (const studies::BranchAttempt& a : traced.attempts)
-      if (const std::string words = reports::attempt_text(axis, a); !words.empty()) tell("{}\n", words);
+      if (const std::string words = kinds::attempt_text(axis, a); !words.empty()) tell("{}\n", words);
     if (options.search) found = add_found(session, system, options, models, tree);
     OrbitRows rows(models, options.output_phases);
     PartialTables tables(folder, output, rows, first_model);
@@ -564,12 +564,12 @@ int run_continue(const Arguments& arguments) {
   failed = count_failures(traced, loci);
 
   folder.require_there();
-  const std::string summary = reports::continue_summary(output, traced, loci) + reports::found_text(output, found);
-  if (options.search) reports::write_found_csv(folder.file("orbits.csv"), found);
-  reports::write_continue_tables(folder.path(), output, traced, loci);
+  const std::string summary = kinds::continue_summary(output, traced, loci) + kinds::found_text(output, found);
+  if (options.search) kinds::write_found_csv(folder.file("orbits.csv"), found);
+  kinds::write_continue_tables(folder.path(), output, traced, loci);
   write_file_atomically(folder.file("continue.md"), summary);
-  auto figures = reports::draw_continue_figures(folder.file("figures"), output, traced);
-  if (options.loci) figures.push_back(reports::draw_loci(folder.file("figures"), output, loci));
+  auto figures = kinds::draw_continue_figures(folder.file("figures"), output, traced);
+  if (options.loci) figures.push_back(kinds::draw_loci(folder.file("figures"), output, loci));
   Proved proved;
   try {
     if (sweep) proved = prove_sweep(*sweep, folder, output, traced, first_model.dimension);

@@ -12,9 +12,9 @@
 #include "folder.hpp"
 #include "input/study_model.hpp"
 #include "kind_commands.hpp"
+#include "kinds/crosscheck/output.hpp"
 #include "kinds/crosscheck/plan.hpp"
 #include "progress.hpp"
-#include "reports/crosscheck_output.hpp"
 #include "session.hpp"
 #include "stop.hpp"
 #include "store/journal.hpp"
@@ -52,10 +52,10 @@ Written write_results(const store::OutputFolder& folder, const reports::SweepOut
   const studies::PointSource reference = studies::points_in_memory(all.reference);
   reports::write_points_csv(folder.file("points.csv"), reference);
   reports::write_poincare_csv(folder.file("poincare.csv"), output, reference);
-  reports::write_crosscheck_csv(folder.file("crosscheck.csv"), all);
-  std::string summary = reports::crosscheck_summary(reports::axis_words(output.sweep.axis.name, output.speed), all);
+  kinds::write_crosscheck_csv(folder.file("crosscheck.csv"), all);
+  std::string summary = kinds::crosscheck_summary(reports::axis_words(output.sweep.axis.name, output.speed), all);
   write_file_atomically(folder.file("crosscheck.md"), summary);
-  return {std::move(summary), reports::draw_crosscheck_figure(folder.file("figures"), output, all, orbit_tolerance)};
+  return {std::move(summary), kinds::draw_crosscheck_figure(folder.file("figures"), output, all, orbit_tolerance)};
 }
 
 /// On stdout.
@@ -65,7 +65,7 @@ void tell_result(const Arguments& arguments, const store::OutputFolder& folder, 
     print("{}\n", nlohmann::json{{"folder", folder.path().string()},
                                  {"points", points},
                                  {"comparisons", all.comparisons.size()},
-                                 {"differences", reports::differences(all)},
+                                 {"differences", kinds::differences(all)},
                                  {"failed", failed}}
                       .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
@@ -141,7 +141,7 @@ int run_crosscheck(const Arguments& arguments) {
                         {"comparisons", static_cast<std::int64_t>(all.comparisons.size())},
                         {"failed", static_cast<std::int64_t>(failed)},
                         {"undrawn", undrawn},
-                        {"differences", static_cast<std::int64_t>(reports::differences(all))}});
+                        {"differences", static_cast<std::int64_t>(kinds::differences(all))}});
   };
   if (!all.complete(points)) {
     close_run(store::RunState::stopped);
@@ -157,7 +157,7 @@ int run_crosscheck(const Arguments& arguments) {
   close_run(store::RunState::complete);
 
   tell_result(arguments, folder, points, failed, all, written);
-  return reports::differences(all) == 0 && failed == 0 && undrawn == 0 ? done : done_with_failures;
+  return kinds::differences(all) == 0 && failed == 0 && undrawn == 0 ? done : done_with_failures;
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 #include "expected_time.hpp"
 #include "input/study_model.hpp"
 #include "kind_commands.hpp"
+#include "kinds/map/output.hpp"
 #include "points.hpp"
-#include "reports/map_output.hpp"
 
 namespace epicyclic::app {
 
@@ -15,12 +15,12 @@ namespace {
 
 WrittenPoints write_map(const ComputedPoints& plane) {
   const input::Study& study = plane.input.study;
-  const reports::MapOutput output{study.plan.as<studies::MapOptions>(), plane.resolved, reports::figure_title(study),
-                                  study.axis_speed};
-  reports::write_map_csv(plane.folder / "points.csv", plane.points);
-  reports::write_map_h5(plane.folder / "results.h5", output, plane.points);
+  const kinds::MapOutput output{study.plan.as<studies::MapOptions>(), plane.resolved, reports::figure_title(study),
+                                study.axis_speed};
+  kinds::write_map_csv(plane.folder / "points.csv", plane.points);
+  kinds::write_map_h5(plane.folder / "results.h5", output, plane.points);
   WrittenPoints written;
-  written.figures = reports::draw_map_figures(plane.folder / "figures", output, plane.points);
+  written.figures = kinds::draw_map_figures(plane.folder / "figures", output, plane.points);
   return written;
 }
 

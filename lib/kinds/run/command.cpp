@@ -22,9 +22,9 @@
 #include "folder.hpp"
 #include "input/study_model.hpp"
 #include "kind_commands.hpp"
+#include "kinds/run/output.hpp"
 #include "kinds/run/plan.hpp"
 #include "progress.hpp"
-#include "reports/run_output.hpp"
 #include "reports/sweep_output.hpp"
 #include "session.hpp"
 #include "stop.hpp"
@@ -198,17 +198,17 @@ int run_run(const Arguments& arguments) {
   folder.require_there();
   const reports::SweepOutput points{study.sweep(), studies::poincare_columns(model), session.resolved(),
                                     reports::figure_title(study)};
-  const reports::RunOutput output{
+  const kinds::RunOutput output{
       points, options, model.sun_planet_half_gap, model.ring_planet_half_gap, study.model.gap_damping, start};
   const bool computed = result->point.outcome == integrate::Outcome::reached;
-  const std::string summary = reports::run_summary(output, *result);
+  const std::string summary = kinds::run_summary(output, *result);
   const studies::PointSource point = studies::points_in_memory({&result->point, 1});
   reports::write_points_csv(folder.file("points.csv"), point);
   reports::write_poincare_csv(folder.file("poincare.csv"), points, point);
-  reports::write_run_tables(folder.path(), output, *result);
-  reports::write_run_h5(folder.file("results.h5"), output, *result);
+  kinds::write_run_tables(folder.path(), output, *result);
+  kinds::write_run_h5(folder.file("results.h5"), output, *result);
   write_file_atomically(folder.file("summary.md"), summary);
-  const auto figures = reports::draw_run_figures(folder.file("figures"), output, *result);
+  const auto figures = kinds::draw_run_figures(folder.file("figures"), output, *result);
   const std::int64_t undrawn = tell_undrawn(figures);
   session.end(store::RunState::complete, {{"points", 1}, {"failed", computed ? 0 : 1}, {"undrawn", undrawn}});
   journal.remove();

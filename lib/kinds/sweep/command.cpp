@@ -14,11 +14,11 @@
 #include "expected_time.hpp"
 #include "input/study_model.hpp"
 #include "kind_commands.hpp"
+#include "kinds/crosscheck/output.hpp"
+#include "kinds/sweep/summary.hpp"
 #include "points.hpp"
 #include "progress.hpp"
-#include "reports/crosscheck_output.hpp"
 #include "reports/sweep_output.hpp"
-#include "reports/sweep_summary.hpp"
 #include "stop.hpp"
 #include "studies/crosscheck.hpp"
 #include "studies/probes.hpp"
@@ -73,7 +73,7 @@ WrittenPoints write_points(const ComputedPoints& all) {
 }
 
 WrittenPoints write_summary(const ComputedPoints& all) {
-  reports::SweepSummary summary = reports::sweep_summary(output_of(all), all.points);
+  kinds::SweepSummary summary = kinds::sweep_summary(output_of(all), all.points);
   write_file_atomically(all.folder / "sweep.md", summary.text);
   WrittenPoints written;
   written.lines = std::move(summary.lines);
@@ -120,14 +120,14 @@ std::optional<WrittenPoints> cross_check(const Arguments& arguments, const Compu
       sweep, all.points, study.integrator, study.model.clearance_smoothing, input::smoothed_model_at(all.input), run);
   progress.finish();
   if (!checked.complete(points)) return std::nullopt;
-  reports::write_crosscheck_csv(all.folder / "crosscheck.csv", checked);
-  const std::string summary = reports::crosscheck_summary(
+  kinds::write_crosscheck_csv(all.folder / "crosscheck.csv", checked);
+  const std::string summary = kinds::crosscheck_summary(
       reports::axis_words(all.input.study.sweep().axis.name, all.input.study.axis_speed), checked);
   write_file_atomically(all.folder / "crosscheck.md", summary);
-  written.unexplained = reports::unexplained(checked);
+  written.unexplained = kinds::unexplained(checked);
   written.summary["crosscheck"] = {{"points", points},
                                    {"comparisons", checked.comparisons.size()},
-                                   {"differences", reports::differences(checked)},
+                                   {"differences", kinds::differences(checked)},
                                    {"unexplained", written.unexplained}};
   written.lines.push_back("\ncross-check: " + summary);
   return written;

@@ -14,9 +14,9 @@
 #include "folder.hpp"
 #include "input/study_model.hpp"
 #include "kind_commands.hpp"
+#include "kinds/tolerance/output.hpp"
 #include "kinds/tolerance/plan.hpp"
 #include "progress.hpp"
-#include "reports/tolerance_output.hpp"
 #include "session.hpp"
 #include "stop.hpp"
 #include "store/journal.hpp"
@@ -222,14 +222,14 @@ int run_tolerance(const Arguments& arguments) {
   }
 
   folder.require_there();
-  const reports::ToleranceOutput output{{sweep, studies::poincare_columns(first_model), session.resolved(),
-                                         reports::figure_title(input.study), input.study.axis_speed},
-                                        options,
-                                        input.study.integrator,
-                                        first_model.dimension};
+  const kinds::ToleranceOutput output{{sweep, studies::poincare_columns(first_model), session.resolved(),
+                                       reports::figure_title(input.study), input.study.axis_speed},
+                                      options,
+                                      input.study.integrator,
+                                      first_model.dimension};
   reports::write_points_csv(folder.file("points.csv"), studies::points_in_memory(studied));
-  const std::string summary = reports::write_tolerance_tables(folder.path(), output, points);
-  const auto figures = reports::draw_tolerance_figures(folder.file("figures"), output, points);
+  const std::string summary = kinds::write_tolerance_tables(folder.path(), output, points);
+  const auto figures = kinds::draw_tolerance_figures(folder.file("figures"), output, points);
   undrawn = tell_undrawn(figures);
   close_run(store::RunState::complete);
 

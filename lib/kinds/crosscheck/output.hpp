@@ -10,18 +10,19 @@
 #include "reports/sweep_output.hpp"
 #include "studies/crosscheck.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::kinds {
 
 /// One row per point and compared variant.
 /// @throws OutputError
 void write_crosscheck_csv(const std::filesystem::path& file, const studies::Crosscheck& all);
 
 /// Per variant: points, agreements, largest distance of two orbits, differences by explanation. Plain text table.
-[[nodiscard]] std::string crosscheck_summary(const AxisWords& words, const studies::Crosscheck& all);
+[[nodiscard]] std::string crosscheck_summary(const reports::AxisWords& words, const studies::Crosscheck& all);
 
 /// Distance of the orbits over the parameter, one colour per variant.
-[[nodiscard]] DrawnFigure draw_crosscheck_figure(const std::filesystem::path& folder, const SweepOutput& output,
-                                                 const studies::Crosscheck& all, double orbit_tolerance);
+[[nodiscard]] reports::DrawnFigure draw_crosscheck_figure(const std::filesystem::path& folder,
+                                                          const reports::SweepOutput& output,
+                                                          const studies::Crosscheck& all, double orbit_tolerance);
 
 /// Points that differ, explained or not.
 [[nodiscard]] std::size_t differences(const studies::Crosscheck& all);
@@ -29,4 +30,4 @@ void write_crosscheck_csv(const std::filesystem::path& file, const studies::Cros
 /// Those of them that no computation explains, or where one method has no answer.
 [[nodiscard]] std::size_t unexplained(const studies::Crosscheck& all);
 
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::kinds

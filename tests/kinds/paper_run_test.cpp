@@ -14,7 +14,7 @@
 #include "kinds/run/plan.hpp"
 #include "studies/run.hpp"
 
-namespace epicyclic::reports::paper_run_test {
+namespace epicyclic::kinds::paper_run_test {
 namespace {
 
 struct Case {
@@ -96,4 +96,4 @@ TEST(PaperRun, ErrorsOfMultipliersHoldThatOfTheTables) {
 }
 
 }  // namespace
-}  // namespace epicyclic::reports::paper_run_test
+}  // namespace epicyclic::kinds::paper_run_test

@@ -1,5 +1,3 @@
-#include "reports/run_output.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -13,10 +11,13 @@
 
 #include "core/errors.hpp"
 #include "gnuplot_guard.hpp"
+#include "kinds/run/output.hpp"
 #include "store/hdf5_file.hpp"
 #include "temporary_folder.hpp"
 
-namespace epicyclic::reports::run_output_test {
+namespace epicyclic::kinds::run_output_test {
+using namespace reports;
+
 namespace {
 
 using test::contents;
@@ -594,4 +595,4 @@ TEST(RunFigures, AreTheSameTwice) {
 }
 
 }  // namespace
-}  // namespace epicyclic::reports::run_output_test
+}  // namespace epicyclic::kinds::run_output_test

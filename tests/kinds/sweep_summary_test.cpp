@@ -1,13 +1,15 @@
 // What sweep.md says of points made by hand.
 
-#include "reports/sweep_summary.hpp"
-
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-namespace epicyclic::reports::sweep_summary_test {
+#include "kinds/sweep/summary.hpp"
+
+namespace epicyclic::kinds::sweep_summary_test {
+using namespace reports;
+
 namespace {
 
 using analysis::Regime;
@@ -133,4 +135,4 @@ TEST(SweepSummary, TellsDynamicFactorAndLoadSharingApart) {
 }
 
 }  // namespace
-}  // namespace epicyclic::reports::sweep_summary_test
+}  // namespace epicyclic::kinds::sweep_summary_test

@@ -9,7 +9,7 @@
 
 #include "reports/sweep_output.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::kinds {
 
 struct SweepSummary {
   std::string text;                                   ///< of sweep.md
@@ -20,6 +20,6 @@ struct SweepSummary {
 /// Points that failed, or whose record is still on its way to its orbit, are left out of what is largest. Up and down
 /// are two motions where one is periodic and the other is not or has another period, or where the record of one is
 /// farther from the other's orbit than from its own; where neither is periodic, nothing tells.
-[[nodiscard]] SweepSummary sweep_summary(const SweepOutput& output, const studies::PointSource& points);
+[[nodiscard]] SweepSummary sweep_summary(const reports::SweepOutput& output, const studies::PointSource& points);
 
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::kinds

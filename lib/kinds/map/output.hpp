@@ -14,7 +14,7 @@
 #include "studies/plane_options.hpp"
 #include "studies/sweep.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::kinds {
 
 struct MapOutput {
   studies::MapOptions map;
@@ -28,7 +28,8 @@ void write_map_csv(const std::filesystem::path& file, const studies::PointSource
 void write_map_h5(const std::filesystem::path& file, const MapOutput& output, const studies::PointSource& points);
 
 /// For each direction the regimes and, where they were told by more than recurrence, the largest exponent.
-[[nodiscard]] std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, const MapOutput& output,
-                                                        const studies::PointSource& points);
+[[nodiscard]] std::vector<reports::DrawnFigure> draw_map_figures(const std::filesystem::path& folder,
+                                                                 const MapOutput& output,
+                                                                 const studies::PointSource& points);
 
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::kinds

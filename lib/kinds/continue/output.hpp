@@ -22,7 +22,7 @@
 #include "studies/branches.hpp"
 #include "studies/loci.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::kinds {
 
 struct ContinueOutput {
   studies::BranchesOptions options;
@@ -33,7 +33,7 @@ struct ContinueOutput {
   std::optional<studies::SpeedUnit> speed{};  ///< what the study gives speeds along the axis in; none: Omega
 
   /// The parameter of the branches, in words.
-  [[nodiscard]] AxisWords words() const { return axis_words(options.parameter, speed); }
+  [[nodiscard]] reports::AxisWords words() const { return reports::axis_words(options.parameter, speed); }
 };
 
 /// The tables and results.h5.
@@ -47,7 +47,7 @@ void write_branch_tables(const std::filesystem::path& folder, const ContinueOutp
                          const studies::TracedBranches& traced);
 
 /// What was not as expected of a start: that there is no orbit near it, or only far from it. Empty: nothing.
-[[nodiscard]] std::string attempt_text(const AxisWords& words, const studies::BranchAttempt& attempt);
+[[nodiscard]] std::string attempt_text(const reports::AxisWords& words, const studies::BranchAttempt& attempt);
 
 /// orbits.csv.
 /// @throws OutputError
@@ -82,7 +82,7 @@ class BranchSketch {
                   std::string_view title);
 
   /// @returns what became of it
-  [[nodiscard]] DrawnFigure draw(const std::filesystem::path& folder, const std::string& title_more = {});
+  [[nodiscard]] reports::DrawnFigure draw(const std::filesystem::path& folder, const std::string& title_more = {});
 
  private:
   struct Lines;
@@ -105,11 +105,11 @@ class BranchSketch {
 };
 
 /// The loci in the plane of both parameters.
-[[nodiscard]] DrawnFigure draw_loci(const std::filesystem::path& folder, const ContinueOutput& output,
-                                    const std::vector<studies::TracedLocus>& loci);
+[[nodiscard]] reports::DrawnFigure draw_loci(const std::filesystem::path& folder, const ContinueOutput& output,
+                                             const std::vector<studies::TracedLocus>& loci);
 
-[[nodiscard]] std::vector<DrawnFigure> draw_continue_figures(const std::filesystem::path& folder,
-                                                             const ContinueOutput& output,
-                                                             const studies::TracedBranches& traced);
+[[nodiscard]] std::vector<reports::DrawnFigure> draw_continue_figures(const std::filesystem::path& folder,
+                                                                      const ContinueOutput& output,
+                                                                      const studies::TracedBranches& traced);
 
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::kinds

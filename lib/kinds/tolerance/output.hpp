@@ -17,11 +17,11 @@
 #include "reports/sweep_output.hpp"
 #include "studies/tolerance.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::kinds {
 
 /// What the tables need besides the points.
 struct ToleranceOutput {
-  SweepOutput sweep;
+  reports::SweepOutput sweep;
   studies::ToleranceOptions options;
   integrate::IntegratorOptions integrator;
   std::size_t dimension = 0;
@@ -33,8 +33,8 @@ struct ToleranceOutput {
 std::string write_tolerance_tables(const std::filesystem::path& folder, const ToleranceOutput& output,
                                    const std::vector<studies::TolerancePoint>& points);
 
-[[nodiscard]] std::vector<DrawnFigure> draw_tolerance_figures(const std::filesystem::path& folder,
-                                                              const ToleranceOutput& output,
-                                                              const std::vector<studies::TolerancePoint>& points);
+[[nodiscard]] std::vector<reports::DrawnFigure> draw_tolerance_figures(
+    const std::filesystem::path& folder, const ToleranceOutput& output,
+    const std::vector<studies::TolerancePoint>& points);
 
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::kinds

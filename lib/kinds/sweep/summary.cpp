@@ -1,4 +1,4 @@
-#include "reports/sweep_summary.hpp"
+#include "kinds/sweep/summary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,9 @@
 #include "reports/markdown.hpp"
 #include "store/point_columns.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::kinds {
+
+using namespace reports;
 
 namespace {
 
@@ -331,4 +333,4 @@ SweepSummary sweep_summary(const SweepOutput& output, const studies::PointSource
   return Summary(output, points).told();
 }
 
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::kinds

@@ -1,4 +1,4 @@
-#include "reports/continue_output.hpp"
+#include "kinds/continue/output.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,9 @@
 #include "reports/table_output.hpp"
 #include "store/branch_columns.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::kinds {
+
+using namespace reports;
 
 namespace {
 
@@ -622,4 +624,4 @@ std::vector<DrawnFigure> draw_continue_figures(const std::filesystem::path& fold
   return figures;
 }
 
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::kinds

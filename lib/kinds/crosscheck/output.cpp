@@ -1,4 +1,4 @@
-#include "reports/crosscheck_output.hpp"
+#include "kinds/crosscheck/output.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,9 @@
 #include "figures/line_figure.hpp"
 #include "gear/kinematics.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::kinds {
+
+using namespace reports;
 
 namespace {
 
@@ -127,4 +129,4 @@ DrawnFigure draw_crosscheck_figure(const std::filesystem::path& folder, const Sw
           figures::line_figure(folder, "crosscheck", text, curves, {.log_x = false, .log_y = true})};
 }
 
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::kinds

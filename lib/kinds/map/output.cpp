@@ -1,4 +1,4 @@
-#include "reports/map_output.hpp"
+#include "kinds/map/output.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,9 @@
 #include "store/hdf5_file.hpp"
 #include "studies/plane.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::kinds {
+
+using namespace reports;
 
 namespace {
 
@@ -123,4 +125,4 @@ std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, c
   return figures;
 }
 
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::kinds

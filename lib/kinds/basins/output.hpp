@@ -13,7 +13,7 @@
 #include "studies/plane.hpp"
 #include "studies/sweep.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::kinds {
 
 struct BasinsOutput {
   studies::Plane plane;
@@ -38,9 +38,9 @@ void write_basins_h5(const std::filesystem::path& file, const BasinsOutput& outp
                      const std::vector<studies::PointSummary>& results, const analysis::Attractors& attractors);
 
 /// A colour for each of the twelve largest attractors.
-[[nodiscard]] std::vector<DrawnFigure> draw_basins_figure(const std::filesystem::path& folder,
-                                                          const BasinsOutput& output,
-                                                          const std::vector<studies::PointSummary>& results,
-                                                          const analysis::Attractors& attractors);
+[[nodiscard]] std::vector<reports::DrawnFigure> draw_basins_figure(const std::filesystem::path& folder,
+                                                                   const BasinsOutput& output,
+                                                                   const std::vector<studies::PointSummary>& results,
+                                                                   const analysis::Attractors& attractors);
 
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::kinds

@@ -1,4 +1,4 @@
-#include "reports/proof_output.hpp"
+#include "kinds/continue/proof_output.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,9 @@
 #include "core/text.hpp"
 #include "store/branch_columns.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::kinds {
+
+using namespace reports;
 
 namespace {
 
@@ -161,4 +163,4 @@ std::vector<DrawnFigure> draw_proof_figures(const std::filesystem::path& folder,
   return drawn;
 }
 
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::kinds

@@ -1,4 +1,4 @@
-#include "reports/tolerance_output.hpp"
+#include "kinds/tolerance/output.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,9 @@
 #include "figures/line_figure.hpp"
 #include "reports/axis_words.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::kinds {
+
+using namespace reports;
 
 namespace {
 
@@ -348,4 +350,4 @@ std::vector<DrawnFigure> draw_tolerance_figures(const std::filesystem::path& fol
   return figures;
 }
 
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::kinds

@@ -1,4 +1,4 @@
-// Figures of a run, declared in reports/run_output.hpp.
+// Figures of a run, declared in kinds/run/output.hpp.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,10 +11,12 @@
 #include <fmt/format.h>
 
 #include "figures/sketch.hpp"
+#include "kinds/run/output.hpp"
 #include "model/dynamic_model.hpp"
-#include "reports/run_output.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::kinds {
+
+using namespace reports;
 
 namespace {
 
@@ -515,4 +517,4 @@ std::vector<DrawnFigure> draw_run_figures(const fs::path& figures_folder, const 
   return RunFigures(figures_folder, output, result).draw();
 }
 
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::kinds

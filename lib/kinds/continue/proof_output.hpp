@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "reports/continue_output.hpp"
+#include "kinds/continue/output.hpp"
 #include "studies/branch_proof.hpp"
 #include "studies/point_source.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::kinds {
 
 /// The sweep that is proved.
 struct ProvedSweep {
@@ -28,8 +28,9 @@ void write_proof_csv(const std::filesystem::path& file, const studies::TracedBra
 [[nodiscard]] std::string proof_summary(const ContinueOutput& output, const ProvedSweep& sweep,
                                         const studies::TracedBranches& traced, const studies::BranchProof& proof);
 
-[[nodiscard]] std::vector<DrawnFigure> draw_proof_figures(const std::filesystem::path& folder,
-                                                          const ContinueOutput& output, const ProvedSweep& sweep,
-                                                          const studies::TracedBranches& traced);
+[[nodiscard]] std::vector<reports::DrawnFigure> draw_proof_figures(const std::filesystem::path& folder,
+                                                                   const ContinueOutput& output,
+                                                                   const ProvedSweep& sweep,
+                                                                   const studies::TracedBranches& traced);
 
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::kinds

@@ -24,11 +24,11 @@
 #include "reports/sweep_output.hpp"
 #include "studies/run.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::kinds {
 
 /// What a run is written with besides its result.
 struct RunOutput {
-  SweepOutput points;
+  reports::SweepOutput points;
   studies::RunOptions options;
   double half_gap_sp = 0;  ///< b_sp [b_c]
   double half_gap_rp = 0;  ///< b_rp [b_c]
@@ -50,8 +50,9 @@ void write_run_h5(const std::filesystem::path& file, const RunOutput& output, co
 
 /// @param figures_folder  made if need be
 /// @throws OutputError when data or scripts cannot be written
-[[nodiscard]] std::vector<DrawnFigure> draw_run_figures(const std::filesystem::path& figures_folder,
-                                                        const RunOutput& output, const studies::RunResult& result);
+[[nodiscard]] std::vector<reports::DrawnFigure> draw_run_figures(const std::filesystem::path& figures_folder,
+                                                                 const RunOutput& output,
+                                                                 const studies::RunResult& result);
 
 /// Is there something to write or draw? An evolution that failed leaves growth, but no exponents.
 [[nodiscard]] bool has_exponents(const studies::RunResult& result);
@@ -78,4 +79,4 @@ struct SpectralLine {
 /// The `most` largest lines by falling amplitude, the mean left out. Lines below 1e-9 of the largest are rounding.
 [[nodiscard]] std::vector<SpectralLine> strongest_lines(const studies::SignalSpectrum& signal, std::size_t most);
 
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::kinds

@@ -1,4 +1,4 @@
-#include "reports/run_output.hpp"
+#include "kinds/run/output.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,9 @@
 #include "reports/speed_words.hpp"
 #include "store/hdf5_file.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::kinds {
+
+using namespace reports;
 
 namespace {
 
@@ -813,4 +815,4 @@ std::string run_summary(const RunOutput& output, const RunResult& r) {
   return text + work + files_text(output, r);
 }
 
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::kinds

@@ -19,7 +19,7 @@
 #include "studies/stage_lanes.hpp"
 #include "studies/sweep.hpp"
 
-namespace epicyclic::reports::paper_regimes_test {
+namespace epicyclic::kinds::paper_regimes_test {
 namespace {
 
 bool always() { return true; }
@@ -302,4 +302,4 @@ TEST(PaperRegimesLong, ExponentsOfPeriodicPointsAreThoseOfTheirMultipliers) {
 }
 
 }  // namespace
-}  // namespace epicyclic::reports::paper_regimes_test
+}  // namespace epicyclic::kinds::paper_regimes_test

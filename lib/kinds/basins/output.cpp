@@ -1,4 +1,4 @@
-#include "reports/basins_output.hpp"
+#include "kinds/basins/output.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,9 @@
 #include "reports/plane_output.hpp"
 #include "store/hdf5_file.hpp"
 
-namespace epicyclic::reports {
+namespace epicyclic::kinds {
+
+using namespace reports;
 
 namespace {
 
@@ -233,4 +235,4 @@ std::vector<DrawnFigure> draw_basins_figure(const std::filesystem::path& folder,
                                  {axis_values(output.plane.first), axis_values(output.plane.second)}, classes, cells)}};
 }
 
-}  // namespace epicyclic::reports
+}  // namespace epicyclic::kinds
