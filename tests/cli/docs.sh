@@ -22,7 +22,8 @@ done
 
 # Commands, one a line: of blocks marked sh, and of tables.
 for page in "${pages[@]}"; do
-  awk '/^```/ { inside = $0 == "```sh"; next } inside' "$page"
+  awk '/^```/ { inside = $0 == "```sh"; next } inside && !/^(#|$)/' "$page" |
+    sed -e :more -e '/\\$/ { N; s/\\\n *//; b more' -e '}'
   grep -oE '^\|.*' "$page" | grep -oE '`app/run [^`]*`' | tr -d '`' || true
 done | sort -u >commands
 [ "$(wc -l <commands)" -ge 20 ] || fail "only $(wc -l <commands) commands were found: $(cat commands)"
