@@ -746,13 +746,20 @@ class Classifier {
     return all;
   }
 
+  /// Whether the interval of the exponent excludes that vectors have grown by more than e^8 over all periods that it
+  /// counts. Beside a torus they are bounded. In weak chaos they may neither grow nor shrink for hundreds of periods.
+  [[nodiscard]] bool growth_is_bounded() const {
+    const auto counted = static_cast<double>(growth_.size() - growth_.size() / 4);
+    return result_.evidence.exponent.high() * flow_->field().period * counted <= 4.0 * neutral_growth;
+  }
+
   bool is_torus() {
     Evidence& seen = result_.evidence;
     // What is drawn to an orbit slowly shrinks for long before it recurs. Beside a torus that shears, vectors grow as
     // time does, so that a small positive exponent is none.
     const bool settles = seen.exponent.value + 3.0 * seen.exponent.half_width < 0.0;
     if (growth_.size() >= static_cast<std::size_t>(torus_look) && std::abs(late_growth(growth_)) <= neutral_growth &&
-        !settles && seen.zero_one && *seen.zero_one < regular_vote) {
+        !settles && seen.zero_one && *seen.zero_one < regular_vote && growth_is_bounded()) {
       // Beside a flip of a long orbit all this holds, too, at any price of seeking it so far.
       const Recurrence& r = seen.recurrence;
       if (r.best_period > 0 && r.error <= near_enough(options_.near) && settles_to_orbit_of(r.best_period)) return true;

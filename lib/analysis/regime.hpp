@@ -25,7 +25,8 @@
 //   not mind. Growth below e^8 in 128 periods has to last at the tolerance of orbits, too: errors of a looser one alone
 //   keep a motion off an orbit that attracts from near by.
 // - quasiperiodic: over the last half of all looks, long ones, tangent vectors neither grow nor shrink by more than
-//   e^2, as beside a torus, the exponent is not negative by three half intervals, the 0-1 test says regular, and what
+//   e^2, as beside a torus, the exponent's interval excludes growth by more than e^8 over all periods that it counts,
+//   it is not negative by three half intervals, the 0-1 test says regular, and what
 //   the motion all but comes back to after n periods is no orbit, nor is the motion where an orbit of n periods may be
 //   by ten times its error [A-orbit-error], nor does Newton's method near one that it does not reach. Beside that a
 //   torus needs evidence of its own, from the last look [A-torus]:

@@ -58,6 +58,17 @@ TEST(PaperRegimes, NextToAFlipNoTorusIsTold) {
     }
 }
 
+TEST(PaperRegimes, RestingVectorsOfWeakChaosAreNoTorus) {
+  // Chaotic over 15 000 periods, with exponents of 0.003 per tau. For 500 periods and more vectors do not grow.
+  const input::LoadedInput input = input::load_input("inputs/tang2020_calibrated_speed.json");
+  const studies::ModelAt at = input::model_at(input);
+  for (const double speed : {2.26879194631, 2.26919463087, 2.26979865772}) {
+    const studies::PointResult r = studies::compute_point_as_swept({0, studies::Direction::up, speed}, at(speed), {},
+                                                                   input.study.look(), input.study.integrator, always);
+    EXPECT_NE(r.regime, analysis::Regime::quasiperiodic) << speed << ": " << r.evidence.note;
+  }
+}
+
 TEST(PaperRegimes, AreToldWithTheirEvidence) {
   const input::LoadedInput input = input::load_input("inputs/tang2020_speed.json");
   const studies::ModelAt at = input::model_at(input);
