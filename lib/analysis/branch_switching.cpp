@@ -28,7 +28,8 @@ std::vector<Eigen::VectorXd> directions(const OrbitFamily& family, const Special
   std::vector<Eigen::VectorXd> all;
   if (point.nullity == 2 && block->real) {
     const MatrixProduct b = real_block_of(*block, m);
-    const Eigen::MatrixXd plane = block->basis.real() * singular_values(b.cyclic(at)).v.rightCols(2).topRows(b.rows());
+    const Eigen::MatrixXd two = singular_values(b.cyclic(at)).v.rightCols(2).topRows(b.rows());
+    const Eigen::MatrixXd plane = product(block->basis.real(), two);
     for (int k = 0; k < angles; ++k) {
       const double angle = std::numbers::pi * k / angles;
       all.push_back((plane * Eigen::Vector2d(std::cos(angle), std::sin(angle))).normalized());
@@ -80,7 +81,8 @@ double distance_to_simpler(const OrbitFamily& family, const CurvePoint& at) {
   for (Eigen::Index shorter = 1; shorter < n; ++shorter)
     if (n % shorter == 0)
       least = std::min(least, (states.leftCols(n - shorter) - states.rightCols(n - shorter)).lpNorm<Eigen::Infinity>());
-  if (breaks && n > 0) least = std::min(least, (family.symmetry.map * states - states).lpNorm<Eigen::Infinity>());
+  if (breaks && n > 0)
+    least = std::min(least, (product(family.symmetry.map, states) - states).lpNorm<Eigen::Infinity>());
   return least;
 }
 
@@ -96,7 +98,7 @@ double image_distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const 
         most = std::max(most, (a.col(k) - turned.col((k + shift) % n)).lpNorm<Eigen::Infinity>());
       least = std::min(least, most);
     }
-    if (symmetry.map.size() != 0) turned = symmetry.map * turned;
+    if (symmetry.map.size() != 0) turned = product(symmetry.map, turned);
   }
   return least;
 }

@@ -150,7 +150,8 @@ double orbit_error(const Eigen::MatrixXd& monodromy, double residual) {
   const SingularValues svd = singular_values(a);
   Eigen::VectorXd inverted = svd.s;
   for (double& s : inverted) s = s > neutral ? 1.0 / s : 0.0;
-  const Eigen::MatrixXd inverse = svd.v * inverted.asDiagonal() * svd.u.transpose();
+  const Eigen::MatrixXd scaled = svd.v * inverted.asDiagonal();
+  const Eigen::MatrixXd inverse = product(scaled, svd.u.transpose());
   return inverse.cwiseAbs().rowwise().sum().maxCoeff() * residual;
 }
 
