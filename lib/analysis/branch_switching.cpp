@@ -28,7 +28,8 @@ std::vector<Eigen::VectorXd> directions(const OrbitFamily& family, const Special
   std::vector<Eigen::VectorXd> all;
   if (point.nullity == 2 && block->real) {
     const MatrixProduct b = real_block_of(*block, m);
-    const Eigen::MatrixXd plane = block->basis.real() * singular_values(b.cyclic(at)).v.rightCols(2).topRows(b.rows());
+    const Eigen::MatrixXd two = singular_values(b.cyclic(at)).v.rightCols(2).topRows(b.rows());
+    const Eigen::MatrixXd plane = product(block->basis.real(), two);
     for (int k = 0; k < angles; ++k) {
       const double angle = std::numbers::pi * k / angles;
       all.push_back((plane * Eigen::Vector2d(std::cos(angle), std::sin(angle))).normalized());
@@ -52,6 +53,48 @@ std::optional<CurvePoint> carried_direction(const OrbitFamily& family, const Cur
   const auto behind = cut_into_pieces(family, z.states.col(0) - little * v, z.value);
   if (!ahead || !behind) return std::nullopt;
   return (0.5 / little) * (*ahead - *behind);
+}
+
+/// The unit direction from z that an orbit displaced by v takes, without its part along the branch of the point.
+std::optional<CurvePoint> direction_across(const OrbitFamily& other, const SpecialPoint& point, const CurvePoint& z,
+                                           const Eigen::VectorXd& v) {
+  std::optional<CurvePoint> away = carried_direction(other, z, v);
+  if (!away) return std::nullopt;
+  if (point.kind != SpecialKind::flip) {
+    const BranchOrbit& orbit = point.orbit;
+    const std::optional<CurvePoint> along =
+        cut_into_pieces(other, orbit.at.states.col(0) + 1e-5 * orbit.direction.states.col(0),
+                        point.value + 1e-5 * orbit.direction.value);
+    if (!along) return std::nullopt;
+    const CurvePoint t = 1e5 * (*along - z);
+    *away = *away - (inner_product(other, *away, t) / inner_product(other, t, t)) * t;
+  }
+  return (1.0 / length(other, *away)) * *away;
+}
+
+/// An orbit of the branch that leaves `base` along the normal.
+Correction orbit_beside(const OrbitFamily& other, const CurvePoint& base, const CurvePoint& normal,
+                        const SwitchOptions& options, bool in_plane) {
+  const auto at = [&](double distance) { return correct(other, base + distance * normal, normal); };
+  Correction c = at(options.distance);
+  // A fold nearer than that would be passed unseen: there the parameter turns.
+  double distance = options.distance;
+  constexpr int nearer_ones = 4;
+  for (int k = 0; k < nearer_ones && c.found; ++k) {
+    distance *= 0.25;
+    Correction nearer = at(distance);
+    if (!nearer.found || nearer.orbit.direction.value * c.orbit.direction.value > 0.0) break;
+    c = std::move(nearer);
+  }
+  // A branch that leaves in another direction of the plane is seen from several of those tried. Each is taken at the
+  // same distance along its own direction, so that it is known again.
+  constexpr int times = 3;
+  for (int k = 0; k < times && in_plane && c.found; ++k) {
+    const CurvePoint own = c.orbit.at - base;
+    const CurvePoint direction = (1.0 / length(other, own)) * own;
+    c = correct(other, base + options.distance * direction, direction);
+  }
+  return c;
 }
 
 }  // namespace
@@ -80,7 +123,8 @@ double distance_to_simpler(const OrbitFamily& family, const CurvePoint& at) {
   for (Eigen::Index shorter = 1; shorter < n; ++shorter)
     if (n % shorter == 0)
       least = std::min(least, (states.leftCols(n - shorter) - states.rightCols(n - shorter)).lpNorm<Eigen::Infinity>());
-  if (breaks && n > 0) least = std::min(least, (family.symmetry.map * states - states).lpNorm<Eigen::Infinity>());
+  if (breaks && n > 0)
+    least = std::min(least, (product(family.symmetry.map, states) - states).lpNorm<Eigen::Infinity>());
   return least;
 }
 
@@ -96,7 +140,7 @@ double image_distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const 
         most = std::max(most, (a.col(k) - turned.col((k + shift) % n)).lpNorm<Eigen::Infinity>());
       least = std::min(least, most);
     }
-    if (symmetry.map.size() != 0) turned = symmetry.map * turned;
+    if (symmetry.map.size() != 0) turned = product(symmetry.map, turned);
   }
   return least;
 }
@@ -127,39 +171,11 @@ std::vector<Departure> departures(const OrbitFamily& family, const SpecialPoint&
   for (const Eigen::VectorXd& v : directions(family, point, options.angles)) {
     const std::optional<CurvePoint> base = cut_into_pieces(other, point.orbit.at.states.col(0), point.value);
     if (!base) return found;
-    std::optional<CurvePoint> away = carried_direction(other, *base, v);
-    if (!away) continue;
-    if (!flip) {
-      std::optional<CurvePoint> along =
-          cut_into_pieces(other, point.orbit.at.states.col(0) + 1e-5 * point.orbit.direction.states.col(0),
-                          point.value + 1e-5 * point.orbit.direction.value);
-      if (!along) continue;
-      const CurvePoint t = 1e5 * (*along - *base);
-      *away = *away - (inner_product(other, *away, t) / inner_product(other, t, t)) * t;
-    }
-    const CurvePoint unit = (1.0 / length(other, *away)) * *away;
+    const std::optional<CurvePoint> unit = direction_across(other, point, *base, v);
+    if (!unit) continue;
     for (const double sign : {1.0, -1.0}) {
-      const CurvePoint normal = sign * unit;
-      const auto at = [&](double distance) { return correct(other, *base + distance * normal, normal); };
-      Correction c = at(options.distance);
-      // A fold nearer than that would be passed unseen: there the parameter turns.
-      double distance = options.distance;
-      constexpr int nearer_ones = 4;
-      for (int k = 0; k < nearer_ones && c.found; ++k) {
-        distance *= 0.25;
-        Correction nearer = at(distance);
-        if (!nearer.found || nearer.orbit.direction.value * c.orbit.direction.value > 0.0) break;
-        c = std::move(nearer);
-      }
-      if (!c.found) continue;
-      // A branch that leaves in another direction of the plane is seen from several of those tried. Each is taken at
-      // the same distance along its own direction, so that it is known again.
-      constexpr int times = 3;
-      for (int k = 0; k < times && point.nullity > 1 && c.found; ++k) {
-        const CurvePoint own = c.orbit.at - *base;
-        const CurvePoint direction = (1.0 / length(other, own)) * own;
-        c = correct(other, *base + options.distance * direction, direction);
-      }
+      const CurvePoint normal = sign * *unit;
+      Correction c = orbit_beside(other, *base, normal, options, point.nullity > 1);
       if (!c.found) continue;
       const Eigen::MatrixXd states = period_states(other, c.orbit.at);
       const double difference = options.same * options.distance * family.state_scale;

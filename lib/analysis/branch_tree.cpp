@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "core/dense.hpp"
 #include "core/require.hpp"
 
 namespace epicyclic::analysis {
@@ -17,7 +18,7 @@ BranchOrbit reversed(BranchOrbit orbit) {
 }
 
 bool is_left_as_it_is(const Eigen::MatrixXd& states, const CyclicSymmetry& symmetry, double difference) {
-  return states.cols() > 0 && (symmetry.map * states - states).lpNorm<Eigen::Infinity>() <= difference;
+  return states.cols() > 0 && (product(symmetry.map, states) - states).lpNorm<Eigen::Infinity>() <= difference;
 }
 
 }  // namespace

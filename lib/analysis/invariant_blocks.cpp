@@ -45,15 +45,15 @@ InvariantBlock without_neutral(InvariantBlock block, const CyclicSymmetry& symme
   for (int k = 0; k < order; ++k) {
     part +=
         std::polar(1.0 / order, -2.0 * std::numbers::pi * block.wave * k / order) * moved.cast<std::complex<double>>();
-    if (k + 1 < order) moved = symmetry.map * moved;
+    if (k + 1 < order) moved = product(symmetry.map, moved);
   }
   for (Eigen::Index k = 0; k < part.cols(); ++k)
     if (part.col(k).norm() <= block_rounding * symmetry.neutral.col(k).norm()) part.col(k).setZero();
   if (block.real) part = part.real().cast<std::complex<double>>();
-  const Eigen::MatrixXcd q = span_of(block.basis.adjoint() * part);
+  const Eigen::MatrixXcd q = span_of(adjoint_product(block.basis, part));
   if (q.cols() == 0) return block;
   const Eigen::Index size = block.basis.cols();
-  block.basis = block.basis * range_of(Eigen::MatrixXcd::Identity(size, size) - q * q.adjoint());
+  block.basis = product(block.basis, range_of(Eigen::MatrixXcd::Identity(size, size) - product(q, q.adjoint())));
   return block;
 }
 
@@ -68,7 +68,7 @@ std::vector<InvariantBlock> all_blocks(std::size_t dimension, const CyclicSymmet
     for (int k = 0; k < order; ++k) {
       projector +=
           std::polar(1.0 / order, -2.0 * std::numbers::pi * j * k / order) * power.cast<std::complex<double>>();
-      if (k + 1 < order) power = symmetry.map * power;
+      if (k + 1 < order) power = product(symmetry.map, power);
     }
     InvariantBlock block{j, j == 0 || 2 * j == order, {}};
     if (order == 1) {
@@ -98,7 +98,7 @@ CyclicSymmetry cyclic_symmetry(std::size_t dimension, int order,
     unit[static_cast<std::size_t>(k)] = 0.0;
   }
   Eigen::MatrixXd power = Eigen::MatrixXd::Identity(n, n);
-  for (int k = 0; k < order; ++k) power = s.map * power;
+  for (int k = 0; k < order; ++k) power = product(s.map, power);
   if (!((power - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff() <= block_rounding))
     throw InputError("a symmetry of order " + std::to_string(order) + " is not the identity after as many times");
   std::vector<double> probe(dimension);
@@ -125,13 +125,14 @@ std::vector<InvariantBlock> invariant_blocks(std::size_t dimension, const Cyclic
 MatrixProduct real_block_of(const InvariantBlock& block, const MatrixProduct& monodromy) {
   const Eigen::MatrixXd v = block.basis.real();
   MatrixProduct b;
-  for (const Eigen::MatrixXd& m : monodromy.factors) b.factors.emplace_back(v.transpose() * m * v);
+  for (const Eigen::MatrixXd& m : monodromy.factors) b.factors.push_back(product(transposed_product(v, m), v));
   return b;
 }
 
 ComplexMatrixProduct block_of(const InvariantBlock& block, const MatrixProduct& monodromy) {
   ComplexMatrixProduct b;
-  for (const Eigen::MatrixXd& m : monodromy.factors) b.factors.emplace_back(block.basis.adjoint() * m * block.basis);
+  for (const Eigen::MatrixXd& m : monodromy.factors)
+    b.factors.push_back(product(block.basis.adjoint() * m, block.basis));
   return b;
 }
 

@@ -83,6 +83,25 @@ std::vector<double> LyapunovSpectrum::history(std::size_t i) const {
   return mean;
 }
 
+namespace {
+
+/// The exponents and their sum from the growth in each interval.
+void estimate_exponents(LyapunovSpectrum& s) {
+  std::vector<double> sums(s.growth.size() / s.exponents, 0.0);
+  std::vector<double> series(sums.size());
+  const auto per_s = [&](const std::vector<double>& g) { return g.empty() ? Estimate{} : series_mean(g) / s.interval; };
+  for (std::size_t i = 0; i < s.exponents; ++i) {
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      series[k] = s.growth[k * s.exponents + i];
+      sums[k] += series[k];
+    }
+    s.per_s.push_back(per_s(series));
+  }
+  s.sum = per_s(sums);
+}
+
+}  // namespace
+
 LyapunovSpectrum lyapunov_spectrum(integrate::Flow& flow, std::span<double> state, const SpectrumOptions& options,
                                    const std::function<bool()>& go_on) {
   options.validate();
@@ -136,17 +155,7 @@ LyapunovSpectrum lyapunov_spectrum(integrate::Flow& flow, std::span<double> stat
     if (k < 0) continue;
     for (const double g : growth) result.growth.push_back(g);
   }
-  std::vector<double> sums(result.growth.size() / m, 0.0);
-  std::vector<double> series(sums.size());
-  const auto per_s = [&](const std::vector<double>& g) { return g.empty() ? Estimate{} : series_mean(g) / interval; };
-  for (std::size_t i = 0; i < m; ++i) {
-    for (std::size_t k = 0; k < series.size(); ++k) {
-      series[k] = result.growth[k * m + i];
-      sums[k] += series[k];
-    }
-    result.per_s.push_back(per_s(series));
-  }
-  result.sum = per_s(sums);
+  estimate_exponents(result);
   return result;
 }
 

@@ -74,7 +74,7 @@ void check_neutral(const OrbitFamily& family, double value, std::span<const doub
   constexpr double rounding = 1e-9;
   const Eigen::MatrixXd& s = family.symmetry.map;
   if (s.size() != 0)
-    for (const Eigen::MatrixXd& image : {Eigen::MatrixXd(s * c), Eigen::MatrixXd(s.transpose() * c)})
+    for (const Eigen::MatrixXd& image : {product(s, c), transposed_product(s, c)})
       if (without_shift(family, image).norm() > rounding * c.norm())
         throw InputError("the symmetry does not keep the neutral directions");
   const auto flow = family.flows(value);
@@ -113,7 +113,7 @@ Eigen::MatrixXd without_shift(const OrbitFamily& family, const Eigen::MatrixXd& 
   if (family.neutral.size() == 0) return states;
   Eigen::MatrixXd q = family.neutral;
   orthonormalise(q);
-  return states - q * (q.transpose() * states);
+  return states - product(q, transposed_product(q, states));
 }
 
 void OrbitFamily::validate() const {

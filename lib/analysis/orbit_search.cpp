@@ -66,8 +66,8 @@ class Linearised {
     const Eigen::Index m = kept.cols();
     matrix_ = Eigen::MatrixXd::Identity(m, m);
     for (const Eigen::MatrixXd& piece : shot.pieces) {
-      pieces_.emplace_back(kept.transpose() * piece * kept);
-      matrix_ = pieces_.back() * matrix_;
+      pieces_.push_back(product(transposed_product(kept, piece), kept));
+      matrix_ = product(pieces_.back(), matrix_);
     }
     matrix_ = Eigen::MatrixXd::Identity(m, m) - matrix_;
   }
@@ -148,9 +148,7 @@ Way follow(const OrbitFamily& family, double value, const Eigen::VectorXd& start
   };
   const auto flow = family.flows(value);
   const Eigen::MatrixXd kept = kept_states(family, start.size());
-  const auto keep = [&](const Eigen::MatrixXd& states) -> Eigen::MatrixXd {
-    return kept * (kept.transpose() * states);
-  };
+  const auto keep = [&](const Eigen::MatrixXd& states) { return product(kept, transposed_product(kept, states)); };
   Eigen::MatrixXd y(start.size(), family.pieces);
   y.col(0) = keep(start);
   if (const integrate::Evolution e = carry_to_pieces(*flow, family.period, y); !e.reached())

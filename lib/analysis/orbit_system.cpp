@@ -77,7 +77,8 @@ void OrbitSystem::set(const OrbitShot& shot, const std::vector<ClosingRow>& rows
   const Eigen::Index values = scales_.size();
   matrix_.setZero(first + static_cast<Eigen::Index>(rows.size()), first + values);
   for (Eigen::Index i = 0; i < pieces_; ++i) {
-    matrix_.block(i * m, i * m, m, m) = kept_.transpose() * shot.shot.pieces[static_cast<std::size_t>(i)] * kept_;
+    matrix_.block(i * m, i * m, m, m) =
+        product(transposed_product(kept_, shot.shot.pieces[static_cast<std::size_t>(i)]), kept_);
     matrix_.block(i * m, (i + 1) % pieces_ * m, m, m) -= Eigen::MatrixXd::Identity(m, m);
     // Parameters in units of their scales, as their rows.
     for (Eigen::Index k = 0; k < values; ++k)
@@ -131,7 +132,7 @@ std::vector<OrbitPlace> OrbitSystem::tangents(const OrbitShot& shot) {
 
 NewtonOutcome OrbitSystem::newton(OrbitPlace z, const std::vector<ClosingRow>& rows) {
   NewtonOutcome result;
-  z.states = kept_ * (kept_.transpose() * z.states);  // the nearest of the kept states
+  z.states = product(kept_, transposed_product(kept_, z.states));  // the nearest of the kept states
   const OrbitPlace guess = z;
   const Eigen::VectorXd unchanged = Eigen::VectorXd::Zero(scales_.size());
   double before = std::numeric_limits<double>::infinity();

@@ -55,6 +55,22 @@ void OrbitOptions::validate() const {
   require(pieces >= 1, "pieces", pieces, ">= 1");
 }
 
+namespace {
+
+/// The residual at y of a shot that keeps its tangents.
+/// @returns whether it is reached or falls tenfold
+bool keeps_tangents(integrate::Flow& flow, const Eigen::MatrixXd& y, int n, double reached, Shot& at) {
+  const double before = at.residual.lpNorm<Eigen::Infinity>();
+  Shot states = shoot_states(flow, y, n);
+  at.residual = std::move(states.residual);
+  at.evolution = std::move(states.evolution);
+  constexpr double gain = 0.1;
+  const double now = at.residual.lpNorm<Eigen::Infinity>();
+  return at.evolution.reached() && !(now > reached && now > gain * before);
+}
+
+}  // namespace
+
 PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double> start, int n,
                                   const OrbitOptions& options) {
   if (n < 1) throw DomainError("an orbit of period " + std::to_string(n) + " is asked for, must be >= 1");
@@ -86,17 +102,8 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
   Shot at;
   bool kept = false;
   for (int k = 0; k < options.iterations; ++k) {
-    const double before = kept ? at.residual.lpNorm<Eigen::Infinity>() : 0.0;
-    if (kept) {
-      // At another state, with the tangents as they are.
-      Shot states = shoot_states(flow, y, n);
-      at.residual = std::move(states.residual);
-      at.evolution = std::move(states.evolution);
-      constexpr double gain = 0.1;
-      const double now = at.residual.lpNorm<Eigen::Infinity>();
-      // No longer worth it: with the tangents of this very state from here on.
-      if (!at.evolution.reached() || (now > options.residual && now > gain * before)) kept = false;
-    }
+    // With the tangents as they are, or if that is no longer worth it, with those of this very state.
+    kept = kept && keeps_tangents(flow, y, n, options.residual, at);
     if (!kept) at = shoot(flow, y, n);
     if (!at.evolution.reached()) return not_reached(at.evolution);
     const double residual = at.residual.lpNorm<Eigen::Infinity>();
@@ -150,7 +157,8 @@ double orbit_error(const Eigen::MatrixXd& monodromy, double residual) {
   const SingularValues svd = singular_values(a);
   Eigen::VectorXd inverted = svd.s;
   for (double& s : inverted) s = s > neutral ? 1.0 / s : 0.0;
-  const Eigen::MatrixXd inverse = svd.v * inverted.asDiagonal() * svd.u.transpose();
+  const Eigen::MatrixXd scaled = svd.v * inverted.asDiagonal();
+  const Eigen::MatrixXd inverse = product(scaled, svd.u.transpose());
   return inverse.cwiseAbs().rowwise().sum().maxCoeff() * residual;
 }
 

@@ -39,6 +39,14 @@ std::pair<std::complex<double>, std::complex<double>> pair_of(double a, double b
 
 }  // namespace
 
+Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return a * b; }
+
+Eigen::MatrixXcd product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) { return a * b; }
+
+Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return a.transpose() * b; }
+
+Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) { return a.adjoint() * b; }
+
 Eigen::VectorXd least_norm_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
   const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qtz(a);
   const Eigen::MatrixXd& packed = qtz.matrixQTZ();

@@ -1,9 +1,17 @@
-// Decompositions of dense matrices by Eigen, compiled once: each of their instantiations costs seconds.
+// Decompositions and products of dense matrices by Eigen, compiled once: each of their instantiations costs seconds.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace epicyclic {
+
+/// A B.
+[[nodiscard]] Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+[[nodiscard]] Eigen::MatrixXcd product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);
+/// A^T B.
+[[nodiscard]] Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+/// A^H B.
+[[nodiscard]] Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);
 
 /// x with A x = b in the sense of least squares, of least norm where A is singular (complete orthogonal decomposition).
 [[nodiscard]] Eigen::VectorXd least_norm_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);

@@ -18,6 +18,8 @@
 
 #include <Eigen/Core>
 
+#include "core/dense.hpp"
+
 namespace epicyclic {
 
 template <class Matrix>
@@ -30,7 +32,7 @@ struct FactorsOf {
   /// M.
   [[nodiscard]] Matrix product() const {
     Matrix m = factors.at(0);
-    for (std::size_t i = 1; i < factors.size(); ++i) m = factors[i] * m;
+    for (std::size_t i = 1; i < factors.size(); ++i) m = epicyclic::product(factors[i], m);
     return m;
   }
 

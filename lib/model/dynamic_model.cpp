@@ -96,6 +96,39 @@ Instant<double, N> without_tables(const Parameters<double, N>& p, double s) {
   return {p, HarmonicBasis<double>(sine_cosine(s), harmonics_of(p))};
 }
 
+template <std::size_t N>
+void deflections_at(Layout layout, const Parameters<double, N>& p, double s, const double* y, MeshDeflections& out) {
+  constexpr Planets<N> all;
+  const Deflections<double, N> d = deflections(p, all, unpack(layout, all, y));
+  const Deflections<double, N> d_rate = deflections(p, all, unpack(layout, all, y + degrees_of_freedom(layout, N)));
+  const Instant<double, N> now = without_tables(p, s);
+  const auto set = [](std::vector<double>& row, const Row<double, N>& values) {
+    row.assign(values.begin(), values.end());
+  };
+  set(out.sun_planet, now.sun_planet.delta(all, d.sun_planet));
+  set(out.ring_planet, now.ring_planet.delta(all, d.ring_planet));
+  set(out.sun_planet_rate, now.sun_planet.rate(all, d_rate.sun_planet));
+  set(out.ring_planet_rate, now.ring_planet.rate(all, d_rate.ring_planet));
+}
+
+template <std::size_t N>
+void forces_at(Layout layout, const Parameters<double, N>& p, double s, const double* y, StageForces& out) {
+  std::array<double, LookRows{N}.count()> seen;
+  look(layout, p, Instant<double, N>(p, segment_at(p.breakpoints, s), s), y, seen.data());
+  constexpr LookRows rows{N};
+  for (auto* list :
+       {&out.sun_planet, &out.ring_planet, &out.sun_planet_elastic, &out.ring_planet_elastic, &out.planet_bearing})
+    list->resize(N);
+  for (std::size_t i = 0; i < N; ++i) {
+    out.sun_planet[i] = seen[rows.sun_planet(i).force()];
+    out.sun_planet_elastic[i] = seen[rows.sun_planet(i).elastic()];
+    out.ring_planet[i] = seen[rows.ring_planet(i).force()];
+    out.ring_planet_elastic[i] = seen[rows.ring_planet(i).elastic()];
+    out.planet_bearing[i] = seen[rows.planet_bearing(i)];
+  }
+  out.sun_bearing = seen[rows.sun_bearing()];
+}
+
 /// Tables with rows of something known: what is between them has an error.
 bool has_computed_tables(const gear::Stage& stage) {
   const auto of = [](const gear::Mesh& mesh) {
@@ -168,38 +201,13 @@ DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& sca
   };
   m.tangents = make_tangents(layout, *p);
   m.deflections = [layout, p](double s, const double* y, MeshDeflections& out) {
-    constexpr Planets<N> all;
-    const Deflections<double, N> d = deflections(*p, all, unpack(layout, all, y));
-    const Deflections<double, N> d_rate = deflections(*p, all, unpack(layout, all, y + degrees_of_freedom(layout, N)));
-    const Instant<double, N> now = without_tables(*p, s);
-    const auto set = [](std::vector<double>& row, const Row<double, N>& values) {
-      row.assign(values.begin(), values.end());
-    };
-    set(out.sun_planet, now.sun_planet.delta(all, d.sun_planet));
-    set(out.ring_planet, now.ring_planet.delta(all, d.ring_planet));
-    set(out.sun_planet_rate, now.sun_planet.rate(all, d_rate.sun_planet));
-    set(out.ring_planet_rate, now.ring_planet.rate(all, d_rate.ring_planet));
+    deflections_at(layout, *p, s, y, out);
   };
   m.surfaces.count = contacts_of(*p);
   m.surfaces.evaluate = [layout, p](double s, const double* y, double* distances, double* rates) {
     contact_distances(layout, *p, without_tables(*p, s), y, distances, rates);
   };
-  m.forces = [layout, p](double s, const double* y, StageForces& out) {
-    std::array<double, LookRows{N}.count()> seen;
-    look(layout, *p, Instant<double, N>(*p, segment_at(p->breakpoints, s), s), y, seen.data());
-    constexpr LookRows rows{N};
-    for (auto* list :
-         {&out.sun_planet, &out.ring_planet, &out.sun_planet_elastic, &out.ring_planet_elastic, &out.planet_bearing})
-      list->resize(N);
-    for (std::size_t i = 0; i < N; ++i) {
-      out.sun_planet[i] = seen[rows.sun_planet(i).force()];
-      out.sun_planet_elastic[i] = seen[rows.sun_planet(i).elastic()];
-      out.ring_planet[i] = seen[rows.ring_planet(i).force()];
-      out.ring_planet_elastic[i] = seen[rows.ring_planet(i).elastic()];
-      out.planet_bearing[i] = seen[rows.planet_bearing(i)];
-    }
-    out.sun_bearing = seen[rows.sun_bearing()];
-  };
+  m.forces = [layout, p](double s, const double* y, StageForces& out) { forces_at(layout, *p, s, y, out); };
   m.looks = make_stage_looks(layout, p);
   m.scales = scales;
   m.speeds = gear::speeds(stage, mesh_frequency_ratio * scales.omega_sn);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "core/dense.hpp"
+#include "model/dispatch.hpp"
 #include "model/right_hand_side.hpp"
 
 namespace epicyclic::model {
@@ -204,29 +204,16 @@ ModalEnergies modal_energies(const LinearStage& linear, const Mode& mode, int pl
 }
 
 LinearStage linear_stage(const gear::Stage& stage, const Scales& scales) {
-  switch (stage.planet_count) {
-    case 2:
-      return Assembly<2>(stage, scales).build();
-    case 3:
-      return Assembly<3>(stage, scales).build();
-    case 4:
-      return Assembly<4>(stage, scales).build();
-    case 5:
-      return Assembly<5>(stage, scales).build();
-    case 6:
-      return Assembly<6>(stage, scales).build();
-    default:
-      throw std::logic_error("a stage that did not pass problems_for_modes()");
-  }
+  return with_planets(stage.planet_count, [&]<std::size_t N>() { return Assembly<N>(stage, scales).build(); });
 }
 
 std::vector<Mode> modes(const gear::Stage& stage, const Scales& scales) {
   const LinearStage linear = linear_stage(stage, scales);
   const Eigen::MatrixXd basis = free_motions(linear);
-  const Eigen::MatrixXd mass = basis.transpose() * linear.mass.asDiagonal() * basis;
-  const Eigen::MatrixXd stiffness = basis.transpose() * linear.stiffness * basis;
+  const Eigen::MatrixXd mass = transposed_product(linear.mass.asDiagonal() * basis, basis);
+  const Eigen::MatrixXd stiffness = product(transposed_product(basis, linear.stiffness), basis);
   const SymmetricModes solution = symmetric_modes(stiffness, mass);
-  const Eigen::MatrixXd shapes = basis * solution.vectors;
+  const Eigen::MatrixXd shapes = product(basis, solution.vectors);
   const Eigen::VectorXd weights = central_weights(stage.planet_count);
 
   const Eigen::Index count = solution.values.size();
@@ -242,8 +229,8 @@ std::vector<Mode> modes(const gear::Stage& stage, const Scales& scales) {
     while (last < count && frequency(last) - frequency(last - 1) <= same_frequency * std::sqrt(largest)) ++last;
     Eigen::MatrixXd cluster = shapes.middleCols(first, last - first);
     if (last - first > 1) {
-      const Eigen::MatrixXd central = cluster.transpose() * linear.mass.cwiseProduct(weights).asDiagonal() * cluster;
-      cluster = (cluster * symmetric_modes(central).vectors).eval();
+      const Eigen::MatrixXd weighted = linear.mass.cwiseProduct(weights).asDiagonal() * cluster;
+      cluster = product(cluster, symmetric_modes(transposed_product(weighted, cluster)).vectors);
     }
     const double mean = [&] {
       double sum = 0.0;
