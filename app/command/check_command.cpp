@@ -26,7 +26,9 @@ namespace {
 /// How long it takes, in words.
 std::string time_of(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
                     const TimeLimit& limit) {
-  const Expected expected = command_of(input.study.kind()).expected(input, plan, threads, limit);
+  const TimeOfStudy measure = command_of(input.study.kind()).expected;
+  if (measure == nullptr) return "not measured for this kind of study";
+  const Expected expected = measure(input, plan, threads, limit);
   std::string text;
   if (expected.at_least > 0.0) text = "more than " + duration_text(expected.at_least);
   if (expected.seconds > 0.0) text += (text.empty() ? "about " : ", perhaps ") + duration_text(expected.seconds);

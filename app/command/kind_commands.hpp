@@ -26,7 +26,7 @@ struct Command {
   Takes takes;                   ///< a stage or study file and what follows, or a finished folder
   void (*options)(CLI::App&, Arguments&) = no_options;  ///< adds those of its own
   bool shares_work = false;                             ///< runs on several processes
-  TimeOfStudy expected = nullptr;                       ///< of a kind of study that has points
+  TimeOfStudy expected = nullptr;                       ///< of a kind with a plan; null: not measured
 
   /// Leaves files behind.
   [[nodiscard]] bool writes() const { return takes != Takes::nothing && takes != Takes::input; }

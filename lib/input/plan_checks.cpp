@@ -98,15 +98,13 @@ std::string why_no_state(const std::vector<double>& state, const gear::Stage& st
 namespace {
 
 /// Rules of a study of points that span its keys.
-void check_points(const Study& study, const IsBad& is_bad, ReadContext& context) {
+void check_points(const Study& study, ReadContext& context) {
   const studies::LookOptions& look = study.look();
   if (look.transient == studies::Transient::adaptive && look.classification_periods == 0) {
     context.add(Finding::Kind::rule, "/study/classification_periods",
                 "is 0, must be >= 1 for an adaptive transient, which ends when the regime is told; without it give "
                 "\"transient\": \"fixed\"");
   }
-  if (std::string why = why_no_state(study.initial_state, study.stage); !why.empty() && !is_bad("/study/initial_state"))
-    context.add(Finding::Kind::rule, "/study/initial_state", std::move(why));
 }
 
 }  // namespace
@@ -126,7 +124,9 @@ void check_sweep(const Study& study, const IsBad& is_bad, ReadContext& context) 
 }
 
 void check_plan(const Study& study, const IsBad& is_bad, ReadContext& context) {
-  if (study.has_points()) check_points(study, is_bad, context);
+  if (study.has_points()) check_points(study, context);
+  if (std::string why = why_no_state(study.initial_state, study.stage); !why.empty() && !is_bad("/study/initial_state"))
+    context.add(Finding::Kind::rule, "/study/initial_state", std::move(why));
   if (const StudyKind* kind = study.plan.kind(); kind != nullptr && kind->check != nullptr)
     kind->check(study, is_bad, context);
 }

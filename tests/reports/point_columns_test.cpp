@@ -86,17 +86,6 @@ TEST(PointColumns, AreTheSameInTablesAndInHdf5) {
   }
 }
 
-/// Rows of the page's tables, in the order of the columns, behind a place of the page.
-template <class Row>
-void expect_documented(const std::vector<store::Column<Row>>& columns, const std::string& page, std::size_t& from) {
-  for (const store::Column<Row>& column : columns) {
-    const std::string row = "| `" + column.name + "` | " + column.unit + " | " + column.meaning + " |";
-    const std::size_t at = page.find(row, from);
-    EXPECT_NE(at, std::string::npos) << "missing, or not in this place: " << row;
-    if (at != std::string::npos) from = at;
-  }
-}
-
 TEST(PointColumns, AreEachOfANumberOfItsOwn) {
   // Two columns that read the same place would be the same in each row, but for planet 1's, which stand twice, and K_v
   // of the mesh with the largest force, which is planet 2's here.
@@ -117,15 +106,6 @@ TEST(PointColumns, AreEachOfANumberOfItsOwn) {
     EXPECT_EQ(column.name, of_planet_1);
   }
   EXPECT_GT(numbers, 90U);
-}
-
-TEST(PointColumns, StandInTheDocumentation) {
-  const std::string page = contents("docs/reference/columns.md");
-  std::size_t from = 0;
-  expect_documented(store::point_columns(0), page, from);
-  expect_documented(store::branch_columns(0), page, from);
-  expect_documented(store::special_columns(), page, from);
-  expect_documented(store::locus_columns(), page, from);
 }
 
 }  // namespace
