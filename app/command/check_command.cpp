@@ -70,8 +70,9 @@ int check_command(const Arguments& arguments) {
     tell("{}: valid; a stage alone, for `epicyclic gear`\n", arguments.input.string());
     return done;
   }
-  if (const auto cost_of = input.study.plan.kind()->cost) {
-    const std::string cost = cost_of(input);
+  if (!input.study.has_points()) {
+    const auto cost_of = input.study.plan.kind()->cost;
+    const std::string cost = cost_of != nullptr ? cost_of(input) : "not known";
     print("{}\n", input.resolved.dump(2));
     tell("{}: valid\ncost: {}\n", arguments.input.string(), cost);
     tell_operation(input);

@@ -9,18 +9,8 @@ namespace epicyclic::input {
 
 namespace {
 
-/// @throws std::logic_error for a kind that nothing could be said of
-void require_whole(const StudyKind& kind) {
-  if (kind.missing.empty() && (kind.table == nullptr || (kind.plan == nullptr) == (kind.cost == nullptr)))
-    throw std::logic_error("the kind of study " + std::string(kind.name) + " needs a table, and a plan or a cost");
-}
-
 std::vector<const StudyKind*>& kinds() {
-  static std::vector<const StudyKind*> all = [] {
-    std::vector<const StudyKind*> own = own_kinds();
-    for (const StudyKind* kind : own) require_whole(*kind);
-    return own;
-  }();
+  static std::vector<const StudyKind*> all = own_kinds();
   return all;
 }
 
@@ -30,10 +20,7 @@ std::logic_error lacks(const Plan& plan, const char* what) {
 
 }  // namespace
 
-void add_kind(const StudyKind& kind) {
-  require_whole(kind);
-  kinds().push_back(&kind);
-}
+void add_kind(const StudyKind& kind) { kinds().push_back(&kind); }
 
 const std::vector<const StudyKind*>& study_kinds() { return kinds(); }
 

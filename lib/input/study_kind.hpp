@@ -48,7 +48,7 @@ struct PlotSource {
   std::string quantity{};             ///< drawn if none is given
 };
 
-/// Members that are null or empty do not apply to the kind. A kind has a table, and either a plan or a cost.
+/// Members that are null or empty do not apply to the kind. Each has a table.
 struct StudyKind {
   std::string_view name;        ///< the value of "kind"
   std::string_view commands{};  ///< that compute it, in words; empty: the command of that name
@@ -101,7 +101,6 @@ struct StudyKind {
 [[nodiscard]] std::vector<const StudyKind*> own_kinds();
 
 /// Adds a kind, before the first input is read. It has to live as long as the program.
-/// @throws std::logic_error for a kind without a table, or without a plan and a cost
 void add_kind(const StudyKind& kind);
 
 /// The library's kinds, then those that were added.
