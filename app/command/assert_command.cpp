@@ -36,8 +36,7 @@ int tell_unlike(const std::vector<std::string>& lines, const std::filesystem::pa
   }
   if (arguments.json)
     print("{}\n", json({{"another_study", lines}}).dump(2, ' ', false, json::error_handler_t::replace));
-  tell("{}: is another study than the points of {} are expected of\n", arguments.input.string(),
-       arguments.against.string());
+  tell("{}: the points of {} are expected of another study\n", arguments.input.string(), arguments.against.string());
   for (std::size_t k = 0; k < std::min(lines.size(), most); ++k) tell("  {}\n", lines[k]);
   if (lines.size() > most) tell("  and {} more\n", lines.size() - most);
   return other_study;
@@ -46,16 +45,14 @@ int tell_unlike(const std::vector<std::string>& lines, const std::filesystem::pa
 /// Writes the folder's points as those that are expected from now on.
 int record(const Arguments& arguments, const FinishedBranches& branches) {
   if (std::filesystem::exists(arguments.against))
-    throw InputError(arguments.against.string() + ": is there already; remove it to record its points anew");
+    throw InputError(arguments.against.string() + ": exists; remove it to record its points again");
   const std::vector<studies::LocatedPoint> points =
       reports::expected_of(branches.points, branches.input.study.plan.as<studies::BranchesOptions>());
   if (points.empty())
-    throw InputError(
-        fmt::format("{}: has no special point with a place and a bound, of {} in all; a file of none would "
-                    "be no gate, and none is written",
-                    arguments.input.string(), branches.points.size()));
+    throw InputError(fmt::format("{}: none of {} special points has a value and an error bound; no file is written",
+                                 arguments.input.string(), branches.points.size()));
   write_file_atomically(linked_file(arguments.against), reports::expected_text(branches.input, points));
-  tell("{} of {} points are expected from now on: {}\n", points.size(), branches.points.size(),
+  tell("recorded {} of {} points as the expected ones: {}\n", points.size(), branches.points.size(),
        arguments.against.string());
   return points.size() == branches.points.size() ? done : done_with_failures;
 }

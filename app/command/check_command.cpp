@@ -91,12 +91,12 @@ int check_command(const Arguments& arguments) {
        studies::mesh_periods_of(plan, look),
        cost && !limit.over() ? fmt::format(", {} state variables, about {:.2g} right-hand sides", cost->dimension,
                                            cost->rhs_evaluations())
-                             : "; few mesh periods take longer than this waits for",
-       look.classification_periods > 0 ? " and what it takes to tell the regimes" : "");
+                             : "; the cost is not known: a few mesh periods exceed the time limit of this estimate",
+       look.classification_periods > 0 ? " and those that classify the regimes" : "");
   tell_operation(input);
   if (!arguments.no_time && cost) {
     const auto time = limit.in_time([&] { return time_of(input, plan, arguments.threads, limit); });
-    tell("time: {}\n", time.value_or("not known: nothing that was tried came to an end in time"));
+    tell("time: {}\n", time.value_or("not known: no trial ended within the time limit"));
   }
   limit.leave();
   return done;

@@ -44,6 +44,7 @@ struct InitArguments {
 
 /// What the command line gives to a subcommand.
 struct Arguments {
+  std::string called = "epicyclic";  ///< the program, as it was called: "epicyclic", "app/run"
   std::filesystem::path input;
   std::filesystem::path output;
   std::vector<std::string> sets;

@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.hpp"
+#include "core/counted.hpp"
 #include "core/csv.hpp"
 #include "core/errors.hpp"
 #include "core/text.hpp"
@@ -42,9 +43,9 @@ using nlohmann::json;
 json complete_run(const std::filesystem::path& folder) {
   const input::JsonSource run = input::read_json_file(folder / "run.json");
   if (!run.complete || !run.value.is_object() || !run.value.value("identity", json()).is_string())
-    throw InputError(folder.string() + ": holds no study of this program (no run.json that says so)");
+    throw InputError(folder.string() + ": contains no study of this program (no valid run.json)");
   if (run.value.value("state", json()) != "complete")
-    throw InputError(folder.string() + ": the study in it is not complete; let its command end first");
+    throw InputError(folder.string() + ": the study in it is not complete; re-run its command first");
   return run.value;
 }
 
@@ -52,13 +53,13 @@ json complete_run(const std::filesystem::path& folder) {
 /// @throws DamagedData
 void require_unchanged(const std::filesystem::path& folder, const json& run, const std::vector<std::string>& names) {
   const auto manifest = store::manifest_from(run.value("files", json()));
-  if (!manifest) throw store::DamagedData(folder.string() + ": run.json does not say which files it has");
+  if (!manifest) throw store::DamagedData(folder.string() + ": run.json does not list its files");
   store::Manifest needed;
   for (const std::string& name : names)
     if (const auto file = manifest->find(name); file != manifest->end()) needed.insert(*file);
   for (const store::ChangedFile& file : store::changed_files(folder, needed))
-    throw store::DamagedData(
-        fmt::format("{}: {} is not as the study left it; its own command makes it again", folder.string(), file.name));
+    throw store::DamagedData(fmt::format("{}: {} was changed; re-run the command of this study to write it again",
+                                         folder.string(), file.name));
 }
 
 CsvTable read_table(const std::filesystem::path& file) {
@@ -93,7 +94,7 @@ FinishedStudy::FinishedStudy(const std::filesystem::path& folder, const json& ru
     throw InputError(fmt::format("{}: is a study of kind {}; points are taken from a sweep, a map, basins or a run",
                                  folder.string(), kind));
   if (identity_ != identity_of(input_, kind))
-    throw InputError(folder.string() + ": was computed by another version of the numerics, or by another command");
+    throw InputError(folder.string() + ": another version of the numerics, or another command, computed it");
   plan_ = std::make_unique<studies::SweepPlan>(input::plan_of(input_.study));
   if (kept == input::PointsKept::tables) {
     read_run();
@@ -101,11 +102,11 @@ FinishedStudy::FinishedStudy(const std::filesystem::path& folder, const json& ru
   }
   if (std::error_code error; !std::filesystem::exists(folder_ / "journal.bin", error))
     throw store::DamagedData(folder_.string() +
-                             ": its journal is not there; its own command computes its points again");
+                             ": its journal is missing; re-run the command of this study to compute its points again");
   store_ = std::make_unique<store::PointStore>(folder_, identity_, plan_->points.size(), store::Journal::Use::read);
   if (store_->size() != plan_->points.size())
-    throw store::DamagedData(folder_.string() +
-                             ": its journal does not hold all points; its own command makes them again");
+    throw store::DamagedData(
+        folder_.string() + ": its journal does not have all points; re-run the command of this study to compute them");
 }
 
 void FinishedStudy::read_run() {
@@ -192,7 +193,7 @@ Donor parse_donor(const std::string& text) {
   if (std::ranges::all_of(which, [](char c) { return c >= '0' && c <= '9'; })) {
     std::size_t point = 0;
     if (std::from_chars(which.data(), end, point).ec != std::errc())
-      throw InputError("--from " + text + ": there is no such point");
+      throw InputError("--from " + text + ": the number of the point is too large");
     donor.point = point;
   } else {
     for (const auto direction : {studies::Direction::up, studies::Direction::down})
@@ -202,7 +203,7 @@ Donor parse_donor(const std::string& text) {
     donor.unit = std::string(read.ptr, end);
     if (read.ec != std::errc() || !(donor.unit.empty() || donor.unit == "rpm" || donor.unit == "Hz") ||
         !std::isfinite(donor.value))
-      throw InputError("--from " + text + ": behind = there must be a number, or one with rpm or Hz");
+      throw InputError("--from " + text + ": give a number after =, or one with rpm or Hz");
   }
   donor.folder = text.substr(0, colon);
   return donor;
@@ -212,8 +213,11 @@ std::size_t point_of(const Donor& donor, const FinishedStudy& from) {
   const studies::SweepPlan& plan = from.plan();
   if (donor.point) {
     if (*donor.point >= plan.points.size())
-      throw InputError(fmt::format("--from {}: there is no point {}, the last one is {}", donor.text, *donor.point,
-                                   plan.points.size() - 1));
+      throw InputError(fmt::format("--from {}: there is no point {}; the study has {}, numbered from 0{}", donor.text,
+                                   *donor.point, counted(plan.points.size(), "points"),
+                                   from.input().study.kind() == "sweep"
+                                       ? "; FOLDER:up=VALUE or FOLDER:down=VALUE names the point nearest to a value"
+                                       : ""));
     return *donor.point;
   }
   const std::string kind(from.input().study.kind());
@@ -235,13 +239,13 @@ std::size_t point_of(const Donor& donor, const FinishedStudy& from) {
   for (const studies::GridPoint& p : plan.points)
     if (p.direction == *donor.direction && (!nearest || std::abs(p.value - value) < std::abs(nearest->value - value)))
       nearest = p;
-  if (!nearest) throw InputError(fmt::format("--from {}: the sweep does not go that way", donor.text));
+  if (!nearest) throw InputError(fmt::format("--from {}: the sweep has no points in that direction", donor.text));
   const reports::AxisWords words = reports::axis_words(axis.name, from.input().study.axis_speed);
   if (std::abs(nearest->value - value) > half_step * rounding)
-    throw InputError(fmt::format("--from {}: {} goes from {} to {} there{}", donor.text, words.name,
+    throw InputError(fmt::format("--from {}: {} is from {} to {} in that sweep{}", donor.text, words.name,
                                  words.text(axis.from, 9), words.text(axis.to, 9),
                                  axis.name == studies::speed_parameter && donor.unit.empty()
-                                     ? "; a speed in rpm or Hz is given as up=3000rpm"
+                                     ? "; give a speed in rpm or Hz as up=3000rpm"
                                      : ""));
   return nearest->index;
 }
@@ -270,16 +274,16 @@ std::vector<std::string> other_motions(const FinishedStudy& from, std::size_t po
   for (std::size_t k = 0; k < known.all.size(); ++k) {
     const studies::KnownMotion& motion = known.all[k];
     if (k + 1 == known.here) continue;
-    std::string line = basins ? fmt::format("known there too: {}, {} of {} cells, the first of them point {}",
+    std::string line = basins ? fmt::format("coexists there: {}, {} of {} cells, the first of them point {}",
                                             motion.motion, motion.points, known.looked_at, motion.point)
-                              : fmt::format("known there too: {}", point_words(from, points.read_brief(motion.point)));
+                              : fmt::format("coexists there: {}", point_words(from, points.read_brief(motion.point)));
     const auto root = [&](std::size_t of) {
       return of > 0 && known.all[of - 1].image_of > 0 ? known.all[of - 1].image_of : of;
     };
     if (known.here > 0 && root(k + 1) == root(known.here))
-      line += "; it is this motion with the planets moved on";
+      line += "; it is this attractor with the planets permuted";
     else if (motion.image_of > 0)
-      line += "; it is another one of these with the planets moved on";
+      line += "; it is another one of these with the planets permuted";
     lines.push_back(std::move(line));
   }
   return lines;
@@ -294,7 +298,7 @@ input::LoadedInput with_start(const Arguments& arguments, std::string_view kind,
       throw InputError(fmt::format("{} needs INPUT, or --from FOLDER:INDEX of a finished study", kind));
     return input::load_input(arguments.input, sets);
   }
-  if (arguments.from.size() > 1) throw InputError("--from: there can be one start only");
+  if (arguments.from.size() > 1) throw InputError("--from: only one start is allowed");
   const Donor donor = parse_donor(arguments.from.front());
   const FinishedStudy from(donor.folder);
   const std::size_t index = point_of(donor, from);
@@ -302,7 +306,7 @@ input::LoadedInput with_start(const Arguments& arguments, std::string_view kind,
   const model::DynamicModel there = from.model_at(index);
   std::vector<double> state = studies::state_on(r, there.dimension);
   if (r.outcome != integrate::Outcome::reached || state.empty())
-    throw InputError(fmt::format("--from {}: {}: has no state that was kept", donor.text, point_words(from, r)));
+    throw InputError(fmt::format("--from {}: {}: has no stored state", donor.text, point_words(from, r)));
   std::vector<std::string> lines = other_motions(from, index, there);
   lines.insert(lines.begin(), point_words(from, r));
 
@@ -331,7 +335,7 @@ input::LoadedInput with_start(const Arguments& arguments, std::string_view kind,
   further.push_back({"/study/initial_state", state, "/study/initial_state, by --from"});
   input::LoadedInput input = stage.with_further(further);
   if (!input::moves_like(input, from.input(), there))
-    lines.emplace_back("its equations of motion are not those of this study; its state is a start like any other");
+    lines.emplace_back("its equations of motion are not those of this study; its state is only an initial state");
   for (const std::string& line : lines) tell("--from {}: {}\n", donor.text, line);
   if (notes != nullptr) *notes = std::move(lines);
   return input;
@@ -378,10 +382,10 @@ class Sower {
       first = last + 1;
     }
     if (seeds_.size() == before)
-      throw InputError(fmt::format("--from {}: none of its points is periodic, with a value from {} to {}", donor.text,
+      throw InputError(fmt::format("--from {}: none of its points with a value from {} to {} is periodic", donor.text,
                                    options_.from, options_.to));
     notes_.push_back(
-        fmt::format("--from {}: {} seeds, one of each periodic stretch", donor.text, seeds_.size() - before));
+        fmt::format("--from {}: {} seeds, one for each range of one period", donor.text, seeds_.size() - before));
   }
 
   [[nodiscard]] json seeds() const { return seeds_; }
@@ -428,7 +432,7 @@ class Sower {
     const model::DynamicModel there = from.model_at(point);
     std::vector<double> state = studies::state_on(r, there.dimension);
     for (std::size_t k = state.size() / 2; k < state.size(); ++k) state[k] *= slower(from);
-    if (state.empty()) throw InputError(which + " has no state that was kept");
+    if (state.empty()) throw InputError(which + " has no stored state");
     const double value = value_of(from, point);
     const model::DynamicModel here = input::model_family(study_, options_.parameter, family_step(options_))(value);
     if (here.dimension != there.dimension)
@@ -436,12 +440,11 @@ class Sower {
           fmt::format("{} has a state of {} numbers, this study one of {}", which, there.dimension, here.dimension));
     if (!studies::same_motion(here, there))
       notes_.push_back(
-          fmt::format("{}: its equations of motion are not those of this study at {} = {}; its state is a "
-                      "guess only",
+          fmt::format("{}: its equations of motion are not those of this study at {} = {}; its state is only a guess",
                       which, options_.parameter, short_text(value, 9)));
     if (!is_periodic(r))
-      notes_.push_back(fmt::format("{}: is {}; an orbit of period {} is looked for near it", which,
-                                   studies::motion_name(r), options_.period));
+      notes_.push_back(fmt::format("{}: is {}; an orbit of period {} is sought near it", which, studies::motion_name(r),
+                                   options_.period));
     seeds_.push_back({{"value", value}, {"period", is_periodic(r) ? r.period : options_.period}, {"state", state}});
   }
 

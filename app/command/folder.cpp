@@ -38,7 +38,7 @@ void tell_differences(const store::OutputFolder& folder, const input::LoadedInpu
   if (!other.complete || !other.value.is_object()) return;
   const nlohmann::json computed = input::computed_values(other.value);
   const std::vector<std::string> lines = store::differences({other.value, computed}, {input.resolved, input.computed});
-  if (lines.empty()) tell("  the inputs are alike: another command, or another version of its numerics\n");
+  if (lines.empty()) tell("  the inputs are the same; the command or the version of its numerics is another one\n");
   for (std::size_t k = 0; k < std::min(lines.size(), most); ++k) tell("  {}\n", lines[k]);
   if (lines.size() > most) tell("  and {} more\n", lines.size() - most);
 }
@@ -46,8 +46,8 @@ void tell_differences(const store::OutputFolder& folder, const input::LoadedInpu
 void tell_changes(const store::OutputFolder& folder) {
   constexpr std::size_t most = 10;
   const std::vector<store::ChangedFile>& changed = folder.changed();
-  tell("{}: this study is complete, but {}; all are made again\n", folder.path().string(),
-       changed.empty() ? "its run.json does not say which files it has" : "not all of its files are as it left them");
+  tell("{}: this study is complete, but {}; all files are written again\n", folder.path().string(),
+       changed.empty() ? "its run.json does not list its files" : "some of its files were changed");
   for (std::size_t k = 0; k < std::min(changed.size(), most); ++k) {
     const store::ChangedFile& file = changed[k];
     if (!file.bytes)
@@ -65,8 +65,7 @@ void tell_changes(const store::OutputFolder& folder) {
 
 void tell_cut_tail(const std::filesystem::path& journal, std::size_t bytes) {
   if (bytes > 0)
-    tell("{}: cut off the last {} bytes, of a record that is not whole; its point is computed again\n",
-         journal.string(), bytes);
+    tell("{}: removed the last {} bytes, an incomplete record; its point is computed again\n", journal.string(), bytes);
 }
 
 std::map<std::size_t, studies::PointResult> known_points(const store::Journal& journal,
@@ -76,7 +75,8 @@ std::map<std::size_t, studies::PointResult> known_points(const store::Journal& j
   for (const store::JournalEntry& entry : entries) {
     studies::PointResult result = store::decode_point(journal.read(entry));
     if (result.point.index >= plan.points.size() || result.point.index != entry.point)
-      throw store::DamagedData("the journal holds point " + std::to_string(entry.point) + ", which the study has not");
+      throw store::DamagedData("the journal holds point " + std::to_string(entry.point) +
+                               ", which the study does not have");
     known.insert_or_assign(result.point.index, std::move(result));
   }
   return known;
@@ -130,11 +130,11 @@ std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const inp
       tell_changes(folder);
       return std::nullopt;
     case store::FolderOutcome::other_study:
-      tell("{}: holds another study; choose another -o\n", where);
+      tell("{}: contains another study; choose another folder for -o\n", where);
       tell_differences(folder, input);
       return other_study;
     case store::FolderOutcome::foreign:
-      tell("{}: holds files that are not a study's; choose an empty or new folder for -o\n", where);
+      tell("{}: contains files that are not those of a study; choose an empty or new folder for -o\n", where);
       return other_study;
     case store::FolderOutcome::in_use:
       tell("{}: is in use by another process\n", where);

@@ -27,6 +27,14 @@ bool may_grow(std::string_view pointer) {
       free, [&](std::string_view f) { return pointer == f || (pointer.starts_with(f) && pointer[f.size()] == '/'); });
 }
 
+/// That chains have other ends, if they do.
+std::string other_segments(const studies::SweepPlan& there, const studies::SweepPlan& here) {
+  const std::size_t old = there.grid.chains_per_line;
+  const std::size_t now = here.grid.chains_per_line;
+  if (old == now) return ". The values or the directions differ";
+  return fmt::format(". /study/segments differs: {} there, {} here; try --set /study/segments={}", old, now, old);
+}
+
 }  // namespace
 
 GrownStudy::GrownStudy(const std::filesystem::path& folder, const input::LoadedInput& input,
@@ -45,14 +53,14 @@ GrownStudy::GrownStudy(const std::filesystem::path& folder, const input::LoadedI
     if (!may_grow(d.pointer) && !(d.pointer.starts_with("/operation") && speed_is_varied)) reasons += "\n  " + d.text;
   if (!reasons.empty())
     throw InputError(
-        where + "its points are not this study's; a study grows in its range, points, directions and segments alone:" +
-        reasons);
+        where +
+        "its points are not those of this study; only range, points, directions and segments may differ:" + reasons);
   const std::size_t common = studies::points_in_common(from_.plan(), plan_, [](std::size_t, std::size_t) {});
   if (common == 0)
-    throw InputError(
-        where +
-        "none of its points is one that this study would compute: a cold point is where its values are the "
-        "same, a carried one where all before it in its direction, and the segments, are the same, too");
+    throw InputError(where +
+                     "this study has none of its points. A point is the same if its values are the same and, with "
+                     "`start` = `carried`, all points before it in its chain" +
+                     other_segments(from_.plan(), plan_));
 }
 
 std::size_t GrownStudy::take_into(store::PointStore& store) const {

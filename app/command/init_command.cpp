@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -19,6 +18,7 @@
 #include "input/starter.hpp"
 #include "input/study_input.hpp"
 #include "input/study_model.hpp"
+#include "shell_word.hpp"
 #include "stop.hpp"
 #include "streams.hpp"
 
@@ -74,7 +74,7 @@ int init_command(const Arguments& arguments) {
   std::error_code error;
   for (const auto& [name, unused] : files)
     if (fs::exists(fs::symlink_status(folder / name, error)))
-      throw InputError((folder / name).string() + ": is there already; init writes over nothing");
+      throw InputError((folder / name).string() + ": exists; init does not overwrite files");
   const bool was_there = fs::exists(folder, error);
   fs::create_directories(folder, error);
   if (error) throw OutputError(folder.string() + ": " + error.message());
@@ -103,37 +103,32 @@ int init_command(const Arguments& arguments) {
     take_back();
     throw;
   }
-  // As a shell takes it.
-  const auto path = [&](const char* name) {
-    const std::string text = (folder / name).string();
-    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:+";
-    if (text.find_first_not_of(plain) == std::string::npos) return text;
-    std::string quoted = "'";
-    for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return quoted + "'";
-  };
+  const auto path = [&](const char* name) { return shell_word((folder / name).string()); };
+  const std::string program = shell_word(arguments.called);
   if (const std::vector<double> angles = input::assembly_angles(drawing); !angles.empty()) {
     std::string at;
     for (const double angle : angles) at += (at.empty() ? "" : ", ") + short_text(angle, 6);
-    print("{} + {} teeth of sun and ring are no multiple of {} planets: these stand at {} degrees, not evenly\n",
-          drawing.sun_teeth, drawing.ring(), drawing.planets, at);
+    print(
+        "{} + {} teeth of sun and ring are not a multiple of {} planets: the planets are at {} degrees, not equally "
+        "spaced\n",
+        drawing.sun_teeth, drawing.ring(), drawing.planets, at);
   }
   if (!drawing.torque_Nm)
     print("no --torque: {:g} N m on the sun, 60 N/mm2 times module and face width on each mesh\n",
           input::torque_Nm(drawing));
   if (!drawing.speed_rpm)
-    print("no --speed: the diagram goes over 0.2 to 2 of the mesh frequency ratio; `epicyclic check` says in rpm\n");
+    print("no --speed: the diagram is over mesh frequency ratios from 0.2 to 2; `check` prints them in rpm\n");
   print(
-      "{}  the set: what no drawing gives has the origin \"estimate\", with its reason and range; put in what you "
-      "know\n"
-      "{}  its diagram over the speed\n"
-      "{}  one speed, with everything\n"
+      "{}  the gear set; values that no drawing states have the origin \"estimate\", a reason and a range: enter what "
+      "you know\n"
+      "{}  study of a diagram over the speed\n"
+      "{}  study of one speed, with all results\n"
       "\nnext:\n"
-      "  epicyclic gear {} -o {}\n"
-      "  epicyclic check {}\n"
-      "  epicyclic sweep {} -o {}\n",
-      path(stage_name), path(sweep_name), path(run_name), path(run_name), path("out/gear"), path(sweep_name),
-      path(sweep_name), path("out/speed"));
+      "  {} gear {} -o {}\n"
+      "  {} check {}\n"
+      "  {} sweep {} -o {}\n",
+      path(stage_name), path(sweep_name), path(run_name), program, path(run_name), path("out/gear"), program,
+      path(sweep_name), program, path(sweep_name), path("out/speed"));
   return done;
 }
 

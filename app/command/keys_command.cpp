@@ -51,8 +51,8 @@ int keys_command(const Arguments& arguments) {
   // Each may be a word, and no key have them all.
   const auto unknown = [&](const std::string& word) { return std::ranges::find(known, word) == known.end(); };
   const auto wrong = std::ranges::find_if(arguments.words, unknown);
-  throw InputError("no key speaks of " + words +
-                   (wrong != arguments.words.end() ? input::suggestion(*wrong, known) : "; ask for one of them"));
+  throw InputError("no key has " + words +
+                   (wrong != arguments.words.end() ? input::suggestion(*wrong, known) : "; give one of them"));
 }
 
 }  // namespace epicyclic::app

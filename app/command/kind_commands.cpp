@@ -20,18 +20,17 @@ const Command& command_of(std::string_view kind) {
 }
 
 void add_grow_option(CLI::App& command, Arguments& arguments) {
-  command.add_option("--grow", arguments.grow,
-                     "folder of a finished smaller study: its points are taken where a fresh computation would "
-                     "give the same bytes");
+  command.add_option(
+      "--grow", arguments.grow,
+      "reuse the points of a finished smaller study (its folder) that a new computation would repeat byte for byte");
 }
 
 void add_start_option(CLI::App& command, Arguments& arguments) {
-  command.get_option("INPUT")->required(false)->description(
-      "study or stage file (JSON); with --from, without it, the point itself");
+  command.get_option("INPUT")->required(false)->description("study or stage file (JSON); not needed with --from");
   command
-      .add_option("--from", arguments.from,
-                  "FOLDER:INDEX or FOLDER:up=VALUE (down=VALUE), a point of a finished study: motions start from its "
-                  "state")
+      .add_option(
+          "--from", arguments.from,
+          "start from the state of a point of a finished study: FOLDER:INDEX, FOLDER:up=VALUE or FOLDER:down=VALUE")
       ->expected(1);
 }
 

@@ -102,108 +102,115 @@ void add_threads(CLI::App& command, Arguments& arguments, const char* meaning) {
 }
 
 void add_check_options(CLI::App& command, Arguments& arguments) {
-  command.add_flag("--no-time", arguments.no_time, "do not measure how long it takes on this machine");
-  add_threads(command, arguments, "threads that it would be computed by");
+  command.add_flag("--no-time", arguments.no_time, "do not estimate the time on this machine");
+  add_threads(command, arguments, "number of threads to estimate the time for");
 }
 
 void add_assert_options(CLI::App& command, Arguments& arguments) {
-  command.add_option("FOLDER", arguments.input, "of a finished `continue`")->required();
-  command.add_option("EXPECTED", arguments.against, "file of the points that are expected of it (JSON)")->required();
+  command.add_option("FOLDER", arguments.input, "folder of a finished `continue`")->required();
+  command.add_option("EXPECTED", arguments.against, "file of its expected points (JSON)")->required();
   command.add_option("--junit", arguments.junit, "write the verdicts to this file as JUnit XML");
   command.add_flag("--json", arguments.json, "print the verdicts as JSON");
-  command.add_flag("--record", arguments.record, "write the points of FOLDER to EXPECTED, with twice their bounds");
+  command.add_flag("--record", arguments.record,
+                   "write the points of FOLDER to EXPECTED, with twice their error bounds");
 }
 
 void add_init_options(CLI::App& command, Arguments& arguments) {
   InitArguments& init = arguments.init;
-  command.add_option("FOLDER", arguments.output, "takes stage.json, speed.json and point.json")->required();
+  command.add_option("FOLDER", arguments.output, "folder for stage.json, speed.json and point.json")->required();
   command
-      .add_option("--teeth", init.teeth, "Z_SUN,Z_PLANET[,Z_RING]; 21,28,77 by default, Z_RING = Z_SUN + 2 Z_PLANET")
+      .add_option("--teeth", init.teeth,
+                  "teeth: Z_SUN,Z_PLANET[,Z_RING]; default 21,28,77; default Z_RING = Z_SUN + 2 Z_PLANET")
       ->delimiter(',')
       ->expected(2, 3);
-  command.add_option("--module", init.module_mm, "module [mm]; 3 if it is not given");
-  command.add_option("--pressure-angle", init.pressure_angle_deg, "pressure angle [deg]; 20 if it is not given");
+  command.add_option("--module", init.module_mm, "module [mm]; default 3");
+  command.add_option("--pressure-angle", init.pressure_angle_deg, "pressure angle [deg]; default 20");
   command
       .add_option("--shifts", init.profile_shifts,
-                  "X_SUN,X_PLANET,X_RING, profile shifts [-]; 0,0,0 by default; both meshes have one centre distance "
-                  "where X_RING = X_SUN + 2 X_PLANET")
+                  "profile shifts X_SUN,X_PLANET,X_RING [-]; default 0,0,0. Both meshes have the same centre distance "
+                  "if X_RING = X_SUN + 2 X_PLANET")
       ->delimiter(',')
       ->expected(3);
-  command.add_option("--width", init.width_mm, "face width [mm]; 30 if it is not given");
-  command.add_option("--planets", init.planets, "number of planets; 3 if neither it nor --angles is given");
+  command.add_option("--width", init.width_mm, "face width [mm]; default 30");
+  command.add_option("--planets", init.planets, "number of planets; default 3, or the number of --angles");
   command
       .add_option("--angles", init.angles_deg,
-                  "of the planets [deg], such as 0,71.25,146.25; as even as can be put together by default")
+                  "angles of the planets [deg], such as 0,71.25,146.25; default: as equally spaced as assembly allows")
       ->delimiter(',');
-  command.add_option("--torque", init.torque_Nm, "torque on the sun [N m]; 100 if it is not given");
+  command.add_option("--torque", init.torque_Nm,
+                     "torque on the sun [N m]; without it an estimate from module and face width");
   command.add_option("--speed", init.speed_rpm,
-                     "rated speed of the sun [rpm]; the sweep goes from 0.2 to 1.5 of it, without it over 0.2 to 2 of "
-                     "the mesh frequency ratio");
+                     "rated speed of the sun [rpm]; the sweep is over 0.2 to 1.5 of it. Without it the sweep is over "
+                     "mesh frequency ratios from 0.2 to 2");
 }
 
 void add_plot_options(CLI::App& command, Arguments& arguments) {
   PlotArguments& plot = arguments.plot;
-  command.add_option("FOLDER", plot.folders, "of finished sweeps, branches, maps or runs; several in one figure")
+  command
+      .add_option("FOLDER", plot.folders,
+                  "folders of finished sweeps, branches, maps or runs, to be drawn in one figure")
       ->required();
   command.add_option("-o,--output", arguments.output, "folder for the figures")->required();
   const auto several = [&](const char* name, std::vector<std::string>& values, const char* meaning) {
     return command.add_option(name, values, meaning)->take_all()->expected(1)->allow_extra_args(false);
   };
   several("--quantity", plot.quantities,
-          "column of points.csv, poincare.csv, branch.csv or history.csv; may be repeated");
-  several("--label", plot.labels, "of the folders, in their order, for the legend; may be repeated");
-  several("--format", plot.formats, "png, svg or pdf; may be repeated; png and svg by default")
+          "column of points.csv, poincare.csv, branch.csv or history.csv; can be repeated");
+  several("--label", plot.labels, "label of a folder in the legend, in their order; can be repeated");
+  several("--format", plot.formats, "png, svg or pdf; default png and svg; can be repeated")
       ->check(CLI::IsMember({"png", "svg", "pdf"}));
-  command.add_option("--x", plot.abscissa, "column for the abscissa, as sun_speed_rpm; the parameter by default");
-  command.add_option("--x-range", plot.x_range, "FROM:TO");
-  command.add_option("--y-range", plot.y_range, "FROM:TO");
-  command.add_option("--size", plot.size, "WIDTHxHEIGHT in pixels; 1800x1100 by default");
-  command.add_option("--font", plot.font, "size of the texts, which lines and points go with")
+  command.add_option("--x", plot.abscissa, "column of the abscissa, such as sun_speed_rpm; default: the parameter");
+  command.add_option("--x-range", plot.x_range, "range of the abscissa, FROM:TO");
+  command.add_option("--y-range", plot.y_range, "range of the ordinate, FROM:TO");
+  command.add_option("--size", plot.size, "WIDTHxHEIGHT in pixels; default 1800x1100");
+  command.add_option("--font", plot.font, "size of the texts; lines and points scale with it")
       ->check(CLI::Range(6.0, 96.0))
       ->capture_default_str();
-  command.add_option("--title", plot.title, "of the figure");
-  command.add_flag("--um", plot.micrometres, "lengths in micrometres instead of b_c");
-  command.add_flag("--log", plot.logarithmic, "logarithmic ordinate");
-  command.add_flag("--json", arguments.json, "print the figures' names as JSON");
+  command.add_option("--title", plot.title, "title of the figure");
+  command.add_flag("--um", plot.micrometres, "draw lengths in micrometres instead of b_c");
+  command.add_flag("--log", plot.logarithmic, "draw a logarithmic ordinate");
+  command.add_flag("--json", arguments.json, "print the names of the figures as JSON");
 }
 
 void add_reproduce_options(CLI::App& command, Arguments& arguments) {
   command.get_option("INPUT")->description(
-      "claims of a publication: a name in validation/, its folder, or a file (JSON)");
-  command.add_flag("--record", arguments.record, "the verdicts are those that are expected from now on");
+      "claims of a publication: a name in validation/, a folder, or a file (JSON)");
+  command.add_flag("--record", arguments.record, "record these verdicts as the expected ones");
   command.add_option(
       "--expected", arguments.expected,
-      "file of the verdicts that are expected, of another stage say (default: NAME.scorecard.json beside the input)");
+      "file of the expected verdicts, for example of another stage; default: NAME.scorecard.json beside the input");
 }
 
 void add_word_option(CLI::App& command, Arguments& arguments) {
-  command.add_option("WORD", arguments.words, "in its name or meaning; several: all");
+  command.add_option("WORD", arguments.words,
+                     "word in the name or the meaning of a key; with several words: all of them");
 }
 
 /// All commands, in the order of --help.
 std::vector<Command> all_commands() {
   std::vector<Command> all = {
-      {"init", "a stage of your own and its studies to begin with, from a drawing's numbers", init_command,
-       Takes::finished, add_init_options},
-      {"gear", "teeth, contact, stiffness, friction, bearings and modes of the stage", gear_command, Takes::output},
+      {"init", "write a stage and two studies from the numbers of a drawing", init_command, Takes::finished,
+       add_init_options},
+      {"gear", "compute teeth, contact, stiffness, friction, bearings and modes of a stage", gear_command,
+       Takes::output},
   };
   std::ranges::transform(kind_commands(), std::back_inserter(all), [](const Command* command) { return *command; });
   const std::vector<Command> others = {
-      {"reproduce", "claims of a publication held against a stage, with its figures", reproduce_command, Takes::output,
-       add_reproduce_options},
-      {"calibrate", "what is not published of a stage, from what is claimed of it", calibrate_command, Takes::output,
-       no_options, true},
-      {"robustness", "for which part of what is not published each claim holds", robustness_command, Takes::output,
-       no_options, true},
-      {"assert", "special points of finished branches against expected ones", assert_command, Takes::finished,
+      {"reproduce", "compare the claims of a publication with a stage, and draw its figures", reproduce_command,
+       Takes::output, add_reproduce_options},
+      {"calibrate", "search for unpublished parameters of a stage that meet the published claims", calibrate_command,
+       Takes::output, no_options, true},
+      {"robustness", "compute for which part of the unpublished parameters each claim holds", robustness_command,
+       Takes::output, no_options, true},
+      {"assert", "compare special points of finished branches with expected ones", assert_command, Takes::finished,
        add_assert_options},
-      {"plot", "figures of what finished studies left, of several over each other; computes nothing", plot_command,
+      {"plot", "draw figures of finished studies, several studies in one figure; compute nothing", plot_command,
        Takes::finished, add_plot_options},
-      {"check", "validates, prints the resolved input, its cost and how long it takes; writes nothing", check_command,
-       Takes::input, add_check_options},
-      {"keys", "the keys of the input with unit, default, bounds and meaning; those that speak of WORD", keys_command,
-       Takes::nothing, add_word_option},
-      {"schema", "the JSON Schema of the input", print_schema, Takes::nothing},
+      {"check", "validate an input; print it resolved, with its cost and an estimate of the time; write nothing",
+       check_command, Takes::input, add_check_options},
+      {"keys", "print the keys of the input with unit, default, bounds and meaning; with WORD only those that have it",
+       keys_command, Takes::nothing, add_word_option},
+      {"schema", "print the JSON Schema of the input", print_schema, Takes::nothing},
   };
   all.insert(all.end(), others.begin(), others.end());
   return all;
@@ -215,7 +222,7 @@ CLI::App* add_to(CLI::App& cli, const Command& command, Arguments& arguments) {
   CLI::App* sub = cli.add_subcommand(command.name, command.meaning);
   if (command.takes >= Takes::input) {
     sub->add_option("INPUT", arguments.input, "study or stage file (JSON)")->required();
-    sub->add_option("--set", arguments.sets, "/json/pointer=value, overrides one value; may be repeated")
+    sub->add_option("--set", arguments.sets, "override one value: /json/pointer=value; can be repeated")
         ->take_all()
         ->expected(1)
         ->allow_extra_args(false);
@@ -223,7 +230,7 @@ CLI::App* add_to(CLI::App& cli, const Command& command, Arguments& arguments) {
   if (command.takes >= Takes::output) {
     sub->add_option("-o,--output", arguments.output, "folder for the results")->required();
     sub->add_flag("--json", arguments.json, "print the summary as JSON");
-    add_threads(*sub, arguments, "threads; the results do not depend on it");
+    add_threads(*sub, arguments, "number of threads; the results do not depend on it");
   }
   command.options(*sub, arguments);
   return sub;
@@ -231,11 +238,12 @@ CLI::App* add_to(CLI::App& cli, const Command& command, Arguments& arguments) {
 
 int run(int argc, char** argv) {
   Ranks ranks;
-  CLI::App cli("Nonlinear dynamics of planetary gear trains, with proof.", "epicyclic");
+  CLI::App cli("Nonlinear dynamics of planetary gear trains, with evidence for each result.", "epicyclic");
   cli.set_version_flag("--version", version_text);
   cli.require_subcommand(1);
   add_claims_kind();
   Arguments arguments;
+  if (argc > 0) arguments.called = argv[0];
   arguments.threads = own_cores();
   arguments.ranks = &ranks;
 

@@ -6,8 +6,15 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/counted.hpp"
 #include "failure.hpp"
 #include "folder.hpp"
 #include "grow.hpp"
@@ -17,10 +24,12 @@
 #include "ranks/ranks.hpp"
 #include "ranks/shared_sweep.hpp"
 #include "session.hpp"
+#include "shell_word.hpp"
 #include "stop.hpp"
 #include "store/output_folder.hpp"
 #include "store/point_store.hpp"
 #include "streams.hpp"
+#include "studies/motion.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::app {
@@ -49,7 +58,7 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
     if (run.done[i]) failed += computed(store.read_brief(i)) ? 0 : 1;
   }
   if (store.size() > 0)
-    tell("{}: {} of {} {} were there already\n", arguments.output.string(), store.size(), plan.points.size(), noun);
+    tell("{}: {} of {} {} exist already\n", arguments.output.string(), store.size(), plan.points.size(), noun);
 
   // A part of another command is called by its folder.
   Progress progress(arguments.quiet ? arguments.output.filename().string() : std::string(command), plan.points.size(),
@@ -79,46 +88,63 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
   return failed;
 }
 
-/// Points that are told periodic by their orbit, while their record is still on its way to it.
-struct Unsettled {
-  std::size_t points = 0;
+/// Points of which something is not certain.
+struct Doubts {
+  std::size_t undecided = 0, unsettled = 0, tensile = 0;
+  std::optional<std::size_t> first_undecided{};
+  double force = 0;  ///< greatest tension, over the static mesh force
+  std::size_t periodic = 0;
 
   void see(const studies::PointSummary& r) {
-    if (r.on_its_way()) ++points;
-  }
-  [[nodiscard]] std::string note(std::string_view noun) const {
-    return fmt::format(
-        "at {} {} the motion is periodic, but the record does not repeat yet, or is too short to: their Poincaré "
-        "points, means, "
-        "RMS and extrema are not those of the orbit (recurrence_error of points.csv); a longer "
-        "/study/transient_periods, or "
-        "\"transient\": \"adaptive\", lets them settle",
-        points, noun);
-  }
-};
-
-/// Points at which teeth pull.
-struct Pulls {
-  std::size_t points = 0;
-  double force = 0;  ///< greatest, over the static mesh force
-  double time = 0;   ///< greatest part of the time
-
-  void see(const studies::PointSummary& r) {
-    if (!r.pulls()) return;
-    ++points;
-    for (const auto* meshes : {&r.meshes.sun_planet, &r.meshes.ring_planet}) {
-      force = std::max(force, studies::StageRecord::pull(*meshes));
-      time = std::max(time, studies::StageRecord::pull_time(*meshes));
+    periodic += r.regime == analysis::Regime::periodic ? 1 : 0;
+    if (r.regime == analysis::Regime::undecided) {
+      ++undecided;
+      if (!first_undecided) first_undecided = r.point.index;
     }
+    if (r.on_its_way()) ++unsettled;
+    if (!r.pulls()) return;
+    ++tensile;
+    for (const auto* meshes : {&r.meshes.sun_planet, &r.meshes.ring_planet})
+      force = std::max(force, studies::StageRecord::pull(*meshes));
   }
-  [[nodiscard]] std::string note(std::string_view noun) const {
-    return fmt::format(
-        "teeth pull at {} {}, with up to {:.3g} times the static mesh force and for up to {:.1f} % of the time "
-        "(pull_sp, pull_rp, pull_time_sp and pull_time_rp of points.csv): it is the damping that pulls; "
-        "docs/reference/model_options.md says what /model/gap_damping has to do with it",
-        points, noun, force, 100.0 * time);
+
+  /// In one line; empty: there are none.
+  /// @param noun  "points"
+  [[nodiscard]] std::string text(std::string_view noun) const {
+    std::vector<std::string> all;
+    if (undecided > 0) all.push_back(counted(undecided, noun) + " undecided");
+    if (unsettled > 0) all.push_back(counted(unsettled, noun) + " whose record has not converged to the orbit");
+    if (tensile > 0)
+      all.push_back(counted(tensile, noun) + fmt::format(" with a tensile mesh force (at most {:.3g} F_0)", force));
+    return fmt::format("{}", fmt::join(all, ", "));
   }
 };
+
+/// A command whose results are about what is not certain, or about bifurcations; empty: none is known.
+std::string next_command(const Arguments& arguments, const ComputedPoints& all, const Doubts& doubts) {
+  const std::string folder = all.folder.string();
+  const std::string program = shell_word(arguments.called);
+  const input::Study& study = all.input.study;
+  if (doubts.first_undecided)
+    return fmt::format("{} run --from {} -o {}", program,
+                       shell_word(fmt::format("{}:{}", folder, *doubts.first_undecided)),
+                       shell_word(fmt::format("{}_point_{}", folder, *doubts.first_undecided)));
+  const bool classifies = studies::has_classification(all.first_model);
+  if (doubts.unsettled > 0 && classifies && study.look().transient == studies::Transient::fixed &&
+      study.look().classification_periods > 0) {
+    std::string command = fmt::format("{} {} {}", program, study.kind(), shell_word(arguments.input.string()));
+    for (const std::string& set : arguments.sets) command += " --set " + shell_word(set);
+    return command + fmt::format(" --set /study/transient=adaptive -o {}", shell_word(folder + "_adaptive"));
+  }
+  if (study.kind() != "sweep" || doubts.periodic == 0 || !classifies) return {};
+  const nlohmann::json& sweep = all.input.resolved.at("study");
+  if (sweep.at("from") == sweep.at("to")) return {};
+  const nlohmann::json branches = {
+      {"kind", "continue"}, {"parameter", sweep.at("parameter")}, {"from", sweep.at("from")}, {"to", sweep.at("to")}};
+  return fmt::format("{0} continue {1} --set {2} --from {3} --against {3} -o {4}", program,
+                     shell_word((all.folder / "input.resolved.json").string()), shell_word("/study=" + branches.dump()),
+                     shell_word(folder), shell_word(folder + "_branches"));
+}
 
 /// All parts, side by side: each of them reads the journals and writes files of its own.
 /// @param all  joined by what they wrote
@@ -141,40 +167,42 @@ void write_results(const Arguments& arguments, const std::vector<ResultsPart>& p
   }
 }
 
-/// Regimes and pulls of all points and what was drawn, on stdout.
+/// What was found, what is not certain and what to do about it, on stdout: of a sweep five lines at most.
 void tell_result(const Arguments& arguments, std::string_view noun, const ComputedPoints& computed_points,
                  const WrittenPoints& written, std::size_t failed) {
   const studies::PointSource& points = computed_points.points;
   std::map<std::string, std::size_t> regimes;
-  Pulls pulls;
-  Unsettled unsettled;
+  Doubts doubts;
   for (std::size_t i = 0; i < points.count; ++i) {
     const studies::PointSummary r = points.read_brief(i);
     if (!computed(r)) continue;
     ++regimes[to_string(r.regime)];
-    pulls.see(r);
-    unsettled.see(r);
+    doubts.see(r);
   }
   nlohmann::json summary = {{"folder", computed_points.folder.string()},
                             {"points", points.count},
                             {"failed", failed},
                             {"regimes", regimes},
-                            {"pulling", pulls.points},
-                            {"unsettled", unsettled.points},
+                            {"pulling", doubts.tensile},
+                            {"unsettled", doubts.unsettled},
                             {"figures", nlohmann::json::array()}};
   summary.update(written.summary);
   for (const reports::DrawnFigure& figure : written.figures)
     if (figure.outcome.drawn()) summary["figures"].push_back(figure.file.string());
   if (arguments.json) {
     print("{}\n", summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-  } else {
-    print("{} {}, {} failed, in {}\n", points.count, noun, failed, computed_points.folder.string());
-    for (const auto& [regime, count] : regimes) print("{}: {}\n", regime, count);
-    if (unsettled.points > 0) print("{}\n", unsettled.note(noun));
-    if (pulls.points > 0) print("{}\n", pulls.note(noun));
-    for (const std::string& line : written.lines) print("{}\n", line);
-    for (const auto& figure : summary["figures"]) print("figure: {}\n", figure.get<std::string>());
+    return;
   }
+  std::string found;
+  for (const auto& [regime, count] : regimes)
+    found += fmt::format("{}{} {}", found.empty() ? ": " : ", ", count, regime);
+  print("{}, {} failed, in {}{}\n", counted(points.count, noun), failed, computed_points.folder.string(), found);
+  for (const std::string& line : written.lines) print("{}\n", line);
+  const std::string doubt = doubts.text(noun);
+  const std::string next = next_command(arguments, computed_points, doubts);
+  if (!doubt.empty() || !next.empty())
+    print("{}{}{}{}\n", doubt.empty() ? "" : "not certain: ", doubt, doubt.empty() || next.empty() ? "" : "; ",
+          next.empty() ? next : "next: " + next);
 }
 
 int lead(const Arguments& arguments, std::string_view command, std::string_view noun,
@@ -203,8 +231,8 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   std::size_t taken = 0;
   if (grown) {
     taken = grown->take_into(store);
-    tell("{}: {} of {} {} are those of {}; the others are new, or have come another way\n", folder.path().string(),
-         taken, plan.points.size(), noun, arguments.grow.string());
+    tell("{}: {} of {} {} are those of {}; the others are computed\n", folder.path().string(), taken,
+         plan.points.size(), noun, arguments.grow.string());
   }
   studies::LaneUse lanes;
   const std::size_t failed = compute_missing(arguments, command, noun, input, plan, model_at, store, leader, lanes);
@@ -224,7 +252,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   };
   const auto stopped = [&] {
     close_run(store::RunState::stopped);
-    tell("stopped after {} of {} {}; the same command goes on\n", store.size(), plan.points.size(), noun);
+    tell("stopped after {} of {} {}; re-run the same command to resume\n", store.size(), plan.points.size(), noun);
     return stopped_early;
   };
   if (store.size() < plan.points.size()) return stopped();

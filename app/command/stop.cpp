@@ -17,7 +17,7 @@ namespace {
 
 std::atomic<bool> requested{false};
 /// What a program that has to be ended says, or nothing, and its code.
-std::atomic<const char*> words_at_the_end{"stopped in the midst; the same command goes on\n"};
+std::atomic<const char*> words_at_the_end{"stopped before the end; re-run the same command to resume\n"};
 std::atomic<int> code_at_the_end{stopped_early};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
                   std::atomic<const char*>::is_always_lock_free,

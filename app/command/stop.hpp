@@ -26,7 +26,7 @@ namespace epicyclic::app {
 /// folder in order; anywhere else it ends the command with code 75 [failure_of()].
 class Stopped : public std::exception {
  public:
-  [[nodiscard]] const char* what() const noexcept override { return "stopped; the same command goes on"; }
+  [[nodiscard]] const char* what() const noexcept override { return "stopped; re-run the same command to resume"; }
 };
 
 /// @throws Stopped if a stop is requested

@@ -30,7 +30,7 @@ void FolderWatch::look() {
   std::unique_lock lock(mutex_);
   while (!changed_.wait_for(lock, interval, [this] { return over_; })) {
     if (folder_.is_there()) continue;
-    stop_soon(output_failed, "ended in the midst: the folder was removed or moved while the study ran\n");
+    stop_soon(output_failed, "ended early: the folder was removed or moved while the study ran\n");
     return;
   }
 }

@@ -248,7 +248,7 @@ void SweepLeader::run(const studies::SweepPlan& plan, const studies::LookOptions
   }
   computation.join();
   if (answers.failure()) throw *answers.failure();
-  if (silent_) throw Failure(stopped_early, "a rank does not answer; the same command goes on");
+  if (silent_) throw Failure(stopped_early, "a rank does not answer; re-run the same command to resume");
 }
 
 std::vector<WrittenPoints> SweepLeader::write(const std::vector<ResultsPart>& parts, const ComputedPoints& computed,

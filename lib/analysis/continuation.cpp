@@ -59,7 +59,9 @@ StepVerdict judge_step(const ContinuationOptions& options, double step, double a
   const double jumped = moved / options.multiplier_change;
   StepVerdict verdict;
   verdict.good = std::max({turned, missed, jumped}) <= 1.0;
-  verdict.reason = turned > 1.0 ? "the branch turns" : missed > 1.0 ? "the guess is far off" : "a multiplier jumps";
+  verdict.reason = turned > 1.0   ? "the tangent of the branch rotates too far"
+                   : missed > 1.0 ? "the predictor is too far from the orbit"
+                                  : "a multiplier jumps";
   // Half of each is where the next step goes to; a guess of second order misses by the third power.
   verdict.grow =
       std::min({0.5 / std::max(turned, 1e-3), std::cbrt(0.3 / std::max(missed, 1e-3)), 0.7 / std::max(jumped, 1e-3)});

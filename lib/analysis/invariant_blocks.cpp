@@ -147,7 +147,7 @@ std::vector<double> multiplier_errors(const InvariantBlock& block, const MatrixP
 
 std::string block_name(const InvariantBlock& block, int order) {
   if (block.wave == 0) return "synchronous";
-  return "wave " + std::to_string(block.wave) + " of " + std::to_string(order);
+  return "symmetry index " + std::to_string(block.wave) + " of " + std::to_string(order);
 }
 
 }  // namespace epicyclic::analysis

@@ -51,7 +51,8 @@ class Locus {
         system_(surface_.family, surface_.scales(), dimension, [this](const OrbitPlace& z) { return evaluate(z); }) {
     block_ = find(subject.wave);
     if (block_ == nullptr)
-      throw InputError("a locus of wave " + std::to_string(subject.wave) + ", which the symmetry does not have");
+      throw InputError("a locus of symmetry index " + std::to_string(subject.wave) +
+                       ", which the symmetry does not have");
     form_ = subject.kind == SpecialKind::grazing          ? Form::contact
             : !block_->real                               ? Form::single
             : subject.kind == SpecialKind::neimark_sacker ? Form::pair
@@ -665,7 +666,7 @@ LocusCorrection locus_start(const OrbitSurface& surface, const SpecialPoint& poi
     const auto cut = cut_into_pieces(surface.at(second), z.states.col(0), z.values(0));
     if (!cut) {
       LocusCorrection none;
-      none.message = "the orbit could not be cut into pieces";
+      none.message = "the orbit could not be divided into shooting intervals";
       return none;
     }
     z.states = cut->states;

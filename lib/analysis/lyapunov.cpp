@@ -109,8 +109,10 @@ LyapunovSpectrum lyapunov_spectrum(integrate::Flow& flow, std::span<double> stat
   LyapunovSpectrum result;
   const std::size_t m = result.exponents = options.exponents == 0 ? n : options.exponents;
   const double interval = result.interval = options.interval == 0.0 ? flow.field().period : options.interval;
-  if (m > n) throw DomainError(std::to_string(m) + " exponents of " + std::to_string(n) + " dimensions are asked for");
-  if (!(interval > 0.0)) throw DomainError("a field without a period is asked for exponents without an interval");
+  if (m > n)
+    throw DomainError(std::to_string(m) + " exponents of " + std::to_string(n) +
+                      " dimensions are requested; at most one per dimension exists");
+  if (!(interval > 0.0)) throw DomainError("exponents of a field without a period need an interval");
   const auto rows = static_cast<Eigen::Index>(n);
   const auto columns = static_cast<Eigen::Index>(m);
   // Vectors along the axes could lie in a subspace that the motion keeps (planets in step, say) and would leave it by
@@ -169,7 +171,7 @@ double kaplan_yorke_dimension(std::span<const double> exponents) {
 }
 
 VectorField with_divergence(const VectorField& field) {
-  if (!field.tangents) throw InputError("the divergence of a field without tangents is asked for");
+  if (!field.tangents) throw InputError("the divergence needs a field with tangents");
   const std::size_t n = field.dimension;
   VectorField extended = field;
   extended.origin = nullptr;  // of no kind any more

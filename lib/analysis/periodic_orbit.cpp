@@ -73,7 +73,7 @@ bool keeps_tangents(integrate::Flow& flow, const Eigen::MatrixXd& y, int n, doub
 
 PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double> start, int n,
                                   const OrbitOptions& options) {
-  if (n < 1) throw DomainError("an orbit of period " + std::to_string(n) + " is asked for, must be >= 1");
+  if (n < 1) throw DomainError("an orbit of period " + std::to_string(n) + " is requested, must be >= 1");
   options.validate();
   PeriodicOrbit orbit;
   orbit.state.assign(start.begin(), start.end());
@@ -177,7 +177,7 @@ MatrixProduct factors_of(const PeriodicOrbit& orbit) {
 }
 
 void check_reached(const PeriodicOrbit& orbit) {
-  if (orbit.monodromy.size() == 0) throw DomainError("multipliers are asked of an orbit that was not reached");
+  if (orbit.monodromy.size() == 0) throw DomainError("an orbit that was not reached has no multipliers");
 }
 
 }  // namespace

@@ -137,8 +137,8 @@ class Classifier {
     if (seen.note.empty()) seen.note = "nothing is proven";
     seen.note += " after " + std::to_string(seen.periods) + " periods";
     if (!indistinct_.empty())
-      seen.note += "; not told from an orbit of period " + std::to_string(*indistinct_.begin()) +
-                   ", near a bifurcation of which tighter tolerances tell";
+      seen.note += "; too near to an orbit of period " + std::to_string(*indistinct_.begin()) +
+                   " to be distinguished from it: a bifurcation is near, and tighter tolerances can decide";
     return std::move(result_);
   }
 
@@ -702,7 +702,7 @@ class Classifier {
       for (std::size_t i = 0; i + 1 < parts && nearer_by_each; ++i)
         nearer_by_each = recurrence_error(part[i + 1], n) <= falling * recurrence_error(part[i], n);
       if (error <= noise() || (nearer_by_each && error <= near_enough(options_.near)))
-        return "no torus: the motion comes back after " + std::to_string(n) + " periods, ever nearer";
+        return "no torus: the states return after " + std::to_string(n) + " periods, ever nearer";
       if (error < least) {
         least = error;
         best = n;
@@ -712,7 +712,7 @@ class Classifier {
     for (std::size_t k = 0; k + best < late.size(); ++k)
       slowest = std::min(slowest, largest_difference(late.point(k), late.point(k + best)));
     if (slowest < least_turning * least)
-      return "no torus: the motion all but stands still at a point of a cycle of " + std::to_string(best) + " periods";
+      return "no torus: the states stay nearly at rest at a point of a cycle of " + std::to_string(best) + " periods";
     return {};
   }
 
@@ -769,7 +769,8 @@ class Classifier {
         return false;
       }
       result_.regime = Regime::quasiperiodic;
-      seen.note = "tangents neither grow nor shrink, 0-1 test " + short_text(*seen.zero_one) + ", turns without return";
+      seen.note = "tangents neither grow nor shrink, 0-1 test " + short_text(*seen.zero_one) +
+                  ", the phase on the torus advances without recurrence";
       return true;
     }
     if (seen.note.empty())
@@ -824,7 +825,7 @@ std::string to_string(Regime regime) {
 
 void RegimeOptions::validate() const {
   require(look >= least_look, "look", look, ">= " + std::to_string(least_look));
-  require(budget >= look, "budget", budget, ">= look");
+  require(budget >= look, "budget", budget, ">= " + std::to_string(look));
   require(lasting >= 0, "lasting", lasting, ">= 0");
   require(longest_period >= 1, "longest_period", longest_period, ">= 1");
   require(near >= 0.0, "near", near, ">= 0");

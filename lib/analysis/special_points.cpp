@@ -181,7 +181,7 @@ class Event {
 
   [[nodiscard]] double nearest_to_the_surface(const OrbitFamily& family, const BranchOrbit& orbit) const {
     const std::optional<double> value = contact_extremum(family, orbit.at, grazing_.surface, grazing_.least);
-    if (!value) throw DomainError("the orbit could not be carried to its contacts");
+    if (!value) throw DomainError("the orbit could not be integrated to its contacts");
     return *value;
   }
 
@@ -498,7 +498,7 @@ void find_grazings(const OrbitFamily& family, const BranchOrbit& a, const Branch
   const auto at_a = contact_extrema(family, a.at);
   const auto at_b = contact_extrema(family, b.at);
   if (!at_a || !at_b) {
-    found.push_back(between_neighbours(a, b, 0, "the contacts could not be looked at"));
+    found.push_back(between_neighbours(a, b, 0, "the contacts could not be computed"));
     return;
   }
   for (const bool least : {true, false}) {

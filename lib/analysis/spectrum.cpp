@@ -41,7 +41,7 @@ double window_at(Window window, std::size_t j, std::size_t n) {
 class Transform {
  public:
   Transform(std::size_t n, double dt, Window window) : resolution_(1.0 / (dt * static_cast<double>(n))) {
-    if (n < 2) throw DomainError("a spectrum of " + std::to_string(n) + " samples is asked for, at least 2 are needed");
+    if (n < 2) throw DomainError("a spectrum of " + std::to_string(n) + " samples is requested, at least 2 are needed");
     if (!(dt > 0.0)) throw DomainError("the sampling interval " + std::to_string(dt) + " must be > 0");
     for (std::size_t j = 0; j < n; ++j) window_.push_back(window_at(window, j, n));
     for (const double w : window_) weight_ += w;
@@ -119,7 +119,7 @@ std::string Harmonic::label() const {
 }
 
 std::vector<Harmonic> harmonics(std::span<const double> x, int n, double first) {
-  if (n < 1) throw DomainError("harmonics of period " + std::to_string(n) + " are asked for, must be >= 1");
+  if (n < 1) throw DomainError("harmonics of period " + std::to_string(n) + " are requested, must be >= 1");
   if (x.size() < 2 * static_cast<std::size_t>(n))
     throw DomainError(std::to_string(x.size()) + " samples are less than two per period");
   const double dt = static_cast<double>(n) / static_cast<double>(x.size());

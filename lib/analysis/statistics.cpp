@@ -65,8 +65,8 @@ double rise_to_zero(std::span<const double> power, std::size_t of, std::size_t q
 bool overlap(const Estimate& a, const Estimate& b) { return a.low() <= b.high() && b.low() <= a.high(); }
 
 Estimate series_mean(std::span<const double> series, int waves, double confidence) {
-  if (series.empty()) throw DomainError("the mean of an empty series is asked for");
-  if (waves < 1) throw DomainError("waves = " + std::to_string(waves) + ", must be >= 1");
+  if (series.empty()) throw DomainError("an empty series has no mean");
+  if (waves < 1) throw DomainError("number of sine pairs = " + std::to_string(waves) + ", must be >= 1");
   if (!(confidence > 0.0 && confidence < 1.0))
     throw DomainError("confidence = " + std::to_string(confidence) + ", must be in (0, 1)");
   const std::size_t n = series.size();

@@ -53,9 +53,10 @@ double growth_of_walk(std::span<const double> series, double c) {
 double zero_one_test(std::span<const double> series, double noise, int angles) {
   constexpr std::size_t least = 100;
   if (series.size() < least)
-    throw DomainError("the 0-1 test of " + std::to_string(series.size()) + " points is asked for, at least " +
+    throw DomainError("the 0-1 test of " + std::to_string(series.size()) + " points is requested, at least " +
                       std::to_string(least) + " are needed");
-  if (angles < 1) throw DomainError("the 0-1 test with " + std::to_string(angles) + " angles is asked for");
+  if (angles < 1)
+    throw DomainError("the 0-1 test with " + std::to_string(angles) + " angles is requested, must be >= 1");
   const auto [low, high] = std::minmax_element(series.begin(), series.end());
   if (*high - *low <= noise) return 0.0;
   // In parts of its range about its mean: the walk of a large constant would drown what moves.

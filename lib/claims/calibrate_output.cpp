@@ -204,8 +204,8 @@ std::string better_text(const CalibrateOutput& output, const Calibration& calibr
     }
   if (better == nullptr) return "";
   return fmt::format(
-      "\n**Not the least cost yet**: with {} = {} and all else as it is the profile has {}, and {} claims by the brief "
-      "look. A search that begins there may go further.\n",
+      "\n**Not the least cost yet**: with {} = {} and all other values unchanged the profile has cost {}, and {} "
+      "claims by the screening. A search that begins there may find less.\n",
       variable_name(output.options.space, better->variable),
       variable_text(output.options.space, better->variable, better->u, 4), short_text(least, 5),
       claims_met(better->evaluation));
@@ -231,7 +231,7 @@ std::string calibrate_summary(const CalibrateOutput& output, const Calibration& 
   const Evaluation* whole_of_best = calibration.whole();
   const std::string whole =
       whole_of_best == nullptr ? "" : fmt::format("{} by whole sweeps, ", claims_met(*whole_of_best));
-  text += fmt::format("Best: {}{} of {} claims by the brief look, cost {}; found by {}, candidate {}.\n\n", whole,
+  text += fmt::format("Best: {}{} of {} claims by the screening, cost {}; found by {}, candidate {}.\n\n", whole,
                       claims_met(best.evaluation), options.claims.size(), short_text(best.evaluation.cost, 5),
                       phase_name(options, best.key.phase), best.key.number);
   const auto told = [&](const Evaluation& e, std::size_t k) {
@@ -247,8 +247,8 @@ std::string calibrate_summary(const CalibrateOutput& output, const Calibration& 
   }
   if (!calibration.confirmed.empty()) {
     text +=
-        "\nThe best that differ, held against whole sweeps:\n\n| candidate | cost | claims by the brief look | "
-        "by whole sweeps | which |\n|---|---|---|---|---|\n";
+        "\nThe best candidates that differ, compared with whole sweeps:\n\n| candidate | cost | claims by the "
+        "screening | by whole sweeps | which |\n|---|---|---|---|---|\n";
     for (const Confirmed& c : calibration.confirmed) {
       std::string which;
       for (std::size_t k = 0; k < options.claims.size(); ++k)
@@ -261,10 +261,9 @@ std::string calibrate_summary(const CalibrateOutput& output, const Calibration& 
   }
   text += better_text(output, calibration);
   text +=
-      "\nEach parameter alone, all others as in the result, by the profile's values: the stretch about the result "
-      "where the "
-      "cost rises by less than half of a claim (one that just fails costs a tenth), and where no claim that the result "
-      "meets by the brief look is lost.\n\n"
+      "\nEach parameter alone, all others as in the result. The ranges about the result are those of the profile's "
+      "values. In the first, the cost rises by less than half of a claim; a claim that just fails costs a tenth. In "
+      "the second, no claim that the result meets by the screening is lost.\n\n"
       "| parameter | range | result | cost rises little | no claim is lost |\n|---|---|---|---|---|\n";
   for (std::size_t k = 0; k < options.space.dimension(); ++k) {
     std::string range;

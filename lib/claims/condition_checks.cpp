@@ -266,12 +266,12 @@ void check_part(ProblemList& problems, const std::string& place, const Condition
   if (!(axis.from < axis.to)) return;
   const PartOfSweep part(c, sweep, options);
   if (part.from > part.to) {
-    problems.refuse(place, "looks where \"" + sweep.name + "\" has no point: it goes from " + short_text(axis.from, 6) +
-                               " to " + short_text(axis.to, 6));
+    problems.refuse(place, "selects values at which \"" + sweep.name + "\" has no point: it goes from " +
+                               short_text(axis.from, 6) + " to " + short_text(axis.to, 6));
     return;
   }
   if (c.within.size() == 2 && (c.within[1] < part.from || c.within[0] > part.to)) {
-    problems.refuse(place + "/within", "lies outside the part that is looked at, " + part.text());
+    problems.refuse(place + "/within", "lies outside the part that is evaluated, " + part.text());
     return;
   }
   const std::size_t before = problems.count();
@@ -298,38 +298,38 @@ void check_looks(ProblemList& problems, const std::string& place, const Conditio
     const int period = motion_period(word);
     if (period > options.look.period_max)
       problems.refuse(place + "/" + key, "is \"" + word + "\", longer than period_max = " +
-                                             std::to_string(options.look.period_max) + ": it is not looked for");
+                                             std::to_string(options.look.period_max) + ": it is not sought");
     else if (has_brief_looks(options) &&
              2 * period > std::min(options.brief.recorded_periods, options.survey.look.recorded_periods))
       problems.refuse(place + "/" + key, "is \"" + word +
                                              "\", which takes twice as many recorded_periods to be seen; " +
-                                             "brief or survey look at fewer");
+                                             "`brief` or `survey` record fewer");
   }
   if (options.look.classification_periods == 0)
     for (const auto& [key, word] : motion_words(c))
       if (is_told_by_evidence(word))
-        problems.refuse(place + "/" + key,
-                        "is \"" + word +
-                            "\", which nobody tells with classification_periods = 0: what does not recur "
-                            "is undecided");
+        problems.refuse(
+            place + "/" + key,
+            "is \"" + word +
+                "\", which needs classification_periods > 0: without them, what does not recur is undecided");
   if (c.kind == ConditionKind::change && is_motion_word(c.motion) && is_motion_word(c.after) &&
       can_be_both(c.motion, c.after, options.look.period_max))
-    problems.refuse(place + "/after", "is \"" + c.after + "\", which a motion that is \"" + c.motion +
+    problems.refuse(place + "/after", "is \"" + c.after + "\", which an attractor that is \"" + c.motion +
                                           "\" can be, too: nothing would have to change");
   if (c.kind == ConditionKind::change && is_motion_word(c.motion) && is_motion_word(c.leads_to) &&
       is_always(c.leads_to, c.motion, options.look.period_max))
-    problems.refuse(place + "/leads_to", "is \"" + c.leads_to + "\", which a motion is that is \"" + c.motion +
+    problems.refuse(place + "/leads_to", "is \"" + c.leads_to + "\", which every attractor is that is \"" + c.motion +
                                              "\", too: it is not met before that comes back");
   if (c.quantity != "lyapunov_max") return;
-  const std::string nobody = "is \"lyapunov_max\", which nobody computes with ";
+  const std::string nobody = "is \"lyapunov_max\", which is not computed with ";
   if (options.look.classification_periods == 0)
     problems.refuse(place + "/quantity", nobody + "classification_periods = 0");
   else if (!has_brief_looks(options))
     return;
   else if (options.brief.classification_periods == 0)
-    problems.refuse(place + "/quantity", nobody + "brief/classification_periods = 0, its default");
+    problems.refuse(place + "/quantity", nobody + "`brief/classification_periods` = 0, its default");
   else if (options.survey.look.classification_periods == 0)
-    problems.refuse(place + "/quantity", nobody + "survey/look/classification_periods = 0, its default");
+    problems.refuse(place + "/quantity", nobody + "`survey/look/classification_periods` = 0, its default");
 }
 
 /// Sweeps are compared at the values that all of them have: by each look half of those of the coarsest at least.

@@ -626,7 +626,7 @@ void jump(const Condition& c, const ClaimSeries& series, std::span<const ClaimPo
     return number(100.0 * one.size) + " % of " + c.quantity + " at " + number(one.at);
   };
   if (largest.size > 0.0) {
-    o.text = told(largest) + (largest.side_by_side ? ", two motions side by side" : "");
+    o.text = told(largest) + (largest.side_by_side ? ", two attractors coexist" : "");
   } else {
     o.text = "none";
     if (nearest.size > 0.0)
@@ -692,7 +692,7 @@ void alike(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
     o.cost =
         0.5 * (o.cost + (correlation >= *c.correlation ? 0.0 : cost_within(correlation, *c.correlation, 1.0, 1.0)));
   }
-  o.text = "the same motion by both meshes at " + number(100.0 * o.measured) + " %, " +
+  o.text = "the same regime by both meshes at " + number(100.0 * o.measured) + " %, " +
            (varies(sun) && varies(ring) ? "ranges correlate by " + number(correlation)
                                         : std::string("ranges that do not vary and so do not correlate")) +
            ", " + bound_text(c, true) +

@@ -81,7 +81,7 @@ struct ClaimSeries {
 using ClaimRecord = std::map<std::string, ClaimSeries, std::less<>>;
 
 /// As the texts of outcomes call points that are not `settled`.
-inline constexpr std::string_view not_settled = "not settled";
+inline constexpr std::string_view not_settled = "not converged";
 
 struct ConditionOutcome {
   bool holds = false;

@@ -152,8 +152,8 @@ std::string robustness_summary(const RobustnessOutput& output, const KnownEvalua
   text += options_in_words(output);
   if (evaluations.size() == draws.size()) return text;
   text += fmt::format(
-      "\n{} of the draws held against whole sweeps too:\n\n"
-      "| claim | holds for (of all draws) | both say it holds | both say it fails | by the look alone | by whole "
+      "\n{} of the draws, compared with whole sweeps:\n\n"
+      "| claim | holds for (of all draws) | both say it holds | both say it fails | by the screening alone | by whole "
       "sweeps "
       "alone |\n|---|---|---|---|---|---|\n",
       evaluations.size() - draws.size());

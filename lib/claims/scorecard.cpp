@@ -74,15 +74,14 @@ std::string scorecard_csv(const Scorecard& card) {
 }
 
 std::string scorecard_summary(const Scorecard& card) {
-  std::string text = fmt::format("# Claims held against {}\n\n", card.name);
+  std::string text = fmt::format("# Claims compared with {}\n\n", card.name);
   text += fmt::format("{} of {} claims hold", card.holding(), card.options.claims.size());
   if (card.holding_inert() > 0)
-    text +=
-        fmt::format(", {} of them with sweeps along which nothing that they speak of changes at all, by symmetry, say",
-                    card.holding_inert());
+    text += fmt::format(", {} of them on sweeps along which no quantity of the claim changes, by symmetry for example",
+                        card.holding_inert());
   text += fmt::format(" (points {}).\n\n", card.scored.front().start == studies::Start::cold
                                                ? "that start cold"
-                                               : "carried from one to the next");
+                                               : "whose initial state continues from the previous point");
   text += "| claim | where | what | printed |";
   std::string line = "|---|---|---|---|";
   for (const ScoredStart& s : card.scored) {
@@ -100,8 +99,8 @@ std::string scorecard_summary(const Scorecard& card) {
   }
   if (text.find(not_settled) != std::string::npos)
     text += fmt::format(
-        "\nPoints that are {}: the motion is periodic and the record still on its way to it, so that what is measured "
-        "there is not the orbit's; more transient_periods get to it.\n",
+        "\nPoints that are {}: the orbit is periodic, but the record has not converged to it. Their values are not "
+        "those of the orbit; a larger transient_periods helps.\n",
         not_settled);
   for (std::size_t s = 1; s < card.scored.size(); ++s) {
     std::string other;

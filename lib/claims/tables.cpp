@@ -42,20 +42,22 @@ const Table<SetValue>& set_value_table() {
 const Table<Condition>& condition_table() {
   static const auto table = [] {
     Table<Condition> t("condition", "A condition on a sweep.");
-    t.choice("kind", &Condition::kind, named<ConditionKind>(condition_kinds),
-             "What is measured: share or count of points that move so, the value of a change, motions met in sequence, "
-             "a statistic of a quantity, by how much it falls, its peaks, a jump of it, the largest variation between "
-             "neighbours, how alike both kinds of mesh are, whether it is decreasing from sweep to sweep.")
+    t.choice(
+         "kind", &Condition::kind, named<ConditionKind>(condition_kinds),
+         "What is measured: the share or count of points of a regime, the value of a change, a sequence of regimes, a "
+         "statistic of a quantity, the factor by which it falls, its peaks, a jump of it, the largest variation "
+         "between neighbours, the agreement of both kinds of mesh, or whether it decreases from sweep to sweep.")
         .required();
     t.text("sweep", &Condition::sweep, "The sweep, by its name.");
     t.texts("sweeps", &Condition::sweeps, list_most, "Sweeps one after the other, for decreasing.");
     t.number("from", &Condition::from, any_value, "Least value of the sweep's parameter that counts; from its start.");
     t.number("to", &Condition::to, any_value, "Greatest value of the sweep's parameter that counts; to its end.");
     t.text("motion", &Condition::motion,
-           "period N, periodic, multi-period, quasiperiodic, chaotic, aperiodic, or not and one of these.");
-    t.text("after", &Condition::after, "The motion after a change.");
-    t.text("leads_to", &Condition::leads_to, "A motion met after a change, before the one before it comes back.");
-    t.texts("motions", &Condition::motions, list_most, "Motions of a sequence.");
+           "Regime: period N, periodic, multi-period, quasiperiodic, chaotic, aperiodic, or not and one of these.");
+    t.text("after", &Condition::after, "Regime after a change.");
+    t.text("leads_to", &Condition::leads_to,
+           "Regime that follows a change, before the regime before the change returns.");
+    t.texts("motions", &Condition::motions, list_most, "Regimes of a sequence.");
     t.choice("which", &Condition::which,
              std::vector<std::pair<std::string, Which>>{{"first", Which::first}, {"last", Which::last}},
              "Of several changes, along the rising parameter.");
@@ -156,15 +158,17 @@ const Table<ClaimSweep>& claim_sweep_table() {
     t.number("from", of(&Axis::from), any_value, "First value, in its unit.").required();
     t.number("to", of(&Axis::to), any_value, "Last value, in its unit.").required();
     t.integer("points", of(&Axis::points), between(2, 100000), "Number of points, evenly spaced, ends included [-].");
-    t.objects("at", &ClaimSweep::at, set_value_table(), list_most, "What differs from the study besides.");
-    t.choices("directions", &ClaimSweep::directions, input::direction_choices(), "Directions of the carried sweep.");
+    t.objects("at", &ClaimSweep::at, set_value_table(), list_most, "Other values that differ from the study.");
+    t.choices("directions", &ClaimSweep::directions, input::direction_choices(),
+              "Directions of the sweep with continued initial states.");
     t.integer("recorded_periods", &ClaimSweep::recorded_periods, between(1, 1e5),
               "Mesh periods recorded of each point [-]; as the study if it is not given. Extrema of chaos take long "
               "records.");
-    t.integer("brief_points", &ClaimSweep::brief_points, between(2, 100000), "Points of a brief look [-].");
-    t.integer("survey_points", &ClaimSweep::survey_points, between(2, 100000), "Points of a survey's look [-].");
-    t.integer("round", &ClaimSweep::round, between(0, 1000),
-              "A brief look takes sweeps of a round if those of earlier rounds leave hope [-].");
+    t.integer("brief_points", &ClaimSweep::brief_points, between(2, 100000), "Points of the sweep in a screening [-].");
+    t.integer("survey_points", &ClaimSweep::survey_points, between(2, 100000), "Points of the sweep in a survey [-].");
+    t.integer(
+        "round", &ClaimSweep::round, between(0, 1000),
+        "Round of the screening: a later round is computed if the earlier ones do not rule the candidate out [-].");
     return t;
   }();
   return table;
@@ -201,25 +205,27 @@ Table<BriefLook> look_table(const char* name, const char* description) {
   Table<BriefLook> t(name, description);
   t.integer("transient_periods", &BriefLook::transient_periods, between(0, 1e6), "Mesh periods before the record [-].");
   t.integer("recorded_periods", &BriefLook::recorded_periods, between(4, 1e5), "Mesh periods recorded [-].");
-  t.integer("classification_periods", &BriefLook::classification_periods, between(0, 1e7),
-            "Mesh periods in which the regime may be looked for beyond the record [-]; 0: it is told by a glance.");
+  t.integer(
+      "classification_periods", &BriefLook::classification_periods, between(0, 1e7),
+      "Mesh periods after the record in which the regime may be classified [-]; 0: by recurrence and growth alone.");
   t.integer("growth_periods", &BriefLook::growth_periods, between(0, 1e6),
-            "Mesh periods in which a glance tells chaos from what does not recur but does not grow either [-]; 0: all "
-            "that does not recur counts as chaotic.");
+            "Mesh periods over which growth distinguishes chaos from other responses that do not recur [-]; 0: all "
+            "that do not recur count as chaotic.");
   t.number("relative_tolerance", &BriefLook::relative_tolerance, between(1e-12, 1e-2),
            "Relative and absolute tolerance [-].");
   return t;
 }
 
 const Table<BriefLook>& survey_look_table() {
-  static const auto table = look_table("survey_look", "How draws are looked at, from cold starts in lanes.");
+  static const auto table = look_table("survey_look", "How draws are screened: from the default start, in lanes.");
   return table;
 }
 
 }  // namespace
 
 const Table<BriefLook>& brief_look_table() {
-  static const auto table = look_table("brief", "How candidates of a search are looked at, from cold starts in lanes.");
+  static const auto table =
+      look_table("brief", "How candidates of a search are screened: from the default start, in lanes.");
   return table;
 }
 
@@ -229,7 +235,7 @@ const Table<SurveyOptions>& survey_options_table() {
     t.integer("draws", &SurveyOptions::draws, between(1, 1e7), "Completions that are drawn [-].");
     t.integer("seed", &SurveyOptions::seed, between(0, 1e9), "Seed of their random numbers [-].");
     t.integer("confirmed", &SurveyOptions::confirmed, between(0, 1e6),
-              "Draws, the first ones, that are held against whole sweeps too, to see what their looks are worth [-].");
+              "Number of first draws that are compared with whole sweeps, as a check of the screening [-].");
     t.object("look", &SurveyOptions::look, survey_look_table());
     return t;
   }();
@@ -274,12 +280,12 @@ const Table<SearchOptions>& search_options_table() {
              std::vector<std::pair<std::string, SearchMethod>>{
                  {"differential_evolution", SearchMethod::differential_evolution},
                  {"covariance_adaptation", SearchMethod::covariance_adaptation}},
-             "Of the islands: one that looks everywhere, or one that goes on from the stage as it is given.");
+             "Method of the islands: a global search, or one that begins at the given stage.");
     t.choice("led_by", &SearchOptions::led_by,
              std::vector<std::pair<std::string, SearchLead>>{{"motions", SearchLead::motions},
                                                              {"multipliers", SearchLead::multipliers}},
-             "What the cost of a condition on motions that fails goes by: what points of the looks move like, or the "
-             "multipliers of the orbit of period 1, which is followed along the sweeps besides.");
+             "What gives the cost of a failed condition on regimes: the regimes of the screened points, or the Floquet "
+             "multipliers of the orbit of period 1, which is then continued along the sweeps.");
     t.number("spread", &SearchOptions::spread, above_up_to(0, 1),
              "Of the first candidates of a covariance adaptation, in parts of the ranges [-].");
     t.integer("seed", &SearchOptions::seed, between(0, 1e9), "Seed of its random numbers [-].");

@@ -162,7 +162,7 @@ FrictionTable friction_table(const EhlFriction& e, const LineOfAction& line, con
                              std::span<const IntervalGrid> grids) {
   const PathPieces pieces = path_pieces(e.contact_ratio, e.path_start_mm, line, kinks_of_share(e));
   if (!grids.empty() && grids.size() != pieces.size())
-    throw DomainError("a friction table of " + std::to_string(pieces.size()) + " pieces on grids of " +
+    throw DomainError("a friction table of " + std::to_string(pieces.size()) + " smooth parts on grids of " +
                       std::to_string(grids.size()));
   const LoadShare shares(e);
   const double pitch = (line.pitch_arm_mm - e.path_start_mm) / line.base_pitch_mm;

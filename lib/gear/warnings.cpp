@@ -224,7 +224,7 @@ void check_damping(Warnings& out, const std::string& pointer, double stiffness, 
   const double c = damping.of(stiffness, mass);
   if (c == 0.0)
     out.add(Rank::note, 1.0, pointer, "damping",
-            "has a support without damping; motions of its modes may never settle");
+            "has a support without damping; oscillations of its modes may never decay");
   const double ratio = c / (2.0 * std::sqrt(stiffness * mass));
   if (ratio >= 1.0)
     out.add(Rank::doubtful, ratio, pointer, "damping", "its support is damped ", ratio,
@@ -237,7 +237,7 @@ void check_mesh_damping(Warnings& out, const std::string& pointer, const Mesh& m
             ", at or above critical; meshes have 0.03 to 0.17");
   else if (mesh.damping_ratio && ratio < mesh_damping_least)
     out.add(Rank::note, 1.0, pointer + "/damping_ratio", "damping", "is ", ratio,
-            ": motions may never settle; meshes have 0.03 to 0.17");
+            ": oscillations may never decay; meshes have 0.03 to 0.17");
 }
 
 /// Largest error of a gear by ISO 1328-1: the total pitch deviation of its coarsest grade [um].

@@ -84,7 +84,7 @@ std::vector<Assignment> parse_assignments(std::span<const std::string> texts) {
       continue;
     }
     if (const auto steps = pointer_steps(set.pointer); std::find(steps.begin(), steps.end(), "origin") != steps.end()) {
-      refuse("an origin is written in the file; values given here carry \"set: command line\"");
+      refuse("write an origin in the file; values given here have the origin \"set: command line\"");
       continue;
     }
     const std::string value = text.substr(equals + 1);

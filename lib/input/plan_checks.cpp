@@ -13,9 +13,9 @@ namespace epicyclic::input {
 
 std::string why_no_parameter(const std::string& pointer) {
   if (pointer_within(pointer, "/integrator") && pointer != "/integrator/clearance_smoothing")
-    return "an option of the integrator is not a parameter of the motion and cannot be swept";
+    return "an option of the integrator is not a parameter of the model and cannot be swept";
   if (pointer_within(pointer, "/study/initial_state"))
-    return "a component of the start is no parameter of the motion; `epicyclic basins` varies two of them";
+    return "a component of the initial state is not a parameter of the model; `epicyclic basins` varies two of them";
   if (pointer == "/stage/planets/count") return "the number of planets changes the state itself and cannot be swept";
   return {};
 }
@@ -102,8 +102,8 @@ void check_points(const Study& study, ReadContext& context) {
   const studies::LookOptions& look = study.look();
   if (look.transient == studies::Transient::adaptive && look.classification_periods == 0) {
     context.add(Finding::Kind::rule, "/study/classification_periods",
-                "is 0, must be >= 1 for an adaptive transient, which ends when the regime is told; without it give "
-                "\"transient\": \"fixed\"");
+                "is 0, must be >= 1 for an adaptive transient, which ends when the regime is classified; without it "
+                "give \"transient\": \"fixed\"");
   }
 }
 

@@ -40,10 +40,12 @@ void add_grid(Table<Study>& t) {
   t.number("to", of(&Axis::to), any_value, "Last value of the parameter, in its unit.");
   t.integer("points", of(&Axis::points), between(1, 100000), "Number of points, evenly spaced, ends included [-].");
   add_course(t, sweep, &SweepOptions::directions, &SweepOptions::start);
-  t.integer_or_auto("segments", in_plan(sweep, &SweepOptions::segments), between(1, 100000),
-                    "Chains per direction of a carried sweep [-], or \"auto\": by the number of points.");
+  t.integer_or_auto(
+      "segments", in_plan(sweep, &SweepOptions::segments), between(1, 100000),
+      "Chains per direction of a sweep with `start` = `carried` [-], or \"auto\": by the number of points.");
   t.integer("coarse_periods", in_plan(sweep, &SweepOptions::coarse_periods), between(1, 1e6),
-            "Mesh periods of each point in the pass along the range that says where segments start [-].");
+            "Mesh periods of each point in the first pass along the range, which gives the initial states of the "
+            "segments [-].");
 }
 
 namespace {
@@ -60,7 +62,7 @@ void add_look(Table<Study>& t) {
   t.integer("output_phases", of(&LookOptions::output_phases), between(1, 10000),
             "Output points per recorded mesh period [-].");
   t.integer("period_max", of(&LookOptions::period_max), between(1, 10000),
-            "Longest period of the motion that is looked for, in mesh periods [-].");
+            "Longest period that is sought, in mesh periods [-].");
   t.number("recurrence_tolerance", of(&LookOptions::recurrence_tolerance), between(tolerance_min, 1),
            "Two states recur if no component differs by more, in the units of the state.");
 }
@@ -70,16 +72,15 @@ void add_classification(Table<Study>& t) {
   t.choice("transient", of(&LookOptions::transient),
            std::vector<std::pair<std::string, studies::Transient>>{{"fixed", studies::Transient::fixed},
                                                                    {"adaptive", studies::Transient::adaptive}},
-           "How long the motion is let settle: transient_periods, or until its regime is told.");
+           "Length of the transient: transient_periods, or until the regime is classified.");
   t.integer("classification_periods", of(&LookOptions::classification_periods), between(0, 1e7),
-            "Mesh periods beyond the record in which the regime may be looked for [-]; 0: it is told from recurrence "
-            "alone.");
+            "Mesh periods after the record in which the regime may be classified [-]; 0: by recurrence alone.");
 }
 
 void add_initial_state(Table<Study>& t) {
   t.numbers("initial_state", &Study::initial_state, component_value, 1, 1000,
-            "Start in place of the default one, at the mesh phase 0, in the order of poincare.csv [b_c, b_c per tau]; "
-            "`--from` writes it.");
+            "Initial state at the mesh phase 0 in place of the default one, in the order of poincare.csv [b_c, b_c per "
+            "tau]; `--from` writes it.");
 }
 
 std::vector<std::pair<std::string, std::string>> method_choices() {

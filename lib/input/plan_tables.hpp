@@ -72,9 +72,9 @@ template <class Part, class Options>
 void add_course(Table<Study>& t, Part part, std::vector<studies::Direction> Options::*directions,
                 studies::Start Options::*start) {
   t.choices("directions", in_plan(part, directions), direction_choices(),
-            "Directions, numbered one after the other; each is a chain of its own from the default start.");
+            "Directions; each is a chain of its own from the default start.");
   t.choice("start", in_plan(part, start), start_choices(),
-           "Where a point starts: from the end of the one before in its chain, or from the default start.");
+           "Initial state of a point: the last state of the previous point in its chain, or the default start.");
 }
 
 }  // namespace epicyclic::input

@@ -221,7 +221,8 @@ ordered_json starter_stage(const Drawing& d) {
       {"lubrication",
        {{"viscosity_mPas", 15}, {"origin", "estimate: ISO VG 150 at 85 degrees Celsius; 5 to 50 in service"}}}};
   const auto damping = [](const char* of) {
-    return std::string("estimate: 0.02 to 0.1, usual for ") + of + "; no drawing has it, and motions depend on it";
+    return std::string("estimate: 0.02 to 0.1, usual for ") + of +
+           "; no drawing states it, and the response depends on it";
   };
   // Supports as parts of the mesh stiffness, so that the modes of small and large stages are alike.
   constexpr double mesh_N_per_m_per_mm = 2e7;

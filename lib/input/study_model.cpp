@@ -258,9 +258,10 @@ void warn_of_points(std::vector<gear::Warning>& out, const LoadedInput& input) {
       return model_of(point_at(input, std::array{PointerValue{name, value}}), scales);
     };
     if (studies::same_motion(model(axis.from), model(to)))
-      out.push_back({gear::Rank::doubtful, 1.0, place + "/parameter", place + "/parameter",
-                     fmt::format("{} has no effect on the motion: the equations at {} and at {} are the same",
-                                 axis.name, axis.from, to)});
+      out.push_back(
+          {gear::Rank::doubtful, 1.0, place + "/parameter", place + "/parameter",
+           fmt::format("{} has no effect on the response: the equations of motion at {} and at {} are the same",
+                       axis.name, axis.from, to)});
   }
 }
 
@@ -274,8 +275,8 @@ bool damping_jumps(const json& resolved) {
 
 gear::Warning without_tangents(std::string pointer) {
   return {gear::Rank::note, 1.0, std::move(pointer), "tangents",
-          "with the exact clearance its damping jumps, and tangent vectors with it; regimes are told from "
-          "recurrence alone, unless /integrator/clearance_smoothing > 0"};
+          "with the exact clearance its damping jumps, and tangent vectors with it; regimes are classified by "
+          "recurrence alone unless /integrator/clearance_smoothing > 0"};
 }
 
 void warn_without_tangents(std::vector<gear::Warning>& out, const LoadedInput& input) {
@@ -333,12 +334,12 @@ std::vector<std::string> gear_warnings(const LoadedInput& input) {
   warn_of_truncation(all, input, place_of_stage(input), stage);
   if (stage.catalogue && stage.catalogue->carrier.shaft && stage.boundary == gear::Boundary::fixed_ring)
     all.push_back({gear::Rank::note, 1.0, "/catalogue/carrier/shaft", "shaft",
-                   "not used; with boundary fixed_ring the carrier turns freely"});
+                   "not used; with boundary fixed_ring the carrier rotates freely"});
   std::vector<std::string> lines = texts(std::move(all));
   // A lumped stage may be one of modes alone; drawings are given of stages that move.
   if (stage.catalogue)
     for (const std::string& line : gear::problems_for_motion(stage))
-      lines.push_back("no motion in time, no operating point: " + line);
+      lines.push_back("no time integration, no operating point: " + line);
   lines.insert(lines.end(), input.notes.begin(), input.notes.end());
   return lines;
 }

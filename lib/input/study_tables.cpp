@@ -104,11 +104,11 @@ void add_gear(Table<T>& table, F body) {
   table.integer("teeth",
                 chain(
                     body, [](auto& b) -> auto& { return b.teeth; }),
-                between(3, 10000), "Number of teeth [-]; needed for motion in time.");
+                between(3, 10000), "Number of teeth [-]; needed for time integration.");
   table.number("base_radius_mm",
                chain(
                    body, [](auto& b) -> auto& { return b.base_radius_mm; }),
-               length, "Radius of the base circle [mm]; needed for motion in time.");
+               length, "Radius of the base circle [mm]; needed for time integration.");
 }
 
 template <class T, class F>
@@ -125,7 +125,7 @@ void add_central(Table<T>& table, F member, const std::string& radius) {
                             member, [](auto& m) -> auto& { return m.torsional_support_N_per_m; }),
                         support,
                         "Stiffness of the torsional support, referred to the " + radius +
-                            " [N/m], or \"rigid\" (modes, and the ring in motion).");
+                            " [N/m], or \"rigid\" (modes; for the ring also in time integration).");
 }
 
 const Table<gear::SunBearing>& bearing_table() {
@@ -228,7 +228,7 @@ const Table<EhlFriction>& lubricated_table() {
     t.numbers("load_share_position", &EhlFriction::share_position, between(0, 3), 2, 100000,
               "Positions of a pair, in base pitches from the start of contact, 0 to the contact ratio, rising [-].");
     t.numbers("load_share", &EhlFriction::share, between(0, 1), 2, 100000,
-              "Share of the load that the pair carries at each position; equal sharing if not given [-].");
+              "Share of the load on the pair at each position; equal sharing if not given [-].");
     t.choice("load_share_interpolation", &EhlFriction::share_interpolation, interpolations,
              "Between the rows of the load share: " + interpolation_words);
     t.number("load_share_error", &EhlFriction::share_error, table_error,
@@ -329,7 +329,7 @@ const Table<Mesh>& mesh_table() {
     t.number("operating_pressure_angle_deg", &Mesh::operating_pressure_angle_deg, from_below(0, 90),
              "Operating pressure angle [deg]; base radii and centre distance decide where they are given.");
     t.number("damping_ratio", &Mesh::damping_ratio, damping_ratio,
-             "Damping ratio zeta of the mesh, c = 2 zeta sqrt(k_0 m_e) [-]; needed for motion in time.");
+             "Damping ratio zeta of the mesh, c = 2 zeta sqrt(k_0 m_e) [-]; needed for time integration.");
     t.number("backlash_half_um", &Mesh::backlash_half_um, gap, "Half the backlash, on the line of action [um].");
     t.number_or_numbers("error_amplitude_um", &Mesh::error_amplitude_um, gap, gear::planets_max,
                         "Amplitude of the transmission error [um]: one number, or one per planet.");
@@ -365,7 +365,7 @@ const Table<Stage>& planets_table() {
     t.numbers("angles_deg", &Stage::angles_deg, between(-turns_deg, turns_deg), gear::planets_min, gear::planets_max,
               "Angle of each planet [deg]; equally spaced from 0 if not given.");
     t.number("centre_distance_mm", &Stage::centre_distance_mm, length,
-             "Distance between the axes of sun and planet [mm]; needed for motion in time.");
+             "Distance between the axes of sun and planet [mm]; needed for time integration.");
     return t;
   }();
   return table;
@@ -524,7 +524,8 @@ const Table<Stage>& stage_table() {
              std::vector<std::pair<std::string, gear::Boundary>>{{"literal", gear::Boundary::literal},
                                                                  {"fixed_ring", gear::Boundary::fixed_ring},
                                                                  {"star", gear::Boundary::star}},
-             "Who is held: the ring, the carrier (star), or as the paper of Tang et al. prints it (literal).");
+             "Member that is held: the ring, the carrier (star), or neither, as in the printed equations of Tang et "
+             "al. (`literal`).");
     t.object("planets", itself, planets_table()).required();
     t.object("load", &Stage::load, load_table());
     t.object("catalogue", present(&Stage::catalogue), catalogue_table());

@@ -33,7 +33,7 @@ void check_samples(double from, std::span<const double> samples) {
   for (const double s : samples) {
     if (!(s >= before))
       throw InputError("a sample at s = " + std::to_string(s) + " follows s = " + std::to_string(before) +
-                       "; samples must rise from where the motion begins");
+                       "; samples must rise from the initial time");
     before = s;
   }
 }

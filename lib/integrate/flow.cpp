@@ -12,8 +12,8 @@ namespace epicyclic::integrate {
 
 void check_interval(double from, double to) {
   if (!(from <= to) || !std::isfinite(from) || !std::isfinite(to))
-    throw InputError("a motion is carried from " + std::to_string(from) + " to " + std::to_string(to) +
-                     ", which is not a rising interval");
+    throw InputError("an integration from " + std::to_string(from) + " to " + std::to_string(to) +
+                     " does not go forward in time");
 }
 
 namespace {
@@ -63,11 +63,11 @@ double widest_gap(std::span<const double> nodes) {
 }
 
 void check_tangents(const VectorField& field, std::span<const double> tangents, LastTangent last) {
-  if (!field.tangents) throw InputError("tangent vectors are asked of a field without tangents");
+  if (!field.tangents) throw InputError("the field has no tangents for tangent vectors");
   if (field.jumps_at_surfaces)
-    throw InputError("tangent vectors are asked of a field that jumps where the state crosses a surface");
+    throw InputError("a field that jumps where the state crosses a surface has no tangent vectors");
   if (last == LastTangent::parameter && !field.parameter_derivative)
-    throw InputError("the derivative with respect to a parameter is asked of a field without one");
+    throw InputError("the field has no derivative with respect to a parameter");
   if (tangents.empty() || tangents.size() % field.dimension != 0)
     throw InputError("tangents of " + std::to_string(tangents.size()) + " numbers for a field of dimension " +
                      std::to_string(field.dimension));
@@ -75,7 +75,7 @@ void check_tangents(const VectorField& field, std::span<const double> tangents, 
 
 void jacobian(const VectorField& field, std::size_t segment, double s, const double* y, std::span<double> jacobian) {
   const std::size_t n = field.dimension;
-  if (!field.tangents) throw InputError("a Jacobian is asked of a field without tangents");
+  if (!field.tangents) throw InputError("the field has no tangents for a Jacobian");
   std::vector<double> memory(n * n + n, 0.0);
   for (std::size_t j = 0; j < n; ++j) memory[j * n + j] = 1.0;
   field.tangents(segment, s, y, {memory.data(), n, n}, memory.data() + n * n, {jacobian.data(), n, n});

@@ -70,7 +70,7 @@ template <std::size_t K>
 void PeriodicTrack<K>::append_piece(const std::vector<TrackRow<K>>& rows, std::size_t beyond,
                                     Interpolation interpolation, const IntervalGrid* grid) {
   if (rows.size() < 2 + 2 * beyond)
-    throw InputError("table over the phase: a piece between two breakpoints needs a row at each of its ends");
+    throw InputError("table over the phase: an interval between two breakpoints needs a row at each of its ends");
   const std::size_t count = rows.size() - 1 - 2 * beyond;
   const double from = rows[beyond].phase;
   const double to = rows[beyond + count].phase;

@@ -45,7 +45,8 @@ const input::Table<LocatedPoint>& point_table() {
     t.number("bound", &LocatedPoint::bound, input::above(0), "How far off a value may be, in the parameter's unit.")
         .required();
     t.text("contact", &LocatedPoint::contact, "Of a grazing: contact, as in special.csv.");
-    t.text("broken_symmetry", &LocatedPoint::broken_symmetry, "Wave of the motions that break the planets' symmetry.");
+    t.text("broken_symmetry", &LocatedPoint::broken_symmetry,
+           "Symmetry index of the orbits that break the planets' symmetry.");
     return t;
   }();
   return table;

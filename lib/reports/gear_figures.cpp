@@ -735,7 +735,7 @@ class ShapeDrawing {
 std::array<std::string, 2> panel_titles(const model::Mode& mode, double omega_sn) {
   std::string type(model::to_string(mode.type));
   if (mode.multiplicity > 1) type += fmt::format(" ×{}", mode.multiplicity);
-  if (mode.frequency_ratio == 0.0) return {type, "rigid motion"};
+  if (mode.frequency_ratio == 0.0) return {type, "rigid-body mode"};
   return {type, fmt::format("{:.3f} ω_{{sn}},  {:.0f} Hz", mode.frequency_ratio,
                             mode.frequency_ratio * omega_sn / (2.0 * pi))};
 }

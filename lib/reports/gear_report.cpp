@@ -175,10 +175,11 @@ std::string rotational_modes(const gear::Stage& stage, const std::vector<model::
     if (mode.type == model::ModeType::rotational && mode.frequency_ratio > 0.0)
       list += fmt::format("{}{:.3f}", list.empty() ? "" : ", ", mode.frequency_ratio);
   if (list.empty())
-    return "None of these modes is rotational: planets move all alike only where the sums of cos φ_i and sin φ_i are "
-           "0, as they are of equally spaced planets.";
+    return "None of these modes is rotational. All planets have the same deflections only if the sums of cos φ_i and "
+           "sin φ_i are 0, as those of equally spaced planets.";
   std::string text =
-      "Rotational modes, in which all planets move alike in their own directions, stand at ω/ω_sn = " + list + ".";
+      "Rotational modes, in which all planets have the same deflections in their own directions, are at ω/ω_sn = " +
+      list + ".";
   const std::vector<double> angles = stage.planet_angles_deg();
   constexpr double angle_rounding_deg = 1e-9;
   for (std::size_t i = 0; i < angles.size(); ++i)
@@ -190,13 +191,13 @@ std::string rotational_modes(const gear::Stage& stage, const std::vector<model::
   if (stage.ring.teeth && (*stage.sun.teeth + *stage.ring.teeth) % stage.planet_count != 0) return text;
   const int common = std::gcd(*stage.sun.teeth, stage.planet_count);
   if (common == stage.planet_count)
-    return text + fmt::format(" The planets mesh in phase (z_s/N = {} is whole): equal planets excite these alone.",
-                              *stage.sun.teeth / stage.planet_count);
-  return text +
-         fmt::format(
-             " The planets mesh out of phase (z_s/N = {}/{}): of equal planets only the harmonics {}, {}, ... of "
-             "the mesh frequency excite these, the others translational and planet modes.",
-             *stage.sun.teeth, stage.planet_count, stage.planet_count / common, 2 * stage.planet_count / common);
+    return text +
+           fmt::format(" The planets mesh in phase (z_s/N = {} is an integer): equal planets excite only these modes.",
+                       *stage.sun.teeth / stage.planet_count);
+  return text + fmt::format(
+                    " The planets mesh out of phase (z_s/N = {}/{}). With equal planets the harmonics {}, {}, ... of "
+                    "the mesh frequency excite these modes; all other harmonics excite translational and planet modes.",
+                    *stage.sun.teeth, stage.planet_count, stage.planet_count / common, 2 * stage.planet_count / common);
 }
 
 /// Is the centre distance that of sun and planet without backlash?
@@ -239,7 +240,7 @@ std::vector<Quantity> gear_quantities(const gear::GearSet& set, const gear::Stag
     g.add("ring_module_as_given", "m_r", set.catalogue.ring.data.module_mm, "mm", "given");
     const double teeth = set.sun.teeth + set.ring.teeth;
     g.add("assembly_number", "(z_s+z_r)/N", teeth / static_cast<double>(set.angles_deg.size()), "-",
-          "whole if equally spaced planets can be assembled");
+          "an integer if equally spaced planets can be assembled");
     g.add("planet_gap", "", gear::planet_gap_mm(set), "mm", "between tip circles of neighbouring planets");
     g.add("ring_mesh_lead", "λ_sr", set.ring_mesh_lead, "-", "[G-1]");
     const auto phases = gear::planet_phases(set);
@@ -250,7 +251,7 @@ std::vector<Quantity> gear_quantities(const gear::GearSet& set, const gear::Stag
     }
     try {
       g.add("ring_addendum_bound", "h_ar max", gear::ring_addendum_bound(stage), "-",
-            "search: contact of the ring-planet mesh starts at its pitch point");
+            "largest value with contact of the ring-planet mesh only beyond its pitch point");
     } catch (const DomainError&) {
       // No addendum puts the whole path beyond the pitch point: there is no bound to tell.
     }
@@ -301,12 +302,12 @@ std::vector<Quantity> operating_quantities(const gear::Stage& stage, double mesh
   g.add("carrier_speed", "n_c", speeds.carrier * gear::rpm, "rpm", "[G-kin]");
   g.add("sun_torque", "T_D", torques.sun, "N m", "[G-kin]");
   g.add("carrier_load_torque", "T_c", torques.carrier, "N m", "[G-kin], external");
-  g.add("ring_load_torque", "T_r", torques.ring, "N m", "[G-kin], external; a support's reaction is not in it");
+  g.add("ring_load_torque", "T_r", torques.ring, "N m", "[G-kin], external; without the reaction of a support");
   g.add("mean_mesh_force", "F", load.force_N, "N", "T_D / (N r_bs)");
   g.add("mean_planet_load", "F_p", gear::mean_planet_load(stage, mesh_frequency), "N",
         "both mesh forces on a planet's bearing");
   g.add("planet_centrifugal_force", "m_p ω_c² r_c", gear::planet_centrifugal_force(stage, mesh_frequency), "N",
-        "[G-cf], counted in motions with /model/centrifugal \"included\"");
+        "[G-cf], in the equations of motion with /model/centrifugal \"included\"");
   g.add("mean_deflection", "F/k_0", gear::static_deflection_um(stage.sun_planet_mesh, load), "um", "sun-planet mesh");
   g.add("mean_deflection_ring_planet", "F/k_0", gear::static_deflection_um(stage.ring_planet_mesh, load), "um",
         "ring-planet mesh");
@@ -314,7 +315,7 @@ std::vector<Quantity> operating_quantities(const gear::Stage& stage, double mesh
     const double amplitude = std::ranges::max(mesh.error_amplitude_um);
     g.add(name + "_error_amplitude", "E", amplitude, "um", "[G-error], or as given; the largest of the planets");
     g.add(name + "_error_over_deflection", "E k_0/F", amplitude / gear::static_deflection_um(mesh, load), "-",
-          "above 1 the error moves the mesh further than the load does");
+          "above 1 the error displaces the mesh more than the load does");
   };
   error("sun_planet", stage.sun_planet_mesh);
   error("ring_planet", stage.ring_planet_mesh);
@@ -344,10 +345,10 @@ std::vector<std::string> contact_verdicts(const gear::GearSet& set, const gear::
     const std::string now = ring.tip_diameter_mm
                                 ? fmt::format("the tip diameter given stands for {:.4f}", gear::addendum_of(set.ring))
                                 : fmt::format("it is {}", ring.addendum_coefficient);
-    lines.push_back(fmt::format(
-        "The ring-planet mesh lies wholly beyond its pitch point with addendum coefficients of the ring below {:.4f} "
-        "({}), as far down as its contact ratio allows.",
-        gear::ring_addendum_bound(stage), now));
+    lines.push_back(
+        fmt::format("The ring-planet mesh is wholly beyond its pitch point if the addendum coefficient of the ring is "
+                    "below {:.4f} ({}). The contact ratio limits it from below.",
+                    gear::ring_addendum_bound(stage), now));
   } catch (const DomainError&) {
     lines.push_back(fmt::format(
         "No addendum coefficient of the ring from {} to {} puts the whole ring-planet mesh beyond its pitch "
@@ -362,9 +363,9 @@ std::string operation_verdict(const gear::Stage& stage, double mesh_frequency_ra
   const gear::Speeds speeds = gear::speeds(stage, mesh_frequency);
   constexpr double giga = 1e9;
   return fmt::format(
-      "{}/{}/{} teeth, {} planets: ω_m = {:.4g} ω_s; at Ω = {:.4g} the sun turns at {:.0f} rpm, the carrier at {:.0f} "
-      "rpm, "
-      "T_D = {:.4g} N m, mean mesh force {:.4g} N; mean stiffness {:.4g} (sun-planet) and {:.4g} (ring-planet) 10^9 "
+      "{}/{}/{} teeth, {} planets: ω_m = {:.4g} ω_s; at Ω = {:.4g} the sun rotates at {:.0f} rpm, the carrier at "
+      "{:.0f} rpm, T_D = {:.4g} N m, mean mesh force {:.4g} N; mean stiffness {:.4g} (sun-planet) and {:.4g} "
+      "(ring-planet) 10^9 "
       "N/m.",
       *stage.sun.teeth, *stage.planet.teeth, *stage.ring.teeth, stage.planet_count, mesh_frequency / speeds.sun,
       mesh_frequency_ratio, speeds.sun * gear::rpm, speeds.carrier * gear::rpm,
@@ -422,8 +423,8 @@ std::string range_words(const std::vector<ModeRange>& ranges) {
   const auto times = [](const ModeRange& r) { return r.from > 0.0 ? r.to / r.from : 0.0; };
   const auto widest = std::ranges::max_element(ranges, {}, times);
   return fmt::format(
-      "Over the ranges of the estimated stiffnesses each natural frequency has a range of its own; the widest is that "
-      "of mode {}, {:.0f} to {:.0f} Hz.",
+      "The ranges of the estimated stiffnesses give each natural frequency a range. The widest is that of mode {}, "
+      "{:.0f} to {:.0f} Hz.",
       widest - ranges.begin() + 1, widest->from, widest->to);
 }
 
@@ -455,8 +456,8 @@ std::string gear_page(const GearPage& page, const input::LoadedInput& input, con
       "energy.{}\n\n"
       "| mode | frequency Hz | ω/ω_sn | type | multiplicity | most elastic energy in "
       "|{}\n|---|---|---|---|---|---|{}\n",
-      ranged ? " The range of a frequency is that of the softest and the stiffest stage within the ranges that the "
-               "origins of estimated values state."
+      ranged ? " The range of a frequency is from the softest to the stiffest stage within the ranges of the estimated "
+               "values."
              : "",
       ranged ? " range Hz |" : "", ranged ? "---|" : "");
   const model::LinearStage linear = model::linear_stage(input.study.stage, scales);
@@ -469,7 +470,7 @@ std::string gear_page(const GearPage& page, const input::LoadedInput& input, con
     const std::string where = mode.frequency_ratio > 0.0
                                   ? fmt::format("{} {:.0f} %", model::to_string(static_cast<model::Element>(most)),
                                                 100.0 * energies.elastic[most])
-                                  : std::string("rigid motion");
+                                  : std::string("rigid-body mode");
     const std::string range =
         ranged ? fmt::format(" {:.1f} to {:.1f} |", page.mode_ranges[number - 1].from, page.mode_ranges[number - 1].to)
                : std::string();
@@ -478,9 +479,10 @@ std::string gear_page(const GearPage& page, const input::LoadedInput& input, con
                         model::to_string(mode.type), mode.multiplicity, where, range);
   }
   text += fmt::format(
-      "\nThe scale ω_sn = {:.1f} rad/s [M-23] is that of one sun-planet pair alone and none of these modes. {}",
+      "\nThe scale ω_sn = {:.1f} rad/s [M-23] is that of one sun-planet pair alone. It is not the frequency of a mode. "
+      "{}",
       scales.omega_sn, rotational_modes(input.study.stage, modes));
-  text += "\n\n## All values of the model and where they come from\n\n| value | | unit | origin |\n|---|---|---|---|\n";
+  text += "\n\n## All values of the model and their origins\n\n| value | | unit | origin |\n|---|---|---|---|\n";
   const nlohmann::json& resolved = input.resolved;
   const nlohmann::json& stage = resolved.contains("stage") ? resolved["stage"] : resolved;
   nlohmann::json shown_parts = nlohmann::json::object();
@@ -490,11 +492,11 @@ std::string gear_page(const GearPage& page, const input::LoadedInput& input, con
   if (!page.files.empty()) {
     text += "\n## Data\n\n";
     for (const std::string& file : page.files)
-      text += fmt::format(
-          "* [{0}]({0}){1}\n", file,
-          file == "load_sharing.csv" ? ": of tooth pairs; that of planets is in motion, `epicyclic run`" : "");
+      text +=
+          fmt::format("* [{0}]({0}){1}\n", file,
+                      file == "load_sharing.csv" ? ": of tooth pairs; `epicyclic run` computes that of planets" : "");
   }
-  text += "\nTags in brackets are those of lib/EQUATIONS.md.\n";
+  text += "\nlib/EQUATIONS.md explains the tags in brackets.\n";
   return text;
 }
 

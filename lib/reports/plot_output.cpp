@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -16,6 +17,7 @@
 #include <fmt/format.h>
 
 #include "core/atomic_file.hpp"
+#include "core/counted.hpp"
 #include "core/csv.hpp"
 #include "core/errors.hpp"
 #include "figures/cell_figure.hpp"
@@ -253,8 +255,8 @@ class Plot {
     std::vector<DrawnFigure> all =
         drawn(folder, stem, sketch.draw(folder, text, x, y, {}, canvas_of(text), figures::Pictures::none));
     if (not_positive_ > 0)
-      notes_.push_back(
-          fmt::format("{}: {} values that are not positive have no place on a logarithmic scale", stem, not_positive_));
+      notes_.push_back(fmt::format("{}: {} not positive, which a logarithmic scale cannot show", stem,
+                                   counted(not_positive_, "values are", "value is")));
     note_points(stem);
     return all;
   }
@@ -302,12 +304,14 @@ class Plot {
  private:
   /// What of the points is not drawn, or not what it seems.
   void note_points(const std::string& stem) const {
-    if (failed_ > 0) notes_.push_back(fmt::format("{}: {} points that were not reached are left out", stem, failed_));
+    if (failed_ > 0)
+      notes_.push_back(
+          fmt::format("{}: {} not reached and left out", stem, counted(failed_, "points were", "point was")));
     if (not_settled_ > 0)
-      notes_.push_back(fmt::format(
-          "{}: at {} points the record was still on its way to the motion (settled of points.csv): their values are "
-          "not the motion's; sweeps draw them apart",
-          stem, not_settled_));
+      notes_.push_back(
+          fmt::format("{}: the record of {} has not converged to the orbit (`settled` in points.csv); their values are "
+                      "not those of the orbit, and sweeps draw them separately",
+                      stem, counted(not_settled_, "points")));
   }
 
   struct Series {
@@ -597,6 +601,20 @@ class Plot {
   std::size_t not_positive_ = 0;               ///< values that a logarithmic scale has no place for
 };
 
+/// "; did you mean ...?" of a column: by its beginning, whatever the case and underscores, else by edit distance.
+std::string nearest_column(const std::string& word, const std::vector<std::string>& known) {
+  const auto plain = [](const std::string& text) {
+    std::string letters;
+    for (const char c : text)
+      if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+        letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return letters;
+  };
+  const auto begins = std::ranges::find_if(
+      known, [&](const std::string& name) { return plain(word).size() > 1 && plain(name).starts_with(plain(word)); });
+  return begins == known.end() ? input::suggestion(word, known) : "; did you mean '" + *begins + "'?";
+}
+
 /// Columns that are words have no place on an axis.
 bool is_of_words(const std::string& column) {
   for (const auto& c : store::point_columns(0))
@@ -640,10 +658,10 @@ PlotOptions sound_options(const std::vector<PlottedStudy>& studies, PlotOptions 
     const auto over_parameter = [](PlotForm f) { return f == PlotForm::points || f == PlotForm::curves; };
     if (&s != &first && !(source.form == form && form == PlotForm::histories) &&
         !(over_parameter(source.form) && over_parameter(form)))
-      throw InputError(fmt::format("plot: {} is a study of kind {}, {} one of kind {}; they do not go into one figure",
+      throw InputError(fmt::format("plot: {} is a study of kind {}, {} one of kind {}; draw them in separate figures",
                                    first.folder.string(), first.study->kind(), s.folder.string(), s.study->kind()));
     if (options.abscissa.empty() && parameter_of(*s.study) != parameter_of(*first.study))
-      throw InputError(fmt::format("plot: {} goes along {}, {} along {}; give an abscissa that both have, by --x",
+      throw InputError(fmt::format("plot: {} varies {}, {} varies {}; give --x a column that both have",
                                    first.folder.string(), parameter_of(*first.study), s.folder.string(),
                                    parameter_of(*s.study)));
     std::vector<std::string> known;
@@ -657,16 +675,17 @@ PlotOptions sound_options(const std::vector<PlottedStudy>& studies, PlotOptions 
     if (!has(known, options.quantity) && has(known, options.quantity + "_1")) options.quantity += "_1";
     if (!has(known, options.quantity))
       throw InputError(fmt::format("plot: {} has no quantity '{}'{}; docs/reference/columns.md lists them",
-                                   s.folder.string(), options.quantity, input::suggestion(options.quantity, known)));
+                                   s.folder.string(), options.quantity, nearest_column(options.quantity, known)));
   }
   for (const std::string& column : {options.quantity, options.abscissa})
-    if (is_of_words(column)) throw InputError("plot: '" + column + "' is a column of words, which no axis has");
+    if (is_of_words(column))
+      throw InputError("plot: '" + column + "' is a column of words, which cannot be drawn on an axis");
   if (studies.size() > study_colours.size())
     throw InputError(
         fmt::format("plot: {} studies in one figure; there are colours for {}", studies.size(), study_colours.size()));
   if (form == PlotForm::cells && (options.x || options.y || options.logarithmic || !options.abscissa.empty()))
     throw InputError(
-        "plot: a map is drawn over its plane, on a linear scale; --x, --x-range, --y-range and --log are not for it");
+        "plot: a map is drawn over its plane, on a linear scale; it takes no --x, --x-range, --y-range or --log");
   return options;
 }
 

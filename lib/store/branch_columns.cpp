@@ -81,7 +81,9 @@ std::vector<Column<studies::SpecialRow>> special_columns() {
   };
   return {
       {"branch", "1", "number of the branch, from 0", Integer([=](const SpecialRow& r) { return integer(r.branch); })},
-      {"kind", "", "fold, flip, neimark_sacker, resonance_1_1 to resonance_1_4, branch_point, grazing, or unresolved",
+      {"kind", "",
+       "kind of the point: `fold`, `flip` (period doubling), `neimark_sacker`, `resonance_1_1` to `resonance_1_4`, "
+       "`branch_point`, `grazing`, or `unresolved`",
        Words([](const SpecialRow& r) { return kind_word(r); })},
       {"value", "of the parameter", "of the parameter, there", Number([](const SpecialRow& r) { return r.value; })},
       {"error_bound", "of the parameter", "of the value, from other tolerances and subdivisions",
@@ -92,7 +94,7 @@ std::vector<Column<studies::SpecialRow>> special_columns() {
          for (const auto& m : r.multipliers) text += (text.empty() ? "" : " ") + multiplier_text(m);
          return text;
        })},
-      {"broken_symmetry", "", "wave of the motions that break the planets' symmetry; empty: none is broken",
+      {"broken_symmetry", "", "symmetry index of the orbits that break the planets' symmetry; empty: none is broken",
        Words([](const SpecialRow& r) { return r.broken_symmetry; })},
       {"contact", "", "of a grazing: the meshes, and what they first do: drive, loss, back; of the bearing touch",
        Words([](const SpecialRow& r) { return r.contact; })},
@@ -125,7 +127,8 @@ std::vector<Column<LocusPlace>> locus_columns() {
       {"locus", "1", "number of the locus, from 0", Integer([=](const LocusPlace& p) { return integer(p.locus); })},
       {"index", "1", "number of the point along it, from 0",
        Integer([=](const LocusPlace& p) { return integer(p.index); })},
-      {"kind", "", "of the special points: fold, flip, neimark_sacker, branch_point, grazing",
+      {"kind", "",
+       "of the special points: `fold`, `flip` (period doubling), `neimark_sacker`, `branch_point`, `grazing`",
        Words([](const LocusPlace& p) { return to_string(p.of.kind); })},
       {"first", "of the parameter", "value of the parameter that branches go along",
        Number([](const LocusPlace& p) { return p.row.first; })},

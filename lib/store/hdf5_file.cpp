@@ -233,7 +233,7 @@ void Hdf5File::create_group(std::string_view path) {
     end = std::min(path.find('/', end + 1), path.size());
     const std::string name(path.substr(0, end));
     if (name.empty() || name == "/") continue;
-    if (checked<OutputError>(H5Lexists(file_, name.c_str(), H5P_DEFAULT), path_, name, "look for") > 0) continue;
+    if (checked<OutputError>(H5Lexists(file_, name.c_str(), H5P_DEFAULT), path_, name, "find") > 0) continue;
     const Handle group(checked<OutputError>(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
                                             path_, name, "create the group"),
                        H5Gclose);

@@ -46,21 +46,27 @@ std::vector<Difference> differing_values(const ResolvedValues& there, const Reso
     const nlohmann::json* value = resolved.contains(at) ? &resolved.at(at)
                                   : values.contains(at) ? &values.at(at)
                                                         : nullptr;
-    if (value == nullptr) return std::string("nothing");
+    if (value == nullptr) return std::string("absent");
     std::string shown = value->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     return shown.size() <= longest ? shown : std::string("another value");
   };
+  // A list that is absent is read as an empty one.
+  const auto is_empty = [](const nlohmann::json& values, const nlohmann::json::json_pointer& at) {
+    return !values.contains(at) || (values.at(at).is_array() && values.at(at).empty());
+  };
   std::vector<Difference> all;
+  std::vector<Difference> empty;
   for (const nlohmann::json& change : nlohmann::json::diff(from, to)) {
     const std::string pointer = change.at("path");
     const nlohmann::json::json_pointer at(pointer);
     // A number that only one of the catalogues gives, and the other input as well: it is what gives it that differs.
     if (there.resolved.contains(at) && here.resolved.contains(at) && there.resolved.at(at) == here.resolved.at(at))
       continue;
-    all.push_back({pointer, fmt::format("{}: {} there, {} here", pointer, text(from, there.resolved, at),
-                                        text(to, here.resolved, at))});
+    (is_empty(from, at) && is_empty(to, at) ? empty : all)
+        .push_back({pointer, fmt::format("{}: {} there, {} here", pointer, text(from, there.resolved, at),
+                                         text(to, here.resolved, at))});
   }
-  return all;
+  return all.empty() ? empty : all;
 }
 
 std::vector<std::string> differences(const ResolvedValues& there, const ResolvedValues& here) {

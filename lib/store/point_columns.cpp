@@ -65,7 +65,7 @@ std::vector<PointColumn> point_columns(std::size_t planets, const std::vector<Po
   const auto integer = [](auto x) { return static_cast<std::int64_t>(x); };
   std::vector<PointColumn> all = {{"point", "1", "number of the point in the study, from 0",
                                    Integer([=](const PointSummary& r) { return integer(r.point.index); })},
-                                  {"direction", "", "up or down: which way the parameter goes along the chain",
+                                  {"direction", "", "up or down: direction of the parameter along the chain",
                                    Words([](const PointSummary& r) { return direction_word(r.point.direction); })},
                                   {"value", "of the parameter", "of the parameter that is varied",
                                    Number([](const PointSummary& r) { return r.point.value; })}};
@@ -79,7 +79,7 @@ std::vector<PointColumn> point_columns(std::size_t planets, const std::vector<Po
   add("status", "", "ok, diverged, step_limit or failed",
       Words([](const PointSummary& r) { return status_word(r.outcome); }));
   add("regime", "", "periodic, quasiperiodic, chaotic or undecided; empty unless ok", Words(regime_word));
-  add("period", "mesh periods", "n of a periodic motion; 0 of others",
+  add("period", "mesh periods", "n of a periodic orbit; 0 of others",
       Integer([=](const PointSummary& r) { return integer(ok(r) ? r.period : 0); }));
   add("lyapunov_max", "1 per tau", "largest Lyapunov exponent",
       Number([](const PointSummary& r) { return r.lyapunov_max().value; }));
@@ -100,12 +100,12 @@ std::vector<PointColumn> point_columns(std::size_t planets, const std::vector<Po
       of_orbit(&analysis::Evidence::residual));
   add("orbit_error", "b_c, b_c per tau", "how far it may be from the true one",
       of_orbit(&analysis::Evidence::orbit_error));
-  add("zero_one", "1", "K of the 0-1 test, if it was asked",
+  add("zero_one", "1", "K of the 0-1 test, if it was made",
       Number([](const PointSummary& r) { return r.evidence.zero_one.value_or(unknown); }));
-  add("classified_periods", "mesh periods", "that it took to tell the regime",
+  add("classified_periods", "mesh periods", "integrated to classify the regime",
       Integer([=](const PointSummary& r) { return integer(r.evidence.periods); }));
   add("evidence", "", "for the regime, in words", Words([](const PointSummary& r) { return r.evidence.note; }));
-  add("settled", "1", "0 where the motion is periodic and the record is still on its way to it, else 1",
+  add("settled", "1", "0 if the orbit is periodic and the record has not converged to it, else 1",
       Integer([=](const PointSummary& r) { return integer(!ok(r) || !r.on_its_way()); }));
   append(planet_columns(planets));
   add("message", "", "what went wrong, of a point that was not reached",

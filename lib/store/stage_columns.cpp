@@ -22,11 +22,13 @@ using Words = StageColumn::Getter<std::string>;
 /// One kind of mesh.
 struct Kind {
   const char* suffix;
+  const char* name;
   std::vector<MeshRecord> StageRecord::*meshes;
   MeshHarmonics StageRecord::*harmonics;
 };
-constexpr std::array<Kind, 2> kinds = {{{"sp", &StageRecord::sun_planet, &StageRecord::sun_planet_harmonics},
-                                        {"rp", &StageRecord::ring_planet, &StageRecord::ring_planet_harmonics}}};
+constexpr std::array<Kind, 2> kinds = {
+    {{"sp", "sun-planet", &StageRecord::sun_planet, &StageRecord::sun_planet_harmonics},
+     {"rp", "ring-planet", &StageRecord::ring_planet, &StageRecord::ring_planet_harmonics}}};
 
 using CourseOf = std::function<const Course&(const StageRecord&)>;
 
@@ -82,7 +84,7 @@ StageColumn contact_of(const Kind& kind, const std::string& suffix, std::size_t 
 }
 
 std::string mesh_words(const Kind& kind, std::size_t planet) {
-  return std::string(kind.suffix) + " of planet " + std::to_string(planet + 1);
+  return std::string(kind.name) + " mesh " + std::to_string(planet + 1);
 }
 
 }  // namespace
@@ -99,13 +101,13 @@ std::vector<StageColumn> stage_columns() {
   std::vector<StageColumn> all;
   add(all, "planet_spread", "b_c", "largest difference between planets' deflections",
       Number([](const StageRecord& r) { return r.planet_spread; }));
-  add(all, "pull_sp", "static mesh force", "greatest tension of a sun mesh, by its damping",
+  add(all, "pull_sp", "static mesh force", "largest tensile force of a sun mesh, from its damping",
       Number([](const StageRecord& r) { return StageRecord::pull(r.sun_planet); }));
-  add(all, "pull_rp", "static mesh force", "greatest tension of a ring mesh",
+  add(all, "pull_rp", "static mesh force", "largest tensile force of a ring mesh, from its damping",
       Number([](const StageRecord& r) { return StageRecord::pull(r.ring_planet); }));
-  add(all, "pull_time_sp", "part of the time", "how long a sun mesh pulls",
+  add(all, "pull_time_sp", "part of the time", "longest time with tensile force in a sun mesh",
       Number([](const StageRecord& r) { return StageRecord::pull_time(r.sun_planet); }));
-  add(all, "pull_time_rp", "part of the time", "how long a ring mesh pulls",
+  add(all, "pull_time_rp", "part of the time", "longest time with tensile force in a ring mesh",
       Number([](const StageRecord& r) { return StageRecord::pull_time(r.ring_planet); }));
   for (const Kind& kind : kinds) {
     const std::string what = std::string("delta_") + kind.suffix;
@@ -124,16 +126,17 @@ std::vector<StageColumn> stage_columns() {
               course_of(kind, 0, &MeshRecord::force));
   for (const Kind& kind : kinds)
     add(all, std::string("dynamic_factor_") + kind.suffix, "1",
-        std::string("largest force of any ") + kind.suffix + " over the static one: dynamics and load sharing in one",
+        std::string("largest force of any ") + kind.name +
+            " mesh over the static one: dynamics and load sharing together",
         Number([meshes = kind.meshes](const StageRecord& r) { return r.dynamic_factor(r.*meshes); }));
   for (const Kind& kind : kinds)
     add(all, std::string("kv_") + kind.suffix, "1",
-        std::string("dynamic factor K_v of the ") + kind.suffix + " with the largest force",
+        std::string("dynamic factor K_v of the ") + kind.name + " mesh with the largest force",
         Number([meshes = kind.meshes](const StageRecord& r) { return StageRecord::kv(r.*meshes); }));
   for (const Kind& kind : kinds)
     add(all, std::string("k_gamma_") + kind.suffix, "1",
-        std::string("mesh load factor K_γ of the ") + kind.suffix +
-            ": largest quasi-static force of any over the mean of all",
+        std::string("mesh load factor K_γ of the ") + kind.name +
+            " meshes: largest quasi-static force of any over the mean of all",
         Number([meshes = kind.meshes](const StageRecord& r) { return StageRecord::k_gamma(r.*meshes); }));
   add_force(all, "force_sun_bearing", "the force of the sun's bearing (damping in the clearance included)",
             [](const StageRecord& r) -> const Course& { return r.sun_bearing; });
@@ -160,7 +163,7 @@ std::vector<StageColumn> planet_columns(std::size_t planets) {
       add_mean_and_rms(all, "delta_" + suffix, "b_c", "the deflection of " + mesh, delta);
       add_force(all, "force_" + suffix, "the force of " + mesh, course_of(kind, i, &MeshRecord::force));
       const auto share = [&](const char* name, const std::string& meaning, double Course::*member) {
-        add(all, name + suffix, "1", meaning + mesh + " in the mean of those of all planets",
+        add(all, name + suffix, "1", meaning + mesh + " over the mean of those of all planets",
             Number([meshes = kind.meshes, i, member](const StageRecord& r) {
               return StageRecord::share(r.*meshes, member, i);
             }));
@@ -175,10 +178,10 @@ std::vector<StageColumn> planet_columns(std::size_t planets) {
       of_mesh("force_" + suffix + "_quasi_static_max", "N", "largest quasi-static force of " + mesh,
               [](const MeshRecord& r) { return r.quasi_static.largest; });
       of_mesh("kv_" + suffix, "1", "dynamic factor K_v of " + mesh, &MeshRecord::kv);
-      of_mesh("drive_time_" + suffix, "part of the time", "how long " + mesh + " is in contact on its driving flank",
+      of_mesh("drive_time_" + suffix, "part of the time", "time in contact on the drive flank, " + mesh,
               &MeshRecord::drive);
-      of_mesh("loss_time_" + suffix, "part of the time", "how long " + mesh + " is out of contact", &MeshRecord::loss);
-      of_mesh("back_time_" + suffix, "part of the time", "how long " + mesh + " is in contact on its back",
+      of_mesh("loss_time_" + suffix, "part of the time", "time out of contact, " + mesh, &MeshRecord::loss);
+      of_mesh("back_time_" + suffix, "part of the time", "time in contact on the back flank, " + mesh,
               &MeshRecord::back);
     }
   for (std::size_t i = 0; i < planets; ++i)

@@ -244,7 +244,7 @@ class Explainer {
     if (by_cascade(i, change)) return;
     if (!a.periodic && is_stable_all_the_way(b)) {
       change.cause = Cause::crisis;
-      change.words = "what was " + a.motion + " ends; it falls onto branch " + std::to_string(*b.branch) +
+      change.words = "the attractor (" + a.motion + ") ends; the sweep falls onto branch " + std::to_string(*b.branch) +
                      ", which is stable on both sides";
       return;
     }
@@ -295,7 +295,7 @@ class Explainer {
 
   /// Where a jump leads to, or comes from.
   static std::string whereto(const SweepPlace& side, const SweepPlace& other, const SweepChange& change) {
-    std::string words = &side == &change.before ? "; the motion goes on to " : "; the motion comes from ";
+    std::string words = &side == &change.before ? "; the sweep jumps to " : "; the sweep comes from ";
     if (!other.branch) {
       words += "what is " + other.motion;
       return words;
@@ -319,7 +319,7 @@ class Explainer {
         change.cause = Cause::jump;
         change.beside = beside(end);
         change.words = "branch " + std::to_string(p.branch) + " ends at " + short_text(end, 9) +
-                       ", born of an orbit that no branch follows" + whereto(side, other, change);
+                       ", at an orbit that is on no branch" + whereto(side, other, change);
         return true;
       }
     }
@@ -431,8 +431,8 @@ class Explainer {
         change.cause = Cause::cascade;
         change.special = n;
         change.beside = beside(r.value);
-        change.words = "in the cascade whose last located flip is that of branch " + std::to_string(r.branch) + " at " +
-                       with_error(r.value, r.error_bound);
+        change.words = "in the cascade whose last located period doubling is that of branch " +
+                       std::to_string(r.branch) + " at " + with_error(r.value, r.error_bound);
         return true;
       }
     }
@@ -444,8 +444,8 @@ class Explainer {
     for (const SweepPlace* side : {&change.before, &change.behind})
       if (side->periodic && !side->branch)
         return "no branch of period " + std::to_string(side->period) + " is known at point " +
-               std::to_string(side->point) + ": --from FOLDER:" + std::to_string(side->point) + " follows one";
-    if (change.before.branch && change.before.stable) return "the motion leaves an orbit that is stable here";
+               std::to_string(side->point) + ": --from FOLDER:" + std::to_string(side->point) + " continues one";
+    if (change.before.branch && change.before.stable) return "the sweep leaves an orbit that is stable here";
     return "no branch changes here";
   }
 
@@ -551,7 +551,7 @@ BranchProof prove(const TracedBranches& traced, const SweepOptions& sweep, const
       if (change.counted) explainer.explain(i, change);
       if (change.counted && change.cause == Cause::unexplained && settles_onto(change)) {
         change.cause = Cause::undecided;
-        change.words = "the undecided motion is on the orbit too";
+        change.words = "the undecided point is on the orbit too";
       }
       proof.changes.push_back(std::move(change));
     }

@@ -167,7 +167,7 @@ BranchOrigin settled_start(const BranchSystem& system, const model::DynamicModel
   }
   BranchOrigin origin = origin_near(system, system.system, value, state);
   if (!origin.orbit)
-    origin.message = "no orbit of period " + std::to_string(system.system.period) + " near where the motion is after " +
+    origin.message = "no orbit of period " + std::to_string(system.system.period) + " near the state after " +
                      std::to_string(settle_periods) + " mesh periods: " + origin.message;
   return origin;
 }

@@ -155,12 +155,12 @@ class Examiner {
     // What a finished study says must come out again by its own method.
     if (periodic(reference))
       if (const PointResult again = compute(point, ours, start, look_); !same({point, ours, reference, ours, again}))
-        return done(Verdict::unexplained, "the reference does not come out again: " + motion_text(reference) +
-                                              ", and now " + motion_text(again));
+        return done(Verdict::unexplained, "the reference gives another result when repeated: " +
+                                              motion_text(reference) + ", and now " + motion_text(again));
     if (const double d = c.distance > clearly * options_.orbit_tolerance ? one_orbit(both) : nan;
         d <= options_.orbit_tolerance)
-      return done(Verdict::settling, "both come to one orbit of period " + std::to_string(reference.period) +
-                                         ", distance " + short_text(d) + "; a record was still on its way to it");
+      return done(Verdict::settling, "both converge to one orbit of period " + std::to_string(reference.period) +
+                                         ", distance " + short_text(d) + "; a record had not converged to it");
     if (torus(reference) && torus(result))
       if (const std::string one = one_torus(both); !one.empty()) return done(Verdict::torus, one);
     const bool near = periodic(reference) && periodic(result) && c.distance <= clearly * options_.orbit_tolerance;
@@ -212,7 +212,7 @@ class Examiner {
       if (periodic(our_last) && periodic(their_last)) {
         const double d = orbits_apart(last);
         if (d <= options_.orbit_tolerance)
-          return done(Verdict::settling, after + "both settle to an orbit of period " +
+          return done(Verdict::settling, after + "both converge to an orbit of period " +
                                              std::to_string(our_last.period) + ", distance " + short_text(d));
       }
       if (told(our_last) && told(their_last))
@@ -228,7 +228,7 @@ class Examiner {
         overlap(reference.lyapunov_max(), result.lyapunov_max()))
       return done(Verdict::chaos,
                   "one is undecided, and the largest exponents agree by their intervals: " + exponent_of(reference) +
-                      " and " + exponent_of(result) + "; " + motions + "; followed, neither is told chaotic");
+                      " and " + exponent_of(result) + "; " + motions + "; continued, neither is classified as chaotic");
     if (chaotic(our_last) && chaotic(their_last))
       return done(Verdict::unexplained, "both are chaotic and their exponents differ by more than their intervals, " +
                                             exponent_of(our_last) + " and " + exponent_of(their_last) + "; " + motions);
@@ -243,7 +243,7 @@ class Examiner {
     if (chaotic(a) && chaotic(b)) return {};
     if (periodic(a) && periodic(b) && orbits_apart(both) <= clearly * options_.orbit_tolerance) return {};
     if (!holds(point, other, ours, a) || !holds(point, ours, other, b)) return {};
-    return "each method stays on the other's motion for " + std::to_string(options_.continued_periods) +
+    return "each method stays on the other's attractor for " + std::to_string(options_.continued_periods) +
            " more periods: " + motion_name(a) + " and " + motion_name(b) +
            (periodic(a) && periodic(b) && a.period == b.period ? ", distance " + short_text(orbits_apart(both)) : "");
   }

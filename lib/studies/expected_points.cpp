@@ -2,15 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
 #include <tuple>
 
 namespace epicyclic::studies {
 
 namespace {
 
+/// "symmetry index 1 of 3", which older files call "wave 1 of 3".
+std::string symmetry_of(const LocatedPoint& p) {
+  constexpr std::string_view old = "wave ";
+  return p.broken_symmetry.starts_with(old) ? "symmetry index " + p.broken_symmetry.substr(old.size())
+                                            : p.broken_symmetry;
+}
+
 bool alike(const LocatedPoint& a, const LocatedPoint& b) {
-  return std::tie(a.kind, a.period, a.contact, a.broken_symmetry) ==
-         std::tie(b.kind, b.period, b.contact, b.broken_symmetry);
+  return std::tie(a.kind, a.period, a.contact) == std::tie(b.kind, b.period, b.contact) &&
+         symmetry_of(a) == symmetry_of(b);
 }
 
 PointVerdict verdict_of(const LocatedPoint& expected, const LocatedPoint& found) {

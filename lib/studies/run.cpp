@@ -145,7 +145,7 @@ class Run {
     r.omega = model_.omega;
     r.omega_sn = scales_.omega_sn;
     r.static_force = scales_.force_newton(model_.static_mesh_force);
-    at("settling, regime");
+    at("transient, regime");
     if (control_.memory.point) {
       r.point = *control_.memory.point;
     } else {

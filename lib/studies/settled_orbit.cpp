@@ -9,7 +9,7 @@ namespace epicyclic::studies {
 SettledOrbit settled_orbit(integrate::Flow& flow, const PointSummary& motion) {
   SettledOrbit found;
   if (motion.outcome != integrate::Outcome::reached) {
-    found.note = "there is no motion: " + motion.message;
+    found.note = "the point was not reached: " + motion.message;
     return found;
   }
   if (motion.regime != analysis::Regime::periodic) {
@@ -35,7 +35,7 @@ SettledOrbit settled_orbit(integrate::Flow& flow, const PointSummary& motion) {
   found.largest_multiplier = largest_multiplier(found.orbit);
   if (motion.recurrence.period == 0)
     found.note =
-        "the motion was still settling, " + short_text(found.distance) + " away from its orbit at the record's end";
+        "the trajectory had not converged, " + short_text(found.distance) + " away from its orbit at the record's end";
   return found;
 }
 

@@ -152,7 +152,9 @@ class PointStudy {
     }
     out_.note += "; statistics in place of an orbit";
     if (out_.study.regime == analysis::Regime::undecided)
-      out_.note += ", of a motion that may be settling still: their intervals say how they vary, not where they end";
+      out_.note +=
+          ", of a response that may not have reached its attractor: their intervals state how they vary, not their "
+          "limits";
     gather();
   }
 

@@ -224,7 +224,7 @@ TEST(Continuation, NamesTheSymmetryThatAPitchforkBreaks) {
   EXPECT_EQ(t.special[0].wave, 1);
   const auto blocks = invariant_blocks(3, family.symmetry);
   ASSERT_EQ(blocks.size(), 2U);
-  EXPECT_EQ(block_name(blocks[1], 3), "wave 1 of 3");
+  EXPECT_EQ(block_name(blocks[1], 3), "symmetry index 1 of 3");
 }
 
 TEST(Continuation, TwoPairsOfFourPartsCrossAtOnce) {

@@ -49,7 +49,7 @@ TEST(CalibrateSummary, TellsWhereTheCostRisesLittleAndWhereNoClaimIsLost) {
 TEST(CalibrateSummary, TellsOfABetterCandidateOfTheProfile) {
   Search search({evaluation(2.0, {0, 0}), evaluation(1.1, {1, 0}), evaluation(1.0, {1, 0}), evaluation(0.0, {1, 1}),
                  evaluation(1.5, {0, 0})});
-  EXPECT_NE(search.summary().find("with x = 3 and all else as it is the profile has 0, and 2 claims"),
+  EXPECT_NE(search.summary().find("with x = 3 and all other values unchanged the profile has cost 0, and 2 claims"),
             std::string::npos)
       << search.summary();
   // Whole sweeps chose the result, not its cost.

@@ -243,7 +243,7 @@ TEST(Claims, SayWhichPointsTheyCouldNotTell) {
   c.at_most = 5.0;
   ClaimRecord r = record("112");
   r["s"].points[1].settled = false;
-  EXPECT_NE(judge(c, r).text.find("1 point not settled"), std::string::npos) << judge(c, r).text;
+  EXPECT_NE(judge(c, r).text.find("1 point not converged"), std::string::npos) << judge(c, r).text;
   // Two records that are on their way to one orbit are no two motions side by side.
   c = condition(ConditionKind::jump);
   c.quantity = "delta_sp_range";

@@ -59,9 +59,9 @@ code=0
 wait $pid || code=$?
 [ "$code" = 75 ] || fail "stopped with tables: $code $(<stderr)"
 grep -q '"state": "running"' run.json || fail "tables are no sooner there than all is done"
-grep -q 'is still being followed$' branches.csv || fail "not said that they are partial: $(<branches.csv)"
+grep -q 'is still being continued$' branches.csv || fail "not said that they are partial: $(<branches.csv)"
 [ "$(wc -l <branch.csv)" -gt 3 ] || fail "partial tables of nothing: $(<branch.csv)"
-grep -q 'about .* left if no more branches are met' stderr || fail "how long it takes is not said: $(<stderr)"
+grep -q 'about .* left if no more branches are found' stderr || fail "how long it takes is not said: $(<stderr)"
 [ "$(code_of "$epicyclic" continue slow/branches.json -o growing)" = 0 ] || fail "resumed: $(<stderr)"
 [ -z "$(comm -23 <(cut -d, -f3- branch.csv | sort) <(cut -d, -f3- growing/branch.csv | sort))" ] || fail "rows of the partial table are not in the last one"
 

@@ -81,7 +81,7 @@ for command in "${commands[@]}"; do
     clean
     stopped_after $ms "${signals[which]}" "$epicyclic" "${arguments[@]}"
     case $code in
-      75) grep -q 'the same command goes on' stderr || fail "$what: does not say that it goes on: $(<stderr)" && last=$what ;;
+      75) grep -q 're-run the same command to resume' stderr || fail "$what: does not say that it goes on: $(<stderr)" && last=$what ;;
       $((128 + numbers[which]))) if is_any_there; then fail "$what: ended by the signal, with files written"; fi ;;
       "$whole") early=$((early + 1)) ;;
       *) fail "$what: exit code $code: $(<stderr)" ;;
@@ -94,7 +94,7 @@ for command in "${commands[@]}"; do
   done
   # The last one goes on to its end.
   code=$(code_of "$epicyclic" "${arguments[@]}")
-  [ "$code" = "$whole" ] || { [ "$code" = 2 ] && grep -q 'is there already' stderr; } || fail "$command, again after $last: exit code $code: $(<stderr)"
+  [ "$code" = "$whole" ] || { [ "$code" = 2 ] && grep -q ': exists; init' stderr; } || fail "$command, again after $last: exit code $code: $(<stderr)"
 done
 echo "$count stops of ${#commands[@]} commands, $early of them too late"
 finish

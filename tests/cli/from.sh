@@ -25,8 +25,8 @@ for way in up down; do
   [ "$(code_of "$epicyclic" run --from "sweep:$way=0.889" -o "run_$way" "${brief[@]}")" = 0 ] || fail "run $way: $(<stderr)"
   near "$(value delta_sp_max "run_$way")" "$(value delta_sp_max sweep $row)" 1e-6 || fail "run $way is on another branch"
   grep -q "point $row ($way, mesh_frequency_ratio = 0.89), period 1" stderr || fail "run $way: where it starts: $(<stderr)"
-  grep -q "known there too: point $((5 - row)) ($([ $way = up ] && echo down || echo up), " stderr || fail "run $way: the other branch"
-  tr '\n' ' ' <"run_$way/summary.md" | grep -q "Start: point $row .*known there too: point" || fail "run $way: summary.md"
+  grep -q "coexists there: point $((5 - row)) ($([ $way = up ] && echo down || echo up), " stderr || fail "run $way: the other branch"
+  tr '\n' ' ' <"run_$way/summary.md" | grep -q "Start: point $row .*coexists there: point" || fail "run $way: summary.md"
 done
 near "$(value delta_sp_max run_up)" "$(value delta_sp_max run_down)" 0.01 && fail "the two branches are one"
 diff -r sweep before >/dev/null || fail "the donor was changed"
@@ -75,7 +75,7 @@ for run in heavier lighter; do near "$(value sun_speed_rpm $run)" 21000 1e-9 || 
 # Points whose record has not settled, or is shorter than the motion's period.
 "$epicyclic" sweep "$inputs/tang2020_calibrated_speed.json" -o unsettled --set /study/from=0.3 --set /study/to=0.9 --set /study/points=3 \
   --set /study/crosscheck/points=0 --set /study/transient_periods=40 --set /study/recorded_periods=16 >out 2>&1 || fail "the unsettled sweep"
-grep -q 'points the motion is periodic, but the record does not repeat yet' out || fail "an unsettled record is not told: $(<out)"
+grep -q 'points whose record has not converged to the orbit' out || fail "an unsettled record is not told: $(<out)"
 for point in 0 2 4; do
   [ "$(code_of "$epicyclic" run --from unsettled:$point -o "settled$point" "${brief[@]}")" = 0 ] || fail "unsettled:$point: $(<stderr)"
 done
@@ -105,7 +105,7 @@ mv kept bore/journal.bin
   --set /study/second/points=2 --set /study/second/to=-1.33333333333 >/dev/null 2>&1 ||
   fail "the basins"
 [ "$(code_of "$epicyclic" run --from basins:1 -o of_basins "${brief[@]}")" = 0 ] || fail "of basins: $(<stderr)"
-grep -q 'known there too: .* of 4 cells' stderr || fail "of basins: $(<stderr)"
+grep -q 'coexists there: .* of 4 cells' stderr || fail "of basins: $(<stderr)"
 
 refused() {
   [ "$(code_of "$@" -o refused)" = 2 ] || fail "exit code of $*: $(<stderr)"

@@ -52,7 +52,7 @@ refused() {
 refused sweep "${common[@]}" "${up[@]}" --set /study/to=2.2 --set /study/points=3 --set /study/recorded_periods=32 --grow up3
 grep -q '/study/recorded_periods: 16 there, 32 here' stderr || fail "the reason: $(<stderr)"
 refused sweep "${common[@]}" "${up[@]}" --set /study/from=1.9 --set /study/to=2.2 --set /study/points=4 --grow up3
-grep -q 'none of its points is one that this study would compute' stderr || fail "the reason: $(<stderr)"
+grep -q 'this study has none of its points' stderr || fail "the reason: $(<stderr)"
 refused sweep "${common[@]}" "${up[@]}" --set /integrator/relative_tolerance=1e-9 --set /study/to=2.4 --set /study/points=5 --grow up3
 refused sweep "${common[@]}" "${up[@]}" --set /study/to=2.4 --set /study/points=5 --grow small
 refused sweep "${common[@]}" "${up[@]}" --set /study/to=2.4 --set /study/points=5 --grow nowhere

@@ -36,7 +36,7 @@ begins_with() { cmp -s -n "$(stat -c %s "$1")" "$1" "$2"; }
 took_up() {
   local count
   count=$(wc -l <records)
-  [ "$count" = 0 ] || ! grep -q '^sweep ' stderr || grep -q "$count of $points points were there already" stderr ||
+  [ "$count" = 0 ] || ! grep -q '^sweep ' stderr || grep -q "$count of $points points exist already" stderr ||
     fail "$what: $count records were there, but: $(grep 'there already' stderr)"
 }
 

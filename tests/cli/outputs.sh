@@ -63,7 +63,7 @@ for kind in sweep map basins gear run crosscheck tolerance; do
     for k in "${!files[@]}"; do damage "$kind/${files[k]}" $((k + round)); done
     code=$(code_of "${command[@]}")
     [ "$code" = "$expected" ] || fail "$kind, round $round: exit code $code: $(<stderr)"
-    grep -q 'all are made again' stderr || fail "$kind, round $round: not told: $(<stderr)"
+    grep -q 'all files are written again' stderr || fail "$kind, round $round: not told: $(<stderr)"
     for file in "${edited[@]}"; do
       grep -qa mine "$file.changed" || fail "$kind, round $round: the edited $file is not kept"
       rm -f "$file.changed"
@@ -102,7 +102,7 @@ for kind in sweep crosscheck; do
   sed -i 's/"state": *"complete"/"state": "running"/' $kind/run.json
   truncate -s -100 $kind/journal.bin
   code_of "$epicyclic" "${arguments[@]}" -o $kind >/dev/null
-  grep -q 'journal.bin: cut off the last [0-9]* bytes' stderr || fail "$kind: a cut tail is not told: $(<stderr)"
+  grep -q 'journal.bin: removed the last [0-9]* bytes' stderr || fail "$kind: a cut tail is not told: $(<stderr)"
   same_folder $kind.whole $kind
 done
 finish

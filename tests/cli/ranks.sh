@@ -109,7 +109,7 @@ once() {
   [ "$code" = "$expected" ] || fail "must give exit $expected, not $code: $*: $(<stderr)"
   [ "$(grep -c -- "$text" stderr)" = 1 ] || fail "must be said once: $text: $(<stderr)"
 }
-once 3 'holds another study' "${study[@]}" -o study.2 --set /integrator/relative_tolerance=1e-7
+once 3 'contains another study' "${study[@]}" -o study.2 --set /integrator/relative_tolerance=1e-7
 mkdir foreign && echo mine >foreign/thesis.txt
 once 3 'not a study' "${study[@]}" -o foreign
 once 0 'complete already' "${study[@]}" -o study.2

@@ -110,7 +110,7 @@ for method in arkode-dopri5 lanes-dopri5; do
     folder=long$signal$method
     interrupted "$signal" 0.5 "${long[@]}" --set "/integrator/method=$method"
     [ "$code" = 75 ] || fail "$what in a long point: exit code $code: $(<stderr)"
-    grep -q 'the same command goes on' stderr || fail "$what in a long point does not say that the same command goes on"
+    grep -q 're-run the same command to resume' stderr || fail "$what in a long point does not say that the same command goes on"
     longest "$what in a long point"
     echo "$what in a long point: $most ms, $most_cpu ms of processor time"
   done

@@ -11,7 +11,7 @@ without_drawing
 [ -z "$(<stderr)" ] || fail "init warns of what it chose: $(<stderr)"
 for name in stage speed point; do [ -s "mine/$name.json" ] || fail "$name.json is missing"; done
 # The commands that it names are there to be typed.
-grep '^  epicyclic' stdout >next
+grep -F "  $epicyclic " stdout >next
 [ "$(wc -l <next)" = 3 ] || fail "next: $(<stdout)"
 while read -r _ command; do
   read -r -a words <<<"$command"

@@ -232,7 +232,7 @@ TEST(Warnings, EachOneOnTheMotionIsToldAtItsPlace) {
        [](Stage& s) { s.ring_planet_mesh.backlash_half_um = 600.0; }},
       {"/lumped/sun/bearing_clearance_half_um", "modules: the sun may move out",
        [](Stage& s) { s.sun_bearing.clearance_half_um = 1500.0; }},
-      {"/lumped/sun_planet_mesh/damping_ratio", "is 0: motions may never settle",
+      {"/lumped/sun_planet_mesh/damping_ratio", "is 0: oscillations may never decay",
        [](Stage& s) { s.sun_planet_mesh.damping_ratio = 0.0; }},
       {"/lumped/sun_planet_mesh/backlash_half_um", "has 0.124 um of backlash",
        [](Stage& s) { s.sun_planet_mesh.backlash_half_um = 0.062; }},

@@ -171,7 +171,7 @@ TEST(StageCompletion, GivenRowsOfACurveStandAsAWhole) {
 
 TEST(StageCompletion, AStageThatCannotMoveIsToldWhy) {
   const auto lines = gear_warnings(loaded({"/boundary=star", "/lumped/carrier/torsional_support_N_per_m=0"}));
-  EXPECT_TRUE(any_has(lines, "no motion in time, no operating point: /lumped/carrier/torsional_support_N_per_m"));
+  EXPECT_TRUE(any_has(lines, "no time integration, no operating point: /lumped/carrier/torsional_support_N_per_m"));
   EXPECT_TRUE(any_has(gear_warnings(loaded({"/planets/count=5"})), "cannot be assembled"));
 }
 

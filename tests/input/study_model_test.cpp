@@ -72,14 +72,14 @@ TEST(StudyWarnings, AParameterWithoutEffectIsTold) {
   const std::string words = "warning: /study/parameter: ";
   // A constant stiffness has no contact angle.
   const std::string angle = "/stage/lumped/sun/bearing/contact_angle_deg";
-  EXPECT_TRUE(has(swept(angle, "0", "40"), words + angle + " has no effect on the motion"));
+  EXPECT_TRUE(has(swept(angle, "0", "40"), words + angle + " has no effect on the response"));
   EXPECT_FALSE(has(swept(angle, "0", "40", {"/stage/lumped/sun/bearing/law=palmgren_radial"}), "no effect"));
   // A given mass does not follow the bore.
   const std::string bore = "/stage/catalogue/sun/bore_mm";
   EXPECT_FALSE(has(swept(bore, "20", "40"), "no effect"));
   EXPECT_TRUE(
       has(swept(bore, "20", "40", {"/stage/lumped/sun/mass_kg=1.6", "/stage/lumped/sun/inertia_over_r2_kg=1.2"}),
-          words + bore + " has no effect on the motion"));
+          words + bore + " has no effect on the response"));
   // Gaps far beyond any motion still change the equations.
   EXPECT_FALSE(has(swept("sun_planet_backlash", "1000", "5000"), "no effect"));
   EXPECT_FALSE(has(swept("sun_bearing_clearance", "0", "1"), "no effect"));

@@ -410,9 +410,10 @@ TEST(RunSummary, TellsAPeriodicMotionWithItsEvidence) {
   const std::string line = on_one_line(text);
   EXPECT_TRUE(text.starts_with("# by_hand, Ω = 1.25\n")) << text;
   for (const char* part :
-       {"Periodic: the motion repeats after 2 mesh periods", "F_0 = 800.0 N", "closes to 6e-12",
+       {"Periodic: the states repeat after 2 mesh periods", "F_0 = 800.0 N", "closes to 6e-12",
         "0.3 + 0.4i, modulus 0.500000000 ± 1.0e-08, one of 2", "The orbit is stable",
-        "-0.0689486250 ± 2.0e-09 per tau (-0.346573590 ± 1.0e-08 per mesh period)", "Looked at: 192 mesh periods",
+        "-0.0689486250 ± 2.0e-09 per tau (-0.346573590 ± 1.0e-08 per mesh period)",
+        "Integrated for the classification: 192 mesh periods",
         "| sp_1 | 401.5 | 0 | 1187.2 | 1.484 | 1.250 | 1.0000 | 50.0 % | 50.0 % | 0.0 % | 0.5 |",
         "| delta_sp_1 | um | 1: 10 | 1/2: 2.5 |", "difference 3e-09", "2 of 2 within their intervals",
         "largest difference 5e-08 per tau", "0.0310 ± 0.0040 per tau", "do not stay synchronous",
@@ -441,7 +442,7 @@ TEST(RunSummary, TellsBetweenWhichDimensionsATorusMayHave) {
 
 TEST(RunSummary, TellsWhichTeethPullHowHardHowOftenAndWhy) {
   studies::RunResult r = result_of();
-  EXPECT_TRUE(contains(on_one_line(run_summary(output(), r)), "No mesh pulls"));
+  EXPECT_TRUE(contains(on_one_line(run_summary(output(), r)), "No mesh force is tensile"));
   r.meshes[1].pull_max = 3302.0;
   r.meshes[1].pull_time = 0.125;
   r.static_force = 1000.0;
@@ -449,7 +450,7 @@ TEST(RunSummary, TellsWhichTeethPullHowHardHowOftenAndWhy) {
   EXPECT_TRUE(contains(summary, "| " + r.meshes[1].name));
   EXPECT_TRUE(contains(summary, " 3302 | 3.3 | 12.5 % |"));
   EXPECT_TRUE(contains(summary, "through the open gap"));
-  EXPECT_FALSE(contains(summary, "No mesh pulls"));
+  EXPECT_FALSE(contains(summary, "No mesh force is tensile"));
   RunOutput in_contact = output();
   in_contact.gap_damping = model::GapDamping::contact_slope;
   const std::string other = on_one_line(run_summary(in_contact, r));
@@ -497,7 +498,7 @@ TEST(RunSummary, TellsChaosAndWhatIsNotDecided) {
   EXPECT_TRUE(contains(run_summary(output(), r), "Undecided: "));
   r.point.evidence.zero_one.reset();
   const std::string unasked = on_one_line(run_summary(output(), r));
-  EXPECT_TRUE(contains(unasked, "0-1 test: not asked, too few periods were looked at")) << unasked;
+  EXPECT_TRUE(contains(unasked, "0-1 test: not made, too few periods were integrated")) << unasked;
   EXPECT_FALSE(contains(unasked, "K = ")) << unasked;
 }
 

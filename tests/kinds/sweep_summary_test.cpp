@@ -63,7 +63,7 @@ TEST(SweepSummary, TellsWindows) {
       told(sweep({{1, 0}, {1, 0}, {1, 0}, {2, 0}, {0, 0}}, {{1, 0}, {1, 0}, {1, 0}, {1, 0}, {0, 0}})).text;
   EXPECT_NE(text.find("| up | period 1 | 1 | 3 | 3 |"), std::string::npos) << text;
   EXPECT_NE(text.find("| down | period 1 | 1 | 4 | 4 |"), std::string::npos) << text;
-  EXPECT_NE(text.find("3 points lie between them"), std::string::npos) << text;
+  EXPECT_NE(text.find("3 points lie between the windows"), std::string::npos) << text;
 }
 
 TEST(SweepSummary, TellsWhereTwoMotionsStandSideBySide) {
@@ -71,8 +71,8 @@ TEST(SweepSummary, TellsWhereTwoMotionsStandSideBySide) {
   const SweepSummary s =
       told(sweep({{1, 0}, {1, 0}, {0, 0}, {1, 0}, {1, 0}, {1, 0}}, {{1, 0}, {2, 0}, {0, 5}, {1, 3}, {1, 3}, {1, 0}}));
   EXPECT_EQ(s.numbers["unlike"]["values"], 3);
-  EXPECT_EQ(s.lines.front(), "two motions side by side at 3 of 6 values: 2, 4 to 5");
-  EXPECT_NE(s.text.find("(1 of the values), nothing here tells"), std::string::npos) << s.text;
+  EXPECT_EQ(s.lines.front(), "two attractors coexist at 3 of 6 values: 2, 4 to 5");
+  EXPECT_NE(s.text.find("At 1 value the comparison is not possible"), std::string::npos) << s.text;
 }
 
 TEST(SweepSummary, TakesNoOrbitSeenAtAnotherInstantOrOnItsWayForASecondOne) {
@@ -88,7 +88,7 @@ TEST(SweepSummary, TakesNoOrbitSeenAtAnotherInstantOrOnItsWayForASecondOne) {
   for (PointResult& p : points) p.classified = false;
   const SweepSummary unknown = told(points);
   EXPECT_EQ(unknown.numbers["unlike"]["values"], 0);
-  EXPECT_NE(unknown.text.find("(2 of the values), nothing here tells"), std::string::npos) << unknown.text;
+  EXPECT_NE(unknown.text.find("At 2 values the comparison is not possible"), std::string::npos) << unknown.text;
 }
 
 TEST(SweepSummary, TellsWhereTheLargestForceIs) {
@@ -119,7 +119,7 @@ TEST(SweepSummary, SpeaksOfTheSpeedThatTheStudyGives) {
         "| up | period 1 | 1500 | 4500 | 3 |", "| 4500 | period 1 | period 2 |",
         "| force of a sun mesh over the static one | 2.3 | 1 | 4500 (sun_speed_rpm), up, period 1 |"})
     EXPECT_NE(s.text.find(words), std::string::npos) << words << '\n' << s.text;
-  EXPECT_EQ(s.lines.front(), "two motions side by side at 1 of 3 values: 4500");
+  EXPECT_EQ(s.lines.front(), "two attractors coexist at 1 of 3 values: 4500");
 }
 
 TEST(SweepSummary, TellsDynamicFactorAndLoadSharingApart) {

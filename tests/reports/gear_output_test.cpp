@@ -195,7 +195,8 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 TEST(GearOutput, SaysWhichHarmonicsExciteRotationalModes) {
   const std::string file = "inputs/lin_parker_1999_n3.json";
-  const std::string stand = "Rotational modes, in which all planets move alike in their own directions, stand at";
+  const std::string stand =
+      "Rotational modes, in which all planets have the same deflections in their own directions, are at";
   const std::string in_phase = page_of(file, {"/lumped/sun/teeth=27"});
   EXPECT_TRUE(contains(in_phase, stand));
   EXPECT_TRUE(contains(in_phase, "mesh in phase (z_s/N = 9 is whole)"));

@@ -44,7 +44,7 @@ TEST(ExpectedPoints, AreMissingOrAdditional) {
 }
 
 TEST(ExpectedPoints, AreOneIfAllThatTellsThemApartIsTheSame) {
-  const LocatedPoint expected = {"grazing", 2, 1.5, bound, "sp_1:loss", "wave 1 of 3"};
+  const LocatedPoint expected = {"grazing", 2, 1.5, bound, "sp_1:loss", "symmetry index 1 of 3"};
   std::vector<LocatedPoint> others(4, expected);
   others[0].kind = "fold";
   others[1].period = 4;

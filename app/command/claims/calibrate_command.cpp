@@ -84,7 +84,7 @@ int search(const Arguments& arguments, SharedEvaluations& shared) {
   }
   if (!found.complete) {
     close_run(store::RunState::stopped);
-    tell("stopped after {} candidates; the same command goes on\n", journal.finished());
+    tell("stopped after {} candidates; re-run the same command to resume\n", journal.finished());
     return stopped_early;
   }
   std::vector<reports::DrawnFigure> figures;

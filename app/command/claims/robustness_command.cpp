@@ -52,7 +52,8 @@ int survey(const Arguments& arguments, SharedEvaluations& shared) {
   };
   if (!claims::survey_is_complete(options, evaluations)) {
     close_run(store::RunState::stopped);
-    tell("stopped after {} of {} draws, {} of them confirmed; the same command goes on\n", surveyed, draws, confirmed);
+    tell("stopped after {} of {} draws, {} of them compared with whole sweeps; re-run the same command to resume\n",
+         surveyed, draws, confirmed);
     return stopped_early;
   }
 

@@ -42,12 +42,13 @@ WrittenPoints write_basins(const ComputedPoints& plane) {
     if (a.image_of > 0) {
       one["image_of"] = a.image_of;
       line +=
-          fmt::format(", attractor {} with each planet moved on by {}", a.image_of, output.turns[a.image_by].planets);
+          fmt::format(", attractor {} with the planets permuted by {}", a.image_of, output.turns[a.image_by].planets);
     }
     written.summary["attractors"].push_back(std::move(one));
     written.lines.push_back(std::move(line));
   }
-  if (told < results.size()) written.lines.push_back(fmt::format("no attractor told: {} cells", results.size() - told));
+  if (told < results.size())
+    written.lines.push_back(fmt::format("no attractor known: {} cells", results.size() - told));
   return written;
 }
 
@@ -58,7 +59,7 @@ int run_basins(const Arguments& arguments) { return points_command(arguments, "b
 const Command& basins_command() {
   static const Command command = {
       .name = "basins",
-      .meaning = "coexisting attractors over a plane of initial conditions",
+      .meaning = "find coexisting attractors over a plane of initial states",
       .run = &run_basins,
       .takes = Takes::output,
       .options = &add_grow_option,

@@ -34,7 +34,7 @@ const Table<studies::Axis>& component_axis_table() {
 Field<Study> base_field() {
   Field<Study> base;
   base.key = "base";
-  base.description = "Start of the components that are on no axis, where it is not the default start.";
+  base.description = "Initial values of components that are on no axis, if not those of the default start.";
   const Bounds bounds = component_value;
   base.read = [bounds](const json& value, const std::string& pointer, Study& study, ReadContext& context) {
     if (!table_detail::check_object(value, pointer, context)) return;
@@ -60,7 +60,7 @@ Field<Study> base_field() {
 const Table<Study>& basins_table() {
   static const auto table = [] {
     using studies::Plane;
-    Table<Study> t("basins", "The attractors that motions from a plane of starts end on, at one operating point.");
+    Table<Study> t("basins", "Attractors reached from a plane of initial states, at one operating point.");
     add_kind_key(t, "basins");
     t.object("first", in_plan(whole_plan<BasinsOptions>, &BasinsOptions::plane, &Plane::first), component_axis_table())
         .required();

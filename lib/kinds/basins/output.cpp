@@ -28,7 +28,7 @@ using analysis::Attractors;
 using studies::PointSummary;
 
 store::PointColumn attractor_column(const Attractors& attractors) {
-  return {"attractor", "", "number of the attractor that the cell is on, from 1; 0: none is told",
+  return {"attractor", "", "number of the attractor that the cell reaches, from 1; 0: none is known",
           store::PointColumn::Getter<std::int64_t>([&attractors](const PointSummary& r) {
             return static_cast<std::int64_t>(attractors.number[r.point.index]);
           })};

@@ -192,7 +192,7 @@ class PartialTables {
     TracedBranches traced;
     traced.branches = tree.branches();
     if (auto branch = tree.under_way()) {
-      branch->last.message = "is still being followed";
+      branch->last.message = "is still being continued";
       traced.branches.push_back(*std::move(branch));
     }
     if (!traced.branches.empty()) {
@@ -248,7 +248,7 @@ class Pace {
     if (!(new_part > enough) && branches_ == 0) return {};
     const double whole = branches_ > 0 ? branch_seconds_ / branches_ : spent / new_part;
     const double here = new_part > enough ? spent / new_part * (1.0 - covered()) : std::max(0.0, whole - spent);
-    return fmt::format("about {} left if no more branches are met",
+    return fmt::format("about {} left if no more branches are found",
                        duration_text(here + whole * static_cast<double>(waiting)));
   }
 
@@ -401,13 +401,13 @@ FinishedStudy sweep_to_prove(const Arguments& arguments, const input::LoadedInpu
     throw InputError(folder + ": --against takes a sweep, this is a " + std::string(sweep.input().study.kind()));
   if (plan->axis.name != options.parameter)
     throw InputError(
-        fmt::format("{}: is a sweep along {}, the branches go along {}", folder, plan->axis.name, options.parameter));
+        fmt::format("{}: is a sweep along {}, the branches are along {}", folder, plan->axis.name, options.parameter));
   const double last = axis_value(plan->axis, static_cast<std::size_t>(plan->axis.points) - 1);
   if (plan->axis.from < options.from || last > options.to) {
     constexpr int digits = 9;
     const reports::AxisWords words = reports::axis_words(options.parameter, input.study.axis_speed);
     const auto text = [&](double value) { return words.text(value, digits); };
-    throw InputError(fmt::format("{}: {} goes from {} to {}, of the branches only from {} to {}", folder, words.name,
+    throw InputError(fmt::format("{}: {} is from {} to {}, of the branches only from {} to {}", folder, words.name,
                                  text(plan->axis.from), text(last), text(options.from), text(options.to)));
   }
   for (const std::size_t point : {std::size_t{0}, sweep.points().count - 1})
@@ -484,15 +484,15 @@ void tell_result(const Arguments& arguments, const TracedBranches& traced, const
 void add_continue_options(CLI::App& command, Arguments& arguments) {
   command
       .add_option("--from", arguments.from,
-                  "FOLDER, FOLDER:INDEX or FOLDER:up=VALUE (down=VALUE), a finished study and one of its points: "
-                  "branches are started from there; of a FOLDER alone from each of its periodic stretches; may be "
-                  "repeated")
+                  "start branches from a finished study: from one point with FOLDER:INDEX, FOLDER:up=VALUE or "
+                  "FOLDER:down=VALUE, from each range of one period with FOLDER; can be repeated")
       ->take_all()
       ->expected(1)
       ->allow_extra_args(false);
   command.add_option("--against", arguments.against,
-                     "folder of a complete sweep: each of its changes is explained by the branches");
-  command.add_option("--unexplained", arguments.unexplained, "changes of that sweep that may stay unexplained")
+                     "explain each change of a complete sweep (its folder) by the branches");
+  command
+      .add_option("--unexplained", arguments.unexplained, "number of changes of that sweep that may stay unexplained")
       ->check(CLI::Range(0, 1000000))
       ->needs("--against")
       ->capture_default_str();
@@ -558,7 +558,7 @@ int run_continue(const Arguments& arguments) {
     if (options.loci) loci = trace_loci(session, input, options, traced);
   } catch (const Stopped&) {
     close_run(store::RunState::stopped);
-    tell("stopped; the same command goes on\n");
+    tell("stopped; re-run the same command to resume\n");
     return stopped_early;
   }
   failed = count_failures(traced, loci);
@@ -575,11 +575,11 @@ int run_continue(const Arguments& arguments) {
     if (sweep) proved = prove_sweep(*sweep, folder, output, traced, first_model.dimension);
   } catch (const Stopped&) {
     close_run(store::RunState::stopped);
-    tell("stopped; the same command goes on\n");
+    tell("stopped; re-run the same command to resume\n");
     return stopped_early;
   }
   if (const std::size_t off = proved.proof.off.size(); off > 0)
-    tell("{} of the sweep's {} periodic points lie on no branch; proof.md lists them\n", off, proved.proof.periodic);
+    tell("{} of the {} periodic points of the sweep lie on no branch; see proof.md\n", off, proved.proof.periodic);
   std::ranges::move(proved.figures, std::back_inserter(figures));
   undrawn = tell_undrawn(figures);
   close_run(store::RunState::complete);
@@ -593,7 +593,7 @@ int run_continue(const Arguments& arguments) {
 const Command& continue_command() {
   static const Command command = {
       .name = "continue",
-      .meaning = "branches of periodic motions with their bifurcations, and a sweep proved by them",
+      .meaning = "continue branches of periodic orbits, locate their bifurcations, and check a sweep against them",
       .run = &run_continue,
       .takes = Takes::output,
       .options = &add_continue_options,

@@ -19,16 +19,15 @@ constexpr std::size_t seeds_most = 10000;
 const Table<studies::BranchSeed>& seed_table() {
   static const auto table = [] {
     using studies::BranchSeed;
-    Table<BranchSeed> t("seed", "A state on or near a periodic motion.");
+    Table<BranchSeed> t("seed", "A state on or near a periodic orbit.");
     t.number("value", &BranchSeed::value, any_value, "Value of the parameter, in its unit.").required();
-    t.integer("period", &BranchSeed::period, between(1, period_most), "Period of the motion, in mesh periods [-].");
+    t.integer("period", &BranchSeed::period, between(1, period_most), "Period of the orbit, in mesh periods [-].");
     t.numbers("state", &BranchSeed::state, component_value, 1, 1000,
               "The state at the mesh phase 0, in the order of poincare.csv [b_c, b_c per tau].")
         .required();
-    t.number(
-        "reach", &BranchSeed::reach, between(1e-300, 1e300),
-        "How far from the value its branches are followed, in the parameter's unit; to the ends of the range if it "
-        "is not given.");
+    t.number("reach", &BranchSeed::reach, between(1e-300, 1e300),
+             "Distance from the value up to which its branches are continued, in the parameter's unit; by default to "
+             "the ends of the range.");
     return t;
   }();
   return table;
@@ -37,12 +36,12 @@ const Table<studies::BranchSeed>& seed_table() {
 const Table<studies::BranchSearchOptions>& search_table() {
   static const auto table = [] {
     using studies::BranchSearchOptions;
-    Table<BranchSearchOptions> t("search", "A search for motions that exist side by side, stable or not.");
+    Table<BranchSearchOptions> t("search", "A search for coexisting periodic orbits, stable or not.");
     t.numbers("values", &BranchSearchOptions::values, any_value, 1, 1000,
-              "Values of the parameter at which it is made.")
+              "Values of the parameter at which the search is made.")
         .required();
     t.integer("starts", &BranchSearchOptions::starts, between(1, 1e6),
-              "Starts of Newton's method: half of them on a settled motion, half random ones about it [-].");
+              "Starts of Newton's method: half of them on an attractor, half of them random about it [-].");
     t.number("spread", &BranchSearchOptions::spread, between(0, 1e6),
              "Half width of the box of the random starts, in b_c and b_c per tau.");
     t.integer("largest_period", &BranchSearchOptions::largest_period, between(1, period_most),
@@ -79,10 +78,11 @@ const Table<studies::LociOptions>& loci_table() {
     for (const auto kind : {SpecialKind::fold, SpecialKind::flip, SpecialKind::neimark_sacker,
                             SpecialKind::branch_point, SpecialKind::grazing})
       kinds.emplace_back(to_string(kind), kind);
-    t.choices("kinds", &LociOptions::kinds, kinds, "Kinds of points whose loci are followed.");
+    t.choices("kinds", &LociOptions::kinds, kinds, "Kinds of points whose loci are continued.");
     t.numbers("near", &LociOptions::near, any_value, 0, 1000,
-              "Values of the first parameter: loci of the points nearest to them alone; of all, if none is given.");
-    t.integer("points", &LociOptions::points, between(1, 1e6), "Most points on a locus, each way [-].");
+              "Values of the first parameter: only the points nearest to them have loci; by default all points.");
+    t.integer("points", &LociOptions::points, between(1, 1e6),
+              "Largest number of points on a locus, in each direction [-].");
     return t;
   }();
   return table;
@@ -90,31 +90,32 @@ const Table<studies::LociOptions>& loci_table() {
 
 const Table<Study>& continue_table() {
   static const auto table = [] {
-    Table<Study> t("continue", "Branches of periodic motions along one parameter, with the points where they change.");
+    Table<Study> t("continue", "Branches of periodic orbits along one parameter, with their special points.");
     add_kind_key(t, "continue");
     const auto of = [](auto member) { return in_plan(whole_plan<BranchesOptions>, member); };
     t.text("parameter", of(&BranchesOptions::parameter), parameter_words);
     t.number("from", of(&BranchesOptions::from), any_value, "Least value of the parameter, in its unit.");
     t.number("to", of(&BranchesOptions::to), any_value, "Greatest value of the parameter, in its unit.");
     t.numbers("starts", of(&BranchesOptions::starts), any_value, 0, 1000,
-              "Values at which a motion settles from the default start, and is followed both ways; without seeds the "
-              "ends of the range and its middle, if none is given.");
+              "Values at which an attractor is reached from the default start and its orbit continued in both "
+              "directions. By default, without seeds: the ends of the range and its middle.");
     t.integer("settle_periods", of(&BranchesOptions::settle_periods), between(0, 1e7),
-              "Mesh periods that these motions are given to settle [-].");
+              "Mesh periods of the transient at these values [-].");
     t.integer("period", of(&BranchesOptions::period), between(1, period_most),
-              "Period of these motions, in mesh periods [-].");
+              "Period of these orbits, in mesh periods [-].");
     t.objects("seeds", of(&BranchesOptions::seeds), seed_table(), seeds_most,
-              "States that branches are started from besides; `--from FOLDER` writes them.");
+              "Further states from which branches start; `--from FOLDER` writes them.");
     t.numbers("values", of(&BranchesOptions::values), any_value, 1, 100000,
-              "Values at which orbits are wanted exactly.");
+              "Values at which orbits are computed exactly.");
     t.integer("largest_period", of(&BranchesOptions::largest_period), between(1, period_most),
-              "Longest period that branches are followed to at period doublings, in mesh periods [-].");
+              "Longest period of branches that are continued from period doublings, in mesh periods [-].");
     t.boolean("branch_points", of(&BranchesOptions::branch_points),
-              "Whether the branches are followed that cross at branch points.");
+              "Whether branches that cross at branch points are continued.");
     t.integer("pieces", of(&BranchesOptions::pieces), between(1, 1000),
-              "Pieces that an orbit of `period` is cut into for multiple shooting [-].");
-    t.integer("orbits", of(&BranchesOptions::orbits), between(1, 1e6), "Most orbits on a branch, each way [-].");
-    t.integer("branches", of(&BranchesOptions::branches), between(1, 10000), "Most branches [-].");
+              "Shooting intervals of an orbit of `period`, for multiple shooting [-].");
+    t.integer("orbits", of(&BranchesOptions::orbits), between(1, 1e6),
+              "Largest number of orbits on a branch, in each direction [-].");
+    t.integer("branches", of(&BranchesOptions::branches), between(1, 10000), "Largest number of branches [-].");
     t.choice("method", of(&BranchesOptions::method), integrate::method_names(),
              "Method of integration; one that can ends its steps where contact is made or lost.");
     t.number("tolerance", of(&BranchesOptions::tolerance), between(1e-13, 1e-6),
@@ -122,7 +123,7 @@ const Table<Study>& continue_table() {
     t.number("largest_step", of(&BranchesOptions::largest_step), between(1e-6, 10),
              "Longest step along a branch, in units of the parameter and of b_c together [-].");
     t.integer("output_phases", of(&BranchesOptions::output_phases), between(1, 10000),
-              "Output points per mesh period, among which extrema are looked for [-].");
+              "Output points per mesh period, from which extrema are taken [-].");
     t.object("search", in_branches(&BranchesOptions::search), search_table());
     t.object("loci", in_branches(&BranchesOptions::loci), loci_table());
     return t;
@@ -226,7 +227,7 @@ const StudyKind& continue_kind() {
       .cost =
           [](const LoadedInput& /*input*/) {
             return std::string(
-                "that of branches is not known before they are followed; `orbits` and `branches` bound it");
+                "that of branches is not known before they are continued; `orbits` and `branches` bound it");
           },
       .plot = {PlotForm::curves, {"branch.csv"}, "delta_sp_rms"},
   };

@@ -184,17 +184,18 @@ std::vector<Stretch> stable_stretches(const TracedBranches& traced, std::size_t 
 std::string end_text(const ContinueOutput& output, const BranchLimit& limit, double value) {
   const std::string at = output.words().text(value, 6);
   if (limit.born)
-    return limit.place ? fmt::format("at {} on branch {}", at, limit.place->branch)
-                       : fmt::format("at {}, at a flip or branch point of a branch that was not followed", at);
+    return limit.place
+               ? fmt::format("at {} on branch {}", at, limit.place->branch)
+               : fmt::format("at {}, at a period doubling or branch point of a branch that was not continued", at);
   switch (limit.end) {
     case BranchEnd::range:
       return fmt::format("at {}, an end of the range", at);
     case BranchEnd::closed:
-      return fmt::format("at {}, where it began: it is closed", at);
+      return fmt::format("at {}, where it began: the branch is closed", at);
     case BranchEnd::many:
       return fmt::format("at {} after `orbits` = {} orbits", at, output.options.orbits);
     case BranchEnd::least_step:
-      return fmt::format("**at {}, broken off: {}**", at, limit.message);
+      return fmt::format("**at {}, where the continuation stopped: {}**", at, limit.message);
     case BranchEnd::none:
       break;
   }
@@ -253,7 +254,7 @@ std::string loci_text(const ContinueOutput& output, const TracedBranches& traced
   const AxisWords words = output.words();
   const AxisWords locus_words = axis_words(options.parameter, output.speed);
   std::string text = fmt::format("\n## Loci over {} and {}\n\n", words.name, locus_words.name);
-  if (loci.empty()) text += "No special point of the kinds that were asked for has a locus.\n";
+  if (loci.empty()) text += "No special point of the kinds in /study/loci/kinds has a locus.\n";
   for (std::size_t l = 0; l < loci.size(); ++l) {
     const studies::TracedLocus& locus = loci[l];
     const double value = traced.branches[locus.branch].special[locus.point].value;
@@ -303,7 +304,7 @@ SpecialLetters letters_of(SpecialKind kind) {
     case SpecialKind::fold:
       return {"LP", "fold"};
     case SpecialKind::flip:
-      return {"PD", "flip (period doubling)"};
+      return {"PD", "period doubling (flip)"};
     case SpecialKind::neimark_sacker:
       return {"NS", "Neimark-Sacker"};
     case SpecialKind::branch_point:
@@ -363,9 +364,8 @@ std::string found_text(const ContinueOutput& output, const std::vector<studies::
   for (const studies::FoundMotions& at : found) {
     const auto stable = std::ranges::count_if(at.motions, [](const auto& m) { return m.unstable == 0; });
     text += fmt::format(
-        "\n## Motions at {} = {}\n\n{} periodic motions up to period {} from {} starts, {} of them stable; {} starts "
-        "led to "
-        "none. No number of starts proves that there are no others.\n",
+        "\n## Coexisting orbits at {} = {}\n\n{} periodic orbits up to period {} from {} starts; {} of the orbits are "
+        "stable. {} starts found none. No number of starts proves that there are no others.\n",
         output.words().name, output.words().text(at.value, 9), at.motions.size(),
         output.options.search ? output.options.search->largest_period : 1, at.starts, stable, at.missed);
     if (at.motions.empty()) continue;
@@ -383,18 +383,18 @@ std::string continue_summary(const ContinueOutput& output, const TracedBranches&
                              const std::vector<studies::TracedLocus>& loci) {
   std::size_t orbits = 0;
   for (const Branch& branch : traced.branches) orbits += branch.orbits.size();
-  std::string text = fmt::format("# Branches of periodic motions along {}\n\n", output.words().name);
+  std::string text = fmt::format("# Branches of periodic orbits along {}\n\n", output.words().name);
   text += fmt::format(
-      "{} branches, {} orbits, {} special points between {} and {}; tolerance {}. Each value has an error bound from "
-      "other tolerances and subdivisions; stable means that no Floquet multiplier is beyond the unit circle.\n",
+      "{} branches, {} orbits, {} special points between {} and {}; tolerance {}. Each value has an error bound, from "
+      "other tolerances and subdivisions. An orbit is stable if no Floquet multiplier is outside the unit circle.\n",
       traced.branches.size(), orbits, traced.special.size(), output.words().text(output.options.from, 9),
       output.words().text(output.options.to, 9), short_text(output.options.tolerance));
   if (traced.full)
-    text += fmt::format("\n**There are more branches than `branches` = {}: the rest was not followed.**\n",
+    text += fmt::format("\n**There are more branches than `branches` = {}; the others were not continued.**\n",
                         output.options.branches);
   if (const std::size_t broken = traced.broken_off(); broken > 0)
-    text += fmt::format("\n**{} {} off before an end of the range.**\n", broken,
-                        broken == 1 ? "way along a branch was broken" : "ways along branches were broken");
+    text += fmt::format("\n**{} {} before an end of the range.**\n", broken,
+                        broken == 1 ? "continuation stopped" : "continuations stopped");
   for (const studies::BranchAttempt& a : traced.attempts)
     if (const std::string words = attempt_text(output.words(), a); !words.empty())
       text += fmt::format("\n- {}.\n", words);

@@ -108,26 +108,28 @@ std::string proof_summary(const ContinueOutput& output, const ProvedSweep& sweep
   std::map<std::string, std::size_t> causes;
   for (const SweepChange& c : proof.changes)
     if (c.counted) ++causes[to_string(c.cause)];
-  std::string text = fmt::format("# The sweep {} held against the branches\n\n", sweep.name);
+  std::string text = fmt::format("# The sweep {} compared with the branches\n\n", sweep.name);
   text += fmt::format("Sweep of identity {}, {} points along {}.\n\n", sweep.identity, sweep.points.count, words.name);
   text += fmt::format(
       "{} points are periodic; {} of them lie on {} branch{}, the furthest {} b_c from its orbit, and {} on none.\n\n",
       proof.periodic, proof.periodic - proof.off.size(), traced.branches.size(),
       traced.branches.size() == 1 ? "" : "es", short_text(proof.largest_distance, 2), proof.off.size());
-  text += fmt::format("{} changes of period, regime or orbit count, since one of their sides is periodic: ",
-                      proof.counted());
+  text +=
+      fmt::format("{} changes of period, regime or orbit have a periodic point beside them and are to be explained: ",
+                  proof.counted());
   std::string list;
   for (const auto& [cause, count] : causes) list += fmt::format("{}{} {}", list.empty() ? "" : ", ", count, cause);
-  text += fmt::format("{}. **{} unexplained.** {} changes among motions that are not periodic are listed apart.\n",
-                      list.empty() ? "none" : list, proof.unexplained(), proof.changes.size() - proof.counted());
+  text +=
+      fmt::format("{}. **{} unexplained.** {} changes between regimes that are not periodic are listed separately.\n",
+                  list.empty() ? "none" : list, proof.unexplained(), proof.changes.size() - proof.counted());
   for (const bool counted : {true, false}) {
     bool any = false;
     for (const SweepChange& c : proof.changes) {
       if (c.counted != counted) continue;
       if (!any) {
-        text += counted
-                    ? "\n## Changes that count\n\n| way | between | from | to | cause | |\n|---|---|---|---|---|---|\n"
-                    : "\n## Changes apart\n\n| way | between | from | to |\n|---|---|---|---|\n";
+        text += counted ? "\n## Changes to be explained\n\n| direction | between | from | to | cause | "
+                          "|\n|---|---|---|---|---|---|\n"
+                        : "\n## Other changes\n\n| direction | between | from | to |\n|---|---|---|---|\n";
         any = true;
       }
       text +=

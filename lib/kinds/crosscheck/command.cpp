@@ -145,7 +145,7 @@ int run_crosscheck(const Arguments& arguments) {
   };
   if (!all.complete(points)) {
     close_run(store::RunState::stopped);
-    tell("stopped after {} of {} results; the same command goes on\n", finished, points * variants.size());
+    tell("stopped after {} of {} results; re-run the same command to resume\n", finished, points * variants.size());
     return stopped_early;
   }
 
@@ -165,7 +165,7 @@ int run_crosscheck(const Arguments& arguments) {
 const Command& crosscheck_command() {
   static const Command command = {
       .name = "crosscheck",
-      .meaning = "the same points by several methods, compared",
+      .meaning = "compute the same points by several methods and compare them",
       .run = &run_crosscheck,
       .takes = Takes::output,
       .options = &add_start_option,

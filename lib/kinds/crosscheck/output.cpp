@@ -60,7 +60,7 @@ std::string crosscheck_summary(const AxisWords& words, const studies::Crosscheck
     ++motions[r.outcome == integrate::Outcome::reached ? motion_name(r) : store::status_word(r.outcome)];
   std::string list;
   for (const auto& [name, count] : motions) list += fmt::format("{}{} {}", list.empty() ? "" : ", ", count, name);
-  text += fmt::format("Motions of the reference: {}.\n\n", list);
+  text += fmt::format("Regimes of the reference: {}.\n\n", list);
   text += "| variant | agree | of these compared state by state | largest distance | ";
   for (const Verdict v : differing) text += to_string(v) + " | ";
   text += "right-hand sides over the reference's |\n|---|---|---|---|";

@@ -31,7 +31,7 @@ int run_map(const Arguments& arguments) { return points_command(arguments, "map"
 const Command& map_command() {
   static const Command command = {
       .name = "map",
-      .meaning = "regimes over two parameters",
+      .meaning = "classify regimes over two parameters",
       .run = &run_map,
       .takes = Takes::output,
       .options = &add_grow_option,

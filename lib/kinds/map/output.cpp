@@ -120,7 +120,7 @@ std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, c
     const std::string stem = "lyapunov_max_" + word;
     figures.push_back(
         {folder / (stem + ".png"),
-         figures::value_figure(folder, stem, text, grid, "Largest exponent  λ_1 / ω_{sn}", "not told", exponents)});
+         figures::value_figure(folder, stem, text, grid, "Largest exponent  λ_1 / ω_{sn}", "not known", exponents)});
   }
   return figures;
 }

@@ -117,8 +117,8 @@ class RunProgress {
     said_ = true;
     const double left = spent.count() / static_cast<double>(interval - first_) * static_cast<double>(total_ - interval);
     tell(
-        "Lyapunov exponents over {} mesh periods take about {} more; /study/exponent_periods says how many, and a run "
-        "that is stopped goes on\n",
+        "Lyapunov exponents over {} mesh periods (/study/exponent_periods) take about {} more; a stopped run can be "
+        "resumed\n",
         total_, duration_text(left));
   }
 
@@ -164,7 +164,7 @@ Expected time_of_run(const input::LoadedInput& input, const studies::SweepPlan& 
   const bool whole = studies::run_operating_point(model, look, options, input.study.integrator, control).has_value();
   const double spent = studies::processor_seconds() - begun;
   if (whole) return {spent, 0.0, "by computing it", true, figures};
-  if (intervals < 2) return {0.0, spent, "which did not suffice for what comes before its exponents", true, figures};
+  if (intervals < 2) return {0.0, spent, "which did not reach its exponents", true, figures};
   const double each = (now - exponents_begun) / (intervals - 1);
   return {exponents_begun - begun + each * all, 0.0,
           fmt::format("by {} of {} mesh periods of its exponents", intervals, all), true, figures};
@@ -185,13 +185,13 @@ int run_run(const Arguments& arguments) {
 
   RunJournal journal(session);
   if (journal.knows_point())
-    tell("{}: the point and {} of {} mesh periods of exponents were there already\n", folder.path().string(),
+    tell("{}: the point and {} of {} mesh periods of exponents exist already\n", folder.path().string(),
          journal.exponent_intervals(), exponent_intervals(options));
   const auto result = compute(arguments.threads, model, study, journal);
   journal.close();
   if (!result) {
     session.end(store::RunState::stopped, {});
-    tell("stopped; the same command goes on\n");
+    tell("stopped; re-run the same command to resume\n");
     return stopped_early;
   }
 
@@ -234,7 +234,7 @@ int run_run(const Arguments& arguments) {
 const Command& run_command() {
   static const Command command = {
       .name = "run",
-      .meaning = "one operating point: regime, forces, spectra, exponents, orbit, figures",
+      .meaning = "compute one operating point: regime, forces, spectra, exponents, orbit, figures",
       .run = &run_run,
       .takes = Takes::output,
       .options = &add_start_option,

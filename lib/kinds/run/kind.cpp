@@ -31,7 +31,7 @@ const Table<Study>& run_table() {
     t.integer("history_periods", of(&RunOptions::history_periods), between(1, 10000),
               "Mesh periods that are kept of histories, and that summaries are taken over [-].");
     t.integer("spectrum_periods", of(&RunOptions::spectrum_periods), between(1, 100000),
-              "Mesh periods that spectra are taken over [-]; of a periodic motion, its own period.");
+              "Mesh periods that spectra are taken over [-]; of a periodic orbit, its own period.");
     t.integer("shown_periods", of(&RunOptions::shown_periods), between(1, 10000),
               "Mesh periods in history.csv and in the figures of histories [-].");
     t.number("check_tolerance", of(&RunOptions::check_tolerance), between(1e-14, 1e-6),

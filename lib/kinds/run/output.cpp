@@ -465,7 +465,7 @@ std::string complex_text(const std::complex<double>& z) {
 std::string multiplier_text(const analysis::FloquetMultipliers& m, std::size_t k) {
   std::string text =
       fmt::format("{}, modulus {}", complex_text(m.values[k]), with_error(std::abs(m.values[k]), m.errors[k]));
-  if (m.multiplicity[k] > 1) text += fmt::format(", one of {} that its error cannot tell apart", m.multiplicity[k]);
+  if (m.multiplicity[k] > 1) text += fmt::format(", one of {} that their errors do not separate", m.multiplicity[k]);
   if (!m.side_is_known(k)) text += ", on which side of the unit circle is not known";
   return text;
 }
@@ -476,8 +476,8 @@ std::string regime_sentence(const RunResult& r) {
     case Regime::periodic:
       return p.classified
                  ? fmt::format(
-                       "Periodic: the motion repeats after {}. Newton's method found the orbit, all its multipliers "
-                       "are inside the unit circle, and the motion is drawn to it.",
+                       "Periodic: the states repeat after {}. Newton's method found the orbit. All its Floquet "
+                       "multipliers are inside the unit circle, and the trajectory converges to it.",
                        mesh_periods(p.period))
                  : fmt::format("Periodic by recurrence alone: the record repeats after {} to within the tolerance.",
                                mesh_periods(p.period));
@@ -493,8 +493,8 @@ std::string regime_sentence(const RunResult& r) {
     case Regime::undecided:
       break;
   }
-  return p.classified ? "Undecided: no orbit, no torus and no chaos is proven by what was looked at."
-                      : "Undecided: the record does not repeat, and nothing but recurrence was asked.";
+  return p.classified ? "Undecided: the evidence proves neither an orbit nor a torus nor chaos."
+                      : "Undecided: the record does not repeat, and the study classifies by recurrence alone.";
 }
 
 /// Per unit of s: of the orbit's multipliers, which are the finest known, or as the regime's evidence has it.
@@ -543,12 +543,12 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
                                exponent_text(largest_exponent(r), r.omega)));
     if (p.regime != Regime::periodic) {
       text += bullet(e.zero_one ? fmt::format("0-1 test: K = {:.3f} (0: regular, 1: chaotic).", *e.zero_one)
-                                : "0-1 test: not asked, too few periods were looked at.");
-      text +=
-          bullet(fmt::format("A tangent vector grew by e^{:.3g} over the last half of the last look.", e.late_growth));
+                                : "0-1 test: not made, too few periods were integrated.");
+      text += bullet(
+          fmt::format("A tangent vector grew by e^{:.3g} over the last half of the last interval.", e.late_growth));
     }
-    text += bullet(e.periods > 0 ? fmt::format("Looked at: {}.", mesh_periods(e.periods))
-                                 : std::string("Looked at: the record alone."));
+    text += bullet(e.periods > 0 ? fmt::format("Integrated for the classification: {}.", mesh_periods(e.periods))
+                                 : std::string("Integrated for the classification: the record alone."));
     if (!e.note.empty()) text += bullet(fmt::format("Note: {}.", unstopped(e.note)));
   }
   text += bullet(p.recurrence.period > 0
@@ -564,16 +564,16 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
 
 /// Which meshes pull, how hard, how often and why.
 std::string pulls_text(const RunOutput& output, const RunResult& r) {
-  std::vector<std::vector<std::string>> rows{{"mesh that pulls", "up to [N]", "over F_0", "of the time"}};
+  std::vector<std::vector<std::string>> rows{{"mesh with tensile force", "up to [N]", "over F_0", "of the time"}};
   for (const MeshSummary& m : r.meshes)
     if (m.pull_max > 0.0)
       rows.push_back({m.name, fmt::format("{:.5g}", m.pull_max), fmt::format("{:.3g}", m.pull_max / r.static_force),
                       fmt::format("{:.1f} %", 100.0 * m.pull_time)});
-  if (rows.size() == 1) return "\nNo mesh pulls.\n";
+  if (rows.size() == 1) return "\nNo mesh force is tensile.\n";
   const bool always = output.gap_damping == model::GapDamping::always;
   return "\n" + aligned(rows) + "\n" +
          wrapped(fmt::format(
-             "Teeth that only lie on each other cannot pull. It is the damping, {}",
+             "Teeth cannot transmit tension. The tensile force is that of the damping, {}",
              always
                  ? "which acts through the open gap, too, as Eq. (27) of Tang et al. prints it (/model/gap_damping "
                    "\"always\"). With \"contact_slope\" it acts in contact only."
@@ -626,7 +626,7 @@ std::string spectra_text(const RunResult& r) {
   }
   text += aligned(rows);
   const bool exact = std::all_of(r.spectra.begin(), r.spectra.end(), [](const SignalSpectrum& s) { return s.exact; });
-  text += "\n" + wrapped(exact ? "Exact: over whole periods of the motion, without a window."
+  text += "\n" + wrapped(exact ? "Exact: over whole periods of the orbit, without a window."
                                : "Through a flat-top window: amplitudes to 0.1 %, neighbours within a few bins merge.");
   return text;
 }
@@ -652,13 +652,13 @@ std::string exponents_text(const RunResult& r) {
                              low == high ? "" : fmt::format("; by the exponents' intervals {} to {}", low, high)));
   if (!r.checks) return text;
   text += bullet(fmt::format(
-      "Sum of all: {:.10g} per tau; mean divergence of the field along the same motion: {:.10g}; difference "
+      "Sum of all: {:.10g} per tau; mean divergence of the field along the same trajectory: {:.10g}; difference "
       "{:.2g}. Over the first {} of them.",
       r.checks->sum, r.checks->divergence, std::abs(r.checks->sum - r.checks->divergence),
       mesh_periods(r.checks->intervals)));
   constexpr double agreed = 1e-3;  // of the divergence
   if (!(std::abs(r.checks->sum - r.checks->divergence) <= agreed * std::abs(r.checks->divergence) + agreed))
-    text += bullet("**Sum and divergence disagree: the exponents above are not those of the motion.**");
+    text += bullet("**Sum and divergence disagree: the exponents above are not those of the attractor.**");
   if (r.checks->multipliers)
     text += bullet(fmt::format(
         "Against log |multiplier| over the period: {} of {} within their intervals, largest difference {:.2g} "
@@ -798,8 +798,9 @@ std::string run_summary(const RunOutput& output, const RunResult& r) {
   if (!output.start.empty()) text += "\n" + wrapped(fmt::format("Start: {}.", fmt::join(output.start, "; ")));
   const std::string work = fmt::format("\nWork: {} right-hand sides.\n", r.point.rhs_evaluations);
   if (!ok(r)) {
-    text += "\n" + wrapped(fmt::format("**No motion to speak of: status {}**: {}.", store::status_word(r.point.outcome),
-                                       r.point.message.empty() ? "no reason was given" : unstopped(r.point.message)));
+    text +=
+        "\n" + wrapped(fmt::format("**The point was not reached: status {}**: {}.", store::status_word(r.point.outcome),
+                                   r.point.message.empty() ? "no reason was given" : unstopped(r.point.message)));
     return text + work + files_text(output, r);
   }
   text += "\n## Regime\n\n" + regime_text(output, r);
@@ -808,7 +809,7 @@ std::string run_summary(const RunOutput& output, const RunResult& r) {
   if (has_exponents(r)) text += exponents_text(r);
   if (!r.exponents.evolution.reached())
     text += "\n## Lyapunov exponents\n\n" +
-            wrapped(fmt::format("Not known: the motion with its tangents ended early, {}: {}.",
+            wrapped(fmt::format("Not known: the integration with tangent vectors ended early, {}: {}.",
                                 store::status_word(r.exponents.evolution.outcome),
                                 unstopped(r.exponents.evolution.message)));
   if (r.transverse) text += transverse_text(r);

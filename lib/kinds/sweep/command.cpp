@@ -11,6 +11,7 @@
 
 #include "commands.hpp"
 #include "core/atomic_file.hpp"
+#include "core/counted.hpp"
 #include "expected_time.hpp"
 #include "input/study_model.hpp"
 #include "kind_commands.hpp"
@@ -66,9 +67,9 @@ WrittenPoints write_points(const ComputedPoints& all) {
   WrittenPoints written;
   if (settling > 0)
     written.notes.push_back(
-        fmt::format("{} undecided points were still settling (recurrence_error_late below recurrence_error): "
-                    "/study/classification_periods > 0, or a larger /study/transient_periods, decides them",
-                    settling));
+        fmt::format("{} not reached their attractor (recurrence_error_late below recurrence_error): "
+                    "/study/classification_periods > 0 or a larger /study/transient_periods decides them",
+                    counted(settling, "undecided points had", "undecided point had")));
   return written;
 }
 
@@ -106,7 +107,7 @@ std::optional<WrittenPoints> cross_check(const Arguments& arguments, const Compu
   if (sweep.check.points == 0) return written;
   const std::size_t points = studies::points_of_each_regime(sweep, all.points).size();
   if (points == 0) {
-    written.notes.push_back("no point is cross-checked: none has a regime and a start that is known");
+    written.notes.push_back("no point is cross-checked: no point has a known regime and a known initial state");
     return written;
   }
   studies::CrosscheckRun run;
@@ -129,7 +130,9 @@ std::optional<WrittenPoints> cross_check(const Arguments& arguments, const Compu
                                    {"comparisons", checked.comparisons.size()},
                                    {"differences", kinds::differences(checked)},
                                    {"unexplained", written.unexplained}};
-  written.lines.push_back("\ncross-check: " + summary);
+  written.lines.push_back(
+      fmt::format("cross-check by other methods: {} of {} comparisons differ, {} unexplained (crosscheck.md)",
+                  kinds::differences(checked), checked.comparisons.size(), written.unexplained));
   return written;
 }
 
@@ -184,7 +187,7 @@ int run_sweep(const Arguments& arguments) {
 const Command& sweep_command() {
   static const Command command = {
       .name = "sweep",
-      .meaning = "bifurcation diagram along one parameter, up, down or both",
+      .meaning = "compute a bifurcation diagram along one parameter, up, down or both",
       .run = &run_sweep,
       .takes = Takes::output,
       .options = &add_grow_option,

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.hpp"
 #include "core/largest_difference.hpp"
 #include "core/text.hpp"
 #include "gear/kinematics.hpp"
@@ -113,6 +114,10 @@ std::vector<Largest> largest_of() {
        [=](const PointSummary& r) {
          return greatest(r.meshes.sun_planet, [&](const auto& m) { return force(m.force); });
        }},
+      {"force of a ring mesh", "N",
+       [=](const PointSummary& r) {
+         return greatest(r.meshes.ring_planet, [&](const auto& m) { return force(m.force); });
+       }},
       {"force of a planet's bearing", "N",
        [=](const PointSummary& r) {
          double most = 0.0;
@@ -126,9 +131,11 @@ std::vector<Largest> largest_of() {
        [](const PointSummary& r) { return r.meshes.ring_planet.front().delta.range(); }},
       {"peak to peak of the transmission error", "b_c",
        [](const PointSummary& r) { return r.meshes.transmission_error.range(); }},
-      {"time that a sun mesh is out of contact", "1",
+      {"time out of contact, sun mesh", "part of the time",
        [=](const PointSummary& r) { return greatest(r.meshes.sun_planet, [](const auto& m) { return m.loss(); }); }},
-      {"share of the mean load that a planet carries on a mesh", "1",
+      {"time out of contact, ring mesh", "part of the time",
+       [=](const PointSummary& r) { return greatest(r.meshes.ring_planet, [](const auto& m) { return m.loss(); }); }},
+      {"load share of a planet, over the mean of all planets", "1",
        [](const PointSummary& r) { return r.meshes.largest_share(); }},
   };
 }
@@ -146,6 +153,7 @@ class Summary {
       const std::size_t way = std::min(k / each, directions.size() - 1);
       ways_[way].push_back(place_of(r));
       failed_ += reached(r) ? 0 : 1;
+      if (reached(r)) doubt(r);
       if (reached(r) && !r.on_its_way()) see(r);
     }
     for (auto& way : ways_) std::ranges::sort(way, {}, &Place::value);
@@ -153,7 +161,7 @@ class Summary {
 
   SweepSummary told() {
     SweepSummary s;
-    s.text = fmt::format("# {}: what the sweep shows\n\n", markdown_cell(output_.title));
+    s.text = fmt::format("# {}: results of the sweep\n\n", markdown_cell(output_.title));
     std::size_t points = 0;
     for (const auto& way : ways_) points += way.size();
     const studies::Axis& axis = output_.sweep.axis;
@@ -166,6 +174,7 @@ class Summary {
     s.text += windows();
     add_unlike(s);
     add_largest(s);
+    add_doubts(s);
     return s;
   }
 
@@ -173,14 +182,27 @@ class Summary {
   const SweepOutput& output_;
   AxisWords words_;
   const studies::PointSource& points_;
-  std::vector<std::vector<Place>> ways_;  ///< of each direction, by rising value
-  std::size_t failed_ = 0;
+  std::vector<std::vector<Place>> ways_;                                      ///< of each direction, by rising value
+  std::size_t failed_ = 0, undecided_ = 0, not_converged_ = 0, tensile_ = 0;  ///< points
+  double tensile_force_ = 0;  ///< largest tension, over the static mesh force
+  double tensile_time_ = 0;   ///< largest part of the time
   std::vector<Largest> largest_ = largest_of();
 
   [[nodiscard]] std::string place(double value) const { return words_.text(value, place_digits); }
 
   [[nodiscard]] std::string way_word(std::size_t way) const {
     return store::direction_word(output_.sweep.directions[way]);
+  }
+
+  void doubt(const PointSummary& r) {
+    undecided_ += r.regime == analysis::Regime::undecided ? 1 : 0;
+    not_converged_ += r.on_its_way() ? 1 : 0;
+    if (!r.pulls()) return;
+    ++tensile_;
+    for (const auto* meshes : {&r.meshes.sun_planet, &r.meshes.ring_planet}) {
+      tensile_force_ = std::max(tensile_force_, studies::StageRecord::pull(*meshes));
+      tensile_time_ = std::max(tensile_time_, studies::StageRecord::pull_time(*meshes));
+    }
   }
 
   void see(const PointSummary& r) {
@@ -213,11 +235,12 @@ class Summary {
                             place(way[run.first].value), place(way[run.first + run.count - 1].value), run.count);
       }
     }
-    std::string text = "\n## Windows\n\nNeighbours that move alike, three at least";
-    text +=
-        between > 0 ? fmt::format("; {} points lie between them, alone or in pairs.\n", between) : std::string(".\n");
+    std::string text = "\n## Windows\n\nEach row is at least three neighbouring points of one regime and period";
+    text += between > 0 ? fmt::format(". {} between the windows, alone or in pairs.\n",
+                                      counted(between, "points lie", "point lies"))
+                        : std::string(".\n");
     if (rows.empty()) return text;
-    return text + "\n| direction | motion | from | to | points |\n|---|---|---|---|---|\n" + rows;
+    return text + "\n| direction | regime | from | to | points |\n|---|---|---|---|---|\n" + rows;
   }
 
   /// Are they known to be two motions? One is periodic then; tori and chaos are told apart by records that end.
@@ -272,7 +295,7 @@ class Summary {
         std::vector<double> there;
         for (std::size_t k = run.first; k <= last; ++k)
           if (way[k].comparable) there.push_back(way[k].sun_range);
-        if (there.empty()) return std::string("not settled");
+        if (there.empty()) return std::string("not converged");
         return range_text(std::ranges::min(there), std::ranges::max(there), 3);
       };
       rows += fmt::format("| {} | {} | {} | {} | {} |\n",
@@ -284,19 +307,20 @@ class Summary {
     s.text += fmt::format("\n## {} and {}\n\n", first == "up" ? "Up" : "Down", second);
     s.numbers["unlike"] = {{"values", values}, {"of", up.size()}};
     if (values == 0) {
-      s.text += "No value is known to have two motions side by side";
+      s.text += "No value is known at which two attractors coexist";
     } else {
-      s.text += fmt::format("At {} of {} values two motions stand side by side", values, up.size());
+      s.text += fmt::format("At {} of {} values two attractors coexist", values, up.size());
       std::string list;
       constexpr std::size_t most = 4;
       for (std::size_t k = 0; k < std::min(most, stretches.size()); ++k)
         list += (k == 0 ? "" : ", ") + range_text(stretches[k].first, stretches[k].second, place_digits, words_);
       if (stretches.size() > most) list += fmt::format(" and {} more", stretches.size() - most);
-      s.lines.push_back(fmt::format("two motions side by side at {} of {} values: {}", values, up.size(), list));
+      s.lines.push_back(fmt::format("two attractors coexist at {} of {} values: {}", values, up.size(), list));
     }
     if (untold > 0)
-      s.text += fmt::format("; where neither is periodic, or one is not known ({} of the values), nothing here tells",
-                            untold);
+      s.text +=
+          fmt::format(". At {} the comparison is not possible: neither attractor is periodic, or one is not classified",
+                      counted(untold, "values", "value"));
     s.text += ".\n";
     if (!rows.empty())
       s.text +=
@@ -313,17 +337,40 @@ class Summary {
         rows += fmt::format("| {} | {} | {} | {} |\n", one.what, short_text(*one.value, 4), one.unit, one.at);
     if (rows.empty()) return;
     s.text +=
-        "\n## Largest\n\nOf the records at `output_phases` a mesh period; where the motion is chaotic, of that one.\n\n"
+        "\n## Largest values\n\nOf the records, at `output_phases` phases of a mesh period. A chaotic record gives the "
+        "largest value of that record only.\n\n"
         "| what | value | unit | where |\n|---|---|---|---|\n" +
         rows;
+    bool has_line = false;
     const auto add_line = [&](const Largest& sun, const Largest& ring, const char* number) {
       const Largest& more = ring.value.value_or(0.0) > sun.value.value_or(0.0) ? ring : sun;
       if (!more.value) return;
-      s.lines.push_back(fmt::format("largest {}: {} at {}", more.what, short_text(*more.value, 4), more.at));
+      if (!std::exchange(has_line, true))
+        s.lines.push_back(fmt::format("largest {}: {} at {}", more.what, short_text(*more.value, 4), more.at));
       s.numbers[number] = *more.value;
     };
     add_line(largest_[0], largest_[1], "largest_kv");
     add_line(largest_[2], largest_[3], "largest_dynamic_factor");
+  }
+
+  void add_doubts(SweepSummary& s) const {
+    std::string text;
+    if (undecided_ > 0)
+      text += fmt::format("- {}: the evidence proves no regime (column `evidence` of points.csv).\n",
+                          counted(undecided_, "points are undecided", "point is undecided"));
+    if (not_converged_ > 0)
+      text += fmt::format(
+          "- {} periodic, but the record has not converged to the orbit, or is shorter than its period (`settled` is 0 "
+          "in points.csv). The Poincaré points, means, RMS values and extrema are not those of the orbit. Use a larger "
+          "/study/transient_periods or \"transient\": \"adaptive\".\n",
+          counted(not_converged_, "points are", "point is"));
+    if (tensile_ > 0)
+      text += fmt::format(
+          "- {} a tensile mesh force, of up to {:.3g} times the static mesh force and for up to {:.1f} % of the time "
+          "(`pull_sp`, `pull_rp`, `pull_time_sp` and `pull_time_rp` in points.csv). Real teeth transmit no tension: "
+          "the force is that of the mesh damping. See /model/gap_damping in docs/reference/model_options.md.\n",
+          counted(tensile_, "points have", "point has"), tensile_force_, 100.0 * tensile_time_);
+    if (!text.empty()) s.text += "\n## Not certain\n\n" + text;
   }
 };
 

@@ -217,7 +217,7 @@ int run_tolerance(const Arguments& arguments) {
   };
   if (stop_requested()) {
     close_run(store::RunState::stopped);
-    tell("stopped after {} of {} points; the same command goes on\n", points.size(), plan.points.size());
+    tell("stopped after {} of {} points; re-run the same command to resume\n", points.size(), plan.points.size());
     return stopped_early;
   }
 
@@ -243,7 +243,7 @@ int run_tolerance(const Arguments& arguments) {
 const Command& tolerance_command() {
   static const Command command = {
       .name = "tolerance",
-      .meaning = "answers against tolerance, clearance smoothing and method, with error bars",
+      .meaning = "compare results over tolerance, clearance smoothing and method, with error bars",
       .run = &run_tolerance,
       .takes = Takes::output,
       .options = &add_start_option,

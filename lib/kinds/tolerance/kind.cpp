@@ -14,7 +14,7 @@ namespace {
 const Table<Study>& tolerance_table() {
   static const auto table = [] {
     using studies::ToleranceOptions;
-    Table<Study> t("tolerance", "The points' answers against tolerance, method and clearance smoothing.");
+    Table<Study> t("tolerance", "Results of the points over tolerance, method and clearance smoothing.");
     add_kind_key(t, "tolerance");
     add_grid(t);
     add_look(t);
@@ -24,17 +24,17 @@ const Table<Study>& tolerance_table() {
       return in_plan(
           [](auto& plan) -> auto& { return plan.template as<TolerancePlan>().tolerance; }, member);
     };
-    t.choices("methods", of(&ToleranceOptions::methods), method_choices(), "Methods of the ladder.");
+    t.choices("methods", of(&ToleranceOptions::methods), method_choices(), "Methods.");
     t.numbers("tolerances", of(&ToleranceOptions::tolerances), integrator_tolerance, 1, 100,
-              "Relative tolerances of the ladder [-]; the absolute ones keep the ratio of the study's integrator.");
+              "Relative tolerances [-]; the absolute tolerances keep the ratio of the integrator of the study.");
     t.numbers("clearance_smoothings", of(&ToleranceOptions::clearance_smoothings), between(tolerance_min, 10), 1, 100,
               "Widths of the smooth clearance, in b_c [-].");
     t.number("reference_tolerance", of(&ToleranceOptions::reference_tolerance), between(1e-15, 1e-6),
              "Relative and absolute tolerance of the reference orbits [-].");
     t.number("target_error", of(&ToleranceOptions::target_error), between(tolerance_min, 1),
-             "Error of an orbit that the recommendation has to meet, in the units of the state.");
+             "Largest error of an orbit that the recommendation allows, in the units of the state.");
     t.integer("chaotic_periods", of(&ToleranceOptions::chaotic_periods), between(64, 1e7),
-              "Mesh periods of the statistics where the motion is not periodic [-].");
+              "Mesh periods of the statistics of points that are not periodic [-].");
     return t;
   }();
   return table;

@@ -182,14 +182,14 @@ std::string ladder_text(const ToleranceOutput& output, const std::vector<Toleran
         "mesh period (a Jacobian counted as {}), largest orbit error {:.2g}; ",
         output.options.target_error, best->method, best->tolerance, best->cost_per_period, output.dimension,
         best->largest_error);
-    text += best->smoothing_pays
-                ? fmt::format(
-                      "a clearance smoothed by {:g} b_c keeps its bias below that and saves {:.0f} % of the "
-                      "right-hand sides\n",
-                      best->width, 100.0 * best->saved)
-                : std::string("the exact clearance: no width has a bias below that and saves right-hand sides\n");
+    text +=
+        best->smoothing_pays
+            ? fmt::format(
+                  "a clearance smoothed by {:g} b_c has a bias below that and saves {:.0f} % of the right-hand sides\n",
+                  best->width, 100.0 * best->saved)
+            : std::string("use the exact clearance: no width has a bias below that and saves right-hand sides\n");
   } else {
-    text += fmt::format("\nNo method and tolerance of the ladder meets an orbit error of {:g} at every point.\n",
+    text += fmt::format("\nNo method and tolerance of the study has an orbit error below {:g} at every point.\n",
                         output.options.target_error);
   }
   return text;
@@ -199,8 +199,8 @@ std::string ladder_text(const ToleranceOutput& output, const std::vector<Toleran
 std::string quantities_text(const ToleranceOutput& output, const std::vector<TolerancePoint>& points) {
   std::string text;
   text += fmt::format(
-      "\nReported quantities by {} at relative tolerance {:g}, with error bars [b_c]. They are extrema at {} phases a "
-      "mesh period; in brackets how much greater they are at {}, which the bars do not hold\n\n",
+      "\nReported quantities by {} at relative tolerance {:g}, with error bars [b_c]. They are extrema at {} phases of "
+      "a mesh period. In brackets: by how much they are greater at {} phases. The bars do not include this.\n\n",
       output.integrator.method, output.integrator.relative_tolerance, output.sweep.sweep.look.output_phases,
       studies::finer_phases * output.sweep.sweep.look.output_phases);
   const AxisWords words = axis_words(output.sweep.sweep.axis.name, output.sweep.speed);
@@ -310,8 +310,8 @@ std::string write_tolerance_tables(const std::filesystem::path& folder, const To
   }
   if (std::any_of(points.begin(), points.end(), [](const TolerancePoint& p) { return !p.statistics.empty(); }))
     text +=
-        "\nExponents per tau; means and deviations over the Poincare points [b_c]; 95 % intervals. A step agrees where "
-        "all its intervals overlap those of the first line; of equal truths one in 200 does not.\n";
+        "\nExponents per tau; means and deviations over the Poincare points [b_c]; 95 % intervals. A row agrees if all "
+        "its intervals overlap those of the first row; of equal values one in 200 does not.\n";
   write_file_atomically(folder / "tolerance.md", text);
   return text;
 }
