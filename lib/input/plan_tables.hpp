@@ -19,8 +19,8 @@ inline const Bounds integrator_tolerance = between(1e-15, 0.1);
 inline const Bounds smoothing_width = between(0, 10);
 
 inline constexpr const char* parameter_words =
-    "Name of the parameter, or a JSON pointer to a number of the input; sun_speed_rpm, carrier_speed_rpm and "
-    "mesh_frequency_Hz are the mesh frequency ratio, with values in rpm and Hz.";
+    "Name of the parameter, or a JSON pointer to a number of the input. sun_speed_rpm, carrier_speed_rpm and "
+    "mesh_frequency_Hz vary the mesh frequency ratio, with values in rpm or Hz.";
 
 /// A member of a part of the plan.
 /// @param part  [](auto& plan) -> auto&

@@ -100,6 +100,9 @@ mv bore/journal.bin kept
 [ "$(code_of "$epicyclic" run --from bore:1 -o refused)" = 7 ] || fail "no journal: $(<stderr)"
 mv kept bore/journal.bin
 
+[ "$(code_of "$epicyclic" run --from sweep:9000 -o refused)" = 2 ] || fail "a number too large: $(<stderr)"
+grep -q 'there is no point 9000; the study has [0-9]* points, numbered from 0; FOLDER:up=VALUE' stderr || fail "a number too large: $(<stderr)"
+
 # Basins: every attractor that is known.
 "$epicyclic" basins "$inputs/tang2020_basins.json" -o basins --set /study/first/points=2 --set /study/first/to=-1.33333333333 \
   --set /study/second/points=2 --set /study/second/to=-1.33333333333 >/dev/null 2>&1 ||

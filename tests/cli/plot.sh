@@ -75,6 +75,9 @@ grep -q '1 point was not reached and left out' stderr && grep -q 'the record of 
 flip=$(awk -F, '$2 == "flip" { print $3; exit }' branches/special.csv)
 awk -v flip="$flip" 'NF >= 2 && $1 - flip < 1e-9 && flip - $1 < 1e-9 && $2 > 0.99 && $2 < 1.01 { n++ } END { exit n < 2 }' stability/multiplier_max.dat || fail "no end of both lines at the flip $flip"
 
+# A column by its beginning.
+[ "$(code_of "$epicyclic" plot one -o refused --quantity K_v)" = 2 ] && grep -q "did you mean 'kv_sp'?" stderr || fail "K_v: $(<stderr)"
+
 # Branches over a sweep, a map, a run; JSON.
 [ "$(code_of "$epicyclic" plot one branches -o figures --quantity delta_rp_rms --json)" = 0 ] || fail "branches: $(<stderr)"
 grep -q '"figures/delta_rp_rms.png"' stdout || fail "json: $(<stdout)"

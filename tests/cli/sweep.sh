@@ -75,6 +75,12 @@ cmp -s t1/points.csv resolved/points.csv || fail "the resolved input gives other
 
 longer=(--set /study/points=24 --set /study/transient_periods=60 --set /study/classification_periods=64)
 sweep "${longer[@]}" -o whole >stdout 2>stderr
+# Five lines at most, with a command that can be typed as the program was called.
+[ "$(wc -l <stdout)" -le 5 ] || fail "a sweep prints more than five lines: $(<stdout)"
+grep -q "next: $epicyclic " stdout || fail "no next command: $(<stdout)"
+eval "next=($(sed -n 's/.*next: //p' stdout))"
+[ "$(code_of "${next[@]}" --set /study/transient_periods=0)" != 2 ] || [ "${next[1]}" = continue ] || fail "${next[*]}: $(<stderr)"
+grep -q '^## Not certain$' whole/sweep.md || [ "${next[1]}" = continue ] || fail "sweep.md: $(<whole/sweep.md)"
 
 # A journal that was damaged in the middle is refused, not repaired.
 cp -r whole damaged

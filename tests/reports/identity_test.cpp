@@ -381,6 +381,16 @@ TEST_F(IdentityOf, StudiesThatDifferInAFlagDifferInNoNumberThatIsTheSame) {
             std::vector<std::string>{"/stage/boundary: \"fixed_ring\" there, \"literal\" here"});
 }
 
+TEST_F(IdentityOf, AListThatIsAbsentIsNoDifferenceFromAnEmptyOne) {
+  json other = resolved;
+  other["study"]["name_of_nothing"] = json::array();
+  EXPECT_EQ(differences_from(other, load(resolved)),
+            std::vector<std::string>{"/study/name_of_nothing: [] there, absent here"});
+  const input::LoadedInput wider = load(resolved, {"/stage/catalogue/sun/width_mm=61"});
+  EXPECT_EQ(differences_from(other, wider),
+            std::vector<std::string>{"/stage/catalogue/sun/width_mm: 60.0 there, 61.0 here"});
+}
+
 TEST_F(IdentityOf, AStudyToldAsAnotherSaysInWhatIsGiven) {
   const input::LoadedInput wider = load(resolved, {"/stage/catalogue/sun/width_mm=61"});
   EXPECT_EQ(differences_from(resolved, wider),

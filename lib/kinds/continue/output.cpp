@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.hpp"
 #include "core/csv.hpp"
 #include "core/text.hpp"
 #include "gear/kinematics.hpp"
@@ -219,16 +220,16 @@ std::string branch_text(const ContinueOutput& output, const TracedBranches& trac
   const bool alike = branch.family.symmetry.map.size() != 0;
   std::string text = fmt::format("\n## Branch {}: period {}{}\n\n", b, branch.family.period,
                                  !alike                         ? ""
-                                 : branch.family.keeps_symmetry ? ", all planets in step"
+                                 : branch.family.keeps_symmetry ? ", planets in step"
                                                                 : ", planets not in step");
-  text += fmt::format("{} orbits; it begins {} and ends {}.\n", branch.orbits.size(),
+  text += fmt::format("{}; the branch begins {} and ends {}.\n", counted(branch.orbits.size(), "orbits"),
                       end_text(output, branch.first, branch.orbits.front().at.value),
                       end_text(output, branch.last, branch.orbits.back().at.value));
   const AxisWords words = output.words();
   const std::vector<Stretch> stable = stable_stretches(traced, b);
-  if (stable.empty()) text += "No orbit of it is stable.\n";
+  if (stable.empty()) text += "No orbit of the branch is stable.\n";
   for (std::size_t k = 0; k < stable.size(); ++k)
-    text += fmt::format("{}{} to {}{}", k == 0 ? "Stable along it from " : ", from ", words.text(stable[k].from, 9),
+    text += fmt::format("{}{} to {}{}", k == 0 ? "Stable from " : ", from ", words.text(stable[k].from, 9),
                         words.text(stable[k].to, 9), k + 1 == stable.size() ? ".\n" : "");
   const bool of_speed = words.name == studies::speed_parameter;
   bool any = false;
@@ -264,7 +265,7 @@ std::string loci_text(const ContinueOutput& output, const TracedBranches& traced
       text += fmt::format(": **not begun: {}**\n", locus.message);
       continue;
     }
-    text += fmt::format("; {} points, {} at ({}, {}) to {} at ({}, {})", locus.rows.size(), locus.first_end,
+    text += fmt::format("; {}, {} at ({}, {}) to {} at ({}, {})", counted(locus.rows.size(), "points"), locus.first_end,
                         words.text(locus.rows.front().first, 6), locus_words.text(locus.rows.front().second, 6),
                         locus.last_end, words.text(locus.rows.back().first, 6),
                         locus_words.text(locus.rows.back().second, 6));
@@ -385,9 +386,10 @@ std::string continue_summary(const ContinueOutput& output, const TracedBranches&
   for (const Branch& branch : traced.branches) orbits += branch.orbits.size();
   std::string text = fmt::format("# Branches of periodic orbits along {}\n\n", output.words().name);
   text += fmt::format(
-      "{} branches, {} orbits, {} special points between {} and {}; tolerance {}. Each value has an error bound, from "
+      "{}, {}, {} between {} and {}; tolerance {}. Each value has an error bound, from "
       "other tolerances and subdivisions. An orbit is stable if no Floquet multiplier is outside the unit circle.\n",
-      traced.branches.size(), orbits, traced.special.size(), output.words().text(output.options.from, 9),
+      counted(traced.branches.size(), "branches", "branch"), counted(orbits, "orbits"),
+      counted(traced.special.size(), "special points"), output.words().text(output.options.from, 9),
       output.words().text(output.options.to, 9), short_text(output.options.tolerance));
   if (traced.full)
     text += fmt::format("\n**There are more branches than `branches` = {}; the others were not continued.**\n",

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.hpp"
 #include "core/csv.hpp"
 #include "core/text.hpp"
 #include "store/branch_columns.hpp"
@@ -110,18 +111,16 @@ std::string proof_summary(const ContinueOutput& output, const ProvedSweep& sweep
     if (c.counted) ++causes[to_string(c.cause)];
   std::string text = fmt::format("# The sweep {} compared with the branches\n\n", sweep.name);
   text += fmt::format("Sweep of identity {}, {} points along {}.\n\n", sweep.identity, sweep.points.count, words.name);
-  text += fmt::format(
-      "{} points are periodic; {} of them lie on {} branch{}, the furthest {} b_c from its orbit, and {} on none.\n\n",
-      proof.periodic, proof.periodic - proof.off.size(), traced.branches.size(),
-      traced.branches.size() == 1 ? "" : "es", short_text(proof.largest_distance, 2), proof.off.size());
-  text +=
-      fmt::format("{} changes of period, regime or orbit have a periodic point beside them and are to be explained: ",
-                  proof.counted());
+  text += fmt::format("{} periodic; {} of them lie on {} branch{}, at most {} b_c from the orbit, and {} on none.\n\n",
+                      counted(proof.periodic, "points are", "point is"), proof.periodic - proof.off.size(),
+                      traced.branches.size(), traced.branches.size() == 1 ? "" : "es",
+                      short_text(proof.largest_distance, 2), proof.off.size());
+  text += fmt::format("{} of period, regime or orbit beside a periodic point. Explained by: ",
+                      counted(proof.counted(), "changes"));
   std::string list;
   for (const auto& [cause, count] : causes) list += fmt::format("{}{} {}", list.empty() ? "" : ", ", count, cause);
-  text +=
-      fmt::format("{}. **{} unexplained.** {} changes between regimes that are not periodic are listed separately.\n",
-                  list.empty() ? "none" : list, proof.unexplained(), proof.changes.size() - proof.counted());
+  text += fmt::format("{}. **{} unexplained.** Changes between regimes that are not periodic: {}, listed separately.\n",
+                      list.empty() ? "none" : list, proof.unexplained(), proof.changes.size() - proof.counted());
   for (const bool counted : {true, false}) {
     bool any = false;
     for (const SweepChange& c : proof.changes) {
