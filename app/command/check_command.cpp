@@ -17,7 +17,7 @@
 #include "reports/speed_words.hpp"
 #include "session.hpp"
 #include "streams.hpp"
-#include "studies/probes.hpp"
+#include "studies/cost_estimate.hpp"
 
 namespace epicyclic::app {
 
@@ -38,7 +38,7 @@ std::string time_of(const input::LoadedInput& input, const studies::SweepPlan& p
 }
 
 /// The speeds of the study's points as people know them, and what of the stage decides how much is excited there.
-void tell_operation(const input::LoadedInput& input) {
+void print_operation(const input::LoadedInput& input) {
   double from = input.study.mesh_frequency_ratio;
   double to = from;
   for (const auto& [axis, place] : input::varied_parameters(input.study))
@@ -64,7 +64,7 @@ void tell_operation(const input::LoadedInput& input) {
 
 int check_command(const Arguments& arguments) {
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
-  tell_warnings(input);
+  print_warnings(input);
   if (!input.study.has_motion()) {
     print("{}\n", input.resolved.dump(2));
     tell("{}: valid; a stage alone, for `epicyclic gear`\n", arguments.input.string());
@@ -75,25 +75,25 @@ int check_command(const Arguments& arguments) {
     const std::string cost = cost_of != nullptr ? cost_of(input) : "not known";
     print("{}\n", input.resolved.dump(2));
     tell("{}: valid\ncost: {}\n", arguments.input.string(), cost);
-    tell_operation(input);
+    print_operation(input);
     return done;
   }
   const studies::SweepPlan plan = input::plan_of(input.study);
   print("{}\n", input.resolved.dump(2));
   tell("{}: valid\n", arguments.input.string());
   TimeLimit limit;
-  const studies::LookOptions& look = input.study.look();
+  const studies::RecordingOptions& recording = input.study.recording();
   const auto cost = limit.in_time([&] {
-    return studies::estimate_cost(plan, look, input.study.integrator, input::model_at_point(input),
+    return studies::estimate_cost(plan, recording, input.study.integrator, input::model_at_point(input),
                                   [&] { return !limit.over(); });
   });
   tell("cost: {} points in {} chains, {} mesh periods{}{}\n", plan.points.size(), plan.chains.size(),
-       studies::mesh_periods_of(plan, look),
+       studies::mesh_periods_of(plan, recording),
        cost && !limit.over() ? fmt::format(", {} state variables, about {:.2g} right-hand sides", cost->dimension,
                                            cost->rhs_evaluations())
                              : "; the cost is not known: a few mesh periods exceed the time limit of this estimate",
-       look.classification_periods > 0 ? " and those that classify the regimes" : "");
-  tell_operation(input);
+       recording.classification_periods > 0 ? " and those that classify the regimes" : "");
+  print_operation(input);
   if (!arguments.no_time && cost) {
     const auto time = limit.in_time([&] { return time_of(input, plan, arguments.threads, limit); });
     tell("time: {}\n", time.value_or("not known: no trial ended within the time limit"));

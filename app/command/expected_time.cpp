@@ -29,7 +29,7 @@ Expected time_of_points(const input::LoadedInput& input, const studies::SweepPla
       [&](const studies::SweepPlan& miniature, studies::LaneUse& lanes) {
         run.lane_use = &lanes;
         auto computed =
-            studies::run_sweep_in_memory(miniature, input.study.look(), input.study.integrator, model_at, run);
+            studies::run_sweep_in_memory(miniature, input.study.recording(), input.study.integrator, model_at, run);
         const std::size_t finished = computed.size();
         if (finished == miniature.points.size()) {
           last = miniature;

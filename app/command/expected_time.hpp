@@ -17,7 +17,7 @@
 #include "commands.hpp"
 #include "input/study_input.hpp"
 #include "stop.hpp"
-#include "studies/probes.hpp"
+#include "studies/cost_estimate.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::app {

@@ -29,9 +29,9 @@
 #include "store/point_columns.hpp"
 #include "streams.hpp"
 #include "studies/branches_options.hpp"
+#include "studies/cost_estimate.hpp"
 #include "studies/known_motions.hpp"
 #include "studies/plane_options.hpp"
-#include "studies/probes.hpp"
 
 namespace epicyclic::app {
 
@@ -130,13 +130,13 @@ void FinishedStudy::read_run() {
   result.poincare_columns = section.columns.size() - std::min(section.columns.size(), keys);
   for (const auto& row : section.rows)
     for (std::size_t j = keys; j < row.size(); ++j) result.poincare.push_back(number_of(row[j]));
-  const studies::LookOptions& look = input_.study.look();
+  const studies::RecordingOptions& recording = input_.study.recording();
   const model::DynamicModel model = input::model_at(input_)(input_.study.mesh_frequency_ratio);
   if (result.poincare_columns < model.dimension)
     throw store::DamagedData((folder_ / "poincare.csv").string() + ": is not a table of states of its study");
-  result.classified = look.classification_periods > 0 && studies::has_classification(model);
-  result.recurrence =
-      analysis::recurrence(studies::section_of(result, model.dimension), look.period_max, look.recurrence_tolerance);
+  result.classified = recording.classification_periods > 0 && studies::has_classification(model);
+  result.recurrence = analysis::recurrence(studies::section_of(result, model.dimension), recording.period_max,
+                                           recording.recurrence_tolerance);
   run_.push_back(std::move(result));
 }
 
@@ -261,7 +261,7 @@ std::string point_words(const FinishedStudy& from, const studies::PointSummary& 
                          varied[k].axis.name, short_text(k == 0 ? r.point.value : r.point.second_value, 9));
   if (!varied.empty()) words += ")";
   return words + ", " +
-         (r.outcome == integrate::Outcome::reached ? studies::motion_name(r) : store::status_word(r.outcome));
+         (r.outcome == integrate::Outcome::reached ? studies::regime_name(r) : store::status_word(r.outcome));
 }
 
 /// What else the study knows at the values of a point, a line each.
@@ -276,7 +276,7 @@ std::vector<std::string> other_motions(const FinishedStudy& from, std::size_t po
     if (k + 1 == known.here) continue;
     std::string line = basins ? fmt::format("coexists there: {}, {} of {} cells, the first of them point {}",
                                             motion.motion, motion.points, known.looked_at, motion.point)
-                              : fmt::format("coexists there: {}", point_words(from, points.read_brief(motion.point)));
+                              : fmt::format("coexists there: {}", point_words(from, points.read_summary(motion.point)));
     const auto root = [&](std::size_t of) {
       return of > 0 && known.all[of - 1].image_of > 0 ? known.all[of - 1].image_of : of;
     };
@@ -364,14 +364,14 @@ class Sower {
     // The middle of each stretch of points of one period.
     std::size_t first = 0;
     while (first < points.count) {
-      const studies::PointSummary begun = points.read_brief(first);
+      const studies::PointSummary begun = points.read_summary(first);
       std::size_t last = first;
       const auto goes_on = [&](const studies::PointSummary& r) {
         return is_periodic(r) && r.period == begun.period && r.point.direction == begun.point.direction &&
                r.point.second_value == begun.point.second_value;
       };
       if (is_periodic(begun)) {
-        while (last + 1 < points.count && goes_on(points.read_brief(last + 1))) ++last;
+        while (last + 1 < points.count && goes_on(points.read_summary(last + 1))) ++last;
         const std::size_t middle = first + (last - first) / 2;
         const double value = value_of(from, middle);
         if (value >= options_.from && value <= options_.to) {
@@ -443,7 +443,7 @@ class Sower {
           fmt::format("{}: its equations of motion are not those of this study at {} = {}; its state is only a guess",
                       which, options_.parameter, short_text(value, 9)));
     if (!is_periodic(r))
-      notes_.push_back(fmt::format("{}: is {}; an orbit of period {} is sought near it", which, studies::motion_name(r),
+      notes_.push_back(fmt::format("{}: is {}; an orbit of period {} is sought near it", which, studies::regime_name(r),
                                    options_.period));
     seeds_.push_back({{"value", value}, {"period", is_periodic(r) ? r.period : options_.period}, {"state", state}});
   }

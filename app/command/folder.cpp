@@ -31,7 +31,7 @@ std::int64_t counted(const store::OutputFolder& folder, const char* what) {
   return number.is_number_integer() ? number.get<std::int64_t>() : 0;
 }
 
-void tell_differences(const store::OutputFolder& folder, const input::LoadedInput& input) {
+void print_differences(const store::OutputFolder& folder, const input::LoadedInput& input) {
   constexpr std::size_t most = 5;
   input::JsonSource other = input::read_json_file(folder.file("input.resolved.json"));
   // That the study is another one is known from run.json.
@@ -43,7 +43,7 @@ void tell_differences(const store::OutputFolder& folder, const input::LoadedInpu
   if (lines.size() > most) tell("  and {} more\n", lines.size() - most);
 }
 
-void tell_changes(const store::OutputFolder& folder) {
+void print_changes(const store::OutputFolder& folder) {
   constexpr std::size_t most = 10;
   const std::vector<store::ChangedFile>& changed = folder.changed();
   tell("{}: this study is complete, but {}; all files are written again\n", folder.path().string(),
@@ -63,7 +63,7 @@ void tell_changes(const store::OutputFolder& folder) {
 
 }  // namespace
 
-void tell_cut_tail(const std::filesystem::path& journal, std::size_t bytes) {
+void report_cut_tail(const std::filesystem::path& journal, std::size_t bytes) {
   if (bytes > 0)
     tell("{}: removed the last {} bytes, an incomplete record; its point is computed again\n", journal.string(), bytes);
 }
@@ -96,7 +96,7 @@ void require_kind(const input::LoadedInput& input, const Arguments& arguments, s
   }
 }
 
-std::int64_t tell_undrawn(const std::vector<reports::DrawnFigure>& figures) {
+std::int64_t report_undrawn(const std::vector<reports::DrawnFigure>& figures) {
   std::int64_t count = 0;
   for (const reports::DrawnFigure& figure : figures) {
     if (figure.outcome.drawn()) continue;
@@ -127,11 +127,11 @@ std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const inp
         if (counted(folder, count) > 0) return done_with_failures;
       return done;
     case store::FolderOutcome::damaged:
-      tell_changes(folder);
+      print_changes(folder);
       return std::nullopt;
     case store::FolderOutcome::other_study:
       tell("{}: contains another study; choose another folder for -o\n", where);
-      tell_differences(folder, input);
+      print_differences(folder, input);
       return other_study;
     case store::FolderOutcome::foreign:
       tell("{}: contains files that are not those of a study; choose an empty or new folder for -o\n", where);

@@ -38,7 +38,7 @@ template <class Plan>
 [[nodiscard]] store::Provenance provenance(int threads, const input::LoadedInput& input);
 
 /// Says on stderr that half a record was cut from the end of a journal; nothing of 0 bytes.
-void tell_cut_tail(const std::filesystem::path& journal, std::size_t bytes);
+void report_cut_tail(const std::filesystem::path& journal, std::size_t bytes);
 
 /// Points of earlier sessions, from records of the journal.
 /// @throws DamagedData when they are of points that the study has not
@@ -58,7 +58,7 @@ void tell_cut_tail(const std::filesystem::path& journal, std::size_t bytes);
 
 /// Says on stderr which figures were not drawn.
 /// @returns how many of them failed, for run.json: such a study does not end with `done`
-[[nodiscard]] std::int64_t tell_undrawn(const std::vector<reports::DrawnFigure>& figures);
+[[nodiscard]] std::int64_t report_undrawn(const std::vector<reports::DrawnFigure>& figures);
 
 /// input.json, the stage file as input.stage.json, input.resolved.json.
 /// @returns text of the resolved input

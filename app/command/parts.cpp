@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "studies/units.hpp"
+#include "studies/parallel_for.hpp"
 
 namespace epicyclic::app {
 
@@ -48,7 +48,7 @@ void PartQueue::close() {
 void write_parts(const std::vector<ResultsPart>& parts, const ComputedPoints& computed, int threads, PartQueue& queue,
                  std::vector<WrittenPoints>& written) {
   const auto most = std::min(parts.size(), static_cast<std::size_t>(std::max(1, threads)));
-  studies::for_units(most, threads, nullptr, [&](std::size_t /*thread*/) {
+  studies::parallel_for(most, threads, nullptr, [&](std::size_t /*thread*/) {
     try {
       while (const auto part = queue.take()) {
         written.at(*part) = parts[*part].write(computed);

@@ -135,7 +135,7 @@ int plot_command(const Arguments& arguments) {
     give_up_if_stopped();
   }
   for (const std::string& note : notes) tell("{}\n", note);
-  (void)tell_undrawn(figures);
+  (void)report_undrawn(figures);
   nlohmann::json told = {{"figures", nlohmann::json::array()}};
   for (const reports::DrawnFigure& figure : figures)
     if (figure.outcome.drawn()) told["figures"].push_back(figure.file.string());

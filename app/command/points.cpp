@@ -46,7 +46,7 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
                             const input::LoadedInput& input, const studies::SweepPlan& plan,
                             const studies::ModelAtPoint& model_at, store::PointStore& store, SweepLeader* leader,
                             studies::LaneUse& lanes) {
-  const studies::LookOptions& look = input.study.look();
+  const studies::RecordingOptions& recording = input.study.recording();
   std::size_t failed = 0;
   studies::SweepRun run;
   run.threads = arguments.threads;
@@ -55,7 +55,7 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
   run.done.resize(plan.points.size());
   for (std::size_t i = 0; i < plan.points.size(); ++i) {
     run.done[i] = store.holds(i);
-    if (run.done[i]) failed += computed(store.read_brief(i)) ? 0 : 1;
+    if (run.done[i]) failed += computed(store.read_summary(i)) ? 0 : 1;
   }
   if (store.size() > 0)
     tell("{}: {} of {} {} exist already\n", arguments.output.string(), store.size(), plan.points.size(), noun);
@@ -66,7 +66,7 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
   progress.update(store.size(), failed);
   std::mutex counting;
   std::size_t elsewhere = 0;  // points of other ranks
-  run.end_state = [&](std::size_t index) { return store.read_brief(index).end_state; };
+  run.end_state = [&](std::size_t index) { return store.read_summary(index).end_state; };
   run.point_finished = [&](const studies::PointResult& result) {
     store.append(result);
     const std::scoped_lock lock(counting);
@@ -74,9 +74,9 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
     progress.update(store.size() + elsewhere, failed);
   };
   if (leader == nullptr) {
-    (void)studies::run_sweep(plan, look, input.study.integrator, model_at, run);
+    (void)studies::run_sweep(plan, recording, input.study.integrator, model_at, run);
   } else {
-    leader->run(plan, look, input.study.integrator, model_at, run, [&](std::size_t finished, std::size_t without) {
+    leader->run(plan, recording, input.study.integrator, model_at, run, [&](std::size_t finished, std::size_t without) {
       const std::scoped_lock lock(counting);
       elsewhere += finished;
       failed += without;
@@ -101,11 +101,11 @@ struct Doubts {
       ++undecided;
       if (!first_undecided) first_undecided = r.point.index;
     }
-    if (r.on_its_way()) ++unsettled;
-    if (!r.pulls()) return;
+    if (r.is_unsettled()) ++unsettled;
+    if (!r.has_tension()) return;
     ++tensile;
     for (const auto* meshes : {&r.meshes.sun_planet, &r.meshes.ring_planet})
-      force = std::max(force, studies::StageRecord::pull(*meshes));
+      force = std::max(force, studies::StageRecord::tension(*meshes));
   }
 
   /// In one line; empty: there are none.
@@ -130,8 +130,8 @@ std::string next_command(const Arguments& arguments, const ComputedPoints& all, 
                        shell_word(fmt::format("{}:{}", folder, *doubts.first_undecided)),
                        shell_word(fmt::format("{}_point_{}", folder, *doubts.first_undecided)));
   const bool classifies = studies::has_classification(all.first_model);
-  if (doubts.unsettled > 0 && classifies && study.look().transient == studies::Transient::fixed &&
-      study.look().classification_periods > 0) {
+  if (doubts.unsettled > 0 && classifies && study.recording().transient == studies::Transient::fixed &&
+      study.recording().classification_periods > 0) {
     std::string command = fmt::format("{} {} {}", program, study.kind(), shell_word(arguments.input.string()));
     for (const std::string& set : arguments.sets) command += " --set " + shell_word(set);
     return command + fmt::format(" --set /study/transient=adaptive -o {}", shell_word(folder + "_adaptive"));
@@ -168,13 +168,13 @@ void write_results(const Arguments& arguments, const std::vector<ResultsPart>& p
 }
 
 /// What was found, what is not certain and what to do about it, on stdout: of a sweep five lines at most.
-void tell_result(const Arguments& arguments, std::string_view noun, const ComputedPoints& computed_points,
-                 const WrittenPoints& written, std::size_t failed) {
+void print_result(const Arguments& arguments, std::string_view noun, const ComputedPoints& computed_points,
+                  const WrittenPoints& written, std::size_t failed) {
   const studies::PointSource& points = computed_points.points;
   std::map<std::string, std::size_t> regimes;
   Doubts doubts;
   for (std::size_t i = 0; i < points.count; ++i) {
-    const studies::PointSummary r = points.read_brief(i);
+    const studies::PointSummary r = points.read_summary(i);
     if (!computed(r)) continue;
     ++regimes[to_string(r.regime)];
     doubts.see(r);
@@ -213,7 +213,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   const studies::ModelAtPoint model_at = input::model_at_point(input);
   // Options that do not fit show here, before anything is written.
   const model::DynamicModel first_model = model_at(plan.points.front());
-  if (!arguments.quiet) tell_warnings(input);
+  if (!arguments.quiet) print_warnings(input);
   if (!arguments.quiet && command == "sweep" && input.study.sweep().axis.name != studies::speed_parameter)
     tell("operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
 
@@ -227,7 +227,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   store::OutputFolder& folder = session.folder();
 
   store::PointStore store(folder.path(), identity, plan.points.size());
-  for (const auto& [journal, bytes] : store.cut_tails()) tell_cut_tail(journal, bytes);
+  for (const auto& [journal, bytes] : store.cut_tails()) report_cut_tail(journal, bytes);
   std::size_t taken = 0;
   if (grown) {
     taken = grown->take_into(store);
@@ -267,11 +267,11 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   folder.require_there();
   write_results(arguments, parts, computed_points, leader, written);
   folder.add(written.files);
-  undrawn = tell_undrawn(written.figures);
+  undrawn = report_undrawn(written.figures);
   close_run(store::RunState::complete);
   for (const std::string& note : written.notes) tell("{}\n", note);
 
-  if (!arguments.quiet) tell_result(arguments, noun, computed_points, written, failed);
+  if (!arguments.quiet) print_result(arguments, noun, computed_points, written, failed);
   return failed == 0 && undrawn == 0 && written.unexplained == 0 ? done : done_with_failures;
 }
 

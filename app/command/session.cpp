@@ -14,7 +14,7 @@ std::string identity_of(const input::LoadedInput& input, std::string_view comman
   return store::identity({input.resolved, input.computed}, command, judging);
 }
 
-void tell_warnings(const input::LoadedInput& input) {
+void print_warnings(const input::LoadedInput& input) {
   for (const std::string& warning : input::warnings(input)) tell("{}\n", warning);
 }
 

@@ -22,7 +22,7 @@ namespace epicyclic::app {
                                       std::optional<int> judging = {});
 
 /// Says on stderr what is allowed in the input, but rarely meant.
-void tell_warnings(const input::LoadedInput& input);
+void print_warnings(const input::LoadedInput& input);
 
 /// Holds the folder while it lives, and looks whether it is still there.
 class Session {

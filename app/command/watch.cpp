@@ -10,7 +10,7 @@ namespace epicyclic::app {
 
 FolderWatch::FolderWatch(const store::OutputFolder& folder) : folder_(folder) {
   try {
-    watcher_ = std::thread([this] { look(); });
+    watcher_ = std::thread([this] { recording(); });
   } catch (const std::system_error&) {
     // The system gives no more threads: then the end of the study finds it out.
   }
@@ -25,7 +25,7 @@ FolderWatch::~FolderWatch() {
   if (watcher_.joinable()) watcher_.join();
 }
 
-void FolderWatch::look() {
+void FolderWatch::recording() {
   constexpr std::chrono::seconds interval{1};
   std::unique_lock lock(mutex_);
   while (!changed_.wait_for(lock, interval, [this] { return over_; })) {

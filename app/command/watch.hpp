@@ -20,7 +20,7 @@ class FolderWatch {
   ~FolderWatch();
 
  private:
-  void look();
+  void recording();
 
   const store::OutputFolder& folder_;
   bool over_ = false;

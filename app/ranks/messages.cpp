@@ -48,7 +48,7 @@ std::vector<int> muster(const Arguments& arguments, const std::string& identity)
   for (int missing = ranks.size() - 1; missing > 0;) {
     const auto message = ranks.receive();
     if (!message) {
-      std::this_thread::sleep_for(look_interval);
+      std::this_thread::sleep_for(poll_interval);
       continue;
     }
     if (message->topic != Topic::hello) continue;

@@ -26,8 +26,8 @@ using Clock = std::chrono::steady_clock;
 
 /// How long a message may lie before it is looked at: at first, and when nothing was asked or answered for long. Each
 /// look wakes a thread on a core that computes.
-inline constexpr std::chrono::milliseconds look_interval{2};
-inline constexpr std::chrono::milliseconds rare_look_interval{20};
+inline constexpr std::chrono::milliseconds poll_interval{2};
+inline constexpr std::chrono::milliseconds rare_poll_interval{20};
 /// How long ranks that were told to stop may take: all of it must fit into the 2 s of a signal.
 inline constexpr std::chrono::milliseconds farewell{1500};
 
@@ -54,7 +54,7 @@ class Attention {
 
   [[nodiscard]] std::chrono::milliseconds pause() const {
     const auto quiet = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - roused_);
-    return std::clamp(quiet / 50, look_interval, rare_look_interval);
+    return std::clamp(quiet / 50, poll_interval, rare_poll_interval);
   }
 
  private:

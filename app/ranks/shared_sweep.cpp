@@ -206,7 +206,7 @@ void SweepLeader::gather(const Arguments& arguments, const std::string& identity
   threads_of_all_ = std::accumulate(threads.begin(), threads.end(), 0);
 }
 
-void SweepLeader::run(const studies::SweepPlan& plan, const studies::LookOptions& look,
+void SweepLeader::run(const studies::SweepPlan& plan, const studies::RecordingOptions& recording,
                       const integrate::IntegratorOptions& integrator, const studies::ModelAtPoint& model_at,
                       studies::SweepRun run, const std::function<void(std::size_t, std::size_t)>& points_elsewhere) {
   const std::atomic<bool>& signal = *run.stop;
@@ -219,7 +219,7 @@ void SweepLeader::run(const studies::SweepPlan& plan, const studies::LookOptions
   const std::string begin = text_of({{"threads_of_all", threads_of_all_}, {"done", text_of_flags(run.done)}});
   for (int rank = 1; rank < ranks_.size(); ++rank) ranks_.send(rank, Topic::begin, begin);
 
-  Computation computation([&] { (void)studies::run_sweep(plan, look, integrator, model_at, run); }, stop);
+  Computation computation([&] { (void)studies::run_sweep(plan, recording, integrator, model_at, run); }, stop);
   bool computed = false;
   Attention attention;
   RankAnswers answers(ranks_, chains, run.end_state, threads_of_all_, points_elsewhere);
@@ -242,7 +242,7 @@ void SweepLeader::run(const studies::SweepPlan& plan, const studies::LookOptions
     }
     if (message) continue;
     if (computed)
-      std::this_thread::sleep_for(look_interval);  // on a core that has nothing else to do
+      std::this_thread::sleep_for(poll_interval);  // on a core that has nothing else to do
     else
       computed = computation.ends_within(attention.pause());
   }
@@ -280,7 +280,7 @@ std::vector<WrittenPoints> SweepLeader::write(const std::vector<ResultsPart>& pa
   for (give(); !through || any_elsewhere(); give()) {
     const auto message = ranks_.receive();
     if (!message) {
-      std::this_thread::sleep_for(look_interval);
+      std::this_thread::sleep_for(poll_interval);
     } else if (message->topic == Topic::written) {
       const json report = json::parse(message->bytes);
       const auto part = elsewhere.at(static_cast<std::size_t>(message->from)).value();
@@ -371,12 +371,12 @@ class Exchange {
         ask(Topic::ask_end_state, bytes_of(std::vector<Index>{point}));
       if (Clock::now() - last_progress >= progress_interval) {
         last_progress = Clock::now();
-        tell_progress();
+        report_progress();
       }
       wake_.wait_for(lock, attention_.pause(), [this] { return through_ || wants_chains() || !questions_.empty(); });
     }
     const std::scoped_lock lock(mutex_);
-    tell_progress();
+    report_progress();
   }
 
  private:
@@ -407,7 +407,7 @@ class Exchange {
     answered_.notify_all();
   }
 
-  void tell_progress() {
+  void report_progress() {
     if (finished_ == 0) return;
     ranks_.send(0, Topic::progress, bytes_of(std::vector<Index>{finished_, failed_}));
     finished_ = failed_ = 0;
@@ -429,7 +429,7 @@ class Exchange {
 /// Computes what the leader gives.
 void compute_share(const Arguments& arguments, const input::LoadedInput& input, const std::string& identity,
                    const json& begin) {
-  const studies::LookOptions& look = input.study.look();
+  const studies::RecordingOptions& recording = input.study.recording();
   const studies::SweepPlan plan = input::plan_of(input.study);
   store::Journal journal(arguments.output / store::rank_journal_name(arguments.ranks->rank()), identity);
   Exchange exchange(*arguments.ranks);
@@ -448,7 +448,7 @@ void compute_share(const Arguments& arguments, const input::LoadedInput& input, 
   std::exception_ptr error;
   std::thread worker([&] {
     try {
-      (void)studies::run_sweep(plan, look, input.study.integrator, input::model_at_point(input), run);
+      (void)studies::run_sweep(plan, recording, input.study.integrator, input::model_at_point(input), run);
       journal.close();
     } catch (...) {
       error = std::current_exception();

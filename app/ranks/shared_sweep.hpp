@@ -32,7 +32,7 @@ class SweepLeader {
   /// run_sweep on all ranks, until all have ended and closed their journals.
   /// @param points_elsewhere  called now and then with how many points a rank has finished since, and how many failed
   /// @throws the first exception here or Failure of another rank, after all have ended
-  void run(const studies::SweepPlan& plan, const studies::LookOptions& look,
+  void run(const studies::SweepPlan& plan, const studies::RecordingOptions& recording,
            const integrate::IntegratorOptions& integrator, const studies::ModelAtPoint& model_at, studies::SweepRun run,
            const std::function<void(std::size_t finished, std::size_t failed)>& points_elsewhere);
 

@@ -44,15 +44,15 @@ double orbit_ratio(const AttractorRecord& a, const AttractorRecord& b) {
 }
 
 /// Student's t, two-sided.
-double student(double level, int waves) { return gsl_cdf_tdist_Pinv(1.0 - 0.5 * level, 2.0 * waves); }
+double student(double level, int frequencies) { return gsl_cdf_tdist_Pinv(1.0 - 0.5 * level, 2.0 * frequencies); }
 
 /// The largest difference of two records over what it would have to be to count.
 double statistics_ratio(const AttractorRecord& a, const AttractorRecord& b, const AttractorOptions& o) {
   if (a.means.size() != b.means.size()) return far;
   const double comparisons = 2.0 * static_cast<double>(a.means.size()) + 1.0;
   const double level = o.level / comparisons;
-  const int waves = std::min(a.waves, b.waves);
-  if (waves == 0) return 0.0;  // too short to prove anything
+  const int frequencies = std::min(a.frequencies, b.frequencies);
+  if (frequencies == 0) return 0.0;  // too short to prove anything
   double ratio = 0.0;
   const auto compare = [&](const Estimate& x, const Estimate& y, int their_waves, double least) {
     // From half widths of default_confidence to those of the level.
@@ -63,11 +63,11 @@ double statistics_ratio(const AttractorRecord& a, const AttractorRecord& b, cons
   };
   for (std::size_t j = 0; j < a.means.size(); ++j) {
     const double least = std::max(o.tolerance, o.least * std::max(a.deviations[j].value, b.deviations[j].value));
-    compare(a.means[j], b.means[j], waves, least);
-    compare(a.deviations[j], b.deviations[j], waves, least);
+    compare(a.means[j], b.means[j], frequencies, least);
+    compare(a.deviations[j], b.deviations[j], frequencies, least);
   }
   if (std::isfinite(a.exponent.value) && std::isfinite(b.exponent.value))
-    compare(a.exponent, b.exponent, default_waves,
+    compare(a.exponent, b.exponent, default_frequencies,
             o.least * std::max(std::abs(a.exponent.value), std::abs(b.exponent.value)));
   return ratio;
 }
@@ -108,7 +108,7 @@ class Group {
     } else if (std::isfinite(other.exponent.value)) {
       pool(record_.exponent, other.exponent);
     }
-    record_.waves = std::min(record_.waves, other.waves);
+    record_.frequencies = std::min(record_.frequencies, other.frequencies);
   }
 
  private:
@@ -195,20 +195,20 @@ AttractorRecord record_of_section(const PoincareSection& section, Regime regime,
   r.exponent = exponent;
   // Student's t of more waves is hardly narrower, and each is a sum over the record.
   constexpr int most_waves = 32;
-  r.waves = std::clamp(static_cast<int>(points / 16), default_waves, most_waves);
-  r.waves = std::min(r.waves, static_cast<int>((points - 1) / 2));
-  if (r.waves == 0) return r;
+  r.frequencies = std::clamp(static_cast<int>(points / 16), default_frequencies, most_waves);
+  r.frequencies = std::min(r.frequencies, static_cast<int>((points - 1) / 2));
+  if (r.frequencies == 0) return r;
   std::vector<double> series(points);
   for (std::size_t j = 0; j < section.dimension; ++j) {
     for (std::size_t k = 0; k < points; ++k) series[k] = section.point(k)[j];
-    r.means.push_back(series_mean(series, r.waves));
-    r.deviations.push_back(series_deviation(series, r.waves));
+    r.means.push_back(series_mean(series, r.frequencies));
+    r.deviations.push_back(series_deviation(series, r.frequencies));
   }
   return r;
 }
 
-Attractors tell_attractors(std::span<const AttractorRecord> records, const AttractorOptions& options,
-                           std::span<const Symmetry> symmetries) {
+Attractors label_attractors(std::span<const AttractorRecord> records, const AttractorOptions& options,
+                            std::span<const Symmetry> symmetries) {
   options.validate();
   std::vector<Group> groups;
   for (std::size_t k = 0; k < records.size(); ++k) {

@@ -41,7 +41,7 @@ struct AttractorRecord {
   std::size_t dimension = 0;
   std::vector<double> orbit;                ///< if periodic: n rows of the state
   double orbit_error = 0;                   ///< e of [A-same]
-  int waves = 0;                            ///< of the estimates below; 0 if there are none
+  int frequencies = 0;                      ///< of the estimates below; 0 if there are none
   std::vector<Estimate> means, deviations;  ///< else: one per component
   Estimate exponent;                        ///< largest, if not periodic; not a number where there is none
 
@@ -90,7 +90,8 @@ using Symmetry = std::function<std::vector<double>(std::span<const double> state
 
 /// @param symmetries  images are told of periodic attractors only
 /// @throws InputError for options out of range
-[[nodiscard]] Attractors tell_attractors(std::span<const AttractorRecord> records, const AttractorOptions& options = {},
-                                         std::span<const Symmetry> symmetries = {});
+[[nodiscard]] Attractors label_attractors(std::span<const AttractorRecord> records,
+                                          const AttractorOptions& options = {},
+                                          std::span<const Symmetry> symmetries = {});
 
 }  // namespace epicyclic::analysis

@@ -22,7 +22,7 @@ std::vector<Eigen::VectorXd> directions(const OrbitFamily& family, const Special
   const auto blocks = invariant_blocks(static_cast<std::size_t>(m.rows()), family.kept());
   const InvariantBlock* block = nullptr;
   for (const InvariantBlock& b : blocks)
-    if (b.wave == point.wave) block = &b;
+    if (b.symmetry_index == point.symmetry_index) block = &b;
   if (block == nullptr) return {};
   const double at = point.kind == SpecialKind::flip ? -1.0 : 1.0;
   std::vector<Eigen::VectorXd> all;
@@ -109,7 +109,7 @@ Eigen::MatrixXd period_states(const OrbitFamily& family, const CurvePoint& at) {
   Eigen::MatrixXd y(at.states.rows(), family.period);
   // As many pieces as periods begin where these do.
   y.col(0) = at.states.col(0);
-  if (!carry_to_pieces(*family.flows(at.value), family.period, y).reached())
+  if (!carry_to_intervals(*family.flows(at.value), family.period, y).reached())
     return Eigen::MatrixXd(at.states.rows(), 0);
   return without_shift(family, y);
 }
@@ -158,15 +158,16 @@ int least_period(const Eigen::MatrixXd& states, double difference) {
   return static_cast<int>(n);
 }
 
-std::vector<Departure> departures(const OrbitFamily& family, const SpecialPoint& point, const SwitchOptions& options) {
+std::vector<BranchSwitch> branch_switches(const OrbitFamily& family, const SpecialPoint& point,
+                                          const SwitchOptions& options) {
   options.validate();
   const bool flip = point.kind == SpecialKind::flip;
   if (!flip && point.kind != SpecialKind::branch_point) return {};
   OrbitFamily other = family;
   if (flip) other.period *= 2;
-  if (flip) other.pieces *= 2;
-  if (point.wave != 0) other.keeps_symmetry = false;
-  std::vector<Departure> found;
+  if (flip) other.shooting_intervals *= 2;
+  if (point.symmetry_index != 0) other.keeps_symmetry = false;
+  std::vector<BranchSwitch> found;
   std::vector<Eigen::MatrixXd> seen;
   for (const Eigen::VectorXd& v : directions(family, point, options.angles)) {
     const std::optional<CurvePoint> base = cut_into_pieces(other, point.orbit.at.states.col(0), point.value);

@@ -28,7 +28,7 @@ struct SwitchOptions {
 };
 
 /// One orbit on a branch that leaves a special point, going away from it.
-struct Departure {
+struct BranchSwitch {
   OrbitFamily family;  ///< of that branch: of twice the period, or without the symmetry that is broken
   BranchOrbit origin;  ///< the point itself as an orbit of that family, its direction the way that is left
   BranchOrbit orbit;
@@ -37,8 +37,8 @@ struct Departure {
 /// All that are found, each once; of those that are images of one another by the symmetry or by whole periods one.
 /// Empty at folds and Neimark-Sacker points.
 /// @param family  of the branch that the point is on
-[[nodiscard]] std::vector<Departure> departures(const OrbitFamily& family, const SpecialPoint& point,
-                                                const SwitchOptions& options = {});
+[[nodiscard]] std::vector<BranchSwitch> branch_switches(const OrbitFamily& family, const SpecialPoint& point,
+                                                        const SwitchOptions& options = {});
 
 /// States of an orbit at the beginnings of its n periods, one a column, without shifts along neutral directions.
 /// @returns no columns if it could not be carried

@@ -46,10 +46,10 @@ class Watch {
   /// @param see  see(surface, before, after)
   template <class See>
   bool stretch(const Stretch& of, const See& see) {
-    const int looks =
+    const int windows =
         std::max(1, static_cast<int>(std::ceil(looks_per_period * (of.to - of.from) / flow_.field().period - 1e-9)));
     std::vector<double> at;
-    for (int k = 1; k <= looks; ++k) at.push_back(k == looks ? of.to : of.from + (of.to - of.from) * k / looks);
+    for (int k = 1; k <= windows; ++k) at.push_back(k == windows ? of.to : of.from + (of.to - of.from) * k / windows);
     std::vector<Look> before(count_);
     take(of.from, of.state.data(), before);
     std::vector<Look> now(count_);
@@ -62,7 +62,7 @@ class Watch {
     return flow_.evolve(span_of(y), of.from, of.to, at, observe).reached();
   }
 
-  Look look(std::size_t surface, double s, const double* y) {
+  Look sample(std::size_t surface, double s, const double* y) {
     flow_.field().surfaces.evaluate(s, y, values_.data(), rates_.data());
     return {s, values_[surface], rates_[surface]};
   }
@@ -154,7 +154,7 @@ std::optional<double> contact_extremum(const OrbitFamily& family, const CurvePoi
     Eigen::VectorXd y = at_low;
     flow->forget();
     if (s > low && !flow->evolve(span_of(y), low, s).reached()) return Look{s, std::nan(""), std::nan("")};
-    return watch.look(surface, s, y.data());
+    return watch.sample(surface, s, y.data());
   };
   const Look first = look_at(low);
   const Look last = look_at(high);

@@ -21,12 +21,12 @@ double angle(const OrbitFamily& family, const BranchOrbit& a, const BranchOrbit&
 
 void ContinuationOptions::validate() const {
   require(from < to, "to", to, "> from");
-  require(least_step > 0.0, "least_step", least_step, "> 0");
-  require(first_step >= least_step, "first_step", first_step, ">= least_step");
-  require(largest_step >= first_step, "largest_step", largest_step, ">= first_step");
-  require(turn > 0.0, "turn", turn, "> 0");
+  require(min_step > 0.0, "least_step", min_step, "> 0");
+  require(first_step >= min_step, "first_step", first_step, ">= least_step");
+  require(max_step >= first_step, "largest_step", max_step, ">= first_step");
+  require(max_tangent_angle > 0.0, "turn", max_tangent_angle, "> 0");
   require(multiplier_change > 0.0, "multiplier_change", multiplier_change, "> 0");
-  require(guess_distance > 0.0, "guess_distance", guess_distance, "> 0");
+  require(predictor_tolerance > 0.0, "guess_distance", predictor_tolerance, "> 0");
   require(orbits >= 1, "orbits", static_cast<double>(orbits), ">= 1");
 }
 
@@ -54,8 +54,8 @@ double multiplier_change(const std::vector<InvariantBlock>& blocks, const Matrix
 
 StepVerdict judge_step(const ContinuationOptions& options, double step, double angle, double distance, double moved) {
   // What steps aim at may be exceeded by as much again.
-  const double turned = angle / (2.0 * options.turn);
-  const double missed = distance / (options.guess_distance * step);
+  const double turned = angle / (2.0 * options.max_tangent_angle);
+  const double missed = distance / (options.predictor_tolerance * step);
   const double jumped = moved / options.multiplier_change;
   StepVerdict verdict;
   verdict.good = std::max({turned, missed, jumped}) <= 1.0;
@@ -76,12 +76,12 @@ Continuation::Continuation(OrbitFamily family, const ContinuationOptions& option
     throw InputError("the branch starts at " + short_text(start_.at.value) + ", outside its range");
   blocks_ = invariant_blocks(static_cast<std::size_t>(start_.at.states.rows()), family_.kept());
   before_ = state_.now = start_;
-  state_.bend = 0.0 * start_.at;
+  state_.tangent_derivative = 0.0 * start_.at;
   state_.step = options_.first_step;
 }
 
 CurvePoint Continuation::guess(double step) const {
-  return state_.now.at + step * state_.now.direction + (0.5 * step * step) * state_.bend;
+  return state_.now.at + step * state_.now.direction + (0.5 * step * step) * state_.tangent_derivative;
 }
 
 bool Continuation::accept(const Correction& c, double step) {
@@ -137,7 +137,7 @@ bool Continuation::step_onto(double value, double step) {
 
 void Continuation::take(const BranchOrbit& next) {
   const double taken = inner_product(family_, next.at - state_.now.at, state_.now.direction);
-  state_.bend = (1.0 / taken) * (next.direction - state_.now.direction);
+  state_.tangent_derivative = (1.0 / taken) * (next.direction - state_.now.direction);
   before_ = std::exchange(state_.now, next);
   ++state_.orbits;
   if (length(family_, state_.now.at - start_.at) > 2.0 * state_.step) state_.left_start = true;
@@ -171,15 +171,15 @@ bool Continuation::advance() {
           return true;
         }
         take(c.orbit);
-        state_.step = std::clamp(state_.step * std::clamp(grow_, 0.3, 2.0), options_.least_step, options_.largest_step);
+        state_.step = std::clamp(state_.step * std::clamp(grow_, 0.3, 2.0), options_.min_step, options_.max_step);
         return true;
       }
     }
-    if (state_.step <= options_.least_step) {
-      state_.end = BranchEnd::least_step;
+    if (state_.step <= options_.min_step) {
+      state_.end = BranchEnd::min_step;
       return false;
     }
-    state_.step = std::max(0.5 * state_.step, options_.least_step);
+    state_.step = std::max(0.5 * state_.step, options_.min_step);
   }
 }
 

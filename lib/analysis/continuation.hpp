@@ -27,34 +27,34 @@ struct ContinuationOptions {
   double from = 0, to = 0;       ///< range of the parameter, from < to
   std::vector<double> values{};  ///< at which orbits are wanted, exactly
   double first_step = 0.01;      ///< [A-length]
-  double least_step = 1e-7;
-  double largest_step = 0.1;
-  double turn = 0.1;               ///< angle between the directions of neighbours that steps aim at [rad]
-  double multiplier_change = 0.2;  ///< most of a multiplier whose modulus is within 1/2 ... 2
-  double guess_distance = 0.1;     ///< most distance of what is found from the guess, in steps
-  std::size_t orbits = 10000;      ///< most on the branch
+  double min_step = 1e-7;
+  double max_step = 0.1;
+  double max_tangent_angle = 0.1;    ///< angle between the directions of neighbours that steps aim at [rad]
+  double multiplier_change = 0.2;    ///< most of a multiplier whose modulus is within 1/2 ... 2
+  double predictor_tolerance = 0.1;  ///< most distance of what is found from the guess, in steps
+  std::size_t orbits = 10000;        ///< most on the branch
 
   /// @throws InputError for an empty range, or steps and bounds out of range
   void validate() const;
 };
 
 enum class BranchEnd {
-  none,        ///< it goes on
-  range,       ///< an end of the range, which the last orbit is at
-  closed,      ///< the branch has come back to its first orbit, which stands last again
-  many,        ///< as many orbits as asked for
-  least_step,  ///< no orbit within the least step
+  none,      ///< it goes on
+  range,     ///< an end of the range, which the last orbit is at
+  closed,    ///< the branch has come back to its first orbit, which stands last again
+  many,      ///< as many orbits as asked for
+  min_step,  ///< no orbit within the least step
 };
 
 /// All that a continuation goes on from.
 struct ContinuationState {
   BranchOrbit now;
-  CurvePoint bend;  ///< dt/dh
+  CurvePoint tangent_derivative;  ///< dt/dh
   double step = 0;
   std::size_t orbits = 1;
   bool left_start = false;  ///< far enough to come back
   BranchEnd end = BranchEnd::none;
-  std::string message{};  ///< why no orbit was found, at least_step
+  std::string message{};  ///< why no orbit was found, at min_step
   int evaluations = 0;    ///< of the shooting equations with their derivatives
 };
 
@@ -69,8 +69,8 @@ class Continuation {
   /// @returns whether there is one
   bool advance();
 
-  [[nodiscard]] const BranchOrbit& now() const { return state_.now; }
-  [[nodiscard]] const BranchOrbit& before() const { return before_; }  ///< the one advance() came from
+  [[nodiscard]] const BranchOrbit& current() const { return state_.now; }
+  [[nodiscard]] const BranchOrbit& previous() const { return before_; }  ///< the one advance() came from
   [[nodiscard]] BranchEnd end() const { return state_.end; }
   [[nodiscard]] const OrbitFamily& family() const { return family_; }
 

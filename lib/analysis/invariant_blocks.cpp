@@ -43,8 +43,8 @@ InvariantBlock without_neutral(InvariantBlock block, const CyclicSymmetry& symme
   Eigen::MatrixXcd part = Eigen::MatrixXcd::Zero(symmetry.neutral.rows(), symmetry.neutral.cols());
   Eigen::MatrixXd moved = symmetry.neutral;
   for (int k = 0; k < order; ++k) {
-    part +=
-        std::polar(1.0 / order, -2.0 * std::numbers::pi * block.wave * k / order) * moved.cast<std::complex<double>>();
+    part += std::polar(1.0 / order, -2.0 * std::numbers::pi * block.symmetry_index * k / order) *
+            moved.cast<std::complex<double>>();
     if (k + 1 < order) moved = product(symmetry.map, moved);
   }
   for (Eigen::Index k = 0; k < part.cols(); ++k)
@@ -146,8 +146,8 @@ std::vector<double> multiplier_errors(const InvariantBlock& block, const MatrixP
 }
 
 std::string block_name(const InvariantBlock& block, int order) {
-  if (block.wave == 0) return "synchronous";
-  return "symmetry index " + std::to_string(block.wave) + " of " + std::to_string(order);
+  if (block.symmetry_index == 0) return "synchronous";
+  return "symmetry index " + std::to_string(block.symmetry_index) + " of " + std::to_string(order);
 }
 
 }  // namespace epicyclic::analysis

@@ -34,7 +34,7 @@
 namespace epicyclic::analysis {
 
 struct InvariantBlock {
-  int wave = 0;            ///< j of 0 ... N/2
+  int symmetry_index = 0;  ///< j of 0 ... N/2
   bool real = true;        ///< j = 0 or N/2: multipliers are real or pairs; else each stands for a pair of two blocks
   Eigen::MatrixXcd basis;  ///< V_j, dimension x size
 };

@@ -49,9 +49,9 @@ class Locus {
         subject_(subject),
         blocks_(invariant_blocks(static_cast<std::size_t>(dimension), surface.family.kept())),
         system_(surface_.family, surface_.scales(), dimension, [this](const OrbitPlace& z) { return evaluate(z); }) {
-    block_ = find(subject.wave);
+    block_ = find(subject.symmetry_index);
     if (block_ == nullptr)
-      throw InputError("a locus of symmetry index " + std::to_string(subject.wave) +
+      throw InputError("a locus of symmetry index " + std::to_string(subject.symmetry_index) +
                        ", which the symmetry does not have");
     form_ = subject.kind == SpecialKind::grazing          ? Form::contact
             : !block_->real                               ? Form::single
@@ -66,7 +66,7 @@ class Locus {
   [[nodiscard]] const OrbitSurface& surface() const { return surface_; }
   [[nodiscard]] const LocusSubject& subject() const { return subject_; }
   [[nodiscard]] const std::vector<InvariantBlock>& blocks() const { return blocks_; }
-  [[nodiscard]] const InvariantBlock& block(int wave) const { return *find(wave); }
+  [[nodiscard]] const InvariantBlock& block(int symmetry_index) const { return *find(symmetry_index); }
   [[nodiscard]] Form form() const { return form_; }
   [[nodiscard]] double inner(const OrbitPlace& a, const OrbitPlace& b) const { return system_.inner(a, b); }
   [[nodiscard]] double length(const OrbitPlace& a) const { return system_.length(a); }
@@ -166,7 +166,7 @@ class Locus {
   /// A point of this surface from one of another subdivision or tolerance, in its plane.
   LocusCorrection recut(const LocusPoint& point) {
     LocusPoint near = point;
-    if (point.at.states.cols() != surface_.family.pieces) {
+    if (point.at.states.cols() != surface_.family.shooting_intervals) {
       const std::optional<OrbitPlace> at = cut(point.at);
       const std::optional<OrbitPlace> direction = cut_direction(point.at, point.direction);
       const std::optional<OrbitPlace> across = cut_direction(point.at, point.across);
@@ -181,7 +181,7 @@ class Locus {
   /// Multipliers of a block but those that the locus is about.
   [[nodiscard]] Multipliers others(const InvariantBlock& block, const LocusPoint& point) const {
     Multipliers values = multipliers_of(block, point.monodromy);
-    if (block.wave != subject_.wave || form_ == Form::contact) return values;
+    if (block.symmetry_index != subject_.symmetry_index || form_ == Form::contact) return values;
     take_nearest(values, form_ == Form::bordered ? at_ : point.multiplier);
     if (form_ == Form::pair) take_nearest(values, point.partner);
     return values;
@@ -197,9 +197,9 @@ class Locus {
   }
 
  private:
-  [[nodiscard]] const InvariantBlock* find(int wave) const {
+  [[nodiscard]] const InvariantBlock* find(int symmetry_index) const {
     for (const InvariantBlock& b : blocks_)
-      if (b.wave == wave) return &b;
+      if (b.symmetry_index == symmetry_index) return &b;
     return nullptr;
   }
 
@@ -351,7 +351,7 @@ void set_bounds(LocusPoint& point, const std::vector<Eigen::VectorXd>& finer, co
 OrbitSurface refined(const OrbitSurface& surface, const LocusRefinement& other) {
   OrbitSurface finer = surface;
   finer.flows = other.flows;
-  finer.family.pieces *= other.pieces;
+  finer.family.shooting_intervals *= other.shooting_intervals;
   return finer;
 }
 
@@ -386,7 +386,7 @@ void set_bounds(const Locus& locus, const LocusOptions& options, LocusPoint& poi
 struct Event {
   using Function = std::function<double(const Locus&, const LocusPoint&)>;
   CodimTwo kind = CodimTwo::unresolved;
-  int wave = 0;                      ///< of the block of the other multiplier
+  int symmetry_index = 0;            ///< of the block of the other multiplier
   std::optional<Crossing> crossing;  ///< that it makes; none: the locus' own direction, or multiplier
   std::size_t inside = 0;            ///< as of sign_function()
   std::complex<double> expected{};   ///< where it is, of a pair
@@ -395,14 +395,14 @@ struct Event {
   /// Of another sign on each side, whatever else happens to the multipliers.
   [[nodiscard]] double sign(const Locus& locus, const LocusPoint& p) const {
     if (!crossing) return own(locus, p);
-    const InvariantBlock& block = locus.block(wave);
+    const InvariantBlock& block = locus.block(symmetry_index);
     return sign_function(block, *crossing, locus.others(block, p), inside);
   }
 
   /// The other multiplier; the locus' own if there is no other.
   [[nodiscard]] std::complex<double> multiplier(const Locus& locus, const LocusPoint& p) const {
     if (!crossing) return p.multiplier;
-    return nearest(locus.others(locus.block(wave), p), *crossing == Crossing::pair ? expected : at());
+    return nearest(locus.others(locus.block(symmetry_index), p), *crossing == Crossing::pair ? expected : at());
   }
 
   /// Smooth at the event.
@@ -410,7 +410,7 @@ struct Event {
     if (!crossing) return own(locus, p);
     if (kind == CodimTwo::resonance_1_1 || kind == CodimTwo::resonance_1_2) {
       // Two that meet go like the root of the distance; their sum is smooth.
-      Multipliers all = multipliers_of(locus.block(wave), p.monodromy);
+      Multipliers all = multipliers_of(locus.block(symmetry_index), p.monodromy);
       const std::complex<double> one = take_nearest(all, at());
       return (one + nearest(all, at())).real() - 2.0 * at().real();
     }
@@ -420,7 +420,7 @@ struct Event {
 
   /// Looks for a pair where it is at a point close to the event.
   void expect_near(const Locus& locus, const LocusPoint& p) {
-    if (crossing == Crossing::pair) expected = locus.others(locus.block(wave), p).at(inside);
+    if (crossing == Crossing::pair) expected = locus.others(locus.block(symmetry_index), p).at(inside);
   }
 
  private:
@@ -443,12 +443,12 @@ void resonances(const Locus& locus, const LocusPoint& a, const LocusPoint& b, st
   for (int k = 1; k <= 4; ++k) {
     const double angle = 2.0 * std::numbers::pi / k;
     const CodimTwo kind = kinds[static_cast<std::size_t>(k - 1)];
-    const auto look = [&](const Event::Function& f) {
+    const auto watch = [&](const Event::Function& f) {
       if ((f(locus, a) > 0.0) != (f(locus, b) > 0.0))
-        found.push_back({kind, locus.subject().wave, std::nullopt, 0, 0.0, f});
+        found.push_back({kind, locus.subject().symmetry_index, std::nullopt, 0, 0.0, f});
     };
     if (locus.form() == Form::pair) {
-      look([cosine = std::cos(angle)](const Locus&, const LocusPoint& p) { return half_trace(p) - cosine; });
+      watch([cosine = std::cos(angle)](const Locus&, const LocusPoint& p) { return half_trace(p) - cosine; });
       continue;
     }
     for (const double sense : {1.0, -1.0}) {
@@ -456,7 +456,7 @@ void resonances(const Locus& locus, const LocusPoint& a, const LocusPoint& b, st
       const std::complex<double> back = std::polar(1.0, -sense * angle);
       // Only on this side of the circle.
       if (!((a.multiplier * back).real() > 0.0) || !((b.multiplier * back).real() > 0.0)) continue;
-      look([back](const Locus&, const LocusPoint& p) { return (p.multiplier * back).imag(); });
+      watch([back](const Locus&, const LocusPoint& p) { return (p.multiplier * back).imag(); });
     }
   }
 }
@@ -477,11 +477,11 @@ void cusp(const Locus& locus, const LocusPoint& a, const LocusPoint& b, std::vec
 /// The name of another crossing on a locus.
 CodimTwo name_of(const Locus& locus, const InvariantBlock& block, Crossing crossing) {
   const LocusSubject& s = locus.subject();
-  const bool same = block.wave == s.wave;
+  const bool same = block.symmetry_index == s.symmetry_index;
   const bool fold = s.kind == SpecialKind::fold;
   const bool flip = s.kind == SpecialKind::flip;
   const bool torus = s.kind == SpecialKind::neimark_sacker;
-  const bool synchronous = block.wave == 0;
+  const bool synchronous = block.symmetry_index == 0;
   switch (crossing) {
     case Crossing::plus:
       if (same && !flip && !torus) return CodimTwo::resonance_1_1;
@@ -513,8 +513,8 @@ std::optional<LocusPoint> polish(Locus& locus, const Event& event, const LocusPo
   return last.point;
 }
 
-LocusMark unresolved(const LocusPoint& a, const LocusPoint& b, std::string note) {
-  LocusMark mark;
+Codim2Point unresolved(const LocusPoint& a, const LocusPoint& b, std::string note) {
+  Codim2Point mark;
   mark.point = a;
   const Eigen::VectorXd apart = (b.at.values - a.at.values).cwiseAbs();
   mark.point.first_bound = apart(0);
@@ -523,10 +523,10 @@ LocusMark unresolved(const LocusPoint& a, const LocusPoint& b, std::string note)
   return mark;
 }
 
-LocusMark locate(Locus& locus, Event event, const LocusPoint& a, const LocusPoint& b, const LocusOptions& options) {
-  LocusMark mark;
+Codim2Point locate(Locus& locus, Event event, const LocusPoint& a, const LocusPoint& b, const LocusOptions& options) {
+  Codim2Point mark;
   mark.kind = event.kind;
-  mark.wave = event.wave;
+  mark.symmetry_index = event.symmetry_index;
   const std::string name = to_string(event.kind) + ": ";
   try {
     LocusPoint near = a;
@@ -557,7 +557,7 @@ LocusMark locate(Locus& locus, Event event, const LocusPoint& a, const LocusPoin
 }
 
 void find_marks(Locus& locus, const LocusPoint& a, const LocusPoint& b, const LocusOptions& options, int halvings,
-                std::vector<LocusMark>& found) {
+                std::vector<Codim2Point>& found) {
   if (locus.form() == Form::contact) return;
   std::vector<Event> events;
   cusp(locus, a, b, events);
@@ -574,7 +574,8 @@ void find_marks(Locus& locus, const LocusPoint& a, const LocusPoint& b, const Lo
       parted = false;
       continue;
     }
-    events.push_back({name_of(locus, block, *crossing), block.wave, crossing, std::min(at_a.outside, at_b.outside)});
+    events.push_back(
+        {name_of(locus, block, *crossing), block.symmetry_index, crossing, std::min(at_a.outside, at_b.outside)});
   }
   if (!parted) {
     const LocusCorrection middle = halvings > 0 ? locus.between(a, b, 0.5) : LocusCorrection{};
@@ -589,15 +590,15 @@ void find_marks(Locus& locus, const LocusPoint& a, const LocusPoint& b, const Lo
 }
 
 /// All points of codimension two between two points, in order.
-std::vector<LocusMark> marks_between(Locus& locus, const LocusPoint& a, const LocusPoint& b,
-                                     const LocusOptions& options) {
+std::vector<Codim2Point> marks_between(Locus& locus, const LocusPoint& a, const LocusPoint& b,
+                                       const LocusOptions& options) {
   // Of what is left after as many, neighbours differ by 1e-6 of their distance.
   constexpr int halvings = 20;
-  std::vector<LocusMark> found;
+  std::vector<Codim2Point> found;
   find_marks(locus, a, b, options, halvings, found);
-  const auto along = [&](const LocusMark& m) { return locus.inner(m.point.at - a.at, a.direction); };
+  const auto along = [&](const Codim2Point& m) { return locus.inner(m.point.at - a.at, a.direction); };
   std::stable_sort(found.begin(), found.end(),
-                   [&](const LocusMark& p, const LocusMark& q) { return along(p) < along(q); });
+                   [&](const Codim2Point& p, const Codim2Point& q) { return along(p) < along(q); });
   return found;
 }
 
@@ -649,7 +650,9 @@ void LocusOptions::validate() const {
   require(safety >= 1.0, "safety", safety, ">= 1");
 }
 
-LocusSubject subject_of(const SpecialPoint& point) { return {point.kind, point.wave, point.surface, point.least}; }
+LocusSubject subject_of(const SpecialPoint& point) {
+  return {point.kind, point.symmetry_index, point.surface, point.least};
+}
 
 LocusPoint reversed(LocusPoint point) {
   point.direction = -1.0 * point.direction;
@@ -658,11 +661,11 @@ LocusPoint reversed(LocusPoint point) {
 
 LocusCorrection locus_start(const OrbitSurface& surface, const SpecialPoint& point, double second) {
   surface.validate();
-  if (point.kind == SpecialKind::unresolved || (point.kind == SpecialKind::branch_point && point.wave == 0))
+  if (point.kind == SpecialKind::unresolved || (point.kind == SpecialKind::branch_point && point.symmetry_index == 0))
     throw InputError("there is no locus of a point that is " + to_string(point.kind));
   Locus locus(surface, subject_of(point), point.orbit.at.states.rows());
   OrbitPlace z{point.orbit.at.states, Eigen::Vector2d(point.orbit.at.value, second)};
-  if (z.states.cols() != surface.family.pieces) {
+  if (z.states.cols() != surface.family.shooting_intervals) {
     const auto cut = cut_into_pieces(surface.at(second), z.states.col(0), z.values(0));
     if (!cut) {
       LocusCorrection none;
@@ -686,12 +689,12 @@ LocusTrace::LocusTrace(OrbitSurface surface, const LocusSubject& subject, LocusO
   Locus locus(surface_, subject_, start_.at.states.rows());
   set_bounds(locus, options_, start_);
   before_ = state_.now = start_;
-  state_.bend = 0.0 * start_.at;
+  state_.tangent_derivative = 0.0 * start_.at;
   state_.step = range.first_step;
 }
 
 OrbitPlace LocusTrace::guess(double step) const {
-  return state_.now.at + step * state_.now.direction + (0.5 * step * step) * state_.bend;
+  return state_.now.at + step * state_.now.direction + (0.5 * step * step) * state_.tangent_derivative;
 }
 
 /// The edge that is met first on the way to a place.
@@ -769,7 +772,7 @@ bool LocusTrace::step_onto(Locus& locus, const Edge& edge, double step) {
 
 void LocusTrace::take(Locus& locus, LocusPoint next) {
   state_.marks = marks_between(locus, state_.now, next, options_);
-  const auto met = std::find_if(state_.marks.begin(), state_.marks.end(), [&](const LocusMark& mark) {
+  const auto met = std::find_if(state_.marks.begin(), state_.marks.end(), [&](const Codim2Point& mark) {
     return mark.kind == CodimTwo::resonance_1_1 || mark.kind == CodimTwo::resonance_1_2;
   });
   if (locus.form() == Form::pair && is_real_pair(next) && met != state_.marks.end()) {
@@ -780,7 +783,7 @@ void LocusTrace::take(Locus& locus, LocusPoint next) {
     set_bounds(locus, options_, next);
   }
   const double taken = locus.inner(next.at - state_.now.at, state_.now.direction);
-  state_.bend = (1.0 / taken) * (next.direction - state_.now.direction);
+  state_.tangent_derivative = (1.0 / taken) * (next.direction - state_.now.direction);
   before_ = std::exchange(state_.now, std::move(next));
   ++state_.points;
   if (locus.length(state_.now.at - start_.at) > 2.0 * state_.step) state_.left_start = true;
@@ -812,16 +815,16 @@ bool LocusTrace::advance() {
           return true;
         }
         take(locus, c.point);
-        state_.step = std::clamp(state_.step * std::clamp(grow_, 0.3, 2.0), options_.along.least_step,
-                                 options_.along.largest_step);
+        state_.step =
+            std::clamp(state_.step * std::clamp(grow_, 0.3, 2.0), options_.along.min_step, options_.along.max_step);
         return true;
       }
     }
-    if (state_.step <= options_.along.least_step) {
-      state_.end = LocusEnd::least_step;
+    if (state_.step <= options_.along.min_step) {
+      state_.end = LocusEnd::min_step;
       return false;
     }
-    state_.step = std::max(0.5 * state_.step, options_.along.least_step);
+    state_.step = std::max(0.5 * state_.step, options_.along.min_step);
   }
 }
 

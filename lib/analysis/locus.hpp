@@ -93,7 +93,7 @@ enum class CodimTwo {
 /// What a locus is a locus of.
 struct LocusSubject {
   SpecialKind kind = SpecialKind::fold;
-  int wave = 0;             ///< of the block
+  int symmetry_index = 0;   ///< of the block
   std::size_t surface = 0;  ///< that is grazed
   bool least = false;       ///< where its value is least, else where it is greatest
 };
@@ -117,10 +117,10 @@ struct LocusPoint {
 };
 
 /// A point of codimension two on a locus.
-struct LocusMark {
+struct Codim2Point {
   CodimTwo kind = CodimTwo::unresolved;
   LocusPoint point;
-  int wave = 0;                       ///< of the other multiplier's block
+  int symmetry_index = 0;             ///< of the other multiplier's block
   std::complex<double> multiplier{};  ///< the other one; of a resonance 1:k the locus' own
   std::string note{};                 ///< what was not as usual
 };
@@ -128,7 +128,7 @@ struct LocusMark {
 /// The same orbits by another tolerance or subdivision.
 struct LocusRefinement {
   PlaneOfFlows flows;
-  int pieces = 1;  ///< for each of the family's
+  int shooting_intervals = 1;  ///< for each of the family's
 };
 
 struct LocusOptions {
@@ -143,12 +143,12 @@ struct LocusOptions {
 };
 
 enum class LocusEnd {
-  none,        ///< it goes on
-  range,       ///< an edge of the rectangle, which the last point is at
-  closed,      ///< the locus has come back to its first point, which stands last again
-  many,        ///< as many points as asked for
-  least_step,  ///< no point within the least step
-  resonance,   ///< the pair has become real at 1:1 or 1:2, which the last point is at
+  none,       ///< it goes on
+  range,      ///< an edge of the rectangle, which the last point is at
+  closed,     ///< the locus has come back to its first point, which stands last again
+  many,       ///< as many points as asked for
+  min_step,   ///< no point within the least step
+  resonance,  ///< the pair has become real at 1:1 or 1:2, which the last point is at
 };
 
 /// What a search for a point of a locus came to.
@@ -175,14 +175,14 @@ struct LocusCorrection {
 /// All that a trace goes on from.
 struct LocusState {
   LocusPoint now;
-  OrbitPlace bend;  ///< dt/dh
+  OrbitPlace tangent_derivative;  ///< dt/dh
   double step = 0;
   std::size_t points = 1;
   bool left_start = false;  ///< far enough to come back
   LocusEnd end = LocusEnd::none;
-  std::vector<LocusMark> marks{};  ///< between the point before and this one, in order
-  std::string message{};           ///< why no point was found, at least_step
-  int evaluations = 0;             ///< of F with its derivatives, those of bounds and marks not counted
+  std::vector<Codim2Point> marks{};  ///< between the point before and this one, in order
+  std::string message{};             ///< why no point was found, at min_step
+  int evaluations = 0;               ///< of F with its derivatives, those of bounds and marks not counted
 };
 
 class Locus;
@@ -198,9 +198,9 @@ class LocusTrace {
   /// @returns whether there is one
   bool advance();
 
-  [[nodiscard]] const LocusPoint& now() const { return state_.now; }
-  [[nodiscard]] const LocusPoint& before() const { return before_; }  ///< the one advance() came from
-  [[nodiscard]] const std::vector<LocusMark>& marks() const { return state_.marks; }
+  [[nodiscard]] const LocusPoint& current() const { return state_.now; }
+  [[nodiscard]] const LocusPoint& previous() const { return before_; }  ///< the one advance() came from
+  [[nodiscard]] const std::vector<Codim2Point>& marks() const { return state_.marks; }
   [[nodiscard]] LocusEnd end() const { return state_.end; }
 
   /// One that is given the state of another with the same surface, subject, options and start goes on with the same

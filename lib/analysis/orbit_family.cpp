@@ -118,7 +118,7 @@ Eigen::MatrixXd without_shift(const OrbitFamily& family, const Eigen::MatrixXd& 
 
 void OrbitFamily::validate() const {
   require(period >= 1, "period", period, ">= 1");
-  require(pieces >= 1, "pieces", pieces, ">= 1");
+  require(shooting_intervals >= 1, "pieces", shooting_intervals, ">= 1");
   require(iterations >= 1, "iterations", iterations, ">= 1");
   require(value_scale > 0.0, "value_scale", value_scale, "> 0");
   require(state_scale > 0.0, "state_scale", state_scale, "> 0");
@@ -153,9 +153,9 @@ Correction between(const OrbitFamily& family, const BranchOrbit& a, const Branch
 }
 
 std::optional<CurvePoint> cut_into_pieces(const OrbitFamily& family, const Eigen::VectorXd& y, double value) {
-  CurvePoint z{Eigen::MatrixXd(y.size(), family.pieces), value};
+  CurvePoint z{Eigen::MatrixXd(y.size(), family.shooting_intervals), value};
   z.states.col(0) = y;
-  if (!carry_to_pieces(*family.flows(value), family.period, z.states).reached()) return std::nullopt;
+  if (!carry_to_intervals(*family.flows(value), family.period, z.states).reached()) return std::nullopt;
   z.states = without_shift(family, z.states);
   return z;
 }
@@ -163,9 +163,9 @@ std::optional<CurvePoint> cut_into_pieces(const OrbitFamily& family, const Eigen
 Correction first_orbit(const OrbitFamily& family, double value, std::span<const double> state) {
   family.validate();
   check_neutral(family, value, state);
-  Eigen::MatrixXd y(static_cast<Eigen::Index>(state.size()), family.pieces);
+  Eigen::MatrixXd y(static_cast<Eigen::Index>(state.size()), family.shooting_intervals);
   std::copy(state.begin(), state.end(), y.data());
-  const integrate::Evolution e = carry_to_pieces(*family.flows(value), family.period, y);
+  const integrate::Evolution e = carry_to_intervals(*family.flows(value), family.period, y);
   if (!e.reached()) {
     Correction result;
     result.message = e.message;

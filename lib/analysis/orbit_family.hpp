@@ -35,10 +35,10 @@ namespace epicyclic::analysis {
 
 struct OrbitFamily {
   integrate::FlowFamily flows;
-  int period = 1;          ///< n, in periods of the forcing
-  int pieces = 1;          ///< p of multiple shooting
-  double value_scale = 1;  ///< L
-  double state_scale = 1;  ///< Y
+  int period = 1;              ///< n, in periods of the forcing
+  int shooting_intervals = 1;  ///< p of multiple shooting
+  double value_scale = 1;      ///< L
+  double state_scale = 1;      ///< Y
 
   CyclicSymmetry symmetry{};   ///< of the flows, if they have one
   bool keeps_symmetry = true;  ///< the orbits are those that it leaves as they are: Newton's method stays among them

@@ -51,7 +51,7 @@ void for_each_index(std::size_t count, int threads, F&& f) {
 OrbitFamily of_period(const OrbitFamily& family, int n) {
   OrbitFamily f = family;
   f.period = n;
-  f.pieces *= n;
+  f.shooting_intervals *= n;
   return f;
 }
 
@@ -65,9 +65,9 @@ class Linearised {
   Linearised(const Eigen::MatrixXd& kept, const Shot& shot) : kept_(kept) {
     const Eigen::Index m = kept.cols();
     matrix_ = Eigen::MatrixXd::Identity(m, m);
-    for (const Eigen::MatrixXd& piece : shot.pieces) {
-      pieces_.push_back(product(transposed_product(kept, piece), kept));
-      matrix_ = product(pieces_.back(), matrix_);
+    for (const Eigen::MatrixXd& piece : shot.interval_maps) {
+      shooting_intervals_.push_back(product(transposed_product(kept, piece), kept));
+      matrix_ = product(shooting_intervals_.back(), matrix_);
     }
     matrix_ = Eigen::MatrixXd::Identity(m, m) - matrix_;
   }
@@ -76,7 +76,7 @@ class Linearised {
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& r) const {
     Eigen::VectorXd d = Eigen::VectorXd::Zero(kept_.cols());
     const auto carry = [&](Eigen::Index i) {
-      d = pieces_[static_cast<std::size_t>(i)] * d + kept_.transpose() * r.col(i);
+      d = shooting_intervals_[static_cast<std::size_t>(i)] * d + kept_.transpose() * r.col(i);
     };
     for (Eigen::Index i = 0; i < r.cols(); ++i) carry(i);
     d = solution(matrix_, d);
@@ -90,7 +90,7 @@ class Linearised {
 
  private:
   const Eigen::MatrixXd& kept_;
-  std::vector<Eigen::MatrixXd> pieces_;
+  std::vector<Eigen::MatrixXd> shooting_intervals_;
   Eigen::MatrixXd matrix_;  ///< I - M
 };
 
@@ -149,9 +149,9 @@ Way follow(const OrbitFamily& family, double value, const Eigen::VectorXd& start
   const auto flow = family.flows(value);
   const Eigen::MatrixXd kept = kept_states(family, start.size());
   const auto keep = [&](const Eigen::MatrixXd& states) { return product(kept, transposed_product(kept, states)); };
-  Eigen::MatrixXd y(start.size(), family.pieces);
+  Eigen::MatrixXd y(start.size(), family.shooting_intervals);
   y.col(0) = keep(start);
-  if (const integrate::Evolution e = carry_to_pieces(*flow, family.period, y); !e.reached())
+  if (const integrate::Evolution e = carry_to_intervals(*flow, family.period, y); !e.reached())
     return failed(SearchFailure::not_carried, e.message);
   y = keep(y);
   double damping = 1.0;
@@ -177,7 +177,7 @@ Way follow(const OrbitFamily& family, double value, const Eigen::VectorXd& start
     const Eigen::MatrixXd step = factor * d;
     const double level = states_length(family, step);
     if (!std::isfinite(level)) return failed(SearchFailure::no_descent, "the deflated equations are singular");
-    const double longest = std::min(1.0, options.largest_step / level);
+    const double longest = std::min(1.0, options.max_step / level);
     damping = std::min(longest, 2.0 * damping);
     // Where the equations are nearly singular steps are long ones: their least part is one of the longest allowed.
     const double least = options.least_damping * damping;
@@ -252,7 +252,7 @@ AttractorRecord record_of(const Eigen::MatrixXd& states, double error, int once 
 }
 
 bool are_one(const AttractorRecord& a, const AttractorRecord& b) {
-  return tell_attractors(std::vector<AttractorRecord>{a, b}).all.size() == 1;
+  return label_attractors(std::vector<AttractorRecord>{a, b}).all.size() == 1;
 }
 
 AttractorRecord turned(const AttractorRecord& record, const Eigen::MatrixXd& map) {
@@ -333,7 +333,7 @@ std::vector<FoundOrbit> told_apart(const OrbitFamily& system, const std::vector<
   }
   std::vector<AttractorRecord> records;
   for (const Candidate& c : candidates) records.push_back(record_of(c.states, c.error));
-  const Attractors told = tell_attractors(records, {}, maps);
+  const Attractors told = label_attractors(records, {}, maps);
 
   // Of each attractor the first one that it is an image of.
   std::map<std::size_t, std::vector<std::size_t>> members;
@@ -356,7 +356,7 @@ std::vector<FoundOrbit> told_apart(const OrbitFamily& system, const std::vector<
     if (!turns.empty()) {
       std::vector<AttractorRecord> images = {record_of(c.states, c.error)};
       for (const Eigen::MatrixXd& turn : turns) images.push_back(turned(images.front(), turn));
-      f.images = static_cast<int>(tell_attractors(images).all.size());
+      f.images = static_cast<int>(label_attractors(images).all.size());
       // A wave that travels is the same orbit turned, begun at another period: its states are not kept.
       const AttractorRecord state = record_of(c.states.leftCols(1), c.error);
       f.family.keeps_symmetry = are_one(state, turned(state, symmetry.map));
@@ -406,7 +406,7 @@ void SearchOptions::validate() const {
   require(iterations >= 1, "iterations", iterations, ">= 1");
   require(jumps >= 0, "jumps", jumps, ">= 0");
   require(least_damping > 0.0 && least_damping <= 1.0, "least_damping", least_damping, "in (0, 1]");
-  require(largest_step > 0.0, "largest_step", largest_step, "> 0");
+  require(max_step > 0.0, "largest_step", max_step, "> 0");
   require(map_error >= 0.0, "map_error", map_error, ">= 0");
   require(threads >= 1, "threads", threads, ">= 1");
 }

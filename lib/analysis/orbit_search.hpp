@@ -53,7 +53,7 @@ struct SearchOptions {
   int iterations = 30;          ///< of the damped method
   double least_damping = 0.05;  ///< l
   int jumps = 3;                ///< steps without damping on one way, where no damped one falls
-  double largest_step = 0.5;    ///< of the damped method [A-length]
+  double max_step = 0.5;        ///< of the damped method [A-length]
   double map_error = 1e-9;      ///< what the flows leave of an orbit, in parts of its largest component [-]
   int threads = 1;              ///< more than one: the family's flows are made and used by as many at once
 

@@ -59,10 +59,10 @@ OrbitSystem::OrbitSystem(const OrbitFamily& family, Eigen::VectorXd scales, Eige
       scales_(std::move(scales)),
       evaluate_(std::move(evaluate)),
       kept_(kept_states(family, dimension)),
-      pieces_(family.pieces) {}
+      shooting_intervals_(family.shooting_intervals) {}
 
 double OrbitSystem::weight() const {
-  return 1.0 / (static_cast<double>(pieces_ * kept_.rows()) * family_.state_scale * family_.state_scale);
+  return 1.0 / (static_cast<double>(shooting_intervals_ * kept_.rows()) * family_.state_scale * family_.state_scale);
 }
 
 double OrbitSystem::inner(const OrbitPlace& a, const OrbitPlace& b) const {
@@ -73,13 +73,13 @@ double OrbitSystem::length(const OrbitPlace& a) const { return std::sqrt(inner(a
 
 void OrbitSystem::set(const OrbitShot& shot, const std::vector<ClosingRow>& rows) {
   const Eigen::Index m = kept_.cols();
-  const Eigen::Index first = m * pieces_;
+  const Eigen::Index first = m * shooting_intervals_;
   const Eigen::Index values = scales_.size();
   matrix_.setZero(first + static_cast<Eigen::Index>(rows.size()), first + values);
-  for (Eigen::Index i = 0; i < pieces_; ++i) {
+  for (Eigen::Index i = 0; i < shooting_intervals_; ++i) {
     matrix_.block(i * m, i * m, m, m) =
-        product(transposed_product(kept_, shot.shot.pieces[static_cast<std::size_t>(i)]), kept_);
-    matrix_.block(i * m, (i + 1) % pieces_ * m, m, m) -= Eigen::MatrixXd::Identity(m, m);
+        product(transposed_product(kept_, shot.shot.interval_maps[static_cast<std::size_t>(i)]), kept_);
+    matrix_.block(i * m, (i + 1) % shooting_intervals_ * m, m, m) -= Eigen::MatrixXd::Identity(m, m);
     // Parameters in units of their scales, as their rows.
     for (Eigen::Index k = 0; k < values; ++k)
       matrix_.block(i * m, first + k, m, 1) =
@@ -92,7 +92,7 @@ void OrbitSystem::set(const OrbitShot& shot, const std::vector<ClosingRow>& rows
       matrix_(at, first + rows[r].value) = 1.0;
       continue;
     }
-    for (Eigen::Index i = 0; i < pieces_; ++i)
+    for (Eigen::Index i = 0; i < shooting_intervals_; ++i)
       matrix_.block(at, i * m, 1, m) = weight() * along->states.col(i).transpose() * kept_;
     for (Eigen::Index k = 0; k < values; ++k) matrix_(at, first + k) = along->values(k) / scales_(k);
   }
@@ -100,28 +100,28 @@ void OrbitSystem::set(const OrbitShot& shot, const std::vector<ClosingRow>& rows
 
 OrbitPlace OrbitSystem::place_of(const Eigen::VectorXd& c) const {
   const Eigen::Index m = kept_.cols();
-  OrbitPlace z{Eigen::MatrixXd(kept_.rows(), pieces_), c.tail(scales_.size()).cwiseProduct(scales_)};
-  for (Eigen::Index i = 0; i < pieces_; ++i) z.states.col(i) = kept_ * c.segment(i * m, m);
+  OrbitPlace z{Eigen::MatrixXd(kept_.rows(), shooting_intervals_), c.tail(scales_.size()).cwiseProduct(scales_)};
+  for (Eigen::Index i = 0; i < shooting_intervals_; ++i) z.states.col(i) = kept_ * c.segment(i * m, m);
   return z;
 }
 
 OrbitPlace OrbitSystem::solve(const Eigen::MatrixXd& r, const Eigen::VectorXd& last) const {
   const Eigen::Index m = kept_.cols();
-  Eigen::VectorXd b(m * pieces_ + last.size());
-  for (Eigen::Index i = 0; i < pieces_; ++i) b.segment(i * m, m) = kept_.transpose() * r.col(i);
+  Eigen::VectorXd b(m * shooting_intervals_ + last.size());
+  for (Eigen::Index i = 0; i < shooting_intervals_; ++i) b.segment(i * m, m) = kept_.transpose() * r.col(i);
   b.tail(last.size()) = last;
   return place_of(solution(matrix_, b));
 }
 
 OrbitPlace OrbitSystem::tangent(const OrbitShot& shot, const std::vector<ClosingRow>& rows, Eigen::Index row) {
   set(shot, rows);
-  return solve(Eigen::MatrixXd::Zero(kept_.rows(), pieces_), Eigen::VectorXd::Unit(scales_.size(), row));
+  return solve(Eigen::MatrixXd::Zero(kept_.rows(), shooting_intervals_), Eigen::VectorXd::Unit(scales_.size(), row));
 }
 
 std::vector<OrbitPlace> OrbitSystem::tangents(const OrbitShot& shot) {
   set(shot, {});
   // In coordinates whose plain product is that of lengths.
-  const Eigen::Index states = kept_.cols() * pieces_;
+  const Eigen::Index states = kept_.cols() * shooting_intervals_;
   matrix_.leftCols(states) /= std::sqrt(weight());
   Eigen::MatrixXd all = null_space(matrix_).rightCols(scales_.size());
   all.topRows(states) /= std::sqrt(weight());

@@ -99,7 +99,7 @@ class OrbitSystem {
   Eigen::VectorXd scales_;
   Evaluate evaluate_;
   Eigen::MatrixXd kept_;  ///< V: states among which Newton's method stays, y = V c
-  Eigen::Index pieces_;
+  Eigen::Index shooting_intervals_;
   Eigen::MatrixXd matrix_;  ///< F_z with the rows, in the coordinates c and parameters in their scales
 };
 

@@ -30,10 +30,10 @@ Eigen::VectorXd solve(const Eigen::MatrixXd& m, const Eigen::VectorXd& r) {
 Eigen::MatrixXd newton_step(const Shot& at) {
   const Eigen::Index n = at.residual.rows();
   const Eigen::Index count = at.residual.cols();
-  if (count == 1) return solve(at.pieces[0], at.residual.col(0));
+  if (count == 1) return solve(at.interval_maps[0], at.residual.col(0));
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n * count, n * count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    a.block(i * n, i * n, n, n) = at.pieces[static_cast<std::size_t>(i)];
+    a.block(i * n, i * n, n, n) = at.interval_maps[static_cast<std::size_t>(i)];
     a.block(i * n, (i + 1) % count * n, n, n) -= Eigen::MatrixXd::Identity(n, n);
   }
   return least_norm_solution(a, -at.residual.reshaped()).reshaped(n, count);
@@ -43,7 +43,7 @@ Eigen::MatrixXd newton_step(const Shot& at) {
 void take_state(const Eigen::MatrixXd& y, const Shot& at, PeriodicOrbit& orbit) {
   std::copy_n(y.data(), orbit.state.size(), orbit.state.begin());
   orbit.monodromy = at.monodromy().product();
-  orbit.pieces = at.pieces;
+  orbit.interval_maps = at.interval_maps;
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ void OrbitOptions::validate() const {
   require(iterations >= 1, "iterations", iterations, ">= 1");
   require(residual >= 0.0, "residual", residual, ">= 0");
   require(known >= 0.0, "known", known, ">= 0");
-  require(pieces >= 1, "pieces", pieces, ">= 1");
+  require(shooting_intervals >= 1, "pieces", shooting_intervals, ">= 1");
 }
 
 namespace {
@@ -77,7 +77,7 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
   options.validate();
   PeriodicOrbit orbit;
   orbit.state.assign(start.begin(), start.end());
-  Eigen::MatrixXd y(static_cast<Eigen::Index>(start.size()), options.pieces);
+  Eigen::MatrixXd y(static_cast<Eigen::Index>(start.size()), options.shooting_intervals);
   y.col(0) = as_vector(start);
   double best = std::numeric_limits<double>::infinity();
   // Of the best iteration alone, where it is asked for, and once: its singular values cost more than the step.
@@ -97,8 +97,8 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
     orbit.message = e.message;
     return orbit;
   };
-  if (options.pieces > 1)
-    if (const integrate::Evolution e = carry_to_pieces(flow, n, y); !e.reached()) return not_reached(e);
+  if (options.shooting_intervals > 1)
+    if (const integrate::Evolution e = carry_to_intervals(flow, n, y); !e.reached()) return not_reached(e);
   Shot at;
   bool kept = false;
   for (int k = 0; k < options.iterations; ++k) {
@@ -130,7 +130,7 @@ PeriodicOrbit find_periodic_orbit(integrate::Flow& flow, std::span<const double>
     if (k + 1 >= patience && best > gain * orbit.residuals.front()) break;
     if (k + 1 == options.iterations) break;
     y += newton_step(at);
-    kept = options.keep_tangents && options.pieces == 1;
+    kept = options.keep_tangents && options.shooting_intervals == 1;
   }
   orbit.outcome = is_known() ? OrbitOutcome::stalled : OrbitOutcome::not_converged;
   orbit.message = "the residual is " + short_text(best) + ", the error " + short_text(orbit.error) + " after " +
@@ -172,7 +172,7 @@ namespace {
 
 /// M as it was found, piece by piece.
 MatrixProduct factors_of(const PeriodicOrbit& orbit) {
-  if (!orbit.pieces.empty()) return {orbit.pieces};
+  if (!orbit.interval_maps.empty()) return {orbit.interval_maps};
   return orbit.monodromy.size() == 0 ? MatrixProduct{} : MatrixProduct{{orbit.monodromy}};
 }
 

@@ -39,7 +39,7 @@ struct OrbitOptions {
   double residual = 1e-11;  ///< max |F| that ends the iteration, in the units of the state
   double known = 1e-4;      ///< e [A-orbit-error] up to which a state is that of an orbit though the residual no longer
                             ///< falls, in parts of its largest component [-]
-  int pieces = 1;
+  int shooting_intervals = 1;
 
   /// M is kept for as long as the residual falls to a tenth: near an orbit that saves most of the tangents, which cost
   /// far more than states. The monodromy is then that of a state as far from the orbit as the last full step was long.
@@ -62,11 +62,11 @@ enum class OrbitOutcome {
 struct PeriodicOrbit {
   OrbitOutcome outcome = OrbitOutcome::not_converged;
   std::vector<double> state;
-  Eigen::MatrixXd monodromy;            ///< M at `state`
-  std::vector<Eigen::MatrixXd> pieces;  ///< M_i of the pieces, in the order of s
-  std::vector<double> residuals;        ///< max |F|, one per iteration
-  double error = 0;                     ///< e, with the least of them, or the one asked for if that is more
-  std::string message;                  ///< empty if converged
+  Eigen::MatrixXd monodromy;                   ///< M at `state`
+  std::vector<Eigen::MatrixXd> interval_maps;  ///< M_i of the pieces, in the order of s
+  std::vector<double> residuals;               ///< max |F|, one per iteration
+  double error = 0;                            ///< e, with the least of them, or the one asked for if that is more
+  std::string message;                         ///< empty if converged
 
   [[nodiscard]] bool found() const { return outcome == OrbitOutcome::converged || outcome == OrbitOutcome::stalled; }
 };

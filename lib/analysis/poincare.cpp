@@ -78,14 +78,14 @@ SurfaceSection surface_section(integrate::Flow& flow, std::span<double> state,
     double side = 0;  ///< h, its sign turned so that crossings rise
   };
   const double sign = direction == SectionCrossing::rising ? 1.0 : -1.0;
-  const auto look = [&](double s, std::span<const double> y) {
+  const auto sample = [&](double s, std::span<const double> y) {
     return Sample{s, {y.begin(), y.end()}, sign * surface(s, y)};
   };
   for (int k = 0; k < periods; ++k) {
     if (!go_on()) return result;
-    std::vector<Sample> seen = {look(0.0, state)};
+    std::vector<Sample> seen = {sample(0.0, state)};
     result.evolution = flow.evolve(state, 0.0, period, samples, [&](std::size_t, double s, std::span<const double> y) {
-      seen.push_back(look(s, y));
+      seen.push_back(sample(s, y));
     });
     if (!result.evolution.reached()) return result;
     const double next_step = flow.next_step();
@@ -180,7 +180,7 @@ double extent(const PoincareSection& section) {
   return widest;
 }
 
-bool still_settling(const Recurrence& r, double tolerance) {
+bool still_converging(const Recurrence& r, double tolerance) {
   constexpr double small = 100.0;  // an error beyond this many tolerances is not the tail of a transient
   constexpr double falling = 0.8;  // chaos and quasiperiodic motion have the same error early and late
   return r.period == 0 && r.error <= small * tolerance && r.late_error <= falling * r.error;

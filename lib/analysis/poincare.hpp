@@ -147,7 +147,7 @@ struct Recurrence {
 
 /// Whether a motion without a period was still on its way to one: a small error that falls along the record.
 /// @param tolerance  epsilon of recurrence()
-[[nodiscard]] bool still_settling(const Recurrence& r, double tolerance);
+[[nodiscard]] bool still_converging(const Recurrence& r, double tolerance);
 
 /// @param longest    largest n looked for; at most half the record, so that each point is compared at least once
 /// @param tolerance  epsilon, in the units of the state

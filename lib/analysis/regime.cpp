@@ -21,9 +21,9 @@ namespace epicyclic::analysis {
 
 namespace {
 
-constexpr int least_look = 16;
+constexpr int least_window = 16;
 /// Periods that an exponent's interval needs; the 0-1 test needs twice as many, and takes the look before along.
-constexpr int growth_look = 128;
+constexpr int growth_window = 128;
 /// A recurrence error up to this part of the extent is that of a motion all but on its orbit.
 constexpr double settled = 0.01;
 /// Periods whose recurrence errors are this near recur alike: the shortest is sought.
@@ -45,11 +45,11 @@ constexpr double even_part = 0.1;
 /// Growth is slow if it is less than this in as many periods as the 0-1 test needs.
 constexpr double slow_growth = 4.0 * neutral_growth;
 /// Periods over which e^2 is told from a small exponent.
-constexpr int torus_look = 1024;
+constexpr int torus_window = 1024;
 /// Periods of looks at one tolerance before a tighter one is asked, where vectors do not grow.
 constexpr int look_at_one_tolerance = 1024;
 /// Periods from which on growth and the 0-1 test contradict each other: over fewer the test abstains or errs.
-constexpr std::size_t contradiction_look = 512;
+constexpr std::size_t contradiction_window = 512;
 /// No flow tells more of an orbit than this, in parts of its largest component.
 constexpr double least_residual = 1e-9;
 /// A return error that falls by this factor from each quarter of a look to the next is that of a motion that settles.
@@ -86,7 +86,7 @@ class Classifier {
   Classification run(const PoincareSection* before) {
     check(*flow_, options_);
     Evidence& seen = result_.evidence;
-    int first = options_.look;
+    int first = options_.window;
     if (before != nullptr && before->size() > 0) {
       section_ = *before;
       for (std::size_t k = 0; k < section_.size(); ++k) series_.push_back(section_.point(k)[options_.observable]);
@@ -96,15 +96,15 @@ class Classifier {
       // What does not nearly recur is most likely chaotic, which growth tells for less than Newton's method fails.
       if (is_periodic(settled)) return std::move(result_);
       // As long a look as growth can be told from.
-      first = std::max(first, growth_look);
+      first = std::max(first, growth_window);
     } else {
       look_tightly();
     }
-    for (int look = first;;) {
-      look = std::min(look, options_.budget - seen.periods);
-      if (look < least_look) break;
+    for (int window = first;;) {
+      window = std::min(window, options_.budget - seen.periods);
+      if (window < least_window) break;
       const std::vector<double> start(state_.begin(), state_.end());
-      if (!record(look)) return std::move(result_);
+      if (!record(window)) return std::move(result_);
       contradicts_ = false;
       if (!grows() && look_tightly()) {
         // What does not grow remembers where it began, and a loose look may have led it to another attractor.
@@ -121,17 +121,17 @@ class Classifier {
       if (!go_on_()) break;
       if (is_torus()) return std::move(result_);
       leave_what_repels();
-      if (contradicts_ && growth_.size() >= contradiction_look && grows_weakly()) {
+      if (contradicts_ && growth_.size() >= contradiction_window && grows_weakly()) {
         look_tightly();
         returned_ = true;
       } else if (seen.late_growth > 4.0 * neutral_growth) {
         look_loosely();
       }
       if ((contradicts_ || !grows()) && level_periods_ >= look_at_one_tolerance) tighten();
-      look *= 2;
+      window *= 2;
       // Where vectors neither grow nor shrink, no look tells anything that is not long.
-      if (std::abs(seen.late_growth) <= neutral_growth && growth_.size() >= growth_look)
-        look = std::max(look, torus_look - static_cast<int>(growth_.size()));
+      if (std::abs(seen.late_growth) <= neutral_growth && growth_.size() >= growth_window)
+        window = std::max(window, torus_window - static_cast<int>(growth_.size()));
     }
     result_.regime = Regime::undecided;
     if (seen.note.empty()) seen.note = "nothing is proven";
@@ -170,7 +170,7 @@ class Classifier {
     const std::optional<FlowsOfTolerance> next = options_.tighter();
     if (!next) return;
     constexpr double by = 0.01;
-    flow_ = tight_ = next->looks;
+    flow_ = tight_ = next->windows;
     exact_ = next->exact;
     coarser_ = next->coarser;
     residual_ = std::max(by * residual_, std::min(residual_, least_residual));
@@ -217,7 +217,7 @@ class Classifier {
     if (!result_.evolution.reached() || e.growth.size() < static_cast<std::size_t>(periods)) return false;
     whole_look_ = section_;
     // Orbits are told from where the motion is now, not from where a long look began.
-    section_.keep_last(growth_look);
+    section_.keep_last(growth_window);
     find_recurrence();
     return true;
   }
@@ -286,10 +286,11 @@ class Classifier {
     integrate::Flow& exact = *exact_;
     // n + 1 pieces end within periods: other steps of the integrator all along.
     integrate::Flow& other = *coarser_;
-    const int pieces = coarser_ == exact_ ? n + 1 : 1;
+    const int shooting_intervals = coarser_ == exact_ ? n + 1 : 1;
     const auto tangents_of_others = [&](const PeriodicOrbit& orbit) {
-      return find_periodic_orbit(other, orbit.state, n,
-                                 {.iterations = 1, .residual = map_residual(), .pieces = pieces});
+      return find_periodic_orbit(
+          other, orbit.state, n,
+          {.iterations = 1, .residual = map_residual(), .shooting_intervals = shooting_intervals});
     };
     const auto residual = [](const PeriodicOrbit& orbit) {
       return *std::min_element(orbit.residuals.begin(), orbit.residuals.end());
@@ -306,7 +307,7 @@ class Classifier {
         residual(known.orbit) > std::min(std::sqrt(o.residual), std::max(least_gain * distance_now, rough)))
       return std::nullopt;
     known.second = tangents_of_others(known.orbit);
-    if (known.second.pieces.empty()) return std::nullopt;
+    if (known.second.interval_maps.empty()) return std::nullopt;
     known.orbit.error = orbit_error(known.second.monodromy, std::max(residual(known.orbit), o.residual));
     if (known.orbit.error <= noise()) return known;
     // Near a fold, or a flip of a part of n: the residual says little, and kept tangents lead nowhere.
@@ -319,7 +320,7 @@ class Classifier {
     }
     known.own_tangents = true;
     known.second = tangents_of_others(known.orbit);
-    if (known.second.pieces.empty()) return std::nullopt;
+    if (known.second.interval_maps.empty()) return std::nullopt;
     return known;
   }
 
@@ -386,7 +387,7 @@ class Classifier {
     if (error <= own_tangents * std::abs(1.0 - multiplier) || known.own_tangents) return {multiplier, error};
     // The tangents that Newton's method kept are too far from the orbit.
     PeriodicOrbit own = find_periodic_orbit(exact, known.orbit.state, n, {.iterations = 1, .residual = map_residual()});
-    if (!own.pieces.empty()) known.orbit = std::move(own);
+    if (!own.interval_maps.empty()) known.orbit = std::move(own);
     return multipliers();
   }
 
@@ -476,7 +477,7 @@ class Classifier {
     const std::span<const double> counted = std::span(growth_).subspan(growth_.size() / 4);
     seen.exponent = series_mean(counted) / flow_->field().period;
     seen.zero_one.reset();
-    if (series_.size() < 2 * static_cast<std::size_t>(growth_look)) return false;
+    if (series_.size() < 2 * static_cast<std::size_t>(growth_window)) return false;
     seen.zero_one = zero_one_test(series_, noise());
     if (!(seen.exponent.low() > 0.0 && seen.late_growth > neutral_growth)) return false;
     const double k = *(seen.zero_one = vote(*seen.zero_one));
@@ -516,7 +517,7 @@ class Classifier {
   /// settles to it meanwhile the 0-1 test takes for chaos.
   [[nodiscard]] bool grows_evenly() const {
     const auto& e = result_.evidence.exponent;
-    return e.half_width < even_part * e.value && e.value * flow_->field().period * 2 * growth_look < slow_growth;
+    return e.half_width < even_part * e.value && e.value * flow_->field().period * 2 * growth_window < slow_growth;
   }
 
   [[nodiscard]] double growth_since_left() const {
@@ -556,7 +557,7 @@ class Classifier {
     if (grows_weakly() && look_tightly()) {
       returned_ = true;
       const int until = lasted() + lasting;
-      if (!last_until(until - growth_look) || !last_until(until)) return true;
+      if (!last_until(until - growth_window) || !last_until(until)) return true;
       seen.zero_one = vote(zero_one_test(series_, noise()));
       if (*seen.zero_one <= chaotic_vote || !still_grows()) return false;
     }
@@ -568,7 +569,7 @@ class Classifier {
 
   /// By less than e^8 in 128 periods: errors of tangents at kinks are as large.
   [[nodiscard]] bool grows_weakly() const {
-    return result_.evidence.exponent.value * flow_->field().period * growth_look < 4.0 * neutral_growth;
+    return result_.evidence.exponent.value * flow_->field().period * growth_window < 4.0 * neutral_growth;
   }
 
   /// Does a vector grow over the next periods?
@@ -577,8 +578,8 @@ class Classifier {
     flow_->forget();
     constexpr int aligning = 16;
     const LargestExponent e =
-        largest_exponent(*flow_, onwards, {.aligning_periods = aligning, .periods = growth_look}, {}, go_on_);
-    return e.growth.size() == growth_look && std::accumulate(e.growth.begin(), e.growth.end(), 0.0) > neutral_growth;
+        largest_exponent(*flow_, onwards, {.aligning_periods = aligning, .periods = growth_window}, {}, go_on_);
+    return e.growth.size() == growth_window && std::accumulate(e.growth.begin(), e.growth.end(), 0.0) > neutral_growth;
   }
 
   /// A state that the motion all but comes back to after n periods, without having grown apart meanwhile.
@@ -634,7 +635,7 @@ class Classifier {
       PeriodicOrbit orbit = find_periodic_orbit(*flow_, r.state, r.n, o);
       // An orbit that attracts has no neighbours that part this fast.
       constexpr double fast = 5.0;
-      if (orbit.pieces.empty() || largest_multiplier(orbit) > fast) continue;
+      if (orbit.interval_maps.empty() || largest_multiplier(orbit) > fast) continue;
       o.iterations = std::min(8, static_cast<int>(left) / r.n);
       if (o.iterations < 2) continue;
       orbit = find_periodic_orbit(*flow_, r.state, r.n, o);
@@ -651,7 +652,7 @@ class Classifier {
   /// @returns false if the motion ended
   bool carry_on(int periods) {
     StrobeOptions o;
-    o.recorded_periods = std::min(periods, growth_look);
+    o.recorded_periods = std::min(periods, growth_window);
     o.transient_periods = periods - o.recorded_periods;
     o.phases = 1;
     Strobe s = strobe(
@@ -660,7 +661,7 @@ class Classifier {
     if (s.section.size() < static_cast<std::size_t>(o.recorded_periods)) return false;
     result_.evidence.periods += periods;
     for (std::size_t k = 0; k < s.section.size(); ++k) series_.push_back(s.section.point(k)[options_.observable]);
-    const auto most = 2 * static_cast<std::ptrdiff_t>(growth_look);
+    const auto most = 2 * static_cast<std::ptrdiff_t>(growth_window);
     if (std::ssize(series_) > most) series_.erase(series_.begin(), series_.end() - most);  // as before a look
     look_before_ = 0;
     section_ = std::move(s.section);
@@ -758,7 +759,7 @@ class Classifier {
     // What is drawn to an orbit slowly shrinks for long before it recurs. Beside a torus that shears, vectors grow as
     // time does, so that a small positive exponent is none.
     const bool settles = seen.exponent.value + 3.0 * seen.exponent.half_width < 0.0;
-    if (growth_.size() >= static_cast<std::size_t>(torus_look) && std::abs(late_growth(growth_)) <= neutral_growth &&
+    if (growth_.size() >= static_cast<std::size_t>(torus_window) && std::abs(late_growth(growth_)) <= neutral_growth &&
         !settles && seen.zero_one && *seen.zero_one < regular_vote && growth_is_bounded()) {
       // Beside a flip of a long orbit all this holds, too, at any price of seeking it so far.
       const Recurrence& r = seen.recurrence;
@@ -824,8 +825,8 @@ std::string to_string(Regime regime) {
 }
 
 void RegimeOptions::validate() const {
-  require(look >= least_look, "look", look, ">= " + std::to_string(least_look));
-  require(budget >= look, "budget", budget, ">= " + std::to_string(look));
+  require(window >= least_window, "look", window, ">= " + std::to_string(least_window));
+  require(budget >= window, "budget", budget, ">= " + std::to_string(window));
   require(lasting >= 0, "lasting", lasting, ">= 0");
   require(longest_period >= 1, "longest_period", longest_period, ">= 1");
   require(near >= 0.0, "near", near, ">= 0");

@@ -70,13 +70,13 @@ enum class Regime { periodic, quasiperiodic, chaotic, undecided };
 
 /// Flows of one system at one tolerance.
 struct FlowsOfTolerance {
-  integrate::Flow* looks = nullptr;    ///< tangents without error control
+  integrate::Flow* windows = nullptr;  ///< tangents without error control
   integrate::Flow* exact = nullptr;    ///< with it
   integrate::Flow* coarser = nullptr;  ///< the same at ten times the tolerance
 };
 
 struct RegimeOptions {
-  int look = 64;            ///< periods of the first look
+  int window = 64;          ///< periods of the first look
   int budget = 8192;        ///< periods of all looks together
   int lasting = 4096;       ///< periods that chaos has to last, at most the budget, if nothing speaks for another end
   int longest_period = 16;  ///< largest n that is tried

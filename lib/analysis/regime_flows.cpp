@@ -47,7 +47,7 @@ RegimeOptions RegimeFlows::options(RegimeOptions o) const {
 
 long RegimeFlows::right_hand_side_calls() const {
   long calls = 0;
-  for (const auto* flow : {&looks, &tight, &exact, &coarser}) calls += (*flow)->right_hand_side_calls();
+  for (const auto* flow : {&windows, &tight, &exact, &coarser}) calls += (*flow)->right_hand_side_calls();
   for (const auto& flow : tighter->flows) calls += flow->right_hand_side_calls();
   return calls;
 }

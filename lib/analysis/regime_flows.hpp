@@ -21,7 +21,7 @@ inline constexpr double statistical_tolerance = 1e-6;
 struct RegimeFlows {
   struct Tighter;
 
-  std::unique_ptr<integrate::Flow> looks, tight, exact, coarser;
+  std::unique_ptr<integrate::Flow> windows, tight, exact, coarser;
   std::shared_ptr<Tighter> tighter;
 
   /// Options `o` with `exact`, `coarser`, `tight` and `tighter` set to these flows, which must live longer.

@@ -16,15 +16,15 @@ struct Span {
 };
 
 /// Piece `i` of `pieces` of n periods, cut where periods end, so that each begins at the phase 0 to the last bit.
-std::vector<Span> spans(double period, Eigen::Index n, Eigen::Index pieces, Eigen::Index i) {
+std::vector<Span> spans(double period, Eigen::Index n, Eigen::Index shooting_intervals, Eigen::Index i) {
   std::vector<Span> all;
   // In parts of 1 / pieces of a period.
   const auto phase = [&](Eigen::Index parts) {
-    return period * static_cast<double>(parts) / static_cast<double>(pieces);
+    return period * static_cast<double>(parts) / static_cast<double>(shooting_intervals);
   };
   for (Eigen::Index at = i * n; at < (i + 1) * n;) {
-    const Eigen::Index begun = at / pieces * pieces;
-    const Eigen::Index to = std::min((i + 1) * n, begun + pieces);
+    const Eigen::Index begun = at / shooting_intervals * shooting_intervals;
+    const Eigen::Index to = std::min((i + 1) * n, begun + shooting_intervals);
     all.push_back({phase(at - begun), phase(to - begun)});
     at = to;
   }
@@ -56,7 +56,7 @@ Shot shoot(integrate::Flow& flow, const Eigen::MatrixXd& y, Eigen::Index periods
       shot.parameter.col(i) = m.col(n);
       m.conservativeResize(n, n);
     }
-    shot.pieces.push_back(std::move(m));
+    shot.interval_maps.push_back(std::move(m));
   }
   return shot;
 }
@@ -89,7 +89,7 @@ std::vector<Stretch> stretches(integrate::Flow& flow, const Eigen::MatrixXd& y, 
   return all;
 }
 
-integrate::Evolution carry_to_pieces(integrate::Flow& flow, Eigen::Index periods, Eigen::MatrixXd& y) {
+integrate::Evolution carry_to_intervals(integrate::Flow& flow, Eigen::Index periods, Eigen::MatrixXd& y) {
   Eigen::VectorXd carried = y.col(0);
   integrate::Evolution e;
   flow.forget();

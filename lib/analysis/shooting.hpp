@@ -20,13 +20,13 @@ namespace epicyclic::analysis {
 
 /// One evaluation at states y_i, the columns of a dimension x p matrix.
 struct Shot {
-  Eigen::MatrixXd residual;             ///< F_i in column i
-  std::vector<Eigen::MatrixXd> pieces;  ///< M_i; empty where only residuals were asked for
-  Eigen::MatrixXd parameter;            ///< b_i in column i; empty unless asked for
-  integrate::Evolution evolution;       ///< of the piece that was not reached, and then all else is of no meaning
+  Eigen::MatrixXd residual;                    ///< F_i in column i
+  std::vector<Eigen::MatrixXd> interval_maps;  ///< M_i; empty where only residuals were asked for
+  Eigen::MatrixXd parameter;                   ///< b_i in column i; empty unless asked for
+  integrate::Evolution evolution;  ///< of the piece that was not reached, and then all else is of no meaning
 
   /// M_p-1 ... M_0: how a small change of y_0 comes back.
-  [[nodiscard]] MatrixProduct monodromy() const { return {pieces}; }
+  [[nodiscard]] MatrixProduct monodromy() const { return {interval_maps}; }
 };
 
 /// Residuals and their derivatives.
@@ -51,6 +51,6 @@ struct Stretch {
 
 /// The states where pieces begin, carried from the first one, y.col(0).
 /// @returns how it ended; the states are of no meaning unless reached
-integrate::Evolution carry_to_pieces(integrate::Flow& flow, Eigen::Index periods, Eigen::MatrixXd& y);
+integrate::Evolution carry_to_intervals(integrate::Flow& flow, Eigen::Index periods, Eigen::MatrixXd& y);
 
 }  // namespace epicyclic::analysis

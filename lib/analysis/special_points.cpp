@@ -22,7 +22,7 @@ namespace {
 /// With the direction of the branch.
 Signs signs_of(const InvariantBlock& block, const BranchOrbit& orbit) {
   Signs s = signs_of(block, multipliers_of(block, orbit.monodromy));
-  s.falling = block.wave == 0 && orbit.direction.value < 0.0;
+  s.falling = block.symmetry_index == 0 && orbit.direction.value < 0.0;
   return s;
 }
 
@@ -58,12 +58,12 @@ std::complex<double> critical(SpecialKind kind, const Multipliers& values, std::
 }
 
 /// Something that is only known to be between two neighbours.
-SpecialPoint between_neighbours(const BranchOrbit& a, const BranchOrbit& b, int wave, std::string note) {
+SpecialPoint between_neighbours(const BranchOrbit& a, const BranchOrbit& b, int symmetry_index, std::string note) {
   SpecialPoint point;
   point.value = 0.5 * (a.at.value + b.at.value);
   point.error_bound = std::abs(b.at.value - a.at.value);
   point.orbit = a;
-  point.wave = wave;
+  point.symmetry_index = symmetry_index;
   point.note = std::move(note);
   return point;
 }
@@ -89,14 +89,14 @@ class Event {
     const Signs at_b = signs_of(block, b);
     inside_ = std::min(at_a.outside, at_b.outside);
     outwards_ = at_b.outside > at_a.outside;
-    crosses_here_ = kind == SpecialKind::branch_point && block.wave == 0;
+    crosses_here_ = kind == SpecialKind::branch_point && block.symmetry_index == 0;
     turns_ = kind == SpecialKind::fold || (crosses_here_ && at_a.plus == at_b.plus);
   }
 
   SpecialPoint locate() {
     SpecialPoint point;
     point.kind = kind_;
-    point.wave = block_ != nullptr ? block_->wave : 0;
+    point.symmetry_index = block_ != nullptr ? block_->symmetry_index : 0;
     point.outwards = outwards_;
     point.surface = grazing_.surface;
     point.least = grazing_.least;
@@ -113,7 +113,7 @@ class Event {
       for (const Refinement& other : options_.others) {
         OrbitFamily finer_family = family_;
         finer_family.flows = other.flows;
-        finer_family.pieces *= other.pieces;
+        finer_family.shooting_intervals *= other.shooting_intervals;
         if (const std::optional<Place> finer = find(finer_family)) {
           values_.push_back(finer->value);
           angles_.push_back(std::abs(std::arg(finer->multiplier)));
@@ -154,7 +154,7 @@ class Event {
   };
 
   [[nodiscard]] SpecialPoint unresolved(const std::string& note) const {
-    return between_neighbours(a_, b_, block_ != nullptr ? block_->wave : 0, to_string(kind_) + ": " + note);
+    return between_neighbours(a_, b_, block_ != nullptr ? block_->symmetry_index : 0, to_string(kind_) + ": " + note);
   }
 
   /// Of another sign on each side of the event, whatever else happens to the multipliers.
@@ -215,7 +215,7 @@ class Event {
       if (s.size() < 2 || !(s(s.size() - 2) < near)) continue;
       kind_ = at > 0.0 ? SpecialKind::branch_point : SpecialKind::flip;
       nullity_ = 2;
-      crosses_here_ = at > 0.0 && block_->wave == 0;
+      crosses_here_ = at > 0.0 && block_->symmetry_index == 0;
     }
   }
 
@@ -268,7 +268,7 @@ class Event {
 
   /// An orbit by another subdivision, whose direction at the new cuts is that between two orbits.
   [[nodiscard]] static Correction recut(const OrbitFamily& family, const BranchOrbit& orbit) {
-    if (orbit.at.states.cols() == family.pieces) return correct(family, orbit.at, orbit.direction);
+    if (orbit.at.states.cols() == family.shooting_intervals) return correct(family, orbit.at, orbit.direction);
     constexpr double little = 1e-4;
     const std::optional<CurvePoint> at = cut_into_pieces(family, orbit.at.states.col(0), orbit.at.value);
     const CurvePoint beyond = orbit.at + little * orbit.direction;
@@ -489,7 +489,7 @@ void find_events(const OrbitFamily& family, const InvariantBlock& block, const B
     return;
   }
   if (one) found.push_back(std::move(*one));
-  found.push_back(between_neighbours(a, b, block.wave, "several events that could not be parted"));
+  found.push_back(between_neighbours(a, b, block.symmetry_index, "several events that could not be parted"));
 }
 
 /// Surfaces that are grazed between two orbits.

@@ -55,7 +55,7 @@ struct SpecialPoint {
   double value = 0;                 ///< of the parameter
   double error_bound = 0;           ///< of the value [A-bound]; not finite where there was nothing to compare with
   BranchOrbit orbit;                ///< of the branch's own family, there
-  int wave = 0;                     ///< j of the block: 0 keeps the symmetry, others break it
+  int symmetry_index = 0;           ///< j of the block: 0 keeps the symmetry, others break it
   std::complex<double> multiplier;  ///< that reaches the unit circle
   bool outwards = false;            ///< it leaves the unit circle along the branch
   std::size_t surface = 0;          ///< that is grazed
@@ -69,7 +69,7 @@ struct SpecialPoint {
 /// The same orbits by another tolerance or subdivision.
 struct Refinement {
   integrate::FlowFamily flows;
-  int pieces = 1;  ///< for each of the family's
+  int shooting_intervals = 1;  ///< for each of the family's
 };
 
 struct SpecialOptions {

@@ -64,15 +64,15 @@ double rise_to_zero(std::span<const double> power, std::size_t of, std::size_t q
 
 bool overlap(const Estimate& a, const Estimate& b) { return a.low() <= b.high() && b.low() <= a.high(); }
 
-Estimate series_mean(std::span<const double> series, int waves, double confidence) {
+Estimate series_mean(std::span<const double> series, int frequencies, double confidence) {
   if (series.empty()) throw DomainError("an empty series has no mean");
-  if (waves < 1) throw DomainError("number of sine pairs = " + std::to_string(waves) + ", must be >= 1");
+  if (frequencies < 1) throw DomainError("number of sine pairs = " + std::to_string(frequencies) + ", must be >= 1");
   if (!(confidence > 0.0 && confidence < 1.0))
     throw DomainError("confidence = " + std::to_string(confidence) + ", must be in (0, 1)");
   const std::size_t n = series.size();
   Estimate e{gsl_stats_mean(series.data(), 1, n), std::numeric_limits<double>::infinity()};
   const std::size_t all = (n - 1) / 2;
-  const std::size_t q = std::min(static_cast<std::size_t>(waves), all);
+  const std::size_t q = std::min(static_cast<std::size_t>(frequencies), all);
   if (q == 0) return e;
   std::vector<double> power = {0.0};
   const std::size_t needed = steep * q <= all ? steep * q : q;
@@ -87,11 +87,11 @@ Estimate series_mean(std::span<const double> series, int waves, double confidenc
   return e;
 }
 
-Estimate series_deviation(std::span<const double> series, int waves, double confidence) {
-  const double mean = series_mean(series, waves, confidence).value;
+Estimate series_deviation(std::span<const double> series, int frequencies, double confidence) {
+  const double mean = series_mean(series, frequencies, confidence).value;
   std::vector<double> squares;
   for (const double x : series) squares.push_back((x - mean) * (x - mean));
-  const Estimate variance = series_mean(squares, waves, confidence);
+  const Estimate variance = series_mean(squares, frequencies, confidence);
   const double deviation = std::sqrt(variance.value);
   return {deviation, deviation > 0.0 ? variance.half_width / (2.0 * deviation) : 0.0};
 }

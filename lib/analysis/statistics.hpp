@@ -48,15 +48,15 @@ struct Estimate {
 inline constexpr double default_confidence = 0.95;
 
 /// q. Twice as many make the interval narrower by 6 % and reach into waves that tell of something else.
-inline constexpr int default_waves = 4;
+inline constexpr int default_frequencies = 4;
 
 /// Mean of the series. In a series too short for q waves, as many as there are: (N - 1) / 2.
 /// @throws DomainError for an empty series, fewer than 1 wave, or a confidence outside (0, 1)
-[[nodiscard]] Estimate series_mean(std::span<const double> series, int waves = default_waves,
+[[nodiscard]] Estimate series_mean(std::span<const double> series, int frequencies = default_frequencies,
                                    double confidence = default_confidence);
 
 /// Standard deviation of the series' values about their mean, from the mean of the squared deviations.
-[[nodiscard]] Estimate series_deviation(std::span<const double> series, int waves = default_waves,
+[[nodiscard]] Estimate series_deviation(std::span<const double> series, int frequencies = default_frequencies,
                                         double confidence = default_confidence);
 
 /// A value and its interval at 95 %, which need not lie evenly about it.

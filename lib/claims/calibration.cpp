@@ -19,7 +19,7 @@
 
 #include "core/errors.hpp"
 #include "core/random_numbers.hpp"
-#include "studies/units.hpp"
+#include "studies/parallel_for.hpp"
 
 namespace epicyclic::claims {
 
@@ -190,7 +190,7 @@ bool run_islands(Search& search, const std::vector<std::vector<double>>& first) 
   for (int k = 0; k < options.islands; ++k)
     islands.push_back(std::make_unique<Island>(search, static_cast<std::size_t>(k)));
   const auto each = [&](const std::function<void(std::size_t)>& f) {
-    return for_units(islands.size(), run.threads, run.stop, f);
+    return parallel_for(islands.size(), run.threads, run.stop, f);
   };
   const std::vector<std::vector<double>> nothing;
   // One island of a differential evolution knows the stage as it is given, and tells the others if it is good. A
@@ -243,7 +243,7 @@ std::optional<std::vector<Confirmed>> confirm(Search& search) {
     if (std::ranges::none_of(chosen, is_near)) chosen.push_back(c);
   }
   std::vector<Confirmed> confirmed(chosen.size());
-  const bool all = for_units(chosen.size(), search.run().threads, search.run().stop, [&](std::size_t k) {
+  const bool all = parallel_for(chosen.size(), search.run().threads, search.run().stop, [&](std::size_t k) {
     const Question whole{{}, std::numeric_limits<double>::infinity(), k, true};
     confirmed[k] = {*chosen[k], search.evaluate({search.whole_phase(), k}, chosen[k]->u, whole).evaluation};
   });
@@ -304,7 +304,7 @@ Calibration calibrate(const ClaimsOptions& options, const Evaluator& evaluate,
     keep_best();
     const auto places = profile_places(options);
     result.profile.resize(places.size());
-    return for_units(places.size(), search.run().threads, search.run().stop, [&](std::size_t k) {
+    return parallel_for(places.size(), search.run().threads, search.run().stop, [&](std::size_t k) {
       std::vector<double> u = result.best->u;
       u[places[k].first] = places[k].second;
       const EvaluatedCandidate& c =

@@ -17,7 +17,7 @@ using namespace studies;
 
 namespace {
 
-integrate::IntegratorOptions integrator_of(const BriefLook& brief) {
+integrate::IntegratorOptions integrator_of(const Screening& brief) {
   integrate::IntegratorOptions integrator;
   integrator.method = "lanes-cash-karp";
   integrator.relative_tolerance = brief.relative_tolerance;
@@ -25,16 +25,16 @@ integrate::IntegratorOptions integrator_of(const BriefLook& brief) {
   return integrator;
 }
 
-LookOptions look_of(const ClaimsOptions& options, const BriefLook& brief) {
-  LookOptions look = options.look;
-  look.transient = Transient::fixed;
-  look.transient_periods = brief.transient_periods;
-  look.recorded_periods = brief.recorded_periods;
-  look.classification_periods = brief.classification_periods;
-  look.growth_periods = brief.growth_periods;
-  look.period_max = std::min(look.period_max, brief.recorded_periods / 2);
-  look.keep = Keep::section;
-  return look;
+RecordingOptions look_of(const ClaimsOptions& options, const Screening& brief) {
+  RecordingOptions recording = options.recording;
+  recording.transient = Transient::fixed;
+  recording.transient_periods = brief.transient_periods;
+  recording.recorded_periods = brief.recorded_periods;
+  recording.classification_periods = brief.classification_periods;
+  recording.growth_periods = brief.growth_periods;
+  recording.period_max = std::min(recording.period_max, brief.recorded_periods / 2);
+  recording.keep = Keep::section;
+  return recording;
 }
 
 /// Is there a condition on the sweep that multipliers can lead to?
@@ -55,12 +55,12 @@ Glance search_glance(const ClaimsOptions& options) {
 }
 
 Glance survey_glance(const ClaimsOptions& options) {
-  return {options.survey.look, &ClaimSweep::survey_points, SearchLead::motions};
+  return {options.survey.recording, &ClaimSweep::survey_points, SearchLead::motions};
 }
 
-void look_briefly(const ClaimsOptions& options, const Glance& glance, const SweepModels& models,
-                  const std::vector<const ClaimSweep*>& sweeps, std::size_t thread, const std::atomic<bool>* stop,
-                  ClaimRecord& record) {
+void screen(const ClaimsOptions& options, const Glance& glance, const SweepModels& models,
+            const std::vector<const ClaimSweep*>& sweeps, std::size_t thread, const std::atomic<bool>* stop,
+            ClaimRecord& record) {
   // All points of all sweeps are cells of one plan, so that they share the lanes.
   std::vector<std::pair<const ClaimSweep*, double>> cells;
   for (const ClaimSweep* sweep : sweeps) {
@@ -72,7 +72,7 @@ void look_briefly(const ClaimsOptions& options, const Glance& glance, const Swee
   grid.first = {"cell", 0.0, static_cast<double>(cells.size() - 1), static_cast<int>(cells.size())};
   grid.directions = {Direction::up};
   grid.chains_per_line = cells.size();
-  const LookOptions look = look_of(options, glance.look);
+  const RecordingOptions recording = look_of(options, glance.recording);
   SweepRun run;
   run.stop = stop;
   run.process = thread;
@@ -81,11 +81,11 @@ void look_briefly(const ClaimsOptions& options, const Glance& glance, const Swee
     return models(*sweep, value);
   };
   std::vector<PointResult> results =
-      run_sweep_in_memory(SweepPlan(grid), look, integrator_of(glance.look), model_at, std::move(run));
+      run_sweep_in_memory(SweepPlan(grid), recording, integrator_of(glance.recording), model_at, std::move(run));
   if (results.size() < cells.size()) throw EvaluationStopped();
   for (std::size_t k = 0; k < cells.size(); ++k) {
     results[k].point.value = cells[k].second;
-    record[cells[k].first->name].points.push_back(claim_point(results[k], look, Looked::briefly));
+    record[cells[k].first->name].points.push_back(claim_point(results[k], recording, Looked::briefly));
   }
   if (glance.led_by == SearchLead::motions) return;
   for (const ClaimSweep* sweep : sweeps) {
@@ -94,7 +94,7 @@ void look_briefly(const ClaimsOptions& options, const Glance& glance, const Swee
     std::vector<double> values;
     for (const ClaimPoint& p : points) values.push_back(p.value);
     const ModelAt along = [&](double value) { return models(*sweep, value); };
-    const std::vector<PeriodOne> orbits = follow_period_one(values, along, integrator_of(glance.look), stop);
+    const std::vector<PeriodOne> orbits = follow_period_one(values, along, integrator_of(glance.recording), stop);
     if (stop != nullptr && stop->load()) throw EvaluationStopped();
     for (std::size_t k = 0; k < points.size(); ++k) points[k].period_one = orbits[k];
   }
@@ -151,7 +151,7 @@ Evaluation evaluate(const ClaimsOptions& options, const Glance& glance, const Sw
     }
     std::vector<const ClaimSweep*> sweeps;
     std::ranges::copy_if(spoken_of, std::back_inserter(sweeps), [&](const auto* s) { return s->round == round; });
-    look_briefly(options, glance, models, sweeps, thread, stop, record);
+    screen(options, glance, models, sweeps, thread, stop, record);
     judge_known(options, record, evaluation);
   }
   return evaluation;
@@ -166,9 +166,10 @@ Evaluation evaluate_whole(const ClaimsOptions& options, const integrate::Integra
     SweepRun run;
     run.stop = stop;
     const ModelAt model_at = [&](double value) { return models(*sweep, value); };
-    const std::vector<PointResult> points = run_sweep_in_memory(plan, whole.look, integrator, model_at, std::move(run));
+    const std::vector<PointResult> points =
+        run_sweep_in_memory(plan, whole.recording, integrator, model_at, std::move(run));
     if (points.size() < plan.points.size()) throw EvaluationStopped();
-    record[sweep->name] = claim_series(points_in_memory(points), options.look);
+    record[sweep->name] = claim_series(points_in_memory(points), options.recording);
   }
   Evaluation evaluation = unknown(options);
   judge_known(options, record, evaluation);

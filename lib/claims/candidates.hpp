@@ -35,7 +35,7 @@ struct Evaluation {
 
 /// A way of looking at candidates: how long, and at how many points of each sweep.
 struct Glance {
-  BriefLook look;
+  Screening recording;
   int ClaimSweep::*points = &ClaimSweep::brief_points;
   SearchLead led_by = SearchLead::motions;
 };
@@ -81,8 +81,8 @@ using Evaluator = std::function<Evaluation(const Question& question)>;
 
 /// The record of some sweeps by a glance.
 /// @throws EvaluationStopped
-void look_briefly(const ClaimsOptions& options, const Glance& glance, const SweepModels& models,
-                  const std::vector<const ClaimSweep*>& sweeps, std::size_t thread, const std::atomic<bool>* stop,
-                  ClaimRecord& record);
+void screen(const ClaimsOptions& options, const Glance& glance, const SweepModels& models,
+            const std::vector<const ClaimSweep*>& sweeps, std::size_t thread, const std::atomic<bool>* stop,
+            ClaimRecord& record);
 
 }  // namespace epicyclic::claims

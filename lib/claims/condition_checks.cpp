@@ -162,7 +162,7 @@ struct Grid {
 };
 
 /// Is anything searched or drawn, so that claims are judged by brief looks, too?
-bool has_brief_looks(const ClaimsOptions& options) { return options.space.dimension() > 0; }
+bool has_screening(const ClaimsOptions& options) { return options.space.dimension() > 0; }
 
 /// The part of a sweep that a condition speaks of, by each look.
 struct PartOfSweep {
@@ -175,7 +175,7 @@ struct PartOfSweep {
     for (const auto& [points, key] :
          {std::pair(sweep.axis.points, "points"), std::pair(sweep.brief_points, "brief_points"),
           std::pair(sweep.survey_points, "survey_points")}) {
-      if (!grids.empty() && !has_brief_looks(options)) break;
+      if (!grids.empty() && !has_screening(options)) break;
       Axis axis = sweep.axis;
       axis.points = std::min(points, axis.points);
       Grid grid{key, axis.points, axis_values(axis)};
@@ -282,8 +282,8 @@ void check_part(ProblemList& problems, const std::string& place, const Condition
   check_counted(problems, place, c, sweep.name, part.grids);
   for (const Grid& grid : part.grids)
     if (problems.count() == before) check_grid(problems, place, c, sweep.name, part.text(), grid);
-  if (options.look.classification_periods == 0) {
-    const int recorded = sweep.recorded_periods.value_or(options.look.recorded_periods);
+  if (options.recording.classification_periods == 0) {
+    const int recorded = sweep.recorded_periods.value_or(options.recording.recorded_periods);
     for (const auto& [key, word] : motion_words(c))
       if (2 * motion_period(word) > recorded)
         problems.refuse(place + "/" + key,
@@ -296,16 +296,16 @@ void check_part(ProblemList& problems, const std::string& place, const Condition
 void check_looks(ProblemList& problems, const std::string& place, const Condition& c, const ClaimsOptions& options) {
   for (const auto& [key, word] : motion_words(c)) {
     const int period = motion_period(word);
-    if (period > options.look.period_max)
+    if (period > options.recording.period_max)
       problems.refuse(place + "/" + key, "is \"" + word + "\", longer than period_max = " +
-                                             std::to_string(options.look.period_max) + ": it is not sought");
-    else if (has_brief_looks(options) &&
-             2 * period > std::min(options.brief.recorded_periods, options.survey.look.recorded_periods))
+                                             std::to_string(options.recording.period_max) + ": it is not sought");
+    else if (has_screening(options) &&
+             2 * period > std::min(options.brief.recorded_periods, options.survey.recording.recorded_periods))
       problems.refuse(place + "/" + key, "is \"" + word +
                                              "\", which takes twice as many recorded_periods to be seen; " +
                                              "`brief` or `survey` record fewer");
   }
-  if (options.look.classification_periods == 0)
+  if (options.recording.classification_periods == 0)
     for (const auto& [key, word] : motion_words(c))
       if (is_told_by_evidence(word))
         problems.refuse(
@@ -313,22 +313,22 @@ void check_looks(ProblemList& problems, const std::string& place, const Conditio
             "is \"" + word +
                 "\", which needs classification_periods > 0: without them, what does not recur is undecided");
   if (c.kind == ConditionKind::change && is_motion_word(c.motion) && is_motion_word(c.after) &&
-      can_be_both(c.motion, c.after, options.look.period_max))
+      can_be_both(c.motion, c.after, options.recording.period_max))
     problems.refuse(place + "/after", "is \"" + c.after + "\", which an attractor that is \"" + c.motion +
                                           "\" can be, too: nothing would have to change");
   if (c.kind == ConditionKind::change && is_motion_word(c.motion) && is_motion_word(c.leads_to) &&
-      is_always(c.leads_to, c.motion, options.look.period_max))
+      is_always(c.leads_to, c.motion, options.recording.period_max))
     problems.refuse(place + "/leads_to", "is \"" + c.leads_to + "\", which every attractor is that is \"" + c.motion +
                                              "\", too: it is not met before that comes back");
   if (c.quantity != "lyapunov_max") return;
   const std::string nobody = "is \"lyapunov_max\", which is not computed with ";
-  if (options.look.classification_periods == 0)
+  if (options.recording.classification_periods == 0)
     problems.refuse(place + "/quantity", nobody + "classification_periods = 0");
-  else if (!has_brief_looks(options))
+  else if (!has_screening(options))
     return;
   else if (options.brief.classification_periods == 0)
     problems.refuse(place + "/quantity", nobody + "`brief/classification_periods` = 0, its default");
-  else if (options.survey.look.classification_periods == 0)
+  else if (options.survey.recording.classification_periods == 0)
     problems.refuse(place + "/quantity", nobody + "`survey/look/classification_periods` = 0, its default");
 }
 

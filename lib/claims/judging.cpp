@@ -87,25 +87,25 @@ namespace {
 
 /// A short record may end while a motion is still on its way to a periodic one, next to a bifurcation for very long: it
 /// is told by where it goes at a glance. Chaos does not come back to a small part of its extent over a whole record.
-bool settles(const PointResult& result, const LookOptions& look) {
+bool settles(const PointResult& result, const RecordingOptions& recording) {
   constexpr double small_part = 0.1;
   if (result.classified || result.regime == Regime::periodic || result.regime == Regime::chaotic) return false;
   if (result.recurrence.best_period < 1) return false;  // of a record too short to come back at all
-  if (analysis::still_settling(result.recurrence, look.recurrence_tolerance)) return true;
+  if (analysis::still_converging(result.recurrence, recording.recurrence_tolerance)) return true;
   const std::size_t dimension = result.poincare_columns - 2 * result.meshes.sun_planet.size();
   return result.recurrence.late_error <= small_part * analysis::extent(section_of(result, dimension));
 }
 
 }  // namespace
 
-ClaimPoint claim_point(const PointResult& result, const LookOptions& look, Looked looked) {
+ClaimPoint claim_point(const PointResult& result, const RecordingOptions& recording, Looked looked) {
   const bool told = looked == Looked::in_full || result.classified;
   ClaimPoint point;
   point.value = result.point.value;
   point.reached = result.outcome == integrate::Outcome::reached;
   if (!point.reached) return point;
   point.motion = {result.regime, result.period, told};
-  if (!told && settles(result, look)) point.motion = {Regime::periodic, result.recurrence.best_period, false};
+  if (!told && settles(result, recording)) point.motion = {Regime::periodic, result.recurrence.best_period, false};
   point.settled = point.motion.regime != Regime::periodic || result.recurrence.period > 0;
   const std::size_t planets = result.meshes.sun_planet.size();
   const std::size_t columns = result.poincare_columns;
@@ -116,9 +116,9 @@ ClaimPoint claim_point(const PointResult& result, const LookOptions& look, Looke
     return section;
   };
   const auto alone = [&](const analysis::PoincareSection& section) {
-    const analysis::Recurrence r = analysis::recurrence(section, look.period_max, look.recurrence_tolerance);
+    const analysis::Recurrence r = analysis::recurrence(section, recording.period_max, recording.recurrence_tolerance);
     if (r.period > 0) return ClaimMotion{Regime::periodic, r.period, told};
-    if (analysis::still_settling(r, look.recurrence_tolerance))
+    if (analysis::still_converging(r, recording.recurrence_tolerance))
       return ClaimMotion{Regime::periodic, r.best_period, told};
     // The record is on its way to an orbit, whose period the mesh has, too.
     if (result.regime == Regime::periodic) return ClaimMotion{Regime::periodic, result.period, told};
@@ -154,17 +154,17 @@ ClaimPoint claim_point(const PointResult& result, const LookOptions& look, Looke
 
 Direction judged_direction(const PointSource& points) {
   for (std::size_t k = 0; k < points.count; ++k)
-    if (points.read_brief(k).point.direction == Direction::up) return Direction::up;
+    if (points.read_summary(k).point.direction == Direction::up) return Direction::up;
   return Direction::down;
 }
 
-ClaimSeries claim_series(const PointSource& points, const LookOptions& look) {
+ClaimSeries claim_series(const PointSource& points, const RecordingOptions& recording) {
   const Direction judged = judged_direction(points);
   ClaimSeries series;
   for (std::size_t k = 0; k < points.count; ++k) {
     const PointResult result = points.read(k);
     auto& list = result.point.direction == judged ? series.points : series.other;
-    list.push_back(claim_point(result, look, Looked::in_full));
+    list.push_back(claim_point(result, recording, Looked::in_full));
   }
   std::ranges::sort(series.points, {}, &ClaimPoint::value);
   std::ranges::sort(series.other, {}, &ClaimPoint::value);

@@ -62,7 +62,7 @@ struct ClaimPoint {
 };
 
 /// @param result  with its Poincare section
-[[nodiscard]] ClaimPoint claim_point(const studies::PointResult& result, const studies::LookOptions& look,
+[[nodiscard]] ClaimPoint claim_point(const studies::PointResult& result, const studies::RecordingOptions& recording,
                                      Looked looked);
 
 /// A sweep's points by rising value.
@@ -75,7 +75,7 @@ struct ClaimSeries {
 [[nodiscard]] studies::Direction judged_direction(const studies::PointSource& points);
 
 /// A sweep's points in full, up and beside them those down, if there are any.
-[[nodiscard]] ClaimSeries claim_series(const studies::PointSource& points, const studies::LookOptions& look);
+[[nodiscard]] ClaimSeries claim_series(const studies::PointSource& points, const studies::RecordingOptions& recording);
 
 /// By the sweeps' names.
 using ClaimRecord = std::map<std::string, ClaimSeries, std::less<>>;

@@ -37,8 +37,8 @@ void check(const input::Study& study, const input::IsBad& is_bad, input::ReadCon
   const ClaimsOptions& claims = claims_in(study);
   for (auto& [place, message] : claims.problems())
     if (!is_bad("/study" + place)) context.add(Finding::Kind::rule, "/study" + place, std::move(message));
-  const studies::LookOptions& look = claims.look;
-  if (look.transient == studies::Transient::adaptive && look.classification_periods == 0)
+  const studies::RecordingOptions& recording = claims.recording;
+  if (recording.transient == studies::Transient::adaptive && recording.classification_periods == 0)
     context.add(Finding::Kind::rule, "/study/classification_periods", "is 0, must be >= 1 for an adaptive transient");
   for (std::size_t k = 0; k < claims.sweeps.size(); ++k) {
     const ClaimSweep& sweep = claims.sweeps[k];
@@ -159,7 +159,9 @@ const input::StudyKind& claims_kind() {
       .commands = "`epicyclic reproduce`, `calibrate` or `robustness`",
       .table = &claims_table,
       .defaults = ClaimsOptions{},
-      .look = [](std::any& options) -> studies::LookOptions& { return std::any_cast<ClaimsOptions&>(options).look; },
+      .recording = [](std::any& options) -> studies::RecordingOptions& {
+        return std::any_cast<ClaimsOptions&>(options).recording;
+      },
       .name_speeds = &name_speeds,
       .at_given_speed = false,
       .check = &check,

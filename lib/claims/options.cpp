@@ -27,9 +27,9 @@ SweepOptions ClaimsOptions::whole_sweep(const ClaimSweep& sweep, Start start) co
   plan.axis = sweep.axis;
   plan.directions = start == Start::cold ? std::vector{Direction::up} : sweep.directions;
   plan.start = start;
-  plan.look = look;
-  plan.look.keep = Keep::section;
-  plan.look.recorded_periods = sweep.recorded_periods.value_or(look.recorded_periods);
+  plan.recording = recording;
+  plan.recording.keep = Keep::section;
+  plan.recording.recorded_periods = sweep.recorded_periods.value_or(recording.recorded_periods);
   plan.segments = segments_of(plan);
   return plan;
 }
@@ -108,14 +108,15 @@ std::vector<std::pair<std::string, std::string>> ClaimsOptions::problems() const
       problems.refuse(place,
                       "is 1, must be >= 2 with classification_periods = 0: of one Poincare point nothing comes back");
   };
-  check_recorded(look.recorded_periods, look.classification_periods, "/recorded_periods");
+  check_recorded(recording.recorded_periods, recording.classification_periods, "/recorded_periods");
   if (space.dimension() > 0) {
     check_recorded(brief.recorded_periods, brief.classification_periods, "/brief/recorded_periods");
-    check_recorded(survey.look.recorded_periods, survey.look.classification_periods, "/survey/look/recorded_periods");
+    check_recorded(survey.recording.recorded_periods, survey.recording.classification_periods,
+                   "/survey/look/recorded_periods");
   }
   for (std::size_t k = 0; k < sweeps.size(); ++k)
     if (sweeps[k].recorded_periods)
-      check_recorded(*sweeps[k].recorded_periods, look.classification_periods,
+      check_recorded(*sweeps[k].recorded_periods, recording.classification_periods,
                      "/sweeps/" + std::to_string(k) + "/recorded_periods");
   check_space(problems, space);
   return std::move(problems).found();

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "claims/parameter_space.hpp"
-#include "studies/look_options.hpp"
+#include "studies/recording_options.hpp"
 #include "studies/sweep_options.hpp"
 
 namespace epicyclic::claims {
@@ -127,7 +127,7 @@ struct ClaimFigure {
 };
 
 /// How candidates and draws are looked at: cold starts, short records, the sweeps' brief grids.
-struct BriefLook {
+struct Screening {
   int transient_periods = 160;
   int recorded_periods = 32;
   int classification_periods = 0;  ///< 0: regimes are told by a glance, from recurrence and growth
@@ -140,7 +140,7 @@ struct SurveyOptions {
   int draws = 1000;
   int seed = 1;
   int confirmed = 0;  ///< of the draws: held against whole sweeps too, to see whether their looks can be trusted
-  BriefLook look;
+  Screening recording;
 };
 
 enum class SearchMethod {
@@ -169,13 +169,13 @@ struct SearchOptions {
 };
 
 struct ClaimsOptions {
-  studies::LookOptions look;
+  studies::RecordingOptions recording;
   std::vector<studies::Start> starts = {studies::Start::carried,
                                         studies::Start::cold};  ///< the first is the verdict, others stand beside it
   std::vector<ClaimSweep> sweeps;
   std::vector<Claim> claims;
   std::vector<ClaimFigure> figures;
-  BriefLook brief;
+  Screening brief;
   ParameterSpace space;
   SearchOptions search;
   SurveyOptions survey;

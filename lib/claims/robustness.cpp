@@ -10,7 +10,7 @@
 
 #include "core/errors.hpp"
 #include "core/random_numbers.hpp"
-#include "studies/units.hpp"
+#include "studies/parallel_for.hpp"
 
 namespace epicyclic::claims {
 
@@ -50,7 +50,7 @@ void evaluate_draws(const ClaimsOptions& options, std::size_t phase, const std::
                        " is another one");
   }
   std::mutex mutex;
-  (void)for_units(missing.size(), run.threads, run.stop, [&](std::size_t k) {
+  (void)parallel_for(missing.size(), run.threads, run.stop, [&](std::size_t k) {
     EvaluatedCandidate c{{phase, missing[k]}, draw(options.space, options.survey.seed, missing[k]), {}};
     c.evaluation = evaluate({c.u, std::numeric_limits<double>::infinity(), k, phase == by_whole_sweeps});
     const std::scoped_lock lock(mutex);

@@ -239,7 +239,7 @@ std::vector<DrawnFigure> draw_claim_figures(const std::filesystem::path& folder,
       const std::string words = panel.title.empty() ? symbol : figures::literal_text(panel.title) + "    " + symbol;
       // What recurrence does not tell apart shall not look like a spread.
       const double middle = 0.5 * (y.low + y.high);
-      const double least = 10.0 * card.options.look.recurrence_tolerance;
+      const double least = 10.0 * card.options.recording.recurrence_tolerance;
       if (y.high - y.low < least)
         for (const double side : {-0.5, 0.5}) y.include(middle + side * least);
       sketch.panel(words, y.widened(figures::figure_margin));

@@ -201,29 +201,29 @@ const Table<ClaimFigure>& claim_figure_table() {
 
 namespace {
 
-Table<BriefLook> look_table(const char* name, const char* description) {
-  Table<BriefLook> t(name, description);
-  t.integer("transient_periods", &BriefLook::transient_periods, between(0, 1e6), "Mesh periods before the record [-].");
-  t.integer("recorded_periods", &BriefLook::recorded_periods, between(4, 1e5), "Mesh periods recorded [-].");
+Table<Screening> look_table(const char* name, const char* description) {
+  Table<Screening> t(name, description);
+  t.integer("transient_periods", &Screening::transient_periods, between(0, 1e6), "Mesh periods before the record [-].");
+  t.integer("recorded_periods", &Screening::recorded_periods, between(4, 1e5), "Mesh periods recorded [-].");
   t.integer(
-      "classification_periods", &BriefLook::classification_periods, between(0, 1e7),
+      "classification_periods", &Screening::classification_periods, between(0, 1e7),
       "Mesh periods after the record in which the regime may be classified [-]; 0: by recurrence and growth alone.");
-  t.integer("growth_periods", &BriefLook::growth_periods, between(0, 1e6),
+  t.integer("growth_periods", &Screening::growth_periods, between(0, 1e6),
             "Mesh periods over which growth distinguishes chaos from other responses that do not recur [-]; 0: all "
             "that do not recur count as chaotic.");
-  t.number("relative_tolerance", &BriefLook::relative_tolerance, between(1e-12, 1e-2),
+  t.number("relative_tolerance", &Screening::relative_tolerance, between(1e-12, 1e-2),
            "Relative and absolute tolerance [-].");
   return t;
 }
 
-const Table<BriefLook>& survey_look_table() {
+const Table<Screening>& survey_recording_table() {
   static const auto table = look_table("survey_look", "How draws are screened: from the default start, in lanes.");
   return table;
 }
 
 }  // namespace
 
-const Table<BriefLook>& brief_look_table() {
+const Table<Screening>& screening_table() {
   static const auto table =
       look_table("brief", "How candidates of a search are screened: from the default start, in lanes.");
   return table;
@@ -236,7 +236,7 @@ const Table<SurveyOptions>& survey_options_table() {
     t.integer("seed", &SurveyOptions::seed, between(0, 1e9), "Seed of their random numbers [-].");
     t.integer("confirmed", &SurveyOptions::confirmed, between(0, 1e6),
               "Number of first draws that are compared with whole sweeps, as a check of the screening [-].");
-    t.object("look", &SurveyOptions::look, survey_look_table());
+    t.object("look", &SurveyOptions::recording, survey_recording_table());
     return t;
   }();
   return table;
@@ -328,13 +328,13 @@ const Table<Study>& claims_table() {
     input::add_kind_key(t, claims_kind().name);
     t.choices("starts", of(&ClaimsOptions::starts), input::start_choices(),
               "Where points of sweeps start; the first gives the verdict, the other stands beside it.");
-    input::add_look(t);
+    input::add_recording(t);
     input::add_classification(t);
     t.objects("sweeps", of(&ClaimsOptions::sweeps), claim_sweep_table(), 1000, "Sweeps that the claims speak of.")
         .required();
     t.objects("claims", of(&ClaimsOptions::claims), claim_table(), 1000, "What is claimed.").required();
     t.objects("figures", of(&ClaimsOptions::figures), claim_figure_table(), 100, "Figures as they are published.");
-    t.object("brief", of(&ClaimsOptions::brief), brief_look_table());
+    t.object("brief", of(&ClaimsOptions::brief), screening_table());
     t.objects("parameters", of(&ParameterSpace::parameters), free_parameter_table(), 1000,
               "Numbers of the input that are not published, with their ranges.");
     t.objects("choices", of(&ParameterSpace::choices), choice_table(), 100,

@@ -203,7 +203,9 @@ void check_torsion(Problems& out, const Stage& s) {
   const double k_su = s.sun.torsional_support_N_per_m;
   const double k_ru = s.ring.torsional_support_N_per_m;
   const double k_cu = s.carrier.torsional_support_N_per_m;
-  const char* name = s.boundary == Boundary::literal ? "literal" : s.boundary == Boundary::star ? "star" : "fixed_ring";
+  const char* name = s.boundary == Boundary::as_printed ? "literal"
+                     : s.boundary == Boundary::star     ? "star"
+                                                        : "fixed_ring";
   if (k_su != 0.0)
     out.add("/lumped/sun" + key, "must be 0 with boundary ", name, ", where the sun is driven (", k_su, ")");
   if (s.boundary == Boundary::fixed_ring) {

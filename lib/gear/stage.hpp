@@ -34,7 +34,8 @@ inline constexpr double rigid = std::numeric_limits<double>::infinity();
 
 /// Who is held, who drives, who is driven (docs/theory/model.md, section 4).
 enum class Boundary {
-  literal,  ///< the paper as printed: ring free and without torque, carrier grounded through k_cu, T_c on the carrier
+  as_printed,  ///< the paper as printed: ring free and without torque, carrier grounded through k_cu, T_c on the
+               ///< carrier
   fixed_ring,  ///< ring grounded through k_ru, carrier is the free output
   star,        ///< carrier grounded through k_cu, ring is the free output
 };

@@ -9,8 +9,8 @@
 #include "input/pointers.hpp"
 #include "input/study_model.hpp"
 #include "model/scales.hpp"
+#include "studies/cost_estimate.hpp"
 #include "studies/named_parameters.hpp"
-#include "studies/probes.hpp"
 
 namespace epicyclic::input {
 

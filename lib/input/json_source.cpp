@@ -336,8 +336,8 @@ std::optional<Repair> word_at(std::string_view text, std::size_t at, bool overfl
   if (!overflow && json::accept(word)) return std::nullopt;
   if (end == text.size()) {
     if (json::accept(std::string(word) + "0")) return std::nullopt;  // a number broken off
-    for (const std::string_view literal : {"true", "false", "null"})
-      if (literal.substr(0, word.size()) == word) return std::nullopt;  // broken off, not misspelt
+    for (const std::string_view as_printed : {"true", "false", "null"})
+      if (as_printed.substr(0, word.size()) == word) return std::nullopt;  // broken off, not misspelt
   }
   return Repair{begin, end, "0", word_message(word, overflow), true};
 }

@@ -99,8 +99,8 @@ namespace {
 
 /// Rules of a study of points that span its keys.
 void check_points(const Study& study, ReadContext& context) {
-  const studies::LookOptions& look = study.look();
-  if (look.transient == studies::Transient::adaptive && look.classification_periods == 0) {
+  const studies::RecordingOptions& recording = study.recording();
+  if (recording.transient == studies::Transient::adaptive && recording.classification_periods == 0) {
     context.add(Finding::Kind::rule, "/study/classification_periods",
                 "is 0, must be >= 1 for an adaptive transient, which ends when the regime is classified; without it "
                 "give \"transient\": \"fixed\"");

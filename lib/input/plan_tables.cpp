@@ -6,7 +6,7 @@ namespace epicyclic::input {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
-using studies::LookOptions;
+using studies::RecordingOptions;
 using studies::SweepOptions;
 
 void add_kind_key(Table<Study>& t, std::string_view name) {
@@ -50,30 +50,30 @@ void add_grid(Table<Study>& t) {
 
 namespace {
 
-constexpr auto recording = [](auto& plan) -> auto& { return plan.look(); };
+constexpr auto recording = [](auto& plan) -> auto& { return plan.recording(); };
 
 }  // namespace
 
-void add_look(Table<Study>& t) {
+void add_recording(Table<Study>& t) {
   const auto of = [](auto member) { return in_plan(recording, member); };
-  t.integer("transient_periods", of(&LookOptions::transient_periods), between(0, 1e7),
+  t.integer("transient_periods", of(&RecordingOptions::transient_periods), between(0, 1e7),
             "Mesh periods before the record, if the transient is fixed [-].");
-  t.integer("recorded_periods", of(&LookOptions::recorded_periods), between(1, 1e5), "Mesh periods recorded [-].");
-  t.integer("output_phases", of(&LookOptions::output_phases), between(1, 10000),
+  t.integer("recorded_periods", of(&RecordingOptions::recorded_periods), between(1, 1e5), "Mesh periods recorded [-].");
+  t.integer("output_phases", of(&RecordingOptions::output_phases), between(1, 10000),
             "Output points per recorded mesh period [-].");
-  t.integer("period_max", of(&LookOptions::period_max), between(1, 10000),
+  t.integer("period_max", of(&RecordingOptions::period_max), between(1, 10000),
             "Longest period that is sought, in mesh periods [-].");
-  t.number("recurrence_tolerance", of(&LookOptions::recurrence_tolerance), between(tolerance_min, 1),
+  t.number("recurrence_tolerance", of(&RecordingOptions::recurrence_tolerance), between(tolerance_min, 1),
            "Two states recur if no component differs by more, in the units of the state.");
 }
 
 void add_classification(Table<Study>& t) {
   const auto of = [](auto member) { return in_plan(recording, member); };
-  t.choice("transient", of(&LookOptions::transient),
+  t.choice("transient", of(&RecordingOptions::transient),
            std::vector<std::pair<std::string, studies::Transient>>{{"fixed", studies::Transient::fixed},
                                                                    {"adaptive", studies::Transient::adaptive}},
            "Length of the transient: transient_periods, or until the regime is classified.");
-  t.integer("classification_periods", of(&LookOptions::classification_periods), between(0, 1e7),
+  t.integer("classification_periods", of(&RecordingOptions::classification_periods), between(0, 1e7),
             "Mesh periods after the record in which the regime may be classified [-]; 0: by recurrence alone.");
 }
 

@@ -47,7 +47,7 @@ inline constexpr auto whole_plan = [](auto& plan) -> auto& {
 void add_kind_key(Table<Study>& t, std::string_view name);
 
 /// How each point is recorded.
-void add_look(Table<Study>& t);
+void add_recording(Table<Study>& t);
 
 /// The keys of studies that classify the regimes of their points.
 void add_classification(Table<Study>& t);

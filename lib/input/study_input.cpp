@@ -20,7 +20,7 @@
 #include "input/study_kind.hpp"
 #include "integrate/methods.hpp"
 #include "studies/named_parameters.hpp"
-#include "studies/units.hpp"
+#include "studies/parallel_for.hpp"
 
 namespace epicyclic::input {
 
@@ -50,7 +50,7 @@ Unsound first_unsound(std::size_t values, F problems_at) {
   std::atomic<std::size_t> least{values};
   constexpr std::size_t few = 16;  // not worth a thread
   const int threads = values < few ? 1 : static_cast<int>(std::thread::hardware_concurrency());
-  (void)studies::for_units(values, threads, nullptr, [&](std::size_t k) {
+  (void)studies::parallel_for(values, threads, nullptr, [&](std::size_t k) {
     if (k > least) return;
     std::vector<Problem> problems = problems_at(k);
     const std::scoped_lock lock(mutex);

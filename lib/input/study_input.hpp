@@ -65,8 +65,8 @@ class Plan {
 
   /// How each point is recorded.
   /// @throws std::logic_error of a kind without points
-  [[nodiscard]] studies::LookOptions& look();
-  [[nodiscard]] const studies::LookOptions& look() const { return const_cast<Plan*>(this)->look(); }
+  [[nodiscard]] studies::RecordingOptions& recording();
+  [[nodiscard]] const studies::RecordingOptions& recording() const { return const_cast<Plan*>(this)->recording(); }
 
   /// The sweep that the options hold: of a sweep, a cross-check and a tolerance study.
   /// @throws std::logic_error of other kinds
@@ -98,7 +98,7 @@ struct Study {
 
   /// How its points are recorded.
   /// @throws std::logic_error unless it has points
-  [[nodiscard]] const studies::LookOptions& look() const { return plan.look(); }
+  [[nodiscard]] const studies::RecordingOptions& recording() const { return plan.recording(); }
 
   /// The sweep that its points are; a run is one of one point.
   /// @throws std::logic_error of other kinds

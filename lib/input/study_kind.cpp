@@ -33,9 +33,9 @@ Plan::Plan(const StudyKind& kind) : Plan(kind, kind.defaults) {}
 
 std::string_view Plan::name() const { return kind_ == nullptr ? "stage" : kind_->name; }
 
-studies::LookOptions& Plan::look() {
-  if (kind_ == nullptr || kind_->look == nullptr) throw lacks(*this, "points");
-  return kind_->look(options_);
+studies::RecordingOptions& Plan::recording() {
+  if (kind_ == nullptr || kind_->recording == nullptr) throw lacks(*this, "points");
+  return kind_->recording(options_);
 }
 
 studies::SweepOptions& Plan::sweep() {

@@ -58,7 +58,7 @@ struct StudyKind {
   std::any defaults{};  ///< its options, of a type that can be copied
 
   /// How each point is recorded.
-  studies::LookOptions& (*look)(std::any& options) = nullptr;
+  studies::RecordingOptions& (*recording)(std::any& options) = nullptr;
   /// The sweep that the options hold.
   studies::SweepOptions& (*own_sweep)(std::any& options) = nullptr;
   /// The sweep that the points are, if the options hold none.

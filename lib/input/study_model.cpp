@@ -25,8 +25,8 @@
 #include "input/stage_completion.hpp"
 #include "input/study_kind.hpp"
 #include "integrate/methods.hpp"
+#include "studies/cost_estimate.hpp"
 #include "studies/named_parameters.hpp"
-#include "studies/probes.hpp"
 
 namespace epicyclic::input {
 
@@ -146,7 +146,7 @@ double last_value(const studies::Axis& axis) {
 void warn_of_centrifugal_force(std::vector<gear::Warning>& out, const LoadedInput& input, const gear::Stage& stage,
                                double mesh_frequency) {
   const json* origin = input.value_at("/model/origin/centrifugal");
-  if (stage.boundary == gear::Boundary::literal || origin == nullptr || *origin != "default") return;
+  if (stage.boundary == gear::Boundary::as_printed || origin == nullptr || *origin != "default") return;
   constexpr double negligible = 0.1;
   if (!gear::problems_for_motion(stage).empty()) return;
   const double force = gear::planet_centrifugal_force(stage, mesh_frequency);
@@ -280,7 +280,7 @@ gear::Warning without_tangents(std::string pointer) {
 }
 
 void warn_without_tangents(std::vector<gear::Warning>& out, const LoadedInput& input) {
-  if (input.study.look().classification_periods > 0 && damping_jumps(input.resolved))
+  if (input.study.recording().classification_periods > 0 && damping_jumps(input.resolved))
     out.push_back(without_tangents("/model/gap_damping"));
 }
 

@@ -521,7 +521,7 @@ const Table<Stage>& stage_table() {
     Table<Stage> t("stage", "A planetary stage.");
     t.text("name", &Stage::name, "Name of the stage.");
     t.choice("boundary", &Stage::boundary,
-             std::vector<std::pair<std::string, gear::Boundary>>{{"literal", gear::Boundary::literal},
+             std::vector<std::pair<std::string, gear::Boundary>>{{"literal", gear::Boundary::as_printed},
                                                                  {"fixed_ring", gear::Boundary::fixed_ring},
                                                                  {"star", gear::Boundary::star}},
              "Member that is held: the ring, the carrier (star), or neither, as in the printed equations of Tang et "

@@ -92,7 +92,7 @@ void remove_synchronous(Layout layout, const Parameters<double, N>& p, std::span
 
 /// The instant of what looks at deflections alone: stiffness and friction in tables are not looked up.
 template <std::size_t N>
-Instant<double, N> without_tables(const Parameters<double, N>& p, double s) {
+PhaseCoefficients<double, N> without_tables(const Parameters<double, N>& p, double s) {
   return {p, HarmonicBasis<double>(sine_cosine(s), harmonics_of(p))};
 }
 
@@ -101,7 +101,7 @@ void deflections_at(Layout layout, const Parameters<double, N>& p, double s, con
   constexpr Planets<N> all;
   const Deflections<double, N> d = deflections(p, all, unpack(layout, all, y));
   const Deflections<double, N> d_rate = deflections(p, all, unpack(layout, all, y + degrees_of_freedom(layout, N)));
-  const Instant<double, N> now = without_tables(p, s);
+  const PhaseCoefficients<double, N> now = without_tables(p, s);
   const auto set = [](std::vector<double>& row, const Row<double, N>& values) {
     row.assign(values.begin(), values.end());
   };
@@ -113,9 +113,9 @@ void deflections_at(Layout layout, const Parameters<double, N>& p, double s, con
 
 template <std::size_t N>
 void forces_at(Layout layout, const Parameters<double, N>& p, double s, const double* y, StageForces& out) {
-  std::array<double, LookRows{N}.count()> seen;
-  look(layout, p, Instant<double, N>(p, segment_at(p.breakpoints, s), s), y, seen.data());
-  constexpr LookRows rows{N};
+  std::array<double, OutputRows{N}.count()> seen;
+  evaluate_outputs(layout, p, PhaseCoefficients<double, N>(p, segment_at(p.breakpoints, s), s), y, seen.data());
+  constexpr OutputRows rows{N};
   for (auto* list :
        {&out.sun_planet, &out.ring_planet, &out.sun_planet_elastic, &out.ring_planet_elastic, &out.planet_bearing})
     list->resize(N);
@@ -137,43 +137,46 @@ bool has_computed_tables(const gear::Stage& stage) {
   return of(stage.sun_planet_mesh) || of(stage.ring_planet_mesh);
 }
 
-/// The instants of all phases are made here, once.
+/// The phase_coefficients of all phases are made here, once.
 template <std::size_t N, std::size_t W>
-StageLooks stage_looks(Layout layout, const std::shared_ptr<const Parameters<double, N>>& p,
-                       const LookKernel<N, W>& kernel) {
-  using Instants = Instant<Lanes<W>, N>;
+StageOutputsAt stage_looks(Layout layout, const std::shared_ptr<const Parameters<double, N>>& p,
+                           const OutputKernel<N, W>& kernel) {
+  using Instants = PhaseCoefficients<Lanes<W>, N>;
   struct Looks {
     Looks(const std::shared_ptr<const Parameters<double, N>>& all, std::size_t size)
-        : lanes(all), count(size), instants(std::make_unique<Instants[]>(size)) {}
+        : lanes(all), count(size), phase_coefficients(std::make_unique<Instants[]>(size)) {}
     LaneParameters<N, W> lanes;
     std::size_t count;
-    std::unique_ptr<Instants[]> instants;
+    std::unique_ptr<Instants[]> phase_coefficients;
   };
-  return [layout, p, kernel](std::span<const double> phases) -> StageLook {
-    const std::size_t groups = (phases.size() + looks_together - 1) / looks_together;
-    const auto looks = std::make_shared<Looks>(p, groups * looks_together / W);
+  return [layout, p, kernel](std::span<const double> phases) -> StageOutputs {
+    const std::size_t groups = (phases.size() + phases_together - 1) / phases_together;
+    const auto outputs_at = std::make_shared<Looks>(p, groups * phases_together / W);
     alignas(sizeof(double) * W) std::array<double, W> s;
-    for (std::size_t k = 0; k < looks->count; ++k) {
+    for (std::size_t k = 0; k < outputs_at->count; ++k) {
       for (std::size_t lane = 0; lane < W; ++lane) {
         s[lane] = phases[std::min(k * W + lane, phases.size() - 1)];
-        looks->lanes.set_segment(lane, segment_at(p->breakpoints, s[lane]));
+        outputs_at->lanes.set_segment(lane, segment_at(p->breakpoints, s[lane]));
       }
-      kernel.prepare(looks->lanes, 1, s.data(), &looks->instants[k]);
+      kernel.prepare(outputs_at->lanes, 1, s.data(), &outputs_at->phase_coefficients[k]);
     }
-    return [layout, kernel, looks](std::size_t group, const double* states, double* rows) {
-      for (std::size_t first = 0; first < looks_together; first += W)
-        kernel.look(layout, looks->lanes, looks->instants[(group * looks_together + first) / W], states + first,
-                    rows + first);
+    return [layout, kernel, outputs_at](std::size_t group, const double* states, double* rows) {
+      for (std::size_t first = 0; first < phases_together; first += W)
+        kernel.evaluate_outputs(layout, outputs_at->lanes,
+                                outputs_at->phase_coefficients[(group * phases_together + first) / W], states + first,
+                                rows + first);
     };
   };
 }
 
 /// By the widest lanes that this machine runs.
 template <std::size_t N>
-StageLooks make_stage_looks(Layout layout, const std::shared_ptr<const Parameters<double, N>>& p) {
-  if (const auto kernel = look_kernel<N, 8>("avx512"); kernel.look != nullptr) return stage_looks(layout, p, kernel);
-  if (const auto kernel = look_kernel<N, 4>("avx2"); kernel.look != nullptr) return stage_looks(layout, p, kernel);
-  return stage_looks(layout, p, look_kernel<N, 2>("baseline"));
+StageOutputsAt make_stage_looks(Layout layout, const std::shared_ptr<const Parameters<double, N>>& p) {
+  if (const auto kernel = output_kernel<N, 8>("avx512"); kernel.evaluate_outputs != nullptr)
+    return stage_looks(layout, p, kernel);
+  if (const auto kernel = output_kernel<N, 4>("avx2"); kernel.evaluate_outputs != nullptr)
+    return stage_looks(layout, p, kernel);
+  return stage_looks(layout, p, output_kernel<N, 2>("baseline"));
 }
 
 template <std::size_t N>
@@ -208,7 +211,7 @@ DynamicModel assemble(Layout layout, const gear::Stage& stage, const Scales& sca
     contact_distances(layout, *p, without_tables(*p, s), y, distances, rates);
   };
   m.forces = [layout, p](double s, const double* y, StageForces& out) { forces_at(layout, *p, s, y, out); };
-  m.looks = make_stage_looks(layout, p);
+  m.outputs_at = make_stage_looks(layout, p);
   m.scales = scales;
   m.speeds = gear::speeds(stage, mesh_frequency_ratio * scales.omega_sn);
   m.origin = constants;

@@ -18,7 +18,7 @@
 #include "model/layout.hpp"
 #include "model/options.hpp"
 #include "model/scales.hpp"
-#include "model/stage_look.hpp"
+#include "model/stage_outputs.hpp"
 
 namespace epicyclic::model {
 
@@ -61,9 +61,9 @@ struct DynamicModel : VectorField {
   /// Forces of meshes and bearings at a state; allocation-free when `out` has been used before.
   std::function<void(double s, const double* y, StageForces& out)> forces;
 
-  /// The same and the transmission error, for many instants [model/stage_look.hpp]. Empty in a model of one's own: of
-  /// its meshes nothing but deflections is then told.
-  StageLooks looks;
+  /// The same and the transmission error, for many phase_coefficients [model/stage_outputs.hpp]. Empty in a model of
+  /// one's own: of its meshes nothing but deflections is then told.
+  StageOutputsAt outputs_at;
 
   /// This model with tables that are half as fine, where rows of something known make them: how far an orbit moves is
   /// more than what their interpolation moves it, some 16 times. Empty without such tables.

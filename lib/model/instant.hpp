@@ -4,8 +4,8 @@
 //   e_i = e_c,i cos s + e_s,i sin s ,  e_i' = Omega (e_s,i cos s - e_c,i sin s)                          [M-13], [M-14]
 //   k_i(s), A_i(s), B_i(s)  by harmonics or tables on the mesh's own phase s / 2 pi + turns_i                    [M-27]
 //
-// The slopes of a Runge-Kutta step are taken at phases that are known when the step begins; lanes make their instants
-// all at once, because this is mostly waiting for one's own results.
+// The slopes of a Runge-Kutta step are taken at phases that are known when the step begins; lanes make their
+// phase_coefficients all at once, because this is mostly waiting for one's own results.
 #pragma once
 
 #include <algorithm>
@@ -107,18 +107,18 @@ template <class P, std::size_t N>
 
 /// Of the stage.
 template <class P, std::size_t N>
-struct Instant {
+struct PhaseCoefficients {
   MeshInstant<P, N> sun_planet, ring_planet;
 
-  Instant() = default;
+  PhaseCoefficients() = default;
 
   /// Without the tables.
-  Instant(const Parameters<P, N>& p, const HarmonicBasis<P>& basis)
+  PhaseCoefficients(const Parameters<P, N>& p, const HarmonicBasis<P>& basis)
       : sun_planet(p, p.sun_planet, basis), ring_planet(p, p.ring_planet, basis) {}
 
   /// @param segment  of p, that of s
-  Instant(const Parameters<P, N>& p, std::size_t segment, const P& s)
-      : Instant(p, HarmonicBasis<P>(sine_cosine(s), harmonics_of(p))) {
+  PhaseCoefficients(const Parameters<P, N>& p, std::size_t segment, const P& s)
+      : PhaseCoefficients(p, HarmonicBasis<P>(sine_cosine(s), harmonics_of(p))) {
     sun_planet.look_up(p.sun_planet, p.segments[segment].sun_planet, s);
     ring_planet.look_up(p.ring_planet, p.segments[segment].ring_planet, s);
   }

@@ -20,12 +20,12 @@ LaneField lanes_of(const DynamicModel& like, LaneKernel<N, W> kernel, std::size_
       throw InputError("a system that is no stage of the lanes' structure cannot run beside them");
     return constants;
   };
-  using Instants = Instant<Lanes<W>, N>;
+  using Instants = PhaseCoefficients<Lanes<W>, N>;
   struct State {
     explicit State(const std::shared_ptr<const Parameters<double, N>>& p) : lanes(p) {}
     LaneParameters<N, W> lanes;
     std::size_t places = 0;
-    std::unique_ptr<Instants[]> instants;
+    std::unique_ptr<Instants[]> phase_coefficients;
   };
   const auto state = std::make_shared<State>(point(like));
   LaneField f;
@@ -35,23 +35,23 @@ LaneField lanes_of(const DynamicModel& like, LaneKernel<N, W> kernel, std::size_
   f.set_segment = [state](std::size_t lane, std::size_t segment) { state->lanes.set_segment(lane, segment); };
   f.set_places = [state, kernel](std::size_t count, const double* s) {
     if (state->places < count) {
-      state->instants = std::make_unique<Instants[]>(count);
+      state->phase_coefficients = std::make_unique<Instants[]>(count);
       state->places = count;
     }
-    kernel.prepare(state->lanes, count, s, state->instants.get());
+    kernel.prepare(state->lanes, count, s, state->phase_coefficients.get());
   };
   f.right_hand_side = [state, kernel](std::size_t place, const double* y, double* dyds) {
-    kernel.evaluate(state->lanes, state->instants[place], y, dyds);
+    kernel.evaluate(state->lanes, state->phase_coefficients[place], y, dyds);
   };
   if (vectors > 0)
     f.right_hand_side = [state, kernel, vectors, layout = like.layout, vector = like.dimension * W](
                             std::size_t place, const double* y, double* dyds) {
       for (std::size_t j = 1; j <= vectors; ++j)
-        kernel.push(layout, state->lanes, state->instants[place], y, y + j * vector, dyds, dyds + j * vector);
+        kernel.push(layout, state->lanes, state->phase_coefficients[place], y, y + j * vector, dyds, dyds + j * vector);
     };
   f.surfaces = like.surfaces.count;
   f.surface_values = [state, kernel](std::size_t place, const double* y, double* values, double* rates) {
-    kernel.measure_contacts(state->lanes, state->instants[place], y, values, rates);
+    kernel.measure_contacts(state->lanes, state->phase_coefficients[place], y, values, rates);
   };
   return f;
 }

@@ -29,7 +29,7 @@
 #include "model/instant.hpp"
 #include "model/layout.hpp"
 #include "model/parameters.hpp"
-#include "model/stage_look.hpp"
+#include "model/stage_outputs.hpp"
 
 namespace epicyclic::model {
 
@@ -143,7 +143,7 @@ struct StageState {
   MeshState<T, G, P> sun_planet, ring_planet;
 
   template <std::size_t N>
-  StageState(Layout layout, const Parameters<P, N>& p, const Planets<N, G>& planets, const Instant<P, N>& now,
+  StageState(Layout layout, const Parameters<P, N>& p, const Planets<N, G>& planets, const PhaseCoefficients<P, N>& now,
              const T* y)
       : q(unpack(layout, planets, y)),
         v(unpack(layout, planets, y + degrees_of_freedom(layout, N))),
@@ -157,7 +157,7 @@ struct StageState {
 template <class T, class P, std::size_t N>
 [[nodiscard]] StageState<T, N, P> stage_state(Layout layout, const Parameters<P, N>& p, std::size_t segment,
                                               const std::type_identity_t<P>& s, const T* y) {
-  return {layout, p, Planets<N>{}, Instant<P, N>(p, segment, s), y};
+  return {layout, p, Planets<N>{}, PhaseCoefficients<P, N>(p, segment, s), y};
 }
 
 /// Sums over planets of what they do to the other members.
@@ -289,7 +289,7 @@ template <class T, class P, std::size_t N>
 /// accelerations() with the planets one by one, for lanes; sums are in the same order.
 template <class T, class P, std::size_t N>
 [[nodiscard]] Coordinates<T, N> accelerations_by_planet(Layout layout, const Parameters<P, N>& p,
-                                                        const Instant<P, N>& now, const T* y) {
+                                                        const PhaseCoefficients<P, N>& now, const T* y) {
   using Group = Planets<N, 1>;
   Coordinates<T, N> a;
   Reactions<T> total;
@@ -337,7 +337,8 @@ void make_relative(Layout layout, const Parameters<P, N>& p, Coordinates<T, N>& 
 /// @param y     2 n numbers, n = degrees_of_freedom(layout, N): displacements [b_c], then velocities [b_c per tau]
 /// @param dyds  2 n numbers
 template <class T, class P, std::size_t N>
-void right_hand_side(Layout layout, const Parameters<P, N>& p, const Instant<P, N>& now, const T* y, T* dyds) {
+void right_hand_side(Layout layout, const Parameters<P, N>& p, const PhaseCoefficients<P, N>& now, const T* y,
+                     T* dyds) {
   const std::size_t n = degrees_of_freedom(layout, N);
   Coordinates<T, N> a;
   if constexpr (is_lanes<T>) {
@@ -371,8 +372,8 @@ template <class P, std::size_t N>
 /// @param distances  contacts_of(p) numbers [b_c]
 /// @param rates      d/ds of them
 template <class T, class P, std::size_t N>
-void contact_distances(Layout layout, const Parameters<P, N>& p, const Instant<P, N>& now, const T* y, T* distances,
-                       T* rates) {
+void contact_distances(Layout layout, const Parameters<P, N>& p, const PhaseCoefficients<P, N>& now, const T* y,
+                       T* distances, T* rates) {
   const P per_phase = 1.0 / p.omega;
   const auto away = [](const P& half_gap) {
     return select(half_gap > P(0.0), P(0.0), P(std::numeric_limits<double>::infinity()));
@@ -390,9 +391,9 @@ void contact_distances(Layout layout, const Parameters<P, N>& p, const Instant<P
     const Planets<N, 1> own{i};
     const Deflections<T, 1> d = deflections(p, own, unpack(layout, own, y));
     const Deflections<T, 1> d_rate = deflections(p, own, unpack(layout, own, velocities));
-    const auto mesh = [&](const MeshParameters<P, N>& m, const MeshInstant<P, N>& instant, const Row<T, 1>& x,
+    const auto mesh = [&](const MeshParameters<P, N>& m, const MeshInstant<P, N>& coefficients, const Row<T, 1>& x,
                           const Row<T, 1>& rate) {
-      flanks(instant.delta(own, x)[0], instant.rate(own, rate)[0], m.half_gap);
+      flanks(coefficients.delta(own, x)[0], coefficients.rate(own, rate)[0], m.half_gap);
     };
     mesh(p.sun_planet, now.sun_planet, d.sun_planet, d_rate.sun_planet);
     mesh(p.ring_planet, now.ring_planet, d.ring_planet, d_rate.ring_planet);
@@ -411,17 +412,18 @@ void contact_distances(Layout layout, const Parameters<P, N>& p, const Instant<P
   }
 }
 
-/// What meshes and bearings do at an instant: LookRows::count() numbers.
+/// What meshes and bearings do at an instant: OutputRows::count() numbers.
 ///
 /// @param y     as of right_hand_side()
 template <class T, class P, std::size_t N>
-void look(Layout layout, const Parameters<P, N>& p, const Instant<P, N>& now, const T* y, T* rows) {
+void evaluate_outputs(Layout layout, const Parameters<P, N>& p, const PhaseCoefficients<P, N>& now, const T* y,
+                      T* rows) {
   using epicyclic::sqrt;
-  constexpr LookRows at{N};
+  constexpr OutputRows at{N};
   const auto magnitude = [](const T& a, const T& b) { return sqrt(a * a + b * b); };
   for (std::size_t i = 0; i < N; ++i) {
     const StageState<T, 1, P> g(layout, p, Planets<N, 1>{i}, now, y);
-    const auto mesh = [rows](const LookRows::Mesh& place, const MeshState<T, 1, P>& m) {
+    const auto mesh = [rows](const OutputRows::Mesh& place, const MeshState<T, 1, P>& m) {
       rows[place.delta()] = m.delta[0];
       rows[place.force()] = m.force[0];
       rows[place.elastic()] = m.elastic[0];
@@ -445,7 +447,7 @@ void look(Layout layout, const Parameters<P, N>& p, const Instant<P, N>& now, co
 template <class T, class P, std::size_t N>
 void right_hand_side(Layout layout, const Parameters<P, N>& p, std::size_t segment, const std::type_identity_t<P>& s,
                      const T* y, T* dyds) {
-  right_hand_side(layout, p, Instant<P, N>(p, segment, s), y, dyds);
+  right_hand_side(layout, p, PhaseCoefficients<P, N>(p, segment, s), y, dyds);
 }
 
 }  // namespace epicyclic::model

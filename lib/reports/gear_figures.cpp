@@ -108,12 +108,12 @@ GearFigure stiffness_figure(const fs::path& folder, std::string_view stem, const
 GearFigure load_sharing_figure(const fs::path& folder, const gear::Stage& stage, const gear::GearSet& set) {
   figures::Sketch sketch("load_sharing");
   double longest = 0.0;
-  const auto add = [&](const gear::MeshedPair& mesh, std::string_view look, std::string_view title) {
+  const auto add = [&](const gear::MeshedPair& mesh, std::string_view recording, std::string_view title) {
     // The table of lubricated contact has both sides of each jump; what lubricates is of no account here.
     const gear::EhlFriction table = gear::ehl_of(mesh, {});
     Curve curve;
     for (std::size_t i = 0; i < table.share.size(); ++i) curve.push_back({table.share_position[i], table.share[i]});
-    sketch.add(curve, look, title);
+    sketch.add(curve, recording, title);
     longest = std::max(longest, mesh.contact_ratio());
   };
   add(set.sun_planet, figures::solid(blue), "sun-planet");
@@ -596,14 +596,17 @@ GearFigure campbell_figure(const fs::path& folder, const gear::Stage& stage, con
   sketch.command(
       "set label 'ω_{sn}' at graph 1, first 1 right offset character -0.8,0.55 font ',20' textcolor '#707070'");
   add_harmonics(sketch, frequency_max, free_height(modes, frequency_max));
-  for (const TypeLook& look : type_looks())
-    sketch.add(frequency_lines(modes, look.type, speed_max), figures::dashed(look.colour, look.width, look.dash));
-  for (const TypeLook& look : type_looks()) sketch.add(resonances(modes, look.type, speed_max), look.mark);
+  for (const TypeLook& recording : type_looks())
+    sketch.add(frequency_lines(modes, recording.type, speed_max),
+               figures::dashed(recording.colour, recording.width, recording.dash));
+  for (const TypeLook& recording : type_looks())
+    sketch.add(resonances(modes, recording.type, speed_max), recording.mark);
   // What is drawn last, on top, is named first.
   const std::vector<TypeLook> legend(type_looks().rbegin(), type_looks().rend());
-  for (const TypeLook& look : legend)
-    if (std::any_of(modes.begin(), modes.end(), [&](const model::Mode& mode) { return mode.type == look.type; }))
-      sketch.entry(figures::dashed(look.colour, look.width, look.dash), model::to_string(look.type));
+  for (const TypeLook& recording : legend)
+    if (std::any_of(modes.begin(), modes.end(), [&](const model::Mode& mode) { return mode.type == recording.type; }))
+      sketch.entry(figures::dashed(recording.colour, recording.width, recording.dash),
+                   model::to_string(recording.type));
   sketch.entry(figures::solid(dark_grey, 1.2), "mesh harmonics");
   return draw(
       sketch, folder,

@@ -32,7 +32,7 @@ std::size_t points_each_way(const ResponseInput& input) { return input.points.co
 
 /// Is the motion one whose numbers do not depend on when it is recorded, as far as is known?
 bool regular(const PointSummary& r) {
-  return !r.on_its_way() && r.regime != analysis::Regime::chaotic &&
+  return !r.is_unsettled() && r.regime != analysis::Regime::chaotic &&
          !(r.regime == analysis::Regime::undecided && r.classified);
 }
 
@@ -44,8 +44,8 @@ std::vector<figures::TrackSeries> series_of(const ResponseInput& input,
   for (std::size_t d = 0; d < input.sweep.directions.size(); ++d)
     all.push_back({store::direction_word(input.sweep.directions[d]), count,
                    [&input, values, first = d * count](std::size_t i) -> std::optional<figures::TrackRow> {
-                     const PointSummary r = input.points.read_brief(first + i);
-                     figures::TrackRow row{r.point.value, regular(r), values(r.meshes), r.on_its_way()};
+                     const PointSummary r = input.points.read_summary(first + i);
+                     figures::TrackRow row{r.point.value, regular(r), values(r.meshes), r.is_unsettled()};
                      if (!ok(r)) std::fill(row.y.begin(), row.y.end(), std::numeric_limits<double>::quiet_NaN());
                      return row;
                    }});
@@ -82,7 +82,7 @@ figures::FigureOutcome write_largest_force_figure(const std::filesystem::path& f
 
 bool has_quasi_static(const studies::PointSource& points) {
   for (std::size_t i = 0; i < points.count; ++i) {
-    const PointSummary r = points.read_brief(i);
+    const PointSummary r = points.read_summary(i);
     if (ok(r) && std::isfinite(StageRecord::kv(r.meshes.sun_planet))) return true;
   }
   return false;
@@ -102,7 +102,7 @@ figures::FigureOutcome write_kv_figure(const std::filesystem::path& folder, cons
 
 bool loads_differ(const studies::PointSource& points) {
   for (std::size_t i = 0; i < points.count; ++i) {
-    const PointSummary r = points.read_brief(i);
+    const PointSummary r = points.read_summary(i);
     if (!ok(r)) continue;
     for (const auto* meshes : {&r.meshes.sun_planet, &r.meshes.ring_planet})
       for (std::size_t p = 0; p < meshes->size(); ++p)
@@ -113,7 +113,7 @@ bool loads_differ(const studies::PointSource& points) {
 
 figures::FigureOutcome write_load_sharing_figure(const std::filesystem::path& folder, const std::string& stem,
                                                  const ResponseInput& input, bool largest) {
-  const std::size_t planets = input.points.count == 0 ? 0 : input.points.read_brief(0).meshes.sun_planet.size();
+  const std::size_t planets = input.points.count == 0 ? 0 : input.points.read_summary(0).meshes.sun_planet.size();
   figures::TrackPanel sun{largest ? "Peak load share  L_{sp,max}" : "Load sharing  L_{sp}", {}};
   figures::TrackPanel ring{largest ? "Peak load share  L_{rp,max}" : "Load sharing  L_{rp}", {}};
   std::vector<std::string> names;

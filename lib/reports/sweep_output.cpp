@@ -79,7 +79,7 @@ bool shows_regimes(SweepFigure figure) {
 std::optional<std::string> stem_of(const SweepOutput& output, SweepFigure figure) {
   const auto direction = direction_of(figure);
   if (direction && *direction >= output.sweep.directions.size()) return std::nullopt;
-  if (shows_regimes(figure) && output.sweep.look.classification_periods == 0) return std::nullopt;
+  if (shows_regimes(figure) && output.sweep.recording.classification_periods == 0) return std::nullopt;
   const std::string of_direction =
       direction ? "_" + store::direction_word(output.sweep.directions[*direction]) : std::string();
   switch (figure) {
@@ -138,7 +138,7 @@ const std::vector<figures::PointClass>& classes() {
 }
 
 std::size_t class_of(const PointSummary& r) {
-  if (r.on_its_way()) return 5;
+  if (r.is_unsettled()) return 5;
   switch (r.regime) {
     case analysis::Regime::periodic:
       return r.period <= 1 ? 0 : 1;
@@ -162,7 +162,7 @@ auto section(const SweepOutput& output, const studies::PointSource& points, std:
     const PointResult r = points.read(first + i);
     if (r.outcome != integrate::Outcome::reached) return std::nullopt;
     const analysis::Estimate exponent = r.lyapunov_max();
-    figures::ClassPoint p{{r.point.value, {}, r.on_its_way()}, class_of(r), exponent.value, exponent.half_width};
+    figures::ClassPoint p{{r.point.value, {}, r.is_unsettled()}, class_of(r), exponent.value, exponent.half_width};
     for (std::size_t k = 0; k < r.poincare_rows(); ++k)
       p.section.push_back(r.poincare[k * r.poincare_columns + column]);
     return p;
@@ -203,13 +203,15 @@ std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter,
                                                    const std::optional<studies::SpeedUnit>& given,
                                                    const studies::PointSource& points) {
   if (points.count == 0) return std::nullopt;
-  const PointSummary first = points.read_brief(0);
+  const PointSummary first = points.read_summary(0);
   return speed_above(parameter, given, first.omega, first.meshes);
 }
 
 std::string figure_title(const input::Study& study) {
   const gear::Boundary b = study.stage.boundary;
-  const char* boundary = b == gear::Boundary::literal ? "literal" : b == gear::Boundary::star ? "star" : "fixed ring";
+  const char* boundary = b == gear::Boundary::as_printed ? "literal"
+                         : b == gear::Boundary::star     ? "star"
+                                                         : "fixed ring";
   std::string title = (study.name.empty() ? study.stage.name : study.name) + ", boundary " + boundary;
   const bool speed_is_given = study.has_motion() && study.plan.kind()->at_given_speed &&
                               std::ranges::none_of(input::varied_parameters(study), [](const auto& varied) {
@@ -225,14 +227,14 @@ namespace {
 
 std::vector<store::PointColumn> columns_of(const studies::PointSource& points,
                                            const std::vector<store::PointColumn>& more) {
-  return store::point_columns(points.count == 0 ? 0 : points.read_brief(0).meshes.sun_planet.size(), more);
+  return store::point_columns(points.count == 0 ? 0 : points.read_summary(0).meshes.sun_planet.size(), more);
 }
 
 }  // namespace
 
 void write_points_csv(const std::filesystem::path& file, const studies::PointSource& points,
                       const std::vector<store::PointColumn>& more) {
-  write_table_csv(file, columns_of(points, more), points.count, [&](std::size_t i) { return points.read_brief(i); });
+  write_table_csv(file, columns_of(points, more), points.count, [&](std::size_t i) { return points.read_summary(i); });
 }
 
 void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& output,
@@ -254,7 +256,7 @@ void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& ou
 void write_point_columns(store::Hdf5File& h5, const studies::PointSource& points,
                          const std::vector<store::PointColumn>& more) {
   write_table_h5(h5, "/points", columns_of(points, more), points.count,
-                 [&](std::size_t i) { return points.read_brief(i); });
+                 [&](std::size_t i) { return points.read_summary(i); });
 }
 
 namespace {

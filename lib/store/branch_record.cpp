@@ -38,7 +38,7 @@ void pass(A& a, analysis::BranchOrbit& o) {
 }
 template <class A>
 void pass(A& a, analysis::BranchEnd& e) {
-  pass_enum(a, e, analysis::BranchEnd::least_step);
+  pass_enum(a, e, analysis::BranchEnd::min_step);
 }
 template <class A>
 void pass(A& a, analysis::SpecialKind& k) {
@@ -54,8 +54,8 @@ void pass(A& a, analysis::SpecialPlace& p) {
 }
 template <class A>
 void pass(A& a, analysis::SpecialPoint& p) {
-  pass_all(a, p.kind, p.value, p.error_bound, p.orbit, p.wave, p.multiplier, p.outwards, p.surface, p.least, p.rising,
-           p.nullity, p.resonance, p.note);
+  pass_all(a, p.kind, p.value, p.error_bound, p.orbit, p.symmetry_index, p.multiplier, p.outwards, p.surface, p.least,
+           p.rising, p.nullity, p.resonance, p.note);
 }
 /// Whether it is there, and it.
 template <class A, class T>
@@ -85,15 +85,15 @@ void pass(A& a, std::optional<analysis::BranchOrbit>& x) {
 }
 template <class A>
 void pass(A& a, analysis::BranchStart& s) {
-  pass_all(a, s.period, s.pieces, s.keeps_symmetry, s.orbit, s.from, s.origin, s.least, s.greatest);
+  pass_all(a, s.period, s.shooting_intervals, s.keeps_symmetry, s.orbit, s.from, s.origin, s.least, s.greatest);
 }
 template <class A>
 void pass(A& a, analysis::ContinuationState& s) {
-  pass_all(a, s.now, s.bend, s.step, s.orbits, s.left_start, s.end, s.message, s.evaluations);
+  pass_all(a, s.now, s.tangent_derivative, s.step, s.orbits, s.left_start, s.end, s.message, s.evaluations);
 }
 template <class A>
 void pass(A& a, analysis::TreeStep& s) {
-  pass_all(a, s.kind, s.full, s.trace, s.orbit, s.special, s.same_as, s.departures, s.limit);
+  pass_all(a, s.kind, s.full, s.trace, s.orbit, s.special, s.same_as, s.branch_switches, s.limit);
 }
 
 template <class A>
@@ -102,12 +102,13 @@ void pass(A& a, studies::LocusRow& r) {
 }
 template <class A>
 void pass(A& a, studies::TracedLocus& l) {
-  pass_all(a, l.branch, l.point, l.kind, l.period, l.wave, l.rows, l.first_end, l.last_end, l.message);
+  pass_all(a, l.branch, l.point, l.kind, l.period, l.symmetry_index, l.rows, l.first_end, l.last_end, l.message);
 }
 
 template <class A>
 void pass(A& a, studies::FoundMotion& m) {
-  pass_all(a, m.orbit, m.period, m.pieces, m.keeps_symmetry, m.images, m.unstable, m.multiplier_max, m.starts);
+  pass_all(a, m.orbit, m.period, m.shooting_intervals, m.keeps_symmetry, m.images, m.unstable, m.multiplier_max,
+           m.starts);
 }
 template <class A>
 void pass(A& a, studies::FoundMotions& f) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/branch_tree.hpp"
+#include "analysis/bifurcation_diagram.hpp"
 #include "studies/branch_search.hpp"
 #include "studies/loci.hpp"
 

@@ -61,7 +61,7 @@ void pass(A& a, studies::Course& c) {
 }
 template <class A>
 void pass(A& a, studies::MeshRecord& m) {
-  pass_all(a, m.delta, m.force, m.drive, m.back, m.pull, m.pull_time, m.quasi_static);
+  pass_all(a, m.delta, m.force, m.drive, m.back, m.tension, m.tension_time, m.quasi_static);
 }
 template <class A>
 void pass(A& a, studies::StageRecord& r) {
@@ -78,7 +78,7 @@ template <class A>
 void pass(A& a, analysis::AttractorRecord& r) {
   pass_all(a, r.regime, r.dimension);
   if (r.dimension == 0) return;  // none was kept
-  pass_all(a, r.orbit, r.orbit_error, r.waves, r.means, r.deviations, r.exponent);
+  pass_all(a, r.orbit, r.orbit_error, r.frequencies, r.means, r.deviations, r.exponent);
   a.require(r.orbit.size() % r.dimension == 0, "has an orbit that is not whole states");
   a.require(r.means.size() == r.deviations.size(), "has means without deviations");
 }

@@ -108,7 +108,7 @@ studies::PointResult PointStore::read(std::size_t point) const {
   return result;
 }
 
-studies::PointSummary PointStore::read_brief(std::size_t point) const {
+studies::PointSummary PointStore::read_summary(std::size_t point) const {
   const Place at = place(point);
   auto result = decode_point_beginning(journals_[at.journal]->read_beginning({point, at.offset}, brief_bytes));
   if (!result) return read(point);
@@ -118,7 +118,7 @@ studies::PointSummary PointStore::read_brief(std::size_t point) const {
 
 studies::PointSource PointStore::source() const {
   return {places_.size(), [this](std::size_t point) { return read(point); },
-          [this](std::size_t point) { return read_brief(point); }};
+          [this](std::size_t point) { return read_summary(point); }};
 }
 
 }  // namespace epicyclic::store

@@ -54,7 +54,7 @@ class PointStore {
   [[nodiscard]] studies::PointResult read(std::size_t point) const;
 
   /// @throws as read()
-  [[nodiscard]] studies::PointSummary read_brief(std::size_t point) const;
+  [[nodiscard]] studies::PointSummary read_summary(std::size_t point) const;
 
   /// For the writers, when all points are there.
   [[nodiscard]] studies::PointSource source() const;

@@ -1,11 +1,12 @@
-// What is told of meshes and bearings over a record [studies/stage_watch.hpp], as columns of points and of orbits.
+// What is told of meshes and bearings over a record [studies/response_statistics.hpp], as columns of points and of
+// orbits.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
 #include "store/column.hpp"
-#include "studies/stage_watch.hpp"
+#include "studies/response_statistics.hpp"
 
 namespace epicyclic::store {
 

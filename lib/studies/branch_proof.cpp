@@ -509,7 +509,7 @@ BranchProof prove(const TracedBranches& traced, const SweepOptions& sweep, const
       place.value = point.point.value;
       place.motion = "failed";
       if (point.outcome == integrate::Outcome::reached) {
-        place.motion = motion_name(point);
+        place.motion = regime_name(point);
         place.periodic = point.regime == analysis::Regime::periodic;
         place.period = place.periodic ? point.period : 0;
         if (place.periodic) {

@@ -47,8 +47,8 @@ FoundMotions search_motions(const BranchSystem& system, const model::DynamicMode
   for (const analysis::FoundOrbit& f : found.orbits) led.insert(f.starts.begin(), f.starts.end());
   result.missed = starts.size() - led.size();
   for (const analysis::FoundOrbit& f : found.orbits)
-    result.motions.push_back({f.orbit, f.family.period, f.family.pieces, f.keeps_symmetry(), f.images, f.unstable,
-                              f.multiplier_max, f.starts.size()});
+    result.motions.push_back({f.orbit, f.family.period, f.family.shooting_intervals, f.keeps_symmetry(), f.images,
+                              f.unstable, f.multiplier_max, f.starts.size()});
   return result;
 }
 

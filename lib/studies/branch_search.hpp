@@ -18,7 +18,7 @@ namespace epicyclic::studies {
 struct FoundMotion {
   analysis::BranchOrbit orbit;
   int period = 1;
-  int pieces = 1;
+  int shooting_intervals = 1;
   bool keeps_symmetry = false;  ///< all planets move alike
   int images = 1;               ///< orbits that turns of the stage make of it, itself included
   int unstable = 0;             ///< multipliers beyond the unit circle

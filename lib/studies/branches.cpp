@@ -44,11 +44,11 @@ void BranchesOptions::validate() const {
   require(settle_periods >= 0, "settle_periods", settle_periods, ">= 0");
   require(period >= 1, "period", period, ">= 1");
   require(largest_period >= period, "largest_period", largest_period, ">= period");
-  require(pieces >= 1, "pieces", pieces, ">= 1");
+  require(shooting_intervals >= 1, "pieces", shooting_intervals, ">= 1");
   require(orbits >= 1, "orbits", orbits, ">= 1");
   require(branches >= 1, "branches", branches, ">= 1");
   require(tolerance >= 1e-13 && tolerance <= 1e-6, "tolerance", tolerance, "1e-13 to 1e-6");
-  require(largest_step > 0.0, "largest_step", largest_step, "> 0");
+  require(max_step > 0.0, "largest_step", max_step, "> 0");
   require(output_phases >= 1, "output_phases", output_phases, ">= 1");
   if (loci) loci->validate();
   if (search) search->validate();
@@ -78,7 +78,7 @@ BranchSystem branch_system(const ModelAt& models, const BranchesOptions& options
   BranchSystem s;
   s.system.flows = at(options.tolerance);
   s.system.period = options.period;
-  s.system.pieces = options.pieces;
+  s.system.shooting_intervals = options.shooting_intervals;
   s.system.residual = 10.0 * options.tolerance;
   // Whatever its unit, the parameter counts as the states do: over the range by some three b_c.
   constexpr double part_of_range = 0.3;
@@ -90,8 +90,8 @@ BranchSystem branch_system(const ModelAt& models, const BranchesOptions& options
   c.from = options.from;
   c.to = options.to;
   c.values = options.values;
-  c.largest_step = options.largest_step;
-  c.first_step = std::min(c.first_step, options.largest_step);
+  c.max_step = options.max_step;
+  c.first_step = std::min(c.first_step, options.max_step);
   c.orbits = static_cast<std::size_t>(options.orbits);
   // Of the branch's own tolerance a multiplier is off by a thousand times as much, and a place with it; below the last
   // one there is rounding alone.
@@ -129,15 +129,15 @@ BranchOrigin origin_near(const BranchSystem& system, analysis::OrbitFamily famil
     }
   }
   result.period = family.period;
-  result.pieces = family.pieces;
+  result.shooting_intervals = family.shooting_intervals;
   if (c.found) {
     const Eigen::MatrixXd states = analysis::period_states(family, c.orbit.at);
     const int least = analysis::least_period(states, system.options.same * family.state_scale);
     if (least < family.period) {
       // As one of the longer period its flips would be taken for branch points.
-      family.pieces = std::max(1, family.pieces * least / family.period);
+      family.shooting_intervals = std::max(1, family.shooting_intervals * least / family.period);
       family.period = result.period = least;
-      result.pieces = family.pieces;
+      result.shooting_intervals = family.shooting_intervals;
       const Eigen::VectorXd first = states.col(0);
       c = analysis::first_orbit(family, value, {first.data(), static_cast<std::size_t>(first.size())});
     }
@@ -175,7 +175,7 @@ BranchOrigin settled_start(const BranchSystem& system, const model::DynamicModel
 BranchOrigin seed_start(const BranchSystem& system, const BranchSeed& seed) {
   seed.validate();
   analysis::OrbitFamily family = system.system;
-  family.pieces = std::max(1, family.pieces * seed.period / family.period);
+  family.shooting_intervals = std::max(1, family.shooting_intervals * seed.period / family.period);
   family.period = seed.period;
   BranchOrigin origin = origin_near(system, family, seed.value, seed.state);
   if (!origin.orbit)
@@ -196,7 +196,7 @@ BranchRow branch_row(const analysis::OrbitFamily& family, const analysis::Branch
   const Eigen::MatrixXd states = analysis::period_states(family, orbit.at);
   if (states.cols() == 0) return row;
   const auto flow = family.flows(orbit.at.value);
-  StageWatch watch(model, phases);
+  ResponseStatistics watch(model, phases);
   const std::vector<double> at = analysis::uniform_phases(model.period, phases);
   for (Eigen::Index n = 0; n < states.cols(); ++n) {
     std::vector<double> y(states.col(n).begin(), states.col(n).end());
@@ -254,7 +254,7 @@ std::vector<std::complex<double>> critical_multipliers(const analysis::SpecialPo
   std::vector<std::complex<double>> all = {point.multiplier};
   const bool pair = point.kind == SpecialKind::neimark_sacker;
   // A block other than the first and the middle one stands for two.
-  const bool double_block = point.wave != 0 && 2 * point.wave != order;
+  const bool double_block = point.symmetry_index != 0 && 2 * point.symmetry_index != order;
   if (pair || double_block) all.push_back(std::conj(point.multiplier));
   return all;
 }
@@ -285,7 +285,7 @@ std::size_t TracedBranches::broken_off() const {
   std::size_t count = 0;
   for (const analysis::Branch& branch : branches)
     for (const analysis::BranchLimit* limit : {&branch.first, &branch.last})
-      count += limit->end == analysis::BranchEnd::least_step ? 1 : 0;
+      count += limit->end == analysis::BranchEnd::min_step ? 1 : 0;
   return count;
 }
 
@@ -306,8 +306,8 @@ std::vector<SpecialRow> special_rows(const std::vector<analysis::Branch>& branch
       row.error_bound = point.error_bound;
       row.period = branch.family.period;
       row.multipliers = critical_multipliers(point, branch.family.symmetry.order);
-      if (point.wave != 0)
-        row.broken_symmetry = analysis::block_name({point.wave, false, {}}, branch.family.symmetry.order);
+      if (point.symmetry_index != 0)
+        row.broken_symmetry = analysis::block_name({point.symmetry_index, false, {}}, branch.family.symmetry.order);
       row.same_as = branch.same_as[k];
       row.note = point.note;
       row.resonance = point.kind == SpecialKind::neimark_sacker ? point.resonance : 0;

@@ -1,4 +1,4 @@
-// Branches of periodic motions of a gear train along a parameter: analysis/branch_tree.hpp on its models.
+// Branches of periodic motions of a gear train along a parameter: analysis/bifurcation_diagram.hpp on its models.
 //
 // The integrator is the explicit pair of the library's reference orbits: with an exact clearance steps end where
 // contact is made or lost, so that places come out to the tolerance, and tangents count in the error of a step. Where
@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "analysis/branch_tree.hpp"
+#include "analysis/bifurcation_diagram.hpp"
 #include "analysis/smoothing_bias.hpp"
 #include "studies/branches_options.hpp"
-#include "studies/stage_watch.hpp"
+#include "studies/response_statistics.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::studies {
@@ -42,7 +42,7 @@ struct BranchSystem {
 struct BranchOrigin {
   std::optional<analysis::BranchOrbit> orbit;
   int period = 1;               ///< its least one: half of that asked for, say
-  int pieces = 1;               ///< of its states
+  int shooting_intervals = 1;   ///< of its states
   bool keeps_symmetry = false;  ///< all planets move alike
   double distance = 0;          ///< from the state that it was looked for near [b_c, b_c per tau]
   std::string message{};        ///< why there is none

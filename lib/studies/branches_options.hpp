@@ -57,15 +57,15 @@ struct BranchesOptions {
   std::vector<BranchSeed> seeds{};
   std::vector<double> values{};  ///< at which orbits are wanted exactly
 
-  int largest_period = 2;     ///< that flips are followed to [mesh periods]
-  bool branch_points = true;  ///< are the branches followed that leave branch points?
-  int pieces = 1;             ///< of multiple shooting, per orbit of `period`
-  int orbits = 5000;          ///< most on a branch, each way
-  int branches = 50;          ///< most
+  int largest_period = 2;      ///< that flips are followed to [mesh periods]
+  bool branch_points = true;   ///< are the branches followed that leave branch points?
+  int shooting_intervals = 1;  ///< of multiple shooting, per orbit of `period`
+  int orbits = 5000;           ///< most on a branch, each way
+  int branches = 50;           ///< most
 
   std::string method = "arkode-dopri5";  ///< of the integrator; contacts are located where it can
   double tolerance = 1e-10;              ///< of the integrator, relative and absolute; bounds are from a tenth of it
-  double largest_step = 0.1;             ///< of the arc length [-]
+  double max_step = 0.1;                 ///< of the arc length [-]
   int output_phases = 64;  ///< at which extrema of an orbit are looked for, in a mesh period, as in a sweep
 
   std::optional<BranchSearchOptions> search{};

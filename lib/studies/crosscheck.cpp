@@ -13,8 +13,8 @@
 #include "core/largest_difference.hpp"
 #include "core/text.hpp"
 #include "integrate/make_flow.hpp"
-#include "studies/settled_orbit.hpp"
-#include "studies/units.hpp"
+#include "studies/converged_orbit.hpp"
+#include "studies/parallel_for.hpp"
 
 namespace epicyclic::studies {
 
@@ -44,9 +44,9 @@ bool torus(const PointResult& r) { return r.regime == Regime::quasiperiodic; }
 /// Everything that explaining a point needs.
 class Examiner {
  public:
-  Examiner(const LookOptions& look, const CrosscheckOptions& options, const std::vector<Variant>& variants,
+  Examiner(const RecordingOptions& recording, const CrosscheckOptions& options, const std::vector<Variant>& variants,
            const SmoothedModelAt& model_at, const std::atomic<bool>* stop)
-      : look_(look), options_(options), variants_(variants), model_at_(model_at), stop_(stop) {}
+      : recording_(recording), options_(options), variants_(variants), model_at_(model_at), stop_(stop) {}
 
   void judge(const GridPoint& point, const std::vector<double>& start, const PointResult& reference,
              Comparison& c) const {
@@ -81,7 +81,7 @@ class Examiner {
     return integrate::make_flow(model_at_(point.value, v.clearance_smoothing), v.integrator);
   }
 
-  [[nodiscard]] SettledOrbit orbit_of(const GridPoint& point, const Variant& v, const PointResult& motion) const {
+  [[nodiscard]] ConvergedOrbit orbit_of(const GridPoint& point, const Variant& v, const PointResult& motion) const {
     return settled_orbit(*flow_of(point, v), motion);
   }
 
@@ -117,18 +117,18 @@ class Examiner {
   }
 
   [[nodiscard]] PointResult compute(const GridPoint& point, const Variant& v, const std::vector<double>& start,
-                                    const LookOptions& look) const {
-    return compute_point_as_swept(point, model_at_(point.value, v.clearance_smoothing), start, look, v.integrator,
+                                    const RecordingOptions& recording) const {
+    return compute_point_as_swept(point, model_at_(point.value, v.clearance_smoothing), start, recording, v.integrator,
                                   [this] { return stop_ == nullptr || !stop_->load(); });
   }
 
   /// The motion that a state is on, some periods later.
   [[nodiscard]] PointResult later(const GridPoint& point, const Variant& v, const std::vector<double>& start,
                                   int periods) const {
-    LookOptions look = look_;
-    look.transient = Transient::fixed;
-    look.transient_periods = periods;
-    return compute(point, v, start, look);
+    RecordingOptions recording = recording_;
+    recording.transient = Transient::fixed;
+    recording.transient_periods = periods;
+    return compute(point, v, start, recording);
   }
 
   static Variant tightened(Variant v) {
@@ -154,7 +154,8 @@ class Examiner {
     const auto done = [&](Verdict verdict, std::string detail) { conclude(c, verdict, std::move(detail)); };
     // What a finished study says must come out again by its own method.
     if (periodic(reference))
-      if (const PointResult again = compute(point, ours, start, look_); !same({point, ours, reference, ours, again}))
+      if (const PointResult again = compute(point, ours, start, recording_);
+          !same({point, ours, reference, ours, again}))
         return done(Verdict::unexplained, "the reference gives another result when repeated: " +
                                               motion_text(reference) + ", and now " + motion_text(again));
     if (const double d = c.distance > clearly * options_.orbit_tolerance ? one_orbit(both) : nan;
@@ -169,16 +170,16 @@ class Examiner {
     }
 
     const Variant tight_ours = tightened(ours);
-    const PointResult our_tight = compute(point, tight_ours, start, look_);
+    const PointResult our_tight = compute(point, tight_ours, start, recording_);
     if (other.clearance_smoothing != ours.clearance_smoothing) {
       Variant same_width = other;
       same_width.clearance_smoothing = ours.clearance_smoothing;
-      const PointResult exact = compute(point, same_width, start, look_);
+      const PointResult exact = compute(point, same_width, start, recording_);
       if (reached(exact) && same({point, ours, reference, same_width, exact}))
         return done(Verdict::smoothing, "with the reference's width they agree");
     }
     const Variant tight_other = tightened(other);
-    const PointResult their_tight = compute(point, tight_other, start, look_);
+    const PointResult their_tight = compute(point, tight_other, start, recording_);
     const Pair tight{point, tight_ours, our_tight, tight_other, their_tight};
     if (reached(our_tight) && reached(their_tight) && same(tight))
       return done(Verdict::tolerance, chaotic(our_tight) ? "at tolerances 100 times tighter both grow alike"
@@ -244,7 +245,7 @@ class Examiner {
     if (periodic(a) && periodic(b) && orbits_apart(both) <= clearly * options_.orbit_tolerance) return {};
     if (!holds(point, other, ours, a) || !holds(point, ours, other, b)) return {};
     return "each method stays on the other's attractor for " + std::to_string(options_.continued_periods) +
-           " more periods: " + motion_name(a) + " and " + motion_name(b) +
+           " more periods: " + regime_name(a) + " and " + regime_name(b) +
            (periodic(a) && periodic(b) && a.period == b.period ? ", distance " + short_text(orbits_apart(both)) : "");
   }
 
@@ -284,7 +285,7 @@ class Examiner {
   /// Is a periodic motion's record on its orbit, or does it come nearer to it as the orbit's multipliers have it? A
   /// record that is wrong keeps its distance.
   [[nodiscard]] bool settles(const GridPoint& point, const Variant& v, const PointResult& motion) const {
-    const SettledOrbit s = orbit_of(point, v, motion);
+    const ConvergedOrbit s = orbit_of(point, v, motion);
     const std::size_t rows = motion.poincare_rows();
     if (s.period == 0 || rows < 2) return false;
     const std::size_t n = s.orbit.state.size();
@@ -314,8 +315,8 @@ class Examiner {
   /// periods.
   [[nodiscard]] double orbits_apart(const Pair& both) const {
     double nearest = std::numeric_limits<double>::infinity();
-    const SettledOrbit a = orbit_of(both.point, both.ours, both.our_motion);
-    const SettledOrbit b = orbit_of(both.point, both.other, both.their_motion);
+    const ConvergedOrbit a = orbit_of(both.point, both.ours, both.our_motion);
+    const ConvergedOrbit b = orbit_of(both.point, both.other, both.their_motion);
     if (a.period == 0 || a.period != b.period) return nearest;
     const auto flow = flow_of(both.point, both.ours);
     std::vector<double> y = a.orbit.state;
@@ -338,7 +339,7 @@ class Examiner {
     return orbits_apart({point, tightened(ours), a, tightened(other), b});
   }
 
-  const LookOptions& look_;
+  const RecordingOptions& recording_;
   const CrosscheckOptions& options_;
   const std::vector<Variant>& variants_;
   const SmoothedModelAt& model_at_;
@@ -413,14 +414,15 @@ namespace {
 /// @param starts  of each point
 /// @param done    results of an earlier run
 /// @param tell    hears of the others; one at a time
-void compare_with_others(Crosscheck& all, const std::vector<std::vector<double>>& starts, const LookOptions& look,
-                         const CrosscheckOptions& options, const SmoothedModelAt& model_at, const CrosscheckRun& run,
+void compare_with_others(Crosscheck& all, const std::vector<std::vector<double>>& starts,
+                         const RecordingOptions& recording, const CrosscheckOptions& options,
+                         const SmoothedModelAt& model_at, const CrosscheckRun& run,
                          const std::function<void(std::size_t variant, const PointResult&)>& tell) {
-  const Examiner examiner(look, options, all.variants, model_at, run.stop);
+  const Examiner examiner(recording, options, all.variants, model_at, run.stop);
   const std::size_t others = all.variants.size() - 1;
   std::vector<std::optional<Comparison>> comparisons(all.reference.size() * others);
   const auto stopped = [&] { return run.stop != nullptr && run.stop->load(); };
-  for_units(comparisons.size(), run.threads, run.stop, [&](std::size_t unit) {
+  parallel_for(comparisons.size(), run.threads, run.stop, [&](std::size_t unit) {
     Comparison c;
     c.point = unit / others;
     c.variant = 1 + unit % others;
@@ -432,7 +434,7 @@ void compare_with_others(Crosscheck& all, const std::vector<std::vector<double>>
       c.result = earlier->second;
     } else {
       c.result = compute_point_as_swept(reference.point, model_at(reference.point.value, v.clearance_smoothing), start,
-                                        look, v.integrator, [&] { return !stopped(); });
+                                        recording, v.integrator, [&] { return !stopped(); });
       if (stopped()) return;
       tell(c.variant, c.result);
     }
@@ -460,7 +462,7 @@ class Teller {
 
 }  // namespace
 
-Crosscheck run_crosscheck(const SweepPlan& plan, const LookOptions& look, const CrosscheckOptions& options,
+Crosscheck run_crosscheck(const SweepPlan& plan, const RecordingOptions& recording, const CrosscheckOptions& options,
                           const integrate::IntegratorOptions& integrator, double study_smoothing,
                           const SmoothedModelAt& model_at, const CrosscheckRun& run) {
   options.validate();
@@ -476,7 +478,7 @@ Crosscheck run_crosscheck(const SweepPlan& plan, const LookOptions& look, const 
     if (key.first == 0) known_reference.emplace(key.second, result);
   reference.point_finished = [&](const PointResult& r) { tell(0, r); };
   all.reference = run_sweep_in_memory(
-      plan, look, all.variants[0].integrator,
+      plan, recording, all.variants[0].integrator,
       [&](double value) { return model_at(value, all.variants[0].clearance_smoothing); }, std::move(reference),
       std::move(known_reference));
   if (all.reference.size() < plan.points.size()) return all;
@@ -486,7 +488,7 @@ Crosscheck run_crosscheck(const SweepPlan& plan, const LookOptions& look, const 
   for (const auto& chain : plan.chains)
     for (std::size_t k = 1; k < chain.size(); ++k) starts[chain[k]] = all.reference[chain[k - 1]].end_state;
 
-  compare_with_others(all, starts, look, options, model_at, run, std::ref(tell));
+  compare_with_others(all, starts, recording, options, model_at, run, std::ref(tell));
   return all;
 }
 
@@ -516,7 +518,7 @@ std::vector<std::size_t> points_of_each_regime(const SweepOptions& sweep, const 
   const SweepPlan plan = plan_sweep(sweep);
   for (const Chain& chain : plan.chains)
     for (std::size_t k = sweep.start == Start::cold ? 0 : 1; k < chain.size(); ++k) {
-      const PointSummary r = finished.read_brief(chain[k]);
+      const PointSummary r = finished.read_summary(chain[k]);
       if (r.outcome == integrate::Outcome::reached && r.regime != Regime::undecided)
         motions[r.regime][r.period].push_back(chain[k]);
     }
@@ -560,10 +562,10 @@ Crosscheck run_check_of_sweep(const SweepOptions& sweep, const PointSource& fini
   for (const std::size_t point : points_of_each_regime(sweep, finished)) {
     all.reference.push_back(finished.read(point));
     starts.emplace_back();
-    if (before[point] < plan.points.size()) starts.back() = finished.read_brief(before[point]).end_state;
+    if (before[point] < plan.points.size()) starts.back() = finished.read_summary(before[point]).end_state;
   }
   Teller tell(run);
-  compare_with_others(all, starts, sweep.look, options, model_at, run, std::ref(tell));
+  compare_with_others(all, starts, sweep.recording, options, model_at, run, std::ref(tell));
   return all;
 }
 

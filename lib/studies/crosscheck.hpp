@@ -87,7 +87,7 @@ struct CrosscheckRun {
 };
 
 /// @returns incomplete if stopped
-[[nodiscard]] Crosscheck run_crosscheck(const SweepPlan& plan, const LookOptions& look,
+[[nodiscard]] Crosscheck run_crosscheck(const SweepPlan& plan, const RecordingOptions& recording,
                                         const CrosscheckOptions& options,
                                         const integrate::IntegratorOptions& integrator, double study_smoothing,
                                         const SmoothedModelAt& model_at, const CrosscheckRun& run);

@@ -55,7 +55,7 @@ KnownMotions motions_known_at(const SweepPlan& plan, const PointSource& points, 
     results.push_back(std::move(r));
   }
   std::vector<std::string> names;
-  for (const PointSummary& r : results) names.push_back(motion_name(r));
+  for (const PointSummary& r : results) names.push_back(regime_name(r));
   const analysis::Attractors attractors = attractors_of(results, planet_turns(model, integrator));
   KnownMotions known;
   known.looked_at = looked_at.size();

@@ -35,7 +35,7 @@ const char* end_word(LocusEnd end) {
       return "closed";
     case LocusEnd::many:
       return "many";
-    case LocusEnd::least_step:
+    case LocusEnd::min_step:
       return "least_step";
     case LocusEnd::resonance:
       return "resonance";
@@ -66,8 +66,8 @@ std::pair<analysis::OrbitSurface, analysis::LocusOptions> plane_of(const ModelOv
   analysis::LocusOptions o;
   o.along.from = options.from;
   o.along.to = options.to;
-  o.along.largest_step = options.largest_step;
-  o.along.first_step = std::min(o.along.first_step, options.largest_step);
+  o.along.max_step = options.max_step;
+  o.along.first_step = std::min(o.along.first_step, options.max_step);
   o.along.orbits = static_cast<std::size_t>(points);
   o.second_from = second.from;
   o.second_to = second.to;
@@ -110,7 +110,8 @@ bool is_on_a_locus(const std::vector<TracedLocus>& loci, const TracedBranches& t
   constexpr double part_of_range = 1e-3;
   constexpr double state = 0.05;
   for (const TracedLocus& locus : loci) {
-    if (locus.kind != point.kind || locus.period != point.period || locus.wave != special.wave) continue;
+    if (locus.kind != point.kind || locus.period != point.period || locus.symmetry_index != special.symmetry_index)
+      continue;
     for (std::size_t k = 0; k + 1 < locus.rows.size(); ++k) {
       const LocusRow& a = locus.rows[k];
       const LocusRow& b = locus.rows[k + 1];
@@ -139,7 +140,7 @@ TracedLocus trace_locus(const ModelOverPlane& models, const TracedBranches& trac
   result.point = point.point;
   result.kind = point.kind;
   result.period = point.period;
-  result.wave = special.wave;
+  result.symmetry_index = special.symmetry_index;
   const auto plane = plane_of(models, branch, point.value, {wanted.from, wanted.to, second}, options, wanted.points);
   const analysis::LocusCorrection start = locus_start(plane.first, special, second);
   if (!start.found) {
@@ -151,11 +152,11 @@ TracedLocus trace_locus(const ModelOverPlane& models, const TracedBranches& trac
     std::vector<LocusRow> rows;
     LocusTrace trace(plane.first, subject, plane.second, from);
     while (trace.advance()) {
-      for (const analysis::LocusMark& mark : trace.marks()) rows.push_back(row_of(mark.point, to_string(mark.kind)));
-      rows.push_back(row_of(trace.now(), {}));
+      for (const analysis::Codim2Point& mark : trace.marks()) rows.push_back(row_of(mark.point, to_string(mark.kind)));
+      rows.push_back(row_of(trace.current(), {}));
     }
     end = end_word(trace.end());
-    if (trace.end() == LocusEnd::least_step) result.message = trace.state().message;
+    if (trace.end() == LocusEnd::min_step) result.message = trace.state().message;
     return rows;
   };
   std::vector<LocusRow> forward = follow(start.point, result.last_end);
@@ -204,12 +205,12 @@ std::optional<analysis::ExactValue> exact_value(const ModelOverPlane& models, co
     LocusTrace trace(surface, subject, o, *from);
     while (trace.advance()) {
     }
-    if (trace.end() != LocusEnd::range || trace.now().second() != 0.5 * here) {
+    if (trace.end() != LocusEnd::range || trace.current().second() != 0.5 * here) {
       why_not = "no value with the exact clearance: the locus over the width ends at " +
-                short_text(trace.now().second()) + ", " + end_word(trace.end()) + "; a finer tolerance may help";
+                short_text(trace.current().second()) + ", " + end_word(trace.end()) + "; a finer tolerance may help";
       return std::nullopt;
     }
-    from = trace.now();
+    from = trace.current();
     values.push_back({0.5 * here, from->first()});
     bound = std::max(bound, from->first_bound);
   }

@@ -31,9 +31,9 @@ struct TracedLocus {
   std::size_t branch = 0, point = 0;  ///< of the special point that it was followed from
   analysis::SpecialKind kind = analysis::SpecialKind::fold;
   int period = 1;
-  int wave = 0;                     ///< of the symmetry that breaks
+  int symmetry_index = 0;           ///< of the symmetry that breaks
   std::vector<LocusRow> rows;       ///< from one end to the other
-  std::string first_end, last_end;  ///< "range", "closed", "many", "least_step", "resonance"
+  std::string first_end, last_end;  ///< "range", "closed", "many", "min_step", "resonance"
   std::string message{};            ///< why it was broken off, or not begun
 };
 

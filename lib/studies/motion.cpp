@@ -22,18 +22,18 @@ double map_error(const integrate::IntegratorOptions& integrator) {
   return std::max(analysis::RegimeOptions{}.residual, 3.0 * integrator.relative_tolerance);
 }
 
-ToldMotion tell_motion(const VectorField& field, std::vector<double>& state, const LookOptions& look,
-                       const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on,
-                       const analysis::PoincareSection* seen, const integrate::FlowMaker& make_flow) {
+MotionClass classify_motion(const VectorField& field, std::vector<double>& state, const RecordingOptions& recording,
+                            const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on,
+                            const analysis::PoincareSection* seen, const integrate::FlowMaker& make_flow) {
   const analysis::RegimeFlows flows = analysis::make_regime_flows(field, integrator, make_flow);
   analysis::RegimeOptions options = flows.options();
-  options.budget = std::max(options.look, look.classification_periods);
+  options.budget = std::max(options.window, recording.classification_periods);
   options.lasting = options.budget / 4;
-  options.longest_period = look.period_max;
+  options.longest_period = recording.period_max;
   options.residual = map_error(integrator);
   options.observable = std::min(model::Slots::w_s, field.dimension - 1);
-  ToldMotion motion;
-  motion.told = analysis::classify(*flows.looks, state, options, go_on, seen);
+  MotionClass motion;
+  motion.told = analysis::classify(*flows.windows, state, options, go_on, seen);
   motion.right_hand_sides = flows.right_hand_side_calls();
   return motion;
 }

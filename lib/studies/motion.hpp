@@ -13,7 +13,7 @@
 #include "integrate/flow.hpp"
 #include "integrate/make_flow.hpp"
 #include "integrate/options.hpp"
-#include "studies/look_options.hpp"
+#include "studies/recording_options.hpp"
 
 namespace epicyclic::studies {
 
@@ -28,7 +28,7 @@ namespace epicyclic::studies {
 /// tolerances [-].
 [[nodiscard]] double map_error(const integrate::IntegratorOptions& integrator);
 
-struct ToldMotion {
+struct MotionClass {
   analysis::Classification told;
   long right_hand_sides = 0;
 };
@@ -37,9 +37,11 @@ struct ToldMotion {
 /// @param state  replaced by the last state
 /// @param look   classification_periods and period_max are read
 /// @param seen   a section of this very motion that ends in `state`; may be null
-[[nodiscard]] ToldMotion tell_motion(const VectorField& field, std::vector<double>& state, const LookOptions& look,
-                                     const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on,
-                                     const analysis::PoincareSection* seen = nullptr,
-                                     const integrate::FlowMaker& make_flow = make_flow_of_one_trajectory);
+[[nodiscard]] MotionClass classify_motion(const VectorField& field, std::vector<double>& state,
+                                          const RecordingOptions& recording,
+                                          const integrate::IntegratorOptions& integrator,
+                                          const std::function<bool()>& go_on,
+                                          const analysis::PoincareSection* seen = nullptr,
+                                          const integrate::FlowMaker& make_flow = make_flow_of_one_trajectory);
 
 }  // namespace epicyclic::studies

@@ -7,8 +7,8 @@
 #include "core/errors.hpp"
 #include "core/require.hpp"
 #include "studies/crosscheck_options.hpp"
-#include "studies/look_options.hpp"
 #include "studies/plane_options.hpp"
+#include "studies/recording_options.hpp"
 #include "studies/run_options.hpp"
 #include "studies/sweep_options.hpp"
 #include "studies/tolerance_options.hpp"
@@ -32,7 +32,7 @@ void require_some(std::string_view name, std::size_t count) {
 
 }  // namespace
 
-void LookOptions::validate() const {
+void RecordingOptions::validate() const {
   require(transient_periods >= 0, "transient_periods", transient_periods, ">= 0");
   require(recorded_periods >= 1, "recorded_periods", recorded_periods, ">= 1");
   require(output_phases >= 1, "output_phases", output_phases, ">= 1");
@@ -56,7 +56,7 @@ void SweepOptions::validate() const {
   require(segments >= 0, "segments", segments, ">= 0");
   require(segments <= axis.points, "segments", segments, "<= points");
   require(coarse_periods >= 1, "coarse_periods", coarse_periods, ">= 1");
-  look.validate();
+  recording.validate();
   check.validate();
 }
 
@@ -77,12 +77,12 @@ void Plane::validate() const {
 void MapOptions::validate() const {
   plane.validate();
   require_some("directions", directions.size());
-  look.validate();
+  recording.validate();
 }
 
 void BasinsOptions::validate() const {
   plane.validate();
-  look.validate();
+  recording.validate();
 }
 
 void RunOptions::validate() const {
@@ -111,10 +111,10 @@ void ToleranceOptions::validate() const {
   require(chaotic_periods >= 1, "chaotic_periods", chaotic_periods, ">= 1");
 }
 
-SweepOptions sweep_of_one(double mesh_frequency_ratio, const LookOptions& look) {
+SweepOptions sweep_of_one(double mesh_frequency_ratio, const RecordingOptions& recording) {
   SweepOptions one;
   one.axis = {speed_parameter, mesh_frequency_ratio, mesh_frequency_ratio, 1};
-  one.look = look;
+  one.recording = recording;
   return one;
 }
 

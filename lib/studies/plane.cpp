@@ -84,7 +84,7 @@ analysis::Attractors attractors_of(std::vector<PointSummary>& results, const std
   for (PointSummary& r : results) records.push_back(std::move(r.attractor));
   std::vector<analysis::Symmetry> symmetries;
   for (const PlanetTurn& turn : turns) symmetries.push_back(turn.map);
-  return analysis::tell_attractors(records, {}, symmetries);
+  return analysis::label_attractors(records, {}, symmetries);
 }
 
 }  // namespace epicyclic::studies

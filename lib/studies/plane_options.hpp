@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "studies/axis.hpp"
-#include "studies/look_options.hpp"
+#include "studies/recording_options.hpp"
 #include "studies/sweep_options.hpp"
 
 namespace epicyclic::studies {
@@ -23,7 +23,7 @@ struct MapOptions {
   Plane plane;  ///< of parameters
   std::vector<Direction> directions = {Direction::up};
   Start start = Start::carried;  ///< along the first axis
-  LookOptions look = {.keep = Keep::row};
+  RecordingOptions recording = {.keep = Keep::row};
 
   /// @throws InputError for what plane and look refuse, and for no directions
   void validate() const;
@@ -34,7 +34,7 @@ struct MapOptions {
 struct BasinsOptions {
   Plane plane;                         ///< of components
   std::map<std::string, double> base;  ///< components that both axes leave alone, where not at default
-  LookOptions look = {.transient = Transient::adaptive, .keep = Keep::attractor};
+  RecordingOptions recording = {.transient = Transient::adaptive, .keep = Keep::attractor};
 
   /// @throws InputError for what plane and look refuse
   void validate() const;

@@ -14,7 +14,7 @@ namespace epicyclic::studies {
 struct PointSource {
   std::size_t count = 0;
   std::function<PointResult(std::size_t point)> read;
-  std::function<PointSummary(std::size_t point)> read_brief;
+  std::function<PointSummary(std::size_t point)> read_summary;
 };
 
 /// Those of a study of few points; `results` must live longer.
@@ -24,6 +24,6 @@ struct PointSource {
 [[nodiscard]] PointSource points_in_memory(std::span<const PointSummary> results);
 
 /// All summaries, for studies whose points are small: some 1 KB each.
-[[nodiscard]] std::vector<PointSummary> all_brief(const PointSource& points);
+[[nodiscard]] std::vector<PointSummary> all_summaries(const PointSource& points);
 
 }  // namespace epicyclic::studies

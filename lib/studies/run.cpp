@@ -15,8 +15,8 @@
 #include "core/largest_difference.hpp"
 #include "integrate/make_flow.hpp"
 #include "integrate/methods.hpp"
-#include "studies/pulls.hpp"
 #include "studies/stage_lanes.hpp"
+#include "studies/tension.hpp"
 
 namespace epicyclic::studies {
 
@@ -49,10 +49,10 @@ class Recorder {
   }
 
   /// Tension of all meshes, sun meshes first, at each row of the history [N].
-  [[nodiscard]] const std::vector<double>& pulls() const { return pulls_; }
+  [[nodiscard]] const std::vector<double>& has_tension() const { return pulls_; }
 
   /// Deflections and forces at an instant, valid until the next one.
-  void look(double s, std::span<const double> y) {
+  void recording(double s, std::span<const double> y) {
     model_.deflections(s, y.data(), d_);
     model_.forces(s, y.data(), f_);
   }
@@ -94,7 +94,7 @@ class Recorder {
   void put_pulls(const std::vector<double>& delta, double half_gap, const std::vector<double>& elastic,
                  const std::vector<double>& force) {
     for (std::size_t i = 0; i < delta.size(); ++i)
-      pulls_.push_back(scales_.force_newton(model::pull(delta[i], half_gap, elastic[i], force[i])));
+      pulls_.push_back(scales_.force_newton(model::tensile_force(delta[i], half_gap, elastic[i], force[i])));
   }
 
   const model::DynamicModel& model_;
@@ -130,11 +130,11 @@ std::vector<double> finer(const std::vector<double>& samples, int detail) {
 /// One operating point, step by step into its result.
 class Run {
  public:
-  Run(const model::DynamicModel& model, const LookOptions& look, const RunOptions& options,
+  Run(const model::DynamicModel& model, const RecordingOptions& recording, const RunOptions& options,
       const integrate::IntegratorOptions& integrator, const RunControl& control)
       : model_(model),
         scales_(model.scales),
-        look_(look),
+        recording_(recording),
         options_(options),
         integrator_(integrator),
         control_(control),
@@ -149,7 +149,7 @@ class Run {
     if (control_.memory.point) {
       r.point = *control_.memory.point;
     } else {
-      r.point = compute_point({0, Direction::up, model_.omega}, model_, {}, look_, integrator_, go_on_);
+      r.point = compute_point({0, Direction::up, model_.omega}, model_, {}, recording_, integrator_, go_on_);
       if (!go_on_()) return false;
       if (control_.memory.keep) control_.memory.keep(r.point);
     }
@@ -221,7 +221,7 @@ class Run {
     if (!orbit.found()) return;
     const auto coarse = exact_flow(coarser);
     const analysis::PeriodicOrbit second =
-        analysis::find_periodic_orbit(*coarse, orbit.state, r.point.period, {.pieces = 2});
+        analysis::find_periodic_orbit(*coarse, orbit.state, r.point.period, {.shooting_intervals = 2});
     if (second.found()) r.multipliers = analysis::floquet_multipliers(orbit, second);
     if (model_.with_halved_tables) {
       r.friction_table_error = model_.friction_table_error;
@@ -336,7 +336,7 @@ class Run {
       const integrate::Evolution e =
           carried->evolve(y, 0.0, carried->field().period, drawn ? fine : samples,
                           [&](std::size_t j, double s, std::span<const double> now) {
-                            recorder.look(s, now);
+                            recorder.recording(s, now);
                             if (drawn) {
                               r.portrait.deflection.push_back(recorder.deflections().sun_planet[0]);
                               r.portrait.rate.push_back(recorder.deflections().sun_planet_rate[0]);
@@ -346,10 +346,10 @@ class Run {
                           });
       if (!e.reached()) break;
     }
-    return recorder.pulls();
+    return recorder.has_tension();
   }
 
-  void summarise(RunResult& r, const std::vector<double>& pulls) const {
+  void summarise(RunResult& r, const std::vector<double>& has_tension) const {
     const auto planets = static_cast<std::size_t>(model_.planets);
     if (r.history.rows() == 0) return;
     const std::vector<Course> quasi_static = quasi_static_forces(model_, options_.dense_phases);
@@ -373,9 +373,9 @@ class Run {
         const double part = 1.0 / static_cast<double>(delta.size());
         bool drives = model::DynamicModel::contact(delta.front(), gap) == model::Contact::drive;
         for (std::size_t k = 0; k < delta.size(); ++k) {
-          const double pull = told_pull(pulls[k * 2 * planets + column], r.static_force);
-          m.pull_max = std::max(m.pull_max, pull);
-          if (pull > 0.0) m.pull_time += part;
+          const double tension = noticeable_tension(has_tension[k * 2 * planets + column], r.static_force);
+          m.pull_max = std::max(m.pull_max, tension);
+          if (tension > 0.0) m.tension_time += part;
           const model::Contact side = model::DynamicModel::contact(delta[k], gap);
           (side == model::Contact::drive ? m.drive : side == model::Contact::loss ? m.loss : m.back) += part;
           if (drives && side != model::Contact::drive) ++m.contact_losses;
@@ -396,9 +396,9 @@ class Run {
       model_.deflections(s, now.data(), d);
       return d.sun_planet[0] - model_.sun_planet_half_gap;
     };
-    analysis::SurfaceSection section =
-        analysis::surface_section(*carried, y, surface, analysis::SectionCrossing::rising,
-                                  r.orbit ? r.point.period : look_.recorded_periods, look_.output_phases, go_on_);
+    analysis::SurfaceSection section = analysis::surface_section(
+        *carried, y, surface, analysis::SectionCrossing::rising, r.orbit ? r.point.period : recording_.recorded_periods,
+        recording_.output_phases, go_on_);
     for (std::size_t k = 0; k < section.section.size(); ++k) {
       model_.deflections(section.phase[k], section.section.point(k).data(), d);
       r.crossing_rate.push_back(d.sun_planet_rate[0]);
@@ -533,7 +533,7 @@ class Run {
 
   const model::DynamicModel& model_;
   const model::Scales& scales_;
-  const LookOptions& look_;
+  const RecordingOptions& recording_;
   const RunOptions& options_;
   const integrate::IntegratorOptions& integrator_;
   const RunControl& control_;
@@ -559,13 +559,13 @@ int exponent_intervals(const RunOptions& options) {
   return options.exponent_periods > 0 ? analysis::SpectrumOptions{}.aligning_intervals + options.exponent_periods : 0;
 }
 
-std::optional<RunResult> run_operating_point(const model::DynamicModel& model, const LookOptions& look,
+std::optional<RunResult> run_operating_point(const model::DynamicModel& model, const RecordingOptions& recording,
                                              const RunOptions& options, const integrate::IntegratorOptions& integrator,
                                              const RunControl& control) {
-  look.validate();
+  recording.validate();
   options.validate();
   RunResult result;
-  if (!Run(model, look, options, integrator, control).all(result)) return std::nullopt;
+  if (!Run(model, recording, options, integrator, control).all(result)) return std::nullopt;
   return result;
 }
 

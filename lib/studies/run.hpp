@@ -57,7 +57,7 @@ struct MeshSummary {
   double load_sharing = 0;                              ///< of the means [S-share] [-]
   double drive = 0, loss = 0, back = 0;                 ///< parts of the time [-]
   double pull_max = 0;                                  ///< greatest tension [model::DynamicModel::pull()] [N]
-  double pull_time = 0;                                 ///< part of the time that there is tension [-]
+  double tension_time = 0;                              ///< part of the time that there is tension [-]
   int contact_losses = 0;                               ///< times that the drive flank was left, per record
 };
 
@@ -133,8 +133,8 @@ struct RunControl {
 [[nodiscard]] int exponent_intervals(const RunOptions& options);
 
 /// @returns nothing if ended; of a point that is not reached, the point alone
-[[nodiscard]] std::optional<RunResult> run_operating_point(const model::DynamicModel& model, const LookOptions& look,
-                                                           const RunOptions& options,
+[[nodiscard]] std::optional<RunResult> run_operating_point(const model::DynamicModel& model,
+                                                           const RecordingOptions& recording, const RunOptions& options,
                                                            const integrate::IntegratorOptions& integrator,
                                                            const RunControl& control = {});
 

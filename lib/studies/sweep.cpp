@@ -17,8 +17,8 @@
 #include "integrate/methods.hpp"
 #include "studies/coarse_pass.hpp"
 #include "studies/motion.hpp"
+#include "studies/parallel_for.hpp"
 #include "studies/stage_lanes.hpp"
-#include "studies/units.hpp"
 
 namespace epicyclic::studies {
 
@@ -41,20 +41,21 @@ PointFlows flows_of(integrate::LanePool& pool) {
 /// One point: a transient that may end by evidence, the periods of the strobe, and what is told from them.
 class PointRun {
  public:
-  PointRun(const GridPoint& point, model::DynamicModel model, const std::vector<double>& start, const LookOptions& look,
-           const integrate::IntegratorOptions& integrator, std::function<bool()> go_on, const PointFlows& flows)
+  PointRun(const GridPoint& point, model::DynamicModel model, const std::vector<double>& start,
+           const RecordingOptions& recording, const integrate::IntegratorOptions& integrator,
+           std::function<bool()> go_on, const PointFlows& flows)
       : model_(std::move(model)),
-        look_(look),
+        recording_(recording),
         integrator_(integrator),
         go_on_(std::move(go_on)),
         flows_(flows),
         state_(start.empty() ? model_.default_start : start),
         // Without tangents there is nothing but recurrence, and no end of a transient.
-        classifies_(look.classification_periods > 0 && has_classification(model_)),
-        adaptive_(classifies_ && look.transient == Transient::adaptive),
-        watch_(model_, look.output_phases, look.keep == Keep::section),
+        classifies_(recording.classification_periods > 0 && has_classification(model_)),
+        adaptive_(classifies_ && recording.transient == Transient::adaptive),
+        watch_(model_, recording.output_phases, recording.keep == Keep::section),
         strobe_(model_.dimension, model_.period,
-                {adaptive_ ? 0 : look.transient_periods, look.recorded_periods, look.output_phases},
+                {adaptive_ ? 0 : recording.transient_periods, recording.recorded_periods, recording.output_phases},
                 [this](std::size_t, double, std::span<const double> y) { watch_.see(y); }) {
     if (state_.size() != model_.dimension)
       throw InputError("a start of " + std::to_string(state_.size()) + " numbers for a state of " +
@@ -71,19 +72,19 @@ class PointRun {
     result_.meshes = watch_.finish();
     result_.outcome = strobe.evolution.outcome;
     result_.message = strobe.evolution.message;
-    if (look_.keep == Keep::section) keep_section(strobe.section);
+    if (recording_.keep == Keep::section) keep_section(strobe.section);
     if (strobe.evolution.reached() && !watch_.signal().empty()) keep_spectrum();
     if (strobe.evolution.reached()) {
-      result_.recurrence = analysis::recurrence(strobe.section, look_.period_max, look_.recurrence_tolerance);
+      result_.recurrence = analysis::recurrence(strobe.section, recording_.period_max, recording_.recurrence_tolerance);
       if (!classifies_) {
         result_.period = result_.recurrence.period;
-        result_.regime = result_.period > 0 ? analysis::Regime::periodic : tell_growth();
+        result_.regime = result_.period > 0 ? analysis::Regime::periodic : classify_by_growth();
       } else if (!adaptive_) {
         std::vector<double> onwards = state_;  // the next point of a chain starts where the record ends
         orbit_ = tell(onwards, &strobe.section).orbit;
       }
-      if (look_.keep == Keep::attractor) keep_attractor(strobe.section);
-      if (look_.keep == Keep::section && orbit_) result_.orbit = std::move(orbit_->state);
+      if (recording_.keep == Keep::attractor) keep_attractor(strobe.section);
+      if (recording_.keep == Keep::section && orbit_) result_.orbit = std::move(orbit_->state);
       result_.end_state = std::move(state_);
     }
     result_.rhs_evaluations = flow->right_hand_side_calls() + classification_work_;
@@ -109,9 +110,9 @@ class PointRun {
   }
 
   void keep_spectrum() {
-    const auto phases = static_cast<std::size_t>(look_.output_phases);
+    const auto phases = static_cast<std::size_t>(recording_.output_phases);
     if (watch_.signal().size() < 2) return;
-    analysis::Spectrum s = analysis::averaged_spectrum(watch_.signal(), 1.0 / look_.output_phases,
+    analysis::Spectrum s = analysis::averaged_spectrum(watch_.signal(), 1.0 / recording_.output_phases,
                                                        spectrum_periods * phases, analysis::Window::hann);
     const double kept = spectrum_orders / s.resolution;
     if (kept + 1.0 < static_cast<double>(s.amplitude.size())) s.amplitude.resize(static_cast<std::size_t>(kept) + 1);
@@ -131,7 +132,7 @@ class PointRun {
   }
 
   analysis::Classification tell(std::vector<double>& from, const analysis::PoincareSection* seen) {
-    ToldMotion motion = tell_motion(model_, from, look_, integrator_, go_on_, seen, flows_.motion);
+    MotionClass motion = classify_motion(model_, from, recording_, integrator_, go_on_, seen, flows_.motion);
     classification_work_ += motion.right_hand_sides;
     result_.classified = motion.told.evolution.reached();
     result_.regime = motion.told.regime;
@@ -141,15 +142,15 @@ class PointRun {
   }
 
   /// Of a motion that does not recur, by a glance: whether vectors grow.
-  analysis::Regime tell_growth() {
-    if (look_.growth_periods == 0 || !has_classification(model_) ||
-        analysis::still_settling(result_.recurrence, look_.recurrence_tolerance))
+  analysis::Regime classify_by_growth() {
+    if (recording_.growth_periods == 0 || !has_classification(model_) ||
+        analysis::still_converging(result_.recurrence, recording_.recurrence_tolerance))
       return analysis::Regime::undecided;
     std::vector<double> onwards = state_;
     const auto flow = flows_.motion(model_, integrator_);
     constexpr int aligning = 16;
     const analysis::LargestExponent e = analysis::largest_exponent(
-        *flow, onwards, {.aligning_periods = aligning, .periods = look_.growth_periods}, {}, go_on_);
+        *flow, onwards, {.aligning_periods = aligning, .periods = recording_.growth_periods}, {}, go_on_);
     classification_work_ += flow->right_hand_side_calls();
     if (!e.evolution.reached()) return analysis::Regime::undecided;
     return analysis::late_growth(e.growth) > analysis::neutral_growth ? analysis::Regime::chaotic
@@ -157,7 +158,7 @@ class PointRun {
   }
 
   model::DynamicModel model_;
-  const LookOptions& look_;
+  const RecordingOptions& recording_;
   integrate::IntegratorOptions integrator_;
   std::function<bool()> go_on_;
   const PointFlows& flows_;
@@ -165,7 +166,7 @@ class PointRun {
   bool classifies_;
   bool adaptive_;
   PointResult result_;
-  StageWatch watch_;
+  ResponseStatistics watch_;
   analysis::StrobeProgress strobe_;
   std::optional<analysis::PeriodicOrbit> orbit_;  ///< of a motion that is periodic by evidence
   long classification_work_ = 0;
@@ -174,10 +175,10 @@ class PointRun {
 /// Runs chains, each from its first point that is not done.
 class ChainRunner {
  public:
-  ChainRunner(const SweepPlan& plan, const LookOptions& look, const integrate::IntegratorOptions& integrator,
+  ChainRunner(const SweepPlan& plan, const RecordingOptions& recording, const integrate::IntegratorOptions& integrator,
               const ModelAtPoint& model_at, const SweepRun& run)
       : plan_(plan),
-        look_(look),
+        recording_(recording),
         integrator_(integrator),
         model_at_(model_at),
         run_(run),
@@ -268,7 +269,7 @@ class ChainRunner {
       if (!index || stopped()) return;
       const GridPoint point = plan_.points[*index];
       PointResult result = compute_point(
-          point, model_at_(point), start, look_, integrator_, [this] { return !stopped(); }, carrier.flows);
+          point, model_at_(point), start, recording_, integrator_, [this] { return !stopped(); }, carrier.flows);
       if (stopped()) return;
       tell(result);
       start = std::move(result.end_state);
@@ -282,7 +283,7 @@ class ChainRunner {
   }
 
   const SweepPlan& plan_;
-  const LookOptions& look_;
+  const RecordingOptions& recording_;
   const integrate::IntegratorOptions& integrator_;
   const ModelAtPoint& model_at_;
   const SweepRun& run_;
@@ -295,25 +296,25 @@ class ChainRunner {
 
 }  // namespace
 
-LookOptions by_recurrence_alone(LookOptions look) {
-  look.classification_periods = 0;
-  look.transient = Transient::fixed;
-  return look;
+RecordingOptions by_recurrence_alone(RecordingOptions recording) {
+  recording.classification_periods = 0;
+  recording.transient = Transient::fixed;
+  return recording;
 }
 
-bool still_settling(const PointSummary& result, const LookOptions& look) {
+bool still_converging(const PointSummary& result, const RecordingOptions& recording) {
   return result.outcome == integrate::Outcome::reached && !result.classified &&
          result.regime == analysis::Regime::undecided &&
-         analysis::still_settling(result.recurrence, look.recurrence_tolerance);
+         analysis::still_converging(result.recurrence, recording.recurrence_tolerance);
 }
 
-std::string motion_name(const PointSummary& result) {
+std::string regime_name(const PointSummary& result) {
   if (result.regime != analysis::Regime::periodic) return to_string(result.regime);
   return "period " + std::to_string(result.period);
 }
 
 std::string motion_text(const PointSummary& result) {
-  const std::string name = motion_name(result);
+  const std::string name = regime_name(result);
   if (!result.classified) return name + " by recurrence alone";
   return result.evidence.note.empty() ? name : name + ": " + result.evidence.note;
 }
@@ -343,19 +344,19 @@ void append_poincare_row(const model::DynamicModel& model, std::span<const doubl
 }
 
 PointResult compute_point(const GridPoint& point, const model::DynamicModel& model, const std::vector<double>& start,
-                          const LookOptions& look, const integrate::IntegratorOptions& integrator,
+                          const RecordingOptions& recording, const integrate::IntegratorOptions& integrator,
                           const std::function<bool()>& go_on, const PointFlows& flows) {
-  look.validate();
-  return PointRun(point, model, start, look, integrator, go_on, flows).result();
+  recording.validate();
+  return PointRun(point, model, start, recording, integrator, go_on, flows).result();
 }
 
 PointResult compute_point_as_swept(const GridPoint& point, const model::DynamicModel& model,
-                                   const std::vector<double>& start, const LookOptions& look,
+                                   const std::vector<double>& start, const RecordingOptions& recording,
                                    const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on) {
-  if (!in_lanes(integrator)) return compute_point(point, model, start, look, integrator, go_on);
+  if (!in_lanes(integrator)) return compute_point(point, model, start, recording, integrator, go_on);
   integrate::LanePool pool = stage_pool(model, integrator, integrate::step_loops());
   PointResult result;
-  pool.run(1, [&] { result = compute_point(point, model, start, look, integrator, go_on, flows_of(pool)); });
+  pool.run(1, [&] { result = compute_point(point, model, start, recording, integrator, go_on, flows_of(pool)); });
   return result;
 }
 
@@ -365,16 +366,17 @@ analysis::Estimate PointSummary::lyapunov_max() const {
   return evidence.exponent * omega;
 }
 
-std::size_t run_sweep(const SweepPlan& plan, const LookOptions& look, const integrate::IntegratorOptions& integrator,
-                      const ModelAtPoint& model_at, const SweepRun& run) {
-  look.validate();
+std::size_t run_sweep(const SweepPlan& plan, const RecordingOptions& recording,
+                      const integrate::IntegratorOptions& integrator, const ModelAtPoint& model_at,
+                      const SweepRun& run) {
+  recording.validate();
   if (plan.points.empty()) return 0;
-  ChainRunner runner(plan, look, integrator, model_at, run);
+  ChainRunner runner(plan, recording, integrator, model_at, run);
   const auto threads_of_all = static_cast<std::size_t>(std::max({1, run.threads, run.threads_of_all}));
   const std::size_t share = (plan.chains.size() + threads_of_all - 1) / threads_of_all;
   const bool lanes = in_lanes(integrator);
   const std::size_t threads = std::min(plan.chains.size(), static_cast<std::size_t>(std::max(1, run.threads)));
-  for_units(threads, run.threads, run.stop, [&](std::size_t thread) {
+  parallel_for(threads, run.threads, run.stop, [&](std::size_t thread) {
     if (lanes) {
       runner.run_chains_in_lanes(run.process + thread, share);
     } else {
@@ -384,7 +386,7 @@ std::size_t run_sweep(const SweepPlan& plan, const LookOptions& look, const inte
   return runner.finished();
 }
 
-std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const LookOptions& look,
+std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const RecordingOptions& recording,
                                              const integrate::IntegratorOptions& integrator,
                                              const ModelAtPoint& model_at, SweepRun run,
                                              std::map<std::size_t, PointResult> done) {
@@ -401,17 +403,17 @@ std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const LookOp
     if (told) told(result);
     done.emplace(result.point.index, result);
   };
-  (void)run_sweep(plan, look, integrator, model_at, run);
+  (void)run_sweep(plan, recording, integrator, model_at, run);
   std::vector<PointResult> ordered;
   for (auto& [index, result] : done) ordered.push_back(std::move(result));
   return ordered;
 }
 
-std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const LookOptions& look,
+std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const RecordingOptions& recording,
                                              const integrate::IntegratorOptions& integrator, const ModelAt& model_at,
                                              SweepRun run, std::map<std::size_t, PointResult> done) {
   const ModelAtPoint at = [&model_at](const GridPoint& point) { return model_at(point.value); };
-  return run_sweep_in_memory(plan, look, integrator, at, std::move(run), std::move(done));
+  return run_sweep_in_memory(plan, recording, integrator, at, std::move(run), std::move(done));
 }
 
 }  // namespace epicyclic::studies

@@ -23,7 +23,7 @@
 #include "integrate/options.hpp"
 #include "model/dynamic_model.hpp"
 #include "studies/motion.hpp"
-#include "studies/stage_watch.hpp"
+#include "studies/response_statistics.hpp"
 #include "studies/sweep_options.hpp"
 #include "studies/sweep_plan.hpp"
 
@@ -37,7 +37,7 @@ inline constexpr int spectrum_periods = 32;
 inline constexpr int spectrum_orders = 8;
 
 /// How points are looked at without the classification of their regimes: after a fixed transient, by recurrence.
-[[nodiscard]] LookOptions by_recurrence_alone(LookOptions look);
+[[nodiscard]] RecordingOptions by_recurrence_alone(RecordingOptions recording);
 
 /// What is recorded of a point but its Poincare section, which is most of a record.
 struct PointSummary {
@@ -62,13 +62,13 @@ struct PointSummary {
   [[nodiscard]] analysis::Estimate lyapunov_max() const;
 
   /// Is it told periodic by its orbit, while the record is still on its way to it, or too short to show it?
-  [[nodiscard]] bool on_its_way() const {
+  [[nodiscard]] bool is_unsettled() const {
     return classified && regime == analysis::Regime::periodic && recurrence.period == 0;
   }
 
   /// Does any mesh pull?
-  [[nodiscard]] bool pulls() const {
-    return std::max(StageRecord::pull(meshes.sun_planet), StageRecord::pull(meshes.ring_planet)) > 0.0;
+  [[nodiscard]] bool has_tension() const {
+    return std::max(StageRecord::tension(meshes.sun_planet), StageRecord::tension(meshes.ring_planet)) > 0.0;
   }
 };
 
@@ -88,10 +88,10 @@ struct PointResult : PointSummary {
 };
 
 /// Not periodic yet, but on its way: a longer look would tell the regime.
-[[nodiscard]] bool still_settling(const PointSummary& result, const LookOptions& look);
+[[nodiscard]] bool still_converging(const PointSummary& result, const RecordingOptions& recording);
 
 /// What a point that was reached moves like: "period 2", "chaotic".
-[[nodiscard]] std::string motion_name(const PointSummary& result);
+[[nodiscard]] std::string regime_name(const PointSummary& result);
 
 /// What a point that was reached moves like, with what the regime rests on.
 [[nodiscard]] std::string motion_text(const PointSummary& result);
@@ -125,14 +125,14 @@ struct PointFlows {
 /// Computes one point.
 /// @param start  end state of the point before; empty: the model's default start
 [[nodiscard]] PointResult compute_point(const GridPoint& point, const model::DynamicModel& model,
-                                        const std::vector<double>& start, const LookOptions& look,
+                                        const std::vector<double>& start, const RecordingOptions& recording,
                                         const integrate::IntegratorOptions& integrator,
                                         const std::function<bool()>& go_on, const PointFlows& flows = {});
 
 /// A point as a sweep computes it, to the last bit: by a method of lanes all that is told of the motion is told in
 /// lanes.
 [[nodiscard]] PointResult compute_point_as_swept(const GridPoint& point, const model::DynamicModel& model,
-                                                 const std::vector<double>& start, const LookOptions& look,
+                                                 const std::vector<double>& start, const RecordingOptions& recording,
                                                  const integrate::IntegratorOptions& integrator,
                                                  const std::function<bool()>& go_on);
 
@@ -171,7 +171,7 @@ struct SweepRun {
 
 /// @returns how many points are new; fewer than were missing only if stopped, or if others took chains
 /// @throws the first exception of a point or of a function of `run`
-[[nodiscard]] std::size_t run_sweep(const SweepPlan& plan, const LookOptions& look,
+[[nodiscard]] std::size_t run_sweep(const SweepPlan& plan, const RecordingOptions& recording,
                                     const integrate::IntegratorOptions& integrator, const ModelAtPoint& model_at,
                                     const SweepRun& run);
 
@@ -179,11 +179,11 @@ struct SweepRun {
 /// @throws the first exception of a point or of a function of `run`; InputError if one of `done` is not of this plan
 /// @param done  points of an earlier run
 /// @returns points in order of their index; incomplete only if stopped
-[[nodiscard]] std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const LookOptions& look,
+[[nodiscard]] std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const RecordingOptions& recording,
                                                            const integrate::IntegratorOptions& integrator,
                                                            const ModelAtPoint& model_at, SweepRun run,
                                                            std::map<std::size_t, PointResult> done = {});
-[[nodiscard]] std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const LookOptions& look,
+[[nodiscard]] std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const RecordingOptions& recording,
                                                            const integrate::IntegratorOptions& integrator,
                                                            const ModelAt& model_at, SweepRun run,
                                                            std::map<std::size_t, PointResult> done = {});

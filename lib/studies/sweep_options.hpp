@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "studies/axis.hpp"
-#include "studies/look_options.hpp"
+#include "studies/recording_options.hpp"
 
 namespace epicyclic::studies {
 
@@ -35,7 +35,7 @@ struct SweepOptions {
   Start start = Start::carried;
   int segments = 0;         ///< chains per direction of a carried sweep; 0: segments_of()
   int coarse_periods = 30;  ///< mesh periods of a point in the pass that says where segments start [coarse_pass.hpp]
-  LookOptions look;
+  RecordingOptions recording;
   SweepCheck check;
 
   /// @throws InputError for what axis, look and check refuse, no directions, and segments that the points do not give
@@ -47,6 +47,6 @@ struct SweepOptions {
 [[nodiscard]] int segments_of(const SweepOptions& options);
 
 /// Of one point.
-[[nodiscard]] SweepOptions sweep_of_one(double mesh_frequency_ratio, const LookOptions& look);
+[[nodiscard]] SweepOptions sweep_of_one(double mesh_frequency_ratio, const RecordingOptions& recording);
 
 }  // namespace epicyclic::studies

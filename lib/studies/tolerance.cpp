@@ -12,8 +12,8 @@
 #include "core/fit.hpp"
 #include "core/largest_difference.hpp"
 #include "integrate/make_flow.hpp"
-#include "studies/settled_orbit.hpp"
-#include "studies/units.hpp"
+#include "studies/converged_orbit.hpp"
+#include "studies/parallel_for.hpp"
 
 namespace epicyclic::studies {
 
@@ -122,11 +122,11 @@ void extrapolate(TolerancePoint& point, std::size_t k) {
 
 class PointStudy {
  public:
-  PointStudy(TolerancePoint& out, const LookOptions& look, const ToleranceOptions& options,
+  PointStudy(TolerancePoint& out, const RecordingOptions& recording, const ToleranceOptions& options,
              const integrate::IntegratorOptions& integrator, double study_smoothing, const SmoothedModelAt& model_at,
              int threads, const std::atomic<bool>* stop)
       : out_(out),
-        look_(look),
+        recording_(recording),
         options_(options),
         integrator_(integrator),
         study_smoothing_(study_smoothing),
@@ -174,7 +174,7 @@ class PointStudy {
 
   bool find_reference() {
     const auto reference = flow(reference_options(reference_method), model_);
-    SettledOrbit settled = settled_orbit(*reference, out_.study);
+    ConvergedOrbit settled = settled_orbit(*reference, out_.study);
     out_.note = settled.note;
     if (settled.period == 0) return false;
     const int n = out_.period = settled.period;
@@ -183,14 +183,16 @@ class PointStudy {
     out_.largest_multiplier = settled.largest_multiplier;
     out_.orbit = known_.state;
     out_.reference_residual = *std::min_element(known_.residuals.begin(), known_.residuals.end());
-    out_.reference = quantities_of(*reference, model_, known_.state, n, look_.output_phases);
-    const Quantities finer = quantities_of(*reference, model_, known_.state, n, finer_phases * look_.output_phases);
+    out_.reference = quantities_of(*reference, model_, known_.state, n, recording_.output_phases);
+    const Quantities finer =
+        quantities_of(*reference, model_, known_.state, n, finer_phases * recording_.output_phases);
     for (std::size_t k = 0; k < finer.size(); ++k) out_.between_phases[k] = finer[k] - out_.reference[k];
     end_ = known_.state;
     (void)carry(*reference, end_, n);
     const auto second = flow(reference_options(second_method), model_);
     const std::vector<double> other = analysis::displaced_orbit(*second, known_, n, 2);
-    const Quantities again = other.empty() ? all_nan() : quantities_of(*second, model_, other, n, look_.output_phases);
+    const Quantities again =
+        other.empty() ? all_nan() : quantities_of(*second, model_, other, n, recording_.output_phases);
     for (std::size_t k = 0; k < again.size(); ++k) out_.reference_error[k] = std::abs(again[k] - out_.reference[k]);
     if (model_.with_halved_tables) measure_tables();
     return true;
@@ -201,7 +203,7 @@ class PointStudy {
     const auto reference = flow(reference_options(reference_method), halved);
     const std::vector<double> moved = analysis::displaced_orbit(*reference, known_, out_.period, 2);
     const Quantities there =
-        moved.empty() ? all_nan() : quantities_of(*reference, halved, moved, out_.period, look_.output_phases);
+        moved.empty() ? all_nan() : quantities_of(*reference, halved, moved, out_.period, recording_.output_phases);
     for (std::size_t k = 0; k < there.size(); ++k) out_.table_error[k] = std::abs(there[k] - out_.reference[k]);
     out_.table_displacement = moved.empty() ? nan : largest_difference(moved, known_.state);
   }
@@ -209,7 +211,7 @@ class PointStudy {
   void climb() {
     const std::size_t tolerances = options_.tolerances.size();
     out_.ladder.resize(options_.methods.size() * tolerances);
-    for_units(out_.ladder.size(), threads_, stop_, [&](std::size_t unit) {
+    parallel_for(out_.ladder.size(), threads_, stop_, [&](std::size_t unit) {
       LadderStep& step = out_.ladder[unit];
       step.method = options_.methods[unit / tolerances];
       step.tolerance = options_.tolerances[unit % tolerances];
@@ -235,7 +237,7 @@ class PointStudy {
       constexpr double another_orbit = 1.0;
       if (!(distance < another_orbit)) return;
       step.orbit_error = distance;
-      step.quantities = quantities_of(*own, model_, orbit, out_.period, look_.output_phases);
+      step.quantities = quantities_of(*own, model_, orbit, out_.period, recording_.output_phases);
     });
   }
 
@@ -255,7 +257,7 @@ class PointStudy {
       const analysis::PeriodicOrbit orbit = analysis::find_periodic_orbit(*sharp, known_.state, out_.period);
       if (orbit.found()) exact = orbit.state;
     }
-    for_units(out_.smoothing.size(), threads_, stop_, [&](std::size_t unit) {
+    parallel_for(out_.smoothing.size(), threads_, stop_, [&](std::size_t unit) {
       SmoothingStep& step = out_.smoothing[unit];
       step.width = options_.clearance_smoothings[unit];
       step.distance = nan;
@@ -268,7 +270,7 @@ class PointStudy {
       if (!orbit.found()) return;
       step.found = true;
       step.distance = largest_difference(orbit.state, exact);
-      step.quantities = quantities_of(*tight, model, orbit.state, out_.period, look_.output_phases);
+      step.quantities = quantities_of(*tight, model, orbit.state, out_.period, recording_.output_phases);
       const auto own = flow(integrator_, model);
       std::vector<double> y = orbit.state;
       (void)carry(*own, y, out_.period);
@@ -296,7 +298,7 @@ class PointStudy {
     for (const double width : options_.clearance_smoothings)
       add(integrator_.method, integrator_.relative_tolerance, width);
 
-    for_units(out_.statistics.size(), threads_, stop_, [&](std::size_t unit) {
+    parallel_for(out_.statistics.size(), threads_, stop_, [&](std::size_t unit) {
       StatisticsStep& step = out_.statistics[unit];
       const model::DynamicModel model = model_at_(out_.point.value, step.width);
       const auto own = flow(step_options(step.method, step.tolerance), model);
@@ -323,7 +325,7 @@ class PointStudy {
   }
 
   TolerancePoint& out_;
-  const LookOptions& look_;
+  const RecordingOptions& recording_;
   const ToleranceOptions& options_;
   const integrate::IntegratorOptions& integrator_;
   double study_smoothing_;
@@ -441,17 +443,17 @@ std::optional<Recommendation> recommend(const std::vector<TolerancePoint>& point
   return best;
 }
 
-TolerancePoint compute_tolerance_point(const PointResult& study, const LookOptions& look,
+TolerancePoint compute_tolerance_point(const PointResult& study, const RecordingOptions& recording,
                                        const ToleranceOptions& options, const integrate::IntegratorOptions& integrator,
                                        double study_smoothing, const SmoothedModelAt& model_at, int threads,
                                        const std::atomic<bool>* stop) {
-  look.validate();
+  recording.validate();
   options.validate();
   TolerancePoint point;
   point.point = study.point;
   point.study = study;
   point.extrapolated = point.exponent = all_nan();
-  PointStudy(point, look, options, integrator, study_smoothing, model_at, threads, stop).run();
+  PointStudy(point, recording, options, integrator, study_smoothing, model_at, threads, stop).run();
   return point;
 }
 

@@ -142,7 +142,7 @@ struct Recommendation {
                                                       double target);
 
 /// One point. Its units (methods, tolerances, widths) run on several threads; the result does not depend on how many.
-[[nodiscard]] TolerancePoint compute_tolerance_point(const PointResult& study, const LookOptions& look,
+[[nodiscard]] TolerancePoint compute_tolerance_point(const PointResult& study, const RecordingOptions& recording,
                                                      const ToleranceOptions& options,
                                                      const integrate::IntegratorOptions& integrator,
                                                      double study_smoothing, const SmoothedModelAt& model_at,

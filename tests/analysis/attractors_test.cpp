@@ -59,7 +59,7 @@ TEST(Attractors, TheDoubleWellHasTwoWhichItsSymmetryExchanges) {
         records.push_back(record_of(wells, mirrored, by_orbit));
         x_ends.push_back(records[records.size() - 2].orbit.front());
       }
-    const Attractors told = tell_attractors(records);
+    const Attractors told = label_attractors(records);
     ASSERT_EQ(told.all.size(), 2U) << by_orbit;
     EXPECT_EQ(told.all[0].members.size(), records.size() / 2);
     for (std::size_t k = 0; k < records.size(); k += 2) {
@@ -88,11 +88,11 @@ TEST(Attractors, OfOneOrbitAreOneFromAnyOfItsPoints) {
     }
     // The starts are a period apart: so are the points, and the first ones differ.
     EXPECT_GT(std::abs(records[0].orbit[0] - records[1].orbit[0]), 0.01);
-    const Attractors told = tell_attractors(records);
+    const Attractors told = label_attractors(records);
     EXPECT_EQ(told.all.size(), 1U) << g;
     // A period of another number is another attractor.
     records.push_back(record_of(wells, {1.0, 0.0}));
-    EXPECT_EQ(tell_attractors(records).all.size(), 2U);
+    EXPECT_EQ(label_attractors(records).all.size(), 2U);
   }
 }
 
@@ -105,7 +105,7 @@ TEST(Attractors, ImagesAreToldWhereASymmetryIsGiven) {
   const std::vector<AttractorRecord> records = {record_of(field, {-1.0, 0.1}), record_of(field, {1.0, 0.2})};
   const Symmetry mirror = [](std::span<const double> y) { return std::vector{-y[0], -y[1]}; };
   const Symmetry none = [](std::span<const double> y) { return std::vector{-y[0], y[1] + 1.0}; };
-  const Attractors told = tell_attractors(records, {}, std::vector{none, mirror});
+  const Attractors told = label_attractors(records, {}, std::vector{none, mirror});
   ASSERT_EQ(told.all.size(), 2U);
   EXPECT_EQ(told.all[0].image_of, 0U);
   EXPECT_EQ(told.all[1].image_of, 1U);
@@ -119,7 +119,7 @@ TEST(Attractors, ChaosIsOneFromAnyStart) {
     records.push_back(record_of(field, {0.2 * k - 1.2, 0.07 * (k % 5)}));
     EXPECT_EQ(records.back().regime, Regime::chaotic) << k;
   }
-  EXPECT_EQ(tell_attractors(records).all.size(), 1U);
+  EXPECT_EQ(label_attractors(records).all.size(), 1U);
 }
 
 TEST(Attractors, AreToldByStatisticsOnlyWhereADifferenceIsSignificant) {
@@ -137,7 +137,7 @@ TEST(Attractors, AreToldByStatisticsOnlyWhereADifferenceIsSignificant) {
   const auto count = [&](double difference, std::size_t points) {
     std::vector<AttractorRecord> records;
     for (unsigned k = 0; k < 20; ++k) records.push_back(record(k % 2 == 0 ? 0.0 : difference, points, 17U + k));
-    return tell_attractors(records).all.size();
+    return label_attractors(records).all.size();
   };
   EXPECT_EQ(count(0.0, 128), 1U);
   EXPECT_EQ(count(1.0, 128), 2U);
@@ -148,11 +148,11 @@ TEST(Attractors, AreToldByStatisticsOnlyWhereADifferenceIsSignificant) {
 }
 
 TEST(Attractors, UndecidedMotionsAreOnNone) {
-  const Attractors told = tell_attractors(std::vector<AttractorRecord>(3));
+  const Attractors told = label_attractors(std::vector<AttractorRecord>(3));
   EXPECT_TRUE(told.all.empty());
   EXPECT_EQ(told.number, (std::vector<std::size_t>{0, 0, 0}));
-  EXPECT_THROW((void)tell_attractors({}, {.level = 0.0}), InputError);
-  EXPECT_THROW((void)tell_attractors({}, {.tolerance = 0.0}), InputError);
+  EXPECT_THROW((void)label_attractors({}, {.level = 0.0}), InputError);
+  EXPECT_THROW((void)label_attractors({}, {.tolerance = 0.0}), InputError);
 }
 
 }  // namespace

@@ -113,7 +113,7 @@ Told tell(const ClearancePoint& p) {
     return integrate::make_flow(field, o);
   };
   constexpr double tolerance = 1e-9;
-  const auto looks = flow_at(100.0 * tolerance, false);
+  const auto windows = flow_at(100.0 * tolerance, false);
   const auto exact = flow_at(tolerance, true);
   const auto coarser = flow_at(10.0 * tolerance, true);
   RegimeOptions options;
@@ -122,8 +122,8 @@ Told tell(const ClearancePoint& p) {
   options.residual = 3.0 * tolerance;
   options.longest_period = longest_period;
   State y = {1.1, 0.0};
-  Told told{classify(*looks, y, options, [] { return true; }), 0};
-  for (const auto* flow : {&looks, &exact, &coarser}) told.work += (*flow)->right_hand_side_calls();
+  Told told{classify(*windows, y, options, [] { return true; }), 0};
+  for (const auto* flow : {&windows, &exact, &coarser}) told.work += (*flow)->right_hand_side_calls();
   return told;
 }
 

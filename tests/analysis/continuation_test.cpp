@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/bifurcation_diagram.hpp"
 #include "analysis/branch_switching.hpp"
-#include "analysis/branch_tree.hpp"
 #include "analysis/smoothing_bias.hpp"
 #include "core/dense.hpp"
 #include "core/errors.hpp"
@@ -221,7 +221,7 @@ TEST(Continuation, NamesTheSymmetryThatAPitchforkBreaks) {
   const Traced t = trace(family, fields, {.from = -0.1, .to = 0.1}, -0.1, {1.0, 1.0, 1.0}, 1);
   ASSERT_EQ(t.special.size(), 1U);
   expect_at(t.special[0], SpecialKind::branch_point, 0.0, 0.0);
-  EXPECT_EQ(t.special[0].wave, 1);
+  EXPECT_EQ(t.special[0].symmetry_index, 1);
   const auto blocks = invariant_blocks(3, family.symmetry);
   ASSERT_EQ(blocks.size(), 2U);
   EXPECT_EQ(block_name(blocks[1], 3), "symmetry index 1 of 3");
@@ -235,7 +235,7 @@ TEST(Continuation, TwoPairsOfFourPartsCrossAtOnce) {
   const Traced t = trace(family, fields, {.from = -0.1, .to = 0.1}, -0.1, {1.0, 1.0, 1.0, 1.0}, 1);
   ASSERT_EQ(t.special.size(), 2U);
   for (const SpecialPoint& p : t.special) expect_at(p, SpecialKind::branch_point, 0.0, 0.0);
-  EXPECT_NE(t.special[0].wave, t.special[1].wave);
+  EXPECT_NE(t.special[0].symmetry_index, t.special[1].symmetry_index);
 }
 
 // ---- the clearance oscillator, exact -----------------------------------------------------------------------------
@@ -381,7 +381,7 @@ TEST(Switching, FollowsDuffingsCascadeToPeriod16) {
     EXPECT_EQ(to_string(t.special[0].kind), "flip");
     EXPECT_LT(t.special[0].error_bound, eight_digits);
     flips.push_back(t.special[0].value);
-    const auto ways = departures(family, t.special[0], {.distance = 1e-2 / n});
+    const auto ways = branch_switches(family, t.special[0], {.distance = 1e-2 / n});
     ASSERT_EQ(ways.size(), 1U);  // one orbit begun at either of its halves
     family = ways[0].family;
     from = ways[0].orbit;
@@ -402,7 +402,7 @@ TEST(Switching, FindsEachKindOfOrbitThatLeavesAPitchforkOfAlikeParts) {
   ASSERT_EQ(t.special.size(), 1U);
   // Parts at (a, -a, 0), a^2 = p exactly, and as (2, -1, -1) to first order, each with its sign, of all turns one.
   int opposite = 0, two_to_one = 0;
-  for (const Departure& d : departures(family, t.special[0])) {
+  for (const BranchSwitch& d : branch_switches(family, t.special[0])) {
     std::vector<double> w(d.orbit.at.states.data(), d.orbit.at.states.data() + 3);
     for (double& x : w) x -= 1.0;
     std::sort(w.begin(), w.end());
@@ -429,7 +429,7 @@ std::vector<Branch> tree_from(const OrbitFamily& family, double value, const std
                               const TreeOptions& options) {
   const Correction first = first_orbit(family, value, near);
   EXPECT_TRUE(first.found) << first.message;
-  BranchTree tree(family, options);
+  BifurcationDiagram tree(family, options);
   if (first.found) tree.start(first.orbit);
   while (tree.advance()) {
   }
@@ -499,7 +499,7 @@ TEST(Tree, BackwardPartsAreAsIfFoundForward) {
   const auto inside = std::find_if(whole.orbits.begin(), whole.orbits.end(),
                                    [](const BranchOrbit& o) { return o.direction.value < 0.0 && o.at.value < 1.6; });
   ASSERT_NE(inside, whole.orbits.end());
-  BranchTree tree(family, {.continuation = {.from = 0.5, .to = 2.5}});
+  BifurcationDiagram tree(family, {.continuation = {.from = 0.5, .to = 2.5}});
   tree.start(*inside);
   while (tree.advance()) {
   }
@@ -545,7 +545,7 @@ TEST(Tree, OrbitsThatBreakTheSymmetryAreBranchesOfTheirOwn) {
 TEST(Tree, AStartOnAKnownBranchIsNotFollowedAgain) {
   const FieldFamily fields = problems::duffing(0.3, -1.0, 1.2);
   const OrbitFamily family{flows(fields, tolerance)};
-  BranchTree tree(family, {.continuation = {.from = 0.1, .to = 0.25}});
+  BifurcationDiagram tree(family, {.continuation = {.from = 0.1, .to = 0.25}});
   for (const double g : {0.2, 0.15}) {
     const Correction first = first_orbit(family, g, settled(family.flows, g, {1.0, 0.0}, 100));
     ASSERT_TRUE(first.found);
@@ -559,7 +559,7 @@ TEST(Tree, AStartOnAKnownBranchIsNotFollowedAgain) {
 TEST(Tree, OrbitsThatLeaveStayWholeWhileOtherStartsWait) {
   const FieldFamily fields = problems::duffing(0.3, -1.0, 1.2);
   const OrbitFamily family{flows(fields, 1e-8)};
-  BranchTree tree(family, {.continuation = {.from = 0.1, .to = 0.3}, .special = with_bounds(fields)});
+  BifurcationDiagram tree(family, {.continuation = {.from = 0.1, .to = 0.3}, .special = with_bounds(fields)});
   for (const double g : {0.2, 0.15, 0.14, 0.13, 0.12}) {
     const Correction first = first_orbit(family, g, settled(family.flows, g, {1.0, 0.0}, 100));
     ASSERT_TRUE(first.found);
@@ -570,7 +570,8 @@ TEST(Tree, OrbitsThatLeaveStayWholeWhileOtherStartsWait) {
   ASSERT_EQ(tree.branches().size(), 2U);
   for (const Branch& branch : tree.branches())
     for (const BranchOrbit& orbit : branch.orbits)
-      EXPECT_EQ(orbit.monodromy.factors.size(), static_cast<std::size_t>(branch.family.pieces)) << orbit.at.value;
+      EXPECT_EQ(orbit.monodromy.factors.size(), static_cast<std::size_t>(branch.family.shooting_intervals))
+          << orbit.at.value;
 }
 
 TEST(Tree, GoesOnFromItsStepsWithTheSameBits) {
@@ -579,13 +580,13 @@ TEST(Tree, GoesOnFromItsStepsWithTheSameBits) {
   const TreeOptions options{.continuation = {.from = 0.1, .to = 0.6}};
   const Correction first = first_orbit(family, 0.2, settled(family.flows, 0.2, {1.0, 0.0}, 100));
   ASSERT_TRUE(first.found);
-  BranchTree whole(family, options);
+  BifurcationDiagram whole(family, options);
   whole.start(first.orbit);
   std::vector<TreeStep> steps;
   while (auto step = whole.advance()) steps.push_back(*std::move(step));
   ASSERT_EQ(whole.branches().size(), 2U);
   for (std::size_t cut = 0; cut <= steps.size(); cut += 7) {
-    BranchTree again(family, options);
+    BifurcationDiagram again(family, options);
     again.start(first.orbit);
     for (std::size_t k = 0; k < cut; ++k) again.apply(steps[k]);
     std::size_t more = cut;

@@ -70,46 +70,46 @@ struct Look {
   Range percent;
 };
 
-void expect_coverage(const System& system, std::span<const Look> looks) {
+void expect_coverage(const System& system, std::span<const Look> windows) {
   integrate::IntegratorOptions o;
   o.relative_tolerance = o.absolute_tolerance = 1e-6;  // the references at 1e-8 show that it does not matter
   o.max_steps_per_period = 1000000;
   const double period = system.field.period;
-  std::vector<int> taken(looks.size(), 0);
-  std::vector<int> held(looks.size(), 0);
-  std::vector<double> width(looks.size(), 0.0);
+  std::vector<int> taken(windows.size(), 0);
+  std::vector<int> held(windows.size(), 0);
+  std::vector<double> width(windows.size(), 0.0);
   for (int seed = 1; seed <= runs; ++seed) {
     Numbers numbers(seed);
     std::vector<double> y;
     for (const Range& r : system.start) y.push_back(r.low + (r.high - r.low) * numbers.uniform());
     const auto flow = integrate::make_flow(system.field, o);
     // What aligns the tangent vector for 200 periods lets the motion settle, too.
-    const int counted = static_cast<int>(looks.back().periods);
+    const int counted = static_cast<int>(windows.back().periods);
     const LargestExponent e =
         largest_exponent(*flow, y, {.aligning_periods = 200, .periods = counted}, {}, [] { return true; });
     ASSERT_TRUE(e.evolution.reached()) << "seed " << seed;
-    for (std::size_t k = 0; k < looks.size(); ++k) {
-      const std::size_t n = looks[k].periods;
+    for (std::size_t k = 0; k < windows.size(); ++k) {
+      const std::size_t n = windows[k].periods;
       for (std::size_t first = 0; first + n <= e.growth.size(); first += n) {
         // As largest_exponent says, having counted these.
-        const Estimate look = series_mean(std::span(e.growth).subspan(first, n));
+        const Estimate window = series_mean(std::span(e.growth).subspan(first, n));
         ++taken[k];
-        held[k] += look.low() <= system.exponent * period && system.exponent * period <= look.high() ? 1 : 0;
-        width[k] += look.half_width / period;
+        held[k] += window.low() <= system.exponent * period && system.exponent * period <= window.high() ? 1 : 0;
+        width[k] += window.half_width / period;
         if (n == e.growth.size()) {
-          EXPECT_DOUBLE_EQ(look.half_width / period, e.per_s.half_width);
+          EXPECT_DOUBLE_EQ(window.half_width / period, e.per_s.half_width);
         }
       }
     }
   }
-  for (std::size_t k = 0; k < looks.size(); ++k) {
+  for (std::size_t k = 0; k < windows.size(); ++k) {
     const double percent = 100.0 * held[k] / taken[k];
     width[k] /= taken[k];
-    ::testing::Test::RecordProperty("percent_" + std::to_string(looks[k].periods), std::to_string(percent));
-    ::testing::Test::RecordProperty("half_width_" + std::to_string(looks[k].periods), std::to_string(width[k]));
-    EXPECT_GE(percent, looks[k].percent.low) << looks[k].periods << " periods";
-    EXPECT_LE(percent, looks[k].percent.high) << looks[k].periods << " periods";
-    EXPECT_LT(system.standard_error, 0.1 * width[k]) << looks[k].periods << " periods";
+    ::testing::Test::RecordProperty("percent_" + std::to_string(windows[k].periods), std::to_string(percent));
+    ::testing::Test::RecordProperty("half_width_" + std::to_string(windows[k].periods), std::to_string(width[k]));
+    EXPECT_GE(percent, windows[k].percent.low) << windows[k].periods << " periods";
+    EXPECT_LE(percent, windows[k].percent.high) << windows[k].periods << " periods";
+    EXPECT_LT(system.standard_error, 0.1 * width[k]) << windows[k].periods << " periods";
   }
 }
 
@@ -130,9 +130,9 @@ TEST(CoverageLong, OfLorenzExponent) {
   // Seen without regard to its turns, the motion leaves the tangent vector longer here and shorter there: most of a
   // short look's variance are its two ends, which the waves see grow with their frequency. The interval of 192 periods
   // is too wide, then (97.3 % in 2000 other runs), and right from 384 on.
-  std::array<Look, as_said.size()> looks = as_said;
-  looks[0].percent.high = 98.5;
-  expect_coverage(lorenz, looks);
+  std::array<Look, as_said.size()> windows = as_said;
+  windows[0].percent.high = 98.5;
+  expect_coverage(lorenz, windows);
 }
 
 TEST(CoverageLong, OfRoesslersExponent) {
@@ -202,16 +202,16 @@ std::vector<double> of_henon(int seed, std::size_t periods) {
 
 /// Of 1000 looks one after another, at a truth from another seed and as many periods.
 void expect_coverage_of_a_thousand(const std::string& name, const Growth& growth, std::size_t periods) {
-  constexpr std::size_t looks = 1000;
-  const std::vector<double> other = growth(2, looks * periods);
+  constexpr std::size_t windows = 1000;
+  const std::vector<double> other = growth(2, windows * periods);
   const double truth = std::accumulate(other.begin(), other.end(), 0.0) / static_cast<double>(other.size());
-  const std::vector<double> all = growth(1, looks * periods);
+  const std::vector<double> all = growth(1, windows * periods);
   int held = 0;
-  for (std::size_t k = 0; k < looks; ++k) {
+  for (std::size_t k = 0; k < windows; ++k) {
     const Estimate e = series_mean(std::span(all).subspan(k * periods, periods));
     held += e.low() <= truth && truth <= e.high() ? 1 : 0;
   }
-  const double percent = 100.0 * held / static_cast<double>(looks);
+  const double percent = 100.0 * held / static_cast<double>(windows);
   ::testing::Test::RecordProperty(name + "_" + std::to_string(periods), std::to_string(percent));
   std::cout << name << ", " << periods << " periods: " << percent << " %\n";
   EXPECT_GE(percent, right.low) << name << ", " << periods << " periods";

@@ -78,9 +78,10 @@ double flip_of(const Mathieu& m, double low, double high) {
       low, high);
 }
 
-std::vector<SpecialPoint> points(const FieldFamily& fields, double low, double high, int pieces, double tolerance) {
+std::vector<SpecialPoint> points(const FieldFamily& fields, double low, double high, int shooting_intervals,
+                                 double tolerance) {
   OrbitFamily family{problems::flows(fields, tolerance)};
-  family.pieces = pieces;
+  family.shooting_intervals = shooting_intervals;
   const std::vector<double> origin(fields(low).dimension, 0.0);
   const Correction a = first_orbit(family, low, origin);
   const Correction b = first_orbit(family, high, origin);
@@ -104,11 +105,12 @@ TEST(HyperbolicOrbits, AFlipStaysWhereItIsWhateverGrowsBesideIt) {
   const Mathieu m;
   const double truth = flip_of(m, 0.15, 0.3);
   for (const double r : {1.0, 3.0, 5.0, 7.0})
-    for (const int pieces : {3, 9}) {
+    for (const int shooting_intervals : {3, 9}) {
       // Of a third of a period vectors part by e^(4 pi r / 3), 5e12 for r = 7: the tangents' own errors.
-      const double bound = r * two_pi / pieces > 7.0 ? 1e-2 : 1e-6;
-      expect_flip(points(beside_a_saddle(m, r, random_rotation(1)), truth - 0.05, truth + 0.03, pieces, 1e-11), truth,
-                  bound, "r = " + std::to_string(r) + ", " + std::to_string(pieces) + " pieces");
+      const double bound = r * two_pi / shooting_intervals > 7.0 ? 1e-2 : 1e-6;
+      expect_flip(
+          points(beside_a_saddle(m, r, random_rotation(1)), truth - 0.05, truth + 0.03, shooting_intervals, 1e-11),
+          truth, bound, "r = " + std::to_string(r) + ", " + std::to_string(shooting_intervals) + " pieces");
     }
 }
 
@@ -117,10 +119,11 @@ void random_flips_are_within_their_bounds(std::uint64_t first, std::uint64_t cou
     const auto draw = [k](std::uint64_t n) { return random_uniform(23, 16 * k + n); };
     const Mathieu m{0.05 + 0.1 * draw(0), 0.22 + 0.06 * draw(1)};
     const double r = 7.0 * draw(2);
-    const int pieces = std::max(2, static_cast<int>(r * two_pi / 6.0) + 1 + static_cast<int>(4.0 * draw(3)));
+    const int shooting_intervals =
+        std::max(2, static_cast<int>(r * two_pi / 6.0) + 1 + static_cast<int>(4.0 * draw(3)));
     const double truth = flip_of(m, 0.03, 0.5);
     expect_flip(points(beside_a_saddle(m, r, random_rotation(100 + k)), truth - 0.02 - 0.02 * draw(4),
-                       truth + 0.02 + 0.02 * draw(5), pieces, 1e-10),
+                       truth + 0.02 + 0.02 * draw(5), shooting_intervals, 1e-10),
                 truth, 1e-5, "draw " + std::to_string(k));
     if (testing::Test::HasFailure()) return;
   }
@@ -153,11 +156,11 @@ TEST(HyperbolicOrbits, FromABranchPointOfNullityTwoTheBranchesOfBothPartsAreFoll
   const FieldFamily fields = two_pitchforks(1.0);
   const std::vector<SpecialPoint> found = points(fields, -0.021, 0.02, 1, 1e-11);
   ASSERT_EQ(found.size(), 1U);
-  const std::vector<Departure> all = departures({problems::flows(fields, 1e-11)}, found[0]);
+  const std::vector<BranchSwitch> all = branch_switches({problems::flows(fields, 1e-11)}, found[0]);
   // (+-a, 0), (0, +-a), (+-a, +-a)
   EXPECT_EQ(all.size(), 8U);
   std::array<int, 2> alone{};
-  for (const Departure& d : all) {
+  for (const BranchSwitch& d : all) {
     const Eigen::VectorXd y = d.orbit.at.states.col(0);
     const double a = std::sqrt(d.orbit.at.value);
     constexpr double solved = 1e-8;

@@ -45,22 +45,22 @@ struct LocusProblem {
   Start start;
   LocusOptions options;
   CyclicSymmetry symmetry{};
-  int pieces = 1;
+  int shooting_intervals = 1;
 };
 
 struct Followed {
   std::vector<LocusPoint> points;
-  std::vector<LocusMark> marks;
+  std::vector<Codim2Point> marks;
   LocusEnd end = LocusEnd::none;
   std::string message;
 };
 
 Followed follow(LocusTrace& trace) {
   Followed f;
-  f.points.push_back(trace.now());
+  f.points.push_back(trace.current());
   while (trace.advance()) {
-    f.points.push_back(trace.now());
-    for (const LocusMark& m : trace.marks()) f.marks.push_back(m);
+    f.points.push_back(trace.current());
+    for (const Codim2Point& m : trace.marks()) f.marks.push_back(m);
   }
   f.end = trace.end();
   f.message = trace.state().message;
@@ -88,7 +88,7 @@ Located locate(const LocusProblem& problem, double to_tolerance = tolerance) {
   Located l;
   l.surface.flows = problems::plane_flows(problem.fields, to_tolerance);
   l.surface.family.symmetry = problem.symmetry;
-  l.surface.family.pieces = problem.pieces;
+  l.surface.family.shooting_intervals = problem.shooting_intervals;
   l.surface.family.residual = std::max(10.0 * to_tolerance, 1e-12);
   l.options = problem.options;
   l.options.others = problems::finer_planes(problem.fields, to_tolerance);
@@ -115,7 +115,7 @@ LocusOptions rectangle(double first_from, double first_to, double from, double t
   return {.along = {.from = first_from, .to = first_to}, .second_from = from, .second_to = to};
 }
 
-void expect_at(const LocusMark& m, CodimTwo kind, double first, double second, double known_to = 0.0) {
+void expect_at(const Codim2Point& m, CodimTwo kind, double first, double second, double known_to = 0.0) {
   EXPECT_EQ(to_string(m.kind), to_string(kind));
   EXPECT_LT(m.point.first_bound, eight_digits);
   EXPECT_LT(m.point.second_bound, eight_digits);
@@ -137,16 +137,16 @@ void expect_on(const Followed& f, const std::function<double(const LocusPoint&)>
 
 double squared(double x) { return x * x; }
 
-LocusProblem cusp_problem(int pieces) {
+LocusProblem cusp_problem(int shooting_intervals) {
   LocusProblem problem{
       "cusp", problems::cusp_of_folds(), SpecialKind::fold, {0.9, 0.1, {0.11}, false}, rectangle(-1.0, 1.0, -1.0, 1.0)};
-  problem.pieces = pieces;
+  problem.shooting_intervals = shooting_intervals;
   return problem;
 }
 
 TEST(Loci, FoldsPassTheirCuspAndEndAtTheEdges) {
-  for (const int pieces : {1, 3}) {
-    const Located l = locate(cusp_problem(pieces));
+  for (const int shooting_intervals : {1, 3}) {
+    const Located l = locate(cusp_problem(shooting_intervals));
     ASSERT_TRUE(l.found);
     EXPECT_GT(l.start.direction.values(1), 0.0);
     for (const bool rising : {true, false}) {
@@ -331,9 +331,9 @@ TEST(Loci, OfFlipsAndToriMeetWhereBothSay) {
 }
 
 template <std::size_t N>
-LocusProblem alike_problem(SpecialKind kind, double bend, double turn) {
+LocusProblem alike_problem(SpecialKind kind, double tangent_derivative, double turn) {
   return {"alike parts",
-          problems::alike_parts_over<N>(bend, turn),
+          problems::alike_parts_over<N>(tangent_derivative, turn),
           kind,
           {-0.2, 0.1, std::vector<double>(N, 1.0)},
           rectangle(-0.3, 0.3, -0.3, 0.3),
@@ -344,7 +344,7 @@ TEST(Loci, BranchPointsThatBreakASymmetryAreFollowed) {
   const auto expect_followed = [](const LocusProblem& problem) {
     const Located l = locate(problem);
     ASSERT_TRUE(l.found);
-    EXPECT_EQ(l.subject.wave, 1);
+    EXPECT_EQ(l.subject.symmetry_index, 1);
     for (const bool rising : {true, false}) {
       const Followed f = l.follow(rising);
       EXPECT_EQ(f.end, LocusEnd::range);
@@ -362,7 +362,7 @@ TEST(Loci, BranchPointsThatBreakASymmetryAreFollowed) {
 TEST(Loci, NeimarkSackerPointsOfAWaveHaveTheirResonances) {
   const Located l = locate(alike_problem<3>(SpecialKind::neimark_sacker, 0.0, 1.0));
   ASSERT_TRUE(l.found);
-  EXPECT_EQ(l.subject.wave, 1);
+  EXPECT_EQ(l.subject.symmetry_index, 1);
   const Followed f = l.follow(true);
   EXPECT_EQ(f.end, LocusEnd::range);
   expect_on(
@@ -450,8 +450,8 @@ TEST(Loci, GrazingsOfTheClearanceOscillatorAreInClosedForm) {
   ASSERT_TRUE(first.found);
   // At W = 1, the edge, x is least where periods, and the pieces of the orbit, begin.
   LocusOptions options = rectangle(0.4, 1.0, 0.005, 0.2);
-  for (const int pieces : {1, 2})
-    options.others.push_back({problems::clearance_plane(0.1 * contact_tolerance), pieces});
+  for (const int shooting_intervals : {1, 2})
+    options.others.push_back({problems::clearance_plane(0.1 * contact_tolerance), shooting_intervals});
   ContinuationOptions until = options.along;
   until.to = 0.825;
   const auto special = problems::trace(family, until, {}, first.orbit).special;
@@ -528,7 +528,7 @@ TEST(Loci, StopAtAsManyPointsAsAskedForAndWhereNothingIsFound) {
     return integrate::make_flow(field, problems::exactly(tolerance));
   };
   const Followed f = l.follow(true);
-  EXPECT_EQ(f.end, LocusEnd::least_step);
+  EXPECT_EQ(f.end, LocusEnd::min_step);
   EXPECT_FALSE(f.message.empty());
   constexpr double near = 1e-3;  // of the last step and of the differences beyond it
   EXPECT_NEAR(f.points.back().second(), 0.3, near);
@@ -544,7 +544,7 @@ TEST(Loci, AreRefusedWhereThereAreNone) {
   point.kind = SpecialKind::unresolved;
   EXPECT_THROW((void)locus_start(l.surface, point, 0.1), InputError);
   point.kind = SpecialKind::flip;
-  point.wave = 1;
+  point.symmetry_index = 1;
   EXPECT_THROW((void)locus_start(l.surface, point, 0.1), InputError);
   const auto refused = [&](const LocusOptions& options) {
     EXPECT_THROW(LocusTrace(l.surface, l.subject, options, l.start), InputError);
@@ -622,19 +622,19 @@ std::vector<KnownLocus> known_loci() {
 TEST(LociLong, BoundsHoldAndAreNotIdle) {
   std::mt19937_64 random(2026);
   std::uniform_real_distribution<double> exponent(-10.0, -6.0);
-  std::uniform_int_distribution<int> pieces(1, 3);
+  std::uniform_int_distribution<int> shooting_intervals(1, 3);
   std::size_t points = 0, points_outside = 0, marks = 0, marks_outside = 0, marks_unresolved = 0, strange = 0;
   std::vector<double> ratios;
   for (const KnownLocus& known : known_loci()) {
     constexpr int trials = 8;
     for (int trial = 0; trial < trials; ++trial) {
       LocusProblem problem = known.problem;
-      problem.pieces = pieces(random);
+      problem.shooting_intervals = shooting_intervals(random);
       const Located l = locate(problem, std::pow(10.0, exponent(random)));
       ASSERT_TRUE(l.found);
       for (const bool rising : {true, false}) {
         const Followed f = l.follow(rising);
-        EXPECT_NE(f.end, LocusEnd::least_step) << problem.name << ": " << f.message;
+        EXPECT_NE(f.end, LocusEnd::min_step) << problem.name << ": " << f.message;
         for (const LocusPoint& p : f.points) {
           ++points;
           const Eigen::Vector2d s = known.slopes(p).cwiseAbs();
@@ -644,7 +644,7 @@ TEST(LociLong, BoundsHoldAndAreNotIdle) {
           if (!(error <= bound + rounding)) ++points_outside;
           if (error > rounding) ratios.push_back(bound / error);
         }
-        for (const LocusMark& m : f.marks) {
+        for (const Codim2Point& m : f.marks) {
           if (m.kind == CodimTwo::unresolved) {
             ++marks_unresolved;
             continue;

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/branch_tree.hpp"
+#include "analysis/bifurcation_diagram.hpp"
 #include "analysis/orbit_search.hpp"
 #include "core/errors.hpp"
 #include "problems/branches.hpp"
@@ -42,7 +42,7 @@ std::vector<double> in_contact(double drift) {
 std::vector<Branch> tree_from(const OrbitFamily& family, const std::vector<double>& state) {
   const Correction first = first_orbit(family, 0.3, state);
   EXPECT_TRUE(first.found) << first.message;
-  BranchTree tree(family, {.continuation = {.from = 0.2, .to = 2.2}});
+  BifurcationDiagram tree(family, {.continuation = {.from = 0.2, .to = 2.2}});
   if (first.found) tree.start(first.orbit);
   while (tree.advance()) {
   }
@@ -138,7 +138,7 @@ TEST(NeutralDirections, OfAlikePartsLeaveTheWaveThatTheyAreIn) {
       first.orbit);
   ASSERT_EQ(t.special.size(), 1U);
   EXPECT_EQ(to_string(t.special[0].kind), "branch_point");
-  EXPECT_EQ(t.special[0].wave, 1);
+  EXPECT_EQ(t.special[0].symmetry_index, 1);
   constexpr double rounding = 1e-15;
   EXPECT_NEAR(t.special[0].value, 0.0, t.special[0].error_bound + rounding);
   EXPECT_LT(t.special[0].error_bound, eight_digits);

@@ -46,13 +46,13 @@ TEST(AnalysisOptions, OrbitsAreIterated) {
                          {"residual", [](O& o) { o.residual = -1e-9; }},
                          {"residual", [](O& o) { o.residual = nan; }},
                          {"known", [](O& o) { o.known = nan; }},
-                         {"pieces", [](O& o) { o.pieces = 0; }}});
+                         {"pieces", [](O& o) { o.shooting_intervals = 0; }}});
 }
 
 TEST(AnalysisOptions, RegimesHaveALookThatTells) {
   using O = RegimeOptions;
-  expect_refused<O>({}, {{"look", [](O& o) { o.look = 15; }},
-                         {"budget", [](O& o) { o.budget = o.look - 1; }},
+  expect_refused<O>({}, {{"look", [](O& o) { o.window = 15; }},
+                         {"budget", [](O& o) { o.budget = o.window - 1; }},
                          {"lasting", [](O& o) { o.lasting = -1; }},
                          {"longest_period", [](O& o) { o.longest_period = 0; }},
                          {"near", [](O& o) { o.near = nan; }},
@@ -80,10 +80,10 @@ TEST(AnalysisOptions, NothingIsComputedWithWhatIsWrong) {
   EXPECT_THROW((void)strobe(
                    *flow, y, {.phases = 0}, [](auto&&...) {}, always),
                InputError);
-  EXPECT_THROW((void)find_periodic_orbit(*flow, y, 1, {.pieces = 0}), InputError);
-  EXPECT_THROW((void)classify(*flow, y, {.look = 8}, always), InputError);
+  EXPECT_THROW((void)find_periodic_orbit(*flow, y, 1, {.shooting_intervals = 0}), InputError);
+  EXPECT_THROW((void)classify(*flow, y, {.window = 8}, always), InputError);
   EXPECT_THROW((void)classify(*flow, y, {.observable = 2}, always), InputError) << "of two components";
-  EXPECT_THROW((void)tell_attractors({}, {.least = -1}), InputError);
+  EXPECT_THROW((void)label_attractors({}, {.least = -1}), InputError);
   EXPECT_EQ(y, start);
 }
 

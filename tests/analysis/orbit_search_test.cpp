@@ -124,7 +124,7 @@ TEST(OrbitSearch, ABranchGoesOnFromEachOrbit) {
     while (branch.advance()) {
     }
     EXPECT_EQ(branch.end(), BranchEnd::range);
-    EXPECT_EQ(branch.now().at.value, 1.6);
+    EXPECT_EQ(branch.current().at.value, 1.6);
   }
 }
 

@@ -141,10 +141,10 @@ TEST(MultipleShooting, FindsTheSameOrbitInAnyNumberOfPieces) {
     // Settled, the motion is the orbit already: from beside it Newton's method has steps to make.
     std::vector<double> beside = y;
     beside[0] += 1e-3;
-    for (const int pieces : {2, 3, 7}) {
-      const PeriodicOrbit many = find_periodic_orbit(*flow, beside, n, {.pieces = pieces});
+    for (const int shooting_intervals : {2, 3, 7}) {
+      const PeriodicOrbit many = find_periodic_orbit(*flow, beside, n, {.shooting_intervals = shooting_intervals});
       ASSERT_TRUE(many.found()) << many.message;
-      EXPECT_EQ(many.pieces.size(), static_cast<std::size_t>(pieces));
+      EXPECT_EQ(many.interval_maps.size(), static_cast<std::size_t>(shooting_intervals));
       EXPECT_NEAR(many.state[0], one.state[0], ten_residuals);
       EXPECT_NEAR(many.state[1], one.state[1], ten_residuals);
       EXPECT_LT((many.monodromy - one.monodromy).cwiseAbs().maxCoeff(), of_the_tangents);
@@ -162,13 +162,14 @@ TEST(MultipleShooting, HoldsAnUnstableOrbitTakenManyTimes) {
   ASSERT_GT(multiplier, 1.5);
   std::vector<double> off = once.state;
   off[0] += 1e-7;
-  const PeriodicOrbit pieces = find_periodic_orbit(*flow, off, 8, {.iterations = 30, .pieces = 32});
-  ASSERT_TRUE(pieces.found()) << pieces.message;
+  const PeriodicOrbit shooting_intervals =
+      find_periodic_orbit(*flow, off, 8, {.iterations = 30, .shooting_intervals = 32});
+  ASSERT_TRUE(shooting_intervals.found()) << shooting_intervals.message;
   constexpr double of_the_state = 1e-12;         // ten tolerances of 1e-13
   constexpr double of_the_eighth_power = 1e-10;  // the tolerance times some hundred steps, in 8 factors
-  EXPECT_NEAR(pieces.state[0], once.state[0], of_the_state);
-  EXPECT_NEAR(pieces.state[1], once.state[1], of_the_state);
-  EXPECT_NEAR(largest_multiplier(pieces) / std::pow(multiplier, 8), 1.0, of_the_eighth_power);
+  EXPECT_NEAR(shooting_intervals.state[0], once.state[0], of_the_state);
+  EXPECT_NEAR(shooting_intervals.state[1], once.state[1], of_the_state);
+  EXPECT_NEAR(largest_multiplier(shooting_intervals) / std::pow(multiplier, 8), 1.0, of_the_eighth_power);
 }
 
 TEST(Multipliers, OfDuffingsFlipWithTheirErrors) {

@@ -73,7 +73,7 @@ TEST(Recurrence, WhatIsNoNumberDoesNotRecur) {
   ASSERT_EQ(recurrence(section, 5, 1e-6).period, 1);
   section.states[3] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(recurrence(section, 5, 1e-6).period, 0);
-  EXPECT_FALSE(still_settling(recurrence(section, 5, 1e-6), 1e-6));
+  EXPECT_FALSE(still_converging(recurrence(section, 5, 1e-6), 1e-6));
 }
 
 TEST(Recurrence, CreepTowardsAShortPeriodIsNotALongPeriod) {
@@ -89,13 +89,13 @@ TEST(Recurrence, CreepTowardsAShortPeriodIsNotALongPeriod) {
   EXPECT_EQ(r.period, 1);  // within the tolerance from one point to the next
   const Recurrence finer = recurrence(creeping, 32, 2e-4);
   EXPECT_EQ(finer.period, 0);
-  EXPECT_TRUE(still_settling(finer, 2e-4));
+  EXPECT_TRUE(still_converging(finer, 2e-4));
   EXPECT_EQ(recurrence(settled, 32, 1e-3).period, 7);
 }
 
 TEST(Recurrence, ChaosIsNotTakenForSettling) {
   const Strobe s = run(0.50, {.transient_periods = 600, .recorded_periods = 128});
-  EXPECT_FALSE(still_settling(recurrence(s.section, 32, 1e-3), 1e-3));
+  EXPECT_FALSE(still_converging(recurrence(s.section, 32, 1e-3), 1e-3));
 }
 
 TEST(PoincareSet, DistancesAndExtent) {

@@ -177,7 +177,7 @@ TEST(ReportedMultipliers, StandWithinTheErrorThatIsToldWithThem) {
     const auto coarse = integrate::make_flow(field, tight(1e-10));
     const std::vector<double> start = {0.3, 0.2};
     const PeriodicOrbit first = find_periodic_orbit(*fine, start, 1);
-    const PeriodicOrbit second = find_periodic_orbit(*coarse, start, 1, {.pieces = 2});
+    const PeriodicOrbit second = find_periodic_orbit(*coarse, start, 1, {.shooting_intervals = 2});
     ASSERT_TRUE(first.found() && second.found());
     const FloquetMultipliers m = floquet_multipliers(first, second);
     const std::complex<double> right = std::exp(2.0 * pi * std::complex<double>(-z, std::sqrt(1.0 - z * z)));

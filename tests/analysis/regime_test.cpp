@@ -270,7 +270,7 @@ TEST(Regime, ThreeFlowsOfOneSystemTellItsOrbitAtItsTolerance) {
   o.relative_tolerance = o.absolute_tolerance = 1e-9;
   const RegimeFlows flows = make_regime_flows(problems::duffing(0.3, -1.0, 0.2, 1.2), o);
   std::vector<double> y = {1.0, 0.0};
-  const Classification c = classify(*flows.looks, y, flows.options(), always);
+  const Classification c = classify(*flows.windows, y, flows.options(), always);
   ASSERT_EQ(c.regime, Regime::periodic) << c.evidence.note;
   // The looks are a hundred times looser, the orbit is not.
   o.relative_tolerance = o.absolute_tolerance = 1e-12;
@@ -279,7 +279,7 @@ TEST(Regime, ThreeFlowsOfOneSystemTellItsOrbitAtItsTolerance) {
   constexpr double times_the_condition = 1e-7;  // tolerance 1e-9, some hundred steps
   EXPECT_NEAR(orbit.state[0], c.orbit->state[0], times_the_condition);
   EXPECT_GT(c.evidence.multiplier_error, 0.0);
-  EXPECT_GT(flows.right_hand_side_calls(), flows.looks->right_hand_side_calls());
+  EXPECT_GT(flows.right_hand_side_calls(), flows.windows->right_hand_side_calls());
 }
 
 TEST(Regime, AnEscapeHasNone) {

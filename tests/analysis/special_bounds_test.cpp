@@ -32,7 +32,8 @@ void compare(const SpecialPoint& truth, const std::vector<SpecialPoint>& found, 
   const SpecialPoint* nearest = nullptr;
   const auto distance = [&](const SpecialPoint& p) { return std::abs(p.value - truth.value); };
   for (const SpecialPoint& p : found)
-    if (p.kind == truth.kind && p.wave == truth.wave && (nearest == nullptr || distance(p) < distance(*nearest)))
+    if (p.kind == truth.kind && p.symmetry_index == truth.symmetry_index &&
+        (nearest == nullptr || distance(p) < distance(*nearest)))
       nearest = &p;
   // Two of one kind are never so near in these systems.
   constexpr double another = 1e-3;
@@ -53,7 +54,7 @@ void compare(const SpecialPoint& truth, const std::vector<SpecialPoint>& found, 
 TEST(SpecialPointsLong, BoundsHoldAndAreNotIdle) {
   std::mt19937_64 random(2026);
   std::uniform_real_distribution<double> exponent(-10.0, -6.0);
-  std::uniform_int_distribution<int> pieces(1, 3);
+  std::uniform_int_distribution<int> shooting_intervals(1, 3);
   Tally tally;
   for (const BranchProblem& problem : problems::branch_problems()) {
     // By a tolerance far below all others.
@@ -63,7 +64,7 @@ TEST(SpecialPointsLong, BoundsHoldAndAreNotIdle) {
     constexpr int trials = 12;
     for (int trial = 0; trial < trials; ++trial) {
       const double tolerance = std::pow(10.0, exponent(random));
-      const std::vector<SpecialPoint> found = problem.trace(tolerance, pieces(random)).special;
+      const std::vector<SpecialPoint> found = problem.trace(tolerance, shooting_intervals(random)).special;
       for (const SpecialPoint& truth : reference) compare(truth, found, tally);
     }
   }

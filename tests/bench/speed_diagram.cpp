@@ -25,7 +25,7 @@ constexpr double tolerance = 1e-7;
 epicyclic::studies::SweepOptions diagram(bool classified = false) {
   epicyclic::studies::SweepOptions sweep;
   sweep.directions = {Direction::up, Direction::down};
-  if (!classified) sweep.look = epicyclic::studies::by_recurrence_alone(sweep.look);
+  if (!classified) sweep.recording = epicyclic::studies::by_recurrence_alone(sweep.recording);
   return sweep;
 }
 
@@ -49,7 +49,8 @@ void by_odeint(benchmark::State& state) {
         const auto model = at(point.value);
         if (y.empty()) y = model.default_start;
         Odeint odeint(model, tolerance, std::move(y));
-        for (int k = 0; k < sweep.look.transient_periods + sweep.look.recorded_periods; ++k) odeint.mesh_period();
+        for (int k = 0; k < sweep.recording.transient_periods + sweep.recording.recorded_periods; ++k)
+          odeint.mesh_period();
         y = odeint.state();
         calls += odeint.calls();
       }
@@ -65,7 +66,7 @@ void by_us(benchmark::State& state, const char* method, int segments, bool class
   double calls = 0.0;
   for (auto _ : state) {
     const auto points =
-        epicyclic::studies::run_sweep_in_memory(plan_sweep(sweep), sweep.look, options(tolerance, method), at, {});
+        epicyclic::studies::run_sweep_in_memory(plan_sweep(sweep), sweep.recording, options(tolerance, method), at, {});
     for (const auto& point : points) calls += static_cast<double>(point.rhs_evaluations);
   }
   state.counters["rhs"] = calls;

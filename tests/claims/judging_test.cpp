@@ -672,16 +672,16 @@ TEST(ClaimsOptions, RefuseConditionsThatNeverHold) {
   c.motion = "period 3";
   c.at_least = 1.0;
   ClaimsOptions brief = options_with(c);
-  brief.look.recorded_periods = 4;
+  brief.recording.recorded_periods = 4;
   EXPECT_EQ(refused_at(brief), "nowhere");  // evidence is sought for as long as it takes
-  brief.look.classification_periods = 0;
+  brief.recording.classification_periods = 0;
   EXPECT_EQ(refused_at(brief), place + "/motion");
   // What does not recur is undecided then.
   brief.claims[0].conditions[0].motion = "chaotic";
   EXPECT_EQ(refused_at(brief), place + "/motion");
   brief.claims[0].conditions[0].motion = "not periodic";
   EXPECT_EQ(refused_at(brief), "nowhere");
-  brief.look.recorded_periods = 1;
+  brief.recording.recorded_periods = 1;
   EXPECT_EQ(refused_at(brief), "/recorded_periods");
 }
 
@@ -693,7 +693,7 @@ TEST(ClaimsOptions, RefuseExponentsThatSearchesDoNotCompute) {
   EXPECT_EQ(refused_at(options), "nowhere");
   options.space.parameters = {one_parameter()};
   EXPECT_EQ(refused_at(options), "/claims/0/conditions/0/quantity");
-  options.brief.classification_periods = options.survey.look.classification_periods = 512;
+  options.brief.classification_periods = options.survey.recording.classification_periods = 512;
   EXPECT_EQ(refused_at(options), "nowhere");
 }
 
@@ -782,21 +782,21 @@ TEST(Claims, QuantitiesAreColumnsOfTheirNames) {
 TEST(Claims, AGlanceTellsGrowthFromNone) {
   const input::LoadedInput input = input::load_input("inputs/tang2020_speed.json");
   const ModelAt at = input::model_at(input);
-  LookOptions look = by_recurrence_alone(input.study.look());
-  look.transient_periods = 300;
-  look.recorded_periods = 32;
-  look.period_max = 16;
+  RecordingOptions recording = by_recurrence_alone(input.study.recording());
+  recording.transient_periods = 300;
+  recording.recorded_periods = 32;
+  recording.period_max = 16;
   integrate::IntegratorOptions integrator = input.study.integrator;
   integrator.relative_tolerance = 1e-5;
   integrator.absolute_tolerance = 1e-5;
   const auto motion_at = [&](double speed) {
     const GridPoint point{0, Direction::up, speed};
-    return claim_point(compute_point_as_swept(point, at(speed), {}, look, integrator, [] { return true; }), look,
-                       Looked::briefly)
+    return claim_point(compute_point_as_swept(point, at(speed), {}, recording, integrator, [] { return true; }),
+                       recording, Looked::briefly)
         .motion.text();
   };
   EXPECT_EQ(motion_at(1.3), "undecided");
-  look.growth_periods = 64;
+  recording.growth_periods = 64;
   EXPECT_EQ(motion_at(1.3), "chaotic");
   EXPECT_EQ(motion_at(2.05), "quasiperiodic");
   // It loses 0.4 % a period of what it is away from its orbit, and is told by where it goes.

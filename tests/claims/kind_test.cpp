@@ -33,7 +33,7 @@ TEST(ClaimsKind, SetsTheLookAtPointsByTheKeysOfAllKinds) {
   input::ReadContext context;
   input::Study study;
   input::study_table().read(whole, "", study, context);
-  EXPECT_EQ(claims_in(study).look.transient_periods, 7);
+  EXPECT_EQ(claims_in(study).recording.transient_periods, 7);
   EXPECT_EQ(input::study_table().write(study)["study"]["transient"], "fixed");
 }
 

@@ -29,10 +29,10 @@ TEST(Kinematics, FixedRingMeshFrequencyIsThatOfBothMeshes) {
 
 TEST(Kinematics, LiteralTurnsAsTheFixedRingAndStarHoldsTheCarrier) {
   const Speeds fixed = speeds(problems::r1(), 1000.0);
-  const Speeds literal = speeds(problems::literal(problems::r1()), 1000.0);
+  const Speeds as_printed = speeds(problems::as_printed(problems::r1()), 1000.0);
   const Speeds star = speeds(problems::star(problems::r1()), 1000.0);
-  EXPECT_EQ(literal.sun, fixed.sun);
-  EXPECT_EQ(literal.carrier, fixed.carrier);
+  EXPECT_EQ(as_printed.sun, fixed.sun);
+  EXPECT_EQ(as_printed.carrier, fixed.carrier);
   EXPECT_EQ(star.carrier, 0.0);
   EXPECT_NEAR(27.0 * star.sun, 1000.0, rounding * 1000.0);
 }
@@ -47,9 +47,9 @@ TEST(Kinematics, TorquesBalanceAndTransmitThePower) {
   EXPECT_NEAR(t.carrier, 4.0 * t.sun, rounding * t.carrier);
   EXPECT_EQ(t.ring, 0.0);
 
-  const Torques literal = torques(problems::literal(problems::r1()), mesh_frequency);
-  EXPECT_EQ(literal.carrier, t.carrier);
-  EXPECT_EQ(literal.ring, 0.0);
+  const Torques as_printed = torques(problems::as_printed(problems::r1()), mesh_frequency);
+  EXPECT_EQ(as_printed.carrier, t.carrier);
+  EXPECT_EQ(as_printed.ring, 0.0);
 
   const Stage star_stage = problems::star(problems::r1());
   const Torques star = torques(star_stage, mesh_frequency);

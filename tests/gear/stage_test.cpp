@@ -44,7 +44,7 @@ TEST(Stage, AnglesAreEquallySpacedUnlessGiven) {
 
 TEST(Stage, GoodStagesHaveNoProblems) {
   const Stage good[] = {problems::r1(),
-                        problems::literal(problems::r1()),
+                        problems::as_printed(problems::r1()),
                         problems::star(problems::r1()),
                         problems::rigid_ring(problems::r1()),
                         problems::r1_nonlinear(),
@@ -113,7 +113,7 @@ TEST(Stage, MotionNamesEachRuleThatIsBroken) {
   const char* k_su = "/lumped/sun/torsional_support_N_per_m";
   const char* k_ru = "/lumped/ring/torsional_support_N_per_m";
   const char* k_cu = "/lumped/carrier/torsional_support_N_per_m";
-  const Stage literal = problems::literal(problems::r1());
+  const Stage as_printed = problems::as_printed(problems::r1());
   const Stage star = problems::star(problems::r1());
   expect_each_rule(
       {
@@ -130,9 +130,9 @@ TEST(Stage, MotionNamesEachRuleThatIsBroken) {
           {k_su, "fixed_ring", [](Stage& s) { s.sun.torsional_support_N_per_m = 1.0; }},
           {k_ru, "positive", [](Stage& s) { s.ring.torsional_support_N_per_m = 0.0; }},
           {k_cu, "must be 0", [](Stage& s) { s.carrier.torsional_support_N_per_m = 1.0; }},
-          {k_su, "literal", [](Stage& s) { s.sun.torsional_support_N_per_m = 1.0; }, literal},
-          {k_ru, "literal", [](Stage& s) { s.ring.torsional_support_N_per_m = 1.0; }, literal},
-          {k_cu, "literal", [](Stage& s) { s.carrier.torsional_support_N_per_m = 0.0; }, literal},
+          {k_su, "literal", [](Stage& s) { s.sun.torsional_support_N_per_m = 1.0; }, as_printed},
+          {k_ru, "literal", [](Stage& s) { s.ring.torsional_support_N_per_m = 1.0; }, as_printed},
+          {k_cu, "literal", [](Stage& s) { s.carrier.torsional_support_N_per_m = 0.0; }, as_printed},
           {k_ru, "star", [](Stage& s) { s.ring.torsional_support_N_per_m = rigid; }, star},
           {k_cu, "star", [](Stage& s) { s.carrier.torsional_support_N_per_m = rigid; }, star},
           {"/lumped/ring/base_radius_mm", "z_r / z_s", [](Stage& s) { s.ring.base_radius_mm = 96.3005; }},

@@ -237,8 +237,8 @@ TEST_P(LaneEnsembles, WhatCannotGoOnEndsWithItsOutcome) {
   };
   EXPECT_EQ(end_of(quick).outcome, Outcome::step_limit);
   EXPECT_EQ(end_of(broken).outcome, Outcome::failed);
-  constexpr double least_step = 1e-12;  // 1e-14, and roundings of the steps before
-  EXPECT_NEAR(lanes.evolution(0).s, 0.5, least_step);
+  constexpr double min_step = 1e-12;  // 1e-14, and roundings of the steps before
+  EXPECT_NEAR(lanes.evolution(0).s, 0.5, min_step);
   EXPECT_EQ(end_of(growing).outcome, Outcome::diverged);
   // The state is the last accepted one.
   std::array<double, 1> y{};

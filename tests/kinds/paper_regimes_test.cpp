@@ -24,9 +24,9 @@ namespace {
 
 bool always() { return true; }
 
-studies::PointResult point_at(const model::DynamicModel& m, const studies::LookOptions& look,
+studies::PointResult point_at(const model::DynamicModel& m, const studies::RecordingOptions& recording,
                               const integrate::IntegratorOptions& integrator) {
-  return studies::compute_point({0, studies::Direction::up, m.omega}, m, {}, look, integrator, always);
+  return studies::compute_point({0, studies::Direction::up, m.omega}, m, {}, recording, integrator, always);
 }
 
 /// The run of inputs/tang2020_run.json at another speed, with few periods of history and exponents.
@@ -36,7 +36,7 @@ std::optional<studies::RunResult> run_at(const input::LoadedInput& input, const 
   if (dense_phases > 0) options.dense_phases = dense_phases;
   options.exponent_periods = exponent_periods;
   options.history_periods = 4;
-  return studies::run_operating_point(m, input.study.look(), options, input.study.integrator);
+  return studies::run_operating_point(m, input.study.recording(), options, input.study.integrator);
 }
 
 TEST(PaperRegimes, NextToAFlipNoTorusIsTold) {
@@ -49,7 +49,7 @@ TEST(PaperRegimes, NextToAFlipNoTorusIsTold) {
       integrate::IntegratorOptions integrator = input.study.integrator;
       integrator.method = method;
       const studies::PointResult r = studies::compute_point_as_swept({0, studies::Direction::up, speed}, at(speed), {},
-                                                                     input.study.look(), integrator, always);
+                                                                     input.study.recording(), integrator, always);
       constexpr double told_by_all = 2.1486;
       if (speed <= told_by_all || r.regime != analysis::Regime::undecided) {
         EXPECT_EQ(r.regime, analysis::Regime::periodic) << method << " at " << speed << ": " << r.evidence.note;
@@ -63,8 +63,8 @@ TEST(PaperRegimes, RestingVectorsOfWeakChaosAreNoTorus) {
   const input::LoadedInput input = input::load_input("inputs/tang2020_calibrated_speed.json");
   const studies::ModelAt at = input::model_at(input);
   for (const double speed : {2.26879194631, 2.26919463087, 2.26979865772}) {
-    const studies::PointResult r = studies::compute_point_as_swept({0, studies::Direction::up, speed}, at(speed), {},
-                                                                   input.study.look(), input.study.integrator, always);
+    const studies::PointResult r = studies::compute_point_as_swept(
+        {0, studies::Direction::up, speed}, at(speed), {}, input.study.recording(), input.study.integrator, always);
     EXPECT_NE(r.regime, analysis::Regime::quasiperiodic) << speed << ": " << r.evidence.note;
   }
 }
@@ -72,11 +72,11 @@ TEST(PaperRegimes, RestingVectorsOfWeakChaosAreNoTorus) {
 TEST(PaperRegimes, AreToldWithTheirEvidence) {
   const input::LoadedInput input = input::load_input("inputs/tang2020_speed.json");
   const studies::ModelAt at = input::model_at(input);
-  studies::LookOptions look = input.study.look();
-  look.transient = studies::Transient::adaptive;
-  look.recorded_periods = 32;
+  studies::RecordingOptions recording = input.study.recording();
+  recording.transient = studies::Transient::adaptive;
+  recording.recorded_periods = 32;
 
-  const studies::PointResult periodic = point_at(at(3.0), look, input.study.integrator);
+  const studies::PointResult periodic = point_at(at(3.0), recording, input.study.integrator);
   EXPECT_EQ(periodic.regime, analysis::Regime::periodic);
   EXPECT_EQ(periodic.period, 1);
   // Three tolerances in parts of the largest component, which is below 10 b_c.
@@ -87,11 +87,11 @@ TEST(PaperRegimes, AreToldWithTheirEvidence) {
   constexpr double times_the_condition = 1e-5;
   EXPECT_LT(periodic.recurrence.error, times_the_condition);
 
-  const studies::PointResult doubled = point_at(at(2.1), look, input.study.integrator);
+  const studies::PointResult doubled = point_at(at(2.1), recording, input.study.integrator);
   EXPECT_EQ(doubled.regime, analysis::Regime::periodic);
   EXPECT_EQ(doubled.period, 2);
 
-  const studies::PointResult chaotic = point_at(at(1.3), look, input.study.integrator);
+  const studies::PointResult chaotic = point_at(at(1.3), recording, input.study.integrator);
   EXPECT_EQ(chaotic.regime, analysis::Regime::chaotic);
   EXPECT_EQ(chaotic.period, 0);
   EXPECT_GT(chaotic.lyapunov_max().low(), 0.0);
@@ -137,18 +137,18 @@ TEST(PaperRegimes, AVectorOnATorusNeitherGrowsNorShrinksInLanes) {
 }
 
 TEST(PaperRegimes, DampingInContactOnlyPullsForAShortTime) {
-  const auto pull_time = [](const std::vector<std::string>& sets) {
+  const auto tension_time = [](const std::vector<std::string>& sets) {
     const input::LoadedInput input = input::load_input("inputs/tang2020_speed.json", input::parse_assignments(sets));
-    studies::LookOptions look = studies::by_recurrence_alone(input.study.look());
-    look.transient_periods = 100;
-    look.recorded_periods = 8;
-    const studies::PointResult r = point_at(input::model_at(input)(2.8), look, input.study.integrator);
+    studies::RecordingOptions recording = studies::by_recurrence_alone(input.study.recording());
+    recording.transient_periods = 100;
+    recording.recorded_periods = 8;
+    const studies::PointResult r = point_at(input::model_at(input)(2.8), recording, input.study.integrator);
     EXPECT_EQ(r.outcome, integrate::Outcome::reached);
-    EXPECT_TRUE(r.pulls());
-    return studies::StageRecord::pull_time(r.meshes.ring_planet);
+    EXPECT_TRUE(r.has_tension());
+    return studies::StageRecord::tension_time(r.meshes.ring_planet);
   };
-  const double always = pull_time({});
-  const double in_contact = pull_time({"/model/gap_damping=contact_slope", "/integrator/clearance_smoothing=0.01"});
+  const double always = tension_time({});
+  const double in_contact = tension_time({"/model/gap_damping=contact_slope", "/integrator/clearance_smoothing=0.01"});
   EXPECT_GT(always, 0.3);
   EXPECT_LT(in_contact, 0.15);
 }
@@ -183,9 +183,9 @@ TEST(PaperRegimes, ARunChecksItsExponents) {
   }
   // The record of the point, with half as many samples a period, tells the same.
   constexpr double sampling = 0.02;
-  EXPECT_NEAR(studies::StageRecord::pull(r->point.meshes.ring_planet) * r->static_force / r->meshes[3].pull_max, 1.0,
+  EXPECT_NEAR(studies::StageRecord::tension(r->point.meshes.ring_planet) * r->static_force / r->meshes[3].pull_max, 1.0,
               sampling);
-  EXPECT_NEAR(studies::StageRecord::pull_time(r->point.meshes.ring_planet), r->meshes[3].pull_time, sampling);
+  EXPECT_NEAR(studies::StageRecord::tension_time(r->point.meshes.ring_planet), r->meshes[3].tension_time, sampling);
   // Contact is made on the flank, with a rate.
   ASSERT_GT(r->crossing.size(), 0U);
   ASSERT_EQ(r->crossing_rate.size(), r->crossing.size());
@@ -276,8 +276,8 @@ TEST(PaperRegimesLong, IntervalsOfAChaoticExponentHoldTheTruth) {
   const double truth = std::accumulate(e.growth.begin(), e.growth.end(), 0.0) / static_cast<double>(looks * periods);
   int held = 0;
   for (std::size_t k = 0; k < looks; ++k) {
-    const analysis::Estimate look = analysis::series_mean(std::span(e.growth).subspan(k * periods, periods));
-    held += look.low() <= truth && truth <= look.high() ? 1 : 0;
+    const analysis::Estimate recording = analysis::series_mean(std::span(e.growth).subspan(k * periods, periods));
+    held += recording.low() <= truth && truth <= recording.high() ? 1 : 0;
   }
   EXPECT_GE(held, 930);
   EXPECT_LE(held, 970);
@@ -287,14 +287,14 @@ TEST(PaperRegimesLong, IntervalsOfAChaoticExponentHoldTheTruth) {
 TEST(PaperRegimesLong, ExponentsOfPeriodicPointsAreThoseOfTheirMultipliers) {
   const input::LoadedInput input = input::load_input("inputs/tang2020_speed.json");
   const studies::ModelAt at = input::model_at(input);
-  studies::LookOptions look = input.study.look();
-  look.transient = studies::Transient::adaptive;
-  look.recorded_periods = 16;
+  studies::RecordingOptions recording = input.study.recording();
+  recording.transient = studies::Transient::adaptive;
+  recording.recorded_periods = 16;
   int points = 0;
   for (int k = 0; k < 30; ++k) {
     const double omega = k < 12 ? 0.205 + 0.024 * k : 2.2 + 0.07 * (k - 12);
     const model::DynamicModel m = at(omega);
-    const studies::PointResult r = point_at(m, look, input.study.integrator);
+    const studies::PointResult r = point_at(m, recording, input.study.integrator);
     ASSERT_EQ(r.regime, analysis::Regime::periodic) << omega << ": " << r.evidence.note;
     const analysis::Estimate of_multiplier = r.lyapunov_max();
     const auto flow = integrate::make_flow(m, input.study.integrator);

@@ -19,25 +19,25 @@ namespace {
 
 struct Case {
   input::LoadedInput input;
-  studies::LookOptions look;
+  studies::RecordingOptions recording;
   studies::RunOptions options;
   model::DynamicModel model;
 
   explicit Case(const std::vector<std::string>& changes)
       : input(input::load_input("inputs/tang2020_run.json", input::parse_assignments(changes))),
-        look(input.study.look()),
+        recording(input.study.recording()),
         options(input.study.plan.as<kinds::RunPlan>().run),
         model(input::model_at(input)(input.study.mesh_frequency_ratio)) {
-    look.transient_periods = 200;
-    look.recorded_periods = 32;
-    look.classification_periods = 64;
+    recording.transient_periods = 200;
+    recording.recorded_periods = 32;
+    recording.classification_periods = 64;
     options.spectrum_periods = 4;
     options.history_periods = 2;
     options.exponent_periods = 0;
   }
 
   [[nodiscard]] std::optional<studies::RunResult> run(const studies::RunControl& control = {}) const {
-    return studies::run_operating_point(model, look, options, input.study.integrator, control);
+    return studies::run_operating_point(model, recording, options, input.study.integrator, control);
   }
 };
 

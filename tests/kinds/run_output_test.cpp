@@ -151,7 +151,7 @@ studies::RunResult result_of(double lag = 0.0) {
 RunOutput output() {
   RunOutput o;
   o.options.shown_periods = 3;
-  o.points.sweep.look.recorded_periods = periods;
+  o.points.sweep.recording.recorded_periods = periods;
   o.points.poincare_columns = {"x_s", "x_s_rate", "delta_sp_1", "delta_rp_1"};
   o.points.resolved_input = "{\"stage\": {}}";
   o.points.title = "by_hand, Ω = 1.25";
@@ -444,7 +444,7 @@ TEST(RunSummary, TellsWhichTeethPullHowHardHowOftenAndWhy) {
   studies::RunResult r = result_of();
   EXPECT_TRUE(contains(on_one_line(run_summary(output(), r)), "No mesh force is tensile"));
   r.meshes[1].pull_max = 3302.0;
-  r.meshes[1].pull_time = 0.125;
+  r.meshes[1].tension_time = 0.125;
   r.static_force = 1000.0;
   const std::string summary = on_one_line(run_summary(output(), r));
   EXPECT_TRUE(contains(summary, "| " + r.meshes[1].name));

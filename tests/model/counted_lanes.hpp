@@ -127,7 +127,7 @@ inline Operations operations_of_lane(const DynamicModel& model, std::size_t segm
     std::vector<Lanes<1>> out(model.dimension);
     const Lanes<1> at(s);
     counted::operations = {};
-    Instant<Lanes<1>, N> now;
+    PhaseCoefficients<Lanes<1>, N> now;
     make_instants(p, 1, &at, &now);
     right_hand_side(model.layout, p.constants(), now, in.data(), out.data());
     counts = counted::operations;

@@ -34,7 +34,7 @@ TEST(DynamicModel, DegreesOfFreedomAreThoseOfTheBoundary) {
         std::pair{problems::with_teeth(problems::r1(), 24, 26, 76, 5), 5U}}) {
     EXPECT_EQ(model_of(stage).dimension, 2 * (3 * planets + 8));
     EXPECT_EQ(model_of(problems::rigid_ring(stage)).dimension, 2 * (3 * planets + 7));
-    EXPECT_EQ(model_of(problems::literal(stage)).dimension, 2 * (3 * planets + 8));
+    EXPECT_EQ(model_of(problems::as_printed(stage)).dimension, 2 * (3 * planets + 8));
     EXPECT_EQ(model_of(problems::star(stage)).dimension, 2 * (3 * planets + 8));
     const DynamicModel full = model_of(stage, 0.9, CoordinateChoice::full);
     EXPECT_EQ(full.dimension, 2 * (3 * planets + 9));
@@ -44,11 +44,11 @@ TEST(DynamicModel, DegreesOfFreedomAreThoseOfTheBoundary) {
 }
 
 TEST(DynamicModel, StateNamesStandAtTheirSlots) {
-  const DynamicModel literal = model_of(problems::literal(problems::r1()));
-  EXPECT_EQ(literal.state_names[2], "w_s");
-  EXPECT_EQ(literal.state_names[Slots::w_p(2)], "w_p3");
-  EXPECT_EQ(literal.state_names[Slots::u_c(Layout::relative_to_ring, 3)], "u_c");
-  EXPECT_EQ(literal.state_names[17], "x_s_rate");
+  const DynamicModel as_printed = model_of(problems::as_printed(problems::r1()));
+  EXPECT_EQ(as_printed.state_names[2], "w_s");
+  EXPECT_EQ(as_printed.state_names[Slots::w_p(2)], "w_p3");
+  EXPECT_EQ(as_printed.state_names[Slots::u_c(Layout::relative_to_ring, 3)], "u_c");
+  EXPECT_EQ(as_printed.state_names[17], "x_s_rate");
   const DynamicModel fixed = model_of(problems::r1());
   EXPECT_EQ(fixed.state_names[Slots::u_r(3)], "u_r");
   EXPECT_EQ(fixed.state_names[Slots::y_c(3)], "y_c");
@@ -77,7 +77,7 @@ struct Shares {
 };
 
 Shares shares(const gear::Stage& s) {
-  if (s.boundary != gear::Boundary::literal) return {1.0, 1.0};
+  if (s.boundary != gear::Boundary::as_printed) return {1.0, 1.0};
   // The train accelerates as one: mesh forces are shares of inertia.
   const double m_p = s.planet_count * s.planet.inertia_over_r2_kg;
   const double m_r = s.ring.inertia_over_r2_kg;
@@ -90,11 +90,11 @@ TEST(DefaultStart, HasEachMeshAtTheGapPlusTheStaticDeflection) {
        {exact_r1(), problems::with_gap(exact_r1()),
         problems::with_friction(problems::with_moving_stiffness(problems::with_gap(exact_r1()))),
         problems::with_gap(problems::with_teeth(problems::r1(), 27, 27, 81, 6), 25.0)})
-    for (const gear::Stage& s : {base, problems::literal(base), problems::star(base), problems::rigid_ring(base)})
+    for (const gear::Stage& s : {base, problems::as_printed(base), problems::star(base), problems::rigid_ring(base)})
       for (const CoordinateChoice choice : {CoordinateChoice::relative, CoordinateChoice::full}) {
         gear::Stage equal = s;
         for (gear::Mesh* mesh : {&equal.sun_planet_mesh, &equal.ring_planet_mesh}) mesh->error_amplitude_um = {0.0};
-        if (s.boundary == gear::Boundary::literal && choice == CoordinateChoice::full) continue;  // no equilibrium
+        if (s.boundary == gear::Boundary::as_printed && choice == CoordinateChoice::full) continue;  // no equilibrium
         if (!std::isfinite(s.ring.torsional_support_N_per_m) && choice == CoordinateChoice::full) continue;
         const Scales scales = scales_of(equal);
         const DynamicModel m = make_dynamic_model(equal, scales, 0.8, {}, choice);
@@ -119,7 +119,7 @@ TEST(DefaultStart, HasEachMeshAtTheGapPlusTheStaticDeflection) {
 TEST(DefaultStart, LiteralMeshForcesAre88And59Percent) {
   // docs/theory/model.md, section 4, printed to the percent.
   constexpr double percent = 0.005;
-  const Shares share = shares(problems::literal(problems::r1()));
+  const Shares share = shares(problems::as_printed(problems::r1()));
   EXPECT_NEAR(share.sun_planet, 0.88, percent);
   EXPECT_NEAR(share.ring_planet, 0.59, percent);
 }
@@ -219,7 +219,7 @@ TEST(Phases, TurningByOnePlanetIsAShiftOfTheMeshPhase) {
   constexpr double rounding = 1e-12;
   constexpr double felt = 1e-3;  // far above rounding
   for (const Case& c : cases)
-    for (const gear::Stage& stage : {c.stage, problems::literal(c.stage)}) {
+    for (const gear::Stage& stage : {c.stage, problems::as_printed(c.stage)}) {
       const DynamicModel m = model_of(stage);
       const double shift = two_pi * *stage.sun.teeth / stage.planet_count;
       EXPECT_EQ(std::abs(std::remainder(shift, two_pi)) < rounding, c.in_phase) << c.name;
@@ -294,7 +294,7 @@ TEST(Contacts, DistancesAreDeflectionsFromTheGapsAndTheirRates) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-2.0, 2.0);
   for (const gear::BearingLaw law : {gear::BearingLaw::linear_xy, gear::BearingLaw::linear_radial})
-    for (const auto& base : {problems::r1_nonlinear(), problems::literal(problems::r1_nonlinear()),
+    for (const auto& base : {problems::r1_nonlinear(), problems::as_printed(problems::r1_nonlinear()),
                              problems::rigid_ring(problems::r1_nonlinear())})
       for (const CoordinateChoice choice : {CoordinateChoice::relative, CoordinateChoice::full}) {
         gear::Stage stage = base;

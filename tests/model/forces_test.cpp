@@ -201,7 +201,7 @@ TEST(Forces, ElasticPartIsMinusTheGradientOfThePotential) {
       {"palmgren_xy", with_bearing(base, BearingLaw::palmgren_xy, 10), 0.0},
       {"palmgren_radial", with_bearing(base, BearingLaw::palmgren_radial, 10), 0.0},
       {"no gap", with_bearing(problems::with_gap(base, 0.0), BearingLaw::linear_xy, 0), 0.0},
-      {"literal", with_bearing(problems::literal(base), BearingLaw::linear_xy, 10), 0.0},
+      {"literal", with_bearing(problems::as_printed(base), BearingLaw::linear_xy, 10), 0.0},
       {"unequal angles", with_bearing(problems::with_unequal_angles(base), BearingLaw::linear_radial, 10), 0.0},
   };
   double worst = 0.0;
@@ -379,7 +379,7 @@ TEST(Forces, MeshForcesAndFrictionNeitherPushNorTurnTheWholeTrain) {
 // rotation would, and would still be a number.
 TEST(Forces, RelativeRatesAreThoseOfTheFullCoordinatesAtAnyPlaceAndSpeedOfTheFreeRotation) {
   const gear::Stage base = problems::with_unequal_angles(problems::r1_nonlinear());
-  for (const gear::Stage& s : {base, problems::literal(base), problems::star(base), problems::rigid_ring(base)}) {
+  for (const gear::Stage& s : {base, problems::as_printed(base), problems::star(base), problems::rigid_ring(base)}) {
     const Layout layout = make_dynamic_model(s, scales_of(s), 0.9, {}, CoordinateChoice::relative).layout;
     const std::size_t n = degrees_of_freedom(layout, planets);
     const auto given = make_parameters<planets>(s, scales_of(s), 0.9, {});
@@ -403,8 +403,8 @@ TEST(Forces, RelativeRatesAreThoseOfTheFullCoordinatesAtAnyPlaceAndSpeedOfTheFre
       std::vector<double> relative(2 * n);
       for (double& x : relative) x = displacement(random);
       std::vector<double> rates(2 * n);
-      right_hand_side(layout, p, Instant<double, planets>(p, segment, p.breakpoints[segment]), relative.data(),
-                      rates.data());
+      right_hand_side(layout, p, PhaseCoefficients<double, planets>(p, segment, p.breakpoints[segment]),
+                      relative.data(), rates.data());
 
       std::array<double, 2 * dof> y;
       pack(Layout::full, unpack<planets>(layout, relative.data()), y.data());
@@ -554,10 +554,10 @@ TEST(SunBearing, IntegralOfTheTangentStiffnessIsThePalmgrenForce) {
   constexpr double rounding = 1e-12;
   EXPECT_NEAR(force(10.0) / integral, 1.0, rounding);
 
-  const auto literal = bearing_parameters(gear::BearingLaw::palmgren_xy, 10.0, 0.0);
+  const auto as_printed = bearing_parameters(gear::BearingLaw::palmgren_xy, 10.0, 0.0);
   const double x = scales.displacement(20.0 * um);
-  EXPECT_NEAR(scales.force_newton(sun_bearing_force(literal, x, 0.0).x) / (1.5 * integral), 1.0, rounding);
-  EXPECT_EQ(sun_bearing_force(literal, x, 0.0).y, 0.0);
+  EXPECT_NEAR(scales.force_newton(sun_bearing_force(as_printed, x, 0.0).x) / (1.5 * integral), 1.0, rounding);
+  EXPECT_EQ(sun_bearing_force(as_printed, x, 0.0).y, 0.0);
 }
 
 TEST(SunBearing, RadialLawsPushAlongTheRadiusAndSmoothFormsFollowTheirClosure) {

@@ -205,9 +205,9 @@ TEST(Gyroscopic, AutomaticIsPrintedForLiteralAndInvariantElsewhere) {
   const auto matrix = [](const gear::Stage& s, Gyroscopic terms) {
     return matrix_of(make_dynamic_model(s, scales_of(s), 1.3, {GapDamping::always, terms, 0.0}));
   };
-  const gear::Stage literal = problems::literal(problems::r1());
-  EXPECT_EQ(matrix(literal, Gyroscopic::automatic), matrix(literal, Gyroscopic::printed));
-  EXPECT_NE(matrix(literal, Gyroscopic::automatic), matrix(literal, Gyroscopic::off));
+  const gear::Stage as_printed = problems::as_printed(problems::r1());
+  EXPECT_EQ(matrix(as_printed, Gyroscopic::automatic), matrix(as_printed, Gyroscopic::printed));
+  EXPECT_NE(matrix(as_printed, Gyroscopic::automatic), matrix(as_printed, Gyroscopic::off));
   const gear::Stage fixed = problems::r1();
   EXPECT_EQ(matrix(fixed, Gyroscopic::automatic), matrix(fixed, Gyroscopic::invariant));
   EXPECT_NE(matrix(fixed, Gyroscopic::automatic), matrix(fixed, Gyroscopic::off));
@@ -226,7 +226,7 @@ TEST(Gyroscopic, PrintedTermsWithAFreeCarrierAreRefusedInRelativeCoordinates) {
 }
 
 TEST(Gyroscopic, RelativeCoordinatesHaveTheSpectrumOfTheFullOnesWithoutTheRigidRotation) {
-  for (const gear::Stage& s : {problems::r1(), problems::literal(problems::r1()), problems::star(problems::r1())}) {
+  for (const gear::Stage& s : {problems::r1(), problems::as_printed(problems::r1()), problems::star(problems::r1())}) {
     const auto spectrum = [&](CoordinateChoice choice) {
       const Eigen::VectorXcd e =
           epicyclic::eigenvalues(matrix_of(make_dynamic_model(s, scales_of(s), 1.0, {}, choice)));

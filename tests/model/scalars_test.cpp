@@ -89,7 +89,7 @@ TEST(Scalars, LanesWithParametersOfTheirOwnAreTheSingleRuns) {
         packed.set_segment(lane, segments[lane]);
         s.set(lane, middle(*single[lane], segments[lane]) + 2.0 * std::numbers::pi * static_cast<double>(lane));
       }
-      Instant<L, planets> now;
+      PhaseCoefficients<L, planets> now;
       make_instants(packed, 1, &s, &now);
       right_hand_side(layout, packed.constants(), now, y.data(), f.data());
       for (std::size_t lane = 0; lane < width; ++lane) {

@@ -120,7 +120,7 @@ TEST(Pulls, AreTheTensionOfTheForces) {
                                  const std::vector<double>& elastic) {
             ASSERT_EQ(elastic.size(), 3U);
             for (std::size_t i = 0; i < elastic.size(); ++i) {
-              const double told = pull(delta[i], gap, elastic[i], force[i]);
+              const double told = tensile_force(delta[i], gap, elastic[i], force[i]);
               const bool back = delta[i] < -gap;
               const double tension = std::max(0.0, back ? force[i] : -force[i]);
               // A smoothed clearance has some of the other flank's force in the gap, which is none.
@@ -152,7 +152,7 @@ TEST(Pulls, AreTheTensionOfTheForces) {
 
 TEST(RemoveSynchronous, IsThereForPlanetsThatAreAlike) {
   EXPECT_TRUE(model_of(problems::r1()).remove_synchronous);
-  EXPECT_TRUE(model_of(problems::literal(problems::with_moving_stiffness(problems::r1()))).remove_synchronous);
+  EXPECT_TRUE(model_of(problems::as_printed(problems::with_moving_stiffness(problems::r1()))).remove_synchronous);
   gear::Stage unequal = problems::r1();
   unequal.sun_planet_mesh.error_amplitude_um = {8.5, 8.5, 8.6};
   EXPECT_FALSE(model_of(unequal).remove_synchronous);
@@ -167,7 +167,7 @@ TEST(RemoveSynchronous, SplitsWhatTheLinearisedFlowKeepsApart) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> component(-1.0, 1.0);
   for (const gear::Stage& stage : {problems::with_friction(problems::with_gap(problems::r1())),
-                                   problems::literal(problems::with_moving_stiffness(problems::r1()))}) {
+                                   problems::as_printed(problems::with_moving_stiffness(problems::r1()))}) {
     const DynamicModel m = model_of(stage);
     const std::size_t n = m.dimension;
     const auto transverse_part = [&](std::vector<double> v) {

@@ -86,7 +86,7 @@ TEST(QuasiStatic, IsAtRestWithFriction) {
   using namespace problems;
   gear::Stage stage = loaded(with_friction(with_moving_stiffness(with_gap(r1()))));
   for (gear::Mesh* mesh : {&stage.sun_planet_mesh, &stage.ring_planet_mesh}) mesh->error_amplitude_um = {0.0};
-  for (const gear::Stage& one : {stage, literal(stage), star(stage), with_unequal_angles(stage)}) {
+  for (const gear::Stage& one : {stage, as_printed(stage), star(stage), with_unequal_angles(stage)}) {
     const DynamicModel m = model_of(one, {GapDamping::always, Gyroscopic::off, 0.0});
     const std::vector<double> at = phases();
     const auto states = m.quasi_static_states(at);

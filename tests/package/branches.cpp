@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include <epicyclic/analysis/branch_tree.hpp>
+#include <epicyclic/analysis/bifurcation_diagram.hpp>
 #include <epicyclic/integrate/make_field.hpp>
 #include <epicyclic/integrate/make_flow.hpp>
 
@@ -27,8 +27,8 @@ int main() {
   const auto first = analysis::first_orbit(family, 0.6, std::array{0.5, 0.0});
   if (!first.found) return 1;
   // The bounds are from a tenth of the tolerance and twice the pieces.
-  analysis::BranchTree tree(family, {.continuation = {.from = 0.5, .to = 2.5},
-                                     .special = {.others = {{flows(1e-12), 1}, {flows(1e-12), 2}}}});
+  analysis::BifurcationDiagram tree(family, {.continuation = {.from = 0.5, .to = 2.5},
+                                             .special = {.others = {{flows(1e-12), 1}, {flows(1e-12), 2}}}});
   tree.start(first.orbit);
   while (tree.advance()) {
   }

@@ -41,10 +41,10 @@ inline Traced trace(const analysis::OrbitFamily& family, const analysis::Continu
                     const analysis::SpecialOptions& special, analysis::BranchOrbit start) {
   Traced t;
   analysis::Continuation branch(family, options, std::move(start));
-  t.orbits.push_back(branch.now());
+  t.orbits.push_back(branch.current());
   while (branch.advance()) {
-    t.orbits.push_back(branch.now());
-    for (analysis::SpecialPoint& p : special_points_between(family, branch.before(), branch.now(), special))
+    t.orbits.push_back(branch.current());
+    for (analysis::SpecialPoint& p : special_points_between(family, branch.previous(), branch.current(), special))
       t.special.push_back(std::move(p));
   }
   t.end = branch.end();
@@ -97,10 +97,10 @@ struct BranchProblem {
   bool rising = true;
   analysis::CyclicSymmetry symmetry{};
 
-  [[nodiscard]] Traced trace(double tolerance, int pieces) const {
+  [[nodiscard]] Traced trace(double tolerance, int shooting_intervals) const {
     analysis::OrbitFamily family{flows(tolerance)};
     family.period = period;
-    family.pieces = pieces;
+    family.shooting_intervals = shooting_intervals;
     family.symmetry = symmetry;
     family.residual = std::max(10.0 * tolerance, 1e-12);
     const analysis::Correction first = first_orbit(family, start, settled(flows(1e-10), start, state, settle));
@@ -126,7 +126,7 @@ inline std::vector<BranchProblem> branch_problems() {
                    0.9,
                    {1.0, 0.0},
                    300,
-                   {.from = 0.4, .to = 3.5, .largest_step = 0.05}});
+                   {.from = 0.4, .to = 3.5, .max_step = 0.05}});
   for (const double e : {0.05, 0.1, 0.2, 0.3})
     all.push_back({"clearance over W, E = " + std::to_string(e),
                    [e](double tolerance) { return clearance_flows(e, tolerance); },

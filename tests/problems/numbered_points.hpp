@@ -25,8 +25,8 @@ inline std::vector<studies::PointResult> numbered_points(std::size_t planets) {
       course(m.force);
       m.drive = number();
       m.back = number();
-      m.pull = number();
-      m.pull_time = number();
+      m.tension = number();
+      m.tension_time = number();
       course(m.quasi_static);
       m.quasi_static.largest *= 3.0;
     }

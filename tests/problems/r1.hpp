@@ -45,8 +45,8 @@ inline gear::Stage r1() {
 }
 
 /// The ring free and without torque, the carrier grounded: the paper as printed.
-inline gear::Stage literal(gear::Stage s) {
-  s.boundary = gear::Boundary::literal;
+inline gear::Stage as_printed(gear::Stage s) {
+  s.boundary = gear::Boundary::as_printed;
   s.ring.torsional_support_N_per_m = 0.0;
   s.carrier.torsional_support_N_per_m = 1.3e8;
   return s;
@@ -54,7 +54,7 @@ inline gear::Stage literal(gear::Stage s) {
 
 /// The ring is the output, the carrier grounded.
 inline gear::Stage star(gear::Stage s) {
-  s = literal(std::move(s));
+  s = as_printed(std::move(s));
   s.boundary = gear::Boundary::star;
   return s;
 }
@@ -146,7 +146,7 @@ inline gear::Stage tang2020() {
   const gear::SupportDamping damping{0.05, std::nullopt};
   gear::Stage s;
   s.name = "tang2020";
-  s.boundary = gear::Boundary::literal;
+  s.boundary = gear::Boundary::as_printed;
   s.planet_count = 3;
   s.centre_distance_mm = 71.7208387735735;
   s.sun = {1.65427459540885, 1.25253437366918, 1e8, 0.0, damping, 27, 32.1784579787363};

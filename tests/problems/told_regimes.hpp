@@ -28,7 +28,7 @@ inline ToldRegime told_regime(const ClearancePoint& p, std::span<const double> s
   analysis::RegimeOptions options = flows.options();
   options.residual = std::max(options.residual, 3.0 * tolerance);
   std::array<double, 2> y = {start[0], start[1]};
-  ToldRegime told{analysis::classify(*flows.looks, y, options, [] { return true; }), 0};
+  ToldRegime told{analysis::classify(*flows.windows, y, options, [] { return true; }), 0};
   told.work = flows.right_hand_side_calls();
   return told;
 }

@@ -70,7 +70,7 @@ VectorField continuous(const model::DynamicModel& m, const gear::Stage& stage, c
     const double from = breakpoints[segment];
     const double to = segment + 1 < breakpoints.size() ? breakpoints[segment + 1] : breakpoints[0] + two_pi;
     const double middle = 0.5 * (from + to);
-    model::Instant<double, 3> now(*p, segment, s);
+    model::PhaseCoefficients<double, 3> now(*p, segment, s);
     const auto set_mesh = [&](const MeshLaws& laws, double turns, model::MeshInstant<double, 3>& mesh) {
       const double own = middle / two_pi + turns;
       const double inside = own - std::floor(own);

@@ -15,10 +15,10 @@ namespace epicyclic::store::branch_record_test {
 namespace {
 
 /// A tree of two branches, with folds, flips and an end at a flip of the other.
-analysis::BranchTree planted() {
+analysis::BifurcationDiagram planted() {
   const FieldFamily fields = problems::duffing(0.3, -1.0, 1.2);
   const analysis::OrbitFamily family{problems::flows(fields, 1e-8)};
-  analysis::BranchTree tree(family, {.continuation = {.from = 0.1, .to = 0.5}});
+  analysis::BifurcationDiagram tree(family, {.continuation = {.from = 0.1, .to = 0.5}});
   const analysis::Correction first = first_orbit(family, 0.2, problems::settled(family.flows, 0.2, {1.0, 0.0}, 100));
   EXPECT_TRUE(first.found);
   if (first.found) tree.start(first.orbit);
@@ -36,14 +36,14 @@ void expect_equal(const analysis::SpecialPoint& a, const analysis::SpecialPoint&
 }
 
 TEST(BranchRecord, ATreeOfReadStepsIsTheSame) {
-  analysis::BranchTree tree = planted();
-  analysis::BranchTree again = planted();
-  std::size_t departures = 0;
+  analysis::BifurcationDiagram tree = planted();
+  analysis::BifurcationDiagram again = planted();
+  std::size_t branch_switches = 0;
   while (const auto step = tree.advance()) {
-    departures += step->departures.size();
+    branch_switches += step->branch_switches.size();
     again.apply(decode_step(encode_step(*step)));
   }
-  EXPECT_GE(departures, 1U);
+  EXPECT_GE(branch_switches, 1U);
   EXPECT_FALSE(again.advance().has_value());
   ASSERT_EQ(again.branches().size(), tree.branches().size());
   for (std::size_t b = 0; b < tree.branches().size(); ++b) {
@@ -76,7 +76,7 @@ TEST(BranchRecord, AStrongResonanceIsKept) {
 }
 
 TEST(BranchRecord, DamageIsRefused) {
-  analysis::BranchTree tree = planted();
+  analysis::BifurcationDiagram tree = planted();
   std::vector<std::byte> longest;
   while (const auto step = tree.advance()) {
     const std::vector<std::byte> record = encode_step(*step);

@@ -24,8 +24,8 @@ studies::PointResult example() {
   mesh.delta.largest = 5e-324;
   mesh.drive = 0.0;
   mesh.back = 0.25;
-  mesh.pull = 1.25;
-  mesh.pull_time = 0.0625;
+  mesh.tension = 1.25;
+  mesh.tension_time = 0.0625;
   mesh.quasi_static = {0.5, 0.625, 0.5625, 0.03125};
   r.meshes.sun_planet = {mesh, mesh, {}};
   r.meshes.ring_planet = {mesh};
@@ -44,7 +44,7 @@ studies::PointResult example() {
   r.attractor.dimension = 2;
   r.attractor.orbit = {1, 2, 3, 4};
   r.attractor.orbit_error = 1e-9;
-  r.attractor.waves = 4;
+  r.attractor.frequencies = 4;
   r.attractor.means = {{1, 0.5}, {2, std::numeric_limits<double>::infinity()}};
   r.attractor.deviations = {{3, 0.25}, {4, 0.125}};
   r.attractor.exponent = {0.1, 0.01};
@@ -115,11 +115,11 @@ TEST(PointRecord, ComesBackExactly) {
   EXPECT_EQ(b.message, a.message);
   EXPECT_EQ(b.rhs_evaluations, a.rhs_evaluations);
   EXPECT_EQ(b.meshes.sun_planet[0].contact(), "loss+back");
-  EXPECT_EQ(studies::StageRecord::pull(b.meshes.ring_planet), 1.25);
-  EXPECT_EQ(studies::StageRecord::pull_time(b.meshes.ring_planet), 0.0625);
+  EXPECT_EQ(studies::StageRecord::tension(b.meshes.ring_planet), 1.25);
+  EXPECT_EQ(studies::StageRecord::tension_time(b.meshes.ring_planet), 0.0625);
   EXPECT_EQ(b.meshes.sun_planet[1].quasi_static.largest, 0.625);
   EXPECT_EQ(b.meshes.sun_planet[1].quasi_static.mean, 0.5625);
-  EXPECT_TRUE(b.pulls());
+  EXPECT_TRUE(b.has_tension());
   EXPECT_EQ(b.meshes.sun_planet[1].delta.largest, 5e-324);
   EXPECT_EQ(b.meshes.planet_bearing[0].rms, 4.0);
   EXPECT_EQ(b.meshes.transmission_error.mean, 7.0);
@@ -130,7 +130,7 @@ TEST(PointRecord, ComesBackExactly) {
   EXPECT_EQ(b.attractor.regime, analysis::Regime::chaotic);
   EXPECT_EQ(b.attractor.period(), 2U);
   EXPECT_EQ(b.attractor.orbit, a.attractor.orbit);
-  EXPECT_EQ(b.attractor.waves, 4);
+  EXPECT_EQ(b.attractor.frequencies, 4);
   EXPECT_EQ(b.attractor.deviations[1].half_width, 0.125);
   EXPECT_EQ(b.attractor.exponent.value, 0.1);
   EXPECT_FALSE(b.evidence.zero_one.has_value());

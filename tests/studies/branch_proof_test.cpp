@@ -29,7 +29,7 @@ TracedBranches branches_of(const FieldFamily& fields, double value, const analys
   analysis::TreeOptions options{.continuation = continuation};
   options.special = problems::with_bounds(flows, 1e-9);
   options.largest_period = largest;
-  analysis::BranchTree tree(family, options);
+  analysis::BifurcationDiagram tree(family, options);
   const analysis::Correction first = first_orbit(family, value, problems::settled(family.flows, value, start, 100));
   EXPECT_TRUE(first.found);
   tree.start(first.orbit);
@@ -181,7 +181,7 @@ TEST(BranchProof, WhatIsWrongIsNotExplained) {
 /// and one down on its lower stretch.
 class OfAResonance : public testing::Test {
  protected:
-  OfAResonance() : traced(branches_of(fields, 1.4, {.from = 1.3, .to = 3.3, .largest_step = 0.05}, 1)) {
+  OfAResonance() : traced(branches_of(fields, 1.4, {.from = 1.3, .to = 3.3, .max_step = 0.05}, 1)) {
     for (const SpecialRow& r : traced.special)
       if (r.kind == analysis::SpecialKind::fold) folds.push_back(r.value);
     std::ranges::sort(folds);

@@ -35,7 +35,7 @@ model::DynamicModel model_at(double omega) {
 std::vector<analysis::Branch> grown(const BranchSystem& system, double start, int settle_periods) {
   const BranchOrigin from = settled_start(system, model_at(start), start, settle_periods);
   EXPECT_TRUE(from.orbit.has_value()) << from.message;
-  analysis::BranchTree tree(system.system, system.options);
+  analysis::BifurcationDiagram tree(system.system, system.options);
   if (from.orbit) tree.start(*from.orbit, from.keeps_symmetry);
   while (tree.advance()) {
   }
@@ -128,9 +128,10 @@ TEST(Branches, RowsAreWhatASweepRecords) {
   ASSERT_TRUE(row.carried);
   GridPoint at;
   at.value = 3.3;
-  LookOptions look;
-  look.transient_periods = 6000;  // the softest support mode decays by half a percent a period
-  const PointResult point = compute_point(at, model_at(3.3), {}, look, problems::tight(1e-11), [] { return true; });
+  RecordingOptions recording;
+  recording.transient_periods = 6000;  // the softest support mode decays by half a percent a period
+  const PointResult point =
+      compute_point(at, model_at(3.3), {}, recording, problems::tight(1e-11), [] { return true; });
   ASSERT_EQ(point.period, 1);
   constexpr double settled = 1e-5;  // what the soft support modes leave after so many periods
   for (std::size_t i = 0; i < 3; ++i) {

@@ -119,11 +119,11 @@ TEST(Coordinates, RelativeOnesGiveTheDeflectionsOfAll3NPlus9) {
     model::ModelOptions options;
   };
   const Case cases[] = {
-      {"literal", problems::literal(base), {}},
+      {"literal", problems::as_printed(base), {}},
       {"star", problems::star(base), {}},
       {"fixed_ring", base, {}},
       {"fixed_ring, unequal angles", problems::with_unequal_angles(base), {}},
-      {"literal, unequal angles", problems::literal(problems::with_unequal_angles(base)), {}},
+      {"literal, unequal angles", problems::as_printed(problems::with_unequal_angles(base)), {}},
       {"fixed_ring, smooth", base, {model::GapDamping::contact_slope, model::Gyroscopic::automatic, 0.05}},
       {"fixed_ring, no frame terms", base, {model::GapDamping::always, model::Gyroscopic::off, 0.0}},
   };
@@ -362,7 +362,7 @@ TEST(Coordinates, ThePapersOwnVariablesGiveTheSameDeflections) {
   const gear::Stage base = problems::r1_nonlinear();
   double all = 0.0;
   for (const gear::Stage& stage :
-       {problems::literal(base), problems::star(base), problems::literal(problems::with_unequal_angles(base))}) {
+       {problems::as_printed(base), problems::star(base), problems::as_printed(problems::with_unequal_angles(base))}) {
     const model::Scales scales = model::scales_of(stage);
     const DynamicModel m = make_dynamic_model(stage, scales, omega, {});
     const DynamicModel full = make_dynamic_model(stage, scales, omega, {}, CoordinateChoice::full);

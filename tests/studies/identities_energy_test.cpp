@@ -193,14 +193,14 @@ TEST(Energy, WhatTheVibrationGainsIsTheWorkDoneOnIt) {
   with_centrifugal.centrifugal = model::Centrifugal::included;
   const Case cases[] = {
       {"fixed_ring", nonlinear, {}, true},
-      {"literal", problems::literal(nonlinear), {}, true},
+      {"literal", problems::as_printed(nonlinear), {}, true},
       {"star", problems::star(nonlinear), {}, true},
       {"fixed_ring closed", closed, {}, false},
-      {"literal closed", problems::literal(closed), {}, false},
+      {"literal closed", problems::as_printed(closed), {}, false},
       {"fixed_ring without frame terms", nonlinear, {model::GapDamping::always, model::Gyroscopic::off, 0.0}, true},
       {"fixed_ring unequal angles", problems::with_unequal_angles(nonlinear), {}, true},
       {"fixed_ring with centrifugal force", problems::with_unequal_angles(nonlinear), with_centrifugal, true},
-      {"literal with centrifugal force", problems::literal(nonlinear), with_centrifugal, true},
+      {"literal with centrifugal force", problems::as_printed(nonlinear), with_centrifugal, true},
   };
   double worst = 0.0;
   for (const Case& c : cases) {

@@ -81,7 +81,7 @@ TEST(Motion, RelativeToTheGapDoesNotDependOnItWhileNoBackTouches) {
   const gear::Stage base =
       problems::with_unequal_errors(problems::with_friction(problems::with_moving_stiffness(problems::r1())));
   double all = 0.0;
-  for (const gear::Stage& stage : {base, problems::literal(base), problems::star(base)}) {
+  for (const gear::Stage& stage : {base, problems::as_printed(base), problems::star(base)}) {
     const model::Scales scales = model::scales_of(stage);
     const std::vector<double> at = problems::phases(10, 16);
     const auto run = [&](double half_gap_um) {

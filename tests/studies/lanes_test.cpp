@@ -194,7 +194,7 @@ std::vector<PointResult> swept(const SweepOptions& sweep, const char* method, in
   o.method = method;
   SweepRun run;
   run.threads = threads;
-  return run_sweep_in_memory(plan_sweep(sweep), sweep.look, o, at, std::move(run), std::move(done));
+  return run_sweep_in_memory(plan_sweep(sweep), sweep.recording, o, at, std::move(run), std::move(done));
 }
 
 TEST(Lanes, SweepsHaveTheSameBytesAtAnyNumberOfThreads) {
@@ -206,9 +206,9 @@ TEST(Lanes, SweepsHaveTheSameBytesAtAnyNumberOfThreads) {
     sweep.axis.points = 9;
     sweep.directions = {Direction::up, Direction::down};
     sweep.start = start;
-    sweep.look.transient_periods = 6;
-    sweep.look.recorded_periods = 4;
-    sweep.look.classification_periods = 0;
+    sweep.recording.transient_periods = 6;
+    sweep.recording.recorded_periods = 4;
+    sweep.recording.classification_periods = 0;
     const auto expected = swept(sweep, "lanes-cash-karp", 1, at);
     ASSERT_EQ(expected.size(), 18U);
     for (const int threads : {2, 3, 8}) {
@@ -266,12 +266,12 @@ TEST(SweepCheck, ByTheSweepsOwnMethodEachPointComesOutToTheLastBit) {
     how.method = method;
     SweepOptions sweep;
     sweep.axis = {speed_parameter, 0.9, 1.7, 5};
-    sweep.look.transient_periods = 20;
-    sweep.look.recorded_periods = 16;
-    sweep.look.classification_periods = 256;
+    sweep.recording.transient_periods = 20;
+    sweep.recording.recorded_periods = 16;
+    sweep.recording.classification_periods = 256;
     sweep.check.points = 3;
     sweep.check.methods = {method};
-    const auto finished = run_sweep_in_memory(plan_sweep(sweep), sweep.look, how,
+    const auto finished = run_sweep_in_memory(plan_sweep(sweep), sweep.recording, how,
                                               [](const GridPoint& p) { return model_at(p.value); }, {});
     const Crosscheck all =
         run_check_of_sweep(sweep, points_in_memory(finished), how, 0.0, smoothed_model_at, CrosscheckRun{});

@@ -48,7 +48,7 @@ Flip flip_at(double damping_ratio) {
   const BranchOrigin from = settled_start(system, model_at(3.3, damping_ratio), 3.3, 400);
   EXPECT_TRUE(from.orbit.has_value()) << from.message;
   if (!from.orbit) return {};
-  analysis::BranchTree tree(system.system, system.options);
+  analysis::BifurcationDiagram tree(system.system, system.options);
   tree.start(*from.orbit, from.keeps_symmetry);
   while (tree.branches().empty() && tree.advance()) {
   }
@@ -82,11 +82,11 @@ TEST(LociOfGearsLong, FlipsOfThePapersStageAreThoseOfItsBranches) {
   analysis::LocusTrace locus(surface, analysis::subject_of(start.point), options, first.point);
   while (locus.advance()) EXPECT_TRUE(locus.marks().empty());
   EXPECT_EQ(locus.end(), analysis::LocusEnd::range);
-  EXPECT_EQ(locus.now().second(), heavy);
-  EXPECT_NEAR(locus.now().first(), end.point.value, locus.now().first_bound + end.point.error_bound);
+  EXPECT_EQ(locus.current().second(), heavy);
+  EXPECT_NEAR(locus.current().first(), end.point.value, locus.current().first_bound + end.point.error_bound);
   constexpr double six_digits = 1e-6;  // bounds on the branch itself are 1e-7 at this tolerance
-  EXPECT_LT(locus.now().first_bound, six_digits);
-  RecordProperty("difference", std::to_string(locus.now().first() - end.point.value));
+  EXPECT_LT(locus.current().first_bound, six_digits);
+  RecordProperty("difference", std::to_string(locus.current().first() - end.point.value));
 }
 
 }  // namespace

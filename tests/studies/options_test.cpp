@@ -35,7 +35,7 @@ TEST(Options, AnAxisHasEndsThatRiseAndPointsBetweenThem) {
 }
 
 TEST(Options, ALookHasARecord) {
-  using O = LookOptions;
+  using O = RecordingOptions;
   using W = Wrong<O>;
   expect_refused<O>(
       {},
@@ -61,19 +61,19 @@ TEST(Options, SweepsMapsAndBasinsHaveAGrid) {
                          {"segments", [](S& o) { o.segments = -1; }},
                          {"segments", [](S& o) { o.segments = o.axis.points + 1; }},
                          {"coarse_periods", [](S& o) { o.coarse_periods = 0; }},
-                         {"output_phases", [](S& o) { o.look.output_phases = 0; }}});
+                         {"output_phases", [](S& o) { o.recording.output_phases = 0; }}});
   using M = MapOptions;
   M map;
   map.plane = sound_plane();
   expect_refused<M>(map, {{"to", [](M& o) { o.plane.second.to = nan; }},
                           {"both axes", [](M& o) { o.plane.second.name = "x"; }},
                           {"directions", [](M& o) { o.directions.clear(); }},
-                          {"period_max", [](M& o) { o.look.period_max = -3; }}});
+                          {"period_max", [](M& o) { o.recording.period_max = -3; }}});
   using B = BasinsOptions;
   B basins;
   basins.plane = sound_plane();
   expect_refused<B>(basins, {{"points", [](B& o) { o.plane.first.points = -1; }},
-                             {"recorded_periods", [](B& o) { o.look.recorded_periods = 0; }}});
+                             {"recorded_periods", [](B& o) { o.recording.recorded_periods = 0; }}});
 }
 
 TEST(Options, StudiesOfAPointHaveMethodsAndTolerances) {

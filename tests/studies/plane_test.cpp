@@ -179,10 +179,10 @@ TEST(Plane, BasinsTellTheWellsApartAtAnyNumberOfThreads) {
   BasinsOptions p;
   p.plane.first = {"x", -1.6, 1.6, 6};
   p.plane.second = {"x_rate", -0.8, 0.8, 5};
-  p.look.transient = Transient::fixed;
-  p.look.transient_periods = 60;
-  p.look.recorded_periods = 16;
-  p.look.output_phases = 16;
+  p.recording.transient = Transient::fixed;
+  p.recording.transient_periods = 60;
+  p.recording.recorded_periods = 16;
+  p.recording.output_phases = 16;
   const ModelAtPoint at = [&](const GridPoint& point) {
     model::DynamicModel m = wells(0.1);
     m.default_start = start_in_plane(m, p, point);
@@ -192,7 +192,7 @@ TEST(Plane, BasinsTellTheWellsApartAtAnyNumberOfThreads) {
   for (const int threads : {1, 2, 5}) {
     SweepRun run;
     run.threads = threads;
-    auto results = run_sweep_in_memory(plan_basins(p), p.look, {}, at, std::move(run));
+    auto results = run_sweep_in_memory(plan_basins(p), p.recording, {}, at, std::move(run));
     ASSERT_EQ(results.size(), 30U);
     std::vector<double> x_ends;
     for (const PointResult& r : results) {
@@ -200,7 +200,7 @@ TEST(Plane, BasinsTellTheWellsApartAtAnyNumberOfThreads) {
       ASSERT_EQ(r.attractor.period(), 1U);
       x_ends.push_back(r.end_state[0]);
     }
-    auto summaries = all_brief(points_in_memory(results));
+    auto summaries = all_summaries(points_in_memory(results));
     const analysis::Attractors told = attractors_of(summaries, {});
     EXPECT_EQ(told.all.size(), 2U);
     for (std::size_t k = 0; k < x_ends.size(); ++k)
@@ -240,13 +240,13 @@ TEST(Plane, BasinsLetCellsSettleByThemselves) {
     m.default_start = start_in_plane(m, p, point);
     return m;
   };
-  const auto attractors = [&](const LookOptions& cells) {
+  const auto attractors = [&](const RecordingOptions& cells) {
     auto results = run_sweep_in_memory(plan_basins(p), cells, {}, at, {});
-    for (const PointResult& r : results) EXPECT_EQ(motion_name(r), "chaotic");
-    auto summaries = all_brief(points_in_memory(results));
+    for (const PointResult& r : results) EXPECT_EQ(regime_name(r), "chaotic");
+    auto summaries = all_summaries(points_in_memory(results));
     return attractors_of(summaries, {}).all.size();
   };
-  LookOptions cells = p.look;
+  RecordingOptions cells = p.recording;
   cells.output_phases = 16;
   cells.transient_periods = 60;
   EXPECT_EQ(attractors(cells), 1U);
@@ -258,18 +258,18 @@ TEST(Plane, BasinsLetCellsSettleByThemselves) {
 
 TEST(Plane, AMapsCellIsThePointOfASweepAtItsSecondValue) {
   SweepOptions sweep;
-  sweep.look.transient_periods = 5;
-  sweep.look.recorded_periods = 8;
+  sweep.recording.transient_periods = 5;
+  sweep.recording.recorded_periods = 8;
   sweep.axis = {"drive", 0.05, 0.15, 4};
   MapOptions map;
   map.plane = {{"drive", 0.05, 0.15, 4}, {"offset", 0.0, 0.02, 2}};
-  map.look = sweep.look;
-  map.look.keep = Keep::row;
+  map.recording = sweep.recording;
+  map.recording.keep = Keep::row;
   const auto cells = run_sweep_in_memory(
-      plan_map(map), map.look, {},
+      plan_map(map), map.recording, {},
       ModelAtPoint([](const GridPoint& point) { return wells(point.value + point.second_value); }), {});
   const auto row =
-      run_sweep_in_memory(plan_sweep(sweep), sweep.look, {}, [](double value) { return wells(value + 0.02); }, {});
+      run_sweep_in_memory(plan_sweep(sweep), sweep.recording, {}, [](double value) { return wells(value + 0.02); }, {});
   ASSERT_EQ(cells.size(), 8U);
   for (std::size_t k = 0; k < 4; ++k) {
     EXPECT_EQ(cells[4 + k].end_state, row[k].end_state) << k;

@@ -18,40 +18,40 @@ namespace {
 bool always() { return true; }
 
 model::DynamicModel nonlinear(double ratio, const model::ModelOptions& options = {}) {
-  const gear::Stage stage = problems::literal(problems::r1_nonlinear());
+  const gear::Stage stage = problems::as_printed(problems::r1_nonlinear());
   return model::make_dynamic_model(stage, model::scales_of(stage), ratio, options);
 }
 
-PointResult point_at(const model::DynamicModel& m, const LookOptions& look) {
-  return compute_point({0, Direction::up, m.omega}, m, {}, look, {}, always);
+PointResult point_at(const model::DynamicModel& m, const RecordingOptions& recording) {
+  return compute_point({0, Direction::up, m.omega}, m, {}, recording, {}, always);
 }
 
 TEST(Regimes, WithoutTangentsThereIsRecurrenceAlone) {
   // Damping that ends at the gap's edge jumps there; a smooth edge has tangents again.
-  LookOptions look;
-  look.transient_periods = 20;
-  look.recorded_periods = 16;
-  look.classification_periods = 64;
+  RecordingOptions recording;
+  recording.transient_periods = 20;
+  recording.recorded_periods = 16;
+  recording.classification_periods = 64;
   model::ModelOptions options;
   options.gap_damping = model::GapDamping::contact_slope;
   const model::DynamicModel jumping = nonlinear(2.0, options);
   EXPECT_TRUE(jumping.jumps_at_surfaces);
-  EXPECT_FALSE(point_at(jumping, look).classified);
+  EXPECT_FALSE(point_at(jumping, recording).classified);
   const auto flow = integrate::make_flow(jumping, {});
   std::vector<double> y = jumping.default_start;
   std::vector<double> v(y.size(), 1.0);
   EXPECT_THROW((void)flow->evolve_tangents(y, v, 0.0, 1.0), InputError);
   options.clearance_smoothing = 0.1;
-  EXPECT_TRUE(point_at(nonlinear(2.0, options), look).classified);
+  EXPECT_TRUE(point_at(nonlinear(2.0, options), recording).classified);
 }
 
 TEST(Regimes, ASwitchedOffClassificationChangesNoOtherNumber) {
-  LookOptions look;
-  look.transient_periods = 60;
-  look.recorded_periods = 16;
+  RecordingOptions recording;
+  recording.transient_periods = 60;
+  recording.recorded_periods = 16;
   const model::DynamicModel m = nonlinear(2.0);
-  const PointResult with = point_at(m, look);
-  const PointResult without = point_at(m, by_recurrence_alone(look));
+  const PointResult with = point_at(m, recording);
+  const PointResult without = point_at(m, by_recurrence_alone(recording));
   EXPECT_EQ(with.poincare, without.poincare);
   EXPECT_EQ(with.end_state, without.end_state);
   EXPECT_GT(with.rhs_evaluations, without.rhs_evaluations);
@@ -60,10 +60,10 @@ TEST(Regimes, ASwitchedOffClassificationChangesNoOtherNumber) {
 }
 
 TEST(Regimes, AnAdaptiveTransientEndsOnTheOrbitOfALongOne) {
-  LookOptions fixed;
+  RecordingOptions fixed;
   fixed.transient_periods = 1000;
   fixed.recorded_periods = 16;
-  LookOptions adaptive = fixed;
+  RecordingOptions adaptive = fixed;
   adaptive.transient = Transient::adaptive;
   for (const double ratio : {0.4, 2.0, 3.0}) {
     const model::DynamicModel m = nonlinear(ratio);

@@ -83,9 +83,9 @@ SweepOptions few_points() {
   o.axis.from = 0.1;
   o.axis.to = 0.4;
   o.axis.points = 4;
-  o.look.transient_periods = 40;
-  o.look.recorded_periods = 8;
-  o.look.period_max = 4;
+  o.recording.transient_periods = 40;
+  o.recording.recorded_periods = 8;
+  o.recording.period_max = 4;
   return o;
 }
 
@@ -94,7 +94,7 @@ TEST(Sweep, RecordsExtremaContactAndPeriodOfAKnownResponse) {
   // s.
   constexpr double settled = 1e-6;  // exp(-0.2 * 2 pi * 40) of the transient and the tolerance of the integrator
   const SweepOptions o = few_points();
-  const auto results = run_sweep_in_memory(plan_sweep(o), o.look, {}, oscillator, {});
+  const auto results = run_sweep_in_memory(plan_sweep(o), o.recording, {}, oscillator, {});
   ASSERT_EQ(results.size(), 4U);
   for (const PointResult& r : results) {
     const double amplitude = r.point.value / 0.4;
@@ -126,9 +126,9 @@ TEST(Sweep, SegmentsKeepHysteresis) {
   o.axis.points = 61;
   o.directions = {Direction::up, Direction::down};
   const auto position = [](const PointResult& r) { return r.end_state.at(0); };
-  const auto whole = run_sweep_in_memory(plan_sweep(o), o.look, {}, wells, {});
+  const auto whole = run_sweep_in_memory(plan_sweep(o), o.recording, {}, wells, {});
   o.segments = 6;
-  const auto parts = run_sweep_in_memory(plan_sweep(o), o.look, {}, wells, {});
+  const auto parts = run_sweep_in_memory(plan_sweep(o), o.recording, {}, wells, {});
   ASSERT_EQ(parts.size(), 122U);
   // Until both jumps both branches are there, and each direction keeps to its own. Measured: what the transient of 40
   // periods leaves near the jumps, where it is slow.
@@ -140,7 +140,7 @@ TEST(Sweep, SegmentsKeepHysteresis) {
   EXPECT_LT(two_branches, 61);
   // Cold segments would not: their first point is on the branch of the default start.
   o.start = Start::cold;
-  const auto cold = run_sweep_in_memory(plan_sweep(o), o.look, {}, wells, {});
+  const auto cold = run_sweep_in_memory(plan_sweep(o), o.recording, {}, wells, {});
   EXPECT_GT(position(parts[91]) - position(cold[91]), 1.0);
   // Threads, and points that are known, change nothing.
   o.start = Start::carried;
@@ -148,7 +148,7 @@ TEST(Sweep, SegmentsKeepHysteresis) {
   threads.threads = 3;
   std::map<std::size_t, PointResult> done;
   for (const std::size_t k : {0U, 1U, 12U, 30U, 31U, 61U, 90U}) done.emplace(k, parts[k]);
-  const auto again = run_sweep_in_memory(plan_sweep(o), o.look, {}, wells, std::move(threads), std::move(done));
+  const auto again = run_sweep_in_memory(plan_sweep(o), o.recording, {}, wells, std::move(threads), std::move(done));
   for (std::size_t k = 0; k < 122; ++k) EXPECT_EQ(again[k].poincare, parts[k].poincare) << k;
 }
 
@@ -197,13 +197,13 @@ TEST(Sweep, ThreadsAndResumptionLeaveEachNumberUnchanged) {
   SweepOptions o = few_points();
   o.directions = {Direction::up, Direction::down};
   const SweepPlan plan = plan_sweep(o);
-  const auto one = run_sweep_in_memory(plan, o.look, {}, oscillator, {});
+  const auto one = run_sweep_in_memory(plan, o.recording, {}, oscillator, {});
   SweepRun resumed;
   resumed.threads = 8;
   std::set<std::size_t> computed;
   resumed.point_finished = [&](const PointResult& r) { computed.insert(r.point.index); };
-  const auto two =
-      run_sweep_in_memory(plan, o.look, {}, oscillator, std::move(resumed), {{0, one[0]}, {1, one[1]}, {4, one[4]}});
+  const auto two = run_sweep_in_memory(plan, o.recording, {}, oscillator, std::move(resumed),
+                                       {{0, one[0]}, {1, one[1]}, {4, one[4]}});
   EXPECT_EQ(computed, (std::set<std::size_t>{2, 3, 5, 6, 7}));
   ASSERT_EQ(two.size(), one.size());
   for (std::size_t k = 0; k < one.size(); ++k) {
@@ -214,25 +214,26 @@ TEST(Sweep, ThreadsAndResumptionLeaveEachNumberUnchanged) {
 
 TEST(Sweep, PointsOfAnotherSweepAreRefused) {
   const SweepOptions o = few_points();
-  const auto one = run_sweep_in_memory(plan_sweep(o), o.look, {}, oscillator, {});
+  const auto one = run_sweep_in_memory(plan_sweep(o), o.recording, {}, oscillator, {});
   SweepOptions other = o;
   other.axis.to += 1.0;
-  EXPECT_THROW((void)run_sweep_in_memory(plan_sweep(other), o.look, {}, oscillator, {}, {{2, one[2]}}), InputError);
-  EXPECT_THROW((void)run_sweep_in_memory(plan_sweep(o), o.look, {}, oscillator, {}, {{1, one[2]}}), InputError);
-  EXPECT_THROW((void)run_sweep_in_memory(plan_sweep(o), o.look, {}, oscillator, {}, {{900, one[2]}}), InputError);
+  EXPECT_THROW((void)run_sweep_in_memory(plan_sweep(other), o.recording, {}, oscillator, {}, {{2, one[2]}}),
+               InputError);
+  EXPECT_THROW((void)run_sweep_in_memory(plan_sweep(o), o.recording, {}, oscillator, {}, {{1, one[2]}}), InputError);
+  EXPECT_THROW((void)run_sweep_in_memory(plan_sweep(o), o.recording, {}, oscillator, {}, {{900, one[2]}}), InputError);
 }
 
 TEST(Sweep, CarriedStartIsTheEndOfThePointBefore) {
   SweepOptions o = few_points();
-  o.look.transient_periods = 0;
-  o.look.recorded_periods = 1;
-  const auto carried = run_sweep_in_memory(plan_sweep(o), o.look, {}, oscillator, {});
+  o.recording.transient_periods = 0;
+  o.recording.recorded_periods = 1;
+  const auto carried = run_sweep_in_memory(plan_sweep(o), o.recording, {}, oscillator, {});
   o.start = Start::cold;
-  const auto cold = run_sweep_in_memory(plan_sweep(o), o.look, {}, oscillator, {});
+  const auto cold = run_sweep_in_memory(plan_sweep(o), o.recording, {}, oscillator, {});
   EXPECT_EQ(carried[0].end_state, cold[0].end_state);
   EXPECT_NE(carried[1].end_state, cold[1].end_state);
   const auto again = compute_point(plan_sweep(o).points[1], oscillator(carried[1].point.value), carried[0].end_state,
-                                   o.look, {}, [] { return true; });
+                                   o.recording, {}, [] { return true; });
   EXPECT_EQ(again.end_state, carried[1].end_state);
 }
 
@@ -247,7 +248,7 @@ TEST(Sweep, GoesOnAfterAPointThatDiverges) {
       };
     return m;
   };
-  const auto results = run_sweep_in_memory(plan_sweep(o), o.look, {}, unstable, {});
+  const auto results = run_sweep_in_memory(plan_sweep(o), o.recording, {}, unstable, {});
   EXPECT_EQ(results[1].outcome, integrate::Outcome::diverged);
   EXPECT_FALSE(results[1].message.empty());
   EXPECT_TRUE(results[1].end_state.empty());
@@ -260,7 +261,7 @@ TEST(Sweep, StopsSoonAndKeepsWhatWasFinished) {
   SweepRun run;
   run.stop = &stop;
   run.point_finished = [&](const PointResult& r) { stop = r.point.index == 1; };
-  EXPECT_EQ(run_sweep_in_memory(plan_sweep(o), o.look, {}, oscillator, std::move(run)).size(), 2U);
+  EXPECT_EQ(run_sweep_in_memory(plan_sweep(o), o.recording, {}, oscillator, std::move(run)).size(), 2U);
 }
 
 TEST(Sweep, ExceptionOfAPointArrivesUnchanged) {
@@ -269,7 +270,7 @@ TEST(Sweep, ExceptionOfAPointArrivesUnchanged) {
     if (value > 0.25) throw std::domain_error("no such point");
     return oscillator(value);
   };
-  EXPECT_THROW((void)run_sweep_in_memory(plan_sweep(o), o.look, {}, throwing, {}), std::domain_error);
+  EXPECT_THROW((void)run_sweep_in_memory(plan_sweep(o), o.recording, {}, throwing, {}), std::domain_error);
 }
 
 }  // namespace

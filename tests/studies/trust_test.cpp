@@ -15,8 +15,8 @@
 #include "problems/clearance_exact.hpp"
 #include "problems/known_systems.hpp"
 #include "studies/crosscheck.hpp"
+#include "studies/parallel_for.hpp"
 #include "studies/tolerance.hpp"
-#include "studies/units.hpp"
 
 namespace epicyclic::studies::trust_test {
 namespace {
@@ -77,9 +77,9 @@ SweepOptions points(double from, double to, int count) {
   o.axis.from = from;
   o.axis.to = to;
   o.axis.points = count;
-  o.look.transient_periods = 150;
-  o.look.recorded_periods = 32;
-  o.look.recurrence_tolerance = 1e-5;
+  o.recording.transient_periods = 150;
+  o.recording.recorded_periods = 32;
+  o.recording.recurrence_tolerance = 1e-5;
   return o;
 }
 
@@ -95,22 +95,22 @@ integrate::IntegratorOptions integrator(double tolerance) {
 TEST(Units, EachIsDoneOnceOnAnyNumberOfThreads) {
   for (const int threads : {1, 2, 8}) {
     std::vector<std::atomic<int>> seen(100);
-    EXPECT_TRUE(for_units(seen.size(), threads, nullptr, [&](std::size_t k) { ++seen[k]; }));
+    EXPECT_TRUE(parallel_for(seen.size(), threads, nullptr, [&](std::size_t k) { ++seen[k]; }));
     for (const auto& s : seen) EXPECT_EQ(s, 1);
   }
-  EXPECT_TRUE(for_units(0, 4, nullptr, [](std::size_t) { FAIL(); }));
+  EXPECT_TRUE(parallel_for(0, 4, nullptr, [](std::size_t) { FAIL(); }));
 }
 
 TEST(Units, AnExceptionArrivesAndAStopIsTold) {
   for (const int threads : {1, 3})
-    EXPECT_THROW(for_units(50, threads, nullptr,
-                           [](std::size_t k) {
-                             if (k == 7) throw std::runtime_error("seven");
-                           }),
+    EXPECT_THROW(parallel_for(50, threads, nullptr,
+                              [](std::size_t k) {
+                                if (k == 7) throw std::runtime_error("seven");
+                              }),
                  std::runtime_error);
   std::atomic<bool> stop{false};
   int done = 0;
-  EXPECT_FALSE(for_units(10, 1, &stop, [&](std::size_t k) {
+  EXPECT_FALSE(parallel_for(10, 1, &stop, [&](std::size_t k) {
     ++done;
     stop = k == 3;
   }));
@@ -122,7 +122,7 @@ TEST(Units, AnExceptionArrivesAndAStopIsTold) {
 Crosscheck check(const SweepOptions& sweep, const CrosscheckOptions& options, double tolerance, int threads = 1) {
   CrosscheckRun run;
   run.threads = threads;
-  return run_crosscheck(plan_sweep(sweep), sweep.look, options, integrator(tolerance), 0.0, oscillator, run);
+  return run_crosscheck(plan_sweep(sweep), sweep.recording, options, integrator(tolerance), 0.0, oscillator, run);
 }
 
 TEST(Crosscheck, FourMethodsAgreeOnPeriodicOrbits) {
@@ -134,8 +134,8 @@ TEST(Crosscheck, FourMethodsAgreeOnPeriodicOrbits) {
   for (const Comparison& c : all.comparisons) {
     EXPECT_EQ(c.verdict, Verdict::agree) << c.detail;
     EXPECT_LT(c.distance, options.orbit_tolerance);
-    EXPECT_EQ(motion_name(all.reference[c.point]), "period 1");
-    EXPECT_EQ(motion_name(c.result), "period 1");
+    EXPECT_EQ(regime_name(all.reference[c.point]), "period 1");
+    EXPECT_EQ(regime_name(c.result), "period 1");
   }
 }
 
@@ -155,14 +155,14 @@ TEST(Crosscheck, TheSameBytesOnAnyNumberOfThreadsAndAfterAStop) {
     stop = done.size() == 5;
   };
   const SweepPlan plan = plan_sweep(sweep);
-  EXPECT_FALSE(
-      run_crosscheck(plan, sweep.look, options, integrator(1e-8), 0.0, oscillator, first).complete(plan.points.size()));
+  EXPECT_FALSE(run_crosscheck(plan, sweep.recording, options, integrator(1e-8), 0.0, oscillator, first)
+                   .complete(plan.points.size()));
   EXPECT_EQ(done.size(), 5U);
   CrosscheckRun second;
   second.done = done;
   int computed = 0;
   second.point_finished = [&](std::size_t, const PointResult&) { ++computed; };
-  const Crosscheck resumed = run_crosscheck(plan, sweep.look, options, integrator(1e-8), 0.0, oscillator, second);
+  const Crosscheck resumed = run_crosscheck(plan, sweep.recording, options, integrator(1e-8), 0.0, oscillator, second);
   EXPECT_EQ(computed, 3);
   for (const Crosscheck* other : {&three, &resumed}) {
     ASSERT_EQ(other->comparisons.size(), one.comparisons.size());
@@ -216,7 +216,7 @@ TEST(SweepCheck, ComparesWhatAPointOfTheSweepStartedFrom) {
   SweepOptions sweep = points(0.7, 1.3, 5);
   sweep.check.points = 3;
   const auto model_at = [](double w) { return oscillator(w, 0.0); };
-  const auto finished = run_sweep_in_memory(plan_sweep(sweep), sweep.look, integrator(1e-10),
+  const auto finished = run_sweep_in_memory(plan_sweep(sweep), sweep.recording, integrator(1e-10),
                                             [&](const GridPoint& p) { return model_at(p.value); }, {});
   const Crosscheck all =
       run_check_of_sweep(sweep, points_in_memory(finished), integrator(1e-10), 0.0, oscillator, CrosscheckRun{});
@@ -240,7 +240,7 @@ TEST(Crosscheck, ADifferenceOfToleranceIsExplainedAsOne) {
   CrosscheckOptions options;
   options.methods = {"arkode-dopri5", "cvode-bdf"};
   options.orbit_tolerance = 1e-5;
-  sweep.look.recurrence_tolerance = 1e-2;  // above the noise of a coarse integrator
+  sweep.recording.recurrence_tolerance = 1e-2;  // above the noise of a coarse integrator
   const Crosscheck all = check(sweep, options, 1e-5);
   ASSERT_EQ(all.comparisons.size(), 1U);
   EXPECT_EQ(all.comparisons[0].verdict, Verdict::tolerance) << all.comparisons[0].detail;
@@ -267,12 +267,12 @@ TEST(Crosscheck, ChaosThatGrowsOtherwiseIsADifference) {
                            : played_by(problems::duffing(0.25, -1.0, 0.4, 1.0), 1.0, {1.0, 0.0});
   };
   SweepOptions sweep = points(1.0, 1.0, 1);
-  sweep.look.recorded_periods = 512;
+  sweep.recording.recorded_periods = 512;
   CrosscheckOptions options;
   options.methods = {"arkode-dopri5"};
   options.clearance_smoothings = {0.05, 0.2};
   const Crosscheck all =
-      run_crosscheck(plan_sweep(sweep), sweep.look, options, integrator(1e-8), 0.0, duffing, CrosscheckRun{});
+      run_crosscheck(plan_sweep(sweep), sweep.recording, options, integrator(1e-8), 0.0, duffing, CrosscheckRun{});
   ASSERT_EQ(all.comparisons.size(), 2U);
   EXPECT_EQ(all.comparisons[0].verdict, Verdict::agree) << all.comparisons[0].detail;
   EXPECT_NE(all.comparisons[0].detail.find("both chaotic"), std::string::npos) << all.comparisons[0].detail;
@@ -285,7 +285,8 @@ TEST(Crosscheck, TwoThatWereNotReachedDoNotAgree) {
   options.methods = {"arkode-dopri5", "cvode-bdf"};
   integrate::IntegratorOptions few = integrator(1e-10);
   few.max_steps_per_period = 10;
-  const Crosscheck all = run_crosscheck(plan_sweep(sweep), sweep.look, options, few, 0.0, oscillator, CrosscheckRun{});
+  const Crosscheck all =
+      run_crosscheck(plan_sweep(sweep), sweep.recording, options, few, 0.0, oscillator, CrosscheckRun{});
   ASSERT_EQ(all.comparisons.size(), 1U);
   EXPECT_EQ(all.comparisons[0].verdict, Verdict::not_reached) << all.comparisons[0].detail;
 }
@@ -294,7 +295,7 @@ TEST(Crosscheck, ATorusIsExplainedAsOne) {
   const SweepOptions sweep = points(0.4, 0.4, 1);
   CrosscheckOptions options;
   options.methods = {"arkode-dopri5", "cvode-adams"};
-  const Crosscheck all = run_crosscheck(plan_sweep(sweep), sweep.look, options, integrator(1e-4), 0.0,
+  const Crosscheck all = run_crosscheck(plan_sweep(sweep), sweep.recording, options, integrator(1e-4), 0.0,
                                         forced_van_der_pol, CrosscheckRun{});
   ASSERT_EQ(all.comparisons.size(), 1U);
   EXPECT_EQ(all.comparisons[0].verdict, Verdict::torus) << all.comparisons[0].detail;
@@ -311,7 +312,7 @@ TEST(Crosscheck, CoexistingMotionsAreToldFromErrors) {
   options.methods = {"arkode-dopri5"};
   options.clearance_smoothings = {0.1};
   const Crosscheck all =
-      run_crosscheck(plan_sweep(sweep), sweep.look, options, integrator(1e-9), 0.0, two_wells, CrosscheckRun{});
+      run_crosscheck(plan_sweep(sweep), sweep.recording, options, integrator(1e-9), 0.0, two_wells, CrosscheckRun{});
   ASSERT_EQ(all.comparisons.size(), 1U);
   EXPECT_EQ(all.comparisons[0].verdict, Verdict::coexisting) << all.comparisons[0].detail;
 }
@@ -349,25 +350,26 @@ TEST(OneClassification, WhatEachStudySaysOfAMotionIsTheSame) {
                         Case{"chaotic", duffing, 0.5, 150}, Case{"quasiperiodic", forced_van_der_pol, 0.4, 150},
                         Case{"period 1", slow, 0.01, 5}}) {
     SweepOptions sweep = points(c.value, c.value, 1);
-    sweep.look.transient_periods = c.transient;
+    sweep.recording.transient_periods = c.transient;
     const SweepPlan plan = plan_sweep(sweep);
     const integrate::IntegratorOptions how = integrator(1e-8);
     const auto swept =
-        run_sweep_in_memory(plan, sweep.look, how, [&](double value) { return c.model(value, 0.0); }, {});
-    ASSERT_EQ(motion_name(swept[0]), c.motion);
+        run_sweep_in_memory(plan, sweep.recording, how, [&](double value) { return c.model(value, 0.0); }, {});
+    ASSERT_EQ(regime_name(swept[0]), c.motion);
 
     CrosscheckOptions methods;
     methods.methods = {how.method, "cvode-adams"};
-    const Crosscheck checked = run_crosscheck(plan, sweep.look, methods, how, 0.0, c.model, {});
+    const Crosscheck checked = run_crosscheck(plan, sweep.recording, methods, how, 0.0, c.model, {});
     EXPECT_EQ(motion_text(checked.reference[0]), motion_text(swept[0]));
     EXPECT_EQ(checked.reference[0].lyapunov_max().value, swept[0].lyapunov_max().value);
-    EXPECT_EQ(motion_name(checked.comparisons[0].result), c.motion);
+    EXPECT_EQ(regime_name(checked.comparisons[0].result), c.motion);
 
     ToleranceOptions ladder;
     ladder.methods = {how.method};
     ladder.tolerances = {1e-6};
     ladder.clearance_smoothings = {0.01};
-    const TolerancePoint climbed = compute_tolerance_point(swept[0], sweep.look, ladder, how, 0.0, c.model, 1, nullptr);
+    const TolerancePoint climbed =
+        compute_tolerance_point(swept[0], sweep.recording, ladder, how, 0.0, c.model, 1, nullptr);
     EXPECT_EQ(climbed.period, swept[0].period) << climbed.note;
     EXPECT_EQ(climbed.statistics.empty(), swept[0].period > 0);
     if (climbed.period == 0) {
@@ -386,14 +388,14 @@ TEST(OneClassification, ATorusWhoseExponentSeemsPositiveIsNoChaos) {
     return played_by(problems::van_der_pol(0.1, strength, 1.7), 1.0, {1.0, 0.0});
   };
   SweepOptions sweep = points(0.3, 0.3, 1);
-  sweep.look.transient_periods = 4;
-  sweep.look.recorded_periods = 16;
+  sweep.recording.transient_periods = 4;
+  sweep.recording.recorded_periods = 16;
   CrosscheckOptions options;
   options.methods = {"arkode-dopri5", "cvode-adams"};
   const Crosscheck all =
-      run_crosscheck(plan_sweep(sweep), sweep.look, options, integrator(1e-6), 0.0, slow_torus, CrosscheckRun{});
-  EXPECT_EQ(motion_name(all.reference[0]), "quasiperiodic");
-  EXPECT_EQ(motion_name(all.comparisons[0].result), "quasiperiodic");
+      run_crosscheck(plan_sweep(sweep), sweep.recording, options, integrator(1e-6), 0.0, slow_torus, CrosscheckRun{});
+  EXPECT_EQ(regime_name(all.reference[0]), "quasiperiodic");
+  EXPECT_EQ(regime_name(all.comparisons[0].result), "quasiperiodic");
   EXPECT_EQ(all.comparisons[0].verdict, Verdict::torus) << all.comparisons[0].detail;
 
   std::vector<double> y = all.reference[0].end_state;
@@ -406,10 +408,10 @@ TEST(OneClassification, ATorusWhoseExponentSeemsPositiveIsNoChaos) {
 
 TolerancePoint study(double w, const ToleranceOptions& options, double tolerance, int threads = 1) {
   const SweepOptions sweep = points(w, w, 1);
-  const auto motion = run_sweep_in_memory(plan_sweep(sweep), sweep.look, integrator(tolerance),
+  const auto motion = run_sweep_in_memory(plan_sweep(sweep), sweep.recording, integrator(tolerance),
                                           [](double value) { return oscillator(value, 0.0); }, {});
-  return compute_tolerance_point(motion.front(), sweep.look, options, integrator(tolerance), 0.0, oscillator, threads,
-                                 nullptr);
+  return compute_tolerance_point(motion.front(), sweep.recording, options, integrator(tolerance), 0.0, oscillator,
+                                 threads, nullptr);
 }
 
 TEST(Tolerance, WhereForcesJumpThereAreNoStatistics) {
@@ -419,12 +421,12 @@ TEST(Tolerance, WhereForcesJumpThereAreNoStatistics) {
     return m;
   };
   SweepOptions sweep = points(0.85, 0.85, 1);
-  auto motion = run_sweep_in_memory(plan_sweep(sweep), sweep.look, integrator(1e-7),
+  auto motion = run_sweep_in_memory(plan_sweep(sweep), sweep.recording, integrator(1e-7),
                                     [&](double value) { return jumping(value, 0.0); }, {});
   for (const auto regime : {analysis::Regime::undecided, analysis::Regime::chaotic}) {
     motion.front().regime = regime;
     const TolerancePoint p =
-        compute_tolerance_point(motion.front(), sweep.look, {}, integrator(1e-7), 0.0, jumping, 1, nullptr);
+        compute_tolerance_point(motion.front(), sweep.recording, {}, integrator(1e-7), 0.0, jumping, 1, nullptr);
     EXPECT_TRUE(p.statistics.empty());
     EXPECT_NE(p.note.find("no statistics either"), std::string::npos) << p.note;
   }

@@ -89,7 +89,7 @@ int search(const Arguments& arguments, SharedEvaluations& shared) {
   }
   std::vector<reports::DrawnFigure> figures;
   if (!found.profile.empty()) figures.push_back(claims::draw_determination(folder.file("figures"), output, found));
-  undrawn = tell_undrawn(figures);
+  undrawn = report_undrawn(figures);
   close_run(store::RunState::complete);
   if (arguments.json) {
     nlohmann::json told = {{"folder", folder.path().string()},

@@ -34,13 +34,13 @@ CandidateJournal::CandidateJournal(Session& session, const std::string& command,
       command_(command),
       total_(total),
       whole_(whole) {
-  tell_cut_tail(session.folder().file("journal.bin"), journal_.cut_bytes());
+  report_cut_tail(session.folder().file("journal.bin"), journal_.cut_bytes());
   for (const auto& [key, candidate] : known_) see(candidate);
   if (finished_ < total_) progress_.emplace(command_, total_, finished_);
-  tell_progress();
+  report_progress();
 }
 
-void CandidateJournal::tell_progress() {
+void CandidateJournal::report_progress() {
   if (finished_ >= total_ && whole_ > 0 && !of_whole_) {
     of_whole_ = true;
     if (progress_) progress_->update(finished_, words());
@@ -58,7 +58,7 @@ claims::CalibrationRun CandidateJournal::run(int threads, const std::atomic<bool
     journal_.append(finished_, claims::encode_candidate(candidate));
     see(candidate);
     ++finished_;
-    tell_progress();
+    report_progress();
   };
   return run;
 }

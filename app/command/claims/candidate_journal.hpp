@@ -33,7 +33,7 @@ class CandidateJournal {
  private:
   void see(const claims::EvaluatedCandidate& candidate);
   [[nodiscard]] std::string words() const;
-  void tell_progress();
+  void report_progress();
 
   store::Journal journal_;
   std::size_t finished_ = 0;  ///< records; before what counts them

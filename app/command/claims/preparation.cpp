@@ -16,7 +16,7 @@
 #include "folder.hpp"
 #include "session.hpp"
 #include "streams.hpp"
-#include "studies/probes.hpp"
+#include "studies/cost_estimate.hpp"
 
 namespace epicyclic::app {
 
@@ -119,7 +119,7 @@ input::LoadedInput load_open_claims(const Arguments& arguments) {
   if (options.space.dimension() == 0)
     throw InputError("/study/parameters: is empty; there is nothing to search for or to draw");
   examine_candidates(options, claims::candidate_models(input));
-  tell_warnings(input);
+  print_warnings(input);
   return input;
 }
 

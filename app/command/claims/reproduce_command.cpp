@@ -73,7 +73,7 @@ claims::Scorecard score(const input::LoadedInput& input, const claims::ClaimsOpt
     claims::ClaimRecord record;
     for (const claims::ClaimSweep& sweep : options.sweeps)
       record[sweep.name] =
-          claims::claim_series(finished.find(folder_name(sweep, start))->second->points(), options.look);
+          claims::claim_series(finished.find(folder_name(sweep, start))->second->points(), options.recording);
     claims::ScoredStart scored{start, {}};
     for (const claims::Claim& claim : options.claims) scored.outcomes.push_back(claims::judge(claim, record));
     card.scored.push_back(std::move(scored));
@@ -103,7 +103,7 @@ int reproduce_command(const Arguments& given) {
   const bool is_named = !arguments.expected.empty();
   if ((is_named && !arguments.record) || std::filesystem::exists(recorded, none))
     expected = claims::read_recorded(recorded);
-  tell_warnings(input);
+  print_warnings(input);
 
   Session session(arguments, input, identity_of(input, "reproduce"), arguments.threads, 1, true);
   if (const auto code = session.exit_code()) return *code;
@@ -147,7 +147,7 @@ int reproduce_command(const Arguments& given) {
                               options.starts.front()))
             ->second->points();
       });
-  const std::int64_t undrawn = tell_undrawn(figures);
+  const std::int64_t undrawn = report_undrawn(figures);
 
   std::vector<std::string> unlike;
   std::vector<std::string> another_study;  // in what the recorded verdicts are of one

@@ -66,7 +66,7 @@ int survey(const Arguments& arguments, SharedEvaluations& shared) {
   const std::string summary = claims::robustness_summary(output, evaluations);
   write_file_atomically(folder.file("robustness.md"), summary);
   const auto figures = claims::draw_robustness_figures(folder.file("figures"), output);
-  undrawn = tell_undrawn(figures);
+  undrawn = report_undrawn(figures);
   close_run(store::RunState::complete);
   if (arguments.json) {
     nlohmann::json told = {{"folder", folder.path().string()}, {"draws", draws}, {"claims", nlohmann::json::array()}};

@@ -17,7 +17,7 @@ namespace epicyclic::app {
 namespace {
 
 WrittenPoints write_basins(const ComputedPoints& plane) {
-  std::vector<studies::PointSummary> results = studies::all_brief(plane.points);
+  std::vector<studies::PointSummary> results = studies::all_summaries(plane.points);
   const input::Study& study = plane.input.study;
   const kinds::BasinsOutput output{study.plan.as<studies::BasinsOptions>().plane, plane.first_model.state_names,
                                    studies::planet_turns(plane.first_model, study.integrator), plane.resolved,

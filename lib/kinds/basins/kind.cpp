@@ -68,7 +68,7 @@ const Table<Study>& basins_table() {
              component_axis_table())
         .required();
     t.custom(base_field());
-    add_look(t);
+    add_recording(t);
     add_classification(t);
     return t;
   }();
@@ -126,7 +126,9 @@ const StudyKind& basins_kind() {
       .name = "basins",
       .table = &basins_table,
       .defaults = BasinsOptions{},
-      .look = [](std::any& options) -> studies::LookOptions& { return std::any_cast<BasinsOptions&>(options).look; },
+      .recording = [](std::any& options) -> studies::RecordingOptions& {
+        return std::any_cast<BasinsOptions&>(options).recording;
+      },
       .plan = [](const Study& study) { return studies::plan_basins(study.plan.as<BasinsOptions>()); },
       .model_at_point = &model_at_start,
       .check = &check_basins,

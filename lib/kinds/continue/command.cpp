@@ -36,7 +36,7 @@
 #include "streams.hpp"
 #include "studies/branch_proof.hpp"
 #include "studies/branches.hpp"
-#include "studies/probes.hpp"
+#include "studies/cost_estimate.hpp"
 
 namespace epicyclic::app {
 
@@ -55,13 +55,14 @@ studies::ModelAt stoppable(studies::ModelAt models) {
 
 /// Orbits to start from: settled motions, then seeds; told apart from those that were not found.
 std::vector<studies::BranchAttempt> add_starts(const studies::BranchSystem& system, const BranchesOptions& options,
-                                               const studies::ModelAt& models, analysis::BranchTree& tree) {
+                                               const studies::ModelAt& models, analysis::BifurcationDiagram& tree) {
   std::vector<studies::BranchAttempt> attempts;
   constexpr double anywhere = std::numeric_limits<double>::infinity();
   Progress progress("continue: starts", options.all_starts().size() + options.seeds.size());
   const auto add = [&](double value, int period, bool seed, double reach, studies::BranchOrigin origin) {
     const bool found = origin.orbit.has_value();
-    if (found) tree.start(*std::move(origin.orbit), origin.keeps_symmetry, origin.period, origin.pieces, reach);
+    if (found)
+      tree.start(*std::move(origin.orbit), origin.keeps_symmetry, origin.period, origin.shooting_intervals, reach);
     attempts.push_back({value, period, seed, found, origin.distance, std::move(origin.message)});
     progress.update(attempts.size(), 0);
   };
@@ -78,7 +79,7 @@ class OrderedJournal {
   /// @param what  a record is called
   OrderedJournal(Session& session, const char* name, std::string what)
       : what_(std::move(what)), journal_(session.folder().file(name), session.identity()) {
-    tell_cut_tail(session.folder().file(name), journal_.cut_bytes());
+    report_cut_tail(session.folder().file(name), journal_.cut_bytes());
   }
 
   /// Gives each record that is there to `take`.
@@ -117,7 +118,7 @@ constexpr std::size_t any_number = static_cast<std::size_t>(-1);
 /// What the search finds at each of its values, kept in a journal of its own; each is a start.
 std::vector<studies::FoundMotions> add_found(Session& session, const studies::BranchSystem& system,
                                              const BranchesOptions& options, const studies::ModelAt& models,
-                                             analysis::BranchTree& tree) {
+                                             analysis::BifurcationDiagram& tree) {
   const studies::BranchSearchOptions& wanted = options.search.value();
   OrderedJournal journal(session, "journal.search.bin", "search");
   std::vector<studies::FoundMotions> all;
@@ -132,7 +133,8 @@ std::vector<studies::FoundMotions> add_found(Session& session, const studies::Br
   }
   journal.close();
   for (const studies::FoundMotions& found : all)
-    for (const studies::FoundMotion& m : found.motions) tree.start(m.orbit, m.keeps_symmetry, m.period, m.pieces);
+    for (const studies::FoundMotion& m : found.motions)
+      tree.start(m.orbit, m.keeps_symmetry, m.period, m.shooting_intervals);
   return all;
 }
 
@@ -186,7 +188,7 @@ class PartialTables {
                 const model::DynamicModel& first)
       : folder_(folder), output_(output), rows_(rows), first_(first) {}
 
-  void see(const analysis::BranchTree& tree) {
+  void see(const analysis::BifurcationDiagram& tree) {
     const Clock::time_point begun = Clock::now();
     if (begun < due_) return;
     TracedBranches traced;
@@ -276,7 +278,7 @@ class Pace {
 /// @param axis   the parameter in words
 /// @param first  the model where the branches start
 void grow(Session& session, const BranchesOptions& options, const reports::AxisWords& axis,
-          const model::DynamicModel& first, PartialTables& tables, analysis::BranchTree& tree) {
+          const model::DynamicModel& first, PartialTables& tables, analysis::BifurcationDiagram& tree) {
   const auto place = [&](double value) {
     std::string words = fmt::format(" at {} = {}", axis.name, axis.text(value, 6));
     if (axis.name == studies::speed_parameter)
@@ -307,7 +309,7 @@ void grow(Session& session, const BranchesOptions& options, const reports::AxisW
 }
 
 /// Rows of all orbits and special points.
-void tell_rows(TracedBranches& traced, OrbitRows& rows, const studies::ModelAt& models) {
+void compute_rows(TracedBranches& traced, OrbitRows& rows, const studies::ModelAt& models) {
   std::size_t total = 0;
   for (const analysis::Branch& branch : traced.branches) total += branch.orbits.size() + branch.special.size();
   Progress progress("continue: rows", total);
@@ -324,8 +326,8 @@ void add_note(studies::SpecialRow& row, const std::string& note) {
 }
 
 /// Of a study with a smooth clearance: where the special points are with the exact one, each kept in a journal.
-void tell_exact_values(Session& session, const input::LoadedInput& input, const BranchesOptions& options,
-                       TracedBranches& traced) {
+void compute_exact_values(Session& session, const input::LoadedInput& input, const BranchesOptions& options,
+                          TracedBranches& traced) {
   const double width = input.study.model.clearance_smoothing;
   const studies::ModelOverPlane models = stoppable_plane(input, options, "/integrator/clearance_smoothing");
   OrderedJournal journal(session, "journal.exact.bin", "exact value");
@@ -447,8 +449,8 @@ Proved prove_sweep(const FinishedStudy& sweep, const store::OutputFolder& folder
   return proved;
 }
 
-void tell_result(const Arguments& arguments, const TracedBranches& traced, const Proved& proved, std::size_t failed,
-                 const std::string& summary, const std::vector<reports::DrawnFigure>& figures) {
+void print_result(const Arguments& arguments, const TracedBranches& traced, const Proved& proved, std::size_t failed,
+                  const std::string& summary, const std::vector<reports::DrawnFigure>& figures) {
   if (!arguments.json) {
     print("{}\n", summary);
     if (!proved.summary.empty()) print("{}\n", proved.summary);
@@ -514,7 +516,7 @@ int run_continue(const Arguments& arguments) {
   const auto sweep = arguments.against.empty()
                          ? nullptr
                          : std::make_unique<FinishedStudy>(sweep_to_prove(arguments, input, options, models));
-  tell_warnings(input);
+  print_warnings(input);
   for (const std::string& note : notes) tell("{}\n", note);
 
   Session session(arguments, input, identity_of(input, "continue"), 1, 1, sweep != nullptr);
@@ -542,7 +544,7 @@ int run_continue(const Arguments& arguments) {
                         {"undrawn", undrawn}});
   };
   try {
-    analysis::BranchTree tree(system.system, system.options);
+    analysis::BifurcationDiagram tree(system.system, system.options);
     traced.attempts = add_starts(system, options, models, tree);
     for (const studies::BranchAttempt& a : traced.attempts)
       if (const std::string words = kinds::attempt_text(axis, a); !words.empty()) tell("{}\n", words);
@@ -552,9 +554,9 @@ int run_continue(const Arguments& arguments) {
     grow(session, options, axis, first_model, tables, tree);
     traced.branches = tree.branches();
     traced.full = tree.full();
-    if (!traced.branches.empty()) tell_rows(traced, rows, models);
+    if (!traced.branches.empty()) compute_rows(traced, rows, models);
     if (input.study.model.clearance_smoothing > 0.0 && options.parameter != "/integrator/clearance_smoothing")
-      tell_exact_values(session, input, options, traced);
+      compute_exact_values(session, input, options, traced);
     if (options.loci) loci = trace_loci(session, input, options, traced);
   } catch (const Stopped&) {
     close_run(store::RunState::stopped);
@@ -581,9 +583,9 @@ int run_continue(const Arguments& arguments) {
   if (const std::size_t off = proved.proof.off.size(); off > 0)
     tell("{} of the {} periodic points of the sweep lie on no branch; see proof.md\n", off, proved.proof.periodic);
   std::ranges::move(proved.figures, std::back_inserter(figures));
-  undrawn = tell_undrawn(figures);
+  undrawn = report_undrawn(figures);
   close_run(store::RunState::complete);
-  tell_result(arguments, traced, proved, failed, summary, figures);
+  print_result(arguments, traced, proved, failed, summary, figures);
   const bool explained = proved.proof.unexplained() <= static_cast<std::size_t>(arguments.unexplained);
   return failed == 0 && undrawn == 0 && explained ? done : done_with_failures;
 }

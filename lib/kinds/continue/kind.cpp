@@ -111,7 +111,7 @@ const Table<Study>& continue_table() {
               "Longest period of branches that are continued from period doublings, in mesh periods [-].");
     t.boolean("branch_points", of(&BranchesOptions::branch_points),
               "Whether branches that cross at branch points are continued.");
-    t.integer("pieces", of(&BranchesOptions::pieces), between(1, 1000),
+    t.integer("pieces", of(&BranchesOptions::shooting_intervals), between(1, 1000),
               "Shooting intervals of an orbit of `period`, for multiple shooting [-].");
     t.integer("orbits", of(&BranchesOptions::orbits), between(1, 1e6),
               "Largest number of orbits on a branch, in each direction [-].");
@@ -120,7 +120,7 @@ const Table<Study>& continue_table() {
              "Method of integration; one that can ends its steps where contact is made or lost.");
     t.number("tolerance", of(&BranchesOptions::tolerance), between(1e-13, 1e-6),
              "Relative and absolute tolerance of the orbits [-]; error bounds are from a tenth of it.");
-    t.number("largest_step", of(&BranchesOptions::largest_step), between(1e-6, 10),
+    t.number("largest_step", of(&BranchesOptions::max_step), between(1e-6, 10),
              "Longest step along a branch, in units of the parameter and of b_c together [-].");
     t.integer("output_phases", of(&BranchesOptions::output_phases), between(1, 10000),
               "Output points per mesh period, from which extrema are taken [-].");

@@ -53,7 +53,7 @@ const char* end_word(const BranchLimit& limit) {
       return "closed";
     case BranchEnd::many:
       return "orbits";
-    case BranchEnd::least_step:
+    case BranchEnd::min_step:
       return "least_step";
     case BranchEnd::none:
       break;
@@ -195,7 +195,7 @@ std::string end_text(const ContinueOutput& output, const BranchLimit& limit, dou
       return fmt::format("at {}, where it began: the branch is closed", at);
     case BranchEnd::many:
       return fmt::format("at {} after `orbits` = {} orbits", at, output.options.orbits);
-    case BranchEnd::least_step:
+    case BranchEnd::min_step:
       return fmt::format("**at {}, where the continuation stopped: {}**", at, limit.message);
     case BranchEnd::none:
       break;
@@ -441,10 +441,10 @@ BranchSketch::BranchSketch(std::string_view stem, const ContinueOutput& output, 
       for (std::size_t k = column_; k < row.section.size(); k += columns.size()) y_.include(row.section[k]);
 }
 
-void BranchSketch::add_points(const std::vector<Place>& points, std::string_view look, std::string_view key,
+void BranchSketch::add_points(const std::vector<Place>& points, std::string_view recording, std::string_view key,
                               std::string_view title) {
   for (const Place& p : points) y_.include(p[1]);
-  points_.push_back({points, std::string(look), std::string(key), std::string(title)});
+  points_.push_back({points, std::string(recording), std::string(key), std::string(title)});
 }
 
 void BranchSketch::add_branches() {
@@ -473,24 +473,24 @@ void BranchSketch::add_special_points() {
       return std::abs(p[0] - here[0]) < apart_x * width && std::abs(p[1] - here[1]) < apart_y * height;
     });
   };
-  for (const KindLook& look : kind_looks) {
+  for (const KindLook& recording : kind_looks) {
     std::vector<Place> places;
     std::vector<Place> lettered;
     for (std::size_t i = 0; i < traced_.special.size(); ++i) {
       const SpecialRow& r = traced_.special[i];
       const std::vector<double>& section = traced_.at_special[i].section;
-      if (r.kind != look.kind || column_ >= section.size()) continue;
+      if (r.kind != recording.kind || column_ >= section.size()) continue;
       const Place here = {r.value, section[column_]};
       places.push_back(here);
-      if (look.kind == SpecialKind::grazing || r.same_as || !is_free(here)) continue;
+      if (recording.kind == SpecialKind::grazing || r.same_as || !is_free(here)) continue;
       lettered.push_back(here);
       taken.push_back(here);
     }
-    const SpecialLetters letters = letters_of(look.kind);
+    const SpecialLetters letters = letters_of(recording.kind);
     sketch_.add(
-        places, figures::dots(look.colour, look.size, look.type),
-        look.kind == SpecialKind::grazing ? letters.words : fmt::format("{} {}", letters.letters, letters.words));
-    sketch_.letters(lettered, letters.letters, fmt::format("offset 0.9,0.9 textcolor '{}'", look.colour));
+        places, figures::dots(recording.colour, recording.size, recording.type),
+        recording.kind == SpecialKind::grazing ? letters.words : fmt::format("{} {}", letters.letters, letters.words));
+    sketch_.letters(lettered, letters.letters, fmt::format("offset 0.9,0.9 textcolor '{}'", recording.colour));
   }
 }
 
@@ -557,7 +557,7 @@ DrawnFigure BranchSketch::draw(const std::filesystem::path& folder, const std::s
       fmt::format("Poincaré points of  δ_{{{},1}} / b_c", subscript), y_.widened(figures::figure_margin), {}, 3.0};
   sketch_.panel(panel);
   for (const Points& p : points_) {
-    sketch_.add(p.places, p.look);
+    sketch_.add(p.places, p.recording);
     sketch_.entry(p.key, p.title);
   }
   add_branches();
@@ -575,10 +575,10 @@ DrawnFigure draw_loci(const std::filesystem::path& folder, const ContinueOutput&
   const studies::LociOptions& options = output.options.loci.value();
   figures::Sketch sketch("loci");
   std::vector<std::pair<std::string, std::vector<Place>>> marks;
-  for (const KindLook& look : kind_looks) {
+  for (const KindLook& recording : kind_looks) {
     std::vector<Place> lines;
     for (const studies::TracedLocus& locus : loci) {
-      if (locus.kind != look.kind) continue;
+      if (locus.kind != recording.kind) continue;
       for (const studies::LocusRow& row : locus.rows) {
         lines.push_back({row.first, row.second});
         if (row.marked.empty()) continue;
@@ -588,8 +588,8 @@ DrawnFigure draw_loci(const std::filesystem::path& folder, const ContinueOutput&
       }
       lines.push_back({gap, gap});
     }
-    const SpecialLetters letters = letters_of(look.kind);
-    sketch.add(lines, figures::solid(look.colour, 2.4), fmt::format("{} {}", letters.letters, letters.words));
+    const SpecialLetters letters = letters_of(recording.kind);
+    sketch.add(lines, figures::solid(recording.colour, 2.4), fmt::format("{} {}", letters.letters, letters.words));
   }
   constexpr std::array<std::pair<const char*, const char*>, 10> letters = {{{"cusp", "CP"},
                                                                             {"resonance_1_1", "R1"},

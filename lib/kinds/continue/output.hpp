@@ -78,7 +78,7 @@ class BranchSketch {
 
   /// Points under the branches: x and y.
   /// @param key  how they look in the legend
-  void add_points(const std::vector<std::array<double, 2>>& points, std::string_view look, std::string_view key,
+  void add_points(const std::vector<std::array<double, 2>>& points, std::string_view recording, std::string_view key,
                   std::string_view title);
 
   /// @returns what became of it
@@ -99,7 +99,7 @@ class BranchSketch {
   figures::FigureRange y_;
   struct Points {
     std::vector<std::array<double, 2>> places;
-    std::string look, key, title;
+    std::string recording, key, title;
   };
   std::vector<Points> points_;
 };

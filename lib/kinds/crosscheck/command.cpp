@@ -20,7 +20,7 @@
 #include "store/journal.hpp"
 #include "store/point_record.hpp"
 #include "streams.hpp"
-#include "studies/probes.hpp"
+#include "studies/cost_estimate.hpp"
 
 namespace epicyclic::app {
 
@@ -59,8 +59,8 @@ Written write_results(const store::OutputFolder& folder, const reports::SweepOut
 }
 
 /// On stdout.
-void tell_result(const Arguments& arguments, const store::OutputFolder& folder, std::size_t points, std::size_t failed,
-                 const studies::Crosscheck& all, const Written& written) {
+void print_result(const Arguments& arguments, const store::OutputFolder& folder, std::size_t points, std::size_t failed,
+                  const studies::Crosscheck& all, const Written& written) {
   if (arguments.json) {
     print("{}\n", nlohmann::json{{"folder", folder.path().string()},
                                  {"points", points},
@@ -92,7 +92,7 @@ Expected time_of_crosscheck(const input::LoadedInput& input, const studies::Swee
         std::size_t finished = miniature.points.size();
         for (const studies::Variant& v : variants)
           finished = std::min(finished, studies::run_sweep_in_memory(
-                                            miniature, sweep.look, v.integrator,
+                                            miniature, sweep.recording, v.integrator,
                                             [&](double value) { return model_at(value, v.clearance_smoothing); }, run)
                                             .size());
         return finished;
@@ -108,7 +108,7 @@ int run_crosscheck(const Arguments& arguments) {
   const double width = input.study.model.clearance_smoothing;
   const model::DynamicModel first_model = model_at(plan.points.front().value, width);
   const std::vector<studies::Variant> variants = studies::crosscheck_variants(options, input.study.integrator, width);
-  tell_warnings(input);
+  print_warnings(input);
 
   Session session(arguments, input, identity_of(input, "crosscheck"), arguments.threads);
   if (const auto code = session.exit_code()) return *code;
@@ -116,7 +116,7 @@ int run_crosscheck(const Arguments& arguments) {
 
   const std::size_t points = plan.points.size();
   store::Journal journal(folder.file("journal.bin"), session.identity());
-  tell_cut_tail(folder.file("journal.bin"), journal.cut_bytes());
+  report_cut_tail(folder.file("journal.bin"), journal.cut_bytes());
   studies::CrosscheckRun run;
   run.threads = arguments.threads;
   run.stop = &stop_requested();
@@ -132,7 +132,7 @@ int run_crosscheck(const Arguments& arguments) {
     progress.update(++finished, failed);
   };
   const studies::Crosscheck all =
-      studies::run_crosscheck(plan, sweep.look, options, input.study.integrator, width, model_at, run);
+      studies::run_crosscheck(plan, sweep.recording, options, input.study.integrator, width, model_at, run);
   progress.finish();
   journal.close();
   std::int64_t undrawn = 0;
@@ -153,10 +153,10 @@ int run_crosscheck(const Arguments& arguments) {
   const reports::SweepOutput output{sweep, studies::poincare_columns(first_model), session.resolved(),
                                     reports::figure_title(input.study), input.study.axis_speed};
   const Written written = write_results(folder, output, all, options.orbit_tolerance);
-  undrawn = tell_undrawn({written.figure});
+  undrawn = report_undrawn({written.figure});
   close_run(store::RunState::complete);
 
-  tell_result(arguments, folder, points, failed, all, written);
+  print_result(arguments, folder, points, failed, all, written);
   return kinds::differences(all) == 0 && failed == 0 && undrawn == 0 ? done : done_with_failures;
 }
 

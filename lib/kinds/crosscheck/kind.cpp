@@ -17,7 +17,7 @@ const Table<Study>& crosscheck_table() {
     Table<Study> t("crosscheck", "The same points by several methods, compared.");
     add_kind_key(t, "crosscheck");
     add_grid(t);
-    add_look(t);
+    add_recording(t);
     add_classification(t);
     add_initial_state(t);
     const auto of = [](auto member) {
@@ -44,8 +44,8 @@ const StudyKind& crosscheck_kind() {
       .name = "crosscheck",
       .table = &crosscheck_table,
       .defaults = CrosscheckPlan{},
-      .look = [](std::any& options) -> studies::LookOptions& {
-        return std::any_cast<CrosscheckPlan&>(options).sweep.look;
+      .recording = [](std::any& options) -> studies::RecordingOptions& {
+        return std::any_cast<CrosscheckPlan&>(options).sweep.recording;
       },
       .own_sweep = [](std::any& options) -> studies::SweepOptions& {
         return std::any_cast<CrosscheckPlan&>(options).sweep;

@@ -57,7 +57,7 @@ std::string crosscheck_summary(const AxisWords& words, const studies::Crosscheck
                                  all.variants[0].integrator.relative_tolerance, all.reference.size());
   std::map<std::string, int> motions;
   for (const auto& r : all.reference)
-    ++motions[r.outcome == integrate::Outcome::reached ? motion_name(r) : store::status_word(r.outcome)];
+    ++motions[r.outcome == integrate::Outcome::reached ? regime_name(r) : store::status_word(r.outcome)];
   std::string list;
   for (const auto& [name, count] : motions) list += fmt::format("{}{} {}", list.empty() ? "" : ", ", count, name);
   text += fmt::format("Regimes of the reference: {}.\n\n", list);

@@ -36,7 +36,7 @@ const Table<Study>& map_table() {
     t.object("second", in_plan(whole_plan<MapOptions>, &MapOptions::plane, &Plane::second), parameter_axis_table())
         .required();
     add_course(t, whole_plan<MapOptions>, &MapOptions::directions, &MapOptions::start);
-    add_look(t);
+    add_recording(t);
     add_classification(t);
     add_initial_state(t);
     return t;
@@ -74,7 +74,9 @@ const StudyKind& map_kind() {
       .name = "map",
       .table = &map_table,
       .defaults = MapOptions{},
-      .look = [](std::any& options) -> studies::LookOptions& { return std::any_cast<MapOptions&>(options).look; },
+      .recording = [](std::any& options) -> studies::RecordingOptions& {
+        return std::any_cast<MapOptions&>(options).recording;
+      },
       .plan = [](const Study& study) { return studies::plan_map(study.plan.as<MapOptions>()); },
       .model_at_point = &model_in_plane,
       .axes =

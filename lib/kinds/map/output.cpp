@@ -33,7 +33,7 @@ std::vector<T> matrix(const MapOutput& output, const studies::PointSource& point
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t column = k % columns;
     const std::size_t at = direction == Direction::up ? k : k - column + (columns - 1 - column);
-    cells[at] = value(points.read_brief(which * count + k));
+    cells[at] = value(points.read_summary(which * count + k));
   }
   return cells;
 }
@@ -113,7 +113,7 @@ std::vector<DrawnFigure> draw_map_figures(const std::filesystem::path& folder, c
     figures.push_back(
         {folder / (regimes + ".png"), figures::class_figure(folder, regimes, text, grid, classes(),
                                                             matrix<std::size_t>(output, points, direction, class_of))});
-    if (output.map.look.classification_periods == 0) continue;
+    if (output.map.recording.classification_periods == 0) continue;
     const auto exponents =
         matrix<double>(output, points, direction, [](const PointSummary& r) { return r.lyapunov_max().value; });
     if (std::ranges::none_of(exponents, [](double x) { return std::isfinite(x); })) continue;

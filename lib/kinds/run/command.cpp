@@ -31,7 +31,7 @@
 #include "store/journal.hpp"
 #include "store/point_record.hpp"
 #include "streams.hpp"
-#include "studies/probes.hpp"
+#include "studies/cost_estimate.hpp"
 #include "studies/run.hpp"
 
 namespace epicyclic::app {
@@ -43,7 +43,7 @@ namespace {
 class RunJournal {
  public:
   RunJournal(Session& session) : file_(session.folder().file("journal.bin")), journal_(file_, session.identity()) {
-    tell_cut_tail(file_, journal_.cut_bytes());
+    report_cut_tail(file_, journal_.cut_bytes());
     for (const store::JournalEntry& entry : journal_.entries()) {
       if (entry.point == of_point)
         point_ = store::decode_point(journal_.read(entry));
@@ -134,10 +134,10 @@ class RunProgress {
 
 std::optional<studies::RunResult> compute(int threads, const model::DynamicModel& model, const input::Study& study,
                                           RunJournal& journal) {
-  const auto& [look, options] = study.plan.as<kinds::RunPlan>();
+  const auto& [recording, options] = study.plan.as<kinds::RunPlan>();
   RunProgress progress(options, journal.exponent_intervals());
   return studies::run_operating_point(
-      model, look, options, study.integrator,
+      model, recording, options, study.integrator,
       {threads, [] { return !stop_requested().load(); },
        [&](const char* what, int interval) { progress.see(what, static_cast<std::size_t>(interval)); },
        journal.memory()});
@@ -146,7 +146,7 @@ std::optional<studies::RunResult> compute(int threads, const model::DynamicModel
 /// Of one operating point, by as many mesh periods of its exponents as there is time for. Figures are not measured.
 Expected time_of_run(const input::LoadedInput& input, const studies::SweepPlan& /*plan*/, int /*threads*/,
                      const TimeLimit& limit) {
-  const auto& [look, options] = input.study.plan.as<kinds::RunPlan>();
+  const auto& [recording, options] = input.study.plan.as<kinds::RunPlan>();
   const model::DynamicModel model = input::model_at(input)(input.study.mesh_frequency_ratio);
   constexpr const char* figures = ", and its figures";
   const int all = exponent_intervals(options);
@@ -161,7 +161,8 @@ Expected time_of_run(const input::LoadedInput& input, const studies::SweepPlan& 
     if (interval == 1) exponents_begun = now;  // the first one warms caches
     intervals = interval;
   };
-  const bool whole = studies::run_operating_point(model, look, options, input.study.integrator, control).has_value();
+  const bool whole =
+      studies::run_operating_point(model, recording, options, input.study.integrator, control).has_value();
   const double spent = studies::processor_seconds() - begun;
   if (whole) return {spent, 0.0, "by computing it", true, figures};
   if (intervals < 2) return {0.0, spent, "which did not reach its exponents", true, figures};
@@ -177,7 +178,7 @@ int run_run(const Arguments& arguments) {
   const input::Study& study = input.study;
   const studies::RunOptions& options = study.plan.as<kinds::RunPlan>().run;
   const model::DynamicModel model = input::model_at(input)(study.mesh_frequency_ratio);
-  tell_warnings(input);
+  print_warnings(input);
 
   Session session(arguments, input, identity_of(input, "run"), arguments.threads);
   if (const auto code = session.exit_code()) return *code;
@@ -209,7 +210,7 @@ int run_run(const Arguments& arguments) {
   kinds::write_run_h5(folder.file("results.h5"), output, *result);
   write_file_atomically(folder.file("summary.md"), summary);
   const auto figures = kinds::draw_run_figures(folder.file("figures"), output, *result);
-  const std::int64_t undrawn = tell_undrawn(figures);
+  const std::int64_t undrawn = report_undrawn(figures);
   session.end(store::RunState::complete, {{"points", 1}, {"failed", computed ? 0 : 1}, {"undrawn", undrawn}});
   journal.remove();
 

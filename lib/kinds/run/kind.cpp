@@ -17,7 +17,7 @@ const Table<Study>& run_table() {
     using studies::RunOptions;
     Table<Study> t("run", "One operating point, at the speed that \"operation\" gives.");
     add_kind_key(t, "run");
-    add_look(t);
+    add_recording(t);
     add_classification(t);
     add_initial_state(t);
     const auto of = [](auto member) {
@@ -48,8 +48,10 @@ const StudyKind& run_kind() {
       .name = "run",
       .table = &run_table,
       .defaults = RunPlan{},
-      .look = [](std::any& options) -> studies::LookOptions& { return std::any_cast<RunPlan&>(options).look; },
-      .sweep = [](const Study& study) { return studies::sweep_of_one(study.mesh_frequency_ratio, study.look()); },
+      .recording = [](std::any& options) -> studies::RecordingOptions& {
+        return std::any_cast<RunPlan&>(options).recording;
+      },
+      .sweep = [](const Study& study) { return studies::sweep_of_one(study.mesh_frequency_ratio, study.recording()); },
       .plan = &plan_of_sweep,
       .warn = &warn_without_tangents,
       .points_kept = PointsKept::tables,

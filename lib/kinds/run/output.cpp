@@ -318,7 +318,7 @@ void write_meshes(store::Hdf5File& h5, const std::vector<MeshSummary>& meshes) {
   g.column(
       "pull_max", meshes, [](const MeshSummary& m) { return m.pull_max; }, "N");
   g.column(
-      "pull_time", meshes, [](const MeshSummary& m) { return m.pull_time; }, "-");
+      "pull_time", meshes, [](const MeshSummary& m) { return m.tension_time; }, "-");
   g.integer_column(
       "contact_losses", meshes, [](const MeshSummary& m) { return m.contact_losses; }, "per record");
 }
@@ -553,11 +553,11 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
   }
   text += bullet(p.recurrence.period > 0
                      ? fmt::format("The record of {:g} mesh periods repeats after {}, to {:.2g} [b_c, b_c per tau].",
-                                   static_cast<double>(output.points.sweep.look.recorded_periods),
+                                   static_cast<double>(output.points.sweep.recording.recorded_periods),
                                    mesh_periods(p.recurrence.period), p.recurrence.error)
                      : fmt::format("The record of {:g} mesh periods does not repeat: nearest after {}, to {:.2g} "
                                    "[b_c, b_c per tau].",
-                                   static_cast<double>(output.points.sweep.look.recorded_periods),
+                                   static_cast<double>(output.points.sweep.recording.recorded_periods),
                                    mesh_periods(p.recurrence.best_period), p.recurrence.error));
   return text;
 }
@@ -568,7 +568,7 @@ std::string pulls_text(const RunOutput& output, const RunResult& r) {
   for (const MeshSummary& m : r.meshes)
     if (m.pull_max > 0.0)
       rows.push_back({m.name, fmt::format("{:.5g}", m.pull_max), fmt::format("{:.3g}", m.pull_max / r.static_force),
-                      fmt::format("{:.1f} %", 100.0 * m.pull_time)});
+                      fmt::format("{:.1f} %", 100.0 * m.tension_time)});
   if (rows.size() == 1) return "\nNo mesh force is tensile.\n";
   const bool always = output.gap_damping == model::GapDamping::always;
   return "\n" + aligned(rows) + "\n" +

@@ -1,13 +1,13 @@
 // Options of the kind of study "run".
 #pragma once
 
-#include "studies/look_options.hpp"
+#include "studies/recording_options.hpp"
 #include "studies/run_options.hpp"
 
 namespace epicyclic::kinds {
 
 struct RunPlan {
-  studies::LookOptions look;
+  studies::RecordingOptions recording;
   studies::RunOptions run;
 };
 

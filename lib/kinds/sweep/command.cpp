@@ -21,8 +21,8 @@
 #include "progress.hpp"
 #include "reports/sweep_output.hpp"
 #include "stop.hpp"
+#include "studies/cost_estimate.hpp"
 #include "studies/crosscheck.hpp"
-#include "studies/probes.hpp"
 
 namespace epicyclic::app {
 
@@ -63,7 +63,7 @@ WrittenPoints write_points(const ComputedPoints& all) {
   reports::write_points_csv(all.folder / "points.csv", all.points);
   std::size_t settling = 0;
   for (std::size_t i = 0; i < all.points.count; ++i)
-    settling += studies::still_settling(all.points.read_brief(i), all.input.study.look()) ? 1 : 0;
+    settling += studies::still_converging(all.points.read_summary(i), all.input.study.recording()) ? 1 : 0;
   WrittenPoints written;
   if (settling > 0)
     written.notes.push_back(

@@ -31,7 +31,7 @@ const Table<Study>& sweep_table() {
     Table<Study> t("sweep", "A sweep along one parameter.");
     add_kind_key(t, "sweep");
     add_grid(t);
-    add_look(t);
+    add_recording(t);
     add_classification(t);
     add_initial_state(t);
     t.object("crosscheck", in_plan(whole_plan<SweepOptions>, &SweepOptions::check), check_table());
@@ -47,7 +47,9 @@ const StudyKind& sweep_kind() {
       .name = "sweep",
       .table = &sweep_table,
       .defaults = SweepOptions{},
-      .look = [](std::any& options) -> studies::LookOptions& { return std::any_cast<SweepOptions&>(options).look; },
+      .recording = [](std::any& options) -> studies::RecordingOptions& {
+        return std::any_cast<SweepOptions&>(options).recording;
+      },
       .own_sweep = [](std::any& options) -> SweepOptions& { return std::any_cast<SweepOptions&>(options); },
       .plan = &plan_of_sweep,
       .complete =

@@ -51,9 +51,9 @@ struct Place {
 Place place_of(const PointSummary& r) {
   Place p;
   p.value = r.point.value;
-  p.motion = reached(r) ? motion_name(r) : store::status_word(r.outcome);
+  p.motion = reached(r) ? regime_name(r) : store::status_word(r.outcome);
   p.periodic = reached(r) && r.regime == analysis::Regime::periodic;
-  p.comparable = reached(r) && !r.on_its_way();
+  p.comparable = reached(r) && !r.is_unsettled();
   p.told = reached(r) && r.classified && r.regime != analysis::Regime::undecided;
   if (p.comparable) {
     p.sun_range = r.meshes.sun_planet.front().delta.range();
@@ -149,12 +149,12 @@ class Summary {
     ways_.resize(directions.size());
     const std::size_t each = directions.empty() ? 0 : points.count / directions.size();
     for (std::size_t k = 0; k < points.count && each > 0; ++k) {
-      const PointSummary r = points.read_brief(k);
+      const PointSummary r = points.read_summary(k);
       const std::size_t way = std::min(k / each, directions.size() - 1);
       ways_[way].push_back(place_of(r));
       failed_ += reached(r) ? 0 : 1;
       if (reached(r)) doubt(r);
-      if (reached(r) && !r.on_its_way()) see(r);
+      if (reached(r) && !r.is_unsettled()) see(r);
     }
     for (auto& way : ways_) std::ranges::sort(way, {}, &Place::value);
   }
@@ -196,12 +196,12 @@ class Summary {
 
   void doubt(const PointSummary& r) {
     undecided_ += r.regime == analysis::Regime::undecided ? 1 : 0;
-    not_converged_ += r.on_its_way() ? 1 : 0;
-    if (!r.pulls()) return;
+    not_converged_ += r.is_unsettled() ? 1 : 0;
+    if (!r.has_tension()) return;
     ++tensile_;
     for (const auto* meshes : {&r.meshes.sun_planet, &r.meshes.ring_planet}) {
-      tensile_force_ = std::max(tensile_force_, studies::StageRecord::pull(*meshes));
-      tensile_time_ = std::max(tensile_time_, studies::StageRecord::pull_time(*meshes));
+      tensile_force_ = std::max(tensile_force_, studies::StageRecord::tension(*meshes));
+      tensile_time_ = std::max(tensile_time_, studies::StageRecord::tension_time(*meshes));
     }
   }
 
@@ -215,7 +215,7 @@ class Summary {
         one.at += fmt::format(" ({})", words_.name);
       else if (words_.name == studies::speed_parameter && std::isfinite(r.meshes.speeds.sun))
         one.at += fmt::format(" (sun {} rpm)", short_text(gear::rpm * r.meshes.speeds.sun, 5));
-      one.at += fmt::format(", {}, {}", store::direction_word(r.point.direction), motion_name(r));
+      one.at += fmt::format(", {}, {}", store::direction_word(r.point.direction), regime_name(r));
     }
   }
 

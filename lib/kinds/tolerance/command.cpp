@@ -22,7 +22,7 @@
 #include "store/journal.hpp"
 #include "store/point_record.hpp"
 #include "streams.hpp"
-#include "studies/probes.hpp"
+#include "studies/cost_estimate.hpp"
 
 namespace epicyclic::app {
 
@@ -88,7 +88,7 @@ Measured measure_missing(const Arguments& arguments, Session& session, const inp
                          const studies::SmoothedModelAt& model_at) {
   const double width = input.study.model.clearance_smoothing;
   store::Journal journal(session.folder().file("journal.bin"), session.identity());
-  tell_cut_tail(session.folder().file("journal.bin"), journal.cut_bytes());
+  report_cut_tail(session.folder().file("journal.bin"), journal.cut_bytes());
   Known earlier = known_results(journal, plan);
   studies::SweepRun run;
   run.threads = arguments.threads;
@@ -108,11 +108,12 @@ Measured measure_missing(const Arguments& arguments, Session& session, const inp
     progress.update(++finished, all.failed);
   };
   all.studied = studies::run_sweep_in_memory(
-      plan, tolerance.sweep.look, input.study.integrator, [&](double value) { return model_at(value, width); },
+      plan, tolerance.sweep.recording, input.study.integrator, [&](double value) { return model_at(value, width); },
       std::move(run), std::move(earlier.points));
   const auto measure = [&](const studies::PointResult& result) {
-    return studies::compute_tolerance_point(result, tolerance.sweep.look, tolerance.tolerance, input.study.integrator,
-                                            width, model_at, arguments.threads, &stop_requested());
+    return studies::compute_tolerance_point(result, tolerance.sweep.recording, tolerance.tolerance,
+                                            input.study.integrator, width, model_at, arguments.threads,
+                                            &stop_requested());
   };
   all.points =
       measured_points(all.studied, std::move(earlier.measured), measure, [&](const studies::TolerancePoint& point) {
@@ -125,9 +126,9 @@ Measured measure_missing(const Arguments& arguments, Session& session, const inp
 }
 
 /// On stdout.
-void tell_result(const Arguments& arguments, const store::OutputFolder& folder, double target_error,
-                 std::size_t studied, std::size_t failed, const std::vector<studies::TolerancePoint>& points,
-                 std::size_t dimension, const std::string& summary, const std::vector<reports::DrawnFigure>& figures) {
+void print_result(const Arguments& arguments, const store::OutputFolder& folder, double target_error,
+                  std::size_t studied, std::size_t failed, const std::vector<studies::TolerancePoint>& points,
+                  std::size_t dimension, const std::string& summary, const std::vector<reports::DrawnFigure>& figures) {
   nlohmann::json result = {{"folder", folder.path().string()},
                            {"points", studied},
                            {"failed", failed},
@@ -163,32 +164,33 @@ Expected time_of_tolerance(const input::LoadedInput& input, const studies::Sweep
   run.stop = &limit.over();
   double own = 0.0;     // of the study's points, in chains
   double ladder = 0.0;  // of what is measured on them, a point after the other
-  const auto m = studies::measure_miniatures(
-      plan, 2, seconds_of(measured_for), threads,
-      [&](const studies::SweepPlan& miniature, studies::LaneUse& /*lanes*/) {
-        double begun = studies::processor_seconds();
-        const auto spent = [&begun] {
-          const double before = begun;
-          begun = studies::processor_seconds();
-          return begun - before;
-        };
-        const auto points = studies::run_sweep_in_memory(
-            miniature, sweep.look, input.study.integrator, [&](double value) { return model_at(value, width); }, run);
-        const double of_points = spent();
-        double of_ladder = 0.0;
-        std::size_t finished = 0;
-        for (const studies::PointResult& point : points) {
-          const studies::TolerancePoint t = studies::compute_tolerance_point(
-              point, sweep.look, fewer, input.study.integrator, width, model_at, threads, &limit.over());
-          of_ladder += (t.statistics.empty() ? 1.0 : longer) * spent();
-          if (!limit.over()) ++finished;
-        }
-        if (own == 0.0 || finished == miniature.points.size()) {
-          own = of_points;
-          ladder = of_ladder;
-        }
-        return finished;
-      });
+  const auto m = studies::measure_miniatures(plan, 2, seconds_of(measured_for), threads,
+                                             [&](const studies::SweepPlan& miniature, studies::LaneUse& /*lanes*/) {
+                                               double begun = studies::processor_seconds();
+                                               const auto spent = [&begun] {
+                                                 const double before = begun;
+                                                 begun = studies::processor_seconds();
+                                                 return begun - before;
+                                               };
+                                               const auto points = studies::run_sweep_in_memory(
+                                                   miniature, sweep.recording, input.study.integrator,
+                                                   [&](double value) { return model_at(value, width); }, run);
+                                               const double of_points = spent();
+                                               double of_ladder = 0.0;
+                                               std::size_t finished = 0;
+                                               for (const studies::PointResult& point : points) {
+                                                 const studies::TolerancePoint t = studies::compute_tolerance_point(
+                                                     point, sweep.recording, fewer, input.study.integrator, width,
+                                                     model_at, threads, &limit.over());
+                                                 of_ladder += (t.statistics.empty() ? 1.0 : longer) * spent();
+                                                 if (!limit.over()) ++finished;
+                                               }
+                                               if (own == 0.0 || finished == miniature.points.size()) {
+                                                 own = of_points;
+                                                 ladder = of_ladder;
+                                               }
+                                               return finished;
+                                             });
   const double all = static_cast<double>(plan.points.size()) / static_cast<double>(m.points);
   return expected_of(all * (own / busy(plan.chains.size(), threads) + ladder / threads), m);
 }
@@ -201,7 +203,7 @@ int run_tolerance(const Arguments& arguments) {
   const auto model_at = input::smoothed_model_at(input);
   const double width = input.study.model.clearance_smoothing;
   const model::DynamicModel first_model = model_at(plan.points.front().value, width);
-  tell_warnings(input);
+  print_warnings(input);
 
   Session session(arguments, input, identity_of(input, "tolerance"), arguments.threads);
   if (const auto code = session.exit_code()) return *code;
@@ -230,11 +232,11 @@ int run_tolerance(const Arguments& arguments) {
   reports::write_points_csv(folder.file("points.csv"), studies::points_in_memory(studied));
   const std::string summary = kinds::write_tolerance_tables(folder.path(), output, points);
   const auto figures = kinds::draw_tolerance_figures(folder.file("figures"), output, points);
-  undrawn = tell_undrawn(figures);
+  undrawn = report_undrawn(figures);
   close_run(store::RunState::complete);
 
-  tell_result(arguments, folder, options.target_error, plan.points.size(), failed, points, first_model.dimension,
-              summary, figures);
+  print_result(arguments, folder, options.target_error, plan.points.size(), failed, points, first_model.dimension,
+               summary, figures);
   return failed == 0 && undrawn == 0 ? done : done_with_failures;
 }
 

@@ -17,7 +17,7 @@ const Table<Study>& tolerance_table() {
     Table<Study> t("tolerance", "Results of the points over tolerance, method and clearance smoothing.");
     add_kind_key(t, "tolerance");
     add_grid(t);
-    add_look(t);
+    add_recording(t);
     add_classification(t);
     add_initial_state(t);
     const auto of = [](auto member) {
@@ -47,8 +47,8 @@ const StudyKind& tolerance_kind() {
       .name = "tolerance",
       .table = &tolerance_table,
       .defaults = TolerancePlan{},
-      .look = [](std::any& options) -> studies::LookOptions& {
-        return std::any_cast<TolerancePlan&>(options).sweep.look;
+      .recording = [](std::any& options) -> studies::RecordingOptions& {
+        return std::any_cast<TolerancePlan&>(options).sweep.recording;
       },
       .own_sweep = [](std::any& options) -> studies::SweepOptions& {
         return std::any_cast<TolerancePlan&>(options).sweep;

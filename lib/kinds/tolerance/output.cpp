@@ -201,8 +201,8 @@ std::string quantities_text(const ToleranceOutput& output, const std::vector<Tol
   text += fmt::format(
       "\nReported quantities by {} at relative tolerance {:g}, with error bars [b_c]. They are extrema at {} phases of "
       "a mesh period. In brackets: by how much they are greater at {} phases. The bars do not include this.\n\n",
-      output.integrator.method, output.integrator.relative_tolerance, output.sweep.sweep.look.output_phases,
-      studies::finer_phases * output.sweep.sweep.look.output_phases);
+      output.integrator.method, output.integrator.relative_tolerance, output.sweep.sweep.recording.output_phases,
+      studies::finer_phases * output.sweep.sweep.recording.output_phases);
   const AxisWords words = axis_words(output.sweep.sweep.axis.name, output.sweep.speed);
   text += "| point | value | period |";
   for (const char* name : quantity_names) text += fmt::format(" {} |", name);

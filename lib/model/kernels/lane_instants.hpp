@@ -1,4 +1,4 @@
-// The instants of a step's slopes, W operating points side by side: model/instant.hpp with lanes for scalars.
+// The phase_coefficients of a step's slopes, W operating points side by side: model/instant.hpp with lanes for scalars.
 //
 // Sine, cosine and the places in tables are chains of operations that wait for each other. So each is gone through for
 // all slopes before the next one: passes are short enough for a processor to work on those of several slopes at once.
@@ -23,14 +23,15 @@ inline constexpr std::size_t slopes_together = 8;
 /// @param kind  the mesh in an instant
 template <std::size_t N, std::size_t W>
 void look_up(const MeshParameters<Lanes<W>, N>& mesh, const LaneMeshPlaces<N, W>& places, std::size_t count,
-             const Lanes<W>* s, Instant<Lanes<W>, N>* instants, MeshInstant<Lanes<W>, N> Instant<Lanes<W>, N>::*kind) {
+             const Lanes<W>* s, PhaseCoefficients<Lanes<W>, N>* phase_coefficients,
+             MeshInstant<Lanes<W>, N> PhaseCoefficients<Lanes<W>, N>::*kind) {
   const auto each = [&](std::size_t planet, const auto& place, const auto& take) {
     std::array<LaneInterval<W>, slopes_together> found;
     for (std::size_t k = 0; k < count; ++k)
       found[k] = place.find(s[k] * (0.5 * std::numbers::inv_pi) + mesh.turns[planet]);
-    for (std::size_t k = 0; k < count; ++k) take(instants[k].*kind, place.at(found[k]));
+    for (std::size_t k = 0; k < count; ++k) take(phase_coefficients[k].*kind, place.at(found[k]));
   };
-  for (std::size_t i = 0; i < ((instants->*kind).shared ? 1 : N); ++i) {
+  for (std::size_t i = 0; i < ((phase_coefficients->*kind).shared ? 1 : N); ++i) {
     if (mesh.stiffness_curve)
       each(i, places.stiffness[i], [i](auto& now, const auto& values) { now.stiffness.set(i, values[0]); });
     if (mesh.friction)
@@ -43,10 +44,10 @@ void look_up(const MeshParameters<Lanes<W>, N>& mesh, const LaneMeshPlaces<N, W>
 }
 
 /// @param s         phases of `count` slopes, all in the lanes' segments
-/// @param instants  `count`, written without being read
+/// @param phase_coefficients  `count`, written without being read
 template <std::size_t N, std::size_t W>
 void make_instants(const LaneParameters<N, W>& p, std::size_t count, const Lanes<W>* s,
-                   Instant<Lanes<W>, N>* instants) {
+                   PhaseCoefficients<Lanes<W>, N>* phase_coefficients) {
   const auto& constants = p.constants();
   const std::size_t harmonics = harmonics_of(constants);
   std::array<SineCosine<Lanes<W>>, slopes_together> angle;
@@ -54,11 +55,12 @@ void make_instants(const LaneParameters<N, W>& p, std::size_t count, const Lanes
     const std::size_t together = std::min(slopes_together, count - first);
     for (std::size_t k = 0; k < together; ++k) angle[k] = sine_cosine(s[first + k]);
     for (std::size_t k = 0; k < together; ++k)
-      new (instants + first + k) Instant<Lanes<W>, N>(constants, HarmonicBasis<Lanes<W>>(angle[k], harmonics));
-    look_up(constants.sun_planet, p.segment().sun_planet, together, s + first, instants + first,
-            &Instant<Lanes<W>, N>::sun_planet);
-    look_up(constants.ring_planet, p.segment().ring_planet, together, s + first, instants + first,
-            &Instant<Lanes<W>, N>::ring_planet);
+      new (phase_coefficients + first + k)
+          PhaseCoefficients<Lanes<W>, N>(constants, HarmonicBasis<Lanes<W>>(angle[k], harmonics));
+    look_up(constants.sun_planet, p.segment().sun_planet, together, s + first, phase_coefficients + first,
+            &PhaseCoefficients<Lanes<W>, N>::sun_planet);
+    look_up(constants.ring_planet, p.segment().ring_planet, together, s + first, phase_coefficients + first,
+            &PhaseCoefficients<Lanes<W>, N>::ring_planet);
   }
 }
 

@@ -6,18 +6,19 @@
 
 namespace epicyclic::model {
 
-#define EPICYCLIC_DECLARE_KERNELS                                                                                 \
-  template <std::size_t N, std::size_t W>                                                                         \
-  void prepare_lanes(const LaneParameters<N, W>&, std::size_t, const double*, Instant<Lanes<W>, N>*);             \
-  template <Layout L, std::size_t N, std::size_t W>                                                               \
-  void evaluate_lanes(const LaneParameters<N, W>&, const Instant<Lanes<W>, N>&, const double*, double*);          \
-  template <std::size_t N, std::size_t W>                                                                         \
-  void push_lanes(Layout, const LaneParameters<N, W>&, const Instant<Lanes<W>, N>&, const double*, const double*, \
-                  double*, double*);                                                                              \
-  template <std::size_t N, std::size_t W>                                                                         \
-  void look_lanes(Layout, const LaneParameters<N, W>&, const Instant<Lanes<W>, N>&, const double*, double*);      \
-  template <Layout L, std::size_t N, std::size_t W>                                                               \
-  void measure_contacts(const LaneParameters<N, W>&, const Instant<Lanes<W>, N>&, const double*, double*, double*);
+#define EPICYCLIC_DECLARE_KERNELS                                                                                      \
+  template <std::size_t N, std::size_t W>                                                                              \
+  void prepare_lanes(const LaneParameters<N, W>&, std::size_t, const double*, PhaseCoefficients<Lanes<W>, N>*);        \
+  template <Layout L, std::size_t N, std::size_t W>                                                                    \
+  void evaluate_lanes(const LaneParameters<N, W>&, const PhaseCoefficients<Lanes<W>, N>&, const double*, double*);     \
+  template <std::size_t N, std::size_t W>                                                                              \
+  void push_lanes(Layout, const LaneParameters<N, W>&, const PhaseCoefficients<Lanes<W>, N>&, const double*,           \
+                  const double*, double*, double*);                                                                    \
+  template <std::size_t N, std::size_t W>                                                                              \
+  void look_lanes(Layout, const LaneParameters<N, W>&, const PhaseCoefficients<Lanes<W>, N>&, const double*, double*); \
+  template <Layout L, std::size_t N, std::size_t W>                                                                    \
+  void measure_contacts(const LaneParameters<N, W>&, const PhaseCoefficients<Lanes<W>, N>&, const double*, double*,    \
+                        double*);
 namespace baseline {
 EPICYCLIC_DECLARE_KERNELS
 }  // namespace baseline
@@ -88,7 +89,7 @@ LaneKernel<N, W> lane_kernel(Layout layout, const char* name, std::size_t copy) 
 }
 
 template <std::size_t N, std::size_t W>
-LookKernel<N, W> look_kernel(const char* name) {
+OutputKernel<N, W> output_kernel(const char* name) {
   const std::string_view wanted(name);
   if constexpr (W == 2) {
     if (wanted == "baseline") return {&baseline::prepare_lanes<N, W>, &baseline::look_lanes<N, W>};
@@ -105,9 +106,9 @@ LookKernel<N, W> look_kernel(const char* name) {
 }
 
 #define EPICYCLIC_DEFINE(N)                                                                  \
-  template LookKernel<N, 2> look_kernel<N, 2>(const char* name);                             \
-  template LookKernel<N, 4> look_kernel<N, 4>(const char* name);                             \
-  template LookKernel<N, 8> look_kernel<N, 8>(const char* name);                             \
+  template OutputKernel<N, 2> output_kernel<N, 2>(const char* name);                         \
+  template OutputKernel<N, 4> output_kernel<N, 4>(const char* name);                         \
+  template OutputKernel<N, 8> output_kernel<N, 8>(const char* name);                         \
   template LaneKernel<N, 2> lane_kernel<N, 2>(Layout layout, const char* name, std::size_t); \
   template LaneKernel<N, 4> lane_kernel<N, 4>(Layout layout, const char* name, std::size_t); \
   template LaneKernel<N, 8> lane_kernel<N, 8>(Layout layout, const char* name, std::size_t);

@@ -12,16 +12,17 @@
 #include "model/kernels/stage_kernel.hpp"
 #include "model/lane_parameters.hpp"
 #include "model/layout.hpp"
-#include "model/stage_look.hpp"
+#include "model/stage_outputs.hpp"
 
 namespace epicyclic::model {
 
 template <std::size_t N, std::size_t W>
 struct LaneKernel {
-  using Instants = Instant<Lanes<W>, N>;
+  using Instants = PhaseCoefficients<Lanes<W>, N>;
 
-  /// `count` instants of W phases each, all in the lanes' segments.
-  void (*prepare)(const LaneParameters<N, W>& p, std::size_t count, const double* s, Instants* instants) = nullptr;
+  /// `count` phase_coefficients of W phases each, all in the lanes' segments.
+  void (*prepare)(const LaneParameters<N, W>& p, std::size_t count, const double* s,
+                  Instants* phase_coefficients) = nullptr;
 
   /// y and dyds have 2 degrees_of_freedom(L, N) times W numbers, component by component, aligned to 64 bytes.
   void (*evaluate)(const LaneParameters<N, W>& p, const Instants& now, const double* y, double* dyds) = nullptr;
@@ -35,21 +36,21 @@ struct LaneKernel {
                            double* rates) = nullptr;
 };
 
-/// Looks at W instants of one operating point [model/stage_look.hpp], in any coordinates.
+/// Looks at W phase_coefficients of one operating point [model/stage_outputs.hpp], in any coordinates.
 template <std::size_t N, std::size_t W>
-struct LookKernel {
+struct OutputKernel {
   /// As LaneKernel::prepare().
   void (*prepare)(const LaneParameters<N, W>& p, std::size_t count, const double* s,
-                  Instant<Lanes<W>, N>* instants) = nullptr;
+                  PhaseCoefficients<Lanes<W>, N>* phase_coefficients) = nullptr;
 
-  /// Of `looks_together` numbers in each row of y and of `rows`, the first W.
-  void (*look)(Layout layout, const LaneParameters<N, W>& p, const Instant<Lanes<W>, N>& now, const double* y,
-               double* rows) = nullptr;
+  /// Of `phases_together` numbers in each row of y and of `rows`, the first W.
+  void (*evaluate_outputs)(Layout layout, const LaneParameters<N, W>& p, const PhaseCoefficients<Lanes<W>, N>& now,
+                           const double* y, double* rows) = nullptr;
 };
 
 /// That of one instruction set, empty if it was not compiled or this machine does not run it.
 template <std::size_t N, std::size_t W>
-[[nodiscard]] LookKernel<N, W> look_kernel(const char* name);
+[[nodiscard]] OutputKernel<N, W> output_kernel(const char* name);
 
 /// That of one instruction set, empty if it was not compiled or this machine does not run it, and in full coordinates.
 /// @param name "baseline" (W = 2), "avx2" (4) or "avx512" (8)

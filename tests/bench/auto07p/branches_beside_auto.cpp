@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/branch_tree.hpp"
+#include "analysis/bifurcation_diagram.hpp"
 #include "problems/branches.hpp"
 
 namespace {
@@ -58,13 +58,14 @@ int main(int argc, char** argv) {
   state = problems::settled(problems::flows(fields, 1e-10), start, state, 300);
   if (orbit_alone) {
     const auto flow = problems::flows(fields, 1e-12)(start);
-    constexpr int looks = 400;
+    constexpr int outputs_at = 400;
     const double period = 2.0 * std::numbers::pi;
-    for (int k = 0; k <= looks; ++k) {
-      std::printf("%.15g", period * k / looks / start);
+    for (int k = 0; k <= outputs_at; ++k) {
+      std::printf("%.15g", period * k / outputs_at / start);
       for (const double x : state) std::printf(" %.15g", x);
-      std::printf(" %.15g %.15g\n", std::sin(period * k / looks), std::cos(period * k / looks));
-      if (k < looks && !flow->evolve(state, period * k / looks, period * (k + 1) / looks).reached()) return 1;
+      std::printf(" %.15g %.15g\n", std::sin(period * k / outputs_at), std::cos(period * k / outputs_at));
+      if (k < outputs_at && !flow->evolve(state, period * k / outputs_at, period * (k + 1) / outputs_at).reached())
+        return 1;
     }
     return 0;
   }
@@ -84,11 +85,11 @@ int main(int argc, char** argv) {
   std::size_t orbits = 0;
   while (branch.advance()) {
     ++orbits;
-    for (const auto& p : special_points_between(family, branch.before(), branch.now(), special))
+    for (const auto& p : special_points_between(family, branch.previous(), branch.current(), special))
       std::printf("%s %.10f\n", to_string(p.kind).c_str(), p.value);
   }
   const double took = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
-  std::printf("%zu orbits to %.4f (end %d), %.4g s per orbit, %d evaluations\n", orbits, branch.now().at.value,
+  std::printf("%zu orbits to %.4f (end %d), %.4g s per orbit, %d evaluations\n", orbits, branch.current().at.value,
               static_cast<int>(branch.end()), took / static_cast<double>(orbits), branch.state().evaluations);
   return 0;
 }

@@ -15,7 +15,7 @@ enum class Keep {
   attractor,  ///< what its attractor is told from
 };
 
-struct LookOptions {
+struct RecordingOptions {
   Transient transient = Transient::fixed;
   int transient_periods = 300;  ///< mesh periods before the record, if fixed
   int recorded_periods = 128;   ///< mesh periods recorded, one Poincare point each

@@ -1,6 +1,6 @@
 // Miniatures of studies, by which `check` tells how long one takes.
 
-#include "studies/probes.hpp"
+#include "studies/cost_estimate.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "analysis/branch_tree.hpp"
+#include "analysis/bifurcation_diagram.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,39 +33,40 @@ void TreeOptions::validate() const {
   require(same_value > 0.0, "same_value", same_value, "> 0");
 }
 
-BranchTree::BranchTree(OrbitFamily system, TreeOptions options)
+BifurcationDiagram::BifurcationDiagram(OrbitFamily system, TreeOptions options)
     : system_(std::move(system)), options_(std::move(options)) {
   system_.validate();
   options_.validate();
 }
 
-OrbitFamily BranchTree::family_of(const BranchStart& start) const {
+OrbitFamily BifurcationDiagram::family_of(const BranchStart& start) const {
   OrbitFamily family = system_;
   family.period = start.period;
-  family.pieces = start.pieces;
+  family.shooting_intervals = start.shooting_intervals;
   family.keeps_symmetry = start.keeps_symmetry;
   return family;
 }
 
-void BranchTree::start(BranchOrbit orbit, bool keeps_symmetry) {
-  start(std::move(orbit), keeps_symmetry, system_.period, system_.pieces);
+void BifurcationDiagram::start(BranchOrbit orbit, bool keeps_symmetry) {
+  start(std::move(orbit), keeps_symmetry, system_.period, system_.shooting_intervals);
 }
 
-void BranchTree::start(BranchOrbit orbit, bool keeps_symmetry, int period, int pieces, double reach) {
-  BranchStart start{period, pieces, keeps_symmetry, std::move(orbit)};
+void BifurcationDiagram::start(BranchOrbit orbit, bool keeps_symmetry, int period, int shooting_intervals,
+                               double reach) {
+  BranchStart start{period, shooting_intervals, keeps_symmetry, std::move(orbit)};
   start.least = start.orbit.at.value - reach;
   start.greatest = start.orbit.at.value + reach;
   starts_.push_back(std::move(start));
 }
 
-std::optional<TreeStep> BranchTree::advance() {
+std::optional<TreeStep> BifurcationDiagram::advance() {
   if (!trace_ && starts_.empty()) return std::nullopt;
   TreeStep step = trace_ ? next_orbit() : next_start();
   apply(step);
   return step;
 }
 
-TreeStep BranchTree::next_start() const {
+TreeStep BifurcationDiagram::next_start() const {
   TreeStep step;
   step.kind = TreeStep::Kind::begun;
   for (const Branch& branch : branches_)
@@ -78,13 +79,14 @@ TreeStep BranchTree::next_start() const {
   return step;
 }
 
-TreeStep BranchTree::next_orbit() {
+TreeStep BifurcationDiagram::next_orbit() {
   TreeStep step;
   const bool moved = trace_->advance();
   if (moved && has_fallen_onto_another()) {
-    step.limit = {BranchEnd::none, true, place_behind(trace_->before(), trace_->now().at.value), {}};
+    step.limit = {BranchEnd::none, true, place_behind(trace_->previous(), trace_->current().at.value), {}};
   } else if (moved) {
-    for (SpecialPoint& point : special_points_between(family_, trace_->before(), trace_->now(), options_.special)) {
+    for (SpecialPoint& point :
+         special_points_between(family_, trace_->previous(), trace_->current(), options_.special)) {
       if (!loses_itself(point)) {
         see(std::move(point), step);
         continue;
@@ -94,40 +96,40 @@ TreeStep BranchTree::next_orbit() {
       step.orbit = std::move(point.orbit);
       break;
     }
-    if (!step.orbit) step.orbit = trace_->now();
+    if (!step.orbit) step.orbit = trace_->current();
   }
   step.trace = trace_->state();
   if (!step.limit && trace_->end() != BranchEnd::none)
-    step.limit = {trace_->end(), false, std::nullopt, trace_->end() == BranchEnd::least_step ? step.trace.message : ""};
+    step.limit = {trace_->end(), false, std::nullopt, trace_->end() == BranchEnd::min_step ? step.trace.message : ""};
   return step;
 }
 
-void BranchTree::see(SpecialPoint point, TreeStep& step) const {
+void BifurcationDiagram::see(SpecialPoint point, TreeStep& step) const {
   std::optional<SpecialPlace> same;
   if (point.kind == SpecialKind::branch_point) same = known_place(point);
   if (!same) {
     std::vector<BranchStart> more = leaving(point, same_as_.size() + step.same_as.size());
-    std::move(more.begin(), more.end(), std::back_inserter(step.departures));
+    std::move(more.begin(), more.end(), std::back_inserter(step.branch_switches));
   }
   step.same_as.push_back(same);
   step.special.push_back(std::move(point));
 }
 
-std::vector<BranchStart> BranchTree::leaving(const SpecialPoint& point, std::size_t number) const {
+std::vector<BranchStart> BifurcationDiagram::leaving(const SpecialPoint& point, std::size_t number) const {
   std::vector<BranchStart> starts;
   const bool flip = point.kind == SpecialKind::flip && 2 * family_.period <= options_.largest_period;
   const bool branch_point = point.kind == SpecialKind::branch_point && options_.branch_points;
   if (!flip && !branch_point) return starts;
   const ContinuationOptions range = range_of(current_);
-  for (Departure& d : departures(family_, point, options_.switching)) {
+  for (BranchSwitch& d : branch_switches(family_, point, options_.switching)) {
     if (d.orbit.at.value < range.from || d.orbit.at.value > range.to) continue;
-    starts.push_back({d.family.period, d.family.pieces, d.family.keeps_symmetry, std::move(d.orbit),
+    starts.push_back({d.family.period, d.family.shooting_intervals, d.family.keeps_symmetry, std::move(d.orbit),
                       SpecialPlace{branches_.size(), number}, std::move(d.origin), current_.least, current_.greatest});
   }
   return starts;
 }
 
-void BranchTree::apply(TreeStep step) {
+void BifurcationDiagram::apply(TreeStep step) {
   full_ = full_ || step.full;
   if (step.kind != TreeStep::Kind::followed) {
     BranchStart next = std::move(starts_.front());
@@ -147,27 +149,27 @@ void BranchTree::apply(TreeStep step) {
   // Before starts of others, which may be on what leaves here.
   const auto others = std::find_if(starts_.begin(), starts_.end(), [](const BranchStart& s) { return !s.from; });
   // Of no elements libstdc++'s deque moves those before the place onto themselves, which empties their vectors.
-  if (!step.departures.empty())
-    starts_.insert(others, std::make_move_iterator(step.departures.begin()),
-                   std::make_move_iterator(step.departures.end()));
+  if (!step.branch_switches.empty())
+    starts_.insert(others, std::make_move_iterator(step.branch_switches.begin()),
+                   std::make_move_iterator(step.branch_switches.end()));
   if (step.orbit) way.orbits.push_back(*std::move(step.orbit));
   trace_->restore(std::move(step.trace));
   if (step.limit) end_way(*step.limit);
 }
 
-void BranchTree::begin_way(const BranchOrbit& from) {
+void BifurcationDiagram::begin_way(const BranchOrbit& from) {
   ways_.push_back(Way{{from}, {}, {}, {}});
   trace_.emplace(family_, range_of(current_), from);
 }
 
-ContinuationOptions BranchTree::range_of(const BranchStart& start) const {
+ContinuationOptions BifurcationDiagram::range_of(const BranchStart& start) const {
   ContinuationOptions range = options_.continuation;
   range.from = std::max(range.from, start.least);
   range.to = std::min(range.to, start.greatest);
   return range;
 }
 
-void BranchTree::end_way(const BranchLimit& limit) {
+void BifurcationDiagram::end_way(const BranchLimit& limit) {
   ways_.back().limit = limit;
   trace_.reset();
   // A closed branch has been seen whole, one that left a special point begins there.
@@ -178,7 +180,7 @@ void BranchTree::end_way(const BranchLimit& limit) {
   }
 }
 
-Branch BranchTree::joined(std::vector<Way> ways) const {
+Branch BifurcationDiagram::joined(std::vector<Way> ways) const {
   Branch branch{family_, {}, {}, {}, same_as_, {}, {}};
   Way& forward = ways.front();
   branch.last = forward.limit;
@@ -215,15 +217,15 @@ Branch BranchTree::joined(std::vector<Way> ways) const {
   return branch;
 }
 
-void BranchTree::finish_branch() { branches_.push_back(joined(std::move(ways_))); }
+void BifurcationDiagram::finish_branch() { branches_.push_back(joined(std::move(ways_))); }
 
-std::optional<Branch> BranchTree::under_way() const {
+std::optional<Branch> BifurcationDiagram::under_way() const {
   if (!trace_) return std::nullopt;
   return joined(ways_);
 }
 
-bool BranchTree::loses_itself(const SpecialPoint& point) const {
-  if (point.kind != SpecialKind::branch_point || point.wave != 0) return false;
+bool BifurcationDiagram::loses_itself(const SpecialPoint& point) const {
+  if (point.kind != SpecialKind::branch_point || point.symmetry_index != 0) return false;
   const Eigen::MatrixXd states = period_states(family_, point.orbit.at);
   const double difference = options_.same * family_.state_scale;
   const bool symmetric = !family_.keeps_symmetry && family_.symmetry.map.size() != 0 &&
@@ -231,15 +233,15 @@ bool BranchTree::loses_itself(const SpecialPoint& point) const {
   return symmetric || (states.cols() > 0 && least_period(states, difference) < family_.period);
 }
 
-bool BranchTree::has_fallen_onto_another() const {
-  const double before = distance_to_simpler(family_, trace_->before().at);
+bool BifurcationDiagram::has_fallen_onto_another() const {
+  const double before = distance_to_simpler(family_, trace_->previous().at);
   // Around its birth a branch's own orbits come as near by chance alone.
   constexpr double near = 1e-2;
   constexpr double is_one = 1e-6;
-  return before > is_one * family_.state_scale && distance_to_simpler(family_, trace_->now().at) < near * before;
+  return before > is_one * family_.state_scale && distance_to_simpler(family_, trace_->current().at) < near * before;
 }
 
-std::optional<SpecialPlace> BranchTree::place_behind(const BranchOrbit& last, double beyond) const {
+std::optional<SpecialPlace> BifurcationDiagram::place_behind(const BranchOrbit& last, double beyond) const {
   const Eigen::MatrixXd states = period_states(family_, last.at);
   const double away = std::abs(beyond - last.at.value);
   std::optional<SpecialPlace> nearest;
@@ -260,7 +262,7 @@ std::optional<SpecialPlace> BranchTree::place_behind(const BranchOrbit& last, do
   return nearest;
 }
 
-std::optional<SpecialPlace> BranchTree::known_place(const SpecialPoint& point) const {
+std::optional<SpecialPlace> BifurcationDiagram::known_place(const SpecialPoint& point) const {
   const Eigen::MatrixXd states = period_states(family_, point.orbit.at);
   const double difference = options_.same * family_.state_scale;
   const auto is_it = [&](const OrbitFamily& other, const SpecialPoint& p) {
@@ -277,11 +279,11 @@ std::optional<SpecialPlace> BranchTree::known_place(const SpecialPoint& point) c
   return std::nullopt;
 }
 
-bool BranchTree::ended_at_the_birth_of(const Branch& branch, const BranchStart& start) const {
+bool BifurcationDiagram::ended_at_the_birth_of(const Branch& branch, const BranchStart& start) const {
   if (!start.from || branch.family.period != start.period) return false;
   const SpecialPoint& birth = branches_[start.from->branch].special[start.from->point];
   // One branch leaves a flip that keeps the symmetry, and no more.
-  if (birth.kind != SpecialKind::flip || birth.wave != 0) return false;
+  if (birth.kind != SpecialKind::flip || birth.symmetry_index != 0) return false;
   const auto ends_there = [&](const BranchLimit& limit) {
     return limit.born && limit.place && limit.place->branch == start.from->branch &&
            limit.place->point == start.from->point;
@@ -289,7 +291,7 @@ bool BranchTree::ended_at_the_birth_of(const Branch& branch, const BranchStart& 
   return ends_there(branch.first) || ends_there(branch.last);
 }
 
-bool BranchTree::passes(const Branch& branch, const BranchStart& start) const {
+bool BifurcationDiagram::passes(const Branch& branch, const BranchStart& start) const {
   if (branch.family.period != start.period) return false;
   // It goes as far as the start would be followed, too.
   const ContinuationOptions wanted = range_of(start);

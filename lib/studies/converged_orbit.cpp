@@ -1,4 +1,4 @@
-#include "studies/settled_orbit.hpp"
+#include "studies/converged_orbit.hpp"
 
 #include "core/largest_difference.hpp"
 #include "core/text.hpp"
@@ -6,8 +6,8 @@
 
 namespace epicyclic::studies {
 
-SettledOrbit settled_orbit(integrate::Flow& flow, const PointSummary& motion) {
-  SettledOrbit found;
+ConvergedOrbit settled_orbit(integrate::Flow& flow, const PointSummary& motion) {
+  ConvergedOrbit found;
   if (motion.outcome != integrate::Outcome::reached) {
     found.note = "the point was not reached: " + motion.message;
     return found;

@@ -1,4 +1,4 @@
-#include "studies/stage_watch.hpp"
+#include "studies/response_statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "analysis/poincare.hpp"
-#include "studies/pulls.hpp"
+#include "studies/tension.hpp"
 
 namespace epicyclic::studies {
 
@@ -19,14 +19,14 @@ namespace {
 template <class Numbers>
 double sum_of(const Numbers& x) {
   double sum = 0.0;
-  for (std::size_t lane = 0; lane < model::looks_together; ++lane) sum += x[lane];
+  for (std::size_t lane = 0; lane < model::phases_together; ++lane) sum += x[lane];
   return sum;
 }
 
 template <class Numbers>
 double largest_of(const Numbers& x) {
   double most = x[0];
-  for (std::size_t lane = 1; lane < model::looks_together; ++lane) most = std::max(most, x[lane]);
+  for (std::size_t lane = 1; lane < model::phases_together; ++lane) most = std::max(most, x[lane]);
   return most;
 }
 
@@ -51,11 +51,11 @@ Course course_of(const std::vector<double>& x) {
 }
 
 /// What a model of one's own, without looks, tells of its meshes: deflections.
-model::StageLook look_at_deflections(const model::DynamicModel& model, const std::vector<double>& phases) {
+model::StageOutputs look_at_deflections(const model::DynamicModel& model, const std::vector<double>& phases) {
   return [&model, phases, y = std::vector<double>(model.dimension), d = model::MeshDeflections()](
              std::size_t group, const double* states, double* rows) mutable {
-    constexpr std::size_t together = model::looks_together;
-    const model::LookRows at{static_cast<std::size_t>(model.planets)};
+    constexpr std::size_t together = model::phases_together;
+    const model::OutputRows at{static_cast<std::size_t>(model.planets)};
     std::fill(rows, rows + at.count() * together, 0.0);
     for (std::size_t lane = 0; lane < together; ++lane) {
       for (std::size_t k = 0; k < y.size(); ++k) y[k] = states[k * together + lane];
@@ -136,11 +136,13 @@ std::vector<Course> quasi_static_forces(const model::DynamicModel& model, int ph
   return all;
 }
 
-double StageRecord::pull(const std::vector<MeshRecord>& meshes) { return largest(meshes, &MeshRecord::pull); }
+double StageRecord::tension(const std::vector<MeshRecord>& meshes) { return largest(meshes, &MeshRecord::tension); }
 
-double StageRecord::pull_time(const std::vector<MeshRecord>& meshes) { return largest(meshes, &MeshRecord::pull_time); }
+double StageRecord::tension_time(const std::vector<MeshRecord>& meshes) {
+  return largest(meshes, &MeshRecord::tension_time);
+}
 
-StageWatch::StageWatch(const model::DynamicModel& model, int phases, bool keeps_signal)
+ResponseStatistics::ResponseStatistics(const model::DynamicModel& model, int phases, bool keeps_signal)
     : model_(model),
       rows_{static_cast<std::size_t>(model.planets)},
       phases_(static_cast<std::size_t>(phases)),
@@ -151,20 +153,20 @@ StageWatch::StageWatch(const model::DynamicModel& model, int phases, bool keeps_
       ring_planet_(rows_.planets),
       keeps_signal_(keeps_signal) {
   const std::vector<double> at = analysis::uniform_phases(model.period, phases);
-  look_ = model.looks ? model.looks(at) : look_at_deflections(model, at);
+  recording_ = model.outputs_at ? model.outputs_at(at) : look_at_deflections(model, at);
   for (std::vector<double>& profile : profiles_) profile.assign(phases_, 0.0);
 }
 
-void StageWatch::see(std::span<const double> y) {
+void ResponseStatistics::see(std::span<const double> y) {
   const std::size_t phase = seen_ % phases_;
-  const std::size_t lane = phase % model::looks_together;
+  const std::size_t lane = phase % model::phases_together;
   for (std::size_t k = 0; k < y.size(); ++k) states_[k].set(lane, y[k]);
   ++seen_;
-  if (lane + 1 == model::looks_together || phase + 1 == phases_) look(phase / model::looks_together, lane + 1);
+  if (lane + 1 == model::phases_together || phase + 1 == phases_) recording(phase / model::phases_together, lane + 1);
 }
 
-void StageWatch::look(std::size_t group, std::size_t count) {
-  look_(group, reinterpret_cast<const double*>(states_.data()), reinterpret_cast<double*>(now_.data()));
+void ResponseStatistics::recording(std::size_t group, std::size_t count) {
+  recording_(group, reinterpret_cast<const double*>(states_.data()), reinterpret_cast<double*>(now_.data()));
   if (seen_ == count)
     for (std::size_t row = 0; row < sums_.size(); ++row) {
       const Numbers first(now_[row][0]);
@@ -172,7 +174,7 @@ void StageWatch::look(std::size_t group, std::size_t count) {
     }
   // A group at the end of a period may not be full: what is not there is told as what adds nothing.
   Numbers one(1.0);
-  for (std::size_t lane = count; lane < model::looks_together; ++lane) {
+  for (std::size_t lane = count; lane < model::phases_together; ++lane) {
     one.set(lane, 0.0);
     for (std::size_t row = 0; row < sums_.size(); ++row) now_[row].set(lane, sums_[row].first[0]);
   }
@@ -188,7 +190,7 @@ void StageWatch::look(std::size_t group, std::size_t count) {
     count_contact(rows_.sun_planet(i), model_.sun_planet_half_gap, one, sun_planet_[i]);
     count_contact(rows_.ring_planet(i), model_.ring_planet_half_gap, one, ring_planet_[i]);
   }
-  for (const auto kind : {&model::LookRows::sun_planet, &model::LookRows::ring_planet}) {
+  for (const auto kind : {&model::OutputRows::sun_planet, &model::OutputRows::ring_planet}) {
     Numbers least = now_[(rows_.*kind)(0).delta()];
     Numbers most = least;
     for (std::size_t i = 1; i < rows_.planets; ++i) {
@@ -201,27 +203,27 @@ void StageWatch::look(std::size_t group, std::size_t count) {
   const std::array signals = {rows_.sun_planet(0).delta(), rows_.ring_planet(0).delta(), rows_.transmission_error()};
   for (std::size_t k = 0; k < signals.size(); ++k)
     for (std::size_t lane = 0; lane < count; ++lane)
-      profiles_[k][group * model::looks_together + lane] += now_[signals[k]][lane];
+      profiles_[k][group * model::phases_together + lane] += now_[signals[k]][lane];
   for (std::size_t lane = 0; keeps_signal_ && lane < count; ++lane) signal_.push_back(now_[signals[0]][lane]);
 }
 
-void StageWatch::count_contact(const model::LookRows::Mesh& at, double half_gap, const Numbers& one,
-                               Counts& counts) const {
+void ResponseStatistics::count_contact(const model::OutputRows::Mesh& at, double half_gap, const Numbers& one,
+                                       Counts& counts) const {
   const Numbers nothing(0.0);
   const Numbers& delta = now_[at.delta()];
   const Numbers drive = select(delta > Numbers(half_gap), one, nothing);
   const Numbers back = select(delta < Numbers(-half_gap), one, nothing);
   counts.drive += drive;
   counts.back += back;
-  const Numbers pull =
-      told_pull(model::pull(delta, half_gap, now_[at.elastic()], now_[at.force()]), model_.static_mesh_force);
-  counts.pull = max(counts.pull, pull);
-  counts.pulling += select(pull > nothing, one, nothing);
+  const Numbers tension = noticeable_tension(
+      model::tensile_force(delta, half_gap, now_[at.elastic()], now_[at.force()]), model_.static_mesh_force);
+  counts.tension = max(counts.tension, tension);
+  counts.pulling += select(tension > nothing, one, nothing);
 }
 
-StageRecord StageWatch::finish() {
-  if (const std::size_t begun = seen_ % phases_ % model::looks_together; begun > 0)
-    look(seen_ % phases_ / model::looks_together, begun);
+StageRecord ResponseStatistics::finish() {
+  if (const std::size_t begun = seen_ % phases_ % model::phases_together; begun > 0)
+    recording(seen_ % phases_ / model::phases_together, begun);
   const double newton = model_.scales.force_newton(1.0);
   StageRecord all;
   for (std::size_t i = 0; i < rows_.planets; ++i) {
@@ -245,7 +247,7 @@ StageRecord StageWatch::finish() {
   return all;
 }
 
-Course StageWatch::course(std::size_t row, double unit) const {
+Course ResponseStatistics::course(std::size_t row, double unit) const {
   if (seen_ == 0) return {};
   const Sums& s = sums_[row];
   const auto count = static_cast<double>(seen_);
@@ -258,7 +260,7 @@ Course StageWatch::course(std::size_t row, double unit) const {
   return c;
 }
 
-MeshRecord StageWatch::mesh(const model::LookRows::Mesh& at, const Counts& counts) const {
+MeshRecord ResponseStatistics::mesh(const model::OutputRows::Mesh& at, const Counts& counts) const {
   MeshRecord m;
   if (seen_ == 0) return m;
   const double part = 1.0 / static_cast<double>(seen_);
@@ -266,12 +268,12 @@ MeshRecord StageWatch::mesh(const model::LookRows::Mesh& at, const Counts& count
   m.force = course(at.force(), model_.scales.force_newton(1.0));
   m.drive = part * sum_of(counts.drive);
   m.back = part * sum_of(counts.back);
-  if (model_.static_mesh_force > 0.0) m.pull = largest_of(counts.pull) / model_.static_mesh_force;
-  m.pull_time = part * sum_of(counts.pulling);
+  if (model_.static_mesh_force > 0.0) m.tension = largest_of(counts.tension) / model_.static_mesh_force;
+  m.tension_time = part * sum_of(counts.pulling);
   return m;
 }
 
-MeshHarmonics StageWatch::harmonics(const std::vector<double>& profile) const {
+MeshHarmonics ResponseStatistics::harmonics(const std::vector<double>& profile) const {
   MeshHarmonics amplitudes;
   const auto phases = static_cast<double>(phases_);
   for (std::size_t h = 1; h <= amplitudes.size(); ++h) {

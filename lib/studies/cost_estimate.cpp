@@ -1,4 +1,4 @@
-#include "studies/probes.hpp"
+#include "studies/cost_estimate.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,18 +13,19 @@
 
 namespace epicyclic::studies {
 
-std::int64_t mesh_periods_of(const SweepPlan& plan, const LookOptions& look) {
-  return static_cast<std::int64_t>(plan.points.size()) * (look.transient_periods + look.recorded_periods);
+std::int64_t mesh_periods_of(const SweepPlan& plan, const RecordingOptions& recording) {
+  return static_cast<std::int64_t>(plan.points.size()) * (recording.transient_periods + recording.recorded_periods);
 }
 
-Cost estimate_cost(const SweepPlan& plan, const LookOptions& look, const integrate::IntegratorOptions& integrator,
-                   const ModelAtPoint& model_at, const std::function<bool()>& go_on) {
+Cost estimate_cost(const SweepPlan& plan, const RecordingOptions& recording,
+                   const integrate::IntegratorOptions& integrator, const ModelAtPoint& model_at,
+                   const std::function<bool()>& go_on) {
   Cost cost;
   cost.points = plan.points.size();
   cost.chains = plan.chains.size();
-  cost.mesh_periods = mesh_periods_of(plan, look);
+  cost.mesh_periods = mesh_periods_of(plan, recording);
   constexpr int probed_periods = 4;
-  LookOptions probe = by_recurrence_alone(look);
+  RecordingOptions probe = by_recurrence_alone(recording);
   probe.transient_periods = 0;
   probe.recorded_periods = probed_periods;
   double calls = 0.0;

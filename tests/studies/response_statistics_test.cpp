@@ -1,6 +1,6 @@
 // What is told of meshes and bearings over whole periods, against signals that are known and against sums one by one.
 
-#include "studies/stage_watch.hpp"
+#include "studies/response_statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ model::DynamicModel two_signals(double half_gap) {
 /// @param signal  of s, which goes on over the periods
 StageRecord record_of(const std::function<double(double s)>& signal, int phases, int periods, double half_gap = 1.0) {
   const model::DynamicModel m = two_signals(half_gap);
-  StageWatch watch(m, phases);
+  ResponseStatistics watch(m, phases);
   for (int j = 1; j <= periods * phases; ++j) {
     const double s = 2.0 * pi * j / phases;
     const std::array y = {signal(s), -signal(s)};
@@ -46,7 +46,7 @@ StageRecord record_of(const std::function<double(double s)>& signal, int phases,
   return watch.finish();
 }
 
-TEST(StageWatch, TellsWhatAHarmonicMotionIs) {
+TEST(ResponseStatistics, TellsWhatAHarmonicMotionIs) {
   // Phases that are whole groups of looks, and those that are not.
   for (const int phases : {64, 36, 20, 12}) {
     const StageRecord r = record_of(
@@ -66,38 +66,38 @@ TEST(StageWatch, TellsWhatAHarmonicMotionIs) {
   EXPECT_NEAR(r.sun_planet[0].delta.range(), 2.0, rounding);
 }
 
-TEST(StageWatch, SubharmonicsAreNoMeshHarmonics) {
+TEST(ResponseStatistics, SubharmonicsAreNoMeshHarmonics) {
   const StageRecord r = record_of([](double s) { return std::cos(s / 2.0) + 0.3 * std::cos(s); }, 64, 8);
   EXPECT_NEAR(r.sun_planet_harmonics[0], 0.3, rounding);
   EXPECT_NEAR(r.sun_planet_harmonics[1], 0.0, rounding);
   EXPECT_NEAR(r.sun_planet[0].delta.rms, std::sqrt((1.0 + 0.09) / 2.0), rounding);
 }
 
-TEST(StageWatch, HarmonicsThatCannotBeToldAreNone) {
+TEST(ResponseStatistics, HarmonicsThatCannotBeToldAreNone) {
   const StageRecord r = record_of([](double s) { return std::cos(s); }, 4, 2);
   EXPECT_NEAR(r.sun_planet_harmonics[0], 1.0, rounding);
   EXPECT_TRUE(std::isnan(r.sun_planet_harmonics[1])) << "two samples of a wave";
   EXPECT_TRUE(std::isnan(r.sun_planet_harmonics[2]));
 }
 
-TEST(StageWatch, ASmallMotionIsNotLostInItsMean) {
+TEST(ResponseStatistics, ASmallMotionIsNotLostInItsMean) {
   const double small = 1e-9;
   const StageRecord r = record_of([small](double s) { return 4.0 + small * std::cos(s); }, 64, 4);
   constexpr double of_the_mean = 4.0 * 2.3e-16;  // a sample's own rounding
   EXPECT_NEAR(r.sun_planet[0].delta.rms, small / std::sqrt(2.0), of_the_mean);
 }
 
-TEST(StageWatch, TellsHowLongAMeshIsOnEachSide) {
+TEST(ResponseStatistics, TellsHowLongAMeshIsOnEachSide) {
   // cos s > 1/2 for a third of the time; at 12 phases for 3 of them, since the ends do not count.
   for (const int phases : {12, 20, 64}) {
-    const auto wave = [](double s) { return std::cos(s); };
+    const auto symmetry_index = [](double s) { return std::cos(s); };
     long drive = 0;
     long back = 0;
     for (int j = 1; j <= 3 * phases; ++j) {
-      drive += wave(2.0 * pi * j / phases) > 0.5 ? 1 : 0;
-      back += wave(2.0 * pi * j / phases) < -0.5 ? 1 : 0;
+      drive += symmetry_index(2.0 * pi * j / phases) > 0.5 ? 1 : 0;
+      back += symmetry_index(2.0 * pi * j / phases) < -0.5 ? 1 : 0;
     }
-    const StageRecord r = record_of(wave, phases, 3, 0.5);
+    const StageRecord r = record_of(symmetry_index, phases, 3, 0.5);
     const MeshRecord& sp = r.sun_planet[0];
     EXPECT_NEAR(sp.drive, static_cast<double>(drive) / (3.0 * phases), rounding) << phases;
     EXPECT_NEAR(sp.back, static_cast<double>(back) / (3.0 * phases), rounding) << phases;
@@ -107,9 +107,9 @@ TEST(StageWatch, TellsHowLongAMeshIsOnEachSide) {
   EXPECT_EQ(record_of([](double) { return 2.0; }, 12, 1).sun_planet[0].contact(), "drive");
 }
 
-TEST(StageWatch, ARecordThatBrokeOffTellsWhatWasSeen) {
+TEST(ResponseStatistics, ARecordThatBrokeOffTellsWhatWasSeen) {
   const model::DynamicModel m = two_signals(1.0);
-  StageWatch watch(m, 64);
+  ResponseStatistics watch(m, 64);
   double sum = 0.0;
   for (int j = 1; j <= 64 + 11; ++j) {
     const double x = 0.01 * j;
@@ -122,20 +122,20 @@ TEST(StageWatch, ARecordThatBrokeOffTellsWhatWasSeen) {
   EXPECT_EQ(r.sun_planet[0].delta.least, 0.01);
   EXPECT_NEAR(r.sun_planet[0].loss(), 1.0, rounding);
   EXPECT_TRUE(std::isnan(r.sun_planet_harmonics[0])) << "over whole periods only";
-  StageWatch none(m, 64);
+  ResponseStatistics none(m, 64);
   const StageRecord nothing = none.finish();
   EXPECT_TRUE(std::isnan(nothing.sun_planet[0].delta.mean));
   EXPECT_EQ(nothing.sun_planet[0].contact(), "");
 }
 
-TEST(StageWatch, TellsTheForcesOfAStageOneByOne) {
+TEST(ResponseStatistics, TellsTheForcesOfAStageOneByOne) {
   const gear::Stage stage = problems::r1_nonlinear();
   const model::Scales scales = model::scales_of(stage);
   const model::DynamicModel m = model::make_dynamic_model(stage, scales, 0.9, {});
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> component(-6.0, 6.0);  // on all three sides of the gaps
   constexpr int phases = 20;
-  StageWatch watch(m, phases);
+  ResponseStatistics watch(m, phases);
   std::vector<double> sp_2;
   std::vector<double> bearing;
   double greatest = 0.0;
@@ -207,12 +207,12 @@ gear::Stage stiffly_held(gear::Stage stage) {
 
 StageRecord record_at(const gear::Stage& stage, double ratio, int transient_periods) {
   const model::DynamicModel m = model::make_dynamic_model(stage, model::scales_of(stage), ratio, {});
-  LookOptions look;
-  look.classification_periods = 0;
-  look.transient_periods = transient_periods;
-  look.recorded_periods = 2;
-  look.period_max = 1;
-  return compute_point({}, m, {}, look, {}, [] { return true; }).meshes;
+  RecordingOptions recording;
+  recording.classification_periods = 0;
+  recording.transient_periods = transient_periods;
+  recording.recorded_periods = 2;
+  recording.period_max = 1;
+  return compute_point({}, m, {}, recording, {}, [] { return true; }).meshes;
 }
 
 TEST(DynamicFactor, IsOneAtNoSpeedWhateverPlanetsCarry) {

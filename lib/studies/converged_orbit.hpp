@@ -11,7 +11,7 @@
 
 namespace epicyclic::studies {
 
-struct SettledOrbit {
+struct ConvergedOrbit {
   int period = 0;  ///< n [mesh periods]; 0 if there is no such orbit
   analysis::PeriodicOrbit orbit{};
   double distance = 0;            ///< of the motion's last state from the orbit [b_c, b_c per tau]
@@ -20,6 +20,6 @@ struct SettledOrbit {
 };
 
 /// @param flow  of the motion's model, at the tolerance that the orbit is wanted to
-[[nodiscard]] SettledOrbit settled_orbit(integrate::Flow& flow, const PointSummary& motion);
+[[nodiscard]] ConvergedOrbit settled_orbit(integrate::Flow& flow, const PointSummary& motion);
 
 }  // namespace epicyclic::studies

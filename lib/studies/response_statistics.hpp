@@ -43,9 +43,9 @@ struct MeshRecord {
   Course force;                                             ///< F, damping included [N]
   double drive = std::numeric_limits<double>::quiet_NaN();  ///< part of the time on that flank [-]; likewise none
   double back = drive;
-  double pull = 0;       ///< greatest tension [model::pull()], over the static force of a sun mesh [-]
-  double pull_time = 0;  ///< part of the time that there is tension [-]
-  Course quasi_static;   ///< force over a mesh period of the quasi-static solution [N]
+  double tension = 0;       ///< greatest tension [model::pull()], over the static force of a sun mesh [-]
+  double tension_time = 0;  ///< part of the time that there is tension [-]
+  Course quasi_static;      ///< force over a mesh period of the quasi-static solution [N]
 
   /// dynamic_factor() of it.
   [[nodiscard]] double kv() const;
@@ -91,8 +91,8 @@ struct StageRecord {
   /// K_gamma [S-kgamma].
   [[nodiscard]] static double k_gamma(const std::vector<MeshRecord>& meshes);
   /// Greatest tension of any of them, and the greatest part of the time that one of them pulls.
-  [[nodiscard]] static double pull(const std::vector<MeshRecord>& meshes);
-  [[nodiscard]] static double pull_time(const std::vector<MeshRecord>& meshes);
+  [[nodiscard]] static double tension(const std::vector<MeshRecord>& meshes);
+  [[nodiscard]] static double tension_time(const std::vector<MeshRecord>& meshes);
 };
 
 /// Forces of the sun meshes, then of the ring meshes, over a mesh period of the quasi-static solution [N].
@@ -101,12 +101,12 @@ struct StageRecord {
 [[nodiscard]] std::vector<Course> quasi_static_forces(const model::DynamicModel& model, int phases);
 
 /// Sees a motion at even phases of its dense output.
-class StageWatch {
+class ResponseStatistics {
  public:
   /// @param model   must live longer
   /// @param phases  looks per mesh period
   /// @param keeps_signal  delta_sp_1 at each of them, for signal()
-  StageWatch(const model::DynamicModel& model, int phases, bool keeps_signal = false);
+  ResponseStatistics(const model::DynamicModel& model, int phases, bool keeps_signal = false);
 
   /// The state at the next phase; the first one is that of j = 1 of analysis::uniform_phases().
   void see(std::span<const double> y);
@@ -118,7 +118,7 @@ class StageWatch {
   [[nodiscard]] const std::vector<double>& signal() const { return signal_; }
 
  private:
-  using Numbers = Lanes<model::looks_together>;
+  using Numbers = Lanes<model::phases_together>;
 
   /// Samples of one number, side by side.
   struct Sums {
@@ -127,19 +127,19 @@ class StageWatch {
   };
   /// Of one mesh.
   struct Counts {
-    Numbers drive{0.0}, back{0.0}, pulling{0.0}, pull{0.0};
+    Numbers drive{0.0}, back{0.0}, pulling{0.0}, tension{0.0};
   };
 
-  void look(std::size_t group, std::size_t count);
-  void count_contact(const model::LookRows::Mesh& at, double half_gap, const Numbers& one, Counts& counts) const;
+  void recording(std::size_t group, std::size_t count);
+  void count_contact(const model::OutputRows::Mesh& at, double half_gap, const Numbers& one, Counts& counts) const;
   [[nodiscard]] Course course(std::size_t row, double unit) const;
-  [[nodiscard]] MeshRecord mesh(const model::LookRows::Mesh& at, const Counts& counts) const;
+  [[nodiscard]] MeshRecord mesh(const model::OutputRows::Mesh& at, const Counts& counts) const;
   [[nodiscard]] MeshHarmonics harmonics(const std::vector<double>& profile) const;
 
   const model::DynamicModel& model_;
-  model::LookRows rows_;
+  model::OutputRows rows_;
   std::size_t phases_;
-  model::StageLook look_;
+  model::StageOutputs recording_;
   std::vector<Numbers> states_, now_;  ///< of the group under way
   std::vector<Sums> sums_;
   std::vector<Counts> sun_planet_, ring_planet_;

@@ -1,4 +1,4 @@
-#include "studies/units.hpp"
+#include "studies/parallel_for.hpp"
 
 #include <algorithm>
 #include <exception>
@@ -9,8 +9,8 @@
 
 namespace epicyclic::studies {
 
-bool for_units(std::size_t count, int threads, const std::atomic<bool>* stop,
-               const std::function<void(std::size_t)>& f) {
+bool parallel_for(std::size_t count, int threads, const std::atomic<bool>* stop,
+                  const std::function<void(std::size_t)>& f) {
   std::atomic<std::size_t> next{0};
   std::atomic<bool> failed{false};
   std::mutex mutex;

@@ -1,4 +1,4 @@
-// What meshes and bearings do at an instant, looked at several instants at once.
+// What meshes and bearings do at an instant, looked at several phase_coefficients at once.
 //
 //   delta, F, k f(delta)  of each mesh [M-13], [M-14], [M-27];  |F_b| of the bearing between each planet and the
 //   carrier and of the sun's;  the transmission error of the stage
@@ -10,7 +10,7 @@
 // stands, and a rigid rotation of the whole train is none. In relative coordinates it is w_s, with the torsion of the
 // member that is supported.
 //
-// Looks are at phases that come again each period, `looks_together` of them side by side: what the phase decides is
+// Looks are at phases that come again each period, `phases_together` of them side by side: what the phase decides is
 // made once. Limits: none of its own. Smoothness: as the forces, model/right_hand_side.hpp.
 #pragma once
 
@@ -23,10 +23,10 @@
 namespace epicyclic::model {
 
 /// Instants side by side.
-inline constexpr std::size_t looks_together = 8;
+inline constexpr std::size_t phases_together = 8;
 
 /// Where the numbers of a look at N planets stand; forces in m_0 omega_sn^2 b_c, the rest in b_c.
-struct LookRows {
+struct OutputRows {
   std::size_t planets = 0;
 
   static constexpr std::size_t of_mesh = 3;
@@ -53,7 +53,7 @@ struct LookRows {
 /// the open gap or just before contact is lost.
 /// @param force  F, of which `elastic` is no damping
 template <class T>
-[[nodiscard]] T pull(const T& delta, double half_gap, const T& elastic, const T& force) {
+[[nodiscard]] T tensile_force(const T& delta, double half_gap, const T& elastic, const T& force) {
   const T nothing(0.0);
   const T sign = select(delta < T(-half_gap), T(-1.0), T(1.0));
   // A smoothed clearance has a little of the other flank's force in the gap: that is no tension.
@@ -62,13 +62,13 @@ template <class T>
   return select(tension > nothing, tension, nothing);
 }
 
-/// Looks at a group of phases: numbers `group` looks_together and on of those that it was made for.
+/// Looks at a group of phases: numbers `group` phases_together and on of those that it was made for.
 ///
-/// @param states  the state at each of them, component by component: looks_together numbers each
-/// @param rows    LookRows::count() rows of as many numbers; of phases that there are not they mean nothing
-using StageLook = std::function<void(std::size_t group, const double* states, double* rows)>;
+/// @param states  the state at each of them, component by component: phases_together numbers each
+/// @param rows    OutputRows::count() rows of as many numbers; of phases that there are not they mean nothing
+using StageOutputs = std::function<void(std::size_t group, const double* states, double* rows)>;
 
 /// @param phases  in [0, 2 pi]
-using StageLooks = std::function<StageLook(std::span<const double> phases)>;
+using StageOutputsAt = std::function<StageOutputs(std::span<const double> phases)>;
 
 }  // namespace epicyclic::model

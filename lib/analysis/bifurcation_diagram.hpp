@@ -66,7 +66,7 @@ struct TreeOptions {
 /// An orbit that a branch is to be followed from, or was.
 struct BranchStart {
   int period = 1;
-  int pieces = 1;
+  int shooting_intervals = 1;
   bool keeps_symmetry = true;
   BranchOrbit orbit;
   std::optional<SpecialPlace> from{};                         ///< that it leaves: the branch begins there
@@ -88,23 +88,23 @@ struct TreeStep {
   std::optional<BranchOrbit> orbit{};  ///< next on the way
   std::vector<SpecialPoint> special{};
   std::vector<std::optional<SpecialPlace>> same_as{};
-  std::vector<BranchStart> departures{};
+  std::vector<BranchStart> branch_switches{};
   std::optional<BranchLimit> limit{};  ///< where the way has ended
 };
 
 /// A tree is what its steps make of it: one that is given the steps of another, apply() after apply(), goes on with the
 /// same bits.
-class BranchTree {
+class BifurcationDiagram {
  public:
   /// @param system  flows, scales, symmetry and accuracy of all branches
   /// @throws InputError for options out of range
-  BranchTree(OrbitFamily system, TreeOptions options);
+  BifurcationDiagram(OrbitFamily system, TreeOptions options);
 
   /// An orbit of the system's period and pieces to start from, unless a branch goes through it when its turn comes.
   /// @param keeps_symmetry  among the orbits that the symmetry leaves as they are
   void start(BranchOrbit orbit, bool keeps_symmetry);
   /// One of another period, its least, and other pieces; not followed further from its value than `reach`.
-  void start(BranchOrbit orbit, bool keeps_symmetry, int period, int pieces,
+  void start(BranchOrbit orbit, bool keeps_symmetry, int period, int shooting_intervals,
              double reach = std::numeric_limits<double>::infinity());
   void start(BranchOrbit orbit) { start(std::move(orbit), system_.keeps_symmetry); }
 

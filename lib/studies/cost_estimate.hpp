@@ -21,12 +21,12 @@ struct Cost {
 };
 
 /// Transients and records of all points.
-[[nodiscard]] std::int64_t mesh_periods_of(const SweepPlan& plan, const LookOptions& look);
+[[nodiscard]] std::int64_t mesh_periods_of(const SweepPlan& plan, const RecordingOptions& recording);
 
 /// Counts, and probes the first point, the last and the one between from the default start.
 /// @param go_on  asked now and then; once it says false, the right-hand sides are those that were counted by then
 [[nodiscard]] Cost estimate_cost(
-    const SweepPlan& plan, const LookOptions& look, const integrate::IntegratorOptions& integrator,
+    const SweepPlan& plan, const RecordingOptions& recording, const integrate::IntegratorOptions& integrator,
     const ModelAtPoint& model_at, const std::function<bool()>& go_on = [] { return true; });
 
 /// The same ranges with fewer values, each in the middle of its part, in as many chains as that allows.

@@ -12,7 +12,7 @@ namespace epicyclic::studies {
 /// @param stop  set to true: no further unit is begun; may be null
 /// @returns false if stopped before all were begun
 /// @throws the first exception of a unit, after those under way have ended
-bool for_units(std::size_t count, int threads, const std::atomic<bool>* stop,
-               const std::function<void(std::size_t)>& f);
+bool parallel_for(std::size_t count, int threads, const std::atomic<bool>* stop,
+                  const std::function<void(std::size_t)>& f);
 
 }  // namespace epicyclic::studies
