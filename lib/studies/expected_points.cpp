@@ -12,8 +12,8 @@ namespace {
 
 /// "symmetry index 1 of 3", which older files call "wave 1 of 3".
 std::string symmetry_of(const LocatedPoint& p) {
-  constexpr std::string_view old = "wave ";
-  return p.broken_symmetry.starts_with(old) ? "symmetry index " + p.broken_symmetry.substr(old.size())
+  constexpr std::string_view old = "wave";
+  return p.broken_symmetry.starts_with(old) ? "symmetry index" + p.broken_symmetry.substr(old.size())
                                             : p.broken_symmetry;
 }
 

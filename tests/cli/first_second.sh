@@ -94,7 +94,7 @@ for command in "${commands[@]}"; do
   done
   # The last one goes on to its end.
   code=$(code_of "$epicyclic" "${arguments[@]}")
-  [ "$code" = "$whole" ] || { [ "$code" = 2 ] && grep -q ': exists; init' stderr; } || fail "$command, again after $last: exit code $code: $(<stderr)"
+  [ "$code" = "$whole" ] || { [ "$code" = 2 ] && grep -q ': exists; ' stderr; } || fail "$command, again after $last: exit code $code: $(<stderr)"
 done
 echo "$count stops of ${#commands[@]} commands, $early of them too late"
 finish
