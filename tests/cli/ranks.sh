@@ -111,7 +111,7 @@ once() {
 }
 once 3 'contains another study' "${study[@]}" -o study.2 --set /integrator/relative_tolerance=1e-7
 mkdir foreign && echo mine >foreign/thesis.txt
-once 3 'not a study' "${study[@]}" -o foreign
+once 3 'contains files that are not those of a study' "${study[@]}" -o foreign
 once 0 'complete already' "${study[@]}" -o study.2
 once 2 '/study/points' "${study[@]}" -o refused --set /study/points=none
 [ ! -e refused ] || fail "refused, but written to"
