@@ -15,8 +15,8 @@ Expected expected_of(double seconds, const studies::Measured& m) {
                       seconds_of(measured_for))};
 }
 
-Expected time_of_points(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
-                        const TimeLimit& limit, const TimeAfterPoints& after, const char* without) {
+Expected time_with_checks(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
+                          const TimeLimit& limit, const TimeAfterPoints& after, const char* without) {
   const studies::ModelAtPoint model_at = input::model_at_point(input);
   std::vector<studies::PointResult> points;
   std::optional<studies::SweepPlan> last;
@@ -45,6 +45,11 @@ Expected time_of_points(const input::LoadedInput& input, const studies::SweepPla
   else
     expected.measured += std::string(", without ") + without;
   return expected;
+}
+
+Expected time_of_points(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
+                        const TimeLimit& limit) {
+  return time_with_checks(input, plan, threads, limit, {}, "");
 }
 
 }  // namespace epicyclic::app

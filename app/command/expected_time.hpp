@@ -111,9 +111,13 @@ using TimeAfterPoints = std::function<std::optional<double>(const studies::Sweep
                                                             const std::vector<studies::PointResult>& points)>;
 
 /// Of a study of points.
-/// @param after  may be empty; `without` names what it measures
 [[nodiscard]] Expected time_of_points(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
-                                      const TimeLimit& limit, const TimeAfterPoints& after = {},
-                                      const char* without = "");
+                                      const TimeLimit& limit);
+
+/// The same with what is done with the points afterwards.
+/// @param after    may be empty
+/// @param without  names what it measures
+[[nodiscard]] Expected time_with_checks(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
+                                        const TimeLimit& limit, const TimeAfterPoints& after, const char* without);
 
 }  // namespace epicyclic::app

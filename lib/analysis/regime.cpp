@@ -471,11 +471,15 @@ class Classifier {
     return n;
   }
 
+  /// What the exponent counts. The first quarter is left to the alignment of the vector and to the end of the
+  /// transient.
+  [[nodiscard]] std::span<const double> counted_growth() const {
+    return std::span(growth_).subspan(growth_.size() / 4);
+  }
+
   bool is_chaotic() {
     Evidence& seen = result_.evidence;
-    // The first quarter is left to the vector's turning and to what is left of the transient.
-    const std::span<const double> counted = std::span(growth_).subspan(growth_.size() / 4);
-    seen.exponent = series_mean(counted) / flow_->field().period;
+    seen.exponent = series_mean(counted_growth()) / flow_->field().period;
     seen.zero_one.reset();
     if (series_.size() < 2 * static_cast<std::size_t>(growth_window)) return false;
     seen.zero_one = zero_one_test(series_, noise());
@@ -750,7 +754,7 @@ class Classifier {
   /// Whether the interval of the exponent excludes that vectors have grown by more than e^8 over all periods that it
   /// counts. Beside a torus they are bounded. In weak chaos they may neither grow nor shrink for hundreds of periods.
   [[nodiscard]] bool growth_is_bounded() const {
-    const auto counted = static_cast<double>(growth_.size() - growth_.size() / 4);
+    const auto counted = static_cast<double>(counted_growth().size());
     return result_.evidence.exponent.high() * flow_->field().period * counted <= 4.0 * neutral_growth;
   }
 

@@ -47,6 +47,7 @@ class Plan {
   [[nodiscard]] const StudyKind* kind() const { return kind_; }  ///< null of a stage alone
   [[nodiscard]] std::string_view name() const;                   ///< of its kind; "stage" of a stage alone
   [[nodiscard]] std::any& options() { return options_; }
+  [[nodiscard]] const std::any& options() const { return options_; }
 
   /// The options of a kind, by their type; null of another kind.
   template <class Options>

@@ -310,8 +310,8 @@ std::vector<std::string> warnings(const LoadedInput& input) {
     const StudyKind& kind = *study.plan.kind();
     if (kind.warn != nullptr) kind.warn(all, input);
     const bool own_method = kind.method != nullptr;
-    Plan plan = study.plan;
-    const auto* method = integrate::find_method(own_method ? kind.method(plan.options()) : study.integrator.method);
+    const auto* method =
+        integrate::find_method(own_method ? kind.method(study.plan.options()) : study.integrator.method);
     const bool located =
         method != nullptr && (own_method ? method->locates_contacts() : study.integrator.locate_contacts);
     if (method != nullptr && method->misses_kinks && study.model.clearance_smoothing == 0.0 && !located)

@@ -137,7 +137,7 @@ bool has_computed_tables(const gear::Stage& stage) {
   return of(stage.sun_planet_mesh) || of(stage.ring_planet_mesh);
 }
 
-/// The phase_coefficients of all phases are made here, once.
+/// The instants of all phases are made here, once.
 template <std::size_t N, std::size_t W>
 StageOutputsAt stage_looks(Layout layout, const std::shared_ptr<const Parameters<double, N>>& p,
                            const OutputKernel<N, W>& kernel) {

@@ -61,7 +61,7 @@ struct DynamicModel : VectorField {
   /// Forces of meshes and bearings at a state; allocation-free when `out` has been used before.
   std::function<void(double s, const double* y, StageForces& out)> forces;
 
-  /// The same and the transmission error, for many phase_coefficients [model/stage_outputs.hpp]. Empty in a model of
+  /// The same and the transmission error, for many instants [model/stage_outputs.hpp]. Empty in a model of
   /// one's own: of its meshes nothing but deflections is then told.
   StageOutputsAt outputs_at;
 

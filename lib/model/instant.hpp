@@ -5,7 +5,7 @@
 //   k_i(s), A_i(s), B_i(s)  by harmonics or tables on the mesh's own phase s / 2 pi + turns_i                    [M-27]
 //
 // The slopes of a Runge-Kutta step are taken at phases that are known when the step begins; lanes make their
-// phase_coefficients all at once, because this is mostly waiting for one's own results.
+// instants all at once, because this is mostly waiting for one's own results.
 #pragma once
 
 #include <algorithm>

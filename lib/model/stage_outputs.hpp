@@ -1,4 +1,4 @@
-// What meshes and bearings do at an instant, looked at several phase_coefficients at once.
+// What meshes and bearings do at an instant, at several instants at once.
 //
 //   delta, F, k f(delta)  of each mesh [M-13], [M-14], [M-27];  |F_b| of the bearing between each planet and the
 //   carrier and of the sun's;  the transmission error of the stage

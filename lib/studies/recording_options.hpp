@@ -1,4 +1,4 @@
-// How long the motion of a point is looked at, and what is kept of it.
+// How long the response at a point is recorded, and what is kept of it.
 #pragma once
 
 namespace epicyclic::studies {

@@ -104,7 +104,7 @@ struct StageRecord {
 class ResponseStatistics {
  public:
   /// @param model   must live longer
-  /// @param phases  looks per mesh period
+  /// @param phases  samples per mesh period
   /// @param keeps_signal  delta_sp_1 at each of them, for signal()
   ResponseStatistics(const model::DynamicModel& model, int phases, bool keeps_signal = false);
 

@@ -1,4 +1,4 @@
-// Looks at many phase_coefficients side by side: what forces and deflections say of each, the same bits from each
+// Looks at many instants side by side: what forces and deflections say of each, the same bits from each
 // instruction set.
 
 #include "model/stage_outputs.hpp"

@@ -86,6 +86,18 @@ TEST(PointColumns, AreTheSameInTablesAndInHdf5) {
   }
 }
 
+/// Items of the page's lists, in the order of the columns, behind a place of the page.
+template <class Row>
+void expect_documented(const std::vector<store::Column<Row>>& columns, const std::string& page, std::size_t& from) {
+  for (const store::Column<Row>& column : columns) {
+    const std::string unit = column.unit.empty() ? "" : " [" + std::string(column.unit) + "]";
+    const std::string item = "- `" + column.name + "`" + unit + ": " + column.meaning + "\n";
+    const std::size_t at = page.find(item, from);
+    EXPECT_NE(at, std::string::npos) << "missing, or not in this place: " << item;
+    if (at != std::string::npos) from = at;
+  }
+}
+
 TEST(PointColumns, AreEachOfANumberOfItsOwn) {
   // Two columns that read the same place would be the same in each row, but for planet 1's, which stand twice, and K_v
   // of the mesh with the largest force, which is planet 2's here.
@@ -106,6 +118,16 @@ TEST(PointColumns, AreEachOfANumberOfItsOwn) {
     EXPECT_EQ(column.name, of_planet_1);
   }
   EXPECT_GT(numbers, 90U);
+}
+
+TEST(PointColumns, StandInTheDocumentation) {
+  std::string page = contents("docs/reference/columns.md");
+  for (std::size_t at = 0; (at = page.find("\n  ", at)) != std::string::npos;) page.replace(at, 3, " ");
+  std::size_t from = 0;
+  expect_documented(store::point_columns(0), page, from);
+  expect_documented(store::branch_columns(0), page, from);
+  expect_documented(store::special_columns(), page, from);
+  expect_documented(store::locus_columns(), page, from);
 }
 
 }  // namespace

@@ -36,8 +36,7 @@ const Command& map_command() {
       .takes = Takes::output,
       .options = &add_grow_option,
       .shares_work = true,
-      .expected = [](const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
-                     const TimeLimit& limit) { return time_of_points(input, plan, threads, limit); },
+      .expected = &time_of_points,
   };
   return command;
 }

@@ -170,7 +170,7 @@ std::optional<double> seconds_of_check(const input::LoadedInput& input, const st
 
 Expected time_of_sweep(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
                        const TimeLimit& limit) {
-  return time_of_points(
+  return time_with_checks(
       input, plan, threads, limit,
       [&](const studies::SweepPlan& miniature, const std::vector<studies::PointResult>& points) {
         return seconds_of_check(input, miniature, points, threads, limit);

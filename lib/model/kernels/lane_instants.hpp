@@ -1,4 +1,4 @@
-// The phase_coefficients of a step's slopes, W operating points side by side: model/instant.hpp with lanes for scalars.
+// The instants of a step's slopes, W operating points side by side: model/instant.hpp with lanes for scalars.
 //
 // Sine, cosine and the places in tables are chains of operations that wait for each other. So each is gone through for
 // all slopes before the next one: passes are short enough for a processor to work on those of several slopes at once.

@@ -20,7 +20,7 @@ template <std::size_t N, std::size_t W>
 struct LaneKernel {
   using Instants = PhaseCoefficients<Lanes<W>, N>;
 
-  /// `count` phase_coefficients of W phases each, all in the lanes' segments.
+  /// `count` instants of W phases each, all in the lanes' segments.
   void (*prepare)(const LaneParameters<N, W>& p, std::size_t count, const double* s,
                   Instants* phase_coefficients) = nullptr;
 
@@ -36,7 +36,7 @@ struct LaneKernel {
                            double* rates) = nullptr;
 };
 
-/// Looks at W phase_coefficients of one operating point [model/stage_outputs.hpp], in any coordinates.
+/// Evaluates the outputs at W instants of one operating point [model/stage_outputs.hpp], in any coordinates.
 template <std::size_t N, std::size_t W>
 struct OutputKernel {
   /// As LaneKernel::prepare().
