@@ -60,7 +60,7 @@ void add_recording(Table<Study>& t) {
             "Mesh periods before the record, if the transient is fixed [-].");
   t.integer("recorded_periods", of(&RecordingOptions::recorded_periods), between(1, 1e5), "Mesh periods recorded [-].");
   t.integer("output_phases", of(&RecordingOptions::output_phases), between(1, 10000),
-            "Output points per recorded mesh period [-].");
+            "Samples per recorded mesh period for means and harmonics [-]; extrema have at least four times as many.");
   t.integer("period_max", of(&RecordingOptions::period_max), between(1, 10000),
             "Longest period that is sought, in mesh periods [-].");
   t.number("recurrence_tolerance", of(&RecordingOptions::recurrence_tolerance), between(tolerance_min, 1),

@@ -140,6 +140,9 @@ std::vector<StageColumn> stage_columns() {
         Number([meshes = kind.meshes](const StageRecord& r) { return StageRecord::k_gamma(r.*meshes); }));
   add_force(all, "force_sun_bearing", "the force of the sun's bearing (damping in the clearance included)",
             [](const StageRecord& r) -> const Course& { return r.sun_bearing; });
+  add(all, "force_max_error", "1",
+      "estimated relative error of the largest forces and of K_v by sampling: largest of all meshes and bearings",
+      Number([](const StageRecord& r) { return r.force_error; }));
   add(all, "static_force", "N", "static force of a sun mesh: torque over base radius and number of planets",
       Number([](const StageRecord& r) { return r.static_force; }));
   add(all, "mesh_frequency_Hz", "Hz", "mesh frequency",

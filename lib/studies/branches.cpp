@@ -197,12 +197,11 @@ BranchRow branch_row(const analysis::OrbitFamily& family, const analysis::Branch
   if (states.cols() == 0) return row;
   const auto flow = family.flows(orbit.at.value);
   ResponseStatistics watch(model, phases);
-  const std::vector<double> at = analysis::uniform_phases(model.period, phases);
   for (Eigen::Index n = 0; n < states.cols(); ++n) {
     std::vector<double> y(states.col(n).begin(), states.col(n).end());
     flow->forget();
     const auto see = [&](std::size_t, double, std::span<const double> state) { watch.see(state); };
-    if (!flow->evolve(y, 0.0, model.period, at, see).reached()) return row;
+    if (!flow->evolve(y, 0.0, model.period, watch.phases(), see).reached()) return row;
   }
   model::MeshDeflections d;
   for (Eigen::Index n = 0; n < states.cols(); ++n)

@@ -123,7 +123,7 @@ const Table<Study>& continue_table() {
     t.number("largest_step", of(&BranchesOptions::max_step), between(1e-6, 10),
              "Longest step along a branch, in units of the parameter and of b_c together [-].");
     t.integer("output_phases", of(&BranchesOptions::output_phases), between(1, 10000),
-              "Output points per mesh period, from which extrema are taken [-].");
+              "Samples per mesh period for means; extrema have at least four times as many [-].");
     t.object("search", in_branches(&BranchesOptions::search), search_table());
     t.object("loci", in_branches(&BranchesOptions::loci), loci_table());
     return t;
