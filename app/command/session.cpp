@@ -4,6 +4,7 @@
 
 #include "figures/gnuplot.hpp"
 #include "folder.hpp"
+#include "input/aliases.hpp"
 #include "input/study_model.hpp"
 #include "store/identity.hpp"
 #include "streams.hpp"
@@ -11,7 +12,10 @@
 namespace epicyclic::app {
 
 std::string identity_of(const input::LoadedInput& input, std::string_view command, std::optional<int> judging) {
-  return store::identity({input.resolved, input.computed}, command, judging);
+  // By old names, so that a folder of the program before the renaming has the same one.
+  const std::string study = input::study_of(input.resolved);
+  return store::identity({input::with_old_names(input.resolved, study), input::with_old_names(input.computed, study)},
+                         command, judging);
 }
 
 void print_warnings(const input::LoadedInput& input) {

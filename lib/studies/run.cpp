@@ -374,7 +374,7 @@ class Run {
         bool drives = model::DynamicModel::contact(delta.front(), gap) == model::Contact::drive;
         for (std::size_t k = 0; k < delta.size(); ++k) {
           const double tension = noticeable_tension(has_tension[k * 2 * planets + column], r.static_force);
-          m.pull_max = std::max(m.pull_max, tension);
+          m.tensile_force_max = std::max(m.tensile_force_max, tension);
           if (tension > 0.0) m.tension_time += part;
           const model::Contact side = model::DynamicModel::contact(delta[k], gap);
           (side == model::Contact::drive ? m.drive : side == model::Contact::loss ? m.loss : m.back) += part;
