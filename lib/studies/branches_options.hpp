@@ -12,11 +12,10 @@ namespace epicyclic::studies {
 
 /// A state on or near a periodic motion, to start a branch from.
 struct BranchSeed {
-  double value = 0;           ///< of the parameter
-  int period = 1;             ///< n [mesh periods]
-  std::vector<double> state;  ///< at s = 0
-  std::optional<double>
-      max_distance{};  ///< how far from `value` its branches are followed; none: to the ends of the range
+  double value = 0;                      ///< of the parameter
+  int period = 1;                        ///< n [mesh periods]
+  std::vector<double> state;             ///< at s = 0
+  std::optional<double> max_distance{};  ///< from `value` to the ends of its branches; none: those of the range
 
   /// @throws InputError for a period below 1, no state, and numbers that are not finite
   void validate() const;
