@@ -57,9 +57,9 @@ const Bounds smoothing_width = between(0, 10);
 constexpr auto itself = [](auto& t) -> auto& { return t; };
 
 const std::vector<std::pair<std::string, Interpolation>> interpolations = {
-    {"straight", Interpolation::straight}, {"monotone", Interpolation::monotone}, {"smooth", Interpolation::smooth}};
+    {"linear", Interpolation::linear}, {"monotone", Interpolation::monotone}, {"smooth", Interpolation::smooth}};
 const std::string interpolation_words =
-    "straight, monotone (never beyond the rows), or smooth, of fourth order, for rows of a smooth function.";
+    "linear, monotone (never beyond the rows), or smooth, of fourth order, for rows of a smooth function.";
 
 /// `inner` of what `outer` reaches.
 template <class F, class G>
@@ -452,7 +452,7 @@ const Table<model::ModelOptions>& model_table() {
     t.choice("gyroscopic", &model::ModelOptions::gyroscopic,
              std::vector<std::pair<std::string, Gyroscopic>>{{"automatic", Gyroscopic::automatic},
                                                              {"off", Gyroscopic::off},
-                                                             {"printed", Gyroscopic::printed},
+                                                             {"as_printed", Gyroscopic::as_printed},
                                                              {"carrier_row", Gyroscopic::carrier_row},
                                                              {"invariant", Gyroscopic::invariant}},
              "Form of the terms with the carrier's speed.");
@@ -521,11 +521,11 @@ const Table<Stage>& stage_table() {
     Table<Stage> t("stage", "A planetary stage.");
     t.text("name", &Stage::name, "Name of the stage.");
     t.choice("boundary", &Stage::boundary,
-             std::vector<std::pair<std::string, gear::Boundary>>{{"literal", gear::Boundary::as_printed},
+             std::vector<std::pair<std::string, gear::Boundary>>{{"as_printed", gear::Boundary::as_printed},
                                                                  {"fixed_ring", gear::Boundary::fixed_ring},
                                                                  {"star", gear::Boundary::star}},
              "Member that is held: the ring, the carrier (star), or neither, as in the printed equations of Tang et "
-             "al. (`literal`).");
+             "al. (`as_printed`).");
     t.object("planets", itself, planets_table()).required();
     t.object("load", &Stage::load, load_table());
     t.object("catalogue", present(&Stage::catalogue), catalogue_table());

@@ -209,7 +209,7 @@ std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter,
 
 std::string figure_title(const input::Study& study) {
   const gear::Boundary b = study.stage.boundary;
-  const char* boundary = b == gear::Boundary::as_printed ? "literal"
+  const char* boundary = b == gear::Boundary::as_printed ? "as_printed"
                          : b == gear::Boundary::star     ? "star"
                                                          : "fixed ring";
   std::string title = (study.name.empty() ? study.stage.name : study.name) + ", boundary " + boundary;

@@ -359,7 +359,7 @@ class Run {
         m.quasi_static = mesh.quasi_static;
         m.kv = mesh.kv();
         m.load_sharing = StageRecord::share(meshes, &Course::mean, i);
-        m.pull_max = mesh.tension * r.static_force;
+        m.tensile_force_max = mesh.tension * r.static_force;
         m.tension_time = mesh.tension_time;
         m.drive = mesh.drive;
         m.loss = mesh.loss();

@@ -443,7 +443,7 @@ TEST(RunSummary, TellsBetweenWhichDimensionsATorusMayHave) {
 TEST(RunSummary, TellsWhichTeethPullHowHardHowOftenAndWhy) {
   studies::RunResult r = result_of();
   EXPECT_TRUE(contains(on_one_line(run_summary(output(), r)), "No mesh force is tensile"));
-  r.meshes[1].pull_max = 3302.0;
+  r.meshes[1].tensile_force_max = 3302.0;
   r.meshes[1].tension_time = 0.125;
   r.static_force = 1000.0;
   const std::string summary = on_one_line(run_summary(output(), r));

@@ -121,7 +121,7 @@ void write_attractors_csv(const std::filesystem::path& file, const BasinsOutput&
   std::vector<std::string> columns = {
       "attractor",          "regime",       "period",        "cells",        "share",        "lyapunov_max",
       "lyapunov_max_error", "point",        "value",         "second_value", "delta_sp_min", "delta_sp_max",
-      "delta_rp_min",       "delta_rp_max", "planet_spread", "orbit_error",  "image_of",     "planets_on"};
+      "delta_rp_min",       "delta_rp_max", "planet_spread", "orbit_error",  "image_of",     "image_rotation"};
   columns.insert(columns.end(), output.state_names.begin(), output.state_names.end());
   CsvWriter csv(file, columns);
   for (const Row& r : rows_of(output, results, attractors)) {
@@ -174,7 +174,7 @@ void write_basins_h5(const std::filesystem::path& file, const BasinsOutput& outp
   column(
       "image_of", [](const Row& r) { return r.image_of; }, nullptr);
   column(
-      "planets_on", [](const Row& r) { return r.turn; }, "1");
+      "image_rotation", [](const Row& r) { return r.turn; }, "1");
   h5.write("/attractors/state_names", std::span<const std::string>(output.state_names));
   std::vector<double> states;
   for (const Row& r : rows) states.insert(states.end(), r.state.begin(), r.state.end());

@@ -316,9 +316,9 @@ void write_meshes(store::Hdf5File& h5, const std::vector<MeshSummary>& meshes) {
   g.column(
       "back", meshes, [](const MeshSummary& m) { return m.back; }, "-");
   g.column(
-      "pull_max", meshes, [](const MeshSummary& m) { return m.pull_max; }, "N");
+      "tensile_force_max", meshes, [](const MeshSummary& m) { return m.tensile_force_max; }, "N");
   g.column(
-      "pull_time", meshes, [](const MeshSummary& m) { return m.tension_time; }, "-");
+      "tensile_time", meshes, [](const MeshSummary& m) { return m.tension_time; }, "-");
   g.integer_column(
       "contact_losses", meshes, [](const MeshSummary& m) { return m.contact_losses; }, "per record");
 }
@@ -566,8 +566,9 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
 std::string pulls_text(const RunOutput& output, const RunResult& r) {
   std::vector<std::vector<std::string>> rows{{"mesh with tensile force", "up to [N]", "over F_0", "of the time"}};
   for (const MeshSummary& m : r.meshes)
-    if (m.pull_max > 0.0)
-      rows.push_back({m.name, fmt::format("{:.5g}", m.pull_max), fmt::format("{:.3g}", m.pull_max / r.static_force),
+    if (m.tensile_force_max > 0.0)
+      rows.push_back({m.name, fmt::format("{:.5g}", m.tensile_force_max),
+                      fmt::format("{:.3g}", m.tensile_force_max / r.static_force),
                       fmt::format("{:.1f} %", 100.0 * m.tension_time)});
   if (rows.size() == 1) return "\nNo mesh force is tensile.\n";
   const bool always = output.gap_damping == model::GapDamping::always;
