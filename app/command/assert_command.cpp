@@ -26,7 +26,8 @@ using nlohmann::json;
 using studies::PointVerdict;
 
 /// Says in what the study is not the one that the points are expected of.
-int tell_unlike(const std::vector<std::string>& lines, const std::filesystem::path& junit, const Arguments& arguments) {
+int report_unlike(const std::vector<std::string>& lines, const std::filesystem::path& junit,
+                  const Arguments& arguments) {
   constexpr std::size_t most = 5;
   if (!junit.empty()) {
     std::string text;
@@ -36,9 +37,10 @@ int tell_unlike(const std::vector<std::string>& lines, const std::filesystem::pa
   }
   if (arguments.json)
     print("{}\n", json({{"another_study", lines}}).dump(2, ' ', false, json::error_handler_t::replace));
-  tell("{}: the points of {} are expected of another study\n", arguments.input.string(), arguments.against.string());
-  for (std::size_t k = 0; k < std::min(lines.size(), most); ++k) tell("  {}\n", lines[k]);
-  if (lines.size() > most) tell("  and {} more\n", lines.size() - most);
+  print_message("{}: the points of {} are expected of another study\n", arguments.input.string(),
+                arguments.against.string());
+  for (std::size_t k = 0; k < std::min(lines.size(), most); ++k) print_message("  {}\n", lines[k]);
+  if (lines.size() > most) print_message("  and {} more\n", lines.size() - most);
   return other_study;
 }
 
@@ -52,8 +54,8 @@ int record(const Arguments& arguments, const FinishedBranches& branches) {
     throw InputError(fmt::format("{}: none of {} special points has a value and an error bound; no file is written",
                                  arguments.input.string(), branches.points.size()));
   write_file_atomically(linked_file(arguments.against), reports::expected_text(branches.input, points));
-  tell("recorded {} of {} points as the expected ones: {}\n", points.size(), branches.points.size(),
-       arguments.against.string());
+  print_message("recorded {} of {} points as the expected ones: {}\n", points.size(), branches.points.size(),
+                arguments.against.string());
   return points.size() == branches.points.size() ? done : done_with_failures;
 }
 
@@ -62,7 +64,7 @@ int compare(const Arguments& arguments, const std::filesystem::path& junit) {
   if (arguments.record) return record(arguments, branches);
   const reports::ExpectedPoints expected = reports::read_expected(arguments.against);
   if (const auto lines = reports::unlike(expected, branches.input); !lines.empty())
-    return tell_unlike(lines, junit, arguments);
+    return report_unlike(lines, junit, arguments);
   const auto compared = studies::compare_points(expected.points, branches.points, expected.reach());
   const auto failed = static_cast<std::size_t>(
       std::ranges::count_if(compared, [](const auto& c) { return c.verdict != PointVerdict::agrees; }));

@@ -50,14 +50,14 @@ void print_operation(const input::LoadedInput& input) {
     return fmt::format("mesh frequency ratio {}: {}", short_text(ratio, 6),
                        reports::speed_words(input.study.stage, ratio));
   };
-  tell("speed: {}\n", words(from));
-  if (to != from) tell("    to {}\n", words(to));
+  print_message("speed: {}\n", words(from));
+  if (to != from) print_message("    to {}\n", words(to));
   // The load may go with the speed.
   const std::string error = reports::error_words(input.study.stage, from);
-  tell("{}\n", error);
+  print_message("{}\n", error);
   if (const std::string other = reports::error_words(input.study.stage, to); other != error)
-    tell("    at the last speed: {}\n", other);
-  for (const std::string& line : input::stiffness_notes(input)) tell("mesh stiffness: {}\n", line);
+    print_message("    at the last speed: {}\n", other);
+  for (const std::string& line : input::stiffness_notes(input)) print_message("mesh stiffness: {}\n", line);
 }
 
 }  // namespace
@@ -65,38 +65,39 @@ void print_operation(const input::LoadedInput& input) {
 int check_command(const Arguments& arguments) {
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
   print_warnings(input);
-  if (!input.study.has_motion()) {
+  if (!input.study.has_dynamics()) {
     print("{}\n", input.resolved.dump(2));
-    tell("{}: valid; a stage alone, for `epicyclic gear`\n", arguments.input.string());
+    print_message("{}: valid; a stage alone, for `epicyclic gear`\n", arguments.input.string());
     return done;
   }
   if (!input.study.has_points()) {
     const auto cost_of = input.study.plan.kind()->cost;
     const std::string cost = cost_of != nullptr ? cost_of(input) : "not known";
     print("{}\n", input.resolved.dump(2));
-    tell("{}: valid\ncost: {}\n", arguments.input.string(), cost);
+    print_message("{}: valid\ncost: {}\n", arguments.input.string(), cost);
     print_operation(input);
     return done;
   }
   const studies::SweepPlan plan = input::plan_of(input.study);
   print("{}\n", input.resolved.dump(2));
-  tell("{}: valid\n", arguments.input.string());
+  print_message("{}: valid\n", arguments.input.string());
   TimeLimit limit;
   const studies::RecordingOptions& recording = input.study.recording();
   const auto cost = limit.in_time([&] {
     return studies::estimate_cost(plan, recording, input.study.integrator, input::model_at_point(input),
                                   [&] { return !limit.over(); });
   });
-  tell("cost: {} points in {} chains, {} mesh periods{}{}\n", plan.points.size(), plan.chains.size(),
-       studies::mesh_periods_of(plan, recording),
-       cost && !limit.over() ? fmt::format(", {} state variables, about {:.2g} right-hand sides", cost->dimension,
-                                           cost->rhs_evaluations())
-                             : "; the cost is not known: a few mesh periods exceed the time limit of this estimate",
-       recording.classification_periods > 0 ? " and those that classify the regimes" : "");
+  print_message(
+      "cost: {} points in {} chains, {} mesh periods{}{}\n", plan.points.size(), plan.chains.size(),
+      studies::mesh_periods_of(plan, recording),
+      cost && !limit.over()
+          ? fmt::format(", {} state variables, about {:.2g} right-hand sides", cost->dimension, cost->rhs_evaluations())
+          : "; the cost is not known: a few mesh periods exceed the time limit of this estimate",
+      recording.classification_periods > 0 ? " and those that classify the regimes" : "");
   print_operation(input);
   if (!arguments.no_time && cost) {
     const auto time = limit.in_time([&] { return time_of(input, plan, arguments.threads, limit); });
-    tell("time: {}\n", time.value_or("not known: no trial ended within the time limit"));
+    print_message("time: {}\n", time.value_or("not known: no trial ended within the time limit"));
   }
   limit.leave();
   return done;

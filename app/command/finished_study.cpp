@@ -267,24 +267,26 @@ std::string point_words(const FinishedStudy& from, const studies::PointSummary& 
 }
 
 /// What else the study knows at the values of a point, a line each.
-std::vector<std::string> other_motions(const FinishedStudy& from, std::size_t point, const model::DynamicModel& model) {
+std::vector<std::string> other_attractors(const FinishedStudy& from, std::size_t point,
+                                          const model::DynamicModel& model) {
   const bool basins = from.input().study.plan.get_if<studies::BasinsOptions>() != nullptr;
   const studies::PointSource points = from.points();
-  const studies::KnownMotions known =
-      studies::motions_known_at(from.plan(), points, point, basins, model, from.input().study.integrator);
+  const studies::KnownAttractors known =
+      studies::attractors_known_at(from.plan(), points, point, basins, model, from.input().study.integrator);
   std::vector<std::string> lines;
   for (std::size_t k = 0; k < known.all.size(); ++k) {
-    const studies::KnownMotion& motion = known.all[k];
+    const studies::KnownAttractor& attractor = known.all[k];
     if (k + 1 == known.here) continue;
-    std::string line = basins ? fmt::format("coexists there: {}, {} of {} cells, the first of them point {}",
-                                            motion.motion, motion.points, known.looked_at, motion.point)
-                              : fmt::format("coexists there: {}", point_words(from, points.read_summary(motion.point)));
+    std::string line = basins
+                           ? fmt::format("coexists there: {}, {} of {} cells, the first of them point {}",
+                                         attractor.regime, attractor.points, known.considered, attractor.point)
+                           : fmt::format("coexists there: {}", point_words(from, points.read_summary(attractor.point)));
     const auto root = [&](std::size_t of) {
       return of > 0 && known.all[of - 1].image_of > 0 ? known.all[of - 1].image_of : of;
     };
     if (known.here > 0 && root(k + 1) == root(known.here))
       line += "; it is this attractor with the planets permuted";
-    else if (motion.image_of > 0)
+    else if (attractor.image_of > 0)
       line += "; it is another one of these with the planets permuted";
     lines.push_back(std::move(line));
   }
@@ -309,7 +311,7 @@ input::LoadedInput with_start(const Arguments& arguments, std::string_view kind,
   std::vector<double> state = studies::state_on(r, there.dimension);
   if (r.outcome != integrate::Outcome::reached || state.empty())
     throw InputError(fmt::format("--from {}: {}: has no stored state", donor.text, point_words(from, r)));
-  std::vector<std::string> lines = other_motions(from, index, there);
+  std::vector<std::string> lines = other_attractors(from, index, there);
   lines.insert(lines.begin(), point_words(from, r));
 
   std::vector<input::Assignment> of_point;
@@ -338,7 +340,7 @@ input::LoadedInput with_start(const Arguments& arguments, std::string_view kind,
   input::LoadedInput input = stage.with_further(further);
   if (!input::moves_like(input, from.input(), there))
     lines.emplace_back("its equations of motion are not those of this study; its state is only an initial state");
-  for (const std::string& line : lines) tell("--from {}: {}\n", donor.text, line);
+  for (const std::string& line : lines) print_message("--from {}: {}\n", donor.text, line);
   if (notes != nullptr) *notes = std::move(lines);
   return input;
 }
@@ -441,7 +443,7 @@ class Sower {
     if (here.dimension != there.dimension)
       throw InputError(
           fmt::format("{} has a state of {} numbers, this study one of {}", which, there.dimension, here.dimension));
-    if (!studies::same_motion(here, there))
+    if (!studies::same_equations(here, there))
       notes_.push_back(
           fmt::format("{}: its equations of motion are not those of this study at {} = {}; its state is only a guess",
                       which, options_.parameter, short_text(value, 9)));

@@ -40,34 +40,36 @@ void print_differences(const store::OutputFolder& folder, const input::LoadedInp
   input::use_new_names(other.value);
   const nlohmann::json computed = input::computed_values(other.value);
   const std::vector<std::string> lines = store::differences({other.value, computed}, {input.resolved, input.computed});
-  if (lines.empty()) tell("  the inputs are the same; the command or the version of its numerics is another one\n");
-  for (std::size_t k = 0; k < std::min(lines.size(), most); ++k) tell("  {}\n", lines[k]);
-  if (lines.size() > most) tell("  and {} more\n", lines.size() - most);
+  if (lines.empty())
+    print_message("  the inputs are the same; the command or the version of its numerics is another one\n");
+  for (std::size_t k = 0; k < std::min(lines.size(), most); ++k) print_message("  {}\n", lines[k]);
+  if (lines.size() > most) print_message("  and {} more\n", lines.size() - most);
 }
 
 void print_changes(const store::OutputFolder& folder) {
   constexpr std::size_t most = 10;
   const std::vector<store::ChangedFile>& changed = folder.changed();
-  tell("{}: this study is complete, but {}; all files are written again\n", folder.path().string(),
-       changed.empty() ? "its run.json does not list its files" : "some of its files were changed");
+  print_message("{}: this study is complete, but {}; all files are written again\n", folder.path().string(),
+                changed.empty() ? "its run.json does not list its files" : "some of its files were changed");
   for (std::size_t k = 0; k < std::min(changed.size(), most); ++k) {
     const store::ChangedFile& file = changed[k];
     if (!file.bytes)
-      tell("  {}: {}\n", file.name, file.expected ? "missing" : "was not drawn");
+      print_message("  {}: {}\n", file.name, file.expected ? "missing" : "was not drawn");
     else if (*file.bytes < file.expected->bytes)
-      tell("  {}: {} bytes, not {}; kept as {}.changed if they are not its first ones\n", file.name, *file.bytes,
-           file.expected->bytes, file.name);
+      print_message("  {}: {} bytes, not {}; kept as {}.changed if they are not its first ones\n", file.name,
+                    *file.bytes, file.expected->bytes, file.name);
     else
-      tell("  {}: changed since; kept as {}.changed\n", file.name, file.name);
+      print_message("  {}: changed since; kept as {}.changed\n", file.name, file.name);
   }
-  if (changed.size() > most) tell("  and {} more\n", changed.size() - most);
+  if (changed.size() > most) print_message("  and {} more\n", changed.size() - most);
 }
 
 }  // namespace
 
 void report_cut_tail(const std::filesystem::path& journal, std::size_t bytes) {
   if (bytes > 0)
-    tell("{}: removed the last {} bytes, an incomplete record; its point is computed again\n", journal.string(), bytes);
+    print_message("{}: removed the last {} bytes, an incomplete record; its point is computed again\n",
+                  journal.string(), bytes);
 }
 
 std::map<std::size_t, studies::PointResult> known_points(const store::Journal& journal,
@@ -87,7 +89,7 @@ std::map<std::size_t, studies::PointResult> known_points(const store::Journal& j
 void require_kind(const input::LoadedInput& input, const Arguments& arguments, std::string_view kind) {
   const std::string file = arguments.input.empty() ? std::string("the study") : arguments.input.string();
   const std::string name(kind);
-  if (!input.study.has_motion())
+  if (!input.study.has_dynamics())
     throw InputError(file + ": is a stage without a study; " + name + " needs a file such as {\"stage\": \"" +
                      arguments.input.filename().string() + "\", \"study\": {\"kind\": \"" + name +
                      "\", ...}}; `epicyclic keys study` lists its keys");
@@ -102,7 +104,7 @@ std::int64_t report_undrawn(const std::vector<reports::DrawnFigure>& figures) {
   std::int64_t count = 0;
   for (const reports::DrawnFigure& figure : figures) {
     if (figure.outcome.drawn()) continue;
-    tell("{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
+    print_message("{} was not drawn: {}\n", figure.file.string(), figure.outcome.message);
     if (figure.outcome.failed()) ++count;
   }
   return count;
@@ -124,7 +126,7 @@ std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const inp
   const std::string where = folder.path().string();
   switch (folder.outcome()) {
     case store::FolderOutcome::complete:
-      if (!quiet) tell("{}: this study is complete already; nothing to compute\n", where);
+      if (!quiet) print_message("{}: this study is complete already; nothing to compute\n", where);
       for (const char* const count : {"failed", "undrawn", "differences", "unexplained"})
         if (counted(folder, count) > 0) return done_with_failures;
       return done;
@@ -132,14 +134,14 @@ std::optional<int> refuse_or_finish(const store::OutputFolder& folder, const inp
       print_changes(folder);
       return std::nullopt;
     case store::FolderOutcome::other_study:
-      tell("{}: contains another study; choose another folder for -o\n", where);
+      print_message("{}: contains another study; choose another folder for -o\n", where);
       print_differences(folder, input);
       return other_study;
     case store::FolderOutcome::foreign:
-      tell("{}: contains files that are not those of a study; choose an empty or new folder for -o\n", where);
+      print_message("{}: contains files that are not those of a study; choose an empty or new folder for -o\n", where);
       return other_study;
     case store::FolderOutcome::in_use:
-      tell("{}: is in use by another process\n", where);
+      print_message("{}: is in use by another process\n", where);
       return folder_in_use;
     case store::FolderOutcome::fresh:
     case store::FolderOutcome::resumable:

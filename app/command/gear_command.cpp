@@ -19,12 +19,12 @@ int gear_command(const Arguments& arguments) {
   const store::OutputFolder& folder = session.folder();
   const reports::GearOutput written = reports::write_gear_output(folder.path(), input);
   session.end(store::RunState::complete, {{"undrawn", static_cast<std::int64_t>(written.undrawn.size())}});
-  for (const std::string& line : written.undrawn) tell("figure not drawn: {}\n", line);
+  for (const std::string& line : written.undrawn) print_message("figure not drawn: {}\n", line);
   // As part of another command: figures that are missing are its concern too, words on the stage were said.
   if (arguments.quiet) return written.undrawn.empty() ? done : done_with_failures;
-  for (const std::string& line : written.warnings) tell("warning: {}\n", line);
-  for (const std::string& line : written.verdicts) tell("{}\n", line);
-  tell("summary: {}\n", folder.file("gear.md").string());
+  for (const std::string& line : written.warnings) print_message("warning: {}\n", line);
+  for (const std::string& line : written.verdicts) print_message("{}\n", line);
+  print_message("summary: {}\n", folder.file("gear.md").string());
   if (arguments.json)
     print("{}\n", nlohmann::json{{"folder", folder.path().string()},
                                  {"modes", folder.file("modes.csv").string()},

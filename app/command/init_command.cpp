@@ -89,7 +89,7 @@ int init_command(const Arguments& arguments) {
     for (const char* name : {sweep_name, run_name}) {
       give_up_if_stopped();  // none of them is kept, since the same command would not write over them
       for (const std::string& warning : input::warnings(input::load_input(folder / name)))
-        if (name == sweep_name) tell("{}\n", warning);
+        if (name == sweep_name) print_message("{}\n", warning);
     }
   } catch (const input::InputProblems& found) {
     take_back();

@@ -41,7 +41,7 @@ int guarded(const Ranks& ranks, const std::function<int()>& command) {
     return command();
   } catch (...) {
     const Failure failure = failure_of(std::current_exception());
-    if (ranks.rank() == 0) tell("{}\n", failure.what());
+    if (ranks.rank() == 0) print_message("{}\n", failure.what());
     return failure.exit_code();
   }
 }
@@ -54,10 +54,10 @@ int own_cores() {
 }
 
 /// What was probably meant by a command or an option that is not known; empty if all are.
-std::string probably_meant(const CLI::App& cli, const CLI::ParseError& asked) {
+std::string probably_meant(const CLI::App& cli, const CLI::ParseError& error) {
   // What is left over: of the command if one is known, else the first is its name.
-  if (dynamic_cast<const CLI::ExtrasError*>(&asked) == nullptr &&
-      dynamic_cast<const CLI::RequiredError*>(&asked) == nullptr)
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr &&
+      dynamic_cast<const CLI::RequiredError*>(&error) == nullptr)
     return {};
   const std::vector<CLI::App*> parsed = cli.get_subcommands();
   const CLI::App& of = parsed.empty() ? cli : *parsed.front();
@@ -79,11 +79,11 @@ std::string probably_meant(const CLI::App& cli, const CLI::ParseError& asked) {
 }
 
 /// --help, --version and what is wrong with the command line; once, whatever the number of ranks.
-int answer(const CLI::App& cli, const CLI::ParseError& asked, const Ranks& ranks) {
+int answer(const CLI::App& cli, const CLI::ParseError& error, const Ranks& ranks) {
   std::ostringstream data, words;
-  const int code = cli.exit(asked, data, words) == 0 ? done : bad_input;
+  const int code = cli.exit(error, data, words) == 0 ? done : bad_input;
   if (ranks.rank() == 0) {
-    const std::string meant = probably_meant(cli, asked);
+    const std::string meant = probably_meant(cli, error);
     // That a subcommand is required is not what is wrong with one that is not known.
     const bool known = meant.empty() || !cli.get_subcommands().empty();
     write_words(meant + (known ? words.str() : "Run with --help for more information.\n"));
@@ -260,11 +260,11 @@ int run(int argc, char** argv) {
     if (ranks.size() > 1 && !ranks.connected())
       throw InputError("several processes cannot share the work: this program was built without MPI");
     const auto parsed = std::ranges::find_if(parsers, &CLI::App::parsed) - parsers.begin();
-    const Command& asked = commands.at(static_cast<std::size_t>(parsed));
-    if (ranks.size() > 1 && !asked.shares_work)
+    const Command& command = commands.at(static_cast<std::size_t>(parsed));
+    if (ranks.size() > 1 && !command.shares_work)
       throw InputError("only sweep, map, basins, calibrate and robustness run on several processes");
-    if (asked.writes()) stop_on_signals(ranks.size() > 1 ? patience_of_ranks : patience);
-    return asked.run(arguments);
+    if (command.writes()) stop_on_signals(ranks.size() > 1 ? patience_of_ranks : patience);
+    return command.run(arguments);
   });
   if (ranks.size() > 1) leave_ranks(code);
   return code;

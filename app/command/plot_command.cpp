@@ -85,7 +85,7 @@ std::vector<figures::Pictures> parse_formats(const std::vector<std::string>& for
 std::string column_of_today(const std::string& name) {
   const input::Alias* alias = input::find_column_alias(name);
   if (alias == nullptr) return name;
-  tell("warning: {}\n", alias->warning());
+  print_message("warning: {}\n", alias->warning());
   return std::string(alias->new_name);
 }
 
@@ -143,15 +143,15 @@ int plot_command(const Arguments& arguments) {
     std::ranges::move(reports::draw_plot(arguments.output, studies, plot, notes), std::back_inserter(figures));
     give_up_if_stopped();
   }
-  for (const std::string& note : notes) tell("{}\n", note);
+  for (const std::string& note : notes) print_message("{}\n", note);
   (void)report_undrawn(figures);
-  nlohmann::json told = {{"figures", nlohmann::json::array()}};
+  nlohmann::json summary_json = {{"figures", nlohmann::json::array()}};
   for (const reports::DrawnFigure& figure : figures)
-    if (figure.outcome.drawn()) told["figures"].push_back(figure.file.string());
+    if (figure.outcome.drawn()) summary_json["figures"].push_back(figure.file.string());
   if (arguments.json)
-    print("{}\n", told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    print("{}\n", summary_json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   else
-    for (const auto& figure : told["figures"]) print("figure: {}\n", figure.get<std::string>());
+    for (const auto& figure : summary_json["figures"]) print("figure: {}\n", figure.get<std::string>());
   // A figure that is asked for by name is missed, too, where there is nothing to draw.
   return std::ranges::all_of(figures, [](const auto& figure) { return figure.outcome.drawn(); }) ? done
                                                                                                  : done_with_failures;

@@ -58,7 +58,7 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
     if (run.done[i]) failed += computed(store.read_summary(i)) ? 0 : 1;
   }
   if (store.size() > 0)
-    tell("{}: {} of {} {} exist already\n", arguments.output.string(), store.size(), plan.points.size(), noun);
+    print_message("{}: {} of {} {} exist already\n", arguments.output.string(), store.size(), plan.points.size(), noun);
 
   // A part of another command is called by its folder.
   Progress progress(arguments.quiet ? arguments.output.filename().string() : std::string(command), plan.points.size(),
@@ -90,7 +90,7 @@ std::size_t compute_missing(const Arguments& arguments, std::string_view command
 
 /// Points of which something is not certain.
 struct Doubts {
-  std::size_t undecided = 0, unsettled = 0, tensile = 0;
+  std::size_t undecided = 0, unconverged = 0, tensile = 0;
   std::optional<std::size_t> first_undecided{};
   double force = 0;  ///< greatest tension, over the static mesh force
   std::size_t periodic = 0;
@@ -101,7 +101,7 @@ struct Doubts {
       ++undecided;
       if (!first_undecided) first_undecided = r.point.index;
     }
-    if (r.is_unsettled()) ++unsettled;
+    if (r.is_unconverged()) ++unconverged;
     if (!r.has_tension()) return;
     ++tensile;
     for (const auto* meshes : {&r.meshes.sun_planet, &r.meshes.ring_planet})
@@ -113,7 +113,7 @@ struct Doubts {
   [[nodiscard]] std::string text(std::string_view noun) const {
     std::vector<std::string> all;
     if (undecided > 0) all.push_back(counted(undecided, noun) + " undecided");
-    if (unsettled > 0) all.push_back(counted(unsettled, noun) + " whose record has not converged to the orbit");
+    if (unconverged > 0) all.push_back(counted(unconverged, noun) + " whose record has not converged to the orbit");
     if (tensile > 0)
       all.push_back(counted(tensile, noun) + fmt::format(" with a tensile mesh force (at most {:.3g} F_0)", force));
     return fmt::format("{}", fmt::join(all, ", "));
@@ -130,7 +130,7 @@ std::string next_command(const Arguments& arguments, const ComputedPoints& all, 
                        shell_word(fmt::format("{}:{}", folder, *doubts.first_undecided)),
                        shell_word(fmt::format("{}_point_{}", folder, *doubts.first_undecided)));
   const bool classifies = studies::has_classification(all.first_model);
-  if (doubts.unsettled > 0 && classifies && study.recording().transient == studies::Transient::fixed &&
+  if (doubts.unconverged > 0 && classifies && study.recording().transient == studies::Transient::fixed &&
       study.recording().classification_periods > 0) {
     std::string command = fmt::format("{} {} {}", program, study.kind(), shell_word(arguments.input.string()));
     for (const std::string& set : arguments.sets) command += " --set " + shell_word(set);
@@ -184,7 +184,7 @@ void print_result(const Arguments& arguments, std::string_view noun, const Compu
                             {"failed", failed},
                             {"regimes", regimes},
                             {"tensile_force", doubts.tensile},
-                            {"not_converged", doubts.unsettled},
+                            {"not_converged", doubts.unconverged},
                             {"figures", nlohmann::json::array()}};
   summary.update(written.summary);
   for (const reports::DrawnFigure& figure : written.figures)
@@ -215,7 +215,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   const model::DynamicModel first_model = model_at(plan.points.front());
   if (!arguments.quiet) print_warnings(input);
   if (!arguments.quiet && command == "sweep" && input.study.sweep().axis.name != studies::speed_parameter)
-    tell("operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
+    print_message("operation: mesh_frequency_ratio = {}\n", input.study.mesh_frequency_ratio);
 
   std::unique_ptr<GrownStudy> grown;
   if (!arguments.grow.empty()) grown = std::make_unique<GrownStudy>(arguments.grow, input, plan, command);
@@ -231,8 +231,8 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   std::size_t taken = 0;
   if (grown) {
     taken = grown->take_into(store);
-    tell("{}: {} of {} {} are those of {}; the others are computed\n", folder.path().string(), taken,
-         plan.points.size(), noun, arguments.grow.string());
+    print_message("{}: {} of {} {} are those of {}; the others are computed\n", folder.path().string(), taken,
+                  plan.points.size(), noun, arguments.grow.string());
   }
   studies::LaneUse lanes;
   const std::size_t failed = compute_missing(arguments, command, noun, input, plan, model_at, store, leader, lanes);
@@ -252,7 +252,8 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   };
   const auto stopped = [&] {
     close_run(store::RunState::stopped);
-    tell("stopped after {} of {} {}; re-run the same command to resume\n", store.size(), plan.points.size(), noun);
+    print_message("stopped after {} of {} {}; re-run the same command to resume\n", store.size(), plan.points.size(),
+                  noun);
     return stopped_early;
   };
   if (store.size() < plan.points.size()) return stopped();
@@ -269,7 +270,7 @@ int lead(const Arguments& arguments, std::string_view command, std::string_view 
   folder.add(written.files);
   undrawn = report_undrawn(written.figures);
   close_run(store::RunState::complete);
-  for (const std::string& note : written.notes) tell("{}\n", note);
+  for (const std::string& note : written.notes) print_message("{}\n", note);
 
   if (!arguments.quiet) print_result(arguments, noun, computed_points, written, failed);
   return failed == 0 && undrawn == 0 && written.unexplained == 0 ? done : done_with_failures;
@@ -288,7 +289,7 @@ int points_command(const Arguments& arguments, std::string_view command, std::st
     code = lead(arguments, command, noun, parts, after, &leader);
   } catch (...) {
     const Failure failure = failure_of(std::current_exception());
-    tell("{}\n", failure.what());
+    print_message("{}\n", failure.what());
     code = failure.exit_code();
   }
   leader.dismiss(code);

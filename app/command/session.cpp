@@ -15,7 +15,7 @@ std::string identity_of(const input::LoadedInput& input, std::string_view comman
 }
 
 void print_warnings(const input::LoadedInput& input) {
-  for (const std::string& warning : input::warnings(input)) tell("{}\n", warning);
+  for (const std::string& warning : input::warnings(input)) print_message("{}\n", warning);
 }
 
 Session::Session(const Arguments& arguments, const input::LoadedInput& input, std::string identity, int threads,

@@ -32,7 +32,7 @@ void print(fmt::format_string<Values...> format, Values&&... values) {
 
 /// Words, on stderr.
 template <class... Values>
-void tell(fmt::format_string<Values...> format, Values&&... values) {
+void print_message(fmt::format_string<Values...> format, Values&&... values) {
   write_words(fmt::format(format, std::forward<Values>(values)...));
 }
 

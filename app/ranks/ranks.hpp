@@ -16,9 +16,9 @@ namespace epicyclic::app {
 enum class Topic : int {
   hello,
   begin,
-  ask_chains,
+  request_chains,
   chains,
-  ask_end_state,
+  request_end_state,
   end_state,
   progress,
   stop,

@@ -163,10 +163,10 @@ class RankAnswers {
  private:
   void answer(const Message& message) {
     switch (message.topic) {
-      case Topic::ask_chains:
+      case Topic::request_chains:
         ranks_.send(message.from, Topic::chains, bytes_of(chains_.take_some(threads_of_all_)));
         break;
-      case Topic::ask_end_state: {
+      case Topic::request_end_state: {
         const Index point = values_of<Index>(message.bytes).at(0);
         const std::string head = bytes_of(std::vector<Index>{point});
         ranks_.send(message.from, Topic::end_state, head + bytes_of(end_state_(static_cast<std::size_t>(point))));
@@ -353,22 +353,22 @@ class Exchange {
 
   /// Until the threads are through.
   void serve() {
-    bool told_to_stop = false;
+    bool stop_sent = false;
     auto last_progress = Clock::now();
     for (;;) {
       while (const auto message = ranks_.receive()) {
         attention_.rouse();
         take(*message);
       }
-      if (stop_requested() && !std::exchange(told_to_stop, true)) ranks_.send(0, Topic::stop, {});
+      if (stop_requested() && !std::exchange(stop_sent, true)) ranks_.send(0, Topic::stop, {});
       std::unique_lock lock(mutex_);
       if (through_) break;
       if (wants_chains()) {
-        asked_ = true;
-        ask(Topic::ask_chains, {});
+        requested_ = true;
+        request(Topic::request_chains, {});
       }
       for (const Index point : std::exchange(questions_, {}))
-        ask(Topic::ask_end_state, bytes_of(std::vector<Index>{point}));
+        request(Topic::request_end_state, bytes_of(std::vector<Index>{point}));
       if (Clock::now() - last_progress >= progress_interval) {
         last_progress = Clock::now();
         report_progress();
@@ -382,10 +382,10 @@ class Exchange {
  private:
   /// While many are left, the next are asked for before a thread has to wait for them.
   [[nodiscard]] bool wants_chains() const {
-    return chains_.empty() && (waiting_ > 0 || many_left_) && !asked_ && !no_more_ && !stop_;
+    return chains_.empty() && (waiting_ > 0 || many_left_) && !requested_ && !no_more_ && !stop_;
   }
 
-  void ask(Topic topic, std::string bytes) {
+  void request(Topic topic, std::string bytes) {
     attention_.rouse();
     ranks_.send(0, topic, std::move(bytes));
   }
@@ -397,7 +397,7 @@ class Exchange {
       chains_.insert(chains_.end(), chains.begin(), chains.end());
       no_more_ = chains.empty();
       many_left_ = chains.size() > 1;
-      asked_ = false;
+      requested_ = false;
     } else if (message.topic == Topic::end_state) {
       const Index point = values_of<Index>(message.bytes.substr(0, sizeof(Index))).at(0);
       end_states_[point] = values_of<double>(message.bytes.substr(sizeof(Index)));
@@ -418,7 +418,7 @@ class Exchange {
   std::condition_variable wake_, answered_;
   std::atomic<bool> stop_{false};
   std::deque<Index> chains_;
-  bool asked_ = false, no_more_ = false, many_left_ = false, through_ = false;
+  bool requested_ = false, no_more_ = false, many_left_ = false, through_ = false;
   int waiting_ = 0;
   Attention attention_;
   std::vector<Index> questions_;

@@ -235,15 +235,15 @@ std::string calibrate_summary(const CalibrateOutput& output, const Calibration& 
   text += fmt::format("Best: {}{} of {} claims by the screening, cost {}; found by {}, candidate {}.\n\n", whole,
                       claims_met(best.evaluation), options.claims.size(), short_text(best.evaluation.cost, 5),
                       phase_name(options, best.key.phase), best.key.number);
-  const auto told = [&](const Evaluation& e, std::size_t k) {
+  const auto result_text = [&](const Evaluation& e, std::size_t k) {
     return e.holds[k] == 1 ? std::string("holds") : short_text(e.claim_costs[k], 3);
   };
   text += whole_of_best == nullptr ? "| claim | what | cost |\n|---|---|---|\n"
                                    : "| claim | what | cost | by whole sweeps |\n|---|---|---|---|\n";
   for (std::size_t k = 0; k < options.claims.size(); ++k) {
     text += fmt::format("| {} | {} | {} |", markdown_cell(options.claims[k].name),
-                        markdown_cell(options.claims[k].text), told(best.evaluation, k));
-    if (whole_of_best != nullptr) text += " " + told(*whole_of_best, k) + " |";
+                        markdown_cell(options.claims[k].text), result_text(best.evaluation, k));
+    if (whole_of_best != nullptr) text += " " + result_text(*whole_of_best, k) + " |";
     text += "\n";
   }
   if (!calibration.confirmed.empty()) {

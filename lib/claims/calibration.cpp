@@ -93,11 +93,11 @@ struct Phase {
   Search* search = nullptr;
   std::size_t index = 0;
   std::size_t thread = 0;
-  std::size_t asked = 0;
+  std::size_t requested = 0;
   double give_up_at = std::numeric_limits<double>::infinity();
 
   double cost(const std::vector<double>& u) {
-    const Evaluation& e = search->evaluate({index, asked++}, u, {{}, give_up_at, thread}).evaluation;
+    const Evaluation& e = search->evaluate({index, requested++}, u, {{}, give_up_at, thread}).evaluation;
     return e.stopped_early ? std::numeric_limits<double>::infinity() : e.cost;
   }
 };

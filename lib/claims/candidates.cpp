@@ -17,28 +17,28 @@ using namespace studies;
 
 namespace {
 
-integrate::IntegratorOptions integrator_of(const Screening& brief) {
+integrate::IntegratorOptions integrator_of(const Screening& screening) {
   integrate::IntegratorOptions integrator;
   integrator.method = "lanes-cash-karp";
-  integrator.relative_tolerance = brief.relative_tolerance;
-  integrator.absolute_tolerance = brief.relative_tolerance;
+  integrator.relative_tolerance = screening.relative_tolerance;
+  integrator.absolute_tolerance = screening.relative_tolerance;
   return integrator;
 }
 
-RecordingOptions look_of(const ClaimsOptions& options, const Screening& brief) {
+RecordingOptions screening_recording(const ClaimsOptions& options, const Screening& screening) {
   RecordingOptions recording = options.recording;
   recording.transient = Transient::fixed;
-  recording.transient_periods = brief.transient_periods;
-  recording.recorded_periods = brief.recorded_periods;
-  recording.classification_periods = brief.classification_periods;
-  recording.growth_periods = brief.growth_periods;
-  recording.period_max = std::min(recording.period_max, brief.recorded_periods / 2);
+  recording.transient_periods = screening.transient_periods;
+  recording.recorded_periods = screening.recorded_periods;
+  recording.classification_periods = screening.classification_periods;
+  recording.growth_periods = screening.growth_periods;
+  recording.period_max = std::min(recording.period_max, screening.recorded_periods / 2);
   recording.keep = Keep::section;
   return recording;
 }
 
 /// Is there a condition on the sweep that multipliers can lead to?
-bool asks_for_motions(const ClaimsOptions& options, const ClaimSweep& sweep) {
+bool needs_multipliers(const ClaimsOptions& options, const ClaimSweep& sweep) {
   constexpr std::array<ConditionKind, 5> kinds = {ConditionKind::share, ConditionKind::count, ConditionKind::change,
                                                   ConditionKind::sequence, ConditionKind::jump};
   return std::ranges::any_of(options.claims, [&](const Claim& claim) {
@@ -72,7 +72,7 @@ void screen(const ClaimsOptions& options, const Glance& glance, const SweepModel
   grid.first = {"cell", 0.0, static_cast<double>(cells.size() - 1), static_cast<int>(cells.size())};
   grid.directions = {Direction::up};
   grid.chains_per_line = cells.size();
-  const RecordingOptions recording = look_of(options, glance.recording);
+  const RecordingOptions recording = screening_recording(options, glance.recording);
   SweepRun run;
   run.stop = stop;
   run.process = thread;
@@ -85,11 +85,11 @@ void screen(const ClaimsOptions& options, const Glance& glance, const SweepModel
   if (results.size() < cells.size()) throw EvaluationStopped();
   for (std::size_t k = 0; k < cells.size(); ++k) {
     results[k].point.value = cells[k].second;
-    record[cells[k].first->name].points.push_back(claim_point(results[k], recording, Looked::briefly));
+    record[cells[k].first->name].points.push_back(claim_point(results[k], recording, Depth::screening));
   }
   if (glance.regime_cost == SearchLead::regimes) return;
   for (const ClaimSweep* sweep : sweeps) {
-    if (!asks_for_motions(options, *sweep)) continue;
+    if (!needs_multipliers(options, *sweep)) continue;
     std::vector<ClaimPoint>& points = record[sweep->name].points;
     std::vector<double> values;
     for (const ClaimPoint& p : points) values.push_back(p.value);

@@ -29,7 +29,7 @@ bool is_never_negative(const std::string& quantity) {
 }
 
 /// The motions that a condition names, each with its key.
-std::vector<std::pair<std::string, std::string>> motion_words(const Condition& c) {
+std::vector<std::pair<std::string, std::string>> regime_words(const Condition& c) {
   std::vector<std::pair<std::string, std::string>> words = {
       {"regime", c.regime}, {"regime_after", c.regime_after}, {"leads_to", c.leads_to}};
   std::erase_if(words, [](const auto& word) { return word.second.empty(); });
@@ -38,22 +38,22 @@ std::vector<std::pair<std::string, std::string>> motion_words(const Condition& c
 }
 
 /// All that can be told of a motion in full.
-std::vector<ClaimMotion> all_motions(int period_max) {
-  std::vector<ClaimMotion> motions;
-  for (int period = 1; period <= period_max; ++period) motions.push_back({analysis::Regime::periodic, period, true});
+std::vector<ClaimRegime> all_regimes(int period_max) {
+  std::vector<ClaimRegime> all;
+  for (int period = 1; period <= period_max; ++period) all.push_back({analysis::Regime::periodic, period, true});
   for (const auto regime : {analysis::Regime::quasiperiodic, analysis::Regime::chaotic, analysis::Regime::undecided})
-    motions.push_back({regime, 0, true});
-  return motions;
+    all.push_back({regime, 0, true});
+  return all;
 }
 
 /// Is there a motion that both words call so?
 bool can_be_both(const std::string& a, const std::string& b, int period_max) {
-  return std::ranges::any_of(all_motions(period_max), [&](const ClaimMotion& m) { return m.is(a) && m.is(b); });
+  return std::ranges::any_of(all_regimes(period_max), [&](const ClaimRegime& m) { return m.is(a) && m.is(b); });
 }
 
 /// Is each motion of the one word of the other, too?
 bool is_always(const std::string& a, const std::string& b, int period_max) {
-  return std::ranges::all_of(all_motions(period_max), [&](const ClaimMotion& m) { return !m.is(a) || m.is(b); });
+  return std::ranges::all_of(all_regimes(period_max), [&](const ClaimRegime& m) { return !m.is(a) || m.is(b); });
 }
 
 }  // namespace
@@ -137,8 +137,8 @@ void check_condition(ProblemList& problems, const std::string& place, const Cond
     problems.refuse(place + "/from", "is " + short_text(*c.from, 17) + ", must be <= to = " + short_text(*c.to, 17));
   if (!c.within.empty() && (c.within.size() != 2 || !(c.within[0] < c.within[1])))
     problems.refuse(place + "/within", "must be two values, the first below the second");
-  for (const auto& [key, word] : motion_words(c))
-    if (!is_motion_word(word))
+  for (const auto& [key, word] : regime_words(c))
+    if (!is_regime_word(word))
       problems.refuse(place + "/" + key,
                       "is \"" + word +
                           "\", must be \"period N\", periodic, multi-period, quasiperiodic, chaotic, "
@@ -286,8 +286,8 @@ void check_part(ProblemList& problems, const std::string& place, const Condition
     if (problems.count() == before) check_grid(problems, place, c, sweep.name, part.text(), grid);
   if (options.recording.classification_periods == 0) {
     const int recorded = sweep.recorded_periods.value_or(options.recording.recorded_periods);
-    for (const auto& [key, word] : motion_words(c))
-      if (2 * motion_period(word) > recorded)
+    for (const auto& [key, word] : regime_words(c))
+      if (2 * period_of_word(word) > recorded)
         problems.refuse(place + "/" + key,
                         "is \"" + word + "\", which takes twice as many recorded_periods to be seen; the sweep \"" +
                             sweep.name + "\" has " + std::to_string(recorded) + ", and classification_periods = 0");
@@ -295,9 +295,10 @@ void check_part(ProblemList& problems, const std::string& place, const Condition
 }
 
 /// What a condition wants of the looks, whatever the sweep.
-void check_looks(ProblemList& problems, const std::string& place, const Condition& c, const ClaimsOptions& options) {
-  for (const auto& [key, word] : motion_words(c)) {
-    const int period = motion_period(word);
+void check_screening(ProblemList& problems, const std::string& place, const Condition& c,
+                     const ClaimsOptions& options) {
+  for (const auto& [key, word] : regime_words(c)) {
+    const int period = period_of_word(word);
     if (period > options.recording.period_max)
       problems.refuse(place + "/" + key, "is \"" + word + "\", longer than period_max = " +
                                              std::to_string(options.recording.period_max) + ": it is not sought");
@@ -308,17 +309,17 @@ void check_looks(ProblemList& problems, const std::string& place, const Conditio
                                              "`screening` or `survey` record fewer");
   }
   if (options.recording.classification_periods == 0)
-    for (const auto& [key, word] : motion_words(c))
-      if (is_told_by_evidence(word))
+    for (const auto& [key, word] : regime_words(c))
+      if (needs_evidence(word))
         problems.refuse(
             place + "/" + key,
             "is \"" + word +
                 "\", which needs classification_periods > 0: without them, what does not recur is undecided");
-  if (c.kind == ConditionKind::change && is_motion_word(c.regime) && is_motion_word(c.regime_after) &&
+  if (c.kind == ConditionKind::change && is_regime_word(c.regime) && is_regime_word(c.regime_after) &&
       can_be_both(c.regime, c.regime_after, options.recording.period_max))
     problems.refuse(place + "/regime_after", "is \"" + c.regime_after + "\", which an attractor that is \"" + c.regime +
                                                  "\" can be, too: nothing would have to change");
-  if (c.kind == ConditionKind::change && is_motion_word(c.regime) && is_motion_word(c.leads_to) &&
+  if (c.kind == ConditionKind::change && is_regime_word(c.regime) && is_regime_word(c.leads_to) &&
       is_always(c.leads_to, c.regime, options.recording.period_max))
     problems.refuse(place + "/leads_to", "is \"" + c.leads_to + "\", which every attractor is that is \"" + c.regime +
                                              "\", too: it is not met before that comes back");
@@ -369,7 +370,7 @@ void check_grids(ProblemList& problems, const std::string& place, const Conditio
     if (sweep == options.sweeps.end()) return;
     sweeps.push_back(&*sweep);
   }
-  check_looks(problems, place, c, options);
+  check_screening(problems, place, c, options);
   for (const ClaimSweep* sweep : sweeps) {
     const std::size_t before = problems.count();
     check_part(problems, place, c, *sweep, options);

@@ -120,7 +120,7 @@ std::vector<std::string> other_targets(const LoadedInput& input, const Parameter
   constexpr double rounding = 1e-9;
   std::vector<std::string> moved;
   std::set<std::string> known;
-  const auto tell = [&](const std::string& pointer, double value) {
+  const auto add_moved = [&](const std::string& pointer, double value) {
     const std::optional<double> there = number_at(input, pointer);
     if (there && known.insert(pointer).second && std::abs(value - *there) > rounding * std::abs(*there))
       moved.push_back(pointer + " = " + input::number_text(value) + " in place of " + input::number_text(*there));
@@ -129,13 +129,13 @@ std::vector<std::string> other_targets(const LoadedInput& input, const Parameter
   for (const FreeParameter& p : space.parameters)
     for (const ParameterTarget& t : p.targets)
       if (space.counts(p, options) && (outside.contains(p.name) || outside.contains(t.times))) known.insert(t.pointer);
-  for (const auto& [pointer, value] : space.targets_at(u)) tell(pointer, value);
+  for (const auto& [pointer, value] : space.targets_at(u)) add_moved(pointer, value);
   // Of what an option sets, that which no parameter gives.
   for (std::size_t k = 0; k < options.size(); ++k)
     for (const OptionSet& set : space.choices[k].options[options[k]].sets)
       if (const json value = json::parse(set.value); value.is_object())
         for (const auto& [key, item] : value.items())
-          if (item.is_number()) tell(set.pointer + "/" + key, item.get<double>());
+          if (item.is_number()) add_moved(set.pointer + "/" + key, item.get<double>());
   return moved;
 }
 

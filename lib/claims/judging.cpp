@@ -54,27 +54,28 @@ bool is_aperiodic_word(std::string_view word) {
 
 }  // namespace
 
-int motion_period(std::string_view word) { return period_in(without_negation(word)); }
+int period_of_word(std::string_view word) { return period_in(without_negation(word)); }
 
-bool is_told_by_evidence(std::string_view word) { return is_aperiodic_word(without_negation(word)); }
+bool needs_evidence(std::string_view word) { return is_aperiodic_word(without_negation(word)); }
 
-bool is_motion_word(std::string_view word) {
+bool is_regime_word(std::string_view word) {
   word = without_negation(word);
   return word == "periodic" || word == "multi-period" || is_aperiodic_word(word) || period_in(word) > 0;
 }
 
-bool ClaimMotion::is(std::string_view word) const {
+bool ClaimRegime::is(std::string_view word) const {
   if (word.starts_with(negation)) return !is(word.substr(negation.size()));
   const bool periodic = regime == Regime::periodic;
   if (word == "periodic") return periodic;
   if (word == "multi-period") return periodic && period >= 2;
   if (word == "quasiperiodic") return regime == Regime::quasiperiodic;
-  if (word == "chaotic") return regime == Regime::chaotic || (regime == Regime::undecided && !told);
-  if (word == "aperiodic") return regime == Regime::chaotic || regime == Regime::quasiperiodic || (!periodic && !told);
+  if (word == "chaotic") return regime == Regime::chaotic || (regime == Regime::undecided && !classified);
+  if (word == "aperiodic")
+    return regime == Regime::chaotic || regime == Regime::quasiperiodic || (!periodic && !classified);
   return periodic && period == period_in(word);
 }
 
-std::string ClaimMotion::text() const {
+std::string ClaimRegime::text() const {
   return regime == Regime::periodic ? "period " + std::to_string(period) : to_string(regime);
 }
 
@@ -87,7 +88,7 @@ namespace {
 
 /// A short record may end while a motion is still on its way to a periodic one, next to a bifurcation for very long: it
 /// is told by where it goes at a glance. Chaos does not come back to a small part of its extent over a whole record.
-bool settles(const PointResult& result, const RecordingOptions& recording) {
+bool converges(const PointResult& result, const RecordingOptions& recording) {
   constexpr double small_part = 0.1;
   if (result.classified || result.regime == Regime::periodic || result.regime == Regime::chaotic) return false;
   if (result.recurrence.best_period < 1) return false;  // of a record too short to come back at all
@@ -98,15 +99,16 @@ bool settles(const PointResult& result, const RecordingOptions& recording) {
 
 }  // namespace
 
-ClaimPoint claim_point(const PointResult& result, const RecordingOptions& recording, Looked looked) {
-  const bool told = looked == Looked::in_full || result.classified;
+ClaimPoint claim_point(const PointResult& result, const RecordingOptions& recording, Depth depth) {
+  const bool classified = depth == Depth::in_full || result.classified;
   ClaimPoint point;
   point.value = result.point.value;
   point.reached = result.outcome == integrate::Outcome::reached;
   if (!point.reached) return point;
-  point.motion = {result.regime, result.period, told};
-  if (!told && settles(result, recording)) point.motion = {Regime::periodic, result.recurrence.best_period, false};
-  point.settled = point.motion.regime != Regime::periodic || result.recurrence.period > 0;
+  point.response = {result.regime, result.period, classified};
+  if (!classified && converges(result, recording))
+    point.response = {Regime::periodic, result.recurrence.best_period, false};
+  point.converged = point.response.regime != Regime::periodic || result.recurrence.period > 0;
   const std::size_t planets = result.meshes.sun_planet.size();
   const std::size_t columns = result.poincare_columns;
   const auto column = [&](std::size_t of) {
@@ -117,17 +119,17 @@ ClaimPoint claim_point(const PointResult& result, const RecordingOptions& record
   };
   const auto alone = [&](const analysis::PoincareSection& section) {
     const analysis::Recurrence r = analysis::recurrence(section, recording.period_max, recording.recurrence_tolerance);
-    if (r.period > 0) return ClaimMotion{Regime::periodic, r.period, told};
+    if (r.period > 0) return ClaimRegime{Regime::periodic, r.period, classified};
     if (analysis::still_converging(r, recording.recurrence_tolerance))
-      return ClaimMotion{Regime::periodic, r.best_period, told};
+      return ClaimRegime{Regime::periodic, r.best_period, classified};
     // The record is on its way to an orbit, whose period the mesh has, too.
-    if (result.regime == Regime::periodic) return ClaimMotion{Regime::periodic, result.period, told};
-    return ClaimMotion{result.regime, 0, told};
+    if (result.regime == Regime::periodic) return ClaimRegime{Regime::periodic, result.period, classified};
+    return ClaimRegime{result.regime, 0, classified};
   };
   const analysis::PoincareSection sun = column(columns - 2 * planets);
   const analysis::PoincareSection ring = column(columns - planets);
   // Of period 1 the section is one point; what it is wide is what settling leaves.
-  const bool is_point = point.motion.regime == Regime::periodic && point.motion.period == 1;
+  const bool is_point = point.response.regime == Regime::periodic && point.response.period == 1;
   point.by_sun_mesh = alone(sun);
   point.by_ring_mesh = alone(ring);
   const MeshRecord& sp = result.meshes.sun_planet.front();
@@ -164,7 +166,7 @@ ClaimSeries claim_series(const PointSource& points, const RecordingOptions& reco
   for (std::size_t k = 0; k < points.count; ++k) {
     const PointResult result = points.read(k);
     auto& list = result.point.direction == judged ? series.points : series.other;
-    list.push_back(claim_point(result, recording, Looked::in_full));
+    list.push_back(claim_point(result, recording, Depth::in_full));
   }
   std::ranges::sort(series.points, {}, &ClaimPoint::value);
   std::ranges::sort(series.other, {}, &ClaimPoint::value);
@@ -183,10 +185,10 @@ double cost_within(double x, double least, double most, double scale) {
 
 /// @param percent  bounds are parts of 1, told as the measured ones are
 std::string bound_text(const Condition& c, bool percent = false) {
-  const auto told = [&](double bound) { return percent ? number(100.0 * bound) + " %" : number(bound); };
-  if (c.at_least && c.at_most) return "must be " + told(*c.at_least) + " to " + told(*c.at_most);
-  if (c.at_least) return "must be at least " + told(*c.at_least);
-  return "must be at most " + told(c.at_most.value_or(0.0));
+  const auto printed = [&](double bound) { return percent ? number(100.0 * bound) + " %" : number(bound); };
+  if (c.at_least && c.at_most) return "must be " + printed(*c.at_least) + " to " + printed(*c.at_most);
+  if (c.at_least) return "must be at least " + printed(*c.at_least);
+  return "must be at most " + printed(c.at_most.value_or(0.0));
 }
 
 /// Judges a number by at_least and at_most.
@@ -212,13 +214,15 @@ std::size_t number_of(std::span<const ClaimPoint> part, bool (*is)(const ClaimPo
 }
 
 /// Looked at in full, and of no motion all the same.
-bool is_undecided(const ClaimPoint& p) { return p.reached && p.motion.told && p.motion.regime == Regime::undecided; }
+bool is_undecided(const ClaimPoint& p) {
+  return p.reached && p.response.classified && p.response.regime == Regime::undecided;
+}
 
 std::size_t failed_in(std::span<const ClaimPoint> part) {
   return number_of(part, [](const ClaimPoint& p) { return !p.reached; });
 }
 
-bool moves(const ClaimPoint& p, std::string_view word) { return p.reached && p.motion.is(word); }
+bool moves(const ClaimPoint& p, std::string_view word) { return p.reached && p.response.is(word); }
 
 std::string range_text(std::span<const ClaimPoint> part) {
   return " of " + number(part.front().value) + " to " + number(part.back().value);
@@ -229,12 +233,12 @@ double likeness(const ClaimPoint& p, std::string_view word) {
   constexpr double same_kind = 0.5;  // not periodic, as wanted, but another kind
   constexpr double near_kind = 0.3;  // of several mesh periods
   if (!p.reached) return 0.0;
-  if (p.motion.is(word)) return 1.0;
+  if (p.response.is(word)) return 1.0;
   if (is_aperiodic_word(word)) {
-    if (p.motion.regime != Regime::periodic) return same_kind;
-    return p.motion.period > 1 ? near_kind : 0.0;
+    if (p.response.regime != Regime::periodic) return same_kind;
+    return p.response.period > 1 ? near_kind : 0.0;
   }
-  if (p.motion.regime == Regime::periodic) return p.motion.period > 1 && period_in(word) != 1 ? same_kind : 0.0;
+  if (p.response.regime == Regime::periodic) return p.response.period > 1 && period_in(word) != 1 ? same_kind : 0.0;
   return near_kind;
 }
 
@@ -268,12 +272,12 @@ std::string points_text(std::size_t points, std::string_view did) {
 /// it reads quantities, those whose records were on their way to an orbit.
 std::string doubts_text(const Condition& c, std::span<const ClaimPoint> part) {
   using enum ConditionKind;
-  const bool reads_motions = !c.regime.empty() || !c.regimes.empty() || c.kind == variation || c.kind == agreement;
+  const bool reads_regimes = !c.regime.empty() || !c.regimes.empty() || c.kind == variation || c.kind == agreement;
   const bool reads_quantities = !c.quantity.empty() || c.kind == variation || c.kind == agreement;
   std::string text = points_text(failed_in(part), "failed");
-  if (reads_motions) text += points_text(number_of(part, is_undecided), "undecided");
+  if (reads_regimes) text += points_text(number_of(part, is_undecided), "undecided");
   if (reads_quantities)
-    text += points_text(number_of(part, [](const auto& p) { return p.reached && !p.settled; }), not_settled);
+    text += points_text(number_of(part, [](const auto& p) { return p.reached && !p.converged; }), not_converged);
   return text;
 }
 
@@ -409,8 +413,8 @@ void sequence(const Condition& c, std::span<const ClaimPoint> part, ConditionOut
   o.holds = met == c.regimes.size();
   o.cost = o.holds ? 0.0 : 1.0 - o.measured / static_cast<double>(c.regimes.size());
   std::vector<double> lacking;
-  for (const std::string& motion : c.regimes)
-    for (const double lack : least_lacks(part, motion, 1)) lacking.push_back(lack);
+  for (const std::string& word : c.regimes)
+    for (const double lack : least_lacks(part, word, 1)) lacking.push_back(lack);
   if (lacking.size() == c.regimes.size()) lead(lacking, o);
   o.text = o.holds ? text : text + (text.empty() ? "no " : ", then no ") + c.regimes[met];
 }
@@ -418,7 +422,7 @@ void sequence(const Condition& c, std::span<const ClaimPoint> part, ConditionOut
 void value(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
   std::vector<double> values;
   for (const ClaimPoint& p : part)
-    if (p.reached && (c.regime.empty() || p.motion.is(c.regime)) && !std::isnan(p.quantity(c.quantity)))
+    if (p.reached && (c.regime.empty() || p.response.is(c.regime)) && !std::isnan(p.quantity(c.quantity)))
       values.push_back(p.quantity(c.quantity));
   o.measured = none;
   if (!values.empty()) {
@@ -577,7 +581,7 @@ class Steps {
   [[nodiscard]] std::vector<Step> across(std::span<const ClaimPoint> part, const std::vector<ClaimPoint>& other) const {
     std::vector<Step> steps;
     const auto is_orbit = [&](const ClaimPoint& p) {
-      return counts(p) && p.settled && p.motion.regime == Regime::periodic;
+      return counts(p) && p.converged && p.response.regime == Regime::periodic;
     };
     for (const ClaimPoint& p : part) {
       const auto twin =
@@ -593,7 +597,7 @@ class Steps {
 
   [[nodiscard]] double q(const ClaimPoint& p) const { return p.quantity(c_.quantity); }
   [[nodiscard]] bool counts(const ClaimPoint& p) const {
-    return p.reached && (c_.regime.empty() || p.motion.is(c_.regime));
+    return p.reached && (c_.regime.empty() || p.response.is(c_.regime));
   }
   [[nodiscard]] double step(const ClaimPoint& a, const ClaimPoint& b) const { return std::abs(q(b) - q(a)); }
   [[nodiscard]] double relative(const ClaimPoint& a, const ClaimPoint& b) const {
@@ -622,15 +626,15 @@ void jump(const Condition& c, const ClaimSeries& series, std::span<const ClaimPo
     if (p.period_one && p.period_one->found && (c.regime.empty() || c.regime == "period 1"))
       short_of_fold.push_back(std::max(0.0, 1.0 - p.period_one->fold));
   if (!short_of_fold.empty()) lead({std::ranges::min(short_of_fold)}, o);
-  const auto told = [&](const Step& one) {
+  const auto step_text = [&](const Step& one) {
     return number(100.0 * one.size) + " % of " + c.quantity + " at " + number(one.at);
   };
   if (largest.size > 0.0) {
-    o.text = told(largest) + (largest.side_by_side ? ", two attractors coexist" : "");
+    o.text = step_text(largest) + (largest.side_by_side ? ", two attractors coexist" : "");
   } else {
     o.text = "none";
     if (nearest.size > 0.0)
-      o.text += " (" + told(nearest) + " are " + number(nearest.abruptness) + " times the steps beside it)";
+      o.text += " (" + step_text(nearest) + " are " + number(nearest.abruptness) + " times the steps beside it)";
   }
   o.text += ", must be at least " + number(100.0 * least) + " %";
 }
@@ -638,9 +642,9 @@ void jump(const Condition& c, const ClaimSeries& series, std::span<const ClaimPo
 /// Of two points next to each other: 1 for another motion, else the relative change of the Poincare range, where a
 /// range that recurrence takes for a point is none. Neither may have failed.
 double variation_between(const ClaimPoint& a, const ClaimPoint& b) {
-  if (!a.motion.same(b.motion)) return 1.0;
+  if (!a.response.same(b.response)) return 1.0;
   // The section of period 1 is one point: its range is that of the oscillation in time.
-  const bool point = a.motion.is("period 1");
+  const bool point = a.response.is("period 1");
   const std::string_view name = point ? "delta_sp_range" : "poincare_sp_range";
   const double larger = std::max(a.quantity(name), b.quantity(name));
   return larger > noise ? std::abs(a.quantity(name) - b.quantity(name)) / larger : 0.0;
@@ -674,7 +678,7 @@ void alike(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
   for (const ClaimPoint& p : part) {
     if (!p.reached) continue;
     // Of no motion are both, and so not of the same one.
-    const bool is_known = p.by_sun_mesh.regime != Regime::undecided || !p.by_sun_mesh.told;
+    const bool is_known = p.by_sun_mesh.regime != Regime::undecided || !p.by_sun_mesh.classified;
     same += is_known && p.by_sun_mesh.same(p.by_ring_mesh) ? 1.0 : 0.0;
     sun.push_back(p.quantity("poincare_sp_range"));
     ring.push_back(p.quantity("poincare_rp_range"));
@@ -706,11 +710,11 @@ void decreasing(const Condition& c, const ClaimRecord& record, ConditionOutcome&
   std::vector<double> most(parts.size(), -std::numeric_limits<double>::infinity());
   std::size_t seen = 0;
   std::size_t failed = 0;
-  std::size_t unsettled = 0;
+  std::size_t unconverged = 0;
   std::size_t undecided = 0;
   for (const ClaimPoint& first : parts.front()) {
     undecided += !c.regime.empty() && is_undecided(first) ? 1 : 0;
-    if (first.reached && !c.regime.empty() && !first.motion.is(c.regime)) continue;
+    if (first.reached && !c.regime.empty() && !first.response.is(c.regime)) continue;
     std::vector<const ClaimPoint*> there;
     for (const auto& part : parts) {
       const auto at =
@@ -721,7 +725,7 @@ void decreasing(const Condition& c, const ClaimRecord& record, ConditionOutcome&
     const auto lost = std::ranges::count_if(there, [](const ClaimPoint* p) { return !p->reached; });
     failed += static_cast<std::size_t>(lost);
     if (lost > 0) continue;
-    unsettled += std::ranges::any_of(there, [](const ClaimPoint* p) { return !p->settled; }) ? 1 : 0;
+    unconverged += std::ranges::any_of(there, [](const ClaimPoint* p) { return !p->converged; }) ? 1 : 0;
     ++seen;
     for (std::size_t s = 0; s < parts.size(); ++s) most[s] = std::max(most[s], there[s]->quantity(c.quantity));
   }
@@ -752,7 +756,7 @@ void decreasing(const Condition& c, const ClaimRecord& record, ConditionOutcome&
   for (std::size_t s = 0; s < most.size(); ++s) o.text += (s == 0 ? "" : ", ") + number(most[s]);
   o.text = "largest " + c.quantity + " of " + std::to_string(seen) + (seen == 1 ? " value: " : " values: ") + o.text +
            ", must fall" + points_text(failed, "failed") + points_text(undecided, "undecided") +
-           points_text(unsettled, std::string(not_settled) + " in one of them");
+           points_text(unconverged, std::string(not_converged) + " in one of them");
 }
 
 /// Is nothing of what conditions read another at any of these points than at the first, by more than integration
@@ -761,7 +765,7 @@ bool is_inert(const ClaimPoint& first, const std::vector<ClaimPoint>& points,
               const std::set<std::string, std::less<>>& quantities) {
   constexpr double nothing = 1e-5;  // of a quantity
   return std::ranges::all_of(points, [&](const ClaimPoint& p) {
-    if (!first.reached || !p.reached || !p.motion.same(first.motion)) return false;
+    if (!first.reached || !p.reached || !p.response.same(first.response)) return false;
     const auto is_the_same = [&](const std::string& name) {
       const double a = first.quantity(name);
       const double b = p.quantity(name);

@@ -35,26 +35,27 @@ inline constexpr int judging_version = 4;
 
 /// How long points were looked at: by a glance, what does not recur counts as chaotic, and what comes nearer and nearer
 /// to recurring as periodic; in full, what evidence does not decide is of no motion.
-enum class Looked { briefly, in_full };
+enum class Depth { screening, in_full };
 
 /// What a point moves like, as conditions see it.
-struct ClaimMotion {
+struct ClaimRegime {
   analysis::Regime regime = analysis::Regime::undecided;
-  int period = 0;     ///< if periodic
-  bool told = false;  ///< by more than a glance; otherwise what does not recur counts as chaotic
+  int period = 0;           ///< if periodic
+  bool classified = false;  ///< by more than a glance; otherwise what does not recur counts as chaotic
 
   /// @param word  of is_motion_word()
   [[nodiscard]] bool is(std::string_view word) const;
-  [[nodiscard]] bool same(const ClaimMotion& other) const { return regime == other.regime && period == other.period; }
+  [[nodiscard]] bool same(const ClaimRegime& other) const { return regime == other.regime && period == other.period; }
   [[nodiscard]] std::string text() const;
 };
 
 struct ClaimPoint {
   double value = 0;
   bool reached = false;
-  bool settled = true;  ///< false where the motion is periodic and the record is on its way to it: it tells no extrema
-  ClaimMotion motion;
-  ClaimMotion by_sun_mesh, by_ring_mesh;  ///< told from the deflection of planet 1's mesh alone
+  bool converged =
+      true;  ///< false where the motion is periodic and the record is on its way to it: it tells no extrema
+  ClaimRegime response;
+  ClaimRegime by_sun_mesh, by_ring_mesh;  ///< told from the deflection of planet 1's mesh alone
   std::array<double, claim_quantities.size()> quantities{};
   std::optional<PeriodOne> period_one;  ///< where it was followed
 
@@ -63,7 +64,7 @@ struct ClaimPoint {
 
 /// @param result  with its Poincare section
 [[nodiscard]] ClaimPoint claim_point(const studies::PointResult& result, const studies::RecordingOptions& recording,
-                                     Looked looked);
+                                     Depth depth);
 
 /// A sweep's points by rising value.
 struct ClaimSeries {
@@ -81,7 +82,7 @@ struct ClaimSeries {
 using ClaimRecord = std::map<std::string, ClaimSeries, std::less<>>;
 
 /// As the texts of outcomes call points that are not `settled`.
-inline constexpr std::string_view not_settled = "not converged";
+inline constexpr std::string_view not_converged = "not converged";
 
 struct ConditionOutcome {
   bool holds = false;

@@ -189,12 +189,12 @@ struct ClaimsOptions {
 
 /// Is it a motion that conditions can name: "period 3", "periodic", "multi-period" (periodic, of 2 or more mesh
 /// periods), "quasiperiodic", "chaotic", "aperiodic" (either of them), or "not " and one of these?
-[[nodiscard]] bool is_motion_word(std::string_view word);
+[[nodiscard]] bool is_regime_word(std::string_view word);
 
 /// N of "period N", also behind "not "; 0 of other words.
-[[nodiscard]] int motion_period(std::string_view word);
+[[nodiscard]] int period_of_word(std::string_view word);
 
 /// Does it, or what it denies, name a motion that recurrence alone does not tell: a torus, chaos?
-[[nodiscard]] bool is_told_by_evidence(std::string_view word);
+[[nodiscard]] bool needs_evidence(std::string_view word);
 
 }  // namespace epicyclic::claims

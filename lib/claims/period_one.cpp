@@ -21,10 +21,10 @@ using namespace studies;
 namespace {
 
 /// b of [P-lack].
-double short_of(double level, double width, double to_flip) {
-  constexpr double half_way = 0.4;  // d_0
+double short_of(double level, double width, double to_doubling) {
+  constexpr double half_distance = 0.4;  // d_0
   if (level > 0.0) return 0.5 * std::max(0.0, 1.0 - level / width);
-  return 0.5 + 0.5 * to_flip / (to_flip + half_way);
+  return 0.5 + 0.5 * to_doubling / (to_doubling + half_distance);
 }
 
 /// x of [P-lack].
@@ -39,13 +39,13 @@ constexpr double never = -20.0;  // h where nothing is negative, as far from a f
 PeriodOne of_multipliers(const Eigen::VectorXcd& multipliers) {
   PeriodOne p;
   p.found = true;
-  p.to_flip = std::numeric_limits<double>::infinity();
+  p.to_doubling = std::numeric_limits<double>::infinity();
   double largest = 0.0;
   double rest = 0.0;
   double least = 0.0;
   for (const std::complex<double>& mu : multipliers) {
     largest = std::max(largest, std::abs(mu));
-    p.to_flip = std::min(p.to_flip, std::abs(mu + 1.0));
+    p.to_doubling = std::min(p.to_doubling, std::abs(mu + 1.0));
     if (mu.imag() != 0.0) continue;
     least = std::min(least, mu.real());
     p.fold = std::max(p.fold, mu.real());
@@ -54,7 +54,7 @@ PeriodOne of_multipliers(const Eigen::VectorXcd& multipliers) {
     if (mu.imag() != 0.0 || mu.real() != least || least == 0.0) rest = std::max(rest, std::abs(mu));
   const auto logarithm = [](double x) { return x > 0.0 ? std::max(never, std::log(x)) : never; };
   p.growth = logarithm(largest);
-  p.flip = logarithm(-least);
+  p.doubling = logarithm(-least);
   p.rest = logarithm(rest);
   return p;
 }
@@ -62,7 +62,7 @@ PeriodOne of_multipliers(const Eigen::VectorXcd& multipliers) {
 /// Of the motion from the model's default start the state that comes back nearest to itself.
 std::optional<std::vector<double>> nearest_return(integrate::Flow& flow, const std::vector<double>& start) {
   constexpr int periods = 60;
-  constexpr int settled = 20;
+  constexpr int transient = 20;
   std::vector<double> y = start;
   std::optional<std::vector<double>> nearest;
   double least = std::numeric_limits<double>::infinity();
@@ -70,7 +70,7 @@ std::optional<std::vector<double>> nearest_return(integrate::Flow& flow, const s
     const std::vector<double> before = y;
     if (!flow.evolve(y, 0.0, flow.field().period).reached()) break;
     const double back = largest_difference(y, before);
-    if (k < settled || !(back < least)) continue;
+    if (k < transient || !(back < least)) continue;
     least = back;
     nearest = y;
   }
@@ -84,11 +84,11 @@ struct Place {
 };
 
 /// Where the orbit should be: along the line through the last two.
-std::vector<double> ahead(const std::vector<Place>& way, double value) {
-  std::vector<double> guess = way.back().state;
-  if (way.size() < 2) return guess;
-  const Place& a = way[way.size() - 2];
-  const Place& b = way.back();
+std::vector<double> ahead(const std::vector<Place>& places, double value) {
+  std::vector<double> guess = places.back().state;
+  if (places.size() < 2) return guess;
+  const Place& a = places[places.size() - 2];
+  const Place& b = places.back();
   const double part = (value - b.value) / (b.value - a.value);
   for (std::size_t i = 0; i < guess.size(); ++i) guess[i] += part * (b.state[i] - a.state[i]);
   return guess;
@@ -104,9 +104,9 @@ std::optional<double> PeriodOne::lacks(std::string_view word) const {
                                                       "aperiodic"};
   std::optional<double> lack;
   if (word == "period 1") lack = beyond(growth);
-  if (word == "period 2") lack = 0.5 * (short_of(flip, width, to_flip) + beyond(rest));
-  if (word == "chaotic") lack = short_of(growth, of_chaos, to_flip);
-  if (std::ranges::find(others, word) != others.end()) lack = short_of(growth, width, to_flip);
+  if (word == "period 2") lack = 0.5 * (short_of(doubling, width, to_doubling) + beyond(rest));
+  if (word == "chaotic") lack = short_of(growth, of_chaos, to_doubling);
+  if (std::ranges::find(others, word) != others.end()) lack = short_of(growth, width, to_doubling);
   return lack && !found ? unknown : lack;
 }
 
@@ -120,7 +120,7 @@ std::vector<PeriodOne> follow_period_one(std::span<const double> values, const M
   options.known = 1e-3;
   options.keep_tangents = true;
   std::vector<PeriodOne> points(values.size());
-  std::vector<Place> way;
+  std::vector<Place> places;
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (stop != nullptr && stop->load()) break;
     const model::DynamicModel model = model_at(values[k]);
@@ -133,13 +133,13 @@ std::vector<PeriodOne> follow_period_one(std::span<const double> values, const M
       if (!orbit->found()) orbit.reset();
       return orbit.has_value();
     };
-    if (way.empty() || !seek(ahead(way, values[k]))) {
+    if (places.empty() || !seek(ahead(places, values[k]))) {
       flow->forget();
       if (const auto from = nearest_return(*flow, model.default_start)) seek(*from);
     }
     if (!orbit) continue;
     points[k] = of_multipliers(orbit->monodromy.eigenvalues());
-    way.push_back({values[k], std::move(orbit->state)});
+    places.push_back({values[k], std::move(orbit->state)});
   }
   return points;
 }

@@ -38,11 +38,11 @@ inline constexpr const char* no_multipliers = "forces jump at contact, where an 
 /// Of one point.
 struct PeriodOne {
   bool found = false;
-  double growth = 0;   ///< g
-  double flip = 0;     ///< h; very negative where no real multiplier is negative
-  double rest = 0;     ///< r
-  double to_flip = 0;  ///< d
-  double fold = 0;     ///< largest real multiplier; a fold is where it reaches 1
+  double growth = 0;       ///< g
+  double doubling = 0;     ///< h; very negative where no real multiplier is negative
+  double rest = 0;         ///< r
+  double to_doubling = 0;  ///< d
+  double fold = 0;         ///< largest real multiplier; a fold is where it reaches 1
 
   /// [P-lack]
   /// @param word  of is_motion_word()

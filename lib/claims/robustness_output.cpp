@@ -23,7 +23,7 @@ using analysis::Interval;
 namespace {
 
 /// Does the interval leave out zero?
-bool is_told(const Interval& i) { return i.low > 0.0 || i.high < 0.0; }
+bool excludes_zero(const Interval& i) { return i.low > 0.0 || i.high < 0.0; }
 
 std::string percent(double part) { return short_text(100.0 * part, 3); }
 
@@ -31,7 +31,7 @@ std::string percent(double part) { return short_text(100.0 * part, 3); }
 std::vector<std::size_t> deciding(const ClaimRobustness& claim) {
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < claim.influences.size(); ++k)
-    if (is_told(claim.influences[k])) order.push_back(k);
+    if (excludes_zero(claim.influences[k])) order.push_back(k);
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
     return std::abs(claim.influences[a].value) > std::abs(claim.influences[b].value);
   });
@@ -134,13 +134,13 @@ std::string robustness_summary(const RobustnessOutput& output, const KnownEvalua
   text += fmt::format("{} draws from the ranges, seed {}; {} of them are no valid stage and are left out.\n\n",
                       draws.size(), options.survey.seed, refused);
   text += "| claim | what | holds for | 95 % interval | decided by (rank correlation) |\n|---|---|---|---|---|\n";
-  constexpr std::size_t told = 4;
+  constexpr std::size_t most_listed = 4;
   const std::vector<Factor> factors = claims::factors(options.space);
   for (std::size_t k = 0; k < output.claims.size(); ++k) {
     const ClaimRobustness& claim = output.claims[k];
     std::string words;
     const auto order = deciding(claim);
-    for (std::size_t j = 0; j < std::min(told, order.size()); ++j)
+    for (std::size_t j = 0; j < std::min(most_listed, order.size()); ++j)
       words += fmt::format("{}{} {}", j == 0 ? "" : ", ", markdown_cell(factor_name(options.space, factors[order[j]])),
                            short_text(claim.influences[order[j]].value, 2));
     text += fmt::format("| {} | {} | {} % | {} to {} % | {} |\n", markdown_cell(options.claims[k].name),
@@ -219,7 +219,7 @@ DrawnFigure draw_influences(const std::filesystem::path& folder, const Robustnes
     for (std::size_t k = 0; k < claims; ++k)
       for (std::size_t v = 0; v < output.claims[k].influences.size(); ++v) {
         const Interval& i = output.claims[k].influences[v];
-        if (is_told(i) && (i.value > 0.0) == positive)
+        if (excludes_zero(i) && (i.value > 0.0) == positive)
           circles.push_back(
               {static_cast<double>(k + 1), static_cast<double>(variables - v), largest * std::sqrt(std::abs(i.value))});
       }

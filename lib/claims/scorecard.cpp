@@ -98,11 +98,11 @@ std::string scorecard_summary(const Scorecard& card) {
       text += fmt::format(" {}{} |", verdict(s.outcomes[k]), s.outcomes[k].inert ? ", nothing changes" : "");
     text += fmt::format(" {} |\n", markdown_cell(measured_text(card.scored.front().outcomes[k])));
   }
-  if (text.find(not_settled) != std::string::npos)
+  if (text.find(not_converged) != std::string::npos)
     text += fmt::format(
         "\nPoints that are {}: the orbit is periodic, but the record has not converged to it. Their values are not "
         "those of the orbit; a larger transient_periods helps.\n",
-        not_settled);
+        not_converged);
   for (std::size_t s = 1; s < card.scored.size(); ++s) {
     std::string other;
     for (std::size_t k = 0; k < card.options.claims.size(); ++k)
@@ -189,14 +189,14 @@ RecordedDifference unlike_recorded(const Scorecard& card, const input::LoadedInp
   };
   const Verdicts was = by_place(recorded["verdicts"]);
   const Verdicts now = by_place(verdicts_of(card));
-  const auto told = [](const Verdicts& verdicts, const Verdicts::key_type& place) {
+  const auto verdict_text = [](const Verdicts& verdicts, const Verdicts::key_type& place) {
     const auto found = verdicts.find(place);
     return found == verdicts.end() ? std::string("nothing") : fmt::format("{}", fmt::join(found->second, " and "));
   };
   Verdicts all = now;
   all.insert(was.begin(), was.end());
   for (const auto& [place, unused] : all)
-    if (const std::string is = told(now, place), before = told(was, place); is != before)
+    if (const std::string is = verdict_text(now, place), before = verdict_text(was, place); is != before)
       difference.verdicts.push_back(
           fmt::format("{} ({}): {}, was recorded: {}", place.first, place.second, is, before));
   return difference;

@@ -145,7 +145,7 @@ bool moves_like(const LoadedInput& input, const LoadedInput& other, const model:
   if (std::abs(ratio / model.omega - 1.0) < rounding) ratio = model.omega;
   const model::DynamicModel here =
       model::make_dynamic_model(study.stage, model::scales_of(other.study.stage), ratio, study.model);
-  return studies::same_motion(here, model);
+  return studies::same_equations(here, model);
 }
 
 }  // namespace epicyclic::input

@@ -66,7 +66,7 @@ std::string cut(const std::string& text) {
 std::pair<std::string, std::string> unknown_key(const std::string& key, const std::string& pointer,
                                                 const std::vector<std::string>& known, const ReadContext& context) {
   std::string message = "unknown key '" + cut(key) + "'";
-  if (context.findings.size() >= findings_told) return {message, ""};
+  if (context.findings.size() >= findings_max) return {message, ""};
   std::vector<std::string> same_quantity;
   const std::string quantity = stem(key, true);
   for (const auto& candidate : known)

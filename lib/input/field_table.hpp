@@ -108,7 +108,7 @@ struct KeyRule {
 [[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 /// Findings that are told each with what was probably meant; beyond them the first words suffice.
-inline constexpr std::size_t findings_told = 200;
+inline constexpr std::size_t findings_max = 200;
 
 /// "; did you mean 'x'?", or nothing.
 [[nodiscard]] std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);

@@ -110,14 +110,14 @@ class Problems {
     });
     constexpr std::size_t most = 200;
     std::vector<Problem> once;
-    std::set<std::string> told;
+    std::set<std::string> reported;
     for (auto& problem : all_) {
-      if (!told.insert(problem.text()).second || told.size() > most) continue;
+      if (!reported.insert(problem.text()).second || reported.size() > most) continue;
       once.push_back(std::move(problem));
     }
-    if (told.size() > most) {
+    if (reported.size() > most) {
       Problem more = once.back();
-      more.message = "and " + std::to_string(told.size() - most) + " more problems";
+      more.message = "and " + std::to_string(reported.size() - most) + " more problems";
       once.push_back(std::move(more));
     }
     throw InputProblems(std::move(once));

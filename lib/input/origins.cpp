@@ -47,10 +47,10 @@ void check_origins(const json& value, const std::string& pointer, ReadContext& c
     if (origin->is_object()) {
       std::vector<std::string> keys;
       for (const auto& [key, child] : value.items())
-        if (!is_bookkeeping(key) && keys.size() < findings_told) keys.push_back(key);
+        if (!is_bookkeeping(key) && keys.size() < findings_max) keys.push_back(key);
       for (const auto& [key, text] : origin->items()) {
         if (is_bookkeeping(key) || !value.contains(key)) {
-          const bool in_words = context.findings.size() < findings_told;
+          const bool in_words = context.findings.size() < findings_max;
           context.add(Finding::Kind::unknown_key, place + pointer_step(key),
                       "'" + key + "' is not a key of the object that this origin belongs to" +
                           (in_words ? suggestion(key, keys) : std::string()));
@@ -143,7 +143,7 @@ void keep_from_computing(json& root, const std::string& pointer) {
     if (!at->is_object()) break;
     if (const auto origin = at->find("origin"); origin != at->end() && origin->is_object()) {
       const auto text = origin->find(step);
-      if (text != origin->end() && gives_way(*text)) *text = "set: parameter";
+      if (text != origin->end() && may_be_replaced(*text)) *text = "set: parameter";
     }
     at = find_at(*at, pointer_step(step));
     if (at == nullptr) break;

@@ -18,7 +18,7 @@ class Judge {
   /// @param unread  pointers, relative to the stage
   explicit Judge(std::vector<std::string> unread) : unread_(std::move(unread)) {}
 
-  [[nodiscard]] bool can_tell(std::string_view pointer) const {
+  [[nodiscard]] bool can_judge(std::string_view pointer) const {
     const std::string_view member = member_of(pointer);
     return std::none_of(unread_.begin(), unread_.end(), [&](const std::string& u) {
       const std::string_view other = member_of(u);
@@ -57,19 +57,19 @@ bool judge_stage(const Study& study, const std::string& root, F not_computed, Re
   const bool sound = unread.empty();
   if (study.stage.planet_count < gear::planets_min || study.stage.planet_count > gear::planets_max) return sound;
   auto rules = gear::problems_for_modes(study.stage);
-  if (study.has_motion()) {
+  if (study.has_dynamics()) {
     const auto more = gear::problems_for_motion(study.stage);
     rules.insert(rules.end(), more.begin(), more.end());
   }
   const Judge judge(std::move(unread));
-  std::set<std::string> told;
+  std::set<std::string> reported;
   for (const auto& rule : rules) {
-    if (!told.insert(rule).second) continue;
+    if (!reported.insert(rule).second) continue;
     const auto colon = rule.find(": ");
     const std::string place = colon == std::string::npos ? "" : rule.substr(0, colon);
     const std::string pointer = root + place;
     // What was not computed can break no rule.
-    if (!judge.can_tell(place) || not_computed(pointer)) continue;
+    if (!judge.can_judge(place) || not_computed(pointer)) continue;
     if (known.count(pointer) == 0)
       context.add(Finding::Kind::rule, pointer, colon == std::string::npos ? rule : rule.substr(colon + 2));
   }

@@ -37,7 +37,7 @@ bool is_given(const json& object, const std::string& key) {
   const auto origin = object.find("origin");
   if (origin == object.end() || !origin->is_object()) return true;
   const auto text = origin->find(key);
-  return text == origin->end() || !gives_way(*text);
+  return text == origin->end() || !may_be_replaced(*text);
 }
 
 /// Is any value given?
@@ -68,10 +68,10 @@ class Filler {
 };
 
 /// What of the stage the gear set needs, read by the tables' own means; nothing if it cannot be read.
-std::optional<gear::Stage> readable_part(const json& asked) {
+std::optional<gear::Stage> readable_part(const json& stated) {
   gear::Stage part;
   ReadContext context;
-  stage_table().read(asked, "", part, context);
+  stage_table().read(stated, "", part, context);
   const auto of_lumped = [](const Finding& f) {
     return f.kind == Finding::Kind::missing_key && f.pointer.rfind("/lumped", 0) == 0;
   };
@@ -271,7 +271,7 @@ void leave_lubricated(json& computed) {
 
 /// Stiffness and friction of a mesh have several forms. What is computed gives way to another form that is given, and
 /// takes the place of one that was computed once.
-void settle_forms(json& mesh, json& computed) {
+void choose_forms(json& mesh, json& computed) {
   const auto rows = mesh.find("stiffness_curve");
   if (computed.contains("stiffness_curve")) {
     // Given rows, and given harmonics, stand as a whole.
@@ -346,7 +346,7 @@ void note_unused(const json& stage, const json& computed, const std::string& roo
 
 }  // namespace
 
-bool gives_way(const json& origin) { return is_computed(origin) || origin == "default"; }
+bool may_be_replaced(const json& origin) { return is_computed(origin) || origin == "default"; }
 
 bool is_computed(const json& origin) {
   return origin.is_string() && origin.get_ref<const std::string&>().rfind(computed_word, 0) == 0;
@@ -354,12 +354,12 @@ bool is_computed(const json& origin) {
 
 Completion complete_stage(json& stage, const std::string& root, ReadContext& context) {
   if (!stage.is_object() || !stage.contains("catalogue")) return {};
-  json asked = json::object();
+  json stated = json::object();
   for (const char* key : {"boundary", "planets", "catalogue"})
-    if (const auto it = stage.find(key); it != stage.end()) asked[key] = *it;
-  if (const auto planets = asked.find("planets"); planets != asked.end() && planets->is_object())
+    if (const auto it = stage.find(key); it != stage.end()) stated[key] = *it;
+  if (const auto planets = stated.find("planets"); planets != stated.end() && planets->is_object())
     if (!is_given(*planets, "centre_distance_mm")) planets->erase("centre_distance_mm");
-  const auto read = readable_part(asked);
+  const auto read = readable_part(stated);
   if (!read) return {.complete = false, .computed = {}};
   const auto problems = gear::catalogue_problems(*read);
   for (const std::string& problem : problems) {
@@ -374,7 +374,7 @@ Completion complete_stage(json& stage, const std::string& root, ReadContext& con
   for (const char* key : {"sun_planet_mesh", "ring_planet_mesh"}) {
     const bool there =
         lumped != stage.end() && lumped->is_object() && lumped->contains(key) && (*lumped)[key].is_object();
-    settle_forms(there ? (*lumped)[key] : none, computed["lumped"][key]);
+    choose_forms(there ? (*lumped)[key] : none, computed["lumped"][key]);
   }
   note_unused(stage, computed, root, context.notes);
   std::vector<Ignored> ignored;

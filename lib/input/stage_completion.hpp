@@ -22,7 +22,7 @@ inline constexpr std::string_view computed_word = "computed";
 [[nodiscard]] bool is_computed(const nlohmann::json& origin);
 
 /// Is this the origin of a value that nobody gave: computed, or a default?
-[[nodiscard]] bool gives_way(const nlohmann::json& origin);
+[[nodiscard]] bool may_be_replaced(const nlohmann::json& origin);
 
 /// What came of the completion of a stage.
 struct Completion {

@@ -93,7 +93,7 @@ struct Study {
 
   [[nodiscard]] std::string_view kind() const { return plan.name(); }
   /// Is anything to be computed?
-  [[nodiscard]] bool has_motion() const { return plan.kind() != nullptr; }
+  [[nodiscard]] bool has_dynamics() const { return plan.kind() != nullptr; }
   /// Is it computed point by point?
   [[nodiscard]] bool has_points() const;
 

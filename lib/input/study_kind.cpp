@@ -43,10 +43,10 @@ studies::SweepOptions& Plan::sweep() {
   return kind_->own_sweep(options_);
 }
 
-bool Study::has_points() const { return has_motion() && plan.kind()->plan != nullptr; }
+bool Study::has_points() const { return has_dynamics() && plan.kind()->plan != nullptr; }
 
 studies::SweepOptions Study::sweep() const {
-  if (has_motion() && plan.kind()->sweep != nullptr) return plan.kind()->sweep(*this);
+  if (has_dynamics() && plan.kind()->sweep != nullptr) return plan.kind()->sweep(*this);
   return plan.sweep();
 }
 

@@ -181,7 +181,7 @@ void warn_of_estimated_error(std::vector<gear::Warning>& out, const LoadedInput&
     return origin != nullptr && origin->is_string() && is(origin->get_ref<const std::string&>());
   };
   const bool by_default =
-      origin_is("/catalogue/origin/error_amplitude", [](const std::string& o) { return gives_way(o); });
+      origin_is("/catalogue/origin/error_amplitude", [](const std::string& o) { return may_be_replaced(o); });
   const gear::MeshLoad load = gear::mean_mesh_load(stage, mesh_frequency);
   gear::Warnings warnings;
   for (const auto& [key, mesh] :
@@ -257,7 +257,7 @@ void warn_of_points(std::vector<gear::Warning>& out, const LoadedInput& input) {
     const auto model = [&, &name = axis.name](double value) {
       return model_of(point_at(input, std::array{PointerValue{name, value}}), scales);
     };
-    if (studies::same_motion(model(axis.from), model(to)))
+    if (studies::same_equations(model(axis.from), model(to)))
       out.push_back(
           {gear::Rank::doubtful, 1.0, place + "/parameter", place + "/parameter",
            fmt::format("{} has no effect on the response: the equations of motion at {} and at {} are the same",
@@ -298,7 +298,7 @@ std::vector<std::string> texts(std::vector<gear::Warning> warnings) {
 std::vector<std::string> warnings(const LoadedInput& input) {
   const Study& study = input.study;
   std::vector<std::string> lines;
-  if (!study.has_motion()) {
+  if (!study.has_dynamics()) {
     lines = gear_warnings(input);
   } else {
     std::vector<gear::Warning> all;

@@ -34,7 +34,7 @@ constexpr double mass_max = 1e7;
 constexpr double stiffness_min = 1e-3;
 constexpr double stiffness_max = 1e18;
 constexpr double gap_max_um = 1e5;
-constexpr double turns_deg = 3600;
+constexpr double largest_angle_deg = 3600;
 
 /// Of a parameter with a name.
 Bounds bounds_of(const char* parameter) {
@@ -333,8 +333,8 @@ const Table<Mesh>& mesh_table() {
     t.number("backlash_half_um", &Mesh::backlash_half_um, gap, "Half the backlash, on the line of action [um].");
     t.number_or_numbers("error_amplitude_um", &Mesh::error_amplitude_um, gap, gear::planets_max,
                         "Amplitude of the transmission error [um]: one number, or one per planet.");
-    t.number_or_numbers("error_phase_deg", &Mesh::error_phase_deg, between(-turns_deg, turns_deg), gear::planets_max,
-                        "Phase of the transmission error [deg]: one number, or one per planet.");
+    t.number_or_numbers("error_phase_deg", &Mesh::error_phase_deg, between(-largest_angle_deg, largest_angle_deg),
+                        gear::planets_max, "Phase of the transmission error [deg]: one number, or one per planet.");
     t.object("friction", &Mesh::friction, friction_table());
     return t;
   }();
@@ -362,8 +362,8 @@ const Table<Stage>& planets_table() {
     Table<Stage> t("planets", "How many planets there are, and where.");
     t.integer("count", &Stage::planet_count, between(gear::planets_min, gear::planets_max), "Number of planets [-].")
         .required();
-    t.numbers("angles_deg", &Stage::angles_deg, between(-turns_deg, turns_deg), gear::planets_min, gear::planets_max,
-              "Angle of each planet [deg]; equally spaced from 0 if not given.");
+    t.numbers("angles_deg", &Stage::angles_deg, between(-largest_angle_deg, largest_angle_deg), gear::planets_min,
+              gear::planets_max, "Angle of each planet [deg]; equally spaced from 0 if not given.");
     t.number("centre_distance_mm", &Stage::centre_distance_mm, length,
              "Distance between the axes of sun and planet [mm]; needed for time integration.");
     return t;
@@ -557,7 +557,7 @@ const Table<Study>& study_table() {
     plan.description = "What is computed.";
     plan.read = read_plan;
     plan.write = [](const Study& study) {
-      return study.has_motion() ? study.plan.kind()->table().write(study) : json();
+      return study.has_dynamics() ? study.plan.kind()->table().write(study) : json();
     };
     plan.schema = [] {
       ordered_json any = ordered_json::array();

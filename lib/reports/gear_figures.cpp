@@ -425,8 +425,8 @@ struct DrawnMember {
 constexpr double outline_width = 1.8;
 constexpr double path_width = 4.5;
 
-std::string pitch_look(std::string_view colour) { return figures::dashed(colour, 1.2, "(12,8)"); }
-std::string base_look(std::string_view colour) { return figures::solid(colour, 0.8); }
+std::string pitch_style(std::string_view colour) { return figures::dashed(colour, 1.2, "(12,8)"); }
+std::string base_style(std::string_view colour) { return figures::solid(colour, 0.8); }
 
 /// Filled section: the teeth, closed by the material behind them.
 void add_body(figures::Sketch& sketch, const DrawnMember& m) {
@@ -441,8 +441,8 @@ void add_body(figures::Sketch& sketch, const DrawnMember& m) {
 }
 
 void add_lines(figures::Sketch& sketch, const DrawnMember& m) {
-  sketch.add(arc_about(m.axis, m.pitch_radius, m.towards, m.spread), pitch_look(m.colour));
-  sketch.add(arc_about(m.axis, m.tooth.base_radius_mm, m.towards, m.spread), base_look(m.colour));
+  sketch.add(arc_about(m.axis, m.pitch_radius, m.towards, m.spread), pitch_style(m.colour));
+  sketch.add(arc_about(m.axis, m.tooth.base_radius_mm, m.towards, m.spread), base_style(m.colour));
   sketch.add(rows(m.teeth), figures::solid(m.colour, outline_width));
 }
 
@@ -490,8 +490,8 @@ GearFigure teeth_figure(const fs::path& folder, const gear::Stage& stage, const 
   for (const DrawnMember* m : {&driven, &driving}) add_lines(sketch, *m);
   add_contact(sketch, drawing, pair.pressure_angle, 2.0 * (window.x.high - window.x.low));
   for (const DrawnMember* m : {&driving, &driven}) sketch.entry(figures::solid(m->colour, outline_width), m->name);
-  sketch.entry(pitch_look(dark_grey), "pitch circles");
-  sketch.entry(base_look(dark_grey), "base circles");
+  sketch.entry(pitch_style(dark_grey), "pitch circles");
+  sketch.entry(base_style(dark_grey), "base circles");
   sketch.entry(figures::solid(green, path_width), "path of contact");
 
   const std::string title =
@@ -506,7 +506,7 @@ GearFigure teeth_figure(const fs::path& folder, const gear::Stage& stage, const 
 // ---------------------------------------------------------------------------------------------------------------------
 // Modes
 
-struct TypeLook {
+struct TypeStyle {
   model::ModeType type;
   std::string_view colour, dash;
   double width;
@@ -514,13 +514,13 @@ struct TypeLook {
 };
 
 /// The rotational modes stand out: only they answer meshes that are in phase.
-const std::array<TypeLook, 4>& type_looks() {
-  static const std::array<TypeLook, 4> looks{
+const std::array<TypeStyle, 4>& type_styles() {
+  static const std::array<TypeStyle, 4> styles{
       {{model::ModeType::translational, blue, "(14,6)", 1.4, figures::dots(blue, 1, 6)},
        {model::ModeType::planet, green, "(3,5)", 1.8, figures::dots(green, 1, 4)},
        {model::ModeType::other, purple, "(14,5,3,5)", 1.6, figures::dots(purple, 1, 8)},
        {model::ModeType::rotational, red, "solid", 2, figures::dots(red, 1.1)}}};
-  return looks;
+  return styles;
 }
 
 constexpr int mesh_harmonics_shown = 3;
@@ -596,14 +596,14 @@ GearFigure campbell_figure(const fs::path& folder, const gear::Stage& stage, con
   sketch.command(
       "set label 'ω_{sn}' at graph 1, first 1 right offset character -0.8,0.55 font ',20' textcolor '#707070'");
   add_harmonics(sketch, frequency_max, free_height(modes, frequency_max));
-  for (const TypeLook& recording : type_looks())
+  for (const TypeStyle& recording : type_styles())
     sketch.add(frequency_lines(modes, recording.type, speed_max),
                figures::dashed(recording.colour, recording.width, recording.dash));
-  for (const TypeLook& recording : type_looks())
+  for (const TypeStyle& recording : type_styles())
     sketch.add(resonances(modes, recording.type, speed_max), recording.mark);
   // What is drawn last, on top, is named first.
-  const std::vector<TypeLook> legend(type_looks().rbegin(), type_looks().rend());
-  for (const TypeLook& recording : legend)
+  const std::vector<TypeStyle> legend(type_styles().rbegin(), type_styles().rend());
+  for (const TypeStyle& recording : legend)
     if (std::any_of(modes.begin(), modes.end(), [&](const model::Mode& mode) { return mode.type == recording.type; }))
       sketch.entry(figures::dashed(recording.colour, recording.width, recording.dash),
                    model::to_string(recording.type));
@@ -666,19 +666,19 @@ class ShapeDrawing {
     constexpr double largest_shown = 0.25;
     const double scale = largest_shown / shape.cwiseAbs().maxCoeff();
     const auto at = [&](std::size_t slot) { return scale * shape(static_cast<Eigen::Index>(slot)); };
-    const auto motion = [&](std::size_t slot_x, std::size_t slot_y, std::size_t slot_u, double base) {
-      return Motion{at(slot_x), at(slot_y), at(slot_u) / base};
+    const auto displacement = [&](std::size_t slot_x, std::size_t slot_y, std::size_t slot_u, double base) {
+      return Displacement{at(slot_x), at(slot_y), at(slot_u) / base};
     };
-    const Motion none{};
-    const Motion carrier = motion(Slots::x_c(n), Slots::y_c(n), Slots::u_c(Layout::full, n), 1.0);
+    const Displacement none{};
+    const Displacement carrier = displacement(Slots::x_c(n), Slots::y_c(n), Slots::u_c(Layout::full, n), 1.0);
     carrier_of(x, y, none, rest_marks_);
     carrier_of(x, y, carrier, marks_[carrier_member]);
-    place(x, y, radii_.ring, 0.5 * pi, motion(Slots::x_r(n), Slots::y_r(n), Slots::u_r(n), radii_.ring_base),
+    place(x, y, radii_.ring, 0.5 * pi, displacement(Slots::x_r(n), Slots::y_r(n), Slots::u_r(n), radii_.ring_base),
           ring_member);
     for (std::size_t i = 0; i < n; ++i)
       place(x + std::cos(angles_[i]), y + std::sin(angles_[i]), radii_.planet, angles_[i],
-            motion(Slots::x_p(i), Slots::y_p(i), Slots::w_p(i), radii_.planet_base), planet_member);
-    place(x, y, radii_.sun, 0.5 * pi, motion(Slots::x_s, Slots::y_s, Slots::w_s, radii_.sun_base), sun_member);
+            displacement(Slots::x_p(i), Slots::y_p(i), Slots::w_p(i), radii_.planet_base), planet_member);
+    place(x, y, radii_.sun, 0.5 * pi, displacement(Slots::x_s, Slots::y_s, Slots::w_s, radii_.sun_base), sun_member);
   }
 
   void show(figures::Sketch& sketch) const {
@@ -699,7 +699,7 @@ class ShapeDrawing {
 
  private:
   enum Member : std::size_t { sun_member, planet_member, ring_member, carrier_member };
-  struct Motion {
+  struct Displacement {
     double x = 0, y = 0, angle = 0;
   };
 
@@ -713,7 +713,7 @@ class ShapeDrawing {
     marks.push_back(interruption);
   }
 
-  void place(double x, double y, double radius, double towards, const Motion& m, Member member) {
+  void place(double x, double y, double radius, double towards, const Displacement& m, Member member) {
     rest_circles_.push_back({x, y, radius});
     circles_[member].push_back({x + m.x, y + m.y, radius});
     // A ring has no spoke: its mark is a short one at the rim.
@@ -722,7 +722,7 @@ class ShapeDrawing {
     mark(marks_[member], x + m.x, y + m.y, inner, radius, towards + m.angle);
   }
 
-  void carrier_of(double x, double y, const Motion& m, Curve& marks) const {
+  void carrier_of(double x, double y, const Displacement& m, Curve& marks) const {
     for (const double angle : angles_) mark(marks, x + m.x, y + m.y, 0.0, 1.0, angle + m.angle);
   }
 

@@ -95,8 +95,8 @@ std::vector<PhaseRow> phase_rows(const gear::GearSet& set) {
   for (int k = 0; k < even; ++k) rows.push_back({static_cast<double>(k) / even, static_cast<double>(k) / even + side});
   const auto jumps = [&](const gear::MeshedPair& mesh, double lead) {
     for (const double own : mesh.breakpoints()) {
-      const double turns = own - lead;
-      const double phase = turns - std::floor(turns);
+      const double cycles = own - lead;
+      const double phase = cycles - std::floor(cycles);
       rows.push_back({phase, phase - side});
       rows.push_back({phase, phase + side});
     }
@@ -111,8 +111,8 @@ std::string stiffness_csv(const gear::GearSet& set) {
   CsvWriter csv({"phase", "k_sp_N_per_m", "k_rp_N_per_m", "k_sp_fourier_N_per_m", "k_rp_fourier_N_per_m"});
   const auto value = [](const gear::MeshedPair& mesh, const PhaseRow& row, double lead) {
     const double inside = row.inside + lead;
-    const double turns = std::floor(inside);
-    return mesh.stiffness(row.phase + lead - turns, inside - turns);
+    const double cycles = std::floor(inside);
+    return mesh.stiffness(row.phase + lead - cycles, inside - cycles);
   };
   for (const PhaseRow& row : phase_rows(set))
     csv.row(row.phase, value(set.sun_planet, row, 0.0), value(set.ring_planet, row, set.ring_mesh_lead),

@@ -399,13 +399,13 @@ std::vector<ModeRange> mode_ranges(const input::LoadedInput& input, const std::v
   const gear::Stage high = input.with_values(stiff).stage;
   const auto low_modes = model::modes(low, model::scales_of(low));
   const auto high_modes = model::modes(high, model::scales_of(high));
-  const auto told = [&](bool by_type) {
+  const auto at_all_stiffnesses = [&](bool by_type) {
     return std::array{frequencies(given, modes, by_type), frequencies(low, low_modes, by_type),
                       frequencies(high, high_modes, by_type)};
   };
-  auto all = told(true);
+  auto all = at_all_stiffnesses(true);
   const bool by_type = are_alike(all[0], all[1]) && are_alike(all[0], all[2]);
-  if (!by_type) all = told(false);
+  if (!by_type) all = at_all_stiffnesses(false);
   std::map<std::optional<model::ModeType>, std::size_t> place;
   std::vector<ModeRange> ranges;
   for (const model::Mode& mode : modes) {

@@ -39,7 +39,7 @@ namespace {
 using input::PlotForm;
 
 const input::PlotSource& plot_source(const input::Study& study) {
-  if (!study.has_motion() || study.plan.kind()->plot.form == PlotForm::none)
+  if (!study.has_dynamics() || study.plan.kind()->plot.form == PlotForm::none)
     throw InputError(fmt::format("plot draws sweeps, maps, branches and runs, not a study of kind {}", study.kind()));
   return study.plan.kind()->plot;
 }
@@ -235,10 +235,10 @@ class Plot {
     read_all();
     const bool of_sections = std::ranges::any_of(series_, [](const Series& s) { return s.section; });
     // Where both ways are chaotic, one would hide the other: each has a frame of its own.
-    std::set<std::string> ways;
+    std::set<std::string> directions;
     for (const Series& s : series_)
-      if (!s.rows.empty() && !s.lines) ways.insert(s.way);
-    const bool apart = of_sections && ways.size() > 1;
+      if (!s.rows.empty() && !s.lines) directions.insert(s.direction);
+    const bool apart = of_sections && directions.size() > 1;
     const std::string label =
         (of_sections && !apart ? "Poincaré points of  " : "") + quantity_label(options_.quantity, options_.micrometres);
     const FigureRange x = options_.x ? *options_.x : x_.widened(0.0);
@@ -255,9 +255,9 @@ class Plot {
       panel.logarithmic = options_.logarithmic;
       sketch.panel(std::move(panel));
       for (auto s = series_.rbegin(); s != series_.rend(); ++s)
-        if (!apart || s->way == frame || s->lines) add(sketch, *s);
+        if (!apart || s->direction == frame || s->lines) add(sketch, *s);
       if (apart) sketch.letters(std::vector<Place>{{x.high, y.high}}, frame, "right offset character -0.8,-0.9 boxed");
-      if (frame == frames.front()) add_legend(sketch, ways.size() > 1 && !apart);
+      if (frame == frames.front()) add_legend(sketch, directions.size() > 1 && !apart);
     }
     const figures::FigureText text{title(), abscissa_label(), "", above()};
     std::vector<DrawnFigure> all =
@@ -294,11 +294,11 @@ class Plot {
         if (has_converged && table.number("converged", row) != 1.0) ++not_converged_;
         values[k - step + column] = factor_ * table.number(options_.quantity, row);
       }
-      const std::string way = store::direction_word(map.directions[d]);
+      const std::string direction = store::direction_word(map.directions[d]);
       figures::FigureText text{title(), parameter_label(map.plane.first.name), parameter_label(map.plane.second.name),
                                above()};
-      if (map.directions.size() > 1) text.title += ", " + way;
-      const std::string stem = options_.quantity + "_" + way;
+      if (map.directions.size() > 1) text.title += ", " + direction;
+      const std::string stem = options_.quantity + "_" + direction;
       const std::string label = quantity_label(options_.quantity, options_.micrometres);
       std::ranges::move(drawn(folder, stem,
                               figures::scale_figure(folder, stem, text, grid, label, values, canvas_of(text),
@@ -324,7 +324,7 @@ class Plot {
 
   struct Series {
     std::size_t study = 0;
-    std::string way;             ///< "up", "down"; empty: neither
+    std::string direction;       ///< "up", "down"; empty: neither
     bool lines = false;          ///< alone, without dots
     bool section = false;        ///< many values over each abscissa
     std::vector<Place> rows;     ///< dots, or stable orbits
@@ -384,11 +384,12 @@ class Plot {
     if (!section) wanted.push_back(options_.quantity);
     const Columns points(folder / "points.csv", wanted);
     // First where the points are, then what the section has at each.
-    std::vector<Series> ways;
+    std::vector<Series> by_direction;
     const auto series_at = [&](std::size_t row) -> Series& {
-      const std::string& way = points.word("direction", row);
-      auto found = std::ranges::find(ways, way, &Series::way);
-      if (found == ways.end()) found = ways.insert(ways.end(), Series{k, way, false, section, {}, {}});
+      const std::string& direction = points.word("direction", row);
+      auto found = std::ranges::find(by_direction, direction, &Series::direction);
+      if (found == by_direction.end())
+        found = by_direction.insert(by_direction.end(), Series{k, direction, false, section, {}, {}});
       return *found;
     };
     for (std::size_t row = 0; row < points.rows(); ++row) {
@@ -417,7 +418,7 @@ class Plot {
         (converged ? s.rows : s.apart).push_back(place(points.number(x, point), rows.number(options_.quantity, row)));
       }
     }
-    std::ranges::move(ways, std::back_inserter(series_));
+    std::ranges::move(by_direction, std::back_inserter(series_));
   }
 
   /// Where branches gain or lose stability: behind which of their orbits (branch, index), at which value.
@@ -479,7 +480,7 @@ class Plot {
   [[nodiscard]] bool alone() const { return studies_.size() == 1; }
 
   void add(figures::Sketch& sketch, const Series& s) const {
-    const bool down = s.way == "down";
+    const bool down = s.direction == "down";
     const std::string_view colour = colour_of(alone() && down ? 1 : s.study);
     if (s.lines) {
       sketch.add(s.joined, figures::dashed(colour, 1.6, "(8,6)"));
@@ -529,16 +530,16 @@ class Plot {
     return dots;
   }
 
-  void add_legend(figures::Sketch& sketch, bool ways) const {
+  void add_legend(figures::Sketch& sketch, bool by_direction) const {
     if (!alone())
       for (std::size_t k = 0; k < studies_.size(); ++k)
         sketch.entry(figures::solid(colour_of(k), 2.5), figures::literal_text(studies_[k].label));
-    if (ways)
+    if (by_direction)
       for (const bool down : {false, true})
         sketch.entry(figures::dots(alone() ? colour_of(down ? 1 : 0) : figures::ink::dark_grey, 0.8, down ? 6 : 7),
                      down ? "down" : "up");
     if (std::ranges::any_of(series_, [](const Series& s) { return !s.apart.empty(); }))
-      sketch.entry(figures::apart_dots(1.0), on_its_way_words);
+      sketch.entry(figures::apart_dots(1.0), not_converged_words);
     if (std::ranges::any_of(studies_, draws_curves))
       sketch.entry(figures::dashed(alone() ? colour_of(0) : figures::ink::dark_grey, 1.6, "(8,6)"), "unstable");
   }

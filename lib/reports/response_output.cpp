@@ -28,11 +28,13 @@ constexpr double even_share = 1e-6;
 
 bool ok(const PointSummary& r) { return r.outcome == integrate::Outcome::reached; }
 
-std::size_t points_each_way(const ResponseInput& input) { return input.points.count / input.sweep.directions.size(); }
+std::size_t points_per_direction(const ResponseInput& input) {
+  return input.points.count / input.sweep.directions.size();
+}
 
 /// Is the motion one whose numbers do not depend on when it is recorded, as far as is known?
 bool regular(const PointSummary& r) {
-  return !r.is_unsettled() && r.regime != analysis::Regime::chaotic &&
+  return !r.is_unconverged() && r.regime != analysis::Regime::chaotic &&
          !(r.regime == analysis::Regime::undecided && r.classified);
 }
 
@@ -40,12 +42,12 @@ bool regular(const PointSummary& r) {
 std::vector<figures::TrackSeries> series_of(const ResponseInput& input,
                                             const std::function<std::vector<double>(const StageRecord&)>& values) {
   std::vector<figures::TrackSeries> all;
-  const std::size_t count = points_each_way(input);
+  const std::size_t count = points_per_direction(input);
   for (std::size_t d = 0; d < input.sweep.directions.size(); ++d)
     all.push_back({store::direction_word(input.sweep.directions[d]), count,
                    [&input, values, first = d * count](std::size_t i) -> std::optional<figures::TrackRow> {
                      const PointSummary r = input.points.read_summary(first + i);
-                     figures::TrackRow row{r.point.value, regular(r), values(r.meshes), r.is_unsettled()};
+                     figures::TrackRow row{r.point.value, regular(r), values(r.meshes), r.is_unconverged()};
                      if (!ok(r)) std::fill(row.y.begin(), row.y.end(), std::numeric_limits<double>::quiet_NaN());
                      return row;
                    }});
@@ -66,7 +68,7 @@ figures::FigureOutcome write_response_figure(const std::filesystem::path& folder
                   return std::vector{delta.rms, delta.range()};
                 }),
       {{fmt::format("RMS of {}", symbol), {0}}, {fmt::format("Peak to peak of {}", symbol), {1}}}, {},
-      figures::Pictures::none, on_its_way_words);
+      figures::Pictures::none, not_converged_words);
 }
 
 figures::FigureOutcome write_largest_force_figure(const std::filesystem::path& folder, const std::string& stem,
@@ -77,7 +79,8 @@ figures::FigureOutcome write_largest_force_figure(const std::filesystem::path& f
                 [](const StageRecord& r) {
                   return std::vector{r.dynamic_factor(r.sun_planet), r.dynamic_factor(r.ring_planet)};
                 }),
-      {{"Largest  F_{sp} / F_0", {0}}, {"Largest  F_{rp} / F_0", {1}}}, {}, figures::Pictures::none, on_its_way_words);
+      {{"Largest  F_{sp} / F_0", {0}}, {"Largest  F_{rp} / F_0", {1}}}, {}, figures::Pictures::none,
+      not_converged_words);
 }
 
 bool has_quasi_static(const studies::PointSource& points) {
@@ -97,7 +100,7 @@ figures::FigureOutcome write_kv_figure(const std::filesystem::path& folder, cons
                   return std::vector{StageRecord::kv(r.sun_planet), StageRecord::kv(r.ring_planet)};
                 }),
       {{"Dynamic factor  K_{v,sp}", {0}}, {"Dynamic factor  K_{v,rp}", {1}}}, {}, figures::Pictures::none,
-      on_its_way_words);
+      not_converged_words);
 }
 
 bool loads_differ(const studies::PointSource& points) {
@@ -131,7 +134,7 @@ figures::FigureOutcome write_load_sharing_figure(const std::filesystem::path& fo
                     for (std::size_t i = 0; i < planets; ++i) shares.push_back(StageRecord::share(*meshes, course, i));
                   return shares;
                 }),
-      {sun, ring}, names, figures::Pictures::none, on_its_way_words);
+      {sun, ring}, names, figures::Pictures::none, not_converged_words);
 }
 
 figures::FigureOutcome write_waterfall_figure(const std::filesystem::path& folder, const std::string& stem,
@@ -139,7 +142,7 @@ figures::FigureOutcome write_waterfall_figure(const std::filesystem::path& folde
   constexpr double shown_orders = 4.0;
   constexpr double floor = 1e-4;      // [b_c]: a nanometre
   constexpr std::size_t most = 1000;  // columns: the picture has no more
-  const std::size_t count = points_each_way(input);
+  const std::size_t count = points_per_direction(input);
   struct Column {
     double x;
     std::vector<double> spectrum;

@@ -123,7 +123,7 @@ figures::FigureText text_of(const SweepOutput& output, const studies::PointSourc
 }
 
 /// Points are numbered along the first direction, then the second.
-std::size_t points_each_way(const SweepOutput& output, const studies::PointSource& points) {
+std::size_t points_per_direction(const SweepOutput& output, const studies::PointSource& points) {
   return points.count / output.sweep.directions.size();
 }
 
@@ -133,12 +133,12 @@ const std::vector<figures::PointClass>& classes() {
   static const std::vector<figures::PointClass> all = {
       {"period 1", "#12285c", false}, {"period 2 and more", "#3f8fd0", false},
       {"quasiperiodic", "#1b8a6b"},   {"chaotic", "#c8553d"},
-      {"undecided", "#8a8a8a"},       {on_its_way_words, std::string(figures::ink::ochre), false}};
+      {"undecided", "#8a8a8a"},       {not_converged_words, std::string(figures::ink::ochre), false}};
   return all;
 }
 
 std::size_t class_of(const PointSummary& r) {
-  if (r.is_unsettled()) return 5;
+  if (r.is_unconverged()) return 5;
   switch (r.regime) {
     case analysis::Regime::periodic:
       return r.period <= 1 ? 0 : 1;
@@ -157,12 +157,12 @@ auto section(const SweepOutput& output, const studies::PointSource& points, std:
   const auto& columns = output.poincare_columns;
   const auto column =
       static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column_of(figure)) - columns.begin());
-  return [&points, column,
-          first = direction * points_each_way(output, points)](std::size_t i) -> std::optional<figures::ClassPoint> {
+  return [&points, column, first = direction * points_per_direction(output, points)](
+             std::size_t i) -> std::optional<figures::ClassPoint> {
     const PointResult r = points.read(first + i);
     if (r.outcome != integrate::Outcome::reached) return std::nullopt;
     const analysis::Estimate exponent = r.lyapunov_max();
-    figures::ClassPoint p{{r.point.value, {}, r.is_unsettled()}, class_of(r), exponent.value, exponent.half_width};
+    figures::ClassPoint p{{r.point.value, {}, r.is_unconverged()}, class_of(r), exponent.value, exponent.half_width};
     for (std::size_t k = 0; k < r.poincare_rows(); ++k)
       p.section.push_back(r.poincare[k * r.poincare_columns + column]);
     return p;
@@ -213,7 +213,7 @@ std::string figure_title(const input::Study& study) {
                          : b == gear::Boundary::star     ? "star"
                                                          : "fixed ring";
   std::string title = (study.name.empty() ? study.stage.name : study.name) + ", boundary " + boundary;
-  const bool speed_is_given = study.has_motion() && study.plan.kind()->at_given_speed &&
+  const bool speed_is_given = study.has_dynamics() && study.plan.kind()->at_given_speed &&
                               std::ranges::none_of(input::varied_parameters(study), [](const auto& varied) {
                                 return varied.axis.name == studies::speed_parameter;
                               });
@@ -326,16 +326,17 @@ std::optional<DrawnFigure> write_sweep_figure(const std::filesystem::path& folde
     case SweepFigure::regimes_first:
     case SweepFigure::regimes_second:
       outcome = figures::class_bifurcation_figure(
-          folder, *stem, text, "exponent", "Exponent  λ_1 / ω_{sn}", classes(), points_each_way(output, points),
+          folder, *stem, text, "exponent", "Exponent  λ_1 / ω_{sn}", classes(), points_per_direction(output, points),
           section(output, points, *direction_of(figure), figure), figures::Pictures::none);
       break;
     case SweepFigure::delta_sp:
     case SweepFigure::delta_rp: {
       std::vector<figures::BifurcationSeries> series;
       for (std::size_t d = 0; d < output.sweep.directions.size(); ++d)
-        series.push_back({store::direction_word(output.sweep.directions[d]), points_each_way(output, points),
+        series.push_back({store::direction_word(output.sweep.directions[d]), points_per_direction(output, points),
                           section(output, points, d, figure)});
-      outcome = figures::bifurcation_figure(folder, *stem, text, series, {}, figures::Pictures::none, on_its_way_words);
+      outcome =
+          figures::bifurcation_figure(folder, *stem, text, series, {}, figures::Pictures::none, not_converged_words);
       break;
     }
     case SweepFigure::response_sp:

@@ -27,7 +27,7 @@ namespace epicyclic::reports {
 [[nodiscard]] std::string parameter_symbol(const std::string& parameter);
 
 /// What points are whose record is still on its way to their motion, for legends of figures that draw them apart.
-inline constexpr const char* on_its_way_words = "record not converged to the orbit";
+inline constexpr const char* not_converged_words = "record not converged to the orbit";
 
 /// Axis label of a speed by its key, as "sun_speed_rpm"; empty of any other.
 [[nodiscard]] std::string speed_label(std::string_view key);

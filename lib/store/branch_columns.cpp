@@ -21,7 +21,7 @@ Column<BranchPlace> of_orbit(const StageColumn& column) {
   std::visit(
       [&]<class Value>(const std::function<Value(const studies::StageRecord&)>& value) {
         result.value = std::function<Value(const BranchPlace&)>([value](const BranchPlace& p) {
-          if (p.row.carried) return value(p.row.meshes);
+          if (p.row.evaluated) return value(p.row.meshes);
           if constexpr (std::is_same_v<Value, double>) return unknown;
           return Value{};
         });

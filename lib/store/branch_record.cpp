@@ -106,13 +106,13 @@ void pass(A& a, studies::TracedLocus& l) {
 }
 
 template <class A>
-void pass(A& a, studies::FoundMotion& m) {
+void pass(A& a, studies::CoexistingOrbit& m) {
   pass_all(a, m.orbit, m.period, m.shooting_intervals, m.keeps_symmetry, m.images, m.unstable, m.multiplier_max,
            m.starts);
 }
 template <class A>
-void pass(A& a, studies::FoundMotions& f) {
-  pass_all(a, f.value, f.starts, f.missed, f.motions);
+void pass(A& a, studies::CoexistingOrbits& f) {
+  pass_all(a, f.value, f.starts, f.missed, f.orbits);
 }
 
 template <class A>
@@ -144,10 +144,10 @@ studies::TracedLocus decode_locus(std::span<const std::byte> record) {
   return archive::decode<studies::TracedLocus>(record);
 }
 
-std::vector<std::byte> encode_found(const studies::FoundMotions& found) { return archive::encode(found); }
+std::vector<std::byte> encode_found(const studies::CoexistingOrbits& found) { return archive::encode(found); }
 
-studies::FoundMotions decode_found(std::span<const std::byte> record) {
-  return archive::decode<studies::FoundMotions>(record);
+studies::CoexistingOrbits decode_found(std::span<const std::byte> record) {
+  return archive::decode<studies::CoexistingOrbits>(record);
 }
 
 std::vector<std::byte> encode_exact(const std::optional<analysis::ExactValue>& exact, const std::string& note) {

@@ -25,10 +25,10 @@ namespace epicyclic::store {
 [[nodiscard]] studies::TracedLocus decode_locus(std::span<const std::byte> record);
 
 /// What a search has found at one value.
-[[nodiscard]] std::vector<std::byte> encode_found(const studies::FoundMotions& found);
+[[nodiscard]] std::vector<std::byte> encode_found(const studies::CoexistingOrbits& found);
 
 /// @throws DamagedData when the record is not one of encode_found()
-[[nodiscard]] studies::FoundMotions decode_found(std::span<const std::byte> record);
+[[nodiscard]] studies::CoexistingOrbits decode_found(std::span<const std::byte> record);
 
 /// A value with the exact clearance, if there is one, and the note on its point.
 [[nodiscard]] std::vector<std::byte> encode_exact(const std::optional<analysis::ExactValue>& exact,

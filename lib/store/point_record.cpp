@@ -85,14 +85,14 @@ void pass(A& a, analysis::AttractorRecord& r) {
 
 /// All but the Poincare section.
 template <class A>
-void pass_brief(A& a, studies::PointResult& r) {
+void pass_summary(A& a, studies::PointResult& r) {
   pass_all(a, r.point, r.outcome, r.message, r.recurrence, r.regime, r.period, r.classified, r.evidence, r.meshes,
            r.rhs_evaluations, r.end_state, r.orbit, r.omega, r.poincare_columns, r.attractor);
 }
 
 template <class A>
 void pass(A& a, studies::PointResult& r) {
-  pass_brief(a, r);
+  pass_summary(a, r);
   pass(a, r.spectrum);
   if (!r.spectrum.empty()) pass(a, r.spectrum_resolution);
   pass(a, r.poincare);
@@ -113,7 +113,7 @@ void pass(A& a, studies::StatisticsStep& s) {
 }
 template <class A>
 void pass(A& a, studies::TolerancePoint& p) {
-  pass_all(a, p.point, p.study, p.note, p.period, p.orbit, p.reference_residual, p.settled_distance,
+  pass_all(a, p.point, p.study, p.note, p.period, p.orbit, p.reference_residual, p.distance_from_orbit,
            p.largest_multiplier, p.reference, p.reference_error, p.table_error, p.table_displacement, p.between_phases,
            p.ladder, p.study_work, p.smoothing, p.extrapolated, p.exponent, p.statistics);
 }
@@ -130,7 +130,7 @@ std::optional<studies::PointSummary> decode_point_beginning(std::span<const std:
   archive::Decoder d(beginning);
   studies::PointResult result;
   try {
-    archive::pass_brief(d, result);
+    archive::pass_summary(d, result);
   } catch (const DamagedData&) {
     // Cut off, or damaged: the whole record tells.
     return std::nullopt;

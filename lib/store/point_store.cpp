@@ -16,7 +16,7 @@ namespace epicyclic::store {
 namespace {
 
 /// All of a record but the Poincare section, as a rule; notes may be longer.
-constexpr std::size_t brief_bytes = 2048;
+constexpr std::size_t summary_bytes = 2048;
 
 constexpr std::string_view rank_journal_start = "journal.rank-";
 constexpr std::string_view rank_journal_end = ".bin";
@@ -110,7 +110,7 @@ studies::PointResult PointStore::read(std::size_t point) const {
 
 studies::PointSummary PointStore::read_summary(std::size_t point) const {
   const Place at = place(point);
-  auto result = decode_point_beginning(journals_[at.journal]->read_beginning({point, at.offset}, brief_bytes));
+  auto result = decode_point_beginning(journals_[at.journal]->read_beginning({point, at.offset}, summary_bytes));
   if (!result) return read(point);
   if (result->point.index != point) throw DamagedData(fmt::format("the record of point {} is of another", point));
   return *std::move(result);

@@ -101,8 +101,8 @@ class Stretches {
       bool rises = false;
       for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
         const double step = rows[k + 1].value - rows[k].value;
-        const bool turns = step != 0.0 && !numbers.empty() && (step > 0.0) != rises;
-        numbers.push_back(numbers.empty() ? 0 : numbers.back() + (turns ? 1 : 0));
+        const bool reverses = step != 0.0 && !numbers.empty() && (step > 0.0) != rises;
+        numbers.push_back(numbers.empty() ? 0 : numbers.back() + (reverses ? 1 : 0));
         if (step != 0.0) rises = step > 0.0;
       }
       // One that closes begins within a stretch, unless it begins at a turn.
@@ -228,7 +228,7 @@ class Explainer {
     to_ = b.value;
     step_ = std::abs(to_ - from_);
     // A motion that is stable all the way is left for no reason of the branches'.
-    if (!is_stable_all_the_way(a)) {
+    if (!is_stable_throughout(a)) {
       // What lies between the values tells more than what lies behind, there a birth most, then what the motion that is
       // left says. Why one that no branch follows is left, what comes next does not tell.
       const bool unknown = a.periodic && !a.branch;
@@ -242,9 +242,9 @@ class Explainer {
         if (!(side == &b && unknown && !may_bear(a, b)) && by_end(*side, side == &a ? b : a, change)) return;
     }
     if (by_cascade(i, change)) return;
-    if (!a.periodic && is_stable_all_the_way(b)) {
+    if (!a.periodic && is_stable_throughout(b)) {
       change.cause = Cause::crisis;
-      change.words = "the attractor (" + a.motion + ") ends; the sweep falls onto branch " + std::to_string(*b.branch) +
+      change.words = "the attractor (" + a.regime + ") ends; the sweep falls onto branch " + std::to_string(*b.branch) +
                      ", which is stable on both sides";
       return;
     }
@@ -297,7 +297,7 @@ class Explainer {
   static std::string whereto(const SweepPlace& side, const SweepPlace& other, const SweepChange& change) {
     std::string words = &side == &change.before ? "; the sweep jumps to " : "; the sweep comes from ";
     if (!other.branch) {
-      words += "what is " + other.motion;
+      words += "what is " + other.regime;
       return words;
     }
     if (other.branch == side.branch) words += "another stretch of ";
@@ -314,7 +314,7 @@ class Explainer {
         const bool first = limit == &branch.first;
         const double end = (first ? rows.front() : rows.back()).value;
         if (!limit->born || limit->place || !is_within_the_grid(end) || !is_ahead(end, side, other) ||
-            !stretches_.ends(p, first) || is_stable_all_the_way(p, side.value))
+            !stretches_.ends(p, first) || is_stable_throughout(p, side.value))
           continue;
         change.cause = Cause::jump;
         change.beside = beside(end);
@@ -333,7 +333,7 @@ class Explainer {
 
   /// Is the other side what is born there from the side's stretch, of which it is?
   [[nodiscard]] bool is_birth(const SpecialRow& r, const SweepPlace& side, const SweepPlace& other) const {
-    if (r.kind == SpecialKind::neimark_sacker) return other.motion == "quasiperiodic" && !coexists(other, side);
+    if (r.kind == SpecialKind::neimark_sacker) return other.regime == "quasiperiodic" && !coexists(other, side);
     const auto is_there = [&](const analysis::BranchLimit& limit) {
       return limit.place && limit.place->branch == r.branch && limit.place->point == r.point;
     };
@@ -351,11 +351,11 @@ class Explainer {
   }
 
   /// Has another direction such a motion on no branch at the side's own value too, where its orbit is still stable?
-  [[nodiscard]] bool coexists(const SweepPlace& motion, const SweepPlace& side) const {
+  [[nodiscard]] bool coexists(const SweepPlace& other, const SweepPlace& side) const {
     constexpr double same_value = 1e-6;  // steps
     return side.stable && std::ranges::any_of(directions_, [&](const std::vector<SweepPlace>& places) {
              return &places != &places_ && std::ranges::any_of(places, [&](const SweepPlace& p) {
-               return std::abs(p.value - side.value) <= same_value * step_ && p.motion == motion.motion && !p.branch;
+               return std::abs(p.value - side.value) <= same_value * step_ && p.regime == other.regime && !p.branch;
              });
            });
   }
@@ -375,12 +375,12 @@ class Explainer {
   }
 
   /// Is the motion on a stretch that is stable from one value to the other?
-  [[nodiscard]] bool is_stable_all_the_way(const SweepPlace& place) const {
-    return std::ranges::any_of(place.on, [&](const PlaceOnBranch& p) { return is_stable_all_the_way(p, place.value); });
+  [[nodiscard]] bool is_stable_throughout(const SweepPlace& place) const {
+    return std::ranges::any_of(place.on, [&](const PlaceOnBranch& p) { return is_stable_throughout(p, place.value); });
   }
 
   /// @param value  at the place
-  [[nodiscard]] bool is_stable_all_the_way(const PlaceOnBranch& place, double value) const {
+  [[nodiscard]] bool is_stable_throughout(const PlaceOnBranch& place, double value) const {
     const std::vector<BranchRow>& rows = traced_.rows[place.branch];
     const double slack = 1e-6 * step_;  // ends of ranges are rounded
     if (!locator_.stable_at(place.branch, place.after, value)) return false;
@@ -498,18 +498,18 @@ BranchProof prove(const TracedBranches& traced, const SweepOptions& sweep, const
   BranchProof proof;
   const Stretches stretches(traced);
   Locator locator(traced, dimension, options);
-  const std::size_t each_way = points.count / sweep.directions.size();
+  const std::size_t points_per_direction = points.count / sweep.directions.size();
   std::vector<std::vector<SweepPlace>> directions(sweep.directions.size());
   for (std::size_t d = 0; d < sweep.directions.size(); ++d) {
     std::vector<SweepPlace>& places = directions[d];
-    for (std::size_t i = 0; i < each_way; ++i) {
-      const PointResult point = points.read(d * each_way + i);
+    for (std::size_t i = 0; i < points_per_direction; ++i) {
+      const PointResult point = points.read(d * points_per_direction + i);
       SweepPlace place;
       place.point = point.point.index;
       place.value = point.point.value;
-      place.motion = "failed";
+      place.regime = "failed";
       if (point.outcome == integrate::Outcome::reached) {
-        place.motion = regime_name(point);
+        place.regime = regime_name(point);
         place.periodic = point.regime == analysis::Regime::periodic;
         place.period = place.periodic ? point.period : 0;
         if (place.periodic) {
@@ -522,17 +522,17 @@ BranchProof prove(const TracedBranches& traced, const SweepOptions& sweep, const
         }
       }
       places.push_back(std::move(place));
-      finished(d * each_way + i + 1);
+      finished(d * points_per_direction + i + 1);
     }
   }
   for (std::size_t d = 0; d < sweep.directions.size(); ++d) {
     const std::vector<SweepPlace>& places = directions[d];
     const Explainer explainer(traced, stretches, locator, directions, places);
     // Is the undecided side where the branch of the other one is?
-    const auto settles_onto = [&](const SweepChange& change) {
+    const auto converges_onto = [&](const SweepChange& change) {
       const SweepPlace& side = change.before.branch ? change.before : change.behind;
       const SweepPlace& other = change.before.branch ? change.behind : change.before;
-      if (!side.branch || other.motion != to_string(analysis::Regime::undecided)) return false;
+      if (!side.branch || other.regime != to_string(analysis::Regime::undecided)) return false;
       SweepPlace there = other;
       locator.locate(points.read(other.point), side.period, side.branch, there);
       return there.branch == side.branch;
@@ -542,14 +542,14 @@ BranchProof prove(const TracedBranches& traced, const SweepOptions& sweep, const
       const SweepPlace& b = places[i + 1];
       // Among those on none nothing tells one orbit from another: they are listed.
       const bool jumps = a.branch || b.branch ? !stretches.shared(a, b) : false;
-      if (a.motion == b.motion && !jumps) continue;
+      if (a.regime == b.regime && !jumps) continue;
       SweepChange change;
       change.before = a;
       change.behind = b;
       change.direction = sweep.directions[d];
       change.counted = a.periodic || b.periodic;
       if (change.counted) explainer.explain(i, change);
-      if (change.counted && change.cause == Cause::unexplained && settles_onto(change)) {
+      if (change.counted && change.cause == Cause::unexplained && converges_onto(change)) {
         change.cause = Cause::undecided;
         change.words = "the undecided point is on the orbit too";
       }

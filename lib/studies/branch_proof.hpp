@@ -53,7 +53,7 @@ struct PlaceOnBranch {
 struct SweepPlace {
   std::size_t point = 0;
   double value = 0;
-  std::string motion;  ///< "period 2", "chaotic"
+  std::string regime;  ///< "period 2", "chaotic"
   bool periodic = false;
   int period = 0;                       ///< if periodic
   std::optional<std::size_t> branch{};  ///< that it is on; of several the one of the point before, or the nearest

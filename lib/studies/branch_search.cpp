@@ -16,14 +16,14 @@ void BranchSearchOptions::validate() const {
   require(period_max >= 1, "period_max", period_max, ">= 1");
 }
 
-FoundMotions search_motions(const BranchSystem& system, const model::DynamicModel& model, double value,
-                            const BranchSearchOptions& options, int transient_periods) {
+CoexistingOrbits search_coexisting_orbits(const BranchSystem& system, const model::DynamicModel& model, double value,
+                                          const BranchSearchOptions& options, int transient_periods) {
   options.validate();
   std::vector<std::vector<double>> starts;
   std::vector<double> state = model.default_start;
   const auto flow = system.system.flows(value);
-  const auto on_motion = static_cast<std::size_t>((options.starts + 1) / 2);
-  for (int k = 0; starts.size() < on_motion; ++k) {
+  const auto on_trajectory = static_cast<std::size_t>((options.starts + 1) / 2);
+  for (int k = 0; starts.size() < on_trajectory; ++k) {
     if (k >= transient_periods) starts.push_back(state);
     if (!flow->evolve(state, 0.0, model.period).reached()) break;
   }
@@ -42,13 +42,13 @@ FoundMotions search_motions(const BranchSystem& system, const model::DynamicMode
   search.settle = periods_that_come_back;
   const analysis::OrbitSearch found = search_orbits(family, value, starts, search);
 
-  FoundMotions result{value, starts.size(), 0};
+  CoexistingOrbits result{value, starts.size(), 0};
   std::set<std::size_t> led;
   for (const analysis::FoundOrbit& f : found.orbits) led.insert(f.starts.begin(), f.starts.end());
   result.missed = starts.size() - led.size();
   for (const analysis::FoundOrbit& f : found.orbits)
-    result.motions.push_back({f.orbit, f.family.period, f.family.shooting_intervals, f.keeps_symmetry(), f.images,
-                              f.unstable, f.multiplier_max, f.starts.size()});
+    result.orbits.push_back({f.orbit, f.family.period, f.family.shooting_intervals, f.keeps_symmetry(), f.images,
+                             f.unstable, f.multiplier_max, f.starts.size()});
   return result;
 }
 

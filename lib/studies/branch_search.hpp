@@ -15,7 +15,7 @@
 namespace epicyclic::studies {
 
 /// An orbit that was found.
-struct FoundMotion {
+struct CoexistingOrbit {
   analysis::BranchOrbit orbit;
   int period = 1;
   int shooting_intervals = 1;
@@ -26,15 +26,16 @@ struct FoundMotion {
   std::size_t starts = 0;       ///< that led to it
 };
 
-struct FoundMotions {
+struct CoexistingOrbits {
   double value = 0;
   std::size_t starts = 0;  ///< in all
   std::size_t missed = 0;  ///< that led to no motion
-  std::vector<FoundMotion> motions{};
+  std::vector<CoexistingOrbit> orbits{};
 };
 
 /// @param transient_periods  that the motion is given before its states are starts
-[[nodiscard]] FoundMotions search_motions(const BranchSystem& system, const model::DynamicModel& model, double value,
-                                          const BranchSearchOptions& options, int transient_periods);
+[[nodiscard]] CoexistingOrbits search_coexisting_orbits(const BranchSystem& system, const model::DynamicModel& model,
+                                                        double value, const BranchSearchOptions& options,
+                                                        int transient_periods);
 
 }  // namespace epicyclic::studies

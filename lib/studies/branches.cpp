@@ -84,8 +84,8 @@ BranchSystem branch_system(const ModelAt& models, const BranchesOptions& options
   constexpr double part_of_range = 0.3;
   s.system.value_scale = part_of_range * (options.to - options.from);
   if (first_model.remove_synchronous && first_model.planets > 1)
-    s.system.symmetry =
-        analysis::cyclic_symmetry(first_model.dimension, first_model.planets, planet_turns(first_model).front().map);
+    s.system.symmetry = analysis::cyclic_symmetry(first_model.dimension, first_model.planets,
+                                                  planet_rotations(first_model).front().map);
   analysis::ContinuationOptions& c = s.options.continuation;
   c.from = options.from;
   c.to = options.to;
@@ -154,8 +154,8 @@ BranchOrigin origin_near(const BranchSystem& system, analysis::OrbitFamily famil
 
 }  // namespace
 
-BranchOrigin settled_start(const BranchSystem& system, const model::DynamicModel& model, double value,
-                           int transient_periods) {
+BranchOrigin steady_state_start(const BranchSystem& system, const model::DynamicModel& model, double value,
+                                int transient_periods) {
   std::vector<double> state = model.default_start;
   const auto flow = system.system.flows(value);
   for (int k = 0; k < transient_periods; ++k) {
@@ -207,11 +207,11 @@ BranchRow branch_row(const analysis::OrbitFamily& family, const analysis::Branch
   for (Eigen::Index n = 0; n < states.cols(); ++n)
     append_poincare_row(model, {states.col(n).data(), static_cast<std::size_t>(states.rows())}, d, row.section);
   row.meshes = watch.finish();
-  row.carried = true;
+  row.evaluated = true;
   return row;
 }
 
-void settle_stability(const analysis::Branch& branch, std::vector<BranchRow>& rows) {
+void decide_stability(const analysis::Branch& branch, std::vector<BranchRow>& rows) {
   if (rows.size() < 2) return;
   const auto take = [](BranchRow& row, const BranchRow& neighbour) {
     row.stable = neighbour.stable;

@@ -49,8 +49,8 @@ struct BranchOrigin {
 };
 
 /// The one that the motion from the model's default start has settled to.
-[[nodiscard]] BranchOrigin settled_start(const BranchSystem& system, const model::DynamicModel& model, double value,
-                                         int transient_periods);
+[[nodiscard]] BranchOrigin steady_state_start(const BranchSystem& system, const model::DynamicModel& model,
+                                              double value, int transient_periods);
 
 /// The one near a seed.
 [[nodiscard]] BranchOrigin seed_start(const BranchSystem& system, const BranchSeed& seed);
@@ -63,7 +63,7 @@ struct BranchRow {
   int unstable = 0;                               ///< number of multipliers beyond it
   double residual = 0;                            ///< by which it did not close before the last step [b_c, b_c per tau]
   std::vector<std::complex<double>> multipliers;  ///< by falling modulus
-  bool carried = false;                           ///< what follows is known
+  bool evaluated = false;                         ///< what follows is known
   StageRecord meshes;                             ///< over the orbit's own periods
   std::vector<double> section;                    ///< n rows of poincare_columns()
   double omega = 0;                               ///< Omega
@@ -78,7 +78,7 @@ struct BranchRow {
                                    const model::DynamicModel& model, int phases);
 
 /// An orbit where a branch is born or dies has a multiplier at 1 to rounding: whether it is stable its neighbour says.
-void settle_stability(const analysis::Branch& branch, std::vector<BranchRow>& rows);
+void decide_stability(const analysis::Branch& branch, std::vector<BranchRow>& rows);
 
 /// What is told of special points: one of a branch, or several contacts that alike planets make at once.
 struct SpecialRow {

@@ -11,39 +11,39 @@ std::vector<double> CoarsePass::start_of(std::size_t first, const std::function<
   if (plan_.grid.coarse_periods == 0 || first % count == 0) return {};
   const std::size_t first_of_direction = first - first % count;
   std::unique_lock lock(mutex_);
-  Way& way = ways_[first / count];
-  const auto known = [&] { return way.next >= first % count; };
-  while (!known() && way.carried) {
+  DirectionPass& pass = passes_[first / count];
+  const auto known = [&] { return pass.next >= first % count; };
+  while (!known() && pass.in_progress) {
     lock.unlock();
     wait([&] {
       const std::scoped_lock own(mutex_);
-      return known() || !way.carried || !go_on();
+      return known() || !pass.in_progress || !go_on();
     });
     if (!go_on()) return {};
     lock.lock();
   }
-  if (known()) return way.starts.at(first);  // someone else may still carry it: that is not ours to say
-  way.carried = true;
-  while (way.carried) {
+  if (known()) return pass.starts.at(first);  // someone else may still carry it: that is not ours to say
+  pass.in_progress = true;
+  while (pass.in_progress) {
     lock.unlock();
     bool done = false;
     try {
-      done = carry(way, first_of_direction + way.next, go_on, make_flow);
+      done = advance(pass, first_of_direction + pass.next, go_on, make_flow);
     } catch (...) {
       lock.lock();
-      way.carried = false;
+      pass.in_progress = false;
       throw;
     }
     lock.lock();
-    if (done) keep(way, first_of_direction);
-    way.carried = done && !known();
+    if (done) keep(pass, first_of_direction);
+    pass.in_progress = done && !known();
     if (!done) return {};
   }
-  return way.starts.at(first);
+  return pass.starts.at(first);
 }
 
-bool CoarsePass::carry(Way& way, std::size_t point, const std::function<bool()>& go_on,
-                       const integrate::FlowMaker& make_flow) {
+bool CoarsePass::advance(DirectionPass& pass, std::size_t point, const std::function<bool()>& go_on,
+                         const integrate::FlowMaker& make_flow) {
   integrate::IntegratorOptions options = integrator_;
   // Which branch it is on is all that is asked.
   constexpr double enough = 1e-5;
@@ -51,23 +51,23 @@ bool CoarsePass::carry(Way& way, std::size_t point, const std::function<bool()>&
   options.relative_tolerance *= factor;
   options.absolute_tolerance *= factor;
   const model::DynamicModel model = model_at_(plan_.points[point]);
-  std::vector<double> state = way.state.empty() ? model.default_start : way.state;
+  std::vector<double> state = pass.state.empty() ? model.default_start : pass.state;
   const auto flow = make_flow(model, options);
   for (int k = 0; k < plan_.grid.coarse_periods && !state.empty(); ++k) {
     if (!go_on()) return false;
     if (!flow->evolve(state, 0.0, flow->field().period).reached()) state.clear();
   }
-  way.state = std::move(state);
+  pass.state = std::move(state);
   return true;
 }
 
-void CoarsePass::keep(Way& way, std::size_t first_of_direction) {
-  ++way.next;
+void CoarsePass::keep(DirectionPass& pass, std::size_t first_of_direction) {
+  ++pass.next;
   const std::size_t count = plan_.grid.columns();
   const std::size_t segments = plan_.grid.chains_per_line;
   // Is it the first point of a segment? They start at c count / segments, rounded down.
-  const std::size_t c = (way.next * segments + count - 1) / count;
-  if (c * count / segments == way.next) way.starts[first_of_direction + way.next] = way.state;
+  const std::size_t c = (pass.next * segments + count - 1) / count;
+  if (c * count / segments == pass.next) pass.starts[first_of_direction + pass.next] = pass.state;
 }
 
 }  // namespace epicyclic::studies

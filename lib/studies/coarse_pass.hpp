@@ -38,25 +38,26 @@ class CoarsePass {
                                              const std::function<void(const std::function<bool()>& over)>& wait);
 
  private:
-  struct Way {
-    bool carried = false;  ///< by someone, just now
-    std::size_t next = 0;  ///< point that the pass has come to, counted within the direction
+  struct DirectionPass {
+    bool in_progress = false;  ///< by someone, just now
+    std::size_t next = 0;      ///< point that the pass has come to, counted within the direction
     std::vector<double> state;
     std::map<std::size_t, std::vector<double>> starts;
   };
 
   /// One point of a way; its state is the caller's meanwhile.
   /// @returns false if given up
-  bool carry(Way& way, std::size_t point, const std::function<bool()>& go_on, const integrate::FlowMaker& make_flow);
+  bool advance(DirectionPass& pass, std::size_t point, const std::function<bool()>& go_on,
+               const integrate::FlowMaker& make_flow);
 
   /// Goes to the next point, and keeps the state if a segment starts there.
-  void keep(Way& way, std::size_t first_of_direction);
+  void keep(DirectionPass& pass, std::size_t first_of_direction);
 
   const SweepPlan& plan_;
   const integrate::IntegratorOptions& integrator_;
   const ModelAtPoint& model_at_;
   std::mutex mutex_;
-  std::map<std::size_t, Way> ways_;  ///< by direction; its members belong to who carries it
+  std::map<std::size_t, DirectionPass> passes_;  ///< by direction; its members belong to who carries it
 };
 
 }  // namespace epicyclic::studies

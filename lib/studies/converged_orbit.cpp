@@ -6,17 +6,17 @@
 
 namespace epicyclic::studies {
 
-ConvergedOrbit settled_orbit(integrate::Flow& flow, const PointSummary& motion) {
+ConvergedOrbit converged_orbit(integrate::Flow& flow, const PointSummary& point) {
   ConvergedOrbit found;
-  if (motion.outcome != integrate::Outcome::reached) {
-    found.note = "the point was not reached: " + motion.message;
+  if (point.outcome != integrate::Outcome::reached) {
+    found.note = "the point was not reached: " + point.message;
     return found;
   }
-  if (motion.regime != analysis::Regime::periodic) {
-    found.note = motion_text(motion);
+  if (point.regime != analysis::Regime::periodic) {
+    found.note = regime_text(point);
     return found;
   }
-  const int n = motion.period;
+  const int n = point.period;
   const std::string name = "orbit of period " + std::to_string(n);
   if (!has_classification(flow.field())) {
     found.note = "an " + name + " by recurrence alone: forces jump at contact, and there are no tangents to find it by";
@@ -24,16 +24,16 @@ ConvergedOrbit settled_orbit(integrate::Flow& flow, const PointSummary& motion) 
   }
   // The motion was told on its way, and may have come to another phase since.
   const std::vector<double> start =
-      motion.orbit.empty() ? motion.end_state : analysis::nearest_on_orbit(flow, motion.orbit, n, motion.end_state);
+      point.orbit.empty() ? point.end_state : analysis::nearest_on_orbit(flow, point.orbit, n, point.end_state);
   found.orbit = analysis::find_periodic_orbit(flow, start, n);
   if (!found.orbit.found()) {
     found.note = "no " + name + " by Newton's method: " + found.orbit.message;
     return found;
   }
   found.period = n;
-  found.distance = largest_difference(found.orbit.state, motion.end_state);
+  found.distance = largest_difference(found.orbit.state, point.end_state);
   found.largest_multiplier = largest_multiplier(found.orbit);
-  if (motion.recurrence.period == 0)
+  if (point.recurrence.period == 0)
     found.note =
         "the trajectory had not converged, " + short_text(found.distance) + " away from its orbit at the record's end";
   return found;

@@ -20,6 +20,6 @@ struct ConvergedOrbit {
 };
 
 /// @param flow  of the motion's model, at the tolerance that the orbit is wanted to
-[[nodiscard]] ConvergedOrbit settled_orbit(integrate::Flow& flow, const PointSummary& motion);
+[[nodiscard]] ConvergedOrbit converged_orbit(integrate::Flow& flow, const PointSummary& point);
 
 }  // namespace epicyclic::studies

@@ -110,7 +110,7 @@ Measured measure_miniatures(const SweepPlan& plan, std::size_t first, double sec
   }
 }
 
-bool same_motion(const model::DynamicModel& a, const model::DynamicModel& b) {
+bool same_equations(const model::DynamicModel& a, const model::DynamicModel& b) {
   if (a.dimension != b.dimension || a.breakpoints != b.breakpoints || a.omega != b.omega) return false;
   constexpr double size_max = 1e6;
   constexpr int phases = 8;

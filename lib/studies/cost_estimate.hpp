@@ -63,6 +63,6 @@ struct Measured {
 
 /// Do two models answer alike, wherever the state is? Looked at states of all sizes, so that gaps of any width are
 /// crossed.
-[[nodiscard]] bool same_motion(const model::DynamicModel& a, const model::DynamicModel& b);
+[[nodiscard]] bool same_equations(const model::DynamicModel& a, const model::DynamicModel& b);
 
 }  // namespace epicyclic::studies

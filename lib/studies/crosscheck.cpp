@@ -72,28 +72,28 @@ class Examiner {
   struct Pair {
     const GridPoint& point;
     const Variant& ours;
-    const PointResult& our_motion;
+    const PointResult& our_result;
     const Variant& other;
-    const PointResult& their_motion;
+    const PointResult& their_result;
   };
 
   [[nodiscard]] std::unique_ptr<integrate::Flow> flow_of(const GridPoint& point, const Variant& v) const {
     return integrate::make_flow(model_at_(point.value, v.clearance_smoothing), v.integrator);
   }
 
-  [[nodiscard]] ConvergedOrbit orbit_of(const GridPoint& point, const Variant& v, const PointResult& motion) const {
-    return settled_orbit(*flow_of(point, v), motion);
+  [[nodiscard]] ConvergedOrbit orbit_of(const GridPoint& point, const Variant& v, const PointResult& result) const {
+    return converged_orbit(*flow_of(point, v), result);
   }
 
   /// d of [A-cross]; of motions without an orbit, of one record from the other.
   [[nodiscard]] double distance(const Pair& both) const {
-    const PointResult& a = both.our_motion;
-    const PointResult& b = both.their_motion;
+    const PointResult& a = both.our_result;
+    const PointResult& b = both.their_result;
     const std::size_t n = a.end_state.size();
     const double recorded = orbit_distance(a, b, n);
     if (recorded <= options_.orbit_tolerance) return recorded;
     // Records may be those of motions that still settle: by the orbits themselves.
-    if (periodic(a) && periodic(b) && settles(both.point, both.ours, a) && settles(both.point, both.other, b))
+    if (periodic(a) && periodic(b) && converges(both.point, both.ours, a) && converges(both.point, both.other, b))
       if (const double d = orbits_apart(both); std::isfinite(d)) return d;
     if (!std::isnan(recorded)) return recorded;
     double most = 0.0;
@@ -105,9 +105,9 @@ class Examiner {
 
   /// One regime, and state by state one motion; where both are chaotic, one growth, to within both intervals.
   [[nodiscard]] bool same(const Pair& both) const {
-    if (chaotic(both.our_motion) && chaotic(both.their_motion))
-      return overlap(both.our_motion.lyapunov_max(), both.their_motion.lyapunov_max());
-    return both.our_motion.regime == both.their_motion.regime && both.our_motion.period == both.their_motion.period &&
+    if (chaotic(both.our_result) && chaotic(both.their_result))
+      return overlap(both.our_result.lyapunov_max(), both.their_result.lyapunov_max());
+    return both.our_result.regime == both.their_result.regime && both.our_result.period == both.their_result.period &&
            distance(both) <= options_.orbit_tolerance;
   }
 
@@ -157,7 +157,7 @@ class Examiner {
       if (const PointResult again = compute(point, ours, start, recording_);
           !same({point, ours, reference, ours, again}))
         return done(Verdict::unexplained, "the reference gives another result when repeated: " +
-                                              motion_text(reference) + ", and now " + motion_text(again));
+                                              regime_text(reference) + ", and now " + regime_text(again));
     if (const double d = c.distance > clearly * options_.orbit_tolerance ? one_orbit(both) : nan;
         d <= options_.orbit_tolerance)
       return done(Verdict::transient, "both converge to one orbit of period " + std::to_string(reference.period) +
@@ -165,8 +165,8 @@ class Examiner {
     if (torus(reference) && torus(result))
       if (const std::string one = one_torus(both); !one.empty()) return done(Verdict::torus, one);
     const bool near = periodic(reference) && periodic(result) && c.distance <= clearly * options_.orbit_tolerance;
-    if (!near && told(reference) && told(result)) {
-      if (const std::string two = two_motions(both); !two.empty()) return done(Verdict::coexisting, two);
+    if (!near && is_classified(reference) && is_classified(result)) {
+      if (const std::string two = two_attractors(both); !two.empty()) return done(Verdict::coexisting, two);
     }
 
     const Variant tight_ours = tightened(ours);
@@ -197,10 +197,10 @@ class Examiner {
     int followed_for = 0;
     for (const int times : {at_length, patience}) {
       const int more = times * options_.continued_periods;
-      const Variant our_way = coarsened(ours);
-      const Variant their_way = coarsened(other);
-      our_last = later(point, our_way, our_last.end_state, more);
-      their_last = later(point, their_way, their_last.end_state, more);
+      const Variant our_coarse = coarsened(ours);
+      const Variant their_coarse = coarsened(other);
+      our_last = later(point, our_coarse, our_last.end_state, more);
+      their_last = later(point, their_coarse, their_last.end_state, more);
       if (!reached(our_last) || !reached(their_last)) break;
       followed_for += more;
       const std::string after = "after " + std::to_string(followed_for) + " more periods ";
@@ -216,30 +216,30 @@ class Examiner {
           return done(Verdict::transient, after + "both converge to an orbit of period " +
                                               std::to_string(our_last.period) + ", distance " + short_text(d));
       }
-      if (told(our_last) && told(their_last))
-        if (const std::string two = two_motions(last); !two.empty()) return done(Verdict::coexisting, after + two);
+      if (is_classified(our_last) && is_classified(their_last))
+        if (const std::string two = two_attractors(last); !two.empty()) return done(Verdict::coexisting, after + two);
     }
-    const std::string motions = "reference " + motion_text(reference) + "; variant " + motion_text(result);
+    const std::string regimes = "reference " + regime_text(reference) + "; variant " + regime_text(result);
     if (chaotic(our_last) != chaotic(their_last))
       return done(Verdict::chaos,
-                  "largest exponents " + exponent_of(our_last) + " and " + exponent_of(their_last) + "; " + motions);
+                  "largest exponents " + exponent_of(our_last) + " and " + exponent_of(their_last) + "; " + regimes);
     // Growth so slow that one record tells it and the other does not: what is measured agrees.
     const auto undecided = [](const PointResult& r) { return reached(r) && r.regime == Regime::undecided; };
     if (((chaotic(reference) && undecided(result)) || (undecided(reference) && chaotic(result))) &&
         overlap(reference.lyapunov_max(), result.lyapunov_max()))
       return done(Verdict::chaos,
                   "one is undecided, and the largest exponents agree by their intervals: " + exponent_of(reference) +
-                      " and " + exponent_of(result) + "; " + motions + "; continued, neither is classified as chaotic");
+                      " and " + exponent_of(result) + "; " + regimes + "; continued, neither is classified as chaotic");
     if (chaotic(our_last) && chaotic(their_last))
       return done(Verdict::unexplained, "both are chaotic and their exponents differ by more than their intervals, " +
-                                            exponent_of(our_last) + " and " + exponent_of(their_last) + "; " + motions);
-    done(Verdict::unexplained, "distance " + short_text(c.distance) + "; " + motions);
+                                            exponent_of(our_last) + " and " + exponent_of(their_last) + "; " + regimes);
+    done(Verdict::unexplained, "distance " + short_text(c.distance) + "; " + regimes);
   }
 
-  static bool told(const PointResult& r) { return r.regime != Regime::undecided; }
+  static bool is_classified(const PointResult& r) { return r.regime != Regime::undecided; }
 
   /// In words, or empty.
-  [[nodiscard]] std::string two_motions(const Pair& both) const {
+  [[nodiscard]] std::string two_attractors(const Pair& both) const {
     const auto& [point, ours, a, other, b] = both;
     if (chaotic(a) && chaotic(b)) return {};
     if (periodic(a) && periodic(b) && orbits_apart(both) <= clearly * options_.orbit_tolerance) return {};
@@ -262,8 +262,8 @@ class Examiner {
 
   /// Do two tori fill one set of states? In words, or empty.
   [[nodiscard]] std::string one_torus(const Pair& both) const {
-    const analysis::PoincareSection a = long_section(both.point, both.ours, both.our_motion.end_state);
-    const analysis::PoincareSection b = long_section(both.point, both.other, both.their_motion.end_state);
+    const analysis::PoincareSection a = long_section(both.point, both.ours, both.our_result.end_state);
+    const analysis::PoincareSection b = long_section(both.point, both.other, both.their_result.end_state);
     if (a.size() == 0 || b.size() == 0) return {};
     const double off = std::max(farthest_from(a, b), farthest_from(b, a));
     const double wide = extent(a);
@@ -284,9 +284,9 @@ class Examiner {
 
   /// Is a periodic motion's record on its orbit, or does it come nearer to it as the orbit's multipliers have it? A
   /// record that is wrong keeps its distance.
-  [[nodiscard]] bool settles(const GridPoint& point, const Variant& v, const PointResult& motion) const {
-    const ConvergedOrbit s = orbit_of(point, v, motion);
-    const std::size_t rows = motion.poincare_rows();
+  [[nodiscard]] bool converges(const GridPoint& point, const Variant& v, const PointResult& result) const {
+    const ConvergedOrbit s = orbit_of(point, v, result);
+    const std::size_t rows = result.poincare_rows();
     if (s.period == 0 || rows < 2) return false;
     const std::size_t n = s.orbit.state.size();
     const auto flow = flow_of(point, v);
@@ -300,7 +300,7 @@ class Examiner {
       for (std::size_t r = from; r < to; ++r) {
         double nearest = std::numeric_limits<double>::infinity();
         for (const auto& y : cycle)
-          nearest = std::min(nearest, largest_difference({motion.poincare.data() + r * motion.poincare_columns, n}, y));
+          nearest = std::min(nearest, largest_difference({result.poincare.data() + r * result.poincare_columns, n}, y));
         most = std::max(most, nearest);
       }
       return most;
@@ -315,8 +315,8 @@ class Examiner {
   /// periods.
   [[nodiscard]] double orbits_apart(const Pair& both) const {
     double nearest = std::numeric_limits<double>::infinity();
-    const ConvergedOrbit a = orbit_of(both.point, both.ours, both.our_motion);
-    const ConvergedOrbit b = orbit_of(both.point, both.other, both.their_motion);
+    const ConvergedOrbit a = orbit_of(both.point, both.ours, both.our_result);
+    const ConvergedOrbit b = orbit_of(both.point, both.other, both.their_result);
     if (a.period == 0 || a.period != b.period) return nearest;
     const auto flow = flow_of(both.point, both.ours);
     std::vector<double> y = a.orbit.state;
@@ -417,7 +417,7 @@ namespace {
 void compare_with_others(Crosscheck& all, const std::vector<std::vector<double>>& starts,
                          const RecordingOptions& recording, const CrosscheckOptions& options,
                          const SmoothedModelAt& model_at, const CrosscheckRun& run,
-                         const std::function<void(std::size_t variant, const PointResult&)>& tell) {
+                         const std::function<void(std::size_t variant, const PointResult&)>& report) {
   const Examiner examiner(recording, options, all.variants, model_at, run.stop);
   const std::size_t others = all.variants.size() - 1;
   std::vector<std::optional<Comparison>> comparisons(all.reference.size() * others);
@@ -436,7 +436,7 @@ void compare_with_others(Crosscheck& all, const std::vector<std::vector<double>>
       c.result = compute_point_as_swept(reference.point, model_at(reference.point.value, v.clearance_smoothing), start,
                                         recording, v.integrator, [&] { return !stopped(); });
       if (stopped()) return;
-      tell(c.variant, c.result);
+      report(c.variant, c.result);
     }
     examiner.judge(reference.point, start, reference, c);
     if (!stopped()) comparisons[unit] = std::move(c);
@@ -446,9 +446,9 @@ void compare_with_others(Crosscheck& all, const std::vector<std::vector<double>>
 }
 
 /// Tells the run of results, one at a time.
-class Teller {
+class Reporter {
  public:
-  explicit Teller(const CrosscheckRun& run) : run_(run) {}
+  explicit Reporter(const CrosscheckRun& run) : run_(run) {}
   void operator()(std::size_t variant, const PointResult& r) {
     if (!run_.point_finished) return;
     const std::scoped_lock lock(mutex_);
@@ -468,7 +468,7 @@ Crosscheck run_crosscheck(const SweepPlan& plan, const RecordingOptions& recordi
   options.validate();
   Crosscheck all;
   all.variants = crosscheck_variants(options, integrator, study_smoothing);
-  Teller tell(run);
+  Reporter report(run);
 
   SweepRun reference;
   reference.threads = run.threads;
@@ -476,7 +476,7 @@ Crosscheck run_crosscheck(const SweepPlan& plan, const RecordingOptions& recordi
   std::map<std::size_t, PointResult> known_reference;
   for (const auto& [key, result] : run.done)
     if (key.first == 0) known_reference.emplace(key.second, result);
-  reference.point_finished = [&](const PointResult& r) { tell(0, r); };
+  reference.point_finished = [&](const PointResult& r) { report(0, r); };
   all.reference = run_sweep_in_memory(
       plan, recording, all.variants[0].integrator,
       [&](double value) { return model_at(value, all.variants[0].clearance_smoothing); }, std::move(reference),
@@ -488,7 +488,7 @@ Crosscheck run_crosscheck(const SweepPlan& plan, const RecordingOptions& recordi
   for (const auto& chain : plan.chains)
     for (std::size_t k = 1; k < chain.size(); ++k) starts[chain[k]] = all.reference[chain[k - 1]].end_state;
 
-  compare_with_others(all, starts, recording, options, model_at, run, std::ref(tell));
+  compare_with_others(all, starts, recording, options, model_at, run, std::ref(report));
   return all;
 }
 
@@ -514,23 +514,23 @@ std::vector<std::size_t> shares(std::size_t count, const std::vector<std::size_t
 }  // namespace
 
 std::vector<std::size_t> points_of_each_regime(const SweepOptions& sweep, const PointSource& finished) {
-  std::map<Regime, std::map<int, std::vector<std::size_t>>> motions;  // by regime and period
+  std::map<Regime, std::map<int, std::vector<std::size_t>>> by_regime;  // by regime and period
   const SweepPlan plan = plan_sweep(sweep);
   for (const Chain& chain : plan.chains)
     for (std::size_t k = sweep.start == Start::cold ? 0 : 1; k < chain.size(); ++k) {
       const PointSummary r = finished.read_summary(chain[k]);
       if (r.outcome == integrate::Outcome::reached && r.regime != Regime::undecided)
-        motions[r.regime][r.period].push_back(chain[k]);
+        by_regime[r.regime][r.period].push_back(chain[k]);
     }
   std::vector<std::size_t> of_regime;
-  for (const auto& [regime, periods] : motions) {
+  for (const auto& [regime, periods] : by_regime) {
     of_regime.push_back(0);
     for (const auto& [period, points] : periods) of_regime.back() += points.size();
   }
   const auto of_each = shares(static_cast<std::size_t>(sweep.check.points), of_regime);
   std::vector<std::size_t> chosen;
   std::size_t g = 0;
-  for (const auto& [regime, periods] : motions) {
+  for (const auto& [regime, periods] : by_regime) {
     std::vector<std::size_t> of_period;
     for (const auto& [period, points] : periods) of_period.push_back(points.size());
     const auto counts = shares(of_each[g++], of_period);
@@ -564,8 +564,8 @@ Crosscheck run_check_of_sweep(const SweepOptions& sweep, const PointSource& fini
     starts.emplace_back();
     if (before[point] < plan.points.size()) starts.back() = finished.read_summary(before[point]).end_state;
   }
-  Teller tell(run);
-  compare_with_others(all, starts, sweep.recording, options, model_at, run, std::ref(tell));
+  Reporter report(run);
+  compare_with_others(all, starts, sweep.recording, options, model_at, run, std::ref(report));
   return all;
 }
 

@@ -20,7 +20,7 @@ namespace epicyclic::studies {
                                                  const GridPoint& point);
 
 /// A turn that takes each planet to the place of another.
-struct PlanetTurn {
+struct PlanetRotation {
   int planets = 0;  ///< that each moves on by
   analysis::Symmetry map;
 };
@@ -31,12 +31,12 @@ struct PlanetTurn {
 /// turned orbit is one of another attractor, the turn is a symmetry of these motions, if not of the stage: a clearance
 /// with a law along x and y has directions of its own, but only for motions that reach its edge.
 /// @param integrator  for planets out of phase
-[[nodiscard]] std::vector<PlanetTurn> planet_turns(const model::DynamicModel& model,
-                                                   const integrate::IntegratorOptions& integrator = {});
+[[nodiscard]] std::vector<PlanetRotation> planet_rotations(const model::DynamicModel& model,
+                                                           const integrate::IntegratorOptions& integrator = {});
 
 /// The attractors that the cells ended on, images by turns of the planets among them.
 /// @param results  of all cells, in order; their records are taken out
 [[nodiscard]] analysis::Attractors attractors_of(std::vector<PointSummary>& results,
-                                                 const std::vector<PlanetTurn>& turns);
+                                                 const std::vector<PlanetRotation>& rotations);
 
 }  // namespace epicyclic::studies

@@ -56,7 +56,7 @@ Course course_of(const std::vector<double>& x, const analysis::RecordingPhases& 
 }
 
 /// What a model of one's own, without looks, tells of its meshes: deflections.
-model::StageOutputs look_at_deflections(const model::DynamicModel& model, const std::vector<double>& phases) {
+model::StageOutputs outputs_of_deflections(const model::DynamicModel& model, const std::vector<double>& phases) {
   return [&model, phases, y = std::vector<double>(model.dimension), d = model::MeshDeflections()](
              std::size_t group, const double* states, double* rows) mutable {
     constexpr std::size_t together = model::phases_together;
@@ -168,7 +168,7 @@ ResponseStatistics::ResponseStatistics(const model::DynamicModel& model, int pha
       sun_planet_(rows_.planets),
       ring_planet_(rows_.planets),
       keeps_signal_(keeps_signal) {
-  recording_ = model.outputs_at ? model.outputs_at(phases_.s) : look_at_deflections(model, phases_.s);
+  recording_ = model.outputs_at ? model.outputs_at(phases_.s) : outputs_of_deflections(model, phases_.s);
   uniform_.assign((phases_.size() + model::phases_together - 1) / model::phases_together, Numbers(0.0));
   odd_ = uniform_;
   for (std::size_t k = 0; k < phases_.size(); ++k) {
@@ -246,7 +246,7 @@ void ResponseStatistics::count_contact(const model::OutputRows::Mesh& at, double
   const Numbers tension = noticeable_tension(
       model::tensile_force(delta, half_gap, now_[at.elastic()], now_[at.force()]), model_.static_mesh_force);
   counts.tension = max(counts.tension, tension);
-  counts.pulling += select(tension > nothing, one, nothing);
+  counts.tensile += select(tension > nothing, one, nothing);
 }
 
 StageRecord ResponseStatistics::finish() {
@@ -314,7 +314,7 @@ MeshRecord ResponseStatistics::mesh(const model::OutputRows::Mesh& at, const Cou
   m.drive = part * sum_of(counts.drive);
   m.back = part * sum_of(counts.back);
   if (model_.static_mesh_force > 0.0) m.tension = largest_of(counts.tension) / model_.static_mesh_force;
-  m.tension_time = part * sum_of(counts.pulling);
+  m.tension_time = part * sum_of(counts.tensile);
   return m;
 }
 

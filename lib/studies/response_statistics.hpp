@@ -139,7 +139,7 @@ class ResponseStatistics {
   };
   /// Of one mesh.
   struct Counts {
-    Numbers drive{0.0}, back{0.0}, pulling{0.0}, tension{0.0};
+    Numbers drive{0.0}, back{0.0}, tensile{0.0}, tension{0.0};
   };
 
   void recording(std::size_t group, std::size_t count);

@@ -249,10 +249,10 @@ class Run {
                                               exact ? analysis::Window::rectangular : analysis::Window::flat_top, dt);
     if (exact) {
       s.lines = analysis::harmonics(values, n, dt);
-      const auto told = static_cast<std::size_t>(n * options_.dense_phases / 2 + 1);
-      s.lines.resize(told);
-      s.spectrum.amplitude.resize(told);
-      s.spectrum.phase.resize(told);
+      const auto lines = static_cast<std::size_t>(n * options_.dense_phases / 2 + 1);
+      s.lines.resize(lines);
+      s.spectrum.amplitude.resize(lines);
+      s.spectrum.phase.resize(lines);
     } else {
       constexpr std::size_t most = 20;
       constexpr double floor = 1e-3;
@@ -267,8 +267,8 @@ class Run {
     const bool exact = r.orbit.has_value();
     const int n = exact ? r.point.period : options_.spectrum_periods;
     const int phases = options_.dense_phases * (exact ? oversampling(n) : 1);
-    const auto carried = flow();
-    const std::vector<double> samples = analysis::uniform_phases(carried->field().period, phases);
+    const auto own_flow = flow();
+    const std::vector<double> samples = analysis::uniform_phases(own_flow->field().period, phases);
     model::MeshDeflections d;
     model::StageForces f;
     std::vector<Signal> signals = {
@@ -276,8 +276,8 @@ class Run {
     std::vector<double> y = state_;
     for (int k = 0; k < n; ++k) {
       if (!go_on_()) return;
-      const integrate::Evolution e = carried->evolve(
-          y, 0.0, carried->field().period, samples, [&](std::size_t, double s, std::span<const double> now) {
+      const integrate::Evolution e = own_flow->evolve(
+          y, 0.0, own_flow->field().period, samples, [&](std::size_t, double s, std::span<const double> now) {
             model_.deflections(s, now.data(), d);
             model_.forces(s, now.data(), f);
             signals[0].values.push_back(scales_.displacement_um(d.sun_planet[0]));
@@ -299,8 +299,8 @@ class Run {
   }
 
   void record(RunResult& r) const {
-    const auto carried = flow();
-    const double period = carried->field().period;
+    const auto own_flow = flow();
+    const double period = own_flow->field().period;
     const std::vector<double> samples = analysis::uniform_phases(period, options_.dense_phases);
     r.history.phases = options_.dense_phases;
     Recorder recorder(model_, scales_, r.history);
@@ -312,7 +312,7 @@ class Run {
     for (int k = 0; k < options_.history_periods; ++k) {
       if (!go_on_()) break;
       const bool drawn = k >= options_.history_periods - shown;
-      const integrate::Evolution e = carried->evolve(
+      const integrate::Evolution e = own_flow->evolve(
           y, 0.0, period, drawn ? fine : samples, [&](std::size_t j, double s, std::span<const double> now) {
             recorder.recording(s, now);
             if (drawn) {
@@ -329,11 +329,11 @@ class Run {
   /// Of the periods of the history.
   [[nodiscard]] StageRecord statistics(const History& history) const {
     ResponseStatistics all(model_, options_.dense_phases);
-    const auto carried = flow();
+    const auto own_flow = flow();
     std::vector<double> y = state_;
     for (std::size_t row = 0; row < history.rows(); row += static_cast<std::size_t>(options_.dense_phases))
-      if (!carried
-               ->evolve(y, 0.0, carried->field().period, all.phases(),
+      if (!own_flow
+               ->evolve(y, 0.0, own_flow->field().period, all.phases(),
                         [&](std::size_t, double, std::span<const double> now) { all.see(now); })
                .reached())
         break;
@@ -379,7 +379,7 @@ class Run {
   }
 
   void cross(RunResult& r) const {
-    const auto carried = flow();
+    const auto own_flow = flow();
     std::vector<double> y = state_;
     model::MeshDeflections d;
     const auto surface = [&](double s, std::span<const double> now) {
@@ -387,8 +387,8 @@ class Run {
       return d.sun_planet[0] - model_.sun_planet_half_gap;
     };
     analysis::SurfaceSection section = analysis::surface_section(
-        *carried, y, surface, analysis::SectionCrossing::rising, r.orbit ? r.point.period : recording_.recorded_periods,
-        recording_.output_phases, go_on_);
+        *own_flow, y, surface, analysis::SectionCrossing::rising,
+        r.orbit ? r.point.period : recording_.recorded_periods, recording_.output_phases, go_on_);
     for (std::size_t k = 0; k < section.section.size(); ++k) {
       model_.deflections(section.phase[k], section.section.point(k).data(), d);
       r.crossing_rate.push_back(d.sun_planet_rate[0]);
@@ -511,12 +511,12 @@ class Run {
     using integrate::Family;
     const Family family = integrate::method_named(integrator_.method).family;
     const bool resumable = family == Family::erk || family == Family::lanes;
-    const auto carried = resumable ? kept(flow(), RunPart::transverse) : flow();
+    const auto own_flow = resumable ? kept(flow(), RunPart::transverse) : flow();
     std::vector<double> y = state_;
     analysis::LyapunovOptions o;
     o.periods = options_.exponent_periods;
     o.project = model_.remove_synchronous;
-    const analysis::LargestExponent e = analysis::largest_exponent(*carried, y, o, {}, go_on_);
+    const analysis::LargestExponent e = analysis::largest_exponent(*own_flow, y, o, {}, go_on_);
     if (e.evolution.reached() && e.growth.size() == static_cast<std::size_t>(o.periods))
       r.transverse = e.per_s * model_.omega;
   }

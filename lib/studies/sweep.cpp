@@ -65,7 +65,7 @@ class PointRun {
   }
 
   [[nodiscard]] PointResult result() {
-    if (adaptive_) settle();
+    if (adaptive_) pass_transient();
     const auto flow = flows_.strobe(model_, integrator_);
     analysis::carry(*flow, state_, strobe_, go_on_);
     const analysis::Strobe& strobe = strobe_.result();
@@ -81,7 +81,7 @@ class PointRun {
         result_.regime = result_.period > 0 ? analysis::Regime::periodic : classify_by_growth();
       } else if (!adaptive_) {
         std::vector<double> onwards = state_;  // the next point of a chain starts where the record ends
-        orbit_ = tell(onwards, &strobe.section).orbit;
+        orbit_ = classify(onwards, &strobe.section).orbit;
       }
       if (recording_.keep == Keep::attractor) keep_attractor(strobe.section);
       if (recording_.keep == Keep::section && orbit_) result_.orbit = std::move(orbit_->state);
@@ -93,14 +93,14 @@ class PointRun {
 
  private:
   /// The transient until the regime is told.
-  void settle() {
-    analysis::Classification told = tell(state_, nullptr);
-    if (!told.evolution.reached()) {
-      strobe_.take(told.evolution, state_);
-    } else if (told.orbit) {
-      state_ = told.orbit->state;
+  void pass_transient() {
+    analysis::Classification found = classify(state_, nullptr);
+    if (!found.evolution.reached()) {
+      strobe_.take(found.evolution, state_);
+    } else if (found.orbit) {
+      state_ = found.orbit->state;
     }
-    orbit_ = std::move(told.orbit);
+    orbit_ = std::move(found.orbit);
   }
 
   void keep_section(const analysis::PoincareSection& section) {
@@ -122,7 +122,7 @@ class PointRun {
 
   void keep_attractor(const analysis::PoincareSection& section) {
     if (orbit_) {
-      const auto flow = flows_.motion(model_, integrator_);
+      const auto flow = flows_.classification(model_, integrator_);
       result_.attractor = analysis::record_of_orbit(*flow, *orbit_, result_.period, map_error(integrator_));
       classification_work_ += flow->right_hand_side_calls();
     } else {
@@ -131,14 +131,15 @@ class PointRun {
     }
   }
 
-  analysis::Classification tell(std::vector<double>& from, const analysis::PoincareSection* seen) {
-    MotionClass motion = classify_motion(model_, from, recording_, integrator_, go_on_, seen, flows_.motion);
-    classification_work_ += motion.right_hand_sides;
-    result_.classified = motion.told.evolution.reached();
-    result_.regime = motion.told.regime;
-    result_.period = motion.told.period;
-    result_.evidence = motion.told.evidence;
-    return std::move(motion.told);
+  analysis::Classification classify(std::vector<double>& from, const analysis::PoincareSection* seen) {
+    ClassifiedState classified =
+        classify_state(model_, from, recording_, integrator_, go_on_, seen, flows_.classification);
+    classification_work_ += classified.right_hand_sides;
+    result_.classified = classified.classification.evolution.reached();
+    result_.regime = classified.classification.regime;
+    result_.period = classified.classification.period;
+    result_.evidence = classified.classification.evidence;
+    return std::move(classified.classification);
   }
 
   /// Of a motion that does not recur, by a glance: whether vectors grow.
@@ -147,7 +148,7 @@ class PointRun {
         analysis::still_converging(result_.recurrence, recording_.recurrence_tolerance))
       return analysis::Regime::undecided;
     std::vector<double> onwards = state_;
-    const auto flow = flows_.motion(model_, integrator_);
+    const auto flow = flows_.classification(model_, integrator_);
     constexpr int aligning = 16;
     const analysis::LargestExponent e = analysis::largest_exponent(
         *flow, onwards, {.aligning_periods = aligning, .periods = recording_.growth_periods}, {}, go_on_);
@@ -253,7 +254,7 @@ class ChainRunner {
     if (next == chain.size()) return std::nullopt;
     if (next == 0)
       start = coarse_.start_of(
-          chain.front(), [this] { return !stopped(); }, carrier.flows.motion, carrier.wait);
+          chain.front(), [this] { return !stopped(); }, carrier.flows.classification, carrier.wait);
     if (next > first) start = run_.end_state(chain[next - 1]);
     return chain[next];
   }
@@ -271,12 +272,12 @@ class ChainRunner {
       PointResult result = compute_point(
           point, model_at_(point), start, recording_, integrator_, [this] { return !stopped(); }, carrier.flows);
       if (stopped()) return;
-      tell(result);
+      report(result);
       start = std::move(result.end_state);
     }
   }
 
-  void tell(const PointResult& result) {
+  void report(const PointResult& result) {
     const std::scoped_lock lock(mutex_);
     if (run_.point_finished) run_.point_finished(result);
     ++finished_;
@@ -313,7 +314,7 @@ std::string regime_name(const PointSummary& result) {
   return "period " + std::to_string(result.period);
 }
 
-std::string motion_text(const PointSummary& result) {
+std::string regime_text(const PointSummary& result) {
   const std::string name = regime_name(result);
   if (!result.classified) return name + " by recurrence alone";
   return result.evidence.note.empty() ? name : name + ": " + result.evidence.note;
@@ -399,8 +400,8 @@ std::vector<PointResult> run_sweep_in_memory(const SweepPlan& plan, const Record
     ends.emplace(index, result.end_state);
   }
   run.end_state = [&](std::size_t index) { return ends.at(index); };
-  run.point_finished = [&, told = std::move(run.point_finished)](const PointResult& result) {
-    if (told) told(result);
+  run.point_finished = [&, report = std::move(run.point_finished)](const PointResult& result) {
+    if (report) report(result);
     done.emplace(result.point.index, result);
   };
   (void)run_sweep(plan, recording, integrator, model_at, run);

@@ -62,7 +62,7 @@ struct PointSummary {
   [[nodiscard]] analysis::Estimate lyapunov_max() const;
 
   /// Is it told periodic by its orbit, while the record is still on its way to it, or too short to show it?
-  [[nodiscard]] bool is_unsettled() const {
+  [[nodiscard]] bool is_unconverged() const {
     return classified && regime == analysis::Regime::periodic && recurrence.period == 0;
   }
 
@@ -94,7 +94,7 @@ struct PointResult : PointSummary {
 [[nodiscard]] std::string regime_name(const PointSummary& result);
 
 /// What a point that was reached moves like, with what the regime rests on.
-[[nodiscard]] std::string motion_text(const PointSummary& result);
+[[nodiscard]] std::string regime_text(const PointSummary& result);
 
 /// Names of the columns of PointResult::poincare.
 [[nodiscard]] std::vector<std::string> poincare_columns(const model::DynamicModel& model);
@@ -118,8 +118,8 @@ using ModelAtPoint = std::function<model::DynamicModel(const GridPoint& point)>;
 
 /// What carries the motion of a point.
 struct PointFlows {
-  integrate::FlowMaker strobe = integrate::make_flow;         ///< over the transient and the record
-  integrate::FlowMaker motion = make_flow_of_one_trajectory;  ///< while it is told what it is
+  integrate::FlowMaker strobe = integrate::make_flow;                 ///< over the transient and the record
+  integrate::FlowMaker classification = make_flow_of_one_trajectory;  ///< while it is told what it is
 };
 
 /// Computes one point.

@@ -34,9 +34,9 @@ SweepPlan plan_sweep(const SweepOptions& options) {
 SweepPlan plan_map(const MapOptions& options) {
   options.validate();
   const Plane& plane = options.plane;
-  const bool carried = options.start == Start::continued;
+  const bool continued = options.start == Start::continued;
   return SweepPlan(
-      {plane.first, plane.second, options.directions, carried ? 1 : static_cast<std::size_t>(plane.first.points)});
+      {plane.first, plane.second, options.directions, continued ? 1 : static_cast<std::size_t>(plane.first.points)});
 }
 
 SweepPlan plan_basins(const BasinsOptions& options) {

@@ -50,7 +50,7 @@ integrate::Work difference(const integrate::Work& after, const integrate::Work& 
 }
 
 /// The state carried over n periods; an outcome other than reached leaves it where it got to.
-integrate::Evolution carry(integrate::Flow& flow, std::vector<double>& y, int n) {
+integrate::Evolution advance(integrate::Flow& flow, std::vector<double>& y, int n) {
   flow.forget();
   integrate::Evolution e;
   for (int k = 0; k < n; ++k) {
@@ -174,13 +174,13 @@ class PointStudy {
 
   bool find_reference() {
     const auto reference = flow(reference_options(reference_method), model_);
-    ConvergedOrbit settled = settled_orbit(*reference, out_.study);
-    out_.note = settled.note;
-    if (settled.period == 0) return false;
-    const int n = out_.period = settled.period;
-    known_ = std::move(settled.orbit);
-    out_.settled_distance = settled.distance;
-    out_.largest_multiplier = settled.largest_multiplier;
+    ConvergedOrbit converged = converged_orbit(*reference, out_.study);
+    out_.note = converged.note;
+    if (converged.period == 0) return false;
+    const int n = out_.period = converged.period;
+    known_ = std::move(converged.orbit);
+    out_.distance_from_orbit = converged.distance;
+    out_.largest_multiplier = converged.largest_multiplier;
     out_.orbit = known_.state;
     out_.reference_residual = *std::min_element(known_.residuals.begin(), known_.residuals.end());
     out_.reference = quantities_of(*reference, model_, known_.state, n, recording_.output_phases);
@@ -188,7 +188,7 @@ class PointStudy {
         quantities_of(*reference, model_, known_.state, n, finer_phases * recording_.output_phases);
     for (std::size_t k = 0; k < finer.size(); ++k) out_.between_phases[k] = finer[k] - out_.reference[k];
     end_ = known_.state;
-    (void)carry(*reference, end_, n);
+    (void)advance(*reference, end_, n);
     const auto second = flow(reference_options(second_method), model_);
     const std::vector<double> other = analysis::displaced_orbit(*second, known_, n, 2);
     const Quantities again =
@@ -224,7 +224,7 @@ class PointStudy {
         std::vector<double> y = known_.state;
         const integrate::Work before = own->work();
         const auto start = std::chrono::steady_clock::now();
-        const integrate::Evolution e = carry(*own, y, out_.period);
+        const integrate::Evolution e = advance(*own, y, out_.period);
         step.seconds = std::min(step.seconds, seconds_since(start));
         step.work = difference(own->work(), before);
         step.outcome = e.outcome;
@@ -245,7 +245,7 @@ class PointStudy {
     {
       const auto own = flow(integrator_, model_);
       std::vector<double> y = known_.state;
-      (void)carry(*own, y, out_.period);
+      (void)advance(*own, y, out_.period);
       out_.study_work = own->work();
     }
     out_.smoothing.resize(options_.clearance_smoothings.size());
@@ -273,7 +273,7 @@ class PointStudy {
       step.quantities = quantities_of(*tight, model, orbit.state, out_.period, recording_.output_phases);
       const auto own = flow(integrator_, model);
       std::vector<double> y = orbit.state;
-      (void)carry(*own, y, out_.period);
+      (void)advance(*own, y, out_.period);
       step.work = own->work();
     });
   }

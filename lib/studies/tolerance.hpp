@@ -81,7 +81,8 @@ struct TolerancePoint {
   int period = 0;  ///< 0: not periodic, or no orbit found
   std::vector<double> orbit;
   double reference_residual = 0;  ///< of the shooting
-  double settled_distance = 0;  ///< of the study's last state from y*: what the transient has left, and the study's e_o
+  double distance_from_orbit =
+      0;  ///< of the study's last state from y*: what the transient has left, and the study's e_o
   double largest_multiplier = 0;  ///< modulus
   Quantities reference{};         ///< on y*
   Quantities reference_error{};   ///< difference to the reference by another method at the same tolerance

@@ -32,11 +32,11 @@ ClaimPoint point(double value, char motion, double range = 1.0) {
   ClaimPoint p;
   p.value = value;
   p.reached = motion != 'x';
-  p.motion.told = motion != 'u';
-  if (motion >= '1' && motion <= '9') p.motion = {Regime::periodic, motion - '0', true};
-  if (motion == 'c') p.motion.regime = Regime::chaotic;
-  if (motion == 'q') p.motion.regime = Regime::quasiperiodic;
-  p.by_sun_mesh = p.by_ring_mesh = p.motion;
+  p.response.classified = motion != 'u';
+  if (motion >= '1' && motion <= '9') p.response = {Regime::periodic, motion - '0', true};
+  if (motion == 'c') p.response.regime = Regime::chaotic;
+  if (motion == 'q') p.response.regime = Regime::quasiperiodic;
+  p.by_sun_mesh = p.by_ring_mesh = p.response;
   p.quantities[delta_sp_range] = range;
   p.quantities[poincare_sp_range] = range;
   p.quantities[poincare_rp_range] = 2.0 * range;
@@ -69,17 +69,17 @@ Condition falling_range() {
 
 TEST(ClaimMotions, AreCalledByWords) {
   for (const char* word : {"period 1", "period 12", "periodic", "multi-period", "chaotic", "not period 1", "aperiodic"})
-    EXPECT_TRUE(is_motion_word(word)) << word;
+    EXPECT_TRUE(is_regime_word(word)) << word;
   for (const char* word : {"", "period", "period 0", "period 01", "period x", "not", "not not chaotic", "Chaotic"})
-    EXPECT_FALSE(is_motion_word(word)) << word;
-  EXPECT_TRUE(point(0, '2').motion.is("multi-period"));
-  EXPECT_FALSE(point(0, '1').motion.is("multi-period"));
-  EXPECT_TRUE(point(0, 'q').motion.is("aperiodic"));
-  EXPECT_FALSE(point(0, 'q').motion.is("chaotic"));
-  EXPECT_TRUE(point(0, 'q').motion.is("not period 1"));
+    EXPECT_FALSE(is_regime_word(word)) << word;
+  EXPECT_TRUE(point(0, '2').response.is("multi-period"));
+  EXPECT_FALSE(point(0, '1').response.is("multi-period"));
+  EXPECT_TRUE(point(0, 'q').response.is("aperiodic"));
+  EXPECT_FALSE(point(0, 'q').response.is("chaotic"));
+  EXPECT_TRUE(point(0, 'q').response.is("not period 1"));
   // What nothing but recurrence was asked of counts as chaos; what evidence could not decide does not.
-  EXPECT_TRUE(point(0, 'u').motion.is("chaotic"));
-  ClaimMotion undecided{Regime::undecided, 0, true};
+  EXPECT_TRUE(point(0, 'u').response.is("chaotic"));
+  ClaimRegime undecided{Regime::undecided, 0, true};
   EXPECT_FALSE(undecided.is("chaotic"));
   EXPECT_FALSE(undecided.is("aperiodic"));
 }
@@ -242,7 +242,7 @@ TEST(Claims, SayWhichPointsTheyCouldNotTell) {
   c.quantity = "delta_sp_range";
   c.at_most = 5.0;
   ClaimRecord r = record("112");
-  r["s"].points[1].settled = false;
+  r["s"].points[1].converged = false;
   EXPECT_NE(judge(c, r).text.find("1 point not converged"), std::string::npos) << judge(c, r).text;
   // Two records that are on their way to one orbit are no two motions side by side.
   c = condition(ConditionKind::jump);
@@ -251,13 +251,13 @@ TEST(Claims, SayWhichPointsTheyCouldNotTell) {
   ClaimRecord both = record("111", {1.0, 1.1, 1.2});
   both["s"].other = record("111", {1.0, 1.5, 1.2})["s"].points;
   EXPECT_TRUE(judge(c, both).holds);
-  both["s"].other[1].settled = false;
+  both["s"].other[1].converged = false;
   EXPECT_FALSE(judge(c, both).holds);
   c = condition(ConditionKind::share);
   c.regime = "not period 1";
   c.at_least = 0.3;
   r = record("11c");
-  r["s"].points[2].motion.regime = Regime::undecided;
+  r["s"].points[2].response.regime = Regime::undecided;
   const ConditionOutcome undecided = judge(c, r);
   EXPECT_TRUE(undecided.holds);
   EXPECT_NE(undecided.text.find("1 point undecided"), std::string::npos) << undecided.text;
@@ -275,7 +275,7 @@ TEST(Claims, OfAMotionThatFallsSayWhatIsUndecided) {
   ClaimRecord r = record("c1c", {2.0, 1.0, 2.0});
   r["t"] = record("c1c", {1.0, 1.0, 1.0})["s"];
   EXPECT_EQ(judge(c, r).text.find("undecided"), std::string::npos);
-  r["s"].points[2].motion = {Regime::undecided, 0, true};
+  r["s"].points[2].response = {Regime::undecided, 0, true};
   EXPECT_NE(judge(c, r).text.find("1 point undecided"), std::string::npos) << judge(c, r).text;
   EXPECT_FALSE(judge(Claim{"C", "", "", "", 1.0, {c}}, r).inert);
 }
@@ -309,7 +309,7 @@ TEST(Claims, OfMeshesThatAreAlikeTakeNothingUndecidedForTheSame) {
   EXPECT_NEAR(two.measured, 2.0 / 3.0, 1e-15);
   EXPECT_TRUE(two.part_of_one);
   // By a glance what does not recur is chaos.
-  r["s"].points[1].by_sun_mesh.told = r["s"].points[1].by_ring_mesh.told = false;
+  r["s"].points[1].by_sun_mesh.classified = r["s"].points[1].by_ring_mesh.classified = false;
   EXPECT_TRUE(judge(c, r).holds);
 }
 
@@ -321,17 +321,17 @@ TEST(Claims, InFullTakeNothingUndecidedForChaos) {
   r.meshes.ring_planet.resize(1);
   r.poincare_columns = 3;
   for (int k = 0; k < 12; ++k) r.poincare.push_back(std::sin(static_cast<double>(7 * k * k)));
-  EXPECT_TRUE(claim_point(r, {}, Looked::briefly).motion.is("chaotic"));
-  const ClaimPoint in_full = claim_point(r, {}, Looked::in_full);
-  EXPECT_FALSE(in_full.motion.is("chaotic"));
+  EXPECT_TRUE(claim_point(r, {}, Depth::screening).response.is("chaotic"));
+  const ClaimPoint in_full = claim_point(r, {}, Depth::in_full);
+  EXPECT_FALSE(in_full.response.is("chaotic"));
   EXPECT_FALSE(in_full.by_sun_mesh.is("chaotic"));
   // Told periodic by its orbit, on its way to it.
   r.regime = Regime::periodic;
   r.period = 1;
   r.classified = true;
-  EXPECT_FALSE(claim_point(r, {}, Looked::in_full).settled);
+  EXPECT_FALSE(claim_point(r, {}, Depth::in_full).converged);
   r.recurrence.period = 1;
-  EXPECT_TRUE(claim_point(r, {}, Looked::in_full).settled);
+  EXPECT_TRUE(claim_point(r, {}, Depth::in_full).converged);
 }
 
 TEST(Claims, TakeBoundsThatGridsMeetButForRounding) {
@@ -760,7 +760,7 @@ TEST(Claims, QuantitiesAreColumnsOfTheirNames) {
   PointResult r = test::numbered_points(planets)[0];
   r.poincare_columns = 2 + 2 * planets;
   r.poincare.assign(r.poincare_columns, 1.0);
-  const ClaimPoint point = claim_point(r, {}, Looked::in_full);
+  const ClaimPoint point = claim_point(r, {}, Depth::in_full);
   std::map<std::string, double> columns;
   for (const store::PointColumn& c : store::point_columns(planets))
     if (const auto* number = std::get_if<store::PointColumn::Getter<double>>(&c.value)) columns[c.name] = (*number)(r);
@@ -795,8 +795,8 @@ TEST(Claims, AGlanceTellsGrowthFromNone) {
   const auto motion_at = [&](double speed) {
     const GridPoint point{0, Direction::up, speed};
     return claim_point(compute_point_as_swept(point, at(speed), {}, recording, integrator, [] { return true; }),
-                       recording, Looked::briefly)
-        .motion.text();
+                       recording, Depth::screening)
+        .response.text();
   };
   EXPECT_EQ(motion_at(1.3), "undecided");
   recording.growth_periods = 64;

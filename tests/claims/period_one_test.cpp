@@ -49,8 +49,8 @@ TEST(PeriodOneOfASweep, HasTheMultipliersOfTheNormalForm) {
     constexpr double tau = 2.0 * std::numbers::pi;
     EXPECT_NEAR(orbits[k].growth, tau * values[k], 1e-4);
     EXPECT_NEAR(orbits[k].rest, tau * values[k], 1e-4);
-    EXPECT_NEAR(orbits[k].to_flip, std::abs(std::polar(std::exp(tau * values[k]), tau * w) + 1.0), 1e-4);
-    EXPECT_LT(orbits[k].flip, -10.0);
+    EXPECT_NEAR(orbits[k].to_doubling, std::abs(std::polar(std::exp(tau * values[k]), tau * w) + 1.0), 1e-4);
+    EXPECT_LT(orbits[k].doubling, -10.0);
     EXPECT_EQ(orbits[k].fold, 0.0);
   }
 }
@@ -73,7 +73,7 @@ TEST(PeriodOneOfASweep, GoesOnBeyondItsFlip) {
     ASSERT_TRUE(orbits[k].found);
     EXPECT_EQ(orbits[k].growth > 0.0, values[k] > flip);
     if (values[k] > flip) {
-      EXPECT_EQ(orbits[k].growth, orbits[k].flip);
+      EXPECT_EQ(orbits[k].growth, orbits[k].doubling);
       // Two multipliers, and their product is what damping leaves of a volume over a period.
       EXPECT_NEAR(orbits[k].growth + orbits[k].rest, -0.3 * 2.0 * std::numbers::pi / 1.2, 1e-4);
     }
@@ -94,13 +94,13 @@ TEST(PeriodOneOfASweep, StopsAndRefuses) {
 }
 
 /// With one real multiplier that the growth is of, or a pair in another direction.
-PeriodOne orbit_of(double growth, double to_flip, bool flips) {
+PeriodOne orbit_of(double growth, double to_doubling, bool flips) {
   PeriodOne p;
   p.found = true;
   p.growth = growth;
-  p.flip = flips ? growth : -20.0;
+  p.doubling = flips ? growth : -20.0;
   p.rest = flips ? -0.1 : growth;
-  p.to_flip = to_flip;
+  p.to_doubling = to_doubling;
   return p;
 }
 
@@ -135,7 +135,7 @@ ClaimRecord record(const std::string& motions, const std::vector<double>& growth
     ClaimPoint& p = series.points.emplace_back();
     p.value = static_cast<double>(k);
     p.reached = true;
-    p.motion = {motions[k] == '1' ? analysis::Regime::periodic : analysis::Regime::chaotic, motions[k] == '1', true};
+    p.response = {motions[k] == '1' ? analysis::Regime::periodic : analysis::Regime::chaotic, motions[k] == '1', true};
     if (k < growths.size()) p.period_one = orbit_of(growths[k], std::abs(std::exp(growths[k]) - 1.0), true);
   }
   return {{"s", series}};

@@ -26,7 +26,7 @@ TEST(StudyKinds, ThatAreMissingAreRefusedWithTheReasonAlone) {
   ASSERT_EQ(context.findings.size(), 1U);
   EXPECT_EQ(context.findings[0].pointer, "/study/kind");
   EXPECT_EQ(context.findings[0].message, "is \"elsewhere\": it is built without it");
-  EXPECT_FALSE(study.has_motion());
+  EXPECT_FALSE(study.has_dynamics());
 }
 
 TEST(StudyKinds, ThatAreMissingHaveNoKeys) {

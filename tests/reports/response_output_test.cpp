@@ -138,15 +138,15 @@ TEST(ResponseOutput, RecordsOnTheirWayAreDrawnApart) {
             "# 'up': x, joined, values\n1 1 0.5 2\n2 NaN NaN NaN\n3 1 2.5 4\n\n\n"
             "# 'down': x, joined, values\n3 1 3.5 5\n2 1 4.5 6\n1 1 5.5 7\n\n\n"
             "# drawn apart: x, joined, values\n2 NaN 1.5 3\n");
-  EXPECT_NE(contents(folder / "response_delta_sp.gp").find(on_its_way_words), std::string::npos);
+  EXPECT_NE(contents(folder / "response_delta_sp.gp").find(not_converged_words), std::string::npos);
   EXPECT_FALSE(write_sweep_figure(folder.path(), output(), studies::points_in_memory(all), SweepFigure::delta_sp));
   EXPECT_EQ(contents(folder / "bifurcation_delta_sp.dat"),
             "# 'up'\n1 1\n3 3\n\n\n# 'down'\n3 3\n2 2\n1 1\n\n\n"
             "# drawn apart\n2 2\n\n\n");
-  EXPECT_NE(contents(folder / "bifurcation_delta_sp.gp").find(std::string(on_its_way_words) + " (1)"),
+  EXPECT_NE(contents(folder / "bifurcation_delta_sp.gp").find(std::string(not_converged_words) + " (1)"),
             std::string::npos);
   EXPECT_FALSE(write_sweep_figure(folder.path(), output(), studies::points_in_memory(all), SweepFigure::regimes_first));
-  EXPECT_NE(contents(folder / "regimes_delta_sp_up.gp").find(std::string(on_its_way_words) + " (1)"),
+  EXPECT_NE(contents(folder / "regimes_delta_sp_up.gp").find(std::string(not_converged_words) + " (1)"),
             std::string::npos);
 }
 

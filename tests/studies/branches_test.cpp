@@ -33,7 +33,7 @@ model::DynamicModel model_at(double omega) {
 }
 
 std::vector<analysis::Branch> grown(const BranchSystem& system, double start, int transient_periods) {
-  const BranchOrigin from = settled_start(system, model_at(start), start, transient_periods);
+  const BranchOrigin from = steady_state_start(system, model_at(start), start, transient_periods);
   EXPECT_TRUE(from.orbit.has_value()) << from.message;
   analysis::BifurcationDiagram tree(system.system, system.options);
   if (from.orbit) tree.start(*from.orbit, from.keeps_symmetry);
@@ -87,7 +87,7 @@ TEST(Branches, FlipOfThePapersStageIsWhereMotionsDouble) {
   for (const Case& c : {Case{&one, 2.2, true, 1}, Case{&one, 2.1, false, 2}, Case{&two, 2.1, true, 2}}) {
     const analysis::BranchOrbit& orbit = orbit_at(*c.branch, c.value);
     const auto row = branch_row(c.branch->family, orbit, model_at(c.value), 64);
-    ASSERT_TRUE(row.carried);
+    ASSERT_TRUE(row.evaluated);
     EXPECT_EQ(row.stable, c.stable) << c.value;
     EXPECT_EQ(row.stable, row.multiplier_max() < 1.0);
     EXPECT_EQ(row.section.size(), static_cast<std::size_t>(c.branch->family.period) * 40U);  // state, deflections
@@ -122,10 +122,10 @@ TEST(Branches, RowsAreWhatASweepRecords) {
   options.to = 3.5;
   options.starts = {3.3};
   const BranchSystem system = branch_system(model_at, options, model_at(3.3));
-  const BranchOrigin start = settled_start(system, model_at(3.3), 3.3, 400);
+  const BranchOrigin start = steady_state_start(system, model_at(3.3), 3.3, 400);
   ASSERT_TRUE(start.orbit.has_value()) << start.message;
   const auto row = branch_row(system.system, *start.orbit, model_at(3.3), 64);
-  ASSERT_TRUE(row.carried);
+  ASSERT_TRUE(row.evaluated);
   GridPoint at;
   at.value = 3.3;
   RecordingOptions recording;
@@ -148,7 +148,7 @@ TEST(Branches, AStartWithoutAnOrbitSaysSo) {
   BranchesOptions options;
   options.starts = {0.7};
   const BranchSystem system = branch_system(model_at, options, model_at(0.7));
-  const BranchOrigin start = settled_start(system, model_at(0.7), 0.7, 50);
+  const BranchOrigin start = steady_state_start(system, model_at(0.7), 0.7, 50);
   ASSERT_FALSE(start.orbit.has_value());
   EXPECT_NE(start.message.find("no orbit of period 1"), std::string::npos) << start.message;
   BranchesOptions wrong;

@@ -281,7 +281,7 @@ TEST(SweepCheck, ByTheSweepsOwnMethodEachPointComesOutToTheLastBit) {
       EXPECT_EQ(c.verdict, Verdict::agree) << method << ": " << c.detail;
       EXPECT_EQ(c.result.poincare, swept.poincare) << method;
       EXPECT_EQ(c.result.orbit, swept.orbit) << method;
-      EXPECT_EQ(motion_text(c.result), motion_text(swept)) << method;
+      EXPECT_EQ(regime_text(c.result), regime_text(swept)) << method;
       EXPECT_EQ(c.result.rhs_evaluations, swept.rhs_evaluations) << method;
     }
   }

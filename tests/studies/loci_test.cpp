@@ -45,7 +45,7 @@ struct Flip {
 
 Flip flip_at(double damping_ratio) {
   const BranchSystem system = system_at(damping_ratio);
-  const BranchOrigin from = settled_start(system, model_at(3.3, damping_ratio), 3.3, 400);
+  const BranchOrigin from = steady_state_start(system, model_at(3.3, damping_ratio), 3.3, 400);
   EXPECT_TRUE(from.orbit.has_value()) << from.message;
   if (!from.orbit) return {};
   analysis::BifurcationDiagram tree(system.system, system.options);

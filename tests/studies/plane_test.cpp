@@ -97,14 +97,14 @@ TEST(Plane, EqualPlanetsTurnMotionsIntoMotions) {
   s.sun_bearing.law = gear::BearingLaw::linear_radial;
   const model::DynamicModel m = model::make_dynamic_model(s, model::scales_of(s), 1.0, {});
   ASSERT_TRUE(m.remove_synchronous) << "the planets of R1 are alike";
-  const auto turns = planet_turns(m);
+  const auto turns = planet_rotations(m);
   ASSERT_EQ(turns.size(), static_cast<std::size_t>(m.planets - 1));
   std::vector<double> y = m.default_start;
   for (std::size_t j = 0; j < y.size(); ++j) y[j] += 3.0 * std::sin(1.0 + static_cast<double>(j));
   constexpr double rounding = 1e-10;  // of sums of some 1e3 in size
   std::vector<double> f(m.dimension);
   std::vector<double> f_of_turned(m.dimension);
-  for (const PlanetTurn& turn : turns)
+  for (const PlanetRotation& turn : turns)
     for (const double phase : {0.1, 2.0, 5.0}) {
       const std::size_t segment = model::segment_at(m.breakpoints, phase);
       m.right_hand_side(segment, phase, y.data(), f.data());
@@ -128,7 +128,7 @@ TEST(Plane, EqualPlanetsOutOfPhaseTurnMotionsIntoMotionsAtAnotherInstant) {
   ASSERT_FALSE(m.remove_synchronous);
   integrate::IntegratorOptions tight;
   tight.relative_tolerance = tight.absolute_tolerance = 1e-11;
-  const auto turns = planet_turns(m, tight);
+  const auto turns = planet_rotations(m, tight);
   std::vector<double> y = m.default_start;
   for (std::size_t j = 0; j < y.size(); ++j) y[j] += 0.5 * std::sin(1.0 + static_cast<double>(j));
   // The image of where a motion comes to in two mesh periods is where the image comes to.
@@ -139,7 +139,7 @@ TEST(Plane, EqualPlanetsOutOfPhaseTurnMotionsIntoMotionsAtAnotherInstant) {
   };
   const std::vector<double> last = two_periods_on(y);
   constexpr double tolerance = 1e-6;
-  for (const PlanetTurn& turn : turns) {
+  for (const PlanetRotation& turn : turns) {
     EXPECT_LT(largest_difference(turn.map(last), two_periods_on(turn.map(y))), tolerance) << turn.planets;
     EXPECT_GT(largest_difference(turn.map(y), y), 0.1);
   }

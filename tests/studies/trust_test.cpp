@@ -360,7 +360,7 @@ TEST(OneClassification, WhatEachStudySaysOfAMotionIsTheSame) {
     CrosscheckOptions methods;
     methods.methods = {how.method, "cvode-adams"};
     const Crosscheck checked = run_crosscheck(plan, sweep.recording, methods, how, 0.0, c.model, {});
-    EXPECT_EQ(motion_text(checked.reference[0]), motion_text(swept[0]));
+    EXPECT_EQ(regime_text(checked.reference[0]), regime_text(swept[0]));
     EXPECT_EQ(checked.reference[0].lyapunov_max().value, swept[0].lyapunov_max().value);
     EXPECT_EQ(regime_name(checked.comparisons[0].result), c.motion);
 
@@ -373,7 +373,7 @@ TEST(OneClassification, WhatEachStudySaysOfAMotionIsTheSame) {
     EXPECT_EQ(climbed.period, swept[0].period) << climbed.note;
     EXPECT_EQ(climbed.statistics.empty(), swept[0].period > 0);
     if (climbed.period == 0) {
-      EXPECT_TRUE(climbed.note.starts_with(motion_text(swept[0]))) << climbed.note;
+      EXPECT_TRUE(climbed.note.starts_with(regime_text(swept[0]))) << climbed.note;
     } else {
       EXPECT_LT(climbed.largest_multiplier, 1.0);
       constexpr double times_the_condition = 1e-6;  // tolerance 1e-8, some hundred steps

@@ -53,7 +53,7 @@ int search(const Arguments& arguments, SharedEvaluations& shared) {
   const store::OutputFolder& folder = session.folder();
 
   for (const std::string& words : given.moved)
-    tell("the stage as it is given is no candidate; the first one has {}\n", words);
+    print_message("the stage as it is given is no candidate; the first one has {}\n", words);
   CandidateJournal journal(session, "calibrate", claims::most_evaluations(options), 0, options.claims.size());
   claims::Calibration found;
   shared.run(evaluator_by(claims::search_glance)(input, shared.stop()),
@@ -84,7 +84,7 @@ int search(const Arguments& arguments, SharedEvaluations& shared) {
   }
   if (!found.complete) {
     close_run(store::RunState::stopped);
-    tell("stopped after {} candidates; re-run the same command to resume\n", journal.finished());
+    print_message("stopped after {} candidates; re-run the same command to resume\n", journal.finished());
     return stopped_early;
   }
   std::vector<reports::DrawnFigure> figures;
@@ -92,11 +92,11 @@ int search(const Arguments& arguments, SharedEvaluations& shared) {
   undrawn = report_undrawn(figures);
   close_run(store::RunState::complete);
   if (arguments.json) {
-    nlohmann::json told = {{"folder", folder.path().string()},
-                           {"candidates", found.evaluations.size()},
-                           {"cost", found.best->evaluation.cost},
-                           {"best", folder.file("best.json").string()}};
-    print("{}\n", told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    nlohmann::json summary_json = {{"folder", folder.path().string()},
+                                   {"candidates", found.evaluations.size()},
+                                   {"cost", found.best->evaluation.cost},
+                                   {"best", folder.file("best.json").string()}};
+    print("{}\n", summary_json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     print("{}\nbest: {}\n", summary, folder.file("best.json").string());
     for (const auto& figure : figures)

@@ -43,8 +43,8 @@ bool move_alike(const claims::ClaimsOptions& options, const claims::CandidateMod
   const claims::SweepModels of_a = models(a);
   const claims::SweepModels of_b = models(b);
   return std::ranges::all_of(options.sweeps, [&](const claims::ClaimSweep& sweep) {
-    return studies::same_motion(of_a(sweep, sweep.axis.from), of_b(sweep, sweep.axis.from)) &&
-           studies::same_motion(of_a(sweep, sweep.axis.to), of_b(sweep, sweep.axis.to));
+    return studies::same_equations(of_a(sweep, sweep.axis.from), of_b(sweep, sweep.axis.from)) &&
+           studies::same_equations(of_a(sweep, sweep.axis.to), of_b(sweep, sweep.axis.to));
   });
 }
 
@@ -92,7 +92,8 @@ void examine_candidates(const claims::ClaimsOptions& options, const claims::Cand
   for (const Variable& v : variables)
     if (std::all_of(v.candidates.begin() + 1, v.candidates.end(),
                     [&](const auto& u) { return move_alike(options, models, v.candidates.front(), u); }))
-      tell("warning: {}: {} changes nothing on any sweep, all others in the middle of their ranges\n", v.place, v.name);
+      print_message("warning: {}: {} changes nothing on any sweep, all others in the middle of their ranges\n", v.place,
+                    v.name);
 }
 
 }  // namespace

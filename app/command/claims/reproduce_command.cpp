@@ -153,28 +153,29 @@ int reproduce_command(const Arguments& given) {
   std::vector<std::string> another_study;  // in what the recorded verdicts are of one
   if (arguments.record) {
     write_file_atomically(linked_file(recorded), claims::recorded_text(card, input));
-    tell("recorded: {}\n", recorded.string());
+    print_message("recorded: {}\n", recorded.string());
   } else if (expected) {
     claims::RecordedDifference difference = claims::unlike_recorded(card, input, *expected);
     another_study = std::move(difference.study);
     if (!another_study.empty())
-      tell("the verdicts in {} are of another study and are not compared: {}\n", recorded.string(),
-           another_study.front());
+      print_message("the verdicts in {} are of another study and are not compared: {}\n", recorded.string(),
+                    another_study.front());
     unlike = std::move(difference.verdicts);
-    for (const std::string& line : unlike) tell("other than recorded in {}: {}\n", recorded.string(), line);
+    for (const std::string& line : unlike) print_message("other than recorded in {}: {}\n", recorded.string(), line);
   }
   session.end(store::RunState::complete, {{"claims", static_cast<std::int64_t>(options.claims.size())},
                                           {"holding", static_cast<std::int64_t>(card.holding())},
                                           {"unlike", static_cast<std::int64_t>(unlike.size())},
                                           {"undrawn", undrawn}});
   if (arguments.json) {
-    nlohmann::json told = {{"folder", folder.path().string()}, {"claims", options.claims.size()},
-                           {"holding", card.holding()},        {"holding_where_nothing_changes", card.holding_inert()},
-                           {"unlike_recorded", unlike},        {"figures", nlohmann::json::array()}};
-    if (!another_study.empty()) told["another_study"] = another_study;
+    nlohmann::json summary_json = {
+        {"folder", folder.path().string()}, {"claims", options.claims.size()},
+        {"holding", card.holding()},        {"holding_where_nothing_changes", card.holding_inert()},
+        {"unlike_recorded", unlike},        {"figures", nlohmann::json::array()}};
+    if (!another_study.empty()) summary_json["another_study"] = another_study;
     for (const auto& figure : figures)
-      if (figure.outcome.drawn()) told["figures"].push_back(figure.file.string());
-    print("{}\n", told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+      if (figure.outcome.drawn()) summary_json["figures"].push_back(figure.file.string());
+    print("{}\n", summary_json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     print("{}\n", summary);
     for (const auto& figure : figures)

@@ -52,8 +52,9 @@ int survey(const Arguments& arguments, SharedEvaluations& shared) {
   };
   if (!claims::survey_is_complete(options, evaluations)) {
     close_run(store::RunState::stopped);
-    tell("stopped after {} of {} draws, {} of them compared with whole sweeps; re-run the same command to resume\n",
-         surveyed, draws, confirmed);
+    print_message(
+        "stopped after {} of {} draws, {} of them compared with whole sweeps; re-run the same command to resume\n",
+        surveyed, draws, confirmed);
     return stopped_early;
   }
 
@@ -69,13 +70,14 @@ int survey(const Arguments& arguments, SharedEvaluations& shared) {
   undrawn = report_undrawn(figures);
   close_run(store::RunState::complete);
   if (arguments.json) {
-    nlohmann::json told = {{"folder", folder.path().string()}, {"draws", draws}, {"claims", nlohmann::json::array()}};
+    nlohmann::json summary_json = {
+        {"folder", folder.path().string()}, {"draws", draws}, {"claims", nlohmann::json::array()}};
     for (std::size_t k = 0; k < options.claims.size(); ++k) {
       const analysis::Interval& f = output.claims[k].fraction;
-      told["claims"].push_back(
+      summary_json["claims"].push_back(
           {{"claim", options.claims[k].name}, {"fraction", f.value}, {"low", f.low}, {"high", f.high}});
     }
-    print("{}\n", told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    print("{}\n", summary_json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     print("{}\n", summary);
     for (const auto& figure : figures)

@@ -166,9 +166,9 @@ void SharedEvaluations::run(const claims::Evaluator& here,
   const claims::Evaluator shared = [&](const claims::Question& question) { return places.evaluate(question); };
   Computation computation([&] { work(shared, std::accumulate(threads_.begin(), threads_.end(), 0)); }, stop_);
   Attention attention;
-  bool told = false;
+  bool stop_sent = false;
   const auto stop_others = [&] {
-    if (std::exchange(told, true)) return;
+    if (std::exchange(stop_sent, true)) return;
     for (int rank = 1; rank < ranks.size(); ++rank) ranks.send(rank, Topic::stop, {});
   };
   for (bool ended = false; !ended;) {
@@ -292,7 +292,7 @@ int follow(const Arguments& arguments, std::string_view command, const MakeEvalu
   }
   say_hello(arguments, identity, error);
   std::optional<Follower> follower;
-  bool told = false;
+  bool stop_sent = false;
   for (Attention attention;;) {
     const auto message = ranks.receive();
     if (message && message->topic == Topic::leave) return static_cast<int>(values_of<Index>(message->bytes).at(0));
@@ -301,7 +301,7 @@ int follow(const Arguments& arguments, std::string_view command, const MakeEvalu
       follower->take(SentQuestion::from(message->bytes));
     }
     if (message && message->topic == Topic::stop && follower) follower->end();
-    if (stop_requested() && !std::exchange(told, true)) ranks.send(0, Topic::stop, {});
+    if (stop_requested() && !std::exchange(stop_sent, true)) ranks.send(0, Topic::stop, {});
     if (follower) follower->send_answers();
     if (message)
       attention.rouse();
@@ -323,7 +323,7 @@ int share_evaluations(const Arguments& arguments, std::string_view command, cons
     code = lead(shared);
   } catch (...) {
     const Failure failure = failure_of(std::current_exception());
-    tell("{}\n", failure.what());
+    print_message("{}\n", failure.what());
     code = failure.exit_code();
   }
   let_go(ranks, code);

@@ -20,19 +20,19 @@ WrittenPoints write_basins(const ComputedPoints& plane) {
   std::vector<studies::PointSummary> results = studies::all_summaries(plane.points);
   const input::Study& study = plane.input.study;
   const kinds::BasinsOutput output{study.plan.as<studies::BasinsOptions>().plane, plane.first_model.state_names,
-                                   studies::planet_turns(plane.first_model, study.integrator), plane.resolved,
+                                   studies::planet_rotations(plane.first_model, study.integrator), plane.resolved,
                                    reports::figure_title(study)};
-  const analysis::Attractors attractors = studies::attractors_of(results, output.turns);
+  const analysis::Attractors attractors = studies::attractors_of(results, output.rotations);
   kinds::write_basins_csv(plane.folder / "points.csv", results, attractors);
   kinds::write_attractors_csv(plane.folder / "attractors.csv", output, results, attractors);
   kinds::write_basins_h5(plane.folder / "results.h5", output, results, attractors);
   WrittenPoints written;
   written.figures = kinds::draw_basins_figure(plane.folder / "figures", output, results, attractors);
   written.summary["attractors"] = nlohmann::json::array();
-  std::size_t told = 0;
+  std::size_t classified = 0;
   for (std::size_t k = 0; k < attractors.all.size(); ++k) {
     const analysis::Attractor& a = attractors.all[k];
-    told += a.members.size();
+    classified += a.members.size();
     nlohmann::json one = {{"attractor", k + 1},
                           {"regime", to_string(a.record.regime)},
                           {"period", a.record.period()},
@@ -41,14 +41,14 @@ WrittenPoints write_basins(const ComputedPoints& plane) {
         fmt::format("attractor {}: {}, {} cells", k + 1, kinds::attractor_word(a.record), a.members.size());
     if (a.image_of > 0) {
       one["image_of"] = a.image_of;
-      line +=
-          fmt::format(", attractor {} with the planets permuted by {}", a.image_of, output.turns[a.image_by].planets);
+      line += fmt::format(", attractor {} with the planets permuted by {}", a.image_of,
+                          output.rotations[a.image_by].planets);
     }
     written.summary["attractors"].push_back(std::move(one));
     written.lines.push_back(std::move(line));
   }
-  if (told < results.size())
-    written.lines.push_back(fmt::format("no attractor known: {} cells", results.size() - told));
+  if (classified < results.size())
+    written.lines.push_back(fmt::format("no attractor known: {} cells", results.size() - classified));
   return written;
 }
 

@@ -101,7 +101,7 @@ void check_basins(const Study& study, const IsBad& is_bad, ReadContext& context)
   for (const auto& [name, value] : basins.other_components) {
     const std::string place = "/study/other_components" + pointer_step(name);
     if (!known(name)) {
-      const bool in_words = context.findings.size() < findings_told;
+      const bool in_words = context.findings.size() < findings_max;
       context.add(Finding::Kind::unknown_key, place,
                   "unknown key '" + name + "'" + (in_words ? those + suggestion(name, names) : std::string()));
     } else if (name == plane.first.name || name == plane.second.name) {

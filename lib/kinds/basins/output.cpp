@@ -47,7 +47,7 @@ struct Row {
   double spread = 0;
   double orbit_error = std::numeric_limits<double>::quiet_NaN();
   std::int64_t image_of = 0;
-  std::int64_t turn = 0;
+  std::int64_t rotation = 0;
   std::vector<double> state;  ///< a Poincare point
 };
 
@@ -74,7 +74,7 @@ std::vector<Row> rows_of(const BasinsOutput& output, const std::vector<PointSumm
       row.spread = std::max(row.spread, r.meshes.planet_spread);
     }
     row.image_of = static_cast<std::int64_t>(a.image_of);
-    if (a.image_of > 0) row.turn = output.turns[a.image_by].planets;
+    if (a.image_of > 0) row.rotation = output.rotations[a.image_by].planets;
     row.state = row.first->end_state;
     if (periodic)
       row.state.assign(a.record.orbit.begin(),
@@ -129,7 +129,7 @@ void write_attractors_csv(const std::filesystem::path& file, const BasinsOutput&
     csv.cell(r.exponent.value).cell(r.exponent.half_width);
     csv.cell(r.first->point.index).cell(r.first->point.value).cell(r.first->point.second_value);
     csv.cell(r.sp.low).cell(r.sp.high).cell(r.rp.low).cell(r.rp.high).cell(r.spread).cell(r.orbit_error);
-    csv.cell(r.image_of).cell(r.turn);
+    csv.cell(r.image_of).cell(r.rotation);
     for (const double x : r.state) csv.cell(x);
     csv.end_row();
   }
@@ -174,7 +174,7 @@ void write_basins_h5(const std::filesystem::path& file, const BasinsOutput& outp
   column(
       "image_of", [](const Row& r) { return r.image_of; }, nullptr);
   column(
-      "image_rotation", [](const Row& r) { return r.turn; }, "1");
+      "image_rotation", [](const Row& r) { return r.rotation; }, "1");
   h5.write("/attractors/state_names", std::span<const std::string>(output.state_names));
   std::vector<double> states;
   for (const Row& r : rows) states.insert(states.end(), r.state.begin(), r.state.end());

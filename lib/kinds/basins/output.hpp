@@ -18,9 +18,9 @@ namespace epicyclic::kinds {
 struct BasinsOutput {
   studies::Plane plane;
   std::vector<std::string> state_names;
-  std::vector<studies::PlanetTurn> turns;  ///< symmetries that images of attractors were looked for with
-  std::string resolved_input;              ///< text of input.resolved.json, kept in results.h5 too
-  std::string title;                       ///< of the figure
+  std::vector<studies::PlanetRotation> rotations;  ///< symmetries that images of attractors were looked for with
+  std::string resolved_input;                      ///< text of input.resolved.json, kept in results.h5 too
+  std::string title;                               ///< of the figure
 };
 
 /// "period 2", "chaotic".

@@ -67,7 +67,8 @@ std::vector<studies::BranchAttempt> add_starts(const studies::BranchSystem& syst
     progress.update(attempts.size(), 0);
   };
   for (const double value : options.all_starts())
-    add(value, options.period, false, anywhere, settled_start(system, models(value), value, options.transient_periods));
+    add(value, options.period, false, anywhere,
+        steady_state_start(system, models(value), value, options.transient_periods));
   for (const studies::BranchSeed& seed : options.seeds)
     add(seed.value, seed.period, true, seed.max_distance.value_or(anywhere), seed_start(system, seed));
   return attempts;
@@ -116,24 +117,25 @@ studies::ModelOverPlane stoppable_plane(const input::LoadedInput& input, const B
 constexpr std::size_t any_number = static_cast<std::size_t>(-1);
 
 /// What the search finds at each of its values, kept in a journal of its own; each is a start.
-std::vector<studies::FoundMotions> add_found(Session& session, const studies::BranchSystem& system,
-                                             const BranchesOptions& options, const studies::ModelAt& models,
-                                             analysis::BifurcationDiagram& tree) {
+std::vector<studies::CoexistingOrbits> add_found(Session& session, const studies::BranchSystem& system,
+                                                 const BranchesOptions& options, const studies::ModelAt& models,
+                                                 analysis::BifurcationDiagram& tree) {
   const studies::BranchSearchOptions& wanted = options.search.value();
   OrderedJournal journal(session, "journal.search.bin", "search");
-  std::vector<studies::FoundMotions> all;
+  std::vector<studies::CoexistingOrbits> all;
   journal.read(wanted.values.size(), [&](const auto& record) { all.push_back(store::decode_found(record)); });
   Progress progress("continue: search", wanted.values.size(), all.size());
   while (all.size() < wanted.values.size()) {
     const double value = wanted.values[all.size()];
-    studies::FoundMotions found = search_motions(system, models(value), value, wanted, options.transient_periods);
+    studies::CoexistingOrbits found =
+        search_coexisting_orbits(system, models(value), value, wanted, options.transient_periods);
     journal.append(store::encode_found(found));
     all.push_back(std::move(found));
     progress.update(all.size(), 0);
   }
   journal.close();
-  for (const studies::FoundMotions& found : all)
-    for (const studies::FoundMotion& m : found.motions)
+  for (const studies::CoexistingOrbits& found : all)
+    for (const studies::CoexistingOrbit& m : found.orbits)
       tree.start(m.orbit, m.keeps_symmetry, m.period, m.shooting_intervals);
   return all;
 }
@@ -171,7 +173,7 @@ void add_rows(TracedBranches& traced, OrbitRows& known, const model::DynamicMode
   for (const analysis::Branch& branch : traced.branches) {
     std::vector<studies::BranchRow>& rows = traced.rows.emplace_back();
     for (const analysis::BranchOrbit& orbit : branch.orbits) rows.push_back(row(branch, orbit));
-    settle_stability(branch, rows);
+    decide_stability(branch, rows);
   }
   for (studies::SpecialRow& r : traced.special) {
     const analysis::Branch& branch = traced.branches[r.branch];
@@ -413,7 +415,7 @@ FinishedStudy sweep_to_prove(const Arguments& arguments, const input::LoadedInpu
                                  text(plan->axis.from), text(last), text(options.from), text(options.to)));
   }
   for (const std::size_t point : {std::size_t{0}, sweep.points().count - 1})
-    if (!studies::same_motion(sweep.model_at(point), models(sweep.plan().points[point].value)))
+    if (!studies::same_equations(sweep.model_at(point), models(sweep.plan().points[point].value)))
       throw InputError(fmt::format("{}: its equations of motion are not those of {}, at {} = {}", folder,
                                    arguments.input.string(), options.parameter, sweep.plan().points[point].value));
   return sweep;
@@ -439,13 +441,13 @@ Proved prove_sweep(const FinishedStudy& sweep, const store::OutputFolder& folder
     });
   }
   const input::Study& study = sweep.input().study;
-  const kinds::ProvedSweep told{study.name.empty() ? sweep.folder().string() : study.name, sweep.identity(),
-                                output.poincare_columns, points};
+  const kinds::ProvedSweep proved_sweep{study.name.empty() ? sweep.folder().string() : study.name, sweep.identity(),
+                                        output.poincare_columns, points};
   folder.require_there();
-  proved.summary = kinds::proof_summary(output, told, traced, proved.proof);
+  proved.summary = kinds::proof_summary(output, proved_sweep, traced, proved.proof);
   kinds::write_proof_csv(folder.file("proof.csv"), traced, proved.proof);
   write_file_atomically(folder.file("proof.md"), proved.summary);
-  proved.figures = kinds::draw_proof_figures(folder.file("figures"), output, told, traced);
+  proved.figures = kinds::draw_proof_figures(folder.file("figures"), output, proved_sweep, traced);
   return proved;
 }
 
@@ -458,29 +460,29 @@ void print_result(const Arguments& arguments, const TracedBranches& traced, cons
       if (figure.outcome.drawn()) print("figure: {}\n", figure.file.string());
     return;
   }
-  nlohmann::json told = {{"folder", arguments.output.string()},
-                         {"branches", nlohmann::json::array()},
-                         {"special", nlohmann::json::array()},
-                         {"failed", failed},
-                         {"figures", nlohmann::json::array()}};
+  nlohmann::json summary_json = {{"folder", arguments.output.string()},
+                                 {"branches", nlohmann::json::array()},
+                                 {"special", nlohmann::json::array()},
+                                 {"failed", failed},
+                                 {"figures", nlohmann::json::array()}};
   for (const analysis::Branch& branch : traced.branches)
-    told["branches"].push_back({{"period", branch.family.period},
-                                {"orbits", branch.orbits.size()},
-                                {"first", branch.orbits.front().at.value},
-                                {"last", branch.orbits.back().at.value}});
+    summary_json["branches"].push_back({{"period", branch.family.period},
+                                        {"orbits", branch.orbits.size()},
+                                        {"first", branch.orbits.front().at.value},
+                                        {"last", branch.orbits.back().at.value}});
   for (const studies::SpecialRow& r : traced.special) {
     nlohmann::json one = {{"branch", r.branch}, {"kind", kind_word(r)}, {"value", r.value}, {"error_bound", nullptr}};
     if (std::isfinite(r.error_bound)) one["error_bound"] = r.error_bound;
-    told["special"].push_back(std::move(one));
+    summary_json["special"].push_back(std::move(one));
   }
   if (!proved.summary.empty())
-    told["proof"] = {{"periodic", proved.proof.periodic},
-                     {"off_branches", proved.proof.off.size()},
-                     {"changes", proved.proof.counted()},
-                     {"unexplained", proved.proof.unexplained()}};
+    summary_json["proof"] = {{"periodic", proved.proof.periodic},
+                             {"off_branches", proved.proof.off.size()},
+                             {"changes", proved.proof.counted()},
+                             {"unexplained", proved.proof.unexplained()}};
   for (const reports::DrawnFigure& figure : figures)
-    if (figure.outcome.drawn()) told["figures"].push_back(figure.file.string());
-  print("{}\n", told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    if (figure.outcome.drawn()) summary_json["figures"].push_back(figure.file.string());
+  print("{}\n", summary_json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 void add_continue_options(CLI::App& command, Arguments& arguments) {
@@ -517,7 +519,7 @@ int run_continue(const Arguments& arguments) {
                          ? nullptr
                          : std::make_unique<FinishedStudy>(sweep_to_prove(arguments, input, options, models));
   print_warnings(input);
-  for (const std::string& note : notes) tell("{}\n", note);
+  for (const std::string& note : notes) print_message("{}\n", note);
 
   Session session(arguments, input, identity_of(input, "continue"), 1, 1, sweep != nullptr);
   if (const auto code = session.exit_code()) return *code;
@@ -530,7 +532,7 @@ int run_continue(const Arguments& arguments) {
                                      reports::figure_title(input.study),
                                      input.study.axis_speed};
   TracedBranches traced;
-  std::vector<studies::FoundMotions> found;
+  std::vector<studies::CoexistingOrbits> found;
   std::vector<studies::TracedLocus> loci;
   std::int64_t undrawn = 0;
   std::size_t failed = 0;
@@ -547,7 +549,7 @@ int run_continue(const Arguments& arguments) {
     analysis::BifurcationDiagram tree(system.system, system.options);
     traced.attempts = add_starts(system, options, models, tree);
     for (const studies::BranchAttempt& a : traced.attempts)
-      if (const std::string words = kinds::attempt_text(axis, a); !words.empty()) tell("{}\n", words);
+      if (const std::string words = kinds::attempt_text(axis, a); !words.empty()) print_message("{}\n", words);
     if (options.search) found = add_found(session, system, options, models, tree);
     OrbitRows rows(models, options.output_phases);
     PartialTables tables(folder, output, rows, first_model);
@@ -560,7 +562,7 @@ int run_continue(const Arguments& arguments) {
     if (options.loci) loci = trace_loci(session, input, options, traced);
   } catch (const Stopped&) {
     close_run(store::RunState::stopped);
-    tell("stopped; re-run the same command to resume\n");
+    print_message("stopped; re-run the same command to resume\n");
     return stopped_early;
   }
   failed = count_failures(traced, loci);
@@ -577,11 +579,12 @@ int run_continue(const Arguments& arguments) {
     if (sweep) proved = prove_sweep(*sweep, folder, output, traced, first_model.dimension);
   } catch (const Stopped&) {
     close_run(store::RunState::stopped);
-    tell("stopped; re-run the same command to resume\n");
+    print_message("stopped; re-run the same command to resume\n");
     return stopped_early;
   }
   if (const std::size_t off = proved.proof.off.size(); off > 0)
-    tell("{} of the {} periodic points of the sweep lie on no branch; see proof.md\n", off, proved.proof.periodic);
+    print_message("{} of the {} periodic points of the sweep lie on no branch; see proof.md\n", off,
+                  proved.proof.periodic);
   std::ranges::move(proved.figures, std::back_inserter(figures));
   undrawn = report_undrawn(figures);
   close_run(store::RunState::complete);

@@ -282,18 +282,18 @@ std::string loci_text(const ContinueOutput& output, const TracedBranches& traced
 const char* mesh_column(MeshKind mesh) { return mesh == MeshKind::sun_planet ? "delta_sp_1" : "delta_rp_1"; }
 
 /// How points of a kind are drawn.
-struct KindLook {
+struct KindStyle {
   SpecialKind kind;
   std::string_view colour;
   double size;
   int type;
 };
-constexpr std::array<KindLook, 6> kind_looks = {{{SpecialKind::grazing, figures::ink::light_grey, 1.0, 6},
-                                                 {SpecialKind::fold, figures::ink::dark_grey, 1.3, 7},
-                                                 {SpecialKind::flip, figures::ink::green, 1.4, 9},
-                                                 {SpecialKind::neimark_sacker, figures::ink::ochre, 1.4, 13},
-                                                 {SpecialKind::branch_point, figures::ink::purple, 1.3, 5},
-                                                 {SpecialKind::unresolved, figures::ink::red, 1.8, 2}}};
+constexpr std::array<KindStyle, 6> kind_styles = {{{SpecialKind::grazing, figures::ink::light_grey, 1.0, 6},
+                                                   {SpecialKind::fold, figures::ink::dark_grey, 1.3, 7},
+                                                   {SpecialKind::flip, figures::ink::green, 1.4, 9},
+                                                   {SpecialKind::neimark_sacker, figures::ink::ochre, 1.4, 13},
+                                                   {SpecialKind::branch_point, figures::ink::purple, 1.3, 5},
+                                                   {SpecialKind::unresolved, figures::ink::red, 1.8, 2}}};
 
 using Place = std::array<double, 2>;
 constexpr double gap = std::numeric_limits<double>::quiet_NaN();
@@ -348,32 +348,32 @@ std::string attempt_text(const AxisWords& words, const studies::BranchAttempt& a
                           a.period, short_text(a.distance, 2));
 }
 
-void write_found_csv(const std::filesystem::path& file, const std::vector<studies::FoundMotions>& found) {
+void write_found_csv(const std::filesystem::path& file, const std::vector<studies::CoexistingOrbits>& found) {
   CsvWriter csv(file,
                 {"value", "orbit", "period", "symmetric", "stable", "unstable", "multiplier_max", "images", "starts"});
-  for (const studies::FoundMotions& at : found)
-    for (std::size_t k = 0; k < at.motions.size(); ++k) {
-      const studies::FoundMotion& m = at.motions[k];
+  for (const studies::CoexistingOrbits& at : found)
+    for (std::size_t k = 0; k < at.orbits.size(); ++k) {
+      const studies::CoexistingOrbit& m = at.orbits[k];
       csv.row(at.value, k, m.period, m.keeps_symmetry ? 1 : 0, m.unstable == 0 ? 1 : 0, m.unstable, m.multiplier_max,
               m.images, m.starts);
     }
   csv.commit();
 }
 
-std::string found_text(const ContinueOutput& output, const std::vector<studies::FoundMotions>& found) {
+std::string found_text(const ContinueOutput& output, const std::vector<studies::CoexistingOrbits>& found) {
   std::string text;
-  for (const studies::FoundMotions& at : found) {
-    const auto stable = std::ranges::count_if(at.motions, [](const auto& m) { return m.unstable == 0; });
+  for (const studies::CoexistingOrbits& at : found) {
+    const auto stable = std::ranges::count_if(at.orbits, [](const auto& m) { return m.unstable == 0; });
     text += fmt::format(
         "\n## Coexisting orbits at {} = {}\n\n{} periodic orbits up to period {} from {} starts; {} of the orbits are "
         "stable. {} starts found none. No number of starts proves that there are no others.\n",
-        output.words().name, output.words().text(at.value, 9), at.motions.size(),
+        output.words().name, output.words().text(at.value, 9), at.orbits.size(),
         output.options.search ? output.options.search->period_max : 1, at.starts, stable, at.missed);
-    if (at.motions.empty()) continue;
+    if (at.orbits.empty()) continue;
     text +=
         "\n| period | symmetric | multipliers beyond 1 | largest | images | starts "
         "|\n|---|---|---|---|---|---|\n";
-    for (const studies::FoundMotion& m : at.motions)
+    for (const studies::CoexistingOrbit& m : at.orbits)
       text += fmt::format("| {} | {} | {} | {:.4g} | {} | {} |\n", m.period, m.keeps_symmetry ? "yes" : "no",
                           m.unstable, m.multiplier_max, m.images, m.starts);
   }
@@ -473,7 +473,7 @@ void BranchSketch::add_special_points() {
       return std::abs(p[0] - here[0]) < apart_x * width && std::abs(p[1] - here[1]) < apart_y * height;
     });
   };
-  for (const KindLook& recording : kind_looks) {
+  for (const KindStyle& recording : kind_styles) {
     std::vector<Place> places;
     std::vector<Place> lettered;
     for (std::size_t i = 0; i < traced_.special.size(); ++i) {
@@ -516,7 +516,7 @@ void BranchSketch::add_contacts() {
   for (std::size_t b = 0; b < traced_.rows.size(); ++b)
     for (const Strip& s : strips)
       lines.add(traced_, b, [&](const BranchRow& row) {
-        if (!row.carried) return gap;
+        if (!row.evaluated) return gap;
         const auto& meshes = s.sun ? row.meshes.sun_planet : row.meshes.ring_planet;
         return std::ranges::any_of(meshes, [&](const MeshRecord& m) { return s.time(m) > 0.0; }) ? s.y : gap;
       });
@@ -549,7 +549,7 @@ DrawnFigure BranchSketch::draw(const std::filesystem::path& folder, const std::s
                            parameter_label(output_.options.parameter), ""};
   for (const auto& rows : traced_.rows)
     for (const studies::BranchRow& row : rows)
-      if (!text.above && row.carried)
+      if (!text.above && row.evaluated)
         text.above = speed_above(output_.options.parameter, output_.speed, row.omega, row.meshes);
   const DrawnFigure none{folder / (sketch_.stem() + ".png"), {"there is no orbit to draw"}};
   if (y_.empty()) return none;
@@ -575,7 +575,7 @@ DrawnFigure draw_loci(const std::filesystem::path& folder, const ContinueOutput&
   const studies::LociOptions& options = output.options.loci.value();
   figures::Sketch sketch("loci");
   std::vector<std::pair<std::string, std::vector<Place>>> marks;
-  for (const KindLook& recording : kind_looks) {
+  for (const KindStyle& recording : kind_styles) {
     std::vector<Place> lines;
     for (const studies::TracedLocus& locus : loci) {
       if (locus.kind != recording.kind) continue;

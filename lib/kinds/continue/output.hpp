@@ -51,10 +51,10 @@ void write_branch_tables(const std::filesystem::path& folder, const ContinueOutp
 
 /// orbits.csv.
 /// @throws OutputError
-void write_found_csv(const std::filesystem::path& file, const std::vector<studies::FoundMotions>& found);
+void write_found_csv(const std::filesystem::path& file, const std::vector<studies::CoexistingOrbits>& found);
 
 /// What was found, in words, for continue.md.
-[[nodiscard]] std::string found_text(const ContinueOutput& output, const std::vector<studies::FoundMotions>& found);
+[[nodiscard]] std::string found_text(const ContinueOutput& output, const std::vector<studies::CoexistingOrbits>& found);
 
 /// Text of continue.md.
 [[nodiscard]] std::string continue_summary(const ContinueOutput& output, const studies::TracedBranches& traced,

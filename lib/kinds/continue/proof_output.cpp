@@ -27,7 +27,7 @@ using studies::SweepChange;
 using studies::SweepPlace;
 
 std::string side_text(const SweepPlace& place) {
-  std::string text = place.motion;
+  std::string text = place.regime;
   if (place.branch) text += fmt::format(" (branch {})", *place.branch);
   return text;
 }
@@ -47,13 +47,13 @@ std::array<Places, 2> section_points(const ProvedSweep& sweep, const studies::Br
     const studies::PointResult r = sweep.points.read(i);
     const double x = r.point.value;
     if (x < range.from || x > range.to) continue;
-    const std::size_t way = r.point.direction == studies::Direction::up ? 0 : 1;
+    const std::size_t direction = r.point.direction == studies::Direction::up ? 0 : 1;
     for (std::size_t k = at; k < r.poincare.size(); k += r.poincare_columns) {
       const double y = r.poincare[k];
       if (!std::isfinite(y)) continue;
       const auto cell = static_cast<std::int64_t>((x - range.from) / (range.to - range.from) * cells_x) * 100000000 +
                         std::llround(y * cells_per_length);
-      if (taken[way].insert(cell).second) points[way].push_back({x, y});
+      if (taken[direction].insert(cell).second) points[direction].push_back({x, y});
     }
   }
   return points;
@@ -85,7 +85,7 @@ void write_proof_csv(const std::filesystem::path& file, const studies::TracedBra
   for (std::size_t k = 0; k < proof.changes.size(); ++k) {
     const SweepChange& c = proof.changes[k];
     csv.cell(k).cell(store::direction_word(c.direction)).cell(c.before.point).cell(c.behind.point);
-    csv.cell(c.before.value).cell(c.behind.value).cell(c.before.motion).cell(c.behind.motion);
+    csv.cell(c.before.value).cell(c.behind.value).cell(c.before.regime).cell(c.behind.regime);
     branch_cell(c.before);
     branch_cell(c.behind);
     csv.cell(c.counted ? 1 : 0).cell(c.counted ? to_string(c.cause) : std::string());
@@ -144,7 +144,7 @@ std::string proof_summary(const ContinueOutput& output, const ProvedSweep& sweep
     text += "\n## Periodic points on no branch\n\n";
     for (const SweepPlace& p : proof.off)
       text += fmt::format(
-          "- point {} at {}: {}{}\n", p.point, words.text(p.value, 6), p.motion,
+          "- point {} at {}: {}{}\n", p.point, words.text(p.value, 6), p.regime,
           std::isfinite(p.distance) ? fmt::format(", {:.2g} b_c from the nearest branch", p.distance) : std::string());
   }
   return text;

@@ -77,9 +77,9 @@ void print_result(const Arguments& arguments, const store::OutputFolder& folder,
 /// Of each method alone; what explaining differences takes is not known before.
 Expected time_of_crosscheck(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
                             const TimeLimit& limit) {
-  const auto& asked = input.study.plan.as<kinds::CrosscheckPlan>();
-  const studies::SweepOptions& sweep = asked.sweep;
-  const auto& options = asked.crosscheck;
+  const auto& study_plan = input.study.plan.as<kinds::CrosscheckPlan>();
+  const studies::SweepOptions& sweep = study_plan.sweep;
+  const auto& options = study_plan.crosscheck;
   const double width = input.study.model.clearance_smoothing;
   const auto variants = studies::crosscheck_variants(options, input.study.integrator, width);
   const auto model_at = input::smoothed_model_at(input);
@@ -145,7 +145,8 @@ int run_crosscheck(const Arguments& arguments) {
   };
   if (!all.complete(points)) {
     close_run(store::RunState::stopped);
-    tell("stopped after {} of {} results; re-run the same command to resume\n", finished, points * variants.size());
+    print_message("stopped after {} of {} results; re-run the same command to resume\n", finished,
+                  points * variants.size());
     return stopped_early;
   }
 

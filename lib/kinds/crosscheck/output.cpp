@@ -55,11 +55,11 @@ std::size_t unexplained(const studies::Crosscheck& all) {
 std::string crosscheck_summary(const AxisWords& words, const studies::Crosscheck& all) {
   std::string text = fmt::format("reference: {}, relative tolerance {:g}, {} points\n\n", all.variants[0].label,
                                  all.variants[0].integrator.relative_tolerance, all.reference.size());
-  std::map<std::string, int> motions;
+  std::map<std::string, int> regimes;
   for (const auto& r : all.reference)
-    ++motions[r.outcome == integrate::Outcome::reached ? regime_name(r) : store::status_word(r.outcome)];
+    ++regimes[r.outcome == integrate::Outcome::reached ? regime_name(r) : store::status_word(r.outcome)];
   std::string list;
-  for (const auto& [name, count] : motions) list += fmt::format("{}{} {}", list.empty() ? "" : ", ", count, name);
+  for (const auto& [name, count] : regimes) list += fmt::format("{}{} {}", list.empty() ? "" : ", ", count, name);
   text += fmt::format("Regimes of the reference: {}.\n\n", list);
   text += "| variant | agree | of these compared state by state | largest distance | ";
   for (const Verdict v : differing) text += to_string(v) + " | ";

@@ -116,7 +116,7 @@ class RunProgress {
     if (spent < measured_for) return;
     said_ = true;
     const double left = spent.count() / static_cast<double>(interval - first_) * static_cast<double>(total_ - interval);
-    tell(
+    print_message(
         "Lyapunov exponents over {} mesh periods (/study/exponent_periods) take about {} more; a stopped run can be "
         "resumed\n",
         total_, duration_text(left));
@@ -186,13 +186,13 @@ int run_run(const Arguments& arguments) {
 
   RunJournal journal(session);
   if (journal.knows_point())
-    tell("{}: the point and {} of {} mesh periods of exponents exist already\n", folder.path().string(),
-         journal.exponent_intervals(), exponent_intervals(options));
+    print_message("{}: the point and {} of {} mesh periods of exponents exist already\n", folder.path().string(),
+                  journal.exponent_intervals(), exponent_intervals(options));
   const auto result = compute(arguments.threads, model, study, journal);
   journal.close();
   if (!result) {
     session.end(store::RunState::stopped, {});
-    tell("stopped; re-run the same command to resume\n");
+    print_message("stopped; re-run the same command to resume\n");
     return stopped_early;
   }
 
@@ -214,18 +214,18 @@ int run_run(const Arguments& arguments) {
   session.end(store::RunState::complete, {{"points", 1}, {"failed", computed ? 0 : 1}, {"undrawn", undrawn}});
   journal.remove();
 
-  nlohmann::json told = {{"folder", folder.path().string()},
-                         {"status", store::status_word(result->point.outcome)},
-                         {"regime", store::regime_word(result->point)},
-                         {"period", result->point.period},
-                         {"figures", nlohmann::json::array()}};
+  nlohmann::json summary_json = {{"folder", folder.path().string()},
+                                 {"status", store::status_word(result->point.outcome)},
+                                 {"regime", store::regime_word(result->point)},
+                                 {"period", result->point.period},
+                                 {"figures", nlohmann::json::array()}};
   for (const reports::DrawnFigure& figure : figures)
-    if (figure.outcome.drawn()) told["figures"].push_back(figure.file.string());
+    if (figure.outcome.drawn()) summary_json["figures"].push_back(figure.file.string());
   if (arguments.json) {
-    print("{}\n", told.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    print("{}\n", summary_json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     print("{}\n", summary);
-    for (const auto& figure : told["figures"]) print("figure: {}\n", figure.get<std::string>());
+    for (const auto& figure : summary_json["figures"]) print("figure: {}\n", figure.get<std::string>());
   }
   return computed && undrawn == 0 ? done : done_with_failures;
 }

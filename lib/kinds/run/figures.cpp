@@ -236,14 +236,14 @@ class RunFigures {
     figures::FigureRange x = range_of(points, 0);
     figures::FigureRange y = range_of(points, 1);
     const Window w = portrait_window();
-    const Curve motion = portrait(w);
-    const figures::FigureRange wide_x = range_of(motion, 0);
-    const figures::FigureRange wide_y = range_of(motion, 1);
+    const Curve orbit = portrait(w);
+    const figures::FigureRange wide_x = range_of(orbit, 0);
+    const figures::FigureRange wide_y = range_of(orbit, 1);
     if (periodic()) {
       // A few points have no extent of their own: they stand where they are on the orbit.
       x = wide_x;
       y = wide_y;
-      sketch.add(motion, figures::solid(light_grey, 1.5), "the orbit");
+      sketch.add(orbit, figures::solid(light_grey, 1.5), "the orbit");
       sketch.add(points, figures::dots(blue, 2.0), "at whole mesh periods");
     } else {
       constexpr double part = 0.05;  // of the portrait's extent
@@ -459,7 +459,7 @@ class RunFigures {
   }
 
   /// Of a planet whose curve lies on that of one before it, dashes let that one be seen.
-  [[nodiscard]] std::string look_of(const std::string& name, std::size_t i, const Window& w) const {
+  [[nodiscard]] std::string style_of(const std::string& name, std::size_t i, const Window& w) const {
     const std::string_view colour = planet_colours[(i - 1) % planet_colours.size()];
     for (std::size_t j = 1; j < i; ++j)
       if (coincide(name, j, i, w)) return figures::dashed(colour, 2.0, "(10,10)");
@@ -491,7 +491,7 @@ class RunFigures {
       for (std::size_t i = 0; i < curves.size(); ++i)
         sketch.add(
             curves[i],
-            one ? figures::solid(sun ? planet_colours[0] : red) : look_of(fmt::format("force_{}", mesh), i + 1, w),
+            one ? figures::solid(sun ? planet_colours[0] : red) : style_of(fmt::format("force_{}", mesh), i + 1, w),
             one   ? fmt::format("F_{{{}}}, all planets", mesh)
             : sun ? fmt::format("planet {}", i + 1)
                   : std::string());

@@ -563,7 +563,7 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
 }
 
 /// Which meshes pull, how hard, how often and why.
-std::string pulls_text(const RunOutput& output, const RunResult& r) {
+std::string tensile_text(const RunOutput& output, const RunResult& r) {
   std::vector<std::vector<std::string>> rows{{"mesh with tensile force", "up to [N]", "over F_0", "of the time"}};
   for (const MeshSummary& m : r.meshes)
     if (m.tensile_force_max > 0.0)
@@ -604,7 +604,7 @@ std::string meshes_text(const RunOutput& output, const RunResult& r) {
               "flank, between the flanks, on the back; losses: times that the driving flank "
               "was left, per mesh period. Over {:g} mesh periods, at {} phases of each.",
               r.static_force, record_periods(r.history), r.history.phases));
-  text += pulls_text(output, r);
+  text += tensile_text(output, r);
   text += "\n" + wrapped(fmt::format("Planets' spread: {:.3g} b_c, the largest difference between their deflections.",
                                      r.point.meshes.planet_spread));
   return text;

@@ -61,15 +61,15 @@ WrittenPoints draw_picture(const ComputedPoints& all, reports::SweepFigure figur
 
 WrittenPoints write_points(const ComputedPoints& all) {
   reports::write_points_csv(all.folder / "points.csv", all.points);
-  std::size_t settling = 0;
+  std::size_t converging = 0;
   for (std::size_t i = 0; i < all.points.count; ++i)
-    settling += studies::still_converging(all.points.read_summary(i), all.input.study.recording()) ? 1 : 0;
+    converging += studies::still_converging(all.points.read_summary(i), all.input.study.recording()) ? 1 : 0;
   WrittenPoints written;
-  if (settling > 0)
+  if (converging > 0)
     written.notes.push_back(
         fmt::format("{} not reached their attractor (recurrence_error_late below recurrence_error): "
                     "/study/classification_periods > 0 or a larger /study/transient_periods decides them",
-                    counted(settling, "undecided points had", "undecided point had")));
+                    counted(converging, "undecided points had", "undecided point had")));
   return written;
 }
 

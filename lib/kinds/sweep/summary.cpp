@@ -39,10 +39,10 @@ std::string range_text(double from, double to, int digits, const AxisWords& word
 /// What is kept of a point.
 struct Place {
   double value = 0;
-  std::string motion;  ///< or the status
+  std::string regime;  ///< or the status
   bool periodic = false;
   bool comparable = false;  ///< reached, and settled where the motion is periodic
-  bool told = false;        ///< whether it is known, by more than recurrence, what the motion is
+  bool classified = false;  ///< whether it is known, by more than recurrence, what the motion is
   double sun_range = 0;
   std::vector<double> orbit{};  ///< a state of it at the section, where the motion is periodic by evidence
   std::size_t index = 0;        ///< of the point
@@ -51,10 +51,10 @@ struct Place {
 Place place_of(const PointSummary& r) {
   Place p;
   p.value = r.point.value;
-  p.motion = reached(r) ? regime_name(r) : store::status_word(r.outcome);
+  p.regime = reached(r) ? regime_name(r) : store::status_word(r.outcome);
   p.periodic = reached(r) && r.regime == analysis::Regime::periodic;
-  p.comparable = reached(r) && !r.is_unsettled();
-  p.told = reached(r) && r.classified && r.regime != analysis::Regime::undecided;
+  p.comparable = reached(r) && !r.is_unconverged();
+  p.classified = reached(r) && r.classified && r.regime != analysis::Regime::undecided;
   if (p.comparable) {
     p.sun_range = r.meshes.sun_planet.front().delta.range();
   }
@@ -149,30 +149,30 @@ class Summary {
   Summary(const SweepOutput& output, const studies::PointSource& points)
       : output_(output), words_(axis_words(output.sweep.axis.name, output.speed)), points_(points) {
     const auto& directions = output.sweep.directions;
-    ways_.resize(directions.size());
+    directions_.resize(directions.size());
     const std::size_t each = directions.empty() ? 0 : points.count / directions.size();
     for (std::size_t k = 0; k < points.count && each > 0; ++k) {
       const PointSummary r = points.read_summary(k);
-      const std::size_t way = std::min(k / each, directions.size() - 1);
-      ways_[way].push_back(place_of(r));
+      const std::size_t direction = std::min(k / each, directions.size() - 1);
+      directions_[direction].push_back(place_of(r));
       failed_ += reached(r) ? 0 : 1;
       if (reached(r)) doubt(r);
-      if (reached(r) && !r.is_unsettled()) see(r);
+      if (reached(r) && !r.is_unconverged()) see(r);
     }
-    for (auto& way : ways_) std::ranges::sort(way, {}, &Place::value);
+    for (auto& places : directions_) std::ranges::sort(places, {}, &Place::value);
   }
 
-  SweepSummary told() {
+  SweepSummary result() {
     SweepSummary s;
     s.text = fmt::format("# {}: results of the sweep\n\n", markdown_cell(output_.title));
     std::size_t points = 0;
-    for (const auto& way : ways_) points += way.size();
+    for (const auto& places : directions_) points += places.size();
     const studies::Axis& axis = output_.sweep.axis;
     s.text += fmt::format("{} points along `{}`, {} to {}", points, words_.name, place(axis.from), place(axis.to));
     if (words_.name != axis.name)
       s.text += fmt::format(" (`{}` {} to {})", axis.name, short_text(axis.from, place_digits),
                             short_text(axis.to, place_digits));
-    for (std::size_t w = 0; w < ways_.size(); ++w) s.text += (w == 0 ? ", " : " and ") + way_word(w);
+    for (std::size_t w = 0; w < directions_.size(); ++w) s.text += (w == 0 ? ", " : " and ") + word_of(w);
     s.text += failed_ > 0 ? fmt::format("; {} failed.\n", failed_) : std::string(".\n");
     s.text += windows();
     add_unlike(s);
@@ -185,7 +185,7 @@ class Summary {
   const SweepOutput& output_;
   AxisWords words_;
   const studies::PointSource& points_;
-  std::vector<std::vector<Place>> ways_;                                      ///< of each direction, by rising value
+  std::vector<std::vector<Place>> directions_;                                ///< of each direction, by rising value
   std::size_t failed_ = 0, undecided_ = 0, not_converged_ = 0, tensile_ = 0;  ///< points
   std::size_t coarse_ = 0;                                                    ///< points with uncertain largest forces
   double force_error_ = 0;                                                    ///< largest of the points
@@ -195,13 +195,13 @@ class Summary {
 
   [[nodiscard]] std::string place(double value) const { return words_.text(value, place_digits); }
 
-  [[nodiscard]] std::string way_word(std::size_t way) const {
-    return store::direction_word(output_.sweep.directions[way]);
+  [[nodiscard]] std::string word_of(std::size_t direction) const {
+    return store::direction_word(output_.sweep.directions[direction]);
   }
 
   void doubt(const PointSummary& r) {
     undecided_ += r.regime == analysis::Regime::undecided ? 1 : 0;
-    not_converged_ += r.is_unsettled() ? 1 : 0;
+    not_converged_ += r.is_unconverged() ? 1 : 0;
     force_error_ = std::max(force_error_, r.meshes.force_error);
     coarse_ += r.meshes.force_error > force_error_limit ? 1 : 0;
     if (!r.has_tension()) return;
@@ -230,16 +230,16 @@ class Summary {
     constexpr std::size_t fewest = 3;
     std::string rows;
     std::size_t between = 0;
-    for (std::size_t w = 0; w < ways_.size(); ++w) {
-      const std::vector<Place>& way = ways_[w];
+    for (std::size_t w = 0; w < directions_.size(); ++w) {
+      const std::vector<Place>& places = directions_[w];
       for (const Run& run :
-           runs(way.size(), [&](std::size_t a, std::size_t b) { return way[a].motion == way[b].motion; })) {
+           runs(places.size(), [&](std::size_t a, std::size_t b) { return places[a].regime == places[b].regime; })) {
         if (run.count < fewest) {
           between += run.count;
           continue;
         }
-        rows += fmt::format("| {} | {} | {} | {} | {} |\n", way_word(w), way[run.first].motion,
-                            place(way[run.first].value), place(way[run.first + run.count - 1].value), run.count);
+        rows += fmt::format("| {} | {} | {} | {} | {} |\n", word_of(w), places[run.first].regime,
+                            place(places[run.first].value), place(places[run.first + run.count - 1].value), run.count);
       }
     }
     std::string text = "\n## Windows\n\nEach row is at least three neighbouring points of one regime and period";
@@ -252,8 +252,8 @@ class Summary {
 
   /// Are they known to be two motions? One is periodic then; tori and chaos are told apart by records that end.
   [[nodiscard]] bool are_unlike(const Place& a, const Place& b) const {
-    if (!a.told || !b.told || (!a.periodic && !b.periodic)) return false;
-    if (a.motion != b.motion) return true;
+    if (!a.classified || !b.classified || (!a.periodic && !b.periodic)) return false;
+    if (a.regime != b.regime) return true;
     // Records may be on their way to one orbit for long: it is as near to the other's orbit then as to its own.
     constexpr double apart = 1e-3;  // [b_c, b_c per tau]
     constexpr double times = 10.0;
@@ -273,24 +273,24 @@ class Summary {
   }
 
   void add_unlike(SweepSummary& s) const {
-    if (ways_.size() != 2 || ways_[0].size() != ways_[1].size()) return;
-    const std::vector<Place>& up = ways_[0];
-    const std::vector<Place>& down = ways_[1];
+    if (directions_.size() != 2 || directions_[0].size() != directions_[1].size()) return;
+    const std::vector<Place>& up = directions_[0];
+    const std::vector<Place>& down = directions_[1];
     std::size_t values = 0;
-    std::size_t untold = 0;
+    std::size_t not_compared = 0;
     std::string rows;
     std::vector<std::pair<double, double>> stretches;  // of one pair of motions or several, next to each other
     std::vector<bool> unlike;
     for (std::size_t k = 0; k < up.size(); ++k) unlike.push_back(are_unlike(up[k], down[k]));
     const auto alike = [&](std::size_t a, std::size_t b) {
       return unlike[a] == unlike[b] &&
-             (!unlike[a] || (up[a].motion == up[b].motion && down[a].motion == down[b].motion));
+             (!unlike[a] || (up[a].regime == up[b].regime && down[a].regime == down[b].regime));
     };
     for (const Run& run : runs(up.size(), alike)) {
       const std::size_t last = run.first + run.count - 1;
       if (!unlike[run.first]) {
         for (std::size_t k = run.first; k <= last; ++k)
-          untold += up[k].told && down[k].told && up[k].periodic && down[k].periodic ? 0 : 1;
+          not_compared += up[k].classified && down[k].classified && up[k].periodic && down[k].periodic ? 0 : 1;
         continue;
       }
       values += run.count;
@@ -298,19 +298,19 @@ class Summary {
         stretches.back().second = up[last].value;
       else
         stretches.emplace_back(up[run.first].value, up[last].value);
-      const auto extents = [&](const std::vector<Place>& way) {
+      const auto extents = [&](const std::vector<Place>& places) {
         std::vector<double> there;
         for (std::size_t k = run.first; k <= last; ++k)
-          if (way[k].comparable) there.push_back(way[k].sun_range);
+          if (places[k].comparable) there.push_back(places[k].sun_range);
         if (there.empty()) return std::string("not converged");
         return range_text(std::ranges::min(there), std::ranges::max(there), 3);
       };
       rows += fmt::format("| {} | {} | {} | {} | {} |\n",
-                          range_text(up[run.first].value, up[last].value, place_digits, words_), up[run.first].motion,
-                          down[run.first].motion, extents(up), extents(down));
+                          range_text(up[run.first].value, up[last].value, place_digits, words_), up[run.first].regime,
+                          down[run.first].regime, extents(up), extents(down));
     }
-    const std::string first = way_word(0);
-    const std::string second = way_word(1);
+    const std::string first = word_of(0);
+    const std::string second = word_of(1);
     s.text += fmt::format("\n## {} and {}\n\n", first == "up" ? "Up" : "Down", second);
     s.numbers["unlike"] = {{"values", values}, {"of", up.size()}};
     if (values == 0) {
@@ -324,10 +324,10 @@ class Summary {
       if (stretches.size() > most) list += fmt::format(" and {} more", stretches.size() - most);
       s.lines.push_back(fmt::format("two attractors coexist at {} of {} values: {}", values, up.size(), list));
     }
-    if (untold > 0)
+    if (not_compared > 0)
       s.text +=
           fmt::format(". At {} the comparison is not possible: neither attractor is periodic, or one is not classified",
-                      counted(untold, "values", "value"));
+                      counted(not_compared, "values", "value"));
     s.text += ".\n";
     if (!rows.empty())
       s.text +=
@@ -391,7 +391,7 @@ class Summary {
 }  // namespace
 
 SweepSummary sweep_summary(const SweepOutput& output, const studies::PointSource& points) {
-  return Summary(output, points).told();
+  return Summary(output, points).result();
 }
 
 }  // namespace epicyclic::kinds

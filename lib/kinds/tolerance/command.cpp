@@ -149,9 +149,9 @@ void print_result(const Arguments& arguments, const store::OutputFolder& folder,
 /// statistics over fewer periods.
 Expected time_of_tolerance(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
                            const TimeLimit& limit) {
-  const auto& asked = input.study.plan.as<kinds::TolerancePlan>();
-  const studies::SweepOptions& sweep = asked.sweep;
-  const auto& options = asked.tolerance;
+  const auto& study_plan = input.study.plan.as<kinds::TolerancePlan>();
+  const studies::SweepOptions& sweep = study_plan.sweep;
+  const auto& options = study_plan.tolerance;
   constexpr int few = 60;
   studies::ToleranceOptions fewer = options;
   fewer.chaotic_periods = std::min(options.chaotic_periods, few);
@@ -219,7 +219,8 @@ int run_tolerance(const Arguments& arguments) {
   };
   if (stop_requested()) {
     close_run(store::RunState::stopped);
-    tell("stopped after {} of {} points; re-run the same command to resume\n", points.size(), plan.points.size());
+    print_message("stopped after {} of {} points; re-run the same command to resume\n", points.size(),
+                  plan.points.size());
     return stopped_early;
   }
 

@@ -219,7 +219,7 @@ std::string quantities_text(const ToleranceOutput& output, const std::vector<Tol
       text += fmt::format(" {} ({:+.1e}) |", with_error(study[k], error_bar(p, k)), p.between_phases[k]);
     const LadderStep* own = study_step(p, output.integrator);
     text += fmt::format(" {} | {:.1g} | {:.6g} | {:.1g} | {:.1g} |\n",
-                        own == nullptr ? "" : fmt::format("{:.1g}", own->orbit_error), p.settled_distance,
+                        own == nullptr ? "" : fmt::format("{:.1g}", own->orbit_error), p.distance_from_orbit,
                         p.largest_multiplier, p.reference_residual, p.table_displacement);
   }
   return text;

@@ -1,9 +1,8 @@
-#include "studies/known_motions.hpp"
-
 #include <utility>
 
 #include "analysis/attractors.hpp"
 #include "analysis/periodic_orbit.hpp"
+#include "studies/known_motions.hpp"
 #include "studies/motion.hpp"
 
 namespace epicyclic::studies {
@@ -42,27 +41,27 @@ std::vector<double> state_on(const PointResult& point, std::size_t dimension) {
   return state;
 }
 
-KnownMotions motions_known_at(const SweepPlan& plan, const PointSource& points, std::size_t point, bool basins,
-                              const model::DynamicModel& model, const integrate::IntegratorOptions& integrator) {
+KnownAttractors attractors_known_at(const SweepPlan& plan, const PointSource& points, std::size_t point, bool basins,
+                                    const model::DynamicModel& model, const integrate::IntegratorOptions& integrator) {
   const GridPoint here = plan.points[point];
-  std::vector<std::size_t> looked_at;
+  std::vector<std::size_t> considered;
   std::vector<PointSummary> results;
   for (const GridPoint& other : plan.points) {
     if (!basins && (other.value != here.value || other.second_value != here.second_value)) continue;
     PointResult r = points.read(other.index);
     r.attractor = record_of(r, model, integrator);
-    looked_at.push_back(other.index);
+    considered.push_back(other.index);
     results.push_back(std::move(r));
   }
   std::vector<std::string> names;
   for (const PointSummary& r : results) names.push_back(regime_name(r));
-  const analysis::Attractors attractors = attractors_of(results, planet_turns(model, integrator));
-  KnownMotions known;
-  known.looked_at = looked_at.size();
+  const analysis::Attractors attractors = attractors_of(results, planet_rotations(model, integrator));
+  KnownAttractors known;
+  known.considered = considered.size();
   for (const analysis::Attractor& a : attractors.all)
-    known.all.push_back({looked_at[a.members.front()], names[a.members.front()], a.members.size(), a.image_of});
-  for (std::size_t k = 0; k < looked_at.size(); ++k)
-    if (looked_at[k] == point) known.here = attractors.number[k];
+    known.all.push_back({considered[a.members.front()], names[a.members.front()], a.members.size(), a.image_of});
+  for (std::size_t k = 0; k < considered.size(); ++k)
+    if (considered[k] == point) known.here = attractors.number[k];
   return known;
 }
 

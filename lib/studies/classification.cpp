@@ -1,11 +1,10 @@
-#include "studies/motion.hpp"
-
 #include <algorithm>
 #include <utility>
 
 #include "analysis/regime_flows.hpp"
 #include "integrate/methods.hpp"
 #include "model/layout.hpp"
+#include "studies/motion.hpp"
 
 namespace epicyclic::studies {
 
@@ -22,9 +21,9 @@ double map_error(const integrate::IntegratorOptions& integrator) {
   return std::max(analysis::RegimeOptions{}.residual, 3.0 * integrator.relative_tolerance);
 }
 
-MotionClass classify_motion(const VectorField& field, std::vector<double>& state, const RecordingOptions& recording,
-                            const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on,
-                            const analysis::PoincareSection* seen, const integrate::FlowMaker& make_flow) {
+ClassifiedState classify_state(const VectorField& field, std::vector<double>& state, const RecordingOptions& recording,
+                               const integrate::IntegratorOptions& integrator, const std::function<bool()>& go_on,
+                               const analysis::PoincareSection* seen, const integrate::FlowMaker& make_flow) {
   const analysis::RegimeFlows flows = analysis::make_regime_flows(field, integrator, make_flow);
   analysis::RegimeOptions options = flows.options();
   options.budget = std::max(options.window, recording.classification_periods);
@@ -32,10 +31,10 @@ MotionClass classify_motion(const VectorField& field, std::vector<double>& state
   options.longest_period = recording.period_max;
   options.residual = map_error(integrator);
   options.observable = std::min(model::Slots::w_s, field.dimension - 1);
-  MotionClass motion;
-  motion.told = analysis::classify(*flows.windows, state, options, go_on, seen);
-  motion.right_hand_sides = flows.right_hand_side_calls();
-  return motion;
+  ClassifiedState classified;
+  classified.classification = analysis::classify(*flows.windows, state, options, go_on, seen);
+  classified.right_hand_sides = flows.right_hand_side_calls();
+  return classified;
 }
 
 }  // namespace epicyclic::studies

@@ -18,24 +18,24 @@ namespace epicyclic::studies {
 [[nodiscard]] std::vector<double> state_on(const PointResult& point, std::size_t dimension);
 
 /// A motion, and a point that moves like that.
-struct KnownMotion {
+struct KnownAttractor {
   std::size_t point = 0;
-  std::string motion;        ///< "period 2"
+  std::string regime;        ///< "period 2"
   std::size_t points = 0;    ///< that move so, of those that were looked at
   std::size_t image_of = 0;  ///< it is this one's image under a turn of the planets, counted from 1; 0: of none
 };
 
-struct KnownMotions {
-  std::vector<KnownMotion> all;  ///< each once [analysis/attractors.hpp], in the order of their first points
-  std::size_t here = 0;          ///< which of them the point is on, counted from 1; 0: on none
-  std::size_t looked_at = 0;     ///< points
+struct KnownAttractors {
+  std::vector<KnownAttractor> all;  ///< each once [analysis/attractors.hpp], in the order of their first points
+  std::size_t here = 0;             ///< which of them the point is on, counted from 1; 0: on none
+  std::size_t considered = 0;       ///< points
 };
 
 /// At the values of a point: of basins all cells, of a sweep or a map the points of its other directions.
 /// @param model  there
 /// @param basins the points are cells of one operating point
-[[nodiscard]] KnownMotions motions_known_at(const SweepPlan& plan, const PointSource& points, std::size_t point,
-                                            bool basins, const model::DynamicModel& model,
-                                            const integrate::IntegratorOptions& integrator);
+[[nodiscard]] KnownAttractors attractors_known_at(const SweepPlan& plan, const PointSource& points, std::size_t point,
+                                                  bool basins, const model::DynamicModel& model,
+                                                  const integrate::IntegratorOptions& integrator);
 
 }  // namespace epicyclic::studies

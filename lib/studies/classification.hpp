@@ -28,8 +28,8 @@ namespace epicyclic::studies {
 /// tolerances [-].
 [[nodiscard]] double map_error(const integrate::IntegratorOptions& integrator);
 
-struct MotionClass {
-  analysis::Classification told;
+struct ClassifiedState {
+  analysis::Classification classification;
   long right_hand_sides = 0;
 };
 
@@ -37,11 +37,11 @@ struct MotionClass {
 /// @param state  replaced by the last state
 /// @param look   classification_periods and period_max are read
 /// @param seen   a section of this very motion that ends in `state`; may be null
-[[nodiscard]] MotionClass classify_motion(const VectorField& field, std::vector<double>& state,
-                                          const RecordingOptions& recording,
-                                          const integrate::IntegratorOptions& integrator,
-                                          const std::function<bool()>& go_on,
-                                          const analysis::PoincareSection* seen = nullptr,
-                                          const integrate::FlowMaker& make_flow = make_flow_of_one_trajectory);
+[[nodiscard]] ClassifiedState classify_state(const VectorField& field, std::vector<double>& state,
+                                             const RecordingOptions& recording,
+                                             const integrate::IntegratorOptions& integrator,
+                                             const std::function<bool()>& go_on,
+                                             const analysis::PoincareSection* seen = nullptr,
+                                             const integrate::FlowMaker& make_flow = make_flow_of_one_trajectory);
 
 }  // namespace epicyclic::studies
