@@ -25,7 +25,7 @@ namespace {
 using nlohmann::json;
 using studies::PointVerdict;
 
-/// Says in what the study is not the one that the points are expected of.
+/// Reports the differences between the study and the one of the expected points.
 int report_unlike(const std::vector<std::string>& lines, const std::filesystem::path& junit,
                   const Arguments& arguments) {
   constexpr std::size_t most = 5;
@@ -85,7 +85,7 @@ int assert_command(const Arguments& arguments) {
   try {
     return compare(arguments, junit);
   } catch (const InputError& error) {
-    // What an earlier run has left there would pass for the verdicts of this one.
+    // Files of an earlier run would pass for the verdicts of this one.
     if (!junit.empty())
       write_file_atomically(
           junit, reports::error_junit_text(arguments.input.string(), "nothing could be compared", error.what()));

@@ -37,7 +37,7 @@ std::string time_of(const input::LoadedInput& input, const studies::SweepPlan& p
                      expected.besides, expected.measured);
 }
 
-/// The speeds of the study's points as people know them, and what of the stage decides how much is excited there.
+/// The speeds of the study's points in usual units, and the stage values that determine their excitation.
 void print_operation(const input::LoadedInput& input) {
   double from = input.study.mesh_frequency_ratio;
   double to = from;

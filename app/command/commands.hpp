@@ -59,7 +59,7 @@ struct Arguments {
   bool record = false;             ///< of assert and reproduce: what was found becomes what is expected
   bool no_time = false;            ///< of check: time is not measured
   bool quiet = false;              ///< part of another command: nothing on stdout
-  std::vector<std::string> words;  ///< of keys: what is looked for
+  std::vector<std::string> words;  ///< of keys: what the user searches for
   PlotArguments plot{};
   InitArguments init{};
   Ranks* ranks = nullptr;

@@ -23,7 +23,7 @@ Expected time_with_checks(const input::LoadedInput& input, const studies::SweepP
   studies::SweepRun run;
   run.threads = threads;
   run.stop = &limit.over();
-  // Half of the time for points; the rest is for what comes after them.
+  // Half of the time for points; the rest is for the results after them.
   const auto m = studies::measure_miniatures(
       plan, studies::smallest_miniature(input.study.integrator, threads), seconds_of(measured_for) / 2.0, threads,
       [&](const studies::SweepPlan& miniature, studies::LaneUse& lanes) {

@@ -22,8 +22,8 @@
 
 namespace epicyclic::app {
 
-/// Time that is spent on measuring, whatever the points take, and until it is given up where it does not look at the
-/// clock: in a mesh period that takes minutes.
+/// Time limit of the measurement, however long the points take. Work that does not check the clock, within a mesh
+/// period of minutes, is abandoned at this limit.
 constexpr std::chrono::milliseconds measured_for{4000};
 constexpr std::chrono::milliseconds given_up_after{4700};
 
@@ -47,7 +47,7 @@ class TimeLimit {
     clock_.join();
   }
 
-  /// Work that looks at this returns soon once it is true.
+  /// Work that checks this flag returns soon once it is true.
   [[nodiscard]] const std::atomic<bool>& over() const { return over_; }
 
   /// @returns nothing if it was left behind: then the program has to end by leave()
@@ -93,7 +93,7 @@ struct Expected {
   double seconds = 0;
   double at_least = 0;      ///< if time was over before all that was to be measured was done; else 0
   std::string measured{};   ///< in words
-  bool one_thread = false;  ///< it is computed by one thread, whatever is asked for
+  bool one_thread = false;  ///< one thread computes it, whatever number of threads is set
   std::string besides{};    ///< what takes time and is not measured, in words
 };
 

@@ -1,4 +1,4 @@
-// An exception as what the command line tells: an exit code and one message.
+// An exception as the command line reports it: an exit code and one message.
 #pragma once
 
 #include <exception>

@@ -31,7 +31,7 @@
 #include "streams.hpp"
 #include "studies/branches_options.hpp"
 #include "studies/cost_estimate.hpp"
-#include "studies/known_motions.hpp"
+#include "studies/known_attractors.hpp"
 #include "studies/plane_options.hpp"
 
 namespace epicyclic::app {
@@ -50,7 +50,7 @@ json complete_run(const std::filesystem::path& folder) {
   return run.value;
 }
 
-/// The files of the manifest as they were left.
+/// The unchanged files of the manifest.
 /// @throws DamagedData
 void require_unchanged(const std::filesystem::path& folder, const json& run, const std::vector<std::string>& names) {
   const auto manifest = store::manifest_from(run.value("files", json()));
@@ -266,7 +266,7 @@ std::string point_words(const FinishedStudy& from, const studies::PointSummary& 
          (r.outcome == integrate::Outcome::reached ? studies::regime_name(r) : store::status_word(r.outcome));
 }
 
-/// What else the study knows at the values of a point, a line each.
+/// Other attractors of the study at the values of a point, a line each.
 std::vector<std::string> other_attractors(const FinishedStudy& from, std::size_t point,
                                           const model::DynamicModel& model) {
   const bool basins = from.input().study.plan.get_if<studies::BasinsOptions>() != nullptr;
@@ -400,7 +400,7 @@ class Sower {
     return r.outcome == integrate::Outcome::reached && r.regime == analysis::Regime::periodic;
   }
 
-  /// What rates and Omega of the donor are to be multiplied by: they are in the scale of time of its stage.
+  /// Factor for rates and Omega of the donor: they are in the scale of time of its stage.
   [[nodiscard]] double slower(const FinishedStudy& from) const {
     return input::time_scale(from.input()) / input::time_scale(study_);
   }
@@ -415,7 +415,7 @@ class Sower {
     return scale * input::given_value(from.input(), options_.parameter);
   }
 
-  /// From the middle of a stretch to two steps of the grid beyond its ends; 0 where the donor varies something else.
+  /// From the middle of a stretch to two steps of the grid beyond its ends; 0 if the donor varies another parameter.
   [[nodiscard]] double reach_of(const FinishedStudy& from, std::size_t first, std::size_t middle,
                                 std::size_t last) const {
     const double here = value_of(from, middle);

@@ -69,7 +69,7 @@ struct FinishedBranches {
 /// @throws InputError when there are no complete branches in it, DamagedData when its files are not what they were
 [[nodiscard]] FinishedBranches finished_branches(const std::filesystem::path& folder);
 
-/// What --from asks for: a folder, and one of its points or none.
+/// The argument of --from: a folder, and one of its points or none.
 struct Donor {
   std::filesystem::path folder;
   std::string text;                               ///< as given
@@ -90,11 +90,11 @@ struct Donor {
 /// @throws InputError where the study has no such point; of a value, none within half a step
 [[nodiscard]] std::size_t point_of(const Donor& donor, const FinishedStudy& from);
 
-/// The study of `run`, `crosscheck` or `tolerance`, started from the point that --from names, if it is given: that of
-/// INPUT with the point's state as its initial one, or without INPUT the point itself.
-/// Says on stderr where it starts, and which other motions are known there.
-/// @param notes  takes what was said, if it is not null
-/// @throws InputError without INPUT and --from, with several, and where there is no such point or it has no state
+/// The study of `run`, `crosscheck` or `tolerance`. With --from, it starts from the point that --from names. With
+/// INPUT, it is that of INPUT, with the point's state as its initial state. Without INPUT, it is the point itself.
+/// Prints on stderr where the study starts, and which other attractors are known there.
+/// @param notes  receives what was printed, if it is not null
+/// @throws InputError without INPUT and --from, with several, if there is no such point, and if it has no state
 [[nodiscard]] input::LoadedInput with_start(const Arguments& arguments, std::string_view kind,
                                             std::vector<std::string>* notes = nullptr);
 

@@ -155,7 +155,8 @@ std::string resolved_text(const input::LoadedInput& input) { return input.resolv
 std::string write_inputs(const store::OutputFolder& folder, const input::LoadedInput& input) {
   std::string resolved = resolved_text(input);
   write_file_atomically(folder.file("input.json"), input.study_file.bytes);
-  // Names of ours alone: by the user's, a copy could take the place of any other file here. run.json has those.
+  // The program chooses these names: a copy under the user's name could replace another file here. run.json has the
+  // user's names.
   if (input.stage_file) write_file_atomically(folder.file("input.stage.json"), input.stage_file->bytes);
   write_file_atomically(folder.file("input.resolved.json"), resolved);
   return resolved;

@@ -1,5 +1,5 @@
-// epicyclic gear: what follows from the stage alone: geometry, stiffness, load sharing of tooth pairs, friction,
-// bearings, modes.
+// epicyclic gear: results of the stage alone: geometry, stiffness, load sharing of tooth pairs, friction, bearings,
+// modes.
 
 #include <nlohmann/json.hpp>
 
@@ -20,7 +20,7 @@ int gear_command(const Arguments& arguments) {
   const reports::GearOutput written = reports::write_gear_output(folder.path(), input);
   session.end(store::RunState::complete, {{"undrawn", static_cast<std::int64_t>(written.undrawn.size())}});
   for (const std::string& line : written.undrawn) print_message("figure not drawn: {}\n", line);
-  // As part of another command: figures that are missing are its concern too, words on the stage were said.
+  // Another command that calls this one reports missing figures, too; it has printed the warnings of the stage.
   if (arguments.quiet) return written.undrawn.empty() ? done : done_with_failures;
   for (const std::string& line : written.warnings) print_message("warning: {}\n", line);
   for (const std::string& line : written.verdicts) print_message("{}\n", line);

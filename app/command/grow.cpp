@@ -15,7 +15,7 @@ namespace epicyclic::app {
 
 namespace {
 
-/// What may be another in the larger study: its grid, and what is done with finished points.
+/// Values that may differ in the larger study: its grid, and the use of finished points.
 bool may_grow(std::string_view pointer) {
   constexpr std::array<std::string_view, 9> free = {
       "/name",           "/study/from",       "/study/to",    "/study/points", "/study/directions",

@@ -1,4 +1,4 @@
-// epicyclic init: a stage and studies of one's own to begin with.
+// epicyclic init: a stage and studies for a new user to begin with.
 
 #include <array>
 #include <filesystem>
@@ -87,7 +87,7 @@ int init_command(const Arguments& arguments) {
       write_file_atomically(folder / name,
                             content.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
     for (const char* name : {sweep_name, run_name}) {
-      give_up_if_stopped();  // none of them is kept, since the same command would not write over them
+      give_up_if_stopped();  // none of them is kept, since the same command would not overwrite them
       for (const std::string& warning : input::warnings(input::load_input(folder / name)))
         if (name == sweep_name) print_message("{}\n", warning);
     }

@@ -39,7 +39,7 @@ bool names(const input::Alias& alias, const std::vector<std::string>& words, boo
   });
 }
 
-/// The new names of what the words are the old name of, a line each.
+/// The new names for words that are old names, a line each.
 bool print_new_names(const std::vector<std::string>& words, bool known) {
   std::vector<std::string> lines;
   for (const input::Alias& alias : input::aliases())

@@ -35,7 +35,7 @@ std::string version_text() {
 
 namespace {
 
-/// Runs a subcommand; every exception becomes an exit code and one message, whatever the number of ranks.
+/// Runs a subcommand; every exception becomes an exit code and one message, for any number of ranks.
 int guarded(const Ranks& ranks, const std::function<int()>& command) {
   try {
     return command();
@@ -53,9 +53,9 @@ int own_cores() {
   return ::sched_getaffinity(0, sizeof cores, &cores) == 0 ? std::max(1, CPU_COUNT(&cores)) : 1;
 }
 
-/// What was probably meant by a command or an option that is not known; empty if all are.
+/// The command or option that was probably meant by an unknown one; empty if all are known.
 std::string probably_meant(const CLI::App& cli, const CLI::ParseError& error) {
-  // What is left over: of the command if one is known, else the first is its name.
+  // The remaining words: of the command if one is known, else the first is its name.
   if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr &&
       dynamic_cast<const CLI::RequiredError*>(&error) == nullptr)
     return {};
@@ -78,13 +78,13 @@ std::string probably_meant(const CLI::App& cli, const CLI::ParseError& error) {
   return text;
 }
 
-/// --help, --version and what is wrong with the command line; once, whatever the number of ranks.
+/// --help, --version and errors of the command line; once, for any number of ranks.
 int answer(const CLI::App& cli, const CLI::ParseError& error, const Ranks& ranks) {
   std::ostringstream data, words;
   const int code = cli.exit(error, data, words) == 0 ? done : bad_input;
   if (ranks.rank() == 0) {
     const std::string meant = probably_meant(cli, error);
-    // That a subcommand is required is not what is wrong with one that is not known.
+    // For an unknown subcommand, the message that one is required would mislead.
     const bool known = meant.empty() || !cli.get_subcommands().empty();
     write_words(meant + (known ? words.str() : "Run with --help for more information.\n"));
     write_data(data.str());

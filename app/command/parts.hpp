@@ -34,7 +34,7 @@ struct WrittenPoints {
   std::vector<std::string> lines{};                   ///< for stdout
   std::vector<std::string> notes{};                   ///< for stderr
   store::Manifest files{};                            ///< that another process put into the folder
-  std::size_t unexplained = 0;                        ///< comparisons, of which the exit code tells
+  std::size_t unexplained = 0;                        ///< comparisons; the exit code reports them
 };
 
 /// Writes files of its own, on any rank and beside the other parts.
@@ -43,8 +43,7 @@ struct ResultsPart {
   std::optional<std::size_t> after{};  ///< an earlier part, whose files this one needs
 };
 
-/// Parts handed out in order to whoever is free, each once. A part whose predecessor is under way is passed over until
-/// that has ended.
+/// Parts, handed out in order to free threads, each once. A part is passed over while the part before it is computed.
 class PartQueue {
  public:
   /// @param parts  must live longer
@@ -76,7 +75,7 @@ class PartQueue {
 
 /// Takes parts on several threads until there are none.
 /// @param written  of all parts; those taken here are stored
-/// @throws the first exception of a part, after those under way have ended; the queue is closed then
+/// @throws the first exception of a part, after the parts in progress have ended; the queue is then closed
 void write_parts(const std::vector<ResultsPart>& parts, const ComputedPoints& computed, int threads, PartQueue& queue,
                  std::vector<WrittenPoints>& written);
 

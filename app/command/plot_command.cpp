@@ -1,4 +1,4 @@
-// epicyclic plot: figures of what finished studies left in their folders, without computing.
+// epicyclic plot: figures of the stored results of finished studies, without computing.
 
 #include <algorithm>
 #include <charconv>
@@ -62,7 +62,7 @@ figures::FigureCanvas parse_canvas(const PlotArguments& plot) {
   }
   constexpr double usual_font = 24;
   canvas.scale = plot.font / usual_font;
-  // What is left for the layout, in pixels of the usual font.
+  // Remaining room for the layout, in pixels of the usual font.
   canvas.width = static_cast<int>(std::lround(canvas.width / canvas.scale));
   canvas.height = static_cast<int>(std::lround(canvas.height / canvas.scale));
   if (canvas.width < 2 * least || canvas.height < 2 * least)
@@ -89,7 +89,7 @@ std::string column_of_today(const std::string& name) {
   return std::string(alias->new_name);
 }
 
-/// The folder for the figures; not one that a study lives in, nor one in such a one.
+/// The folder for the figures; not the folder of a study, nor one inside it.
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   for (auto of = std::filesystem::weakly_canonical(folder, error); !of.empty(); of = of.parent_path()) {
@@ -152,7 +152,7 @@ int plot_command(const Arguments& arguments) {
     print("{}\n", summary_json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   else
     for (const auto& figure : summary_json["figures"]) print("figure: {}\n", figure.get<std::string>());
-  // A figure that is asked for by name is missed, too, where there is nothing to draw.
+  // A figure that is requested by name is also missing if there is nothing to draw.
   return std::ranges::all_of(figures, [](const auto& figure) { return figure.outcome.drawn(); }) ? done
                                                                                                  : done_with_failures;
 }

@@ -29,7 +29,7 @@
 #include "store/output_folder.hpp"
 #include "store/point_store.hpp"
 #include "streams.hpp"
-#include "studies/motion.hpp"
+#include "studies/classification.hpp"
 #include "studies/sweep.hpp"
 
 namespace epicyclic::app {
@@ -38,9 +38,9 @@ namespace {
 
 bool computed(const studies::PointSummary& r) { return r.outcome == integrate::Outcome::reached; }
 
-/// Computes what the store does not hold.
+/// Computes the points that the store does not have.
 /// @param leader  of the other ranks; null: there are none
-/// @param lanes   what lanes did, if there were any
+/// @param lanes   use of the lanes, if there were any
 /// @returns how many points of all failed
 std::size_t compute_missing(const Arguments& arguments, std::string_view command, std::string_view noun,
                             const input::LoadedInput& input, const studies::SweepPlan& plan,
@@ -120,7 +120,7 @@ struct Doubts {
   }
 };
 
-/// A command whose results are about what is not certain, or about bifurcations; empty: none is known.
+/// A command that examines uncertain results or bifurcations further; empty: none is known.
 std::string next_command(const Arguments& arguments, const ComputedPoints& all, const Doubts& doubts) {
   const std::string folder = all.folder.string();
   const std::string program = shell_word(arguments.called);
@@ -167,7 +167,7 @@ void write_results(const Arguments& arguments, const std::vector<ResultsPart>& p
   }
 }
 
-/// What was found, what is not certain and what to do about it, on stdout: of a sweep five lines at most.
+/// Results, uncertain results and commands that examine them, on stdout: of a sweep five lines at most.
 void print_result(const Arguments& arguments, std::string_view noun, const ComputedPoints& computed_points,
                   const WrittenPoints& written, std::size_t failed) {
   const studies::PointSource& points = computed_points.points;

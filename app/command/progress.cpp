@@ -17,7 +17,7 @@ namespace epicyclic::app {
 
 namespace {
 
-/// Shortest time between two lines on a terminal, and the longest, after which time left is counted down.
+/// Shortest time between two lines on a terminal, and the longest, after which the remaining time is counted down.
 constexpr std::chrono::milliseconds terminal_interval{100};
 constexpr std::chrono::seconds terminal_silence{1};
 constexpr int widest_bar = 30;
@@ -142,7 +142,7 @@ void Progress::draw(Clock::time_point now, bool last) {
   if (terminal_) {
     const int width = terminal_width(descriptor_) - 1;
     line = progress_line(label_, state_, 0);
-    // The bar takes what the words leave; " []" is three characters.
+    // The bar takes the remaining width; " []" is three characters.
     const int bar = std::min(widest_bar, width - static_cast<int>(line.size()) - 3);
     if (bar >= 5) line = progress_line(label_, state_, bar);
     // A line that wraps could not be redrawn.
@@ -151,7 +151,7 @@ void Progress::draw(Clock::time_point now, bool last) {
   } else {
     line = progress_line(label_, state_, 0) + (last ? fmt::format("  in {}\n", duration_text(elapsed)) : "\n");
   }
-  // A reader that stands still (a pager, a terminal after Ctrl-S) must not hold up the computation.
+  // A reader that does not read (a pager, a terminal after Ctrl-S) must not stop the computation.
   write_without_waiting(descriptor_, line);
 }
 

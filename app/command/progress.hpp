@@ -17,7 +17,7 @@ namespace epicyclic::app {
 /// Of a computation that does not know how much it has to do.
 inline constexpr std::size_t unknown_total = static_cast<std::size_t>(-1);
 
-/// What a progress line tells.
+/// The contents of a progress line.
 struct ProgressState {
   std::size_t done = 0;    ///< units done, those of earlier sessions included
   std::size_t total = 0;   ///< units in all, or unknown_total

@@ -24,7 +24,7 @@ namespace epicyclic::app {
 /// Says on stderr what is allowed in the input, but rarely meant.
 void print_warnings(const input::LoadedInput& input);
 
-/// Holds the folder while it lives, and looks whether it is still there.
+/// Holds the folder while the object lives, and checks that the folder still exists.
 class Session {
  public:
   /// Opens the folder; if the study may be computed in it, writes the inputs and run.json, else says why not.

@@ -16,7 +16,7 @@ namespace epicyclic::app {
 namespace {
 
 std::atomic<bool> requested{false};
-/// What a program that has to be ended says, or nothing, and its code.
+/// The message of a program that has to be ended, or nothing, and its code.
 std::atomic<const char*> words_at_the_end{"stopped before the end; re-run the same command to resume\n"};
 std::atomic<int> code_at_the_end{stopped_early};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
@@ -53,8 +53,8 @@ const std::atomic<bool>& stop_requested() { return requested; }
 
 void leave_at_once(int exit_code) noexcept {
   remove_unfinished_files();
-  // What _exit() is in the C library; with ThreadSanitizer's _exit() threads that nobody waited for would be an error,
-  // and here it is meant that nobody waits.
+  // The same as _exit() of the C library. ThreadSanitizer's _exit() reports threads that nobody waited for as an error,
+  // and here they are left on purpose.
   ::syscall(SYS_exit_group, exit_code);
   __builtin_unreachable();
 }

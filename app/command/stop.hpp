@@ -1,16 +1,16 @@
 // SIGINT, SIGTERM and SIGHUP: stop soon, resumable.
 //
-// The first of them raises a flag, at which a study gives up the points under way, leaves its folder in order and ends
-// with code 75, commonly within milliseconds. What does not look at the flag for a second (a mesh period that takes
-// minutes, the writing of large results) is ended there with the same code: a folder is sound at any moment, as after
-// kill -9, so that this costs nothing but the state "stopped" in run.json. Temporary files of this process are removed:
-// those of `plot` and `assert` stand in folders that no later session tidies.
+// The first of these signals sets a flag. The study then abandons the points in progress, leaves its folder in order
+// and ends with code 75, commonly within milliseconds. Work that does not check the flag for a second is ended there
+// with the same code: a mesh period that takes minutes, the writing of large results. A folder is sound at any moment,
+// as after kill -9. So this loses nothing but the state "stopped" in run.json. The temporary files of this process are
+// removed: those of `plot` and `assert` stand in folders that no later session tidies.
 //
-// main() installs the handlers for each command that writes, before it begins. A command that writes nothing is ended
-// by the signal itself.
+// main() installs the handlers for each command that writes, before it begins. The signal itself ends a command that
+// writes nothing.
 //
-// Ranks have one second for all of it: Open MPI's mpirun passes a SIGTERM or SIGINT on after a second, answers none of
-// them any more, so that MPI's own end waits for nothing, and kills them a second later.
+// Ranks have one second for all of it. Open MPI's mpirun passes a SIGTERM or SIGINT on after a second. From then on it
+// answers no rank, so that MPI's own end waits for nothing. It kills the ranks a second later.
 #pragma once
 
 #include <atomic>
@@ -22,8 +22,8 @@ namespace epicyclic::app {
 /// Set by the first SIGINT, SIGTERM or SIGHUP after stop_on_signals().
 [[nodiscard]] const std::atomic<bool>& stop_requested();
 
-/// What is under way was given up because of stop_requested(). Whoever has a folder open catches it and leaves the
-/// folder in order; anywhere else it ends the command with code 75 [failure_of()].
+/// Work in progress was abandoned because of stop_requested(). The code that has a folder open catches this exception
+/// and leaves the folder in order. Anywhere else it ends the command with code 75 [failure_of()].
 class Stopped : public std::exception {
  public:
   [[nodiscard]] const char* what() const noexcept override { return "stopped; re-run the same command to resume"; }
@@ -44,8 +44,8 @@ constexpr std::chrono::milliseconds patience_for_mpi{300};
 /// To be called once, before anything is written. SIGHUP stays ignored where it is, as under nohup.
 void stop_on_signals(std::chrono::milliseconds until_the_end = patience);
 
-/// As by a signal, but if the program has to be ended, then with these words and this code.
-/// @param last_words  a literal
+/// As by a signal. If the program has to be ended, it ends with this message and this code.
+/// @param last_words  a string with static lifetime
 void stop_soon(int exit_code, const char* last_words);
 
 /// For a rank that has written and said everything: if a signal has come, the program ends after patience_for_mpi at

@@ -15,8 +15,8 @@ namespace epicyclic::app {
 
 namespace {
 
-/// Control characters but line feeds and tabs, of ASCII and of Latin-1 in UTF-8, are written as \u001b. In a string of
-/// JSON that stands for the same.
+/// Control characters but line feeds and tabs, of ASCII and of Latin-1 in UTF-8, are written as \u001b. A string of
+/// JSON has the same meaning with them.
 std::string printable(std::string_view text) {
   std::string safe;
   safe.reserve(text.size());
@@ -52,7 +52,7 @@ void write_words(std::string_view text) noexcept {
   try {
     write_all(STDERR_FILENO, printable(text), "standard error");
   } catch (...) {
-    // There is nobody to tell.
+    // No stream is left for a message.
   }
 }
 

@@ -1,10 +1,10 @@
-// The standard streams: data go to stdout, words to stderr.
+// The standard streams: data go to stdout, messages to stderr.
 //
-// Control characters, such as those in a text of an input, are escaped on both: a terminal shows them
-// and does not obey them.
+// Control characters, such as those in a text of an input, are escaped on both: a terminal shows them and does not obey
+// them.
 //
-// What stdout does not take is an I/O error, told and with a code of its own, like a file that cannot be written:
-// closed, full, or a reader that has gone. Words that stderr does not take are lost: no result depends on them.
+// A failed write to stdout is an I/O error: closed, full, or a reader that has gone. It is reported and has an exit
+// code of its own, like a file that cannot be written. A failed write to stderr is ignored: no result depends on it.
 #pragma once
 
 #include <string_view>

@@ -9,8 +9,8 @@
 
 namespace epicyclic::app {
 
-/// Looks every second whether the folder is still there. When it is not, the study is stopped as by a signal: what
-/// comes next finds the folder gone and says so.
+/// Checks every second that the folder still exists. If it does not, the study stops as by a signal. The code after it
+/// finds the folder missing and reports this.
 class FolderWatch {
  public:
   /// @param folder  must live longer

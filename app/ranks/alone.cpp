@@ -19,7 +19,7 @@ int number_from(std::initializer_list<const char*> names, int otherwise) {
 
 struct Ranks::Outbox {};
 
-/// Enough to say once that several processes cannot work together.
+/// Reports once that several processes cannot work together.
 Ranks::Ranks()
     : rank_(number_from({"OMPI_COMM_WORLD_RANK", "PMI_RANK"}, 0)),
       size_(number_from({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}, 1)) {}

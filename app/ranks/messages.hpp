@@ -1,4 +1,4 @@
-// What all kinds of work on several ranks say to each other alike: who they are, how they ended, when to look.
+// Messages that all kinds of work on several ranks share: names of ranks, how they ended, when to poll.
 #pragma once
 
 #include <atomic>
@@ -24,11 +24,11 @@ namespace epicyclic::app {
 
 using Clock = std::chrono::steady_clock;
 
-/// How long a message may lie before it is looked at: at first, and when nothing was asked or answered for long. Each
-/// look wakes a thread on a core that computes.
+/// Longest time between two checks for messages: at the start, and after a long time without question or answer. Each
+/// check wakes a thread on a core that computes.
 inline constexpr std::chrono::milliseconds poll_interval{2};
 inline constexpr std::chrono::milliseconds rare_poll_interval{20};
-/// How long ranks that were told to stop may take: all of it must fit into the 2 s of a signal.
+/// Time that ranks may take after the message to stop: all of it must fit into the 2 s of a signal.
 inline constexpr std::chrono::milliseconds farewell{1500};
 
 [[nodiscard]] std::string text_of(const nlohmann::json& message);
@@ -47,7 +47,7 @@ std::vector<T> values_of(const std::string& bytes) {
 
 using Index = std::uint64_t;
 
-/// When to look for messages: the sooner, the less time has passed since a question or its answer.
+/// When to check for messages: the sooner, the less time has passed since a question or its answer.
 class Attention {
  public:
   void rouse() { roused_ = Clock::now(); }
@@ -61,7 +61,7 @@ class Attention {
   Clock::time_point roused_ = Clock::now();
 };
 
-/// What a rank tells of itself when it is through, or cannot begin.
+/// The report of a rank that has finished, or that cannot begin.
 [[nodiscard]] nlohmann::json report_of(const Ranks& ranks, const std::exception_ptr& error);
 [[nodiscard]] std::optional<Failure> failure_in(const nlohmann::json& report);
 
@@ -80,7 +80,7 @@ void let_go(Ranks& ranks, int exit_code);
 /// A computation in a thread of its own, because messages belong to the thread that made it.
 class Computation {
  public:
-  /// @param stop  ends it, given that `compute` looks at it
+  /// @param stop  ends it, provided that `compute` checks it
   Computation(std::function<void()> compute, std::atomic<bool>& stop)
       : stop_(stop), worker_([this, compute = std::move(compute)] {
           try {

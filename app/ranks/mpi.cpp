@@ -23,7 +23,7 @@ bool launched() {
 
 }  // namespace
 
-/// Messages under way, with their bytes.
+/// Messages that are being sent, with their bytes.
 struct Ranks::Outbox {
   struct Sent {
     std::string bytes;

@@ -40,7 +40,7 @@ namespace {
 
 using nlohmann::json;
 constexpr std::chrono::milliseconds progress_interval{100};
-/// The chains in which something is left to do, in order. Both arguments must live longer.
+/// The unfinished chains, in order. Both arguments must live longer.
 class OpenChains {
  public:
   OpenChains(const studies::SweepPlan& plan, const std::vector<bool>& done) : plan_(plan), done_(done) {
@@ -53,8 +53,8 @@ class OpenChains {
     return next();
   }
 
-  /// For a rank that has no more: a part of what is left that shrinks towards the end, so that many small chains cost
-  /// few messages and all ranks are through at the same time.
+  /// For a rank that has no more: a part of the remaining chains. It shrinks towards the end, so that many small chains
+  /// cost few messages and all ranks end at the same time.
   std::vector<Index> take_some(int threads_of_all) {
     constexpr std::size_t most = 1000;
     const std::scoped_lock lock(mutex_);
@@ -131,7 +131,7 @@ WrittenPoints written_from(const json& report) {
   return written;
 }
 
-/// What the ranks of a sweep ask for and tell, and what became of it. All arguments must live longer.
+/// The requests and reports of the ranks of a sweep, and their results. All arguments must live longer.
 class RankAnswers {
  public:
   RankAnswers(Ranks& ranks, OpenChains& chains, const std::function<std::vector<double>(std::size_t point)>& end_state,
@@ -257,7 +257,7 @@ std::vector<WrittenPoints> SweepLeader::write(const std::vector<ResultsPart>& pa
   PartQueue queue(parts);
   std::exception_ptr error;
   std::atomic<bool> through{false};
-  // Joined however this function is left.
+  // Joined on every exit from this function.
   std::jthread worker([&] {
     try {
       write_parts(parts, computed, threads, queue, written);
@@ -268,7 +268,7 @@ std::vector<WrittenPoints> SweepLeader::write(const std::vector<ResultsPart>& pa
   });
 
   std::optional<Failure> failure;
-  // What each rank writes; what is left may have to wait for a part that another writes.
+  // Parts that each rank writes. The remaining parts may have to wait for one that another rank writes.
   std::vector<std::optional<std::size_t>> elsewhere(static_cast<std::size_t>(ranks_.size()));
   const auto give = [&] {
     for (std::size_t rank = 1; rank < elsewhere.size(); ++rank) {
@@ -307,7 +307,7 @@ void SweepLeader::dismiss(int exit_code) {
 
 namespace {
 
-/// What a rank's threads ask for and its messages bring.
+/// Requests of a rank's threads, and the messages that it receives.
 class Exchange {
  public:
   explicit Exchange(Ranks& ranks) : ranks_(ranks) {}
@@ -319,7 +319,7 @@ class Exchange {
   std::optional<std::size_t> next_chain() {
     std::unique_lock lock(mutex_);
     ++waiting_;
-    wake_.notify_all();  // it looks when the lock is free: at what is left after this
+    wake_.notify_all();  // it checks the rest once this releases the lock
     answered_.wait(lock, [this] { return stop_ || no_more_ || !chains_.empty(); });
     --waiting_;
     if (stop_ || chains_.empty()) return std::nullopt;
@@ -380,7 +380,7 @@ class Exchange {
   }
 
  private:
-  /// While many are left, the next are asked for before a thread has to wait for them.
+  /// While many are left, the next ones are requested before a thread has to wait for them.
   [[nodiscard]] bool wants_chains() const {
     return chains_.empty() && (waiting_ > 0 || many_left_) && !requested_ && !no_more_ && !stop_;
   }
@@ -426,7 +426,7 @@ class Exchange {
   Index finished_ = 0, failed_ = 0;
 };
 
-/// Computes what the leader gives.
+/// Computes the chains that the leader assigns.
 void compute_share(const Arguments& arguments, const input::LoadedInput& input, const std::string& identity,
                    const json& begin) {
   const studies::RecordingOptions& recording = input.study.recording();
@@ -460,7 +460,7 @@ void compute_share(const Arguments& arguments, const input::LoadedInput& input, 
   if (error) std::rethrow_exception(error);
 }
 
-/// What a rank writes its parts with: the journals of all ranks, opened when the first part is given.
+/// Data of a rank for writing its parts: the journals of all ranks, opened when the first part is assigned.
 class PartWriter {
  public:
   PartWriter(const Arguments& arguments, const input::LoadedInput& input, const std::string& identity)

@@ -48,10 +48,10 @@ class SweepLeader {
  private:
   Ranks& ranks_;
   int threads_of_all_ = 0;
-  bool silent_ = false;  ///< a rank did not answer when told to stop
+  bool silent_ = false;  ///< a rank did not answer the message to stop
 };
 
-/// Ranks but the first. Says nothing: what goes wrong is told by the leader.
+/// All ranks but the first. Prints nothing: the first rank reports errors.
 /// @returns the exit code of all
 int follow(const Arguments& arguments, std::string_view command, const std::vector<ResultsPart>& parts);
 

@@ -74,7 +74,7 @@ namespace {
 /// Is a candidate of the profile as good as the result, in one sense?
 using AsGood = std::function<bool(const Evaluation&)>;
 
-/// It meets what the result meets.
+/// It meets all claims that the result meets.
 AsGood no_claim_is_lost(const Calibration& calibration) {
   return [&holds = calibration.best->evaluation.holds](const Evaluation& evaluation) {
     if (!evaluation.refused.empty()) return false;
@@ -84,18 +84,18 @@ AsGood no_claim_is_lost(const Calibration& calibration) {
   };
 }
 
-/// Its cost is above the result's by less than half of that of the claim that weighs least.
+/// Its cost exceeds the result's by less than half the cost of the claim with the least weight.
 AsGood costs_little_more(const CalibrateOutput& output, const Calibration& calibration) {
   double least_weight = std::numeric_limits<double>::infinity();
   for (const Claim& claim : output.options.claims)
     if (claim.weight > 0.0) least_weight = std::min(least_weight, claim.weight);
-  // Costs are sums; one that is half a claim more by rounding alone is not less.
+  // Costs are sums: a cost that is half a claim more by rounding alone is not less.
   constexpr double rounding = 1e-9;
   const double bound = calibration.best->evaluation.cost + (0.5 - rounding) * least_weight;
   return [bound](const Evaluation& evaluation) { return evaluation.refused.empty() && evaluation.cost < bound; };
 }
 
-/// Where candidates are as good as the result along one variable through it.
+/// Places with candidates as good as the result, along one variable through it.
 struct Determination {
   std::vector<const ProfilePoint*> points;  ///< of the variable
   std::vector<bool> good;
@@ -192,8 +192,8 @@ DrawnFigure draw_determination(const std::filesystem::path& folder, const Calibr
 
 namespace {
 
-/// Says so where the profile came upon a candidate that is better than the result through which it goes; not where
-/// whole sweeps chose the result, and not its cost.
+/// Reports it if the profile found a better candidate than the result. It does not if whole sweeps chose the result,
+/// and not by its cost.
 std::string better_text(const CalibrateOutput& output, const Calibration& calibration) {
   if (calibration.whole() != nullptr) return "";
   const ProfilePoint* better = nullptr;

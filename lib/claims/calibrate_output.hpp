@@ -1,4 +1,4 @@
-// What a search for parameters leaves in its folder.
+// The files of a search for parameters.
 //
 //   candidates.csv   a row per candidate: phase, number, cost, its parameters, the cost of each claim
 //   profile.csv      the cost along each parameter through the result, all others held

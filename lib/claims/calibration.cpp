@@ -37,7 +37,7 @@ class Search {
   [[nodiscard]] const CalibrationRun& run() const { return run_; }
   [[nodiscard]] std::size_t dimension() const { return options_.space.dimension(); }
 
-  /// The evaluation of a key: the one that is kept, or a new one.
+  /// The evaluation of a key: the kept one, or a new one.
   const EvaluatedCandidate& evaluate(EvaluationKey key, const std::vector<double>& u, Question question) {
     if (const EvaluatedCandidate* kept = find(key)) {
       if (kept->u != u)
@@ -53,7 +53,7 @@ class Search {
   }
 
   /// Candidates of the phases before `phase` that were evaluated in full, by rising cost, then in the order of keys. A
-  /// resumed search knows evaluations of its later phases, too; a phase that used them would ask for others than
+  /// resumed search also knows evaluations of later phases. A phase that used them would request other evaluations than
   /// before.
   [[nodiscard]] std::vector<const EvaluatedCandidate*> ranked_before(std::size_t phase) const {
     std::vector<const EvaluatedCandidate*> all;
@@ -88,7 +88,7 @@ class Search {
   std::mutex mutex_;
 };
 
-/// A phase that asks for one evaluation after another.
+/// A phase that requests one evaluation after another.
 struct Phase {
   Search* search = nullptr;
   std::size_t index = 0;
@@ -102,7 +102,7 @@ struct Phase {
   }
 };
 
-/// What pagmo sees of it; it copies its problems.
+/// The part of it that pagmo uses; pagmo copies its problems.
 struct CostProblem {
   Phase* phase = nullptr;
   std::size_t dimension = 1;
@@ -135,7 +135,7 @@ class Island {
       algorithm_ =
           pagmo::algorithm(pagmo::cmaes(1, -1.0, -1.0, -1.0, -1.0, options.spread, 0.0, 0.0, true, true, seed));
   }
-  Island(const Island&) = delete;  // its problem knows where its phase is
+  Island(const Island&) = delete;  // its problem has the address of its phase
   Island& operator=(const Island&) = delete;
 
   void begin(const std::vector<std::vector<double>>& first, std::size_t thread) {
@@ -144,7 +144,7 @@ class Island {
     const auto size = static_cast<std::size_t>(options.population);
     population_ = pagmo::population(problem_, 0, seed_of(options.seed, phase_.index, 0));
     if (!replaces_ && !first.empty()) {
-      // It begins about the best of its population; of that the rest is not asked for.
+      // The local search begins at the best of its population, and needs no costs of the rest.
       population_.push_back(first.front());
       const pagmo::vector_double cost = population_.get_f().front();
       for (std::size_t k = 1; k < size; ++k) population_.push_back(first.front(), cost);
@@ -157,8 +157,8 @@ class Island {
   void evolve(int generations, std::size_t thread) {
     phase_.thread = thread;
     for (int g = 0; g < generations; ++g) {
-      // Of a differential evolution what costs more than every candidate of the generation before replaces none of
-      // them. A covariance adaptation goes by the ranks of all.
+      // In a differential evolution, a candidate that costs more than the whole generation before replaces none of it.
+      // A covariance adaptation uses the ranks of all.
       if (replaces_) phase_.give_up_at = population_.get_f()[population_.worst_idx()][0];
       population_ = algorithm_.evolve(population_);
     }
@@ -193,8 +193,8 @@ bool run_islands(Search& search, const std::vector<std::vector<double>>& first) 
     return parallel_for(islands.size(), run.threads, run.stop, f);
   };
   const std::vector<std::vector<double>> nothing;
-  // One island of a differential evolution knows the stage as it is given, and tells the others if it is good. A
-  // covariance adaptation has its state beside its population, and takes nothing from elsewhere.
+  // One island of a differential evolution contains the given stage, and passes it on if it is good. A covariance
+  // adaptation has its state beside its population, and takes no candidates from other islands.
   const bool alone = options.method == SearchMethod::covariance_adaptation;
   if (!each([&](std::size_t k) { islands[k]->begin(k == 0 || alone ? first : nothing, k); })) return false;
   const int generations = generations_of(options);
@@ -218,13 +218,14 @@ void refine(Search& search) {
   const pagmo::problem problem(CostProblem{&phase, search.dimension()});
   pagmo::population population(problem, 0, 0);
   population.push_back(best->u, {best->evaluation.cost});
-  // Only what is better than the best counts.
+  // Only a candidate that is better than the best counts.
   phase.give_up_at = best->evaluation.cost;
   pagmo::compass_search compass(static_cast<unsigned>(options.refinement), first_step, last_step, 0.5);
   (void)pagmo::algorithm(compass).evolve(population);
 }
 
-/// The best candidates that differ, held against whole sweeps: those that meet most claims first, then the less cost.
+/// The best different candidates, compared with whole sweeps: those that meet most claims first, then those of less
+/// cost.
 /// @returns nothing if stopped
 std::optional<std::vector<Confirmed>> confirm(Search& search) {
   const auto wanted = static_cast<std::size_t>(search.options().search.confirmed);
@@ -248,7 +249,7 @@ std::optional<std::vector<Confirmed>> confirm(Search& search) {
     confirmed[k] = {*chosen[k], search.evaluate({search.whole_phase(), k}, chosen[k]->u, whole).evaluation};
   });
   if (!all) return std::nullopt;
-  // One that is no valid stage at a value of a whole sweep has no verdicts, and comes last.
+  // A candidate without a valid stage at a value of a whole sweep has no verdicts, and comes last.
   const auto rank = [](const Confirmed& c) {
     return std::tuple(!c.whole.refused.empty(), -std::ranges::count(c.whole.holds, 1), c.candidate.evaluation.cost);
   };
@@ -256,7 +257,7 @@ std::optional<std::vector<Confirmed>> confirm(Search& search) {
   return confirmed;
 }
 
-/// Places in the unit cube that the profile asks for.
+/// Places in the unit cube that the profile requests.
 std::vector<std::pair<std::size_t, double>> profile_places(const ClaimsOptions& options) {
   std::vector<std::pair<std::size_t, double>> places;
   const ParameterSpace& space = options.space;

@@ -1,13 +1,13 @@
-// A search for the unstated parameters of a stage: global, by islands of a self-adapting differential evolution
-// (pagmo's de1220: Storn and Price 1997; self-adaptation by Brest et al. 2006, Elsayed et al. 2011), then local, by a
-// compass search from the best; then some of the best are held against whole sweeps, and the profile of the cost is
-// taken along each parameter through the result.
+// A search for the unstated parameters of a stage. The global search uses islands of a self-adapting differential
+// evolution (pagmo's de1220: Storn and Price 1997; self-adaptation by Brest et al. 2006, Elsayed et al. 2011). The
+// local search is a compass search from the best candidate. Some of the best candidates are then compared with whole
+// sweeps. The profile of the cost is computed along each parameter through the result.
 //
-// Everything is a function of the options: an island draws its random numbers from its own seed and evaluates its
-// candidates one after another, islands exchange their best after fixed numbers of generations, and a candidate is
-// given up only by what is known on its own island. The refinement and the whole sweeps begin with what the phases
-// before them found, and with nothing else. So threads do not count, and a search that was stopped goes on from
-// the evaluations that were kept: it is run again, and asks for those instead of computing them.
+// Everything is a function of the options. An island draws its random numbers from its own seed and evaluates its
+// candidates one after another. Islands exchange their best candidates after fixed numbers of generations. A candidate
+// is abandoned only by results of its own island. The refinement and the whole sweeps begin with the results of earlier
+// phases, and with nothing else. So the number of threads has no effect. A search that was stopped is run again, and
+// reads the kept evaluations instead of computing them.
 #pragma once
 
 #include <atomic>
@@ -23,10 +23,10 @@
 
 namespace epicyclic::claims {
 
-/// Which evaluation it is: of an island, or of the phases after the islands, in its order there.
+/// Identifies an evaluation: its island, or the phase after the islands, and its number there.
 struct EvaluationKey {
   std::size_t phase = 0;   ///< 0 ... islands - 1, then the refinement, the profile, and candidates by whole sweeps
-  std::size_t number = 0;  ///< in the order in which they are asked for
+  std::size_t number = 0;  ///< in the order of the requests
 
   friend auto operator<=>(const EvaluationKey&, const EvaluationKey&) = default;
 };
@@ -43,7 +43,7 @@ struct CalibrationRun {
   int threads = 1;
   const std::atomic<bool>* stop = nullptr;
   KnownEvaluations known;  ///< of earlier sessions
-  /// Told of each new one, one at a time.
+  /// Called for each new one, one at a time.
   std::function<void(const EvaluatedCandidate&)> evaluated;
 };
 
@@ -54,14 +54,14 @@ struct ProfilePoint {
   Evaluation evaluation;
 };
 
-/// A candidate that was held against whole sweeps.
+/// A candidate that was compared with whole sweeps.
 struct Confirmed {
-  EvaluatedCandidate candidate;  ///< by its glance
+  EvaluatedCandidate candidate;  ///< by the screening
   Evaluation whole;
 };
 
-/// Candidates for whole sweeps: by rising cost, none nearer to an earlier one than this in each variable that counts.
-/// What lies nearer looks the same.
+/// Least distance between two candidates for whole sweeps, in each variable that counts. Candidates are taken by rising
+/// cost. A nearer one gives almost the same sweeps.
 inline constexpr double least_distance = 0.01;
 
 struct Calibration {
@@ -71,17 +71,18 @@ struct Calibration {
   std::vector<ProfilePoint> profile;       ///< by variable, then u; of a complete search
   std::vector<Confirmed> confirmed;        ///< the first is the result, unless none is a valid stage all along
 
-  /// Of the result by whole sweeps; null where none were asked for, or none of them is a valid stage all along.
+  /// Of the result by whole sweeps. It is null if none were requested, or if no candidate is a valid stage along all
+  /// sweeps.
   [[nodiscard]] const Evaluation* whole() const {
     return confirmed.empty() || !confirmed.front().whole.refused.empty() ? nullptr : &confirmed.front().whole;
   }
 };
 
-/// How many evaluations there are at the most.
+/// Largest possible number of evaluations.
 [[nodiscard]] std::size_t most_evaluations(const ClaimsOptions& options);
 
 /// @param first  candidates that the first island begins with, as points of the unit cube
-/// @throws InputError when kept evaluations are not those that this search asks for, or none is of a valid candidate
+/// @throws InputError if kept evaluations are not those that this search requests, or if no candidate is valid
 [[nodiscard]] Calibration calibrate(const ClaimsOptions& options, const Evaluator& evaluate,
                                     const std::vector<std::vector<double>>& first, CalibrationRun run);
 

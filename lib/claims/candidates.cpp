@@ -111,7 +111,7 @@ Evaluation unknown(const ClaimsOptions& options) {
   return evaluation;
 }
 
-/// Sweeps that are there for a figure alone tell nothing of a candidate.
+/// Sweeps that serve a figure alone do not count for a candidate.
 std::vector<const ClaimSweep*> sweeps_spoken_of(const ClaimsOptions& options) {
   std::set<std::string> names;
   for (const Claim& claim : options.claims)

@@ -1,4 +1,4 @@
-// Whether conditions could hold, and could fail: what neither can be judged by is refused.
+// Checks whether conditions could hold, and could fail: a condition that decides nothing is refused.
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ bool is_never_negative(const std::string& quantity) {
          quantity.starts_with("dynamic_factor") || quantity == "load_sharing_max";
 }
 
-/// The motions that a condition names, each with its key.
+/// The words for regimes that a condition has, each with its key.
 std::vector<std::pair<std::string, std::string>> regime_words(const Condition& c) {
   std::vector<std::pair<std::string, std::string>> words = {
       {"regime", c.regime}, {"regime_after", c.regime_after}, {"leads_to", c.leads_to}};
@@ -37,7 +37,7 @@ std::vector<std::pair<std::string, std::string>> regime_words(const Condition& c
   return words;
 }
 
-/// All that can be told of a motion in full.
+/// All regimes that a full classification distinguishes.
 std::vector<ClaimRegime> all_regimes(int period_max) {
   std::vector<ClaimRegime> all;
   for (int period = 1; period <= period_max; ++period) all.push_back({analysis::Regime::periodic, period, true});
@@ -46,12 +46,12 @@ std::vector<ClaimRegime> all_regimes(int period_max) {
   return all;
 }
 
-/// Is there a motion that both words call so?
+/// Is there a regime that both words describe?
 bool can_be_both(const std::string& a, const std::string& b, int period_max) {
   return std::ranges::any_of(all_regimes(period_max), [&](const ClaimRegime& m) { return m.is(a) && m.is(b); });
 }
 
-/// Is each motion of the one word of the other, too?
+/// Does the other word describe each regime of the one word, too?
 bool is_always(const std::string& a, const std::string& b, int period_max) {
   return std::ranges::all_of(all_regimes(period_max), [&](const ClaimRegime& m) { return !m.is(a) || m.is(b); });
 }
@@ -155,17 +155,17 @@ void check_condition(ProblemList& problems, const std::string& place, const Cond
 
 namespace {
 
-/// A sweep's grid as one of the looks takes it.
+/// A sweep's grid as one of the evaluations uses it.
 struct Grid {
   const char* points_key;
   int points;
-  std::vector<double> values;  ///< within the part that a condition speaks of
+  std::vector<double> values;  ///< within the part of the condition
 };
 
-/// Is anything searched or drawn, so that claims are judged by brief looks, too?
+/// Is a parameter searched or drawn, so that screenings judge claims, too?
 bool has_screening(const ClaimsOptions& options) { return options.space.dimension() > 0; }
 
-/// The part of a sweep that a condition speaks of, by each look.
+/// The part of a sweep that a condition refers to, in each evaluation.
 struct PartOfSweep {
   double from, to;
   std::vector<Grid> grids;
@@ -197,7 +197,7 @@ std::size_t points_needed(const Condition& c) {
     case reduction:
       return 2;
     case agreement:
-      return c.correlation ? 3 : 1;  // two ranges correlate by 1 or -1, whatever they are
+      return c.correlation ? 3 : 1;  // two ranges always correlate by 1 or -1
     case peaks:
     case jump:
       return 3;
@@ -210,7 +210,7 @@ std::size_t points_needed(const Condition& c) {
   }
 }
 
-/// What a condition wants of one grid: points in its part, and places and bounds among them.
+/// Requirements of a condition on one grid: points in its part, and places and bounds among them.
 void check_grid(ProblemList& problems, const std::string& place, const Condition& c, const std::string& sweep,
                 const std::string& range, const Grid& grid) {
   const std::string words =
@@ -261,7 +261,7 @@ void check_counted(ProblemList& problems, const std::string& place, const Condit
   }
 }
 
-/// What a condition wants of one of its sweeps.
+/// Requirements of a condition on one of its sweeps.
 void check_part(ProblemList& problems, const std::string& place, const Condition& c, const ClaimSweep& sweep,
                 const ClaimsOptions& options) {
   const Axis& axis = sweep.axis;
@@ -294,7 +294,7 @@ void check_part(ProblemList& problems, const std::string& place, const Condition
   }
 }
 
-/// What a condition wants of the looks, whatever the sweep.
+/// Requirements of a condition on the records of each evaluation, for any sweep.
 void check_screening(ProblemList& problems, const std::string& place, const Condition& c,
                      const ClaimsOptions& options) {
   for (const auto& [key, word] : regime_words(c)) {
@@ -335,7 +335,7 @@ void check_screening(ProblemList& problems, const std::string& place, const Cond
     problems.refuse(place + "/quantity", nobody + "`survey/screening/classification_periods` = 0, its default");
 }
 
-/// Sweeps are compared at the values that all of them have: by each look half of those of the coarsest at least.
+/// Sweeps are compared at their common values: in each evaluation at least half of those of the coarsest sweep.
 void check_common_values(ProblemList& problems, const std::string& place, const Condition& c,
                          const std::vector<const ClaimSweep*>& sweeps, const ClaimsOptions& options) {
   std::vector<PartOfSweep> parts;

@@ -35,7 +35,7 @@ std::optional<double> number_at(const LoadedInput& input, const std::string& poi
 
 enum class Numbers { the_same, any };
 
-/// Does the input have what an option sets? Of an object the same keys.
+/// Has the input the value that an option sets? For an object: the same keys.
 /// @param numbers  of an object: those that the option has, or any
 bool is_set(const LoadedInput& input, const OptionSet& set, Numbers numbers) {
   const json* at = input.value_at(set.pointer);
@@ -77,9 +77,10 @@ std::vector<Assignment> candidate_assignments(const ParameterSpace& space, std::
   return sets;
 }
 
-/// What a parameter is in the input: by its first target that nothing multiplies, else by its first one, divided by
-/// what the parameter that multiplies it is. Without targets: by the first one that it multiplies, of a parameter that
-/// has one that nothing multiplies; 1 if there is none. Nothing where the input has no such number.
+/// The value of a parameter in the input: from its first target without a multiplier. Else it is from its first target,
+/// divided by the value of the multiplying parameter. A parameter without targets is found from the first parameter
+/// that it multiplies, if that one also has a target without a multiplier, else it is 1. Nothing if the input has no
+/// such number.
 std::optional<double> given_parameter(const LoadedInput& input, const ParameterSpace& space, const FreeParameter& p) {
   const auto plain_target = [](const FreeParameter& of) {
     return std::ranges::find_if(of.targets, [](const auto& t) { return t.times.empty(); });
@@ -103,7 +104,7 @@ std::optional<double> given_parameter(const LoadedInput& input, const ParameterS
   double product = 1.0;
   if (plain == p.targets.end()) {
     const auto other = std::ranges::find(space.parameters, target.times, &FreeParameter::name);
-    // One that is given by a product itself counts as it would be alone.
+    // If the multiplying parameter is itself given by a product, it counts as 1.
     const bool is_plain =
         other != space.parameters.end() && !other->targets.empty() && plain_target(*other) != other->targets.end();
     if (is_plain) product = given_parameter(input, space, *other).value_or(1.0);
@@ -112,9 +113,9 @@ std::optional<double> given_parameter(const LoadedInput& input, const ParameterS
   return std::isfinite(x) ? std::optional(x) : std::nullopt;
 }
 
-/// Numbers that the input has otherwise than the candidate: three errors that one amplitude gives, say, or what an
-/// option sets.
-/// @param outside  parameters that count and whose targets are others anyway
+/// Numbers of the input that differ from the candidate's: three errors that one amplitude sets, say, or values of an
+/// option.
+/// @param outside  parameters that count and whose targets differ anyway
 std::vector<std::string> other_targets(const LoadedInput& input, const ParameterSpace& space, std::span<const double> u,
                                        const std::set<std::string>& outside) {
   constexpr double rounding = 1e-9;
@@ -130,7 +131,7 @@ std::vector<std::string> other_targets(const LoadedInput& input, const Parameter
     for (const ParameterTarget& t : p.targets)
       if (space.counts(p, options) && (outside.contains(p.name) || outside.contains(t.times))) known.insert(t.pointer);
   for (const auto& [pointer, value] : space.targets_at(u)) add_moved(pointer, value);
-  // Of what an option sets, that which no parameter gives.
+  // Numbers of an option that no parameter sets.
   for (std::size_t k = 0; k < options.size(); ++k)
     for (const OptionSet& set : space.choices[k].options[options[k]].sets)
       if (const json value = json::parse(set.value); value.is_object())
@@ -204,13 +205,13 @@ std::optional<double> number_to_set(const LoadedInput& input, std::span<const Po
 
 namespace {
 
-/// What differs along a sweep of the claims: what its `at` sets, and Omega where that changes the stage and a speed
-/// given in rpm or Hz is to stay what it is, with the candidate's `values`.
+/// Values that differ along a sweep of the claims: those of its `at`. Also Omega, if they change the stage and a speed
+/// in rpm or Hz has to stay constant, with the candidate's `values`.
 std::vector<PointerValue> set_along(const LoadedInput& input, std::span<const PointerValue> values,
                                     const ClaimSweep& sweep) {
   std::vector<PointerValue> set;
   for (const SetValue& s : sweep.at) set.push_back({s.parameter, number_to_set(input, values, s).value()});
-  // What has a name changes no time scale.
+  // A parameter with a name changes no time scale.
   const bool by_pointer = std::ranges::any_of(set, [](const PointerValue& v) { return v.pointer.starts_with('/'); });
   if (!by_pointer || sweep.axis.name == studies::speed_parameter) return set;
   std::vector<PointerValue> all(values.begin(), values.end());
@@ -262,7 +263,7 @@ SweepModels sweep_models(std::shared_ptr<const LoadedInput> input, std::vector<P
   };
 }
 
-/// Inputs with the options of choices in place, made when they are first asked for.
+/// Inputs with the options of choices in place, each made at its first request.
 class OptionInputs {
  public:
   explicit OptionInputs(LoadedInput given) : given_(std::move(given)) {}
@@ -281,7 +282,7 @@ class OptionInputs {
   std::map<std::vector<std::size_t>, std::shared_ptr<const LoadedInput>> made_;
 };
 
-/// What a candidate has in place of the input's numbers.
+/// Values of a candidate in place of the input's numbers.
 std::vector<PointerValue> candidate_values(const ParameterSpace& space, std::span<const double> u) {
   std::vector<PointerValue> values;
   for (const auto& [pointer, value] : space.targets_at(u)) values.push_back({pointer, value});

@@ -1,5 +1,4 @@
-// Studies of claims, and the inputs and models that follow from them: candidates, and the sweeps as studies of their
-// own.
+// Studies of claims, and the inputs and models that follow from them: candidates, and each sweep as a study of its own.
 #pragma once
 
 #include <optional>
@@ -15,38 +14,39 @@
 
 namespace epicyclic::claims {
 
-/// The candidate that an input is.
+/// The candidate that corresponds to the input.
 struct GivenCandidate {
   std::vector<double> u;
-  /// Parameters that lie outside their ranges and are moved to their edges, choices of which the input has no option.
+  /// Parameters outside their ranges, which are moved to the nearest end, and choices without an option that the input
+  /// has.
   std::vector<std::string> moved;
 };
 
-/// As the input stands: each parameter by the numbers that it gives or multiplies, the middle of its range where the
-/// input has none; of choices the option that the input has, or the first.
+/// The candidate of the input. Each parameter comes from the numbers that it sets or multiplies. It is the middle of
+/// its range if the input has none. Each choice takes the option that the input has, or the first.
 [[nodiscard]] GivenCandidate given_candidate(const input::LoadedInput& input, const ParameterSpace& space);
 
-/// The number that a sweep sets: its value, or what the input has where it is to be like that, `values` in place.
-/// @returns nothing where that is no number of the resolved input
+/// The number that a sweep sets: its value, or with `same_as` the number of the input, with `values` in place.
+/// @returns nothing if the resolved input has no such number
 [[nodiscard]] std::optional<double> number_to_set(const input::LoadedInput& input,
                                                   std::span<const input::PointerValue> values, const SetValue& set);
 
-/// A sweep of the claims as a study of its own: the resolved input with what the sweep sets in place.
+/// A sweep of the claims as a study of its own: the resolved input with the sweep's values in place.
 [[nodiscard]] nlohmann::json sweep_input(const input::LoadedInput& input, const ClaimSweep& sweep,
                                          studies::Start start);
 
-/// The models of candidates for what a study of claims leaves open. An input is made once for each set of options that
-/// is asked for, of the files as they were read for the given one. Scales are each candidate's own: it stands for the
-/// stage, as a stage of its own would, and runs at the speed that the input gives, be it Omega, rpm or Hz.
+/// The models of candidates for the open parameters of a study of claims. An input is made once for each requested set
+/// of options, from the files as they were read for the given one. Each candidate has scales of its own, as a stage of
+/// its own would have. It runs at the speed that the input gives, be it Omega, rpm or Hz.
 /// @param given  a study of claims
 [[nodiscard]] CandidateModels candidate_models(const input::LoadedInput& given);
 
-/// The input of a candidate as candidate_models() has it, resolved, each of its values with that origin.
-/// @throws InputProblems when the numbers do not go together
+/// The input of a candidate as candidate_models() uses it, resolved. Each of the candidate's values has that origin.
+/// @throws InputProblems if the numbers contradict each other
 [[nodiscard]] nlohmann::json candidate_input(const input::LoadedInput& given, const ParameterSpace& space,
                                              std::span<const double> u, const std::string& origin);
 
-/// The models of the stage as it is given, for the claims' sweeps. `input` must outlive the result.
+/// The models of the given stage, for the claims' sweeps. `input` must outlive the result.
 [[nodiscard]] SweepModels claim_models(const input::LoadedInput& input);
 SweepModels claim_models(input::LoadedInput&& input) = delete;
 

@@ -20,7 +20,7 @@ namespace {
 using analysis::Regime;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-/// Ranges below it are what integration and settling leave [b_c]; of a quantity, the part of it that they leave.
+/// Bound of ranges that integration errors and incomplete convergence leave [b_c]; of a quantity, the relative bound.
 constexpr double noise = 1e-6;
 constexpr double step_of_failure = 0.1;  ///< a condition that just fails costs so much [C-cost]
 
@@ -86,8 +86,9 @@ double ClaimPoint::quantity(std::string_view name) const {
 
 namespace {
 
-/// A short record may end while a motion is still on its way to a periodic one, next to a bifurcation for very long: it
-/// is told by where it goes at a glance. Chaos does not come back to a small part of its extent over a whole record.
+/// Does a short record that recurs nowhere converge to a periodic orbit? Next to a bifurcation the convergence takes
+/// very long. A screening then takes the regime of the orbit that the record approaches. A chaotic record does not
+/// return to within a small part of its extent over its whole length.
 bool converges(const PointResult& result, const RecordingOptions& recording) {
   constexpr double small_part = 0.1;
   if (result.classified || result.regime == Regime::periodic || result.regime == Regime::chaotic) return false;
@@ -122,13 +123,13 @@ ClaimPoint claim_point(const PointResult& result, const RecordingOptions& record
     if (r.period > 0) return ClaimRegime{Regime::periodic, r.period, classified};
     if (analysis::still_converging(r, recording.recurrence_tolerance))
       return ClaimRegime{Regime::periodic, r.best_period, classified};
-    // The record is on its way to an orbit, whose period the mesh has, too.
+    // The record converges to an orbit, and the mesh has the period of that orbit.
     if (result.regime == Regime::periodic) return ClaimRegime{Regime::periodic, result.period, classified};
     return ClaimRegime{result.regime, 0, classified};
   };
   const analysis::PoincareSection sun = column(columns - 2 * planets);
   const analysis::PoincareSection ring = column(columns - planets);
-  // Of period 1 the section is one point; what it is wide is what settling leaves.
+  // Of period 1 the section is one point; its width is a remainder of the transient.
   const bool is_point = point.response.regime == Regime::periodic && point.response.period == 1;
   point.by_sun_mesh = alone(sun);
   point.by_ring_mesh = alone(ring);
@@ -183,7 +184,7 @@ double cost_within(double x, double least, double most, double scale) {
   return step_of_failure + (1.0 - step_of_failure) * d / (d + scale);
 }
 
-/// @param percent  bounds are parts of 1, told as the measured ones are
+/// @param percent  bounds are parts of 1, printed in percent like the measured values
 std::string bound_text(const Condition& c, bool percent = false) {
   const auto printed = [&](double bound) { return percent ? number(100.0 * bound) + " %" : number(bound); };
   if (c.at_least && c.at_most) return "must be " + printed(*c.at_least) + " to " + printed(*c.at_most);
@@ -200,7 +201,7 @@ void judge_bounds(const Condition& c, ConditionOutcome& o, double scale) {
   o.cost = o.holds ? 0.0 : cost_within(o.measured, least, most, scale);
 }
 
-/// The part of the sweep that a condition speaks of.
+/// The part of the sweep to which a condition refers.
 std::span<const ClaimPoint> part_of(const std::vector<ClaimPoint>& points, const Condition& c) {
   const auto first =
       std::ranges::find_if(points, [&](const ClaimPoint& p) { return !c.from || is_at_least(p.value, *c.from); });
@@ -213,7 +214,7 @@ std::size_t number_of(std::span<const ClaimPoint> part, bool (*is)(const ClaimPo
   return static_cast<std::size_t>(std::ranges::count_if(part, is));
 }
 
-/// Looked at in full, and of no motion all the same.
+/// Evaluated in full, and still undecided.
 bool is_undecided(const ClaimPoint& p) {
   return p.reached && p.response.classified && p.response.regime == Regime::undecided;
 }
@@ -228,7 +229,7 @@ std::string range_text(std::span<const ClaimPoint> part) {
   return " of " + number(part.front().value) + " to " + number(part.back().value);
 }
 
-/// How much a motion is like the one that is sought, for a search to climb: 1 if it is.
+/// Likeness of a point's regime to the requested one, as a slope for a search: 1 if they are the same.
 double likeness(const ClaimPoint& p, std::string_view word) {
   constexpr double same_kind = 0.5;  // not periodic, as wanted, but another kind
   constexpr double near_kind = 0.3;  // of several mesh periods
@@ -248,28 +249,28 @@ double best_likeness(std::span<const ClaimPoint> part, std::string_view word) {
   return best;
 }
 
-/// A condition that holds by the points that are there, but not whatever those that failed would have been.
+/// A condition that holds by the existing points, but not for any possible result of the failed ones.
 void withdraw(ConditionOutcome& o) {
   if (!o.holds) return;
   o.holds = false;
   o.cost = step_of_failure;
 }
 
-/// What failed points may have been counts against an upper bound.
-/// @param unit  what one of them would add
+/// The possible contribution of failed points counts against an upper bound.
+/// @param unit  contribution of one of them
 void judge_failed(const Condition& c, std::span<const ClaimPoint> part, double unit, ConditionOutcome& o) {
   const double more = unit * static_cast<double>(failed_in(part));
   if (c.at_most && o.measured + more > *c.at_most) withdraw(o);
 }
 
-/// "; 3 points failed"; nothing of none.
+/// "; 3 points failed"; empty for none.
 std::string points_text(std::size_t points, std::string_view did) {
   if (points == 0) return {};
   return "; " + std::to_string(points) + (points == 1 ? " point " : " points ") + std::string(did);
 }
 
-/// What a condition's verdict may have missed: points that failed; undecided ones, where it speaks of motions; where
-/// it reads quantities, those whose records were on their way to an orbit.
+/// What a condition's verdict may have missed: failed points; undecided points, if it depends on regimes; points whose
+/// record had not converged, if it reads quantities.
 std::string doubts_text(const Condition& c, std::span<const ClaimPoint> part) {
   using enum ConditionKind;
   const bool reads_regimes = !c.regime.empty() || !c.regimes.empty() || c.kind == variation || c.kind == agreement;
@@ -281,8 +282,8 @@ std::string doubts_text(const Condition& c, std::span<const ClaimPoint> part) {
   return text;
 }
 
-/// What points lack of a motion by their orbits of period 1.
-/// @returns nothing where none was followed, or tells nothing of it
+/// What points lack of a regime, by their orbits of period 1.
+/// @returns nothing if no orbit was followed, or if it does not determine the lack
 std::vector<double> lacks(std::span<const ClaimPoint> part, std::string_view word) {
   std::vector<double> all;
   for (const ClaimPoint& p : part)
@@ -298,8 +299,8 @@ std::vector<double> least_lacks(std::span<const ClaimPoint> part, std::string_vi
   return all;
 }
 
-/// The cost of a condition that fails, by what is lacking too. Where multipliers are as wanted and the motion is
-/// another one all the same, the words still lead.
+/// The cost of a condition that fails, by what is lacking too. Multipliers may be as requested although the regime is
+/// another one. The words for regimes then lead.
 void lead(const std::vector<double>& lacking, ConditionOutcome& o) {
   if (o.holds || lacking.empty()) return;
   const double mean = std::accumulate(lacking.begin(), lacking.end(), 0.0) / static_cast<double>(lacking.size());
@@ -329,9 +330,9 @@ void count(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
            bound_text(c);
 }
 
-/// What is lacking of a change within its bounds: the one motion before them, and the other beyond. Of the first change
-/// the motion has to stay what it is up to it, and what follows only has to begin; of the last it is the other way
-/// round.
+/// What is lacking of a change within its bounds: the one regime before them, and the other beyond. For the first
+/// change, the regime has to last up to the change, and the next one only has to begin. For the last change, it is the
+/// reverse.
 void lead_to_change(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
   constexpr double beside = 2.0;  // times the bounds' width
   const double reach = beside * (c.within[1] - c.within[0]);
@@ -350,8 +351,8 @@ void lead_to_change(const Condition& c, std::span<const ClaimPoint> part, Condit
   lead(all, o);
 }
 
-/// May a point that failed have been where an earlier change is, of the last a later one, outside of the bounds? Or,
-/// beyond the change, where its motion came back before what it leads to was met?
+/// May a failed point hide an earlier change outside of the bounds (for the last change, a later one)? Or may the
+/// regime before the change have returned before the regime after it was found?
 /// @param k  the change is from this point to the next
 bool may_be_another_change(const Condition& c, std::span<const ClaimPoint> part, std::size_t k) {
   const auto is_outside = [&](std::size_t a, std::size_t b) {
@@ -439,7 +440,7 @@ void value(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
   }
   const double bound = std::abs(c.at_least.value_or(c.at_most.value_or(0.0)));
   judge_bounds(c, o, std::max(bound, std::numeric_limits<double>::min()));
-  // A point that failed can only raise the largest value and only lower the least; the mean it can move either way.
+  // A failed point can only raise the maximum and only lower the minimum; it can change the mean in both directions.
   const Statistic statistic = c.statistic.value_or(Statistic::max);
   const bool could_break = (c.at_most && statistic != Statistic::min) || (c.at_least && statistic != Statistic::max);
   if (could_break && failed_in(part) > 0) withdraw(o);
@@ -461,7 +462,7 @@ void falls(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
       most_at = p.value;
     }
   }
-  // A range of period 1 is none: it has fallen by any factor. Where there is none at first, nothing falls.
+  // The range of period 1 is 0: it has fallen by any factor. A quantity that is 0 at first cannot fall.
   const double factor = c.at_least.value_or(1.0);
   const double floor = std::max(last, std::numeric_limits<double>::epsilon());
   o.measured = first / floor;
@@ -484,9 +485,9 @@ struct Peak {
   double at = none;
 };
 
-/// Of a quantity along a part of a sweep. Points that failed are no maxima and bound none; what lies behind them makes
-/// no maximum stand out, as if the sweep ended there.
-/// @param x  not a number where a point failed
+/// Of a quantity along a part of a sweep. Failed points are no maxima and bound none. Points behind a failed one do not
+/// make a maximum prominent, as if the sweep ended there.
+/// @param x  not a number if a point failed
 Peak highest_peak(std::span<const ClaimPoint> part, const std::vector<double>& x, double low, double high) {
   const auto prominence_at = [&](std::size_t k) {
     double left = x[k];
@@ -543,19 +544,19 @@ struct Step {
   bool side_by_side = false;
 
   [[nodiscard]] bool is_jump() const { return side_by_side || abruptness > beyond_neighbours; }
-  /// What falls short of being beyond its neighbours leads a search all the same, by as much as it is nearly so.
+  /// A step that is not above its neighbours still leads a search, by its nearness to that.
   [[nodiscard]] double nearness() const {
     const double part = is_jump() ? 1.0 : abruptness / beyond_neighbours;
     return size * part * part;
   }
 };
 
-/// Steps of a quantity of one motion, between `from` and `to` of the condition.
+/// Steps of a quantity of one regime, between `from` and `to` of the condition.
 class Steps {
  public:
   explicit Steps(const Condition& c) : c_(c) {}
 
-  /// From each point to the next. Without a neighbour that counts, on either side, nothing tells how abrupt one is.
+  /// From each point to the next. The abruptness of a step is unknown if no neighbour counts, on either side.
   [[nodiscard]] std::vector<Step> along(const std::vector<ClaimPoint>& points) const {
     std::vector<Step> steps;
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
@@ -576,8 +577,8 @@ class Steps {
     return steps;
   }
 
-  /// Between points of both directions at one value. What is not periodic differs from record to record, and so do
-  /// two that are on their way to one orbit.
+  /// Between points of both directions at one value. Values that are not periodic differ from record to record. So do
+  /// two records that converge to one orbit.
   [[nodiscard]] std::vector<Step> across(std::span<const ClaimPoint> part, const std::vector<ClaimPoint>& other) const {
     std::vector<Step> steps;
     const auto is_orbit = [&](const ClaimPoint& p) {
@@ -639,11 +640,11 @@ void jump(const Condition& c, const ClaimSeries& series, std::span<const ClaimPo
   o.text += ", must be at least " + number(100.0 * least) + " %";
 }
 
-/// Of two points next to each other: 1 for another motion, else the relative change of the Poincare range, where a
-/// range that recurrence takes for a point is none. Neither may have failed.
+/// Of two neighbouring points: 1 for another regime, else the relative change of the Poincare range. A range below the
+/// recurrence tolerance counts as none. Neither point may have failed.
 double variation_between(const ClaimPoint& a, const ClaimPoint& b) {
   if (!a.response.same(b.response)) return 1.0;
-  // The section of period 1 is one point: its range is that of the oscillation in time.
+  // The section of period 1 is one point; this range is that of the oscillation in time.
   const bool point = a.response.is("period 1");
   const std::string_view name = point ? "delta_sp_range" : "poincare_sp_range";
   const double larger = std::max(a.quantity(name), b.quantity(name));
@@ -677,7 +678,7 @@ void alike(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
   std::vector<double> ring;
   for (const ClaimPoint& p : part) {
     if (!p.reached) continue;
-    // Of no motion are both, and so not of the same one.
+    // Both are undecided, and so not in agreement.
     const bool is_known = p.by_sun_mesh.regime != Regime::undecided || !p.by_sun_mesh.classified;
     same += is_known && p.by_sun_mesh.same(p.by_ring_mesh) ? 1.0 : 0.0;
     sun.push_back(p.quantity("poincare_sp_range"));
@@ -704,7 +705,7 @@ void alike(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
 }
 
 void decreasing(const Condition& c, const ClaimRecord& record, ConditionOutcome& o) {
-  // Where the motion is met in the first sweep, at values that all of them have.
+  // Values common to all sweeps at which the first sweep has the regime.
   std::vector<std::span<const ClaimPoint>> parts;
   for (const std::string& sweep : c.sweeps) parts.push_back(part_of(record.at(sweep).points, c));
   std::vector<double> most(parts.size(), -std::numeric_limits<double>::infinity());
@@ -759,8 +760,7 @@ void decreasing(const Condition& c, const ClaimRecord& record, ConditionOutcome&
            points_text(unconverged, std::string(not_converged) + " in one of them");
 }
 
-/// Is nothing of what conditions read another at any of these points than at the first, by more than integration
-/// leaves?
+/// Do all quantities of the conditions at these points equal those of the first, to within integration errors?
 bool is_inert(const ClaimPoint& first, const std::vector<ClaimPoint>& points,
               const std::set<std::string, std::less<>>& quantities) {
   constexpr double nothing = 1e-5;  // of a quantity

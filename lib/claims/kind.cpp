@@ -98,7 +98,7 @@ void check_values(const LoadedInput& input, const std::function<void(const std::
         if (other != j && is_of(sweep.at[other].parameter))
           refuse(at + "/same_as", "is \"" + set.same_as + "\", which /at/" + std::to_string(other) +
                                       " sets: it would be as it is in the input; set it to that value, too");
-      // Of a candidate it would be another number than that of the stage as it is given.
+      // A candidate would have another number than the given stage.
       if (!set.same_as.empty() && input::find_at(input.computed, set.same_as) != nullptr)
         refuse(at + "/same_as",
                "is \"" + set.same_as + "\", which is computed from other numbers: it cannot be followed");
@@ -110,7 +110,7 @@ void check_values(const LoadedInput& input, const std::function<void(const std::
   }
   for (std::size_t k = 0; k < claims.space.parameters.size(); ++k) {
     const FreeParameter& p = claims.space.parameters[k];
-    if (!p.choice.empty()) continue;  // with that option in place: looked at when candidates are made
+    if (!p.choice.empty()) continue;  // with that option in place: checked when candidates are made
     for (std::size_t t = 0; t < p.targets.size(); ++t) {
       const ParameterTarget& target = p.targets[t];
       const std::string place = "/study/parameters/" + std::to_string(k) + "/targets/" + std::to_string(t);
@@ -130,7 +130,8 @@ bool smoothed_by_a_parameter(const ParameterSpace& space) {
   });
 }
 
-/// On options of choices that make damping jump where the input does not: no candidate with one can be told chaotic.
+/// For options of choices that make damping jump while the input's does not: no such candidate can be classified as
+/// chaotic.
 void warn_of_options(std::vector<gear::Warning>& out, const LoadedInput& input, const ParameterSpace& space) {
   for (std::size_t c = 0; c < space.choices.size(); ++c)
     for (std::size_t o = 0; o < space.choices[c].options.size(); ++o) {

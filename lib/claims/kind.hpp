@@ -1,4 +1,4 @@
-// The kind of study "claims", as the input knows it.
+// The kind of study "claims", as the input reads it.
 #pragma once
 
 #include "claims/options.hpp"
@@ -6,7 +6,7 @@
 
 namespace epicyclic::claims {
 
-/// To be added by whoever reads such studies [input::add_kind()]; without `cost`, which is the command's.
+/// Programs that read such studies add it [input::add_kind()]; without `cost`, which belongs to the command.
 [[nodiscard]] const input::StudyKind& claims_kind();
 
 /// Its table: keys, units, bounds, meaning.

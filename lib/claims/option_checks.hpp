@@ -1,5 +1,5 @@
-// What is wrong with the options of a study of claims, found by several hands and told at once: conditions that could
-// not hold, or not fail, and parameters that could decide nothing.
+// Errors in the options of a study of claims, found by several functions and reported together: conditions that can
+// never hold or never fail, and parameters without effect.
 #pragma once
 
 #include <cstddef>
@@ -15,12 +15,12 @@ namespace epicyclic::claims {
 
 using Names = std::set<std::string, std::less<>>;
 
-/// Collects what is wrong.
+/// Collects errors.
 class ProblemList {
  public:
   void refuse(const std::string& place, std::string message) { found_.emplace_back(place, std::move(message)); }
 
-  /// Names of a list: there, and each once.
+  /// Checks that a list has names, and each once.
   template <class List>
   Names names(const List& list, const std::string& place) {
     Names all;
@@ -44,15 +44,15 @@ class ProblemList {
 /// Whether the study has a sweep of that name.
 void check_sweep_name(ProblemList& problems, const std::string& place, const std::string& name, const Names& sweeps);
 
-/// Of a condition alone: the keys that its kind reads, and their values.
+/// Checks of a condition alone: the keys that its kind reads, and their values.
 /// @param place  of the condition below the study
 void check_condition(ProblemList& problems, const std::string& place, const Condition& condition, const Names& sweeps);
 
-/// What a condition wants of its sweeps' grids, by each way of looking, and of the looks.
+/// Requirements of a condition on the grids of its sweeps, in each evaluation, and on the evaluations.
 void check_grids(ProblemList& problems, const std::string& place, const Condition& condition,
                  const ClaimsOptions& options);
 
-/// Whether each free parameter and each choice could decide something.
+/// Can each free parameter and each choice have an effect?
 void check_space(ProblemList& problems, const ParameterSpace& space);
 
 }  // namespace epicyclic::claims

@@ -1,8 +1,9 @@
-// What a publication says of a stage, as data: sweeps, and claims that are conditions on what the sweeps show.
+// Statements of a publication on a stage, as data: sweeps, and claims. Claims are conditions on the results of the
+// sweeps.
 //
-// A claim holds where all of its conditions do. Each condition is a number that is measured of a sweep and a bound on
-// it; how far it is from holding is a cost between 0 and 1, so that the same data score a stage (reproduce) and lead a
-// search for its unstated parameters (calibrate).
+// A claim holds if all of its conditions do. Each condition is a number that is measured in a sweep and a bound on it.
+// Its distance from the bound is a cost between 0 and 1. The same data judge a stage (reproduce) and lead a search for
+// its unstated parameters (calibrate).
 #pragma once
 
 #include <array>
@@ -18,37 +19,37 @@
 
 namespace epicyclic::claims {
 
-/// A number of the study in place of another one, by the name of a parameter or a JSON pointer: a value, or as another
-/// number of the input is.
+/// A number of the study that replaces another one, by the name of a parameter or a JSON pointer. It is a value, or
+/// equal to another number of the input.
 struct SetValue {
   std::string parameter;
   std::optional<double> value;
   std::string same_as;  ///< JSON pointer
 };
 
-/// A sweep that conditions speak of.
+/// A sweep of the conditions.
 struct ClaimSweep {
   std::string name;
   studies::Axis axis = {studies::speed_parameter, 0.2, 3.5, 661};
-  std::vector<SetValue> at;  ///< what differs from the study besides
+  std::vector<SetValue> at;  ///< further differences from the study
   std::vector<studies::Direction> directions = {studies::Direction::up};
-  std::optional<int> recorded_periods;  ///< where not the study's: extrema of chaos take long records
-  int screening_points = 30;            ///< of a brief look, cold
-  int survey_points = 60;               ///< of a survey's look, cold
-  int screening_round = 0;  ///< a brief look takes sweeps of a round only if those of earlier rounds leave hope
+  std::optional<int> recorded_periods;  ///< if not the study's: extrema of chaos need long records
+  int screening_points = 30;            ///< of a screening, cold
+  int survey_points = 60;               ///< of a screening in a survey, cold
+  int screening_round = 0;  ///< a screening computes sweeps of a round only if those of earlier rounds leave a chance
 };
 
 enum class ConditionKind {
-  share,       ///< part of the points that move so
-  count,       ///< number of points that move so
-  change,      ///< value where one motion gives way to another
-  sequence,    ///< motions met one after the other
+  share,       ///< part of the points with this regime
+  count,       ///< number of points with this regime
+  change,      ///< value where one regime changes to another
+  sequence,    ///< regimes that follow one another
   value,       ///< a statistic of a quantity
   reduction,   ///< ratio of a quantity's first value to its last; never above the first
   peaks,       ///< local maxima of a quantity at given values
-  jump,        ///< a discontinuity of a quantity of one motion, or two motions of it side by side
-  variation,   ///< largest relative change of the motion's Poincare range between neighbours; a new motion counts 1
-  agreement,   ///< share of points where both kinds of mesh show the same motion, and correlation of their ranges
+  jump,        ///< a discontinuity of a quantity of one regime, or two attractors of one regime at the same value
+  variation,   ///< largest relative change of the Poincare range between neighbours; a new regime counts 1
+  agreement,   ///< share of points where both kinds of mesh have the same regime, and correlation of their ranges
   decreasing,  ///< the largest value of a quantity falls from sweep to sweep
 };
 
@@ -65,22 +66,22 @@ inline constexpr std::array<std::pair<std::string_view, ConditionKind>, 11> cond
      {"agreement", ConditionKind::agreement},
      {"decreasing", ConditionKind::decreasing}}};
 
-/// Of a condition on peaks that does not say.
+/// Default for a condition on peaks.
 inline constexpr double default_location_tolerance = 0.1;
 inline constexpr double default_prominence = 0.1;
 
 enum class Which { first, last };
 enum class Statistic { min, mean, max };
 
-/// A condition on a sweep. Which members speak depends on the kind [studies/claims.cpp]; validate() asks for them.
+/// A condition on a sweep. Its kind determines which members it uses [studies/claims.cpp]; validate() requires them.
 struct Condition {
   ConditionKind kind = ConditionKind::share;
   std::string sweep;
   std::vector<std::string> sweeps;   ///< decreasing: one after another
   std::optional<double> from, to;    ///< part of the sweep [of its parameter]; the whole if not given
   std::string regime;                ///< share, count, change (before it), jump, decreasing (of the first sweep)
-  std::string regime_after;          ///< change: the motion after it
-  std::string leads_to;              ///< change: what is met before `regime` comes back, if given
+  std::string regime_after;          ///< change: the regime after it
+  std::string leads_to;              ///< change: the regime that follows before `regime` returns, if given
   std::vector<std::string> regimes;  ///< sequence
   std::optional<Which> which;        ///< change: of several, along the rising parameter; the first if not given
   std::vector<double> within;        ///< change: least and greatest value
@@ -93,7 +94,7 @@ struct Condition {
   std::optional<double> correlation;         ///< agreement: of the two ranges
 };
 
-/// Quantities of a point that conditions speak of, of planet 1 where they are of a mesh. [b_c], exponent per tau.
+/// Quantities of a point for conditions; those of a mesh are of planet 1. [b_c], exponent per tau.
 inline constexpr std::array<std::string_view, 17> claim_quantities = {
     "delta_sp_range",    "delta_rp_range",    "delta_sp_max",           "delta_rp_max",
     "poincare_sp_range", "poincare_rp_range", "planet_spread",          "lyapunov_max",
@@ -119,38 +120,38 @@ struct ClaimPanel {
   std::string title;
 };
 
-/// A figure of panels under each other that have one parameter, as the publication has them.
+/// A figure of panels below each other with one parameter, as the publication has them.
 struct ClaimFigure {
   std::string name;  ///< of its file
   std::string title;
   std::vector<ClaimPanel> panels;
 };
 
-/// How candidates and draws are looked at: cold starts, short records, the sweeps' brief grids.
+/// How candidates and draws are evaluated: cold starts, short records, coarse grids of the sweeps.
 struct Screening {
   int transient_periods = 160;
   int recorded_periods = 32;
-  int classification_periods = 0;  ///< 0: regimes are told by a glance, from recurrence and growth
-  int growth_periods = 64;         ///< of that glance; 0: what does not recur within the record counts as chaotic
+  int classification_periods = 0;  ///< 0: regimes by recurrence and growth alone
+  int growth_periods = 64;         ///< of the screening; 0: a record that does not recur counts as chaotic
   double relative_tolerance = 1e-5;
 };
 
-/// Draws from the ranges: how robust is what is claimed to what is not said?
+/// Draws from the ranges: do the claims depend on the unstated parameters?
 struct SurveyOptions {
   int draws = 1000;
   int seed = 1;
-  int confirmed = 0;  ///< of the draws: held against whole sweeps too, to see whether their looks can be trusted
+  int confirmed = 0;  ///< of the draws: also compared with whole sweeps, as a check of the screening
   Screening recording;
 };
 
 enum class SearchMethod {
-  differential_evolution,  ///< looks everywhere
-  covariance_adaptation,   ///< goes on from the stage as it is given
+  differential_evolution,  ///< global search
+  covariance_adaptation,   ///< local search, from the given stage
 };
 
-/// What the cost of conditions on motions goes by where they fail.
+/// What determines the cost of conditions on regimes that fail.
 enum class SearchLead {
-  regimes,      ///< how many points move as they should, and where they do
+  regimes,      ///< number and location of the points with the claimed regimes
   multipliers,  ///< those of the orbit of period 1 along the sweeps [studies/period_one.hpp]
 };
 
@@ -161,11 +162,11 @@ struct SearchOptions {
   int seed = 1;
   int islands = 4;
   int population = 24;          ///< candidates on an island, at least 7
-  int candidates = 10000;       ///< evaluated in all by the islands
+  int candidates = 10000;       ///< evaluated in all, by the islands
   int migration_interval = 10;  ///< generations between exchanges of the best candidates
   int refinement = 400;         ///< candidates of the local refinement of the best
-  int confirmed = 0;            ///< of the best: held against whole sweeps, and the one that meets most is the result
-  int profile = 9;              ///< values of each parameter in the profile of the score
+  int confirmed = 0;  ///< of the best: compared with whole sweeps; the one that meets most claims is the result
+  int profile = 9;    ///< values of each parameter in the profile of the score
 };
 
 struct ClaimsOptions {
@@ -183,18 +184,18 @@ struct ClaimsOptions {
   /// A sweep of the claims in full, from one kind of start.
   [[nodiscard]] studies::SweepOptions whole_sweep(const ClaimSweep& sweep, studies::Start start) const;
 
-  /// What is wrong, each at its place below the study: ("/claims/3/conditions/0/regime", "is ..., must be ...").
+  /// Errors, each at its place below the study: ("/claims/3/conditions/0/regime", "is ..., must be ...").
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> problems() const;
 };
 
-/// Is it a motion that conditions can name: "period 3", "periodic", "multi-period" (periodic, of 2 or more mesh
-/// periods), "quasiperiodic", "chaotic", "aperiodic" (either of them), or "not " and one of these?
+/// Is it a word for a regime that conditions accept: "period 3", "periodic", "multi-period" (periodic, of 2 or more
+/// mesh periods), "quasiperiodic", "chaotic", "aperiodic" (quasiperiodic or chaotic), or "not " and one of these?
 [[nodiscard]] bool is_regime_word(std::string_view word);
 
 /// N of "period N", also behind "not "; 0 of other words.
 [[nodiscard]] int period_of_word(std::string_view word);
 
-/// Does it, or what it denies, name a motion that recurrence alone does not tell: a torus, chaos?
+/// Does the word, without "not ", name a regime that recurrence alone does not determine: quasiperiodic, chaotic?
 [[nodiscard]] bool needs_evidence(std::string_view word);
 
 }  // namespace epicyclic::claims

@@ -1,10 +1,10 @@
-// Parameters that a publication leaves unsaid, each with a range, and choices between readings of it.
+// Parameters that a publication does not state, each with a range, and choices between interpretations of it.
 //
 // A candidate is a point u of the unit cube: first its parameters, then its choices.
 //   linear       x = from + u (to - from)
 //   logarithmic  x = from (to / from)^u
-//   choice       the option in whose part of [0, 1) u lies; parts are in the ratio of the options' odds
-// What a parameter writes into the input is factor x^power, times another parameter if it says so.
+//   choice       the option whose part of [0, 1) contains u; parts are in the ratio of the options' odds
+// A parameter writes factor x^power into the input, times another parameter if one is named.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace epicyclic::claims {
 
 enum class ParameterScale { linear, logarithmic };
 
-/// Where a parameter stands in the input.
+/// The place of a parameter in the input.
 struct ParameterTarget {
   std::string pointer;  ///< to a number of the input
   double factor = 1;

@@ -12,7 +12,7 @@
 #include "analysis/periodic_orbit.hpp"
 #include "core/errors.hpp"
 #include "core/largest_difference.hpp"
-#include "studies/motion.hpp"
+#include "studies/classification.hpp"
 
 namespace epicyclic::claims {
 
@@ -34,7 +34,7 @@ double beyond(double growth) {
   return x / (1.0 + x);
 }
 
-constexpr double never = -20.0;  // h where nothing is negative, as far from a flip as any motion is
+constexpr double never = -20.0;  // h if no multiplier is negative: as far from a period doubling as an orbit can be
 
 PeriodOne of_multipliers(const Eigen::VectorXcd& multipliers) {
   PeriodOne p;
@@ -59,7 +59,7 @@ PeriodOne of_multipliers(const Eigen::VectorXcd& multipliers) {
   return p;
 }
 
-/// Of the motion from the model's default start the state that comes back nearest to itself.
+/// Of the trajectory from the model's default start, the state that comes back nearest to itself.
 std::optional<std::vector<double>> nearest_return(integrate::Flow& flow, const std::vector<double>& start) {
   constexpr int periods = 60;
   constexpr int transient = 20;
@@ -83,7 +83,7 @@ struct Place {
   std::vector<double> state;
 };
 
-/// Where the orbit should be: along the line through the last two.
+/// Prediction of the orbit: along the line through the last two.
 std::vector<double> ahead(const std::vector<Place>& places, double value) {
   std::vector<double> guess = places.back().state;
   if (places.size() < 2) return guess;
@@ -125,7 +125,7 @@ std::vector<PeriodOne> follow_period_one(std::span<const double> values, const M
     if (stop != nullptr && stop->load()) break;
     const model::DynamicModel model = model_at(values[k]);
     if (!has_classification(model)) throw InputError(no_multipliers);
-    // Alone: lanes that one motion has to itself move eight times as much.
+    // One trajectory per flow: lanes that have only one trajectory cost eight times as much.
     const auto flow = make_flow_of_one_trajectory(model, integrator);
     std::optional<analysis::PeriodicOrbit> orbit;
     const auto seek = [&](const std::vector<double>& from) {

@@ -1,15 +1,15 @@
-// The orbit of period 1 along a sweep, stable or not, and how far it is from the motions that claims speak of.
+// The orbit of period 1 along a sweep, stable or not, and its distance from the regimes that claims name.
 //
-// What a look tells of a motion is a word, and a word does not change until a threshold is passed. The orbit goes on
-// where it has lost its stability, and its Floquet multipliers mu change smoothly with every parameter:
+// A screening returns a word for the regime, and a word does not change until a threshold is passed. The orbit
+// continues where it has lost its stability, and its Floquet multipliers mu change smoothly with every parameter:
 //
-//   g = ln max |mu|         growth over a mesh period: negative where period 1 is stable
-//   h = ln (- min mu)       of real multipliers: positive beyond a flip
+//   g = ln max |mu|         growth over a mesh period: negative if period 1 is stable
+//   h = ln (- min mu)       of real multipliers: positive beyond a period doubling
 //   r = ln max |mu|         of all but the one of h
-//   d = min |mu + 1|        the distance from a flip
+//   d = min |mu + 1|        the distance from a period doubling
 //
-// What a point lacks of a motion is 0 where its orbit is well beyond the threshold, less than 1/2 where it is beyond
-// it, and up to 1 the farther it is on the other side:
+// The lack of a regime at a point is 0 if its orbit is well beyond the threshold. It is less than 1/2 if the orbit is
+// beyond the threshold. On the other side it rises up to 1 with the distance:
 //
 //   period 1       x(g) ,   x(g) = k max(0, g) / (1 + k max(0, g)) ,   k = 20                               [P-lack]
 //   period 2       1/2 (b(h, w) + x(r)) ,   w = 0.05
@@ -17,9 +17,9 @@
 //   not period 1, not periodic, several periods, a torus    b(g, w)
 //   b(g, w) = 1/2 max(0, 1 - g / w)  for g > 0 ,  1/2 + 1/2 d / (d + d_0)  else ,   d_0 = 0.4
 //
-// Chaos is a cascade beyond the flip, so it takes an orbit that is well unstable. None of this is a verdict: it leads a
-// search where the words are flat. Limits: other motions beside the orbit of period 1 are not seen; where it is not
-// found a point lacks half of anything.
+// Chaos follows a cascade of period doublings, so that it requires an orbit that is well unstable. None of this is a
+// verdict: it leads a search where the words do not change. Limits: attractors other than the orbit of period 1 are not
+// seen. If the orbit is not found, a point lacks half of any regime.
 #pragma once
 
 #include <atomic>
@@ -32,7 +32,7 @@
 
 namespace epicyclic::claims {
 
-/// Why there are none.
+/// Reason if there are no multipliers.
 inline constexpr const char* no_multipliers = "forces jump at contact, where an orbit has no tangents";
 
 /// Of one point.
@@ -45,12 +45,13 @@ struct PeriodOne {
   double fold = 0;         ///< largest real multiplier; a fold is where it reaches 1
 
   /// [P-lack]
-  /// @param word  of is_motion_word()
-  /// @returns nothing for words of which the orbit tells nothing: "period 3", "not chaotic"
+  /// @param word  of is_regime_word()
+  /// @returns nothing for words that the orbit does not determine: "period 3", "not chaotic"
   [[nodiscard]] std::optional<double> lacks(std::string_view word) const;
 };
 
-/// The orbit at each value, from those before it, or from where the model's default start comes nearest to itself.
+/// The orbit at each value. The guess comes from the orbits before it, or from the nearest return of the trajectory
+/// from the default start.
 /// @param values  along the sweep
 /// @param stop    may be null; the rest is then not found
 /// @throws InputError for models without tangents

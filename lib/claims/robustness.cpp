@@ -37,7 +37,7 @@ std::vector<std::size_t> to_confirm(const ClaimsOptions& options, const KnownEva
   return numbers;
 }
 
-/// Evaluates draws that are not kept, in one way.
+/// Evaluates draws that are not kept, by the screening or by whole sweeps.
 void evaluate_draws(const ClaimsOptions& options, std::size_t phase, const std::vector<std::size_t>& numbers,
                     const Evaluator& evaluate, const CalibrationRun& run, KnownEvaluations& all) {
   std::vector<std::size_t> missing;
@@ -84,7 +84,7 @@ KnownEvaluations survey(const ClaimsOptions& options, const Evaluator& evaluate,
     if (surveyed_draws(all).size() >= draws.size())
       evaluate_draws(options, by_whole_sweeps, to_confirm(options, all), evaluate, run, all);
   } catch (const EvaluationStopped&) {
-    // What is there is returned.
+    // The available part is returned.
   }
   return all;
 }
@@ -93,7 +93,7 @@ std::vector<ClaimAgreement> agreement(const ClaimsOptions& options, const KnownE
   std::vector<ClaimAgreement> all(options.claims.size());
   for (const auto& [key, whole] : evaluations) {
     if (key.phase != by_whole_sweeps) continue;
-    if (!whole.evaluation.refused.empty()) continue;  // no stage at a value that the look has not: there is no verdict
+    if (!whole.evaluation.refused.empty()) continue;  // a value that the screening omits has no valid stage: no verdict
     const Evaluation& glance = evaluations.at({by_glance, key.number}).evaluation;
     for (std::size_t k = 0; k < all.size(); ++k) {
       const bool at_a_glance = glance.holds[k] == 1;

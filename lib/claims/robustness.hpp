@@ -1,8 +1,8 @@
-// How robust is what is claimed to what is not said: completions drawn from the ranges, each judged by a glance, and
-// per claim the part of them for which it holds and the parameters that decide it.
+// Robustness of claims against unstated parameters. Completions are drawn from the ranges, and each is judged by a
+// screening. The result per claim is the part of the draws for which it holds, and the parameters that decide it.
 //
-// Draw d has u_k = uniform number d n + k + 1 of the seed's sequence [C-rand], n the dimension: any draw without those
-// before it, and of more draws the first ones.
+// Draw d has u_k = uniform number d n + k + 1 of the seed's sequence [C-rand], n the dimension. So a draw does not need
+// those before it, and a longer series begins with the same draws.
 #pragma once
 
 #include <atomic>
@@ -19,10 +19,10 @@ namespace epicyclic::claims {
 /// A draw's place in the unit cube.
 [[nodiscard]] std::vector<double> draw(const ParameterSpace& space, int seed, std::size_t index);
 
-/// All draws, those that were kept as they are, key {0, draw}; then the first valid ones by whole sweeps, as many as
-/// are to be confirmed, key {1, draw}.
-/// @returns by key; fewer than asked for only if stopped, and survey_is_complete() tells
-/// @throws InputError when kept evaluations are not of these draws
+/// All draws, with kept ones as they are, key {0, draw}. Then the first valid draws by whole sweeps, as many as are to
+/// be confirmed, key {1, draw}.
+/// @returns by key; fewer than requested only if stopped, see survey_is_complete()
+/// @throws InputError if kept evaluations are not of these draws
 [[nodiscard]] KnownEvaluations survey(const ClaimsOptions& options, const Evaluator& evaluate, CalibrationRun run);
 
 [[nodiscard]] bool survey_is_complete(const ClaimsOptions& options, const KnownEvaluations& evaluations);
@@ -30,11 +30,11 @@ namespace epicyclic::claims {
 /// Of the draws alone, without those by whole sweeps.
 [[nodiscard]] std::vector<const EvaluatedCandidate*> surveyed_draws(const KnownEvaluations& evaluations);
 
-/// How far glances at the draws that were confirmed say of a claim what whole sweeps say.
+/// Agreement of screening and whole sweeps on a claim, over the confirmed draws.
 struct ClaimAgreement {
-  std::size_t both = 0;         ///< draws for which it holds either way
-  std::size_t neither = 0;      ///< and for which it fails either way
-  std::size_t glance_only = 0;  ///< and for which it holds by the glance alone
+  std::size_t both = 0;         ///< draws for which it holds in both evaluations
+  std::size_t neither = 0;      ///< draws for which it fails in both
+  std::size_t glance_only = 0;  ///< and for which it holds by the screening alone
   std::size_t whole_only = 0;
 };
 
@@ -64,8 +64,8 @@ struct Factor {
   std::optional<std::size_t> option;
 };
 
-/// All parameters, then the choices: of two options whether it is the second, of more each by itself, since options
-/// have no order.
+/// All parameters, then the choices. A choice of two options is one factor: the second is taken. A choice of more has
+/// one factor per option, since options have no order.
 [[nodiscard]] std::vector<Factor> factors(const ParameterSpace& space);
 
 /// Choice by choice, option by option.

@@ -27,7 +27,7 @@ bool excludes_zero(const Interval& i) { return i.low > 0.0 || i.high < 0.0; }
 
 std::string percent(double part) { return short_text(100.0 * part, 3); }
 
-/// Factors by how much they decide a claim, the most first; those whose intervals hold zero are left out.
+/// Factors by their influence on a claim, the largest first; without those whose intervals contain zero.
 std::vector<std::size_t> deciding(const ClaimRobustness& claim) {
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < claim.influences.size(); ++k)
@@ -242,7 +242,7 @@ DrawnFigure draw_influences(const std::filesystem::path& folder, const Robustnes
 
 std::vector<DrawnFigure> draw_robustness_figures(const std::filesystem::path& folder, const RobustnessOutput& output) {
   std::vector<DrawnFigure> drawn = {draw_parts(folder, output)};
-  // Few draws tell nothing of what decides.
+  // Few draws do not show which parameters decide.
   if (std::ranges::any_of(output.claims, [](const auto& claim) { return !deciding(claim).empty(); }))
     drawn.push_back(draw_influences(folder, output));
   return drawn;

@@ -1,9 +1,9 @@
-// What a survey of draws leaves in its folder.
+// The files of a survey of draws.
 //
-//   draws.csv        a row per draw: its parameters, which claims it meets, the cost of each; a row more for each way
-//                    in which it was judged besides
+//   draws.csv        a row per draw: its parameters, which claims it meets, the cost of each; one more row for each
+//                    further evaluation of the draw
 //   robustness.csv   a row per claim: the part of the draws that it holds for, with its interval at 95 %; of the draws
-//                    that were held against whole sweeps too, how many agree
+//                    that were also compared with whole sweeps, how many agree
 //   options.csv      a row per option of a choice and claim: the part of the draws with it that the claim holds for
 //   influence.csv    a row per claim and parameter: rank correlation with the claim's score, with its interval
 //   robustness.md    in words

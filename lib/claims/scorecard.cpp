@@ -130,7 +130,7 @@ json verdicts_of(const Scorecard& card) {
   return list;
 }
 
-/// How the sweeps are integrated, and what a search would do, is no part of what is claimed.
+/// The options of integration and of a search are no part of the claims.
 bool is_beside_the_claims(const std::string& line) {
   for (const char* pointer : {"/name:", "/integrator/", "/study/screening/", "/study/search/", "/study/survey/",
                               "/study/parameters", "/study/choices", "/study/figures"})
@@ -239,7 +239,7 @@ std::vector<DrawnFigure> draw_claim_figures(const std::filesystem::path& folder,
       parameter = sweep->axis.name;
       const std::string symbol = panel.mesh == MeshSide::sun_planet ? "δ_{sp,1} / b_c" : "δ_{rp,1} / b_c";
       const std::string words = panel.title.empty() ? symbol : figures::literal_text(panel.title) + "    " + symbol;
-      // What recurrence does not tell apart shall not look like a spread.
+      // The axis spans at least ten recurrence tolerances, so that smaller widths appear as a point.
       const double middle = 0.5 * (y.low + y.high);
       const double least = 10.0 * card.options.recording.recurrence_tolerance;
       if (y.high - y.low < least)

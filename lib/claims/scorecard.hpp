@@ -1,6 +1,6 @@
-// What is left of claims that were held against sweeps: the scorecard, and the figures as they are published.
+// The files of a comparison of claims with sweeps: the scorecard, and the figures as they are published.
 //
-//   scorecard.csv   a row per claim: its verdict for each start, whether it holds whatever the stage, what was measured
+//   scorecard.csv   a row per claim: its verdict for each start, whether it holds for any stage, the measured numbers
 //   scorecard.md    the same in words
 //   figures/        bifurcation diagrams, in panels
 //
@@ -20,7 +20,7 @@
 
 namespace epicyclic::claims {
 
-/// What became of the claims where points start so.
+/// The outcomes of the claims with one kind of start.
 struct ScoredStart {
   studies::Start start = studies::Start::continued;
   std::vector<ClaimOutcome> outcomes;  ///< of each claim, in order
@@ -31,7 +31,7 @@ struct Scorecard {
   ClaimsOptions options;
   std::vector<ScoredStart> scored;  ///< in the order of the options' starts
 
-  /// Claims that hold where points start as first asked for, and how many of them whatever the stage.
+  /// Claims that hold with the start that the claims state, and how many of them hold for any stage.
   [[nodiscard]] std::size_t holding() const;
   [[nodiscard]] std::size_t holding_inert() const;
 };
@@ -50,7 +50,7 @@ struct RecordedDifference {
   std::vector<std::string> verdicts;  ///< that are not the recorded ones, of the same study
 };
 
-/// @throws InputError when the file is none of recorded_text()
+/// @throws InputError if the file is not one of recorded_text()
 [[nodiscard]] nlohmann::json read_recorded(const std::filesystem::path& file);
 
 /// @param recorded  of read_recorded()

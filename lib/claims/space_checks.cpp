@@ -12,7 +12,7 @@ namespace epicyclic::claims {
 
 namespace {
 
-/// Numbers of the study that are no part of the stage and its motion cannot be set.
+/// Numbers that are part of neither the stage nor its equations of motion cannot be set.
 bool can_be_set(const std::string& pointer) {
   for (const char* root : {"/stage/", "/model/", "/operation/", "/integrator/clearance_smoothing"})
     if (pointer.starts_with(root)) return true;
@@ -49,7 +49,7 @@ void check_choices(ProblemList& problems, const ParameterSpace& space) {
             if (std::ranges::any_of(before.sets, [&](const OptionSet& s) { return overlap(s.pointer, pointer); }))
               problems.refuse(set_at, "is \"" + pointer + "\", which \"" + before.name + "\" of \"" +
                                           space.choices[other].name + "\" sets: the one would undo the other");
-        // A parameter of another option, or of this one alone, does not undo what the others set.
+        // A parameter of another option, or of this one alone, does not undo the values of the others.
         for (const FreeParameter& p : space.parameters)
           if (p.choice != choice.name && std::ranges::any_of(p.targets, [&](const ParameterTarget& target) {
                 return overlap(target.pointer, pointer);

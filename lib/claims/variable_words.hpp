@@ -1,4 +1,4 @@
-// Candidates for what is not published, as cells and words, and figures with a row for each.
+// Unstated parameters of candidates, as cells and words, and figures with a row for each.
 #pragma once
 
 #include <cstddef>
@@ -15,16 +15,16 @@ namespace epicyclic::claims {
 /// A variable of the unit cube: a parameter, or a choice.
 [[nodiscard]] std::string variable_name(const ParameterSpace& space, std::size_t variable);
 
-/// What it is at a place of the cube: a number, or an option.
+/// Its value at a place of the cube: a number, or an option.
 [[nodiscard]] std::string variable_text(const ParameterSpace& space, std::size_t variable, double u, int digits);
 
-/// What it is in words, without its unit.
+/// Its description in words, without its unit.
 [[nodiscard]] std::string words_without_unit(const ParameterSpace& space, const Factor& factor);
 
-/// What may decide a claim: a parameter, or that a choice takes an option.
+/// A factor that may decide a claim: a parameter, or whether a choice takes an option.
 [[nodiscard]] std::string factor_name(const ParameterSpace& space, const Factor& factor);
 
-/// A text beside a row of a figure, cut where it is longer than so many bytes, at a blank if there is one.
+/// A text beside a row of a figure. A longer text is cut after so many bytes, at a blank if there is one.
 [[nodiscard]] std::string row_text(const std::string& words, std::size_t longest);
 
 inline constexpr int row_height = 42;  ///< [pixels]

@@ -1,4 +1,4 @@
-// epicyclic calibrate: what is not published of a stage, from what is claimed of it.
+// epicyclic calibrate: unpublished parameters of a stage, from the claims on it.
 
 #include <string>
 #include <utility>
@@ -23,7 +23,7 @@
 #include "shared_evaluations.hpp"
 #include "stop.hpp"
 #include "streams.hpp"
-#include "studies/motion.hpp"
+#include "studies/classification.hpp"
 
 namespace epicyclic::app {
 
@@ -67,7 +67,7 @@ int search(const Arguments& arguments, SharedEvaluations& shared) {
   };
 
   folder.require_there();
-  // A search that was stopped leaves what it has found so far.
+  // A search that was stopped leaves its results so far.
   const claims::CalibrateOutput output{options, input.study.name};
   claims::write_candidates_csv(folder.file("candidates.csv"), output, found.evaluations);
   if (found.complete) claims::write_profile_csv(folder.file("profile.csv"), output, found);

@@ -48,9 +48,9 @@ bool move_alike(const claims::ClaimsOptions& options, const claims::CandidateMod
   });
 }
 
-/// Asks for models at both ends of each parameter's range and with each option of each choice, all others in the middle
-/// of theirs, and warns of what changes nothing: nothing could determine it, and what a table says of it would be
-/// chance.
+/// Requests models at both ends of each parameter's range, with all other parameters in the middle of theirs, and with
+/// each option of each choice. Warns of every parameter and option that changes nothing. The sweeps cannot determine
+/// such a parameter, so that its row in a table would be chance.
 /// @throws InputError that names the parameter
 void examine_candidates(const claims::ClaimsOptions& options, const claims::CandidateModels& models) {
   const claims::ParameterSpace& space = options.space;

@@ -8,12 +8,12 @@
 
 namespace epicyclic::app {
 
-/// Asks for models at both ends of each sweep of claims, so that what does not fit shows before anything is written.
+/// Requests models at both ends of each sweep of claims, so that contradictions show before anything is written.
 /// @throws InputError
 void require_models(const claims::ClaimsOptions& options, const claims::SweepModels& models);
 
-/// The study of claims whose parameters a command searches or draws, checked, its warnings told.
-/// @throws InputError where it has none, and for what does not fit
+/// The study of claims whose parameters a command searches or draws. It is checked, and its warnings are printed.
+/// @throws InputError if the study has no such parameters, and for contradictions
 [[nodiscard]] input::LoadedInput load_open_claims(const Arguments& arguments);
 
 /// Candidates of a study by glances of one kind, or by whole sweeps, as ranks share them.

@@ -1,5 +1,5 @@
-// epicyclic reproduce: the claims of a publication held against a stage: each sweep that they speak of as a study of
-// its own in a folder of its own, the scorecard, the figures as they are published.
+// epicyclic reproduce: compares the claims of a publication with a stage. Each sweep of the claims is a study of its
+// own in a folder of its own. The results are the scorecard and the figures as they are published.
 
 #include <map>
 #include <memory>
@@ -30,7 +30,7 @@ namespace epicyclic::app {
 
 namespace {
 
-/// The claims of a name stand in validation/NAME: here, or beside the program, or where it is installed.
+/// The claims of a name are in validation/NAME: here, beside the program, or in its installation.
 std::filesystem::path claims_file(const std::filesystem::path& named) {
   std::error_code none;
   if (std::filesystem::is_directory(named, none)) return named / "claims.json";

@@ -1,4 +1,4 @@
-// epicyclic robustness: how robust claims are to what is not published: stages drawn from the ranges of it.
+// epicyclic robustness: robustness of claims against unpublished parameters; stages are drawn from their ranges.
 
 #include <string>
 #include <vector>

@@ -59,7 +59,7 @@ std::pair<Index, Evaluation> answer_from(const std::string& bytes) {
   return {number, claims::decode_candidate({record, bytes.size() - sizeof(Index)}).evaluation};
 }
 
-/// Places where a candidate can be evaluated: threads here, and threads of other ranks.
+/// Places for the evaluation of a candidate: threads here, and threads of other ranks.
 class Places {
  public:
   Places(const claims::Evaluator& here, const std::vector<int>& threads) : here_(here) {
@@ -91,7 +91,7 @@ class Places {
 
   // For the thread of the messages.
 
-  /// What is to be sent, to whom.
+  /// Messages to be sent, with their receivers.
   [[nodiscard]] std::vector<std::pair<int, SentQuestion>> take_questions() {
     const std::scoped_lock lock(mutex_);
     return std::exchange(questions_, {});
@@ -103,7 +103,7 @@ class Places {
     answered_.notify_all();
   }
 
-  /// Whoever waits is sent away.
+  /// Releases all waiting threads.
   void end(std::optional<Failure> failure) {
     const std::scoped_lock lock(mutex_);
     over_ = true;
@@ -200,7 +200,7 @@ void SharedEvaluations::run(const claims::Evaluator& here,
 
 namespace {
 
-/// A rank but the first at work: its threads evaluate what its messages bring.
+/// A rank other than the first: its threads evaluate the candidates of its messages.
 class Follower {
  public:
   Follower(Ranks& ranks, const claims::Evaluator& evaluate, int threads, std::atomic<bool>& stop)
@@ -217,7 +217,7 @@ class Follower {
     wake_.notify_one();
   }
 
-  /// Sends what is ready.
+  /// Sends the finished results.
   void send_answers() {
     std::vector<std::string> answers;
     std::exception_ptr error;

@@ -24,11 +24,12 @@ class SharedEvaluations {
   /// @throws Failure when a rank cannot take part
   void gather(const std::string& identity);
 
-  /// Set when a signal has come, to this rank or another: what evaluates here, and whoever asks, ends.
+  /// Set when a signal has come, to this rank or to another. Evaluations here, and the threads that wait for them, then
+  /// end.
   [[nodiscard]] const std::atomic<bool>& stop() const;
 
-  /// @param here  evaluates on this rank; looks at stop()
-  /// @param work  is given an evaluator, and threads that may ask it at once
+  /// @param here  evaluates on this rank; checks stop()
+  /// @param work  receives an evaluator, and threads that may call it at the same time
   /// @throws the first exception of the work, or Failure of another rank
   void run(const claims::Evaluator& here,
            const std::function<void(const claims::Evaluator& evaluate, int threads)>& work);
