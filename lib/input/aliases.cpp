@@ -150,7 +150,7 @@ class Renamer {
   }
 
   void rename_members(json& object, const std::string& place, const std::string& at) const {
-    // What an option of a choice sets is a value of the place that it names.
+    // The value that an option of a choice sets belongs to the pointer that it names.
     const bool sets = is_at("/study/choices/N/options/N/sets/N", place) && object.contains("pointer") &&
                       object["pointer"].is_string();
     const std::string target = sets ? object["pointer"].get<std::string>() : std::string();
@@ -196,7 +196,7 @@ class Renamer {
   Renaming* renaming_;
 };
 
-/// Pointer of a resolved input, or of what is computed of one, in the whole: a stage alone is one below "/stage".
+/// Pointer of a resolved input, or of its computed values, in the whole: for a stage alone it is below "/stage".
 std::string root_of(const json& resolved) {
   const bool bare = (resolved.contains("lumped") || resolved.contains("catalogue")) && !resolved.contains("stage");
   return bare ? std::string(stage_root) : std::string();

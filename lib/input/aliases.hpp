@@ -1,7 +1,8 @@
-// Old names of keys, values of keys and columns, and the names that replace them: one table for all that reads a name.
+// Old names of keys, values of keys and columns, and the names that replace them. One table serves all code that reads
+// a name.
 //
-// An input is renamed text by text, before the tables of keys read it, so that a file, a `stage_patch` and `--set` may
-// each have old names. A finished folder and a recorded study are renamed as they are read.
+// An input is renamed text by text, before the tables of keys read it. So a file, a `stage_patch` and `--set` may each
+// have old names. A finished folder and a recorded study are renamed when they are read.
 #pragma once
 
 #include <map>
@@ -16,7 +17,7 @@
 
 namespace epicyclic::input {
 
-/// The release that has no old names any more.
+/// The first release without old names.
 inline constexpr std::string_view aliases_end = "0.4.0";
 
 struct Alias {
@@ -35,7 +36,7 @@ struct Alias {
 /// All of them: keys, then values, then columns.
 [[nodiscard]] std::span<const Alias> aliases();
 
-/// What was renamed in a text.
+/// The renamed names of a text.
 struct Renaming {
   std::vector<std::string> warnings;                         ///< one for each old name
   std::vector<std::pair<std::string, std::string>> clashes;  ///< pointer and message where both names are given
@@ -52,7 +53,7 @@ struct Renaming {
 void use_new_names(nlohmann::json& value, const std::string& place, std::string_view study, Renaming& renaming,
                    const std::string& at = {});
 
-/// The same of a resolved input, whatever it is of, without a word on it.
+/// The same for a resolved input of any kind, without warnings.
 void use_new_names(nlohmann::json& resolved);
 
 /// Kind of the study of an input; empty if it is not given.

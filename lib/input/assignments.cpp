@@ -34,7 +34,7 @@ std::string assign(json& root, std::string_view pointer, const json& value) {
   // A text of origin holds for the whole object: one for each key, before one key gets its own.
   if (object != nullptr && object->contains("origin") && (*object)["origin"].is_string()) spread_origins(*object);
   *at = value;
-  // Of the object: none where what stands there is no origin, which is told of the file.
+  // Origins of the object. There are none if its "origin" is not an object, which is reported for the file.
   const auto origins = [&]() -> json* {
     const auto there = object == nullptr ? json::iterator() : object->find("origin");
     return object != nullptr && there != object->end() && there->is_object() ? &*there : nullptr;

@@ -6,11 +6,11 @@
 
 namespace epicyclic::input {
 
-/// Far beyond any gear, on both sides; they catch a wrong unit and keep sums, squares and quotients finite.
+/// Bounds far beyond any gear, on both sides. They detect a wrong unit and keep sums, squares and quotients finite.
 inline constexpr double length_min_mm = 1e-6;
 inline constexpr double length_max_mm = 1e6;
 
-/// Of computed tables; a finer one than rounding has no rows.
+/// Of computed tables. No number of rows meets a tolerance below rounding.
 inline const Bounds table_tolerance = between(1e-13, 1e-2);
 
 [[nodiscard]] const Table<gear::Catalogue>& catalogue_table();

@@ -79,7 +79,7 @@ std::vector<PointerValue> at_given_speed(const LoadedInput& input, std::vector<P
 
 namespace {
 
-/// What the study gives a speed in, of its axis or of its operating point; null: Omega.
+/// The unit of a speed in the study, of its axis or of its operating point; null: Omega.
 const SpeedAlias* speed_given_in(const LoadedInput& input) {
   if (input.study.axis_speed) return find_speed_alias(input.study.axis_speed->key);
   for (const SpeedAlias& alias : speed_aliases())
@@ -101,7 +101,7 @@ std::vector<Assignment> point_as_study(const LoadedInput& input, const studies::
   for (const PointerValue& v : values)
     if (v.pointer.starts_with('/')) pointers.push_back(v);
   if (!pointers.empty()) {
-    // The speed stays what it was, in rad/s.
+    // The speed stays constant, in rad/s.
     const Study changed = input.with_values(pointers);
     study.mesh_frequency_ratio *= time_scale(input) / model::scales_of(changed.stage).omega_sn;
     study.stage = changed.stage;

@@ -1,5 +1,5 @@
-// Studies that are made from another one: the values of its parameters as numbers of the input, and one of its points
-// as a study of its own.
+// Studies made from another one: with values of its parameters as numbers of the input, or one of its points as a study
+// of its own.
 #pragma once
 
 #include <optional>
@@ -13,37 +13,38 @@
 
 namespace epicyclic::input {
 
-/// What parameters, named or JSON pointers, are at these values, as numbers of the input as it is written: a name may
-/// stand for several of them, in another unit.
-/// @param study  of the input, with or without changes; is changed on
+/// Values of parameters, named or JSON pointers, as numbers of the input as it is written. A name may correspond to
+/// several numbers, in another unit.
+/// @param study  of the input, with or without changes; is changed further
 [[nodiscard]] std::vector<Assignment> written_values(Study& study, std::span<const PointerValue> values);
 
 /// Sets those of the values that have names.
-/// @throws InputError when there is no parameter of such a name
+/// @throws InputError if there is no parameter of such a name
 void set_named(model::OperatingPoint& point, std::span<const PointerValue> values);
 
 /// The operating point at values of parameters, by names or pointers.
-/// @throws InputError when the study is not valid there, or there is no such parameter
+/// @throws InputError if the study is not valid there, or if there is no such parameter
 [[nodiscard]] model::OperatingPoint point_at(const LoadedInput& input, std::span<const PointerValue> values);
 
-/// Omega at these values where the input gives the speed in rpm or Hz, which is to stay what it is while they change
-/// the time scale; nothing where it gives Omega, or one of the values is it.
+/// Omega at these values if the input gives the speed in rpm or Hz. That speed stays constant while the values change
+/// the time scale. Nothing if the input gives Omega, or if one of the values is Omega.
 [[nodiscard]] std::optional<double> ratio_at_given_speed(const LoadedInput& input,
                                                          std::span<const PointerValue> values);
 
-/// The values, and behind them, by its pointer, that Omega.
+/// The values, and after them, by its pointer, that Omega.
 [[nodiscard]] std::vector<PointerValue> at_given_speed(const LoadedInput& input, std::vector<PointerValue> values);
 
-/// One point of a finished study as a study of its own: what the study varies is set there, its points are looked at as
-/// they were, and its scales are those of the stage that stands in it then, so that its Omega may be another number for
-/// the same speed. A cross-check and a tolerance study are of that one point.
+/// One point of a finished study as a study of its own. The varied parameters are set to the point's values, and points
+/// are recorded as before. The scales are those of the stage with these values, so that the same speed may have another
+/// Omega. A cross-check and a tolerance study are of that one point.
 /// @param kind  "run", "crosscheck" or "tolerance"
 /// @param stage_changes  the stage is changed afterwards: a speed that is given in rpm or Hz is set as such, and stays
+/// @returns what is to be set in the resolved input
 /// @returns what is to be set in the resolved input
 [[nodiscard]] std::vector<Assignment> point_as_study(const LoadedInput& input, const studies::GridPoint& point,
                                                      std::string_view kind, bool stage_changes = false);
 
-/// omega_sn of the stage as it is given, which a study's Omega and rates are in [rad/s].
+/// omega_sn of the given stage, the unit of a study's Omega and rates [rad/s].
 [[nodiscard]] double time_scale(const LoadedInput& input);
 
 /// Are the equations of motion at a study's first point those of a model, at the same speed?

@@ -9,12 +9,12 @@
 
 namespace epicyclic::input {
 
-/// What machines have where nothing was measured, least and most.
+/// Least and greatest values of typical machines, if nothing was measured.
 struct Range {
   double from, to;
 };
 
-/// The range that an origin begins with behind "estimate: ", in the unit of its key; nothing where it has none.
+/// The range after "estimate: " at the beginning of an origin, in the unit of its key; nothing if it has none.
 [[nodiscard]] std::optional<Range> estimated_range(std::string_view origin);
 
 /// A number of the resolved input whose origin states a range.

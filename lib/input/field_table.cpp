@@ -10,7 +10,7 @@ namespace epicyclic::input {
 
 namespace {
 
-/// Endings of keys that are units, right or wrong; longer ones first where one ends in another.
+/// Endings of keys that are units, right or wrong; longer ones first if one ends with another.
 constexpr std::array<std::string_view, 48> units = {
     "Ns_per_m", "N_per_mm", "N_per_um", "N_per_m", "Nm_per_rad", "kNm", "Nm",  "Nmm", "kW", "MW",   "mW",  "W",
     "hp",       "kg",       "mg",       "lb",      "g",          "t",   "mm",  "um",  "nm", "cm",   "km",  "in",
@@ -35,7 +35,7 @@ std::string stem(std::string_view key, bool any_case) {
   return lower_case(unit.empty() ? key : key.substr(0, key.size() - unit.size() - 1));
 }
 
-/// Edit distance where a swap of neighbours counts one (optimal string alignment), letter case ignored.
+/// Edit distance that counts a swap of neighbours as one (optimal string alignment); letter case is ignored.
 std::size_t distance(std::string_view left, std::string_view right) {
   const std::string a = lower_case(left), b = lower_case(right);
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
@@ -62,7 +62,7 @@ std::string cut(const std::string& text) {
   return text.size() > longest ? text.substr(0, longest) + "..." : text;
 }
 
-/// What is said about a key that the object does not know, and the key that was meant.
+/// The message on an unknown key, and the key that was meant.
 std::pair<std::string, std::string> unknown_key(const std::string& key, const std::string& pointer,
                                                 const std::vector<std::string>& known, const ReadContext& context) {
   std::string message = "unknown key '" + cut(key) + "'";
@@ -101,7 +101,7 @@ std::pair<std::string, std::string> unknown_key(const std::string& key, const st
   return {message + "; known here: " + listed(known), ""};
 }
 
-/// What is wrong with a text that was meant to be a number.
+/// The error in a text that was meant to be a number.
 std::string number_hint(const nlohmann::json& value) {
   const std::string hint = value.is_string() ? misspelt_number(value.get_ref<const std::string&>()) : std::string();
   return hint.empty() ? "" : "; " + hint;
@@ -340,7 +340,7 @@ std::optional<std::size_t> read_name(const json& value, const std::string& point
   return std::nullopt;
 }
 
-/// What a value that is no boolean was probably meant to be: "; did you mean ...?".
+/// Suggestion for a value that is no boolean: "; did you mean ...?".
 static std::string boolean_hint(const json& value) {
   std::string word = value.is_string() ? lower_case(value.get_ref<const std::string&>()) : value.dump();
   for (const auto& [meant, words] :
@@ -350,7 +350,7 @@ static std::string boolean_hint(const json& value) {
   return {};
 }
 
-/// The same of one that is no array of these names.
+/// Suggestion for a value that is no array of these names.
 static std::string array_hint(const json& value, const std::vector<std::string>& names) {
   if (!value.is_string()) return {};
   json meant = json::array();

@@ -4,16 +4,16 @@
 //   Table<Planet> table("planet", "A planet.");
 //   table.number("mass_kg", &Planet::mass_kg, above(0), "Mass.").required();
 //   Planet planet;
-//   table.read(json, "/planet", planet, findings);     // all that is wrong, at once
+//   table.read(json, "/planet", planet, findings);     // all errors, at once
 //   table.write(planet);                               // every key, defaults included
 //   table.schema();                                    // draft 2020-12
 //
-// A field joins what reaches the member (Access) to what reads and writes its type (Format), which are compiled apart.
-// Types are told by Table alone, which checks them: below it, in AnyTable, objects and members are passed by their
-// addresses, so that what a table does is compiled once and not for each of 400 keys. A member is named by a pointer to
-// it or by a generic lambda [](auto& t) -> auto& {...}; within(a, b) names a member of an optional one. Members that
-// are std::optional are keys without a default: left out when written, if not set. Every object also takes "origin"
-// (where its values come from) and "note"; see study_input.hpp.
+// A field joins access to the member (Access) and reading and writing of its type (Format), which are compiled apart.
+// Table alone knows and checks the types. Below it, in AnyTable, objects and members are passed by their addresses, so
+// that the code of a table is compiled once and not for each of 400 keys. A member is named by a pointer to it or by a
+// generic lambda [](auto& t) -> auto& {...}; within(a, b) names a member of an optional one. Members that are
+// std::optional are keys without a default: they are not written if not set. Every object also takes "origin" (the
+// sources of its values) and "note"; see study_input.hpp.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@
 
 namespace epicyclic::input {
 
-/// Something wrong with a JSON value; where it stands in a file is for the caller to say.
+/// An error in a JSON value; the caller adds its place in a file.
 struct Finding {
   enum class Kind { unknown_key, missing_key, type, range, rule };
   Kind kind = Kind::rule;
@@ -53,11 +53,11 @@ struct KeyPlace {
   std::string pointer;
 };
 
-/// What a reader writes its findings to, and where it looks up keys that stand elsewhere.
+/// The findings of a reader, and the objects in which it searches keys that stand elsewhere.
 struct ReadContext {
   std::vector<Finding> findings;
   std::vector<KeyPlace> places;
-  std::vector<std::string> notes;  ///< what is not wrong, but may surprise
+  std::vector<std::string> notes;  ///< unexpected, but no errors
 
   void add(Finding::Kind kind, const std::string& pointer, std::string message) {
     findings.push_back({kind, pointer, std::move(message), {}});
@@ -89,7 +89,7 @@ struct KeyRule {
     at_most_one,  ///< of the keys
     together,     ///< all of the keys or none
     needs,        ///< the first needs the second
-    not_empty,    ///< one at least: that the object is there says something
+    not_empty,    ///< one at least: an empty object has no meaning
   };
   Kind kind;
   std::vector<std::string> keys;
@@ -98,7 +98,7 @@ struct KeyRule {
 /// The shortest text that reads back as the same number.
 [[nodiscard]] std::string number_text(double value);
 
-/// "the string \"abc\"", "an object", ...: what a message says is there.
+/// "the string \"abc\"", "an object", ...: the description of a value in messages.
 [[nodiscard]] std::string described(const nlohmann::json& value);
 
 /// The unit in a key's ending: "kg" for mass_kg, "N/m" for support_N_per_m; empty if there is none.
@@ -107,7 +107,7 @@ struct KeyRule {
 /// The candidate nearest to `word` by edit distance, or empty if none is near.
 [[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
-/// Findings that are told each with what was probably meant; beyond them the first words suffice.
+/// Findings up to this number have a suggestion each. Beyond it, the message alone suffices.
 inline constexpr std::size_t findings_max = 200;
 
 /// "; did you mean 'x'?", or nothing.
@@ -132,7 +132,7 @@ struct Plain<std::optional<V>> {
   static constexpr bool is_optional = true;
 };
 
-/// Is it a list of at most so many objects? If not, says so.
+/// Is it a list of at most so many objects? Reports it if not.
 bool check_list(const json& value, const std::string& pointer, std::size_t most, ReadContext& context);
 
 /// A function from address to address, with what it captures. std::function takes any signature and any capture, and a
@@ -207,7 +207,7 @@ auto access(F member) {
 template <class T, class V>
 typename Plain<V>::type plain_member(const Access<T, V>& at);
 
-// Pieces that do not depend on the type read.
+// Parts that do not depend on the type that is read.
 void check_note(const json& object, const std::string& pointer, ReadContext& context);
 bool check_object(const json& value, const std::string& pointer, ReadContext& context);
 void check_keys(const json& object, const std::string& pointer, const std::vector<std::string>& known,
@@ -241,7 +241,7 @@ struct AnyFormat {
   std::function<ordered_json()> schema;
 };
 
-/// Of a member M, which is a V or an optional one. It is made only if there is something good to read into it.
+/// Of a member M, which is a V or an optional one. It is created only if a good value is read into it.
 template <class M, class V>
 AnyFormat any_format(Format<V> format) {
   AnyFormat any;
@@ -383,7 +383,7 @@ auto present(std::optional<U> T::*member) {
                                     }};
 }
 
-/// What of a key does not depend on the type of its object.
+/// The properties of a key that do not depend on the type of its object.
 struct FieldWords {
   std::string key;
   std::string description;
@@ -576,23 +576,23 @@ class Table : public AnyTable {
     return add(std::move(any));
   }
 
-  /// Reads into `t` what can be read, and says what is wrong. A number out of its range is read all the same.
+  /// Reads into `t` what can be read, and reports errors. A number out of its range is read, too.
   void read(const nlohmann::json& value, const std::string& pointer, T& t, ReadContext& context) const {
     read_any(value, pointer, &t, context);
   }
 
-  /// Replaces one number of what was read, checked as reading checks it; rules on keys that stand together are not
-  /// asked, since none comes or goes.
+  /// Replaces one number of an object that was read. The number is checked as in reading. Rules on combinations of keys
+  /// are not checked, since no key is added or removed.
   /// @param rest     its place below this object, "/lumped/sun/mass_kg", "/phase/2"
   /// @param pointer  its whole place, for findings
-  /// @returns false where the table does not know such a number; `t` is then unchanged
+  /// @returns false if the table has no such number; `t` is then unchanged
   bool change(std::string_view rest, double number, const std::string& pointer, T& t, ReadContext& context) const {
     return change_any(rest, number, pointer, &t, context);
   }
 
   [[nodiscard]] nlohmann::json write(const T& t) const { return write_any(&t); }
 
-  /// @param plain the object that reading starts from: what it holds are the defaults
+  /// @param plain the object at the start of reading: its values are the defaults
   [[nodiscard]] nlohmann::ordered_json schema(const T& plain = {}) const { return schema_any(&plain); }
 
  private:

@@ -70,7 +70,7 @@ class Conversion {
     }
   }
 
-  /// Omega at a speed that stands at a pointer; nothing where it is out of range, which is reported.
+  /// Omega at the speed at a pointer; nothing if it is out of range, which is reported.
   std::optional<double> ratio_of(const SpeedAlias& alias, double value, const std::string& pointer) {
     const std::optional<double> per_unit = ratio_per_unit(alias, study_.stage);
     const studies::NamedParameter& speed = *studies::find_parameter(studies::speed_parameter);

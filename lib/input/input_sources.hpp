@@ -1,4 +1,4 @@
-// The texts that an input was made of, and what is wrong with them.
+// The texts of an input, and the errors in them.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace epicyclic::input {
 
-/// The texts that an input was made of, and which of them a pointer of the whole leads to.
+/// The texts of an input, and for each pointer the text that contains it.
 struct LoadedInput::Sources {
   std::filesystem::path path;
   std::shared_ptr<JsonFiles> files;  ///< shared by all inputs that are made of one

@@ -25,7 +25,7 @@ using nlohmann::json;
 /// Integers up to here are exact in a double: 2^53.
 constexpr std::int64_t exact_integer_max = std::int64_t{1} << 53;
 
-/// How many places of a text are blanked out and passed over before reading gives up.
+/// Number of places of a text that are replaced by blanks before reading ends.
 constexpr int repairs_max = 20;
 
 /// Feeds characters to the lexer and counts them.
@@ -77,13 +77,13 @@ bool is_word_character(char c) {
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-/// What the grammar stumbled over.
+/// An error of the grammar.
 struct Stumble {
   std::size_t consumed = 0;  ///< characters read, the offending one included
   std::string detail;        ///< the library's words
   std::string pointer;       ///< the element that was being read
   std::string last;          ///< the last number read before
-  std::size_t last_end = 0;  ///< where the text of that number ends
+  std::size_t last_end = 0;  ///< end of the text of that number
   std::string container;     ///< the innermost open object or array
   int container_line = 0;    ///< 0: none is open
   bool after_end = false;    ///< the document was complete already
@@ -172,7 +172,7 @@ class Handler final : public nlohmann::json_sax<json> {
 
   [[nodiscard]] int here() const { return lines_.at(consumed_ == 0 ? 0 : consumed_ - 1); }
 
-  /// Notes which number this is and where it ends; its line. The lexer has read one character beyond it, unless the
+  /// Records the index of this number, its end and its line. The lexer has read one character beyond it, unless the
   /// text ended.
   [[nodiscard]] int note_number() {
     last_ = element();
@@ -182,7 +182,7 @@ class Handler final : public nlohmann::json_sax<json> {
     return lines_.at(last);
   }
 
-  /// Pointer of the element that comes next, or is being read.
+  /// Pointer of the element that is read, or of the next one.
   [[nodiscard]] std::string element() const {
     if (frames_.empty()) return {};
     const Frame& frame = frames_.back();
@@ -280,7 +280,7 @@ std::string hex_byte(unsigned char byte) {
 
 std::size_t first_not_text(std::string_view text) { return std::min(first_bad_utf8(text), text.find('\0')); }
 
-/// A place that can be blanked out so that reading goes on.
+/// A place that can be replaced by blanks, so that reading continues.
 struct Repair {
   std::size_t begin = 0, end = 0;
   std::string by;  ///< put at begin; the rest becomes spaces
@@ -347,13 +347,14 @@ std::optional<Repair> unit_at(std::string_view text, std::size_t at) {
   std::size_t before = at;
   while (before > 0 && (text[before - 1] == ' ' || text[before - 1] == '\t')) --before;
   if (before == 0 || std::isdigit(static_cast<unsigned char>(text[before - 1])) == 0) return std::nullopt;
-  const bool word = before < at && std::isalpha(static_cast<unsigned char>(text[at])) != 0;  // else word_at() tells
+  const bool word =
+      before < at && std::isalpha(static_cast<unsigned char>(text[at])) != 0;  // else word_at() reports it
   if (!word && text[at] != '%' && static_cast<unsigned char>(text[at]) < 0x80) return std::nullopt;
   const std::size_t end = std::min(text.find_first_of(",]}\n\"", at), text.size());
   return Repair{at, end, "", unit_message, true, true};
 }
 
-/// A comma before the decimals of a number, where a key is expected behind it.
+/// A comma before the decimals of a number, where the grammar expects a key.
 std::optional<Repair> decimals_at(std::string_view text, std::size_t at) {
   while (at > 0 && !is_number_character(text[at])) --at;
   const std::size_t end = at + 1;
@@ -509,7 +510,7 @@ JsonSource parse_json(std::string bytes, std::string name) {
       fatal(lines.at(at == 0 ? 0 : at - 1), stumble.after_end ? "" : stumble.pointer, stumble_message(text, stumble));
       break;
     }
-    // A malformed number may have been read in part: 1e-1x is the number 0.1 first, then a literal.
+    // A malformed number may have been read in part: 1e-1x is first the number 0.1, then a word.
     const bool of_last = repair->of_last || repair->begin < stumble.last_end;
     const std::string& pointer = of_last ? stumble.last : stumble.pointer;
     repaired.push_back(

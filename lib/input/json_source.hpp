@@ -1,12 +1,12 @@
 // Strict JSON text, with the line of every key and element, and every problem found in one pass.
 //
 // The grammar is RFC 8259 and nothing more: no comments, no trailing comma, no NaN. Beyond the grammar this refuses
-// what a JSON library lets pass silently: duplicate keys, integers that a double does not hold exactly, numbers that
-// overflow or vanish. nlohmann-json reads the text through its SAX interface; a counting iterator tells where it
-// stands.
+// what a JSON library accepts silently: duplicate keys, integers that a double does not represent exactly, numbers that
+// overflow or underflow to zero. nlohmann-json reads the text through its SAX interface; a counting iterator gives the
+// position.
 //
-// What is wrong in one place only (NaN, 1e999, a comment, a trailing comma) is reported, blanked out, and reading goes
-// on behind it, so that one run shows all problems of a file.
+// An error in one place only (NaN, 1e999, a comment, a trailing comma) is reported and replaced by blanks. Reading
+// continues after it, so that one run shows all problems of a file.
 //
 // Limits: 16 MiB of text, 32 levels of nesting. Nothing in the text is executed or followed.
 #pragma once
@@ -30,7 +30,7 @@ namespace epicyclic::input {
 inline constexpr std::size_t json_bytes_max = std::size_t{16} << 20;
 inline constexpr std::size_t json_depth_max = 32;
 
-/// One thing wrong with an input, and where.
+/// An error in an input, and its place.
 struct Problem {
   std::string file;     ///< as the user named it, or "--set ..."
   int line = 0;         ///< from 1; 0 if there is none
@@ -41,7 +41,7 @@ struct Problem {
   [[nodiscard]] std::string text() const;
 };
 
-/// All that is wrong with an input, thrown at once; what() has one line per problem.
+/// All errors of an input, thrown at once; what() has one line per problem.
 class InputProblems : public InputError {
  public:
   explicit InputProblems(std::vector<Problem> problems);
@@ -51,7 +51,7 @@ class InputProblems : public InputError {
   std::vector<Problem> problems_;
 };
 
-/// A JSON text as read: its value, where everything stands, and what is wrong with it.
+/// A JSON text as read: its value, the lines of its keys, and its errors.
 struct JsonSource {
   std::string name;   ///< of the file, as shown in messages
   std::string bytes;  ///< exactly as stored
@@ -61,23 +61,23 @@ struct JsonSource {
   std::set<std::string, std::less<>> unreadable;  ///< pointers whose value was reported here and replaced by 0
   std::vector<Problem> problems;
 
-  /// The line of that pointer or of its nearest parent that is there; 0 if the text is not there at all.
+  /// The line of that pointer or of its nearest existing parent; 0 if the text does not exist.
   [[nodiscard]] int line_of(std::string_view pointer) const;
 
-  /// What stands at a pointer and below it gets another one; where that has something already, it stays.
+  /// Renames a pointer and all below it. An existing entry under the new name stays.
   void move(const std::string& from, const std::string& to);
 };
 
-/// Reads a text. Never throws for what the text holds: see `problems`.
+/// Reads a text. Never throws for errors in the text: see `problems`.
 [[nodiscard]] JsonSource parse_json(std::string bytes, std::string name);
 
-/// Reads a file; one that is not there, is no file or may not be read is a problem too. `name` is what messages call it
-/// (default: the path).
-/// @throws OutputError when it is the machine that fails: no descriptor is left, or the disk has an error
+/// Reads a file. A missing file, a folder, and a file without permission are problems too. `name` is the name in
+/// messages (default: the path).
+/// @throws OutputError if the machine fails: no descriptor is left, or the disk has an error
 [[nodiscard]] JsonSource read_json_file(const std::filesystem::path& path, std::string name = {});
 
-/// Files of an input, each read once: whatever is made of them later is made of one state of theirs. May be asked by
-/// several threads at once.
+/// Files of an input, each read once, so that everything is made from one state of each file. Several threads may call
+/// it at once.
 class JsonFiles {
  public:
   /// @throws as read_json_file()
@@ -88,11 +88,10 @@ class JsonFiles {
   std::map<std::filesystem::path, JsonSource> files_;
 };
 
-/// Which byte keeps a text from being one in UTF-8 (RFC 3629), without NUL; empty if none does.
+/// The first byte that makes a text invalid UTF-8 (RFC 3629), without NUL; empty if there is none.
 [[nodiscard]] std::string not_text(std::string_view text);
 
-/// What is wrong with a text that was meant to be a number: a unit behind it, a decimal comma, ...; empty if it is
-/// none.
+/// The error in a text that is almost a number: a unit after it, a decimal comma, ...; empty if it is none.
 [[nodiscard]] std::string misspelt_number(std::string_view text);
 
 /// The text with ASCII letters in lower case.

@@ -29,7 +29,7 @@ std::string range_of(const ordered_json& schema) {
   return {};
 }
 
-/// What a value may be.
+/// The allowed values of a key.
 std::string bounds_of(const ordered_json& schema) {
   std::string all;
   const auto add = [&all](const std::string& text) {
@@ -84,7 +84,7 @@ class Walker {
     return root_.at(ordered_json::json_pointer(ref->get<std::string>().substr(1)));
   }
 
-  /// Of a study: what its "kind" has to be.
+  /// The required "kind" of a study.
   static std::string kind_of(const ordered_json& schema) {
     const auto kind = schema.find("properties");
     if (kind == schema.end() || !kind->contains("kind")) return {};

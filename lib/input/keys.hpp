@@ -1,4 +1,4 @@
-// The keys of the input in words, a line each: for people who look for one. From the schema, and so from the tables.
+// The keys of the input in words, one line per key, for users who search one. From the schema, and so from the tables.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ struct KeyLine {
   std::string kinds;     ///< of studies that have it, where not all do: "run, sweep"
   std::string unit;      ///< empty of pure numbers and words
   std::string standard;  ///< its default; empty: none
-  std::string bounds;    ///< "0 to 1e+18", "one of: literal, fixed_ring, star"
+  std::string bounds;    ///< "0 to 1e+18", "one of: as_printed, fixed_ring, star"
   std::string meaning;
 };
 

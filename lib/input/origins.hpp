@@ -1,4 +1,4 @@
-// Where each value of an input comes from: the "origin" beside it.
+// The source of each value of an input: the "origin" beside it.
 #pragma once
 
 #include <array>
@@ -17,25 +17,25 @@ inline constexpr std::array<std::string_view, 11> origin_words = {"source",   "t
                                                                   "estimate", "calibrated",  "choice",   "default",
                                                                   "set",      "stage_patch", "computed"};
 
-/// Is this key one that speaks of others?
+/// Is this key one about other keys: "origin", "note"?
 [[nodiscard]] bool is_bookkeeping(const std::string& key);
 
-/// Checks each "origin" of a text as written: an origin speaks of keys that stand beside it.
+/// Checks each "origin" of a text as written: its keys must exist beside it.
 void check_origins(const nlohmann::json& value, const std::string& pointer, ReadContext& context);
 
-/// Writes each origin as a map from the keys of its own object, and drops what is not an origin (reported already).
+/// Writes each origin as a map from the keys of its own object, and removes invalid ones (reported already).
 void spread_origins(nlohmann::json& object, const nlohmann::json& inherited = nlohmann::json());
 
-/// JSON merge patch that keeps the origins: what the patch writes comes from the patch.
+/// JSON merge patch that keeps the origins: values of the patch have the patch as their origin.
 void apply_patch(nlohmann::json& target, nlohmann::json patch);
 
-/// Gives each value of `resolved` the origin that it has in `given`, or "default" where it is not there at all.
+/// Gives each value of `resolved` the origin that it has in `given`, or "default" if it is not in `given`.
 void fill_origins(nlohmann::json& resolved, const nlohmann::json& given);
 
-/// A value that is set is not computed any more: its origin says so, or would have it computed anew.
+/// A value that is set is no longer computed. Its origin says so, since otherwise it would be computed again.
 void keep_from_computing(nlohmann::json& root, const std::string& pointer);
 
-/// Notes values that say that they were computed, where nothing computes them: in one line, or none.
+/// Notes values with the origin "computed" that no formula computes: in one line, or none.
 void note_uncomputed(const nlohmann::json& resolved, const nlohmann::json& computed, std::vector<std::string>& notes);
 
 }  // namespace epicyclic::input

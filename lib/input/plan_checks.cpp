@@ -48,7 +48,7 @@ void check_named_parameter(const studies::Axis& axis, const std::string& place, 
 
 namespace {
 
-/// Pointers of the input that a parameter stands for.
+/// Pointers of the input that a parameter sets.
 std::vector<std::string> values_set_by(const std::string& parameter) {
   const studies::NamedParameter* named = studies::find_parameter(parameter);
   return named == nullptr ? std::vector{parameter} : named->pointers;

@@ -1,4 +1,4 @@
-// Rules of what is computed that span its keys. Those of one kind of study alone are in its folder of lib/kinds.
+// Rules that combine several keys of a study. Rules of one kind of study alone are in its folder of lib/kinds.
 #pragma once
 
 #include <functional>
@@ -9,10 +9,10 @@
 
 namespace epicyclic::input {
 
-/// Whether the value at a pointer is not the one in the text, which has been reported.
+/// Is the value at a pointer another one than in the text? Such a value has been reported.
 using IsBad = std::function<bool(const std::string& pointer)>;
 
-/// Those that all studies of points have, and those of the kind.
+/// The rules of all studies of points, and those of the kind.
 void check_plan(const Study& study, const IsBad& is_bad, ReadContext& context);
 
 /// Of a sweep that the options hold.
@@ -20,18 +20,18 @@ void check_sweep(const Study& study, const IsBad& is_bad, ReadContext& context);
 
 /// Of a range of values.
 /// @param place   of the object with from, to and points
-/// @param is_bad  tells whether the value at a pointer is not the one in the text
-/// @param hint    added where from is above to
+/// @param is_bad  is the value at a pointer another one than in the text?
+/// @param hint    added if from is above to
 void check_range(const studies::Axis& axis, const std::string& place, const IsBad& is_bad, const std::string& hint,
                  ReadContext& context);
 
 /// Names of the state's components.
 [[nodiscard]] std::vector<std::string> state_names(const gear::Stage& stage);
 
-/// What is wrong with a state of this stage, if one is given.
+/// The error in a state of this stage, if one is given.
 [[nodiscard]] std::string why_no_state(const std::vector<double>& state, const gear::Stage& stage);
 
-/// Why a number of the input is no parameter of the motion; nothing where it may be one.
+/// Why a number of the input cannot be the parameter of a study; nothing if it can.
 [[nodiscard]] std::string why_no_parameter(const std::string& pointer);
 
 /// A parameter with a name, and its values. Pointers are checked with the values in place.
@@ -39,7 +39,7 @@ void check_range(const studies::Axis& axis, const std::string& place, const IsBa
 void check_named_parameter(const studies::Axis& axis, const std::string& place, const IsBad& is_bad,
                            ReadContext& context, bool other_speeds = true);
 
-/// Two parameters that are varied at once set different numbers.
+/// Two varied parameters have to set different numbers.
 void check_different(const std::string& first_name, const std::string& second_name, const std::string& place,
                      ReadContext& context);
 

@@ -1,4 +1,4 @@
-// JSON pointers of an input: what stands at one, and which one was probably meant.
+// JSON pointers of an input: the value at a pointer, and the pointer that was probably meant.
 #pragma once
 
 #include <string>
@@ -23,7 +23,7 @@ inline constexpr std::string_view operation_root = "/operation";
 /// Appends the pointers of all numbers below a value.
 void collect_numbers(const nlohmann::json& value, const std::string& pointer, std::vector<std::string>& pointers);
 
-/// The steps of what somebody wrote for a pointer, whatever stands between them; without an element's number.
+/// The steps of a mistyped pointer, with any separators; without the index of an element.
 [[nodiscard]] std::vector<std::string> loose_steps(std::string_view text);
 
 /// Pointers of keys that end in the last of the steps and have the others before it: what was probably meant. Of
@@ -33,7 +33,7 @@ void collect_numbers(const nlohmann::json& value, const std::string& pointer, st
 /// "; did you mean 'x'?" of some pointers, or nothing.
 [[nodiscard]] std::string suggested(const std::vector<std::string>& meant);
 
-/// Keys of a study with its stage, and where they stand.
+/// Keys of a study with its stage, and their places.
 [[nodiscard]] const std::vector<KeyPlace>& all_places();
 
 }  // namespace epicyclic::input

@@ -12,7 +12,7 @@ using nlohmann::json;
 
 namespace {
 
-/// Whether a rule of gear can be judged at a pointer, when some values were not read and stand at their defaults.
+/// Can a rule of gear be judged at a pointer, if some values were not read and have their defaults?
 class Judge {
  public:
   /// @param unread  pointers, relative to the stage
@@ -38,9 +38,9 @@ class Judge {
   std::vector<std::string> unread_;
 };
 
-/// The rules of gear, which need values to judge, and say nothing new about what was found already.
+/// The rules of gear. They need values, and report only new errors.
 /// @param root          pointer of the stage
-/// @param not_computed  tells of a place of the stage that it has no value because none could be computed
+/// @param not_computed  is the value at a place of the stage missing because it could not be computed?
 /// @returns false if values of the stage were not read
 template <class F>
 bool judge_stage(const Study& study, const std::string& root, F not_computed, ReadContext& context) {
@@ -68,7 +68,7 @@ bool judge_stage(const Study& study, const std::string& root, F not_computed, Re
     const auto colon = rule.find(": ");
     const std::string place = colon == std::string::npos ? "" : rule.substr(0, colon);
     const std::string pointer = root + place;
-    // What was not computed can break no rule.
+    // A value that was not computed can break no rule.
     if (!judge.can_judge(place) || not_computed(pointer)) continue;
     if (known.count(pointer) == 0)
       context.add(Finding::Kind::rule, pointer, colon == std::string::npos ? rule : rule.substr(colon + 2));
@@ -105,7 +105,7 @@ std::pair<Study, bool> read_study(json& whole, bool bare, ReadContext& context, 
     study_table().read(whole, "", study, context);
   }
 
-  // What could not be computed is not missing.
+  // A value that could not be computed is not missing.
   if (!complete)
     std::erase_if(context.findings, [&](const Finding& finding) {
       return finding.kind == Finding::Kind::missing_key && pointer_within(finding.pointer, root + "/lumped");

@@ -12,13 +12,13 @@
 
 namespace epicyclic::input {
 
-/// Is this a value that others are computed from [stage_completion.hpp]?
+/// Is this a value from which others are computed [stage_completion.hpp]?
 [[nodiscard]] bool feeds_completion(std::string_view pointer, bool bare);
 
 /// Reads the whole input from one JSON value, which is completed from catalogue data first: the tables, then the rules
-/// that span objects.
-/// @param computed  becomes what the catalogue data give, at its places; null: the input has been completed already,
-///                  from these very catalogue data
+/// that combine objects.
+/// @param computed  receives the values from catalogue data, at their places; null: the input has been completed
+/// already, from these very catalogue data
 /// @returns false beside the study if values of the stage could not be read or computed
 [[nodiscard]] std::pair<Study, bool> read_study(nlohmann::json& whole, bool bare, ReadContext& context,
                                                 nlohmann::json* computed);

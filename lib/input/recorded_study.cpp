@@ -11,7 +11,7 @@ namespace epicyclic::input {
 
 namespace {
 
-/// Place of a key, and what was done before it was there, as JSON.
+/// Pointer of a key, and the value of the behaviour before the key existed, as JSON.
 constexpr std::array<std::pair<const char*, const char*>, 3> later_keys = {
     {{"/model/centrifugal", "\"left_out\""},
      {"/integrator/max_step_periods", "0.0"},

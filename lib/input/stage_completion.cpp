@@ -29,8 +29,8 @@ bool is_of_computed_kind(const json& value) {
           std::all_of(value.begin(), value.end(), [](const json& number) { return number.is_number(); }));
 }
 
-/// Is there a value that was given: neither computed nor a default, by what the object says itself? One of a wrong type
-/// is left as it is, to the tables.
+/// Is there a given value: neither computed nor a default, by the object's own origins? The tables check a value of a
+/// wrong type.
 bool is_given(const json& object, const std::string& key) {
   if (!object.contains(key)) return false;
   if (!is_of_computed_kind(object.at(key))) return true;
@@ -47,7 +47,7 @@ bool gives(const json& object) {
   return false;
 }
 
-/// Writes values with the origin of what is computed.
+/// Writes values with the origin of computed values.
 class Filler {
  public:
   explicit Filler(json& object) : object_(&object) {
@@ -67,7 +67,7 @@ class Filler {
   json* object_;
 };
 
-/// What of the stage the gear set needs, read by the tables' own means; nothing if it cannot be read.
+/// The part of the stage that the gear set needs, read by the tables; nothing if it cannot be read.
 std::optional<gear::Stage> readable_part(const json& stated) {
   gear::Stage part;
   ReadContext context;
@@ -157,7 +157,7 @@ void fill_mesh(Filler mesh, const gear::MeshedPair& pair, const gear::FourierSer
   }
 }
 
-/// All that the catalogue data give, at its places in a stage, whatever the stage gives itself.
+/// All values from catalogue data, at their places in a stage, also those that the stage gives itself.
 json computed_values(const gear::Stage& read) {
   json stage = json::object();
   const gear::GearSet set = gear::make_gear_set(read);
@@ -218,12 +218,12 @@ bool differs(const json& a, const json& b) {
   return a != b;
 }
 
-/// A value of the file that says that it was computed, and is another now.
+/// A value of the file with the origin "computed" that differs from the computed one now.
 struct Ignored {
   std::string place, origin;
 };
 
-/// Writes what is computed where nothing is given; one kind of value in place of another is.
+/// Writes computed values that are not given; one form of a value may replace another.
 void complete(json& object, const json& computed, const std::string& pointer, std::vector<Ignored>& ignored) {
   for (const auto& [key, value] : computed.items()) {
     if (key == "origin") continue;
@@ -250,7 +250,7 @@ void complete(json& object, const json& computed, const std::string& pointer, st
   }
 }
 
-/// A note for each, or, where what they are computed from has changed and many follow it, one for all.
+/// A note for each ignored value; one for all if their catalogue data changed and there are many.
 void note_ignored(const std::vector<Ignored>& ignored, std::vector<std::string>& notes) {
   constexpr std::size_t most = 4;
   const bool many = ignored.size() > most;
@@ -260,7 +260,7 @@ void note_ignored(const std::vector<Ignored>& ignored, std::vector<std::string>&
                     ", since its origin says " + origin + "; give it another origin to make it stand");
 }
 
-/// Of the forms of computed friction that of lubricated contact alone, or none.
+/// Of the forms of computed friction, lubricated contact alone, or none.
 void leave_lubricated(json& computed) {
   json& friction = computed["friction"];
   if (!friction.contains("lubricated"))
@@ -269,12 +269,12 @@ void leave_lubricated(json& computed) {
     friction = {{"lubricated", std::move(friction["lubricated"])}};
 }
 
-/// Stiffness and friction of a mesh have several forms. What is computed gives way to another form that is given, and
-/// takes the place of one that was computed once.
+/// Stiffness and friction of a mesh have several forms. A given form replaces a computed one of another form, also one
+/// that was computed earlier.
 void choose_forms(json& mesh, json& computed) {
   const auto rows = mesh.find("stiffness_curve");
   if (computed.contains("stiffness_curve")) {
-    // Given rows, and given harmonics, stand as a whole.
+    // Given rows, and given harmonics, count as a whole.
     bool given = rows != mesh.end() && (!rows->is_object() || gives(*rows));
     for (const char* key : {"stiffness_cos_N_per_m", "stiffness_sin_N_per_m"}) given = given || is_given(mesh, key);
     if (given) {
@@ -297,7 +297,7 @@ void choose_forms(json& mesh, json& computed) {
     computed.erase("friction");
     return;
   }
-  // Of a coefficient that was taken out, its computed path goes, too.
+  // The computed path of a coefficient that was removed is removed, too.
   if (!friction->contains("coefficient") &&
       (friction->contains("contact_ratio") || friction->contains("path_start_mm"))) {
     for (const char* key : {"contact_ratio", "path_start_mm"})

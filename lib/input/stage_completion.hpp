@@ -1,9 +1,9 @@
-// Lumped values from catalogue data: what a stage file does not give in "planets" and "lumped" is computed.
+// Lumped values from catalogue data: values that a stage file does not give in "planets" and "lumped" are computed.
 //
-// Works on the JSON of a stage, before the tables read it. A computed value carries the origin "computed: ..." with the
-// tag of its formula; values with that origin, and defaults, are computed anew, so that a resolved input follows a
-// change of its catalogue data. A value with any other origin stands, and so does one that says "computed" where
-// nothing computes it.
+// Works on the JSON of a stage, before the tables read it. A computed value has the origin "computed: ..." with the tag
+// of its formula. Values with that origin, and defaults, are computed anew, so that a resolved input follows a change
+// of its catalogue data. A value with any other origin stays. So does one with the origin "computed" that no formula
+// computes.
 #pragma once
 
 #include <string>
@@ -21,10 +21,10 @@ inline constexpr std::string_view computed_word = "computed";
 /// Is this the origin of a value that was computed?
 [[nodiscard]] bool is_computed(const nlohmann::json& origin);
 
-/// Is this the origin of a value that nobody gave: computed, or a default?
+/// Is this the origin of a value that the user did not give: computed, or a default?
 [[nodiscard]] bool may_be_replaced(const nlohmann::json& origin);
 
-/// What came of the completion of a stage.
+/// The result of the completion of a stage.
 struct Completion {
   bool complete = true;     ///< false: there are catalogue data, but nothing could be computed; the reasons are among
                             ///< the findings, or will be when the tables read the stage
@@ -35,7 +35,7 @@ struct Completion {
 /// @param root   pointer of the stage, for findings
 Completion complete_stage(nlohmann::json& stage, const std::string& root, ReadContext& context);
 
-/// What the catalogue data of another resolved input give on this machine, at their places; null without such data.
+/// The values from catalogue data of another resolved input on this machine, at their places; null without such data.
 /// @param resolved  of a study or of a stage alone; values that were computed are replaced by those of this machine
 [[nodiscard]] nlohmann::json computed_values(nlohmann::json& resolved);
 

@@ -33,7 +33,7 @@ double root_mm(const Drawing& d, int teeth, double shift) {
   return d.module_mm * (teeth - 2.0 * (addendum + clearance - shift));
 }
 
-/// Planets at the angles of the drawing, where their teeth have to fit both meshes.
+/// Planets at the angles of the drawing, at which their teeth have to fit both meshes.
 void check_assembly(const Drawing& d) {
   gear::Stage stage;
   stage.sun.teeth = d.sun_teeth;
@@ -86,7 +86,7 @@ struct RadialClearance {
   double least, greatest;
 };
 
-/// Group N of ISO 5753-1; of larger bores that of the largest one.
+/// Group N of ISO 5753-1; larger bores have that of the largest one.
 RadialClearance radial_clearance(double bore_mm) {
   constexpr std::array<RadialClearance, 13> rows = {{{10, 2, 13},
                                                      {18, 3, 18},

@@ -1,5 +1,5 @@
-// A stage and studies to begin with: what a drawing says, and for what no drawing gives a value that machines have,
-// with its reason and the range that it comes from in its origin.
+// A stage and studies to begin with: the values of a drawing. Values that no drawing gives are typical of machines;
+// their origins state the reason and the range.
 //
 //   rims      planet 3 m (ISO 6336-3 counts a rim of 1.2 tooth depths, 2.7 m, as solid), ring 4 m (1.75 depths, 3.9 m)
 //   supports  as parts of the mesh stiffness, 20 N/(mm um) of face width (ISO 6336-1): of ring and carrier those of the
@@ -21,7 +21,7 @@
 
 namespace epicyclic::input {
 
-/// What is on the drawing, and of it what was not said: `assumed`.
+/// The values of the drawing, and the keys that it does not give: `assumed`.
 struct Drawing {
   std::string name = "stage";
   int sun_teeth = 21, planet_teeth = 28;
@@ -39,16 +39,15 @@ struct Drawing {
   [[nodiscard]] int ring() const { return ring_teeth.value_or(sun_teeth + 2 * planet_teeth); }
 };
 
-/// On the sun: as given, or one that loads teeth of that size as usual [N m].
+/// Torque on the sun: as given, or a usual load for teeth of that size [N m].
 [[nodiscard]] double torque_Nm(const Drawing& drawing);
 
-/// Angles at which the teeth fit, as near to even spacing as there are any [deg]; none where even spacing fits or
-/// others are given.
+/// Angles at which the teeth fit, as near to even spacing as possible [deg]. None if even spacing fits or if angles are
+/// given.
 [[nodiscard]] std::vector<double> assembly_angles(const Drawing& drawing);
 
-/// The stage as a file: ring held, carrier free. Planets are spaced evenly, or where that cannot be put together as
-/// nearly so as can.
-/// @throws InputError for numbers that are no gears
+/// The stage as a file: ring held, carrier free. Planets are spaced evenly, or as nearly so as they can be assembled.
+/// @throws InputError for impossible gears
 [[nodiscard]] nlohmann::ordered_json starter_stage(const Drawing& drawing);
 
 /// A sweep over the speed, and a run of one, of the stage in a file beside them.

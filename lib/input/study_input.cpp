@@ -37,13 +37,13 @@ std::vector<VariedParameter> varied_parameters(const Study& study) {
 
 namespace {
 
-/// The first value at which something is wrong, and what; nothing if all are sound.
+/// The first value with an error, and the error; nothing if all are valid.
 struct Unsound {
   std::size_t value = 0;
   std::vector<Problem> problems;
 };
 
-/// @param problems_at  what is wrong at a value; asked by several threads at once
+/// @param problems_at  errors at a value; called by several threads at once
 template <class F>
 Unsound first_unsound(std::size_t values, F problems_at) {
   Unsound first{values, {}};
@@ -125,7 +125,7 @@ class LoadedInput::Loader {
     whole_ = file.value;
   }
 
-  /// Kind of the study, as the assignments or the file give it; empty where they do not.
+  /// Kind of the study from the assignments or the file; empty if neither gives it.
   [[nodiscard]] std::string study_kind() const {
     std::string kind = study_of(sources_->study.value);
     for (const Assignment& set : sources_->sets) {
@@ -138,7 +138,7 @@ class LoadedInput::Loader {
 
   /// Old names of a text.
   /// @param place        of the text in the whole input
-  /// @param shown_below  what stands before its pointers in messages
+  /// @param shown_below  text before its pointers in messages
   void rename(JsonSource& source, const std::string& place, std::string_view shown_below) {
     Renaming renaming;
     use_new_names(source.value, place, study_kind(), renaming);
@@ -214,7 +214,7 @@ class LoadedInput::Loader {
     JsonSource stage = sources_->files->read(stage_path);
     whole_.erase("stage");
     if (whole_.contains("origin") && whole_["origin"].is_object()) whole_["origin"].erase("stage");
-    if (stage.bytes.empty() && !stage.problems.empty()) {  // not readable at all: say who named it
+    if (stage.bytes.empty() && !stage.problems.empty()) {  // not readable at all: name the file that refers to it
       for (const auto& problem : stage.problems)
         refuse(std::string(stage_root), "the stage file " + problem.file + ": " + problem.message);
     } else {
@@ -308,7 +308,7 @@ class LoadedInput::Loader {
     }
   }
 
-  /// What was taken out and is there again, since it follows from what was left.
+  /// Values that were removed and exist again, since they follow from the remaining ones.
   void note_undone() {
     const auto note = [&](const std::string& pointer, const std::string& who) {
       if (find_at(input_.computed, pointer) != nullptr && find_at(input_.resolved, pointer) != nullptr)
@@ -378,8 +378,8 @@ class LoadedInput::Loader {
     return {input_.resolved, sound_ && context_.findings.empty() ? &input_.study : nullptr};
   }
 
-  /// What a value of a parameter does wrong, where the rest of the input does nothing wrong itself: anywhere, if all of
-  /// the rest was read, else at the parameter's own place.
+  /// Errors due to a value of a parameter, if the rest of the input has no errors. They may be anywhere if all of the
+  /// rest was read, else at the parameter's own place.
   std::vector<Problem> check_with(const Base& base, const studies::Axis& axis, const std::vector<PointerValue>& values,
                                   Study& changed, json* completed = nullptr) const {
     std::vector<Problem> wrong = input_.check_with(base, values, changed, completed);
@@ -389,7 +389,7 @@ class LoadedInput::Loader {
     return wrong;
   }
 
-  /// At each of its values, so that nothing is begun that cannot be finished; the first bad one tells.
+  /// At each of its values, so that no study starts that cannot finish. The first bad value is reported.
   void check_values(const studies::Axis& axis, const std::string& place, const Base& base,
                     const std::vector<PointerValue>& beside, const std::string& words) {
     const auto at = [&](std::size_t k) {
@@ -410,7 +410,7 @@ class LoadedInput::Loader {
     if (std::string why = why_no_parameter(axis.name); !why.empty()) {
       refuse_end(place + "/parameter", std::move(why));
     } else if (there == nullptr || !there->is_number() || pointer_within(axis.name, "/study")) {
-      // Whether there is a value that was not read, or not computed, cannot be told.
+      // It is unknown whether a value that was not read, or not computed, exists.
       const auto at_place = [&](const KeyPlace& p) { return p.pointer == axis.name; };
       if (there == nullptr && !sound_ && std::any_of(context_.places.begin(), context_.places.end(), at_place)) return;
       Study unused;
@@ -434,7 +434,7 @@ class LoadedInput::Loader {
         if (!ends_are_sound_) break;
         const PointerValue fixed{other.name, end};
         const std::string words = ", and " + other.name + " = " + number_text(end) + ",";
-        // What is computed from catalogue data is computed once, where only the value that stays is one of those.
+        // Values from catalogue data are computed only once if the fixed value alone affects them.
         json completed;
         Study with_fixed;
         if (!feeds_completion(along.name, sources_->bare) && feeds_completion(other.name, sources_->bare) &&

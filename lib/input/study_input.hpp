@@ -1,13 +1,13 @@
 // The typed study and how it is loaded from JSON.
 //
-// A study names its stage file, or holds the stage itself, and may override any of it by a JSON merge patch (RFC 7386)
-// in "stage_patch"; `--set /pointer=value` overrides a value once more. Everything is checked by the tables of
-// field_table.hpp, then by the rules that gear states for a stage; all that is wrong is thrown at once.
+// A study names its stage file, or contains the stage itself. It may override any of it by a JSON merge patch (RFC
+// 7386) in "stage_patch"; `--set /pointer=value` overrides a value once more. The tables of field_table.hpp check
+// everything, then the rules that gear states for a stage. All errors are thrown at once.
 //
 //   study file -> stage file -> stage_patch -> --set -> tables -> rules of gear -> Study, resolved JSON
 //
-// The resolved JSON has the stage inline, each default filled in, and in each object an "origin" map that says where
-// its values come from. It is a valid input itself and resolves to itself.
+// The resolved JSON has the stage inline, with all defaults, and in each object an "origin" map with the sources of its
+// values. It is a valid input itself and resolves to itself.
 #pragma once
 
 #include <any>
@@ -36,7 +36,7 @@ namespace epicyclic::input {
 
 struct StudyKind;
 
-/// What is computed: a kind of study with its options [study_kind.hpp]. A stage alone has no kind: nothing is computed.
+/// The computation: a kind of study with its options [study_kind.hpp]. A stage alone has no kind: nothing is computed.
 class Plan {
  public:
   Plan() = default;
@@ -92,7 +92,7 @@ struct Study {
   std::vector<double> initial_state;  ///< in place of the default start [b_c, b_c per tau]; empty: that one
 
   [[nodiscard]] std::string_view kind() const { return plan.name(); }
-  /// Is anything to be computed?
+  /// Does the study compute a response?
   [[nodiscard]] bool has_dynamics() const { return plan.kind() != nullptr; }
   /// Is it computed point by point?
   [[nodiscard]] bool has_points() const;
@@ -106,7 +106,7 @@ struct Study {
   [[nodiscard]] studies::SweepOptions sweep() const;
 };
 
-/// A parameter that a study varies, and where the study says so: "/study", of a map "/study/first" and "/study/second".
+/// A parameter that a study varies, and its place in the study: "/study", of a map "/study/first" and "/study/second".
 struct VariedParameter {
   studies::Axis axis;
   std::string place;
@@ -129,8 +129,8 @@ struct PointerValue {
 
 class LoadedInput {
  public:
-  /// As loaded. What is varied by a JSON pointer is read from `resolved` anew, without what has been changed here:
-  /// values are set by load_input().
+  /// An input as loaded. Parameters by JSON pointers are read from `resolved` again, without changes that were made
+  /// here: load_input() sets values.
   Study study;
   nlohmann::json resolved;            ///< a valid input that resolves to itself
   RawFile study_file;                 ///< the file that was named: a study, or a stage alone
@@ -140,7 +140,7 @@ class LoadedInput {
   std::vector<std::string> notes;     ///< values that were ignored, and why
 
   /// The study with the number at this pointer of the resolved input replaced, checked as strictly as a file.
-  /// @throws InputProblems when the pointer is not one of a number, or the study is not valid with that value
+  /// @throws InputProblems if the pointer is not one of a number, or the study is not valid with that value
   [[nodiscard]] Study with_value(std::string_view pointer, double value) const;
   /// The study with the numbers at several pointers of the resolved input replaced, checked together as strictly as a
   /// file.
@@ -154,12 +154,12 @@ class LoadedInput {
   /// Pointers of all numbers that with_value() takes.
   [[nodiscard]] std::vector<std::string> number_pointers() const;
 
-  /// The input with further assignments behind its own. Its files are those that it was loaded from, as they were then;
-  /// one that an assignment names first is read once, too.
+  /// The input with further assignments after its own. It uses its files as they were loaded. A file that an assignment
+  /// names first is read once, too.
   /// @throws as load_input()
   [[nodiscard]] LoadedInput with_further(std::span<const Assignment> sets) const;
 
-  /// What the resolved input has at a JSON pointer; null where it has nothing, or that is no pointer.
+  /// The value of the resolved input at a JSON pointer; null if there is none, or if it is no pointer.
   [[nodiscard]] const nlohmann::json* value_at(std::string_view pointer) const;
 
  private:

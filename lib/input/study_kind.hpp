@@ -1,4 +1,4 @@
-// What the program asks of a kind of study, such as a sweep or a map.
+// The functions that each kind of study provides, such as a sweep or a map.
 //
 // Each kind is one object in a folder of its own, lib/kinds/NAME, and one line of kinds/list.hpp. A component above
 // that layer adds its kinds by add_kind().
@@ -17,7 +17,7 @@
 
 namespace epicyclic::input {
 
-/// A parameter that the options vary: where they hold its name and its range, and where the study states it.
+/// A parameter that the options vary: access to its name and its range, and its place in the study.
 struct PlanAxis {
   std::string* name;
   double* from;
@@ -32,14 +32,14 @@ struct PlacedNumber {
   std::string place;
 };
 
-/// What the complete folder of a kind keeps of its points.
+/// The points that the complete folder of a kind keeps.
 enum class PointsKept {
   none,
   journal,  ///< all points, to the last bit
   tables,   ///< one point, in points.csv and poincare.csv
 };
 
-/// What `plot` draws of a complete folder: points or curves over a parameter, cells over a plane, or histories.
+/// What `plot` draws from a complete folder: points or curves over a parameter, cells over a plane, or histories.
 enum class PlotForm { none, points, curves, cells, histories };
 
 struct PlotSource {
@@ -72,25 +72,25 @@ struct StudyKind {
   std::vector<PlanAxis> (*axes)(std::any& options) = nullptr;
   /// Further values of the first axis' parameter.
   std::vector<PlacedNumber> (*values)(std::any& options) = nullptr;
-  /// Sets the options that "auto" stands for.
+  /// Sets the options that "auto" selects.
   void (*complete)(std::any& options) = nullptr;
-  /// Gives parameters that are the pointer of a speed its name, where they are no axes [given_speeds.hpp].
+  /// Replaces the pointer of a speed by its name in parameters that are no axes [given_speeds.hpp].
   void (*name_speeds)(Study& study) = nullptr;
   /// The method of integration, if it is not that of "integrator".
   const std::string& (*method)(const std::any& options) = nullptr;
-  /// Whether "operation" says at which speed the study is made, if no axis is the speed.
+  /// Does "operation" give the speed of the study, if no axis is the speed?
   bool at_given_speed = true;
 
   /// Rules of the options that span keys.
   void (*check)(const Study& study, const IsBad& is_bad, ReadContext& context) = nullptr;
-  /// Values that its options put into the input, once nothing else is wrong.
-  /// @param refuse  takes what is wrong at a pointer of the input
+  /// Values that its options put into the input, if there are no other errors.
+  /// @param refuse  receives an error at a pointer of the input
   void (*check_values)(const LoadedInput& input,
                        const std::function<void(const std::string& pointer, std::string message)>& refuse) = nullptr;
-  /// What is allowed but rarely meant, besides what is so of the stage.
+  /// Warnings of valid but unusual options, besides those of the stage.
   void (*warn)(std::vector<gear::Warning>& out, const LoadedInput& input) = nullptr;
-  /// What it takes to compute it, in words, if it has no plan; asks for its models.
-  /// @throws InputError for what does not fit together
+  /// The work that it takes, in words, if it has no plan. Requests its models.
+  /// @throws InputError for contradictions
   std::string (*cost)(const LoadedInput& input) = nullptr;
 
   PointsKept points_kept = PointsKept::none;

@@ -46,7 +46,7 @@ model::DynamicModel model_of(const model::OperatingPoint& point, const model::Sc
 
 namespace {
 
-/// What the value of a point is of: the parameter of a sweep, else the speed.
+/// The parameter of a point's value: that of a sweep, else the speed.
 std::string parameter_of(const Study& study) {
   const std::vector<VariedParameter> varied = varied_parameters(study);
   return varied.empty() ? studies::speed_parameter : varied.front().axis.name;
@@ -142,7 +142,7 @@ double last_value(const studies::Axis& axis) {
   return studies::axis_value(axis, static_cast<std::size_t>(axis.points) - 1);
 }
 
-/// Said where nobody has: printed equations without it are one thing, the bearings of a machine another.
+/// A warning if the option was not chosen: printed equations may omit centrifugal forces, which load real bearings.
 void warn_of_centrifugal_force(std::vector<gear::Warning>& out, const LoadedInput& input, const gear::Stage& stage,
                                double mesh_frequency) {
   const json* origin = input.value_at("/model/origin/centrifugal");
@@ -171,7 +171,8 @@ bool harmonics_by_default(const LoadedInput& input, const std::string& root) {
   });
 }
 
-/// Said where nobody has: an amplitude that is an estimate, or follows from an accuracy grade by the default rule.
+/// A warning if the value was not chosen: an amplitude that is an estimate, or follows from an accuracy grade by the
+/// default rule.
 /// @param root  of the stage in the resolved input
 void warn_of_estimated_error(std::vector<gear::Warning>& out, const LoadedInput& input, const std::string& root,
                              const gear::Stage& stage, double mesh_frequency) {
@@ -205,14 +206,14 @@ void warn_of_estimated_error(std::vector<gear::Warning>& out, const LoadedInput&
   std::ranges::move(warnings.take(), std::back_inserter(out));
 }
 
-/// Said where nobody has: harmonics of the default that lose of the stiffness.
+/// A warning if the harmonics were not chosen: those of the default omit a part of the stiffness.
 void warn_of_truncation(std::vector<gear::Warning>& out, const LoadedInput& input, const std::string& root,
                         const gear::Stage& stage) {
   if (stage.catalogue && harmonics_by_default(input, root))
     std::ranges::move(gear::truncation_warnings(gear::make_gear_set(stage), stage), std::back_inserter(out));
 }
 
-/// On values of an angle at which planets cannot be assembled: the ends alone do not tell of those between.
+/// Warns of angles at which planets cannot be assembled. The ends of a range alone do not show those between.
 void warn_of_assembly(std::vector<gear::Warning>& out, const LoadedInput& input) {
   constexpr std::string_view angles = "/stage/planets/angles_deg/";
   for (const auto& [axis, place] : varied_parameters(input.study)) {
@@ -234,7 +235,7 @@ void warn_of_assembly(std::vector<gear::Warning>& out, const LoadedInput& input)
   }
 }
 
-/// Warnings at the operating points at the ends of what the study varies, and on parameters that change nothing.
+/// Warnings at the operating points at the ends of varied ranges, and on parameters without effect.
 void warn_of_points(std::vector<gear::Warning>& out, const LoadedInput& input) {
   const model::Scales scales = model::scales_of(input.study.stage);
   const std::vector<VariedParameter> varied = varied_parameters(input.study);

@@ -1,4 +1,4 @@
-// From the input to models: what a sweep asks at each value of its parameter.
+// From the input to models: what a sweep requests at each value of its parameter.
 #pragma once
 
 #include <functional>
@@ -38,8 +38,8 @@ std::function<model::DynamicModel(double first, double second)> model_plane(Load
                                                                             const std::string& second_parameter,
                                                                             double step) = delete;
 
-/// What a parameter, named or a JSON pointer, is in the study as given.
-/// @throws InputError where the input has no such number
+/// The value of a parameter, named or a JSON pointer, in the given study.
+/// @throws InputError if the input has no such number
 [[nodiscard]] double given_value(const LoadedInput& input, const std::string& parameter);
 
 /// Points and chains of a study that has points.
@@ -57,29 +57,29 @@ studies::ModelAtPoint model_at_point(LoadedInput&& input) = delete;
 std::function<model::DynamicModel(double value, double clearance_smoothing)> smoothed_model_at(LoadedInput&& input) =
     delete;
 
-/// The model with the start that the study gives.
+/// The model with the initial state of the study.
 [[nodiscard]] model::DynamicModel started(model::DynamicModel model, const Study& study);
 
 /// The model of an operating point.
-/// @throws InputError where its numbers do not go together
+/// @throws InputError if its numbers contradict each other
 [[nodiscard]] model::DynamicModel model_of(const model::OperatingPoint& point, const model::Scales& scales);
 
-/// What is allowed but rarely meant, most important first (gear/warnings.hpp): the stage, the operating points at the
-/// ends of what the study varies, the study itself, values that were ignored. Of a study without the notes on its
+/// Warnings of valid but unusual values, most important first (gear/warnings.hpp): of the stage, of the operating
+/// points at the ends of varied ranges, of the study itself, and of ignored values. For a study without the notes on
 /// drawings, which `epicyclic gear` has.
 [[nodiscard]] std::vector<std::string> warnings(const LoadedInput& input);
 
-/// What is allowed but rarely meant of the stage and its operating point alone, for `epicyclic gear`: most important
-/// first, with the notes on its drawings, and why it cannot be moved in time.
+/// Warnings of the stage and its operating point alone, for `epicyclic gear`: most important first, with the notes on
+/// its drawings, and the reason if its equations cannot be integrated.
 [[nodiscard]] std::vector<std::string> gear_warnings(const LoadedInput& input);
 
-/// What chosen harmonics of the mesh stiffness lose of it, a line for each mesh; what nobody chose is a warning.
+/// The error of the mesh stiffness with the chosen harmonics, a line for each mesh. A default choice gives a warning.
 [[nodiscard]] std::vector<std::string> stiffness_notes(const LoadedInput& input);
 
-/// Does mesh damping jump at contact? By what the resolved input says; what it does not say is the default.
+/// Does mesh damping jump at contact? By the values of the resolved input, else by the defaults.
 [[nodiscard]] bool damping_jumps(const nlohmann::json& resolved);
 
-/// That regimes of such an input are told without tangents; at a pointer.
+/// Warning that regimes of such an input are classified without tangents; at a pointer.
 [[nodiscard]] gear::Warning without_tangents(std::string pointer);
 /// The same for a study that classifies the regimes of its points.
 void warn_without_tangents(std::vector<gear::Warning>& out, const LoadedInput& input);

@@ -1,4 +1,5 @@
-// The tables of all objects of the input: every key, its bounds and its meaning. Defaults stand on the typed structs.
+// The tables of all objects of the input: every key, its bounds and its meaning. Defaults are those of the typed
+// structs.
 #include <functional>
 #include <limits>
 #include <string>
@@ -61,13 +62,13 @@ const std::vector<std::pair<std::string, Interpolation>> interpolations = {
 const std::string interpolation_words =
     "linear, monotone (never beyond the rows), or smooth, of fourth order, for rows of a smooth function.";
 
-/// `inner` of what `outer` reaches.
+/// `inner` of the object that `outer` reaches.
 template <class F, class G>
 auto chain(F outer, G inner) {
   return [ outer, inner ](auto& t) -> auto& { return std::invoke(inner, std::invoke(outer, t)); };
 }
 
-/// The two ways to give the damping of a member's supports.
+/// The two forms of the damping of a member's supports.
 template <class T, class F>
 void add_damping(Table<T>& table, F damping) {
   table.number("support_damping_ratio",
@@ -579,7 +580,7 @@ const Table<Study>& study_table() {
 
 namespace {
 
-/// Schema of a stage with catalogue data: what would be computed need not be given.
+/// Schema of a stage with catalogue data: values that the program can compute are not required.
 ordered_json catalogue_stage_schema(ordered_json stage) {
   const std::function<void(ordered_json&)> relax = [&](ordered_json& object) {
     object.erase("required");

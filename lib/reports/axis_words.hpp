@@ -1,4 +1,4 @@
-// How a study's parameter and its values are told: as the study gives them.
+// Names and values of a study's parameter in texts: as the study gives them.
 #pragma once
 
 #include <optional>

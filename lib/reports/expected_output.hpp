@@ -1,12 +1,12 @@
-// Files of expected special points, and what `epicyclic assert` says of a comparison with them.
+// Files of expected special points, and the report of `epicyclic assert` on a comparison with them.
 //
 //   { "format": "epicyclic expected points 1",
 //     "study":  the resolved input of the study whose points they are,
-//     "points": [ { "kind": "flip", "period": 1, "value": 2.1489464, "bound": 9e-7 }, ... ] }
+//     "points": [ { "kind": "fold", "period": 1, "value": 1.3567019, "bound": 2.8e-9 }, ... ] }
 //
-// with "contact" and "broken_symmetry" where a point has them, as in special.csv. How a study is integrated, how
-// finely, and how its branches are followed may differ from the file's; what is computed may not: stage, operating
-// point, model, width of the smooth clearance, parameter and range.
+// A point also has "contact" and "broken_symmetry" if it has them in special.csv. The study may differ from the file's
+// in its integration, its tolerances and how it follows branches. It may not differ in what it computes: stage,
+// operating point, model, width of the smooth clearance, parameter and range.
 #pragma once
 
 #include <filesystem>
@@ -25,15 +25,15 @@ struct ExpectedPoints {
   nlohmann::json study;  ///< a resolved input
   std::vector<studies::LocatedPoint> points;
 
-  /// Points farther apart are not one: a thousandth of the range.
+  /// Points farther apart do not correspond: a thousandth of the range.
   [[nodiscard]] double reach() const;
 };
 
-/// @throws InputError with all that is wrong
+/// @throws InputError with all errors
 [[nodiscard]] ExpectedPoints read_expected(const std::filesystem::path& file);
 
-/// Of points that were found: those of a kind, with a place and a bound. That is twice their own, so that another
-/// computation that is as certain agrees, and not less than a part of 1e-9 of the range.
+/// Found points as expected ones: those of a kind, with a value and a bound. The bound is twice their own, so that
+/// another computation of the same accuracy agrees. It is at least 1e-9 of the range.
 [[nodiscard]] std::vector<studies::LocatedPoint> expected_of(const std::vector<studies::LocatedPoint>& found,
                                                              const studies::BranchesOptions& study);
 
@@ -41,7 +41,7 @@ struct ExpectedPoints {
 [[nodiscard]] std::string expected_text(const input::LoadedInput& study,
                                         const std::vector<studies::LocatedPoint>& points);
 
-/// In what a study is not the one whose points are expected, a line each.
+/// Differences between a study and the one of the expected points, a line each.
 [[nodiscard]] std::vector<std::string> unlike(const ExpectedPoints& expected, const input::LoadedInput& study);
 
 /// A line for each point, in words.

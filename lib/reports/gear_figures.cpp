@@ -109,7 +109,7 @@ GearFigure load_sharing_figure(const fs::path& folder, const gear::Stage& stage,
   figures::Sketch sketch("load_sharing");
   double longest = 0.0;
   const auto add = [&](const gear::MeshedPair& mesh, std::string_view recording, std::string_view title) {
-    // The table of lubricated contact has both sides of each jump; what lubricates is of no account here.
+    // The table of lubricated contact has both sides of each jump; the lubricant does not matter here.
     const gear::EhlFriction table = gear::ehl_of(mesh, {});
     Curve curve;
     for (std::size_t i = 0; i < table.share.size(); ++i) curve.push_back({table.share_position[i], table.share[i]});
@@ -174,7 +174,7 @@ GearFigure friction_figure(const fs::path& folder, const gear::Stage& stage, con
   const Curve sun_curve = friction_along_path(sun, load);
   const Curve ring_curve = friction_along_path(ring, load);
   figures::FigureRange x;
-  x.include(0.0);  // the pitch point is shown even where no path reaches it
+  x.include(0.0);  // the pitch point is shown even if no path reaches it
   for (const Curve* curve : {&sun_curve, &ring_curve})
     for (const Row2& row : *curve) x.include(row[0]);
   x = x.widened(figures::figure_margin);
@@ -297,7 +297,7 @@ std::vector<PolarPoint> half_tooth(const gear::Tooth& tooth, const std::vector<d
     for (int i = 0; i <= arc_steps; ++i) half.push_back({radius, from + (to - from) * i / arc_steps});
   };
   const double half_pitch = pi / tooth.teeth;
-  double foot = tooth.root_radius_mm;  // where the involute begins
+  double foot = tooth.root_radius_mm;  // beginning of the involute
   if (has_rack_fillet(tooth)) {
     const auto at = [&](double gamma) {
       const gear::ProfilePoint p = tooth.fillet(gamma);
@@ -338,13 +338,13 @@ std::vector<DrawnPoint> outline(const gear::Tooth& tooth, const std::vector<doub
   return points;
 }
 
-/// Half of the angle in which teeth within `reach` of the line of centres stand, with one pitch to spare.
+/// Half of the angle that contains the teeth within `reach` of the line of centres, with one pitch to spare.
 double spread_of(const gear::Tooth& tooth, double reach_mm) {
   const double least = std::min(tooth.tip_radius_mm, tooth.root_radius_mm);
   return std::min(pi, std::asin(std::min(1.0, reach_mm / least)) + 2.0 * pi / tooth.teeth);
 }
 
-/// Where the driven member's teeth in mesh are, seen from its axis.
+/// The teeth of the driven member in mesh, seen from its axis.
 double driven_direction(const gear::Pair& pair) { return pair.internal() ? 0.5 * pi : -0.5 * pi; }
 
 /// A nanometre: digits beyond it only make the file longer.
@@ -417,7 +417,7 @@ struct DrawnMember {
   const gear::Tooth& tooth;
   const std::vector<DrawnPoint>& teeth;
   DrawnPoint axis;
-  double towards, spread;  // the teeth stand within +- spread of this direction [rad]
+  double towards, spread;  // the teeth are within +- spread of this direction [rad]
   double pitch_radius;
   std::string_view name, colour, tint;
 };
@@ -513,7 +513,7 @@ struct TypeStyle {
   std::string mark;
 };
 
-/// The rotational modes stand out: only they answer meshes that are in phase.
+/// The rotational modes are emphasized: only they respond to meshes that are in phase.
 const std::array<TypeStyle, 4>& type_styles() {
   static const std::array<TypeStyle, 4> styles{
       {{model::ModeType::translational, blue, "(14,6)", 1.4, figures::dots(blue, 1, 6)},
@@ -525,7 +525,7 @@ const std::array<TypeStyle, 4>& type_styles() {
 
 constexpr int mesh_harmonics_shown = 3;
 
-/// Where harmonic h meets a frequency, if that is in the figure.
+/// The intersection of harmonic h with a frequency, if it is in the figure.
 Curve resonances(const std::vector<model::Mode>& modes, model::ModeType type, double speed_max) {
   Curve points;
   for (const model::Mode& mode : modes)
@@ -588,7 +588,7 @@ GearFigure campbell_figure(const fs::path& folder, const gear::Stage& stage, con
                            double omega_sn) {
   const double highest = modes.back().frequency_ratio;
   const double frequency_max = 1.08 * std::max(1.0, highest);
-  const double speed_max = frequency_max;  // where the first harmonic leaves the figure
+  const double speed_max = frequency_max;  // at which the first harmonic leaves the figure
   figures::Sketch sketch("campbell");
   sketch.command("set style textbox opaque noborder fillcolor '#ffffff' margins 0.4,0.4");
   add_frequency_axis(sketch, frequency_max, omega_sn);
@@ -601,7 +601,7 @@ GearFigure campbell_figure(const fs::path& folder, const gear::Stage& stage, con
                figures::dashed(recording.colour, recording.width, recording.dash));
   for (const TypeStyle& recording : type_styles())
     sketch.add(resonances(modes, recording.type, speed_max), recording.mark);
-  // What is drawn last, on top, is named first.
+  // The last symbol drawn, on top, is the first in the legend.
   const std::vector<TypeStyle> legend(type_styles().rbegin(), type_styles().rend());
   for (const TypeStyle& recording : legend)
     if (std::any_of(modes.begin(), modes.end(), [&](const model::Mode& mode) { return mode.type == recording.type; }))
@@ -614,13 +614,13 @@ GearFigure campbell_figure(const fs::path& folder, const gear::Stage& stage, con
       {0.0, speed_max}, {0.0, frequency_max});
 }
 
-/// Radii of the circles that stand for the members, in centre distances.
+/// Radii of the circles of the members, in centre distances.
 struct SchematicRadii {
   double sun, planet, ring;                 // as drawn
   double sun_base, planet_base, ring_base;  // of u = r theta
 };
 
-/// Of the stage, or of an ordinary one where it has only masses and stiffnesses.
+/// Of the stage, or typical ones if it has only masses and stiffnesses.
 SchematicRadii schematic_radii(const gear::Stage& stage) {
   const auto& s = stage.sun.base_radius_mm;
   const auto& p = stage.planet.base_radius_mm;

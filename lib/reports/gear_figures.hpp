@@ -1,8 +1,8 @@
 // Figures of `epicyclic gear`: mesh stiffness, load sharing of tooth pairs, friction, bearings, the teeth in mesh,
 // natural modes.
 //
-// Teeth in mesh stand by the geometry of the pair, not by eye [F-mesh]: with the pitch point at the origin, the axis of
-// the driving member below it and the driving member turning clockwise,
+// Teeth in mesh are placed by the geometry of the pair [F-mesh]. The pitch point is the origin, the axis of the driving
+// member is below it, and the driving member rotates clockwise:
 //
 //   n = (cos alpha, sin alpha) ,  contact at  C(l) = (l - r_b1 tan alpha) n
 //   centre lines of the teeth of a contact at l, as polar angles about their axes:
@@ -10,7 +10,7 @@
 //     driven, external  -pi/2 + alpha - h_2 / r_b2 + alpha_22
 //     driven, internal   pi/2 + alpha - h_2 / r_b2 - alpha_22
 //
-// since a flank begins on its base circle an arc of the length of its contact line away from the tangent point. Source:
+// A flank begins on its base circle, at an arc from the tangent point that is as long as its contact line. Source:
 // derived from [G-pair], [G-path]. Limits: nominal teeth, without thinning, deflection or modification.
 #pragma once
 
@@ -30,9 +30,9 @@ struct GearFigure {
   figures::FigureOutcome outcome;
 };
 
-/// Draws what follows from catalogue data, each as `folder`/STEM.{dat,gp,png,svg}: stiffness_sp, stiffness_rp,
+/// Draws the figures from catalogue data, each as `folder`/STEM.{dat,gp,png,svg}: stiffness_sp, stiffness_rp,
 /// load_sharing, friction, friction_ratio, bearing_stiffness, bearing_force, teeth_sp, teeth_rp. Without lubrication
-/// there is no friction to show, without bearings no bearing: such figures are left out, and are not in the result.
+/// there are no figures of friction, without bearings none of bearings; they are not in the result.
 ///
 /// @param load   of the operating point that the friction figures show
 /// @param stage  its name and the friction it uses, if that is a lubricated contact with load shares

@@ -69,7 +69,7 @@ std::string mode_shapes_csv(const gear::Stage& stage, const std::vector<model::M
   return csv.text();
 }
 
-/// Where the harmonics of the mesh frequency meet the natural frequencies: Omega = frequency_ratio / h.
+/// Intersections of the harmonics of the mesh frequency with the natural frequencies: Omega = frequency_ratio / h.
 std::string campbell_csv(const std::vector<model::Mode>& modes) {
   CsvWriter csv({"mode", "type", "frequency_ratio", "harmonic", "mesh_frequency_ratio"});
   int number = 1;
@@ -168,7 +168,7 @@ std::string friction_ratios_csv(const std::vector<NamedMesh>& both, const gear::
   return csv.text();
 }
 
-/// Xu's regression is flagged, not refused, where it is extrapolated.
+/// An extrapolated value of Xu's regression is marked, not refused.
 void warn_of_range(std::vector<std::string>& warnings, const NamedMesh& m, const gear::Lubrication& lubrication,
                    const gear::MeshLoad& load) {
   const gear::LubricationRange r = gear::lubrication_range(gear::ehl_of(m.pair, lubrication), m.line, load);

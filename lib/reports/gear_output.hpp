@@ -20,8 +20,8 @@ struct GearOutput {
   std::vector<std::string> undrawn;  ///< "stem: why not"
 };
 
-/// Numbers within their bounds can be out of all reason together: to be asked before anything is written.
-/// @throws InputError naming what of geometry, operating point and modes is not a finite number
+/// Numbers within their bounds can give results that are not finite. To be called before anything is written.
+/// @throws InputError that names what of geometry, operating point and modes is not a finite number
 void require_finite_numbers(const input::LoadedInput& input);
 
 /// Writes everything to a folder; the operating point is the study's, Omega = 1 for a stage alone.

@@ -38,7 +38,7 @@ class Group {
   std::string name_;
 };
 
-/// @param module_formula  where the module comes from
+/// @param module_formula  source of the module
 void add_tooth(std::vector<Quantity>& all, const gear::Tooth& t, const std::string& member, const std::string& index,
                const std::string& module_formula) {
   Group g(all, "Teeth of the " + member);
@@ -63,7 +63,7 @@ void add_pair(std::vector<Quantity>& all, const gear::Pair& p, const std::string
   try {
     g.add(name("tight_centre_distance"), "a_0" + index, tight_centre_distance_mm(p.driving, p.driven), "mm", "[G-a0]");
   } catch (const DomainError&) {
-    // Teeth that fit at no centre distance without backlash: there is none to tell.
+    // Teeth that fit at no centre distance without backlash: there is no such distance to report.
   }
   g.add(name("operating_pitch_radius_driving"), "r_w1", p.pitch_radius_1_mm(), "mm", "[G-pair]");
   g.add(name("operating_pitch_radius_driven"), "r_w2", p.pitch_radius_2_mm(), "mm", "[G-pair]");
@@ -166,9 +166,9 @@ void append_values(std::string& page, const nlohmann::json& value, const std::st
                       markdown_cell(origin));
 }
 
-/// Which modes are rotational, and what of the mesh frequency excites them: harmonic h of equally spaced, equal planets
-/// reaches planet i with the phase 2 pi h z_s i / N, the same for all only where h z_s / N is whole (Parker, J. Sound
-/// Vib. 236 (2000) 561).
+/// The rotational modes, and the harmonics of the mesh frequency that excite them. Harmonic h of equally spaced, equal
+/// planets reaches planet i with the phase 2 pi h z_s i / N. It is the same for all only if h z_s / N is whole (Parker,
+/// J. Sound Vib. 236 (2000) 561).
 std::string rotational_modes(const gear::Stage& stage, const std::vector<model::Mode>& modes) {
   std::string list;
   for (const model::Mode& mode : modes)
@@ -210,7 +210,8 @@ bool is_tight(const gear::GearSet& set) {
   }
 }
 
-/// Frequencies of each type, rising, as often as their multiplicity [Hz]; all in one where types are not told apart.
+/// Frequencies of each type, rising, as often as their multiplicity [Hz]; all under one key if types are not
+/// distinguished.
 using Frequencies = std::map<std::optional<model::ModeType>, std::vector<double>>;
 
 Frequencies frequencies(const gear::Stage& stage, const std::vector<model::Mode>& modes, bool by_type) {
@@ -253,7 +254,7 @@ std::vector<Quantity> gear_quantities(const gear::GearSet& set, const gear::Stag
       g.add("ring_addendum_bound", "h_ar max", gear::ring_addendum_bound(stage), "-",
             "largest value with contact of the ring-planet mesh only beyond its pitch point");
     } catch (const DomainError&) {
-      // No addendum puts the whole path beyond the pitch point: there is no bound to tell.
+      // No addendum puts the whole path beyond the pitch point: there is no bound to report.
     }
   }
   const bool given_module = set.ring.module_mm == set.catalogue.ring.data.module_mm;

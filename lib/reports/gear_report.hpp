@@ -37,15 +37,16 @@ struct ModeRange {
   double from, to;
 };
 
-/// One for each of the modes of the input's stage; empty where no value of the modes has a range.
+/// One for each of the modes of the input's stage; empty if no value of the modes has a range.
 ///
-/// Each frequency rises with every stiffness and falls with every mass (Courant and Fischer), so that its least value
-/// is that of the softest and heaviest stage, its greatest that of the stiffest and lightest. Of equally spaced, alike
-/// planets each type of modes is a problem of its own: the k-th mode of its type is followed, else the k-th of all.
+/// Each frequency rises with every stiffness and falls with every mass (Courant and Fischer). So its least value is
+/// that of the softest and heaviest stage, and its greatest that of the stiffest and lightest. For equally spaced,
+/// alike planets each type of modes is a problem of its own: the k-th mode of its type is followed. Else it is the k-th
+/// of all.
 [[nodiscard]] std::vector<ModeRange> mode_ranges(const input::LoadedInput& input,
                                                  const std::vector<model::Mode>& modes);
 
-/// What the page says besides its numbers.
+/// Texts of the page besides its numbers.
 struct GearPage {
   std::string title;
   std::vector<std::string> verdicts;  ///< plain sentences, e.g. where the paths of contact lie
@@ -68,7 +69,7 @@ struct GearPage {
 /// @param stage  passes gear::problems_for_motion()
 [[nodiscard]] std::string error_words(const gear::Stage& stage, double mesh_frequency_ratio);
 
-/// The mode whose frequency is least known, in a sentence.
+/// A sentence on the mode with the most uncertain frequency.
 /// @param ranges  of the modes; one at least
 [[nodiscard]] std::string range_words(const std::vector<ModeRange>& ranges);
 

@@ -1,4 +1,4 @@
-// What maps and basins have in common in their folders.
+// Common parts of the files of maps and basins.
 #pragma once
 
 #include <string>

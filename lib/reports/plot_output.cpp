@@ -54,7 +54,7 @@ constexpr Place gap{nan, nan};
 
 // ---- tables -----------------------------------------------------------------------------------------------------
 
-/// Nothing of a file that is not there.
+/// Nothing for a missing file.
 /// @throws OutputError when it cannot be read
 std::string text_of_file(const std::filesystem::path& file) {
   const FileDescriptor descriptor = open_descriptor(file, O_RDONLY);
@@ -71,7 +71,7 @@ void use_new_names(std::vector<std::string>& columns, const std::filesystem::pat
 /// Some columns of a table that may have more than fit into memory.
 class Columns {
  public:
-  /// @throws InputError where it has not all of them
+  /// @throws InputError if it does not have all of them
   Columns(const std::filesystem::path& file, std::vector<std::string> names) : names_(std::move(names)) {
     std::vector<std::size_t> at;
     columns_.resize(names_.size());
@@ -124,7 +124,7 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 
 // ---- words ------------------------------------------------------------------------------------------------------
 
-/// What a column is the statistic of: endings of names, in words.
+/// Statistics of columns: endings of names, in words.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 8> statistics = {{{"_mean", "Mean of "},
                                                                                       {"_rms", "RMS of "},
                                                                                       {"_range", "Peak to peak of "},
@@ -134,7 +134,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 8> statistic
                                                                                       {"_h2", "Harmonic 2 of "},
                                                                                       {"_h3", "Harmonic 3 of "}}};
 
-/// The symbol of a signal, "δ_{sp,1}" of delta_sp and delta_sp_1; its words where it has none; or nothing.
+/// The symbol of a signal, "δ_{sp,1}" of delta_sp and delta_sp_1; its words if it has none; or nothing.
 std::string symbol_of(std::string_view signal) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 3> words = {
       {{"transmission_error", "the transmission error"},
@@ -204,7 +204,7 @@ std::string unit_text(const std::string& unit, bool micrometres) {
   return "  [" + figures::literal_text(unit) + "]";
 }
 
-/// The parameter that a study goes along, where it is one.
+/// The parameter of a study, if it has one.
 std::string parameter_of(const input::Study& study) {
   const auto varied = input::varied_parameters(study);
   return varied.empty() ? std::string() : varied.front().axis.name;
@@ -234,7 +234,7 @@ class Plot {
     figures::Sketch sketch(stem);
     read_all();
     const bool of_sections = std::ranges::any_of(series_, [](const Series& s) { return s.section; });
-    // Where both ways are chaotic, one would hide the other: each has a frame of its own.
+    // If both directions are chaotic, one would hide the other: each has a frame of its own.
     std::set<std::string> directions;
     for (const Series& s : series_)
       if (!s.rows.empty() && !s.lines) directions.insert(s.direction);
@@ -310,7 +310,7 @@ class Plot {
   }
 
  private:
-  /// What of the points is not drawn, or not what it seems.
+  /// Notes on points that are not drawn, or that need care.
   void note_points(const std::string& stem) const {
     if (failed_ > 0)
       notes_.push_back(
@@ -329,7 +329,7 @@ class Plot {
     bool section = false;        ///< many values over each abscissa
     std::vector<Place> rows;     ///< dots, or stable orbits
     std::vector<Place> joined;   ///< a line through those that belong together, or unstable orbits
-    std::vector<Place> apart{};  ///< dots of records that are on their way to the motion
+    std::vector<Place> apart{};  ///< dots of records that have not converged
   };
 
   void read_all() {
@@ -383,7 +383,7 @@ class Plot {
     if (has_converged) wanted.emplace_back("converged");
     if (!section) wanted.push_back(options_.quantity);
     const Columns points(folder / "points.csv", wanted);
-    // First where the points are, then what the section has at each.
+    // First the abscissas of the points, then the values of the section at each.
     std::vector<Series> by_direction;
     const auto series_at = [&](std::size_t row) -> Series& {
       const std::string& direction = points.word("direction", row);
@@ -401,7 +401,7 @@ class Plot {
         continue;
       }
       const Place at = reached ? place(points.number(x, row), points.number(options_.quantity, row)) : gap;
-      // No line goes through chaos, where such numbers are a matter of chance, or through a record on its way.
+      // No line goes through chaos, where such numbers are random, or through a record that has not converged.
       const std::string& regime = points.word("regime", row);
       const bool converged = !has_converged || points.number("converged", row) == 1.0;
       if (reached && !converged) ++not_converged_;
@@ -421,7 +421,7 @@ class Plot {
     std::ranges::move(by_direction, std::back_inserter(series_));
   }
 
-  /// Where branches gain or lose stability: behind which of their orbits (branch, index), at which value.
+  /// Changes of stability of branches: the orbit before the change (branch, index), and the value.
   static std::map<std::pair<std::string, std::string>, double> stability_changes(const std::filesystem::path& folder) {
     std::map<std::pair<std::string, std::string>, double> changes;
     const Columns special(folder / "special.csv", {"branch", "kind", "after", "value"});
@@ -448,7 +448,7 @@ class Plot {
         s.rows.push_back(gap);
         s.joined.push_back(gap);
       } else if (stable != (table.number("stable", row - 1) == 1.0)) {
-        // Lines change where the branch does, between the two orbits; beyond a fold, which lies beyond both, halfway.
+        // Lines change with the branch, between the two orbits; at a fold, which is beyond both, halfway.
         const double last = table.number("value", row - 1);
         const auto change = changes.find({table.word("branch", row), table.word("index", row - 1)});
         double part = change == changes.end() ? 1.0 : (change->second - last) / (table.number("value", row) - last);
@@ -555,14 +555,14 @@ class Plot {
     return parameter.empty() ? quantity_label("periods", false) : parameter_label(parameter);
   }
 
-  /// The picture has the size that was asked for, whatever is in it.
+  /// The picture has the requested size, whatever it contains.
   [[nodiscard]] figures::FigureCanvas canvas_of(const figures::FigureText& text) const {
     figures::FigureCanvas canvas = options_.canvas;
     if (text.above) canvas.height -= figures::second_abscissa_height;
     return canvas;
   }
 
-  /// Omega below and above the speed that the studies give, or the sun's, or the other way round; of stages with one
+  /// Omega below, and above it the speed that the studies give or the sun's speed, or the reverse; for stages with one
   /// scale of time.
   [[nodiscard]] std::optional<figures::SecondAbscissa> above() const {
     const auto& given = studies_.front().study->axis_speed;
@@ -605,12 +605,12 @@ class Plot {
   std::vector<Series> series_;
   FigureRange x_, y_;
   std::pair<FigureRange, FigureRange> shown_;  ///< of the axes
-  std::size_t not_converged_ = 0;              ///< points whose record is on its way to their motion
+  std::size_t not_converged_ = 0;              ///< points whose record has not converged
   std::size_t failed_ = 0;                     ///< points that were not reached
   std::size_t not_positive_ = 0;               ///< values that a logarithmic scale has no place for
 };
 
-/// "; did you mean ...?" of a column: by its beginning, whatever the case and underscores, else by edit distance.
+/// "; did you mean ...?" of a column: by its beginning, without case and underscores, else by edit distance.
 std::string nearest_column(const std::string& word, const std::vector<std::string>& known) {
   const auto plain = [](const std::string& text) {
     std::string letters;

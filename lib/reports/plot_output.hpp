@@ -1,4 +1,4 @@
-// Figures of what is stored: any column of the tables that finished studies left, of several studies over each other.
+// Figures of stored results: any column of the tables of finished studies, of one study or of several in one figure.
 //
 //   sweep        a column of points.csv over its parameter or another column, up and down; or of poincare.csv
 //   map          a column of points.csv over the plane
@@ -17,7 +17,7 @@
 
 namespace epicyclic::reports {
 
-/// A finished study, whose tables are as it left them.
+/// A finished study with unchanged tables.
 struct PlottedStudy {
   std::filesystem::path folder;
   const input::Study* study = nullptr;
@@ -25,7 +25,7 @@ struct PlottedStudy {
 };
 
 struct PlotOptions {
-  std::string quantity;  ///< column; empty: the one that its kind is best known by
+  std::string quantity;  ///< column; empty: the default of its kind
   std::string abscissa;  ///< column; empty: the parameter, of a run the time
   std::optional<figures::FigureRange> x{}, y{};
   bool micrometres = false;  ///< lengths in micrometres instead of b_c
@@ -42,14 +42,14 @@ struct PlotOptions {
 /// A column as the label of an axis: "RMS of δ_{sp,1} / b_c".
 [[nodiscard]] std::string quantity_label(const std::string& column, bool micrometres);
 
-/// The options with the quantity that is meant.
-/// @throws InputError for studies that have no such column, or that do not go into one figure
+/// The options with the default quantity in place.
+/// @throws InputError for studies that have no such column, or that do not fit into one figure
 [[nodiscard]] PlotOptions sound_options(const std::vector<PlottedStudy>& studies, PlotOptions options);
 
 /// Draws STEM.png and the others to `folder`, STEM from quantity and abscissa.
-/// @param options  sound ones
-/// @param notes    takes what is left out of a figure
-/// @throws InputError for tables that are none; OutputError
+/// @param options  valid ones
+/// @param notes    receives what a figure leaves out
+/// @throws InputError for invalid tables; OutputError
 [[nodiscard]] std::vector<DrawnFigure> draw_plot(const std::filesystem::path& folder,
                                                  const std::vector<PlottedStudy>& studies, const PlotOptions& options,
                                                  std::vector<std::string>& notes);

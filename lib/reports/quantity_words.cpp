@@ -75,7 +75,7 @@ QuantityWords quantity_words(std::string_view pointer) {
       result.words += (result.words.empty() ? "" : ", ") + words;
   if (!result.words.empty()) result.words += ": ";
   const std::string unit = input::unit_of(key);
-  std::size_t end = key.size();  // of what is no unit
+  std::size_t end = key.size();  // end of the part before the unit
   if (!unit.empty())
     for (end = key.rfind('_'); input::unit_of("x" + key.substr(end)) != unit;) end = key.rfind('_', end - 1);
   result.words += words_of(std::string_view(key).substr(0, end), keys);

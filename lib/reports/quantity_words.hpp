@@ -1,4 +1,4 @@
-// What a number of the input is, in the words of an axis: from its place, so that a new key has words, too.
+// Words of an axis for a number of the input, from its place, so that a new key has words, too.
 #pragma once
 
 #include <string>

@@ -32,13 +32,13 @@ std::size_t points_per_direction(const ResponseInput& input) {
   return input.points.count / input.sweep.directions.size();
 }
 
-/// Is the motion one whose numbers do not depend on when it is recorded, as far as is known?
+/// Do the numbers of the response not depend on when it is recorded, as far as is known?
 bool regular(const PointSummary& r) {
   return !r.is_unconverged() && r.regime != analysis::Regime::chaotic &&
          !(r.regime == analysis::Regime::undecided && r.classified);
 }
 
-/// Numbers of each record along each direction. No line goes through chaos, where they are a matter of chance.
+/// Numbers of each record along each direction. No line goes through chaos, where they are random.
 std::vector<figures::TrackSeries> series_of(const ResponseInput& input,
                                             const std::function<std::vector<double>(const StageRecord&)>& values) {
   std::vector<figures::TrackSeries> all;
@@ -173,7 +173,7 @@ figures::FigureOutcome write_waterfall_figure(const std::filesystem::path& folde
   figures::CellGrid grid;
   for (const Column& column : columns) grid.x.push_back(column.x);
   std::vector<double> cells;
-  // Order 0 is the mean, which is none of the motion.
+  // Order 0 is the mean, which is not part of the vibration.
   for (std::size_t j = 1; j < orders; ++j) {
     grid.y.push_back(resolution * static_cast<double>(j));
     for (const Column& column : columns) cells.push_back(j < column.spectrum.size() ? column.spectrum[j] : 0.0);

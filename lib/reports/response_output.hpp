@@ -1,4 +1,4 @@
-// What a sweep's records say of vibration and load along the parameter: response curves, largest forces, dynamic
+// Figures of a sweep's records on vibration and load along the parameter: response curves, largest forces, dynamic
 // factor, load sharing of the planets, and the spectrum as a map.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace epicyclic::reports {
 
-/// What curves are drawn of.
+/// The data of curves.
 struct ResponseInput {
   const studies::SweepOptions& sweep;
   const studies::PointSource& points;  ///< along the first direction, then the second
@@ -33,7 +33,7 @@ struct ResponseInput {
 [[nodiscard]] figures::FigureOutcome write_kv_figure(const std::filesystem::path& folder, const std::string& stem,
                                                      const ResponseInput& input);
 
-/// Do planets carry unlike loads anywhere?
+/// Do planets have unequal loads anywhere?
 [[nodiscard]] bool loads_differ(const studies::PointSource& points);
 
 /// Share of each planet in the load of both kinds of mesh, by time means or by largest forces.

@@ -54,10 +54,10 @@ class SectionRows {
  private:
   std::vector<std::uint32_t> rows_;  ///< by point
   std::size_t count_ = 0;
-  std::size_t point_ = 0, first_ = 0;  ///< last asked for, and its first row
+  std::size_t point_ = 0, first_ = 0;  ///< last requested, and its first row
 };
 
-/// Which direction a figure of one direction is of; nothing of the others.
+/// The direction of a figure of one direction; nothing for other figures.
 std::optional<std::size_t> direction_of(SweepFigure figure) {
   switch (figure) {
     case SweepFigure::regimes_first:
@@ -127,8 +127,8 @@ std::size_t points_per_direction(const SweepOutput& output, const studies::Point
   return points.count / output.sweep.directions.size();
 }
 
-/// Distinct in print, in grey and for colour-blind eyes (after Okabe and Ito). A multiplier's logarithm has intervals
-/// far wider than what is looked at where it is next to nothing.
+/// The colours differ in print, in grey and for colour-blind readers (after Okabe and Ito). The logarithm of a
+/// multiplier near zero has an interval far wider than the figure needs.
 const std::vector<figures::PointClass>& classes() {
   static const std::vector<figures::PointClass> all = {
       {"period 1", "#12285c", false}, {"period 2 and more", "#3f8fd0", false},

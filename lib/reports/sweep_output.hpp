@@ -1,4 +1,4 @@
-// What a sweep leaves in its folder: points.csv, poincare.csv, results.h5, figures.
+// The files of a sweep: points.csv, poincare.csv, results.h5, figures.
 //
 // All of it follows from the points alone and is the same, byte for byte, for the same study.
 #pragma once
@@ -26,14 +26,14 @@ namespace epicyclic::reports {
 [[nodiscard]] std::string parameter_label(const std::string& parameter);
 [[nodiscard]] std::string parameter_symbol(const std::string& parameter);
 
-/// What points are whose record is still on its way to their motion, for legends of figures that draw them apart.
+/// Text in legends for points whose record has not converged to the orbit.
 inline constexpr const char* not_converged_words = "record not converged to the orbit";
 
 /// Axis label of a speed by its key, as "sun_speed_rpm"; empty of any other.
 [[nodiscard]] std::string speed_label(std::string_view key);
 
-/// What the study gives speeds in, else the sun's speed in rpm, over an abscissa that is the mesh frequency ratio;
-/// nothing over any other.
+/// For an abscissa that is the mesh frequency ratio: the unit of the study's speeds, else the sun's speed in rpm.
+/// Nothing for any other abscissa.
 /// @param points  of which one was seen
 [[nodiscard]] std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter,
                                                                  const std::optional<studies::SpeedUnit>& given,
@@ -45,7 +45,7 @@ inline constexpr const char* not_converged_words = "record not converged to the 
 /// Name of study or stage with the boundary and, unless it is swept, the speed: for figures.
 [[nodiscard]] std::string figure_title(const input::Study& study);
 
-/// What a sweep is written with besides its points.
+/// Data of a sweep for its files, besides its points.
 struct SweepOutput {
   studies::SweepOptions sweep;
   std::vector<std::string> poincare_columns;
@@ -96,8 +96,8 @@ inline constexpr std::array all_sweep_figures{SweepFigure::delta_sp,        Swee
                                               SweepFigure::waterfall_first, SweepFigure::waterfall_second};
 
 /// Data and script of a figure in `folder`, for draw_sweep_picture.
-/// @returns nothing, or why there is nothing to draw; that the study has no such figure (one direction, regimes not
-/// told) is no reason
+/// @returns nothing, or why there is nothing to draw. It gives no reason if the study has no such figure: one
+/// direction, or no classified regimes.
 /// @throws OutputError, and what reading points throws
 [[nodiscard]] std::optional<DrawnFigure> write_sweep_figure(const std::filesystem::path& folder,
                                                             const SweepOutput& output,

@@ -17,7 +17,7 @@
 
 namespace epicyclic::reports {
 
-/// @param row_at  Row row_at(i), asked for each row once
+/// @param row_at  Row row_at(i), called for each row once
 /// @throws OutputError, and what row_at() throws
 template <class Row, class RowAt>
 void write_table_csv(const std::filesystem::path& file, const std::vector<store::Column<Row>>& columns,
@@ -37,7 +37,7 @@ void write_table_csv(const std::filesystem::path& file, const std::vector<store:
 inline constexpr std::size_t columns_together = 16;
 
 /// One dataset a column, with units and meaning as attributes.
-/// @param row_at  Row row_at(i), asked for each row once every `columns_together` columns
+/// @param row_at  Row row_at(i), called for each row once every `columns_together` columns
 /// @throws OutputError, and what row_at() throws
 template <class Row, class RowAt>
 void write_table_h5(store::Hdf5File& h5, const std::string& group, const std::vector<store::Column<Row>>& columns,

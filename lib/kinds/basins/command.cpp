@@ -1,4 +1,4 @@
-// epicyclic basins: the attractors that motions from a plane of starts end on.
+// epicyclic basins: the attractors that trajectories from a plane of initial states reach.
 
 #include <vector>
 

@@ -34,7 +34,7 @@ store::PointColumn attractor_column(const Attractors& attractors) {
           })};
 }
 
-/// An attractor with what its cells say of it.
+/// An attractor with data of its cells.
 struct Row {
   std::int64_t number = 0;
   std::string regime;

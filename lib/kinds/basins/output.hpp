@@ -1,5 +1,5 @@
-// What basins leave in their folder: points.csv, attractors.csv, results.h5, a figure. There is no poincare.csv: of a
-// cell's motion only what its attractor is told from is kept, and that in the journal.
+// The files of basins: points.csv, attractors.csv, results.h5, a figure. There is no poincare.csv. Of a cell's
+// trajectory only the data that determine its attractor are kept, and those in the journal.
 //
 // All of it follows from the points alone and is the same, byte for byte, for the same study.
 #pragma once
@@ -18,7 +18,7 @@ namespace epicyclic::kinds {
 struct BasinsOutput {
   studies::Plane plane;
   std::vector<std::string> state_names;
-  std::vector<studies::PlanetRotation> rotations;  ///< symmetries that images of attractors were looked for with
+  std::vector<studies::PlanetRotation> rotations;  ///< symmetries with which images of attractors are identified
   std::string resolved_input;                      ///< text of input.resolved.json, kept in results.h5 too
   std::string title;                               ///< of the figure
 };

@@ -1,4 +1,4 @@
-// epicyclic continue: branches of periodic motions along one parameter, with the points where they change.
+// epicyclic continue: branches of periodic orbits along one parameter, and their special points.
 
 #include <algorithm>
 #include <chrono>
@@ -45,7 +45,7 @@ namespace {
 using studies::BranchesOptions;
 using studies::TracedBranches;
 
-/// The models of the family, until a stop is asked for.
+/// The models of the family, until a stop is requested.
 studies::ModelAt stoppable(studies::ModelAt models) {
   return [models = std::move(models)](double value) {
     give_up_if_stopped();
@@ -53,7 +53,8 @@ studies::ModelAt stoppable(studies::ModelAt models) {
   };
 }
 
-/// Orbits to start from: settled motions, then seeds; told apart from those that were not found.
+/// Orbits to start from: those reached from the default start, then seeds. Orbits that were not found are returned
+/// apart.
 std::vector<studies::BranchAttempt> add_starts(const studies::BranchSystem& system, const BranchesOptions& options,
                                                const studies::ModelAt& models, analysis::BifurcationDiagram& tree) {
   std::vector<studies::BranchAttempt> attempts;
@@ -74,10 +75,10 @@ std::vector<studies::BranchAttempt> add_starts(const studies::BranchSystem& syst
   return attempts;
 }
 
-/// A journal in the folder whose records stand in order; what was cut from its end is told.
+/// A journal in the folder, with its records in order. A torn end that is removed is reported.
 class OrderedJournal {
  public:
-  /// @param what  a record is called
+  /// @param what  name of a record in messages
   OrderedJournal(Session& session, const char* name, std::string what)
       : what_(std::move(what)), journal_(session.folder().file(name), session.identity()) {
     report_cut_tail(session.folder().file(name), journal_.cut_bytes());
@@ -105,7 +106,7 @@ class OrderedJournal {
   std::size_t count_ = 0;
 };
 
-/// The models over two parameters, until a stop is asked for.
+/// The models over two parameters, until a stop is requested.
 studies::ModelOverPlane stoppable_plane(const input::LoadedInput& input, const BranchesOptions& options,
                                         const std::string& second) {
   return [plane = input::model_plane(input, options.parameter, second, family_step(options))](double x, double y) {
@@ -116,7 +117,7 @@ studies::ModelOverPlane stoppable_plane(const input::LoadedInput& input, const B
 
 constexpr std::size_t any_number = static_cast<std::size_t>(-1);
 
-/// What the search finds at each of its values, kept in a journal of its own; each is a start.
+/// Results of the search at each of its values, kept in a journal of their own; each is a start.
 std::vector<studies::CoexistingOrbits> add_found(Session& session, const studies::BranchSystem& system,
                                                  const BranchesOptions& options, const studies::ModelAt& models,
                                                  analysis::BifurcationDiagram& tree) {
@@ -183,7 +184,7 @@ void add_rows(TracedBranches& traced, OrbitRows& known, const model::DynamicMode
   }
 }
 
-/// Writes the tables of what is there by now, now and then: branches may take hours.
+/// Writes the tables of the present results from time to time: branches may take hours.
 class PartialTables {
  public:
   PartialTables(const store::OutputFolder& folder, const kinds::ContinueOutput& output, OrbitRows& rows,
@@ -219,7 +220,7 @@ class PartialTables {
   Clock::time_point due_ = Clock::now() + interval / 2;
 };
 
-/// How long branches will take, by how much of the range the one under way has covered in which time.
+/// Estimates the time that branches take, by the part of the range that the present branch has covered, and its time.
 class Pace {
  public:
   explicit Pace(const BranchesOptions& options) : range_(options.to - options.from) {}
@@ -259,7 +260,7 @@ class Pace {
  private:
   using Clock = std::chrono::steady_clock;
   [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
-  /// Part of the range; a branch that turns back covers it again.
+  /// Part of the range. A branch covers a part again after a fold.
   [[nodiscard]] double covered() const { return high_ > low_ ? std::min(1.0, (high_ - low_) / range_) : 0.0; }
   void end_branch() {
     if (!(high_ >= low_)) return;  // there was none
@@ -278,7 +279,7 @@ class Pace {
 
 /// The tree to its end, each step kept in the journal.
 /// @param axis   the parameter in words
-/// @param first  the model where the branches start
+/// @param first  the model at the start of the branches
 void grow(Session& session, const BranchesOptions& options, const reports::AxisWords& axis,
           const model::DynamicModel& first, PartialTables& tables, analysis::BifurcationDiagram& tree) {
   const auto place = [&](double value) {
@@ -327,7 +328,7 @@ void add_note(studies::SpecialRow& row, const std::string& note) {
   row.note.append(note);
 }
 
-/// Of a study with a smooth clearance: where the special points are with the exact one, each kept in a journal.
+/// For a study with a smooth clearance: the special points with the exact clearance, each kept in a journal.
 void compute_exact_values(Session& session, const input::LoadedInput& input, const BranchesOptions& options,
                           TracedBranches& traced) {
   const double width = input.study.model.clearance_smoothing;
@@ -349,7 +350,7 @@ void compute_exact_values(Session& session, const input::LoadedInput& input, con
   journal.close();
 }
 
-/// The loci that are asked for, each kept in a journal of their own when it is whole.
+/// The requested loci. Each is kept in a journal of its own when it is complete.
 std::vector<studies::TracedLocus> trace_loci(Session& session, const input::LoadedInput& input,
                                              const BranchesOptions& options, const TracedBranches& traced) {
   const studies::LociOptions& wanted = options.loci.value();
@@ -385,7 +386,7 @@ void require_given_within(const input::LoadedInput& input, const studies::LociOp
                                  loci.parameter, given, loci.from, loci.to));
 }
 
-/// What was asked for and not reached.
+/// Number of requested results that were not reached.
 std::size_t count_failures(const TracedBranches& traced, const std::vector<studies::TracedLocus>& loci) {
   std::size_t failed = traced.broken_off() + (traced.branches.empty() ? 1 : 0);
   for (const studies::BranchAttempt& a : traced.attempts) failed += a.seed && !a.found ? 1 : 0;
@@ -421,7 +422,7 @@ FinishedStudy sweep_to_prove(const Arguments& arguments, const input::LoadedInpu
   return sweep;
 }
 
-/// What was proved, with its files.
+/// The result of the comparison with the sweep, with its files.
 struct Proved {
   studies::BranchProof proof;
   std::string summary;

@@ -165,7 +165,7 @@ struct Stretch {
 
 std::vector<Stretch> stable_stretches(const TracedBranches& traced, std::size_t b) {
   const std::vector<BranchRow>& rows = traced.rows[b];
-  // Between an orbit that is stable and one that is not: the point where that changes, if it is known.
+  // Between a stable and an unstable orbit: the point of the change, if it is known.
   const auto change = [&](std::size_t before) {
     const auto at = traced.change_behind(b, before);
     return at ? traced.special[*at].value : 0.5 * (rows[before].value + rows[before + 1].value);
@@ -405,7 +405,7 @@ std::string continue_summary(const ContinueOutput& output, const TracedBranches&
   return text;
 }
 
-/// Places of lines, by whether the orbits are stable; a line goes on to the first orbit of the other kind.
+/// Points of lines, by whether the orbits are stable; a line extends to the first orbit of the other kind.
 struct BranchSketch::Lines {
   std::vector<Place> stable, unstable;
 
@@ -465,7 +465,7 @@ void BranchSketch::add_branches() {
 void BranchSketch::add_special_points() {
   const double width = output_.options.to - output_.options.from;
   const double height = y_.high - y_.low;
-  // Letters that would lie on each other are left to the first of them.
+  // Overlapping letters are left out, except the first.
   std::vector<Place> taken;
   const auto is_free = [&](const Place& here) {
     constexpr double apart_x = 0.035, apart_y = 0.055;
@@ -495,7 +495,7 @@ void BranchSketch::add_special_points() {
 }
 
 void BranchSketch::add_contacts() {
-  // What meshes do besides driving.
+  // Contact of meshes other than drive contact.
   struct Strip {
     double y;
     const char* name;

@@ -1,10 +1,10 @@
-// What branches leave in their folder.
+// The files of branches.
 //
 //   branch.csv      a row per orbit      special.csv   a row per special point      branches.csv  a row per branch
 //   poincare.csv    a row per Poincare point of an orbit: branch, index, crossing, columns as of a sweep
 //   results.h5      all of it, and all multipliers
-//   orbits.csv      a row per motion that a search has found, if one is asked for
-//   loci.csv        a row per point of a locus in two parameters, if loci are asked for
+//   orbits.csv      a row per orbit that a search has found, if a search is requested
+//   loci.csv        a row per point of a locus in two parameters, if loci are requested
 //   continue.md     in words: branches, where they are stable, where they change
 //   figures/        branches over the parameter, their contacts and largest multipliers
 //
@@ -46,14 +46,14 @@ void write_continue_tables(const std::filesystem::path& folder, const ContinueOu
 void write_branch_tables(const std::filesystem::path& folder, const ContinueOutput& output,
                          const studies::TracedBranches& traced);
 
-/// What was not as expected of a start: that there is no orbit near it, or only far from it. Empty: nothing.
+/// Unexpected results of a start: there is no orbit near it, or only a distant one. Empty: none.
 [[nodiscard]] std::string attempt_text(const reports::AxisWords& words, const studies::BranchAttempt& attempt);
 
 /// orbits.csv.
 /// @throws OutputError
 void write_found_csv(const std::filesystem::path& file, const std::vector<studies::CoexistingOrbits>& found);
 
-/// What was found, in words, for continue.md.
+/// Found orbits in words, for continue.md.
 [[nodiscard]] std::string found_text(const ContinueOutput& output, const std::vector<studies::CoexistingOrbits>& found);
 
 /// Text of continue.md.
@@ -67,7 +67,7 @@ struct SpecialLetters {
 };
 [[nodiscard]] SpecialLetters letters_of(analysis::SpecialKind kind);
 
-/// Which deflection a figure is of.
+/// The deflection in a figure.
 enum class MeshKind { sun_planet, ring_planet };
 
 /// Branches in a figure's first frame, their contacts and largest multipliers in those below.
@@ -77,11 +77,11 @@ class BranchSketch {
                MeshKind mesh);
 
   /// Points under the branches: x and y.
-  /// @param key  how they look in the legend
+  /// @param key  their text in the legend
   void add_points(const std::vector<std::array<double, 2>>& points, std::string_view recording, std::string_view key,
                   std::string_view title);
 
-  /// @returns what became of it
+  /// @returns the outcome of drawing
   [[nodiscard]] reports::DrawnFigure draw(const std::filesystem::path& folder, const std::string& title_more = {});
 
  private:

@@ -59,7 +59,7 @@ std::array<Places, 2> section_points(const ProvedSweep& sweep, const studies::Br
   return points;
 }
 
-/// Dots in rings where both directions have the same motion; of chaos a pale ground.
+/// A dot in a ring: both directions have the same attractor. Chaos is a pale background.
 void add_sweep(BranchSketch& sketch, const std::array<Places, 2>& points) {
   constexpr std::size_t many = 6000;
   const bool ground = points[0].size() + points[1].size() > many;

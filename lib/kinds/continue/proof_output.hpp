@@ -1,5 +1,5 @@
-// What is left of a sweep held against branches: proof.csv, proof.md, figures of the branches over the sweep's Poincare
-// points. They follow from the branches and the sweep alone.
+// The files of a comparison of a sweep with branches: proof.csv, proof.md, figures of the branches over the sweep's
+// Poincare points. They follow from the branches and the sweep alone.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace epicyclic::kinds {
 
-/// The sweep that is proved.
+/// The sweep that is compared.
 struct ProvedSweep {
   std::string name;      ///< of the study
   std::string identity;  ///< SHA-256 of it

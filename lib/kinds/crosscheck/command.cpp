@@ -41,7 +41,7 @@ std::map<std::pair<std::size_t, std::size_t>, studies::PointResult> known_result
   return known;
 }
 
-/// What is for readers of the folder.
+/// Files for readers of the folder.
 struct Written {
   std::string summary;
   reports::DrawnFigure figure;
@@ -74,7 +74,7 @@ void print_result(const Arguments& arguments, const store::OutputFolder& folder,
   }
 }
 
-/// Of each method alone; what explaining differences takes is not known before.
+/// Of each method alone; the time to explain differences is not known before.
 Expected time_of_crosscheck(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
                             const TimeLimit& limit) {
   const auto& study_plan = input.study.plan.as<kinds::CrosscheckPlan>();

@@ -77,7 +77,7 @@ std::string crosscheck_summary(const AxisWords& words, const studies::Crosscheck
       if (c.variant != v) continue;
       ++count[c.verdict];
       cost += static_cast<double>(c.result.rhs_evaluations);
-      // Of motions that agree: others are two answers, not one with an error.
+      // Of results that agree: others are two answers, not one with an error.
       if (c.verdict != Verdict::agree || !std::isfinite(c.distance)) continue;
       ++compared;
       largest = std::max(largest, c.distance);
@@ -113,7 +113,7 @@ DrawnFigure draw_crosscheck_figure(const std::filesystem::path& folder, const Sw
     for (const Comparison& c : all.comparisons) {
       if (c.variant != v || !std::isfinite(c.distance)) continue;
       curve.x.push_back(all.reference[c.point].point.value);
-      // Orbits that agree to the last bit stand at the rounding of numbers of order 1.
+      // Orbits that agree to the last bit are drawn at the rounding of numbers of order 1.
       constexpr double rounding = 1e-16;
       curve.y.push_back(std::max(c.distance, rounding));
     }

@@ -1,5 +1,5 @@
-// What a cross-check leaves in its folder: crosscheck.csv, the reference's points.csv and poincare.csv, crosscheck.md,
-// a figure. All of it follows from the points alone and is the same, byte for byte, for the same study.
+// The files of a cross-check: crosscheck.csv, the reference's points.csv and poincare.csv, crosscheck.md, a figure. All
+// of it follows from the points alone and is the same, byte for byte, for the same study.
 #pragma once
 
 #include <filesystem>
@@ -27,7 +27,7 @@ void write_crosscheck_csv(const std::filesystem::path& file, const studies::Cros
 /// Points that differ, explained or not.
 [[nodiscard]] std::size_t differences(const studies::Crosscheck& all);
 
-/// Those of them that no computation explains, or where one method has no answer.
+/// Those of them that no computation explains, or at which one method has no result.
 [[nodiscard]] std::size_t unexplained(const studies::Crosscheck& all);
 
 }  // namespace epicyclic::kinds

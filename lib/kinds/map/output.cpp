@@ -21,7 +21,7 @@ namespace {
 using studies::Direction;
 using studies::PointSummary;
 
-/// What a figure or a matrix shows of each cell, row by row with both axes ascending.
+/// The values of the cells in a figure or a matrix, row by row with both axes ascending.
 template <class T>
 std::vector<T> matrix(const MapOutput& output, const studies::PointSource& points, Direction direction,
                       const std::function<T(const PointSummary&)>& value) {

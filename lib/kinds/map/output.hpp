@@ -1,7 +1,7 @@
-// What a map leaves in its folder: points.csv, results.h5 with a matrix for each direction, figures. There is no
-// poincare.csv: a cell keeps its row alone.
+// The files of a map: points.csv, results.h5 with a matrix for each direction, figures. There is no poincare.csv: a
+// cell keeps its row alone.
 //
-// Cells are read where they are, one after the other; a matrix and the cells of a figure take eight bytes each.
+// Cells are read from the journal one after the other; a matrix and the cells of a figure take eight bytes each.
 //
 // All of it follows from the points alone and is the same, byte for byte, for the same study.
 #pragma once
@@ -27,7 +27,7 @@ struct MapOutput {
 void write_map_csv(const std::filesystem::path& file, const studies::PointSource& points);
 void write_map_h5(const std::filesystem::path& file, const MapOutput& output, const studies::PointSource& points);
 
-/// For each direction the regimes and, where they were told by more than recurrence, the largest exponent.
+/// For each direction the regimes and, if the classification uses more than recurrence, the largest exponent.
 [[nodiscard]] std::vector<reports::DrawnFigure> draw_map_figures(const std::filesystem::path& folder,
                                                                  const MapOutput& output,
                                                                  const studies::PointSource& points);

@@ -1,4 +1,4 @@
-// epicyclic run: one operating point with everything that analysis can say of it.
+// epicyclic run: one operating point with all results of the analysis.
 
 #include <algorithm>
 #include <chrono>
@@ -38,8 +38,8 @@ namespace epicyclic::app {
 
 namespace {
 
-/// What a run has computed, in the order of computing: the point, then results of the flows that exponents take. They
-/// are of use until the run is complete.
+/// Results of a run in the order of the computation: the point, then results of the flows of exponents. They are used
+/// until the run is complete.
 class RunJournal {
  public:
   RunJournal(Session& session) : file_(session.folder().file("journal.bin")), journal_(file_, session.identity()) {
@@ -94,7 +94,7 @@ class RunJournal {
   std::map<std::uint64_t, std::vector<store::JournalEntry>> known_;
 };
 
-/// Shows how far a run is. How long its exponents take is said as soon as some of them are there.
+/// Shows the progress of a run. The time of its exponents is estimated as soon as some of them exist.
 class RunProgress {
  public:
   RunProgress(const studies::RunOptions& options, std::size_t known)

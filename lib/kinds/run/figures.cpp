@@ -46,7 +46,7 @@ void include(figures::FigureRange& range, const std::vector<double>& values, std
   for (std::size_t k = from; k < values.size(); ++k) range.include(values[k]);
 }
 
-/// At least as wide as said, so that rounding is not blown up to fill the figure.
+/// At least as wide as given, so that rounding errors do not fill the figure.
 figures::FigureRange no_narrower(const figures::FigureRange& range, double width) {
   const double lacking = std::max(0.0, 0.5 * (width - (range.high - range.low)));
   return {range.low - lacking, range.high + lacking};
@@ -64,7 +64,7 @@ struct Window {
   double periods = 0;  ///< shown
 };
 
-/// The last mesh periods, from the very instant where they begin if the record has it.
+/// The last mesh periods, from the very instant of their beginning if the record has it.
 Window last_periods(const History& h, int periods) {
   Window w;
   w.rows = h.rows();
@@ -149,7 +149,7 @@ class RunFigures {
 
   [[nodiscard]] bool periodic() const { return result_.point.regime == Regime::periodic && result_.point.period > 0; }
 
-  /// Deflection against rate in the last periods: all of a periodic motion, else as much as can be shown.
+  /// Deflection against rate in the last periods: the whole periodic orbit, else as much as can be shown.
   [[nodiscard]] Window portrait_window() const {
     return last_periods(
         h_, periodic() ? std::max(output_.options.shown_periods, result_.point.period) : studies::portrait_periods);
@@ -184,7 +184,7 @@ class RunFigures {
     const figures::FigureRange y = y_range(data);
     const figures::FigureRange x{0.0, w.periods};
     figures::Sketch sketch("history");
-    // Flanks in the colour of their mesh, or grey where both meshes have the same.
+    // Flanks in the colour of their mesh, or grey if both meshes have the same.
     const bool same = output_.half_gap_sp == output_.half_gap_rp;
     const auto flanks = [&](double gap, std::string_view colour, const std::string& name) {
       bool seen = false;
@@ -217,7 +217,7 @@ class RunFigures {
     finish(sketch, delta_label, rate_label, x, y);
   }
 
-  /// Where contact begins and ends, as vertical lines.
+  /// Begin and end of contact, as vertical lines.
   void add_flanks(figures::Sketch& sketch, const figures::FigureRange& x, const figures::FigureRange& y) const {
     bool seen = false;
     for (const double flank : {output_.half_gap_sp, -output_.half_gap_sp}) {
@@ -240,7 +240,7 @@ class RunFigures {
     const figures::FigureRange wide_x = range_of(orbit, 0);
     const figures::FigureRange wide_y = range_of(orbit, 1);
     if (periodic()) {
-      // A few points have no extent of their own: they stand where they are on the orbit.
+      // A few points have no extent of their own: they are drawn at their places on the orbit.
       x = wide_x;
       y = wide_y;
       sketch.add(orbit, figures::solid(light_grey, 1.5), "the orbit");
@@ -260,7 +260,7 @@ class RunFigures {
       points.push_back({result_.crossing_phase[k] / (2.0 * std::numbers::pi), result_.crossing_rate[k]});
     figures::Sketch sketch("poincare_crossing");
     sketch.add(points, figures::dots(blue, periodic() ? 2.0 : points.size() > 2000 ? 0.3 : 0.6));
-    // From rest, which is what a touch without impact has.
+    // From zero, the rate of a contact without impact.
     figures::FigureRange y{0.0, 0.0};
     for (const Row2& point : points) y.include(point[1]);
     finish(sketch, "Phase at which contact is made  s / 2π", "Rate on contact  dδ_{sp,1}/dτ / b_c", {0.0, 1.0},
@@ -316,7 +316,7 @@ class RunFigures {
     finish(sketch, "Frequency  f / f_m", label, {0.0, highest}, y);
   }
 
-  /// Ratios over the strongest lines, where there is room beside a stronger one's.
+  /// Ratios over the strongest lines, if there is room beside a stronger one's.
   static void label_lines(figures::Sketch& sketch, const SignalSpectrum& s, double highest) {
     constexpr std::size_t most = 8;
     constexpr double room = 0.25;  // mesh frequencies
@@ -358,7 +358,7 @@ class RunFigures {
       Curve curve;
       for (std::size_t k = 0; k < mean.size(); ++k) {
         curve.push_back({static_cast<double>(k + 1) * interval, mean[k] * result_.omega});
-        // The first means swing widely; what the figure is about comes later.
+        // The first means vary widely and would hide the later ones.
         if (4 * k >= mean.size()) y.include(curve.back()[1]);
       }
       sketch.add(curve, figures::solid(planet_colours[i], i == 0 ? 2.5 : 1.8));
@@ -458,7 +458,7 @@ class RunFigures {
     return true;
   }
 
-  /// Of a planet whose curve lies on that of one before it, dashes let that one be seen.
+  /// If the curve of a planet lies on that of an earlier one, dashes show both.
   [[nodiscard]] std::string style_of(const std::string& name, std::size_t i, const Window& w) const {
     const std::string_view colour = planet_colours[(i - 1) % planet_colours.size()];
     for (std::size_t j = 1; j < i; ++j)

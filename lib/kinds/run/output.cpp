@@ -207,7 +207,7 @@ class Group {
     texts(name, values);
   }
 
-  /// Row by row, whatever the order of Eigen's storage.
+  /// Row by row, for any storage order of Eigen.
   void matrix(const std::string& name, const Eigen::MatrixXd& m, const std::string& units) {
     std::vector<double> values;
     for (Eigen::Index i = 0; i < m.rows(); ++i)
@@ -429,7 +429,7 @@ std::string_view unstopped(std::string_view text) { return text.substr(0, text.f
 
 std::string bullet(const std::string& text) { return wrapped("- " + text, "  "); }
 
-/// A Markdown table that can be read as it stands: cells padded, the first column to the left, numbers to the right.
+/// A Markdown table that is readable as text: cells padded, the first column to the left, numbers to the right.
 std::string aligned(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> width(rows.front().size(), 3);
   for (const auto& row : rows)
@@ -562,7 +562,7 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
   return text;
 }
 
-/// Which meshes pull, how hard, how often and why.
+/// Meshes with tensile forces: which ones, how large, how often and why.
 std::string tensile_text(const RunOutput& output, const RunResult& r) {
   std::vector<std::vector<std::string>> rows{{"mesh with tensile force", "up to [N]", "over F_0", "of the time"}};
   for (const MeshSummary& m : r.meshes)

@@ -1,18 +1,17 @@
-// What a run of one operating point leaves in its folder, besides points.csv and poincare.csv
-// (reports/sweep_output.hpp).
+// The files of a run of one operating point, besides points.csv and poincare.csv (reports/sweep_output.hpp).
 //
 //   history.csv      the last mesh periods of the record: states, deflections, forces, load sharing of the planets
-//   spectrum.csv     amplitude and phase of each signal's lines: at p / n of the mesh frequency for a periodic motion
+//   spectrum.csv     amplitude and phase of each signal's lines: at p / n of the mesh frequency for a periodic orbit
 //   exponents.csv    running means of the Lyapunov exponents, per tau
 //   multipliers.csv  of the periodic orbit, by falling modulus
 //   crossing.csv     states where contact of the first sun-planet mesh is made
-//   summary.md       what it comes to, in words
+//   summary.md       the results, in words
 //   results.h5       everything
 //   figures/         history, phase_portrait, poincare_section, poincare_crossing, spectrum, spectrum_force, exponents,
 //                    multipliers, contact, mesh_force
 //
-// What there is nothing to say of has no table and no figure. All of it follows from the result alone and is the same,
-// byte for byte, for the same study.
+// Results that do not exist have no table and no figure. All of it follows from the result alone and is the same, byte
+// for byte, for the same study.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +25,7 @@
 
 namespace epicyclic::kinds {
 
-/// What a run is written with besides its result.
+/// Data of a run for its files, besides its result.
 struct RunOutput {
   reports::SweepOutput points;
   studies::RunOptions options;
@@ -54,7 +53,7 @@ void write_run_h5(const std::filesystem::path& file, const RunOutput& output, co
                                                                  const RunOutput& output,
                                                                  const studies::RunResult& result);
 
-/// Is there something to write or draw? An evolution that failed leaves growth, but no exponents.
+/// Is there something to write or draw? A failed integration has growth, but no exponents.
 [[nodiscard]] bool has_exponents(const studies::RunResult& result);
 [[nodiscard]] bool has_multipliers(const studies::RunResult& result);
 [[nodiscard]] bool has_crossing(const studies::RunResult& result);

@@ -100,7 +100,7 @@ std::vector<ResultsPart> parts_of_sweep() {
   return parts;
 }
 
-/// Some points of each regime by other methods, if the study asks for it: crosscheck.csv and crosscheck.md.
+/// Computes some points of each regime by other methods, if the study requests it: crosscheck.csv and crosscheck.md.
 std::optional<WrittenPoints> cross_check(const Arguments& arguments, const ComputedPoints& all) {
   const studies::SweepOptions& sweep = all.input.study.sweep();
   WrittenPoints written;
@@ -161,8 +161,8 @@ std::optional<double> seconds_of_check(const input::LoadedInput& input, const st
                                     input::smoothed_model_at(input), run);
   if (limit.over()) return std::nullopt;
   const double spent = studies::processor_seconds() - begun;
-  // Motions that are rare, and so not among these, are those whose differences have to be explained: measured, as much
-  // again.
+  // Rare regimes are not in this sample, and their differences have to be explained. By measurement, that takes as much
+  // time again.
   constexpr double explaining = 2.0;
   return explaining * spent * static_cast<double>(all) / static_cast<double>(chosen) /
          busy(all * sweep.check.methods.size(), threads);

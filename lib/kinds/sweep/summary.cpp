@@ -36,15 +36,15 @@ std::string range_text(double from, double to, int digits, const AxisWords& word
   return from == to ? words.text(from, digits) : words.text(from, digits) + " to " + words.text(to, digits);
 }
 
-/// What is kept of a point.
+/// The kept data of a point.
 struct Place {
   double value = 0;
   std::string regime;  ///< or the status
   bool periodic = false;
-  bool comparable = false;  ///< reached, and settled where the motion is periodic
-  bool classified = false;  ///< whether it is known, by more than recurrence, what the motion is
+  bool comparable = false;  ///< reached, and converged if periodic
+  bool classified = false;  ///< whether the regime is known, by more than recurrence
   double sun_range = 0;
-  std::vector<double> orbit{};  ///< a state of it at the section, where the motion is periodic by evidence
+  std::vector<double> orbit{};  ///< a state of it at the section, if it is periodic by evidence
   std::size_t index = 0;        ///< of the point
 };
 
@@ -100,7 +100,7 @@ std::vector<Largest> largest_of() {
   };
   const auto force = [](const Course& c) { return c.largest; };
   return {
-      // The first four stand in the short lines, too.
+      // The first four are also in the short lines.
       {"dynamic factor K_v of a sun mesh", "1",
        [](const PointSummary& r) { return studies::StageRecord::kv(r.meshes.sun_planet); }},
       {"dynamic factor K_v of a ring mesh", "1",
@@ -143,7 +143,7 @@ std::vector<Largest> largest_of() {
   };
 }
 
-/// A sweep as it is told.
+/// The summary of a sweep.
 class Summary {
  public:
   Summary(const SweepOutput& output, const studies::PointSource& points)
@@ -250,11 +250,12 @@ class Summary {
     return text + "\n| direction | regime | from | to | points |\n|---|---|---|---|---|\n" + rows;
   }
 
-  /// Are they known to be two motions? One is periodic then; tori and chaos are told apart by records that end.
+  /// Are they known to be two attractors? One of them is then periodic. Records of finite length do not distinguish two
+  /// tori or two chaotic attractors.
   [[nodiscard]] bool are_unlike(const Place& a, const Place& b) const {
     if (!a.classified || !b.classified || (!a.periodic && !b.periodic)) return false;
     if (a.regime != b.regime) return true;
-    // Records may be on their way to one orbit for long: it is as near to the other's orbit then as to its own.
+    // Two records may converge to one orbit for long: each is then as near to the other's orbit as to its own.
     constexpr double apart = 1e-3;  // [b_c, b_c per tau]
     constexpr double times = 10.0;
     if (a.orbit.empty() || a.orbit.size() != b.orbit.size()) return false;
@@ -279,7 +280,7 @@ class Summary {
     std::size_t values = 0;
     std::size_t not_compared = 0;
     std::string rows;
-    std::vector<std::pair<double, double>> stretches;  // of one pair of motions or several, next to each other
+    std::vector<std::pair<double, double>> stretches;  // with one pair of attractors or several, next to each other
     std::vector<bool> unlike;
     for (std::size_t k = 0; k < up.size(); ++k) unlike.push_back(are_unlike(up[k], down[k]));
     const auto alike = [&](std::size_t a, std::size_t b) {

@@ -1,5 +1,5 @@
-// What a sweep shows, in words: sweep.md. Windows of one motion, where up and down part, and where the largest
-// vibrations and forces are.
+// The results of a sweep in words: sweep.md. Windows of one regime, intervals where up and down differ, and the values
+// with the largest vibrations and forces.
 #pragma once
 
 #include <string>
@@ -17,9 +17,9 @@ struct SweepSummary {
   nlohmann::json numbers = nlohmann::json::object();  ///< of the lines
 };
 
-/// Points that failed, or whose record is still on its way to its orbit, are left out of what is largest. Up and down
-/// are two motions where one is periodic and the other is not or has another period, or where the record of one is
-/// farther from the other's orbit than from its own; where neither is periodic, nothing tells.
+/// The largest values leave out points that failed and points whose record has not converged. Up and down are two
+/// attractors if one is periodic and the other is not, or has another period. They are also two if the record of one is
+/// farther from the other's orbit than from its own. If neither is periodic, the comparison is not possible.
 [[nodiscard]] SweepSummary sweep_summary(const reports::SweepOutput& output, const studies::PointSource& points);
 
 }  // namespace epicyclic::kinds

@@ -28,13 +28,13 @@ namespace epicyclic::app {
 
 namespace {
 
-/// Of earlier sessions: the study's own points, and what was measured on them.
+/// Of earlier sessions: the study's own points, and the measurements on them.
 struct Known {
   std::map<std::size_t, studies::PointResult> points;
   std::map<std::size_t, studies::TolerancePoint> measured;
 };
 
-/// Record k < n is the study's own point k, record n + k what was measured on it.
+/// Record k < n is the study's own point k, record n + k the measurement on it.
 Known known_results(const store::Journal& journal, const studies::SweepPlan& plan) {
   const std::size_t n = plan.points.size();
   std::vector<store::JournalEntry> entries = journal.entries();
@@ -53,9 +53,10 @@ Known known_results(const store::Journal& journal, const studies::SweepPlan& pla
   return known;
 }
 
-/// What is measured on the study's points, until a stop is asked for: that of earlier sessions as it is, the rest anew.
+/// Measurements on the study's points, until a stop is requested. Those of earlier sessions are kept, the rest are
+/// made.
 /// @param measure   one point
-/// @param finished  told of each one that is measured anew
+/// @param finished  called for each new measurement
 std::vector<studies::TolerancePoint> measured_points(
     const std::vector<studies::PointResult>& studied, std::map<std::size_t, studies::TolerancePoint> earlier,
     const std::function<studies::TolerancePoint(const studies::PointResult&)>& measure,
@@ -75,14 +76,14 @@ std::vector<studies::TolerancePoint> measured_points(
   return points;
 }
 
-/// What a session and those before it came to.
+/// Results of a session and of those before it.
 struct Measured {
   std::vector<studies::PointResult> studied;    ///< the study's own points
-  std::vector<studies::TolerancePoint> points;  ///< what was measured on them; less if a stop was asked for
+  std::vector<studies::TolerancePoint> points;  ///< the measurements on them; fewer if a stop was requested
   std::size_t failed = 0;
 };
 
-/// Computes what the journal does not hold yet, and keeps it there.
+/// Computes the records that the journal does not have, and keeps them there.
 Measured measure_missing(const Arguments& arguments, Session& session, const input::LoadedInput& input,
                          const kinds::TolerancePlan& tolerance, const studies::SweepPlan& plan,
                          const studies::SmoothedModelAt& model_at) {
@@ -145,8 +146,8 @@ void print_result(const Arguments& arguments, const store::OutputFolder& folder,
   }
 }
 
-/// Of a ladder at each point: points spread over the study, in full where they are periodic; where they are not, the
-/// statistics over fewer periods.
+/// Time of all methods and tolerances at each point, from points spread over the study. Periodic points are measured in
+/// full, other points by the statistics over fewer periods.
 Expected time_of_tolerance(const input::LoadedInput& input, const studies::SweepPlan& plan, int threads,
                            const TimeLimit& limit) {
   const auto& study_plan = input.study.plan.as<kinds::TolerancePlan>();
@@ -163,7 +164,7 @@ Expected time_of_tolerance(const input::LoadedInput& input, const studies::Sweep
   run.threads = threads;
   run.stop = &limit.over();
   double own = 0.0;     // of the study's points, in chains
-  double ladder = 0.0;  // of what is measured on them, a point after the other
+  double ladder = 0.0;  // of the measurements on them, one point after the other
   const auto m = studies::measure_miniatures(plan, 2, seconds_of(measured_for), threads,
                                              [&](const studies::SweepPlan& miniature, studies::LaneUse& /*lanes*/) {
                                                double begun = studies::processor_seconds();

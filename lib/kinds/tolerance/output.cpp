@@ -50,7 +50,7 @@ studies::Quantities study_quantities(const TolerancePoint& p) {
   return {sp.delta.least, sp.delta.largest, rp.delta.least, rp.delta.largest};
 }
 
-/// Of quantity k: the study's difference, the reference's own, and what tables' interpolation may make.
+/// Of quantity k: the study's difference, the reference's own, and the effect of interpolation in tables.
 double error_bar(const TolerancePoint& p, std::size_t k) {
   return std::abs(study_quantities(p)[k] - p.reference[k]) + p.reference_error[k] + p.table_error[k];
 }
@@ -195,7 +195,7 @@ std::string ladder_text(const ToleranceOutput& output, const std::vector<Toleran
   return text;
 }
 
-/// What is reported of each orbit, with its error bars.
+/// The reported quantities of each orbit, with their error bars.
 std::string quantities_text(const ToleranceOutput& output, const std::vector<TolerancePoint>& points) {
   std::string text;
   text += fmt::format(
@@ -225,7 +225,7 @@ std::string quantities_text(const ToleranceOutput& output, const std::vector<Tol
   return text;
 }
 
-/// Exponent and moments of a motion without an orbit, one line a step.
+/// Exponent and moments of a response without a periodic orbit, one line a step.
 std::string statistics_text(const TolerancePoint& p) {
   std::string text;
   text += "\n| method | tolerance | width | agrees |";
@@ -249,7 +249,7 @@ std::string statistics_text(const TolerancePoint& p) {
   return text;
 }
 
-/// Distance of each point's orbit over the width of its smoothed clearance, where that changes it.
+/// Distance of each point's orbit over the width of its smoothed clearance, if that changes the orbit.
 std::vector<figures::FigureCurve> bias_curves(const ToleranceOutput& output,
                                               const std::vector<TolerancePoint>& points) {
   std::vector<figures::FigureCurve> bias;

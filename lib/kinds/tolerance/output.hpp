@@ -1,13 +1,13 @@
-// What a tolerance study leaves in its folder: tables, figures, and the recommendation in words.
+// The files of a tolerance study: tables, figures, and the recommendation in words.
 //
 //   tolerance.csv    point x method x tolerance: errors of flow and orbit, work of one orbit, quantities
 //   smoothing.csv    point x width: distance of the smoothed orbit, work, quantities
 //   quantities.csv   point x quantity: the study's value, the reference's, the error bar, the extrapolation of widths
-//   statistics.csv   where the motion is not periodic: exponent and moments with their intervals
+//   statistics.csv   if the response is not periodic: exponent and moments with their intervals
 //   tolerance.md     slopes, recommendation, error bars
 //
-// The same bytes for the same study, but for the figure over time (figures/work_precision_time.*): times are those of
-// the machine at that hour.
+// The bytes are the same for the same study, except for the figure over time (figures/work_precision_time.*): times
+// depend on the machine and its load.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@
 
 namespace epicyclic::kinds {
 
-/// What the tables need besides the points.
+/// Data for the tables besides the points.
 struct ToleranceOutput {
   reports::SweepOutput sweep;
   studies::ToleranceOptions options;
