@@ -15,7 +15,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// What is told of the periods of an orbit; what was not carried has none of it.
+/// Columns of an orbit's periods; empty for an orbit that was not integrated over its periods.
 Column<BranchPlace> of_orbit(const StageColumn& column) {
   Column<BranchPlace> result{column.name, column.unit, column.meaning, {}};
   std::visit(
@@ -75,7 +75,7 @@ std::vector<Column<studies::SpecialRow>> special_columns() {
   using Number = Column<SpecialRow>::Getter<double>;
   using Words = Column<SpecialRow>::Getter<std::string>;
   const auto integer = [](auto x) { return static_cast<std::int64_t>(x); };
-  // Of an orbit that could not be carried over its periods nothing is known.
+  // An orbit that could not be integrated over its periods has no such values.
   const auto of_speed = [](auto get) {
     return Number([get](const SpecialRow& r) { return r.mesh_frequency > 0.0 ? get(r) : unknown; });
   };

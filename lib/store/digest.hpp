@@ -1,4 +1,4 @@
-// What makes two studies the same study: a canonical text of the input and its SHA-256.
+// Identity of a study: a canonical text of the input and its SHA-256.
 //
 // The canonical text does not depend on the order of keys, on white space, or on how a number was typed: 1, 1.0 and
 // 10e-1 give the same bytes. Numbers are the shortest text that reads back as the same double; integral values up to

@@ -53,7 +53,7 @@ herr_t keep_description(unsigned, const H5E_error2_t* error, void* text) {
   return 0;
 }
 
-/// The innermost entry of HDF5's error stack: the cause; the others only say who called whom.
+/// The innermost entry of HDF5's error stack: the cause; the others are only its callers.
 std::string innermost_error() {
   std::string text;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_description, &text);
@@ -198,7 +198,7 @@ Hdf5File::Hdf5File(std::filesystem::path path) : path_(std::move(path)), disk_(p
   const Handle creation = untimed(H5P_FILE_CREATE);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18);
-  // What is still open goes with the file.
+  // Open objects are closed with the file.
   H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG);
   // The name is nobody else's, and not every file system knows locks.
   H5Pset_file_locking(access.get(), /*use_file_locking=*/false, /*ignore_when_disabled=*/true);
@@ -213,9 +213,8 @@ Hdf5File::Hdf5File(std::filesystem::path path) : path_(std::move(path)), disk_(p
 
 Hdf5File::~Hdf5File() { abandon(); }
 
-/// Closes the file without touching the disk any more: what HDF5 still wants to write goes into memory that is thrown
-/// away. After a flush it would only take back spare room at the end of the file, and after a failure there may be no
-/// room.
+/// Closes the file without further access to the disk: HDF5 writes the remaining data into memory that is discarded.
+/// After a flush these data would only free spare room at the end of the file. After a failure there may be no room.
 void Hdf5File::abandon() noexcept {
   if (file_ < 0) return;
   const QuietErrors quiet;
@@ -285,7 +284,7 @@ void Hdf5File::write_rows(std::string_view path, std::int64_t file_type, std::in
     checked<OutputError>(H5Dwrite(dataset.get(), memory_type, memory.get(), space.get(), H5P_DEFAULT, bytes), path_,
                          name, "write the dataset");
   }
-  // Closing would do the same, but could not say that it failed.
+  // The destructor would do the same, but could not report a failure.
   checked<OutputError>(H5Dflush(dataset.get()), path_, name, "write the dataset");
 }
 

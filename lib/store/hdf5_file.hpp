@@ -22,8 +22,8 @@
 
 namespace epicyclic::store {
 
-/// Writes one HDF5 file. Objects are named by paths such as "/points/delta_sp"; groups on the way are made as needed.
-/// Each member throws OutputError, naming file, object and reason, when HDF5 refuses (a name twice, say).
+/// Writes one HDF5 file. Objects are named by paths such as "/points/delta_sp"; missing groups of a path are created.
+/// Each member throws OutputError with file, object and reason if HDF5 refuses (a name twice, say).
 class Hdf5File {
  public:
   explicit Hdf5File(std::filesystem::path path);
@@ -32,7 +32,7 @@ class Hdf5File {
   /// Without close(), no file appears.
   ~Hdf5File();
 
-  /// Makes the group and those on the way to it, as far as they do not exist yet.
+  /// Creates the group and the groups above it, as far as they do not exist yet.
   void create_group(std::string_view path);
 
   /// A dataset with one axis.
@@ -50,13 +50,13 @@ class Hdf5File {
   template <class Value>
   using Column = std::function<Value(std::size_t row)>;
 
-  /// A dataset with one axis that is not kept in memory: rows are asked for in order, each once; texts twice.
+  /// A dataset with one axis that is not kept in memory: rows are requested in order, each once; texts twice.
   void write(std::string_view path, std::size_t rows, const Column<double>& value);
   void write(std::string_view path, std::size_t rows, const Column<std::int64_t>& value);
   void write(std::string_view path, std::size_t rows, const Column<std::string>& value);
 
   /// A dataset with two axes that is not kept in memory.
-  /// @param row_values  fills a row of `columns` values; rows are asked for in order, each once
+  /// @param row_values  fills a row of `columns` values; rows are requested in order, each once
   void write(std::string_view path, std::size_t rows, std::size_t columns,
              const std::function<void(std::size_t row, std::span<double> values)>& row_values);
 
@@ -72,7 +72,7 @@ class Hdf5File {
   void set_units(std::string_view object, std::string_view units) { set_attribute(object, "units", units); }
 
   /// Writes the file to the disk.
-  /// @throws OutputError when that fails; what stood under the name before is then unchanged
+  /// @throws OutputError if that fails; an earlier file of that name is then unchanged
   void close();
 
  private:
@@ -89,7 +89,7 @@ class Hdf5File {
 
   std::filesystem::path path_;
   AtomicFile disk_;
-  FileDescriptor nowhere_;  // memory, for what must not reach the disk any more
+  FileDescriptor nowhere_;  // memory, for data that must no longer reach the disk
   std::int64_t file_ = -1;  // an hid_t, kept out of this header with the rest of hdf5.h
 };
 

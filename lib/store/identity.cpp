@@ -59,7 +59,7 @@ std::vector<Difference> differing_values(const ResolvedValues& there, const Reso
   for (const nlohmann::json& change : nlohmann::json::diff(from, to)) {
     const std::string pointer = change.at("path");
     const nlohmann::json::json_pointer at(pointer);
-    // A number that only one of the catalogues gives, and the other input as well: it is what gives it that differs.
+    // A number that is equal in both inputs is no difference, although only one of the catalogues gives it.
     if (there.resolved.contains(at) && here.resolved.contains(at) && there.resolved.at(at) == here.resolved.at(at))
       continue;
     (is_empty(from, at) && is_empty(to, at) ? empty : all)

@@ -122,7 +122,7 @@ bool good_record_after(FileWindow& file, std::size_t offset) {
       if (good_record_at(file, offset)) return true;
       ++offset;
     } else {
-      // The letters may stand across the window's end.
+      // The letters may cross the window's end.
       offset += std::max<std::size_t>(part.size(), record_magic.size()) - (record_magic.size() - 1);
     }
   }
@@ -204,7 +204,7 @@ Journal::Journal(std::filesystem::path path, std::string_view identity, Use use)
     entries_.push_back({get<std::uint64_t>(head.substr(record_magic.size() + 4)), end_});
     end_ += *size;
   }
-  // What an earlier session left is on the disk by now, or is flushed with the first group.
+  // Data of an earlier session are on the disk by now, or are flushed with the first group.
   synced_ = end_;
   if (end_ == file->size()) return;
   if (good_record_after(*file, end_)) {
@@ -335,7 +335,7 @@ void Journal::flush(std::unique_lock<std::mutex>& lock) {
   }
   lock.lock();
   synced_ = std::max(synced_, end);
-  // What came meanwhile is the next group.
+  // Records that came meanwhile are the next group.
   commit_due_ = begun + commit_interval;
 }
 

@@ -1,4 +1,4 @@
-// The journal: what a study has computed so far, safe against kill -9 at any moment.
+// The journal: the results of a study so far, safe against kill -9 at any moment.
 //
 // journal.bin is append-only, little-endian:
 //
@@ -6,13 +6,13 @@
 //   record   "EPJR" (4 bytes) | payload length u32 | point u64 | payload | CRC-32 u32
 //
 // Each CRC (zlib's) covers all bytes of the header or record before it. The four letters before each record let the
-// reader tell a torn tail from damage: bytes that are no good record and have no good record after them are the trace
-// of an append that did not finish, and are cut away; with a good record after them something that once was good has
-// been damaged, and the journal is refused.
+// reader distinguish a torn end from damage. Bytes that are no good record and have no good record after them are left
+// by an append that did not finish, and are removed. If a good record follows them, data are damaged, and the journal
+// is refused.
 //
-// A record is handed to the kernel at once (it survives the death of the process). A thread of the journal's own
-// flushes to the disk what has come within a second, whether more follows or not (so much may be lost with the machine,
-// and is then computed again); appending does not wait for the disk.
+// A record is handed to the kernel at once, so that it survives the death of the process. A thread of the journal
+// flushes new records to the disk within a second, whether more follow or not. A crash of the machine may lose them,
+// and they are then computed again. Appending does not wait for the disk.
 #pragma once
 
 #include <chrono>
@@ -38,14 +38,14 @@ inline constexpr std::uint32_t journal_format_version = 7;
 /// Largest payload of a record [bytes]; a longer length in a file is damage.
 inline constexpr std::size_t journal_max_payload = std::size_t{1} << 28;
 
-/// Data on disk that are not what was written. The message says where, and what can be done.
+/// Data on disk that differ from what was written. The message gives the place and a remedy.
 class DamagedData : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 /// open_descriptor() of a file that this program has written. Never waits: a FIFO of that name would do so for ever.
-/// @throws DamagedData for what is there and no plain file, with what it is
+/// @throws DamagedData if it exists and is no plain file, with its type
 [[nodiscard]] FileDescriptor open_data_file(const std::filesystem::path& path, int flags);
 
 /// Another process writes to the journal.
@@ -54,8 +54,7 @@ class JournalInUse : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Where a record stands. Records stay on the disk and are read when they are asked for: a journal may be larger than
-/// memory.
+/// Place of a record. Records stay on the disk and are read on request: a journal may be larger than memory.
 struct JournalEntry {
   std::uint64_t point = 0;
   std::uint64_t offset = 0;  ///< of the record in the file [bytes]
@@ -67,7 +66,7 @@ class Journal {
  public:
   enum class Use {
     append,  ///< opens the journal, or creates an empty one; locks it; cuts away a torn tail
-    read,    ///< changes nothing, whoever has it open
+    read,    ///< changes nothing, also while another process writes to it
   };
 
   /// Finds the good records.
@@ -85,19 +84,19 @@ class Journal {
   /// The records found at opening, in the order of appending.
   [[nodiscard]] const std::vector<JournalEntry>& entries() const { return entries_; }
 
-  /// Gives their memory back.
+  /// Frees their memory.
   void forget_entries() { entries_ = {}; }
 
   /// The payload of a record.
-  /// @throws DamagedData when the record is no more what it was
-  /// @throws OutputError when reading fails, or after close()
+  /// @throws DamagedData if the record has changed
+  /// @throws OutputError if reading fails, or after close()
   [[nodiscard]] std::vector<std::byte> read(const JournalEntry& entry) const;
 
-  /// The first bytes of a payload, `most` at most, without looking at the CRC of the whole.
+  /// The first bytes of a payload, `most` at most, without a check of the CRC of the whole.
   /// @throws as read()
   [[nodiscard]] std::vector<std::byte> read_beginning(const JournalEntry& entry, std::size_t most) const;
 
-  /// Lets another process write to it; from now on this one only reads.
+  /// Lets another process write to it; after this call, this one only reads.
   void release();
 
   /// Bytes of a torn tail that were cut away at opening.
@@ -111,8 +110,8 @@ class Journal {
   /// @throws std::invalid_argument when the payload is longer than journal_max_payload
   JournalEntry append(std::uint64_t point, std::span<const std::byte> payload);
 
-  /// Flushes to the disk what is not yet there.
-  /// @throws OutputError when that fails or has failed before
+  /// Flushes new data to the disk.
+  /// @throws OutputError if that fails or has failed before
   void sync();
 
   /// Flushes and closes. The destructor does so too, but cannot report a failure.

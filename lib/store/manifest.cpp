@@ -29,7 +29,7 @@ bool is_bookkeeping(const std::string& name) {
   return name == "run.json" || name == ".lock" || (name.starts_with("journal.") && name.ends_with(".bin"));
 }
 
-/// @returns the bytes of the file, however they look; nothing where there is no file
+/// @returns the bytes of the file, without a check of its contents; nothing if there is no file
 FileDescriptor open_regular(const fs::path& file, std::uintmax_t& bytes) {
   FileDescriptor descriptor = open_descriptor(file, O_RDONLY | O_NONBLOCK);
   if (!descriptor.is_open()) {

@@ -1,9 +1,8 @@
-// What a session has put into its folder, file by file, so that a later one can tell whether all of it is still there
-// and whole.
+// The files that a session has written to its folder, so that a later one can check that all are still there and whole.
 //
-// A file is what it was if its size and its SHA-256 are; times and names of owners say nothing. A FileRecorder hears of
-// each file that is put in place while it lives [core/placed_files.hpp] and keeps what it was of those in its folder.
-// Journals and run.json are no results and are left out.
+// A file is unchanged if its size and its SHA-256 are; times and names of owners do not count. A FileRecorder is
+// notified of each file that is put in place while it lives [core/placed_files.hpp]. It keeps size and SHA-256 of those
+// in its folder. Journals and run.json are no results and are left out.
 #pragma once
 
 #include <cstdint>
@@ -29,17 +28,17 @@ struct FileFacts {
 /// By name relative to the folder; nothing of a picture that could not be drawn.
 using Manifest = std::map<std::string, std::optional<FileFacts>>;
 
-/// As it stands in run.json.
+/// As it is in run.json.
 [[nodiscard]] nlohmann::json to_json(const Manifest& manifest);
 
-/// Nothing when it is no manifest, or names a place that is not below the folder.
+/// Nothing if it is no manifest, or names a place that is not below the folder.
 [[nodiscard]] std::optional<Manifest> manifest_from(const nlohmann::json& value);
 
-/// Of a file as it is now; nothing when there is no such file, or what has its name is none.
-/// @throws OutputError when it cannot be read
+/// Of a file as it is now; nothing if there is no such file, or if it is no plain file.
+/// @throws OutputError if it cannot be read
 [[nodiscard]] std::optional<FileFacts> facts_of(const std::filesystem::path& file);
 
-/// A file that is not as it was left.
+/// A file that has changed.
 struct ChangedFile {
   std::string name;
   std::optional<FileFacts> expected{};    ///< nothing: a picture that was not drawn
@@ -50,7 +49,7 @@ struct ChangedFile {
 /// @throws OutputError when one cannot be read
 [[nodiscard]] std::vector<ChangedFile> changed_files(const std::filesystem::path& folder, const Manifest& manifest);
 
-/// Keeps what is noted of the files below a folder while it lives.
+/// Records the files that are put below a folder while it lives.
 class FileRecorder {
  public:
   explicit FileRecorder(std::filesystem::path folder);
@@ -60,7 +59,7 @@ class FileRecorder {
 
   [[nodiscard]] Manifest files() const;
 
-  /// Those that another process has put in place.
+  /// Files that another process has put in place.
   void add(const Manifest& files);
 
  private:
@@ -69,7 +68,7 @@ class FileRecorder {
   std::filesystem::path folder_;
   Manifest files_;
   mutable std::mutex mutex_;
-  PlacedFiles placed_;  ///< last, so that it hears of nothing before the rest is there
+  PlacedFiles placed_;  ///< last, so that it is notified of nothing before the other members exist
 };
 
 }  // namespace epicyclic::store

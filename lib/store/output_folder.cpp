@@ -28,7 +28,7 @@ constexpr std::string_view run_name = "run.json";
 constexpr const char* files_key = "files";
 constexpr int indent = 2;
 
-/// Does the folder hold anything but what opening it may have left there?
+/// Does the folder contain anything but files that opening may have made?
 bool holds_files(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
@@ -39,7 +39,7 @@ bool holds_files(const fs::path& folder) {
   return false;
 }
 
-/// Whoever holds the lock knows that no writer of these is alive any more. A failure costs disk space only.
+/// The holder of the lock knows that no writer of these is alive any more. A failure costs disk space only.
 void remove_temporary_files(const fs::path& folder) {
   std::error_code error;
   for (const fs::path& place : {folder, folder / "figures"}) {
@@ -73,7 +73,7 @@ bool try_lock(const FileDescriptor& descriptor, const fs::path& path) {
   return true;
 }
 
-/// Is all of the file `beginning` what `whole` begins with? False if one of them cannot be read.
+/// Does `whole` begin with all of the file `beginning`? False if one of them cannot be read.
 bool begins_with(const fs::path& whole, const fs::path& beginning) {
   std::error_code error;
   if (!fs::is_regular_file(fs::symlink_status(beginning, error))) return false;
@@ -114,13 +114,13 @@ OutputFolder::OutputFolder(fs::path path, std::string identity, bool can_draw)
   if (outcome_ == FolderOutcome::complete) return;
   remove_temporary_files(path_);
   set_changed_files_aside();
-  // At once, so that the study's identity stands before its first file.
+  // At once, so that the study's identity exists before its first file.
   if (outcome_ == FolderOutcome::fresh) write_run(RunState::running, nlohmann::json::object());
 }
 
 FolderOutcome OutputFolder::open(bool can_draw) {
-  // The lock file is looked for last: another process may just be making the folder, and then the lock file is there
-  // before any file that is seen here.
+  // The lock file is checked last. Another process may be creating the folder, and the lock file then exists before any
+  // file that is seen here.
   std::error_code ignored;
   if (!is_ours(read_run()) && holds_files(path_) && !fs::exists(file(lock_name), ignored))
     return FolderOutcome::foreign;

@@ -1,15 +1,18 @@
-// The folder that a study writes to (-o DIR): whose it is, who may write to it, and how far the study has come.
+// The folder of a study's files (-o DIR): the study that it belongs to, the process that may write to it, and the state
+// of the computation.
 //
-// run.json holds the identity and the state of the study, together with all volatile facts (see store/provenance.hpp).
-// DIR/.lock is locked by flock(2) while an OutputFolder lives; the kernel releases it even on kill -9. The lock file
-// stays behind on purpose: removing it would let a second and a third opener lock two different files of that name.
+// run.json contains the identity and the state of the study, together with all volatile facts (see
+// store/provenance.hpp). DIR/.lock is locked by flock(2) while an OutputFolder lives; the kernel releases it even on
+// kill -9. The lock file is not removed on purpose: else a second and a third process could lock two different files of
+// that name.
 //
-// run.json of a complete study holds the manifest of its files too (see store/manifest.hpp). A folder in which one is
-// missing, cut or changed is not complete any more: all are made again, from the journal or by the same computation,
-// which gives the same bytes. What stood there instead may be somebody's own work and is set aside, never overwritten.
+// run.json of a complete study also contains the manifest of its files (see store/manifest.hpp). If a file is missing,
+// cut or changed, the folder is no longer complete. All files are then made again, from the journal or by the same
+// computation, which gives the same bytes. A changed file may be the user's own work: it is set aside, never
+// overwritten.
 //
-// Order of the judgement: a folder with files but neither lock nor run.json is foreign and is not touched; a folder
-// locked by another is in use, whatever it holds; only then is run.json read.
+// Order of the checks: a folder with files but neither lock nor run.json is foreign and is not touched. A folder locked
+// by another process is in use, whatever it contains. Only then is run.json read.
 #pragma once
 
 #include <filesystem>
@@ -26,7 +29,7 @@
 
 namespace epicyclic::store {
 
-/// What opening found.
+/// Result of opening.
 enum class FolderOutcome {
   fresh,        ///< empty or new: ours now, run.json says running
   resumable,    ///< the same study, not complete: ours now, run.json unchanged so far
@@ -66,24 +69,24 @@ class OutputFolder {
   /// run.json as found at opening (of another study or process, too); null if there was none.
   [[nodiscard]] const nlohmann::json& previous_run() const { return previous_run_; }
 
-  /// The files of a damaged folder that are not as they were left; none: it is not known which files there were.
+  /// The changed files of a damaged folder; none: it is not known which files there were.
   [[nodiscard]] const std::vector<ChangedFile>& changed() const { return changed_; }
 
-  /// The manifest of what other processes have put into the folder.
+  /// The manifest of the files that other processes have put into the folder.
   void add(const Manifest& files);
 
-  /// Is it still what `path` leads to? A folder that was removed can be written to without an error.
+  /// Does `path` still lead to it? A folder that was removed can be written to without an error.
   [[nodiscard]] bool is_there() const;
 
   /// @throws OutputError when it is not
   void require_there() const;
 
-  /// Writes run.json: state and identity, the facts of this session, and those of the sessions before it; of a complete
-  /// study the manifest of all files that were put in place since the folder was opened. What was set aside is removed
-  /// then if it is only the beginning of what stands there now.
-  /// @throws OutputError      when that fails, the folder is not there any more or one of the files; run.json is then
-  ///                          unchanged
-  /// @throws std::logic_error when the folder is not ours (outcome other_study, in_use or foreign)
+  /// Writes run.json: state and identity, the facts of this session, and those of earlier sessions. For a complete
+  /// study, it adds the manifest of all files that were put in place since the folder was opened. A file that was set
+  /// aside is then removed if it is only the beginning of the new one.
+  /// @throws OutputError      if that fails, or if the folder or one of the files no longer exists; run.json is then
+  /// unchanged
+  /// @throws std::logic_error if the folder is not ours (outcome other_study, in_use or foreign)
   void write_run(RunState state, const nlohmann::json& facts) const;
 
  private:

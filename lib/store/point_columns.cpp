@@ -32,7 +32,7 @@ Number of_orbit(double analysis::Evidence::*member) {
   return [member](const PointSummary& r) { return proven(r) ? r.evidence.*member : unknown; };
 }
 
-/// What is told of the record of a point.
+/// Columns from the record of a point.
 std::vector<PointColumn> of_points(const std::vector<StageColumn>& columns) {
   std::vector<PointColumn> all;
   for (const StageColumn& column : columns)

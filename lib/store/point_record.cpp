@@ -31,7 +31,7 @@ void pass(A& a, integrate::Outcome& x) {
   pass_enum(a, x, integrate::Outcome::failed);
 }
 
-/// What there is not is no number.
+/// An absent value is not a number.
 template <class A>
 void pass(A& a, std::optional<double>& x) {
   double value = x.value_or(std::numeric_limits<double>::quiet_NaN());
@@ -132,7 +132,7 @@ std::optional<studies::PointSummary> decode_point_beginning(std::span<const std:
   try {
     archive::pass_summary(d, result);
   } catch (const DamagedData&) {
-    // Cut off, or damaged: the whole record tells.
+    // Cut off, or damaged: the check of the whole record decides.
     return std::nullopt;
   }
   return result;

@@ -1,4 +1,4 @@
-// What a study has computed of one point, as a record of the journal, and back; exact [record_archive.hpp].
+// The results of one point as a record of the journal, and back; exact [record_archive.hpp].
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace epicyclic::store {
 [[nodiscard]] studies::PointResult decode_point(std::span<const std::byte> record);
 
 /// From the first bytes of a record: the Poincare section comes last.
-/// @returns nothing when they do not reach that far
+/// @returns nothing if the bytes are too few
 [[nodiscard]] std::optional<studies::PointSummary> decode_point_beginning(std::span<const std::byte> beginning);
 
 /// All of a point of a tolerance study.
@@ -26,7 +26,7 @@ namespace epicyclic::store {
 /// @throws DamagedData when the record is not one of encode_tolerance_point()
 [[nodiscard]] studies::TolerancePoint decode_tolerance_point(std::span<const std::byte> record);
 
-/// Numbers of whoever keeps them.
+/// A list of numbers; the caller gives them a meaning.
 [[nodiscard]] std::vector<std::byte> encode_numbers(std::span<const double> numbers);
 
 /// @throws DamagedData when the record is not one of encode_numbers() of so many

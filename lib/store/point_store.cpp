@@ -21,7 +21,7 @@ constexpr std::size_t summary_bytes = 2048;
 constexpr std::string_view rank_journal_start = "journal.rank-";
 constexpr std::string_view rank_journal_end = ".bin";
 
-/// Ranks that have left a journal, in order.
+/// Ranks with a journal in the folder, in order.
 std::set<int> ranks_with_journal(const std::filesystem::path& folder) {
   std::set<int> ranks;
   std::error_code error;

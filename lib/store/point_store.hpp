@@ -1,8 +1,8 @@
-// The points of a sweep where they are: in the journals of its folder. Memory holds 8 bytes for each.
+// The points of a sweep in the journals of its folder. Memory has 8 bytes for each.
 //
-// journal.bin is this process's own; journal.rank-1.bin and so on are of other processes that took part, now or
-// earlier. Which process computed a point says nothing about it: two records of one point are the same bytes, or one of
-// them is damaged.
+// journal.bin belongs to this process; journal.rank-1.bin and so on belong to other processes that took part, now or
+// earlier. A point does not depend on the process that computed it: two records of one point are the same bytes, or one
+// of them is damaged.
 #pragma once
 
 #include <cstddef>
@@ -60,7 +60,7 @@ class PointStore {
   [[nodiscard]] studies::PointSource source() const;
 
  private:
-  /// Where a record stands. There are as many processes and bytes on one machine as fit.
+  /// The place of a record. One machine has fewer processes and bytes than these types hold.
   struct Place {
     std::uint64_t journal : 16 = 0;
     std::uint64_t offset : 48 = absent;

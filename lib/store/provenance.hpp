@@ -1,5 +1,5 @@
-// Who computed a study, with what, when and where: the volatile facts, which stand in run.json and nowhere else, so
-// that all other files of a study are the same bytes on each machine and day.
+// Origin of a study: program, machine, input files and time. These volatile facts are in run.json and nowhere else. So
+// all other files of a study are the same bytes on each machine and day.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ struct Provenance {
 /// Now in UTC, as 2026-03-01T12:34:56Z.
 std::string utc_now();
 
-/// A Provenance with host, processor, process and start time filled in; what cannot be found out is "unknown".
+/// A Provenance with host, processor, process and start time; facts that cannot be found are "unknown".
 Provenance begin_provenance();
 
 /// The facts as they stand in run.json; see OutputFolder::write_run.

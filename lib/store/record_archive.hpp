@@ -1,7 +1,8 @@
 // Records of the journal as bytes and back: pass(archive, value), one description of a record for both directions.
 //
-// Numbers one after another in native byte order: a journal is read where it was written. A list is its length (u64)
-// and its elements. A type of one's own passes by a pass() in this namespace, so that those of others find it.
+// Numbers one after another in native byte order: a journal is read on the machine that wrote it. A list is its length
+// (u64) and its elements. A user-defined type passes by a pass() in this namespace, so that the lists of this file find
+// it.
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@
 
 namespace epicyclic::store::archive {
 
-/// Takes the bytes of what passes.
+/// Encodes the values that pass.
 class Encoder {
  public:
   template <class T>
@@ -40,7 +41,7 @@ class Encoder {
   std::vector<std::byte> bytes_;
 };
 
-/// Gives what passes the bytes of a record.
+/// Decodes the bytes of a record.
 class Decoder {
  public:
   explicit Decoder(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -52,7 +53,7 @@ class Decoder {
     std::memcpy(&value, bytes_.data() + at_, sizeof value);
     at_ += sizeof value;
   }
-  /// @param least_bytes  of an element: no memory is asked for that the record cannot fill
+  /// @param least_bytes  of an element: no memory is requested that the record cannot fill
   template <class List>
   void size_of(List& list, std::size_t least_bytes) {
     std::uint64_t size = 0;
@@ -70,7 +71,7 @@ class Decoder {
   std::size_t at_ = 0;
 };
 
-/// A number of another type on the way than in memory, so that the record does not depend on the platform's widths.
+/// A number stored with another type than in memory, so that the record does not depend on the platform's widths.
 template <class Wire, class A, class T>
 void pass_as(A& a, T& value) {
   auto wire = static_cast<Wire>(value);

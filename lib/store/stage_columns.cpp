@@ -52,7 +52,7 @@ void add_range(std::vector<StageColumn>& all, const std::string& what, const std
       Number([of](const StageRecord& r) { return of(r).range(); }));
 }
 
-/// Mean and what is left without it.
+/// The mean, and the signal without it.
 void add_mean_and_rms(std::vector<StageColumn>& all, const std::string& what, const char* unit,
                       const std::string& meaning, const CourseOf& of) {
   add(all, what + "_mean", unit, "time mean of " + meaning, of, &Course::mean);

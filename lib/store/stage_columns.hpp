@@ -1,5 +1,4 @@
-// What is told of meshes and bearings over a record [studies/response_statistics.hpp], as columns of points and of
-// orbits.
+// Results of meshes and bearings over a record [studies/response_statistics.hpp], as columns of points and of orbits.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +14,7 @@ using StageColumn = Column<studies::StageRecord>;
 /// Extrema and contact of the meshes of planet 1.
 [[nodiscard]] std::vector<StageColumn> contact_columns();
 
-/// Of the stage, and of planet 1 what it has to say of deflections and forces.
+/// Columns of the stage, and deflections and forces of planet 1.
 [[nodiscard]] std::vector<StageColumn> stage_columns();
 
 /// Of each mesh and bearing of each planet.

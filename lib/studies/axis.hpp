@@ -13,12 +13,12 @@ struct Axis {
   double to = 1;
   int points = 50;
 
-  /// @throws InputError for ends that are not finite or fall, for no points, and for one that is to be two ends
+  /// @throws InputError for ends that are not finite or fall, for no points, and for one point on a range with two ends
   void validate() const;
 };
 
-/// The value at a share of the way; both ends exactly as given, between them rounded to 12 digits, so that 1.1 is 1.1
-/// and a value typed from a table is the value that was computed.
+/// The value at a fraction of the interval. Both ends are exactly as given. Values between them are rounded to 12
+/// digits, so that 1.1 is 1.1, and a value typed from a table is the computed value.
 [[nodiscard]] double grid_value(double from, double to, double share);
 
 /// The value of an axis at one of its points; as grid_value().

@@ -29,7 +29,7 @@ class OrbitsAt {
  public:
   explicit OrbitsAt(const TracedBranches& traced) : traced_(traced) {}
 
-  /// @returns no columns where Newton's method finds none
+  /// @returns no columns if Newton's method finds none
   const Eigen::MatrixXd& states(std::size_t branch, std::size_t after, double value) {
     const auto [known, is_new] = known_.try_emplace({branch, after, value});
     if (is_new) known->second = find(traced_.branches[branch], after, value);
@@ -91,7 +91,7 @@ Eigen::MatrixXd rough_states(const std::vector<BranchRow>& rows, std::size_t aft
 
 bool holds(double a, double b, double value) { return value >= std::min(a, b) && value <= std::max(a, b); }
 
-/// The stretches of branches: from one turn in the parameter to the next.
+/// The stretches of branches: from one fold in the parameter to the next.
 class Stretches {
  public:
   explicit Stretches(const TracedBranches& traced) : traced_(traced) {
@@ -105,7 +105,7 @@ class Stretches {
         numbers.push_back(numbers.empty() ? 0 : numbers.back() + (reverses ? 1 : 0));
         if (step != 0.0) rises = step > 0.0;
       }
-      // One that closes begins within a stretch, unless it begins at a turn.
+      // The first stretch of a closed branch begins before its first orbit, unless that orbit is at a fold.
       if (traced.branches[b].last.end != analysis::BranchEnd::closed || numbers.empty() || numbers.back() % 2 != 0)
         continue;
       const std::size_t last = numbers.back();
@@ -113,7 +113,7 @@ class Stretches {
     }
   }
 
-  /// Does one that both are on go from one to the other without a turn?
+  /// Do both places lie on one stretch, without a fold between them?
   [[nodiscard]] bool shared(const SweepPlace& a, const SweepPlace& b) const {
     return std::ranges::any_of(a.on, [&](const PlaceOnBranch& p) {
       return std::ranges::any_of(b.on, [&](const PlaceOnBranch& q) {
@@ -151,7 +151,7 @@ class Stretches {
   std::vector<std::vector<std::size_t>> of_;  ///< of each branch, for each orbit but the last
 };
 
-/// Looks for points on branches.
+/// Locates points on branches.
 class Locator {
  public:
   Locator(const TracedBranches& traced, std::size_t dimension, const ProofOptions& options)
@@ -188,7 +188,8 @@ class Locator {
     }
   }
 
-  /// Of one branch the nearest orbit, and what is as near: images of it, where the branch turns at a pitchfork.
+  /// Adds the nearest orbit of one branch, and those that are as near: its images, if the branch has a fold at a
+  /// pitchfork.
   void add_nearest(const std::vector<std::pair<PlaceOnBranch, double>>& hits, std::vector<PlaceOnBranch>& on) const {
     double least = infinite;
     for (const auto& [place, distance] : hits) least = std::min(least, distance);
@@ -216,7 +217,7 @@ class Locator {
 class Explainer {
  public:
   /// @param directions  places of all points
-  /// @param places      those of the direction whose changes are asked for, one of these
+  /// @param places      those of the direction whose changes are explained, one of these
   Explainer(const TracedBranches& traced, const Stretches& stretches, const Locator& locator,
             const std::vector<std::vector<SweepPlace>>& directions, const std::vector<SweepPlace>& places)
       : traced_(traced), stretches_(stretches), locator_(locator), directions_(directions), places_(places) {}
@@ -227,10 +228,10 @@ class Explainer {
     from_ = a.value;
     to_ = b.value;
     step_ = std::abs(to_ - from_);
-    // A motion that is stable all the way is left for no reason of the branches'.
+    // If the orbit is stable between both values, the branches give no cause of the change.
     if (!is_stable_throughout(a)) {
-      // What lies between the values tells more than what lies behind, there a birth most, then what the motion that is
-      // left says. Why one that no branch follows is left, what comes next does not tell.
+      // Special points between the values come before those behind them. A birth comes first, then the orbit before the
+      // change. The orbit after the change does not explain the end of one that no branch follows.
       const bool unknown = a.periodic && !a.branch;
       for (const bool between : {true, false})
         for (const bool birth : {true, false})
@@ -252,7 +253,7 @@ class Explainer {
   }
 
  private:
-  /// May the orbit be the one that the other, of twice its period, is born of?
+  /// May the orbit be the one from which the other, of twice its period, is born?
   static bool may_bear(const SweepPlace& orbit, const SweepPlace& other) {
     return other.periodic && other.period == 2 * orbit.period;
   }
@@ -262,7 +263,7 @@ class Explainer {
     return holds(from_, to_, value) ? 0.0 : std::min(std::abs(value - from_), std::abs(value - to_)) / step_;
   }
 
-  /// Has the motion come past the value, at most a step ago?
+  /// Did the sweep pass the value, at most a step ago?
   [[nodiscard]] bool is_within_the_grid(double value) const {
     return beside(value) <= 1.0 && (value - to_) * (to_ - from_) <= 0.0;
   }
@@ -293,7 +294,7 @@ class Explainer {
     return true;
   }
 
-  /// Where a jump leads to, or comes from.
+  /// The target or the origin of a jump.
   static std::string whereto(const SweepPlace& side, const SweepPlace& other, const SweepChange& change) {
     std::string words = &side == &change.before ? "; the sweep jumps to " : "; the sweep comes from ";
     if (!other.branch) {
@@ -305,7 +306,7 @@ class Explainer {
     return words;
   }
 
-  /// An end within the grid where the side's branch is born of an orbit that none follows.
+  /// An end within the grid at which the side's branch is born of an orbit that none follows.
   bool by_end(const SweepPlace& side, const SweepPlace& other, SweepChange& change) const {
     for (const PlaceOnBranch& p : side.on) {
       const analysis::Branch& branch = traced_.branches[p.branch];
@@ -326,12 +327,12 @@ class Explainer {
     return false;
   }
 
-  /// Where the orbit is stable, what ends that is ahead, towards the other side.
+  /// If the orbit is stable, the point that ends its stability is ahead, towards the other side.
   static bool is_ahead(double value, const SweepPlace& side, const SweepPlace& other) {
     return !side.stable || (value - side.value) * (other.value - side.value) >= 0.0;
   }
 
-  /// Is the other side what is born there from the side's stretch, of which it is?
+  /// Is the other side born from the side's stretch at this point?
   [[nodiscard]] bool is_birth(const SpecialRow& r, const SweepPlace& side, const SweepPlace& other) const {
     if (r.kind == SpecialKind::neimark_sacker) return other.regime == "quasiperiodic" && !coexists(other, side);
     const auto is_there = [&](const analysis::BranchLimit& limit) {
@@ -350,7 +351,8 @@ class Explainer {
     });
   }
 
-  /// Has another direction such a motion on no branch at the side's own value too, where its orbit is still stable?
+  /// Has another direction the same regime on no branch at the side's own value, too, while the side's orbit is still
+  /// stable?
   [[nodiscard]] bool coexists(const SweepPlace& other, const SweepPlace& side) const {
     constexpr double same_value = 1e-6;  // steps
     return side.stable && std::ranges::any_of(directions_, [&](const std::vector<SweepPlace>& places) {
@@ -374,7 +376,7 @@ class Explainer {
            }) > 1;
   }
 
-  /// Is the motion on a stretch that is stable from one value to the other?
+  /// Is the orbit on a stretch that is stable from one value to the other?
   [[nodiscard]] bool is_stable_throughout(const SweepPlace& place) const {
     return std::ranges::any_of(place.on, [&](const PlaceOnBranch& p) { return is_stable_throughout(p, place.value); });
   }
@@ -403,7 +405,7 @@ class Explainer {
     return true;
   }
 
-  /// Between a flip that is known and the change only periods of its cascade are seen.
+  /// Between a known period doubling (flip) and the change, only periods of its cascade occur.
   bool by_cascade(std::size_t i, SweepChange& change) const {
     for (const bool backwards : {true, false}) {
       const SweepPlace& side = backwards ? change.before : change.behind;
@@ -454,7 +456,7 @@ class Explainer {
   const Locator& locator_;
   const std::vector<std::vector<SweepPlace>>& directions_;
   const std::vector<SweepPlace>& places_;
-  mutable double from_ = 0, to_ = 0, step_ = 0;  ///< of the change that is looked at, along the direction
+  mutable double from_ = 0, to_ = 0, step_ = 0;  ///< of the change in question, along the direction
 };
 
 }  // namespace
@@ -528,7 +530,7 @@ BranchProof prove(const TracedBranches& traced, const SweepOptions& sweep, const
   for (std::size_t d = 0; d < sweep.directions.size(); ++d) {
     const std::vector<SweepPlace>& places = directions[d];
     const Explainer explainer(traced, stretches, locator, directions, places);
-    // Is the undecided side where the branch of the other one is?
+    // Is the undecided point on the branch of the other side?
     const auto converges_onto = [&](const SweepChange& change) {
       const SweepPlace& side = change.before.branch ? change.before : change.behind;
       const SweepPlace& other = change.before.branch ? change.behind : change.before;
@@ -540,7 +542,7 @@ BranchProof prove(const TracedBranches& traced, const SweepOptions& sweep, const
     for (std::size_t i = 0; i + 1 < places.size(); ++i) {
       const SweepPlace& a = places[i];
       const SweepPlace& b = places[i + 1];
-      // Among those on none nothing tells one orbit from another: they are listed.
+      // Orbits on no branch cannot be distinguished: they are listed.
       const bool jumps = a.branch || b.branch ? !stretches.shared(a, b) : false;
       if (a.regime == b.regime && !jumps) continue;
       SweepChange change;

@@ -10,7 +10,7 @@
 #include "integrate/make_flow.hpp"
 #include "integrate/methods.hpp"
 #include "studies/axis.hpp"
-#include "studies/motion.hpp"
+#include "studies/classification.hpp"
 #include "studies/plane.hpp"
 
 namespace epicyclic::studies {
@@ -80,7 +80,7 @@ BranchSystem branch_system(const ModelAt& models, const BranchesOptions& options
   s.system.period = options.period;
   s.system.shooting_intervals = options.shooting_intervals;
   s.system.residual = 10.0 * options.tolerance;
-  // Whatever its unit, the parameter counts as the states do: over the range by some three b_c.
+  // The parameter is scaled like the states, for any unit: its range counts as some three b_c.
   constexpr double part_of_range = 0.3;
   s.system.value_scale = part_of_range * (options.to - options.from);
   if (first_model.remove_synchronous && first_model.planets > 1)
@@ -114,14 +114,14 @@ BranchOrigin origin_near(const BranchSystem& system, analysis::OrbitFamily famil
   BranchOrigin result;
   if (family.symmetry.map.size() != 0) {
     const Eigen::Map<const Eigen::VectorXd> y(state.data(), static_cast<Eigen::Index>(state.size()));
-    // The motion is still settling: what differs by less is on its way to be alike.
+    // The trajectory is still converging: smaller differences of the planets may vanish.
     constexpr double alike = 1e-3;
     family.keeps_symmetry = (family.symmetry.map * y - y).lpNorm<Eigen::Infinity>() <= alike;
     result.keeps_symmetry = family.keeps_symmetry;
   }
   analysis::Correction c = analysis::first_orbit(family, value, state);
   if (c.found && family.symmetry.map.size() != 0 && !family.keeps_symmetry) {
-    // The motion had not settled, but its orbit is one of those that move alike.
+    // The trajectory had not converged, but all planets move alike on its orbit.
     const Eigen::VectorXd y = c.orbit.at.states.col(0);
     if ((family.symmetry.map * y - y).lpNorm<Eigen::Infinity>() <= system.options.same * family.state_scale) {
       family.keeps_symmetry = result.keeps_symmetry = true;
@@ -134,7 +134,7 @@ BranchOrigin origin_near(const BranchSystem& system, analysis::OrbitFamily famil
     const Eigen::MatrixXd states = analysis::period_states(family, c.orbit.at);
     const int least = analysis::least_period(states, system.options.same * family.state_scale);
     if (least < family.period) {
-      // As one of the longer period its flips would be taken for branch points.
+      // With the longer period, its period doublings would be taken for branch points.
       family.shooting_intervals = std::max(1, family.shooting_intervals * least / family.period);
       family.period = result.period = least;
       result.shooting_intervals = family.shooting_intervals;
@@ -223,7 +223,7 @@ void decide_stability(const analysis::Branch& branch, std::vector<BranchRow>& ro
 
 namespace {
 
-/// What first happens at a contact where an extremum of its distance crosses 0.
+/// The first event at a contact when an extremum of its distance crosses 0.
 std::string contact_event(const model::ContactSurface& surface, bool least) {
   if (!surface.mesh) return least == surface.upper ? "release" : "touch";
   if (surface.upper) return least ? "loss" : "drive";
@@ -252,7 +252,7 @@ std::vector<std::complex<double>> critical_multipliers(const analysis::SpecialPo
   if (point.kind == SpecialKind::grazing || point.kind == SpecialKind::unresolved) return {};
   std::vector<std::complex<double>> all = {point.multiplier};
   const bool pair = point.kind == SpecialKind::neimark_sacker;
-  // A block other than the first and the middle one stands for two.
+  // Every block except the first and the middle one counts for two.
   const bool double_block = point.symmetry_index != 0 && 2 * point.symmetry_index != order;
   if (pair || double_block) all.push_back(std::conj(point.multiplier));
   return all;

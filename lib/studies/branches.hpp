@@ -1,12 +1,12 @@
-// Branches of periodic motions of a gear train along a parameter: analysis/bifurcation_diagram.hpp on its models.
+// Branches of periodic orbits of a gear train along a parameter: analysis/bifurcation_diagram.hpp on its models.
 //
-// The integrator is the explicit pair of the library's reference orbits: with an exact clearance steps end where
-// contact is made or lost, so that places come out to the tolerance, and tangents count in the error of a step. Where
-// planets are alike, spaced equally and in phase, orbits in which all of them move alike are followed among themselves,
-// and what breaks that is told by its wave around the stage [A-blocks].
+// The integrator is the explicit pair of the library's reference orbits. With an exact clearance, steps end where
+// contact is made or lost, so that locations are as exact as the tolerance, and tangents count in the error of a step.
+// If planets are alike, equally spaced and in phase, orbits in which all of them move alike are continued within that
+// subspace. A bifurcation that breaks this symmetry has a symmetry index around the stage [A-blocks].
 //
 // Limits: forces may not jump at contact (analysis needs tangents). A radial clearance of the sun's bearing along x and
-// y is no part of the symmetry; motions in which all planets move alike do not reach it.
+// y does not have the symmetry; an orbit in which all planets move alike does not reach it.
 #pragma once
 
 #include <complex>
@@ -27,7 +27,7 @@ namespace epicyclic::studies {
 [[nodiscard]] integrate::IntegratorOptions branch_integrator(const std::string& method, double tolerance,
                                                              bool contacts);
 
-/// What a tree of branches is grown with.
+/// Data for the tracing of a tree of branches.
 struct BranchSystem {
   analysis::OrbitFamily system;
   analysis::TreeOptions options;
@@ -41,29 +41,29 @@ struct BranchSystem {
 /// The orbit that a branch is to be followed from.
 struct BranchOrigin {
   std::optional<analysis::BranchOrbit> orbit;
-  int period = 1;               ///< its least one: half of that asked for, say
+  int period = 1;               ///< its least one: half of the requested one, say
   int shooting_intervals = 1;   ///< of its states
   bool keeps_symmetry = false;  ///< all planets move alike
-  double distance = 0;          ///< from the state that it was looked for near [b_c, b_c per tau]
+  double distance = 0;          ///< from the state near which it was searched [b_c, b_c per tau]
   std::string message{};        ///< why there is none
 };
 
-/// The one that the motion from the model's default start has settled to.
+/// The orbit that the trajectory from the model's default start has reached.
 [[nodiscard]] BranchOrigin steady_state_start(const BranchSystem& system, const model::DynamicModel& model,
                                               double value, int transient_periods);
 
 /// The one near a seed.
 [[nodiscard]] BranchOrigin seed_start(const BranchSystem& system, const BranchSeed& seed);
 
-/// What is told of one orbit of a branch.
+/// The results of one orbit of a branch.
 struct BranchRow {
   double value = 0;
   int period = 1;                                 ///< n [mesh periods]
   bool stable = false;                            ///< all multipliers inside the unit circle
   int unstable = 0;                               ///< number of multipliers beyond it
-  double residual = 0;                            ///< by which it did not close before the last step [b_c, b_c per tau]
+  double residual = 0;                            ///< closing error before the last step [b_c, b_c per tau]
   std::vector<std::complex<double>> multipliers;  ///< by falling modulus
-  bool evaluated = false;                         ///< what follows is known
+  bool evaluated = false;                         ///< the members below are known
   StageRecord meshes;                             ///< over the orbit's own periods
   std::vector<double> section;                    ///< n rows of poincare_columns()
   double omega = 0;                               ///< Omega
@@ -77,10 +77,11 @@ struct BranchRow {
 [[nodiscard]] BranchRow branch_row(const analysis::OrbitFamily& family, const analysis::BranchOrbit& orbit,
                                    const model::DynamicModel& model, int phases);
 
-/// An orbit where a branch is born or dies has a multiplier at 1 to rounding: whether it is stable its neighbour says.
+/// An orbit at which a branch begins or ends has a multiplier at 1, to rounding: its stability is that of its
+/// neighbour.
 void decide_stability(const analysis::Branch& branch, std::vector<BranchRow>& rows);
 
-/// What is told of special points: one of a branch, or several contacts that alike planets make at once.
+/// The results of a special point: one of a branch, or several contacts that alike planets make at once.
 struct SpecialRow {
   std::size_t branch = 0;
   std::size_t point = 0;  ///< on the branch, the first of them
@@ -90,7 +91,7 @@ struct SpecialRow {
   int period = 1;
   std::vector<std::complex<double>> multipliers;  ///< that are on the unit circle there
   int resonance = 0;                              ///< k of a strong resonance 1:k of a Neimark-Sacker point; 0: none
-  std::string broken_symmetry;                    ///< of the motions that leave it: "wave 1 of 3"; empty: none
+  std::string broken_symmetry;                    ///< of the orbits that leave it: "symmetry index 1 of 3"; empty: none
   /// Of a grazing, which contact is first made or lost: "sp_1+sp_2+sp_3:loss", "rp_1:back", "sun_bearing_x:touch".
   std::string contact;
   std::optional<analysis::SpecialPlace> same_as{};  ///< the point of an earlier branch that it is
@@ -100,36 +101,36 @@ struct SpecialRow {
   gear::Speeds speeds{};      ///< there
 };
 
-/// The kind as it stands in tables: "fold", ..., "resonance_1_3".
+/// The kind as in tables: "fold", ..., "resonance_1_3".
 [[nodiscard]] std::string kind_word(const SpecialRow& row);
 
-/// Where branches were started from, and what came of it.
+/// Attempts to start branches, and their results.
 struct BranchAttempt {
   double value = 0;
   int period = 1;
-  bool seed = false;      ///< else a settled motion
+  bool seed = false;      ///< else from the default start
   bool found = false;     ///< an orbit
-  double distance = 0;    ///< of it from the state that it was looked for near [b_c, b_c per tau]
+  double distance = 0;    ///< of it from the state near which it was searched [b_c, b_c per tau]
   std::string message{};  ///< why none
 };
 
 /// An orbit found further away from a seed is likely not the one that was meant [b_c, b_c per tau].
 inline constexpr double far_from_its_start = 0.05;
 
-/// All that a study of branches comes to.
+/// All results of a study of branches.
 struct TracedBranches {
   std::vector<BranchAttempt> attempts;
   std::vector<analysis::Branch> branches;
-  bool full = false;                         ///< more branches were there than asked for
+  bool full = false;                         ///< there were more branches than requested
   std::vector<std::vector<BranchRow>> rows;  ///< of each branch's orbits
   std::vector<SpecialRow> special;
   std::vector<BranchRow> at_special;  ///< of the orbit at each of these
 
-  /// Row of `special` where the stability changes between an orbit of a branch and the next: of several the one beside
-  /// the stable side; nothing where neither or both are stable, or the point is not known.
+  /// Row of `special` at which the stability changes between an orbit of a branch and the next. Of several, it is the
+  /// one beside the stable side. Nothing if neither or both are stable, or if the point is not known.
   [[nodiscard]] std::optional<std::size_t> change_behind(std::size_t branch, std::size_t before) const;
 
-  /// Ways that ended before an end of the range, where they were born or as many orbits as asked for.
+  /// Number of traced directions that ended before an end of the range, at a birth or at the largest number of orbits.
   [[nodiscard]] std::size_t broken_off() const;
 };
 

@@ -1,10 +1,11 @@
+#include "studies/classification.hpp"
+
 #include <algorithm>
 #include <utility>
 
 #include "analysis/regime_flows.hpp"
 #include "integrate/methods.hpp"
 #include "model/layout.hpp"
-#include "studies/motion.hpp"
 
 namespace epicyclic::studies {
 

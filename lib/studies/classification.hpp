@@ -1,7 +1,8 @@
-// What a motion of a stage is: the one way in which all studies ask [analysis/regime.hpp].
+// The classification of a state's regime, one procedure for all studies [analysis/regime.hpp].
 //
-// By the flows of analysis/regime_flows.hpp, made by whoever carries the motion: by lanes that many motions share, or
-// one by one, where ARKODE's twin of the lanes' pair asks, since tangents are then a matter of one trajectory.
+// It uses the flows of analysis/regime_flows.hpp. The caller chooses who makes them: lanes that many trajectories
+// share, or a flow of one trajectory. For lanes' methods, the second is ARKODE's twin of the lanes' pair, since
+// tangents then belong to one trajectory.
 #pragma once
 
 #include <functional>
@@ -35,8 +36,8 @@ struct ClassifiedState {
 
 /// @param field  with has_classification()
 /// @param state  replaced by the last state
-/// @param look   classification_periods and period_max are read
-/// @param seen   a section of this very motion that ends in `state`; may be null
+/// @param recording  classification_periods and period_max are read
+/// @param seen   a section of this very trajectory that ends in `state`; may be null
 [[nodiscard]] ClassifiedState classify_state(const VectorField& field, std::vector<double>& state,
                                              const RecordingOptions& recording,
                                              const integrate::IntegratorOptions& integrator,

@@ -22,7 +22,7 @@ std::vector<double> CoarsePass::start_of(std::size_t first, const std::function<
     if (!go_on()) return {};
     lock.lock();
   }
-  if (known()) return pass.starts.at(first);  // someone else may still carry it: that is not ours to say
+  if (known()) return pass.starts.at(first);  // another thread may still advance it: this thread leaves it so
   pass.in_progress = true;
   while (pass.in_progress) {
     lock.unlock();
@@ -45,7 +45,7 @@ std::vector<double> CoarsePass::start_of(std::size_t first, const std::function<
 bool CoarsePass::advance(DirectionPass& pass, std::size_t point, const std::function<bool()>& go_on,
                          const integrate::FlowMaker& make_flow) {
   integrate::IntegratorOptions options = integrator_;
-  // Which branch it is on is all that is asked.
+  // The pass only decides which branch the state is on.
   constexpr double enough = 1e-5;
   const double factor = std::clamp(enough / options.relative_tolerance, 1.0, 100.0);
   options.relative_tolerance *= factor;

@@ -1,12 +1,14 @@
-// Where the segments of a carried sweep start: a pass along the whole range, each grid point for a few mesh periods
-// only and at up to a hundred times the tolerance, that follows the same branches as the sweep in one chain does, so
-// that hysteresis is kept.
+// Initial states of the segments of a continued sweep. A pass along the whole range takes a few mesh periods at each
+// grid point, at up to a hundred times the tolerance. It follows the same branches as the sweep in one chain, so that
+// hysteresis is kept.
 //
 // A segment starts from the pass's state after the point before its first. The pass is a pure function of the input: it
-// is the same whoever asks and whenever, and is computed again by each process that needs it, as far as it needs it.
+// does not depend on the thread or the time of the request. Each process that needs it computes it again, as far as it
+// needs it.
 //
-// Limits: near a boundary between two basins, and where the sweep in one chain is still settling after its transient, a
-// shorter look may leave the branch earlier or later, and what follows to the next change of the motion differs.
+// Limits: a shorter transient may leave a branch earlier or later near a boundary between two basins, and where the
+// sweep in one chain has not converged after its transient. The points up to the next change of the attractor then
+// differ.
 #pragma once
 
 #include <cstddef>
@@ -26,12 +28,12 @@ class CoarsePass {
   CoarsePass(const SweepPlan& plan, const integrate::IntegratorOptions& integrator, const ModelAtPoint& model_at)
       : plan_(plan), integrator_(integrator), model_at_(model_at) {}
 
-  /// The state that a chain starts from whose first point is this one; empty, for the default start, at the first point
-  /// of a direction, without segments and after a motion that did not reach its end. May be called from several
-  /// threads.
-  /// Whoever asks first carries the pass of a direction on; who asks meanwhile waits.
+  /// The state from which a chain starts whose first point is this one. It is empty, for the default start, at the
+  /// first point of a direction, without segments and after a trajectory that did not reach its end. Several threads
+  /// may call it.
+  /// The first caller advances the pass of a direction; other callers wait meanwhile.
   /// @param go_on      returns false to give up: the result is then empty
-  /// @param make_flow  what the pass is carried by
+  /// @param make_flow  makes the flow that advances the pass
   /// @param wait       returns once its argument returns true
   [[nodiscard]] std::vector<double> start_of(std::size_t first, const std::function<bool()>& go_on,
                                              const integrate::FlowMaker& make_flow,
@@ -39,13 +41,13 @@ class CoarsePass {
 
  private:
   struct DirectionPass {
-    bool in_progress = false;  ///< by someone, just now
+    bool in_progress = false;  ///< a thread advances it now
     std::size_t next = 0;      ///< point that the pass has come to, counted within the direction
     std::vector<double> state;
     std::map<std::size_t, std::vector<double>> starts;
   };
 
-  /// One point of a way; its state is the caller's meanwhile.
+  /// Advances the pass by one point. Until it returns, the state belongs to the caller.
   /// @returns false if given up
   bool advance(DirectionPass& pass, std::size_t point, const std::function<bool()>& go_on,
                const integrate::FlowMaker& make_flow);
@@ -57,7 +59,7 @@ class CoarsePass {
   const integrate::IntegratorOptions& integrator_;
   const ModelAtPoint& model_at_;
   std::mutex mutex_;
-  std::map<std::size_t, DirectionPass> passes_;  ///< by direction; its members belong to who carries it
+  std::map<std::size_t, DirectionPass> passes_;  ///< by direction; its members belong to the thread that advances it
 };
 
 }  // namespace epicyclic::studies

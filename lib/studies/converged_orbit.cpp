@@ -2,7 +2,7 @@
 
 #include "core/largest_difference.hpp"
 #include "core/text.hpp"
-#include "studies/motion.hpp"
+#include "studies/classification.hpp"
 
 namespace epicyclic::studies {
 
@@ -22,7 +22,7 @@ ConvergedOrbit converged_orbit(integrate::Flow& flow, const PointSummary& point)
     found.note = "an " + name + " by recurrence alone: forces jump at contact, and there are no tangents to find it by";
     return found;
   }
-  // The motion was told on its way, and may have come to another phase since.
+  // The trajectory was classified before it converged, and may have another phase now.
   const std::vector<double> start =
       point.orbit.empty() ? point.end_state : analysis::nearest_on_orbit(flow, point.orbit, n, point.end_state);
   found.orbit = analysis::find_periodic_orbit(flow, start, n);

@@ -1,7 +1,8 @@
-// The periodic orbit that a motion is on, or is settling to, by another flow than the one that told it.
+// The periodic orbit to which a trajectory converges, by another flow than the one that classified it.
 //
-// A motion has an orbit where it is periodic, as all studies tell it [studies/motion.hpp]; where nothing but recurrence
-// was asked, where it recurs. Newton's method starts from that orbit's point that is nearest to the motion's last one.
+// A point has an orbit if it is periodic, as all studies classify it [studies/classification.hpp]. If the study used
+// recurrence alone, it has an orbit if its record recurs. Newton's method starts from the point of that orbit that is
+// nearest to the last state.
 #pragma once
 
 #include <string>
@@ -14,12 +15,12 @@ namespace epicyclic::studies {
 struct ConvergedOrbit {
   int period = 0;  ///< n [mesh periods]; 0 if there is no such orbit
   analysis::PeriodicOrbit orbit{};
-  double distance = 0;            ///< of the motion's last state from the orbit [b_c, b_c per tau]
+  double distance = 0;            ///< of the point's last state from the orbit [b_c, b_c per tau]
   double largest_multiplier = 0;  ///< modulus
-  std::string note{};             ///< what the motion is, where there is no orbit or it was still settling to it
+  std::string note{};             ///< the regime, if there is no orbit or the trajectory had not converged to it
 };
 
-/// @param flow  of the motion's model, at the tolerance that the orbit is wanted to
+/// @param flow  of the point's model, at the tolerance of the orbit
 [[nodiscard]] ConvergedOrbit converged_orbit(integrate::Flow& flow, const PointSummary& point);
 
 }  // namespace epicyclic::studies

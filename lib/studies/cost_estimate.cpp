@@ -63,7 +63,7 @@ SweepPlan in_miniature(const SweepPlan& plan, std::size_t points) {
   const auto part = [](std::size_t of, double of_it) {
     return std::clamp(static_cast<std::size_t>(std::lround(static_cast<double>(of) * of_it)), std::size_t{1}, of);
   };
-  // Of a plane as many rows as columns are left out.
+  // A plane leaves out as many rows as columns.
   const std::size_t rows = part(grid.rows(), std::sqrt(share));
   const double columns_left = share * static_cast<double>(grid.rows()) / static_cast<double>(rows);
   const std::size_t columns = part(grid.columns(), columns_left);
@@ -82,7 +82,7 @@ std::size_t smallest_miniature(const integrate::IntegratorOptions& integrator, i
 }
 
 double processor_seconds_of(const SweepPlan& plan, const Measured& miniature, int threads) {
-  // Measured 0.7 to 0.9, less towards the end where the longest points are alone.
+  // Measured 0.7 to 0.9; less towards the end, when only the longest points remain.
   const auto lanes = static_cast<double>(integrate::step_loops().width) * threads;
   const double commonly = 0.7 * std::min(1.0, static_cast<double>(plan.chains.size()) / lanes);
   double seconds =

@@ -1,4 +1,4 @@
-// What is asked of models before a study runs.
+// Models, evaluated before a study runs: its cost, and whether two models are the same.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace epicyclic::studies {
 
-/// What the points of a study will take.
+/// Work of the points of a study.
 struct Cost {
   std::size_t points = 0;
   std::size_t chains = 0;         ///< that can run at the same time
@@ -23,8 +23,8 @@ struct Cost {
 /// Transients and records of all points.
 [[nodiscard]] std::int64_t mesh_periods_of(const SweepPlan& plan, const RecordingOptions& recording);
 
-/// Counts, and probes the first point, the last and the one between from the default start.
-/// @param go_on  asked now and then; once it says false, the right-hand sides are those that were counted by then
+/// Counts, and evaluates the first point, the last and the middle one from the default start.
+/// @param go_on  called now and then; once it returns false, the right-hand sides are those counted by then
 [[nodiscard]] Cost estimate_cost(
     const SweepPlan& plan, const RecordingOptions& recording, const integrate::IntegratorOptions& integrator,
     const ModelAtPoint& model_at, const std::function<bool()>& go_on = [] { return true; });
@@ -36,7 +36,7 @@ struct Cost {
 /// Processor time of this process so far, of all its threads together.
 [[nodiscard]] double processor_seconds();
 
-/// What was measured of a miniature.
+/// Measurements of a miniature.
 struct Measured {
   std::size_t points = 0;
   double processor_seconds = 0;       ///< of all threads together
@@ -45,11 +45,11 @@ struct Measured {
   std::size_t finished = 0;  ///< of the points; fewer than all where it was stopped
 };
 
-/// Processor time of all points, by what a miniature of theirs took. Where the plan has more chains for its lanes than
-/// the miniature had, they are as busy as they commonly are.
+/// Processor time of all points, from the measurements of a miniature. If the plan has more chains for its lanes than
+/// the miniature had, the lanes' common occupancy is assumed.
 [[nodiscard]] double processor_seconds_of(const SweepPlan& plan, const Measured& miniature, int threads);
 
-/// Points of the smallest miniature that tells anything: enough for lanes to be shared.
+/// Points of the smallest useful miniature: enough for lanes to be shared.
 [[nodiscard]] std::size_t smallest_miniature(const integrate::IntegratorOptions& integrator, int threads);
 
 /// Computes miniatures, each with four times the points of the one before, while the next one is likely to be done
@@ -61,8 +61,8 @@ struct Measured {
 [[nodiscard]] Measured measure_miniatures(const SweepPlan& plan, std::size_t first, double seconds, int threads,
                                           const std::function<std::size_t(const SweepPlan&, LaneUse&)>& compute);
 
-/// Do two models answer alike, wherever the state is? Looked at states of all sizes, so that gaps of any width are
-/// crossed.
+/// Do two models have the same right-hand sides at all states? Compared at states of all sizes, so that gaps of any
+/// width are crossed.
 [[nodiscard]] bool same_equations(const model::DynamicModel& a, const model::DynamicModel& b);
 
 }  // namespace epicyclic::studies

@@ -21,17 +21,18 @@ namespace epicyclic::studies {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-/// Tolerances are tightened by this much, but not below what doubles can hold.
+/// Tolerances are tightened by this factor, but not below the precision of doubles.
 constexpr double tightening = 1e-2;
 constexpr double tightest = 1e-13;
-/// How long motions are followed where their regimes leave a difference open, in `continued_periods`.
+/// How long trajectories are continued if their regimes leave a difference open, in `continued_periods`.
 constexpr int at_length = 40;
 constexpr int patience = 360;
-/// They are followed no more finely than this: the motion is what matters, not its phase.
+/// Their tolerance is no smaller than this: the attractor matters, not the phase.
 constexpr double fine_enough = 1e-8;
 /// Two tori are one if no state of either is farther from the other than this part of their extent.
 constexpr double same_set = 0.05;
-/// Orbits are two motions, and not one to within what the methods may differ by, if they are so many tolerances apart.
+/// Two orbits count as two attractors if they are so many tolerances apart. Below it, they are one orbit, to within the
+/// differences of the methods.
 constexpr double clearly = 1e3;
 
 using analysis::Regime;
@@ -85,14 +86,14 @@ class Examiner {
     return converged_orbit(*flow_of(point, v), result);
   }
 
-  /// d of [A-cross]; of motions without an orbit, of one record from the other.
+  /// d of [A-cross]; without an orbit, the distance of one record from the other.
   [[nodiscard]] double distance(const Pair& both) const {
     const PointResult& a = both.our_result;
     const PointResult& b = both.their_result;
     const std::size_t n = a.end_state.size();
     const double recorded = orbit_distance(a, b, n);
     if (recorded <= options_.orbit_tolerance) return recorded;
-    // Records may be those of motions that still settle: by the orbits themselves.
+    // Records may not have converged: the orbits themselves are compared.
     if (periodic(a) && periodic(b) && converges(both.point, both.ours, a) && converges(both.point, both.other, b))
       if (const double d = orbits_apart(both); std::isfinite(d)) return d;
     if (!std::isnan(recorded)) return recorded;
@@ -103,7 +104,7 @@ class Examiner {
     return most;
   }
 
-  /// One regime, and state by state one motion; where both are chaotic, one growth, to within both intervals.
+  /// One regime, and one orbit, state by state; if both are chaotic, one growth rate, to within both intervals.
   [[nodiscard]] bool same(const Pair& both) const {
     if (chaotic(both.our_result) && chaotic(both.their_result))
       return overlap(both.our_result.lyapunov_max(), both.their_result.lyapunov_max());
@@ -122,7 +123,7 @@ class Examiner {
                                   [this] { return stop_ == nullptr || !stop_->load(); });
   }
 
-  /// The motion that a state is on, some periods later.
+  /// The result of the trajectory from a state, some periods later.
   [[nodiscard]] PointResult later(const GridPoint& point, const Variant& v, const std::vector<double>& start,
                                   int periods) const {
     RecordingOptions recording = recording_;
@@ -152,7 +153,7 @@ class Examiner {
   void explain(const Pair& both, const std::vector<double>& start, Comparison& c) const {
     const auto& [point, ours, reference, other, result] = both;
     const auto done = [&](Verdict verdict, std::string detail) { conclude(c, verdict, std::move(detail)); };
-    // What a finished study says must come out again by its own method.
+    // The result of a finished study must repeat by its own method.
     if (periodic(reference))
       if (const PointResult again = compute(point, ours, start, recording_);
           !same({point, ours, reference, ours, again}))
@@ -188,7 +189,7 @@ class Examiner {
     follow(both, c);
   }
 
-  /// What either motion comes to in the long run, each followed by its own method.
+  /// The long-term result of both trajectories, each continued by its own method.
   void follow(const Pair& both, Comparison& c) const {
     const auto& [point, ours, reference, other, result] = both;
     const auto done = [&](Verdict verdict, std::string detail) { conclude(c, verdict, std::move(detail)); };
@@ -223,7 +224,7 @@ class Examiner {
     if (chaotic(our_last) != chaotic(their_last))
       return done(Verdict::chaos,
                   "largest exponents " + exponent_of(our_last) + " and " + exponent_of(their_last) + "; " + regimes);
-    // Growth so slow that one record tells it and the other does not: what is measured agrees.
+    // The growth is so slow that one record shows it and the other does not: the measured exponents agree.
     const auto undecided = [](const PointResult& r) { return reached(r) && r.regime == Regime::undecided; };
     if (((chaotic(reference) && undecided(result)) || (undecided(reference) && chaotic(result))) &&
         overlap(reference.lyapunov_max(), result.lyapunov_max()))
@@ -249,7 +250,7 @@ class Examiner {
            (periodic(a) && periodic(b) && a.period == b.period ? ", distance " + short_text(orbits_apart(both)) : "");
   }
 
-  /// Does a method stay on the motion that another has found?
+  /// Does a method stay on the attractor that another has found?
   [[nodiscard]] bool holds(const GridPoint& point, const Variant& v, const Variant& by,
                            const PointResult& found) const {
     const PointResult on =
@@ -282,8 +283,8 @@ class Examiner {
         .section;
   }
 
-  /// Is a periodic motion's record on its orbit, or does it come nearer to it as the orbit's multipliers have it? A
-  /// record that is wrong keeps its distance.
+  /// Is a periodic point's record on its orbit, or does it approach the orbit as fast as the orbit's multipliers say? A
+  /// wrong record keeps its distance.
   [[nodiscard]] bool converges(const GridPoint& point, const Variant& v, const PointResult& result) const {
     const ConvergedOrbit s = orbit_of(point, v, result);
     const std::size_t rows = result.poincare_rows();
@@ -311,7 +312,7 @@ class Examiner {
     return last <= options_.orbit_tolerance || last <= 0.5 * (1.0 + contraction) * farthest(0, half);
   }
 
-  /// Distance of two periodic motions' orbits, each found by its own method; infinite if they have none, or other
+  /// Distance of two periodic points' orbits, each found by its own method. Infinite if they have none, or other
   /// periods.
   [[nodiscard]] double orbits_apart(const Pair& both) const {
     double nearest = std::numeric_limits<double>::infinity();
@@ -327,8 +328,8 @@ class Examiner {
     return nearest;
   }
 
-  /// orbits_apart() of orbits that seem to be one, where tolerances leave more than is asked at tighter ones; else
-  /// infinite.
+  /// orbits_apart() of orbits that seem to be one, if the distance is due to the tolerances and vanishes at tighter
+  /// ones. Else infinite.
   [[nodiscard]] double one_orbit(const Pair& both) const {
     const auto& [point, ours, a, other, b] = both;
     constexpr double unlike = std::numeric_limits<double>::infinity();
@@ -413,7 +414,7 @@ namespace {
 /// The reference's points by the other variants.
 /// @param starts  of each point
 /// @param done    results of an earlier run
-/// @param tell    hears of the others; one at a time
+/// @param report  receives the others, one at a time
 void compare_with_others(Crosscheck& all, const std::vector<std::vector<double>>& starts,
                          const RecordingOptions& recording, const CrosscheckOptions& options,
                          const SmoothedModelAt& model_at, const CrosscheckRun& run,
@@ -445,7 +446,7 @@ void compare_with_others(Crosscheck& all, const std::vector<std::vector<double>>
     if (c) all.comparisons.push_back(std::move(*c));
 }
 
-/// Tells the run of results, one at a time.
+/// Reports results to the run, one at a time.
 class Reporter {
  public:
   explicit Reporter(const CrosscheckRun& run) : run_(run) {}
@@ -483,7 +484,7 @@ Crosscheck run_crosscheck(const SweepPlan& plan, const RecordingOptions& recordi
       std::move(known_reference));
   if (all.reference.size() < plan.points.size()) return all;
 
-  // Where each point started: at the end of the one before in its chain, or cold.
+  // The start of each point: the end of the one before in its chain, or cold.
   std::vector<std::vector<double>> starts(plan.points.size());
   for (const auto& chain : plan.chains)
     for (std::size_t k = 1; k < chain.size(); ++k) starts[chain[k]] = all.reference[chain[k - 1]].end_state;
@@ -494,7 +495,7 @@ Crosscheck run_crosscheck(const SweepPlan& plan, const RecordingOptions& recordi
 
 namespace {
 
-/// How many of `count` each group gets, one by one in turn, the largest first, while it has any.
+/// How many of `count` each group gets. Groups with members left get one each in cyclic order, the largest group first.
 std::vector<std::size_t> shares(std::size_t count, const std::vector<std::size_t>& sizes) {
   std::vector<std::size_t> order(sizes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -1,4 +1,4 @@
-// What a cross-check compares, and how closely (studies/crosscheck.hpp).
+// Variants and bounds of a cross-check (studies/crosscheck.hpp).
 #pragma once
 
 #include <string>
@@ -14,7 +14,8 @@ struct CrosscheckOptions {
   std::vector<double> clearance_smoothings{};
 
   double orbit_tolerance = 1e-6;  ///< eps [b_c, b_c per tau]
-  int continued_periods = 100;    ///< that one answer is continued with the other method before it is looked at again
+  int continued_periods =
+      100;  ///< for which one result is continued with the other method before it is classified again
 
   /// @throws InputError for counts below what there has to be, numbers that are not positive, and lists without any
   void validate() const;

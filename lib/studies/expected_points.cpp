@@ -10,7 +10,7 @@ namespace epicyclic::studies {
 
 namespace {
 
-/// "symmetry index 1 of 3", which older files call "wave 1 of 3".
+/// "symmetry index 1 of 3". The function also accepts the text of older files.
 std::string symmetry_of(const LocatedPoint& p) {
   constexpr std::string_view old = "wave";
   return p.broken_symmetry.starts_with(old) ? "symmetry index" + p.broken_symmetry.substr(old.size())

@@ -1,13 +1,12 @@
-// Special points of branches held against those of an earlier computation: the regression gate on bifurcation points.
+// Special points of branches compared with those of an earlier computation: the regression test of bifurcation points.
 //
-// A point found is the one expected where kind, period, contact and broken symmetry are the same and the values are
-// nearest, within `reach`; then
+// A found point is an expected one if kind, period, contact and broken symmetry are the same and the values are
+// nearest, within `reach`. Then
 //
 //   | value - expected | <= bound of the expected one       agrees
-//   bound of the one found > 10 bounds of the expected one  too uncertain to say: a failure
+//   bound of the found one > 10 bounds of the expected one  too uncertain for a comparison: a failure
 //
-// What is expected and not found is missing, what is found and not expected is additional: failures both, since
-// branches have neither more nor fewer points than they have.
+// An expected point that is not found is missing, a found point that is not expected is additional. Both are failures.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +17,7 @@
 
 namespace epicyclic::studies {
 
-/// A special point by what tells it from others.
+/// A special point, by the properties that distinguish it from others.
 struct LocatedPoint {
   std::string kind;  ///< as in special.csv
   int period = 1;    ///< of the branch [mesh periods]
@@ -31,7 +30,7 @@ struct LocatedPoint {
 enum class PointVerdict { agrees, differs, too_uncertain, missing, additional };
 [[nodiscard]] std::string to_string(PointVerdict verdict);
 
-/// A computed bound beyond so many expected ones says nothing any more.
+/// A computed bound beyond so many expected ones is too large for a comparison.
 inline constexpr double uncertain_from = 10.0;
 
 struct PointComparison {

@@ -23,7 +23,7 @@ Steps places_in(const Axis& others, const Axis& values) {
   return places;
 }
 
-/// Where along a line the chain begins that a step is in.
+/// The first point of the chain that contains a step, along a line.
 std::size_t chain_begin(const PlanGrid& grid, std::size_t step) {
   const std::size_t n = grid.columns();
   std::size_t part = step * grid.chains_per_line / n;
@@ -36,7 +36,7 @@ std::size_t chain_begin(const PlanGrid& grid, std::size_t step) {
 Steps same_steps(const PlanGrid& there, const PlanGrid& here, Direction direction, const Steps& columns) {
   const std::size_t n = here.columns();
   const std::size_t m = there.columns();
-  // In the order in which they are gone through.
+  // In the order of the computation.
   Steps steps(n);
   for (std::size_t step = 0; step < n; ++step) {
     const auto column = columns[direction == Direction::up ? step : n - 1 - step];

@@ -1,21 +1,23 @@
+#include "studies/known_attractors.hpp"
+
 #include <utility>
 
 #include "analysis/attractors.hpp"
 #include "analysis/periodic_orbit.hpp"
-#include "studies/known_motions.hpp"
-#include "studies/motion.hpp"
+#include "studies/classification.hpp"
 
 namespace epicyclic::studies {
 
 namespace {
 
-/// What its attractor is told from, kept or made of its section; that of an undecided motion where nothing was kept.
+/// The record that determines the point's attractor: the kept one, else one made of its section. The second also serves
+/// an undecided point.
 analysis::AttractorRecord record_of(PointResult& r, const model::DynamicModel& model,
                                     const integrate::IntegratorOptions& integrator) {
   const std::size_t dimension = model.dimension;
   if (r.attractor.dimension > 0) return std::move(r.attractor);
   if (r.outcome != integrate::Outcome::reached || r.poincare_rows() == 0) return {};
-  // Its record does not recur: it is on its way to the orbit, or no orbit is kept.
+  // Its record does not recur: it has not converged to the orbit, or no orbit is kept.
   if (r.regime == analysis::Regime::periodic && r.recurrence.period == 0) {
     if (r.orbit.empty()) return {};
     const auto flow = make_flow_of_one_trajectory(model, integrator);

@@ -1,4 +1,4 @@
-// What a finished study knows at one of its points besides the motion there: the other direction of a sweep, other
+// Other attractors that a finished study has at one of its points: from the other direction of a sweep, from other
 // cells of basins.
 #pragma once
 
@@ -13,16 +13,16 @@
 
 namespace epicyclic::studies {
 
-/// A state on the motion of a point, at the mesh phase 0: on its orbit if it is periodic by evidence, else where it
-/// ended or its record did; empty where none was kept.
+/// A state on the attractor of a point, at the mesh phase 0. It is on its orbit if it is periodic by evidence, else
+/// where its trajectory or its record ended. Empty if none was kept.
 [[nodiscard]] std::vector<double> state_on(const PointResult& point, std::size_t dimension);
 
-/// A motion, and a point that moves like that.
+/// An attractor, and a point that is on it.
 struct KnownAttractor {
   std::size_t point = 0;
   std::string regime;        ///< "period 2"
-  std::size_t points = 0;    ///< that move so, of those that were looked at
-  std::size_t image_of = 0;  ///< it is this one's image under a turn of the planets, counted from 1; 0: of none
+  std::size_t points = 0;    ///< that are on it, of those considered
+  std::size_t image_of = 0;  ///< it is this one's image under a rotation of the planets, counted from 1; 0: of none
 };
 
 struct KnownAttractors {

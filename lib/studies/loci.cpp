@@ -50,7 +50,7 @@ struct SecondRange {
   double from = 0, to = 0, value = 0;
 };
 
-/// What a locus of a branch's points is traced on and with.
+/// Data for tracing a locus of a branch's points.
 std::pair<analysis::OrbitSurface, analysis::LocusOptions> plane_of(const ModelOverPlane& models,
                                                                    const analysis::Branch& branch, double first,
                                                                    const SecondRange& second,

@@ -1,7 +1,7 @@
 // Loci of the special points of a gear train's branches over a second parameter: analysis/locus.hpp on its models.
 //
-// Each point is followed both ways to the edges of the rectangle of both ranges. One that a locus before it passes is
-// on that one.
+// Each point is followed in both directions to the edges of the rectangle of both ranges. If an earlier locus passes a
+// point, the point belongs to that locus.
 #pragma once
 
 #include <cstddef>
@@ -37,14 +37,14 @@ struct TracedLocus {
   std::string message{};            ///< why it was broken off, or not begun
 };
 
-/// The special points whose loci are asked for, as indices of TracedBranches::special, in their order.
+/// The special points whose loci are requested, as indices of TracedBranches::special, in their order.
 [[nodiscard]] std::vector<std::size_t> points_of_loci(const TracedBranches& traced, const LociOptions& options);
 
 /// Does one of the loci pass the point?
 [[nodiscard]] bool is_on_a_locus(const std::vector<TracedLocus>& loci, const TracedBranches& traced,
                                  const SpecialRow& point, double second, const BranchesOptions& options);
 
-/// The locus of a point, both ways.
+/// The locus of a point, in both directions.
 /// @param second  value of the second parameter on the branches
 [[nodiscard]] TracedLocus trace_locus(const ModelOverPlane& models, const TracedBranches& traced,
                                       const SpecialRow& point, double second, const BranchesOptions& options);

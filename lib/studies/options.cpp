@@ -1,4 +1,4 @@
-// What options of studies have to keep, whoever gives them; the input's own bounds are closer (input/study_tables.cpp).
+// Bounds of options of studies for every caller; the input's own bounds are closer (input/study_tables.cpp).
 
 #include <string>
 #include <string_view>

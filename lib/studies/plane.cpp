@@ -10,13 +10,13 @@
 
 #include "core/errors.hpp"
 #include "model/layout.hpp"
-#include "studies/motion.hpp"
+#include "studies/classification.hpp"
 
 namespace epicyclic::studies {
 
 namespace {
 
-/// Displacements and velocities with planet i's parts at i + steps, all vectors turned along.
+/// Displacements and velocities with planet i's parts at i + steps, and all vectors rotated accordingly.
 std::vector<double> rotated(const model::DynamicModel& model, int steps, std::span<const double> state) {
   using model::Slots;
   const auto planets = static_cast<std::size_t>(model.planets);
@@ -59,7 +59,7 @@ std::vector<double> start_in_plane(const model::DynamicModel& model, const Basin
 
 std::vector<PlanetRotation> planet_rotations(const model::DynamicModel& model,
                                              const integrate::IntegratorOptions& integrator) {
-  constexpr double rounding = 1e-9;  // of a turn
+  constexpr double rounding = 1e-9;  // of a revolution
   std::vector<PlanetRotation> rotations;
   for (int steps = 1; steps < model.planets; ++steps) {
     const double ahead = model.planet_phases.empty() ? 0.0 : model.planet_phases[static_cast<std::size_t>(steps)];
@@ -71,7 +71,7 @@ std::vector<PlanetRotation> planet_rotations(const model::DynamicModel& model,
     }
     rotations.push_back({steps, [model, steps, integrator, until = part * model.period](std::span<const double> state) {
                            std::vector<double> later(state.begin(), state.end());
-                           // What cannot be carried on has no image.
+                           // A state that cannot be integrated to that phase has no image.
                            if (!make_flow_of_one_trajectory(model, integrator)->evolve(later, 0.0, until).reached())
                              std::ranges::fill(later, std::numeric_limits<double>::infinity());
                            return rotated(model, steps, later);

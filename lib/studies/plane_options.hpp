@@ -1,4 +1,4 @@
-// A plane of points: two parameters of a map, or two components of the state that motions start from, of basins.
+// A plane of points: two parameters of a map, or two components of the initial state of basins.
 #pragma once
 
 #include <map>
@@ -25,18 +25,18 @@ struct MapOptions {
   Start start = Start::continued;  ///< along the first axis
   RecordingOptions recording = {.keep = Keep::row};
 
-  /// @throws InputError for what plane and look refuse, and for no directions
+  /// @throws InputError for errors in plane and recording, and for no directions
   void validate() const;
 };
 
-/// Cells are cold, and settle until their regimes are told: a transient of a fixed length leaves motions on their way,
-/// which are then counted as attractors.
+/// Cells are cold, and their transients end when the regime is classified. After a transient of fixed length,
+/// trajectories may not have converged, and would count as attractors.
 struct BasinsOptions {
   Plane plane;                                     ///< of components
   std::map<std::string, double> other_components;  ///< components that both axes leave alone, where not at default
   RecordingOptions recording = {.transient = Transient::adaptive, .keep = Keep::attractor};
 
-  /// @throws InputError for what plane and look refuse
+  /// @throws InputError for errors in plane and recording
   void validate() const;
 };
 

@@ -31,7 +31,7 @@ class RememberedFlow : public integrate::Flow {
   void set_next_step(double step) override { flow_->set_next_step(step); }
 
  private:
-  /// A result: where it ended, length of the next step, state, tangents.
+  /// A result: its end time, length of the next step, state, tangents.
   template <class Compute>
   Evolution recalled(std::span<double> state, std::span<double> tangents, Compute compute) {
     constexpr std::size_t head = 2;

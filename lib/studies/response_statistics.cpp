@@ -55,7 +55,7 @@ Course course_of(const std::vector<double>& x, const analysis::RecordingPhases& 
   return c;
 }
 
-/// What a model of one's own, without looks, tells of its meshes: deflections.
+/// The outputs of a model without outputs of its own: deflections.
 model::StageOutputs outputs_of_deflections(const model::DynamicModel& model, const std::vector<double>& phases) {
   return [&model, phases, y = std::vector<double>(model.dimension), d = model::MeshDeflections()](
              std::size_t group, const double* states, double* rows) mutable {
@@ -196,7 +196,7 @@ void ResponseStatistics::recording(std::size_t group, std::size_t count) {
       const Numbers first(now_[row][0]);
       sums_[row] = {first, first, first, first, Numbers(0.0), Numbers(0.0)};
     }
-  // A group at the end of a period may not be full: what is not there is told as what adds nothing.
+  // A group at the end of a period may not be full: missing members add nothing.
   Numbers one = uniform_[group];
   const auto is_odd = odd_[group] > Numbers(0.0);
   for (std::size_t lane = count; lane < model::phases_together; ++lane) {

@@ -1,5 +1,5 @@
-// What meshes and bearings of a motion do over whole mesh periods: means, alternating parts, extrema, contact, tension,
-// load sharing, mesh harmonics.
+// Statistics of meshes and bearings over whole mesh periods: means, alternating parts, extrema, contact, tension, load
+// sharing, mesh harmonics.
 //
 //   mean and RMS   x_m = mean x ,  x_rms = sqrt( mean (x - x_m)^2 ) , about the mean                        [S-rms]
 //   load sharing   L_i = N x_i / sum_j x_j  of the time means of F_i and of the largest F_i                   [S-share]
@@ -11,9 +11,9 @@
 // F_qs,i(s) is the force of the same mesh in the quasi-static solution [model/static_equilibrium.hpp], at the phases of
 // the record.
 //
-// Means are those of samples at uniform phases. Extrema are those of more samples: at least four times as many, at
-// least 20 per period of the fastest mode that meshes excite (2 omega_sn), and both sides of each breakpoint, where
-// forces jump. Limit: a peak between two samples is not seen; `force_error` estimates what is missing.
+// Means are those of samples at uniform phases. Extrema are those of more samples: at least four times as many, and at
+// least 20 per period of the fastest mode that meshes excite (2 omega_sn). They include both sides of each breakpoint,
+// where forces jump. Limit: a peak between two samples is not seen; `force_error` estimates the error.
 #pragma once
 
 #include <array>
@@ -49,7 +49,7 @@ struct MeshRecord {
   Course force;                                             ///< F, damping included [N]
   double drive = std::numeric_limits<double>::quiet_NaN();  ///< part of the time on that flank [-]; likewise none
   double back = drive;
-  double tension = 0;       ///< greatest tension [model::pull()], over the static force of a sun mesh [-]
+  double tension = 0;       ///< largest tension `[model::pull()]`, over the static force of a sun mesh [-]
   double tension_time = 0;  ///< part of the time that there is tension [-]
   Course quasi_static;      ///< force over a mesh period of the quasi-static solution [N]
 
@@ -67,7 +67,7 @@ struct MeshRecord {
 using MeshHarmonics = std::array<double, 3>;
 
 /// K_v [S-kv] of a mesh.
-/// @returns not a number where it carries nothing in the quasi-static solution, or there is none
+/// @returns not a number if the mesh has no force in the quasi-static solution, or if there is no such solution
 [[nodiscard]] inline double dynamic_factor(double largest_force, const Course& quasi_static) {
   return quasi_static.largest > 0.0 ? largest_force / quasi_static.largest : std::numeric_limits<double>::quiet_NaN();
 }
@@ -91,7 +91,7 @@ struct StageRecord {
   /// [S-share] of planets' meshes of one kind, by a number of each.
   /// @returns not a number of forces without a sum
   [[nodiscard]] static double share(const std::vector<MeshRecord>& meshes, double Course::*of, std::size_t planet);
-  /// The largest share of the mean load that a planet carries on any of its meshes.
+  /// The largest share of the mean load that a planet has on any of its meshes.
   [[nodiscard]] double largest_share() const;
   /// The largest force of any of them over the static one [S-force].
   [[nodiscard]] double dynamic_factor(const std::vector<MeshRecord>& meshes) const;
@@ -99,7 +99,7 @@ struct StageRecord {
   [[nodiscard]] static double kv(const std::vector<MeshRecord>& meshes);
   /// K_gamma [S-kgamma].
   [[nodiscard]] static double k_gamma(const std::vector<MeshRecord>& meshes);
-  /// Greatest tension of any of them, and the greatest part of the time that one of them pulls.
+  /// Largest tension of any of them, and the largest part of the time with tension in one of them.
   [[nodiscard]] static double tension(const std::vector<MeshRecord>& meshes);
   [[nodiscard]] static double tension_time(const std::vector<MeshRecord>& meshes);
 };
@@ -109,7 +109,7 @@ struct StageRecord {
 /// @param phases  uniform ones; extrema are those of both sides of each breakpoint, too
 [[nodiscard]] std::vector<Course> quasi_static_forces(const model::DynamicModel& model, int phases);
 
-/// Sees a motion at even phases of its dense output.
+/// Takes a trajectory at uniform phases of its dense output.
 class ResponseStatistics {
  public:
   /// @param model   must live longer
@@ -156,7 +156,7 @@ class ResponseStatistics {
   /// Of each group of phases: 1 of a sample of that kind, else 0.
   std::vector<Numbers> uniform_, odd_;
   model::StageOutputs recording_;
-  std::vector<Numbers> states_, now_;  ///< of the group under way
+  std::vector<Numbers> states_, now_;  ///< of the present group
   std::vector<Sums> sums_;
   std::vector<Counts> sun_planet_, ring_planet_;
   Numbers spread_{0.0};

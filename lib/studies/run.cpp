@@ -56,7 +56,7 @@ class Recorder {
   [[nodiscard]] const model::MeshDeflections& deflections() const { return d_; }
   [[nodiscard]] const model::StageForces& forces() const { return f_; }
 
-  /// A row of the history, of the instant that was looked at.
+  /// A row of the history, of the instant that recording() has seen.
   void keep(std::size_t period, double s, std::span<const double> y) {
     constexpr double whole = 2.0 * std::numbers::pi;
     const double phase = static_cast<double>(period) * whole + s;
@@ -95,7 +95,7 @@ class Recorder {
 };
 
 /// Samples of a portrait for each of the history: some for each oscillation of the fastest meshes, whose frequency is
-/// about twice omega_sn; fewer where many periods are drawn with a thin line.
+/// about twice omega_sn. Fewer if many periods are drawn with a thin line.
 int portrait_detail(const model::DynamicModel& model, const RunOptions& options, int periods) {
   constexpr double oscillation = 200;
   constexpr double fastest = 2.0;
@@ -135,7 +135,7 @@ class Run {
     state_ = r.point.end_state;
     at("orbit");
     if (!model_.jumps_at_surfaces) find_orbit(r);
-    // Exponents read what is there by now, the record writes other parts of the result.
+    // Exponents read the present results, the record writes other parts of them.
     std::future<void> exponents;
     if (options_.exponent_periods > 0 && !model_.jumps_at_surfaces && go_on_())
       exponents = begun([&] { find_exponents(r); });
@@ -181,7 +181,7 @@ class Run {
     return o;
   }
 
-  /// By the default method, whose tangents are controlled: for what has to be exact.
+  /// By the default method, whose tangents are controlled: for exact results.
   [[nodiscard]] std::unique_ptr<Flow> exact_flow(double tolerance, bool controlled = true,
                                                  bool with_divergence = false) const {
     return exact_flow(with_divergence ? analysis::with_divergence(model_) : VectorField(model_), tolerance, controlled);
@@ -213,8 +213,8 @@ class Run {
     r.orbit = std::move(orbit);
   }
 
-  /// What interpolation in tables leaves of the multipliers. With rows half as dense it is some 16 times as much, of
-  /// fourth order; a quarter is taken, since coarse rows and those beside a pitch point gain less.
+  /// Error of the multipliers due to interpolation in tables. With rows half as dense it is some 16 times as large, by
+  /// fourth order. A quarter is taken, since coarse rows and those beside a pitch point gain less.
   void add_table_errors(const analysis::PeriodicOrbit& orbit, const std::vector<double>& moved, RunResult& r) const {
     constexpr double part = 1.0 / 4.0;
     const auto halved = exact_flow(model_.with_halved_tables(), options_.check_tolerance, true);
@@ -231,8 +231,8 @@ class Run {
   };
 
   /// @param phases  of the signal in a mesh period
-  /// @param exact  the signal is that of an orbit of period n: its harmonics are exact, and those beyond half of
-  /// dense_phases, which only keep others from folding back, are left out
+  /// @param exact  the signal is that of an orbit of period n: its harmonics are exact. Harmonics beyond half of
+  /// dense_phases only prevent aliasing, and are left out.
   [[nodiscard]] SignalSpectrum spectrum_of(Signal signal, int phases, bool exact, int n) const {
     SignalSpectrum s;
     s.signal = signal.name;
@@ -261,8 +261,8 @@ class Run {
     return s;
   }
 
-  /// Lines of a motion with contact that is made and lost fall with the cube of their order: of samples as dense as the
-  /// history's, what folds back would be seen.
+  /// Spectral lines of an orbit with contact that is made and lost fall with the cube of their order. With samples as
+  /// dense as the history's, aliasing would be visible.
   void find_spectra(RunResult& r) const {
     const bool exact = r.orbit.has_value();
     const int n = exact ? r.point.period : options_.spectrum_periods;
@@ -370,7 +370,7 @@ class Run {
     }
   }
 
-  /// How often a deflection leaves the drive flank.
+  /// How often a deflection loses the contact of the drive flank.
   [[nodiscard]] static int contact_losses(const std::vector<double>& delta, double half_gap) {
     int losses = 0;
     for (std::size_t k = 1; k < delta.size(); ++k)
@@ -399,8 +399,8 @@ class Run {
 
   using TangentFlow = std::function<std::unique_ptr<Flow>(bool controlled)>;
 
-  /// Of chaos in lanes and at the tolerance of its looks, which is far below what its intervals leave open; of other
-  /// motions, whose exponents may be known to many digits, as exactly as their multipliers.
+  /// For chaos in lanes and at the tolerance of their records, whose error is far below the exponents' intervals. For
+  /// other attractors, whose exponents may be known to many digits, as exactly as their multipliers.
   void find_exponents(RunResult& r) {
     if (r.point.regime != analysis::Regime::chaotic) {
       find_exponents(r, [this](bool controlled) { return exact_flow(options_.check_tolerance, controlled); });
@@ -421,7 +421,7 @@ class Run {
     const double period = 2.0 * std::numbers::pi;
     const auto tangents = kept(tangent_flow(true), RunPart::exponents);
     const auto divergence = kept(exact_flow(options_.check_tolerance, true, true), RunPart::divergence);
-    // The divergence is taken along the very motion: from the state at the beginning of each interval over it.
+    // The divergence is averaged along the same trajectory: over each interval, from the state at its beginning.
     constexpr std::size_t checked = 32;
     double along = 0.0;
     std::size_t intervals = 0;
@@ -507,7 +507,7 @@ class Run {
 
   void find_transverse(RunResult& r) const {
     at("Lyapunov exponent of planets that part", exponent_intervals(options_));
-    // Only of these methods another flow goes on with the same bits.
+    // Only with these methods another flow continues with the same bits.
     using integrate::Family;
     const Family family = integrate::method_named(integrator_.method).family;
     const bool resumable = family == Family::erk || family == Family::lanes;
@@ -528,7 +528,7 @@ class Run {
   const integrate::IntegratorOptions& integrator_;
   const RunControl& control_;
   const std::function<bool()> go_on_;
-  std::vector<double> state_;  ///< what everything after the point starts from: the orbit's, or the record's last
+  std::vector<double> state_;  ///< the start of all parts after the point: the orbit's state, or the record's last
 };
 
 }  // namespace

@@ -44,7 +44,7 @@ struct Portrait {
   std::vector<double> deflection, rate;  ///< [b_c], [b_c per tau]
 };
 
-/// Mesh periods of a portrait of a motion that does not repeat: beyond, a line fills the plane.
+/// Mesh periods of the portrait of a response that does not repeat: with more, a line fills the plane.
 inline constexpr int portrait_periods = 64;
 
 /// One mesh over the record.
@@ -56,7 +56,7 @@ struct MeshSummary {
   double kv = 0;                                        ///< K_v [S-kv] [-]; not a number where it is not known
   double load_sharing = 0;                              ///< of the means [S-share] [-]
   double drive = 0, loss = 0, back = 0;                 ///< parts of the time [-]
-  double tensile_force_max = 0;                         ///< greatest tension [model::DynamicModel::pull()] [N]
+  double tensile_force_max = 0;                         ///< largest tension `[model::DynamicModel::pull()]` [N]
   double tension_time = 0;                              ///< part of the time that there is tension [-]
   int contact_losses = 0;                               ///< times that the drive flank was left, per record
 };
@@ -65,7 +65,7 @@ struct MeshSummary {
 struct SignalSpectrum {
   std::string signal;           ///< column of the history
   std::string unit;             ///< "um" or "N"
-  bool exact = false;           ///< over whole periods of a periodic motion without a window; else by a flat-top window
+  bool exact = false;           ///< over whole periods of a periodic orbit without a window; else by a flat-top window
   analysis::Spectrum spectrum;  ///< frequency in mesh frequencies
   std::vector<analysis::Harmonic> lines{};  ///< if exact: p / n with their labels
   std::vector<analysis::Peak> peaks{};      ///< else
@@ -75,7 +75,7 @@ struct SignalSpectrum {
 struct ExponentChecks {
   int intervals = 0;                    ///< mesh periods that sum and divergence are taken over
   double sum = 0;                       ///< of all exponents, per tau
-  double divergence = 0;                ///< mean of the field's, along the same motion, per tau
+  double divergence = 0;                ///< mean of the field's, along the same trajectory, per tau
   std::optional<double> multipliers{};  ///< periodic: largest difference from log |multiplier| / period, per tau
   int inside = 0;    ///< exponents whose interval holds log |multiplier| / period, to the checks' tolerance
   int compared = 0;  ///< exponents compared with multipliers
@@ -92,15 +92,15 @@ struct RunResult {
   analysis::PoincareSection crossing;    ///< states where delta_sp_1 rises through b (contact is made)
   std::vector<double> crossing_phase;    ///< mesh phase in [0, 2 pi) of each
   std::vector<double> crossing_rate;     ///< delta_sp_1' of each [b_c per tau]
-  analysis::LyapunovSpectrum exponents;  ///< per unit of s; empty if none were asked for
+  analysis::LyapunovSpectrum exponents;  ///< per unit of s; empty if none were requested
   std::optional<ExponentChecks> checks{};
-  double dimension = 0;                            ///< Kaplan and Yorke's
-  double dimension_low = 0, dimension_high = 0;    ///< the same at both ends of all exponents' intervals
-  std::optional<analysis::Estimate> transverse{};  ///< exponent of the synchronous motion's transverse directions,
-                                                   ///< per tau; where the stage is symmetric
+  double dimension = 0;                          ///< Kaplan and Yorke's
+  double dimension_low = 0, dimension_high = 0;  ///< the same at both ends of all exponents' intervals
+  std::optional<analysis::Estimate>
+      transverse{};  ///< exponent transverse to the synchronous subspace, per tau; if the stage is symmetric
   std::optional<analysis::PeriodicOrbit> orbit{};  ///< if periodic
-  /// How far the orbit is from that of tables half as fine, which is more than what interpolation in them moves it; of
-  /// a periodic motion with such tables [b_c, b_c per tau].
+  /// Distance of the orbit from that with tables half as fine, which exceeds the effect of interpolation in the tables.
+  /// For a periodic orbit with such tables [b_c, b_c per tau].
   std::optional<double> table_displacement{};
   double friction_table_error = 0;  ///< of friction over normal force between the rows of its tables [-]
   std::optional<analysis::FloquetMultipliers> multipliers{};  ///< if periodic
@@ -116,13 +116,13 @@ enum class RunPart : std::size_t { exponents = 1, divergence, step_control, tran
 struct RunMemory {
   std::optional<PointResult> point{};                      ///< of an earlier session
   std::function<void(const PointResult&)> keep = nullptr;  ///< the point of this one
-  std::function<FlowMemory(RunPart)> of = nullptr;         ///< each part is asked for once
+  std::function<FlowMemory(RunPart)> of = nullptr;         ///< each part is requested once
 };
 
 /// How a run is computed; none of it changes a result.
 struct RunControl {
   int threads = 1;                        ///< more than 2 are of no use
-  std::function<bool()> go_on = nullptr;  ///< asked now and then, by all threads; false ends the run
+  std::function<bool()> go_on = nullptr;  ///< called now and then, by all threads; false ends the run
   /// Sees what is begun, and which mesh period of exponent_intervals() it is; by all threads.
   std::function<void(const char* what, int exponent_interval)> at = nullptr;
   RunMemory memory{};  ///< without functions: nothing is kept

@@ -1,4 +1,4 @@
-// What a run looks at besides the points of its sweep (studies/run.hpp).
+// What a run computes besides the points of its sweep (studies/run.hpp).
 #pragma once
 
 namespace epicyclic::studies {
@@ -7,7 +7,7 @@ struct RunOptions {
   int exponent_periods = 500;  ///< mesh periods that Lyapunov exponents are counted over; 0: none are computed
   int dense_phases = 128;      ///< samples per mesh period of histories and spectra
   int history_periods = 64;    ///< mesh periods that are kept of histories, and that summaries are taken over
-  int spectrum_periods = 256;  ///< mesh periods that spectra are taken over; a whole number of the motion's own period
+  int spectrum_periods = 256;  ///< mesh periods of the samples of spectra; a whole number of the response's own period
   int shown_periods = 8;       ///< mesh periods in history.csv and in the figures of histories
   double check_tolerance = 1e-10;  ///< relative and absolute, of the orbit's multipliers and of the exponents' checks
 

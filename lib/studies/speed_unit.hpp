@@ -1,4 +1,4 @@
-// Units that speeds are given in.
+// Units of given speeds.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace epicyclic::studies {
 inline constexpr std::array<std::string_view, 3> speed_keys = {"sun_speed_rpm", "carrier_speed_rpm",
                                                                "mesh_frequency_Hz"};
 
-/// What speeds are given in, in place of the mesh frequency ratio.
+/// The unit of given speeds, in place of the mesh frequency ratio.
 struct SpeedUnit {
   std::string key;       ///< one of speed_keys
   double per_ratio = 1;  ///< how many of it a ratio of 1 is [rpm, rpm, Hz]

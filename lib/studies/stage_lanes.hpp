@@ -15,7 +15,7 @@ namespace epicyclic::studies {
 [[nodiscard]] LaneField stage_lanes(const model::DynamicModel& like, const integrate::StepLoops& loops,
                                     std::size_t vectors = 0);
 
-/// Lanes that motions of such models share.
+/// Lanes that trajectories of such models share.
 /// @param like  has to live as long as the pool
 [[nodiscard]] integrate::LanePool stage_pool(const model::DynamicModel& like,
                                              const integrate::IntegratorOptions& integrator,

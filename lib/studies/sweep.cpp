@@ -15,8 +15,8 @@
 #include "core/errors.hpp"
 #include "integrate/lanes/lane_pool.hpp"
 #include "integrate/methods.hpp"
+#include "studies/classification.hpp"
 #include "studies/coarse_pass.hpp"
-#include "studies/motion.hpp"
 #include "studies/parallel_for.hpp"
 #include "studies/stage_lanes.hpp"
 
@@ -24,7 +24,7 @@ namespace epicyclic::studies {
 
 namespace {
 
-/// Are several points carried side by side?
+/// Are several points integrated side by side?
 bool in_lanes(const integrate::IntegratorOptions& o) {
   const integrate::Method* method = integrate::find_method(o.method);
   return method != nullptr && method->family == integrate::Family::lanes;
@@ -38,7 +38,7 @@ PointFlows flows_of(integrate::LanePool& pool) {
   return {make_flow, make_flow};
 }
 
-/// One point: a transient that may end by evidence, the periods of the strobe, and what is told from them.
+/// One point: a transient that may end by evidence, the periods of the strobe, and the results from them.
 class PointRun {
  public:
   PointRun(const GridPoint& point, model::DynamicModel model, const std::vector<double>& start,
@@ -80,7 +80,7 @@ class PointRun {
         result_.period = result_.recurrence.period;
         result_.regime = result_.period > 0 ? analysis::Regime::periodic : classify_by_growth();
       } else if (!adaptive_) {
-        std::vector<double> onwards = state_;  // the next point of a chain starts where the record ends
+        std::vector<double> onwards = state_;  // the next point of a chain starts from the end of the record
         orbit_ = classify(onwards, &strobe.section).orbit;
       }
       if (recording_.keep == Keep::attractor) keep_attractor(strobe.section);
@@ -92,7 +92,7 @@ class PointRun {
   }
 
  private:
-  /// The transient until the regime is told.
+  /// The transient until the regime is classified.
   void pass_transient() {
     analysis::Classification found = classify(state_, nullptr);
     if (!found.evolution.reached()) {
@@ -142,7 +142,7 @@ class PointRun {
     return std::move(classified.classification);
   }
 
-  /// Of a motion that does not recur, by a glance: whether vectors grow.
+  /// The regime of a record that does not recur, by the growth of one tangent vector.
   analysis::Regime classify_by_growth() {
     if (recording_.growth_periods == 0 || !has_classification(model_) ||
         analysis::still_converging(result_.recurrence, recording_.recurrence_tolerance))
@@ -169,7 +169,7 @@ class PointRun {
   PointResult result_;
   ResponseStatistics watch_;
   analysis::StrobeProgress strobe_;
-  std::optional<analysis::PeriodicOrbit> orbit_;  ///< of a motion that is periodic by evidence
+  std::optional<analysis::PeriodicOrbit> orbit_;  ///< if the point is periodic by evidence
   long classification_work_ = 0;
 };
 
@@ -205,7 +205,7 @@ class ChainRunner {
       const model::DynamicModel like = model_at_(plan_.points.front());
       integrate::LanePool pool = stage_pool(like, integrator_, kernels);
       const Carrier carrier{flows_of(pool), [&](const std::function<bool()>& over) { pool.wait(over); }};
-      // So that some wait for a lane while others are looked at: those of states and those of tangents fill up.
+      // Some chains wait for a lane while others are classified: lanes of states and lanes of tangents then fill up.
       constexpr std::size_t chains_per_lane = 2;
       pool.run(std::min(most, chains_per_lane * pool.width()), [&] { follow_all(carrier); });
       if (run_.lane_use == nullptr) return;
@@ -223,7 +223,7 @@ class ChainRunner {
     try {
       run();
     } catch (...) {
-      failed_ = true;  // the other chains' points under way are given up
+      failed_ = true;  // the points in progress of the other chains are abandoned
       throw;
     }
   }
@@ -239,13 +239,13 @@ class ChainRunner {
     return chain;
   }
 
-  /// What carries the points of a chain.
+  /// The flows that integrate the points of a chain.
   struct Carrier {
     PointFlows flows;
     std::function<void(const std::function<bool()>& over)> wait;
   };
 
-  /// Goes to the chain's next point that is not done, with its start.
+  /// Advances to the chain's next point that is not done, with its start.
   /// @returns nothing at the chain's end
   std::optional<std::size_t> advance(const Chain& chain, std::size_t& next, std::vector<double>& start,
                                      const Carrier& carrier) {

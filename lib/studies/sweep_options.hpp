@@ -1,4 +1,4 @@
-// What a sweep is: a parameter and its grid, directions, start, and how long to look.
+// The options of a sweep: a parameter and its grid, directions, start, and lengths of transient and record.
 #pragma once
 
 #include <string>
@@ -33,17 +33,17 @@ struct SweepOptions {
   Axis axis = {speed_parameter, 0.2, 3.5, 661};  ///< the parameter
   std::vector<Direction> directions = {Direction::up};
   Start start = Start::continued;
-  int segments = 0;         ///< chains per direction of a carried sweep; 0: segments_of()
-  int coarse_periods = 30;  ///< mesh periods of a point in the pass that says where segments start [coarse_pass.hpp]
+  int segments = 0;         ///< chains per direction of a continued sweep; 0: segments_of()
+  int coarse_periods = 30;  ///< mesh periods of a point in the pass that gives the starts of segments [coarse_pass.hpp]
   RecordingOptions recording;
   SweepCheck check;
 
-  /// @throws InputError for what axis, look and check refuse, no directions, and segments that the points do not give
+  /// @throws InputError for errors in axis, recording and check, no directions, and more segments than the points allow
   void validate() const;
 };
 
-/// Chains per direction: segments, or where it is left to the number of points, 1 of fewer than 64 and else one for
-/// each 8 of them, so that lanes are busy; 1 of points that start cold.
+/// Chains per direction: `segments`, or if it is 0, 1 for fewer than 64 points and else one for each 8 of them, so that
+/// lanes are busy. 1 for cold starts.
 [[nodiscard]] int segments_of(const SweepOptions& options);
 
 /// Of one point.

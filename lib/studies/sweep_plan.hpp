@@ -1,5 +1,5 @@
-// The points of a sweep or a plane and the chains that they are computed in: told by rule, so that a plan of any size
-// takes no memory.
+// The points of a sweep or a plane and the chains of their computation. Both follow from a rule, so that a plan of any
+// size takes no memory.
 //
 // Points are numbered along the first axis, then the second, for the first direction, then the other. A line is the
 // points of one direction and one value of the second axis; it is cut into chains of consecutive points.
@@ -25,7 +25,7 @@ struct GridPoint {
   bool operator==(const GridPoint&) const = default;
 };
 
-/// What has a size and an element for each index, without holding them.
+/// A sequence with a size and an element for each index, which it does not store.
 template <class Derived>
 class Indexed {
  public:
@@ -60,7 +60,7 @@ struct PlanGrid {
   Axis second = {{}, 0, 0, 1};
   std::vector<Direction> directions;
   std::size_t chains_per_line = 1;  ///< at most as many as the first axis has points
-  int coarse_periods = 0;           ///< of the pass that says where chains start [coarse_pass.hpp]; 0: by default
+  int coarse_periods = 0;           ///< of the pass that gives the starts of chains [coarse_pass.hpp]; 0: by default
 
   [[nodiscard]] std::size_t columns() const { return static_cast<std::size_t>(first.points); }
   [[nodiscard]] std::size_t rows() const { return static_cast<std::size_t>(second.points); }
@@ -89,7 +89,7 @@ class Chain : public Indexed<Chain> {
   std::size_t size_;
 };
 
-/// The first chain of each line, then the second of each, so that all lines go on side by side.
+/// The first chain of each line, then the second of each, so that all lines advance side by side.
 class PlanChains : public Indexed<PlanChains> {
  public:
   explicit PlanChains(PlanGrid grid) : grid_(std::move(grid)) {}
@@ -111,8 +111,8 @@ struct SweepPlan {
 /// @throws InputError from validate()
 [[nodiscard]] SweepPlan plan_sweep(const SweepOptions& options);
 
-/// Along the first axis a map is carried as a sweep is: each row, one value of the second parameter, is a chain of its
-/// own from the default start, so that chains are fixed by the input.
+/// A map with continued initial states runs along the first axis as a sweep does. Each row, one value of the second
+/// parameter, is a chain of its own from the default start, so that the input fixes the chains.
 /// @throws InputError from validate()
 [[nodiscard]] SweepPlan plan_map(const MapOptions& options);
 

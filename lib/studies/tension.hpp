@@ -1,12 +1,12 @@
-// When a mesh is told to pull [S-pull].
+// The threshold for a tensile force of a mesh `[S-pull]`.
 #pragma once
 
 #include "core/scalar.hpp"
 
 namespace epicyclic::studies {
 
-/// A tension as it is told: nothing below a thousandth of the static mesh force, where a smoothed clearance leaves
-/// traces of stiffness and damping all through the gap.
+/// A tension as it is reported. It is zero below a thousandth of the static mesh force, since a smoothed clearance
+/// leaves small forces of stiffness and damping throughout the gap.
 template <class T>
 [[nodiscard]] T noticeable_tension(const T& tension, double static_force) {
   constexpr double least = 1e-3;

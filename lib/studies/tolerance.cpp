@@ -21,7 +21,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double period = 2.0 * std::numbers::pi;
-/// The reference and the method that says how far it can be trusted itself: other tables, other orders.
+/// The reference, and the method that estimates its error: other tables, other orders.
 constexpr const char* reference_method = "arkode-verner65";
 constexpr const char* second_method = "arkode-dopri5";
 
@@ -49,7 +49,7 @@ integrate::Work difference(const integrate::Work& after, const integrate::Work& 
           after.steps - before.steps};
 }
 
-/// The state carried over n periods; an outcome other than reached leaves it where it got to.
+/// Integrates the state over n periods. After an outcome other than reached, it is the last state.
 integrate::Evolution advance(integrate::Flow& flow, std::vector<double>& y, int n) {
   flow.forget();
   integrate::Evolution e;
@@ -87,8 +87,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Q(w) = Q_0 + c w^p through the three widths in a row that come nearest to zero and whose differences are of one sign
-/// and above what they are known to.
+/// Q(w) = Q_0 + c w^p through three widths in a row. They are the ones nearest to zero whose differences have one sign
+/// and exceed their errors.
 void extrapolate(TolerancePoint& point, std::size_t k) {
   point.extrapolated[k] = nan;
   point.exponent[k] = nan;

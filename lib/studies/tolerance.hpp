@@ -1,23 +1,22 @@
-// How far an answer can be trusted: a ladder of tolerances, methods and widths of the smooth clearance at each point.
+// Reliability of a result: several tolerances, methods and widths of the smooth clearance at each point.
 //
-// A point is periodic, of period n, where the study's own integrator tells it so, as in any other study
-// [studies/motion.hpp]:
+// A point is periodic, of period n, if the study's own integrator classifies it so, as in any other study
+// [studies/classification.hpp]:
 //   its orbit y* by Newton's method at the reference tolerance, with the monodromy M;
-//   each method and tolerance is started on y* and carried over one orbit:
+//   each method and tolerance starts on y* and is integrated over one orbit:
 //     error of the flow    e   = max | phi'_n(y*) - phi_n(y*) |
 //     error of the orbit   e_o = max | y' - y* | ,  y' the method's own orbit, y' = y' + (I - M)^-1 (phi'_n(y') - y')
 //     [A-tol]
-//   the reported quantities on the study's orbit and on y*: the difference is their error bar, and with it how far they
-//     move with tables that are half as fine (friction and stiffness that are computed from the drawing or from an
-//     oil): the interpolation's own error is some 16 times less, has the same shape, and so the same resonances;
-//   extrema are those at the output phases; how much farther they are at 16 times as many stands beside the error bar;
+//   the reported quantities on the study's orbit and on y*: the difference is their error bar. Beside it stands their
+//     change with tables half as fine (friction and stiffness computed from the drawing or from an oil). The error of
+//     interpolation is some 16 times less, has the same shape, and so the same resonances;
+//   extrema are those at the output phases; their change at 16 times as many phases stands beside the error bar;
 //   each width w: the orbit of the smoothed stage by Newton's method, its distance from y*, its quantities, and those
 //     extrapolated to w -> 0 with the exponent that three widths in a row show.
-// Any other point has no orbit to compare: largest exponent, mean and deviation of the Poincare points, each with its
-// confidence interval [A-mean], and whether it overlaps the reference's.
+// Any other point has no orbit to compare. It has its largest exponent, and mean and deviation of the Poincare points,
+// each with its confidence interval [A-mean]. The study reports whether these overlap the reference's.
 //
-// Limits: e_o supposes an orbit that persists; a point near a bifurcation has |I - M| near 0 and says so by a large
-// e_o.
+// Limits: e_o requires an orbit that persists. Near a bifurcation |I - M| is near 0, and e_o is then large.
 #pragma once
 
 #include <array>
@@ -36,7 +35,7 @@
 
 namespace epicyclic::studies {
 
-/// What is reported of a point.
+/// The reported quantities of a point.
 inline constexpr std::array<const char*, 4> quantity_names = {"delta_sp_min", "delta_sp_max", "delta_rp_min",
                                                               "delta_rp_max"};
 using Quantities = std::array<double, quantity_names.size()>;  ///< of planet 1, at the output phases [b_c]
@@ -62,7 +61,7 @@ struct SmoothingStep {
   integrate::Work work{};  ///< of one orbit with the study's integrator
 };
 
-/// One method at one tolerance where there is no orbit.
+/// One method at one tolerance if there is no orbit.
 struct StatisticsStep {
   std::string method;
   double tolerance = 0;
@@ -82,7 +81,7 @@ struct TolerancePoint {
   std::vector<double> orbit;
   double reference_residual = 0;  ///< of the shooting
   double distance_from_orbit =
-      0;  ///< of the study's last state from y*: what the transient has left, and the study's e_o
+      0;  ///< of the study's last state from y*: the remainder of the transient, and the study's e_o
   double largest_multiplier = 0;  ///< modulus
   Quantities reference{};         ///< on y*
   Quantities reference_error{};   ///< difference to the reference by another method at the same tolerance
@@ -98,16 +97,16 @@ struct TolerancePoint {
   std::vector<StatisticsStep> statistics;  ///< the reference first
 };
 
-/// Output phases that an extremum is held against, over those that it is told by.
+/// Output phases for the check of an extremum, over those that determine it.
 inline constexpr int finer_phases = 16;
 
-/// Mesh periods that go before `chaotic_periods`: they turn the tangent vector into its direction.
+/// Mesh periods before `chaotic_periods`: the tangent vector aligns with its direction of growth.
 inline constexpr int aligning_periods = 100;
 
 /// Cost of a step in right-hand sides, a Jacobian counted as `dimension` of them.
 [[nodiscard]] double cost(const integrate::Work& work, std::size_t dimension);
 
-/// What is compared of two steps.
+/// The compared quantities of two steps.
 inline constexpr std::array<const char*, 5> statistics_names = {"largest exponent", "mean delta_sp", "mean delta_rp",
                                                                 "deviation delta_sp", "deviation delta_rp"};
 [[nodiscard]] std::array<analysis::Estimate, statistics_names.size()> statistics_of(const StatisticsStep& step);

@@ -1,4 +1,4 @@
-// What a tolerance study climbs through (studies/tolerance.hpp).
+// Options of a tolerance study (studies/tolerance.hpp).
 #pragma once
 
 #include <string>
