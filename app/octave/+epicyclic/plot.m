@@ -106,7 +106,7 @@ function draw_sweep(result, quantity, direction)
   x = points.(abscissa(result, 'points'));
   directions = unique(points.direction, 'stable');
   is_section = isfield(result, 'poincare') && isfield(result.poincare, quantity);
-  handles = [];
+  handles = {};
   words = {};
   for k = numel(directions):-1:1
     if ~isempty(direction) && ~strcmp(direction, directions{k})
@@ -116,7 +116,7 @@ function draw_sweep(result, quantity, direction)
     if is_section
       [~, row] = ismember(result.poincare.point, points.point);
       chosen = here(row);
-      handles(end + 1) = line(x(row(chosen)), result.poincare.(quantity)(chosen), 'linestyle', 'none', ...
+      handles{end + 1} = line(x(row(chosen)), result.poincare.(quantity)(chosen), 'linestyle', 'none', ...
                               'marker', '.', 'markersize', 3, 'color', ink(k)); %#ok<AGROW>
     else
       y = numbers(points, quantity);
@@ -127,7 +127,7 @@ function draw_sweep(result, quantity, direction)
       regular = ismember(regimes(order), {'periodic', 'quasiperiodic'});
       with_gaps = y;
       with_gaps(~regular) = NaN;
-      handles(end + 1) = line(sorted, with_gaps, 'color', ink(k), 'linewidth', 1.2); %#ok<AGROW>
+      handles{end + 1} = line(sorted, with_gaps, 'color', ink(k), 'linewidth', 1.2); %#ok<AGROW>
       line(sorted(~regular), y(~regular), 'linestyle', 'none', 'marker', 'o', 'markersize', 3, 'color', ink(k));
     end
     words{end + 1} = directions{k}; %#ok<AGROW>
@@ -143,7 +143,7 @@ function draw_sweep(result, quantity, direction)
   else
     label_axes(result, 'points', quantity, '');
   end
-  legend(handles(end:-1:1), words(end:-1:1), 'location', 'northeastoutside');
+  legend([handles{end:-1:1}], words(end:-1:1), 'location', 'northeastoutside');
 end
 
 function draw_cells(result, quantity, direction)
@@ -183,7 +183,7 @@ function draw_branches(result, quantity)
   orbits = result.branch;
   x = orbits.(abscissa(result, 'branch'));
   is_section = isfield(result.poincare, quantity);
-  handles = [NaN, NaN];
+  handles = cell(1, 2);
   for branch = unique(orbits.branch).'
     rows = find(orbits.branch == branch);
     if is_section
@@ -199,8 +199,8 @@ function draw_branches(result, quantity)
       of_stable(~stable) = NaN;
       of_unstable = curves(:, k);
       of_unstable(stable & [stable(2:end); true] & [true; stable(1:end-1)]) = NaN;
-      handles(1) = line(x(rows), of_unstable, 'color', ink(2), 'linestyle', '--');
-      handles(2) = line(x(rows), of_stable, 'color', ink(1), 'linewidth', 1.5);
+      handles{1} = line(x(rows), of_unstable, 'color', ink(2), 'linestyle', '--');
+      handles{2} = line(x(rows), of_stable, 'color', ink(1), 'linewidth', 1.5);
     end
   end
   if is_section
@@ -208,7 +208,7 @@ function draw_branches(result, quantity)
   else
     label_axes(result, 'branch', quantity, '');
   end
-  legend(handles([2, 1]), {'stable', 'unstable'}, 'location', 'northeastoutside');
+  legend([handles{[2, 1]}], {'stable', 'unstable'}, 'location', 'northeastoutside');
 end
 
 % One column for each Poincare point of an orbit.
