@@ -75,7 +75,7 @@ done
 # Other commands: their codes do not depend on who listens to words, and data that are lost are an error.
 mkdir foreign busy && echo mine >foreign/thesis.txt
 exec 6>busy/.lock && flock 6
-others=("0 check --no-time $inputs/tang2020_speed.json" "0 check $inputs/tang2020.json" "0 schema" "0 --version" "0 --help" "0 sweep --help"
+others=("0 check --json --no-time $inputs/tang2020_speed.json" "0 check --json $inputs/tang2020.json" "0 schema" "0 --version" "0 --help" "0 sweep --help"
   "0 gear $inputs/lin_parker_1999_n3.json -o gear.%" "2 sweep" "2 nonsense" "2 check none.json" "2 gear none.json -o none"
   "3 sweep $inputs/tang2020_speed.json -o foreign" "4 sweep $inputs/tang2020_speed.json -o busy")
 for out in open closed full gone; do
