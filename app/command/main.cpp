@@ -103,6 +103,7 @@ void add_threads(CLI::App& command, Arguments& arguments, const char* meaning) {
 
 void add_check_options(CLI::App& command, Arguments& arguments) {
   command.add_flag("--no-time", arguments.no_time, "do not estimate the time on this machine");
+  command.add_flag("--json", arguments.json, "print the resolved input: all keys with their values");
   add_threads(command, arguments, "number of threads to estimate the time for");
 }
 
@@ -206,8 +207,8 @@ std::vector<Command> all_commands() {
        add_assert_options},
       {"plot", "draw figures of finished studies, several studies in one figure; compute nothing", plot_command,
        Takes::finished, add_plot_options},
-      {"check", "validate an input; print it resolved, with its cost and an estimate of the time; write nothing",
-       check_command, Takes::input, add_check_options},
+      {"check", "validate an input; state its cost and an estimate of the time; write nothing", check_command,
+       Takes::input, add_check_options},
       {"keys", "print the keys of the input with unit, default, bounds and meaning; with WORD only those that have it",
        keys_command, Takes::nothing, add_word_option},
       {"schema", "print the JSON Schema of the input", print_schema, Takes::nothing},

@@ -106,6 +106,12 @@ class LoadedInput::Loader {
           {source.name, source.line_of(finding.pointer), prefix + finding.pointer, std::move(finding.message)});
   }
 
+  /// By this key an editor finds the schema. Nothing depends on it. What is no string is left for the reader to refuse.
+  static void remove_schema_key(json& object) {
+    if (!object.is_object()) return;
+    if (const auto found = object.find(schema_key); found != object.end() && found->is_string()) object.erase(found);
+  }
+
   void read_study_file(std::span<const Assignment> sets) {
     JsonSource& file = sources_->study;
     file = sources_->files->read(sources_->path);
@@ -123,6 +129,8 @@ class LoadedInput::Loader {
     rename(file, std::string(sources_->bare ? stage_root : ""), "");
     note_origins(file.value, file, "");
     whole_ = file.value;
+    remove_schema_key(whole_);
+    if (const auto stage = whole_.find("stage"); stage != whole_.end()) remove_schema_key(*stage);
   }
 
   /// Kind of the study from the assignments or the file; empty if neither gives it.
@@ -228,6 +236,7 @@ class LoadedInput::Loader {
       rename(stage, std::string(stage_root), stage_root);
       note_origins(stage.value, stage, std::string(stage_root));
       whole_["stage"] = stage.value;
+      remove_schema_key(whole_["stage"]);
     }
     input_.stage_file = RawFile{stage_path.filename().string(), stage.bytes};
     sources_->stage = std::move(stage);

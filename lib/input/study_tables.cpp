@@ -611,15 +611,17 @@ std::string schema_text() {
       {"description", "Where values come from: one text for all values of the object, or one for each key of it."},
       {"anyOf", {origin_text, {{"type", "object"}, {"additionalProperties", origin_text}}}}};
 
+  ordered_json stage = stage_table().schema();
+  ordered_json catalogue_stage = catalogue_stage_schema(stage);
+  for (ordered_json* file : {&study, &stage, &catalogue_stage})
+    (*file)["properties"][schema_key] = {
+        {"type", "string"}, {"description", "Of a file: where the schema is, for editors. Nothing depends on it."}};
+
   const ordered_json schema = {
       {"$schema", "https://json-schema.org/draft/2020-12/schema"},
       {"title", "epicyclic input: a study, or a stage alone"},
       {"anyOf", {{{"$ref", "#/$defs/study"}}, {{"$ref", "#/$defs/stage"}}, {{"$ref", "#/$defs/catalogue_stage"}}}},
-      {"$defs",
-       {{"study", study},
-        {"stage", stage_table().schema()},
-        {"catalogue_stage", catalogue_stage_schema(stage_table().schema())},
-        {"origin", origin}}}};
+      {"$defs", {{"study", study}, {"stage", stage}, {"catalogue_stage", catalogue_stage}, {"origin", origin}}}};
   return schema.dump(2) + "\n";
 }
 

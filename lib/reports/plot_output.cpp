@@ -433,17 +433,57 @@ class Plot {
     return changes;
   }
 
+  /// A column of poincare.csv: for each crossing its values at the rows of branch.csv, not a number where there is
+  /// none.
+  static std::vector<std::vector<double>> crossing_values(const std::filesystem::path& folder, const Columns& branches,
+                                                          const std::string& quantity) {
+    std::map<std::pair<std::string, std::string>, std::size_t> row_of;
+    for (std::size_t row = 0; row < branches.rows(); ++row)
+      row_of[{branches.word("branch", row), branches.word("index", row)}] = row;
+    std::vector<std::vector<double>> all;
+    const Columns section(folder / "poincare.csv", {"branch", "index", quantity});
+    std::vector<std::size_t> crossings(branches.rows(), 0);  // read of each row
+    for (std::size_t k = 0; k < section.rows(); ++k) {
+      const auto row = row_of.find({section.word("branch", k), section.word("index", k)});
+      if (row == row_of.end()) continue;
+      const std::size_t crossing = crossings[row->second]++;
+      if (crossing == all.size()) all.emplace_back(branches.rows(), nan);
+      all[crossing][row->second] = section.number(quantity, k);
+    }
+    return all;
+  }
+
   void read_branches(std::size_t k) {
     const std::string x = abscissa_or("value");
-    std::vector<std::string> wanted{"branch", "index", "stable", "value", options_.quantity};
+    const std::filesystem::path& folder = studies_[k].folder;
+    const bool section = !has(header_of(folder / "branch.csv"), options_.quantity);
+    std::vector<std::string> wanted{"branch", "index", "stable", "value"};
+    if (!section) wanted.push_back(options_.quantity);
     if (x != "value") wanted.push_back(x);
-    const Columns table(studies_[k].folder / "branch.csv", wanted);
-    const auto changes = stability_changes(studies_[k].folder);
+    const Columns table(folder / "branch.csv", wanted);
+    const auto changes = stability_changes(folder);
+    std::vector<std::vector<double>> curves;
+    if (section) {
+      curves = crossing_values(folder, table, options_.quantity);
+    } else {
+      curves.emplace_back();
+      for (std::size_t row = 0; row < table.rows(); ++row)
+        curves.back().push_back(table.number(options_.quantity, row));
+    }
     Series s{k, {}, true, false, {}, {}};
+    for (const std::vector<double>& curve : curves) add_branches(s, table, x, curve, changes);
+    series_.push_back(std::move(s));
+  }
+
+  using StabilityChanges = std::map<std::pair<std::string, std::string>, double>;
+
+  /// @param curve  ordinate of each row of the table
+  void add_branches(Series& s, const Columns& table, const std::string& x, const std::vector<double>& curve,
+                    const StabilityChanges& changes) {
     for (std::size_t row = 0; row < table.rows(); ++row) {
       const bool begins = row == 0 || table.word("branch", row) != table.word("branch", row - 1);
       const bool stable = table.number("stable", row) == 1.0;
-      const Place at = place(table.number(x, row), table.number(options_.quantity, row));
+      const Place at = place(table.number(x, row), curve[row]);
       if (begins) {
         s.rows.push_back(gap);
         s.joined.push_back(gap);
@@ -454,10 +494,10 @@ class Plot {
         double part = change == changes.end() ? 1.0 : (change->second - last) / (table.number("value", row) - last);
         const bool is_between = part > 0.0 && part <= 1.0;
         if (!is_between) part = 0.5;
-        const auto between = [&](const std::string& column) {
-          return (1.0 - part) * table.number(column, row - 1) + part * table.number(column, row);
-        };
-        const Place there = place(is_between || x != "value" ? between(x) : change->second, between(options_.quantity));
+        const auto between = [&](double first, double second) { return (1.0 - part) * first + part * second; };
+        const double abscissa =
+            is_between || x != "value" ? between(table.number(x, row - 1), table.number(x, row)) : change->second;
+        const Place there = place(abscissa, between(curve[row - 1], curve[row]));
         auto& before = stable ? s.joined : s.rows;
         before.push_back(there);
         before.push_back(gap);
@@ -465,7 +505,6 @@ class Plot {
       }
       (stable ? s.rows : s.joined).push_back(at);
     }
-    series_.push_back(std::move(s));
   }
 
   void read_run(std::size_t k) {

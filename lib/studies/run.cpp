@@ -141,6 +141,7 @@ class Run {
       exponents = begun([&] { find_exponents(r); });
     at("histories, spectra");
     record(r);
+    find_section(r);
     summarise(r);
     if (go_on_()) find_spectra(r);
     if (go_on_()) cross(r);
@@ -323,6 +324,15 @@ class Run {
             recorder.keep(static_cast<std::size_t>(k), s, now);
           });
       if (!e.reached()) break;
+    }
+  }
+
+  void find_section(RunResult& r) const {
+    model::MeshDeflections d;
+    for (std::size_t row = 0; row < r.point.poincare_rows(); ++row) {
+      model_.deflections(0.0, r.point.poincare.data() + row * r.point.poincare_columns, d);
+      r.section_deflection.push_back(d.sun_planet[0]);
+      r.section_rate.push_back(d.sun_planet_rate[0]);
     }
   }
 

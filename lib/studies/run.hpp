@@ -89,6 +89,8 @@ struct RunResult {
   std::vector<MeshSummary> meshes;  ///< sun-planet meshes, then ring-planet meshes
   double static_force = 0;          ///< F_0 [N]
   std::vector<SignalSpectrum> spectra;
+  std::vector<double> section_deflection,
+      section_rate;                      ///< delta_sp_1 [b_c] and its rate at each row of point.poincare
   analysis::PoincareSection crossing;    ///< states where delta_sp_1 rises through b (contact is made)
   std::vector<double> crossing_phase;    ///< mesh phase in [0, 2 pi) of each
   std::vector<double> crossing_rate;     ///< delta_sp_1' of each [b_c per tau]

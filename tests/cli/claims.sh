@@ -62,10 +62,10 @@ given=(--set "/study/parameters/2/targets=$idle" --set /stage/lumped/carrier/mas
 [ "$(code_of "$epicyclic" check claims.json --no-time "${given[@]}")" = 0 ] || fail "a parameter without effect: $(<stderr)"
 grep -q '/study/parameters/2: T changes nothing on any sweep' stderr || fail "it is not said that a parameter changes nothing: $(<stderr)"
 [ "$(grep -c 'changes nothing' stderr)" = 1 ] || fail "others change something: $(<stderr)"
-"$epicyclic" check claims.json --no-time >stdout 2>stderr
+"$epicyclic" check claims.json --no-time --json >stdout 2>stderr
 grep -q '2 claims on 3 sweeps' stderr || fail "check says nothing of claims: $(<stderr)"
 cp stdout resolved.json
-[ "$(code_of "$epicyclic" check resolved.json)" = 0 ] || fail "the resolved input: $(<stderr)"
+[ "$(code_of "$epicyclic" check resolved.json --no-time --json)" = 0 ] || fail "the resolved input: $(<stderr)"
 cmp -s stdout resolved.json || fail "the resolved input does not resolve to itself"
 # Whole sweeps would tell no chaos; what multiplies has to count where it does.
 [ "$(code_of "$epicyclic" check claims.json --set /study/classification_periods=0)" = 2 ] || fail "chaos that nobody tells: $(<stderr)"

@@ -82,6 +82,12 @@ awk -v flip="$flip" 'NF >= 2 && $1 - flip < 1e-9 && flip - $1 < 1e-9 && $2 > 0.9
 [ "$(code_of "$epicyclic" plot one branches -o figures --quantity delta_rp_rms --json)" = 0 ] || fail "branches: $(<stderr)"
 grep -q '"figures/delta_rp_rms.png"' stdout || fail "json: $(<stdout)"
 grep -q unstable figures/delta_rp_rms.gp || fail "branches: no legend"
+# Poincare points of branches are lines: each point of the table is one of theirs.
+[ "$(code_of "$epicyclic" plot one branches -o sections --quantity delta_sp_1)" = 0 ] || fail "sections of branches: $(<stderr)"
+awk -F '[, ]+' 'FNR == 1 && NR != FNR { for (k = 1; k <= NF; ++k) if ($k == "delta_sp_1") column = k; next }
+  NR == FNR { if (NF >= 2) drawn[sprintf("%.8f", $2)] = 1; next }
+  { ++all; if (!(sprintf("%.8f", $column) in drawn)) exit 1 } END { exit all < 5 }' sections/delta_sp_1.dat branches/poincare.csv ||
+  fail "a Poincare point of a branch is not drawn"
 [ "$(code_of "$epicyclic" plot map -o figures --quantity dynamic_factor_sp --format svg)" = 0 ] || fail "a map: $(<stderr)"
 [ -s figures/dynamic_factor_sp_up.svg ] || fail "a map: no figure"
 # Each cell of a map stands where its values are, whichever way it was come to.

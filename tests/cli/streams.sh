@@ -75,7 +75,7 @@ done
 # Other commands: their codes do not depend on who listens to words, and data that are lost are an error.
 mkdir foreign busy && echo mine >foreign/thesis.txt
 exec 6>busy/.lock && flock 6
-others=("0 check --no-time $inputs/tang2020_speed.json" "0 check $inputs/tang2020.json" "0 schema" "0 --version" "0 --help" "0 sweep --help"
+others=("0 check --json --no-time $inputs/tang2020_speed.json" "0 check --json $inputs/tang2020.json" "0 schema" "0 --version" "0 --help" "0 sweep --help"
   "0 gear $inputs/lin_parker_1999_n3.json -o gear.%" "2 sweep" "2 nonsense" "2 check none.json" "2 gear none.json -o none"
   "3 sweep $inputs/tang2020_speed.json -o foreign" "4 sweep $inputs/tang2020_speed.json -o busy")
 for out in open closed full gone; do
@@ -104,7 +104,7 @@ study_of '"na\u001b[2Jme": 1,'
 ! LC_ALL=C grep -qP "$control" stderr || fail "control characters of a key reach the terminal: $(<stderr)"
 grep -qF 'na\u001b[2Jme' stderr || fail "the key is not shown: $(<stderr)"
 study_of ''
-[ "$(code_of "$epicyclic" check control.json --no-time)" = 0 ] || fail "a name with control characters: $(<stderr)"
+[ "$(code_of "$epicyclic" check control.json --no-time --json)" = 0 ] || fail "a name with control characters: $(<stderr)"
 ! LC_ALL=C grep -qP "$control" stdout || fail "control characters of a name reach the terminal: $(LC_ALL=C grep -P "$control" stdout)"
 grep -qF '"name": "a\u001b]0;b\u0007\u009bc\u007f\r\u0001"' stdout || fail "the name is another one: $(grep '"name"' stdout)"
 [ "$(code_of "$epicyclic" check $'no\e[31mfile.json')" = 2 ] || fail "a name of a file: $(<stderr)"

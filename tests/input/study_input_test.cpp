@@ -185,6 +185,23 @@ TEST_F(StudyInput, TakesAnInlineStage) {
   EXPECT_EQ(input.resolved, load().resolved);
 }
 
+// Editors find the schema by this key of a file.
+TEST_F(StudyInput, TheKeyOfTheSchemaChangesNothing) {
+  const json without = load().resolved;
+  auto study = json::parse(text_of(bad_inputs / "study.json"));
+  auto stage = json::parse(text_of(bad_inputs / "stage.json"));
+  study["stage"] = "stage.json";
+  study["$schema"] = stage["$schema"] = "../share/epicyclic/input.schema.json";
+  put_file(folder / "study.json", study.dump());
+  put_file(folder / "stage.json", stage.dump());
+  EXPECT_EQ(load().resolved, without);
+  EXPECT_NO_THROW((void)load_input(folder / "stage.json"));
+  study["$schema"] = 7;
+  put_file(folder / "study.json", study.dump());
+  const std::string message = test::message_of<InputProblems>([&] { (void)load(); });
+  EXPECT_NE(message.find("/$schema: is 7, must be a string"), std::string::npos) << message;
+}
+
 TEST_F(StudyInput, ReplacesANumberByPointer) {
   const auto input = load();
   const auto changed = input.with_value("/stage/lumped/planet/bearing_N_per_m", 5e7);

@@ -230,7 +230,7 @@ const StudyKind& continue_kind() {
             return std::string(
                 "that of branches is not known before they are continued; `orbits` and `branches` bound it");
           },
-      .plot = {PlotForm::curves, {"branch.csv"}, "delta_sp_rms"},
+      .plot = {PlotForm::curves, {"branch.csv", "poincare.csv"}, "delta_sp_rms"},
   };
   return kind;
 }

@@ -14,6 +14,7 @@
 #include "core/csv.hpp"
 #include "core/text.hpp"
 #include "gear/kinematics.hpp"
+#include "reports/section_output.hpp"
 #include "reports/table_output.hpp"
 #include "store/branch_columns.hpp"
 
@@ -142,19 +143,28 @@ void write_h5(const std::filesystem::path& file, const ContinueOutput& output, c
                              : real                      ? row.multipliers[j].real()
                                                          : row.multipliers[j].imag();
              });
+  for (const char* name : {"/multipliers/real", "/multipliers/imaginary"}) {
+    h5.set_units(name, "1");
+    h5.name_axes(name, {"row", "multiplier"});
+  }
   h5.set_attribute("/multipliers", "meaning", "Floquet multipliers by falling modulus, a row for each of /branches");
 
-  h5.create_group("/poincare");
-  h5.write("/poincare/columns", std::span<const std::string>(output.poincare_columns));
   for (const auto& [name, part] : {std::pair("branch", 0U), std::pair("index", 1U), std::pair("crossing", 2U)})
     h5.write(std::string("/poincare/") + name, crossings.size(),
              store::Hdf5File::Column<std::int64_t>(
                  [&, part = part](std::size_t i) { return static_cast<std::int64_t>(crossings[i][part]); }));
-  h5.write("/poincare/values", crossings.size(), columns, [&](std::size_t i, std::span<double> values) {
-    const auto& [b, k, n] = crossings[i];
-    std::copy_n(traced.rows[b][k].section.begin() + static_cast<std::ptrdiff_t>(n * columns), columns, values.begin());
-  });
-  h5.set_units("/poincare/values", "b_c, b_c per tau");
+  for (const auto& [name, meaning] : {std::pair("/poincare/branch", "number of the branch"),
+                                      std::pair("/poincare/index", "number of the orbit on its branch"),
+                                      std::pair("/poincare/crossing", "number of the Poincare point of this orbit")}) {
+    h5.set_units(name, "1");
+    h5.set_attribute(name, "meaning", meaning);
+  }
+  write_section_h5(h5, "/poincare", output.poincare_columns, crossings.size(),
+                   [&](std::size_t i, std::span<double> values) {
+                     const auto& [b, k, n] = crossings[i];
+                     const auto from = traced.rows[b][k].section.begin() + static_cast<std::ptrdiff_t>(n * columns);
+                     std::copy_n(from, columns, values.begin());
+                   });
   h5.close();
 }
 
