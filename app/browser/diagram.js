@@ -6,13 +6,25 @@ import { axisLabel, capital, element, factorOf, lengthUnit, number, symbol, unit
 import { orbitDetails, pointDetails, specialDetails } from './details.js';
 
 export const classNames = [
-  'period 1', 'period 2 and more', 'quasiperiodic', 'chaotic', 'undecided', 'record not converged to the orbit',
+  'period 1',
+  'period 2 and more',
+  'quasiperiodic',
+  'chaotic',
+  'undecided',
+  'record not converged to the orbit',
 ];
-export const specialNames = new Map(Object.entries({
-  fold: ['LP', 'fold (saddle-node)'], flip: ['PD', 'period doubling (flip)'], neimark_sacker: ['NS', 'Neimark-Sacker (torus)'],
-  branch_point: ['BP', 'branch point'], grazing: ['G', 'grazing of a contact'], unresolved: ['?', 'not resolved'],
-}));
-export const specialName = (kind) => specialNames.get(kind) ?? [kind.replace('resonance_', 'R').replace('_', ':'), kind.replace(/_/g, ' ')];
+export const specialNames = new Map(
+  Object.entries({
+    fold: ['LP', 'fold (saddle-node)'],
+    flip: ['PD', 'period doubling (flip)'],
+    neimark_sacker: ['NS', 'Neimark-Sacker (torus)'],
+    branch_point: ['BP', 'branch point'],
+    grazing: ['G', 'grazing of a contact'],
+    unresolved: ['?', 'not resolved'],
+  }),
+);
+export const specialName = (kind) =>
+  specialNames.get(kind) ?? [kind.replace('resonance_', 'R').replace('_', ':'), kind.replace(/_/g, ' ')];
 
 /// The column that says whether a record has converged to the orbit.
 const convergedColumn = (table) => ['converged', 'settled'].find((name) => table.has(name));
@@ -31,7 +43,8 @@ export function classesOf(table) {
 }
 
 /// The column with the error of a column, if there is one.
-export const errorOf = (table, name) => [`${name}_error`, name.replace(/_max$/, '_error')].find((other) => other !== name && table.isNumeric(other));
+export const errorOf = (table, name) =>
+  [`${name}_error`, name.replace(/_max$/, '_error')].find((other) => other !== name && table.isNumeric(other));
 
 /// Rows of one direction of a sweep or of one branch, in the order of the table.
 function linesOf(study) {
@@ -55,7 +68,12 @@ function linesOf(study) {
   }
   const value = table.numbers('value');
   return [...lines].map(([direction, rows]) => ({
-    study, table, direction, name: direction, shown: true, classes: classesOf(table),
+    study,
+    table,
+    direction,
+    name: direction,
+    shown: true,
+    classes: classesOf(table),
     rows: rows.sort((a, b) => value[a] - value[b]),
   }));
 }
@@ -66,7 +84,8 @@ function abscissae(lines, parameter) {
   if (parameter.is_speed)
     for (const name of ['sun_speed_rpm', 'carrier_speed_rpm', 'mesh_frequency_Hz']) {
       const known = lines.every(({ table, rows }) => table.isNumeric(name) && table.numbers(name)[rows[0]] > 0);
-      if (known) all.push({ name, label: `${capital(lines[0].table.byName.get(name).meaning)}  [${name.split('_').pop()}]` });
+      if (known)
+        all.push({ name, label: `${capital(lines[0].table.byName.get(name).meaning)}  [${name.split('_').pop()}]` });
     }
   return all;
 }
@@ -95,7 +114,8 @@ export class Diagram {
     this.axis = this.axes[0];
     this.quantities = quantitiesOf(this.lines);
     const first = this.quantities.sections.find(({ name }) => name === 'delta_sp_1') ?? this.quantities.sections[0];
-    this.quantity = first ?? this.quantities.curves.find(({ name }) => name === 'delta_sp_rms') ?? this.quantities.curves[0];
+    this.quantity =
+      first ?? this.quantities.curves.find(({ name }) => name === 'delta_sp_rms') ?? this.quantities.curves[0];
     this.bySection = Boolean(first);
     this.colourBy = this.lines.some(({ classes }) => classes) ? 'regime' : 'line';
     this.chosen = null;
@@ -164,10 +184,12 @@ export class Diagram {
       const values = line.shown && this.curve(line, name);
       if (!values) continue;
       const xs = this.x(line);
+      const errors = errorOf(line.table, name) ? line.table.numbers(errorOf(line.table, name)) : null;
       for (const row of line.rows)
         if (xs[row] >= x0 && xs[row] <= x1 && Number.isFinite(values[row])) {
-          if (values[row] < low) low = values[row];
-          if (values[row] > high && !(most && values[row] > most)) high = values[row];
+          const error = errors && line.classes?.[row] > 1 && errors[row] > 0 ? errors[row] : 0;
+          low = Math.min(low, values[row] - error);
+          if (!(most && values[row] > most)) high = Math.max(high, values[row] + error);
         }
     }
     return rangeOf(low, high, 0.06);
@@ -184,7 +206,15 @@ export class Diagram {
       const branch = table.numbers('branch')[row];
       const after = table.numbers('after')[row];
       const [before, next] = [rowOf.get(`${branch}:${after}`), rowOf.get(`${branch}:${after + 1}`)];
-      return { study, row, kind: table.word('kind', row), branch, before, next: next ?? before, value: table.numbers('value')[row] };
+      return {
+        study,
+        row,
+        kind: table.word('kind', row),
+        branch,
+        before,
+        next: next ?? before,
+        value: table.numbers('value')[row],
+      };
     }).filter(({ before, row }) => before !== undefined && !table.word('same_as', row));
   }
 
@@ -202,7 +232,10 @@ export class Diagram {
     if (values) return [[x, this.factor() * mixed(values, a, b)]];
     if (!section) return [];
     const count = Math.min(section.starts[a + 1] - section.starts[a], section.starts[b + 1] - section.starts[b]);
-    return Array.from({ length: count }, (_, k) => [x, this.factor() * mixed(section.values, section.starts[a] + k, section.starts[b] + k)]);
+    return Array.from({ length: count }, (_, k) => [
+      x,
+      this.factor() * mixed(section.values, section.starts[a] + k, section.starts[b] + k),
+    ]);
   }
 
   // ---- drawing --------------------------------------------------------------------------------------------------
@@ -228,25 +261,37 @@ export class Diagram {
         for (const row of line.rows) {
           if (line.classes[row] === -1) continue;
           const colour = colourOf(row);
-          for (let k = section.starts[row]; k < section.starts[row + 1]; ++k) raster.add(xs[row], factor * section.values[k], colour);
+          for (let k = section.starts[row]; k < section.starts[row + 1]; ++k)
+            raster.add(xs[row], factor * section.values[k], colour);
         }
       } else if (!this.bySection) {
         const values = this.curve(line);
         if (!values) continue;
         const regular = (row) => line.classes[row] >= 0 && line.classes[row] <= 2;
-        joined.push([line.rows.map((row) => xs[row]), line.rows.map((row) => (regular(row) ? factor * values[row] : NaN)), line]);
-        for (const row of line.rows) if (line.classes[row] !== -1) raster.add(xs[row], factor * values[row], colourOf(row));
+        joined.push([
+          line.rows.map((row) => xs[row]),
+          line.rows.map((row) => (regular(row) ? factor * values[row] : NaN)),
+          line,
+        ]);
+        for (const row of line.rows)
+          if (line.classes[row] !== -1) raster.add(xs[row], factor * values[row], colourOf(row));
       }
     }
     for (const [xs, ys, line] of joined)
-      strokeLine(context, place, xs, ys, { colour: this.colourBy === 'regime' ? theme().faint : this.colour(line, 0), width: 0.8 });
+      strokeLine(context, place, xs, ys, {
+        colour: this.colourBy === 'regime' ? theme().faint : this.colour(line, 0),
+        width: 0.8,
+      });
     raster.paint(context, palette);
-    if (!this.bySection && this.quantity && raster.drawn < 800) this.drawBars(context, place, this.quantity.name, factor);
-    for (const line of this.lines) if (line.shown && line.branch !== undefined) this.drawBranch(context, place, line, factor);
+    if (!this.bySection && this.quantity && raster.drawn < 800)
+      this.drawBars(context, place, this.quantity.name, factor);
+    for (const line of this.lines)
+      if (line.shown && line.branch !== undefined) this.drawBranch(context, place, line, factor);
     for (const point of this.special) this.drawSpecial(context, place, point);
     this.drawChosen(context, place, (line, row) => {
       const section = this.section(line);
-      if (section) return Array.from(section.values.subarray(section.starts[row], section.starts[row + 1]), (y) => factor * y);
+      if (section)
+        return Array.from(section.values.subarray(section.starts[row], section.starts[row + 1]), (y) => factor * y);
       const values = this.bySection ? null : this.curve(line);
       return values ? [factor * values[row]] : [];
     });
@@ -282,14 +327,28 @@ export class Diagram {
     if (!section && !values) return;
     const crossings = section ? Math.max(...line.rows.map((row) => section.starts[row + 1] - section.starts[row])) : 1;
     for (let k = 0; k < crossings; ++k) {
-      const y = (row) => (section ? (k < section.starts[row + 1] - section.starts[row] ? section.values[section.starts[row] + k] : NaN) : values[row]);
+      const y = (row) =>
+        section
+          ? k < section.starts[row + 1] - section.starts[row]
+            ? section.values[section.starts[row] + k]
+            : NaN
+          : values[row];
       // A line changes where stability does; both kinds meet at the orbit before the change.
       for (const kind of [1, 0]) {
         const ys = line.rows.map((row, i) => {
-          const here = stable[row] === kind || (kind === 0 && i > 0 && stable[line.rows[i - 1]] === 0) || (kind === 0 && i + 1 < line.rows.length && stable[line.rows[i + 1]] === 0);
+          const here =
+            stable[row] === kind ||
+            (kind === 0 && i > 0 && stable[line.rows[i - 1]] === 0) ||
+            (kind === 0 && i + 1 < line.rows.length && stable[line.rows[i + 1]] === 0);
           return here ? factor * y(row) : NaN;
         });
-        strokeLine(context, place, line.rows.map((row) => xs[row]), ys, { colour: this.colour(line), width: kind ? 2 : 1.3, dash: kind ? [] : [5, 4] });
+        strokeLine(
+          context,
+          place,
+          line.rows.map((row) => xs[row]),
+          ys,
+          { colour: this.colour(line), width: kind ? 2 : 1.3, dash: kind ? [] : [5, 4] },
+        );
       }
     }
   }
@@ -316,8 +375,9 @@ export class Diagram {
     context.lineTo(x, place.top + place.height);
     context.stroke();
     context.setLineDash([]);
-    const values = valuesOf(line, row);
-    if (values.length <= 200) for (const y of values) dot(context, x, place.y(y), 3.5 * place.ratio, null, theme().mark);
+    // Circles around few places; more of them would hide the points.
+    const values = [...new Map(valuesOf(line, row).map((y) => [y.toPrecision(4), y])).values()];
+    if (values.length <= 32) for (const y of values) dot(context, x, place.y(y), 3.5 * place.ratio, null, theme().mark);
   }
 
   /// Exponent or multiplier: a dot for each point, with its error.
@@ -335,9 +395,20 @@ export class Diagram {
       const values = line.shown && this.curve(line, name);
       if (!values) continue;
       const xs = this.x(line);
-      const own = theme().classes.length + ((line.branch !== undefined ? line.branch + 1 : this.lines.indexOf(line)) % 10);
+      if (line.branch !== undefined) {
+        strokeLine(
+          context,
+          place,
+          line.rows.map((row) => xs[row]),
+          line.rows.map((row) => values[row]),
+          { colour: this.colour(line) },
+        );
+        continue;
+      }
+      const own = theme().classes.length + (this.lines.indexOf(line) % 10);
       for (const row of line.rows)
-        if (line.classes?.[row] !== -1) raster.add(xs[row], values[row], line.classes && this.colourBy === 'regime' ? line.classes[row] : own);
+        if (line.classes?.[row] !== -1)
+          raster.add(xs[row], values[row], line.classes && this.colourBy === 'regime' ? line.classes[row] : own);
     }
     raster.paint(context, palette);
     this.drawChosen(context, place, (line, row) => (this.curve(line, name) ? [this.curve(line, name)[row]] : []));
@@ -376,9 +447,10 @@ export class Diagram {
     const at = `${this.axis.name === 'value' ? this.parameter.symbol : this.axis.label.split('  ')[0]} = ${number(this.x(line)[row], 6)}`;
     const unit = unitText(quantity.unit);
     const what = `${symbol(quantity.name) || quantity.name} = ${number(value, 6)}${unit ? ` ${unit}` : ''}`;
-    const kind = line.branch !== undefined
-      ? `branch ${line.branch}, period ${line.table.numbers('period')[row]}, ${line.table.numbers('stable')[row] === 1 ? 'stable' : 'unstable'}`
-      : `${line.direction}, ${this.regimeWords(line, row)}`;
+    const kind =
+      line.branch !== undefined
+        ? `branch ${line.branch}, period ${line.table.numbers('period')[row]}, ${line.table.numbers('stable')[row] === 1 ? 'stable' : 'unstable'}`
+        : `${line.direction}, ${this.regimeWords(line, row)}`;
     return { line, row, text: `${at}\n${what}\n${kind}` };
   }
 
@@ -389,7 +461,10 @@ export class Diagram {
         const dy = (place.y(y) - place.topOfPlot) / place.ratio - place.top;
         if (dx * dx + dy * dy < 64) {
           const table = point.study.table('special.csv');
-          return { special: point, text: `${capital(specialName(point.kind)[1])}\n${this.parameter.symbol} = ${withError(point.value, table.numbers('error_bound')[point.row])}` };
+          return {
+            special: point,
+            text: `${capital(specialName(point.kind)[1])}\n${this.parameter.symbol} = ${withError(point.value, table.numbers('error_bound')[point.row])}`,
+          };
         }
       }
     return null;
@@ -411,7 +486,9 @@ export class Diagram {
     }
     this.chosen = { line: found.line, row: found.row };
     const { line, row } = this.chosen;
-    this.details.replaceChildren(line.branch === undefined ? pointDetails(this, line, row) : orbitDetails(this, line, row));
+    this.details.replaceChildren(
+      line.branch === undefined ? pointDetails(this, line, row) : orbitDetails(this, line, row),
+    );
     const x = this.x(line)[row];
     if (x < this.view.x[0] || x > this.view.x[1]) {
       const half = 0.5 * (this.view.x[1] - this.view.x[0]);
@@ -426,7 +503,11 @@ export class Diagram {
     const shown = this.lines.filter((line) => line.shown);
     if (shown.length === 0) return;
     const { line, row } = this.chosen ?? { line: shown[0], row: null };
-    if (row === null) return this.choose({ line, row: line.rows[nearestIndex(line.rows, this.x(line), 0.5 * (this.view.x[0] + this.view.x[1]))] });
+    if (row === null)
+      return this.choose({
+        line,
+        row: line.rows[nearestIndex(line.rows, this.x(line), 0.5 * (this.view.x[0] + this.view.x[1]))],
+      });
     if (across) {
       const next = shown[(shown.indexOf(line) + by + shown.length) % shown.length];
       return this.choose({ line: next, row: next.rows[nearestIndex(next.rows, this.x(next), this.x(line)[row])] });
@@ -440,8 +521,11 @@ export class Diagram {
     const actions = {
       ArrowRight: () => (event.shiftKey ? this.view.pan(0.2) : this.step(1)),
       ArrowLeft: () => (event.shiftKey ? this.view.pan(-0.2) : this.step(-1)),
-      ArrowUp: () => this.step(-1, true), ArrowDown: () => this.step(1, true),
-      '+': () => this.view.zoom(0.5, chosen), '=': () => this.view.zoom(0.5, chosen), '-': () => this.view.zoom(2, chosen),
+      ArrowUp: () => this.step(-1, true),
+      ArrowDown: () => this.step(1, true),
+      '+': () => this.view.zoom(0.5, chosen),
+      '=': () => this.view.zoom(0.5, chosen),
+      '-': () => this.view.zoom(2, chosen),
       0: () => this.view.reset(),
     };
     if (!actions[event.key] || event.ctrlKey || event.metaKey || event.altKey) return;
@@ -457,38 +541,76 @@ export class Diagram {
 
   build(host) {
     this.view = new View(this.full());
-    this.details = element('section', { class: 'details', 'aria-live': 'polite', 'aria-label': 'The chosen point' },
-      element('p', { class: 'hint', text: 'Choose a point of the diagram: click on it, or use the arrow keys in the diagram.' }));
-    const figure = element('div', { class: 'figure', tabIndex: 0, role: 'group', 'aria-label': 'Diagram. Arrow keys choose a point, + and − zoom, 0 shows all.', onkeydown: (event) => this.key(event) });
-    host.append(this.toolbar(), element('div', { class: 'columns' }, element('div', { class: 'main' }, figure, this.legend(), this.help()), this.details));
-    const withEdges = (place, panel) => ({ ...place, topOfPlot: panel.plot.bbox.top, leftOfPlot: panel.plot.bbox.left, xAt: (left) => panel.plot.posToVal(left, 'x') });
-    const panel = (options) => {
-      const made = new Panel({ host: figure, view: this.view, sync: `diagram${Diagram.count}`, xLabel: () => this.axis.label, pick: (found) => this.choose(found), ...options,
-        hover: (place) => options.hoverAt(withEdges(place, made)) });
-      return made;
-    };
+    this.details = element(
+      'section',
+      { class: 'details', 'aria-live': 'polite', 'aria-label': 'The chosen point' },
+      element('p', {
+        class: 'hint',
+        text: 'Choose a point of the diagram: click on it, or use the arrow keys in the diagram.',
+      }),
+    );
+    const figure = element('div', {
+      class: 'figure',
+      tabIndex: 0,
+      role: 'group',
+      'aria-label': 'Diagram. Arrow keys choose a point, + and − zoom, 0 shows all.',
+      onkeydown: (event) => this.key(event),
+    });
+    host.append(
+      this.toolbar(),
+      element(
+        'div',
+        { class: 'columns' },
+        element('div', { class: 'main' }, figure, this.legend(), this.help()),
+        this.details,
+      ),
+    );
+    const panel = (options) =>
+      new Panel({
+        host: figure,
+        view: this.view,
+        sync: `diagram${Diagram.count}`,
+        xLabel: () => this.axis.label,
+        pick: (found) => this.choose(found),
+        ...options,
+      });
     Diagram.count = (Diagram.count ?? 0) + 1;
     const below = [
       ['lyapunov_max', 0, (x) => this.rangeBelow('lyapunov_max', x)],
       ['multiplier_max', 1, (x) => this.rangeBelow('multiplier_max', x, 4)],
     ].filter(([name]) => this.lines.some((line) => this.curve(line, name)?.some(Number.isFinite)));
     this.main = panel({
-      height: () => (innerWidth < 700 ? 300 : 420), xAxis: below.length === 0,
+      height: () => (innerWidth < 700 ? 300 : 420),
+      xAxis: below.length === 0,
       yLabel: () => `${this.bySection ? 'Poincaré points of ' : ''}${axisLabel(this.quantity)}`,
-      range: (x) => this.range(x), draw: (context, place) => this.draw(context, place),
-      hoverAt: (place) => this.hover(place, (line, row) => {
-        const section = this.section(line);
-        if (section) return Array.from(section.values.subarray(section.starts[row], section.starts[row + 1]), (y) => this.factor() * y);
-        const values = this.bySection ? null : this.curve(line);
-        return values ? [this.factor() * values[row]] : [];
-      }, this.quantity),
+      range: (x) => this.range(x),
+      draw: (context, place) => this.draw(context, place),
+      hover: (place) =>
+        this.hover(
+          place,
+          (line, row) => {
+            const section = this.section(line);
+            if (section)
+              return Array.from(
+                section.values.subarray(section.starts[row], section.starts[row + 1]),
+                (y) => this.factor() * y,
+              );
+            const values = this.bySection ? null : this.curve(line);
+            return values ? [this.factor() * values[row]] : [];
+          },
+          this.quantity,
+        ),
     });
     below.forEach(([name, limit, range], k) => {
       const column = this.lines.map(({ table }) => table.byName.get(name)).find(Boolean);
       panel({
-        height: () => (k + 1 === below.length ? 158 : 116), xAxis: k + 1 === below.length, yLabel: () => axisLabel(column), range,
+        height: () => (k + 1 === below.length ? 158 : 116),
+        xAxis: k + 1 === below.length,
+        yLabel: () => axisLabel(column),
+        range,
         draw: (context, place) => this.drawBelow(context, place, name, limit),
-        hoverAt: (place) => this.hover(place, (line, row) => (this.curve(line, name) ? [this.curve(line, name)[row]] : []), column),
+        hover: (place) =>
+          this.hover(place, (line, row) => (this.curve(line, name) ? [this.curve(line, name)[row]] : []), column),
       });
     });
   }
@@ -496,69 +618,134 @@ export class Diagram {
   toolbar() {
     const option = (column, group) => element('option', { value: `${group}:${column.name}`, text: optionText(column) });
     const { sections, curves } = this.quantities;
-    const choice = element('select', { id: 'quantity', onchange: () => {
-      const [group, name] = choice.value.split(/:(.*)/s);
-      this.bySection = group === 'section';
-      this.quantity = (this.bySection ? sections : curves).find((column) => column.name === name);
-      this.main.relabel();
-    } },
-      sections.length ? element('optgroup', { label: 'Poincaré points' }, sections.map((column) => option(column, 'section'))) : null,
-      element('optgroup', { label: 'Response curves' }, curves.map((column) => option(column, 'curve'))));
-    const axes = element('select', { onchange: () => {
-      this.axis = this.axes[axes.selectedIndex];
-      this.view.full = this.full();
-      this.view.x = [...this.view.full];
-      for (const panel of this.view.panels) panel.relabel();
-    } }, this.axes.map(({ label }) => element('option', { text: label.replace(/\s+/g, ' ') })));
-    const units = element('select', { onchange: () => {
-      lengthUnit.micrometres = units.selectedIndex === 1;
-      for (const panel of this.view.panels) panel.relabel();
-      if (this.chosen) this.choose(this.chosen);
-    } }, ['b_c', 'µm'].map((text) => element('option', { text })));
-    const colours = element('select', { onchange: () => {
-      this.colourBy = colours.selectedIndex === 0 ? 'regime' : 'line';
-      this.key_.replaceWith(this.legend());
-      this.redraw();
-    } }, ['regime', 'direction'].map((text) => element('option', { text })));
-    const button = (text, label, action) => element('button', { type: 'button', text, title: label, 'aria-label': label, onclick: action });
+    const choice = element(
+      'select',
+      {
+        id: 'quantity',
+        onchange: () => {
+          const [group, name] = choice.value.split(/:(.*)/s);
+          this.bySection = group === 'section';
+          this.quantity = (this.bySection ? sections : curves).find((column) => column.name === name);
+          this.main.relabel();
+        },
+      },
+      sections.length
+        ? element(
+            'optgroup',
+            { label: 'Poincaré points' },
+            sections.map((column) => option(column, 'section')),
+          )
+        : null,
+      element(
+        'optgroup',
+        { label: 'Response curves' },
+        curves.map((column) => option(column, 'curve')),
+      ),
+    );
+    const axes = element(
+      'select',
+      {
+        onchange: () => {
+          this.axis = this.axes[axes.selectedIndex];
+          this.view.full = this.full();
+          this.view.x = [...this.view.full];
+          for (const panel of this.view.panels) panel.relabel();
+        },
+      },
+      this.axes.map(({ label }) => element('option', { text: label.replace(/\s+/g, ' ') })),
+    );
+    const units = element(
+      'select',
+      {
+        onchange: () => {
+          lengthUnit.micrometres = units.selectedIndex === 1;
+          for (const panel of this.view.panels) panel.relabel();
+          if (this.chosen) this.choose(this.chosen);
+        },
+      },
+      ['b_c', 'µm'].map((text) => element('option', { text })),
+    );
+    const colours = element(
+      'select',
+      {
+        onchange: () => {
+          this.colourBy = colours.selectedIndex === 0 ? 'regime' : 'line';
+          this.key_.replaceWith(this.legend());
+          this.redraw();
+        },
+      },
+      ['regime', 'direction'].map((text) => element('option', { text })),
+    );
+    const button = (text, label, action) =>
+      element('button', { type: 'button', text, title: label, 'aria-label': label, onclick: action });
     const field = (text, control) => element('label', {}, element('span', { text }), control);
     const several = this.studies.length > 1;
     const toggles = this.lines.map((line) => {
-      const box = element('input', { type: 'checkbox', checked: true, onchange: () => ((line.shown = box.checked), this.redraw()) });
+      const box = element('input', {
+        type: 'checkbox',
+        checked: true,
+        onchange: () => ((line.shown = box.checked), this.redraw()),
+      });
       return element('label', { class: 'toggle' }, box, several ? `${line.study.label}: ${line.name}` : line.name);
     });
-    return element('div', { class: 'toolbar' },
-      field('Ordinate', choice), this.axes.length > 1 ? field('Abscissa', axes) : null, field('Lengths in', units),
+    return element(
+      'div',
+      { class: 'toolbar' },
+      field('Ordinate', choice),
+      this.axes.length > 1 ? field('Abscissa', axes) : null,
+      field('Lengths in', units),
       this.lines.some(({ classes }) => classes) ? field('Colour by', colours) : null,
       element('span', { class: 'toggles', role: 'group', 'aria-label': 'Shown' }, toggles),
-      element('span', { class: 'buttons' }, button('−', 'Zoom out', () => this.view.zoom(2)), button('+', 'Zoom in', () => this.view.zoom(0.5)),
-        button('All', 'Show the whole range', () => this.view.reset()), button('‹', 'Previous point', () => this.step(-1)), button('›', 'Next point', () => this.step(1))));
+      element(
+        'span',
+        { class: 'buttons' },
+        button('−', 'Zoom out', () => this.view.zoom(2)),
+        button('+', 'Zoom in', () => this.view.zoom(0.5)),
+        button('All', 'Show the whole range', () => this.view.reset()),
+        button('‹', 'Previous point', () => this.step(-1)),
+        button('›', 'Next point', () => this.step(1)),
+      ),
+    );
   }
 
   legend() {
     this.key_ = element('ul', { class: 'legend' });
-    const item = (colour, text, extra = '') => this.key_.append(element('li', {}, element('span', { class: `swatch ${colour} ${extra}` }), text));
+    const item = (colour, text, extra = '') =>
+      this.key_.append(element('li', {}, element('span', { class: `swatch ${colour} ${extra}` }), text));
     const swept = this.lines.filter(({ classes }) => classes);
     if (this.colourBy === 'regime')
       classNames.forEach((name, k) => {
-        const count = swept.reduce((sum, { rows, classes }) => sum + rows.filter((row) => classes[row] === k).length, 0);
+        const count = swept.reduce(
+          (sum, { rows, classes }) => sum + rows.filter((row) => classes[row] === k).length,
+          0,
+        );
         if (count > 0) item(`class${k}`, `${name}: ${count} ${count === 1 ? 'point' : 'points'}`);
       });
-    else swept.forEach((line) => item(`series${this.lines.indexOf(line) % 10}`, this.studies.length > 1 ? `${line.study.label}: ${line.name}` : line.name));
+    else
+      swept.forEach((line) =>
+        item(
+          `series${this.lines.indexOf(line) % 10}`,
+          this.studies.length > 1 ? `${line.study.label}: ${line.name}` : line.name,
+        ),
+      );
     const lost = swept.reduce((sum, { rows, classes }) => sum + rows.filter((row) => classes[row] === -1).length, 0);
     if (lost > 0) item('none', `not reached and not drawn: ${lost}`);
     if (this.lines.some(({ branch }) => branch !== undefined)) {
       item('solid', 'stable branch');
       item('dashed', 'unstable branch');
-      for (const kind of new Set(this.special.map((point) => point.kind))) item('none', `${specialName(kind)[0]}: ${specialName(kind)[1]}`);
+      for (const kind of new Set(this.special.map((point) => point.kind)))
+        item('none', `${specialName(kind)[0]}: ${specialName(kind)[1]}`);
     }
     return this.key_;
   }
 
   help() {
-    return element('p', { class: 'hint', text:
-      'Drag to zoom; turn the wheel to zoom, with Alt along the ordinate; drag with Shift to pan; double-click to show all. '
-      + 'Keys in the diagram: ← → next point, ↑ ↓ other direction or branch, + − zoom, Shift ← → pan, 0 all.' });
+    return element('p', {
+      class: 'hint',
+      text:
+        'Drag to zoom; turn the wheel to zoom, with Alt along the ordinate; drag with Shift to pan; double-click to show all. ' +
+        'Keys in the diagram: ← → next point, ↑ ↓ other direction or branch, + − zoom, Shift ← → pan, 0 all.',
+    });
   }
 }
 

@@ -1,14 +1,14 @@
 # cmake -D FOLDER=app/browser -D OUTPUT=browser_files.cpp -P embed.cmake
 #
 # The files of a report as C++: page.html, style.css, uPlot with its licence, and the modules as one script. The modules
-# have no names in common, and each import is one line, so that they are joined by leaving out `import` and `export`.
+# have no names in common and import nothing but each other, so that they are joined by leaving out `import` and `export`.
 # Texts are always quoted here: as a list, they would lose brackets and semicolons.
 set(modules payload words theme panel diagram details plane run page)
 
 foreach(module IN LISTS modules)
   file(READ "${FOLDER}/${module}.js" text)
   set(text "\n${text}")
-  string(REGEX REPLACE "\nimport [^\n]*" "\n" text "${text}")
+  string(REGEX REPLACE "\nimport [^;]*;" "\n" text "${text}")
   string(REPLACE "\nexport " "\n" text "${text}")
   string(APPEND joined "${text}")
 endforeach()

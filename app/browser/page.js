@@ -6,16 +6,28 @@ import { Plane } from './plane.js';
 import { Run, titleOfTable } from './run.js';
 import { commandLine } from './details.js';
 
-const kindWords = new Map(Object.entries({
-  sweep: 'Sweep of one parameter', continue: 'Branches of periodic orbits', map: 'Map over two parameters', basins: 'Basins of attraction',
-  run: 'One operating point', crosscheck: 'Check by other methods', tolerance: 'Errors at several tolerances', gear: 'Geometry, stiffness and modes of a stage',
-}));
+const kindWords = new Map(
+  Object.entries({
+    sweep: 'Sweep of one parameter',
+    continue: 'Branches of periodic orbits',
+    map: 'Map over two parameters',
+    basins: 'Basins of attraction',
+    run: 'One operating point',
+    crosscheck: 'Check by other methods',
+    tolerance: 'Errors at several tolerances',
+    gear: 'Geometry, stiffness and modes of a stage',
+  }),
+);
 
 /// Studies that go into one diagram: sweeps and branches over the same parameter.
 function groupsOf(studies) {
   const groups = [];
   for (const study of studies) {
-    const alike = ['sweep', 'continue'].includes(study.kind) && groups.find(([first]) => ['sweep', 'continue'].includes(first.kind) && first.parameter.name === study.parameter.name);
+    const alike =
+      ['sweep', 'continue'].includes(study.kind) &&
+      groups.find(
+        ([first]) => ['sweep', 'continue'].includes(first.kind) && first.parameter.name === study.parameter.name,
+      );
     if (alike) alike.push(study);
     else groups.push([study]);
   }
@@ -25,15 +37,27 @@ function groupsOf(studies) {
 function figuresOf(group, host) {
   const [study] = group;
   const kinds = {
-    sweep: () => new Diagram(group, host), continue: () => new Diagram(group, host),
-    map: () => new Plane(study, host), basins: () => new Plane(study, host), run: () => new Run(study, host),
+    sweep: () => new Diagram(group, host),
+    continue: () => new Diagram(group, host),
+    map: () => new Plane(study, host),
+    basins: () => new Plane(study, host),
+    run: () => new Run(study, host),
   };
-  const needed = { sweep: 'points.csv', continue: 'branch.csv', map: 'points.csv', basins: 'points.csv', run: 'points.csv' };
+  const needed = {
+    sweep: 'points.csv',
+    continue: 'branch.csv',
+    map: 'points.csv',
+    basins: 'points.csv',
+    run: 'points.csv',
+  };
   if (kinds[study.kind] && group.some((one) => one.table(needed[one.kind])?.rows > 0)) kinds[study.kind]();
-  else host.append(element('p', { class: 'hint', text: 'This report draws no figure of this study. Its tables are below.' }));
+  else
+    host.append(
+      element('p', { class: 'hint', text: 'This report draws no figure of this study. Its tables are below.' }),
+    );
 }
 
-/// Keys of the input as a table for each object, with unit and origin.
+/// Keys of the input, object by object, with unit and origin.
 function inputOf(study) {
   const groups = new Map();
   for (const entry of study.input) {
@@ -41,33 +65,81 @@ function inputOf(study) {
     if (!groups.has(parent)) groups.set(parent, []);
     groups.get(parent).push(entry);
   }
-  return [...groups].map(([parent, entries]) => tableOf(['Key', 'Value', 'Unit', 'Origin', 'Meaning'], entries.map((entry) => [
-    element('code', { text: entry.pointer.slice(parent.length + 1).replace(/~1/g, '/').replace(/~0/g, '~') }),
-    typeof entry.value === 'number' ? number(entry.value, 10) : element('span', { text: typeof entry.value === 'string' ? entry.value : JSON.stringify(entry.value) }),
-    unitText(entry.unit), element('span', { text: entry.origin ?? 'given' }), element('span', { text: capital(entry.meaning ?? '') }),
-  ]), parent || '/'));
+  const order = ['', '/study', '/operation', '/model', '/integrator', '/stage'];
+  const place = (parent) =>
+    parent === '' ? 0 : order.findIndex((begin, k) => k > 0 && `${parent}/`.startsWith(`${begin}/`)) + 1 || 99;
+  const table = tableOf(['Key', 'Value', 'Unit', 'Origin', 'Meaning'], []);
+  table.classList.add('input');
+  for (const [parent, entries] of [...groups].sort(([a], [b]) => place(a) - place(b))) {
+    const rows = tableOf(
+      null,
+      entries.map((entry) => [
+        element('code', {
+          text: entry.pointer
+            .slice(parent.length + 1)
+            .replace(/~1/g, '/')
+            .replace(/~0/g, '~'),
+        }),
+        typeof entry.value === 'number'
+          ? number(entry.value, 12)
+          : element('span', { text: typeof entry.value === 'string' ? entry.value : JSON.stringify(entry.value) }),
+        unitText(entry.unit),
+        element('span', { text: entry.origin ?? 'given' }),
+        element('span', { text: capital(entry.meaning ?? '') }),
+      ]),
+    ).lastChild;
+    rows.prepend(
+      element(
+        'tr',
+        {},
+        element('th', { colspan: '5', scope: 'rowgroup', class: 'group' }, element('code', { text: parent || '/' })),
+      ),
+    );
+    table.append(rows);
+  }
+  return table;
 }
 
-const folded = (title, ...content) => element('details', {}, element('summary', { text: title }), element('div', { class: 'scroll' }, ...content));
+const folded = (title, ...content) =>
+  element('details', {}, element('summary', { text: title }), element('div', { class: 'scroll' }, ...content.flat()));
 
 const rowsShown = 200;
 
 function tableShown(table) {
-  const rows = Array.from({ length: Math.min(table.rows, rowsShown) }, (_, row) => table.columns.map(({ name, form }) => (form === 'words' ? element('span', { text: table.word(name, row) }) : number(table.numbers(name)[row], 7))));
+  const rows = () =>
+    Array.from({ length: Math.min(table.rows, rowsShown) }, (_, row) =>
+      table.columns.map(({ name, form }) =>
+        form === 'words' ? element('span', { text: table.word(name, row) }) : number(table.numbers(name)[row], 7),
+      ),
+    );
   const made = folded(`${titleOfTable(table)}: ${table.rows} ${table.rows === 1 ? 'row' : 'rows'}`);
   // Built when it is opened.
   made.addEventListener('toggle', () => {
     const place = made.lastChild;
     if (place.childElementCount > 0) return;
-    place.append(tableOf(table.columns.map(({ name, unit, meaning }) => element('span', { title: meaning }, name, unitText(unit) ? ` [${unitText(unit)}]` : '')), rows));
-    if (table.rows > rowsShown) place.append(element('p', { text: `The first ${rowsShown} rows are shown. ${table.name} in the folder of the study has all.` }));
+    const grid = tableOf(
+      table.columns.map(({ name, unit, meaning }) =>
+        element('span', { title: meaning }, name, unitText(unit) ? ` [${unitText(unit)}]` : ''),
+      ),
+      rows(),
+    );
+    grid.classList.add('rows');
+    place.append(grid);
+    if (table.rows > rowsShown)
+      place.append(
+        element('p', {
+          text: `The first ${rowsShown} rows are shown. ${table.name} in the folder of the study has all.`,
+        }),
+      );
   });
   return made;
 }
 
 function aboutOf(study, header) {
   const { run } = study;
-  const libraries = Object.entries(run.dependencies ?? {}).map(([name, version]) => `${name} ${version}`).join(', ');
+  const libraries = Object.entries(run.dependencies ?? {})
+    .map(([name, version]) => `${name} ${version}`)
+    .join(', ');
   const rows = [
     ['Folder', element('code', { text: study.folder })],
     ['State', run.state === 'complete' ? 'complete' : `not complete (${run.state})`],
@@ -79,33 +151,75 @@ function aboutOf(study, header) {
     ['Identity of the study', element('code', { class: 'break', text: run.identity })],
     ...study.tolerance.map(([name, value]) => [name, value]),
   ];
-  return tableOf(null, rows.filter(([, value]) => value !== ''));
+  return tableOf(
+    null,
+    rows.filter(([, value]) => value !== ''),
+  );
 }
 
 function symbolsOf(study) {
-  return element('dl', { class: 'symbols' }, study.symbols.flatMap(([name, words]) => [element('dt', {}, rich(name)), element('dd', { text: words })]));
+  return element(
+    'dl',
+    { class: 'symbols' },
+    study.symbols.flatMap(([name, words]) => [element('dt', {}, rich(name)), element('dd', {}, rich(words))]),
+  );
 }
 
 function partOf(group, header) {
   const part = element('section', { class: 'study' });
   for (const study of group) {
-    part.append(element('h2', { text: study.title }), element('p', { class: 'lead', text: `${kindWords.get(study.kind) ?? capital(study.kind)}. ${study.lead}` }));
+    part.append(
+      header.studies.length > 1 ? element('h2', { text: study.title }) : '',
+      element('p', { class: 'lead' }, rich(`${kindWords.get(study.kind) ?? capital(study.kind)}. ${study.lead}`)),
+    );
     if (study.note) part.append(element('p', { class: 'note', text: study.note }));
     if (study.run.state !== 'complete')
-      part.append(element('p', { class: 'warning', text: `This study is not complete: ${study.progress}. Repeat its command to complete it.` }));
+      part.append(
+        element('p', {
+          class: 'warning',
+          text: `This study is not complete: ${study.progress}. Repeat its command to complete it.`,
+        }),
+      );
     for (const warning of study.warnings) part.append(element('p', { class: 'warning', text: `Warning: ${warning}` }));
   }
   const host = element('div', { class: 'figures' });
   part.append(host);
   for (const study of group) {
     const several = group.length > 1 ? `${study.title}: ` : '';
-    const hidden = ['section', 'section_starts', 'spectra'];
+    const hidden = ['section', 'section_starts', 'spectra', 'histories'];
     part.append(
       folded(`${several}Symbols`, symbolsOf(study)),
-      folded(`${several}Input: values, units and origins`, element('p', {}, 'Each value with its origin. ', element('code', { text: 'given' }), ' is a value of the input file.'), ...inputOf(study)),
-      folded(`${several}Versions, tolerances and how to repeat it`, aboutOf(study, header), element('p', { text: 'The same study again:' }), commandLine(study.command)),
-      element('details', {}, element('summary', { text: `${several}Tables` }), ...study.tables.filter(({ name }) => !hidden.includes(name)).map(tableShown)),
-      folded(`${several}What this file does not have`, element('ul', {}, study.left_out.map((text) => element('li', { text })))));
+      folded(
+        `${several}Input: values, units and origins`,
+        element(
+          'p',
+          {},
+          'Each value with its origin. ',
+          element('code', { text: 'given' }),
+          ' is a value of the input file.',
+        ),
+        inputOf(study),
+      ),
+      folded(
+        `${several}Versions, tolerances and how to repeat it`,
+        aboutOf(study, header),
+        study.command ? [element('p', { text: 'The same study again:' }), commandLine(study.command)] : [],
+      ),
+      element(
+        'details',
+        {},
+        element('summary', { text: `${several}Tables` }),
+        ...study.tables.filter(({ name }) => !hidden.includes(name)).map(tableShown),
+      ),
+      folded(
+        `${several}What this file does not have`,
+        element(
+          'ul',
+          {},
+          study.left_out.map((text) => element('li', { text })),
+        ),
+      ),
+    );
   }
   return [part, host];
 }
@@ -123,7 +237,12 @@ async function show() {
     }
     document.body.dataset.state = 'ready';
   } catch (error) {
-    page.replaceChildren(element('p', { class: 'warning', text: `This page cannot show its data: ${error.message}. A browser of 2023 or later is needed.` }));
+    page.replaceChildren(
+      element('p', {
+        class: 'warning',
+        text: `This page cannot show its data: ${error.message}. A browser of 2023 or later is needed.`,
+      }),
+    );
     document.body.dataset.state = 'failed';
     throw error;
   }

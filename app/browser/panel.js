@@ -1,7 +1,7 @@
 // A panel: axes by uPlot, everything between them drawn by its owner; zoom, pan, hover, click.
 /* global uPlot */
 import { theme, onTheme, rgb } from './theme.js';
-import { element } from './words.js';
+import { element, number } from './words.js';
 
 const finite = (range) => range && Number.isFinite(range[0]) && Number.isFinite(range[1]) && range[0] < range[1];
 
@@ -64,8 +64,15 @@ export class Panel {
     this.plot?.destroy();
     const colours = theme();
     const axis = (label, size) => ({
-      label, labelSize: 18, size, stroke: colours.ink, font: '12px system-ui, sans-serif', labelFont: '13px system-ui, sans-serif',
-      grid: { stroke: colours.grid, width: 1 }, ticks: { stroke: colours.grid, width: 1, size: 5 },
+      label,
+      labelSize: 18,
+      size,
+      stroke: colours.ink,
+      font: '12px system-ui, sans-serif',
+      labelFont: '13px system-ui, sans-serif',
+      values: (_, splits) => splits.map((value) => (value === null || value === undefined ? '' : number(value, 12))),
+      grid: { stroke: colours.grid, width: 1 },
+      ticks: { stroke: colours.grid, width: 1, size: 5 },
     });
     const { options } = this;
     this.plot = new uPlot(
@@ -90,7 +97,11 @@ export class Panel {
           bind: { dblclick: () => () => (this.view.reset(), null) },
           ...(options.sync ? { sync: { key: options.sync, setSeries: false, scales: ['x', null] } } : {}),
         },
-        hooks: { draw: [(plot) => this.draw(plot)], setSelect: [(plot) => this.selected(plot)], setCursor: [(plot) => this.hover(plot)] },
+        hooks: {
+          draw: [(plot) => this.draw(plot)],
+          setSelect: [(plot) => this.selected(plot)],
+          setCursor: [(plot) => this.hover(plot)],
+        },
       },
       [this.view.x, this.yRange()],
       this.node,
@@ -129,11 +140,19 @@ export class Panel {
   place(plot = this.plot) {
     const { left, top, width, height } = plot.bbox;
     return {
-      left, top, width, height, ratio: devicePixelRatio || 1,
+      left,
+      top,
+      width,
+      height,
+      leftOfPlot: left,
+      topOfPlot: top,
+      ratio: devicePixelRatio || 1,
       x: (value) => plot.valToPos(value, 'x', true),
       y: (value) => plot.valToPos(value, 'y', true),
-      xAt: (pixel) => plot.posToVal(pixel, 'x'), yAt: (pixel) => plot.posToVal(pixel, 'y'),
-      xRange: [plot.scales.x.min, plot.scales.x.max], yRange: [plot.scales.y.min, plot.scales.y.max],
+      xAt: (pixel) => plot.posToVal(pixel, 'x'),
+      yAt: (pixel) => plot.posToVal(pixel, 'y'),
+      xRange: [plot.scales.x.min, plot.scales.x.max],
+      yRange: [plot.scales.y.min, plot.scales.y.max],
       logarithmic: plot.scales.y.distr === 3,
     };
   }
@@ -170,7 +189,7 @@ export class Panel {
   hover(plot) {
     const { left, top } = plot.cursor;
     const inside = left >= 0 && top >= 0 && plot.over.matches(':hover');
-    const found = inside ? this.options.hover?.({ left, top, ...this.place(plot) }) : null;
+    const found = inside ? this.options.hover?.({ ...this.place(plot), left, top }) : null;
     this.found = found;
     this.tip.hidden = !found;
     if (!found) return;
@@ -215,9 +234,13 @@ export class Panel {
       over.setPointerCapture(event.pointerId);
     };
     over.addEventListener('pointerdown', begin);
-    over.addEventListener('mousedown', (event) => {
-      if (event.shiftKey || event.button === 1) event.stopImmediatePropagation(), event.preventDefault();
-    }, true);
+    over.addEventListener(
+      'mousedown',
+      (event) => {
+        if (event.shiftKey || event.button === 1) (event.stopImmediatePropagation(), event.preventDefault());
+      },
+      true,
+    );
     over.addEventListener('pointermove', (event) => {
       if (!from) return;
       const step = ((from.at - event.clientX) / over.clientWidth) * (from.x[1] - from.x[0]);
@@ -228,7 +251,11 @@ export class Panel {
       over.addEventListener(end, (event) => {
         if (from && event.pointerType === 'touch' && !this.dragged) {
           const box = over.getBoundingClientRect();
-          const found = this.options.hover?.({ left: event.clientX - box.left, top: event.clientY - box.top, ...this.place() });
+          const found = this.options.hover?.({
+            ...this.place(),
+            left: event.clientX - box.left,
+            top: event.clientY - box.top,
+          });
           if (found) this.options.pick?.(found);
         }
         from = null;
@@ -265,7 +292,9 @@ export class Raster {
 
   /// @param colours  "#rrggbb" of each
   paint(context, colours) {
-    const size = Math.max(1, Math.round((this.drawn < 4000 ? 2.4 : this.drawn < 40000 ? 1.6 : 1) * this.place.ratio));
+    let places = 0;
+    for (const n of this.count) if (n > 0) ++places;
+    const size = Math.max(1, Math.round((places < 4000 ? 2.6 : 1.6) * this.place.ratio));
     const image = new ImageData(this.width, this.height);
     const parts = colours.map(rgb);
     const { width, height, count, of } = this;

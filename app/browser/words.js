@@ -45,7 +45,10 @@ export function factorOf(unit) {
 export function unitText(unit) {
   if (!unit || unit === '1') return '';
   if (unit === 'b_c') return lengthUnit.micrometres ? 'µm' : 'b_c';
-  return unit.replace(/\bum\b/g, 'µm').replace(/per tau/g, 'per τ');
+  return unit
+    .replace(/\bum\b/g, 'µm')
+    .replace(/^1 per tau/, 'per τ')
+    .replace(/per tau/g, 'per τ');
 }
 
 /// "δ sp,1" of delta_sp_1; the name itself of a column without a symbol.
@@ -90,8 +93,16 @@ export function element(tag, properties = {}, ...children) {
 export function rich(text) {
   const made = element('span');
   let end = 0;
-  for (const found of text.matchAll(/(?<=[A-Za-zδλμΩωζ])_([A-Za-z0-9γ,]+)/gu)) {
-    if (!/^(b|K|L|F|δ|λ|μ|ω|Ω|n|f)$/u.test(text.slice(0, found.index).split(/[^\p{L}]/u).pop())) continue;
+  for (const found of text.matchAll(/(?<=[A-Za-zδλμΩωζ])_([A-Za-z0-9γ]+(?:,[A-Za-z0-9]+)*)/gu)) {
+    if (
+      !/^(b|K|L|F|δ|λ|μ|ω|Ω|n|f)$/u.test(
+        text
+          .slice(0, found.index)
+          .split(/[^\p{L}]/u)
+          .pop(),
+      )
+    )
+      continue;
     made.append(text.slice(end, found.index), element('sub', { text: found[1] }));
     end = found.index + found[0].length;
   }
@@ -110,12 +121,26 @@ export function tableOf(head, rows, caption) {
     'table',
     {},
     caption ? element('caption', { text: caption }) : null,
-    head ? element('thead', {}, element('tr', {}, head.map((value) => cell('th', value, { scope: 'col' })))) : null,
+    head
+      ? element(
+          'thead',
+          {},
+          element(
+            'tr',
+            {},
+            head.map((value) => cell('th', value, { scope: 'col' })),
+          ),
+        )
+      : null,
     element(
       'tbody',
       {},
       rows.map((row) =>
-        element('tr', {}, row.map((value, k) => (k === 0 ? cell('th', value, { scope: 'row' }) : cell('td', value)))),
+        element(
+          'tr',
+          {},
+          row.map((value, k) => (k === 0 ? cell('th', value, { scope: 'row' }) : cell('td', value))),
+        ),
       ),
     ),
   );

@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 
 #include "command/session.hpp"
+#include "command/shell_word.hpp"
 #include "core/atomic_file.hpp"
 #include "core/counted.hpp"
 #include "core/csv.hpp"
@@ -33,8 +34,10 @@
 #include "store/manifest.hpp"
 #include "store/point_columns.hpp"
 #include "store/point_store.hpp"
+#include "studies/known_motions.hpp"
 #include "studies/named_parameters.hpp"
 #include "studies/plane_options.hpp"
+#include "studies/short_history.hpp"
 
 namespace epicyclic::app {
 
@@ -47,6 +50,10 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// Bytes of a study's columns before they are deflated: what is beyond is left out of the page, which says so.
 constexpr std::size_t table_bytes_max = std::size_t{6} << 20;
 constexpr std::size_t section_bytes_max = std::size_t{6} << 20;
+/// Histories that are computed from the stored states of a sweep, one for each point.
+constexpr int history_periods = 4;
+constexpr int history_phases = 32;
+constexpr std::size_t history_bytes_max = std::size_t{3} << 20;
 /// Tables of at most so many rows keep their numbers to the last bit.
 constexpr std::size_t exact_rows_max = 4096;
 
@@ -273,8 +280,7 @@ class StudyReport {
         {"title", study.name.empty() ? study.stage.name : study.name},
         {"note",
          input_.resolved.value("note", json("")).is_string() ? input_.resolved.value("note", json("")) : json("")},
-        {"command",
-         fmt::format("epicyclic {} {} -o NEW_FOLDER", kind, shell_word((folder_ / "input.resolved.json").string()))},
+        {"command", own_command(kind)},
         {"warnings", input::warnings(input_)},
         {"input", InputList().of(input_.resolved)},
         {"tables", json::array()},
@@ -290,12 +296,10 @@ class StudyReport {
     leave_out("Figures as PNG and SVG, the journal and results.h5: they are in the folder of the study.");
   }
 
-  static std::string shell_word(const std::string& text) {
-    constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./+:=@%-";
-    if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
-    std::string quoted = "'";
-    for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return quoted + "'";
+  /// Empty of a kind that several commands compute.
+  [[nodiscard]] std::string own_command(const std::string& kind) const {
+    if (input_.study.has_motion() && !input_.study.plan.kind()->commands.empty()) return {};
+    return fmt::format("epicyclic {} {} -o NEW_FOLDER", kind, shell_word((folder_ / "input.resolved.json").string()));
   }
 
   void describe_axes() {
@@ -315,6 +319,8 @@ class StudyReport {
           "{} from {} to {}{}. ", parameters[k]["label"].get<std::string>(), short_text(axes[k].from, 6),
           short_text(axes[k].to, 6),
           axes[k].points > 1 && study.kind() != "continue" ? fmt::format(", {} values", axes[k].points) : "");
+    if (const std::string directions = directions_of(study); !directions.empty())
+      lead += "Direction: " + directions + ". ";
     if (study.has_motion() && axes.empty())
       lead += "Mesh frequency ratio Ω = " + short_text(study.mesh_frequency_ratio, 8) + ". ";
     lead += "Boundary: " + boundary_words(study.stage.boundary) + ".";
@@ -323,6 +329,16 @@ class StudyReport {
                               ? json({{"name", ""}, {"label", ""}, {"symbol", ""}, {"unit", ""}, {"is_speed", false}})
                               : parameters.front();
     if (parameters.size() > 1) study_["second_parameter"] = parameters[1];
+  }
+
+  static std::string directions_of(const input::Study& study) {
+    std::vector<studies::Direction> directions;
+    if (const auto* sweep = study.plan.get_if<studies::SweepOptions>()) directions = sweep->directions;
+    if (const auto* map = study.plan.get_if<studies::MapOptions>()) directions = map->directions;
+    std::string words;
+    for (const studies::Direction direction : directions)
+      words += (words.empty() ? "" : " and ") + store::direction_word(direction);
+    return words;
   }
 
   static std::string boundary_words(gear::Boundary boundary) {
@@ -451,6 +467,10 @@ class StudyReport {
                                                  store::Journal::Use::read);
     for (std::size_t point = 0; point < plan.points.size(); ++point)
       if (store_->holds(point)) points_.push_back(point);
+    if (complete_ && points_.size() != plan.points.size())
+      throw store::DamagedData(
+          folder_.string() +
+          ": its journal does not have all points; re-run the command of this study to compute them");
     if (complete_) return;
     study_["progress"] = fmt::format("{} of {} are finished", points_.size(), counted(plan.points.size(), "points"));
     if (points_.empty()) return;
@@ -506,8 +526,9 @@ class StudyReport {
     Section section;
     if (kind == "sweep" && store_ && !points_.empty())
       section = section_of_sweep();
-    else if (files_.contains("poincare.csv"))
+    else if (kind != "sweep" && files_.contains("poincare.csv"))
       section = section_of_table();
+    if (kind == "sweep" && !store_) leave_out("Poincaré points and spectra: the journal of the study is missing.");
     if (section.columns.empty() || section.columns.front().empty()) return;
     const std::size_t rows = section.columns.front().size();
     ReportTable table("section", "Poincaré points", rows);
@@ -535,12 +556,59 @@ class StudyReport {
                             counted(left, "columns", "column")));
   }
 
+  /// Columns of short histories, those of one point behind those of another; not a number of a point without one.
+  struct Histories {
+    static constexpr std::size_t rows = static_cast<std::size_t>(history_periods) * history_phases + 1;
+    std::array<std::vector<double>, studies::ShortHistory::names.size()> columns;
+    std::size_t points = 0;
+    bool any = false;
+
+    void add(const studies::PointResult& r, const std::optional<model::DynamicModel>& model, std::size_t dimension,
+             const integrate::IntegratorOptions& integrator) {
+      const std::vector<double> state = model ? studies::state_on(r, dimension) : std::vector<double>();
+      if (state.empty() || 2 * columns.size() * rows * (points + 1) > history_bytes_max) return;
+      const auto history = studies::short_history(*model, state, integrator, history_periods, history_phases);
+      if (!history) return;
+      any = true;
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        columns[k].insert(columns[k].end(), history->columns[k].begin(), history->columns[k].end());
+    }
+
+    void end_point() {
+      ++points;
+      if (2 * columns.size() * rows * points <= history_bytes_max)
+        for (auto& column : columns) column.resize(rows * points, nan);
+    }
+  };
+
+  void add_histories(const Histories& histories) {
+    if (!histories.any) return;
+    ReportTable table("histories", "", histories.columns.front().size());
+    for (std::size_t k = 0; k < histories.columns.size(); ++k) {
+      const std::string name(studies::ShortHistory::names[k]);
+      ReportColumn column = section_column(name);
+      if (name.starts_with("force_"))
+        column = {name, "N",
+                  fmt::format("force of {} mesh 1", name.starts_with("force_sp") ? "sun-planet" : "ring-planet")};
+      table.add(data_.numbers(column, histories.columns[k], ReportData::Form::quantised));
+    }
+    tables_.push_back(std::move(table));
+    study_["history"] = {{"periods", history_periods}, {"phases", history_phases}};
+    leave_out(fmt::format(
+        "Histories of more than {} mesh periods, and of meshes of other planets: `epicyclic run --from` computes them.",
+        history_periods));
+    if (const std::size_t points = histories.columns.front().size() / Histories::rows; points < histories.points)
+      leave_out(fmt::format("Histories behind the first {}: they would make this file too large.",
+                            counted(points, "points", "point")));
+  }
+
   /// Deflections, and their rates of planet 1, which are computed from the stored states.
   Section section_of_sweep() {
     Section section;
     const bool same = identity_of(input_, input_.study.kind()) == run_["identity"].get<std::string>();
     const studies::ModelAtPoint model_at = same ? input::model_at_point(input_) : studies::ModelAtPoint();
     const studies::SweepPlan plan = input::plan_of(input_.study);
+    Histories histories;
     std::vector<double> spectra;
     std::size_t orders = 0;
     double resolution = 0.0;
@@ -559,6 +627,7 @@ class StudyReport {
         const std::size_t dimension = r.poincare_columns - deflections;
         std::optional<model::DynamicModel> model;
         if (same) model = model_at(plan.points[point]);
+        histories.add(r, model, dimension, input_.study.integrator);
         model::MeshDeflections d;
         for (std::size_t k = 0; k < r.poincare_rows(); ++k) {
           const double* row = r.poincare.data() + k * r.poincare_columns;
@@ -569,6 +638,7 @@ class StudyReport {
           section.columns[deflections + 1].push_back(d.ring_planet_rate.front());
         }
       }
+      histories.end_point();
       section.starts.push_back(section.columns.empty() ? 0.0 : static_cast<double>(section.columns.front().size()));
       if (orders == 0 && !r.spectrum.empty()) {
         orders = r.spectrum.size();
@@ -584,6 +654,7 @@ class StudyReport {
       tables_.push_back(std::move(table));
       study_["spectrum"] = {{"orders", orders}, {"resolution", resolution}, {"periods", studies::spectrum_periods}};
     }
+    add_histories(histories);
     if (!same) leave_out("Rates at the Poincaré points: another version of the numerics computed this study.");
     return section;
   }
@@ -595,25 +666,38 @@ class StudyReport {
     Section section;
     std::vector<std::size_t> at;
     std::string orbit;
+    std::optional<model::DynamicModel> model;
+    if (input_.study.kind() == "run" && identity_of(input_, "run") == run_["identity"].get<std::string>())
+      model = input::model_at(input_)(input_.study.mesh_frequency_ratio);
+    constexpr std::size_t keys = 2;  // point, index
     const bool is_table = scan_csv(text_of("poincare.csv"), [&](std::vector<std::string>& cells) {
       if (at.empty()) {
         for (std::size_t k = 0; k < cells.size(); ++k)
-          if (cells[k].starts_with("delta_") || (!branches && k >= 2)) {
+          if (cells[k].starts_with("delta_") || (!branches && k >= keys)) {
             at.push_back(k);
             section.names.push_back(cells[k]);
           }
-        section.columns.resize(at.size());
+        if (model && cells.size() < keys + model->dimension) model.reset();
+        if (model) section.names.insert(section.names.end(), {"delta_sp_1_rate", "delta_rp_1_rate"});
+        section.columns.resize(section.names.size());
         return;
       }
       const std::string of = branches ? cells[0] + ":" + cells[1] : cells[0];
       if (of != orbit && !orbit.empty()) section.starts.push_back(static_cast<double>(section.columns.front().size()));
       orbit = of;
-      for (std::size_t k = 0; k < at.size(); ++k) {
+      const auto number = [&](std::size_t k) {
         double value = nan;
-        const std::string& cell = cells[at[k]];
-        std::from_chars(cell.data(), cell.data() + cell.size(), value);
-        section.columns[k].push_back(value);
-      }
+        std::from_chars(cells[k].data(), cells[k].data() + cells[k].size(), value);
+        return value;
+      };
+      for (std::size_t k = 0; k < at.size(); ++k) section.columns[k].push_back(number(at[k]));
+      if (!model) return;
+      std::vector<double> state;
+      for (std::size_t k = 0; k < model->dimension; ++k) state.push_back(number(keys + k));
+      model::MeshDeflections d;
+      model->deflections(0.0, state.data(), d);
+      section.columns[at.size()].push_back(d.sun_planet_rate.front());
+      section.columns[at.size() + 1].push_back(d.ring_planet_rate.front());
     });
     if (!is_table)
       throw store::DamagedData((folder_ / "poincare.csv").string() + ": is not a table that this program writes");
