@@ -37,7 +37,7 @@ function meshTables(table, row) {
     }
     if (planets.size === 0) return null;
     const rows = [...quantities].map(([key, { column, cells }]) => {
-      const unit = unitText(column.unit);
+      const unit = column.unit.startsWith('part of') ? '' : unitText(column.unit);
       const head = element('span', { title: generic(column.meaning) }, wordsOf(key), unit ? ` [${unit}]` : '');
       return [
         head,
@@ -83,9 +83,9 @@ function wordsOf(key) {
       load_sharing_max: 'load sharing (largest)',
       force_quasi_static_max: 'largest quasi-static force',
       kv: 'dynamic factor K_v',
-      drive_time: 'time on drive flank',
-      loss_time: 'time out of contact',
-      back_time: 'time on back flank',
+      drive_time: 'part of the time on the drive flank',
+      loss_time: 'part of the time out of contact',
+      back_time: 'part of the time on the back flank',
     }),
   );
   return known.get(key) ?? key.replace(/_/g, ' ');
@@ -97,7 +97,7 @@ export function allValues(table, row) {
   const rows = table.columns
     .filter(({ name }) => !meshOf.test(name) && !/_error$/.test(name))
     .map((column) => [
-      element('span', { title: column.name }, rich(symbol(column.name) || column.name)),
+      element('span', { title: column.name }, column.name),
       valueText(table, column.name, row),
       column.meaning,
     ])

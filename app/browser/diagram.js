@@ -307,7 +307,7 @@ export class Diagram {
       const xs = this.x(line);
       for (const row of line.rows) {
         if (!(errors[row] > 0) || xs[row] < place.xRange[0] || xs[row] > place.xRange[1]) continue;
-        // A multiplier's logarithm has an interval far wider than what is looked at.
+        // The exponent of a periodic orbit is that of its multiplier: its interval would hide the others.
         if (name === 'lyapunov_max' && line.classes?.[row] <= 1) continue;
         context.strokeStyle = this.colour(line, row);
         context.lineWidth = place.ratio;

@@ -186,11 +186,11 @@ export class Plane {
         element('option', { text: column.meaning ? `${column.name} – ${column.meaning}`.slice(0, 100) : column.name }),
       ),
     );
-    const ways = element(
+    const directions = element(
       'select',
       {
         onchange: () => {
-          this.direction = this.directions[ways.selectedIndex];
+          this.direction = this.directions[directions.selectedIndex];
           this.index();
           this.refresh();
         },
@@ -203,7 +203,7 @@ export class Plane {
         'div',
         { class: 'toolbar' },
         field('Colour by', choice),
-        this.directions.length > 1 ? field('Direction', ways) : null,
+        this.directions.length > 1 ? field('Direction', directions) : null,
         element(
           'span',
           { class: 'buttons' },

@@ -2,8 +2,6 @@
 
 export const lengthUnit = { micrometres: false, um_per_b_c: 10 };
 
-const subscripts = new Map(Object.entries({ sp: 'sp', rp: 'rp' }));
-
 /// "0.0123 ± 0.0004": two digits of the error, and the value down to the last of them.
 export function withError(value, error) {
   if (!Number.isFinite(value)) return 'not known';
@@ -51,24 +49,44 @@ export function unitText(unit) {
     .replace(/per tau/g, 'per τ');
 }
 
-/// "δ sp,1" of delta_sp_1; the name itself of a column without a symbol.
+const letters = { delta: 'δ', force: 'F', load_sharing: 'L', kv: 'K_v', k_gamma: 'K_γ', dynamic_factor: 'K' };
+const statistics = {
+  mean: 'Mean of',
+  rms: 'RMS of',
+  range: 'Peak to peak of',
+  min: 'Least',
+  max: 'Largest',
+  h1: 'Harmonic 1 of',
+  h2: 'Harmonic 2 of',
+  h3: 'Harmonic 3 of',
+};
+
+/// "δ_sp,1" of delta_sp_1, "dδ_sp,1/dτ" of its rate, "RMS of δ_sp,1" of delta_sp_rms; empty without a symbol.
 export function symbol(name) {
-  const found = /^(delta|force|load_sharing|kv|k_gamma|dynamic_factor)_(sp|rp)(?:_(\d+))?$/.exec(name);
-  if (found) {
-    const letter = { delta: 'δ', force: 'F', load_sharing: 'L', kv: 'K_v', k_gamma: 'K_γ', dynamic_factor: 'K' };
-    const index = subscripts.get(found[2]) + (found[3] ? `,${found[3]}` : '');
-    return `${letter[found[1]]}_${index}`;
+  const known = { lyapunov_max: 'λ₁', multiplier_max: '|μ|max' };
+  if (known[name]) return known[name];
+  const end = name.slice(name.lastIndexOf('_') + 1);
+  if (statistics[end]) {
+    const begin = name.slice(0, -end.length - 1);
+    const of = begin === 'transmission_error' ? 'transmission error' : symbol(begin);
+    return of && `${statistics[end]} ${of}`;
   }
-  if (name === 'lyapunov_max') return 'λ₁';
-  if (name === 'multiplier_max') return '|μ|max';
-  return '';
+  if (end === 'rate') {
+    const of = symbol(name.slice(0, -end.length - 1));
+    return of && `d${of}/dτ`;
+  }
+  const found = /^(delta|force|load_sharing|kv|k_gamma|dynamic_factor)_(sp|rp)(?:_(\d+))?$/.exec(name);
+  if (!found) return '';
+  // Without a number: of planet 1, or of all planets.
+  const planet = found[3] ?? (['delta', 'force', 'load_sharing'].includes(found[1]) ? '1' : '');
+  return `${letters[found[1]]}_${found[2]}${planet && `,${planet}`}`;
 }
 
-/// The label of an axis: "Range of δ_sp,1 [µm]".
+/// The label of an axis: "RMS of δ_sp,1 [µm]".
 export function axisLabel(column) {
   const unit = unitText(column.unit);
-  const short = symbol(column.name);
-  const words = short || capital(column.meaning || column.name);
+  const meaning = capital(column.meaning || column.name);
+  const words = symbol(column.name) || (meaning.length > 44 ? column.name : meaning);
   return unit ? `${words}  [${unit}]` : words;
 }
 
