@@ -19,8 +19,6 @@ namespace epicyclic::app {
 
 namespace {
 
-constexpr double micrometres_per_b_c = 1e6 * model::length_scale_m;
-
 /// A page, and nothing that a study keeps.
 std::filesystem::path output_of(const Arguments& arguments) {
   std::filesystem::path file =
@@ -48,7 +46,7 @@ int report_command(const Arguments& arguments) {
       report_page(title.empty() ? "Report" : title, EPICYCLIC_VERSION,
                   data.encoded({{"format", 1},
                                 {"program", {{"version", EPICYCLIC_VERSION}, {"commit", EPICYCLIC_COMMIT}}},
-                                {"um_per_b_c", micrometres_per_b_c},
+                                {"um_per_b_c", micrometres_per_length_scale()},
                                 {"studies", std::move(studies)}}));
   give_up_if_stopped();
   write_file_atomically(linked_file(file), page);

@@ -293,6 +293,7 @@ class StudyReport {
     describe_tolerance();
     describe_symbols();
     if (!complete_) study_["progress"] = "no point is finished";
+    if (kind == "continue") leave_out("All multipliers of each orbit but the largest: results.h5 has them.");
     leave_out("Figures as PNG and SVG, the journal and results.h5: they are in the folder of the study.");
   }
 
@@ -369,7 +370,7 @@ class StudyReport {
 
   void describe_symbols() {
     study_["symbols"] = json::array({
-        {"b_c", fmt::format("unit of length, {} µm", short_text(micrometres_per_b_c, 6))},
+        {"b_c", fmt::format("unit of length, {} µm", short_text(micrometres_per_length_scale(), 6))},
         {"τ", "dimensionless time: time multiplied by ω_sn"},
         {"ω_sn", "frequency that makes the time dimensionless"},
         {"Ω", "mesh frequency over ω_sn"},
@@ -381,8 +382,6 @@ class StudyReport {
         {"drive, loss, back", "contact on the drive flank, no contact, contact on the back flank"},
     });
   }
-
-  static constexpr double micrometres_per_b_c = 1e6 * model::length_scale_m;
 
   // ---- tables -----------------------------------------------------------------------------------------------------
 
@@ -721,6 +720,8 @@ class StudyReport {
 };
 
 }  // namespace
+
+double micrometres_per_length_scale() { return 1e6 * model::length_scale_m; }
 
 json study_report(const std::filesystem::path& folder, ReportData& data, const std::function<void()>& stop_here) {
   return StudyReport(folder, data, stop_here).report();

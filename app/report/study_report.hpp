@@ -11,6 +11,9 @@
 
 namespace epicyclic::app {
 
+/// b_c [um]
+[[nodiscard]] double micrometres_per_length_scale();
+
 /// Changes nothing in the folder. A study of points that is not complete is reported as far as it has come.
 /// @param data       takes the columns
 /// @param stop_here  called between points; may throw

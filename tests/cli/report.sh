@@ -33,6 +33,11 @@ grep -qF "default-src 'none'; script-src 'sha256-" again.html || fail "no policy
 [ "$(code_of "$epicyclic" report unfinished -o unfinished.html)" = 0 ] || fail "an unfinished study: $(<stderr)"
 [ ! -e unfinished/report.html ] || fail "a page where none was asked for"
 
+# Files of others are those that the table of their folder names.
+grep -oE '`(uPlot[^`]*)`.*`([0-9a-f]{64})`' "$2/app/browser/vendor/README.md" | sed -E 's/^`([^`]*)`.*`([0-9a-f]{64})`$/\2  \1/' >hashes
+[ "$(wc -l <hashes)" = 2 ] || fail "the table of files of others: $(<hashes)"
+(cd "$2/app/browser/vendor" && sha256sum --quiet --check "$work/hashes") || fail "a file of others is another one"
+
 # Names are text.
 make_sweep hostile --set "/name=$(printf '%s' "$hostile_name" | sed 's/"/\\"/g; s/^/"/; s/$/"/')" --set /study/points=3
 [ "$(code_of "$epicyclic" report hostile -o hostile.html)" = 0 ] || fail "a hostile name: $(<stderr)"
