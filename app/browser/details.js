@@ -140,7 +140,7 @@ export function sectionFigure(section, first, last, colour) {
       range: () => padded(extent(values(yc))),
       draw: (context, place) => {
         const [xs, ys] = [values(xc), values(yc)];
-        const radius = (xs.length > 400 ? 1.4 : 2.2) * place.ratio;
+        const radius = (xs.length > 400 ? 1.4 : xs.length > 12 ? 2.2 : 3.5) * place.ratio;
         for (let i = 0; i < xs.length; ++i) dot(context, place.x(xs[i]), place.y(ys[i]), radius, colour());
       },
     },
@@ -314,18 +314,7 @@ export function pointDetails(diagram, line, row) {
   const index = table.numbers('point')[row];
   const value = table.numbers('value')[row];
   const colour = () => theme().classes[Math.max(0, line.classes[row])];
-  const has = (name) => table.has(name) && valueText(table, name, row) !== '';
-  const facts = [['Regime', diagram.regimeWords(line, row)]];
-  if (has('evidence')) facts.push(['Evidence', capital(table.word('evidence', row))]);
-  if (has('message')) facts.push(['Message', table.word('message', row)]);
-  for (const [name, words] of [
-    ['lyapunov_max', 'Largest Lyapunov exponent λ_1'],
-    ['multiplier_max', 'Largest Floquet multiplier, modulus'],
-    ['orbit_error', 'Error bound of the orbit'],
-    ['zero_one', 'K of the 0-1 test'],
-    ['classified_periods', 'Integrated to classify'],
-  ])
-    if (has(name)) facts.push([words, valueText(table, name, row)]);
+  const facts = [['Regime', diagram.regimeWords(line, row)], ...factsOf(table, row)];
   const made = element(
     'div',
     {},
@@ -428,11 +417,34 @@ export function specialDetails(diagram, point) {
   );
 }
 
-/// Everything of a row of any table.
-export function rowDetails(table, row, title) {
-  const made = element('div', {}, element('h3', { text: title }));
+/// What stands first of a point: evidence, exponent, multiplier, errors.
+function factsOf(table, row) {
+  const words = [
+    ['evidence', 'Evidence'],
+    ['message', 'Message'],
+    ['lyapunov_max', 'Largest Lyapunov exponent λ_1'],
+    ['multiplier_max', 'Largest Floquet multiplier, modulus'],
+    ['orbit_error', 'Error bound of the orbit'],
+    ['zero_one', 'K of the 0-1 test'],
+    ['classified_periods', 'Integrated to classify'],
+  ];
+  return words
+    .filter(([name]) => table.has(name) && valueText(table, name, row) !== '')
+    .map(([name, text]) => [text, capital(valueText(table, name, row))]);
+}
+
+/// A row of any table: what stands first of it and its meshes, or else everything.
+export function rowDetails(table, row, title, lead) {
+  const facts = factsOf(table, row);
   const meshes = meshTables(table, row);
-  made.append(element('div', { class: 'scroll' }, allValues(table, row)));
-  if (meshes) made.append(meshes);
-  return made;
+  const all = element('div', { class: 'scroll' }, allValues(table, row));
+  return element(
+    'div',
+    {},
+    element('h3', { text: title }),
+    lead ? element('p', { text: lead }) : null,
+    facts.length > 0 ? tableOf(null, facts) : null,
+    meshes,
+    meshes ? element('details', {}, element('summary', { text: 'All values' }), all) : all,
+  );
 }

@@ -240,10 +240,18 @@ export class Diagram {
 
   // ---- drawing --------------------------------------------------------------------------------------------------
 
+  /// Which of the colours a line has that is not coloured by regime. Branches over a sweep have those that no regime has.
+  seriesOf(line) {
+    if (line.branch === undefined) return this.lines.indexOf(line) % 10;
+    const apart = [4, 7, 9, 8, 5];
+    const place = this.lines.filter(({ branch }) => branch !== undefined).indexOf(line);
+    return this.lines.some(({ classes }) => classes) ? apart[place % apart.length] : place % 10;
+  }
+
   colour(line, row) {
-    if (line.branch !== undefined) return theme().series[(line.branch + 1) % 10];
+    if (line.branch !== undefined) return theme().series[this.seriesOf(line)];
     if (this.colourBy === 'regime') return theme().classes[line.classes[row]];
-    return theme().series[this.lines.indexOf(line) % 10];
+    return theme().series[this.seriesOf(line)];
   }
 
   draw(context, place) {
@@ -255,7 +263,7 @@ export class Diagram {
       if (!line.shown || line.branch !== undefined) continue;
       const xs = this.x(line);
       const section = this.section(line);
-      const own = theme().classes.length + (this.lines.indexOf(line) % 10);
+      const own = theme().classes.length + this.seriesOf(line);
       const colourOf = (row) => (this.colourBy === 'regime' ? line.classes[row] : own);
       if (section) {
         for (const row of line.rows) {
@@ -287,7 +295,8 @@ export class Diagram {
       this.drawBars(context, place, this.quantity.name, factor);
     for (const line of this.lines)
       if (line.shown && line.branch !== undefined) this.drawBranch(context, place, line, factor);
-    for (const point of this.special) this.drawSpecial(context, place, point);
+    const labels = [];
+    for (const point of this.special) this.drawSpecial(context, place, point, labels);
     this.drawChosen(context, place, (line, row) => {
       const section = this.section(line);
       if (section)
@@ -353,13 +362,21 @@ export class Diagram {
     }
   }
 
-  drawSpecial(context, place, point) {
+  /// @param labels  places of labels that are drawn already: none is drawn over another
+  drawSpecial(context, place, point, labels) {
     for (const [x, y] of this.placesOf(point)) {
       const [px, py] = [place.x(x), place.y(y)];
       dot(context, px, py, 4 * place.ratio, theme().paper, theme().ink);
-      context.fillStyle = theme().ink;
+      const text = specialName(point.kind)[0];
+      const [wide, tall] = [20 * place.ratio, 13 * place.ratio];
+      if (labels.some(([a, b]) => Math.abs(a - px) < wide && Math.abs(b - py) < tall)) continue;
+      labels.push([px, py]);
       context.font = `${11 * place.ratio}px system-ui, sans-serif`;
-      context.fillText(specialName(point.kind)[0], px + 6 * place.ratio, py - 6 * place.ratio);
+      context.lineWidth = 3 * place.ratio;
+      context.strokeStyle = theme().paper;
+      context.strokeText(text, px + 6 * place.ratio, py - 6 * place.ratio);
+      context.fillStyle = theme().ink;
+      context.fillText(text, px + 6 * place.ratio, py - 6 * place.ratio);
     }
   }
 
@@ -405,7 +422,7 @@ export class Diagram {
         );
         continue;
       }
-      const own = theme().classes.length + (this.lines.indexOf(line) % 10);
+      const own = theme().classes.length + this.seriesOf(line);
       for (const row of line.rows)
         if (line.classes?.[row] !== -1)
           raster.add(xs[row], values[row], line.classes && this.colourBy === 'regime' ? line.classes[row] : own);
@@ -686,7 +703,15 @@ export class Diagram {
         checked: true,
         onchange: () => ((line.shown = box.checked), this.redraw()),
       });
-      return element('label', { class: 'toggle' }, box, several ? `${line.study.label}: ${line.name}` : line.name);
+      const swatch =
+        line.branch === undefined ? null : element('span', { class: `swatch series${this.seriesOf(line)}` });
+      return element(
+        'label',
+        { class: 'toggle' },
+        box,
+        swatch,
+        several ? `${line.study.label}: ${line.name}` : line.name,
+      );
     });
     return element(
       'div',
@@ -723,10 +748,7 @@ export class Diagram {
       });
     else
       swept.forEach((line) =>
-        item(
-          `series${this.lines.indexOf(line) % 10}`,
-          this.studies.length > 1 ? `${line.study.label}: ${line.name}` : line.name,
-        ),
+        item(`series${this.seriesOf(line)}`, this.studies.length > 1 ? `${line.study.label}: ${line.name}` : line.name),
       );
     const lost = swept.reduce((sum, { rows, classes }) => sum + rows.filter((row) => classes[row] === -1).length, 0);
     if (lost > 0) item('none', `not reached and not drawn: ${lost}`);
@@ -743,7 +765,7 @@ export class Diagram {
     return element('p', {
       class: 'hint',
       text:
-        'Drag to zoom; turn the wheel to zoom, with Alt along the ordinate; drag with Shift to pan; double-click to show all. ' +
+        'Drag to zoom; use the wheel to zoom, with Alt along the ordinate; drag with Shift to pan; double-click to show all. ' +
         'Keys in the diagram: ← → next point, ↑ ↓ other direction or branch, + − zoom, Shift ← → pan, 0 all.',
     });
   }

@@ -78,14 +78,20 @@ export class Plane {
     if (this.chosen >= 0) {
       const [i, j] = [this.chosen % this.xs.length, Math.floor(this.chosen / this.xs.length)];
       const [wide, tall] = [(x1 - x0) / this.xs.length, (y1 - y0) / this.ys.length];
-      context.strokeStyle = theme().mark;
-      context.lineWidth = 2 * place.ratio;
-      context.strokeRect(
-        place.x(x0 + i * wide),
-        place.y(y0 + (j + 1) * tall),
-        place.x(wide) - place.x(0),
-        place.y(0) - place.y(tall),
-      );
+      // In two colours, of which one is seen on any cell.
+      for (const [colour, width] of [
+        [theme().paper, 5],
+        [theme().mark, 2],
+      ]) {
+        context.strokeStyle = colour;
+        context.lineWidth = width * place.ratio;
+        context.strokeRect(
+          place.x(x0 + i * wide),
+          place.y(y0 + (j + 1) * tall),
+          place.x(wide) - place.x(0),
+          place.y(0) - place.y(tall),
+        );
+      }
     }
   }
 
@@ -121,8 +127,7 @@ export class Plane {
     if (row === undefined || row < 0) return;
     this.chosen = cell;
     const index = this.table.numbers('point')[row];
-    const made = rowDetails(this.table, row, `Cell ${index}`);
-    made.firstChild.after(element('p', { text: this.words(cell).replace(/\n/g, '; ') }));
+    const made = rowDetails(this.table, row, `Cell ${index}`, this.words(cell).replace(/\n/g, '; '));
     if (this.study.table('attractors.csv') && this.table.has('attractor')) {
       const all = this.study.table('attractors.csv');
       const found = Array.from(all.numbers('attractor')).indexOf(this.table.numbers('attractor')[row]);
@@ -220,7 +225,7 @@ export class Plane {
           (this.legendHost = element('div')),
           element('p', {
             class: 'hint',
-            text: 'Drag to zoom; turn the wheel to zoom, with Alt along the ordinate; double-click to show all. Arrow keys go from cell to cell.',
+            text: 'Drag to zoom; use the wheel to zoom, with Alt along the ordinate; double-click to show all. Arrow keys go from cell to cell.',
           }),
         ),
         this.details,
@@ -261,6 +266,7 @@ export class Plane {
     } else if (this.quantity.form === 'attractors') {
       const all = this.table.numbers('attractor');
       const names = [...new Set(rows.map((row) => all[row]))].sort((a, b) => a - b);
+      const repeated = names.length > 10 ? element('li', { text: 'Colours repeat after ten attractors.' }) : null;
       this.legendHost.replaceChildren(
         element(
           'ul',
@@ -271,6 +277,7 @@ export class Plane {
               name > 0 ? `attractor ${name}: ${counted(rows.filter((row) => all[row] === name).length)}` : 'none',
             ),
           ),
+          repeated,
         ),
       );
     } else {

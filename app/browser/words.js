@@ -41,7 +41,7 @@ export function factorOf(unit) {
 }
 
 export function unitText(unit) {
-  if (!unit || unit === '1') return '';
+  if (!unit || unit === '1' || unit.startsWith('of the ')) return '';
   if (unit === 'b_c') return lengthUnit.micrometres ? 'µm' : 'b_c';
   return unit
     .replace(/\bum\b/g, 'µm')
@@ -79,7 +79,8 @@ export function symbol(name) {
   if (!found) return '';
   // Without a number: of planet 1, or of all planets.
   const planet = found[3] ?? (['delta', 'force', 'load_sharing'].includes(found[1]) ? '1' : '');
-  return `${letters[found[1]]}_${found[2]}${planet && `,${planet}`}`;
+  const letter = letters[found[1]];
+  return `${letter}${letter.includes('_') ? ',' : '_'}${found[2]}${planet && `,${planet}`}`;
 }
 
 /// The label of an axis: "RMS of δ_sp,1 [µm]".
