@@ -417,6 +417,14 @@ export function specialDetails(diagram, point) {
   );
 }
 
+/// Puts what was chosen beside the figure. Screen readers say its heading and its first line, and not all of it.
+export function showDetails(place, made) {
+  const said = ['h3', 'p'].map((tag) => made.querySelector(tag)?.textContent ?? '').join('. ');
+  const status = place.querySelector('[role=status]') ?? element('p', { role: 'status', class: 'unseen' });
+  place.replaceChildren(status, made);
+  status.textContent = said;
+}
+
 /// What stands first of a point: evidence, exponent, multiplier, errors.
 function factsOf(table, row) {
   const words = [

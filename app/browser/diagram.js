@@ -3,7 +3,7 @@
 import { Panel, Raster, View, dot, rangeOf, strokeLine } from './panel.js';
 import { theme } from './theme.js';
 import { axisLabel, capital, element, factorOf, lengthUnit, number, symbol, unitText, withError } from './words.js';
-import { orbitDetails, pointDetails, specialDetails } from './details.js';
+import { orbitDetails, pointDetails, showDetails, specialDetails } from './details.js';
 
 export const classNames = [
   'period 1',
@@ -498,12 +498,13 @@ export class Diagram {
   choose(found) {
     if (!found) return;
     if (found.special) {
-      this.details.replaceChildren(specialDetails(this, found.special));
+      showDetails(this.details, specialDetails(this, found.special));
       return;
     }
     this.chosen = { line: found.line, row: found.row };
     const { line, row } = this.chosen;
-    this.details.replaceChildren(
+    showDetails(
+      this.details,
       line.branch === undefined ? pointDetails(this, line, row) : orbitDetails(this, line, row),
     );
     const x = this.x(line)[row];
@@ -560,7 +561,7 @@ export class Diagram {
     this.view = new View(this.full());
     this.details = element(
       'section',
-      { class: 'details', 'aria-live': 'polite', 'aria-label': 'The chosen point' },
+      { class: 'details', 'aria-label': 'The chosen point' },
       element('p', {
         class: 'hint',
         text: 'Choose a point of the diagram: click on it, or use the arrow keys in the diagram.',

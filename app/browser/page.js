@@ -180,7 +180,7 @@ function partOf(group, header) {
           text: `This study is not complete: ${study.progress}. Repeat its command to complete it.`,
         }),
       );
-    for (const warning of study.warnings) part.append(element('p', { class: 'warning', text: `Warning: ${warning}` }));
+    for (const warning of study.warnings) part.append(element('p', { class: 'warning', text: capital(warning) }));
   }
   const host = element('div', { class: 'figures' });
   part.append(host);

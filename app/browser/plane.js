@@ -3,7 +3,7 @@ import { Panel, View } from './panel.js';
 import { rgb, shade, theme } from './theme.js';
 import { axisLabel, element, factorOf, number, unitText } from './words.js';
 import { classNames, classesOf } from './diagram.js';
-import { commandLine, rowDetails, shellWord } from './details.js';
+import { commandLine, rowDetails, shellWord, showDetails } from './details.js';
 
 export class Plane {
   constructor(study, host) {
@@ -139,7 +139,7 @@ export class Plane {
         `epicyclic run --from ${shellWord(`${this.study.folder}:${index}`)} -o ${shellWord(`cell_${index}`)}`,
       ),
     );
-    this.details.replaceChildren(made);
+    showDetails(this.details, made);
     this.panel.redraw();
   }
 
@@ -169,7 +169,7 @@ export class Plane {
     this.view = new View(edges(this.xs));
     this.details = element(
       'section',
-      { class: 'details', 'aria-live': 'polite', 'aria-label': 'The chosen cell' },
+      { class: 'details', 'aria-label': 'The chosen cell' },
       element('p', { class: 'hint', text: 'Choose a cell: click on it, or use the arrow keys in the figure.' }),
     );
     const figure = element('div', {

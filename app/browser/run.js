@@ -253,4 +253,4 @@ export class Run {
   }
 }
 
-export const titleOfTable = (table) => capital(table.title || table.name);
+export const titleOfTable = (table) => (table.title ? `${capital(table.title)} (${table.name})` : table.name);

@@ -41,7 +41,6 @@ try {
     expect((await page.value('document.body.dataset.state')) === 'ready', 'the sweep is not shown');
     expect((await page.value("document.querySelectorAll('.panel').length")) >= 2, 'panels of the sweep');
     const all = await picture(page);
-    const [left, top, width, height] = await over(page);
 
     // Keys: a point is chosen, the next one is further along the axis.
     await page.value("document.querySelector('.figure').focus()");
@@ -66,6 +65,9 @@ try {
     ])
       expect((await details(page)).includes(word), `the chosen point has no ${word}`);
     const chosen = await picture(page);
+    const said = await page.value("document.querySelector('.details [role=status]').textContent");
+    expect(/^Point \d+, (up|down)\. Ω = /.test(said), `a screen reader says '${said}'`);
+    const [left, top, width, height] = await over(page);
 
     // Zoom by keys, by a drag and by the wheel, and all of it again.
     await page.key('+', '+');
