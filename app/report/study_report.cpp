@@ -34,10 +34,9 @@
 #include "store/manifest.hpp"
 #include "store/point_columns.hpp"
 #include "store/point_store.hpp"
-#include "studies/known_motions.hpp"
 #include "studies/named_parameters.hpp"
 #include "studies/plane_options.hpp"
-#include "studies/short_history.hpp"
+#include "sweep_records.hpp"
 
 namespace epicyclic::app {
 
@@ -49,11 +48,6 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Bytes of a study's columns before they are deflated: what is beyond is left out of the page, which says so.
 constexpr std::size_t table_bytes_max = std::size_t{6} << 20;
-constexpr std::size_t section_bytes_max = std::size_t{6} << 20;
-/// Histories that are computed from the stored states of a sweep, one for each point.
-constexpr int history_periods = 4;
-constexpr int history_phases = 32;
-constexpr std::size_t history_bytes_max = std::size_t{3} << 20;
 /// Tables of at most so many rows keep their numbers to the last bit.
 constexpr std::size_t exact_rows_max = 4096;
 
@@ -531,16 +525,11 @@ class StudyReport {
     if (section.columns.empty() || section.columns.front().empty()) return;
     const std::size_t rows = section.columns.front().size();
     ReportTable table("section", "Poincaré points", rows);
-    std::size_t bytes = 0;
-    std::size_t left = 0;
-    for (std::size_t k = 0; k < section.names.size(); ++k) {
-      if (bytes + 2 * rows > section_bytes_max) {
-        ++left;
-        continue;
-      }
-      bytes += 2 * rows;
-      table.add(data_.numbers(section_column(section.names[k]), section.columns[k], ReportData::Form::quantised));
-    }
+    const std::vector<bool> kept = kept_columns(section.names, rows, SweepRecordLimits().section);
+    for (std::size_t k = 0; k < section.names.size(); ++k)
+      if (kept[k])
+        table.add(data_.numbers(section_column(section.names[k]), section.columns[k], ReportData::Form::quantised));
+    const auto left = static_cast<std::size_t>(std::ranges::count(kept, false));
     tables_.push_back(std::move(table));
     ReportTable starts("section_starts", "", section.starts.size());
     starts.add(data_.numbers({"start", "1", ""}, section.starts, ReportData::Form::uint32));
@@ -555,107 +544,56 @@ class StudyReport {
                             counted(left, "columns", "column")));
   }
 
-  /// Columns of short histories, those of one point behind those of another; not a number of a point without one.
-  struct Histories {
-    static constexpr std::size_t rows = static_cast<std::size_t>(history_periods) * history_phases + 1;
-    std::array<std::vector<double>, studies::ShortHistory::names.size()> columns;
-    std::size_t points = 0;
-    bool any = false;
-
-    void add(const studies::PointResult& r, const std::optional<model::DynamicModel>& model, std::size_t dimension,
-             const integrate::IntegratorOptions& integrator) {
-      const std::vector<double> state = model ? studies::state_on(r, dimension) : std::vector<double>();
-      if (state.empty() || 2 * columns.size() * rows * (points + 1) > history_bytes_max) return;
-      const auto history = studies::short_history(*model, state, integrator, history_periods, history_phases);
-      if (!history) return;
-      any = true;
-      for (std::size_t k = 0; k < columns.size(); ++k)
-        columns[k].insert(columns[k].end(), history->columns[k].begin(), history->columns[k].end());
-    }
-
-    void end_point() {
-      ++points;
-      if (2 * columns.size() * rows * points <= history_bytes_max)
-        for (auto& column : columns) column.resize(rows * points, nan);
-    }
-  };
-
-  void add_histories(const Histories& histories) {
-    if (!histories.any) return;
-    ReportTable table("histories", "", histories.columns.front().size());
-    for (std::size_t k = 0; k < histories.columns.size(); ++k) {
+  void add_histories(const SweepRecords& records) {
+    if (!records.any_history) return;
+    ReportTable table("histories", "", records.histories.front().size());
+    for (std::size_t k = 0; k < records.histories.size(); ++k) {
       const std::string name(studies::ShortHistory::names[k]);
       ReportColumn column = section_column(name);
       if (name.starts_with("force_"))
         column = {name, "N",
                   fmt::format("force of {} mesh 1", name.starts_with("force_sp") ? "sun-planet" : "ring-planet")};
-      table.add(data_.numbers(column, histories.columns[k], ReportData::Form::quantised));
+      table.add(data_.numbers(column, records.histories[k], ReportData::Form::quantised));
     }
     tables_.push_back(std::move(table));
-    study_["history"] = {{"periods", history_periods}, {"phases", history_phases}};
+    study_["history"] = {{"periods", SweepRecords::periods}, {"phases", SweepRecords::phases}};
     leave_out(fmt::format(
         "Histories of more than {} mesh periods, and of meshes of other planets: `epicyclic run --from` computes them.",
-        history_periods));
-    if (const std::size_t points = histories.columns.front().size() / Histories::rows; points < histories.points)
+        SweepRecords::periods));
+    if (records.points_of_histories < records.points())
       leave_out(fmt::format("Histories behind the first {}: they would make this file too large.",
-                            counted(points, "points", "point")));
+                            counted(records.points_of_histories, "points", "point")));
   }
 
-  /// Deflections, and their rates of planet 1, which are computed from the stored states.
+  void add_spectra(const SweepRecords& records) {
+    if (records.orders == 0) return;
+    ReportTable table("spectra", "", records.spectra.size());
+    table.add(data_.numbers({"log10_amplitude", "1", ""}, records.spectra, ReportData::Form::quantised));
+    tables_.push_back(std::move(table));
+    study_["spectrum"] = {
+        {"orders", records.orders}, {"resolution", records.resolution}, {"periods", studies::spectrum_periods}};
+    if (records.points_of_spectra < records.points())
+      leave_out(fmt::format("Spectra behind the first {}: they would make this file too large.",
+                            counted(records.points_of_spectra, "points", "point")));
+  }
+
   Section section_of_sweep() {
-    Section section;
     const bool same = identity_of(input_, input_.study.kind()) == run_["identity"].get<std::string>();
-    const studies::ModelAtPoint model_at = same ? input::model_at_point(input_) : studies::ModelAtPoint();
     const studies::SweepPlan plan = input::plan_of(input_.study);
-    Histories histories;
-    std::vector<double> spectra;
-    std::size_t orders = 0;
-    double resolution = 0.0;
-    for (const std::size_t point : points_) {
-      stop_here_();
-      const studies::PointResult r = store_->read(point);
-      const std::size_t planets = r.meshes.sun_planet.size();
-      if (section.names.empty() && r.poincare_rows() > 0) {
-        for (const char* mesh : {"delta_sp_", "delta_rp_"})
-          for (std::size_t i = 1; i <= planets; ++i) section.names.push_back(mesh + std::to_string(i));
-        if (same) section.names.insert(section.names.end(), {"delta_sp_1_rate", "delta_rp_1_rate"});
-        section.columns.resize(section.names.size());
-      }
-      const std::size_t deflections = 2 * planets;
-      if (r.poincare_rows() > 0 && r.poincare_columns > deflections) {
-        const std::size_t dimension = r.poincare_columns - deflections;
-        std::optional<model::DynamicModel> model;
-        if (same) model = model_at(plan.points[point]);
-        histories.add(r, model, dimension, input_.study.integrator);
-        model::MeshDeflections d;
-        for (std::size_t k = 0; k < r.poincare_rows(); ++k) {
-          const double* row = r.poincare.data() + k * r.poincare_columns;
-          for (std::size_t j = 0; j < deflections; ++j) section.columns[j].push_back(row[dimension + j]);
-          if (!model) continue;
-          model->deflections(0.0, row, d);
-          section.columns[deflections].push_back(d.sun_planet_rate.front());
-          section.columns[deflections + 1].push_back(d.ring_planet_rate.front());
-        }
-      }
-      histories.end_point();
-      section.starts.push_back(section.columns.empty() ? 0.0 : static_cast<double>(section.columns.front().size()));
-      if (orders == 0 && !r.spectrum.empty()) {
-        orders = r.spectrum.size();
-        resolution = r.spectrum_resolution;
-        spectra.assign(orders * (section.starts.size() - 2), nan);
-      }
-      for (std::size_t k = 0; k < orders; ++k)
-        spectra.push_back(k < r.spectrum.size() && r.spectrum[k] > 0.0 ? std::log10(r.spectrum[k]) : nan);
-    }
-    if (orders > 0) {
-      ReportTable table("spectra", "", spectra.size());
-      table.add(data_.numbers({"log10_amplitude", "1", ""}, spectra, ReportData::Form::quantised));
-      tables_.push_back(std::move(table));
-      study_["spectrum"] = {{"orders", orders}, {"resolution", resolution}, {"periods", studies::spectrum_periods}};
-    }
-    add_histories(histories);
-    if (!same) leave_out("Rates at the Poincaré points: another version of the numerics computed this study.");
-    return section;
+    std::function<model::DynamicModel(std::size_t)> model_at;
+    if (same)
+      model_at = [&plan, at = input::model_at_point(input_)](std::size_t point) { return at(plan.points[point]); };
+    else
+      leave_out("Rates at the Poincaré points, and histories: another version of the numerics computed this study.");
+    SweepRecords records = sweep_records(
+        points_, [this](std::size_t point) { return store_->read(point); }, model_at, input_.study.integrator,
+        stop_here_);
+    add_spectra(records);
+    add_histories(records);
+    if (static_cast<std::size_t>(input_.study.recording().recorded_periods) > records.rows_of_a_point)
+      leave_out(fmt::format("Poincaré points behind the first {} of each point of the sweep: poincare.csv has them.",
+                            records.rows_of_a_point));
+    return {std::move(records.names), std::move(records.section), std::move(records.starts)};
   }
 
   /// Of one operating point all columns, of branches the deflections.
