@@ -5,6 +5,7 @@ import { Diagram } from './diagram.js';
 import { Plane } from './plane.js';
 import { Run, titleOfTable } from './run.js';
 import { commandLine } from './details.js';
+import { chartOf, hasUsualChart } from './chart.js';
 
 const kindWords = new Map(
   Object.entries({
@@ -50,8 +51,16 @@ function figuresOf(group, host) {
     basins: 'points.csv',
     run: 'points.csv',
   };
-  if (kinds[study.kind] && group.some((one) => one.table(needed[one.kind])?.rows > 0)) kinds[study.kind]();
-  else
+  const drawn = kinds[study.kind] && group.some((one) => one.table(needed[one.kind])?.rows > 0);
+  if (drawn) kinds[study.kind]();
+  const charts = group
+    .flatMap((one) => {
+      const labels = { value: one.parameter.label, first: one.parameter.label, second: one.second_parameter?.label };
+      return one.tables.filter(hasUsualChart).map((table) => chartOf(table, `${titleOfTable(table)}.`, labels));
+    })
+    .filter(Boolean);
+  if (charts.length > 0) host.append(element('div', { class: 'grid' }, charts));
+  else if (!drawn)
     host.append(
       element('p', { class: 'hint', text: 'This report draws no figure of this study. Its tables are below.' }),
     );
@@ -124,6 +133,8 @@ function tableShown(table) {
       rows(),
     );
     grid.classList.add('rows');
+    const chart = chartOf(table, 'Any two columns of this table.');
+    if (chart) place.before(chart);
     place.append(grid);
     if (table.rows > rowsShown)
       place.append(

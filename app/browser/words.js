@@ -86,7 +86,7 @@ export function symbol(name) {
 /// The label of an axis: "RMS of δ_sp,1 [µm]".
 export function axisLabel(column) {
   const unit = unitText(column.unit);
-  const meaning = capital(column.meaning || column.name);
+  const meaning = capital(column.meaning) || column.name;
   const words = symbol(column.name) || (meaning.length > 44 ? column.name : meaning);
   return unit ? `${words}  [${unit}]` : words;
 }

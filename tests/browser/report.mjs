@@ -1,6 +1,6 @@
 // node report.mjs CHROMIUM FOLDER
 //
-// Opens the reports in FOLDER (sweep.html, both.html, map.html, basins.html, run.html, unfinished.html, hostile.html) as a
+// Opens the reports in FOLDER (sweep.html, both.html, map.html, basins.html, run.html, gear.html, unfinished.html, hostile.html) as a
 // reader would: no error, no request, zoom, hover, click, keys, dark, a narrow screen, a PDF.
 import { pathToFileURL } from 'node:url';
 import { join } from 'node:path';
@@ -168,7 +168,7 @@ try {
     );
     clean(page, 'dark');
   }
-  for (const name of ['sweep.html', 'both.html', 'map.html', 'basins.html', 'run.html']) {
+  for (const name of ['sweep.html', 'both.html', 'map.html', 'basins.html', 'run.html', 'gear.html']) {
     const page = await open(name, { width: 390, height: 844 });
     await page.value("document.querySelector('.figure')?.focus()");
     await page.key('ArrowRight');
@@ -213,6 +213,18 @@ try {
       expect(text.includes(word), `run.html: no ${word}`);
     expect((await page.value("document.querySelectorAll('.panel').length")) >= 3, 'panels of the run');
     clean(page, 'run.html');
+  }
+  {
+    // Tables of a stage, and any two columns over each other.
+    const page = await open('gear.html');
+    expect((await page.value("document.querySelectorAll('.panel').length")) >= 5, 'figures of the stage');
+    const before = await picture(page);
+    await page.value(
+      "(() => { const choice = document.querySelectorAll('.choosers select')[1]; choice.selectedIndex = (choice.selectedIndex + 1) % choice.options.length; choice.dispatchEvent(new Event('change')); })()",
+    );
+    await page.frame();
+    expect((await picture(page)) !== before, 'another column is the same picture');
+    clean(page, 'gear.html');
   }
   {
     const page = await open('unfinished.html');

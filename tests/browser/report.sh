@@ -21,6 +21,7 @@ reported both sweep branches
 reported map map
 reported basins basins
 reported run run
+reported gear gear
 reported unfinished unfinished
 reported hostile hostile
 node "$2/tests/browser/report.mjs" "$chromium" "$work/pages" || fail "the pages"

@@ -25,6 +25,7 @@ make_studies() {
   make_sweep hostile --set "/name=$(printf '%s' "$hostile_name" | sed 's/\\/\\\\/g; s/"/\\"/g; s/^/"/; s/$/"/')" --set /study/points=3
   study map "$inputs/tang2020_map.json" -o map --set '/study/directions=["up", "down"]' --set /study/first/points=3 --set /study/second/points=2 "${few[@]}"
   study basins "$inputs/tang2020_basins.json" -o basins --set /study/first/points=3 --set /study/second/points=3
+  study gear "$inputs/tang2020.json" -o gear
   study run "$inputs/tang2020_run.json" -o run --set /study/transient=fixed "${few[@]}" --set /study/exponent_periods=0 \
     --set /study/spectrum_periods=16 --set /study/history_periods=2
   study continue "$inputs/tang2020_branches_fixed_ring.json" -o branches --set /study/from=2.1 --set /study/to=2.3 --set '/study/starts=[2.25]' \
