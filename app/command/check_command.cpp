@@ -1,5 +1,5 @@
-// epicyclic check: validates, prints the resolved input on stdout and its cost on stderr; writes nothing. How long it
-// takes on this machine is measured: points spread over its ranges are computed as the study would compute them.
+// epicyclic check: validates an input and states its cost; writes nothing. How long it takes on this machine is
+// measured: points spread over its ranges are computed as the study would compute them.
 
 #include <string>
 #include <utility>
@@ -65,21 +65,19 @@ void print_operation(const input::LoadedInput& input) {
 int check_command(const Arguments& arguments) {
   const input::LoadedInput input = input::load_input(arguments.input, input::parse_assignments(arguments.sets));
   print_warnings(input);
+  if (arguments.json) print("{}\n", input.resolved.dump(2));
   if (!input.study.has_motion()) {
-    print("{}\n", input.resolved.dump(2));
     tell("{}: valid; a stage alone, for `epicyclic gear`\n", arguments.input.string());
     return done;
   }
   if (!input.study.has_points()) {
     const auto cost_of = input.study.plan.kind()->cost;
     const std::string cost = cost_of != nullptr ? cost_of(input) : "not known";
-    print("{}\n", input.resolved.dump(2));
     tell("{}: valid\ncost: {}\n", arguments.input.string(), cost);
     print_operation(input);
     return done;
   }
   const studies::SweepPlan plan = input::plan_of(input.study);
-  print("{}\n", input.resolved.dump(2));
   tell("{}: valid\n", arguments.input.string());
   TimeLimit limit;
   const studies::RecordingOptions& recording = input.study.recording();

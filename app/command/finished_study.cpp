@@ -19,6 +19,7 @@
 #include "core/csv.hpp"
 #include "core/errors.hpp"
 #include "core/text.hpp"
+#include "input/aliases.hpp"
 #include "input/derived_study.hpp"
 #include "input/json_source.hpp"
 #include "input/study_kind.hpp"
@@ -67,6 +68,7 @@ CsvTable read_table(const std::filesystem::path& file) {
   if (!descriptor.is_open()) throw_output_error(file, "open the file", errno);
   auto table = parse_csv(read_all(descriptor.get(), file));
   if (!table) throw store::DamagedData(file.string() + ": is not a table that this program writes");
+  for (std::string& name : table->columns) name = input::new_column(file.filename().string(), name);
   return *std::move(table);
 }
 
@@ -376,7 +378,8 @@ class Sower {
         const double value = value_of(from, middle);
         if (value >= options_.from && value <= options_.to) {
           take_point(donor, from, middle);
-          if (const double reach = reach_of(from, first, middle, last); reach > 0.0) seeds_.back()["reach"] = reach;
+          if (const double reach = reach_of(from, first, middle, last); reach > 0.0)
+            seeds_.back()["max_distance"] = reach;
         }
       }
       first = last + 1;
@@ -467,7 +470,7 @@ input::LoadedInput with_seeds(const std::filesystem::path& study, const std::vec
   // In the unit of its parameter.
   if (const auto& speed = input.study.axis_speed)
     for (json& seed : resolved["seeds"])
-      for (const char* key : {"value", "reach"})
+      for (const char* key : {"value", "max_distance"})
         if (seed.contains(key)) seed[key] = seed[key].get<double>() * speed->per_ratio;
   return input.with_further(std::array{input::Assignment{"/study", std::move(resolved), "/study, by --from"}});
 }

@@ -10,6 +10,7 @@
 #include "core/atomic_file.hpp"
 #include "core/errors.hpp"
 #include "core/version.hpp"
+#include "input/aliases.hpp"
 #include "input/json_source.hpp"
 #include "input/stage_completion.hpp"
 #include "input/study_kind.hpp"
@@ -36,6 +37,7 @@ void print_differences(const store::OutputFolder& folder, const input::LoadedInp
   input::JsonSource other = input::read_json_file(folder.file("input.resolved.json"));
   // That the study is another one is known from run.json.
   if (!other.complete || !other.value.is_object()) return;
+  input::use_new_names(other.value);
   const nlohmann::json computed = input::computed_values(other.value);
   const std::vector<std::string> lines = store::differences({other.value, computed}, {input.resolved, input.computed});
   if (lines.empty()) tell("  the inputs are the same; the command or the version of its numerics is another one\n");

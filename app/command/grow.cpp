@@ -59,7 +59,7 @@ GrownStudy::GrownStudy(const std::filesystem::path& folder, const input::LoadedI
   if (common == 0)
     throw InputError(where +
                      "this study has none of its points. A point is the same if its values are the same and, with "
-                     "`start` = `carried`, all points before it in its chain" +
+                     "`start` = `continued`, all points before it in its chain" +
                      other_segments(from_.plan(), plan_));
 }
 

@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "core/errors.hpp"
+#include "input/aliases.hpp"
 #include "input/field_table.hpp"
 #include "input/keys.hpp"
 #include "streams.hpp"
@@ -28,6 +29,26 @@ bool speaks_of(const input::KeyLine& key, const std::vector<std::string>& words)
                              [&](const std::string& word) { return text.find(lower(word)) != std::string::npos; });
 }
 
+/// Is each word the old name, or, of words that no key has, a part of it between underscores?
+bool names(const input::Alias& alias, const std::vector<std::string>& words, bool known) {
+  const std::string name = "_" + std::string(alias.old_name) + "_";
+  const std::string pointer = std::string(alias.place) + "/" + std::string(alias.old_name);
+  return !words.empty() && std::ranges::all_of(words, [&](const std::string& word) {
+    const std::string part = "_" + lower(word) + "_";
+    return word == pointer || (known ? name == part : name.find(part) != std::string::npos);
+  });
+}
+
+/// The new names of what the words are the old name of, a line each.
+bool print_new_names(const std::vector<std::string>& words, bool known) {
+  std::vector<std::string> lines;
+  for (const input::Alias& alias : input::aliases())
+    if (std::string line = alias.warning(); names(alias, words, known) && std::ranges::find(lines, line) == lines.end())
+      lines.push_back(std::move(line));
+  for (const std::string& line : lines) print("{}\n", line);
+  return !lines.empty();
+}
+
 }  // namespace
 
 int keys_command(const Arguments& arguments) {
@@ -45,7 +66,7 @@ int keys_command(const Arguments& arguments) {
     any = true;
     print("{}", input::key_text(key));
   }
-  if (any) return done;
+  if (print_new_names(arguments.words, any) || any) return done;
   std::string words;
   for (const std::string& word : arguments.words) words += (words.empty() ? "'" : " and '") + word + "'";
   // Each may be a word, and no key have them all.

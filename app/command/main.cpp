@@ -103,6 +103,7 @@ void add_threads(CLI::App& command, Arguments& arguments, const char* meaning) {
 
 void add_check_options(CLI::App& command, Arguments& arguments) {
   command.add_flag("--no-time", arguments.no_time, "do not estimate the time on this machine");
+  command.add_flag("--json", arguments.json, "print the resolved input: all keys with their values");
   add_threads(command, arguments, "number of threads to estimate the time for");
 }
 
@@ -215,7 +216,7 @@ std::vector<Command> all_commands() {
        Takes::finished, add_plot_options},
       {"report", "write a page of studies for a browser, with diagrams to zoom and points to click; needs no network",
        report_command, Takes::finished, add_report_options},
-      {"check", "validate an input; print it resolved, with its cost and an estimate of the time; write nothing",
+      {"check", "validate an input; state its cost and an estimate of the time; write nothing",
        check_command, Takes::input, add_check_options},
       {"keys", "print the keys of the input with unit, default, bounds and meaning; with WORD only those that have it",
        keys_command, Takes::nothing, add_word_option},

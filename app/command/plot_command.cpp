@@ -17,6 +17,7 @@
 #include "core/errors.hpp"
 #include "finished_study.hpp"
 #include "folder.hpp"
+#include "input/aliases.hpp"
 #include "reports/plot_output.hpp"
 #include "stop.hpp"
 #include "streams.hpp"
@@ -80,6 +81,14 @@ std::vector<figures::Pictures> parse_formats(const std::vector<std::string>& for
   return all.empty() ? std::vector{figures::Pictures::png, figures::Pictures::svg} : all;
 }
 
+/// The name of today of a column that is given by an old one, with a warning.
+std::string column_of_today(const std::string& name) {
+  const input::Alias* alias = input::find_column_alias(name);
+  if (alias == nullptr) return name;
+  tell("warning: {}\n", alias->warning());
+  return std::string(alias->new_name);
+}
+
 /// The folder for the figures; not one that a study lives in, nor one in such a one.
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
@@ -98,7 +107,7 @@ void make_folder(const std::filesystem::path& folder) {
 int plot_command(const Arguments& arguments) {
   const PlotArguments& given = arguments.plot;
   reports::PlotOptions options;
-  options.abscissa = given.abscissa;
+  options.abscissa = column_of_today(given.abscissa);
   if (!given.x_range.empty()) options.x = parse_range("--x-range", given.x_range);
   if (!given.y_range.empty()) options.y = parse_range("--y-range", given.y_range);
   if (given.logarithmic && options.y && !(options.y->low > 0.0))
@@ -123,8 +132,8 @@ int plot_command(const Arguments& arguments) {
   std::vector<std::string> quantities = given.quantities;
   if (quantities.empty()) quantities.emplace_back();
   std::vector<reports::PlotOptions> plots;
-  for (std::string& quantity : quantities) {
-    options.quantity = std::move(quantity);
+  for (const std::string& quantity : quantities) {
+    options.quantity = column_of_today(quantity);
     plots.push_back(reports::sound_options(studies, options));
   }
   make_folder(arguments.output);

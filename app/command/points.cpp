@@ -183,8 +183,8 @@ void print_result(const Arguments& arguments, std::string_view noun, const Compu
                             {"points", points.count},
                             {"failed", failed},
                             {"regimes", regimes},
-                            {"pulling", doubts.tensile},
-                            {"unsettled", doubts.unsettled},
+                            {"tensile_force", doubts.tensile},
+                            {"not_converged", doubts.unsettled},
                             {"figures", nlohmann::json::array()}};
   summary.update(written.summary);
   for (const reports::DrawnFigure& figure : written.figures)

@@ -21,9 +21,9 @@ double angle(const OrbitFamily& family, const BranchOrbit& a, const BranchOrbit&
 
 void ContinuationOptions::validate() const {
   require(from < to, "to", to, "> from");
-  require(min_step > 0.0, "least_step", min_step, "> 0");
-  require(first_step >= min_step, "first_step", first_step, ">= least_step");
-  require(max_step >= first_step, "largest_step", max_step, ">= first_step");
+  require(min_step > 0.0, "min_step", min_step, "> 0");
+  require(first_step >= min_step, "first_step", first_step, ">= min_step");
+  require(max_step >= first_step, "max_step", max_step, ">= first_step");
   require(max_tangent_angle > 0.0, "turn", max_tangent_angle, "> 0");
   require(multiplier_change > 0.0, "multiplier_change", multiplier_change, "> 0");
   require(predictor_tolerance > 0.0, "guess_distance", predictor_tolerance, "> 0");

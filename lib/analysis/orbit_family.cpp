@@ -118,7 +118,7 @@ Eigen::MatrixXd without_shift(const OrbitFamily& family, const Eigen::MatrixXd& 
 
 void OrbitFamily::validate() const {
   require(period >= 1, "period", period, ">= 1");
-  require(shooting_intervals >= 1, "pieces", shooting_intervals, ">= 1");
+  require(shooting_intervals >= 1, "shooting_intervals", shooting_intervals, ">= 1");
   require(iterations >= 1, "iterations", iterations, ">= 1");
   require(value_scale > 0.0, "value_scale", value_scale, "> 0");
   require(state_scale > 0.0, "state_scale", state_scale, "> 0");

@@ -406,7 +406,7 @@ void SearchOptions::validate() const {
   require(iterations >= 1, "iterations", iterations, ">= 1");
   require(jumps >= 0, "jumps", jumps, ">= 0");
   require(least_damping > 0.0 && least_damping <= 1.0, "least_damping", least_damping, "in (0, 1]");
-  require(max_step > 0.0, "largest_step", max_step, "> 0");
+  require(max_step > 0.0, "max_step", max_step, "> 0");
   require(map_error >= 0.0, "map_error", map_error, ">= 0");
   require(threads >= 1, "threads", threads, ">= 1");
 }

@@ -52,7 +52,7 @@ void OrbitOptions::validate() const {
   require(iterations >= 1, "iterations", iterations, ">= 1");
   require(residual >= 0.0, "residual", residual, ">= 0");
   require(known >= 0.0, "known", known, ">= 0");
-  require(shooting_intervals >= 1, "pieces", shooting_intervals, ">= 1");
+  require(shooting_intervals >= 1, "shooting_intervals", shooting_intervals, ">= 1");
 }
 
 namespace {

@@ -18,17 +18,38 @@ std::vector<double> uniform_phases(double period, int count) {
   return s;
 }
 
+RecordingPhases::RecordingPhases(const VectorField& field, int count, int refinement) {
+  const double period = period_of(field);
+  std::vector<std::pair<double, SampleKind>> all;
+  const std::vector<double> uniform = uniform_phases(period, count);
+  for (std::size_t j = 0; j < uniform.size(); ++j) {
+    const double before = j == 0 ? 0.0 : uniform[j - 1];
+    for (int k = 1; k < refinement; ++k)
+      all.emplace_back(before + (uniform[j] - before) * k / refinement, k % 2 == 1 ? SampleKind::odd : SampleKind::even);
+    all.emplace_back(uniform[j], SampleKind::uniform);
+  }
+  for (const double b : field.breakpoints) {
+    // The beginning of the period is no sample; the next number above it stands for it, and T for its other side.
+    all.emplace_back(b > 0.0 ? b : std::numeric_limits<double>::min(), SampleKind::jump);
+    if (b > 0.0) all.emplace_back(std::nextafter(b, 0.0), SampleKind::jump);
+  }
+  std::ranges::stable_sort(all, {}, [](const auto& sample) { return sample.first; });
+  for (const auto& [phase, what] : all) {
+    if (!s.empty() && s.back() == phase) continue;  // the uniform one, which comes first
+    s.push_back(phase);
+    kind.push_back(what);
+  }
+}
+
 void StrobeOptions::validate() const {
   require(transient_periods >= 0, "transient_periods", transient_periods, ">= 0");
   require(recorded_periods >= 0, "recorded_periods", recorded_periods, ">= 0");
   require(phases >= 1, "phases", phases, ">= 1");
 }
 
-StrobeProgress::StrobeProgress(std::size_t dimension, double period, const StrobeOptions& options,
+StrobeProgress::StrobeProgress(std::size_t dimension, const StrobeOptions& options, std::vector<double> samples,
                                const integrate::Observer& observer)
-    : options_(options),
-      last_(options.transient_periods + options.recorded_periods),
-      samples_(uniform_phases(period, options.phases)) {
+    : options_(options), last_(options.transient_periods + options.recorded_periods), samples_(std::move(samples)) {
   options.validate();
   see_ = [this, observer](std::size_t j, double s, std::span<const double> y) {
     const auto recorded = static_cast<std::size_t>(carried_ - options_.transient_periods);
@@ -60,7 +81,8 @@ void carry(integrate::Flow& flow, std::span<double> state, StrobeProgress& strob
 
 Strobe strobe(integrate::Flow& flow, std::span<double> state, const StrobeOptions& options,
               const integrate::Observer& observer, const std::function<bool()>& go_on) {
-  StrobeProgress progress(flow.field().dimension, period_of(flow.field()), options, observer);
+  StrobeProgress progress(flow.field().dimension, options, uniform_phases(period_of(flow.field()), options.phases),
+                          observer);
   carry(flow, state, progress, go_on);
   return std::move(progress.result());
 }

@@ -41,6 +41,28 @@ struct PoincareSection {
 /// Uniform values of s over one period, its end included and its beginning not: where the dense output is looked at.
 [[nodiscard]] std::vector<double> uniform_phases(double period, int count);
 
+/// What a sample of a response is for: all samples count for extrema, means are taken over the uniform ones alone.
+enum class SampleKind {
+  uniform,  ///< one of uniform_phases()
+  even,     ///< between two of them, an even multiple of the finest spacing
+  odd,      ///< likewise, an odd multiple: without these the spacing is twice as large
+  jump,     ///< next to a breakpoint, where forces jump
+};
+
+/// Phases of one period at which a response is recorded: `count` uniform ones, `refinement` - 1 between two of them,
+/// and both sides of each breakpoint.
+struct RecordingPhases {
+  std::vector<double> s;  ///< in (0, T], rising
+  std::vector<SampleKind> kind;
+
+  /// @param field       periodic
+  /// @param count       >= 1
+  /// @param refinement  1, or even
+  RecordingPhases(const VectorField& field, int count, int refinement);
+
+  [[nodiscard]] std::size_t size() const { return s.size(); }
+};
+
 struct StrobeOptions {
   int transient_periods = 300;
   int recorded_periods = 128;
@@ -60,11 +82,10 @@ struct Strobe {
 class StrobeProgress {
  public:
   /// @param dimension  of the state
-  /// @param period     of the forcing [units of s]
-  /// @param observer   sees each recorded period at phases j T / phases, j = 1 .. phases (index counts on over the
-  /// periods)
+  /// @param options    `phases` is not used
+  /// @param samples    phases of each recorded period that `observer` sees (index counts on over the periods)
   /// @throws InputError for options out of range
-  StrobeProgress(std::size_t dimension, double period, const StrobeOptions& options,
+  StrobeProgress(std::size_t dimension, const StrobeOptions& options, std::vector<double> samples,
                  const integrate::Observer& observer);
   StrobeProgress(const StrobeProgress&) = delete;  // its observer knows where it is
   StrobeProgress& operator=(const StrobeProgress&) = delete;

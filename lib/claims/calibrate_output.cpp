@@ -41,13 +41,13 @@ std::size_t claims_met(const Evaluation& evaluation) {
 void write_candidates_csv(const std::filesystem::path& file, const CalibrateOutput& output,
                           const KnownEvaluations& evaluations) {
   const ClaimsOptions& options = output.options;
-  std::vector<std::string> columns = {"phase", "number", "cost", "given_up", "claims_met"};
+  std::vector<std::string> columns = {"phase", "number", "cost", "stopped_early", "claims_met"};
   const auto more = candidate_columns(options);
   columns.insert(columns.end(), more.begin(), more.end());
   CsvWriter csv(file, columns);
   for (const auto& [key, c] : evaluations) {
     csv.cell(phase_name(options, key.phase)).cell(key.number).cell(c.evaluation.cost);
-    csv.cell(c.evaluation.given_up ? 1 : 0).cell(claims_met(c.evaluation));
+    csv.cell(c.evaluation.stopped_early ? 1 : 0).cell(claims_met(c.evaluation));
     add_candidate_cells(csv, options, c.u, c.evaluation.claim_costs);
     csv.end_row();
   }
@@ -169,7 +169,8 @@ DrawnFigure draw_determination(const std::filesystem::path& folder, const Calibr
     const FreeParameter& p = space.parameters[k];
     constexpr std::size_t longest = 46;
     const std::string range = fmt::format(": {} to {}", short_text(p.from, 3), short_text(p.to, 3));
-    panel.names.emplace_back(row, row_text(p.words.empty() ? p.name : p.words, longest - range.size()) + range);
+    panel.names.emplace_back(row,
+                             row_text(p.description.empty() ? p.name : p.description, longest - range.size()) + range);
     if (!space.counts(p, options)) continue;
     ranges.insert(ranges.end(), {{0.0, row}, {1.0, row}, {gap, gap}});
     for (const auto& [as_good, stretches] :
@@ -216,16 +217,16 @@ std::string better_text(const CalibrateOutput& output, const Calibration& calibr
 std::string calibrate_summary(const CalibrateOutput& output, const Calibration& calibration) {
   const ClaimsOptions& options = output.options;
   const EvaluatedCandidate& best = calibration.best.value();
-  std::size_t given_up = 0;
+  std::size_t stopped_early = 0;
   std::size_t refused = 0;
   for (const auto& [key, c] : calibration.evaluations) {
-    given_up += c.evaluation.given_up ? 1 : 0;
+    stopped_early += c.evaluation.stopped_early ? 1 : 0;
     refused += c.evaluation.refused.empty() ? 0 : 1;
   }
   std::string text = fmt::format("# Search for what is not published: {}\n\n", output.name);
   text += fmt::format(
       "{} candidates, {} of them given up early, {} refused as no valid stage; seed {}, {} islands of {}.\n\n",
-      calibration.evaluations.size(), given_up, refused, options.search.seed, options.search.islands,
+      calibration.evaluations.size(), stopped_early, refused, options.search.seed, options.search.islands,
       options.search.population);
   if (!calibration.complete) text += "Stopped before its end.\n\n";
   const Evaluation* whole_of_best = calibration.whole();
@@ -271,7 +272,7 @@ std::string calibrate_summary(const CalibrateOutput& output, const Calibration& 
     if (k < options.space.parameters.size()) {
       const FreeParameter& p = options.space.parameters[k];
       range = short_text(p.from, 4) + " to " + short_text(p.to, 4);
-      if (!p.words.empty()) words += ", " + p.words;
+      if (!p.description.empty()) words += ", " + p.description;
     }
     text += fmt::format("| {} | {} | {} | {} | {} |\n", markdown_cell(words), range,
                         markdown_cell(variable_text(options.space, k, best.u[k], 4)),

@@ -58,7 +58,7 @@ class Search {
   [[nodiscard]] std::vector<const EvaluatedCandidate*> ranked_before(std::size_t phase) const {
     std::vector<const EvaluatedCandidate*> all;
     for (const auto& [key, candidate] : run_.known)
-      if (key.phase < phase && !candidate.evaluation.given_up && candidate.evaluation.refused.empty())
+      if (key.phase < phase && !candidate.evaluation.stopped_early && candidate.evaluation.refused.empty())
         all.push_back(&candidate);
     std::ranges::stable_sort(all, {}, [](const EvaluatedCandidate* c) { return c->evaluation.cost; });
     return all;
@@ -98,7 +98,7 @@ struct Phase {
 
   double cost(const std::vector<double>& u) {
     const Evaluation& e = search->evaluate({index, asked++}, u, {{}, give_up_at, thread}).evaluation;
-    return e.given_up ? std::numeric_limits<double>::infinity() : e.cost;
+    return e.stopped_early ? std::numeric_limits<double>::infinity() : e.cost;
   }
 };
 
@@ -198,8 +198,8 @@ bool run_islands(Search& search, const std::vector<std::vector<double>>& first) 
   const bool alone = options.method == SearchMethod::covariance_adaptation;
   if (!each([&](std::size_t k) { islands[k]->begin(k == 0 || alone ? first : nothing, k); })) return false;
   const int generations = generations_of(options);
-  for (int done = 0; done < generations; done += options.exchange) {
-    const int now = std::min(options.exchange, generations - done);
+  for (int done = 0; done < generations; done += options.migration_interval) {
+    const int now = std::min(options.migration_interval, generations - done);
     if (!each([&](std::size_t k) { islands[k]->evolve(now, k); })) return false;
     std::vector<std::pair<std::vector<double>, double>> best;
     for (const auto& island : islands) best.push_back(island->best());

@@ -9,7 +9,7 @@ namespace store::archive {
 template <class A>
 void pass(A& a, claims::Evaluation& e) {
   pass_all(a, e.cost);
-  pass_as<std::uint8_t>(a, e.given_up);
+  pass_as<std::uint8_t>(a, e.stopped_early);
   pass_all(a, e.refused, e.claim_costs);
   std::string holds(e.holds.begin(), e.holds.end());
   pass(a, holds);

@@ -51,11 +51,11 @@ bool asks_for_motions(const ClaimsOptions& options, const ClaimSweep& sweep) {
 }  // namespace
 
 Glance search_glance(const ClaimsOptions& options) {
-  return {options.brief, &ClaimSweep::brief_points, options.search.led_by};
+  return {options.screening, &ClaimSweep::screening_points, options.search.regime_cost};
 }
 
 Glance survey_glance(const ClaimsOptions& options) {
-  return {options.survey.recording, &ClaimSweep::survey_points, SearchLead::motions};
+  return {options.survey.recording, &ClaimSweep::survey_points, SearchLead::regimes};
 }
 
 void screen(const ClaimsOptions& options, const Glance& glance, const SweepModels& models,
@@ -87,7 +87,7 @@ void screen(const ClaimsOptions& options, const Glance& glance, const SweepModel
     results[k].point.value = cells[k].second;
     record[cells[k].first->name].points.push_back(claim_point(results[k], recording, Looked::briefly));
   }
-  if (glance.led_by == SearchLead::motions) return;
+  if (glance.regime_cost == SearchLead::regimes) return;
   for (const ClaimSweep* sweep : sweeps) {
     if (!asks_for_motions(options, *sweep)) continue;
     std::vector<ClaimPoint>& points = record[sweep->name].points;
@@ -142,15 +142,16 @@ Evaluation evaluate(const ClaimsOptions& options, const Glance& glance, const Sw
   Evaluation evaluation = unknown(options);
   const std::vector<const ClaimSweep*> spoken_of = sweeps_spoken_of(options);
   std::set<int> rounds;
-  for (const ClaimSweep* sweep : spoken_of) rounds.insert(sweep->round);
+  for (const ClaimSweep* sweep : spoken_of) rounds.insert(sweep->screening_round);
   ClaimRecord record;
   for (const int round : rounds) {
     if (evaluation.cost >= give_up_at) {
-      evaluation.given_up = true;
+      evaluation.stopped_early = true;
       return evaluation;
     }
     std::vector<const ClaimSweep*> sweeps;
-    std::ranges::copy_if(spoken_of, std::back_inserter(sweeps), [&](const auto* s) { return s->round == round; });
+    std::ranges::copy_if(spoken_of, std::back_inserter(sweeps),
+                         [&](const auto* s) { return s->screening_round == round; });
     screen(options, glance, models, sweeps, thread, stop, record);
     judge_known(options, record, evaluation);
   }

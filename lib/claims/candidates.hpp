@@ -27,7 +27,7 @@ using CandidateModels = std::function<SweepModels(std::span<const double> u)>;
 
 struct Evaluation {
   double cost = std::numeric_limits<double>::infinity();  ///< a lower bound where given up
-  bool given_up = false;
+  bool stopped_early = false;
   std::string refused;              ///< why there are no models: the candidate is none
   std::vector<double> claim_costs;  ///< of each claim; not a number where it was not looked at
   std::vector<char> holds;          ///< of each claim: 1 if it holds, 0 if not, or not known
@@ -36,8 +36,8 @@ struct Evaluation {
 /// A way of looking at candidates: how long, and at how many points of each sweep.
 struct Glance {
   Screening recording;
-  int ClaimSweep::*points = &ClaimSweep::brief_points;
-  SearchLead led_by = SearchLead::motions;
+  int ClaimSweep::*points = &ClaimSweep::screening_points;
+  SearchLead regime_cost = SearchLead::regimes;
 };
 
 /// Of a search, and of a survey.

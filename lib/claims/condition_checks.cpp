@@ -31,9 +31,9 @@ bool is_never_negative(const std::string& quantity) {
 /// The motions that a condition names, each with its key.
 std::vector<std::pair<std::string, std::string>> motion_words(const Condition& c) {
   std::vector<std::pair<std::string, std::string>> words = {
-      {"motion", c.motion}, {"after", c.after}, {"leads_to", c.leads_to}};
+      {"regime", c.regime}, {"regime_after", c.regime_after}, {"leads_to", c.leads_to}};
   std::erase_if(words, [](const auto& word) { return word.second.empty(); });
-  for (std::size_t k = 0; k < c.motions.size(); ++k) words.emplace_back("motions/" + std::to_string(k), c.motions[k]);
+  for (std::size_t k = 0; k < c.regimes.size(); ++k) words.emplace_back("regimes/" + std::to_string(k), c.regimes[k]);
   return words;
 }
 
@@ -83,28 +83,29 @@ void check_condition(ProblemList& problems, const std::string& place, const Cond
     wants(!c.sweeps.empty(), false, false, "sweeps");
     check_sweep_name(problems, place + "/sweep", c.sweep, sweeps);
   }
-  wants(!c.motion.empty(), of({share, count, change}), of({share, count, change, value, jump, decreasing}), "motion");
-  wants(!c.after.empty(), c.kind == change, c.kind == change, "after");
+  wants(!c.regime.empty(), of({share, count, change}), of({share, count, change, value, jump, decreasing}), "regime");
+  wants(!c.regime_after.empty(), c.kind == change, c.kind == change, "regime_after");
   wants(!c.leads_to.empty(), false, c.kind == change, "leads_to");
-  wants(!c.motions.empty(), c.kind == sequence, c.kind == sequence, "motions");
+  wants(!c.regimes.empty(), c.kind == sequence, c.kind == sequence, "regimes");
   wants(!c.within.empty(), c.kind == change, c.kind == change, "within");
-  wants(!c.quantity.empty(), of({value, falls, peaks, jump, decreasing}), of({value, falls, peaks, jump, decreasing}),
-        "quantity");
-  wants(!c.places.empty(), c.kind == peaks, c.kind == peaks, "places");
-  wants(c.correlation.has_value(), false, c.kind == alike, "correlation");
+  wants(!c.quantity.empty(), of({value, reduction, peaks, jump, decreasing}),
+        of({value, reduction, peaks, jump, decreasing}), "quantity");
+  wants(!c.peak_locations.empty(), c.kind == peaks, c.kind == peaks, "peak_locations");
+  wants(c.correlation.has_value(), false, c.kind == agreement, "correlation");
   wants(c.which.has_value(), false, c.kind == change, "which");
   wants(c.statistic.has_value(), false, c.kind == value, "statistic");
-  wants(c.place_tolerance.has_value(), false, c.kind == peaks, "place_tolerance");
+  wants(c.location_tolerance.has_value(), false, c.kind == peaks, "location_tolerance");
   wants(c.prominence.has_value(), false, c.kind == peaks, "prominence");
   const bool bounded = of({share, count, value, variation});
-  wants(c.at_least.has_value(), of({falls, jump, alike}), bounded || of({falls, jump, alike}), "at_least");
+  wants(c.at_least.has_value(), of({reduction, jump, agreement}), bounded || of({reduction, jump, agreement}),
+        "at_least");
   wants(c.at_most.has_value(), false, bounded, "at_most");
   if (bounded && !c.at_least && !c.at_most)
     problems.refuse(place, "needs \"at_least\" or \"at_most\": it bounds nothing");
   if (c.at_least && c.at_most && !(*c.at_least <= *c.at_most))
     problems.refuse(place + "/at_least", "is " + short_text(*c.at_least, 17) + ", must be <= at_most");
   // Parts of 1; beyond them a condition would never hold, or always.
-  if (of({share, alike, variation, jump})) {
+  if (of({share, agreement, variation, jump})) {
     if (c.at_least && !(*c.at_least > 0.0 && *c.at_least <= 1.0))
       problems.refuse(place + "/at_least", "is " + short_text(*c.at_least, 17) + ", must be > 0 and <= 1: a part of 1");
     if (c.at_most && !(*c.at_most >= 0.0 && *c.at_most < 1.0))
@@ -123,7 +124,7 @@ void check_condition(ProblemList& problems, const std::string& place, const Cond
   if (c.kind == count && c.at_least && c.at_most && std::ceil(*c.at_least) > std::floor(*c.at_most))
     problems.refuse(place + "/at_most", "is " + short_text(*c.at_most, 17) + ": no number of points is from " +
                                             short_text(*c.at_least, 17) + " to that");
-  if (c.kind == falls && c.at_least && !(*c.at_least > 1.0)) problems.refuse(place + "/at_least", "must be > 1");
+  if (c.kind == reduction && c.at_least && !(*c.at_least > 1.0)) problems.refuse(place + "/at_least", "must be > 1");
   if (c.kind == value && is_never_negative(c.quantity)) {
     if (c.at_least && !c.at_most && !(*c.at_least > 0.0))
       problems.refuse(place + "/at_least",
@@ -142,12 +143,12 @@ void check_condition(ProblemList& problems, const std::string& place, const Cond
                       "is \"" + word +
                           "\", must be \"period N\", periodic, multi-period, quasiperiodic, chaotic, "
                           "aperiodic, or \"not \" and one of these");
-  for (std::size_t k = 0; k + 1 < c.places.size(); ++k) {
-    const double tolerance = c.place_tolerance.value_or(default_place_tolerance);
-    if (!(c.places[k] * (1.0 + tolerance) < c.places[k + 1] * (1.0 - tolerance)))
-      problems.refuse(place + "/places/" + std::to_string(k + 1),
-                      "is " + short_text(c.places[k + 1], 17) +
-                          ", must lie above the one before it by more than place_tolerance = " +
+  for (std::size_t k = 0; k + 1 < c.peak_locations.size(); ++k) {
+    const double tolerance = c.location_tolerance.value_or(default_location_tolerance);
+    if (!(c.peak_locations[k] * (1.0 + tolerance) < c.peak_locations[k + 1] * (1.0 - tolerance)))
+      problems.refuse(place + "/peak_locations/" + std::to_string(k + 1),
+                      "is " + short_text(c.peak_locations[k + 1], 17) +
+                          ", must lie above the one before it by more than location_tolerance = " +
                           short_text(tolerance, 17) + " of both: one maximum would be counted twice");
   }
 }
@@ -173,7 +174,7 @@ struct PartOfSweep {
       : from(std::max(sweep.axis.from, c.from.value_or(sweep.axis.from))),
         to(std::min(sweep.axis.to, c.to.value_or(sweep.axis.to))) {
     for (const auto& [points, key] :
-         {std::pair(sweep.axis.points, "points"), std::pair(sweep.brief_points, "brief_points"),
+         {std::pair(sweep.axis.points, "points"), std::pair(sweep.screening_points, "screening_points"),
           std::pair(sweep.survey_points, "survey_points")}) {
       if (!grids.empty() && !has_screening(options)) break;
       Axis axis = sweep.axis;
@@ -193,15 +194,15 @@ std::size_t points_needed(const Condition& c) {
   switch (c.kind) {
     case change:
     case variation:
-    case falls:
+    case reduction:
       return 2;
-    case alike:
+    case agreement:
       return c.correlation ? 3 : 1;  // two ranges correlate by 1 or -1, whatever they are
     case peaks:
     case jump:
       return 3;
     case sequence:
-      return c.motions.size();
+      return c.regimes.size();
     case count:
       return static_cast<std::size_t>(std::max(1.0, std::ceil(c.at_least.value_or(1.0))));
     default:
@@ -231,12 +232,13 @@ void check_grid(ProblemList& problems, const std::string& place, const Condition
     }
     if (!any) problems.refuse(place + "/within", "has no middle of two points; " + words + ": it would never hold");
   }
-  const double tolerance = c.place_tolerance.value_or(default_place_tolerance);
-  for (std::size_t k = 0; k < c.places.size(); ++k) {
-    const auto near = [&](double v) { return std::abs(v - c.places[k]) <= tolerance * c.places[k]; };
+  const double tolerance = c.location_tolerance.value_or(default_location_tolerance);
+  for (std::size_t k = 0; k < c.peak_locations.size(); ++k) {
+    const auto near = [&](double v) { return std::abs(v - c.peak_locations[k]) <= tolerance * c.peak_locations[k]; };
     if (there < 3 || std::none_of(grid.values.begin() + 1, grid.values.end() - 1, near))
-      problems.refuse(place + "/places/" + std::to_string(k), "is " + short_text(c.places[k], 17) + ", near which " +
-                                                                  words + " has no point that could be a maximum");
+      problems.refuse(place + "/peak_locations/" + std::to_string(k), "is " + short_text(c.peak_locations[k], 17) +
+                                                                          ", near which " + words +
+                                                                          " has no point that could be a maximum");
   }
 }
 
@@ -275,10 +277,10 @@ void check_part(ProblemList& problems, const std::string& place, const Condition
     return;
   }
   const std::size_t before = problems.count();
-  for (std::size_t k = 0; k < c.places.size(); ++k)
-    if (!(c.places[k] >= part.from && c.places[k] <= part.to && c.places[k] > 0.0))
-      problems.refuse(place + "/places/" + std::to_string(k),
-                      "is " + short_text(c.places[k], 17) + ", must be > 0 and within " + part.text());
+  for (std::size_t k = 0; k < c.peak_locations.size(); ++k)
+    if (!(c.peak_locations[k] >= part.from && c.peak_locations[k] <= part.to && c.peak_locations[k] > 0.0))
+      problems.refuse(place + "/peak_locations/" + std::to_string(k),
+                      "is " + short_text(c.peak_locations[k], 17) + ", must be > 0 and within " + part.text());
   check_counted(problems, place, c, sweep.name, part.grids);
   for (const Grid& grid : part.grids)
     if (problems.count() == before) check_grid(problems, place, c, sweep.name, part.text(), grid);
@@ -300,10 +302,10 @@ void check_looks(ProblemList& problems, const std::string& place, const Conditio
       problems.refuse(place + "/" + key, "is \"" + word + "\", longer than period_max = " +
                                              std::to_string(options.recording.period_max) + ": it is not sought");
     else if (has_screening(options) &&
-             2 * period > std::min(options.brief.recorded_periods, options.survey.recording.recorded_periods))
+             2 * period > std::min(options.screening.recorded_periods, options.survey.recording.recorded_periods))
       problems.refuse(place + "/" + key, "is \"" + word +
                                              "\", which takes twice as many recorded_periods to be seen; " +
-                                             "`brief` or `survey` record fewer");
+                                             "`screening` or `survey` record fewer");
   }
   if (options.recording.classification_periods == 0)
     for (const auto& [key, word] : motion_words(c))
@@ -312,13 +314,13 @@ void check_looks(ProblemList& problems, const std::string& place, const Conditio
             place + "/" + key,
             "is \"" + word +
                 "\", which needs classification_periods > 0: without them, what does not recur is undecided");
-  if (c.kind == ConditionKind::change && is_motion_word(c.motion) && is_motion_word(c.after) &&
-      can_be_both(c.motion, c.after, options.recording.period_max))
-    problems.refuse(place + "/after", "is \"" + c.after + "\", which an attractor that is \"" + c.motion +
-                                          "\" can be, too: nothing would have to change");
-  if (c.kind == ConditionKind::change && is_motion_word(c.motion) && is_motion_word(c.leads_to) &&
-      is_always(c.leads_to, c.motion, options.recording.period_max))
-    problems.refuse(place + "/leads_to", "is \"" + c.leads_to + "\", which every attractor is that is \"" + c.motion +
+  if (c.kind == ConditionKind::change && is_motion_word(c.regime) && is_motion_word(c.regime_after) &&
+      can_be_both(c.regime, c.regime_after, options.recording.period_max))
+    problems.refuse(place + "/regime_after", "is \"" + c.regime_after + "\", which an attractor that is \"" + c.regime +
+                                                 "\" can be, too: nothing would have to change");
+  if (c.kind == ConditionKind::change && is_motion_word(c.regime) && is_motion_word(c.leads_to) &&
+      is_always(c.leads_to, c.regime, options.recording.period_max))
+    problems.refuse(place + "/leads_to", "is \"" + c.leads_to + "\", which every attractor is that is \"" + c.regime +
                                              "\", too: it is not met before that comes back");
   if (c.quantity != "lyapunov_max") return;
   const std::string nobody = "is \"lyapunov_max\", which is not computed with ";
@@ -326,10 +328,10 @@ void check_looks(ProblemList& problems, const std::string& place, const Conditio
     problems.refuse(place + "/quantity", nobody + "classification_periods = 0");
   else if (!has_screening(options))
     return;
-  else if (options.brief.classification_periods == 0)
-    problems.refuse(place + "/quantity", nobody + "`brief/classification_periods` = 0, its default");
+  else if (options.screening.classification_periods == 0)
+    problems.refuse(place + "/quantity", nobody + "`screening/classification_periods` = 0, its default");
   else if (options.survey.recording.classification_periods == 0)
-    problems.refuse(place + "/quantity", nobody + "`survey/look/classification_periods` = 0, its default");
+    problems.refuse(place + "/quantity", nobody + "`survey/screening/classification_periods` = 0, its default");
 }
 
 /// Sweeps are compared at the values that all of them have: by each look half of those of the coarsest at least.

@@ -198,8 +198,8 @@ std::optional<double> number_to_set(const LoadedInput& input, std::span<const Po
                                     const SetValue& set) {
   if (set.value) return set.value;
   for (const PointerValue& v : values)
-    if (v.pointer == set.as) return v.value;
-  return number_at(input, set.as);
+    if (v.pointer == set.same_as) return v.value;
+  return number_at(input, set.same_as);
 }
 
 namespace {

@@ -268,8 +268,8 @@ std::string points_text(std::size_t points, std::string_view did) {
 /// it reads quantities, those whose records were on their way to an orbit.
 std::string doubts_text(const Condition& c, std::span<const ClaimPoint> part) {
   using enum ConditionKind;
-  const bool reads_motions = !c.motion.empty() || !c.motions.empty() || c.kind == variation || c.kind == alike;
-  const bool reads_quantities = !c.quantity.empty() || c.kind == variation || c.kind == alike;
+  const bool reads_motions = !c.regime.empty() || !c.regimes.empty() || c.kind == variation || c.kind == agreement;
+  const bool reads_quantities = !c.quantity.empty() || c.kind == variation || c.kind == agreement;
   std::string text = points_text(failed_in(part), "failed");
   if (reads_motions) text += points_text(number_of(part, is_undecided), "undecided");
   if (reads_quantities)
@@ -304,24 +304,24 @@ void lead(const std::vector<double>& lacking, ConditionOutcome& o) {
 
 void share(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
   const auto n = static_cast<double>(part.size());
-  o.measured = static_cast<double>(std::ranges::count_if(part, [&](const auto& p) { return moves(p, c.motion); })) / n;
+  o.measured = static_cast<double>(std::ranges::count_if(part, [&](const auto& p) { return moves(p, c.regime); })) / n;
   o.error = 0.5 / n;
   o.part_of_one = true;
   judge_bounds(c, o, 1.0);
   judge_failed(c, part, 1.0 / n, o);
-  if (c.at_least && o.measured < *c.at_least) lead(lacks(part, c.motion), o);
-  o.text = number(o.measured * 100.0) + " % " + c.motion + range_text(part) + ", " + bound_text(c, true);
+  if (c.at_least && o.measured < *c.at_least) lead(lacks(part, c.regime), o);
+  o.text = number(o.measured * 100.0) + " % " + c.regime + range_text(part) + ", " + bound_text(c, true);
 }
 
 void count(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
-  o.measured = static_cast<double>(std::ranges::count_if(part, [&](const auto& p) { return moves(p, c.motion); }));
+  o.measured = static_cast<double>(std::ranges::count_if(part, [&](const auto& p) { return moves(p, c.regime); }));
   judge_bounds(c, o, static_cast<double>(part.size()));
   judge_failed(c, part, 1.0, o);
   if (!o.holds && c.at_least && o.measured == 0.0)
-    o.cost = 1.0 - (1.0 - step_of_failure) * best_likeness(part, c.motion);
+    o.cost = 1.0 - (1.0 - step_of_failure) * best_likeness(part, c.regime);
   if (c.at_least && o.measured < *c.at_least)
-    lead(least_lacks(part, c.motion, static_cast<std::size_t>(std::ceil(*c.at_least))), o);
-  o.text = number(o.measured) + (o.measured == 1.0 ? " point " : " points ") + c.motion + range_text(part) + ", " +
+    lead(least_lacks(part, c.regime, static_cast<std::size_t>(std::ceil(*c.at_least))), o);
+  o.text = number(o.measured) + (o.measured == 1.0 ? " point " : " points ") + c.regime + range_text(part) + ", " +
            bound_text(c);
 }
 
@@ -340,8 +340,8 @@ void lead_to_change(const Condition& c, std::span<const ClaimPoint> part, Condit
   };
   const std::span before(part.begin() + (first ? 0 : from(c.within[0] - reach)), part.begin() + from(c.within[0]));
   const std::span after(part.begin() + to(c.within[1]), first ? part.begin() + to(c.within[1] + reach) : part.end());
-  std::vector<double> all = lacks(before, c.motion);
-  const std::vector<double> there = lacks(after, c.leads_to.empty() ? c.after : c.leads_to);
+  std::vector<double> all = lacks(before, c.regime);
+  const std::vector<double> there = lacks(after, c.leads_to.empty() ? c.regime_after : c.leads_to);
   all.insert(all.end(), there.begin(), there.end());
   lead(all, o);
 }
@@ -369,10 +369,10 @@ void change(const Condition& c, std::span<const ClaimPoint> part, ConditionOutco
   std::size_t change_at = 0;
   // Of those within the bounds' neighbourhood a search is led by the nearest; the verdict is on the first or the last.
   for (std::size_t k = 0; k + 1 < part.size(); ++k) {
-    if (!moves(part[k], c.motion) || !moves(part[k + 1], c.after)) continue;
+    if (!moves(part[k], c.regime) || !moves(part[k + 1], c.regime_after)) continue;
     if (!c.leads_to.empty()) {
       bool met = false;
-      for (std::size_t j = k + 1; j < part.size() && !moves(part[j], c.motion); ++j)
+      for (std::size_t j = k + 1; j < part.size() && !moves(part[j], c.regime); ++j)
         met = met || moves(part[j], c.leads_to);
       if (!met) continue;
     }
@@ -381,7 +381,8 @@ void change(const Condition& c, std::span<const ClaimPoint> part, ConditionOutco
     change_at = k;
     if (c.which.value_or(Which::first) == Which::first) break;
   }
-  const std::string words = c.motion + " to " + c.after + (c.leads_to.empty() ? "" : " that leads to " + c.leads_to);
+  const std::string words =
+      c.regime + " to " + c.regime_after + (c.leads_to.empty() ? "" : " that leads to " + c.leads_to);
   const std::string must = ", must be within " + number(c.within[0]) + " to " + number(c.within[1]);
   if (std::isnan(o.measured)) {
     o.cost = 1.0;
@@ -400,32 +401,32 @@ void sequence(const Condition& c, std::span<const ClaimPoint> part, ConditionOut
   std::size_t met = 0;
   std::string text;
   for (const ClaimPoint& p : part)
-    if (met < c.motions.size() && moves(p, c.motions[met])) {
-      text += (met == 0 ? "" : ", ") + c.motions[met] + " at " + number(p.value);
+    if (met < c.regimes.size() && moves(p, c.regimes[met])) {
+      text += (met == 0 ? "" : ", ") + c.regimes[met] + " at " + number(p.value);
       ++met;
     }
   o.measured = static_cast<double>(met);
-  o.holds = met == c.motions.size();
-  o.cost = o.holds ? 0.0 : 1.0 - o.measured / static_cast<double>(c.motions.size());
+  o.holds = met == c.regimes.size();
+  o.cost = o.holds ? 0.0 : 1.0 - o.measured / static_cast<double>(c.regimes.size());
   std::vector<double> lacking;
-  for (const std::string& motion : c.motions)
+  for (const std::string& motion : c.regimes)
     for (const double lack : least_lacks(part, motion, 1)) lacking.push_back(lack);
-  if (lacking.size() == c.motions.size()) lead(lacking, o);
-  o.text = o.holds ? text : text + (text.empty() ? "no " : ", then no ") + c.motions[met];
+  if (lacking.size() == c.regimes.size()) lead(lacking, o);
+  o.text = o.holds ? text : text + (text.empty() ? "no " : ", then no ") + c.regimes[met];
 }
 
 void value(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
   std::vector<double> values;
   for (const ClaimPoint& p : part)
-    if (p.reached && (c.motion.empty() || p.motion.is(c.motion)) && !std::isnan(p.quantity(c.quantity)))
+    if (p.reached && (c.regime.empty() || p.motion.is(c.regime)) && !std::isnan(p.quantity(c.quantity)))
       values.push_back(p.quantity(c.quantity));
   o.measured = none;
   if (!values.empty()) {
-    switch (c.statistic.value_or(Statistic::largest)) {
-      case Statistic::least:
+    switch (c.statistic.value_or(Statistic::max)) {
+      case Statistic::min:
         o.measured = std::ranges::min(values);
         break;
-      case Statistic::largest:
+      case Statistic::max:
         o.measured = std::ranges::max(values);
         break;
       case Statistic::mean:
@@ -435,12 +436,11 @@ void value(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
   const double bound = std::abs(c.at_least.value_or(c.at_most.value_or(0.0)));
   judge_bounds(c, o, std::max(bound, std::numeric_limits<double>::min()));
   // A point that failed can only raise the largest value and only lower the least; the mean it can move either way.
-  const Statistic statistic = c.statistic.value_or(Statistic::largest);
-  const bool could_break =
-      (c.at_most && statistic != Statistic::least) || (c.at_least && statistic != Statistic::largest);
+  const Statistic statistic = c.statistic.value_or(Statistic::max);
+  const bool could_break = (c.at_most && statistic != Statistic::min) || (c.at_least && statistic != Statistic::max);
   if (could_break && failed_in(part) > 0) withdraw(o);
   const std::string of = range_text(part) + ", " + bound_text(c);
-  o.text = values.empty() ? "no " + c.quantity + " of any point" + (c.motion.empty() ? "" : " " + c.motion) + of
+  o.text = values.empty() ? "no " + c.quantity + " of any point" + (c.regime.empty() ? "" : " " + c.regime) + of
                           : c.quantity + " " + number(o.measured) + of;
 }
 
@@ -500,7 +500,7 @@ Peak highest_peak(std::span<const ClaimPoint> part, const std::vector<double>& x
 }
 
 void peaks(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcome& o) {
-  const double place_tolerance = c.place_tolerance.value_or(default_place_tolerance);
+  const double location_tolerance = c.location_tolerance.value_or(default_location_tolerance);
   const double prominence = c.prominence.value_or(default_prominence);
   std::vector<double> x;
   double most = 0.0;
@@ -510,8 +510,8 @@ void peaks(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
   }
   double costs = 0.0;
   double met = 0.0;
-  for (const double place : c.places) {
-    const Peak best = highest_peak(part, x, place * (1.0 - place_tolerance), place * (1.0 + place_tolerance));
+  for (const double place : c.peak_locations) {
+    const Peak best = highest_peak(part, x, place * (1.0 - location_tolerance), place * (1.0 + location_tolerance));
     const double relative = most > 0.0 ? best.prominence / most : 0.0;
     const bool peak = relative >= prominence;
     met += peak ? 1.0 : 0.0;
@@ -521,8 +521,8 @@ void peaks(const Condition& c, std::span<const ClaimPoint> part, ConditionOutcom
                                    : ": prominence " + number(100.0 * relative) + " % at " + number(best.at));
   }
   o.measured = met;
-  o.holds = met == static_cast<double>(c.places.size());
-  o.cost = o.holds ? 0.0 : costs / static_cast<double>(c.places.size());
+  o.holds = met == static_cast<double>(c.peak_locations.size());
+  o.cost = o.holds ? 0.0 : costs / static_cast<double>(c.peak_locations.size());
   // The largest value, of which a prominence is a part, may have been at a point that failed.
   if (failed_in(part) > 0) withdraw(o);
   o.text += "; each must have " + number(100.0 * prominence) + " %";
@@ -593,7 +593,7 @@ class Steps {
 
   [[nodiscard]] double q(const ClaimPoint& p) const { return p.quantity(c_.quantity); }
   [[nodiscard]] bool counts(const ClaimPoint& p) const {
-    return p.reached && (c_.motion.empty() || p.motion.is(c_.motion));
+    return p.reached && (c_.regime.empty() || p.motion.is(c_.regime));
   }
   [[nodiscard]] double step(const ClaimPoint& a, const ClaimPoint& b) const { return std::abs(q(b) - q(a)); }
   [[nodiscard]] double relative(const ClaimPoint& a, const ClaimPoint& b) const {
@@ -619,7 +619,7 @@ void jump(const Condition& c, const ClaimSeries& series, std::span<const ClaimPo
   if (!o.holds) o.cost = step_of_failure + (1.0 - step_of_failure) * (1.0 - std::min(1.0, nearest.nearness() / least));
   std::vector<double> short_of_fold;
   for (const ClaimPoint& p : part)
-    if (p.period_one && p.period_one->found && (c.motion.empty() || c.motion == "period 1"))
+    if (p.period_one && p.period_one->found && (c.regime.empty() || c.regime == "period 1"))
       short_of_fold.push_back(std::max(0.0, 1.0 - p.period_one->fold));
   if (!short_of_fold.empty()) lead({std::ranges::min(short_of_fold)}, o);
   const auto told = [&](const Step& one) {
@@ -709,8 +709,8 @@ void decreasing(const Condition& c, const ClaimRecord& record, ConditionOutcome&
   std::size_t unsettled = 0;
   std::size_t undecided = 0;
   for (const ClaimPoint& first : parts.front()) {
-    undecided += !c.motion.empty() && is_undecided(first) ? 1 : 0;
-    if (first.reached && !c.motion.empty() && !first.motion.is(c.motion)) continue;
+    undecided += !c.regime.empty() && is_undecided(first) ? 1 : 0;
+    if (first.reached && !c.regime.empty() && !first.motion.is(c.regime)) continue;
     std::vector<const ClaimPoint*> there;
     for (const auto& part : parts) {
       const auto at =
@@ -727,7 +727,7 @@ void decreasing(const Condition& c, const ClaimRecord& record, ConditionOutcome&
   }
   o.measured = 0.0;
   if (seen == 0) {
-    o.text = "no point that all sweeps have " + (c.motion.empty() ? "was computed" : "is " + c.motion) +
+    o.text = "no point that all sweeps have " + (c.regime.empty() ? "was computed" : "is " + c.regime) +
              points_text(failed, "failed") + points_text(undecided, "undecided");
     return;
   }
@@ -777,7 +777,7 @@ std::set<std::string, std::less<>> quantities_along(const Claim& claim, const st
   for (const Condition& c : claim.conditions) {
     if (c.sweep != sweep && std::ranges::find(c.sweeps, sweep) == c.sweeps.end()) continue;
     if (!c.quantity.empty()) quantities.insert(c.quantity);
-    if (c.kind == ConditionKind::alike) quantities.insert({"poincare_sp_range", "poincare_rp_range"});
+    if (c.kind == ConditionKind::agreement) quantities.insert({"poincare_sp_range", "poincare_rp_range"});
   }
   return quantities;
 }
@@ -820,7 +820,7 @@ ConditionOutcome judge(const Condition& c, const ClaimRecord& record) {
     case ConditionKind::value:
       value(c, part, o);
       break;
-    case ConditionKind::falls:
+    case ConditionKind::reduction:
       falls(c, part, o);
       break;
     case ConditionKind::peaks:
@@ -832,7 +832,7 @@ ConditionOutcome judge(const Condition& c, const ClaimRecord& record) {
     case ConditionKind::variation:
       variation(c, part, o);
       break;
-    case ConditionKind::alike:
+    case ConditionKind::agreement:
       alike(c, part, o);
       break;
     case ConditionKind::decreasing:

@@ -52,8 +52,8 @@ void check(const input::Study& study, const input::IsBad& is_bad, input::ReadCon
       if (!is_bad(at + "/parameter") && set.value)
         input::check_named_parameter(studies::Axis{set.parameter, *set.value, *set.value, 1}, at, is_bad, context,
                                      false);
-      if (set.value.has_value() != set.as.empty())
-        context.add(Finding::Kind::rule, at, "must have \"value\" or \"as\", and not both");
+      if (set.value.has_value() != set.same_as.empty())
+        context.add(Finding::Kind::rule, at, "must have \"value\" or \"same_as\", and not both");
       input::check_different(sweep.axis.name, set.parameter, at + "/parameter", context);
       for (std::size_t before = 0; before < j; ++before)
         input::check_different(sweep.at[before].parameter, set.parameter, at + "/parameter", context);
@@ -88,23 +88,24 @@ void check_values(const LoadedInput& input, const std::function<void(const std::
       const auto is_of = [&set](const std::string& parameter) {
         const studies::NamedParameter* named = studies::find_parameter(parameter);
         const std::vector<std::string> pointers = named != nullptr ? named->pointers : std::vector{parameter};
-        return !set.as.empty() && std::ranges::any_of(pointers, [&set](const std::string& pointer) {
-          return pointer_within(set.as, pointer) || pointer_within(pointer, set.as);
+        return !set.same_as.empty() && std::ranges::any_of(pointers, [&set](const std::string& pointer) {
+          return pointer_within(set.same_as, pointer) || pointer_within(pointer, set.same_as);
         });
       };
       if (is_of(sweep.axis.name))
-        refuse(at + "/as", "is \"" + set.as + "\", which the sweep varies: it is not followed along it");
+        refuse(at + "/same_as", "is \"" + set.same_as + "\", which the sweep varies: it is not followed along it");
       for (std::size_t other = 0; other < sweep.at.size(); ++other)
         if (other != j && is_of(sweep.at[other].parameter))
-          refuse(at + "/as", "is \"" + set.as + "\", which /at/" + std::to_string(other) +
-                                 " sets: it would be as it is in the input; set it to that value, too");
+          refuse(at + "/same_as", "is \"" + set.same_as + "\", which /at/" + std::to_string(other) +
+                                      " sets: it would be as it is in the input; set it to that value, too");
       // Of a candidate it would be another number than that of the stage as it is given.
-      if (!set.as.empty() && input::find_at(input.computed, set.as) != nullptr)
-        refuse(at + "/as", "is \"" + set.as + "\", which is computed from other numbers: it cannot be followed");
+      if (!set.same_as.empty() && input::find_at(input.computed, set.same_as) != nullptr)
+        refuse(at + "/same_as",
+               "is \"" + set.same_as + "\", which is computed from other numbers: it cannot be followed");
       else if (const auto value = number_to_set(input, {}, set))
-        check(set.parameter, *value, at + (set.value ? "/value" : "/as"));
+        check(set.parameter, *value, at + (set.value ? "/value" : "/same_as"));
       else
-        refuse(at + "/as", "is \"" + set.as + "\", which is no number of the resolved input");
+        refuse(at + "/same_as", "is \"" + set.same_as + "\", which is no number of the resolved input");
     }
   }
   for (std::size_t k = 0; k < claims.space.parameters.size(); ++k) {

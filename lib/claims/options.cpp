@@ -110,9 +110,9 @@ std::vector<std::pair<std::string, std::string>> ClaimsOptions::problems() const
   };
   check_recorded(recording.recorded_periods, recording.classification_periods, "/recorded_periods");
   if (space.dimension() > 0) {
-    check_recorded(brief.recorded_periods, brief.classification_periods, "/brief/recorded_periods");
+    check_recorded(screening.recorded_periods, screening.classification_periods, "/screening/recorded_periods");
     check_recorded(survey.recording.recorded_periods, survey.recording.classification_periods,
-                   "/survey/look/recorded_periods");
+                   "/survey/screening/recorded_periods");
   }
   for (std::size_t k = 0; k < sweeps.size(); ++k)
     if (sweeps[k].recorded_periods)

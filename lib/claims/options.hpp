@@ -23,7 +23,7 @@ namespace epicyclic::claims {
 struct SetValue {
   std::string parameter;
   std::optional<double> value;
-  std::string as;  ///< JSON pointer
+  std::string same_as;  ///< JSON pointer
 };
 
 /// A sweep that conditions speak of.
@@ -33,9 +33,9 @@ struct ClaimSweep {
   std::vector<SetValue> at;  ///< what differs from the study besides
   std::vector<studies::Direction> directions = {studies::Direction::up};
   std::optional<int> recorded_periods;  ///< where not the study's: extrema of chaos take long records
-  int brief_points = 30;                ///< of a brief look, cold
+  int screening_points = 30;            ///< of a brief look, cold
   int survey_points = 60;               ///< of a survey's look, cold
-  int round = 0;  ///< a brief look takes sweeps of a round only if those of earlier rounds leave hope
+  int screening_round = 0;  ///< a brief look takes sweeps of a round only if those of earlier rounds leave hope
 };
 
 enum class ConditionKind {
@@ -44,11 +44,11 @@ enum class ConditionKind {
   change,      ///< value where one motion gives way to another
   sequence,    ///< motions met one after the other
   value,       ///< a statistic of a quantity
-  falls,       ///< ratio of a quantity's first value to its last; never above the first
+  reduction,   ///< ratio of a quantity's first value to its last; never above the first
   peaks,       ///< local maxima of a quantity at given values
   jump,        ///< a discontinuity of a quantity of one motion, or two motions of it side by side
   variation,   ///< largest relative change of the motion's Poincare range between neighbours; a new motion counts 1
-  alike,       ///< share of points where both kinds of mesh show the same motion, and correlation of their ranges
+  agreement,   ///< share of points where both kinds of mesh show the same motion, and correlation of their ranges
   decreasing,  ///< the largest value of a quantity falls from sweep to sweep
 };
 
@@ -58,19 +58,19 @@ inline constexpr std::array<std::pair<std::string_view, ConditionKind>, 11> cond
      {"change", ConditionKind::change},
      {"sequence", ConditionKind::sequence},
      {"value", ConditionKind::value},
-     {"falls", ConditionKind::falls},
+     {"reduction", ConditionKind::reduction},
      {"peaks", ConditionKind::peaks},
      {"jump", ConditionKind::jump},
      {"variation", ConditionKind::variation},
-     {"alike", ConditionKind::alike},
+     {"agreement", ConditionKind::agreement},
      {"decreasing", ConditionKind::decreasing}}};
 
 /// Of a condition on peaks that does not say.
-inline constexpr double default_place_tolerance = 0.1;
+inline constexpr double default_location_tolerance = 0.1;
 inline constexpr double default_prominence = 0.1;
 
 enum class Which { first, last };
-enum class Statistic { least, mean, largest };
+enum class Statistic { min, mean, max };
 
 /// A condition on a sweep. Which members speak depends on the kind [studies/claims.cpp]; validate() asks for them.
 struct Condition {
@@ -78,19 +78,19 @@ struct Condition {
   std::string sweep;
   std::vector<std::string> sweeps;   ///< decreasing: one after another
   std::optional<double> from, to;    ///< part of the sweep [of its parameter]; the whole if not given
-  std::string motion;                ///< share, count, change (before it), jump, decreasing (of the first sweep)
-  std::string after;                 ///< change: the motion after it
-  std::string leads_to;              ///< change: what is met before `motion` comes back, if given
-  std::vector<std::string> motions;  ///< sequence
+  std::string regime;                ///< share, count, change (before it), jump, decreasing (of the first sweep)
+  std::string regime_after;          ///< change: the motion after it
+  std::string leads_to;              ///< change: what is met before `regime` comes back, if given
+  std::vector<std::string> regimes;  ///< sequence
   std::optional<Which> which;        ///< change: of several, along the rising parameter; the first if not given
   std::vector<double> within;        ///< change: least and greatest value
   std::optional<double> at_least, at_most;
-  std::string quantity;                   ///< of claim_quantities
-  std::optional<Statistic> statistic;     ///< value: the largest if not given
-  std::vector<double> places;             ///< peaks
-  std::optional<double> place_tolerance;  ///< peaks: relative distance from a place
-  std::optional<double> prominence;       ///< peaks: in parts of the largest value
-  std::optional<double> correlation;      ///< alike: of the two ranges
+  std::string quantity;                      ///< of claim_quantities
+  std::optional<Statistic> statistic;        ///< value: the largest if not given
+  std::vector<double> peak_locations;        ///< peaks
+  std::optional<double> location_tolerance;  ///< peaks: relative distance from a place
+  std::optional<double> prominence;          ///< peaks: in parts of the largest value
+  std::optional<double> correlation;         ///< agreement: of the two ranges
 };
 
 /// Quantities of a point that conditions speak of, of planet 1 where they are of a mesh. [b_c], exponent per tau.
@@ -102,11 +102,11 @@ inline constexpr std::array<std::string_view, 17> claim_quantities = {
     "load_sharing_max"};
 
 struct Claim {
-  std::string name;     ///< "C01"
-  std::string text;     ///< what is claimed
-  std::string where;    ///< "Fig. 12"
-  std::string printed;  ///< the value that is published
-  double weight = 1;    ///< of its cost in a search
+  std::string name;       ///< "C01"
+  std::string text;       ///< what is claimed
+  std::string where;      ///< "Fig. 12"
+  std::string published;  ///< the value that is published
+  double weight = 1;      ///< of its cost in a search
   std::vector<Condition> conditions;
 };
 
@@ -150,32 +150,32 @@ enum class SearchMethod {
 
 /// What the cost of conditions on motions goes by where they fail.
 enum class SearchLead {
-  motions,      ///< how many points move as they should, and where they do
+  regimes,      ///< how many points move as they should, and where they do
   multipliers,  ///< those of the orbit of period 1 along the sweeps [studies/period_one.hpp]
 };
 
 struct SearchOptions {
   SearchMethod method = SearchMethod::differential_evolution;
-  SearchLead led_by = SearchLead::motions;
+  SearchLead regime_cost = SearchLead::regimes;
   double spread = 0.15;  ///< covariance adaptation: of its first candidates, in parts of the ranges
   int seed = 1;
   int islands = 4;
-  int population = 24;     ///< candidates on an island, at least 7
-  int candidates = 10000;  ///< evaluated in all by the islands
-  int exchange = 10;       ///< generations between exchanges of the best candidates
-  int refinement = 400;    ///< candidates of the local refinement of the best
-  int confirmed = 0;       ///< of the best: held against whole sweeps, and the one that meets most is the result
-  int profile = 9;         ///< values of each parameter in the profile of the score
+  int population = 24;          ///< candidates on an island, at least 7
+  int candidates = 10000;       ///< evaluated in all by the islands
+  int migration_interval = 10;  ///< generations between exchanges of the best candidates
+  int refinement = 400;         ///< candidates of the local refinement of the best
+  int confirmed = 0;            ///< of the best: held against whole sweeps, and the one that meets most is the result
+  int profile = 9;              ///< values of each parameter in the profile of the score
 };
 
 struct ClaimsOptions {
   studies::RecordingOptions recording;
-  std::vector<studies::Start> starts = {studies::Start::carried,
+  std::vector<studies::Start> starts = {studies::Start::continued,
                                         studies::Start::cold};  ///< the first is the verdict, others stand beside it
   std::vector<ClaimSweep> sweeps;
   std::vector<Claim> claims;
   std::vector<ClaimFigure> figures;
-  Screening brief;
+  Screening screening;
   ParameterSpace space;
   SearchOptions search;
   SurveyOptions survey;
@@ -183,7 +183,7 @@ struct ClaimsOptions {
   /// A sweep of the claims in full, from one kind of start.
   [[nodiscard]] studies::SweepOptions whole_sweep(const ClaimSweep& sweep, studies::Start start) const;
 
-  /// What is wrong, each at its place below the study: ("/claims/3/conditions/0/motion", "is ..., must be ...").
+  /// What is wrong, each at its place below the study: ("/claims/3/conditions/0/regime", "is ..., must be ...").
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> problems() const;
 };
 

@@ -6,12 +6,13 @@
 namespace epicyclic::claims {
 
 double FreeParameter::at(double u) const {
-  const double x = spread == Spread::linear ? from + u * (to - from) : from * std::pow(to / from, u);
+  const double x = scale == ParameterScale::linear ? from + u * (to - from) : from * std::pow(to / from, u);
   return std::clamp(x, from, to);
 }
 
 double FreeParameter::place_of(double x) const {
-  const double u = spread == Spread::linear ? (x - from) / (to - from) : std::log(x / from) / std::log(to / from);
+  const double u =
+      scale == ParameterScale::linear ? (x - from) / (to - from) : std::log(x / from) / std::log(to / from);
   return std::clamp(u, 0.0, 1.0);
 }
 

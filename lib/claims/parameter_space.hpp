@@ -16,7 +16,7 @@
 
 namespace epicyclic::claims {
 
-enum class Spread { linear, logarithmic };
+enum class ParameterScale { linear, logarithmic };
 
 /// Where a parameter stands in the input.
 struct ParameterTarget {
@@ -28,10 +28,10 @@ struct ParameterTarget {
 
 struct FreeParameter {
   std::string name;
-  std::string words;   ///< for figures and tables: what it is, with its unit
-  std::string reason;  ///< of its range
+  std::string description;  ///< for figures and tables: what it is, with its unit
+  std::string reason;       ///< of its range
   double from = 0, to = 1;
-  Spread spread = Spread::logarithmic;
+  ParameterScale scale = ParameterScale::logarithmic;
   std::vector<ParameterTarget> targets;
   std::string choice, option;  ///< it counts only where this choice takes this option, if given
 

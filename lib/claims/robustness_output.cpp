@@ -48,7 +48,7 @@ void write_draws_csv(const std::filesystem::path& file, const RobustnessOutput& 
   columns.insert(columns.end(), more.begin(), more.end());
   CsvWriter csv(file, columns);
   for (const auto& [key, c] : evaluations) {
-    csv.cell(key.number).cell(key.phase == 0 ? "look" : "whole sweeps").cell(c.evaluation.refused.empty() ? 1 : 0);
+    csv.cell(key.number).cell(key.phase == 0 ? "screening" : "whole sweeps").cell(c.evaluation.refused.empty() ? 1 : 0);
     for (const char holds : c.evaluation.holds) csv.cell(static_cast<int>(holds));
     add_candidate_cells(csv, output.options, c.u, c.evaluation.claim_costs);
     csv.end_row();
@@ -59,7 +59,7 @@ void write_draws_csv(const std::filesystem::path& file, const RobustnessOutput& 
 void write_robustness_tables(const std::filesystem::path& folder, const RobustnessOutput& output) {
   CsvWriter parts(folder / "robustness.csv",
                   {"claim", "draws", "holds", "fraction", "fraction_low", "fraction_high", "confirmed_both",
-                   "confirmed_neither", "confirmed_look_only", "confirmed_whole_only"});
+                   "confirmed_neither", "confirmed_screening_only", "confirmed_whole_only"});
   CsvWriter influences(folder / "influence.csv",
                        {"claim", "variable", "rank_correlation", "rank_correlation_low", "rank_correlation_high"});
   const std::vector<Factor> factors = claims::factors(output.options.space);

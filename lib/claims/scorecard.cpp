@@ -16,6 +16,7 @@
 #include "core/errors.hpp"
 #include "core/text.hpp"
 #include "figures/sketch.hpp"
+#include "input/aliases.hpp"
 #include "input/recorded_study.hpp"
 #include "input/stage_completion.hpp"
 #include "reports/markdown.hpp"
@@ -29,7 +30,7 @@ using reports::parameter_label;
 
 namespace {
 
-std::string start_name(studies::Start start) { return start == studies::Start::cold ? "cold" : "carried"; }
+std::string start_name(studies::Start start) { return start == studies::Start::cold ? "cold" : "continued"; }
 
 std::string verdict(const ClaimOutcome& outcome) { return outcome.holds ? "holds" : "fails"; }
 
@@ -82,7 +83,7 @@ std::string scorecard_summary(const Scorecard& card) {
   text += fmt::format(" (points {}).\n\n", card.scored.front().start == studies::Start::cold
                                                ? "that start cold"
                                                : "whose initial state continues from the previous point");
-  text += "| claim | where | what | printed |";
+  text += "| claim | where | what | published |";
   std::string line = "|---|---|---|---|";
   for (const ScoredStart& s : card.scored) {
     text += fmt::format(" {} |", start_name(s.start));
@@ -92,7 +93,7 @@ std::string scorecard_summary(const Scorecard& card) {
   for (std::size_t k = 0; k < card.options.claims.size(); ++k) {
     const Claim& claim = card.options.claims[k];
     text += fmt::format("| {} | {} | {} | {} |", markdown_cell(claim.name), markdown_cell(claim.where),
-                        markdown_cell(claim.text), markdown_cell(claim.printed));
+                        markdown_cell(claim.text), markdown_cell(claim.published));
     for (const ScoredStart& s : card.scored)
       text += fmt::format(" {}{} |", verdict(s.outcomes[k]), s.outcomes[k].inert ? ", nothing changes" : "");
     text += fmt::format(" {} |\n", markdown_cell(measured_text(card.scored.front().outcomes[k])));
@@ -131,15 +132,16 @@ json verdicts_of(const Scorecard& card) {
 
 /// How the sweeps are integrated, and what a search would do, is no part of what is claimed.
 bool is_beside_the_claims(const std::string& line) {
-  for (const char* pointer : {"/name:", "/integrator/", "/study/brief/", "/study/search/", "/study/survey/",
+  for (const char* pointer : {"/name:", "/integrator/", "/study/screening/", "/study/search/", "/study/survey/",
                               "/study/parameters", "/study/choices", "/study/figures"})
     if (line.starts_with(pointer) && !line.starts_with("/integrator/clearance_smoothing")) return true;
   const std::string_view pointer = std::string_view(line).substr(0, line.find(": "));
   const auto ends_with_one_of = [&](std::initializer_list<const char*> keys) {
     return std::ranges::any_of(keys, [&](const char* key) { return pointer.ends_with(key); });
   };
-  return (line.starts_with("/study/claims/") && ends_with_one_of({"/weight", "/where", "/text", "/printed"})) ||
-         (line.starts_with("/study/sweeps/") && ends_with_one_of({"/brief_points", "/survey_points", "/round"}));
+  return (line.starts_with("/study/claims/") && ends_with_one_of({"/weight", "/where", "/text", "/published"})) ||
+         (line.starts_with("/study/sweeps/") &&
+          ends_with_one_of({"/screening_points", "/survey_points", "/screening_round"}));
 }
 
 }  // namespace
@@ -181,8 +183,8 @@ RecordedDifference unlike_recorded(const Scorecard& card, const input::LoadedInp
     for (const json& one : list)
       for (const auto& [start, verdict] : one.items())
         if (start != "claim")
-          verdicts[{one["claim"].get<std::string>(), start}].insert(verdict.is_string() ? verdict.get<std::string>()
-                                                                                        : verdict.dump());
+          verdicts[{one["claim"].get<std::string>(), input::new_value("/study/starts/N", start)}].insert(
+              verdict.is_string() ? verdict.get<std::string>() : verdict.dump());
     return verdicts;
   };
   const Verdicts was = by_place(recorded["verdicts"]);

@@ -22,7 +22,7 @@ namespace epicyclic::claims {
 
 /// What became of the claims where points start so.
 struct ScoredStart {
-  studies::Start start = studies::Start::carried;
+  studies::Start start = studies::Start::continued;
   std::vector<ClaimOutcome> outcomes;  ///< of each claim, in order
 };
 
@@ -41,7 +41,7 @@ struct Scorecard {
 
 /// Verdicts that were recorded of a study:
 ///
-///   { "format": "epicyclic scorecard 1", "verdicts": [ { "claim": "C01", "carried": "holds", "cold": "fails" }, ... ],
+///   { "format": "epicyclic scorecard 1", "verdicts": [ { "claim": "C01", "continued": "holds", ... }, ... ],
 ///     "study": the resolved input }
 [[nodiscard]] std::string recorded_text(const Scorecard& card, const input::LoadedInput& study);
 

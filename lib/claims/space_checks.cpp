@@ -74,7 +74,7 @@ void check_space(ProblemList& problems, const ParameterSpace& space) {
   // Names head columns beside others.
   const auto is_taken = [](const std::string& name) {
     for (const char* taken :
-         {"phase", "number", "cost", "given_up", "claims_met", "draw", "valid", "variable", "value"})
+         {"phase", "number", "cost", "stopped_early", "claims_met", "draw", "valid", "variable", "value"})
       if (name == taken) return true;
     return name.starts_with("cost_") || name.starts_with("holds_");
   };
@@ -97,7 +97,7 @@ void check_space(ProblemList& problems, const ParameterSpace& space) {
     const std::string place = "/parameters/" + std::to_string(k);
     if (!(p.from < p.to))
       problems.refuse(place + "/from", "is " + short_text(p.from, 17) + ", must be < to = " + short_text(p.to, 17));
-    if (p.spread == Spread::logarithmic && !(p.from > 0.0))
+    if (p.scale == ParameterScale::logarithmic && !(p.from > 0.0))
       problems.refuse(place + "/from", "is " + short_text(p.from, 17) + ", must be > 0 on a logarithmic scale");
     const auto multiplies = [&](const FreeParameter& other) {
       return std::ranges::any_of(other.targets, [&](const ParameterTarget& t) { return t.times == p.name; });

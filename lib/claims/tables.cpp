@@ -33,7 +33,8 @@ const Table<SetValue>& set_value_table() {
     t.text("parameter", &SetValue::parameter, "Name of the parameter, or a JSON pointer to a number of the input.")
         .required();
     t.number("value", &SetValue::value, any_value, "Its value, in its unit.");
-    t.text("as", &SetValue::as, "Instead of a value: JSON pointer to a number of the input that it is to be like.");
+    t.text("same_as", &SetValue::same_as,
+           "Instead of a value: JSON pointer to a number of the input that it is to be like.");
     return t;
   }();
   return table;
@@ -52,12 +53,12 @@ const Table<Condition>& condition_table() {
     t.texts("sweeps", &Condition::sweeps, list_most, "Sweeps one after the other, for decreasing.");
     t.number("from", &Condition::from, any_value, "Least value of the sweep's parameter that counts; from its start.");
     t.number("to", &Condition::to, any_value, "Greatest value of the sweep's parameter that counts; to its end.");
-    t.text("motion", &Condition::motion,
+    t.text("regime", &Condition::regime,
            "Regime: period N, periodic, multi-period, quasiperiodic, chaotic, aperiodic, or not and one of these.");
-    t.text("after", &Condition::after, "Regime after a change.");
+    t.text("regime_after", &Condition::regime_after, "Regime after a change.");
     t.text("leads_to", &Condition::leads_to,
            "Regime that follows a change, before the regime before the change returns.");
-    t.texts("motions", &Condition::motions, list_most, "Regimes of a sequence.");
+    t.texts("regimes", &Condition::regimes, list_most, "Regimes of a sequence.");
     t.choice("which", &Condition::which,
              std::vector<std::pair<std::string, Which>>{{"first", Which::first}, {"last", Which::last}},
              "Of several changes, along the rising parameter.");
@@ -71,10 +72,10 @@ const Table<Condition>& condition_table() {
              "planets [b_c]; largest Lyapunov exponent [per tau].");
     t.choice("statistic", &Condition::statistic,
              std::vector<std::pair<std::string, Statistic>>{
-                 {"least", Statistic::least}, {"mean", Statistic::mean}, {"largest", Statistic::largest}},
+                 {"min", Statistic::min}, {"mean", Statistic::mean}, {"max", Statistic::max}},
              "Of the quantity over the points.");
-    t.numbers("places", &Condition::places, any_value, 1, list_most, "Values where peaks are claimed.");
-    t.number("place_tolerance", &Condition::place_tolerance, between(0, 1),
+    t.numbers("peak_locations", &Condition::peak_locations, any_value, 1, list_most, "Values where peaks are claimed.");
+    t.number("location_tolerance", &Condition::location_tolerance, between(0, 1),
              "Relative distance of a peak from one [-].");
     t.number("prominence", &Condition::prominence, between(0, 1), "Of a peak, in parts of the largest value [-].");
     t.number("correlation", &Condition::correlation, between(-1, 1), "Least correlation of both ranges [-].");
@@ -164,10 +165,11 @@ const Table<ClaimSweep>& claim_sweep_table() {
     t.integer("recorded_periods", &ClaimSweep::recorded_periods, between(1, 1e5),
               "Mesh periods recorded of each point [-]; as the study if it is not given. Extrema of chaos take long "
               "records.");
-    t.integer("brief_points", &ClaimSweep::brief_points, between(2, 100000), "Points of the sweep in a screening [-].");
+    t.integer("screening_points", &ClaimSweep::screening_points, between(2, 100000),
+              "Points of the sweep in a screening [-].");
     t.integer("survey_points", &ClaimSweep::survey_points, between(2, 100000), "Points of the sweep in a survey [-].");
     t.integer(
-        "round", &ClaimSweep::round, between(0, 1000),
+        "screening_round", &ClaimSweep::screening_round, between(0, 1000),
         "Round of the screening: a later round is computed if the earlier ones do not rule the candidate out [-].");
     return t;
   }();
@@ -180,7 +182,7 @@ const Table<Claim>& claim_table() {
     t.text("name", &Claim::name, "Its name.").required();
     t.text("text", &Claim::text, "What is claimed.");
     t.text("where", &Claim::where, "Where it is published.");
-    t.text("printed", &Claim::printed, "The value that is published.");
+    t.text("published", &Claim::published, "The value that is published.");
     t.number("weight", &Claim::weight, between(0, 1e6), "Weight of its cost in a search [-].");
     t.objects("conditions", &Claim::conditions, condition_table(), list_most, "Its conditions.").required();
     return t;
@@ -201,7 +203,7 @@ const Table<ClaimFigure>& claim_figure_table() {
 
 namespace {
 
-Table<Screening> look_table(const char* name, const char* description) {
+Table<Screening> screening_table_of(const char* name, const char* description) {
   Table<Screening> t(name, description);
   t.integer("transient_periods", &Screening::transient_periods, between(0, 1e6), "Mesh periods before the record [-].");
   t.integer("recorded_periods", &Screening::recorded_periods, between(4, 1e5), "Mesh periods recorded [-].");
@@ -217,7 +219,8 @@ Table<Screening> look_table(const char* name, const char* description) {
 }
 
 const Table<Screening>& survey_recording_table() {
-  static const auto table = look_table("survey_look", "How draws are screened: from the default start, in lanes.");
+  static const auto table =
+      screening_table_of("survey_screening", "How draws are screened: from the default start, in lanes.");
   return table;
 }
 
@@ -225,7 +228,7 @@ const Table<Screening>& survey_recording_table() {
 
 const Table<Screening>& screening_table() {
   static const auto table =
-      look_table("brief", "How candidates of a search are screened: from the default start, in lanes.");
+      screening_table_of("screening", "How candidates of a search are screened: from the default start, in lanes.");
   return table;
 }
 
@@ -236,7 +239,7 @@ const Table<SurveyOptions>& survey_options_table() {
     t.integer("seed", &SurveyOptions::seed, between(0, 1e9), "Seed of their random numbers [-].");
     t.integer("confirmed", &SurveyOptions::confirmed, between(0, 1e6),
               "Number of first draws that are compared with whole sweeps, as a check of the screening [-].");
-    t.object("look", &SurveyOptions::recording, survey_recording_table());
+    t.object("screening", &SurveyOptions::recording, survey_recording_table());
     return t;
   }();
   return table;
@@ -246,14 +249,14 @@ const Table<FreeParameter>& free_parameter_table() {
   static const auto table = [] {
     Table<FreeParameter> t("free_parameter", "A parameter that is not published, with its range.");
     t.text("name", &FreeParameter::name, "Its name.").required();
-    t.text("words", &FreeParameter::words, "What it is, with its unit.");
+    t.text("description", &FreeParameter::description, "What it is, with its unit.");
     t.text("reason", &FreeParameter::reason, "Why it has this range.");
     t.number("from", &FreeParameter::from, any_value, "Least value.").required();
     t.number("to", &FreeParameter::to, any_value, "Greatest value.").required();
-    t.choice(
-        "spread", &FreeParameter::spread,
-        std::vector<std::pair<std::string, Spread>>{{"linear", Spread::linear}, {"logarithmic", Spread::logarithmic}},
-        "Whether the value or its logarithm is spread evenly over the range.");
+    t.choice("scale", &FreeParameter::scale,
+             std::vector<std::pair<std::string, ParameterScale>>{{"linear", ParameterScale::linear},
+                                                                 {"logarithmic", ParameterScale::logarithmic}},
+             "Whether the value or its logarithm is spread evenly over the range.");
     t.objects("targets", &FreeParameter::targets, target_table(), list_most, "Numbers of the input that it gives.");
     t.text("choice", &FreeParameter::choice, "It counts only where this choice ...");
     t.text("option", &FreeParameter::option, "... takes this option.");
@@ -281,8 +284,8 @@ const Table<SearchOptions>& search_options_table() {
                  {"differential_evolution", SearchMethod::differential_evolution},
                  {"covariance_adaptation", SearchMethod::covariance_adaptation}},
              "Method of the islands: a global search, or one that begins at the given stage.");
-    t.choice("led_by", &SearchOptions::led_by,
-             std::vector<std::pair<std::string, SearchLead>>{{"motions", SearchLead::motions},
+    t.choice("regime_cost", &SearchOptions::regime_cost,
+             std::vector<std::pair<std::string, SearchLead>>{{"regimes", SearchLead::regimes},
                                                              {"multipliers", SearchLead::multipliers}},
              "What gives the cost of a failed condition on regimes: the regimes of the screened points, or the Floquet "
              "multipliers of the orbit of period 1, which is then continued along the sweeps.");
@@ -293,7 +296,8 @@ const Table<SearchOptions>& search_options_table() {
     t.integer("population", &SearchOptions::population, between(7, 10000), "Candidates of each [-].");
     t.integer("candidates", &SearchOptions::candidates, between(7, 1e8),
               "Candidates that they try in all, in whole generations of all islands, two at least [-].");
-    t.integer("exchange", &SearchOptions::exchange, between(1, 1e6), "Generations between exchanges of the best [-].");
+    t.integer("migration_interval", &SearchOptions::migration_interval, between(1, 1e6),
+              "Generations between exchanges of the best [-].");
     t.integer("refinement", &SearchOptions::refinement, between(0, 1e6), "Candidates of the local refinement [-].");
     t.integer(
         "confirmed", &SearchOptions::confirmed, between(0, 10000),
@@ -334,7 +338,7 @@ const Table<Study>& claims_table() {
         .required();
     t.objects("claims", of(&ClaimsOptions::claims), claim_table(), 1000, "What is claimed.").required();
     t.objects("figures", of(&ClaimsOptions::figures), claim_figure_table(), 100, "Figures as they are published.");
-    t.object("brief", of(&ClaimsOptions::brief), screening_table());
+    t.object("screening", of(&ClaimsOptions::screening), screening_table());
     t.objects("parameters", of(&ParameterSpace::parameters), free_parameter_table(), 1000,
               "Numbers of the input that are not published, with their ranges.");
     t.objects("choices", of(&ParameterSpace::choices), choice_table(), 100,

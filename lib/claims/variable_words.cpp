@@ -22,8 +22,8 @@ std::string factor_name(const ParameterSpace& space, const Factor& factor) {
 }
 
 std::string words_without_unit(const ParameterSpace& space, const Factor& factor) {
-  const bool has_words = !factor.option && !space.parameters[factor.variable].words.empty();
-  const std::string words = has_words ? space.parameters[factor.variable].words : factor_name(space, factor);
+  const bool has_words = !factor.option && !space.parameters[factor.variable].description.empty();
+  const std::string words = has_words ? space.parameters[factor.variable].description : factor_name(space, factor);
   return words.substr(0, words.find(" ["));
 }
 

@@ -59,7 +59,7 @@ std::vector<CubicCoefficients> cubics_through(Interpolation how, Numbers x, Numb
   for (std::size_t k = 1; k < x.size(); ++k)
     if (!(x[k] > x[k - 1])) throw InputError("table over the phase: neighbouring rows have the same phase");
   std::vector<CubicCoefficients> cubics;
-  if (how == Interpolation::straight || x.size() == 2) {
+  if (how == Interpolation::linear || x.size() == 2) {
     for (std::size_t k = first; k < first + count; ++k) cubics.push_back({y[k], secant(x, y, k), 0.0, 0.0});
     return cubics;
   }

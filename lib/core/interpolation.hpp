@@ -1,12 +1,12 @@
 // Curves through rows: a cubic on each interval, by the values at its ends and the slopes there.
 //
-//   straight   the chord                                                                            error ~ h^2
+//   linear     the chord                                                                            error ~ h^2
 //   monotone   Steffen's slopes, at the ends by his one-sided parabola: never beyond its rows       error ~ h^2, away
 //              from extrema h^3                                                                     [M-track]
 //   smooth     slopes of the quartic through five neighbouring rows: for rows of a smooth function  error ~ h^4
 //
 // Source: M. Steffen, Astron. Astrophys. 239 (1990) 443; derivatives of Lagrange's polynomial by its barycentric
-// weights (Berrut and Trefethen, SIAM Rev. 46 (2004) 501). Limits: two rows at least, rising. Smoothness: C1; straight
+// weights (Berrut and Trefethen, SIAM Rev. 46 (2004) 501). Limits: two rows at least, rising. Smoothness: C1; linear
 // C0.
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace epicyclic {
 
-enum class Interpolation { straight, monotone, smooth };
+enum class Interpolation { linear, monotone, smooth };
 
 /// Coefficients of the powers, from 0 on, of what is beyond the interval's start.
 using CubicCoefficients = std::array<double, 4>;

@@ -25,12 +25,12 @@ MassAndInertia cylinder(double outer_radius_mm, double inner_radius_mm, double l
 double body_radius_mm(const Tooth& tooth) { return 0.5 * (tooth.tip_radius_mm + tooth.root_radius_mm); }
 
 MassAndInertia carrier(const CarrierBody& b, int planets, double centre_distance_mm, double density) {
-  const MassAndInertia cheek =
-      cylinder(0.5 * b.outer_diameter_mm, 0.5 * b.inner_diameter_mm, b.cheek_thickness_mm, density);
+  const MassAndInertia plate =
+      cylinder(0.5 * b.outer_diameter_mm, 0.5 * b.inner_diameter_mm, b.plate_thickness_mm, density);
   const MassAndInertia pin = cylinder(0.5 * b.pin_diameter_mm, 0.0, b.pin_length_mm, density);
   const double distance = centre_distance_mm * m_per_mm;
-  return {b.cheeks * cheek.mass_kg + planets * pin.mass_kg,
-          b.cheeks * cheek.inertia_kg_m2 + planets * (pin.inertia_kg_m2 + pin.mass_kg * distance * distance)};
+  return {b.plates * plate.mass_kg + planets * pin.mass_kg,
+          b.plates * plate.inertia_kg_m2 + planets * (pin.inertia_kg_m2 + pin.mass_kg * distance * distance)};
 }
 
 double shaft_torsion(double outer_diameter_mm, double inner_diameter_mm, double length_mm, double shear_modulus) {

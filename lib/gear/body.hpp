@@ -1,8 +1,8 @@
 // Masses and moments of inertia of the members, as bodies of simple shape.
 //
 //   disc or ring   M = rho b pi (R^2 - r^2) ,  I = M (R^2 + r^2) / 2                                     [G-M]
-//   carrier        discs (cheeks) and N pins on the centre distance: M = sum M_cheek + N M_pin ,
-//                  I = sum I_cheek + N M_pin r_c^2 (+ each pin about its own axis)                       [G-Mc]
+//   carrier        discs (plates) and N pins on the centre distance: M = sum M_plate + N M_pin ,
+//                  I = sum I_plate + N M_pin r_c^2 (+ each pin about its own axis)                       [G-Mc]
 //
 // A toothed body counts as a disc to the mean of tip and root radius. Source: any textbook; the mean radius is the
 // convention of ISO 6336-1 for the moment of inertia of gear blanks. Limits: no webs, no rims, no oil.
@@ -25,14 +25,14 @@ struct MassAndInertia {
 /// Mean of tip and root radius [mm].
 [[nodiscard]] double body_radius_mm(const Tooth& tooth);
 
-/// A carrier of cheeks and pins.
+/// A carrier of plates and pins.
 struct CarrierBody {
-  int cheeks = 2;
-  double cheek_thickness_mm = 0;
+  int plates = 2;
+  double plate_thickness_mm = 0;
   double outer_diameter_mm = 0;
   double inner_diameter_mm = 0;
   double pin_diameter_mm = 0;
-  double pin_length_mm = 0;  ///< between the cheeks: what of a pin is within them counts as theirs
+  double pin_length_mm = 0;  ///< between the plates: what of a pin is within them counts as theirs
 };
 
 /// @param planets  one pin each, on the centre distance

@@ -56,7 +56,7 @@ class LoadShare {
 /// Positions of rows where the share jumps or its slope changes.
 std::vector<double> kinks_of_share(const EhlFriction& e) {
   std::vector<double> kinks;
-  if (e.share_interpolation != Interpolation::straight) return kinks;
+  if (e.share_interpolation != Interpolation::linear) return kinks;
   constexpr double rounding = 1e-12;
   const auto& x = e.share_position;
   const auto& y = e.share;
@@ -71,7 +71,7 @@ std::vector<double> kinks_of_share(const EhlFriction& e) {
 /// Narrowest interval of the share's rows of unknown origin; infinite without such rows [base pitches].
 double narrowest_share_interval(const EhlFriction& e) {
   double narrowest = std::numeric_limits<double>::infinity();
-  if (e.share_interpolation == Interpolation::straight || e.share_error) return narrowest;
+  if (e.share_interpolation == Interpolation::linear || e.share_error) return narrowest;
   for (std::size_t k = 1; k < e.share_position.size(); ++k)
     if (const double width = e.share_position[k] - e.share_position[k - 1]; width > 0.0)
       narrowest = std::min(narrowest, width);

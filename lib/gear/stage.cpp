@@ -203,7 +203,7 @@ void check_torsion(Problems& out, const Stage& s) {
   const double k_su = s.sun.torsional_support_N_per_m;
   const double k_ru = s.ring.torsional_support_N_per_m;
   const double k_cu = s.carrier.torsional_support_N_per_m;
-  const char* name = s.boundary == Boundary::as_printed ? "literal"
+  const char* name = s.boundary == Boundary::as_printed ? "as_printed"
                      : s.boundary == Boundary::star     ? "star"
                                                         : "fixed_ring";
   if (k_su != 0.0)

@@ -128,7 +128,7 @@ struct EhlFriction {
   /// epsilon, rising; a jump stands twice. Empty: equal sharing.
   std::vector<double> share_position;
   std::vector<double> share;
-  Interpolation share_interpolation = Interpolation::straight;  ///< between the rows
+  Interpolation share_interpolation = Interpolation::linear;  ///< between the rows
   std::optional<double> share_error{};  ///< known greatest error of the share between its rows [-]
   /// Error that the rows of the friction table are made fine enough for, of the ratios to the normal force [-].
   double table_tolerance = Lubrication{}.table_tolerance;

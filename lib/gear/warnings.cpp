@@ -47,7 +47,7 @@ constexpr double truncation_most = 0.05;     // of the variation
 constexpr double width_most = 1.5;           // over that of the gear in mesh
 constexpr double density_least = 900.0;      // kg/m^3, of plastics
 constexpr double density_most = 20000.0;     // kg/m^3, of tungsten and gold
-constexpr double cheek_least = 0.02;         // thickness over the planet's face width
+constexpr double plate_least = 0.02;         // thickness over the planet's face width
 
 const std::string sun_pointer = "/catalogue/sun";
 const std::string planet_pointer = "/catalogue/planet";
@@ -357,7 +357,7 @@ void check_density(Warnings& out, double density) {
             " kg/m^3; plastics have 1000, steel 7850, tungsten 19300");
 }
 
-/// Pins and cheeks that could not hold the planets.
+/// Pins and plates that could not hold the planets.
 void check_carrier(Warnings& out, const CarrierBody& b, const GearSet& set) {
   const auto doubtful = [&](const char* key, double measure, const auto&... words) {
     out.add(Rank::doubtful, measure, std::string("/catalogue/carrier/body/") + key, "carrier", words...);
@@ -365,7 +365,7 @@ void check_carrier(Warnings& out, const CarrierBody& b, const GearSet& set) {
   const double circle_mm = 2.0 * set.centre_distance_mm;
   if (b.outer_diameter_mm < circle_mm)
     doubtful("outer_diameter_mm", circle_mm / b.outer_diameter_mm, "is ", b.outer_diameter_mm,
-             " mm, and the pins' axes lie outside of such cheeks, on a circle of ", circle_mm, " mm");
+             " mm, and the pins' axes lie outside of such plates, on a circle of ", circle_mm, " mm");
   if (b.inner_diameter_mm > circle_mm)
     doubtful("inner_diameter_mm", b.inner_diameter_mm / circle_mm, "is ", b.inner_diameter_mm,
              " mm, and the pins' axes lie inside of it, on a circle of ", circle_mm, " mm");
@@ -377,8 +377,8 @@ void check_carrier(Warnings& out, const CarrierBody& b, const GearSet& set) {
   if (b.pin_length_mm < width_mm)
     doubtful("pin_length_mm", width_mm / b.pin_length_mm, "is ", b.pin_length_mm,
              " mm, less than the planets' face width of ", width_mm, " mm");
-  if (b.cheek_thickness_mm < cheek_least * width_mm)
-    doubtful("cheek_thickness_mm", cheek_least * width_mm / b.cheek_thickness_mm, "is ", b.cheek_thickness_mm,
+  if (b.plate_thickness_mm < plate_least * width_mm)
+    doubtful("plate_thickness_mm", plate_least * width_mm / b.plate_thickness_mm, "is ", b.plate_thickness_mm,
              " mm beside planets of ", width_mm, " mm");
 }
 

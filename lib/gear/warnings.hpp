@@ -27,8 +27,8 @@
 //   truncation      harmonics whose variation is more than 5 % off that of the curve that they stand for
 //   width           of a gear 1.5 times that of the one it meshes with: what overhangs bears nothing
 //   density         below 900 or above 20000 kg/m^3: no solid that gears are made of
-//   carrier         pins' axes outside of the cheeks, pins thicker than the planets' bore or shorter than their width,
-//                   cheeks thinner than 0.02 of it
+//   carrier         pins' axes outside of the plates, pins thicker than the planets' bore or shorter than their width,
+//                   plates thinner than 0.02 of it
 //   rim             under external teeth thinner than 1.2 tooth heights, under a ring's than 3.5 m, where ISO 6336-3
 //                   begins to count its bending (Y_B); [G-kf], [G-kfr] have no rim
 //

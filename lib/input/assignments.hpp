@@ -16,6 +16,7 @@ struct Assignment {
   nlohmann::json value;
   std::string text;                     ///< as given
   std::vector<std::string> problems{};  ///< what is wrong with it as such; load_input() reports it with all else
+  std::vector<std::string> notes{};     ///< warnings of old names in it, once load_input() has renamed them
 
   [[nodiscard]] std::string shown() const { return "--set " + text; }
 };

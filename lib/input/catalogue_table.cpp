@@ -111,17 +111,17 @@ const Table<gear::SupportBearing>& bearing_table() {
 const Table<gear::CarrierBody>& body_table() {
   static const auto table = [] {
     using gear::CarrierBody;
-    Table<CarrierBody> t("body", "Carrier of round cheeks and one pin per planet.");
-    t.integer("cheeks", &CarrierBody::cheeks, between(1, 10), "Number of cheeks [-].");
-    t.number("cheek_thickness_mm", &CarrierBody::cheek_thickness_mm, length_bounds, "Thickness of a cheek [mm].")
+    Table<CarrierBody> t("body", "Carrier of round plates and one pin per planet.");
+    t.integer("plates", &CarrierBody::plates, between(1, 10), "Number of plates [-].");
+    t.number("plate_thickness_mm", &CarrierBody::plate_thickness_mm, length_bounds, "Thickness of a plate [mm].")
         .required();
-    t.number("outer_diameter_mm", &CarrierBody::outer_diameter_mm, length_bounds, "Outer diameter of a cheek [mm].")
+    t.number("outer_diameter_mm", &CarrierBody::outer_diameter_mm, length_bounds, "Outer diameter of a plate [mm].")
         .required();
     t.number("inner_diameter_mm", &CarrierBody::inner_diameter_mm, between(0, length_max_mm),
-             "Inner diameter of a cheek [mm].");
+             "Inner diameter of a plate [mm].");
     t.number("pin_diameter_mm", &CarrierBody::pin_diameter_mm, length_bounds, "Diameter of a pin [mm].").required();
     t.number("pin_length_mm", &CarrierBody::pin_length_mm, length_bounds,
-             "Length of a pin between the cheeks, which count as solid discs [mm].")
+             "Length of a pin between the plates, which count as solid discs [mm].")
         .required();
     return t;
   }();

@@ -225,6 +225,11 @@ bool check_list(const json& value, const std::string& pointer, std::size_t most,
 void check_keys(const json& object, const std::string& pointer, const std::vector<std::string>& known,
                 const std::vector<KeyRule>& rules, ReadContext& context) {
   for (const auto& [key, value] : object.items()) {
+    if (key == schema_key && (pointer.empty() || pointer == "/stage")) {
+      if (!value.is_string())
+        context.add(Finding::Kind::type, pointer + pointer_step(key), "is " + described(value) + ", must be a string");
+      continue;
+    }
     if (key == "origin" || key == "note" || std::find(known.begin(), known.end(), key) != known.end()) continue;
     auto [message, meant] = unknown_key(key, pointer, known, context);
     context.findings.push_back({Finding::Kind::unknown_key, pointer + pointer_step(key), message, meant});

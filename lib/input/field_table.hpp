@@ -101,6 +101,9 @@ struct KeyRule {
 /// "the string \"abc\"", "an object", ...: what a message says is there.
 [[nodiscard]] std::string described(const nlohmann::json& value);
 
+/// Key of a study or stage by which editors find the schema.
+inline constexpr const char* schema_key = "$schema";
+
 /// The unit in a key's ending: "kg" for mass_kg, "N/m" for support_N_per_m; empty if there is none.
 [[nodiscard]] std::string unit_of(std::string_view key);
 

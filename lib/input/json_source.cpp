@@ -439,6 +439,25 @@ int JsonSource::line_of(std::string_view pointer) const {
   }
 }
 
+void JsonSource::move(const std::string& from, const std::string& to) {
+  std::vector<std::pair<std::string, int>> lines;
+  for (auto it = line.lower_bound(from); it != line.end() && it->first.starts_with(from);)
+    if (pointer_within(it->first, from)) {
+      lines.emplace_back(to + it->first.substr(from.size()), it->second);
+      it = line.erase(it);
+    } else {
+      ++it;
+    }
+  line.insert(lines.begin(), lines.end());
+  std::vector<std::string> places;
+  for (const std::string& place : unreadable)
+    if (pointer_within(place, from)) places.push_back(place);
+  for (const std::string& place : places) {
+    unreadable.erase(place);
+    unreadable.insert(to + place.substr(from.size()));
+  }
+}
+
 namespace {
 /// Why bytes are no text that could be JSON, and in which line (0: in none); empty if they may be.
 std::pair<int, std::string> no_json_text(const std::string& bytes, const LineIndex& lines) {

@@ -63,6 +63,9 @@ struct JsonSource {
 
   /// The line of that pointer or of its nearest parent that is there; 0 if the text is not there at all.
   [[nodiscard]] int line_of(std::string_view pointer) const;
+
+  /// What stands at a pointer and below it gets another one; where that has something already, it stays.
+  void move(const std::string& from, const std::string& to);
 };
 
 /// Reads a text. Never throws for what the text holds: see `problems`.

@@ -68,7 +68,7 @@ class Walker {
     const auto properties = schema.find("properties");
     if (properties == schema.end()) return;
     for (const auto& [key, value] : properties->items()) {
-      if (key == "origin" || key == "note") continue;
+      if (key == "origin" || key == "note" || key == schema_key) continue;
       const std::string place = pointer + pointer_step(key);
       add(place, key, value, kind);
       walk(value, place, kind);

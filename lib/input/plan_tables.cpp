@@ -26,7 +26,7 @@ const std::vector<std::pair<std::string, studies::Direction>>& direction_choices
 }
 
 const std::vector<std::pair<std::string, studies::Start>>& start_choices() {
-  static const std::vector<std::pair<std::string, studies::Start>> all = {{"carried", studies::Start::carried},
+  static const std::vector<std::pair<std::string, studies::Start>> all = {{"continued", studies::Start::continued},
                                                                           {"cold", studies::Start::cold}};
   return all;
 }
@@ -42,7 +42,7 @@ void add_grid(Table<Study>& t) {
   add_course(t, sweep, &SweepOptions::directions, &SweepOptions::start);
   t.integer_or_auto(
       "segments", in_plan(sweep, &SweepOptions::segments), between(1, 100000),
-      "Chains per direction of a sweep with `start` = `carried` [-], or \"auto\": by the number of points.");
+      "Chains per direction of a sweep with `start` = `continued` [-], or \"auto\": by the number of points.");
   t.integer("coarse_periods", in_plan(sweep, &SweepOptions::coarse_periods), between(1, 1e6),
             "Mesh periods of each point in the first pass along the range, which gives the initial states of the "
             "segments [-].");
@@ -60,7 +60,7 @@ void add_recording(Table<Study>& t) {
             "Mesh periods before the record, if the transient is fixed [-].");
   t.integer("recorded_periods", of(&RecordingOptions::recorded_periods), between(1, 1e5), "Mesh periods recorded [-].");
   t.integer("output_phases", of(&RecordingOptions::output_phases), between(1, 10000),
-            "Output points per recorded mesh period [-].");
+            "Samples per recorded mesh period for means and harmonics [-]; extrema have at least four times as many.");
   t.integer("period_max", of(&RecordingOptions::period_max), between(1, 10000),
             "Longest period that is sought, in mesh periods [-].");
   t.number("recurrence_tolerance", of(&RecordingOptions::recurrence_tolerance), between(tolerance_min, 1),

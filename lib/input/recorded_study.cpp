@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "input/aliases.hpp"
+
 namespace epicyclic::input {
 
 namespace {
@@ -18,6 +20,7 @@ constexpr std::array<std::pair<const char*, const char*>, 3> later_keys = {
 }  // namespace
 
 void add_later_keys(nlohmann::json& resolved) {
+  use_new_names(resolved);
   for (const auto& [pointer, value] : later_keys) {
     const nlohmann::json::json_pointer place(pointer);
     const nlohmann::json::json_pointer table = place.parent_pointer();

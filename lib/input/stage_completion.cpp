@@ -186,7 +186,7 @@ json computed_values(const gear::Stage& read) {
   fill_gear(ring, set.ring);
   fill_body(ring, bodies.ring, set.ring.base_radius_mm, "[G-M] ring between mean of tip and root radius and rim");
   Filler carrier = lumped.below("carrier");
-  fill_body(carrier, bodies.carrier, set.centre_distance_mm, "[G-Mc] cheeks and pins");
+  fill_body(carrier, bodies.carrier, set.centre_distance_mm, "[G-Mc] plates and pins");
   if (c.carrier.bearing)
     carrier.fill("support_N_per_m", support_stiffness(*c.carrier.bearing), bearing_tag(*c.carrier.bearing));
   if (c.carrier.shaft && read.boundary != gear::Boundary::fixed_ring) {

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "input/aliases.hpp"
 #include "input/given_speeds.hpp"
 #include "input/input_sources.hpp"
 #include "input/origins.hpp"
@@ -105,6 +106,12 @@ class LoadedInput::Loader {
           {source.name, source.line_of(finding.pointer), prefix + finding.pointer, std::move(finding.message)});
   }
 
+  /// By this key an editor finds the schema. Nothing depends on it. What is no string is left for the reader to refuse.
+  static void remove_schema_key(json& object) {
+    if (!object.is_object()) return;
+    if (const auto found = object.find(schema_key); found != object.end() && found->is_string()) object.erase(found);
+  }
+
   void read_study_file(std::span<const Assignment> sets) {
     JsonSource& file = sources_->study;
     file = sources_->files->read(sources_->path);
@@ -113,12 +120,69 @@ class LoadedInput::Loader {
       if (set.problems.empty()) sources_->sets.push_back(set);
       for (const std::string& message : set.problems) problems_.add({set.shown(), 0, "", message});
     }
+    sources_->bare = file.value.is_object() && !file.value.contains("stage") &&
+                     (file.value.contains("lumped") || file.value.contains("catalogue"));
+    rename_sets();
     if (file.complete && !file.value.is_object())
       problems_.add({file.name, file.line_of(""), "", "is " + described(file.value) + ", must be an object"});
     if (!file.complete || !file.value.is_object()) raise();
+    rename(file, std::string(sources_->bare ? stage_root : ""), "");
     note_origins(file.value, file, "");
     whole_ = file.value;
-    sources_->bare = (whole_.contains("lumped") || whole_.contains("catalogue")) && !whole_.contains("stage");
+    remove_schema_key(whole_);
+    if (const auto stage = whole_.find("stage"); stage != whole_.end()) remove_schema_key(*stage);
+  }
+
+  /// Kind of the study, as the assignments or the file give it; empty where they do not.
+  [[nodiscard]] std::string study_kind() const {
+    std::string kind = study_of(sources_->study.value);
+    for (const Assignment& set : sources_->sets) {
+      json alone;
+      if (pointer_within(set.pointer, "/study") && assign(alone, set.pointer, set.value).empty())
+        if (std::string given = study_of(alone); !given.empty()) kind = std::move(given);
+    }
+    return kind;
+  }
+
+  /// Old names of a text.
+  /// @param place        of the text in the whole input
+  /// @param shown_below  what stands before its pointers in messages
+  void rename(JsonSource& source, const std::string& place, std::string_view shown_below) {
+    Renaming renaming;
+    use_new_names(source.value, place, study_kind(), renaming);
+    for (const auto& [from, to] : renaming.moved) source.move(from, to);
+    for (const auto& [pointer, message] : renaming.clashes)
+      problems_.add({source.name, source.line_of(pointer), std::string(shown_below) + pointer, message});
+    for (const std::string& warning : renaming.warnings) note_once(warning);
+  }
+
+  /// Old names of assignments.
+  void rename_sets() {
+    const std::string kind = study_kind();
+    std::vector<const Assignment*> old;
+    for (Assignment& set : sources_->sets) {
+      Renaming renaming;
+      // Of a stage alone pointers may begin at the stage.
+      const bool at_stage = sources_->bare && !pointer_within(set.pointer, stage_root);
+      const std::string root(at_stage ? stage_root : "");
+      const std::string pointer = new_pointer(root + set.pointer, kind, renaming).substr(root.size());
+      use_new_names(set.value, root + pointer, kind, renaming, pointer);
+      for (const auto& [at, message] : renaming.clashes) problems_.add({set.shown(), 0, at, message});
+      if (pointer != set.pointer) old.push_back(&set);
+      set.pointer = pointer;
+      set.notes.insert(set.notes.end(), renaming.warnings.begin(), renaming.warnings.end());
+      for (const std::string& note : set.notes) note_once(note);
+    }
+    for (const Assignment* by_old_name : old)
+      for (const Assignment& set : sources_->sets)
+        if (set.pointer == by_old_name->pointer && std::ranges::find(old, &set) == old.end())
+          problems_.add(
+              {by_old_name->shown(), 0, set.pointer,
+               "is given by its old name and, in " + set.shown() + ", by its new one; give the new one alone"});
+  }
+
+  void note_once(const std::string& note) {
+    if (std::ranges::find(context_.notes, note) == context_.notes.end()) context_.notes.push_back(note);
   }
 
   [[nodiscard]] bool is_early(const Assignment& set) const {
@@ -169,8 +233,10 @@ class LoadedInput::Loader {
     }
     stage_missing_ = !stage.complete || !stage.value.is_object();
     if (!stage_missing_) {
+      rename(stage, std::string(stage_root), stage_root);
       note_origins(stage.value, stage, std::string(stage_root));
       whole_["stage"] = stage.value;
+      remove_schema_key(whole_["stage"]);
     }
     input_.stage_file = RawFile{stage_path.filename().string(), stage.bytes};
     sources_->stage = std::move(stage);

@@ -57,9 +57,9 @@ const Bounds smoothing_width = between(0, 10);
 constexpr auto itself = [](auto& t) -> auto& { return t; };
 
 const std::vector<std::pair<std::string, Interpolation>> interpolations = {
-    {"straight", Interpolation::straight}, {"monotone", Interpolation::monotone}, {"smooth", Interpolation::smooth}};
+    {"linear", Interpolation::linear}, {"monotone", Interpolation::monotone}, {"smooth", Interpolation::smooth}};
 const std::string interpolation_words =
-    "straight, monotone (never beyond the rows), or smooth, of fourth order, for rows of a smooth function.";
+    "linear, monotone (never beyond the rows), or smooth, of fourth order, for rows of a smooth function.";
 
 /// `inner` of what `outer` reaches.
 template <class F, class G>
@@ -452,7 +452,7 @@ const Table<model::ModelOptions>& model_table() {
     t.choice("gyroscopic", &model::ModelOptions::gyroscopic,
              std::vector<std::pair<std::string, Gyroscopic>>{{"automatic", Gyroscopic::automatic},
                                                              {"off", Gyroscopic::off},
-                                                             {"printed", Gyroscopic::printed},
+                                                             {"as_printed", Gyroscopic::as_printed},
                                                              {"carrier_row", Gyroscopic::carrier_row},
                                                              {"invariant", Gyroscopic::invariant}},
              "Form of the terms with the carrier's speed.");
@@ -521,11 +521,11 @@ const Table<Stage>& stage_table() {
     Table<Stage> t("stage", "A planetary stage.");
     t.text("name", &Stage::name, "Name of the stage.");
     t.choice("boundary", &Stage::boundary,
-             std::vector<std::pair<std::string, gear::Boundary>>{{"literal", gear::Boundary::as_printed},
+             std::vector<std::pair<std::string, gear::Boundary>>{{"as_printed", gear::Boundary::as_printed},
                                                                  {"fixed_ring", gear::Boundary::fixed_ring},
                                                                  {"star", gear::Boundary::star}},
              "Member that is held: the ring, the carrier (star), or neither, as in the printed equations of Tang et "
-             "al. (`literal`).");
+             "al. (`as_printed`).");
     t.object("planets", itself, planets_table()).required();
     t.object("load", &Stage::load, load_table());
     t.object("catalogue", present(&Stage::catalogue), catalogue_table());
@@ -610,15 +610,17 @@ std::string schema_text() {
       {"description", "Where values come from: one text for all values of the object, or one for each key of it."},
       {"anyOf", {origin_text, {{"type", "object"}, {"additionalProperties", origin_text}}}}};
 
+  ordered_json stage = stage_table().schema();
+  ordered_json catalogue_stage = catalogue_stage_schema(stage);
+  for (ordered_json* file : {&study, &stage, &catalogue_stage})
+    (*file)["properties"][schema_key] = {
+        {"type", "string"}, {"description", "Of a file: where the schema is, for editors. Nothing depends on it."}};
+
   const ordered_json schema = {
       {"$schema", "https://json-schema.org/draft/2020-12/schema"},
       {"title", "epicyclic input: a study, or a stage alone"},
       {"anyOf", {{{"$ref", "#/$defs/study"}}, {{"$ref", "#/$defs/stage"}}, {{"$ref", "#/$defs/catalogue_stage"}}}},
-      {"$defs",
-       {{"study", study},
-        {"stage", stage_table().schema()},
-        {"catalogue_stage", catalogue_stage_schema(stage_table().schema())},
-        {"origin", origin}}}};
+      {"$defs", {{"study", study}, {"stage", stage}, {"catalogue_stage", catalogue_stage}, {"origin", origin}}}};
   return schema.dump(2) + "\n";
 }
 

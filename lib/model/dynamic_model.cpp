@@ -248,7 +248,7 @@ Layout layout_of(const gear::Stage& stage, CoordinateChoice choice) {
 
 DynamicModel make_dynamic_model(const gear::Stage& stage, const Scales& scales, double mesh_frequency_ratio,
                                 const ModelOptions& options, CoordinateChoice choice) {
-  const bool printed = options.gyroscopic == Gyroscopic::printed || options.gyroscopic == Gyroscopic::carrier_row;
+  const bool printed = options.gyroscopic == Gyroscopic::as_printed || options.gyroscopic == Gyroscopic::carrier_row;
   if (printed && stage.boundary == gear::Boundary::fixed_ring && choice == CoordinateChoice::relative)
     throw InputError(
         "/model/gyroscopic: the printed terms do not close in relative coordinates when the carrier is free "

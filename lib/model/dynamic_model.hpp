@@ -82,7 +82,7 @@ struct DynamicModel : VectorField {
   std::function<void(std::span<double> deviation)> remove_synchronous;
 
   /// At rest, each mesh on its drive flank at delta = b + F / k of the static load, errors as at s = 0: the equilibrium
-  /// of the linear stage with mean stiffness (of its relative coordinates for `literal`, where the whole train
+  /// of the linear stage with mean stiffness (of its relative coordinates for `as_printed`, where the whole train
   /// accelerates).
   std::vector<double> default_start;
 

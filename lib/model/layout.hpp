@@ -3,7 +3,7 @@
 // Full coordinates (3N + 9, Eq. (12)): translations x, y and rotations u = r theta of sun, planets, ring and carrier.
 // They contain one rigid rotation. It is eliminated by measuring rotations relative to one member [M-rel]:
 //
-//   ring      w_s = u_s + u_r ,  w_pi = u_pi - u_r                                   `literal`, `star`: 3N + 8
+//   ring      w_s = u_s + u_r ,  w_pi = u_pi - u_r                                   `as_printed`, `star`: 3N + 8
 //   carrier   w_s = u_s - u_c (cos alpha_sp + cos alpha_rp) ,  w_pi = u_pi + u_c cos alpha_rp ,
 //             X_i = x_pi + u_c sin phi_i ,  Y_i = y_pi - u_c cos phi_i               `fixed_ring`: 3N + 8
 //   carrier, ring rigid in rotation (u_r = 0)                                        `fixed_ring`: 3N + 7

@@ -11,9 +11,9 @@ enum class GapDamping {
 
 /// Terms with omega_c of the frame that turns with the carrier (docs/theory/model.md, section 3).
 enum class Gyroscopic {
-  automatic,    ///< printed for `literal`, invariant where the carrier is free
+  automatic,    ///< printed for `as_printed`, invariant where the carrier is free
   off,          ///< none
-  printed,      ///< Eqs. (17)-(20): with a free carrier the rigid rotation diverges
+  as_printed,   ///< Eqs. (17)-(20): with a free carrier the rigid rotation diverges
   carrier_row,  ///< printed plus N M_p omega_c^2 u_c in the carrier row: not exact either
   invariant,    ///< from the Lagrangian in the planets' displacement relative to the carrier's own rotation
 };

@@ -186,7 +186,7 @@ struct GyroscopicForm {
 
 GyroscopicForm gyroscopic_form(gear::Boundary boundary, Gyroscopic wanted) {
   if (wanted == Gyroscopic::automatic)
-    wanted = boundary == gear::Boundary::as_printed ? Gyroscopic::printed : Gyroscopic::invariant;
+    wanted = boundary == gear::Boundary::as_printed ? Gyroscopic::as_printed : Gyroscopic::invariant;
   return {wanted != Gyroscopic::off, wanted == Gyroscopic::invariant, wanted == Gyroscopic::carrier_row};
 }
 

@@ -26,9 +26,9 @@
 
 #include "core/scalar.hpp"
 #include "model/clearance.hpp"
-#include "model/instant.hpp"
 #include "model/layout.hpp"
 #include "model/parameters.hpp"
+#include "model/phase_coefficients.hpp"
 #include "model/stage_outputs.hpp"
 
 namespace epicyclic::model {
@@ -76,7 +76,7 @@ struct MeshState {
 /// [M-27] of one kind of mesh, given what the phase decides.
 template <class T, class P, std::size_t N, std::size_t G>
 [[nodiscard]] MeshState<T, G, P> mesh_state(const Parameters<P, N>& p, const Planets<N, G>& planets,
-                                            const MeshParameters<P, N>& mesh, const MeshInstant<P, N>& now,
+                                            const MeshParameters<P, N>& mesh, const MeshCoefficients<P, N>& now,
                                             const Row<T, G>& displacement, const Row<T, G>& velocity) {
   using R = Row<T, G>;
   MeshState<T, G, P> m;
@@ -391,7 +391,7 @@ void contact_distances(Layout layout, const Parameters<P, N>& p, const PhaseCoef
     const Planets<N, 1> own{i};
     const Deflections<T, 1> d = deflections(p, own, unpack(layout, own, y));
     const Deflections<T, 1> d_rate = deflections(p, own, unpack(layout, own, velocities));
-    const auto mesh = [&](const MeshParameters<P, N>& m, const MeshInstant<P, N>& coefficients, const Row<T, 1>& x,
+    const auto mesh = [&](const MeshParameters<P, N>& m, const MeshCoefficients<P, N>& coefficients, const Row<T, 1>& x,
                           const Row<T, 1>& rate) {
       flanks(coefficients.delta(own, x)[0], coefficients.rate(own, rate)[0], m.half_gap);
     };

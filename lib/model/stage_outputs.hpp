@@ -6,7 +6,7 @@
 //   TE = u_s + u_r - u_c (cos alpha_sp + cos alpha_rp) ,  rotations on the base circles                        [S-te]
 //
 // TE is by how much the sun is ahead of what a rigid train without errors turns it to, along its lines of action: the
-// driving member against the driven one where the carrier (boundary `literal`, `star`) or the ring (`fixed_ring`)
+// driving member against the driven one where the carrier (boundary `as_printed`, `star`) or the ring (`fixed_ring`)
 // stands, and a rigid rotation of the whole train is none. In relative coordinates it is w_s, with the torsion of the
 // member that is supported.
 //

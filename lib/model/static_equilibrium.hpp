@@ -4,7 +4,7 @@
 //
 // The second are the quasi-static solution: what a stage does that turns so slowly that no inertia, no damping and no
 // frame term acts. Gaps, moving stiffness, errors, the sun bearing's law and the friction of the operating point stay.
-// Masses divide the rows and do not move the solution. Where nothing holds the output (boundary `literal`) the train
+// Masses divide the rows and do not move the solution. Where nothing holds the output (boundary `as_printed`) the train
 // accelerates as one, and the relative coordinates are at rest.
 //
 // Newton's method, each phase from the one before; steps are halved until the accelerations fall. With exact gaps the

@@ -26,6 +26,10 @@ void write_plane(store::Hdf5File& h5, const std::string& group, const std::strin
   h5.create_group(group);
   h5.write(group + "/value", std::span<const double>(axis_values(plane.first)));
   h5.write(group + "/" + second.name, std::span<const double>(axis_values(plane.second)));
+  h5.set_attribute(group + "/value", axis, plane.first.name);
+  h5.set_attribute(group + "/" + second.name, axis, plane.second.name);
+  h5.name_axes(group + "/value", {"value"});
+  h5.name_axes(group + "/" + second.name, {second.name});
 }
 
 }  // namespace epicyclic::reports

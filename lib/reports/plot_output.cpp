@@ -22,6 +22,7 @@
 #include "core/errors.hpp"
 #include "figures/cell_figure.hpp"
 #include "figures/sketch.hpp"
+#include "input/aliases.hpp"
 #include "input/field_table.hpp"
 #include "input/speed_aliases.hpp"
 #include "input/study_kind.hpp"
@@ -62,6 +63,11 @@ std::string text_of_file(const std::filesystem::path& file) {
   return read_all(descriptor.get(), file);
 }
 
+/// Gives the columns of a table of an earlier program their names of today.
+void use_new_names(std::vector<std::string>& columns, const std::filesystem::path& file) {
+  for (std::string& name : columns) name = input::new_column(file.filename().string(), name);
+}
+
 /// Some columns of a table that may have more than fit into memory.
 class Columns {
  public:
@@ -71,6 +77,7 @@ class Columns {
     columns_.resize(names_.size());
     const bool is_table = scan_csv(text_of_file(file), [&](std::vector<std::string>& cells) {
       if (at.empty()) {
+        use_new_names(cells, file);
         for (const std::string& name : names_) {
           const auto found = std::ranges::find(cells, name);
           if (found == cells.end()) throw InputError(file.string() + ": has no column '" + name + "'");
@@ -107,6 +114,7 @@ std::vector<std::string> header_of(const std::filesystem::path& file) {
   const std::string line = text.substr(0, text.find('\n'));
   std::vector<std::string> names;
   (void)scan_csv(line + "\n", [&names](std::vector<std::string>& cells) { names = cells; });
+  use_new_names(names, file);
   return names;
 }
 
@@ -265,8 +273,8 @@ class Plot {
     const PlottedStudy& of = studies_.front();
     const auto& map = of.study->plan.as<studies::MapOptions>();
     std::vector<std::string> wanted{"direction", "status", options_.quantity};
-    const bool tells_settled = has(header_of(of.folder / "points.csv"), "settled");
-    if (tells_settled) wanted.emplace_back("settled");
+    const bool has_converged = has(header_of(of.folder / "points.csv"), "converged");
+    if (has_converged) wanted.emplace_back("converged");
     const Columns table(of.folder / "points.csv", wanted);
     const figures::CellGrid grid{axis_values(map.plane.first), axis_values(map.plane.second)};
     const std::size_t cells = grid.x.size() * grid.y.size();
@@ -283,7 +291,7 @@ class Plot {
           ++failed_;
           continue;
         }
-        if (tells_settled && table.number("settled", row) != 1.0) ++not_settled_;
+        if (has_converged && table.number("converged", row) != 1.0) ++not_converged_;
         values[k - step + column] = factor_ * table.number(options_.quantity, row);
       }
       const std::string way = store::direction_word(map.directions[d]);
@@ -307,11 +315,11 @@ class Plot {
     if (failed_ > 0)
       notes_.push_back(
           fmt::format("{}: {} not reached and left out", stem, counted(failed_, "points were", "point was")));
-    if (not_settled_ > 0)
-      notes_.push_back(
-          fmt::format("{}: the record of {} has not converged to the orbit (`settled` in points.csv); their values are "
-                      "not those of the orbit, and sweeps draw them separately",
-                      stem, counted(not_settled_, "points")));
+    if (not_converged_ > 0)
+      notes_.push_back(fmt::format(
+          "{}: the record of {} has not converged to the orbit (`converged` in points.csv); their values are "
+          "not those of the orbit, and sweeps draw them separately",
+          stem, counted(not_converged_, "points")));
   }
 
   struct Series {
@@ -370,9 +378,9 @@ class Plot {
     const std::string x = abscissa_or("value");
     const std::vector<std::string> names = header_of(folder / "points.csv");
     const bool section = !has(names, options_.quantity);
-    const bool tells_settled = has(names, "settled");  // later than some folders
+    const bool has_converged = has(names, "converged");  // later than some folders
     std::vector<std::string> wanted{"direction", "status", "regime", x};
-    if (tells_settled) wanted.emplace_back("settled");
+    if (has_converged) wanted.emplace_back("converged");
     if (!section) wanted.push_back(options_.quantity);
     const Columns points(folder / "points.csv", wanted);
     // First where the points are, then what the section has at each.
@@ -388,16 +396,16 @@ class Plot {
       const bool reached = points.word("status", row) == "ok";
       if (!reached) ++failed_;
       if (section) {
-        if (reached && tells_settled && points.number("settled", row) != 1.0) ++not_settled_;
+        if (reached && has_converged && points.number("converged", row) != 1.0) ++not_converged_;
         continue;
       }
       const Place at = reached ? place(points.number(x, row), points.number(options_.quantity, row)) : gap;
       // No line goes through chaos, where such numbers are a matter of chance, or through a record on its way.
       const std::string& regime = points.word("regime", row);
-      const bool settled = !tells_settled || points.number("settled", row) == 1.0;
-      if (reached && !settled) ++not_settled_;
-      (settled ? s.rows : s.apart).push_back(at);
-      s.joined.push_back(settled && (regime == "periodic" || regime == "quasiperiodic") ? at : gap);
+      const bool converged = !has_converged || points.number("converged", row) == 1.0;
+      if (reached && !converged) ++not_converged_;
+      (converged ? s.rows : s.apart).push_back(at);
+      s.joined.push_back(converged && (regime == "periodic" || regime == "quasiperiodic") ? at : gap);
     }
     if (section) {
       const Columns rows(folder / "poincare.csv", {"point", options_.quantity});
@@ -405,8 +413,8 @@ class Plot {
         const auto point = static_cast<std::size_t>(rows.number("point", row));
         if (point >= points.rows() || points.word("status", point) != "ok") continue;
         Series& s = series_at(point);
-        const bool settled = !tells_settled || points.number("settled", point) == 1.0;
-        (settled ? s.rows : s.apart).push_back(place(points.number(x, point), rows.number(options_.quantity, row)));
+        const bool converged = !has_converged || points.number("converged", point) == 1.0;
+        (converged ? s.rows : s.apart).push_back(place(points.number(x, point), rows.number(options_.quantity, row)));
       }
     }
     std::ranges::move(ways, std::back_inserter(series_));
@@ -424,17 +432,57 @@ class Plot {
     return changes;
   }
 
+  /// A column of poincare.csv: for each crossing its values at the rows of branch.csv, not a number where there is
+  /// none.
+  static std::vector<std::vector<double>> crossing_values(const std::filesystem::path& folder, const Columns& branches,
+                                                          const std::string& quantity) {
+    std::map<std::pair<std::string, std::string>, std::size_t> row_of;
+    for (std::size_t row = 0; row < branches.rows(); ++row)
+      row_of[{branches.word("branch", row), branches.word("index", row)}] = row;
+    std::vector<std::vector<double>> all;
+    const Columns section(folder / "poincare.csv", {"branch", "index", quantity});
+    std::vector<std::size_t> crossings(branches.rows(), 0);  // read of each row
+    for (std::size_t k = 0; k < section.rows(); ++k) {
+      const auto row = row_of.find({section.word("branch", k), section.word("index", k)});
+      if (row == row_of.end()) continue;
+      const std::size_t crossing = crossings[row->second]++;
+      if (crossing == all.size()) all.emplace_back(branches.rows(), nan);
+      all[crossing][row->second] = section.number(quantity, k);
+    }
+    return all;
+  }
+
   void read_branches(std::size_t k) {
     const std::string x = abscissa_or("value");
-    std::vector<std::string> wanted{"branch", "index", "stable", "value", options_.quantity};
+    const std::filesystem::path& folder = studies_[k].folder;
+    const bool section = !has(header_of(folder / "branch.csv"), options_.quantity);
+    std::vector<std::string> wanted{"branch", "index", "stable", "value"};
+    if (!section) wanted.push_back(options_.quantity);
     if (x != "value") wanted.push_back(x);
-    const Columns table(studies_[k].folder / "branch.csv", wanted);
-    const auto changes = stability_changes(studies_[k].folder);
+    const Columns table(folder / "branch.csv", wanted);
+    const auto changes = stability_changes(folder);
+    std::vector<std::vector<double>> curves;
+    if (section) {
+      curves = crossing_values(folder, table, options_.quantity);
+    } else {
+      curves.emplace_back();
+      for (std::size_t row = 0; row < table.rows(); ++row)
+        curves.back().push_back(table.number(options_.quantity, row));
+    }
     Series s{k, {}, true, false, {}, {}};
+    for (const std::vector<double>& curve : curves) add_branches(s, table, x, curve, changes);
+    series_.push_back(std::move(s));
+  }
+
+  using StabilityChanges = std::map<std::pair<std::string, std::string>, double>;
+
+  /// @param curve  ordinate of each row of the table
+  void add_branches(Series& s, const Columns& table, const std::string& x, const std::vector<double>& curve,
+                    const StabilityChanges& changes) {
     for (std::size_t row = 0; row < table.rows(); ++row) {
       const bool begins = row == 0 || table.word("branch", row) != table.word("branch", row - 1);
       const bool stable = table.number("stable", row) == 1.0;
-      const Place at = place(table.number(x, row), table.number(options_.quantity, row));
+      const Place at = place(table.number(x, row), curve[row]);
       if (begins) {
         s.rows.push_back(gap);
         s.joined.push_back(gap);
@@ -445,10 +493,10 @@ class Plot {
         double part = change == changes.end() ? 1.0 : (change->second - last) / (table.number("value", row) - last);
         const bool is_between = part > 0.0 && part <= 1.0;
         if (!is_between) part = 0.5;
-        const auto between = [&](const std::string& column) {
-          return (1.0 - part) * table.number(column, row - 1) + part * table.number(column, row);
-        };
-        const Place there = place(is_between || x != "value" ? between(x) : change->second, between(options_.quantity));
+        const auto between = [&](double first, double second) { return (1.0 - part) * first + part * second; };
+        const double abscissa =
+            is_between || x != "value" ? between(table.number(x, row - 1), table.number(x, row)) : change->second;
+        const Place there = place(abscissa, between(curve[row - 1], curve[row]));
         auto& before = stable ? s.joined : s.rows;
         before.push_back(there);
         before.push_back(gap);
@@ -456,7 +504,6 @@ class Plot {
       }
       (stable ? s.rows : s.joined).push_back(at);
     }
-    series_.push_back(std::move(s));
   }
 
   void read_run(std::size_t k) {
@@ -596,7 +643,7 @@ class Plot {
   std::vector<Series> series_;
   FigureRange x_, y_;
   std::pair<FigureRange, FigureRange> shown_;  ///< of the axes
-  std::size_t not_settled_ = 0;                ///< points whose record is on its way to their motion
+  std::size_t not_converged_ = 0;              ///< points whose record is on its way to their motion
   std::size_t failed_ = 0;                     ///< points that were not reached
   std::size_t not_positive_ = 0;               ///< values that a logarithmic scale has no place for
 };

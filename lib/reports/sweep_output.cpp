@@ -20,6 +20,7 @@
 #include "input/study_kind.hpp"
 #include "reports/quantity_words.hpp"
 #include "reports/response_output.hpp"
+#include "reports/section_output.hpp"
 #include "reports/table_output.hpp"
 #include "store/hdf5_file.hpp"
 #include "studies/named_parameters.hpp"
@@ -209,7 +210,7 @@ std::optional<figures::SecondAbscissa> speed_above(const std::string& parameter,
 
 std::string figure_title(const input::Study& study) {
   const gear::Boundary b = study.stage.boundary;
-  const char* boundary = b == gear::Boundary::as_printed ? "literal"
+  const char* boundary = b == gear::Boundary::as_printed ? "as_printed"
                          : b == gear::Boundary::star     ? "star"
                                                          : "fixed ring";
   std::string title = (study.name.empty() ? study.stage.name : study.name) + ", boundary " + boundary;
@@ -255,8 +256,9 @@ void write_poincare_csv(const std::filesystem::path& file, const SweepOutput& ou
 
 void write_point_columns(store::Hdf5File& h5, const studies::PointSource& points,
                          const std::vector<store::PointColumn>& more) {
-  write_table_h5(h5, "/points", columns_of(points, more), points.count,
-                 [&](std::size_t i) { return points.read_summary(i); });
+  write_table_h5(
+      h5, "/points", columns_of(points, more), points.count, [&](std::size_t i) { return points.read_summary(i); },
+      "point");
 }
 
 namespace {
@@ -282,6 +284,8 @@ void write_spectra(store::Hdf5File& h5, const studies::PointSource& points) {
     std::copy_n(r.spectrum.begin(), std::min(orders, r.spectrum.size()), values.begin());
   });
   h5.set_units("/spectra/delta_sp_1", "b_c");
+  h5.name_axes("/spectra/order", {"order"});
+  h5.name_axes("/spectra/delta_sp_1", {"point", "order"});
 }
 
 }  // namespace
@@ -294,23 +298,25 @@ void write_results_h5(const std::filesystem::path& file, const SweepOutput& outp
 
   write_point_columns(h5, points);
 
-  h5.create_group("/poincare");
   SectionRows section(points);
-  h5.write("/poincare/columns", std::span<const std::string>(output.poincare_columns));
   h5.write("/poincare/point", section.count(), store::Hdf5File::Column<std::int64_t>([&](std::size_t row) {
              return static_cast<std::int64_t>(section.at(row).first);
            }));
   h5.write("/poincare/index", section.count(), store::Hdf5File::Column<std::int64_t>([&](std::size_t row) {
              return static_cast<std::int64_t>(section.at(row).second);
            }));
+  h5.set_units("/poincare/point", "1");
+  h5.set_attribute("/poincare/point", "meaning", "number of the point in /points");
+  h5.set_units("/poincare/index", "1");
+  h5.set_attribute("/poincare/index", "meaning", "number of the Poincare point of this point, from 0");
   const std::size_t columns = output.poincare_columns.size();
   PointResult current;
-  h5.write("/poincare/values", section.count(), columns, [&](std::size_t row, std::span<double> values) {
-    const auto [point, k] = section.at(row);
-    if (k == 0) current = points.read(point);
-    std::copy_n(current.poincare.begin() + static_cast<std::ptrdiff_t>(k * columns), columns, values.begin());
-  });
-  h5.set_units("/poincare/values", "b_c, b_c per tau");
+  write_section_h5(
+      h5, "/poincare", output.poincare_columns, section.count(), [&](std::size_t row, std::span<double> values) {
+        const auto [point, k] = section.at(row);
+        if (k == 0) current = points.read(point);
+        std::copy_n(current.poincare.begin() + static_cast<std::ptrdiff_t>(k * columns), columns, values.begin());
+      });
   write_spectra(h5, points);
   h5.close();
 }

@@ -38,10 +38,11 @@ inline constexpr std::size_t columns_together = 16;
 
 /// One dataset a column, with units and meaning as attributes.
 /// @param row_at  Row row_at(i), asked for each row once every `columns_together` columns
+/// @param axis    name of the rows' axis; a column of this name is its scale
 /// @throws OutputError, and what row_at() throws
 template <class Row, class RowAt>
 void write_table_h5(store::Hdf5File& h5, const std::string& group, const std::vector<store::Column<Row>>& columns,
-                    std::size_t rows, RowAt row_at) {
+                    std::size_t rows, RowAt row_at, const std::string& axis = "row") {
   h5.create_group(group);
   using Values = std::variant<std::vector<std::int64_t>, std::vector<double>, std::vector<std::string>>;
   for (std::size_t first = 0; first < columns.size(); first += columns_together) {
@@ -69,6 +70,7 @@ void write_table_h5(store::Hdf5File& h5, const std::string& group, const std::ve
           values[k]);
       if (!some[k].unit.empty()) h5.set_units(path, some[k].unit);
       h5.set_attribute(path, "meaning", some[k].meaning);
+      h5.name_axes(path, {axis});
     }
   }
 }

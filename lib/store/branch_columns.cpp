@@ -136,7 +136,7 @@ std::vector<Column<LocusPlace>> locus_columns() {
        Number([](const LocusPlace& p) { return p.row.second; })},
       {"error_bound", "of the parameter", "of the first value",
        Number([](const LocusPlace& p) { return p.row.first_bound; })},
-      {"marked", "", "point of codimension two: cusp, resonance_1_1 ..., fold_flip, ...; empty: none",
+      {"codimension_two", "", "point of codimension two: cusp, resonance_1_1 ..., fold_flip, ...; empty: none",
        Words([](const LocusPlace& p) { return p.row.marked; })},
       {"error_bound_second", "of the second parameter", "of the second value",
        Number([](const LocusPlace& p) { return p.row.second_bound; })},

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cerrno>
 #include <charconv>
+#include <cstddef>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -21,12 +22,15 @@ namespace epicyclic::store {
 
 namespace {
 
-static_assert(std::is_same_v<hid_t, std::int64_t>, "Hdf5File stores HDF5 identifiers as int64");
+static_assert(std::is_same_v<hid_t, std::int64_t> && std::is_same_v<hsize_t, unsigned long long>,
+              "hdf5_file.hpp has these types of HDF5 by other names");
 
 /// Data above this size are chunked and compressed [bytes].
 constexpr std::size_t compress_above = std::size_t{64} << 10;
 /// Aimed size of a chunk [bytes]: within HDF5's chunk cache of 1 MiB.
 constexpr std::size_t chunk_bytes = std::size_t{256} << 10;
+/// Size of a block of columns that are written together [bytes].
+constexpr std::size_t columns_bytes = std::size_t{1} << 20;
 /// A section in chaos has all but random mantissas: level 4 takes 1.7 times as long as 1 for a file 1 % smaller.
 constexpr unsigned deflate_level = 1;
 
@@ -134,13 +138,13 @@ std::vector<hsize_t> chunk_shape(std::span<const hsize_t> shape, std::size_t val
   return chunk;
 }
 
-/// UTF-8 of exactly `size` bytes, padded with zero bytes.
-Handle text_type(std::size_t size) {
+/// Texts of exactly `size` bytes, padded with zero bytes.
+Handle text_type(std::size_t size, H5T_cset_t characters) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   // HDF5 knows no text type of size 0.
   H5Tset_size(type.get(), std::max<std::size_t>(1, size));
   H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
-  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  H5Tset_cset(type.get(), characters);
   return type;
 }
 
@@ -209,6 +213,7 @@ Hdf5File::Hdf5File(std::filesystem::path path) : path_(std::move(path)), disk_(p
   file_ = checked<OutputError>(
       uninterrupted([&] { return H5Fcreate(disk_.temporary().c_str(), H5F_ACC_TRUNC, creation.get(), access.get()); }),
       path_, "the file", "create");
+  set_attribute("/", "format_version", hdf5_format_version);
 }
 
 Hdf5File::~Hdf5File() { abandon(); }
@@ -240,53 +245,213 @@ void Hdf5File::create_group(std::string_view path) {
   }
 }
 
-void Hdf5File::write_rows(std::string_view path, std::int64_t file_type, std::int64_t memory_type,
-                          std::size_t value_size, std::span<const std::size_t> shape, const FillRows& fill) {
-  const QuietErrors quiet;
+/// @param chunk   of compressed data; empty: all values in one block
+/// @param cached  whether HDF5 may keep chunks that are whole
+/// @returns an identifier that the caller closes
+std::int64_t Hdf5File::create_dataset(std::string_view path, std::int64_t file_type, std::int64_t space,
+                                      std::span<const unsigned long long> chunk, bool cached) {
   const std::string name(path);
   if (const auto slash = path.rfind('/'); slash != std::string_view::npos && slash > 0) {
     create_group(path.substr(0, slash));
   }
+  const Handle creation = untimed(H5P_DATASET_CREATE);
+  const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  if (!chunk.empty()) {
+    checked<OutputError>(H5Pset_chunk(creation.get(), static_cast<int>(chunk.size()), chunk.data()), path_, name,
+                         "chunk");
+    checked<OutputError>(H5Pset_shuffle(creation.get()), path_, name, "shuffle");
+    checked<OutputError>(H5Pset_deflate(creation.get(), deflate_level), path_, name, "compress");
+    if (!cached)
+      checked<OutputError>(H5Pset_chunk_cache(access.get(), 0, 0, H5D_CHUNK_CACHE_W0_DEFAULT), path_, name, "chunk");
+  }
+  return checked<OutputError>(
+      H5Dcreate2(file_, name.c_str(), file_type, space, H5P_DEFAULT, creation.get(), access.get()), path_, name,
+      "create the dataset");
+}
+
+/// @param space  of the dataset, in which rows become selected
+void Hdf5File::write_block(std::int64_t dataset, std::string_view path, std::int64_t memory_type, std::int64_t space,
+                           std::span<const unsigned long long> start, std::span<const unsigned long long> block,
+                           const void* values) {
+  checked<OutputError>(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr), path_,
+                       path, "select rows of");
+  const Handle memory(checked<OutputError>(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr),
+                                           path_, path, "shape"),
+                      H5Sclose);
+  checked<OutputError>(H5Dwrite(dataset, memory_type, memory.get(), space, H5P_DEFAULT, values), path_, path,
+                       "write the dataset");
+}
+
+void Hdf5File::write_rows(std::string_view path, std::int64_t file_type, std::int64_t memory_type,
+                          std::size_t value_size, std::span<const std::size_t> shape, const FillRows& fill) {
+  const QuietErrors quiet;
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
   std::size_t row_size = value_size;
   for (const std::size_t length : shape.subspan(1)) row_size *= length;
 
   const Handle space(checked<OutputError>(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
-                                          path_, name, "shape"),
+                                          path_, path, "shape"),
                      H5Sclose);
-  const Handle creation = untimed(H5P_DATASET_CREATE);
+  std::vector<hsize_t> chunk;
   std::size_t rows_at_once = shape[0];
   if (shape[0] * row_size > compress_above) {
-    const std::vector<hsize_t> chunk = chunk_shape(extent, value_size);
-    checked<OutputError>(H5Pset_chunk(creation.get(), static_cast<int>(chunk.size()), chunk.data()), path_, name,
-                         "chunk");
-    checked<OutputError>(H5Pset_shuffle(creation.get()), path_, name, "shuffle");
-    checked<OutputError>(H5Pset_deflate(creation.get(), deflate_level), path_, name, "compress");
+    chunk = chunk_shape(extent, value_size);
     // Whole chunks: each is compressed and written once.
     rows_at_once = static_cast<std::size_t>(chunk[0]);
   }
-  const Handle dataset(checked<OutputError>(H5Dcreate2(file_, name.c_str(), file_type, space.get(), H5P_DEFAULT,
-                                                       creation.get(), H5P_DEFAULT),
-                                            path_, name, "create the dataset"),
-                       H5Dclose);
+  const Handle dataset(create_dataset(path, file_type, space.get(), chunk, /*cached=*/true), H5Dclose);
+  written_.push_back({std::string(path), {shape.begin(), shape.end()}});
   if (shape[0] * row_size == 0) return;
   std::vector<hsize_t> start(extent.size(), 0);
-  std::vector<hsize_t> block = extent;
+  std::vector<hsize_t> block(extent.begin(), extent.end());
   for (std::size_t row = 0; row < shape[0]; row += rows_at_once) {
     const std::size_t rows = std::min(rows_at_once, shape[0] - row);
-    const std::byte* bytes = fill(row, rows);
     start[0] = row;
     block[0] = rows;
-    checked<OutputError>(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr),
-                         path_, name, "select rows of");
-    const Handle memory(checked<OutputError>(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr),
-                                             path_, name, "shape"),
-                        H5Sclose);
-    checked<OutputError>(H5Dwrite(dataset.get(), memory_type, memory.get(), space.get(), H5P_DEFAULT, bytes), path_,
-                         name, "write the dataset");
+    write_block(dataset.get(), path, memory_type, space.get(), start, block, fill(row, rows));
   }
   // Closing would do the same, but could not say that it failed.
-  checked<OutputError>(H5Dflush(dataset.get()), path_, name, "write the dataset");
+  checked<OutputError>(H5Dflush(dataset.get()), path_, path, "write the dataset");
+}
+
+void Hdf5File::write_columns(std::string_view group, std::span<const std::string> names, std::size_t rows,
+                             const std::function<void(std::size_t, std::span<double>)>& row_values) {
+  const QuietErrors quiet;
+  create_group(group);
+  if (names.empty()) return;
+  const std::size_t together = std::max<std::size_t>(1, columns_bytes / (sizeof(double) * names.size()));
+  std::vector<hsize_t> chunk;
+  if (rows * sizeof(double) > compress_above) chunk = {std::min(rows, together)};
+  const std::array<hsize_t, 1> extent{rows};
+  const Handle space(checked<OutputError>(H5Screate_simple(1, extent.data(), nullptr), path_, group, "shape"),
+                     H5Sclose);
+  std::vector<std::string> paths;
+  std::vector<Handle> datasets;
+  for (const std::string& name : names) {
+    paths.push_back(fmt::format("{}/{}", group, name));
+    datasets.emplace_back(create_dataset(paths.back(), H5T_IEEE_F64LE, space.get(), chunk, /*cached=*/false), H5Dclose);
+    written_.push_back({paths.back(), {rows}});
+  }
+  std::vector<double> row(names.size());
+  std::vector<double> block(names.size() * std::min(rows, together));
+  for (std::size_t first = 0; first < rows; first += together) {
+    const std::size_t count = std::min(together, rows - first);
+    for (std::size_t k = 0; k < count; ++k) {
+      row_values(first + k, row);
+      for (std::size_t j = 0; j < row.size(); ++j) block[j * count + k] = row[j];
+    }
+    for (std::size_t j = 0; j < row.size(); ++j)
+      write_block(datasets[j].get(), paths[j], H5T_NATIVE_DOUBLE, space.get(), std::array<hsize_t, 1>{first},
+                  std::array<hsize_t, 1>{count}, block.data() + j * count);
+  }
+  for (std::size_t j = 0; j < paths.size(); ++j)
+    checked<OutputError>(H5Dflush(datasets[j].get()), path_, paths[j], "write the dataset");
+}
+
+/// Paths without the first slash.
+void Hdf5File::write_list_of_columns() {
+  std::vector<std::string> paths, units, meanings;
+  for (const Written& dataset : written_) {
+    if (dataset.units.empty() && dataset.meaning.empty()) continue;
+    paths.push_back(dataset.path.substr(1));
+    units.push_back(dataset.units);
+    meanings.push_back(dataset.meaning);
+  }
+  if (paths.empty()) return;
+  write("/columns/path", std::span<const std::string>(paths));
+  write("/columns/units", std::span<const std::string>(units));
+  write("/columns/meaning", std::span<const std::string>(meanings));
+}
+
+void Hdf5File::name_axes(std::string_view path, std::vector<std::string> names) {
+  const auto found = std::ranges::find(written_, path, &Written::path);
+  if (found == written_.end() || found->shape.size() != names.size())
+    throw std::logic_error(fmt::format("Hdf5File: {} has no {} axes", path, names.size()));
+  found->axes = std::move(names);
+}
+
+/// The dataset that is the scale of an axis, which is made if there is none.
+std::size_t Hdf5File::scale_of(std::size_t dataset, std::size_t axis) {
+  const std::string group = written_[dataset].path.substr(0, written_[dataset].path.rfind('/'));
+  const std::size_t length = written_[dataset].shape[axis];
+  const auto find = [&](const std::string& path) {
+    return static_cast<std::size_t>(std::ranges::find(written_, path, &Written::path) - written_.begin());
+  };
+  const auto fits = [&](std::size_t k) { return written_[k].shape == std::vector{length}; };
+  const std::vector<std::string>& names = written_[dataset].axes;
+  const bool named = !names.empty();
+  const std::string stem = named ? names[axis] : axis == 0 ? "row" : "column";
+  if (named)
+    for (std::string above = group; !above.empty(); above = above.substr(0, above.rfind('/')))
+      if (const std::size_t k = find(fmt::format("{}/{}", above, stem)); k < written_.size() && fits(k)) return k;
+  for (int number = 1;; ++number) {
+    const std::string path =
+        number == 1 ? fmt::format("{}/{}", group, stem) : fmt::format("{}/{}_{}", group, stem, number);
+    const std::size_t k = find(path);
+    if (k == written_.size()) {
+      write(path, length, Column<std::int64_t>([](std::size_t row) { return static_cast<std::int64_t>(row); }));
+      set_attribute(path, "units", "1");
+      set_attribute(path, "meaning", "number along the axis, from 0");
+    }
+    if (fits(k)) return k;
+  }
+}
+
+/// Attributes as H5DSset_scale and H5DSattach_scale write them, from the HDF5 Dimension Scale Specification, 2005; each
+/// once, when all datasets are there.
+void Hdf5File::write_scales() {
+  const QuietErrors quiet;
+  const std::size_t count = written_.size();
+  std::vector<std::vector<std::size_t>> scales(count);  // of each dataset, one an axis
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t axis = 0; axis < written_[k].shape.size(); ++axis) scales[k].push_back(scale_of(k, axis));
+  scales.resize(written_.size());
+  struct Use {
+    hobj_ref_t dataset;
+    std::int32_t axis;
+  };
+  std::vector<std::vector<Use>> uses(written_.size());
+  std::vector<bool> is_scale(written_.size(), false);
+  for (const auto& of_dataset : scales)
+    for (const std::size_t k : of_dataset) is_scale[k] = true;
+  const auto reference = [&](std::size_t k) {
+    hobj_ref_t result{};
+    checked<OutputError>(H5Rcreate(&result, file_, written_[k].path.c_str(), H5R_OBJECT, -1), path_, written_[k].path,
+                         "refer to");
+    return result;
+  };
+  const Handle list_type(H5Tvlen_create(H5T_STD_REF_OBJ), H5Tclose);
+  for (std::size_t k = 0; k < scales.size(); ++k) {
+    if (is_scale[k] || scales[k].empty()) continue;  // a scale has no scale
+    std::vector<hobj_ref_t> references;
+    std::vector<hvl_t> lists;
+    references.reserve(scales[k].size());
+    for (std::size_t axis = 0; axis < scales[k].size(); ++axis) {
+      references.push_back(reference(scales[k][axis]));
+      lists.push_back({1, &references.back()});
+      uses[scales[k][axis]].push_back({reference(k), static_cast<std::int32_t>(axis)});
+    }
+    write_attribute(written_[k].path, "DIMENSION_LIST", list_type.get(), list_type.get(), lists.data(), lists.size());
+  }
+  const Handle use_type(H5Tcreate(H5T_COMPOUND, sizeof(Use)), H5Tclose);
+  H5Tinsert(use_type.get(), "dataset", offsetof(Use, dataset), H5T_STD_REF_OBJ);
+  H5Tinsert(use_type.get(), "dimension", offsetof(Use, axis), H5T_NATIVE_INT32);
+  const Handle use_file_type(H5Tcreate(H5T_COMPOUND, 12), H5Tclose);
+  H5Tinsert(use_file_type.get(), "dataset", 0, H5T_STD_REF_OBJ);
+  H5Tinsert(use_file_type.get(), "dimension", 8, H5T_STD_I32LE);
+  for (std::size_t k = 0; k < written_.size(); ++k) {
+    if (!is_scale[k]) continue;
+    const std::string name = written_[k].path.substr(written_[k].path.rfind('/') + 1);
+    for (const auto& [attribute, text] :
+         {std::pair<const char*, std::string>("CLASS", "DIMENSION_SCALE"), {"NAME", name}}) {
+      const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);  // ends with a zero byte, as the specification requires
+      H5Tset_size(type.get(), text.size() + 1);
+      write_attribute(written_[k].path, attribute, type.get(), type.get(), text.c_str());
+    }
+    if (!uses[k].empty())
+      write_attribute(written_[k].path, "REFERENCE_LIST", use_file_type.get(), use_type.get(), uses[k].data(),
+                      uses[k].size());
+  }
 }
 
 void Hdf5File::write_values(std::string_view path, std::int64_t file_type, std::int64_t memory_type,
@@ -322,7 +487,8 @@ void Hdf5File::write(std::string_view path, std::size_t rows, const Column<std::
 void Hdf5File::write(std::string_view path, std::size_t rows, const Column<std::string>& value) {
   std::size_t size = 1;
   for (std::size_t row = 0; row < rows; ++row) size = std::max(size, value(row).size());
-  const Handle type = text_type(size);
+  // HDF5 converts no text marked as UTF-8 to one marked as ASCII, and Octave 7.3 gives up the whole file there.
+  const Handle type = text_type(size, H5T_CSET_ASCII);
   const std::array shape{rows};
   std::string block;
   write_rows(path, type.get(), type.get(), size, shape, [&](std::size_t row, std::size_t count) {
@@ -333,6 +499,7 @@ void Hdf5File::write(std::string_view path, std::size_t rows, const Column<std::
     }
     return reinterpret_cast<const std::byte*>(block.data());
   });
+  set_attribute(path, "_Encoding", "utf-8");  // as netCDF has it
 }
 
 void Hdf5File::write(std::string_view path, std::size_t rows, std::size_t columns,
@@ -374,10 +541,11 @@ void Hdf5File::write(std::string_view path, std::span<const std::int64_t> values
 }
 
 void Hdf5File::write_attribute(std::string_view object, std::string_view name, std::int64_t file_type,
-                               std::int64_t memory_type, const void* value) {
+                               std::int64_t memory_type, const void* value, std::size_t count) {
   const QuietErrors quiet;
   const std::string label = fmt::format("the attribute {} of {}", name, object);
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const hsize_t extent = count;
+  const Handle space(count > 0 ? H5Screate_simple(1, &extent, nullptr) : H5Screate(H5S_SCALAR), H5Sclose);
   const Handle attribute(
       checked<OutputError>(H5Acreate_by_name(file_, std::string(object).c_str(), std::string(name).c_str(), file_type,
                                              space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
@@ -387,10 +555,14 @@ void Hdf5File::write_attribute(std::string_view object, std::string_view name, s
 }
 
 void Hdf5File::set_attribute(std::string_view object, std::string_view name, std::string_view value) {
-  const Handle type = text_type(value.size());
+  const bool ascii = std::ranges::all_of(value, [](char c) { return static_cast<unsigned char>(c) < 0x80U; });
+  const Handle type = text_type(value.size(), ascii ? H5T_CSET_ASCII : H5T_CSET_UTF8);
   // A copy, because an empty view need not point anywhere, while HDF5 reads at least one byte.
   const std::string text(value);
   write_attribute(object, name, type.get(), type.get(), text.c_str());
+  if (name != "units" && name != "meaning") return;
+  const auto found = std::ranges::find(written_, object, &Written::path);
+  if (found != written_.end()) (name == "units" ? found->units : found->meaning) = text;
 }
 
 void Hdf5File::set_attribute(std::string_view object, std::string_view name, double value) {
@@ -404,6 +576,8 @@ void Hdf5File::set_attribute(std::string_view object, std::string_view name, std
 void Hdf5File::close() {
   const QuietErrors quiet;
   if (file_ < 0) throw std::logic_error("Hdf5File: close after close");
+  write_list_of_columns();
+  write_scales();
   checked<OutputError>(H5Fflush(file_, H5F_SCOPE_GLOBAL), path_, "the file", "finish");
   abandon();
   const FileDescriptor file = open_descriptor(disk_.temporary(), O_RDWR);

@@ -105,7 +105,7 @@ std::vector<PointColumn> point_columns(std::size_t planets, const std::vector<Po
   add("classified_periods", "mesh periods", "integrated to classify the regime",
       Integer([=](const PointSummary& r) { return integer(r.evidence.periods); }));
   add("evidence", "", "for the regime, in words", Words([](const PointSummary& r) { return r.evidence.note; }));
-  add("settled", "1", "0 if the orbit is periodic and the record has not converged to it, else 1",
+  add("converged", "1", "0 if the orbit is periodic and the record has not converged to it, else 1",
       Integer([=](const PointSummary& r) { return integer(!ok(r) || !r.is_unsettled()); }));
   append(planet_columns(planets));
   add("message", "", "what went wrong, of a point that was not reached",

@@ -66,8 +66,8 @@ void pass(A& a, studies::MeshRecord& m) {
 template <class A>
 void pass(A& a, studies::StageRecord& r) {
   pass_all(a, r.sun_planet, r.ring_planet, r.planet_spread, r.planet_bearing, r.sun_bearing, r.transmission_error,
-           r.sun_planet_harmonics, r.ring_planet_harmonics, r.transmission_error_harmonics, r.static_force,
-           r.mesh_frequency, r.speeds.sun, r.speeds.carrier);
+           r.sun_planet_harmonics, r.ring_planet_harmonics, r.transmission_error_harmonics, r.force_error,
+           r.static_force, r.mesh_frequency, r.speeds.sun, r.speeds.carrier);
 }
 template <class A>
 void pass(A& a, studies::GridPoint& p) {

@@ -101,13 +101,13 @@ std::vector<StageColumn> stage_columns() {
   std::vector<StageColumn> all;
   add(all, "planet_spread", "b_c", "largest difference between planets' deflections",
       Number([](const StageRecord& r) { return r.planet_spread; }));
-  add(all, "pull_sp", "static mesh force", "largest tensile force of a sun mesh, from its damping",
+  add(all, "tensile_force_sp", "static mesh force", "largest tensile force of a sun mesh, from its damping",
       Number([](const StageRecord& r) { return StageRecord::tension(r.sun_planet); }));
-  add(all, "pull_rp", "static mesh force", "largest tensile force of a ring mesh, from its damping",
+  add(all, "tensile_force_rp", "static mesh force", "largest tensile force of a ring mesh, from its damping",
       Number([](const StageRecord& r) { return StageRecord::tension(r.ring_planet); }));
-  add(all, "pull_time_sp", "part of the time", "longest time with tensile force in a sun mesh",
+  add(all, "tensile_time_sp", "part of the time", "longest time with tensile force in a sun mesh",
       Number([](const StageRecord& r) { return StageRecord::tension_time(r.sun_planet); }));
-  add(all, "pull_time_rp", "part of the time", "longest time with tensile force in a ring mesh",
+  add(all, "tensile_time_rp", "part of the time", "longest time with tensile force in a ring mesh",
       Number([](const StageRecord& r) { return StageRecord::tension_time(r.ring_planet); }));
   for (const Kind& kind : kinds) {
     const std::string what = std::string("delta_") + kind.suffix;
@@ -140,6 +140,9 @@ std::vector<StageColumn> stage_columns() {
         Number([meshes = kind.meshes](const StageRecord& r) { return StageRecord::k_gamma(r.*meshes); }));
   add_force(all, "force_sun_bearing", "the force of the sun's bearing (damping in the clearance included)",
             [](const StageRecord& r) -> const Course& { return r.sun_bearing; });
+  add(all, "force_max_error", "1",
+      "estimated relative error of the largest forces and of K_v by sampling: largest of all meshes and bearings",
+      Number([](const StageRecord& r) { return r.force_error; }));
   add(all, "static_force", "N", "static force of a sun mesh: torque over base radius and number of planets",
       Number([](const StageRecord& r) { return r.static_force; }));
   add(all, "mesh_frequency_Hz", "Hz", "mesh frequency",

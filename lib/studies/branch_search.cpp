@@ -13,18 +13,18 @@ void BranchSearchOptions::validate() const {
   if (values.empty()) throw InputError("values is empty, must have one at least");
   require(starts >= 1, "starts", starts, ">= 1");
   require(spread >= 0.0, "spread", spread, ">= 0");
-  require(largest_period >= 1, "largest_period", largest_period, ">= 1");
+  require(period_max >= 1, "period_max", period_max, ">= 1");
 }
 
 FoundMotions search_motions(const BranchSystem& system, const model::DynamicModel& model, double value,
-                            const BranchSearchOptions& options, int settle_periods) {
+                            const BranchSearchOptions& options, int transient_periods) {
   options.validate();
   std::vector<std::vector<double>> starts;
   std::vector<double> state = model.default_start;
   const auto flow = system.system.flows(value);
   const auto on_motion = static_cast<std::size_t>((options.starts + 1) / 2);
   for (int k = 0; starts.size() < on_motion; ++k) {
-    if (k >= settle_periods) starts.push_back(state);
+    if (k >= transient_periods) starts.push_back(state);
     if (!flow->evolve(state, 0.0, model.period).reached()) break;
   }
   const std::vector<double> centre = starts.empty() ? model.default_start : starts.front();
@@ -37,7 +37,7 @@ FoundMotions search_motions(const BranchSystem& system, const model::DynamicMode
   analysis::OrbitFamily family = system.system;
   family.keeps_symmetry = false;
   analysis::SearchOptions search;
-  search.largest_period = options.largest_period;
+  search.largest_period = options.period_max;
   constexpr int periods_that_come_back = 200;
   search.settle = periods_that_come_back;
   const analysis::OrbitSearch found = search_orbits(family, value, starts, search);

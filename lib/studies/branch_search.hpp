@@ -33,8 +33,8 @@ struct FoundMotions {
   std::vector<FoundMotion> motions{};
 };
 
-/// @param settle_periods  that the motion is given before its states are starts
+/// @param transient_periods  that the motion is given before its states are starts
 [[nodiscard]] FoundMotions search_motions(const BranchSystem& system, const model::DynamicModel& model, double value,
-                                          const BranchSearchOptions& options, int settle_periods);
+                                          const BranchSearchOptions& options, int transient_periods);
 
 }  // namespace epicyclic::studies

@@ -41,14 +41,14 @@ void BranchesOptions::validate() const {
     seed.validate();
     require(seed.value >= from && seed.value <= to, "seeds", seed.value, "within from and to");
   }
-  require(settle_periods >= 0, "settle_periods", settle_periods, ">= 0");
+  require(transient_periods >= 0, "transient_periods", transient_periods, ">= 0");
   require(period >= 1, "period", period, ">= 1");
-  require(largest_period >= period, "largest_period", largest_period, ">= period");
-  require(shooting_intervals >= 1, "pieces", shooting_intervals, ">= 1");
+  require(period_max >= period, "period_max", period_max, ">= period");
+  require(shooting_intervals >= 1, "shooting_intervals", shooting_intervals, ">= 1");
   require(orbits >= 1, "orbits", orbits, ">= 1");
   require(branches >= 1, "branches", branches, ">= 1");
   require(tolerance >= 1e-13 && tolerance <= 1e-6, "tolerance", tolerance, "1e-13 to 1e-6");
-  require(max_step > 0.0, "largest_step", max_step, "> 0");
+  require(max_step > 0.0, "max_step", max_step, "> 0");
   require(output_phases >= 1, "output_phases", output_phases, ">= 1");
   if (loci) loci->validate();
   if (search) search->validate();
@@ -62,7 +62,7 @@ std::vector<double> BranchesOptions::all_starts() const {
 void BranchSeed::validate() const {
   require(std::isfinite(value), "value", value, "finite");
   require(period >= 1, "period", period, ">= 1");
-  require(!reach || *reach > 0.0, "reach", reach.value_or(0.0), "> 0");
+  require(!max_distance || *max_distance > 0.0, "max_distance", max_distance.value_or(0.0), "> 0");
   if (state.empty()) throw InputError("state is empty, must have a number for each component");
   for (const double x : state) require(std::isfinite(x), "state", x, "finite");
 }
@@ -100,7 +100,7 @@ BranchSystem branch_system(const ModelAt& models, const BranchesOptions& options
   const auto fine_flows = at(finer);
   s.options.special.others = {{fine_flows, 1}, {fine_flows, 2}, {at(std::max(0.1 * finer, finest)), 1}};
   s.options.special.branch_counts = false;
-  s.options.largest_period = options.largest_period;
+  s.options.largest_period = options.period_max;
   s.options.branch_points = options.branch_points;
   s.options.branches = static_cast<std::size_t>(options.branches);
   return s;
@@ -155,10 +155,10 @@ BranchOrigin origin_near(const BranchSystem& system, analysis::OrbitFamily famil
 }  // namespace
 
 BranchOrigin settled_start(const BranchSystem& system, const model::DynamicModel& model, double value,
-                           int settle_periods) {
+                           int transient_periods) {
   std::vector<double> state = model.default_start;
   const auto flow = system.system.flows(value);
-  for (int k = 0; k < settle_periods; ++k) {
+  for (int k = 0; k < transient_periods; ++k) {
     const integrate::Evolution e = flow->evolve(state, 0.0, model.period);
     if (e.reached()) continue;
     BranchOrigin none;
@@ -168,7 +168,7 @@ BranchOrigin settled_start(const BranchSystem& system, const model::DynamicModel
   BranchOrigin origin = origin_near(system, system.system, value, state);
   if (!origin.orbit)
     origin.message = "no orbit of period " + std::to_string(system.system.period) + " near the state after " +
-                     std::to_string(settle_periods) + " mesh periods: " + origin.message;
+                     std::to_string(transient_periods) + " mesh periods: " + origin.message;
   return origin;
 }
 
@@ -197,12 +197,11 @@ BranchRow branch_row(const analysis::OrbitFamily& family, const analysis::Branch
   if (states.cols() == 0) return row;
   const auto flow = family.flows(orbit.at.value);
   ResponseStatistics watch(model, phases);
-  const std::vector<double> at = analysis::uniform_phases(model.period, phases);
   for (Eigen::Index n = 0; n < states.cols(); ++n) {
     std::vector<double> y(states.col(n).begin(), states.col(n).end());
     flow->forget();
     const auto see = [&](std::size_t, double, std::span<const double> state) { watch.see(state); };
-    if (!flow->evolve(y, 0.0, model.period, at, see).reached()) return row;
+    if (!flow->evolve(y, 0.0, model.period, watch.phases(), see).reached()) return row;
   }
   model::MeshDeflections d;
   for (Eigen::Index n = 0; n < states.cols(); ++n)

@@ -50,7 +50,7 @@ struct BranchOrigin {
 
 /// The one that the motion from the model's default start has settled to.
 [[nodiscard]] BranchOrigin settled_start(const BranchSystem& system, const model::DynamicModel& model, double value,
-                                         int settle_periods);
+                                         int transient_periods);
 
 /// The one near a seed.
 [[nodiscard]] BranchOrigin seed_start(const BranchSystem& system, const BranchSeed& seed);

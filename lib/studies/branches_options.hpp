@@ -12,10 +12,10 @@ namespace epicyclic::studies {
 
 /// A state on or near a periodic motion, to start a branch from.
 struct BranchSeed {
-  double value = 0;               ///< of the parameter
-  int period = 1;                 ///< n [mesh periods]
-  std::vector<double> state;      ///< at s = 0
-  std::optional<double> reach{};  ///< how far from `value` its branches are followed; none: to the ends of the range
+  double value = 0;                      ///< of the parameter
+  int period = 1;                        ///< n [mesh periods]
+  std::vector<double> state;             ///< at s = 0
+  std::optional<double> max_distance{};  ///< from `value` to the ends of its branches; none: those of the range
 
   /// @throws InputError for a period below 1, no state, and numbers that are not finite
   void validate() const;
@@ -40,7 +40,7 @@ struct BranchSearchOptions {
   std::vector<double> values{};  ///< of the parameter, at which it is made
   int starts = 60;               ///< half of them on a motion, half in a box about where it settles
   double spread = 1;             ///< half width of the box [b_c, b_c per tau]
-  int largest_period = 1;        ///< of the motions, from 1 [mesh periods]
+  int period_max = 1;            ///< of the motions, from 1 [mesh periods]
 
   /// @throws InputError for no values, and counts or a spread out of range
   void validate() const;
@@ -52,12 +52,12 @@ struct BranchesOptions {
 
   std::vector<double> starts{};  ///< values at which a motion settles from the default start, and is followed; without
                                  ///< seeds and search none means the ends of the range and its middle
-  int settle_periods = 400;      ///< mesh periods that it is given for it
+  int transient_periods = 400;   ///< mesh periods that it is given for it
   int period = 1;                ///< of these motions [mesh periods]
   std::vector<BranchSeed> seeds{};
   std::vector<double> values{};  ///< at which orbits are wanted exactly
 
-  int largest_period = 2;      ///< that flips are followed to [mesh periods]
+  int period_max = 2;          ///< that flips are followed to [mesh periods]
   bool branch_points = true;   ///< are the branches followed that leave branch points?
   int shooting_intervals = 1;  ///< of multiple shooting, per orbit of `period`
   int orbits = 5000;           ///< most on a branch, each way

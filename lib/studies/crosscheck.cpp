@@ -160,8 +160,8 @@ class Examiner {
                                               motion_text(reference) + ", and now " + motion_text(again));
     if (const double d = c.distance > clearly * options_.orbit_tolerance ? one_orbit(both) : nan;
         d <= options_.orbit_tolerance)
-      return done(Verdict::settling, "both converge to one orbit of period " + std::to_string(reference.period) +
-                                         ", distance " + short_text(d) + "; a record had not converged to it");
+      return done(Verdict::transient, "both converge to one orbit of period " + std::to_string(reference.period) +
+                                          ", distance " + short_text(d) + "; a record had not converged to it");
     if (torus(reference) && torus(result))
       if (const std::string one = one_torus(both); !one.empty()) return done(Verdict::torus, one);
     const bool near = periodic(reference) && periodic(result) && c.distance <= clearly * options_.orbit_tolerance;
@@ -213,8 +213,8 @@ class Examiner {
       if (periodic(our_last) && periodic(their_last)) {
         const double d = orbits_apart(last);
         if (d <= options_.orbit_tolerance)
-          return done(Verdict::settling, after + "both converge to an orbit of period " +
-                                             std::to_string(our_last.period) + ", distance " + short_text(d));
+          return done(Verdict::transient, after + "both converge to an orbit of period " +
+                                              std::to_string(our_last.period) + ", distance " + short_text(d));
       }
       if (told(our_last) && told(their_last))
         if (const std::string two = two_motions(last); !two.empty()) return done(Verdict::coexisting, after + two);
@@ -358,8 +358,8 @@ std::string to_string(Verdict verdict) {
       return "tolerance";
     case Verdict::smoothing:
       return "smoothing";
-    case Verdict::settling:
-      return "settling";
+    case Verdict::transient:
+      return "transient";
     case Verdict::torus:
       return "torus";
     case Verdict::chaos:

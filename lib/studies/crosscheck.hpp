@@ -43,7 +43,7 @@ enum class Verdict {
   coexisting,   ///< each method stays on the other's motion: both are motions of the stage
   tolerance,    ///< with tolerances a hundred times tighter they agree
   smoothing,    ///< with the reference's smoothing they agree
-  settling,     ///< continued, both come to the same motion: the transient was too short
+  transient,    ///< continued, both come to the same motion: the transient was too short
   torus,        ///< both are quasiperiodic and fill one set of states: no phase of theirs is right
   chaos,        ///< followed for long, one of them is chaotic at least: states at one instant cannot agree; or one is,
                 ///< the other is undecided, and their exponents agree by their intervals

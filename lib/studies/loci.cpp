@@ -36,7 +36,7 @@ const char* end_word(LocusEnd end) {
     case LocusEnd::many:
       return "many";
     case LocusEnd::min_step:
-      return "least_step";
+      return "min_step";
     case LocusEnd::resonance:
       return "resonance";
     case LocusEnd::none:

@@ -51,7 +51,7 @@ std::vector<double> start_in_plane(const model::DynamicModel& model, const Basin
     if (found == model.state_names.end()) throw InputError("the state has no component '" + name + "'");
     start[static_cast<std::size_t>(found - model.state_names.begin())] = value;
   };
-  for (const auto& [name, value] : basins.base) set(name, value);
+  for (const auto& [name, value] : basins.other_components) set(name, value);
   set(basins.plane.first.name, point.value);
   set(basins.plane.second.name, point.second_value);
   return start;

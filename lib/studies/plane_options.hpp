@@ -22,7 +22,7 @@ struct Plane {
 struct MapOptions {
   Plane plane;  ///< of parameters
   std::vector<Direction> directions = {Direction::up};
-  Start start = Start::carried;  ///< along the first axis
+  Start start = Start::continued;  ///< along the first axis
   RecordingOptions recording = {.keep = Keep::row};
 
   /// @throws InputError for what plane and look refuse, and for no directions
@@ -32,8 +32,8 @@ struct MapOptions {
 /// Cells are cold, and settle until their regimes are told: a transient of a fixed length leaves motions on their way,
 /// which are then counted as attractors.
 struct BasinsOptions {
-  Plane plane;                         ///< of components
-  std::map<std::string, double> base;  ///< components that both axes leave alone, where not at default
+  Plane plane;                                     ///< of components
+  std::map<std::string, double> other_components;  ///< components that both axes leave alone, where not at default
   RecordingOptions recording = {.transient = Transient::adaptive, .keep = Keep::attractor};
 
   /// @throws InputError for what plane and look refuse

@@ -8,12 +8,14 @@
 #include <numbers>
 #include <numeric>
 
-#include "analysis/poincare.hpp"
 #include "studies/tension.hpp"
 
 namespace epicyclic::studies {
 
 namespace {
+
+/// Of slow changes: a peak is known to 1 - cos(pi / 256) of its amplitude at 64 phases.
+constexpr int least_refinement = 4;
 
 /// In the order of time.
 template <class Numbers>
@@ -37,15 +39,18 @@ double largest(const std::vector<MeshRecord>& meshes, const F& number) {
   return std::invoke(number, *std::ranges::max_element(meshes, {}, number));
 }
 
-/// Of some numbers.
-Course course_of(const std::vector<double>& x) {
+/// Of the values of a quantity at `phases`.
+Course course_of(const std::vector<double>& x, const analysis::RecordingPhases& phases) {
   Course c;
   c.least = *std::ranges::min_element(x);
   c.largest = *std::ranges::max_element(x);
-  const auto count = static_cast<double>(x.size());
-  c.mean = std::accumulate(x.begin(), x.end(), 0.0) / count;
+  std::vector<double> uniform;
+  for (std::size_t k = 0; k < x.size(); ++k)
+    if (phases.kind[k] == analysis::SampleKind::uniform) uniform.push_back(x[k]);
+  const auto count = static_cast<double>(uniform.size());
+  c.mean = std::accumulate(uniform.begin(), uniform.end(), 0.0) / count;
   double squares = 0.0;
-  for (const double value : x) squares += (value - c.mean) * (value - c.mean);
+  for (const double value : uniform) squares += (value - c.mean) * (value - c.mean);
   c.rms = std::sqrt(squares / count);
   return c;
 }
@@ -69,6 +74,15 @@ model::StageOutputs look_at_deflections(const model::DynamicModel& model, const 
 }
 
 }  // namespace
+
+int extrema_refinement(const model::DynamicModel& model, int phases) {
+  constexpr double samples = 20.0;  // of an oscillation: its peak is known to 1 - cos(pi / 20), 1.2 % of the amplitude
+  constexpr double fastest = 2.0;   // omega / omega_sn of the modes that meshes excite
+  constexpr int most = 8192;
+  const double wanted = model.omega > 0.0 ? samples * fastest / model.omega : 0.0;
+  const int half = static_cast<int>(std::ceil(std::min(wanted, double{most}) / (2.0 * phases)));
+  return std::max(least_refinement, 2 * half);
+}
 
 double MeshRecord::loss() const {
   constexpr double rounding = 1e-12;  // far below the part of one sample
@@ -119,20 +133,21 @@ double StageRecord::k_gamma(const std::vector<MeshRecord>& meshes) {
   return largest(meshes, [](const MeshRecord& r) { return r.quasi_static.largest; }) / mean;
 }
 
-std::vector<Course> quasi_static_forces(const model::DynamicModel& model, int phases) {
+std::vector<Course> quasi_static_forces(const model::DynamicModel& model, int count) {
   if (!(model.static_mesh_force > 0.0) || !model.quasi_static_states) return {};
-  const std::vector<double> at = analysis::uniform_phases(model.period, phases);
-  const std::vector<std::vector<double>> states = model.quasi_static_states(at);
+  const analysis::RecordingPhases phases(model, count, least_refinement);
+  const std::vector<std::vector<double>> states = model.quasi_static_states(phases.s);
   std::vector<std::vector<double>> forces(2 * static_cast<std::size_t>(model.planets));
   model::StageForces f;
   for (std::size_t k = 0; k < states.size(); ++k) {
-    model.forces(at[k], states[k].data(), f);
+    model.forces(phases.s[k], states[k].data(), f);
     auto mesh = forces.begin();
     for (const auto* list : {&f.sun_planet_elastic, &f.ring_planet_elastic})
       for (const double force : *list) (mesh++)->push_back(model.scales.force_newton(force));
   }
   std::vector<Course> all;
-  if (!states.empty()) std::ranges::transform(forces, std::back_inserter(all), course_of);
+  if (!states.empty())
+    std::ranges::transform(forces, std::back_inserter(all), [&](const auto& x) { return course_of(x, phases); });
   return all;
 }
 
@@ -145,24 +160,33 @@ double StageRecord::tension_time(const std::vector<MeshRecord>& meshes) {
 ResponseStatistics::ResponseStatistics(const model::DynamicModel& model, int phases, bool keeps_signal)
     : model_(model),
       rows_{static_cast<std::size_t>(model.planets)},
-      phases_(static_cast<std::size_t>(phases)),
+      phases_(model, phases, extrema_refinement(model, phases)),
+      count_(static_cast<std::size_t>(phases)),
       states_(model.dimension, Numbers(0.0)),
       now_(rows_.count()),
       sums_(rows_.count()),
       sun_planet_(rows_.planets),
       ring_planet_(rows_.planets),
       keeps_signal_(keeps_signal) {
-  const std::vector<double> at = analysis::uniform_phases(model.period, phases);
-  recording_ = model.outputs_at ? model.outputs_at(at) : look_at_deflections(model, at);
-  for (std::vector<double>& profile : profiles_) profile.assign(phases_, 0.0);
+  recording_ = model.outputs_at ? model.outputs_at(phases_.s) : look_at_deflections(model, phases_.s);
+  uniform_.assign((phases_.size() + model::phases_together - 1) / model::phases_together, Numbers(0.0));
+  odd_ = uniform_;
+  for (std::size_t k = 0; k < phases_.size(); ++k) {
+    const std::size_t group = k / model::phases_together;
+    const std::size_t lane = k % model::phases_together;
+    if (phases_.kind[k] == analysis::SampleKind::uniform) uniform_[group].set(lane, 1.0);
+    if (phases_.kind[k] == analysis::SampleKind::odd) odd_[group].set(lane, 1.0);
+  }
+  for (std::vector<double>& profile : profiles_) profile.assign(count_, 0.0);
 }
 
 void ResponseStatistics::see(std::span<const double> y) {
-  const std::size_t phase = seen_ % phases_;
+  const std::size_t phase = seen_ % phases_.size();
   const std::size_t lane = phase % model::phases_together;
   for (std::size_t k = 0; k < y.size(); ++k) states_[k].set(lane, y[k]);
   ++seen_;
-  if (lane + 1 == model::phases_together || phase + 1 == phases_) recording(phase / model::phases_together, lane + 1);
+  if (lane + 1 == model::phases_together || phase + 1 == phases_.size())
+    recording(phase / model::phases_together, lane + 1);
 }
 
 void ResponseStatistics::recording(std::size_t group, std::size_t count) {
@@ -170,21 +194,23 @@ void ResponseStatistics::recording(std::size_t group, std::size_t count) {
   if (seen_ == count)
     for (std::size_t row = 0; row < sums_.size(); ++row) {
       const Numbers first(now_[row][0]);
-      sums_[row] = {first, first, first, Numbers(0.0), Numbers(0.0)};
+      sums_[row] = {first, first, first, first, Numbers(0.0), Numbers(0.0)};
     }
   // A group at the end of a period may not be full: what is not there is told as what adds nothing.
-  Numbers one(1.0);
+  Numbers one = uniform_[group];
+  const auto is_odd = odd_[group] > Numbers(0.0);
   for (std::size_t lane = count; lane < model::phases_together; ++lane) {
     one.set(lane, 0.0);
     for (std::size_t row = 0; row < sums_.size(); ++row) now_[row].set(lane, sums_[row].first[0]);
   }
   for (std::size_t row = 0; row < sums_.size(); ++row) {
     Sums& s = sums_[row];
-    const Numbers beyond = now_[row] - s.first;
+    const Numbers beyond = one * (now_[row] - s.first);
     s.sum += beyond;
     s.squares += beyond * beyond;
     s.least = min(s.least, now_[row]);
     s.largest = max(s.largest, now_[row]);
+    s.coarse = max(s.coarse, select(is_odd, s.coarse, now_[row]));
   }
   for (std::size_t i = 0; i < rows_.planets; ++i) {
     count_contact(rows_.sun_planet(i), model_.sun_planet_half_gap, one, sun_planet_[i]);
@@ -198,13 +224,15 @@ void ResponseStatistics::recording(std::size_t group, std::size_t count) {
       least = min(least, delta);
       most = max(most, delta);
     }
-    spread_ = max(spread_, one * (most - least));
+    spread_ = max(spread_, most - least);
   }
   const std::array signals = {rows_.sun_planet(0).delta(), rows_.ring_planet(0).delta(), rows_.transmission_error()};
-  for (std::size_t k = 0; k < signals.size(); ++k)
-    for (std::size_t lane = 0; lane < count; ++lane)
-      profiles_[k][group * model::phases_together + lane] += now_[signals[k]][lane];
-  for (std::size_t lane = 0; keeps_signal_ && lane < count; ++lane) signal_.push_back(now_[signals[0]][lane]);
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    if (one[lane] == 0.0) continue;
+    const std::size_t j = weighed_++ % count_;
+    for (std::size_t k = 0; k < signals.size(); ++k) profiles_[k][j] += now_[signals[k]][lane];
+    if (keeps_signal_) signal_.push_back(now_[signals[0]][lane]);
+  }
 }
 
 void ResponseStatistics::count_contact(const model::OutputRows::Mesh& at, double half_gap, const Numbers& one,
@@ -222,8 +250,9 @@ void ResponseStatistics::count_contact(const model::OutputRows::Mesh& at, double
 }
 
 StageRecord ResponseStatistics::finish() {
-  if (const std::size_t begun = seen_ % phases_ % model::phases_together; begun > 0)
-    recording(seen_ % phases_ / model::phases_together, begun);
+  const std::size_t phase = seen_ % phases_.size();
+  if (const std::size_t begun = phase % model::phases_together; begun > 0)
+    recording(phase / model::phases_together, begun);
   const double newton = model_.scales.force_newton(1.0);
   StageRecord all;
   for (std::size_t i = 0; i < rows_.planets; ++i) {
@@ -232,6 +261,7 @@ StageRecord ResponseStatistics::finish() {
     all.planet_bearing.push_back(course(rows_.planet_bearing(i), newton));
   }
   all.planet_spread = largest_of(spread_);
+  all.force_error = force_error();
   all.sun_bearing = course(rows_.sun_bearing(), newton);
   all.transmission_error = course(rows_.transmission_error(), 1.0);
   all.sun_planet_harmonics = harmonics(profiles_[0]);
@@ -241,7 +271,7 @@ StageRecord ResponseStatistics::finish() {
   all.mesh_frequency = model_.omega * model_.scales.omega_sn;
   all.speeds = model_.speeds;
   if (seen_ == 0) return all;
-  const std::vector<Course> forces = quasi_static_forces(model_, static_cast<int>(phases_));
+  const std::vector<Course> forces = quasi_static_forces(model_, static_cast<int>(count_));
   for (std::size_t k = 0; k < forces.size(); ++k)
     (k < rows_.planets ? all.sun_planet[k] : all.ring_planet[k - rows_.planets]).quasi_static = forces[k];
   return all;
@@ -250,7 +280,7 @@ StageRecord ResponseStatistics::finish() {
 Course ResponseStatistics::course(std::size_t row, double unit) const {
   if (seen_ == 0) return {};
   const Sums& s = sums_[row];
-  const auto count = static_cast<double>(seen_);
+  const auto count = static_cast<double>(weighed_);
   const double mean = sum_of(s.sum) / count;
   Course c;
   c.least = unit * -largest_of(-s.least);
@@ -260,10 +290,25 @@ Course ResponseStatistics::course(std::size_t row, double unit) const {
   return c;
 }
 
+double ResponseStatistics::force_error() const {
+  if (seen_ == 0) return 0.0;
+  double most = 0.0;
+  const auto see = [&](std::size_t row) {
+    const double largest = largest_of(sums_[row].largest);
+    if (largest > 0.0) most = std::max(most, 1.0 - largest_of(sums_[row].coarse) / largest);
+  };
+  for (std::size_t i = 0; i < rows_.planets; ++i)
+    for (const std::size_t row : {rows_.sun_planet(i).force(), rows_.ring_planet(i).force(), rows_.planet_bearing(i)})
+      see(row);
+  see(rows_.sun_bearing());
+  constexpr double quadratic = 3.0;  // a peak that is missed by e is missed by 4 e at twice the spacing
+  return most / quadratic;
+}
+
 MeshRecord ResponseStatistics::mesh(const model::OutputRows::Mesh& at, const Counts& counts) const {
   MeshRecord m;
   if (seen_ == 0) return m;
-  const double part = 1.0 / static_cast<double>(seen_);
+  const double part = 1.0 / static_cast<double>(weighed_);
   m.delta = course(at.delta(), 1.0);
   m.force = course(at.force(), model_.scales.force_newton(1.0));
   m.drive = part * sum_of(counts.drive);
@@ -275,17 +320,16 @@ MeshRecord ResponseStatistics::mesh(const model::OutputRows::Mesh& at, const Cou
 
 MeshHarmonics ResponseStatistics::harmonics(const std::vector<double>& profile) const {
   MeshHarmonics amplitudes;
-  const auto phases = static_cast<double>(phases_);
+  const auto phases = static_cast<double>(count_);
   for (std::size_t h = 1; h <= amplitudes.size(); ++h) {
-    if (seen_ == 0 || seen_ % phases_ != 0 || phases_ <= 2 * h) {
+    if (weighed_ == 0 || weighed_ % count_ != 0 || count_ <= 2 * h) {
       amplitudes[h - 1] = std::numeric_limits<double>::quiet_NaN();
       continue;
     }
     std::complex<double> sum;
-    for (std::size_t j = 0; j < phases_; ++j)
-      sum +=
-          profile[j] * std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(h * (j + 1) % phases_) / phases);
-    amplitudes[h - 1] = 2.0 * std::abs(sum) / static_cast<double>(seen_);
+    for (std::size_t j = 0; j < count_; ++j)
+      sum += profile[j] * std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(h * (j + 1) % count_) / phases);
+    amplitudes[h - 1] = 2.0 * std::abs(sum) / static_cast<double>(weighed_);
   }
   return amplitudes;
 }

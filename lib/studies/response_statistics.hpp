@@ -11,8 +11,9 @@
 // F_qs,i(s) is the force of the same mesh in the quasi-static solution [model/static_equilibrium.hpp], at the phases of
 // the record.
 //
-// All from samples at even phases. Limits: what happens between two of them is not seen; the extrema of a force with
-// friction jump there.
+// Means are those of samples at uniform phases. Extrema are those of more samples: at least four times as many, at
+// least 20 per period of the fastest mode that meshes excite (2 omega_sn), and both sides of each breakpoint, where
+// forces jump. Limit: a peak between two samples is not seen; `force_error` estimates what is missing.
 #pragma once
 
 #include <array>
@@ -22,10 +23,15 @@
 #include <string>
 #include <vector>
 
+#include "analysis/poincare.hpp"
 #include "core/lanes.hpp"
 #include "model/dynamic_model.hpp"
 
 namespace epicyclic::studies {
+
+/// Samples for extrema per sample for means [S-sampling]; at most some 8192 in all.
+/// @param phases  samples for means, per mesh period
+[[nodiscard]] int extrema_refinement(const model::DynamicModel& model, int phases);
 
 /// Of something over time; no numbers where nothing was seen.
 struct Course {
@@ -75,6 +81,9 @@ struct StageRecord {
   Course transmission_error;            ///< [S-te] [b_c]
   MeshHarmonics sun_planet_harmonics{}, ring_planet_harmonics{};  ///< of the deflections of planet 1
   MeshHarmonics transmission_error_harmonics{};
+  /// Estimated relative error of the largest forces by sampling [S-sampling]: a third of what twice as many samples add
+  /// to the largest force, of the mesh or bearing where that is most.
+  double force_error = 0;
   double static_force = 0;    ///< F_0 [N]
   double mesh_frequency = 0;  ///< omega_m [rad/s]
   gear::Speeds speeds{};
@@ -96,19 +105,21 @@ struct StageRecord {
 };
 
 /// Forces of the sun meshes, then of the ring meshes, over a mesh period of the quasi-static solution [N].
-/// @param phases  how many of it
 /// @returns nothing where there is no such solution, or no load
+/// @param phases  uniform ones; extrema are those of both sides of each breakpoint, too
 [[nodiscard]] std::vector<Course> quasi_static_forces(const model::DynamicModel& model, int phases);
 
 /// Sees a motion at even phases of its dense output.
 class ResponseStatistics {
  public:
   /// @param model   must live longer
-  /// @param phases  samples per mesh period
+  /// @param phases  samples per mesh period that means are taken over
   /// @param keeps_signal  delta_sp_1 at each of them, for signal()
   ResponseStatistics(const model::DynamicModel& model, int phases, bool keeps_signal = false);
 
-  /// The state at the next phase; the first one is that of j = 1 of analysis::uniform_phases().
+  /// Phases of a period at which see() takes the state, in their order.
+  [[nodiscard]] const std::vector<double>& phases() const { return phases_.s; }
+
   void see(std::span<const double> y);
 
   /// What was seen. The watch is over.
@@ -123,6 +134,7 @@ class ResponseStatistics {
   /// Samples of one number, side by side.
   struct Sums {
     Numbers first, least, largest;
+    Numbers coarse;        ///< largest without the odd samples
     Numbers sum, squares;  ///< of what is beyond the first one: it would else be lost in the mean
   };
   /// Of one mesh.
@@ -133,12 +145,16 @@ class ResponseStatistics {
   void recording(std::size_t group, std::size_t count);
   void count_contact(const model::OutputRows::Mesh& at, double half_gap, const Numbers& one, Counts& counts) const;
   [[nodiscard]] Course course(std::size_t row, double unit) const;
+  [[nodiscard]] double force_error() const;
   [[nodiscard]] MeshRecord mesh(const model::OutputRows::Mesh& at, const Counts& counts) const;
   [[nodiscard]] MeshHarmonics harmonics(const std::vector<double>& profile) const;
 
   const model::DynamicModel& model_;
   model::OutputRows rows_;
-  std::size_t phases_;
+  analysis::RecordingPhases phases_;
+  std::size_t count_;  ///< of the uniform phases
+  /// Of each group of phases: 1 of a sample of that kind, else 0.
+  std::vector<Numbers> uniform_, odd_;
   model::StageOutputs recording_;
   std::vector<Numbers> states_, now_;  ///< of the group under way
   std::vector<Sums> sums_;
@@ -147,6 +163,7 @@ class ResponseStatistics {
   /// Sums over the periods at each phase: of delta_sp_1, delta_rp_1 and the transmission error.
   std::array<std::vector<double>, 3> profiles_;
   std::size_t seen_ = 0;
+  std::size_t weighed_ = 0;  ///< of them at uniform phases
   bool keeps_signal_;
   std::vector<double> signal_;
 };

@@ -48,9 +48,6 @@ class Recorder {
     add("bearing_sun", "N");
   }
 
-  /// Tension of all meshes, sun meshes first, at each row of the history [N].
-  [[nodiscard]] const std::vector<double>& has_tension() const { return pulls_; }
-
   /// Deflections and forces at an instant, valid until the next one.
   void recording(double s, std::span<const double> y) {
     model_.deflections(s, y.data(), d_);
@@ -72,8 +69,6 @@ class Recorder {
       const double sum = std::accumulate(list->begin(), list->end(), 0.0);
       for (const double f : *list) put(static_cast<double>(list->size()) * f / sum);
     }
-    put_pulls(d_.sun_planet, model_.sun_planet_half_gap, f_.sun_planet_elastic, f_.sun_planet);
-    put_pulls(d_.ring_planet, model_.ring_planet_half_gap, f_.ring_planet_elastic, f_.ring_planet);
     put_newtons(f_.planet_bearing);
     put(scales_.force_newton(f_.sun_bearing));
   }
@@ -91,18 +86,12 @@ class Recorder {
   void put_newtons(const std::vector<double>& list) {
     for (const double f : list) put(scales_.force_newton(f));
   }
-  void put_pulls(const std::vector<double>& delta, double half_gap, const std::vector<double>& elastic,
-                 const std::vector<double>& force) {
-    for (std::size_t i = 0; i < delta.size(); ++i)
-      pulls_.push_back(scales_.force_newton(model::tensile_force(delta[i], half_gap, elastic[i], force[i])));
-  }
 
   const model::DynamicModel& model_;
   const model::Scales& scales_;
   History& history_;
   model::MeshDeflections d_;
   model::StageForces f_;
-  std::vector<double> pulls_;
 };
 
 /// Samples of a portrait for each of the history: some for each oscillation of the fastest meshes, whose frequency is
@@ -114,17 +103,6 @@ int portrait_detail(const model::DynamicModel& model, const RunOptions& options,
   const double wanted = oscillation * std::max(1.0, fastest / model.omega) / options.dense_phases;
   const int affordable = most / (std::max(1, periods) * options.dense_phases);
   return std::max(1, std::min(static_cast<int>(std::ceil(std::min(wanted, double{most}))), affordable));
-}
-
-/// The samples, each behind detail - 1 others in even steps.
-std::vector<double> finer(const std::vector<double>& samples, int detail) {
-  std::vector<double> all;
-  double before = 0.0;
-  for (const double s : samples) {
-    for (int k = 1; k < detail; ++k) all.push_back(before + (s - before) * k / detail);
-    all.push_back(before = s);
-  }
-  return all;
 }
 
 /// One operating point, step by step into its result.
@@ -162,7 +140,9 @@ class Run {
     if (options_.exponent_periods > 0 && !model_.jumps_at_surfaces && go_on_())
       exponents = begun([&] { find_exponents(r); });
     at("histories, spectra");
-    summarise(r, record(r));
+    record(r);
+    find_section(r);
+    summarise(r);
     if (go_on_()) find_spectra(r);
     if (go_on_()) cross(r);
     if (exponents.valid()) exponents.get();
@@ -319,73 +299,93 @@ class Run {
     return std::max(1, (affordable + options_.dense_phases - 1) / options_.dense_phases);
   }
 
-  /// @returns Recorder::pulls()
-  [[nodiscard]] std::vector<double> record(RunResult& r) const {
+  void record(RunResult& r) const {
     const auto carried = flow();
-    const std::vector<double> samples = analysis::uniform_phases(carried->field().period, options_.dense_phases);
+    const double period = carried->field().period;
+    const std::vector<double> samples = analysis::uniform_phases(period, options_.dense_phases);
     r.history.phases = options_.dense_phases;
     Recorder recorder(model_, scales_, r.history);
     std::vector<double> y = state_;
     const int shown = r.orbit.has_value() ? std::max(r.point.period, options_.shown_periods) : portrait_periods;
     const auto detail = static_cast<std::size_t>(portrait_detail(model_, options_, shown));
-    const std::vector<double> fine = finer(samples, static_cast<int>(detail));
     r.portrait.phases = options_.dense_phases * static_cast<int>(detail);
+    const std::vector<double> fine = analysis::uniform_phases(period, r.portrait.phases);
     for (int k = 0; k < options_.history_periods; ++k) {
       if (!go_on_()) break;
       const bool drawn = k >= options_.history_periods - shown;
-      const integrate::Evolution e =
-          carried->evolve(y, 0.0, carried->field().period, drawn ? fine : samples,
-                          [&](std::size_t j, double s, std::span<const double> now) {
-                            recorder.recording(s, now);
-                            if (drawn) {
-                              r.portrait.deflection.push_back(recorder.deflections().sun_planet[0]);
-                              r.portrait.rate.push_back(recorder.deflections().sun_planet_rate[0]);
-                              if ((j + 1) % detail != 0) return;
-                            }
-                            recorder.keep(static_cast<std::size_t>(k), s, now);
-                          });
+      const integrate::Evolution e = carried->evolve(
+          y, 0.0, period, drawn ? fine : samples, [&](std::size_t j, double s, std::span<const double> now) {
+            recorder.recording(s, now);
+            if (drawn) {
+              r.portrait.deflection.push_back(recorder.deflections().sun_planet[0]);
+              r.portrait.rate.push_back(recorder.deflections().sun_planet_rate[0]);
+              if ((j + 1) % detail != 0) return;
+            }
+            recorder.keep(static_cast<std::size_t>(k), s, now);
+          });
       if (!e.reached()) break;
     }
-    return recorder.has_tension();
   }
 
-  void summarise(RunResult& r, const std::vector<double>& has_tension) const {
+  void find_section(RunResult& r) const {
+    model::MeshDeflections d;
+    for (std::size_t row = 0; row < r.point.poincare_rows(); ++row) {
+      model_.deflections(0.0, r.point.poincare.data() + row * r.point.poincare_columns, d);
+      r.section_deflection.push_back(d.sun_planet[0]);
+      r.section_rate.push_back(d.sun_planet_rate[0]);
+    }
+  }
+
+  /// Of the periods of the history.
+  [[nodiscard]] StageRecord statistics(const History& history) const {
+    ResponseStatistics all(model_, options_.dense_phases);
+    const auto carried = flow();
+    std::vector<double> y = state_;
+    for (std::size_t row = 0; row < history.rows(); row += static_cast<std::size_t>(options_.dense_phases))
+      if (!carried
+               ->evolve(y, 0.0, carried->field().period, all.phases(),
+                        [&](std::size_t, double, std::span<const double> now) { all.see(now); })
+               .reached())
+        break;
+    return all.finish();
+  }
+
+  void summarise(RunResult& r) const {
     const auto planets = static_cast<std::size_t>(model_.planets);
     if (r.history.rows() == 0) return;
-    const std::vector<Course> quasi_static = quasi_static_forces(model_, options_.dense_phases);
+    const StageRecord all = statistics(r.history);
     for (const char* kind : {"sp", "rp"}) {
-      const double gap = kind[0] == 's' ? model_.sun_planet_half_gap : model_.ring_planet_half_gap;
-      double sum = 0.0;
-      const std::size_t first = r.meshes.size();
-      for (std::size_t i = 1; i <= planets; ++i) {
+      const bool of_sun = kind[0] == 's';
+      const double gap = of_sun ? model_.sun_planet_half_gap : model_.ring_planet_half_gap;
+      const std::vector<MeshRecord>& meshes = of_sun ? all.sun_planet : all.ring_planet;
+      for (std::size_t i = 0; i < planets; ++i) {
+        const MeshRecord& mesh = meshes[i];
         MeshSummary m;
-        m.name = std::string(kind) + "_" + std::to_string(i);
-        const std::vector<double> force = r.history.column("force_" + m.name);
-        const std::vector<double> delta = r.history.column("delta_" + m.name);
-        const std::size_t column = r.meshes.size();
-        m.force_min = *std::min_element(force.begin(), force.end());
-        m.force_max = *std::max_element(force.begin(), force.end());
-        m.force_mean = std::accumulate(force.begin(), force.end(), 0.0) / static_cast<double>(force.size());
+        m.name = std::string(kind) + "_" + std::to_string(i + 1);
+        m.force_min = mesh.force.least;
+        m.force_max = mesh.force.largest;
+        m.force_mean = mesh.force.mean;
         m.force_ratio_max = m.force_max / r.static_force;
-        if (!quasi_static.empty()) m.quasi_static = quasi_static[column];
-        m.kv = dynamic_factor(m.force_max, m.quasi_static);
-        sum += m.force_mean;
-        const double part = 1.0 / static_cast<double>(delta.size());
-        bool drives = model::DynamicModel::contact(delta.front(), gap) == model::Contact::drive;
-        for (std::size_t k = 0; k < delta.size(); ++k) {
-          const double tension = noticeable_tension(has_tension[k * 2 * planets + column], r.static_force);
-          m.pull_max = std::max(m.pull_max, tension);
-          if (tension > 0.0) m.tension_time += part;
-          const model::Contact side = model::DynamicModel::contact(delta[k], gap);
-          (side == model::Contact::drive ? m.drive : side == model::Contact::loss ? m.loss : m.back) += part;
-          if (drives && side != model::Contact::drive) ++m.contact_losses;
-          drives = side == model::Contact::drive;
-        }
+        m.quasi_static = mesh.quasi_static;
+        m.kv = mesh.kv();
+        m.load_sharing = StageRecord::share(meshes, &Course::mean, i);
+        m.tensile_force_max = mesh.tension * r.static_force;
+        m.tension_time = mesh.tension_time;
+        m.drive = mesh.drive;
+        m.loss = mesh.loss();
+        m.back = mesh.back;
+        m.contact_losses = contact_losses(r.history.column("delta_" + m.name), gap);
         r.meshes.push_back(std::move(m));
       }
-      for (std::size_t i = first; i < r.meshes.size(); ++i)
-        r.meshes[i].load_sharing = static_cast<double>(planets) * r.meshes[i].force_mean / sum;
     }
+  }
+
+  /// How often a deflection leaves the drive flank.
+  [[nodiscard]] static int contact_losses(const std::vector<double>& delta, double half_gap) {
+    int losses = 0;
+    for (std::size_t k = 1; k < delta.size(); ++k)
+      if (delta[k - 1] > half_gap && !(delta[k] > half_gap)) ++losses;
+    return losses;
   }
 
   void cross(RunResult& r) const {

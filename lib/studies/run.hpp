@@ -6,7 +6,7 @@
 //   load sharing               L_i = N F_i / sum_j F_j , as means over time: N mean(F_i) / sum_j mean(F_j)  [S-share]
 //
 // F_i is the normal force of a mesh with its damping [M-27], F_0 the static one of the sun-planet meshes. Where a train
-// accelerates (boundary `literal`) the mean forces are shares of inertia, not F_0 (docs/theory/model.md, section 4).
+// accelerates (boundary `as_printed`) the mean forces are shares of inertia, not F_0 (docs/theory/model.md, section 4).
 #pragma once
 
 #include <cstddef>
@@ -56,7 +56,7 @@ struct MeshSummary {
   double kv = 0;                                        ///< K_v [S-kv] [-]; not a number where it is not known
   double load_sharing = 0;                              ///< of the means [S-share] [-]
   double drive = 0, loss = 0, back = 0;                 ///< parts of the time [-]
-  double pull_max = 0;                                  ///< greatest tension [model::DynamicModel::pull()] [N]
+  double tensile_force_max = 0;                         ///< greatest tension [model::DynamicModel::pull()] [N]
   double tension_time = 0;                              ///< part of the time that there is tension [-]
   int contact_losses = 0;                               ///< times that the drive flank was left, per record
 };
@@ -89,6 +89,8 @@ struct RunResult {
   std::vector<MeshSummary> meshes;  ///< sun-planet meshes, then ring-planet meshes
   double static_force = 0;          ///< F_0 [N]
   std::vector<SignalSpectrum> spectra;
+  std::vector<double> section_deflection,
+      section_rate;                      ///< delta_sp_1 [b_c] and its rate at each row of point.poincare
   analysis::PoincareSection crossing;    ///< states where delta_sp_1 rises through b (contact is made)
   std::vector<double> crossing_phase;    ///< mesh phase in [0, 2 pi) of each
   std::vector<double> crossing_rate;     ///< delta_sp_1' of each [b_c per tau]

@@ -54,9 +54,9 @@ class PointRun {
         classifies_(recording.classification_periods > 0 && has_classification(model_)),
         adaptive_(classifies_ && recording.transient == Transient::adaptive),
         watch_(model_, recording.output_phases, recording.keep == Keep::section),
-        strobe_(model_.dimension, model_.period,
+        strobe_(model_.dimension,
                 {adaptive_ ? 0 : recording.transient_periods, recording.recorded_periods, recording.output_phases},
-                [this](std::size_t, double, std::span<const double> y) { watch_.see(y); }) {
+                watch_.phases(), [this](std::size_t, double, std::span<const double> y) { watch_.see(y); }) {
     if (state_.size() != model_.dimension)
       throw InputError("a start of " + std::to_string(state_.size()) + " numbers for a state of " +
                        std::to_string(model_.dimension));

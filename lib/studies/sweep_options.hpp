@@ -12,8 +12,8 @@ namespace epicyclic::studies {
 enum class Direction { up, down };
 
 enum class Start {
-  carried,  ///< each point starts from the end state of the one before: follows a branch, shows hysteresis
-  cold,     ///< each point starts from the default start
+  continued,  ///< each point starts from the end state of the one before: follows a branch, shows hysteresis
+  cold,       ///< each point starts from the default start
 };
 
 /// Name of the parameter Omega [studies/named_parameters.hpp].
@@ -32,7 +32,7 @@ struct SweepCheck {
 struct SweepOptions {
   Axis axis = {speed_parameter, 0.2, 3.5, 661};  ///< the parameter
   std::vector<Direction> directions = {Direction::up};
-  Start start = Start::carried;
+  Start start = Start::continued;
   int segments = 0;         ///< chains per direction of a carried sweep; 0: segments_of()
   int coarse_periods = 30;  ///< mesh periods of a point in the pass that says where segments start [coarse_pass.hpp]
   RecordingOptions recording;

@@ -34,7 +34,7 @@ SweepPlan plan_sweep(const SweepOptions& options) {
 SweepPlan plan_map(const MapOptions& options) {
   options.validate();
   const Plane& plane = options.plane;
-  const bool carried = options.start == Start::carried;
+  const bool carried = options.start == Start::continued;
   return SweepPlan(
       {plane.first, plane.second, options.directions, carried ? 1 : static_cast<std::size_t>(plane.first.points)});
 }

@@ -46,7 +46,7 @@ TEST(AnalysisOptions, OrbitsAreIterated) {
                          {"residual", [](O& o) { o.residual = -1e-9; }},
                          {"residual", [](O& o) { o.residual = nan; }},
                          {"known", [](O& o) { o.known = nan; }},
-                         {"pieces", [](O& o) { o.shooting_intervals = 0; }}});
+                         {"shooting_intervals", [](O& o) { o.shooting_intervals = 0; }}});
 }
 
 TEST(AnalysisOptions, RegimesHaveALookThatTells) {

@@ -27,7 +27,7 @@ struct Search {
   explicit Search(const std::vector<Evaluation>& along) {
     output.name = "search";
     output.options.claims = {{"A", "a", "", "", 1.0, {}}, {"B", "b", "", "", 1.0, {}}};
-    output.options.space.parameters = {{"x", "", "", 0.0, 4.0, Spread::linear, {}, "", ""}};
+    output.options.space.parameters = {{"x", "", "", 0.0, 4.0, ParameterScale::linear, {}, "", ""}};
     for (std::size_t k = 0; k < along.size(); ++k)
       found.profile.push_back({0, 0.25 * static_cast<double>(k), along[k]});
     found.best = EvaluatedCandidate{{0, 1}, {0.5}, along[2]};

@@ -22,7 +22,7 @@ ClaimsOptions options_of(std::size_t parameters) {
   ClaimsOptions options;
   for (std::size_t k = 0; k < parameters; ++k)
     options.space.parameters.push_back(
-        {"x" + std::to_string(k), "", "", 0.0, 1.0, Spread::linear, {{"/x", 1, 1, ""}}, "", ""});
+        {"x" + std::to_string(k), "", "", 0.0, 1.0, ParameterScale::linear, {{"/x", 1, 1, ""}}, "", ""});
   options.claims.resize(1);
   options.search.islands = 3;
   options.search.population = 10;
@@ -41,7 +41,7 @@ Evaluation rippled(std::span<const double> u, double give_up_at) {
     const double d = u[k] - (0.2 + 0.1 * static_cast<double>(k));
     e.cost += d * d + 0.02 * (1.0 - std::cos(5.0 * tau * d));
   }
-  e.given_up = e.cost >= give_up_at;
+  e.stopped_early = e.cost >= give_up_at;
   e.claim_costs = {e.cost};
   e.holds = {0};
   return e;
@@ -227,9 +227,9 @@ TEST(Calibration, BeginsWithTheStageAsItIsGiven) {
 
 TEST(ParameterSpace, MapsTheUnitCube) {
   ParameterSpace space;
-  space.parameters = {{"a", "", "", 1.0, 100.0, Spread::logarithmic, {{"/a", 2.0, -1.0, ""}}, "", ""},
-                      {"r", "", "", 0.8, 1.2, Spread::linear, {}, "", ""},
-                      {"b", "", "", 0.0, 4.0, Spread::linear, {{"/b", 1.0, 1.0, "r"}}, "load", "torque"}};
+  space.parameters = {{"a", "", "", 1.0, 100.0, ParameterScale::logarithmic, {{"/a", 2.0, -1.0, ""}}, "", ""},
+                      {"r", "", "", 0.8, 1.2, ParameterScale::linear, {}, "", ""},
+                      {"b", "", "", 0.0, 4.0, ParameterScale::linear, {{"/b", 1.0, 1.0, "r"}}, "load", "torque"}};
   space.choices = {{"load", "", {{"power", 3.0, {}}, {"torque", 1.0, {}}}}};
   ASSERT_EQ(space.dimension(), 4U);
   std::vector<double> u = {0.5, 0.25, 0.5, 0.8};

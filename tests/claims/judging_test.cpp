@@ -86,7 +86,7 @@ TEST(ClaimMotions, AreCalledByWords) {
 
 TEST(Claims, OnAShareOfThePoints) {
   Condition c = condition(ConditionKind::share);
-  c.motion = "period 1";
+  c.regime = "period 1";
   c.from = 2.0;
   c.at_least = 0.75;
   const ConditionOutcome all = judge(c, record("cc1111"));
@@ -104,7 +104,7 @@ TEST(Claims, OnAShareOfThePoints) {
 
 TEST(Claims, OnANumberOfPoints) {
   Condition c = condition(ConditionKind::count);
-  c.motion = "chaotic";
+  c.regime = "chaotic";
   c.at_least = 1.0;
   EXPECT_TRUE(judge(c, record("11c1")).holds);
   // What is nearer to chaos costs less.
@@ -121,8 +121,8 @@ TEST(Claims, OnANumberOfPoints) {
 
 TEST(Claims, OnAChangeBetweenMotions) {
   Condition c = condition(ConditionKind::change);
-  c.motion = "period 1";
-  c.after = "not period 1";
+  c.regime = "period 1";
+  c.regime_after = "not period 1";
   c.within = {2.0, 3.0};
   const ConditionOutcome found = judge(c, record("111c1c"));
   EXPECT_TRUE(found.holds);
@@ -143,7 +143,7 @@ TEST(Claims, OnAChangeBetweenMotions) {
 
 TEST(Claims, OnASequence) {
   Condition c = condition(ConditionKind::sequence);
-  c.motions = {"period 1", "period 3", "chaotic"};
+  c.regimes = {"period 1", "period 3", "chaotic"};
   EXPECT_TRUE(judge(c, record("112q3c")).holds);
   const ConditionOutcome two = judge(c, record("1c3333"));
   EXPECT_FALSE(two.holds);
@@ -152,7 +152,7 @@ TEST(Claims, OnASequence) {
 }
 
 TEST(Claims, OnAFall) {
-  Condition c = condition(ConditionKind::falls);
+  Condition c = condition(ConditionKind::reduction);
   c.quantity = "poincare_sp_range";
   c.at_least = 5.0;
   EXPECT_TRUE(judge(c, record("ccc1", {10.0, 8.0, 9.0, 1e-9})).holds);
@@ -164,8 +164,8 @@ TEST(Claims, OnAFall) {
 TEST(Claims, OnPeaks) {
   Condition c = condition(ConditionKind::peaks);
   c.quantity = "delta_sp_range";
-  c.places = {2.0, 5.0};
-  c.place_tolerance = 0.1;
+  c.peak_locations = {2.0, 5.0};
+  c.location_tolerance = 0.1;
   c.prominence = 0.2;
   EXPECT_TRUE(judge(c, record("11111111", {1, 2, 5, 2, 3, 10, 1, 1})).holds);
   // At 5 there is a shoulder alone; the maximum at 2 stands out too little.
@@ -176,7 +176,7 @@ TEST(Claims, OnPeaks) {
 TEST(Claims, OnAJumpAreNotMetByAFlank) {
   Condition c = condition(ConditionKind::jump);
   c.quantity = "delta_sp_range";
-  c.motion = "period 1";
+  c.regime = "period 1";
   c.at_least = 0.1;
   EXPECT_TRUE(judge(c, record("1111", {1.0, 1.02, 1.5, 1.52})).holds);
   EXPECT_FALSE(judge(c, record("1111", {1.0, 1.2, 1.4, 1.6})).holds);
@@ -254,7 +254,7 @@ TEST(Claims, SayWhichPointsTheyCouldNotTell) {
   both["s"].other[1].settled = false;
   EXPECT_FALSE(judge(c, both).holds);
   c = condition(ConditionKind::share);
-  c.motion = "not period 1";
+  c.regime = "not period 1";
   c.at_least = 0.3;
   r = record("11c");
   r["s"].points[2].motion.regime = Regime::undecided;
@@ -264,14 +264,14 @@ TEST(Claims, SayWhichPointsTheyCouldNotTell) {
   EXPECT_NE(undecided.text.find("at least 30 %"), std::string::npos) << undecided.text;
   c = condition(ConditionKind::value);
   c.quantity = "delta_sp_range";
-  c.motion = "chaotic";
+  c.regime = "chaotic";
   c.at_most = 5.0;
   EXPECT_NE(judge(c, record("111")).text.find("no delta_sp_range of any point chaotic"), std::string::npos);
 }
 
 TEST(Claims, OfAMotionThatFallsSayWhatIsUndecided) {
   Condition c = falling_range();
-  c.motion = "not period 1";
+  c.regime = "not period 1";
   ClaimRecord r = record("c1c", {2.0, 1.0, 2.0});
   r["t"] = record("c1c", {1.0, 1.0, 1.0})["s"];
   EXPECT_EQ(judge(c, r).text.find("undecided"), std::string::npos);
@@ -299,7 +299,7 @@ TEST(Claims, AreNotInertWhereSweepsThatAreComparedDiffer) {
 }
 
 TEST(Claims, OfMeshesThatAreAlikeTakeNothingUndecidedForTheSame) {
-  Condition c = condition(ConditionKind::alike);
+  Condition c = condition(ConditionKind::agreement);
   c.at_least = 0.9;
   ClaimRecord r = record("1c1");
   EXPECT_TRUE(judge(c, r).holds);
@@ -336,15 +336,15 @@ TEST(Claims, InFullTakeNothingUndecidedForChaos) {
 
 TEST(Claims, TakeBoundsThatGridsMeetButForRounding) {
   Condition c = condition(ConditionKind::change);
-  c.motion = "period 1";
-  c.after = "not period 1";
+  c.regime = "period 1";
+  c.regime_after = "not period 1";
   c.within = {2.0, 2.53};
   ClaimRecord r = record("12");
   r["s"].points[0].value = 2.5;
   r["s"].points[1].value = 2.56;  // 0.5 (2.5 + 2.56) = 2.5300000000000002
   EXPECT_TRUE(judge(c, r).holds);
   c = condition(ConditionKind::count);
-  c.motion = "period 1";
+  c.regime = "period 1";
   c.at_least = 2.0;
   r = record("112");
   r["s"].points[1].value = 0.1 + 0.2;
@@ -361,7 +361,7 @@ TEST(Claims, TakeBoundsThatGridsMeetButForRounding) {
 }
 
 TEST(Claims, OnMeshesThatAreAlike) {
-  Condition c = condition(ConditionKind::alike);
+  Condition c = condition(ConditionKind::agreement);
   c.at_least = 0.75;
   c.correlation = 0.9;
   ClaimRecord r = record("112c", {1.0, 2.0, 3.0, 4.0});
@@ -377,7 +377,7 @@ TEST(Claims, OnMeshesThatAreAlike) {
 
 TEST(Claims, OnSweepsThatFallCompareCommonValues) {
   Condition c = falling_range();
-  c.motion = "chaotic";
+  c.regime = "chaotic";
   ClaimRecord r = record("1c1c", {9.0, 5.0, 9.0, 7.0});
   r["t"].points = {point(1.0, '1', 4.0), point(2.0, '1', 9.0), point(3.0, 'c', 6.0)};
   EXPECT_TRUE(judge(c, r).holds);
@@ -392,10 +392,10 @@ TEST(Claims, OnSweepsThatFallCompareCommonValues) {
 
 TEST(Claims, HoldWhereAllConditionsDo) {
   Condition first = condition(ConditionKind::count);
-  first.motion = "chaotic";
+  first.regime = "chaotic";
   first.at_least = 1.0;
   Condition second = first;
-  second.motion = "period 2";
+  second.regime = "period 2";
   const Claim claim{"C", "", "", "", 1.0, {first, second}};
   EXPECT_TRUE(judge(claim, record("12c")).holds);
   const ClaimOutcome half = judge(claim, record("11c"));
@@ -405,7 +405,7 @@ TEST(Claims, HoldWhereAllConditionsDo) {
 
 TEST(Claims, AreNotMetByPointsThatFailed) {
   Condition c = condition(ConditionKind::count);
-  c.motion = "chaotic";
+  c.regime = "chaotic";
   c.at_most = 1.0;
   EXPECT_TRUE(judge(c, record("11c1")).holds);
   EXPECT_FALSE(judge(c, record("1xc1")).holds);  // it may have been a second one
@@ -422,7 +422,7 @@ TEST(Claims, AreNotMetByPointsThatFailed) {
   c.at_most.reset();
   c.at_least = 0.5;
   EXPECT_TRUE(judge(c, record("1x")).holds);  // the largest can only be larger
-  for (const Statistic statistic : {Statistic::least, Statistic::mean}) {
+  for (const Statistic statistic : {Statistic::min, Statistic::mean}) {
     c.statistic = statistic;
     EXPECT_TRUE(judge(c, record("11")).holds);
     EXPECT_FALSE(judge(c, record("1x")).holds);
@@ -442,8 +442,8 @@ TEST(Claims, OnChangesTakeNoPointThatFailedForOne) {
 
 TEST(Claims, OnTheFirstChangeAreNotMetWhereAnEarlierOneMayHaveFailed) {
   Condition c = condition(ConditionKind::change);
-  c.motion = "period 1";
-  c.after = "not period 1";
+  c.regime = "period 1";
+  c.regime_after = "not period 1";
   c.within = {4.0, 5.0};
   EXPECT_TRUE(judge(c, record("11111cc")).holds);
   EXPECT_FALSE(judge(c, record("11x11cc")).holds);
@@ -467,7 +467,7 @@ TEST(Claims, OnTheFirstChangeAreNotMetWhereAnEarlierOneMayHaveFailed) {
 TEST(Claims, OnPeaksTakeNoPointThatFailedForAValley) {
   Condition c = condition(ConditionKind::peaks);
   c.quantity = "delta_sp_range";
-  c.places = {1.0};
+  c.peak_locations = {1.0};
   EXPECT_TRUE(judge(c, record("111", {1.0, 4.0, 3.0})).holds);
   const ConditionOutcome falling = judge(c, record("x111", {0.0, 4.0, 3.0, 2.0}));
   EXPECT_FALSE(falling.holds);
@@ -493,7 +493,7 @@ TEST(Claims, AreNotMetByRounding) {
   c.quantity = "delta_sp_range";
   c.at_least = 0.1;
   EXPECT_FALSE(judge(c, record("1111", {1e-14, 1e-14, 9e-14, 9e-14})).holds);
-  c = condition(ConditionKind::falls);
+  c = condition(ConditionKind::reduction);
   c.quantity = "delta_sp_range";
   c.at_least = 5.0;
   EXPECT_FALSE(judge(c, record("11", {1e-13, 1e-14})).holds);
@@ -528,7 +528,7 @@ TEST(ClaimsOptions, RefuseWhatNobodyWouldJudge) {
   sweep.name = "s";
   options.sweeps = {sweep};
   Condition c = condition(ConditionKind::share);
-  c.motion = "period 1";
+  c.regime = "period 1";
   c.at_least = 0.5;
   options.claims = {{"C", "", "", "", 1.0, {c}}};
   EXPECT_TRUE(options.problems().empty());
@@ -539,9 +539,9 @@ TEST(ClaimsOptions, RefuseWhatNobodyWouldJudge) {
   };
   const std::string place = "/claims/0/conditions/0";
   EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].sweep = "t"; }), place + "/sweep");
-  EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].motion = "chaos"; }), place + "/motion");
+  EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].regime = "chaos"; }), place + "/regime");
   EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].at_least.reset(); }), place);
-  EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].after = "chaotic"; }), place + "/after");
+  EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].regime_after = "chaotic"; }), place + "/regime_after");
   EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions.clear(); }), "/claims/0/conditions");
   EXPECT_EQ(place_of([](auto& o) {
               o.sweeps[0].name = "../s";
@@ -549,25 +549,26 @@ TEST(ClaimsOptions, RefuseWhatNobodyWouldJudge) {
             }),
             "/sweeps/0/name");
   EXPECT_EQ(place_of([](auto& o) {
-              o.space.parameters = {{"x", "", "", 0.0, 1.0, Spread::linear, {}, "", ""}};
+              o.space.parameters = {{"x", "", "", 0.0, 1.0, ParameterScale::linear, {}, "", ""}};
             }),
             "/parameters/0/targets");
-  EXPECT_EQ(place_of([](auto& o) {
-              o.space.parameters = {{"x", "", "", 0.0, 1.0, Spread::logarithmic, {{"/stage/a", 1, 1, ""}}, "", ""}};
-            }),
-            "/parameters/0/from");
+  EXPECT_EQ(
+      place_of([](auto& o) {
+        o.space.parameters = {{"x", "", "", 0.0, 1.0, ParameterScale::logarithmic, {{"/stage/a", 1, 1, ""}}, "", ""}};
+      }),
+      "/parameters/0/from");
   EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].at_least = 95.0; }), place + "/at_least");
   EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].at_least = 0.0; }), place + "/at_least");
   EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].which = Which::last; }), place + "/which");
-  EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].motion = "period 40"; }), place + "/motion");
+  EXPECT_EQ(place_of([](auto& o) { o.claims[0].conditions[0].regime = "period 40"; }), place + "/regime");
   EXPECT_EQ(place_of([](auto& o) {
               o.sweeps[0].name = "s.json";
               o.claims[0].conditions[0].sweep = "s.json";
             }),
             "/sweeps/0/name");
   EXPECT_EQ(place_of([](auto& o) {
-              o.space.parameters = {{"x", "", "", 0.0, 1.0, Spread::linear, {{"/stage/a", 1, 1, ""}}, "", ""},
-                                    {"y", "", "", 0.0, 1.0, Spread::linear, {{"/stage/a", 1, 1, ""}}, "", ""}};
+              o.space.parameters = {{"x", "", "", 0.0, 1.0, ParameterScale::linear, {{"/stage/a", 1, 1, ""}}, "", ""},
+                                    {"y", "", "", 0.0, 1.0, ParameterScale::linear, {{"/stage/a", 1, 1, ""}}, "", ""}};
             }),
             "/parameters/1/targets/0/pointer");
 }
@@ -583,26 +584,28 @@ ClaimsOptions options_with(const Condition& c) {
   return options;
 }
 
-FreeParameter one_parameter() { return {"x", "", "", 0.0, 1.0, Spread::linear, {{"/stage/a", 1, 1, ""}}, "", ""}; }
+FreeParameter one_parameter() {
+  return {"x", "", "", 0.0, 1.0, ParameterScale::linear, {{"/stage/a", 1, 1, ""}}, "", ""};
+}
 
 TEST(ClaimsOptions, RefuseConditionsThatAlwaysHold) {
   const std::string place = "/claims/0/conditions/0";
   Condition c = condition(ConditionKind::count);
-  c.motion = "period 1";
+  c.regime = "period 1";
   c.at_most = 28.0;
   EXPECT_EQ(refused_at(options_with(c)), "nowhere");
   c.at_most = 29.0;
   EXPECT_EQ(refused_at(options_with(c)), place + "/at_most");
   // A number of points is another claim on another grid, but for none and any.
   ClaimsOptions coarse = options_with(c);
-  coarse.sweeps[0].brief_points = coarse.sweeps[0].survey_points = 10;
+  coarse.sweeps[0].screening_points = coarse.sweeps[0].survey_points = 10;
   coarse.claims[0].conditions[0].at_most = 5.0;
   EXPECT_EQ(refused_at(coarse), "nowhere");  // there is nothing to search for
   coarse.space.parameters = {one_parameter()};
   EXPECT_EQ(refused_at(coarse), place + "/at_most");
   coarse.claims[0].conditions[0].at_most = 0.0;
   EXPECT_EQ(refused_at(coarse), "nowhere");
-  c = condition(ConditionKind::alike);
+  c = condition(ConditionKind::agreement);
   c.at_least = 0.9;
   c.correlation = 0.0;
   EXPECT_EQ(refused_at(options_with(c)), place + "/correlation");
@@ -613,73 +616,73 @@ TEST(ClaimsOptions, RefuseConditionsThatAlwaysHold) {
   c = condition(ConditionKind::change);
   c.within = {0.5, 1.0};
   for (const auto& [motion, after] : {std::pair("period 1", "period 1"), std::pair("periodic", "not chaotic")}) {
-    c.motion = motion;
-    c.after = after;
-    EXPECT_EQ(refused_at(options_with(c)), place + "/after") << motion;
+    c.regime = motion;
+    c.regime_after = after;
+    EXPECT_EQ(refused_at(options_with(c)), place + "/regime_after") << motion;
   }
-  c.after = "not periodic";
+  c.regime_after = "not periodic";
   EXPECT_EQ(refused_at(options_with(c)), "nowhere");
   c = condition(ConditionKind::peaks);
   c.quantity = "delta_sp_range";
-  c.places = {1.0, 1.1};
-  EXPECT_EQ(refused_at(options_with(c)), place + "/places/1");
+  c.peak_locations = {1.0, 1.1};
+  EXPECT_EQ(refused_at(options_with(c)), place + "/peak_locations/1");
 }
 
 TEST(ClaimsOptions, RefuseConditionsThatNeverHold) {
   const std::string place = "/claims/0/conditions/0";
   Condition c = condition(ConditionKind::change);
-  c.motion = "period 1";
-  c.after = "not period 1";
+  c.regime = "period 1";
+  c.regime_after = "not period 1";
   c.within = {1.01, 1.04};
   EXPECT_EQ(refused_at(options_with(c)), place + "/within");
   c.within = {1.01, 1.06};
   EXPECT_EQ(refused_at(options_with(c)), "nowhere");
   ClaimsOptions coarse = options_with(c);
-  coarse.sweeps[0].brief_points = 8;         // at 0.2, 0.6, 1, 1.4, ...
+  coarse.sweeps[0].screening_points = 8;     // at 0.2, 0.6, 1, 1.4, ...
   EXPECT_EQ(refused_at(coarse), "nowhere");  // there is nothing to search for
   coarse.space.parameters = {one_parameter()};
   EXPECT_EQ(refused_at(coarse), place + "/within");
   c.leads_to = "period 1";
   EXPECT_EQ(refused_at(options_with(c)), place + "/leads_to");
-  c.motion = "periodic";
-  c.after = "not periodic";
+  c.regime = "periodic";
+  c.regime_after = "not periodic";
   c.leads_to = "period 2";
   EXPECT_EQ(refused_at(options_with(c)), place + "/leads_to");
   c.leads_to = "chaotic";
   EXPECT_EQ(refused_at(options_with(c)), "nowhere");
-  c = condition(ConditionKind::falls);
+  c = condition(ConditionKind::reduction);
   c.quantity = "delta_sp_range";
   c.at_least = 2.0;
   c.from = c.to = 1.0;
   EXPECT_EQ(refused_at(options_with(c)), place);
-  c = condition(ConditionKind::alike);
+  c = condition(ConditionKind::agreement);
   c.at_least = 0.9;
   c.from = c.to = 1.0;
   EXPECT_EQ(refused_at(options_with(c)), "nowhere");
   c.correlation = 0.5;
   EXPECT_EQ(refused_at(options_with(c)), place);
   c = condition(ConditionKind::count);
-  c.motion = "chaotic";
+  c.regime = "chaotic";
   c.at_least = 1.2;
   c.at_most = 1.8;
   EXPECT_EQ(refused_at(options_with(c)), place + "/at_most");
   c = condition(ConditionKind::peaks);
   c.quantity = "delta_sp_range";
-  c.places = {0.95};
-  c.place_tolerance = 0.01;
-  EXPECT_EQ(refused_at(options_with(c)), place + "/places/0");
+  c.peak_locations = {0.95};
+  c.location_tolerance = 0.01;
+  EXPECT_EQ(refused_at(options_with(c)), place + "/peak_locations/0");
   c = condition(ConditionKind::count);
-  c.motion = "period 3";
+  c.regime = "period 3";
   c.at_least = 1.0;
   ClaimsOptions brief = options_with(c);
   brief.recording.recorded_periods = 4;
   EXPECT_EQ(refused_at(brief), "nowhere");  // evidence is sought for as long as it takes
   brief.recording.classification_periods = 0;
-  EXPECT_EQ(refused_at(brief), place + "/motion");
+  EXPECT_EQ(refused_at(brief), place + "/regime");
   // What does not recur is undecided then.
-  brief.claims[0].conditions[0].motion = "chaotic";
-  EXPECT_EQ(refused_at(brief), place + "/motion");
-  brief.claims[0].conditions[0].motion = "not periodic";
+  brief.claims[0].conditions[0].regime = "chaotic";
+  EXPECT_EQ(refused_at(brief), place + "/regime");
+  brief.claims[0].conditions[0].regime = "not periodic";
   EXPECT_EQ(refused_at(brief), "nowhere");
   brief.recording.recorded_periods = 1;
   EXPECT_EQ(refused_at(brief), "/recorded_periods");
@@ -693,7 +696,7 @@ TEST(ClaimsOptions, RefuseExponentsThatSearchesDoNotCompute) {
   EXPECT_EQ(refused_at(options), "nowhere");
   options.space.parameters = {one_parameter()};
   EXPECT_EQ(refused_at(options), "/claims/0/conditions/0/quantity");
-  options.brief.classification_periods = options.survey.recording.classification_periods = 512;
+  options.screening.classification_periods = options.survey.recording.classification_periods = 512;
   EXPECT_EQ(refused_at(options), "nowhere");
 }
 
@@ -704,9 +707,9 @@ TEST(ClaimsOptions, RefuseSweepsThatShareNoValues) {
   options.sweeps.push_back(options.sweeps.front());
   options.sweeps[1].name = "t";
   EXPECT_EQ(refused_at(options), "nowhere");
-  options.sweeps[1].axis.points = options.sweeps[1].brief_points = options.sweeps[1].survey_points = 15;
+  options.sweeps[1].axis.points = options.sweeps[1].screening_points = options.sweeps[1].survey_points = 15;
   EXPECT_EQ(refused_at(options), "nowhere");
-  options.sweeps[1].axis.points = options.sweeps[1].brief_points = options.sweeps[1].survey_points = 14;
+  options.sweeps[1].axis.points = options.sweeps[1].screening_points = options.sweeps[1].survey_points = 14;
   EXPECT_EQ(refused_at(options), "in 3 places");  // both ends alone
   options = options_with(c);
   options.sweeps.push_back(options.sweeps.front());
@@ -714,13 +717,13 @@ TEST(ClaimsOptions, RefuseSweepsThatShareNoValues) {
   options.claims[0].conditions[0].from = 5.0;
   EXPECT_EQ(refused_at(options), "/claims/0/conditions/0");
   options.claims[0].conditions[0].from.reset();
-  options.claims[0].conditions[0].motion = "period 100";
-  EXPECT_EQ(refused_at(options), "/claims/0/conditions/0/motion");
+  options.claims[0].conditions[0].regime = "period 100";
+  EXPECT_EQ(refused_at(options), "/claims/0/conditions/0/regime");
 }
 
 TEST(ClaimsOptions, RefuseChoicesThatDecideNothing) {
   Condition c = condition(ConditionKind::share);
-  c.motion = "period 1";
+  c.regime = "period 1";
   c.at_least = 0.5;
   const Choice choice{"A", "", {{"a", 1, {{"/stage/x", "1"}}}, {"b", 1, {{"/stage/x", "2"}}}}};
   ClaimsOptions options = options_with(c);
@@ -731,7 +734,7 @@ TEST(ClaimsOptions, RefuseChoicesThatDecideNothing) {
   options.space.choices = {choice, {"B", "", {{"c", 1, {{"/stage/x/y", "3"}}}, {"d", 1, {}}}}};
   EXPECT_EQ(refused_at(options), "in 2 places");  // by both options of A
   options.space.choices = {choice};
-  options.space.parameters = {{"p", "", "", 0.0, 1.0, Spread::linear, {{"/stage/x", 1, 1, ""}}, "", ""}};
+  options.space.parameters = {{"p", "", "", 0.0, 1.0, ParameterScale::linear, {{"/stage/x", 1, 1, ""}}, "", ""}};
   EXPECT_EQ(refused_at(options), "in 2 places");                  // both options of A
   options.space.parameters[0].targets[0].pointer = "/stage/x/y";  // a part of it
   EXPECT_EQ(refused_at(options), "in 2 places");
@@ -742,7 +745,7 @@ TEST(ClaimsOptions, RefuseChoicesThatDecideNothing) {
   options.space.parameters[0].targets[0].times = "p";
   EXPECT_EQ(refused_at(options), "/parameters/0/targets/0/times");
   // What multiplies counts wherever what it multiplies does.
-  FreeParameter multiplied{"q", "", "", 0.0, 1.0, Spread::linear, {{"/stage/y", 1, 1, "p"}}, "", ""};
+  FreeParameter multiplied{"q", "", "", 0.0, 1.0, ParameterScale::linear, {{"/stage/y", 1, 1, "p"}}, "", ""};
   options.space.parameters[0].targets[0].times = "";
   options.space.parameters.push_back(multiplied);
   EXPECT_EQ(refused_at(options), "/parameters/1/targets/0/times");

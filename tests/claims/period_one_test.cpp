@@ -145,17 +145,17 @@ TEST(CostsLedByMultipliers, SeeWhatWordsDoNot) {
   Condition change;
   change.kind = ConditionKind::change;
   change.sweep = "s";
-  change.motion = "period 1";
-  change.after = "chaotic";
+  change.regime = "period 1";
+  change.regime_after = "chaotic";
   change.within = {2.0, 3.0};
   Condition sequence;
   sequence.kind = ConditionKind::sequence;
   sequence.sweep = "s";
-  sequence.motions = {"period 1", "chaotic"};
+  sequence.regimes = {"period 1", "chaotic"};
   Condition count;
   count.kind = ConditionKind::count;
   count.sweep = "s";
-  count.motion = "chaotic";
+  count.regime = "chaotic";
   count.at_least = 1.0;
   const std::vector<double> far = {-0.5, -0.5, -0.5, -0.5, -0.5, -0.5};
   const std::vector<double> near = {-0.5, -0.5, -0.5, -0.1, -0.1, -0.1};
@@ -181,7 +181,7 @@ TEST(CostsLedByMultipliers, SeeWhatWordsDoNot) {
   Condition share;
   share.kind = ConditionKind::share;
   share.sweep = "s";
-  share.motion = "period 1";
+  share.regime = "period 1";
   share.at_least = 0.95;
   EXPECT_LT(judge(share, record("cccccc", {0.01, 0.01, 0.01, 0.01, 0.01, 0.01})).cost,
             judge(share, record("cccccc", {0.5, 0.5, 0.5, 0.5, 0.5, 0.5})).cost);

@@ -17,7 +17,7 @@ using namespace studies;
 ClaimsOptions options_of(int draws) {
   ClaimsOptions options;
   for (const char* name : {"a", "b"})
-    options.space.parameters.push_back({name, "", "", 0.0, 1.0, Spread::linear, {{"/x", 1, 1, ""}}, "", ""});
+    options.space.parameters.push_back({name, "", "", 0.0, 1.0, ParameterScale::linear, {{"/x", 1, 1, ""}}, "", ""});
   options.claims.resize(2);
   options.survey.draws = draws;
   options.survey.seed = 5;

@@ -8,7 +8,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.bash"
 
 # The last flip of the speed diagram.
 branches=(continue "$inputs/tang2020_branches.json" --set /study/from=2.14 --set /study/to=2.16 --set '/study/starts=[2.155]'
-  --set /study/largest_period=1)
+  --set /study/period_max=1)
 [ "$(code_of "$epicyclic" "${branches[@]}" --set /study/tolerance=1e-9 -o fine)" = 0 ] || fail "continue: $(<stderr)"
 [ "$(code_of "$epicyclic" assert fine points.json --record)" = 0 ] || fail "record: $(<stderr)"
 [ "$(code_of "$epicyclic" assert fine points.json --record)" = 2 ] || fail "expected points must not be overwritten"

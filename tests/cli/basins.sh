@@ -31,7 +31,7 @@ grep -q '"cells": 6' stdout || fail "the summary as JSON: $(<stdout)"
 cmp -s t1/points.csv resolved/points.csv || fail "the resolved input gives other cells"
 
 # The base moves the starts: other transients, the same attractor.
-[ "$(code_of basins -o base --set '/study/base={"y_s": 0.5, "w_p1_rate": -0.25}')" = 0 ] || fail "a base: $(<stderr)"
+[ "$(code_of basins -o base --set '/study/other_components={"y_s": 0.5, "w_p1_rate": -0.25}')" = 0 ] || fail "a base: $(<stderr)"
 grep -q '^1,periodic,1,6,1,' base/attractors.csv || fail "with a base: $(cut -c1-200 base/attractors.csv)"
 cmp -s t1/points.csv base/points.csv && fail "the base must move the starts"
 
@@ -46,9 +46,9 @@ refused() {
 refused --set /study/first/component=x_q
 grep -q "did you mean 'x_s'" stderr || fail "the message must name what was meant: $(<stderr)"
 refused --set /study/second/component=x_s
-refused --set '/study/base={"x_ss": 1}'
-refused --set '/study/base={"x_s": 1}'
-refused --set '/study/base={"y_s": "much"}'
+refused --set '/study/other_components={"x_ss": 1}'
+refused --set '/study/other_components={"x_s": 1}'
+refused --set '/study/other_components={"y_s": "much"}'
 refused --set /study/first/parameter=x_s
 [ "$(code_of "$epicyclic" sweep "$inputs/tang2020_basins.json" -o refused)" = 2 ] || fail "basins are no sweep"
 

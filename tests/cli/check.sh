@@ -13,7 +13,7 @@ answers() {
   local begun code=0
   await_quiet
   begun=$(date +%s%3N)
-  timeout -s KILL "$(or_if_slow 60 600)" "$epicyclic" check "${@:3}" --threads 2 >stdout 2>stderr </dev/null || code=$?
+  timeout -s KILL "$(or_if_slow 60 600)" "$epicyclic" check --json "${@:3}" --threads 2 >stdout 2>stderr </dev/null || code=$?
   judge_time "$1" $(($(date +%s%3N) - begun)) $most_ms
   [ "$code" = 0 ] || fail "$1: exit code $code: $(<stderr)"
   grep -q '"study": {' stdout || fail "$1: the resolved input is not printed"

@@ -15,31 +15,31 @@ cat >claims.json <<END
   "stage_patch": { "load": { "power_kW": null, "torque_Nm": 400 },
     "lumped": { "sun_planet_mesh": { "error_amplitude_um": [2, 2.1, 2] } } },
   "integrator": { "method": "lanes-cash-karp", "relative_tolerance": 1e-6, "absolute_tolerance": 1e-8 },
-  "study": { "kind": "claims", "starts": ["carried", "cold"],
+  "study": { "kind": "claims", "starts": ["continued", "cold"],
     "transient_periods": 40, "recorded_periods": 32, "classification_periods": 32,
     "sweeps": [
-      { "name": "speed", "parameter": "mesh_frequency_ratio", "from": 1.5, "to": 2.5, "points": 9, "directions": ["up", "down"], "brief_points": 5 },
-      { "name": "damping", "parameter": "damping_ratio", "from": 0.03, "to": 0.1, "points": 5, "brief_points": 3, "round": 1,
+      { "name": "speed", "parameter": "mesh_frequency_ratio", "from": 1.5, "to": 2.5, "points": 9, "directions": ["up", "down"], "screening_points": 5 },
+      { "name": "damping", "parameter": "damping_ratio", "from": 0.03, "to": 0.1, "points": 5, "screening_points": 3, "screening_round": 1,
         "at": [ { "parameter": "mesh_frequency_ratio", "value": 2.0 } ] },
-      { "name": "alike", "parameter": "damping_ratio", "from": 0.03, "to": 0.1, "points": 3, "at": [ { "parameter": "mesh_frequency_ratio", "as": "/operation/mesh_frequency_ratio" } ] } ],
+      { "name": "alike", "parameter": "damping_ratio", "from": 0.03, "to": 0.1, "points": 3, "at": [ { "parameter": "mesh_frequency_ratio", "same_as": "/operation/mesh_frequency_ratio" } ] } ],
     "claims": [
-      { "name": "A", "text": "little is chaotic", "where": "Fig. 1", "printed": "0",
-        "conditions": [ { "kind": "share", "sweep": "speed", "motion": "chaotic", "at_most": 0.45 } ] },
+      { "name": "A", "text": "little is chaotic", "where": "Fig. 1", "published": "0",
+        "conditions": [ { "kind": "share", "sweep": "speed", "regime": "chaotic", "at_most": 0.45 } ] },
       { "name": "B", "text": "the range is small", "conditions": [
           { "kind": "value", "sweep": "damping", "quantity": "delta_sp_range", "at_most": 0.1 } ] } ],
     "figures": [ { "name": "fig1", "title": "Speed", "panels": [ { "sweep": "speed", "title": "(a)" }, { "sweep": "speed", "mesh": "ring_planet" } ] } ],
-    "brief": { "transient_periods": 40, "recorded_periods": 8, "growth_periods": 16 },
+    "screening": { "transient_periods": 40, "recorded_periods": 8, "growth_periods": 16 },
     "parameters": [
-      { "name": "E", "words": "error [um]", "from": 0.5, "to": 20, "targets": [
+      { "name": "E", "description": "error [um]", "from": 0.5, "to": 20, "targets": [
           { "pointer": "/stage/lumped/sun_planet_mesh/error_amplitude_um/0" },
           { "pointer": "/stage/lumped/sun_planet_mesh/error_amplitude_um/1", "times": "r" } ] },
-      { "name": "r", "from": 0.9, "to": 1.1, "spread": "linear" },
+      { "name": "r", "from": 0.9, "to": 1.1, "scale": "linear" },
       { "name": "T", "from": 150, "to": 900, "choice": "load", "option": "torque", "targets": [ { "pointer": "/stage/load/torque_Nm" } ] } ],
     "choices": [ { "name": "load", "options": [
         { "name": "torque", "sets": [ { "pointer": "/stage/load", "value": { "torque_Nm": 400 } } ] },
         { "name": "power", "sets": [ { "pointer": "/stage/load", "value": { "power_kW": 400 } } ] } ] } ],
     "search": { "seed": 3, "islands": 2, "population": 7, "candidates": 42, "refinement": 10, "profile": 3, "confirmed": 2 },
-    "survey": { "draws": 6, "confirmed": 2, "look": { "transient_periods": 40, "recorded_periods": 8, "growth_periods": 16 } } } }
+    "survey": { "draws": 6, "confirmed": 2, "screening": { "transient_periods": 40, "recorded_periods": 8, "growth_periods": 16 } } } }
 END
 [ "$(code_of "$epicyclic" check claims.json)" = 0 ] || fail "check: $(<stderr)"
 ! grep -q 'recurrence alone' stderr || fail "a warning without its reason: $(<stderr)"
@@ -57,19 +57,19 @@ for odd in '{ "pointer": "/model", "value": 3 }, { "pointer": "/model/gap_dampin
   [ "$(code_of "$epicyclic" check claims.json --no-time --set "/study/choices/0/options/0/sets=[ $odd ]")" = 2 ] || fail "an option that makes no model: $(<stderr)"
 done
 # What changes nothing is told: a drawing's measure beside the numbers that would follow from it.
-idle='[{ "pointer": "/stage/catalogue/carrier/body/cheek_thickness_mm", "factor": 0.1 }]'
+idle='[{ "pointer": "/stage/catalogue/carrier/body/plate_thickness_mm", "factor": 0.1 }]'
 given=(--set "/study/parameters/2/targets=$idle" --set /stage/lumped/carrier/mass_kg=9 --set /stage/lumped/carrier/inertia_over_r2_kg=8)
 [ "$(code_of "$epicyclic" check claims.json --no-time "${given[@]}")" = 0 ] || fail "a parameter without effect: $(<stderr)"
 grep -q '/study/parameters/2: T changes nothing on any sweep' stderr || fail "it is not said that a parameter changes nothing: $(<stderr)"
 [ "$(grep -c 'changes nothing' stderr)" = 1 ] || fail "others change something: $(<stderr)"
-"$epicyclic" check claims.json --no-time >stdout 2>stderr
+"$epicyclic" check claims.json --no-time --json >stdout 2>stderr
 grep -q '2 claims on 3 sweeps' stderr || fail "check says nothing of claims: $(<stderr)"
 cp stdout resolved.json
-[ "$(code_of "$epicyclic" check resolved.json)" = 0 ] || fail "the resolved input: $(<stderr)"
+[ "$(code_of "$epicyclic" check resolved.json --no-time --json)" = 0 ] || fail "the resolved input: $(<stderr)"
 cmp -s stdout resolved.json || fail "the resolved input does not resolve to itself"
 # Whole sweeps would tell no chaos; what multiplies has to count where it does.
 [ "$(code_of "$epicyclic" check claims.json --set /study/classification_periods=0)" = 2 ] || fail "chaos that nobody tells: $(<stderr)"
-grep -q '/study/claims/0/conditions/0/motion.*needs classification_periods > 0' stderr || fail "it is not said: $(<stderr)"
+grep -q '/study/claims/0/conditions/0/regime.*needs classification_periods > 0' stderr || fail "it is not said: $(<stderr)"
 [ "$(code_of "$epicyclic" check claims.json --set '/study/parameters/0/targets/1/times="T"')" = 2 ] || fail "multiplied by what counts in one reading alone: $(<stderr)"
 
 # Scorecard and figures; each sweep is a study of its own.
@@ -87,8 +87,8 @@ grep -q '"mesh_frequency_ratio": 2.5' one/sweeps/alike.json || fail "the sweep i
 [ "$(code_of "$epicyclic" reproduce claims.json -o two --threads 2)" = 0 ] || fail "two threads: $(<stderr)"
 for file in scorecard.csv sweeps/speed/points.csv figures/fig1.dat; do cmp -s "one/$file" "two/$file" || fail "$file differs with two threads"; done
 
-# Of a sweep down alone that is judged and drawn, carried and from cold starts.
-down=(--set '/study/sweeps/0/directions=["down"]' --set '/study/starts=["cold","carried"]')
+# Of a sweep down alone that is judged and drawn, continued and from cold starts.
+down=(--set '/study/sweeps/0/directions=["down"]' --set '/study/starts=["cold","continued"]')
 [ "$(code_of "$epicyclic" reproduce claims.json -o down "${down[@]}")" = 0 ] || fail "a sweep down: $(<stderr)"
 is_drawn down/figures/fig1
 
@@ -105,14 +105,14 @@ is_drawn down/figures/fig1
 grep -q '"another_study"' stdout && grep -q 'at_most: 0.45.* there, 0.4.* here' stdout || fail "nothing was compared, which --json does not say: $(<stdout)"
 # Verdicts that contradict each other, and of claims that nobody makes, are not as recorded.
 cp claims.scorecard.json sound.json
-sed -i 's/"verdicts": \[/&\n{"claim":"A","carried":"fails"}, {"claim":"Z","carried":"holds"},/' claims.scorecard.json
+sed -i 's/"verdicts": \[/&\n{"claim":"A","continued":"fails"}, {"claim":"Z","continued":"holds"},/' claims.scorecard.json
 [ "$(code_of "$epicyclic" reproduce claims.json -o one)" = 1 ] || fail "contradicting verdicts: $(<stderr)"
-grep -q 'A (carried): holds, was recorded: fails and holds' stderr || fail "a claim that is recorded twice: $(<stderr)"
-grep -q 'Z (carried): nothing, was recorded: holds' stderr || fail "a claim that nobody makes: $(<stderr)"
+grep -q 'A (continued): holds, was recorded: fails and holds' stderr || fail "a claim that is recorded twice: $(<stderr)"
+grep -q 'Z (continued): nothing, was recorded: holds' stderr || fail "a claim that nobody makes: $(<stderr)"
 mv sound.json claims.scorecard.json
-sed -i 's/"carried":"holds"/"carried":"fails"/' claims.scorecard.json
+sed -i 's/"continued":"holds"/"continued":"fails"/' claims.scorecard.json
 [ "$(code_of "$epicyclic" reproduce claims.json -o one)" = 1 ] || fail "a verdict that is not the one recorded: $(<stderr)"
-grep -q 'A (carried): holds, was recorded: fails' stderr || fail "it is not said: $(<stderr)"
+grep -q 'A (continued): holds, was recorded: fails' stderr || fail "it is not said: $(<stderr)"
 [ "$(code_of "$epicyclic" reproduce claims.json -o other --set /stage/load/torque_Nm=390 --set '/study/starts=["cold"]')" = 0 ] || fail "another load: $(<stderr)"
 grep -q 'of another study and are not compared: /st' stderr || fail "it is not said that it is another study: $(<stderr)"
 # Another stage has verdicts of its own, in a file that is named, and has to be there.
@@ -130,7 +130,7 @@ cp claims.json kept_claims.json
 [ "$(code_of "$epicyclic" reproduce claims.json -o one --expected claims.json --record)" = 2 ] || fail "a file that holds no verdicts must not be written over: $(<stderr)"
 cmp -s claims.json kept_claims.json || fail "the input was written over"
 cmp -s other.verdicts.json kept.json || fail "verdicts were written without --record"
-grep -q '"carried":"fails"' claims.scorecard.json || fail "the verdicts beside the input were touched"
+grep -q '"continued":"fails"' claims.scorecard.json || fail "the verdicts beside the input were touched"
 echo '{ "format": "none" }' >claims.scorecard.json
 [ "$(code_of "$epicyclic" reproduce claims.json -o one)" = 2 ] || fail "no recorded verdicts: $(<stderr)"
 rm claims.scorecard.json
@@ -210,15 +210,15 @@ for command in calibrate robustness; do
   done
 done
 # Led by multipliers candidates that fail cost otherwise, but the first one is the same and meets the same.
-led=(--set '/study/claims/0/conditions=[{ "kind": "share", "sweep": "speed", "motion": "chaotic", "at_least": 0.9 }]' --set '/study/search={ "seed": 3, "islands": 2, "population": 7, "candidates": 14, "refinement": 0, "profile": 0 }')
+led=(--set '/study/claims/0/conditions=[{ "kind": "share", "sweep": "speed", "regime": "chaotic", "at_least": 0.9 }]' --set '/study/search={ "seed": 3, "islands": 2, "population": 7, "candidates": 14, "refinement": 0, "profile": 0 }')
 [ "$(code_of "$epicyclic" calibrate claims.json -o words "${led[@]}")" = 0 ] || fail "led by words: $(<stderr)"
-[ "$(code_of "$epicyclic" calibrate claims.json -o led1 "${led[@]}" --set /study/search/led_by=multipliers --threads 1)" = 0 ] || fail "led by multipliers: $(<stderr)"
-[ "$(code_of "$epicyclic" calibrate claims.json -o led2 "${led[@]}" --set /study/search/led_by=multipliers --threads 2)" = 0 ] || fail "led by multipliers, two threads: $(<stderr)"
+[ "$(code_of "$epicyclic" calibrate claims.json -o led1 "${led[@]}" --set /study/search/regime_cost=multipliers --threads 1)" = 0 ] || fail "led by multipliers: $(<stderr)"
+[ "$(code_of "$epicyclic" calibrate claims.json -o led2 "${led[@]}" --set /study/search/regime_cost=multipliers --threads 2)" = 0 ] || fail "led by multipliers, two threads: $(<stderr)"
 cmp -s led1/candidates.csv led2/candidates.csv || fail "led by multipliers: candidates differ with two threads"
 first() { sed -n 2p "$1/candidates.csv" | cut -d, -f "$2"; }
 [ "$(first words 3)" != "$(first led1 3)" ] || fail "multipliers lead to nothing: $(sed -n 2p words/candidates.csv)"
 [ "$(first words 5-8)" = "$(first led1 5-8)" ] || fail "multipliers decide: $(sed -n 2p words/candidates.csv) $(sed -n 2p led1/candidates.csv)"
-[ "$(code_of "$epicyclic" calibrate claims.json -o jumps "${led[@]}" --set /study/search/led_by=multipliers --set /model/gap_damping=contact_slope)" = 2 ] || fail "multipliers where forces jump: $(<stderr)"
+[ "$(code_of "$epicyclic" calibrate claims.json -o jumps "${led[@]}" --set /study/search/regime_cost=multipliers --set /model/gap_damping=contact_slope)" = 2 ] || fail "multipliers where forces jump: $(<stderr)"
 grep -q 'no tangents' stderr || fail "it is not said that there are no tangents: $(<stderr)"
 [ "$(code_of "$epicyclic" calibrate claims.json -o c1)" = 0 ] || fail "complete: $(<stderr)"
 grep -q 'calibrated: by claims of small, seed 3' c1/stage.json || fail "no origin"
@@ -226,7 +226,7 @@ is_drawn c1/figures/determination
 [ "$(code_of "$epicyclic" check c1/best.json)" = 0 ] || fail "the best as an input: $(<stderr)"
 [ "$(code_of "$epicyclic" gear c1/stage.json -o g)" = 0 ] || fail "its stage as an input: $(<stderr)"
 # What whole sweeps said of the best is what its claims are held to.
-[ "$(code_of "$epicyclic" reproduce c1/best.json -o whole --set '/study/starts=["carried"]')" = 0 ] || fail "the best held against sweeps: $(<stderr)"
+[ "$(code_of "$epicyclic" reproduce c1/best.json -o whole --set '/study/starts=["continued"]')" = 0 ] || fail "the best held against sweeps: $(<stderr)"
 for claim in A B; do
   said=$(grep "^| $claim |" c1/calibrate.md | awk -F'|' '{ gsub(/ /, "", $5); print $5 }')
   [ "$said" = holds ] || said=fails
@@ -254,7 +254,7 @@ for target in /stage/lumped/sun/inertia_over_r2_kg /stage/lumped/sun_planet_mesh
   [ "$(code_of "$epicyclic" calibrate claims.json -o rpm "${fast[@]}")" = 0 ] || fail "$target: $(<stderr)"
   [ "$(code_of "$epicyclic" gear rpm/best.json -o rpm_gear)" = 0 ] || fail "the best at a speed in rpm: $(<stderr)"
   awk -F, '$1 == "sun_speed" && $2 > 11999.999 && $2 < 12000.001 { found = 1 } END { exit !found }' rpm_gear/geometry.csv || fail "$target: the best runs at $(grep '^sun_speed' rpm_gear/geometry.csv)"
-  [ "$(code_of "$epicyclic" reproduce rpm/best.json -o rpm_best --set '/study/starts=["carried"]')" = 0 ] || fail "the best at a speed in rpm: $(<stderr)"
+  [ "$(code_of "$epicyclic" reproduce rpm/best.json -o rpm_best --set '/study/starts=["continued"]')" = 0 ] || fail "the best at a speed in rpm: $(<stderr)"
   said=$(grep "^| B |" rpm/calibrate.md | awk -F'|' '{ gsub(/ /, "", $5); print $5 }')
   [ "$said" = holds ] || said=fails
   grep -q "^B,$said," rpm_best/scorecard.csv || fail "$target: B $said by whole sweeps of the search, but not by reproduce"
@@ -333,28 +333,28 @@ refused() {
   grep -q -- "$2" stderr || fail "$1: $(<stderr)"
   [ ! -e bad ] || fail "$1: wrote"
 }
-refused 's/"motion": "chaotic"/"motion": "chaos"/' 'bad.json:14: /study/claims/0/conditions/0/motion: is "chaos", must be "period N"' reproduce
+refused 's/"regime": "chaotic"/"regime": "chaos"/' 'bad.json:14: /study/claims/0/conditions/0/regime: is "chaos", must be "period N"' reproduce
 refused 's/"sweep": "damping", "quantity"/"sweep": "dumping", "quantity"/' '/study/claims/1/conditions/0/sweep: is "dumping", which is no sweep' reproduce
-refused 's/"at_most": 0.1/"at_most": 0.1, "motions": ["chaotic"]/' 'is not read by a condition of kind "value"' reproduce
+refused 's/"at_most": 0.1/"at_most": 0.1, "regimes": ["chaotic"]/' 'is not read by a condition of kind "value"' reproduce
 refused 's/"name": "speed", "parameter"/"name": "..\/speed", "parameter"/' 'a folder is called so' reproduce
 refused 's/"name": "damping", "parameter"/"name": "speed_cold", "parameter"/; s/"sweep": "damping"/"sweep": "speed_cold"/' 'as its cold starts are called' reproduce
 refused 's/"from": 0.5, "to": 20/"from": -1, "to": 20/' '/study/parameters/0/from: is -1, must be > 0 on a logarithmic scale' calibrate
 refused 's/"from": 0.9, "to": 1.1/"from": 0.9, "to": 1.1, "targets": [ { "pointer": "\/stage\/lumped\/none" } ]/' '/study/parameters/1/targets/0/pointer: .*is no value of the resolved input' calibrate
 refused 's/"choice": "load", "option": "torque"/"choice": "load", "option": "talk"/' 'is "talk", which is no option of that choice' calibrate
-refused 's/"motion": "chaotic", "at_most"/"motion": "chaotic", "which": "last", "at_most"/' '/which: is not read by a condition of kind "share"' reproduce
-refused 's/"kind": "share", "sweep": "speed", "motion": "chaotic", "at_most": 0.45/"kind": "count", "sweep": "speed", "motion": "chaotic", "at_most": 4/' 'is 4 of the 9 points that "speed" has there; by brief_points it has 5' calibrate
-refused 's/"as": "\/operation\/mesh_frequency_ratio"/"as": "\/stage\/lumped\/sun_planet_mesh\/damping_ratio"/' '/study/sweeps/2/at/0/as: .*which the sweep varies' reproduce
-refused 's/"at": \[ { "parameter": "mesh_frequency_ratio", "as"/"at": [ { "parameter": "\/operation\/mesh_frequency_ratio", "value": 2 }, { "parameter": "sun_planet_backlash", "as"/' '/study/sweeps/2/at/1/as: .*which /at/0 sets' reproduce
-refused 's/"motion": "chaotic", "at_most"/"motion": "chaotic", "from": 1.9, "to": 1.95, "at_most"/' 'its grid of 9 (points) has 0' reproduce
+refused 's/"regime": "chaotic", "at_most"/"regime": "chaotic", "which": "last", "at_most"/' '/which: is not read by a condition of kind "share"' reproduce
+refused 's/"kind": "share", "sweep": "speed", "regime": "chaotic", "at_most": 0.45/"kind": "count", "sweep": "speed", "regime": "chaotic", "at_most": 4/' 'is 4 of the 9 points that "speed" has there; by screening_points it has 5' calibrate
+refused 's/"same_as": "\/operation\/mesh_frequency_ratio"/"same_as": "\/stage\/lumped\/sun_planet_mesh\/damping_ratio"/' '/study/sweeps/2/at/0/same_as: .*which the sweep varies' reproduce
+refused 's/"at": \[ { "parameter": "mesh_frequency_ratio", "same_as"/"at": [ { "parameter": "\/operation\/mesh_frequency_ratio", "value": 2 }, { "parameter": "sun_planet_backlash", "same_as"/' '/study/sweeps/2/at/1/same_as: .*which /at/0 sets' reproduce
+refused 's/"regime": "chaotic", "at_most"/"regime": "chaotic", "from": 1.9, "to": 1.95, "at_most"/' 'its grid of 9 (points) has 0' reproduce
 refused 's/"value": { "power_kW": 400 }/"value": { "power_kW": -4 }/' '/study/choices/0: with "power": .*power_kW: is -4' calibrate
 refused 's/"pointer": "\/stage\/load", "value": { "power_kW": 400 }/"pointer": "\/study\/points", "value": 3/' 'must begin with /stage, /model or /operation' calibrate
 refused 's/"pointer": "\/stage\/load", "value": { "power_kW": 400 }/"pointer": "\/stage\/~2", "value": 3/' 'unknown key' calibrate
 refused 's/"candidates": 42/"candidates": 13/' 'must be >= islands x population = 14' calibrate
-refused 's/"value": 2.0 }/"value": 2.0, "as": "\/operation\/mesh_frequency_ratio" }/' '/study/sweeps/1/at/0: must have "value" or "as", and not both' reproduce
-refused 's/"value": 2.0 }/"as": "\/stage\/name" }/' '/study/sweeps/1/at/0/as: is "/stage/name", which is no number of the resolved input' reproduce
-refused 's/"value": 2.0 }/"as": "\/stage\/lumped\/sun\/mass_kg" }/' '/study/sweeps/1/at/0/as: is "/stage/lumped/sun/mass_kg", which is computed from other numbers' reproduce
-refused 's/"value": 2.0 }/"as": "\/stage\/~2" }/' '/study/sweeps/1/at/0/as: is "/stage/~2", which is no number of the resolved input' reproduce
-refused 's/"name": "E", "words"/"name": "cost", "words"/' 'as a column of their tables is' calibrate
+refused 's/"value": 2.0 }/"value": 2.0, "same_as": "\/operation\/mesh_frequency_ratio" }/' '/study/sweeps/1/at/0: must have "value" or "same_as", and not both' reproduce
+refused 's/"value": 2.0 }/"same_as": "\/stage\/name" }/' '/study/sweeps/1/at/0/same_as: is "/stage/name", which is no number of the resolved input' reproduce
+refused 's/"value": 2.0 }/"same_as": "\/stage\/lumped\/sun\/mass_kg" }/' '/study/sweeps/1/at/0/same_as: is "/stage/lumped/sun/mass_kg", which is computed from other numbers' reproduce
+refused 's/"value": 2.0 }/"same_as": "\/stage\/~2" }/' '/study/sweeps/1/at/0/same_as: is "/stage/~2", which is no number of the resolved input' reproduce
+refused 's/"name": "E", "description"/"name": "cost", "description"/' 'as a column of their tables is' calibrate
 refused 's/"parameter": "damping_ratio"/"parameter": "damping"/' '/study/sweeps/1/parameter: is "damping", must be one of' calibrate
 [ "$(code_of "$epicyclic" sweep claims.json -o bad)" = 2 ] || fail "a sweep of claims: $(<stderr)"
 grep -q 'run `epicyclic reproduce`' stderr || fail "which command it is of: $(<stderr)"

@@ -31,7 +31,7 @@ awk -F, '$1 == 0 && $3 == 2.2 && $5 == 1 { found = 1 } END { exit !found }' whol
 # Complete; another study.
 [ "$(code_of branches -o whole --threads 1)" = 0 ] || fail "a complete folder must give exit 0: $(<stderr)"
 grep -q 'complete already' stderr || fail "a complete folder is said to be so: $(<stderr)"
-[ "$(code_of branches -o whole --set /study/largest_period=1)" = 3 ] || fail "another study must give exit 3"
+[ "$(code_of branches -o whole --set /study/period_max=1)" = 3 ] || fail "another study must give exit 3"
 
 # The resolved input, stopped, and then with --json: the same bytes, but of the input as it was given.
 code=0
@@ -48,7 +48,7 @@ same_results whole resolved
 "$epicyclic" init slow >/dev/null 2>&1
 cat >slow/branches.json <<END
 { "stage": "stage.json", "study": { "kind": "continue", "parameter": "mesh_frequency_ratio", "from": 0.08, "to": 0.16,
-  "starts": [0.15], "largest_period": 1 } }
+  "starts": [0.15], "period_max": 1 } }
 END
 "$epicyclic" continue slow/branches.json -o growing >stdout 2>stderr &
 pid=$!
@@ -82,7 +82,7 @@ same_results whole proved
 [ "$(code_of branches -o whole)" = 0 ] || fail "complete behind a proof: $(<stderr)"
 
 # Without the doubled branch a change is unexplained to nobody, but without any branch near it is.
-far=(--set /study/from=2.05 --set /study/to=2.25 --set /study/tolerance=1e-9 --set '/study/starts=[2.06]' --set /study/period=2 --set /study/largest_period=2)
+far=(--set /study/from=2.05 --set /study/to=2.25 --set /study/tolerance=1e-9 --set '/study/starts=[2.06]' --set /study/period=2 --set /study/period_max=2)
 [ "$(code_of "$epicyclic" continue "$study" "${far[@]}" --set /study/orbits=2 -o few --against sweep)" = 1 ] ||
   fail "unexplained changes must give exit 1: $(<stderr)"
 grep -q 'unexplained' few/proof.csv || fail "and be listed: $(<few/proof.csv)"
@@ -100,10 +100,10 @@ mv gone sweep
 grep -q '"period": 2' seed1/input.resolved.json || fail "its period is 2"
 
 # The flip over the damping, from edge to edge; killed between.
-loci=(--set '/study/loci={"parameter":"damping_ratio","from":0.0499,"to":0.051,"near":[2.149]}' --set /study/largest_period=1 --set /study/tolerance=1e-10
+loci=(--set '/study/loci={"parameter":"damping_ratio","from":0.0499,"to":0.051,"near":[2.149]}' --set /study/period_max=1 --set /study/tolerance=1e-10
   --set '/study/starts=[2.15]' --set /study/orbits=4)
 [ "$(code_of branches "${loci[@]}" -o loci)" = 0 ] || fail "loci: $(<stderr)"
-[ "$(head -1 loci/loci.csv | cut -d, -f1-7)" = locus,index,kind,first,second,error_bound,marked ] || fail "columns of loci.csv"
+[ "$(head -1 loci/loci.csv | cut -d, -f1-7)" = locus,index,kind,first,second,error_bound,codimension_two ] || fail "columns of loci.csv"
 [ "$(sed -n 2p loci/loci.csv | cut -d, -f1,3,5)" = 0,flip,0.0499 ] || fail "the first point: $(sed -n 2p loci/loci.csv)"
 [ "$(tail -1 loci/loci.csv | cut -d, -f1,3,5)" = 0,flip,0.051 ] || fail "the last point: $(tail -1 loci/loci.csv)"
 awk -F, -v flip="$flip" '$5 > 0.05 - 1e-9 && $5 < 0.05 + 1e-9 { found = $4 - flip < 1e-7 && flip - $4 < 1e-7 } END { exit !found }' loci/loci.csv ||
@@ -115,13 +115,13 @@ if [ "${WHOLE:-no}" = yes ]; then
 fi
 
 # A search at one speed: two motions of period 1 and 2, the first one unstable.
-search=(--set '/study/search={"values":[2.12],"starts":4,"spread":0.01,"largest_period":2}' --set '/study/starts=[]' --set /study/tolerance=1e-7)
+search=(--set '/study/search={"values":[2.12],"starts":4,"spread":0.01,"period_max":2}' --set '/study/starts=[]' --set /study/tolerance=1e-7)
 [ "$(code_of branches "${search[@]}" --set /study/orbits=2 --set /study/branches=2 -o search)" = 0 ] || fail "search: $(<stderr)"
 [ "$(cut -d, -f1,3,5 search/orbits.csv | sed 1d | tr '\n' ' ')" = '2.12,1,0 2.12,2,1 ' ] || fail "found: $(<search/orbits.csv)"
 
 # With a smooth clearance each value is told for the exact one too.
 if [ "${WHOLE:-no}" = yes ]; then
-  smooth=(--set /study/from=2.14 --set /study/to=2.16 --set '/study/starts=[2.155]' --set /integrator/clearance_smoothing=0.02 --set /study/largest_period=1 --set /study/tolerance=1e-10)
+  smooth=(--set /study/from=2.14 --set /study/to=2.16 --set '/study/starts=[2.155]' --set /integrator/clearance_smoothing=0.02 --set /study/period_max=1 --set /study/tolerance=1e-10)
   [ "$(code_of branches "${smooth[@]}" -o smooth)" = 0 ] || fail "smooth: $(<stderr)"
   awk -F, -v flip="$flip" '$2 == "flip" { off = $12 - flip; found = off < $13 && -off < $13 && $13 < 1e-5 && $3 < flip - 1e-4 }
     END { exit !found }' smooth/special.csv || fail "not the exact flip: $(<smooth/special.csv)"

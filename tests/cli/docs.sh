@@ -33,15 +33,15 @@ told=("${few[@]:0:4}" --set /study/classification_periods=8)  # where chaos is a
 plane=(--set /study/first/points=2 --set /study/second/points=2)
 # A name's sweeps are cut where all of them are.
 claims=(--set /study/sweeps/0/points=5 --set /study/sweeps/1/points=2)
-glance=(--set /study/brief/transient_periods=2 --set /study/brief/recorded_periods=4 --set /study/sweeps/0/survey_points=5 --set /study/sweeps/1/survey_points=2)
+glance=(--set /study/screening/transient_periods=2 --set /study/screening/recorded_periods=4 --set /study/sweeps/0/survey_points=5 --set /study/sweeps/1/survey_points=2)
 declare -A cut=(
   [sweep]="--set /study/points=3 ${few[*]}"
   [reproduce]="${claims[*]} ${told[*]}"
   [calibrate]="${claims[*]} ${told[*]} ${glance[*]} --set /study/search/candidates=16 --set /study/search/refinement=0 --set /study/search/profile=0"
-  [robustness]="${glance[*]} --set /study/survey/draws=2 --set /study/survey/look/transient_periods=2 --set /study/survey/look/recorded_periods=4"
+  [robustness]="${glance[*]} --set /study/survey/draws=2 --set /study/survey/screening/transient_periods=2 --set /study/survey/screening/recorded_periods=4"
   [map]="${plane[*]} ${few[*]}"
   [basins]="${plane[*]} ${few[*]} --set /study/transient=fixed"
-  [continue]="--set /study/largest_period=1 --set /study/orbits=2 --set /study/branches=1 --set /study/settle_periods=40 --set /study/tolerance=1e-7"
+  [continue]="--set /study/period_max=1 --set /study/orbits=2 --set /study/branches=1 --set /study/transient_periods=40 --set /study/tolerance=1e-7"
   [run]="--set /study/transient=fixed --set /study/transient_periods=2 --set /study/recorded_periods=16 --set /study/exponent_periods=12 --set /study/spectrum_periods=16 --set /study/history_periods=2 --set /study/check_tolerance=1e-6"
   [tolerance]="--set /study/points=1 --set /study/from=2.8 --set /study/transient_periods=20 --set /study/recorded_periods=16 --set /study/tolerances=[1e-5,1e-6] --set /study/methods=[\"arkode-dopri5\"] --set /study/chaotic_periods=64"
   [crosscheck]="--set /study/points=1 --set /study/from=2.8 --set /study/to=2.8 --set /study/transient_periods=20 --set /study/recorded_periods=16 --set /study/methods=[\"arkode-dopri5\",\"cvode-adams\"]"

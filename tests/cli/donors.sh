@@ -76,10 +76,10 @@ takes 0 "$epicyclic" run --from run_one:0 "${brief[@]}"
 "$epicyclic" gear "$inputs/lin_parker_1999_n3.json" -o gear >/dev/null 2>&1 || fail "the gear"
 cat >claims.json <<END
 { "stage": "$inputs/tang2020.json", "study": { "kind": "claims", "transient_periods": 10, "recorded_periods": 8, "period_max": 2,
-  "sweeps": [ { "name": "s", "parameter": "mesh_frequency_ratio", "from": 2.7, "to": 2.8, "points": 2, "brief_points": 2, "survey_points": 2 } ],
+  "sweeps": [ { "name": "s", "parameter": "mesh_frequency_ratio", "from": 2.7, "to": 2.8, "points": 2, "screening_points": 2, "survey_points": 2 } ],
   "claims": [ { "name": "A", "text": "it moves", "conditions": [ { "kind": "value", "sweep": "s", "quantity": "delta_sp_range", "at_least": 1e-6 } ] } ],
   "parameters": [ { "name": "zeta", "from": 0.02, "to": 0.1, "targets": [ { "pointer": "/stage/lumped/sun_planet_mesh/damping_ratio" } ] } ],
-  "survey": { "draws": 2, "look": { "transient_periods": 10, "recorded_periods": 8 } } } }
+  "survey": { "draws": 2, "screening": { "transient_periods": 10, "recorded_periods": 8 } } } }
 END
 kinds=(crosscheck tolerance continue gear)
 ! has_claims || kinds+=(reproduce robustness)

@@ -21,7 +21,7 @@ sed -n '/^cat >claims.json/,/^END$/p' "$small" >make_claims && source make_claim
 # What the others are of.
 "$epicyclic" sweep "${speeds[@]}" --set /study/points=4 --set /study/transient_periods=2 --set /study/recorded_periods=4 \
   --set /study/classification_periods=0 -o swept >/dev/null 2>stderr || fail "the sweep: $(<stderr)"
-flip=("$inputs/tang2020_branches.json" --set /study/from=2.14 --set /study/to=2.16 --set '/study/starts=[2.155]' --set /study/largest_period=1)
+flip=("$inputs/tang2020_branches.json" --set /study/from=2.14 --set /study/to=2.16 --set '/study/starts=[2.155]' --set /study/period_max=1)
 "$epicyclic" continue "${flip[@]}" -o branched >/dev/null 2>stderr || fail "the branches: $(<stderr)"
 "$epicyclic" assert branched expected.json --record >/dev/null 2>stderr || fail "the expected points: $(<stderr)"
 

@@ -33,7 +33,7 @@ for study in "${studies[@]}"; do
 done
 
 # What a wrong model makes of them is seen: a planet whose error is out of phase, as if the program had put it there.
-moved=(--set /study/largest_period=1 --set /study/method=lanes-cash-karp --set '/stage/lumped/sun_planet_mesh/error_phase_deg=[0, 0, 3]')
+moved=(--set /study/period_max=1 --set /study/method=lanes-cash-karp --set '/stage/lumped/sun_planet_mesh/error_phase_deg=[0, 0, 3]')
 [ "$(code_of "$epicyclic" continue "$inputs/tang2020_branches_gate.json" -o moved "${moved[@]}")" = 0 ] || fail "a planet out of phase: $(<stderr)"
 [ "$(code_of "$epicyclic" assert moved "$expected/tang2020_branches_gate.json")" = 3 ] || fail "another stage: $(<stdout)"
 [ "$(code_of "$epicyclic" assert moved moved.json --record)" = 0 ] || fail "record: $(<stderr)"

@@ -42,7 +42,7 @@ checked() {
   grep -q " $expected points" stderr || { echo "FAILED: check counts other points: $(<stderr)"; exit 1; }
 }
 expected=200000 checked "$inputs/tang2020_speed.json" --set /study/points=100000 --set '/study/start="cold"'
-for start in cold carried; do
+for start in cold continued; do
   expected=200000000 checked "$inputs/tang2020_map.json" --set /study/first/points=10000 --set /study/second/points=10000 \
     --set '/study/directions=["up","down"]' --set "/study/start=\"$start\""
 done

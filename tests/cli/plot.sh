@@ -17,7 +17,7 @@ swept two --set /stage/lumped/sun_planet_mesh/damping_ratio=0.08
 "$epicyclic" run "$inputs/tang2020_run.json" -o run --set /study/transient=fixed "${few[@]}" --set /study/exponent_periods=0 \
   --set /study/spectrum_periods=16 --set /study/history_periods=2 >/dev/null 2>&1 || fail "the run"
 "$epicyclic" continue "$inputs/tang2020_branches_fixed_ring.json" -o branches --set /study/from=2.1 --set /study/to=2.3 --set '/study/starts=[2.25]' \
-  --set /study/largest_period=1 --set /study/tolerance=1e-8 --set /study/branch_points=false >/dev/null 2>&1 || fail "the branches"
+  --set /study/period_max=1 --set /study/tolerance=1e-8 --set /study/branch_points=false >/dev/null 2>&1 || fail "the branches"
 rm one/journal.bin
 cp -r one before
 
@@ -64,7 +64,7 @@ spoiled() {
   was=$(sha256sum <"$1/points.csv") && is=$(sha256sum <"$2/points.csv")
   sed -i "s/${was%% *}/${is%% *}/; s/\"bytes\": $(stat -c %s "$1/points.csv"),/\"bytes\": $(stat -c %s "$2/points.csv"),/" "$2/run.json"
 }
-spoiled map lost 'NR == 2 { $at["status"] = "step_limit" } NR == 3 { $at["settled"] = 0 }'
+spoiled map lost 'NR == 2 { $at["status"] = "step_limit" } NR == 3 { $at["converged"] = 0 }'
 spoiled one lost_points 'NR == 2 { $at["status"] = "step_limit" }'
 [ "$(code_of "$epicyclic" plot lost -o lost_figures --quantity dynamic_factor_sp)" = 0 ] || fail "a map with a cell that was not reached: $(<stderr)"
 grep -q '1 point was not reached and left out' stderr && grep -q 'the record of 1 point has not converged' stderr || fail "it is not said: $(<stderr)"
@@ -82,6 +82,12 @@ awk -v flip="$flip" 'NF >= 2 && $1 - flip < 1e-9 && flip - $1 < 1e-9 && $2 > 0.9
 [ "$(code_of "$epicyclic" plot one branches -o figures --quantity delta_rp_rms --json)" = 0 ] || fail "branches: $(<stderr)"
 grep -q '"figures/delta_rp_rms.png"' stdout || fail "json: $(<stdout)"
 grep -q unstable figures/delta_rp_rms.gp || fail "branches: no legend"
+# Poincare points of branches are lines: each point of the table is one of theirs.
+[ "$(code_of "$epicyclic" plot one branches -o sections --quantity delta_sp_1)" = 0 ] || fail "sections of branches: $(<stderr)"
+awk -F '[, ]+' 'FNR == 1 && NR != FNR { for (k = 1; k <= NF; ++k) if ($k == "delta_sp_1") column = k; next }
+  NR == FNR { if (NF >= 2) drawn[sprintf("%.8f", $2)] = 1; next }
+  { ++all; if (!(sprintf("%.8f", $column) in drawn)) exit 1 } END { exit all < 5 }' sections/delta_sp_1.dat branches/poincare.csv ||
+  fail "a Poincare point of a branch is not drawn"
 [ "$(code_of "$epicyclic" plot map -o figures --quantity dynamic_factor_sp --format svg)" = 0 ] || fail "a map: $(<stderr)"
 [ -s figures/dynamic_factor_sp_up.svg ] || fail "a map: no figure"
 # Each cell of a map stands where its values are, whichever way it was come to.

@@ -17,7 +17,7 @@ launch=("${of_mpi[@]}" mpirun --oversubscribe)
 without_drawing
 study=(sweep "${speeds[@]}" --set /study/points=8 --set /study/transient_periods=60
   --set /study/recorded_periods=8 --set /study/classification_periods=64 --set '/study/start="cold"')
-carried=("${study[@]}" --set '/study/start="carried"')
+carried=("${study[@]}" --set '/study/start="continued"')
 lanes=("${study[@]}" --set '/integrator/method="lanes-dopri5"')
 
 for kind in study carried lanes; do

@@ -31,7 +31,7 @@ rough=(--set /study/transient_periods=20 --set /study/recorded_periods=16)
 studies=(
   "sweep tang2020_speed.json --set /study/points=3 --set /study/crosscheck/points=0 ${few[*]}"
   "basins tang2020_basins.json ${plane[*]} ${few[*]}"
-  "continue tang2020_loci.json --set /study/largest_period=1 --set /study/orbits=2 --set /study/branches=1 --set /study/settle_periods=40 --set /study/tolerance=1e-7"
+  "continue tang2020_loci.json --set /study/period_max=1 --set /study/orbits=2 --set /study/branches=1 --set /study/transient_periods=40 --set /study/tolerance=1e-7"
   "run tang2020_run.json --set /study/transient=fixed ${few[*]} --set /study/exponent_periods=2 --set /study/spectrum_periods=4 --set /study/history_periods=2 --set /study/check_tolerance=1e-6"
   "tolerance tang2020_tolerance.json --set /study/points=1 --set /study/from=2.8 ${rough[*]} --set /study/tolerances=[1e-5,1e-6] --set /study/methods=[\"arkode-dopri5\"] --set /study/chaotic_periods=64"
   "crosscheck tang2020_crosscheck.json --set /study/points=1 --set /study/from=2.8 --set /study/to=2.8 ${rough[*]} --set /study/methods=[\"arkode-dopri5\",\"cvode-adams\"]"

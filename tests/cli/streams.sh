@@ -104,7 +104,7 @@ study_of '"na\u001b[2Jme": 1,'
 ! LC_ALL=C grep -qP "$control" stderr || fail "control characters of a key reach the terminal: $(<stderr)"
 grep -qF 'na\u001b[2Jme' stderr || fail "the key is not shown: $(<stderr)"
 study_of ''
-[ "$(code_of "$epicyclic" check control.json --no-time)" = 0 ] || fail "a name with control characters: $(<stderr)"
+[ "$(code_of "$epicyclic" check control.json --no-time --json)" = 0 ] || fail "a name with control characters: $(<stderr)"
 ! LC_ALL=C grep -qP "$control" stdout || fail "control characters of a name reach the terminal: $(LC_ALL=C grep -P "$control" stdout)"
 grep -qF '"name": "a\u001b]0;b\u0007\u009bc\u007f\r\u0001"' stdout || fail "the name is another one: $(grep '"name"' stdout)"
 [ "$(code_of "$epicyclic" check $'no\e[31mfile.json')" = 2 ] || fail "a name of a file: $(<stderr)"

@@ -16,7 +16,7 @@ declare -A cut=(
   [run]="--set /study/transient=fixed ${few[*]} --set /study/exponent_periods=2 --set /study/spectrum_periods=4 --set /study/history_periods=2 --set /study/check_tolerance=1e-6"
   [crosscheck]="--set /study/transient_periods=20 --set /study/recorded_periods=16 --set /study/methods=[\"arkode-dopri5\"]"
   [tolerance]="--set /study/transient_periods=20 --set /study/recorded_periods=16 --set /study/tolerances=[1e-5,1e-6] --set /study/methods=[\"arkode-dopri5\"] --set /study/chaotic_periods=64"
-  [continue]="--set /study/largest_period=1 --set /study/orbits=2 --set /study/branches=1 --set /study/settle_periods=40 --set /study/tolerance=1e-7"
+  [continue]="--set /study/period_max=1 --set /study/orbits=2 --set /study/branches=1 --set /study/transient_periods=40 --set /study/tolerance=1e-7"
   [check]=--no-time
 )
 # Of claims that have a name.

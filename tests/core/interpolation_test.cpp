@@ -52,7 +52,7 @@ TEST(Interpolation, HasItsOrder) {
   const auto hill = [](double x, double c) { return std::sin(3.0 * x + c); };  // its top is at 0.36 to 0.42
   const auto slope = [](double x, double c) { return std::exp(3.0 * c * x); };
   constexpr double near = 0.2;
-  EXPECT_NEAR(order(Interpolation::straight, slope), 2.0, near);
+  EXPECT_NEAR(order(Interpolation::linear, slope), 2.0, near);
   // Slopes at extrema are 0 at rows beside them.
   EXPECT_NEAR(order(Interpolation::monotone, hill), 2.0, near);
   // Away from them of second order, those at the ends included: secants there would leave the second order.
@@ -108,7 +108,7 @@ TEST(Interpolation, MonotoneNeverGoesBeyondItsRows) {
 
 TEST(Interpolation, RowsThatDoNotRiseAreAnInputError) {
   const std::vector<double> x = {0.0, 0.5, 0.5};
-  for (const auto how : {Interpolation::straight, Interpolation::monotone, Interpolation::smooth})
+  for (const auto how : {Interpolation::linear, Interpolation::monotone, Interpolation::smooth})
     EXPECT_THROW((void)cubics_through(how, x, x), InputError);
 }
 

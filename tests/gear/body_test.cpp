@@ -80,9 +80,9 @@ TEST(Body, CarrierIsCheeksAndPins) {
   const CarrierBody body{3, 10, 100, 20, 8, 50};
   const MassAndInertia four = carrier(body, 4, 30.0, steel);
   const MassAndInertia none = carrier(body, 0, 30.0, steel);
-  const MassAndInertia cheek = cylinder(50.0, 10.0, 10.0, steel);
-  EXPECT_NEAR(none.mass_kg, 3.0 * cheek.mass_kg, rounding);
-  EXPECT_NEAR(none.inertia_kg_m2, 3.0 * cheek.inertia_kg_m2, rounding);
+  const MassAndInertia plate = cylinder(50.0, 10.0, 10.0, steel);
+  EXPECT_NEAR(none.mass_kg, 3.0 * plate.mass_kg, rounding);
+  EXPECT_NEAR(none.inertia_kg_m2, 3.0 * plate.inertia_kg_m2, rounding);
   const MassAndInertia pin = cylinder(4.0, 0.0, 50.0, steel);
   EXPECT_NEAR(four.mass_kg - none.mass_kg, 4.0 * pin.mass_kg, rounding);
   EXPECT_NEAR(four.inertia_kg_m2 - none.inertia_kg_m2, 4.0 * (pin.inertia_kg_m2 + pin.mass_kg * 0.03 * 0.03), rounding);

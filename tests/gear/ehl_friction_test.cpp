@@ -281,7 +281,7 @@ TEST(EhlFriction, LoadSharesAreThoseOfTheStiffness) {
 TEST(EhlFriction, NarrowFeaturesOfTheShareAreInTheTable) {
   // A dip to 60 % over 1 % and 0.1 % of a base pitch, where one pair carries the load alone.
   for (const Case& c : cases())
-    for (const Interpolation interpolation : {Interpolation::straight, Interpolation::smooth})
+    for (const Interpolation interpolation : {Interpolation::linear, Interpolation::smooth})
       for (const double width : {1e-2, 1e-3}) {
         const double middle = 0.837;
         EhlFriction dip = c.ehl;

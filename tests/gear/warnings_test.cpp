@@ -100,7 +100,7 @@ TEST(Warnings, EachOneOnDrawingsIsToldAtItsPlace) {
        }},
       {"/catalogue/carrier/body/pin_length_mm", "less than the planets' face width of 60 mm",
        [](Stage&, Catalogue& c) { c.carrier.body = {2, 20, 190, 0, 30, 0.084}; }},
-      {"/catalogue/carrier/body/cheek_thickness_mm", "is 0.018 mm beside planets of 60 mm",
+      {"/catalogue/carrier/body/plate_thickness_mm", "is 0.018 mm beside planets of 60 mm",
        [](Stage&, Catalogue& c) { c.carrier.body = {2, 0.018, 190, 0, 30, 80}; }},
   };
   for (const Rule& rule : rules) {

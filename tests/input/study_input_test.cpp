@@ -185,6 +185,23 @@ TEST_F(StudyInput, TakesAnInlineStage) {
   EXPECT_EQ(input.resolved, load().resolved);
 }
 
+// Editors find the schema by this key of a file.
+TEST_F(StudyInput, TheKeyOfTheSchemaChangesNothing) {
+  const json without = load().resolved;
+  auto study = json::parse(text_of(bad_inputs / "study.json"));
+  auto stage = json::parse(text_of(bad_inputs / "stage.json"));
+  study["stage"] = "stage.json";
+  study["$schema"] = stage["$schema"] = "../share/epicyclic/input.schema.json";
+  put_file(folder / "study.json", study.dump());
+  put_file(folder / "stage.json", stage.dump());
+  EXPECT_EQ(load().resolved, without);
+  EXPECT_NO_THROW((void)load_input(folder / "stage.json"));
+  study["$schema"] = 7;
+  put_file(folder / "study.json", study.dump());
+  const std::string message = test::message_of<InputProblems>([&] { (void)load(); });
+  EXPECT_NE(message.find("/$schema: is 7, must be a string"), std::string::npos) << message;
+}
+
 TEST_F(StudyInput, ReplacesANumberByPointer) {
   const auto input = load();
   const auto changed = input.with_value("/stage/lumped/planet/bearing_N_per_m", 5e7);
@@ -441,7 +458,7 @@ TEST_F(StudyInput, TakesAxesInRpmAndHertz) {
   const auto branches = load(
       {R"(/study={"kind": "continue", "parameter": "sun_speed_rpm", "from": 3000, "to": 9000, "starts": [3000, 9000],
           "values": [3000], "search": {"values": [9000]}, "loci": {"parameter": "damping_ratio", "from": 0, "to": 1, "near": [9000]},
-          "seeds": [{"value": 3000, "reach": 9000, "state": [)" +
+          "seeds": [{"value": 3000, "max_distance": 9000, "state": [)" +
        [&] {
          std::string zeros = "0";
          for (std::size_t k = 1; k < components; ++k) zeros += ", 0";
@@ -452,7 +469,7 @@ TEST_F(StudyInput, TakesAxesInRpmAndHertz) {
   is_converted(b.parameter, b.from, b.to);
   is_converted(studies::speed_parameter, b.starts[0], b.starts[1]);
   is_converted(studies::speed_parameter, b.values[0], b.search->values[0]);
-  is_converted(studies::speed_parameter, b.seeds[0].value, *b.seeds[0].reach);
+  is_converted(studies::speed_parameter, b.seeds[0].value, *b.seeds[0].max_distance);
   EXPECT_NEAR(b.loci->near[0], fast, twelve_digits);
   EXPECT_EQ(reload(branches.resolved).resolved, branches.resolved);
 }
@@ -588,15 +605,15 @@ TEST(Inputs, BodiesOfTheCompletedStageFollowFromTheirDimensions) {
     return Body{mass, mass * (outer_mm * outer_mm + inner_mm * inner_mm) / 2};  // [kg], [kg mm^2]
   };
   const Body sun = cylinder(external(27, shift_s), 15, 60), planet = cylinder(external(25, shift_p), 22, 60);
-  const Body ring = cylinder(120, ring_body, 60), cheeks = cylinder(97, 35, 30), pin = cylinder(15, 0, 90);
+  const Body ring = cylinder(120, ring_body, 60), plates = cylinder(97, 35, 30), pin = cylinder(15, 0, 90);
   near(stage.sun.mass_kg, sun.mass, "M_s");
   near(stage.planet.mass_kg, planet.mass, "M_p");
   near(stage.ring.mass_kg, ring.mass, "M_r");
-  near(stage.carrier.mass_kg, cheeks.mass + 3 * pin.mass, "M_c");
+  near(stage.carrier.mass_kg, plates.mass + 3 * pin.mass, "M_c");
   near(stage.sun.inertia_over_r2_kg, sun.inertia / (r_bs * r_bs), "I_s");
   near(stage.planet.inertia_over_r2_kg, planet.inertia / (r_bp * r_bp), "I_p");
   near(stage.ring.inertia_over_r2_kg, ring.inertia / (r_br * r_br), "I_r");
-  near(stage.carrier.inertia_over_r2_kg, (cheeks.inertia + 3 * pin.inertia) / (r_c * r_c) + 3 * pin.mass, "I_c");
+  near(stage.carrier.inertia_over_r2_kg, (plates.inertia + 3 * pin.inertia) / (r_c * r_c) + 3 * pin.mass, "I_c");
 }
 
 // ---- bad inputs: the cases that the command is tested with too

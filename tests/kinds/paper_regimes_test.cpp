@@ -178,13 +178,14 @@ TEST(PaperRegimes, ARunChecksItsExponents) {
     EXPECT_NEAR(mesh.drive + mesh.loss + mesh.back, 1.0, rounding) << mesh.name;
     // Damping through the open gap: tension while there is no contact on the back.
     EXPECT_EQ(mesh.back, 0.0) << mesh.name;
-    EXPECT_GT(mesh.pull_max, r->static_force) << mesh.name;
-    EXPECT_NEAR(mesh.pull_max, -mesh.force_min, rounding * mesh.pull_max) << mesh.name;
+    EXPECT_GT(mesh.tensile_force_max, r->static_force) << mesh.name;
+    EXPECT_NEAR(mesh.tensile_force_max, -mesh.force_min, rounding * mesh.tensile_force_max) << mesh.name;
   }
   // The record of the point, with half as many samples a period, tells the same.
   constexpr double sampling = 0.02;
-  EXPECT_NEAR(studies::StageRecord::tension(r->point.meshes.ring_planet) * r->static_force / r->meshes[3].pull_max, 1.0,
-              sampling);
+  EXPECT_NEAR(
+      studies::StageRecord::tension(r->point.meshes.ring_planet) * r->static_force / r->meshes[3].tensile_force_max,
+      1.0, sampling);
   EXPECT_NEAR(studies::StageRecord::tension_time(r->point.meshes.ring_planet), r->meshes[3].tension_time, sampling);
   // Contact is made on the flank, with a rate.
   ASSERT_GT(r->crossing.size(), 0U);

@@ -144,6 +144,7 @@ studies::RunResult result_of(double lag = 0.0) {
   p.rhs_evaluations = 424242;
   p.meshes.sun_planet.resize(at(planets));
   p.meshes.ring_planet.resize(at(planets));
+  p.meshes.planet_bearing.resize(at(planets));
   p.omega = omega;
   return r;
 }
@@ -167,6 +168,7 @@ studies::RunResult failed() {
   r.point.message = "component 3 left the escape bound at s = 17.5";
   r.point.meshes.sun_planet.resize(at(planets));
   r.point.meshes.ring_planet.resize(at(planets));
+  r.point.meshes.planet_bearing.resize(at(planets));
   return r;
 }
 
@@ -328,28 +330,22 @@ TEST(RunH5, HoldsTheWholeRecordAndTheOrbit) {
   const studies::RunResult r = result_of();
   write_run_h5(file, output(), r);
   EXPECT_EQ(store::read_hdf5_attribute(file, "/", "input_resolved"), "{\"stage\": {}}");
-  const store::Hdf5Dataset history = store::read_hdf5(file, "/history/values");
   const std::size_t width = r.history.columns.size();
-  ASSERT_EQ(history.shape.size(), 2U);
-  EXPECT_EQ(history.shape[0], at(periods * phases));
-  const std::size_t columns = history.shape[1];
-  for (std::size_t row = 0; row < history.shape[0]; ++row)
-    for (std::size_t j = 0; j < width; ++j)
-      ASSERT_EQ(history.values[row * columns + j], r.history.values[row * width + j]) << row << ' ' << j;
-  const std::vector<std::string> names = store::read_hdf5_texts(file, "/history/columns");
-  const std::vector<std::string> units = store::read_hdf5_texts(file, "/history/units");
-  ASSERT_EQ(names.size(), columns);
-  ASSERT_EQ(units.size(), columns);
   for (std::size_t j = 0; j < width; ++j) {
-    EXPECT_EQ(names[j], r.history.columns[j]);
-    EXPECT_EQ(units[j], r.history.units[j]);
+    const std::string path = "/history/" + r.history.columns[j];
+    const store::Hdf5Dataset column = store::read_hdf5(file, path);
+    ASSERT_EQ(column.shape, std::vector<std::size_t>{at(periods * phases)});
+    for (std::size_t row = 0; row < column.shape[0]; ++row)
+      ASSERT_EQ(column.values[row], r.history.values[row * width + j]) << row << ' ' << j;
+    EXPECT_EQ(store::read_hdf5_attribute(file, path, "units"), r.history.units[j]);
   }
   // Row by row.
   EXPECT_EQ(store::read_hdf5(file, "/orbit/monodromy").values, (std::vector<double>{0.6, -0.1, 0.2, 0.5}));
   EXPECT_EQ(store::read_hdf5(file, "/orbit/state").values, (std::vector<double>{0.0, 1.25}));
   EXPECT_EQ(store::read_hdf5_texts(file, "/orbit/state_names"), (std::vector<std::string>{"x_s", "x_s_rate"}));
   EXPECT_EQ(store::read_hdf5(file, "/multipliers/im").values, (std::vector<double>{0.4, -0.4}));
-  EXPECT_EQ(store::read_hdf5(file, "/poincare/values").shape, (std::vector<std::size_t>{at(periods), 4}));
+  for (const std::string& name : output().points.poincare_columns)
+    EXPECT_EQ(store::read_hdf5(file, "/poincare/" + name).shape, std::vector<std::size_t>{at(periods)});
   EXPECT_EQ(store::read_hdf5(file, "/crossing/phase").values, (std::vector<double>{0.125, 6.0}));
 }
 
@@ -443,7 +439,7 @@ TEST(RunSummary, TellsBetweenWhichDimensionsATorusMayHave) {
 TEST(RunSummary, TellsWhichTeethPullHowHardHowOftenAndWhy) {
   studies::RunResult r = result_of();
   EXPECT_TRUE(contains(on_one_line(run_summary(output(), r)), "No mesh force is tensile"));
-  r.meshes[1].pull_max = 3302.0;
+  r.meshes[1].tensile_force_max = 3302.0;
   r.meshes[1].tension_time = 0.125;
   r.static_force = 1000.0;
   const std::string summary = on_one_line(run_summary(output(), r));

@@ -12,7 +12,7 @@
 #include "model/dispatch.hpp"
 #include "model/dynamic_model.hpp"
 #include "model/folded_constants.hpp"
-#include "model/kernels/lane_instants.hpp"
+#include "model/kernels/lane_phase_coefficients.hpp"
 #include "model/lane_parameters.hpp"
 #include "model/right_hand_side.hpp"
 
@@ -128,7 +128,7 @@ inline Operations operations_of_lane(const DynamicModel& model, std::size_t segm
     const Lanes<1> at(s);
     counted::operations = {};
     PhaseCoefficients<Lanes<1>, N> now;
-    make_instants(p, 1, &at, &now);
+    make_phase_coefficients(p, 1, &at, &now);
     right_hand_side(model.layout, p.constants(), now, in.data(), out.data());
     counts = counted::operations;
     for (std::size_t i = 0; i < model.dimension; ++i) dyds[i] = out[i][0];

@@ -201,7 +201,7 @@ TEST(Forces, ElasticPartIsMinusTheGradientOfThePotential) {
       {"palmgren_xy", with_bearing(base, BearingLaw::palmgren_xy, 10), 0.0},
       {"palmgren_radial", with_bearing(base, BearingLaw::palmgren_radial, 10), 0.0},
       {"no gap", with_bearing(problems::with_gap(base, 0.0), BearingLaw::linear_xy, 0), 0.0},
-      {"literal", with_bearing(problems::as_printed(base), BearingLaw::linear_xy, 10), 0.0},
+      {"as_printed", with_bearing(problems::as_printed(base), BearingLaw::linear_xy, 10), 0.0},
       {"unequal angles", with_bearing(problems::with_unequal_angles(base), BearingLaw::linear_radial, 10), 0.0},
   };
   double worst = 0.0;

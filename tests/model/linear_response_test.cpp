@@ -183,7 +183,7 @@ double growth(Gyroscopic terms, double omega) {
 constexpr double growth_digits = 0.5e-4;
 
 TEST(Gyroscopic, PrintedTermsMakeTheFreeTrainDiverge) {
-  EXPECT_NEAR(growth(Gyroscopic::printed, 1.0), 1.0333, growth_digits);
+  EXPECT_NEAR(growth(Gyroscopic::as_printed, 1.0), 1.0333, growth_digits);
 }
 
 TEST(Gyroscopic, TheObviousRepairIsNotExact) {
@@ -206,7 +206,7 @@ TEST(Gyroscopic, AutomaticIsPrintedForLiteralAndInvariantElsewhere) {
     return matrix_of(make_dynamic_model(s, scales_of(s), 1.3, {GapDamping::always, terms, 0.0}));
   };
   const gear::Stage as_printed = problems::as_printed(problems::r1());
-  EXPECT_EQ(matrix(as_printed, Gyroscopic::automatic), matrix(as_printed, Gyroscopic::printed));
+  EXPECT_EQ(matrix(as_printed, Gyroscopic::automatic), matrix(as_printed, Gyroscopic::as_printed));
   EXPECT_NE(matrix(as_printed, Gyroscopic::automatic), matrix(as_printed, Gyroscopic::off));
   const gear::Stage fixed = problems::r1();
   EXPECT_EQ(matrix(fixed, Gyroscopic::automatic), matrix(fixed, Gyroscopic::invariant));
@@ -218,7 +218,7 @@ TEST(Gyroscopic, AutomaticIsPrintedForLiteralAndInvariantElsewhere) {
 
 TEST(Gyroscopic, PrintedTermsWithAFreeCarrierAreRefusedInRelativeCoordinates) {
   const gear::Stage s = problems::r1();
-  for (const Gyroscopic terms : {Gyroscopic::printed, Gyroscopic::carrier_row}) {
+  for (const Gyroscopic terms : {Gyroscopic::as_printed, Gyroscopic::carrier_row}) {
     const ModelOptions options{GapDamping::always, terms, 0.0};
     EXPECT_THROW((void)make_dynamic_model(s, scales_of(s), 1.0, options), InputError);
     EXPECT_NO_THROW((void)make_dynamic_model(s, scales_of(s), 1.0, options, CoordinateChoice::full));

@@ -16,7 +16,7 @@
 #include "core/dual.hpp"
 #include "core/errors.hpp"
 #include "core/lanes.hpp"
-#include "model/kernels/lane_instants.hpp"
+#include "model/kernels/lane_phase_coefficients.hpp"
 #include "model/lane_parameters.hpp"
 #include "model/parameters.hpp"
 #include "model/right_hand_side.hpp"
@@ -90,7 +90,7 @@ TEST(Scalars, LanesWithParametersOfTheirOwnAreTheSingleRuns) {
         s.set(lane, middle(*single[lane], segments[lane]) + 2.0 * std::numbers::pi * static_cast<double>(lane));
       }
       PhaseCoefficients<L, planets> now;
-      make_instants(packed, 1, &s, &now);
+      make_phase_coefficients(packed, 1, &s, &now);
       right_hand_side(layout, packed.constants(), now, y.data(), f.data());
       for (std::size_t lane = 0; lane < width; ++lane) {
         const State expected = evaluate(*single[lane], segments[lane], s[lane], states[lane]);

@@ -15,6 +15,10 @@ temporary=$(mktemp -d)
 trap 'rm -rf "$temporary"' EXIT
 
 cmake --install "$build_dir" --prefix "$temporary/prefix" >"$temporary/log"
+for file in share/epicyclic/input.schema.json share/epicyclic/octave/+epicyclic/open.m \
+  lib/python3/dist-packages/epicyclic/__init__.py; do
+  [ -s "$temporary/prefix/$file" ] || { echo "FAILED: $file is not installed"; exit 1; }
+done
 cmake -G "$generator" -S "$package_dir" -B "$temporary/build" -D CMAKE_PREFIX_PATH="$temporary/prefix" \
   -D CMAKE_CXX_COMPILER="$cxx" -D CMAKE_CXX_FLAGS="$cxx_flags" -D CMAKE_FIND_USE_PACKAGE_REGISTRY=OFF
 cmake --build "$temporary/build"

@@ -44,6 +44,7 @@ inline std::vector<studies::PointResult> numbered_points(std::size_t planets) {
          {&stage.sun_planet_harmonics, &stage.ring_planet_harmonics, &stage.transmission_error_harmonics})
       for (double& x : *harmonics) x = number();
     stage.planet_spread = number();
+    stage.force_error = number();
     stage.static_force = number();
     stage.mesh_frequency = number();
     stage.speeds = {number(), number()};

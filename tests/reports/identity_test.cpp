@@ -92,9 +92,9 @@ json another(const json& value, const std::string& pointer) {
                                                                  {"always", "contact_slope"},
                                                                  {"automatic", "off"},
                                                                  {"up", "down"},
-                                                                 {"carried", "cold"},
+                                                                 {"continued", "cold"},
                                                                  {"fixed", "adaptive"},
-                                                                 {"literal", "star"},
+                                                                 {"as_printed", "star"},
                                                                  {"linear_xy", "linear_radial"},
                                                                  {"full", "shortened"},
                                                                  {"shortened", "full"},
@@ -378,7 +378,7 @@ TEST_F(IdentityOf, StudiesThatDifferInAFlagDifferInNoNumberThatIsTheSame) {
   json fixed_ring = here.resolved;
   fixed_ring["stage"]["boundary"] = "fixed_ring";
   EXPECT_EQ(differences_from(fixed_ring, here),
-            std::vector<std::string>{"/stage/boundary: \"fixed_ring\" there, \"literal\" here"});
+            std::vector<std::string>{"/stage/boundary: \"fixed_ring\" there, \"as_printed\" here"});
 }
 
 TEST_F(IdentityOf, AListThatIsAbsentIsNoDifferenceFromAnEmptyOne) {

@@ -71,7 +71,7 @@ VectorField continuous(const model::DynamicModel& m, const gear::Stage& stage, c
     const double to = segment + 1 < breakpoints.size() ? breakpoints[segment + 1] : breakpoints[0] + two_pi;
     const double middle = 0.5 * (from + to);
     model::PhaseCoefficients<double, 3> now(*p, segment, s);
-    const auto set_mesh = [&](const MeshLaws& laws, double turns, model::MeshInstant<double, 3>& mesh) {
+    const auto set_mesh = [&](const MeshLaws& laws, double turns, model::MeshCoefficients<double, 3>& mesh) {
       const double own = middle / two_pi + turns;
       const double inside = own - std::floor(own);
       // Stages of a step that ends on a breakpoint may lie on it by rounding: they are of this piece.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include "core/errors.hpp"
 #include "temporary_folder.hpp"
@@ -113,6 +114,93 @@ TEST(Hdf5File, RowByRowGivesTheBytesOfTheWhole) {
     EXPECT_EQ(read_hdf5(folder / "by_row.h5", "/d").values, values);
     EXPECT_EQ(read_hdf5_texts(folder / "by_row.h5", "/c"), texts);
   }
+}
+
+// Whatever the number of blocks.
+TEST(Hdf5File, ColumnsThatAreWrittenTogetherAreThoseWrittenAlone) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> names = {"a", "b", "c"};
+  for (const std::size_t rows : {0U, 7U, 9000U, 200'001U}) {
+    const auto value = [](std::size_t row, std::size_t column) {
+      return std::sin(0.001 * static_cast<double>(row)) + static_cast<double>(column);
+    };
+    Hdf5File file(folder / "a.h5");
+    std::size_t next = 0;
+    file.write_columns("/table", names, rows, [&](std::size_t row, std::span<double> to) {
+      EXPECT_EQ(row, next++);
+      for (std::size_t j = 0; j < to.size(); ++j) to[j] = value(row, j);
+    });
+    file.close();
+    for (std::size_t j = 0; j < names.size(); ++j) {
+      const Hdf5Dataset column = read_hdf5(folder / "a.h5", "/table/" + names[j]);
+      ASSERT_EQ(column.shape, std::vector<std::size_t>{rows});
+      for (std::size_t row = 0; row < rows; ++row) ASSERT_EQ(column.values[row], value(row, j)) << row;
+    }
+  }
+}
+
+TEST(Hdf5File, EachAxisHasAScale) {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.h5";
+  Hdf5File file(path);
+  file.write("/points/point", std::vector<std::int64_t>{0, 1});
+  file.write("/points/value", std::vector<double>{0.2, 0.3});
+  file.name_axes("/points/point", {"point"});
+  file.name_axes("/points/value", {"point"});
+  file.write("/map/value", std::vector<double>{1, 2, 3});
+  file.name_axes("/map/value", {"value"});
+  file.write("/map/up/period", std::vector<std::int64_t>{1, 2, 3, 4, 5, 6}, 2, 3);
+  file.name_axes("/map/up/period", {"second", "value"});
+  file.write("/free/one", std::vector<double>{1, 2});
+  file.write("/free/two", std::vector<double>{1, 2, 3});
+  EXPECT_THROW(file.name_axes("/free/two", {"a", "b"}), std::logic_error);
+  EXPECT_THROW(file.name_axes("/free/none", {"a"}), std::logic_error);
+  file.close();
+  for (const char* scale : {"/points/point", "/map/value", "/map/up/second", "/free/row", "/free/row_2"}) {
+    EXPECT_EQ(read_hdf5_attribute(path, scale, "CLASS"), "DIMENSION_SCALE");
+    EXPECT_EQ(read_hdf5_attribute(path, scale, "NAME"), std::string(scale).substr(std::string(scale).rfind('/') + 1));
+  }
+  EXPECT_EQ(read_hdf5(path, "/map/up/second").values, (std::vector<double>{0, 1}));
+  EXPECT_EQ(read_hdf5(path, "/free/row_2").values, (std::vector<double>{0, 1, 2}));
+  EXPECT_THROW(read_hdf5_attribute(path, "/points/value", "CLASS"), InputError);
+  EXPECT_THROW(read_hdf5(path, "/points/row"), InputError);
+}
+
+// For readers that know no attributes.
+TEST(Hdf5File, ListsUnitsAndMeanings) {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.h5";
+  Hdf5File file(path);
+  file.write("/points/force", std::vector<double>{1});
+  file.set_units("/points/force", "N");
+  file.set_attribute("/points/force", "meaning", "largest force");
+  file.write("/points/word", std::vector<std::string>{"a"});
+  file.set_attribute("/points/word", "meaning", "K_γ");
+  file.write("/points/none", std::vector<double>{1});
+  file.close();
+  EXPECT_EQ(read_hdf5_texts(path, "/columns/path"), (std::vector<std::string>{"points/force", "points/word"}));
+  EXPECT_EQ(read_hdf5_texts(path, "/columns/units"), (std::vector<std::string>{"N", ""}));
+  EXPECT_EQ(read_hdf5_texts(path, "/columns/meaning"), (std::vector<std::string>{"largest force", "K_γ"}));
+}
+
+// Octave stops at a dataset of texts that is marked as UTF-8.
+TEST(Hdf5File, TextsAreMarkedAsAscii) {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.h5";
+  Hdf5File file(path);
+  file.write("/texts", std::vector<std::string>{"plain", "Ω̄"});
+  file.set_attribute("/texts", "meaning", "K_γ");
+  file.close();
+  const hid_t opened = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t dataset = H5Dopen2(opened, "/texts", H5P_DEFAULT);
+  const hid_t type = H5Dget_type(dataset);
+  EXPECT_EQ(H5Tget_cset(type), H5T_CSET_ASCII);
+  H5Tclose(type);
+  H5Dclose(dataset);
+  H5Fclose(opened);
+  EXPECT_EQ(read_hdf5_attribute(path, "/texts", "_Encoding"), "utf-8");
+  EXPECT_EQ(read_hdf5_attribute(path, "/texts", "meaning"), "K_γ");
+  EXPECT_EQ(read_hdf5_texts(path, "/texts").at(1), "Ω̄");
 }
 
 TEST(Hdf5File, LargeDataAreCompressed) {

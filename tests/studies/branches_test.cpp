@@ -32,8 +32,8 @@ model::DynamicModel model_at(double omega) {
   return model;
 }
 
-std::vector<analysis::Branch> grown(const BranchSystem& system, double start, int settle_periods) {
-  const BranchOrigin from = settled_start(system, model_at(start), start, settle_periods);
+std::vector<analysis::Branch> grown(const BranchSystem& system, double start, int transient_periods) {
+  const BranchOrigin from = settled_start(system, model_at(start), start, transient_periods);
   EXPECT_TRUE(from.orbit.has_value()) << from.message;
   analysis::BifurcationDiagram tree(system.system, system.options);
   if (from.orbit) tree.start(*from.orbit, from.keeps_symmetry);
@@ -102,7 +102,7 @@ TEST(Branches, FlipOfThePapersStageIsWhereMotionsDouble) {
 TEST(BranchesLong, OfPeriod1GoesThroughTheWholeRange) {
   BranchesOptions options;
   options.starts = {3.3};
-  options.largest_period = 1;
+  options.period_max = 1;
   options.branch_points = false;
   const BranchSystem system = branch_system(model_at, options, model_at(3.3));
   const std::vector<analysis::Branch> all = grown(system, 3.3, 400);

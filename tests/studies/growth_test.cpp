@@ -8,7 +8,7 @@ namespace epicyclic::studies::growth_test {
 namespace {
 
 SweepOptions sweep(double from, double to, int points, int segments,
-                   std::vector<Direction> directions = {Direction::up}, Start start = Start::carried) {
+                   std::vector<Direction> directions = {Direction::up}, Start start = Start::continued) {
   SweepOptions o;
   o.axis = {"mesh_frequency_ratio", from, to, points};
   o.directions = std::move(directions);

@@ -119,7 +119,7 @@ TEST(Coordinates, RelativeOnesGiveTheDeflectionsOfAll3NPlus9) {
     model::ModelOptions options;
   };
   const Case cases[] = {
-      {"literal", problems::as_printed(base), {}},
+      {"as_printed", problems::as_printed(base), {}},
       {"star", problems::star(base), {}},
       {"fixed_ring", base, {}},
       {"fixed_ring, unequal angles", problems::with_unequal_angles(base), {}},

@@ -193,7 +193,7 @@ TEST(Energy, WhatTheVibrationGainsIsTheWorkDoneOnIt) {
   with_centrifugal.centrifugal = model::Centrifugal::included;
   const Case cases[] = {
       {"fixed_ring", nonlinear, {}, true},
-      {"literal", problems::as_printed(nonlinear), {}, true},
+      {"as_printed", problems::as_printed(nonlinear), {}, true},
       {"star", problems::star(nonlinear), {}, true},
       {"fixed_ring closed", closed, {}, false},
       {"literal closed", problems::as_printed(closed), {}, false},

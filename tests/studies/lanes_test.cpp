@@ -199,7 +199,7 @@ std::vector<PointResult> swept(const SweepOptions& sweep, const char* method, in
 
 TEST(Lanes, SweepsHaveTheSameBytesAtAnyNumberOfThreads) {
   const ModelAt at = [](double omega) { return mixed(omega); };
-  for (const Start start : {Start::cold, Start::carried}) {
+  for (const Start start : {Start::cold, Start::continued}) {
     SweepOptions sweep;
     sweep.axis.from = 0.6;
     sweep.axis.to = 3.4;

@@ -24,7 +24,7 @@ DynamicModel with_dip(double centre, double width, double depth, int rows, bool 
   for (gear::Mesh* mesh : {&s.sun_planet_mesh, &s.ring_planet_mesh}) mesh->error_amplitude_um = {0.0};
   gear::Mesh& mesh = s.sun_planet_mesh;
   gear::StiffnessCurve curve;
-  if (straight) curve.interpolation = Interpolation::straight;
+  if (straight) curve.interpolation = Interpolation::linear;
   curve.phase.push_back(0.0);
   for (int k = -rows; k <= rows; ++k) curve.phase.push_back(centre + 0.5 * width * k / rows);
   const auto part = [&](double phase) { return std::max(0.0, 1.0 - std::abs(phase - centre) / (0.5 * width)); };

@@ -68,7 +68,7 @@ TEST(Plane, APlanOfAnySizeIsTheSameRule) {
   EXPECT_EQ(plan.points[100000000].second_value, 0.02);
   EXPECT_EQ(plan.chains[123456789].front(), 167896172U) << "point 6172 of line 16789, of 20000 side by side";
   EXPECT_EQ(plan.chains[123456789].size(), 1U);
-  large.start = Start::carried;
+  large.start = Start::continued;
   const SweepPlan carried = plan_map(large);
   ASSERT_EQ(carried.chains.size(), 20000U);
   EXPECT_EQ(carried.chains[15000].front(), 150000000U);
@@ -82,13 +82,13 @@ TEST(Plane, BasinsStartWhereBaseAndAxesSay) {
   BasinsOptions p;
   p.plane.first = {"y_s", -1, 1, 3};
   p.plane.second = {"x_s_rate", 10, 20, 2};
-  p.base = {{"x_s", 7}};
+  p.other_components = {{"x_s", 7}};
   const SweepPlan plan = plan_basins(p);
   ASSERT_EQ(plan.points.size(), 6U);
   EXPECT_EQ(plan.chains.size(), 6U);
   EXPECT_EQ(start_in_plane(m, p, plan.points[0]), (std::vector<double>{7, -1, 10, 4}));
   EXPECT_EQ(start_in_plane(m, p, plan.points[5]), (std::vector<double>{7, 1, 20, 4}));
-  p.base["z"] = 1;
+  p.other_components["z"] = 1;
   EXPECT_THROW((void)start_in_plane(m, p, plan.points[0]), InputError);
 }
 

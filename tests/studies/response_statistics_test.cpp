@@ -38,11 +38,12 @@ model::DynamicModel two_signals(double half_gap) {
 StageRecord record_of(const std::function<double(double s)>& signal, int phases, int periods, double half_gap = 1.0) {
   const model::DynamicModel m = two_signals(half_gap);
   ResponseStatistics watch(m, phases);
-  for (int j = 1; j <= periods * phases; ++j) {
-    const double s = 2.0 * pi * j / phases;
-    const std::array y = {signal(s), -signal(s)};
-    watch.see(y);
-  }
+  for (int period = 0; period < periods; ++period)
+    for (const double phase : watch.phases()) {
+      const double s = 2.0 * pi * period + phase;
+      const std::array y = {signal(s), -signal(s)};
+      watch.see(y);
+    }
   return watch.finish();
 }
 
@@ -111,15 +112,15 @@ TEST(ResponseStatistics, ARecordThatBrokeOffTellsWhatWasSeen) {
   const model::DynamicModel m = two_signals(1.0);
   ResponseStatistics watch(m, 64);
   double sum = 0.0;
-  for (int j = 1; j <= 64 + 11; ++j) {
-    const double x = 0.01 * j;
-    sum += x;
+  for (int k = 1; k <= 4 * (64 + 11); ++k) {
+    const double x = 0.0025 * k;
+    if (k % 4 == 0) sum += x;  // at a uniform phase
     watch.see(std::array{x, -x});
   }
   const StageRecord r = watch.finish();
   EXPECT_NEAR(r.sun_planet[0].delta.mean, sum / 75.0, rounding);
   EXPECT_EQ(r.sun_planet[0].delta.largest, 0.75);
-  EXPECT_EQ(r.sun_planet[0].delta.least, 0.01);
+  EXPECT_EQ(r.sun_planet[0].delta.least, 0.0025);
   EXPECT_NEAR(r.sun_planet[0].loss(), 1.0, rounding);
   EXPECT_TRUE(std::isnan(r.sun_planet_harmonics[0])) << "over whole periods only";
   ResponseStatistics none(m, 64);
@@ -135,22 +136,29 @@ TEST(ResponseStatistics, TellsTheForcesOfAStageOneByOne) {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> component(-6.0, 6.0);  // on all three sides of the gaps
   constexpr int phases = 20;
+  const std::vector<double> uniform = analysis::uniform_phases(m.period, phases);
   ResponseStatistics watch(m, phases);
-  std::vector<double> sp_2;
+  std::vector<double> sp_2;  // at uniform phases
   std::vector<double> bearing;
+  std::vector<double> all_sp_2;
+  std::vector<double> all_bearing;
   double greatest = 0.0;
   double spread = 0.0;
-  for (int j = 1; j <= 2 * phases; ++j) {
+  for (std::size_t k = 0; k < 2 * watch.phases().size(); ++k) {
     std::vector<double> y(m.dimension);
     for (double& x : y) x = component(random);
     watch.see(y);
-    const double s = 2.0 * pi * (j > phases ? j - phases : j) / phases;
+    const double s = watch.phases()[k % watch.phases().size()];
     model::StageForces f;
     model::MeshDeflections d;
     m.forces(s, y.data(), f);
     m.deflections(s, y.data(), d);
-    sp_2.push_back(scales.force_newton(f.sun_planet[1]));
-    bearing.push_back(scales.force_newton(f.planet_bearing[2]));
+    all_sp_2.push_back(scales.force_newton(f.sun_planet[1]));
+    all_bearing.push_back(scales.force_newton(f.planet_bearing[2]));
+    if (std::ranges::binary_search(uniform, s)) {
+      sp_2.push_back(all_sp_2.back());
+      bearing.push_back(all_bearing.back());
+    }
     for (const double force : f.sun_planet) greatest = std::max(greatest, scales.force_newton(force));
     for (const auto* list : {&d.sun_planet, &d.ring_planet}) {
       const auto [least, most] = std::minmax_element(list->begin(), list->end());
@@ -158,20 +166,21 @@ TEST(ResponseStatistics, TellsTheForcesOfAStageOneByOne) {
     }
   }
   const StageRecord r = watch.finish();
-  const auto expect = [](const Course& told, const std::vector<double>& x) {
+  ASSERT_EQ(sp_2.size(), 2U * phases);
+  const auto expect = [](const Course& told, const std::vector<double>& x, const std::vector<double>& all) {
     const auto n = static_cast<double>(x.size());
     double mean = 0.0;
     for (const double v : x) mean += v / n;
     double square = 0.0;
     for (const double v : x) square += (v - mean) * (v - mean) / n;
-    const double size = *std::max_element(x.begin(), x.end());
+    const double size = *std::max_element(all.begin(), all.end());
     EXPECT_NEAR(told.mean, mean, rounding * size);
     EXPECT_NEAR(told.rms, std::sqrt(square), rounding * size);
     EXPECT_NEAR(told.largest, size, rounding * size);
-    EXPECT_NEAR(told.least, *std::min_element(x.begin(), x.end()), rounding * size);
+    EXPECT_NEAR(told.least, *std::min_element(all.begin(), all.end()), rounding * size);
   };
-  expect(r.sun_planet[1].force, sp_2);
-  expect(r.planet_bearing[2], bearing);
+  expect(r.sun_planet[1].force, sp_2, all_sp_2);
+  expect(r.planet_bearing[2], bearing, all_bearing);
   EXPECT_NEAR(r.planet_spread, spread, rounding * spread);
   // Omega = 0.9 with the ring fixed: omega_s = omega_m / z_s (1 + z_s / z_r).
   EXPECT_NEAR(r.mesh_frequency, 0.9 * scales.omega_sn, rounding * r.mesh_frequency);
@@ -189,6 +198,74 @@ TEST(ResponseStatistics, TellsTheForcesOfAStageOneByOne) {
   EXPECT_NEAR(largest_shares, 3.0, rounding * 10.0);
   EXPECT_NEAR(StageRecord::share(r.sun_planet, &Course::mean, 1) / StageRecord::share(r.sun_planet, &Course::mean, 0),
               r.sun_planet[1].force.mean / r.sun_planet[0].force.mean, rounding * 1e3);
+}
+
+TEST(ResponseStatistics, ForcesAreSeenOnBothSidesOfEachBreakpoint) {
+  // The stiffness jumps by 30 % at the phase of a breakpoint, which is its largest value.
+  const gear::Stage stage = problems::with_stiffness_curve(problems::with_gap(problems::r1()));
+  const model::DynamicModel m = model::make_dynamic_model(stage, model::scales_of(stage), 0.9, {});
+  ASSERT_FALSE(m.breakpoints.empty());
+  for (const int phases : {4, 64}) {
+    ResponseStatistics watch(m, phases);
+    const std::vector<double> y(m.default_start);
+    for (const double b : m.breakpoints) {
+      const auto after = std::ranges::find_if(watch.phases(), [b](double s) { return s >= b; });
+      ASSERT_NE(after, watch.phases().end());
+      EXPECT_LE(*after - b, 1e-300);
+      if (b > 0.0) {
+        EXPECT_EQ(*std::prev(after), std::nextafter(b, 0.0));
+      }
+    }
+    for (std::size_t k = 0; k < watch.phases().size(); ++k) watch.see(y);
+    const StageRecord r = watch.finish();
+    // At a fixed state the force is smooth between breakpoints: that of the stiffness and of the sine of the error.
+    const double missed_peak = 0.5 * std::pow(pi / (phases * extrema_refinement(m, phases)), 2);
+    double largest = 0.0;
+    model::StageForces f;
+    for (int k = 1; k < 100000; ++k) {
+      m.forces(m.period * k / 100000, y.data(), f);
+      largest = std::max(largest, m.scales.force_newton(f.sun_planet[0]));
+    }
+    EXPECT_NEAR(r.sun_planet[0].force.largest / largest, 1.0, missed_peak) << phases;
+  }
+}
+
+TEST(ResponseStatistics, SamplingErrorOfForcesIsThatOfHalfAsManySamples) {
+  EXPECT_EQ(record_of([](double) { return 1.0; }, 64, 2).force_error, 0.0);
+  const gear::Stage stage = problems::r1_nonlinear();
+  const model::DynamicModel m = model::make_dynamic_model(stage, model::scales_of(stage), 0.9, {});
+  constexpr int phases = 16;
+  ResponseStatistics watch(m, phases);
+  // One peak, at one of the samples that are odd multiples of the finest spacing.
+  const double peak = m.period * 3.0 / (phases * extrema_refinement(m, phases));
+  std::vector<double> peaked = m.default_start;
+  for (double& x : peaked) x *= 3.0;
+  std::size_t peaks = 0;
+  double rest = 0.0;
+  double most = 0.0;
+  model::StageForces f;
+  for (const double s : watch.phases()) {
+    const bool here = std::abs(s - peak) < 1e-9;
+    const std::vector<double>& y = here ? peaked : m.default_start;
+    peaks += here ? 1 : 0;
+    watch.see(y);
+    m.forces(s, y.data(), f);
+    for (const double force : f.planet_bearing) (here ? most : rest) = std::max(here ? most : rest, force);
+  }
+  ASSERT_EQ(peaks, 1U);
+  EXPECT_GE(3.0 * watch.finish().force_error, 1.0 - rest / most - rounding);
+  EXPECT_GT(1.0 - rest / most, 0.5);
+}
+
+TEST(ResponseStatistics, SlowMeshesHaveMoreSamples) {
+  model::DynamicModel m;
+  m.omega = 1.0;
+  EXPECT_EQ(extrema_refinement(m, 64), 4);
+  m.omega = 0.05;
+  EXPECT_GE(64 * extrema_refinement(m, 64), 20.0 * 2.0 / 0.05);
+  EXPECT_EQ(extrema_refinement(m, 64) % 2, 0);
+  m.omega = 1e-9;
+  EXPECT_LE(64 * extrema_refinement(m, 64), 8192 + 128);
 }
 
 /// A stage at a torque that does not depend on speed, and its record after its motion has settled.

@@ -41,7 +41,7 @@ TEST(SweepPlan, DownIsUpReversedAndNumberedAfterIt) {
 }
 
 TEST(SweepPlan, ChainsHoldEachPointOnce) {
-  for (const Start start : {Start::carried, Start::cold})
+  for (const Start start : {Start::continued, Start::cold})
     for (const int segments : {1, 3, 7}) {
       SweepOptions o;
       o.axis.points = 20;
@@ -143,7 +143,7 @@ TEST(Sweep, SegmentsKeepHysteresis) {
   const auto cold = run_sweep_in_memory(plan_sweep(o), o.recording, {}, wells, {});
   EXPECT_GT(position(parts[91]) - position(cold[91]), 1.0);
   // Threads, and points that are known, change nothing.
-  o.start = Start::carried;
+  o.start = Start::continued;
   SweepRun threads;
   threads.threads = 3;
   std::map<std::size_t, PointResult> done;

@@ -32,11 +32,11 @@ namespace {
 /// Can multipliers lead from the stage as it is given? Candidates with readings that have none are refused one by one.
 void require_multipliers(const input::LoadedInput& input, const std::vector<double>& given) {
   const auto& options = claims::claims_in(input.study);
-  if (options.search.led_by != claims::SearchLead::multipliers) return;
+  if (options.search.regime_cost != claims::SearchLead::multipliers) return;
   const claims::CandidateModels models = claims::candidate_models(input);
   const claims::ClaimSweep& sweep = options.sweeps.front();
   if (!studies::has_classification(models(given)(sweep, sweep.axis.from)))
-    throw InputError(std::string("/study/search/led_by: there are no multipliers: ") + claims::no_multipliers);
+    throw InputError(std::string("/study/search/regime_cost: there are no multipliers: ") + claims::no_multipliers);
 }
 
 int search(const Arguments& arguments, SharedEvaluations& shared) {

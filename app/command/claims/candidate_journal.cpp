@@ -65,7 +65,7 @@ claims::CalibrationRun CandidateJournal::run(int threads, const std::atomic<bool
 
 void CandidateJournal::see(const claims::EvaluatedCandidate& candidate) {
   const claims::Evaluation& e = candidate.evaluation;
-  if (e.given_up) return;
+  if (e.stopped_early) return;
   least_ = std::min(least_, e.cost);
   most_ = std::max(most_, static_cast<std::size_t>(std::ranges::count(e.holds, 1)));
 }

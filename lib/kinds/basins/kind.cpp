@@ -32,29 +32,30 @@ const Table<studies::Axis>& component_axis_table() {
 
 /// Values by the names of the state's components, which the stage decides: names are checked when it is known.
 Field<Study> base_field() {
-  Field<Study> base;
-  base.key = "base";
-  base.description = "Initial values of components that are on no axis, if not those of the default start.";
+  Field<Study> components;
+  components.key = "other_components";
+  components.description = "Initial values of components that are on no axis, if not those of the default start.";
   const Bounds bounds = component_value;
-  base.read = [bounds](const json& value, const std::string& pointer, Study& study, ReadContext& context) {
+  components.read = [bounds](const json& value, const std::string& pointer, Study& study, ReadContext& context) {
     if (!table_detail::check_object(value, pointer, context)) return;
     table_detail::check_note(value, pointer, context);
     for (const auto& [key, number] : value.items()) {
       if (key == "origin" || key == "note") continue;
-      const auto read = table_detail::read_number(number, pointer + pointer_step(key), "base", bounds, context);
+      const auto read =
+          table_detail::read_number(number, pointer + pointer_step(key), "other_components", bounds, context);
       // Kept if it is none, for its name to be checked.
-      study.plan.as<BasinsOptions>().base[key] = read.value_or(0.0);
+      study.plan.as<BasinsOptions>().other_components[key] = read.value_or(0.0);
     }
   };
-  base.write = [](const Study& study) {
+  components.write = [](const Study& study) {
     json object;
-    for (const auto& [name, value] : study.plan.as<BasinsOptions>().base) object[name] = value;
+    for (const auto& [name, value] : study.plan.as<BasinsOptions>().other_components) object[name] = value;
     return object;
   };
-  base.schema = [bounds] {
+  components.schema = [bounds] {
     return ordered_json{{"type", "object"}, {"additionalProperties", table_detail::number_schema(bounds)}};
   };
-  return base;
+  return components;
 }
 
 const Table<Study>& basins_table() {
@@ -97,8 +98,8 @@ void check_basins(const Study& study, const IsBad& is_bad, ReadContext& context)
   if (plane.first.name == plane.second.name && named("/study/first") && named("/study/second"))
     context.add(Finding::Kind::rule, "/study/second/component",
                 "is \"" + plane.second.name + "\", which the first axis varies already");
-  for (const auto& [name, value] : basins.base) {
-    const std::string place = "/study/base" + pointer_step(name);
+  for (const auto& [name, value] : basins.other_components) {
+    const std::string place = "/study/other_components" + pointer_step(name);
     if (!known(name)) {
       const bool in_words = context.findings.size() < findings_told;
       context.add(Finding::Kind::unknown_key, place,

@@ -28,7 +28,7 @@ using analysis::Attractors;
 using studies::PointSummary;
 
 store::PointColumn attractor_column(const Attractors& attractors) {
-  return {"attractor", "", "number of the attractor that the cell reaches, from 1; 0: none is known",
+  return {"attractor", "1", "number of the attractor that the cell reaches, from 1; 0: none is known",
           store::PointColumn::Getter<std::int64_t>([&attractors](const PointSummary& r) {
             return static_cast<std::int64_t>(attractors.number[r.point.index]);
           })};
@@ -121,7 +121,7 @@ void write_attractors_csv(const std::filesystem::path& file, const BasinsOutput&
   std::vector<std::string> columns = {
       "attractor",          "regime",       "period",        "cells",        "share",        "lyapunov_max",
       "lyapunov_max_error", "point",        "value",         "second_value", "delta_sp_min", "delta_sp_max",
-      "delta_rp_min",       "delta_rp_max", "planet_spread", "orbit_error",  "image_of",     "planets_on"};
+      "delta_rp_min",       "delta_rp_max", "planet_spread", "orbit_error",  "image_of",     "image_rotation"};
   columns.insert(columns.end(), output.state_names.begin(), output.state_names.end());
   CsvWriter csv(file, columns);
   for (const Row& r : rows_of(output, results, attractors)) {
@@ -145,6 +145,7 @@ void write_basins_h5(const std::filesystem::path& file, const BasinsOutput& outp
   const std::vector<std::int64_t> numbers(attractors.number.begin(), attractors.number.end());
   h5.write("/basins/attractor", std::span<const std::int64_t>(numbers),
            static_cast<std::size_t>(output.plane.second.points), static_cast<std::size_t>(output.plane.first.points));
+  h5.name_axes("/basins/attractor", {second_value_column().name, "value"});
 
   const std::vector<Row> rows = rows_of(output, results, attractors);
   h5.create_group("/attractors");
@@ -153,6 +154,7 @@ void write_basins_h5(const std::filesystem::path& file, const BasinsOutput& outp
     std::vector<Value> values;
     for (const Row& r : rows) values.push_back(value(r));
     h5.write("/attractors/" + name, std::span<const Value>(values));
+    h5.name_axes("/attractors/" + name, {"attractor"});
     if (units != nullptr) h5.set_units("/attractors/" + name, units);
   };
   column(
@@ -174,18 +176,21 @@ void write_basins_h5(const std::filesystem::path& file, const BasinsOutput& outp
   column(
       "image_of", [](const Row& r) { return r.image_of; }, nullptr);
   column(
-      "planets_on", [](const Row& r) { return r.turn; }, "1");
+      "image_rotation", [](const Row& r) { return r.turn; }, "1");
   h5.write("/attractors/state_names", std::span<const std::string>(output.state_names));
+  h5.name_axes("/attractors/state_names", {"component"});
   std::vector<double> states;
   for (const Row& r : rows) states.insert(states.end(), r.state.begin(), r.state.end());
   h5.write("/attractors/state", std::span<const double>(states), rows.size(), output.state_names.size());
   h5.set_units("/attractors/state", "b_c, b_c per tau");
+  h5.name_axes("/attractors/state", {"attractor", "component"});
   for (std::size_t k = 0; k < attractors.all.size(); ++k) {
     const analysis::AttractorRecord& record = attractors.all[k].record;
     if (record.period() == 0) continue;
     const std::string name = "/attractors/orbit_" + std::to_string(k + 1);
     h5.write(name, std::span<const double>(record.orbit), record.period(), record.dimension);
     h5.set_units(name, "b_c, b_c per tau");
+    h5.name_axes(name, {"crossing", "component"});
   }
   h5.close();
 }

@@ -67,9 +67,9 @@ std::vector<studies::BranchAttempt> add_starts(const studies::BranchSystem& syst
     progress.update(attempts.size(), 0);
   };
   for (const double value : options.all_starts())
-    add(value, options.period, false, anywhere, settled_start(system, models(value), value, options.settle_periods));
+    add(value, options.period, false, anywhere, settled_start(system, models(value), value, options.transient_periods));
   for (const studies::BranchSeed& seed : options.seeds)
-    add(seed.value, seed.period, true, seed.reach.value_or(anywhere), seed_start(system, seed));
+    add(seed.value, seed.period, true, seed.max_distance.value_or(anywhere), seed_start(system, seed));
   return attempts;
 }
 
@@ -126,7 +126,7 @@ std::vector<studies::FoundMotions> add_found(Session& session, const studies::Br
   Progress progress("continue: search", wanted.values.size(), all.size());
   while (all.size() < wanted.values.size()) {
     const double value = wanted.values[all.size()];
-    studies::FoundMotions found = search_motions(system, models(value), value, wanted, options.settle_periods);
+    studies::FoundMotions found = search_motions(system, models(value), value, wanted, options.transient_periods);
     journal.append(store::encode_found(found));
     all.push_back(std::move(found));
     progress.update(all.size(), 0);

@@ -25,7 +25,7 @@ const Table<studies::BranchSeed>& seed_table() {
     t.numbers("state", &BranchSeed::state, component_value, 1, 1000,
               "The state at the mesh phase 0, in the order of poincare.csv [b_c, b_c per tau].")
         .required();
-    t.number("reach", &BranchSeed::reach, between(1e-300, 1e300),
+    t.number("max_distance", &BranchSeed::max_distance, between(1e-300, 1e300),
              "Distance from the value up to which its branches are continued, in the parameter's unit; by default to "
              "the ends of the range.");
     return t;
@@ -44,7 +44,7 @@ const Table<studies::BranchSearchOptions>& search_table() {
               "Starts of Newton's method: half of them on an attractor, half of them random about it [-].");
     t.number("spread", &BranchSearchOptions::spread, between(0, 1e6),
              "Half width of the box of the random starts, in b_c and b_c per tau.");
-    t.integer("largest_period", &BranchSearchOptions::largest_period, between(1, period_most),
+    t.integer("period_max", &BranchSearchOptions::period_max, between(1, period_most),
               "Longest period that is sought, in mesh periods [-].");
     return t;
   }();
@@ -99,7 +99,7 @@ const Table<Study>& continue_table() {
     t.numbers("starts", of(&BranchesOptions::starts), any_value, 0, 1000,
               "Values at which an attractor is reached from the default start and its orbit continued in both "
               "directions. By default, without seeds: the ends of the range and its middle.");
-    t.integer("settle_periods", of(&BranchesOptions::settle_periods), between(0, 1e7),
+    t.integer("transient_periods", of(&BranchesOptions::transient_periods), between(0, 1e7),
               "Mesh periods of the transient at these values [-].");
     t.integer("period", of(&BranchesOptions::period), between(1, period_most),
               "Period of these orbits, in mesh periods [-].");
@@ -107,11 +107,11 @@ const Table<Study>& continue_table() {
               "Further states from which branches start; `--from FOLDER` writes them.");
     t.numbers("values", of(&BranchesOptions::values), any_value, 1, 100000,
               "Values at which orbits are computed exactly.");
-    t.integer("largest_period", of(&BranchesOptions::largest_period), between(1, period_most),
+    t.integer("period_max", of(&BranchesOptions::period_max), between(1, period_most),
               "Longest period of branches that are continued from period doublings, in mesh periods [-].");
     t.boolean("branch_points", of(&BranchesOptions::branch_points),
               "Whether branches that cross at branch points are continued.");
-    t.integer("pieces", of(&BranchesOptions::shooting_intervals), between(1, 1000),
+    t.integer("shooting_intervals", of(&BranchesOptions::shooting_intervals), between(1, 1000),
               "Shooting intervals of an orbit of `period`, for multiple shooting [-].");
     t.integer("orbits", of(&BranchesOptions::orbits), between(1, 1e6),
               "Largest number of orbits on a branch, in each direction [-].");
@@ -120,10 +120,10 @@ const Table<Study>& continue_table() {
              "Method of integration; one that can ends its steps where contact is made or lost.");
     t.number("tolerance", of(&BranchesOptions::tolerance), between(1e-13, 1e-6),
              "Relative and absolute tolerance of the orbits [-]; error bounds are from a tenth of it.");
-    t.number("largest_step", of(&BranchesOptions::max_step), between(1e-6, 10),
+    t.number("max_step", of(&BranchesOptions::max_step), between(1e-6, 10),
              "Longest step along a branch, in units of the parameter and of b_c together [-].");
     t.integer("output_phases", of(&BranchesOptions::output_phases), between(1, 10000),
-              "Output points per mesh period, from which extrema are taken [-].");
+              "Samples per mesh period for means; extrema have at least four times as many [-].");
     t.object("search", in_branches(&BranchesOptions::search), search_table());
     t.object("loci", in_branches(&BranchesOptions::loci), loci_table());
     return t;
@@ -151,15 +151,16 @@ void check_branches(const Study& study, const IsBad& is_bad, ReadContext& contex
   check_each("/study/starts", b.starts);
   check_each("/study/values", b.values);
   if (b.search) check_each("/study/search/values", b.search->values);
-  if (b.largest_period < b.period)
-    refuse("/study/largest_period",
-           "is " + std::to_string(b.largest_period) + ", must be >= period = " + std::to_string(b.period));
+  if (b.period_max < b.period)
+    refuse("/study/period_max",
+           "is " + std::to_string(b.period_max) + ", must be >= period = " + std::to_string(b.period));
   for (std::size_t k = 0; k < b.seeds.size(); ++k) {
     const studies::BranchSeed& seed = b.seeds[k];
     const std::string place = "/study/seeds/" + std::to_string(k);
     if (outside(seed.value)) refuse(place + "/value", "is " + number_text(seed.value) + range);
-    if (seed.reach && !(seed.value - *seed.reach < seed.value && seed.value + *seed.reach > seed.value))
-      refuse(place + "/reach", "is " + number_text(*seed.reach) + ", which is nothing beside the value");
+    if (seed.max_distance &&
+        !(seed.value - *seed.max_distance < seed.value && seed.value + *seed.max_distance > seed.value))
+      refuse(place + "/max_distance", "is " + number_text(*seed.max_distance) + ", which is nothing beside the value");
     if (std::string why = why_no_state(seed.state, stage); !why.empty()) refuse(place + "/state", why);
   }
   if (!is_bad("/study/parameter"))
@@ -196,7 +197,7 @@ std::vector<PlacedNumber> branch_values(std::any& options) {
   for (std::size_t k = 0; k < b.seeds.size(); ++k) {
     const std::string place = "/study/seeds/" + std::to_string(k);
     all.push_back({&b.seeds[k].value, place + "/value"});
-    if (b.seeds[k].reach) all.push_back({&*b.seeds[k].reach, place + "/reach"});
+    if (b.seeds[k].max_distance) all.push_back({&*b.seeds[k].max_distance, place + "/max_distance"});
   }
   return all;
 }
@@ -229,7 +230,7 @@ const StudyKind& continue_kind() {
             return std::string(
                 "that of branches is not known before they are continued; `orbits` and `branches` bound it");
           },
-      .plot = {PlotForm::curves, {"branch.csv"}, "delta_sp_rms"},
+      .plot = {PlotForm::curves, {"branch.csv", "poincare.csv"}, "delta_sp_rms"},
   };
   return kind;
 }

@@ -14,6 +14,7 @@
 #include "core/csv.hpp"
 #include "core/text.hpp"
 #include "gear/kinematics.hpp"
+#include "reports/section_output.hpp"
 #include "reports/table_output.hpp"
 #include "store/branch_columns.hpp"
 
@@ -54,7 +55,7 @@ const char* end_word(const BranchLimit& limit) {
     case BranchEnd::many:
       return "orbits";
     case BranchEnd::min_step:
-      return "least_step";
+      return "min_step";
     case BranchEnd::none:
       break;
   }
@@ -66,12 +67,12 @@ std::string place_text(const std::optional<analysis::SpecialPlace>& place) {
 }
 
 void write_branches_csv(const std::filesystem::path& file, const TracedBranches& traced) {
-  CsvWriter csv(file, {"branch", "period", "in_step", "orbits", "special_points", "value_first", "value_last",
+  CsvWriter csv(file, {"branch", "period", "symmetric", "orbits", "special_points", "value_first", "value_last",
                        "end_first", "end_last", "birth", "death", "message"});
   for (std::size_t b = 0; b < traced.branches.size(); ++b) {
     const Branch& branch = traced.branches[b];
-    const bool in_step = branch.family.keeps_symmetry && branch.family.symmetry.map.size() != 0;
-    csv.cell(b).cell(branch.family.period).cell(in_step ? 1 : 0).cell(branch.orbits.size());
+    const bool symmetric = branch.family.keeps_symmetry && branch.family.symmetry.map.size() != 0;
+    csv.cell(b).cell(branch.family.period).cell(symmetric ? 1 : 0).cell(branch.orbits.size());
     csv.cell(std::ranges::count_if(traced.special, [&](const SpecialRow& r) { return r.branch == b; }));
     csv.cell(branch.orbits.front().at.value).cell(branch.orbits.back().at.value);
     csv.cell(end_word(branch.first)).cell(end_word(branch.last));
@@ -142,19 +143,28 @@ void write_h5(const std::filesystem::path& file, const ContinueOutput& output, c
                              : real                      ? row.multipliers[j].real()
                                                          : row.multipliers[j].imag();
              });
+  for (const char* name : {"/multipliers/real", "/multipliers/imaginary"}) {
+    h5.set_units(name, "1");
+    h5.name_axes(name, {"row", "multiplier"});
+  }
   h5.set_attribute("/multipliers", "meaning", "Floquet multipliers by falling modulus, a row for each of /branches");
 
-  h5.create_group("/poincare");
-  h5.write("/poincare/columns", std::span<const std::string>(output.poincare_columns));
   for (const auto& [name, part] : {std::pair("branch", 0U), std::pair("index", 1U), std::pair("crossing", 2U)})
     h5.write(std::string("/poincare/") + name, crossings.size(),
              store::Hdf5File::Column<std::int64_t>(
                  [&, part = part](std::size_t i) { return static_cast<std::int64_t>(crossings[i][part]); }));
-  h5.write("/poincare/values", crossings.size(), columns, [&](std::size_t i, std::span<double> values) {
-    const auto& [b, k, n] = crossings[i];
-    std::copy_n(traced.rows[b][k].section.begin() + static_cast<std::ptrdiff_t>(n * columns), columns, values.begin());
-  });
-  h5.set_units("/poincare/values", "b_c, b_c per tau");
+  for (const auto& [name, meaning] : {std::pair("/poincare/branch", "number of the branch"),
+                                      std::pair("/poincare/index", "number of the orbit on its branch"),
+                                      std::pair("/poincare/crossing", "number of the Poincare point of this orbit")}) {
+    h5.set_units(name, "1");
+    h5.set_attribute(name, "meaning", meaning);
+  }
+  write_section_h5(h5, "/poincare", output.poincare_columns, crossings.size(),
+                   [&](std::size_t i, std::span<double> values) {
+                     const auto& [b, k, n] = crossings[i];
+                     const auto from = traced.rows[b][k].section.begin() + static_cast<std::ptrdiff_t>(n * columns);
+                     std::copy_n(from, columns, values.begin());
+                   });
   h5.close();
 }
 
@@ -350,7 +360,7 @@ std::string attempt_text(const AxisWords& words, const studies::BranchAttempt& a
 
 void write_found_csv(const std::filesystem::path& file, const std::vector<studies::FoundMotions>& found) {
   CsvWriter csv(file,
-                {"value", "orbit", "period", "in_step", "stable", "unstable", "multiplier_max", "images", "starts"});
+                {"value", "orbit", "period", "symmetric", "stable", "unstable", "multiplier_max", "images", "starts"});
   for (const studies::FoundMotions& at : found)
     for (std::size_t k = 0; k < at.motions.size(); ++k) {
       const studies::FoundMotion& m = at.motions[k];
@@ -368,10 +378,10 @@ std::string found_text(const ContinueOutput& output, const std::vector<studies::
         "\n## Coexisting orbits at {} = {}\n\n{} periodic orbits up to period {} from {} starts; {} of the orbits are "
         "stable. {} starts found none. No number of starts proves that there are no others.\n",
         output.words().name, output.words().text(at.value, 9), at.motions.size(),
-        output.options.search ? output.options.search->largest_period : 1, at.starts, stable, at.missed);
+        output.options.search ? output.options.search->period_max : 1, at.starts, stable, at.missed);
     if (at.motions.empty()) continue;
     text +=
-        "\n| period | planets in step | multipliers beyond 1 | largest | images | starts "
+        "\n| period | symmetric | multipliers beyond 1 | largest | images | starts "
         "|\n|---|---|---|---|---|---|\n";
     for (const studies::FoundMotion& m : at.motions)
       text += fmt::format("| {} | {} | {} | {:.4g} | {} | {} |\n", m.period, m.keeps_symmetry ? "yes" : "no",

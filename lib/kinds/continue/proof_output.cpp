@@ -77,8 +77,8 @@ void add_sweep(BranchSketch& sketch, const std::array<Places, 2>& points) {
 void write_proof_csv(const std::filesystem::path& file, const studies::TracedBranches& traced,
                      const studies::BranchProof& proof) {
   CsvWriter csv(file, {"change", "direction", "point_before", "point_after", "value_before", "value_after",
-                       "motion_before", "motion_after", "branch_before", "branch_after", "counted", "cause",
-                       "special_branch", "special_point", "kind", "value", "error_bound", "grid_steps", "words"});
+                       "regime_before", "regime_after", "branch_before", "branch_after", "counted", "cause",
+                       "special_branch", "special_point", "kind", "value", "error_bound", "grid_steps", "explanation"});
   const auto branch_cell = [&](const SweepPlace& place) {
     csv.cell(place.branch ? std::to_string(*place.branch) : std::string());
   };

@@ -21,7 +21,7 @@ using studies::Comparison;
 using studies::Verdict;
 
 constexpr std::array<Verdict, 8> differing = {Verdict::coexisting,  Verdict::tolerance,  Verdict::smoothing,
-                                              Verdict::settling,    Verdict::torus,      Verdict::chaos,
+                                              Verdict::transient,   Verdict::torus,      Verdict::chaos,
                                               Verdict::not_reached, Verdict::unexplained};
 
 }  // namespace

@@ -77,12 +77,15 @@ void write_map_h5(const std::filesystem::path& file, const MapOutput& output, co
   for (const Direction direction : output.map.directions) {
     const std::string group = "/map/" + store::direction_word(direction);
     h5.create_group(group);
+    const std::vector<std::string> axes = {second_value_column().name, "value"};
     const auto integers = [&](const char* name, const std::function<std::int64_t(const PointSummary&)>& value) {
       h5.write(group + "/" + name, std::span<const std::int64_t>(matrix(output, points, direction, value)), rows,
                columns);
+      h5.name_axes(group + "/" + name, axes);
     };
     const auto numbers = [&](const char* name, const std::function<double(const PointSummary&)>& value) {
       h5.write(group + "/" + name, std::span<const double>(matrix(output, points, direction, value)), rows, columns);
+      h5.name_axes(group + "/" + name, axes);
       h5.set_units(group + "/" + name, "1 per tau");
     };
     integers("regime", [](const PointSummary& r) {

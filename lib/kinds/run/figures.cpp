@@ -230,7 +230,8 @@ class RunFigures {
 
   void poincare_section() {
     if (!has_column(h_, "delta_sp_1") || !has_column(h_, "delta_sp_1_rate")) return;
-    const Curve points = section(0);
+    const bool recorded = !periodic() && !result_.section_deflection.empty();
+    const Curve points = recorded ? pairs(result_.section_deflection, result_.section_rate, 0) : section(0);
     if (points.empty()) return;
     figures::Sketch sketch("poincare_section");
     figures::FigureRange x = range_of(points, 0);

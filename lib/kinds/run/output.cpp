@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <span>
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 #include "core/csv.hpp"
 #include "core/text.hpp"
 #include "model/scales.hpp"
+#include "reports/section_output.hpp"
 #include "reports/speed_words.hpp"
 #include "store/hdf5_file.hpp"
 
@@ -239,6 +241,7 @@ void write_point(store::Hdf5File& h5, const RunOutput& output, const RunResult& 
   g.number("half_gap_rp", output.half_gap_rp, "b_c");
   g.integer("rhs_evaluations", r.point.rhs_evaluations, "1");
   g.numbers("end_state", r.point.end_state, "b_c, b_c per tau");
+  h5.name_axes("/point/end_state", {"component"});
 
   const analysis::Evidence& e = r.point.evidence;
   Group evidence(h5, "/evidence");
@@ -316,9 +319,9 @@ void write_meshes(store::Hdf5File& h5, const std::vector<MeshSummary>& meshes) {
   g.column(
       "back", meshes, [](const MeshSummary& m) { return m.back; }, "-");
   g.column(
-      "pull_max", meshes, [](const MeshSummary& m) { return m.pull_max; }, "N");
+      "tensile_force_max", meshes, [](const MeshSummary& m) { return m.tensile_force_max; }, "N");
   g.column(
-      "pull_time", meshes, [](const MeshSummary& m) { return m.tension_time; }, "-");
+      "tensile_time", meshes, [](const MeshSummary& m) { return m.tension_time; }, "-");
   g.integer_column(
       "contact_losses", meshes, [](const MeshSummary& m) { return m.contact_losses; }, "per record");
 }
@@ -373,7 +376,10 @@ void write_orbit(store::Hdf5File& h5, const RunOutput& output, const RunResult& 
   g.texts("state_names", state_names(output, o.state.size()));
   g.numbers("state", o.state, "b_c, b_c per tau");
   g.matrix("monodromy", o.monodromy, "b_c, b_c per tau of the row over those of the column");
+  for (const char* name : {"/orbit/state_names", "/orbit/state"}) h5.name_axes(name, {"component"});
+  h5.name_axes("/orbit/monodromy", {"component", "start_component"});
   g.numbers("residuals", o.residuals, "b_c, b_c per tau");
+  h5.name_axes("/orbit/residuals", {"step"});
   g.number("error", o.error, "b_c, b_c per tau");
   if (r.table_displacement) g.number("table_displacement", *r.table_displacement, "b_c, b_c per tau");
   g.number("friction_table_error", r.friction_table_error, "-");
@@ -566,8 +572,9 @@ std::string regime_text(const RunOutput& output, const RunResult& r) {
 std::string pulls_text(const RunOutput& output, const RunResult& r) {
   std::vector<std::vector<std::string>> rows{{"mesh with tensile force", "up to [N]", "over F_0", "of the time"}};
   for (const MeshSummary& m : r.meshes)
-    if (m.pull_max > 0.0)
-      rows.push_back({m.name, fmt::format("{:.5g}", m.pull_max), fmt::format("{:.3g}", m.pull_max / r.static_force),
+    if (m.tensile_force_max > 0.0)
+      rows.push_back({m.name, fmt::format("{:.5g}", m.tensile_force_max),
+                      fmt::format("{:.3g}", m.tensile_force_max / r.static_force),
                       fmt::format("{:.1f} %", 100.0 * m.tension_time)});
   if (rows.size() == 1) return "\nNo mesh force is tensile.\n";
   const bool always = output.gap_damping == model::GapDamping::always;
@@ -750,31 +757,38 @@ void write_run_h5(const std::filesystem::path& file, const RunOutput& output, co
   h5.set_attribute("/", "input_resolved", output.points.resolved_input);
   h5.set_attribute("/", "title", output.points.title);
   write_point(h5, output, result);
+  write_point_columns(h5, studies::points_in_memory({&result.point, 1}));
 
   if (has_history(result)) {
     const History& h = result.history;
     Group g(h5, "/history");
     h5.set_attribute("/history", "phases", static_cast<std::int64_t>(h.phases));
     const HistoryTable table(result);
-    g.texts("columns", table.columns);
-    g.texts("units", table.units);
-    h5.write("/history/values", h.rows(), table.columns.size(),
-             [&](std::size_t row, std::span<double> values) { table.fill(row, values); });
+    write_section_h5(
+        h5, "/history", table.columns, h.rows(),
+        [&](std::size_t row, std::span<double> values) { table.fill(row, values); }, table.units);
   }
   if (!result.meshes.empty()) write_meshes(h5, result.meshes);
   for (const SignalSpectrum& s : result.spectra) write_spectrum(h5, s);
   {
     Group g(h5, "/poincare");
-    g.texts("columns", output.points.poincare_columns);
-    g.table("values", result.point.poincare, result.point.poincare_rows(), result.point.poincare_columns,
-            "b_c, b_c per tau");
+    const std::size_t columns = result.point.poincare_columns;
+    std::vector<std::int64_t> index(result.point.poincare_rows());
+    std::iota(index.begin(), index.end(), 0);
+    g.integers("index", index, "1");
+    write_section_h5(
+        h5, "/poincare", output.points.poincare_columns, index.size(), [&](std::size_t row, std::span<double> values) {
+          std::ranges::copy(std::span(result.point.poincare).subspan(row * columns, columns), values.begin());
+        });
   }
   if (has_crossing(result)) {
     Group g(h5, "/crossing");
-    g.texts("columns", state_names(output, result.crossing.dimension));
     g.numbers("phase", result.crossing_phase, "rad");
     g.numbers("delta_sp_1_rate", result.crossing_rate, "b_c per tau");
-    g.table("values", result.crossing.states, result.crossing.size(), result.crossing.dimension, "b_c, b_c per tau");
+    write_section_h5(h5, "/crossing", state_names(output, result.crossing.dimension), result.crossing.size(),
+                     [&](std::size_t row, std::span<double> values) {
+                       std::ranges::copy(result.crossing.point(row), values.begin());
+                     });
   }
   if (has_exponents(result)) write_exponents(h5, result);
   if (result.transverse) {

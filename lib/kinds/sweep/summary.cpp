@@ -81,6 +81,9 @@ std::vector<Run> runs(std::size_t count, const std::function<bool(std::size_t, s
   return all;
 }
 
+/// Relative error of the largest forces that a reader should know of.
+constexpr double force_error_limit = 0.02;
+
 /// A number that a sweep has somewhere.
 struct Largest {
   std::string what, unit;
@@ -184,6 +187,8 @@ class Summary {
   const studies::PointSource& points_;
   std::vector<std::vector<Place>> ways_;                                      ///< of each direction, by rising value
   std::size_t failed_ = 0, undecided_ = 0, not_converged_ = 0, tensile_ = 0;  ///< points
+  std::size_t coarse_ = 0;                                                    ///< points with uncertain largest forces
+  double force_error_ = 0;                                                    ///< largest of the points
   double tensile_force_ = 0;  ///< largest tension, over the static mesh force
   double tensile_time_ = 0;   ///< largest part of the time
   std::vector<Largest> largest_ = largest_of();
@@ -197,6 +202,8 @@ class Summary {
   void doubt(const PointSummary& r) {
     undecided_ += r.regime == analysis::Regime::undecided ? 1 : 0;
     not_converged_ += r.is_unsettled() ? 1 : 0;
+    force_error_ = std::max(force_error_, r.meshes.force_error);
+    coarse_ += r.meshes.force_error > force_error_limit ? 1 : 0;
     if (!r.has_tension()) return;
     ++tensile_;
     for (const auto* meshes : {&r.meshes.sun_planet, &r.meshes.ring_planet}) {
@@ -337,8 +344,7 @@ class Summary {
         rows += fmt::format("| {} | {} | {} | {} |\n", one.what, short_text(*one.value, 4), one.unit, one.at);
     if (rows.empty()) return;
     s.text +=
-        "\n## Largest values\n\nOf the records, at `output_phases` phases of a mesh period. A chaotic record gives the "
-        "largest value of that record only.\n\n"
+        "\n## Largest values\n\nOf the records. A chaotic record gives the largest value of that record only.\n\n"
         "| what | value | unit | where |\n|---|---|---|---|\n" +
         rows;
     bool has_line = false;
@@ -360,16 +366,24 @@ class Summary {
                           counted(undecided_, "points are undecided", "point is undecided"));
     if (not_converged_ > 0)
       text += fmt::format(
-          "- {} periodic, but the record has not converged to the orbit, or is shorter than its period (`settled` is 0 "
+          "- {} periodic, but the record has not converged to the orbit, or is shorter than its period (`converged` is "
+          "0 "
           "in points.csv). The Poincaré points, means, RMS values and extrema are not those of the orbit. Use a larger "
           "/study/transient_periods or \"transient\": \"adaptive\".\n",
           counted(not_converged_, "points are", "point is"));
     if (tensile_ > 0)
       text += fmt::format(
           "- {} a tensile mesh force, of up to {:.3g} times the static mesh force and for up to {:.1f} % of the time "
-          "(`pull_sp`, `pull_rp`, `pull_time_sp` and `pull_time_rp` in points.csv). Real teeth transmit no tension: "
+          "(`tensile_force_sp`, `tensile_force_rp`, `tensile_time_sp` and `tensile_time_rp` in points.csv). Real teeth "
+          "transmit no tension: "
           "the force is that of the mesh damping. See /model/gap_damping in docs/reference/model_options.md.\n",
           counted(tensile_, "points have", "point has"), tensile_force_, 100.0 * tensile_time_);
+    if (coarse_ > 0)
+      text += fmt::format(
+          "- At {} the largest forces and K_v are uncertain by more than {:.0f} %, by up to about {:.2g} % "
+          "(`force_max_error` in points.csv): peaks between two samples are missed. Use a larger "
+          "/study/output_phases.\n",
+          counted(coarse_, "points", "point"), 100.0 * force_error_limit, 100.0 * force_error_);
     if (!text.empty()) s.text += "\n## Not certain\n\n" + text;
   }
 };

@@ -8,10 +8,10 @@
 
 #include <cstddef>
 
-#include "model/instant.hpp"
 #include "model/kernels/stage_kernel.hpp"
 #include "model/lane_parameters.hpp"
 #include "model/layout.hpp"
+#include "model/phase_coefficients.hpp"
 #include "model/stage_outputs.hpp"
 
 namespace epicyclic::model {

@@ -1,4 +1,5 @@
-// The instants of a step's slopes, W operating points side by side: model/instant.hpp with lanes for scalars.
+// Coefficients at the phases of a step's slopes, W operating points side by side: model/phase_coefficients.hpp with
+// lanes for scalars.
 //
 // Sine, cosine and the places in tables are chains of operations that wait for each other. So each is gone through for
 // all slopes before the next one: passes are short enough for a processor to work on those of several slopes at once.
@@ -11,8 +12,8 @@
 #include <numbers>
 
 #include "core/lanes.hpp"
-#include "model/instant.hpp"
 #include "model/lane_parameters.hpp"
+#include "model/phase_coefficients.hpp"
 
 namespace epicyclic::model {
 
@@ -20,11 +21,11 @@ namespace epicyclic::model {
 inline constexpr std::size_t slopes_together = 8;
 
 /// What the tables decide of one kind of mesh, for `count` slopes.
-/// @param kind  the mesh in an instant
+/// @param kind  the mesh in the coefficients
 template <std::size_t N, std::size_t W>
 void look_up(const MeshParameters<Lanes<W>, N>& mesh, const LaneMeshPlaces<N, W>& places, std::size_t count,
              const Lanes<W>* s, PhaseCoefficients<Lanes<W>, N>* phase_coefficients,
-             MeshInstant<Lanes<W>, N> PhaseCoefficients<Lanes<W>, N>::*kind) {
+             MeshCoefficients<Lanes<W>, N> PhaseCoefficients<Lanes<W>, N>::*kind) {
   const auto each = [&](std::size_t planet, const auto& place, const auto& take) {
     std::array<LaneInterval<W>, slopes_together> found;
     for (std::size_t k = 0; k < count; ++k)
@@ -46,8 +47,8 @@ void look_up(const MeshParameters<Lanes<W>, N>& mesh, const LaneMeshPlaces<N, W>
 /// @param s         phases of `count` slopes, all in the lanes' segments
 /// @param phase_coefficients  `count`, written without being read
 template <std::size_t N, std::size_t W>
-void make_instants(const LaneParameters<N, W>& p, std::size_t count, const Lanes<W>* s,
-                   PhaseCoefficients<Lanes<W>, N>* phase_coefficients) {
+void make_phase_coefficients(const LaneParameters<N, W>& p, std::size_t count, const Lanes<W>* s,
+                             PhaseCoefficients<Lanes<W>, N>* phase_coefficients) {
   const auto& constants = p.constants();
   const std::size_t harmonics = harmonics_of(constants);
   std::array<SineCosine<Lanes<W>>, slopes_together> angle;

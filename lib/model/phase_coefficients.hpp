@@ -5,7 +5,7 @@
 //   k_i(s), A_i(s), B_i(s)  by harmonics or tables on the mesh's own phase s / 2 pi + turns_i                    [M-27]
 //
 // The slopes of a Runge-Kutta step are taken at phases that are known when the step begins; lanes make their
-// instants all at once, because this is mostly waiting for one's own results.
+// coefficients all at once, because this is mostly waiting for one's own results.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct HarmonicBasis {
 
 /// Of one kind of mesh.
 template <class P, std::size_t N>
-struct MeshInstant {
+struct MeshCoefficients {
   Row<P, N> error, error_rate;                        ///< e, e' [b_c, b_c per tau]
   Row<P, N> stiffness;                                ///< k_i(s)
   Row<P, N> friction, moment_driving, moment_driven;  ///< A, B_1 / r_b1, B_2 / r_b2; only with friction
@@ -46,10 +46,10 @@ struct MeshInstant {
   /// planet's own.
   bool shared = false;
 
-  MeshInstant() = default;
+  MeshCoefficients() = default;
 
   /// What harmonics decide.
-  MeshInstant(const Parameters<P, N>& p, const MeshParameters<P, N>& mesh, const HarmonicBasis<P>& basis)
+  MeshCoefficients(const Parameters<P, N>& p, const MeshParameters<P, N>& mesh, const HarmonicBasis<P>& basis)
       : error(mesh.error_cos * basis.cosine[0] + mesh.error_sin * basis.sine[0]),
         error_rate(p.omega * (mesh.error_sin * basis.cosine[0] - mesh.error_cos * basis.sine[0])),
         shared(is_lanes<P> && mesh.in_phase) {
@@ -66,7 +66,7 @@ struct MeshInstant {
     }
   }
 
-  /// What tables do; of lanes model/kernels/lane_instants.hpp.
+  /// What tables do; of lanes model/kernels/lane_phase_coefficients.hpp.
   /// @param places  those of the current segment
   void look_up(const MeshParameters<P, N>& mesh, const MeshPlaces<N>& places, const P& s) {
     const auto own_phase = [&](std::size_t i) { return s * (0.5 * std::numbers::inv_pi) + mesh.turns[i]; };
@@ -108,7 +108,7 @@ template <class P, std::size_t N>
 /// Of the stage.
 template <class P, std::size_t N>
 struct PhaseCoefficients {
-  MeshInstant<P, N> sun_planet, ring_planet;
+  MeshCoefficients<P, N> sun_planet, ring_planet;
 
   PhaseCoefficients() = default;
 
