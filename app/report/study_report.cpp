@@ -90,7 +90,7 @@ json parameter_json(const std::string& name) {
   return parameter;
 }
 
-/// A component of the state that motions start from.
+/// A component of the initial state.
 json component_json(const std::string& name) {
   return {{"name", name},
           {"label", fmt::format("{}  [{}]", name, name.ends_with("_rate") ? "b_c per τ" : "b_c")},

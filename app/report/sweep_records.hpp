@@ -47,7 +47,7 @@ struct SweepRecords {
   [[nodiscard]] std::size_t points() const { return starts.size() - 1; }
 };
 
-/// Which columns of the section go into a page, the most telling ones first if not all do.
+/// Which columns of the section go into a page: if not all do, those of planet 1 first.
 /// @returns by name, true of those that do
 [[nodiscard]] std::vector<bool> kept_columns(std::span<const std::string> names, std::size_t rows, std::size_t limit);
 

@@ -124,7 +124,7 @@ export class Page {
     }
   }
 
-  /// What was asked for has been drawn.
+  /// Waits until the page has been drawn.
   frame() {
     return this.value(
       'new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => resolve(true))))',

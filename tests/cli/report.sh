@@ -31,7 +31,7 @@ grep -qF "default-src 'none'; script-src 'sha256-" again.html || fail "no policy
 # Several folders on one page; a study that is not complete.
 [ "$(code_of "$epicyclic" report sweep unfinished -o several.html)" = 0 ] || fail "two folders: $(<stderr)"
 [ "$(code_of "$epicyclic" report unfinished -o unfinished.html)" = 0 ] || fail "an unfinished study: $(<stderr)"
-[ ! -e unfinished/report.html ] || fail "a page where none was asked for"
+[ ! -e unfinished/report.html ] || fail "a page at a place that nobody gave"
 
 # Files of others are those that the table of their folder names.
 grep -oE '`(uPlot[^`]*)`.*`([0-9a-f]{64})`' "$2/app/browser/vendor/README.md" | sed -E 's/^`([^`]*)`.*`([0-9a-f]{64})`$/\2  \1/' >hashes
